@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! How GTKWave is told to show a signal: flags, bit ranges, fixed points.
+
+use hapticore_model::format::Format;
+
+use crate::declarations::{Reading, Signal};
+use crate::view::Style;
+
+/// Bits of a trace's flags line.
+pub(crate) mod flag {
+    pub(crate) const HEX: u64 = 1 << 1;
+    pub(crate) const DECIMAL: u64 = 1 << 2;
+    pub(crate) const BINARY: u64 = 1 << 3;
+    pub(crate) const RIGHT_JUSTIFY: u64 = 1 << 5;
+    pub(crate) const BLANK: u64 = 1 << 9;
+    pub(crate) const SIGNED: u64 = 1 << 10;
+    pub(crate) const FILE_TRANSLATE: u64 = 1 << 13;
+    pub(crate) const ANALOG_STEP: u64 = 1 << 15;
+    pub(crate) const INTERPOLATED: u64 = 1 << 16;
+    pub(crate) const STRETCH: u64 = 1 << 17;
+    pub(crate) const REAL: u64 = 1 << 18;
+    pub(crate) const CLOSED: u64 = 1 << 22;
+    pub(crate) const GROUP_BEGIN: u64 = 1 << 23;
+    pub(crate) const GROUP_END: u64 = 1 << 24;
+    pub(crate) const FIXED_POINT: u64 = 1 << 30;
+}
+
+/// The least integer bits (the most leading zeros of a fraction) with which numbers are shown as fixed point.
+const LEAST_INTEGER_BITS: i16 = -8;
+
+/// The path as GTKWave spells it: with the bit range of a vector.
+pub(crate) fn viewer_path(signal: &Signal) -> String {
+    match signal.reading.width() {
+        Some(width @ 2..) => format!("{}[{}:0]", signal.path(), width - 1),
+        _ => signal.path(),
+    }
+}
+
+/// The bits after the point, where the viewer is to put one.
+pub(crate) fn fixed_point(reading: &Reading, style: Style) -> Option<i8> {
+    match (reading, style) {
+        (_, Style::Hex | Style::Binary) => None,
+        (Reading::Code(format), _) if is_fixed_point(*format) => Some(format.frac),
+        _ => None,
+    }
+}
+
+fn is_fixed_point(format: Format) -> bool {
+    (1..63).contains(&format.frac) && format.width > 1 && format.integer_bits() >= LEAST_INTEGER_BITS
+}
+
+/// A name that says what the values shown are worth, where the values alone do not.
+pub(crate) fn alias(signal: &Signal) -> Option<String> {
+    match &signal.reading {
+        Reading::Real(unit) if !unit.is_empty() => Some(format!("{} ({unit})", signal.path())),
+        Reading::Code(format) if format.frac != 0 && !is_fixed_point(*format) => {
+            Some(format!("{} (2^{})", signal.path(), -i16::from(format.frac)))
+        }
+        _ => None,
+    }
+}
+
+/// The flags of a trace.
+pub(crate) fn flags(reading: &Reading, style: Style) -> u64 {
+    let curve = match style {
+        Style::Step => flag::ANALOG_STEP,
+        Style::Line => flag::INTERPOLATED,
+        Style::Number | Style::Hex | Style::Binary => 0,
+    };
+    let point = if fixed_point(reading, style).is_some() { flag::FIXED_POINT } else { 0 };
+    flag::RIGHT_JUSTIFY | curve | point | radix(reading, style)
+}
+
+fn radix(reading: &Reading, style: Style) -> u64 {
+    match (reading, style) {
+        (Reading::Real(_), _) => flag::REAL,
+        (_, Style::Hex) => flag::HEX,
+        (_, Style::Binary) => flag::BINARY,
+        (Reading::State(..), Style::Number) => flag::DECIMAL | flag::FILE_TRANSLATE,
+        (Reading::Code(format) | Reading::State(format, _), _) if format.signed => flag::DECIMAL | flag::SIGNED,
+        _ => flag::DECIMAL,
+    }
+}

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! GTKWave itself opens what is written: every trace of a save file, with the numbers that were traced.
+//!
+//! Needs `gtkwave` and `xvfb-run`; prints SKIPPED where they are not to be had.
+
+mod common;
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use common::{Fake, VARIABLES, folder, settings, trace, true_x};
+use hapticore_waveforms::gtkwave::save;
+use hapticore_waveforms::view::View;
+use hapticore_waveforms::wave::Kind;
+
+const CLOCK: u64 = 101;
+
+/// Prints each line shown, with its value at a time; headings have none.
+const SCRIPT: &str = "
+gtkwave::setMarker TIME
+for {set i 0} {$i < [gtkwave::getTotalNumTraces]} {incr i} {
+    puts \"SHOWN [gtkwave::getTraceNameFromIndex $i]=[gtkwave::getTraceValueAtMarkerFromIndex $i]\"
+}
+exit
+";
+
+/// What GTKWave shows of `dump` under `save` at the tick: names and values, from top to bottom.
+fn shown(dump: &Path, save: &Path, tick: u64) -> Vec<(String, String)> {
+    let script = save.with_extension("tcl");
+    fs::write(&script, SCRIPT.replace("TIME", &tick.to_string())).unwrap();
+    let mut command = Command::new("xvfb-run");
+    // From another folder than that of the files, which may not matter.
+    command.arg("-a").arg("gtkwave").arg("-S").args([&script, dump, save]).current_dir("/");
+    let text = String::from_utf8(command.output().unwrap().stdout).unwrap();
+    let lines = text.lines().filter_map(|line| line.strip_prefix("SHOWN ")?.split_once('='));
+    lines.filter(|line| !line.1.is_empty()).map(|(a, b)| (a.to_string(), b.to_string())).collect()
+}
+
+fn is_installed(tool: &str) -> bool {
+    Command::new("which").arg(tool).output().is_ok_and(|found| found.status.success())
+}
+
+/// What GTKWave should show, name and value, for a variable of the made-up core.
+fn of_variable(index: usize, code: i64) -> (String, String) {
+    let (path, format, states) = VARIABLES[index];
+    let name = path.rsplit('.').next().unwrap();
+    let range = if format.width > 1 { format!("[{}:0]", format.width - 1) } else { String::new() };
+    match name {
+        "state" => (name.to_string() + &range, states[code as usize].into()),
+        "gain" => ("gain (2^-38)".into(), code.to_string()),
+        "coarse" => ("coarse (2^3)".into(), code.to_string()),
+        _ => (name.to_string() + &range, format.real(code).to_string()),
+    }
+}
+
+fn expected() -> Vec<(String, String)> {
+    let codes = Fake { clock: CLOCK }.codes().into_iter().enumerate();
+    let truth = [("x (mm)".into(), true_x(CLOCK).to_string()), ("error".into(), "-1.5e-12".into())];
+    codes.map(|(index, code)| of_variable(index, code)).chain(truth).collect()
+}
+
+fn same(a: &str, b: &str) -> bool {
+    match (a.parse::<f64>(), b.parse::<f64>()) {
+        (Ok(a), Ok(b)) => (a - b).abs() <= 1e-14 * a.abs().max(1.0),
+        _ => a == b,
+    }
+}
+
+fn check(kind: Kind) {
+    let folder = folder();
+    let (dump, trace) = trace(folder.path(), kind, &settings(), 300);
+    // Saved for the VCD: the FST opens under it all the same.
+    let path = folder.path().join("waves.gtkw");
+    save(&View::everything(), &trace, "waves.vcd", &path).unwrap();
+    let (shown, expected) = (shown(&dump, &path, CLOCK * 40), expected());
+    assert_eq!(shown.len(), expected.len(), "{kind:?}: {shown:?}");
+    for (shown, expected) in shown.iter().zip(&expected) {
+        assert!(shown.0 == expected.0 && same(&shown.1, &expected.1), "{kind:?}: {shown:?}, expected {expected:?}");
+    }
+}
+
+#[test]
+fn gtkwave_shows_every_signal_of_both_formats_as_numbers() {
+    if let Some(tool) = ["gtkwave", "xvfb-run"].iter().find(|tool| !is_installed(tool)) {
+        println!("SKIPPED: {tool} is not installed");
+        return;
+    }
+    check(Kind::Vcd);
+    check(Kind::Fst);
+}
