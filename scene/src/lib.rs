@@ -1,2 +1,33 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Placeholder.
+//! The plant in SI units and `f64`: sheet, gap, friction, carrier and sensor chain, each an opt-in effect, and the scenes
+//! that say what is done with it.
+//!
+//! | module | what it is |
+//! | --- | --- |
+//! | [`Scene`] | a scene file, read and checked: cases, pads, criteria |
+//! | [`Plant`] | one case at work: truth, phasors and ADC samples, slot by slot |
+//! | [`Device`] | what the builder of the device knows of it |
+//! | [`gallery`] | the bundled scenes |
+//!
+//! The plant knows no bit widths of the core and writes no file.
+
+mod course;
+mod criterion;
+mod device;
+mod effects;
+mod error;
+mod format;
+pub mod gallery;
+mod pad;
+mod path;
+mod plant;
+mod random;
+mod rotor;
+mod scene;
+
+pub use criterion::{Criterion, Measure, Per, Quantity, Where};
+pub use device::{CHANNELS, Device, HAPTIC, SENSE, TERMINALS};
+pub use error::{Place, SceneError};
+pub use num_complex::Complex64 as Complex;
+pub use plant::{EffectCost, MapPoint, Plant, Timing, Truth};
+pub use scene::{Case, Figure, Record, Scene};

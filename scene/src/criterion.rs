@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Criteria: what a scene claims, measured by whoever runs it.
+//!
+//! ```toml
+//! [[criterion]]
+//! name = "force spread over the sheet"
+//! measure = "spread_percent"      # see `Measure`
+//! of = "force_n"                  # see `Quantity`
+//! limit = 0.1                     # the measure must be at most this
+//! case = "rest"                   # or cases = ["a", "b"]; all cases where absent
+//! per = "group"                   # case | group: taken over each, the worst counts
+//! where = { haptic_v_rms = [50, 300], time_s = [0.5, 10] }   # only slots whose truth lies within
+//! ```
+
+use crate::error::SceneError;
+use crate::format::{Limits, Table};
+
+/// What a criterion measures over the slots that it covers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Measure {
+    /// Largest |estimate − truth|; for a position the distance.
+    MaxAbsError,
+    /// Root mean square of estimate − truth; for a position of the distance.
+    RmsError,
+    /// Mean of estimate − truth, by magnitude.
+    MeanError,
+    /// Largest |estimate − truth| in percent of the truth.
+    MaxPercentError,
+    /// (max − min)/mean of the estimate, percent.
+    SpreadPercent,
+    /// Smallest step, negated, between group means ordered by the truth of `with`, all else equal, in percent of the mean:
+    /// below the limit (usually 0) where the estimate rises throughout.
+    IncreasesWith,
+    /// Largest sample of the ADC channels, percent of full scale.
+    MaxPercentOfFullScale,
+    /// Percent of finished slots whose result is flagged invalid.
+    InvalidPercent,
+}
+
+const MEASURES: [(&str, Measure); 8] = [
+    ("max_abs_error", Measure::MaxAbsError),
+    ("rms_error", Measure::RmsError),
+    ("mean_error", Measure::MeanError),
+    ("max_percent_error", Measure::MaxPercentError),
+    ("spread_percent", Measure::SpreadPercent),
+    ("increases_with", Measure::IncreasesWith),
+    ("max_percent_of_full_scale", Measure::MaxPercentOfFullScale),
+    ("invalid_percent", Measure::InvalidPercent),
+];
+
+/// A quantity that a frame estimates, or that the plant alone knows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// Time, s.
+    TimeS,
+    /// Position along x, mm.
+    XMm,
+    /// Position along y, mm.
+    YMm,
+    /// Both, taken as a vector.
+    PositionMm,
+    /// Capacitance between pad and sheet, pF.
+    CapacitancePf,
+    /// Resistance of the sheet at the pad, Ω.
+    SheetOhm,
+    /// Haptic voltage, V rms.
+    HapticVRms,
+    /// Haptic force, N.
+    ForceN,
+    /// Direction of the push, eq. 10.
+    Direction,
+    /// Load on the pad, g; known to the plant alone.
+    LoadG,
+}
+
+const QUANTITIES: [(&str, Quantity); 10] = [
+    ("time_s", Quantity::TimeS),
+    ("x_mm", Quantity::XMm),
+    ("y_mm", Quantity::YMm),
+    ("position_mm", Quantity::PositionMm),
+    ("capacitance_pf", Quantity::CapacitancePf),
+    ("sheet_ohm", Quantity::SheetOhm),
+    ("haptic_v_rms", Quantity::HapticVRms),
+    ("force_n", Quantity::ForceN),
+    ("direction", Quantity::Direction),
+    ("load_g", Quantity::LoadG),
+];
+
+impl Quantity {
+    /// The quantity's key: `force_n`.
+    pub fn name(self) -> &'static str {
+        name_of(&QUANTITIES, self)
+    }
+
+    /// Its unit: `N`.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Quantity::TimeS => "s",
+            Quantity::XMm | Quantity::YMm | Quantity::PositionMm => "mm",
+            Quantity::CapacitancePf => "pF",
+            Quantity::SheetOhm => "Ω",
+            Quantity::HapticVRms => "V",
+            Quantity::ForceN => "N",
+            Quantity::Direction => "1",
+            Quantity::LoadG => "g",
+        }
+    }
+}
+
+impl Measure {
+    /// The measure's name in a scene: `spread_percent`.
+    pub fn name(self) -> &'static str {
+        name_of(&MEASURES, self)
+    }
+
+    /// Unit of the measured value.
+    pub fn unit(self, of: Quantity) -> &'static str {
+        match self {
+            Measure::MaxAbsError | Measure::RmsError | Measure::MeanError => of.unit(),
+            _ => "%",
+        }
+    }
+}
+
+/// Over what a measure is taken before the worst counts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Per {
+    /// Over all slots of each case.
+    #[default]
+    Case,
+    /// Over the slots of each group of a sweep: equal load, voltage and capacitance.
+    Group,
+}
+
+/// A range that the truth of a quantity must lie in for a slot to count.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Where {
+    /// The quantity; a position is not one.
+    pub of: Quantity,
+    /// Least value, included.
+    pub low: f64,
+    /// Greatest value, included.
+    pub high: f64,
+}
+
+/// One claim of a scene: the measure, over the slots it covers, is at most the limit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Criterion {
+    /// What it says, for people.
+    pub name: String,
+    /// What is measured.
+    pub measure: Measure,
+    /// Of which quantity.
+    pub of: Quantity,
+    /// For [`Measure::IncreasesWith`]: with which.
+    pub with: Option<Quantity>,
+    /// Names of the cases it covers; all where empty.
+    pub cases: Vec<String>,
+    /// Over what the measure is taken.
+    pub per: Per,
+    /// All must hold for a slot to count.
+    pub filters: Vec<Where>,
+    /// Greatest value that passes.
+    pub limit: f64,
+    /// Unit of the limit and of the measured value.
+    pub unit: String,
+}
+
+impl Criterion {
+    pub(crate) fn read(table: &Table, cases: &[String]) -> Result<Criterion, SceneError> {
+        let measure = word(table, "measure", &MEASURES)?;
+        let measure = table.require("measure", "what is measured", measure)?;
+        let of = table.require("of", "a quantity", word(table, "of", &QUANTITIES)?)?;
+        let with = word(table, "with", &QUANTITIES)?;
+        if with.is_some() != (measure == Measure::IncreasesWith) {
+            return Err(table.error("with", "expected with measure = \"increases_with\", and only there"));
+        }
+        Ok(Criterion {
+            name: table.require("name", "text", table.text("name")?)?,
+            measure,
+            of,
+            with,
+            cases: read_cases(table, cases)?,
+            per: word(table, "per", &[("case", Per::Case), ("group", Per::Group)])?.unwrap_or_default(),
+            filters: read_filters(table)?,
+            limit: table.require("limit", "a number", table.number("limit", Limits::ANY)?)?,
+            unit: table.text("unit")?.unwrap_or_else(|| measure.unit(of).to_string()),
+        })
+    }
+
+    /// Whether the criterion covers the case of this name.
+    pub fn covers(&self, case: &str) -> bool {
+        self.cases.is_empty() || self.cases.iter().any(|name| name == case)
+    }
+}
+
+fn read_cases(table: &Table, known: &[String]) -> Result<Vec<String>, SceneError> {
+    let (key, names) = match table.text("case")? {
+        Some(name) => ("case", vec![name]),
+        None => ("cases", table.texts("cases")?.unwrap_or_default()),
+    };
+    match names.iter().find(|name| !known.contains(name)) {
+        Some(name) => Err(table.error(key, format!("expected the name of a case, one of {known:?}, got {name:?}"))),
+        None => Ok(names),
+    }
+}
+
+fn read_filters(table: &Table) -> Result<Vec<Where>, SceneError> {
+    let Some(ranges) = table.table("where")? else { return Ok(Vec::new()) };
+    let read = |(name, of): &(&'static str, Quantity)| -> Result<Option<Where>, SceneError> {
+        let range = ranges.pair(name, Limits::ANY)?;
+        Ok(range.map(|[low, high]| Where { of: *of, low, high }))
+    };
+    let scalars = QUANTITIES.iter().filter(|(_, of)| *of != Quantity::PositionMm);
+    scalars.filter_map(|entry| read(entry).transpose()).collect()
+}
+
+fn word<T: Copy>(table: &Table, key: &'static str, words: &[(&'static str, T)]) -> Result<Option<T>, SceneError> {
+    let names: Vec<_> = words.iter().map(|(name, _)| *name).collect();
+    let chosen = table.choice(key, &names)?;
+    Ok(chosen.and_then(|chosen| words.iter().find(|(name, _)| *name == chosen)).map(|(_, value)| *value))
+}
+
+fn name_of<T: Copy + PartialEq>(words: &[(&'static str, T)], value: T) -> &'static str {
+    words.iter().find(|(_, word)| *word == value).map_or("", |(name, _)| name)
+}

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The device as its builder knows it: what a calibration may use.
+
+use std::f64::consts::{PI, TAU};
+
+use crate::error::SceneError;
+use crate::format::{Limits, Table};
+
+/// Current sensors at the edge of the sheet.
+pub const TERMINALS: usize = 6;
+
+/// ADC channels: the terminals' currents, the sensing voltage, the haptic voltage.
+pub const CHANNELS: usize = TERMINALS + 2;
+
+/// The channel of the sensing voltage.
+pub const SENSE: usize = TERMINALS;
+
+/// The channel of the haptic voltage.
+pub const HAPTIC: usize = TERMINALS + 1;
+
+/// Permittivity of free space, F/m.
+pub const EPSILON_0: f64 = 8.854_187_812_8e-12;
+
+/// Sizes, full scales, frequencies and the nominal force law of the display.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Device {
+    /// Number of current sensors, channels `0 .. terminals`.
+    pub terminals: usize,
+    /// Current at the end of a terminal's ADC range, A (peak).
+    pub current_full_scale_a: f64,
+    /// Sensing voltage at the end of its ADC range, V (peak).
+    pub sense_full_scale_v: f64,
+    /// Haptic voltage at the end of its ADC range, V (peak).
+    pub haptic_full_scale_v: f64,
+    /// Amplitude of the sensing carrier, V (peak).
+    pub carrier_v: f64,
+    /// Frequency of the sensing carrier, Hz.
+    pub carrier_hz: f64,
+    /// The same in rad/s.
+    pub carrier_rad_s: f64,
+    /// Frequency of the haptic voltage, Hz.
+    pub haptic_hz: f64,
+    /// ADC sample rate, Hz: the carrier's frequency times the profile's samples per period.
+    pub sample_rate_hz: f64,
+    /// Size of the sheet along x, mm.
+    pub width_mm: f64,
+    /// Size of the sheet along y, mm.
+    pub height_mm: f64,
+    /// Diameter of a pad, mm.
+    pub pad_diameter_mm: f64,
+    /// Area S of a pad, m².
+    pub pad_area_m2: f64,
+    /// Coefficient of friction μ.
+    pub mu: f64,
+    /// k of eq. 8 for an even gap, μ/(2ε₀S), in N/(F·V)²: F_h = k·(C·V_h)².
+    pub force_k: f64,
+}
+
+impl Device {
+    /// Reads `[device]`, `[carrier]`'s voltages and frequencies and `[sensor]`'s full scales; all have defaults.
+    pub(crate) fn read(root: &Table) -> Result<Device, SceneError> {
+        let number = |table: &'static str, key: &'static str, limits: Limits, default: f64| match root.table(table)? {
+            Some(table) => table.number_or(key, limits, default),
+            None => Ok(default),
+        };
+        let pad_diameter_mm = number("device", "pad_diameter_mm", Limits::POSITIVE, 30.0)?;
+        let smallest = Limits::above(pad_diameter_mm, 1e5);
+        let mu = number("device", "mu", Limits::above(0.0, 10.0), 0.12)?;
+        let carrier_hz = number("carrier", "frequency_hz", Limits::POSITIVE, 100e3)?;
+        let pad_area_m2 = PI / 4.0 * (pad_diameter_mm * 1e-3).powi(2);
+        Ok(Device {
+            terminals: TERMINALS,
+            current_full_scale_a: 1e-3 * number("sensor", "current_full_scale_ma", Limits::POSITIVE, 4.0)?,
+            sense_full_scale_v: number("sensor", "sense_full_scale_v", Limits::POSITIVE, 8.0)?,
+            haptic_full_scale_v: number("sensor", "haptic_full_scale_v", Limits::POSITIVE, 600.0)?,
+            carrier_v: number("carrier", "amplitude_v", Limits::POSITIVE, 5.0)?,
+            carrier_hz,
+            carrier_rad_s: TAU * carrier_hz,
+            haptic_hz: number("carrier", "haptic_hz", Limits::POSITIVE, 1000.0)?,
+            sample_rate_hz: f64::NAN, // the profile's, known when a plant is built
+            width_mm: number("device", "width_mm", smallest, 860.0)?,
+            height_mm: number("device", "height_mm", smallest, 500.0)?,
+            pad_diameter_mm,
+            pad_area_m2,
+            mu,
+            force_k: mu / (2.0 * EPSILON_0 * pad_area_m2),
+        })
+    }
+
+    /// How far from the sheet's centre a pad's centre may be, so that the pad lies wholly on the sheet.
+    pub fn reach_mm(&self) -> [f64; 2] {
+        [self.width_mm, self.height_mm].map(|size| (size - self.pad_diameter_mm) / 2.0)
+    }
+}

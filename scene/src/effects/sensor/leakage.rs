@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `sensor.haptic_leakage`: the haptic voltage drives a current of its own into the terminals, eq. 1's second term,
+//! −17 dB (200 Hz, 350 V) to −3 dB (1 kHz) of the carrier's at 5 V. It shifts no phasor, since a demodulator's window
+//! rejects it, but takes ADC range and dithers the codes (PHYSICS §5).
+
+use std::f64::consts::{SQRT_2, TAU};
+
+use super::super::carrier::{admittance, haptic_rotor};
+use super::super::{ChannelEffect, Effect, Pad, Phasors, Run, Setting, Spec};
+use crate::device::{CHANNELS, Device};
+use crate::error::SceneError;
+use crate::format::Table;
+
+pub(in super::super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
+    let on = root.table("sensor")?.map_or(Ok(false), |table| table.flag("haptic_leakage"))?;
+    let build = |setting: &Setting| Effect::Channels(Box::new(Leakage { device: setting.device.clone() }));
+    Ok(if on { Spec::new("sensor.leakage", "steady state", build) } else { None })
+}
+
+struct Leakage {
+    device: Device,
+}
+
+impl ChannelEffect for Leakage {
+    fn phasors(&mut self, _: &Pad, _: &mut Phasors) {}
+
+    fn samples(&mut self, pad: &Pad, run: &Run, rows: &mut [[f64; CHANNELS]]) {
+        let volt = pad.haptic_v_rms * SQRT_2;
+        let total = admittance(TAU * self.device.haptic_hz, pad) * volt / self.device.current_full_scale_a;
+        let mut rotor = haptic_rotor(&self.device, run);
+        for row in rows {
+            let now = (total * rotor.turn()).im;
+            row.iter_mut().zip(pad.split).for_each(|(sample, share)| *sample += now * share);
+        }
+    }
+}

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `[sensor]`: what the sensor chain adds between the currents and the ADC's codes. Each key switches on one effect.
+//!
+//! | key | effect | realistic |
+//! | `haptic_leakage` | the haptic voltage's own current, eq. 1's second term | true |
+//! | `gain_mismatch_percent` | each terminal's gain, standard deviation | 0.1 to 1 |
+//! | `offset_percent` | each channel's offset, of full scale, standard deviation | 0.01 |
+//! | `noise_ppm_rms` | white noise per sample, millionths of full scale | 18 (AD7606C-16, 92 dB) |
+//! | `quantisation_bits` | codes of so many bits, half to even, clipped at the rails | 16, 18 |
+//!
+//! The full scales in the same table belong to the device and are always there.
+
+pub(super) mod gain;
+pub(super) mod leakage;
+pub(super) mod noise;
+pub(super) mod offset;
+pub(super) mod quantisation;
+
+use crate::error::SceneError;
+use crate::format::{Limits, Table};
+
+/// A number of `[sensor]`, if both the table and the key are there.
+fn key(root: &Table, key: &'static str, limits: Limits) -> Result<Option<f64>, SceneError> {
+    root.table("sensor")?.map_or(Ok(None), |table| table.number(key, limits))
+}

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `sensor.offset_percent`: each ADC channel's constant offset, drawn with the seed. A demodulator over whole periods
+//! does not see it; the mean square of the haptic voltage does.
+
+use super::super::{ChannelEffect, Effect, Pad, Phasors, Run, Setting, Spec};
+use crate::device::{CHANNELS, Device, HAPTIC};
+use crate::error::SceneError;
+use crate::format::{Limits, Table};
+use crate::random::{Purpose, normals};
+
+pub(in super::super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
+    let Some(percent) = super::key(root, "offset_percent", Limits::within(0.0, 50.0))? else { return Ok(None) };
+    let build = move |setting: &Setting| Effect::Channels(Box::new(Offset::new(percent, setting)));
+    Ok(Spec::new("sensor.offset", format!("{percent} %"), build))
+}
+
+struct Offset([f64; CHANNELS]);
+
+impl Offset {
+    fn new(percent: f64, setting: &Setting) -> Self {
+        Offset(normals(setting.seed, Purpose::Offset).map(|normal| percent / 100.0 * normal))
+    }
+}
+
+impl ChannelEffect for Offset {
+    fn phasors(&mut self, _: &Pad, phasors: &mut Phasors) {
+        phasors.haptic_mean_square += self.0[HAPTIC].powi(2);
+    }
+
+    fn samples(&mut self, _: &Pad, _: &Run, rows: &mut [[f64; CHANNELS]]) {
+        for row in rows {
+            row.iter_mut().zip(self.0).for_each(|(sample, offset)| *sample += offset);
+        }
+    }
+}

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `sensor.quantisation_bits`: samples become codes of so many bits, full scale ±1, half to even, clipped at the rails.
+//! Amplitudes stay exact: quantisation is a matter of samples.
+
+use super::super::{ChannelEffect, Effect, Pad, Phasors, Run, Setting, Spec};
+use crate::device::{CHANNELS, Device};
+use crate::error::SceneError;
+use crate::format::Table;
+
+/// Adding and taking away 1.5·2^52 rounds an f64 of up to 2^51 to an integer, half to even, in two additions.
+const ROUNDER: f64 = 6_755_399_441_055_744.0;
+
+pub(in super::super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
+    let bits = root.table("sensor")?.map_or(Ok(None), |table| table.whole("quantisation_bits", 2, 32))?;
+    let Some(bits) = bits else { return Ok(None) };
+    let codes = (1u64 << (bits - 1)) as f64;
+    let build = move |_: &Setting| Effect::Channels(Box::new(Quantisation { codes }));
+    Ok(Spec::new("sensor.quantisation", format!("{bits} bit"), build))
+}
+
+struct Quantisation {
+    /// Codes per full scale.
+    codes: f64,
+}
+
+impl ChannelEffect for Quantisation {
+    fn phasors(&mut self, _: &Pad, _: &mut Phasors) {}
+
+    fn samples(&mut self, _: &Pad, _: &Run, rows: &mut [[f64; CHANNELS]]) {
+        let (codes, step) = (self.codes, 1.0 / self.codes);
+        for sample in rows.as_flattened_mut() {
+            let code = (*sample * codes + ROUNDER) - ROUNDER;
+            *sample = code.max(-codes).min(codes - 1.0) * step;
+        }
+    }
+}

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `[sheet]`: how the resistive sheet splits a pad's current among the terminals, and its resistance R_p at the pad.
+//!
+//! Terminals 1 to 4 are the corners top left, bottom left, bottom right, top right (the signs of eqs. 2 and 3); 5 and 6 are
+//! the middles of the bottom and the top edge. Each is a patch of radius `terminal_radius_mm` behind `terminal_ohm`. The
+//! radius is not the paper's: 1.7 mm gives the R_p of PHYSICS §1, 73 to 190 Ω, mean 143 Ω, for pads 20 mm off the edges.
+//!
+//! | rung | what | look-up | error of the split, rms / max (PHYSICS §1) |
+//! | `distance` | R_i ∝ distance, the paper's picture | 10 ns | 4.7e-2 / 2.5e-1 |
+//! | `bicubic` | table of the analytic solution, 128 × 75 | 30 ns | 1.1e-6 / 1.2e-4 |
+//! | `analytic` | Neumann function of the rectangle | 0.5 µs | 8e-11 |
+//!
+//! Without the table the sheet is ideal: no resistance, and corner currents that are bilinear in the position.
+
+mod analytic;
+mod bicubic;
+mod distance;
+mod neumann;
+
+use super::{Effect, Pad, PadEffect, Spec};
+use crate::device::{Device, TERMINALS};
+use crate::error::SceneError;
+use crate::format::{Limits, Table};
+
+/// The sheet as a pad at one place sees it.
+#[derive(Clone, Copy, Debug)]
+struct Split {
+    share: [f64; TERMINALS],
+    ohm: f64,
+}
+
+/// One way to get the split at a place, x and y in mm from the centre.
+trait Rung: Send {
+    fn split(&self, x_mm: f64, y_mm: f64) -> Split;
+}
+
+/// What `[sheet]` says, in SI units.
+#[derive(Clone, Debug)]
+struct Sheet {
+    size_m: [f64; 2],
+    pad_radius_m: f64,
+    ohm_per_square: f64,
+    terminal_ohm: f64,
+    terminal_radius_m: f64,
+    /// From the bottom left corner.
+    terminals_m: [[f64; 2]; TERMINALS],
+    /// Columns and rows of the bicubic table.
+    table: [usize; 2],
+}
+
+const RUNGS: [&str; 3] = ["distance", "bicubic", "analytic"];
+
+pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneError> {
+    let Some(table) = root.table("sheet")? else { return Ok(None) };
+    let rung = table.choice("rung", &RUNGS)?.unwrap_or("bicubic");
+    let sheet = read_sheet(table, device)?;
+    let name = match (rung, sheet.table) {
+        ("bicubic", [columns, rows]) => format!("bicubic {columns} × {rows}"),
+        _ => rung.to_string(),
+    };
+    Ok(Spec::new("sheet", name, move |_| Effect::Pad(Box::new(OnSheet { rung: build(rung, &sheet) }))))
+}
+
+fn read_sheet(table: &Table, device: &Device) -> Result<Sheet, SceneError> {
+    let size_m = [device.width_mm, device.height_mm].map(|mm| mm * 1e-3);
+    let count = |key, default| Ok(table.whole(key, 8, 2048)?.unwrap_or(default) as usize);
+    let widest = Limits::above(0.0, device.pad_diameter_mm / 3.0); // a pad at the edge must not lie on a terminal
+    Ok(Sheet {
+        size_m,
+        pad_radius_m: device.pad_diameter_mm * 0.5e-3,
+        ohm_per_square: table.number_or("ohm_per_square", Limits::POSITIVE, 150.0)?,
+        terminal_ohm: table.number_or("terminal_ohm", Limits::NOT_NEGATIVE, 0.0)?,
+        terminal_radius_m: 1e-3 * table.number_or("terminal_radius_mm", widest, 1.7)?,
+        terminals_m: terminals(size_m),
+        table: [count("table_columns", 128)?, count("table_rows", 75)?],
+    })
+}
+
+fn terminals([width, height]: [f64; 2]) -> [[f64; 2]; TERMINALS] {
+    let corners = [[0.0, height], [0.0, 0.0], [width, 0.0], [width, height]];
+    let edges = [[width / 2.0, 0.0], [width / 2.0, height]];
+    [corners[0], corners[1], corners[2], corners[3], edges[0], edges[1]]
+}
+
+fn build(rung: &str, sheet: &Sheet) -> Box<dyn Rung> {
+    match rung {
+        "distance" => Box::new(distance::Distance::new(sheet)),
+        "bicubic" => Box::new(bicubic::Bicubic::new(sheet)),
+        _ => Box::new(analytic::Analytic::new(sheet)),
+    }
+}
+
+struct OnSheet {
+    rung: Box<dyn Rung>,
+}
+
+impl PadEffect for OnSheet {
+    fn act(&mut self, pad: &mut Pad) {
+        let split = self.rung.split(pad.x_mm, pad.y_mm);
+        pad.split = split.share;
+        pad.sheet_ohm = split.ohm;
+    }
+}
+
+/// The split of an ideal sheet: corner currents bilinear in the position, so that r_x and r_y are proportional to x and y.
+pub(crate) fn ideal_split(x_mm: f64, y_mm: f64, device: &Device) -> [f64; TERMINALS] {
+    let (u, v) = (x_mm / device.width_mm + 0.5, y_mm / device.height_mm + 0.5);
+    [(1.0 - u) * v, (1.0 - u) * (1.0 - v), u * (1.0 - v), u * v, 0.0, 0.0]
+}
+
+#[cfg(test)]
+mod tests;

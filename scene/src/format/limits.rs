@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The range a number may lie in, and how a message says so.
+
+use std::fmt;
+
+/// A range of numbers; `above` leaves its lower end out.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Limits {
+    low: f64,
+    high: f64,
+    open: bool,
+}
+
+impl Limits {
+    pub const ANY: Limits = Limits { low: f64::NEG_INFINITY, high: f64::INFINITY, open: false };
+    pub const POSITIVE: Limits = Limits::above(0.0, f64::INFINITY);
+    pub const NOT_NEGATIVE: Limits = Limits::within(0.0, f64::INFINITY);
+
+    /// `low ..= high`
+    pub const fn within(low: f64, high: f64) -> Self {
+        Limits { low, high, open: false }
+    }
+
+    /// Above `low`, at most `high`
+    pub const fn above(low: f64, high: f64) -> Self {
+        Limits { low, high, open: true }
+    }
+
+    /// Whether a finite `value` lies in the range.
+    pub fn holds(&self, value: f64) -> bool {
+        value.is_finite() && value <= self.high && if self.open { value > self.low } else { value >= self.low }
+    }
+}
+
+impl fmt::Display for Limits {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let from = if self.open { "above" } else { "of at least" };
+        match (self.low.is_finite(), self.high.is_finite()) {
+            (false, false) => write!(f, "a finite number"),
+            (true, false) => write!(f, "a number {from} {}", self.low),
+            (false, true) => write!(f, "a number of at most {}", self.high),
+            (true, true) if self.open => write!(f, "a number above {} and at most {}", self.low, self.high),
+            (true, true) => write!(f, "a number from {} to {}", self.low, self.high),
+        }
+    }
+}

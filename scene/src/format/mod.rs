@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The scene format: TOML read into a tree that remembers lines, and typed access that remembers which keys are known.
+
+mod document;
+mod limits;
+mod overrides;
+mod table;
+
+pub(crate) use document::{Node, Value, parse};
+pub(crate) use limits::Limits;
+pub(crate) use overrides::{apply, parse_value};
+pub(crate) use table::Table;

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `[[pad]]`: what one pad does. A sweep runs over all combinations of what is swept, the position fastest, then the load,
+//! the haptic voltage and the capacitance.
+
+use crate::course::Course;
+use crate::device::{Device, EPSILON_0};
+use crate::effects::Pad;
+use crate::effects::sheet::ideal_split;
+use crate::error::SceneError;
+use crate::format::{Limits, Table};
+use crate::path::Path;
+
+/// Capacitance of a pad that neither names one nor has a gap, pF: 5 kΩ at 100 kHz.
+const CAPACITANCE_PF: f64 = 318.0;
+
+/// The course of one pad.
+#[derive(Clone, Debug)]
+pub(crate) struct PadPlan {
+    pub name: String,
+    path: Path,
+    load_g: Course,
+    haptic_v_rms: Course,
+    capacitance_pf: Course,
+}
+
+impl PadPlan {
+    pub fn read(table: &Table, index: usize, device: &Device, has_gap: bool) -> Result<PadPlan, SceneError> {
+        let course = |key, limits, default| Ok(Course::read(table, key, limits)?.unwrap_or(Course::Constant(default)));
+        if has_gap && table.get("capacitance_pf").is_some() {
+            return Err(table.error("capacitance_pf", "expected no capacitance of its own, since [gap] decides it"));
+        }
+        Ok(PadPlan {
+            name: table.text("name")?.unwrap_or_else(|| format!("pad {index}")),
+            path: Path::read(table, device)?,
+            load_g: course("load_g", Limits::within(0.0, 1e5), 20.0)?,
+            haptic_v_rms: course("haptic_v_rms", Limits::within(0.0, 1e5), 0.0)?,
+            capacitance_pf: course("capacitance_pf", Limits::above(0.0, 1e6), CAPACITANCE_PF)?,
+        })
+    }
+
+    /// Points of the whole sweep; one where nothing is swept.
+    pub fn points(&self) -> usize {
+        self.path.points() * self.load_g.points() * self.haptic_v_rms.points() * self.capacitance_pf.points()
+    }
+
+    /// Whether anything depends on time.
+    pub fn moves(&self) -> bool {
+        self.path.moves() || [&self.load_g, &self.haptic_v_rms, &self.capacitance_pf].into_iter().any(Course::moves)
+    }
+
+    /// Points that differ in position alone are one group.
+    pub fn group(&self, point: usize) -> usize {
+        point % self.points() / self.path.points()
+    }
+
+    /// The pad before any effect: an even gap on an ideal sheet.
+    pub fn at(&self, index: usize, point: usize, time_s: f64, device: &Device) -> Pad {
+        let load = point / self.path.points();
+        let haptic = load / self.load_g.points();
+        let capacitance = haptic / self.haptic_v_rms.points();
+        let [x_mm, y_mm] = self.path.at(point, time_s);
+        let capacitance_f = 1e-12 * self.capacitance_pf.at(capacitance, time_s);
+        let haptic_v_rms = self.haptic_v_rms.at(haptic, time_s);
+        still(index, time_s, [x_mm, y_mm], self.load_g.at(load, time_s), haptic_v_rms, capacitance_f, device)
+    }
+}
+
+/// A pad at rest, unloaded and unpowered, for a calibration.
+pub(crate) fn resting(at_mm: [f64; 2], device: &Device) -> Pad {
+    still(0, 0.0, at_mm, 0.0, 0.0, CAPACITANCE_PF * 1e-12, device)
+}
+
+fn still(
+    index: usize,
+    time_s: f64,
+    at: [f64; 2],
+    load_g: f64,
+    haptic_v_rms: f64,
+    capacitance_f: f64,
+    device: &Device,
+) -> Pad {
+    let attraction_n = (capacitance_f * haptic_v_rms).powi(2) / (2.0 * EPSILON_0 * device.pad_area_m2);
+    Pad {
+        index,
+        time_s,
+        x_mm: at[0],
+        y_mm: at[1],
+        load_g,
+        haptic_v_rms,
+        capacitance_f,
+        attraction_n,
+        force_n: None,
+        split: ideal_split(at[0], at[1], device),
+        sheet_ohm: 0.0,
+    }
+}

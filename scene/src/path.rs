@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Where a pad is, over the points of a sweep or over time. Millimetres from the sheet's centre, x right, y up.
+//!
+//! | written as `position_mm =` | the pad |
+//! | `[100, -50]` | stays |
+//! | `{ sweep = [[0, 0], [100, 0]] }` | is placed point by point |
+//! | `{ raster = { nx = 24, ny = 14, margin_mm = 15 } }` | is placed on a grid, rows from the bottom left; the margin is from the edges to the pad's centre |
+//! | `{ line = { from_mm = [0, 0], to_mm = [100, 0], period_s = 2 } }` | goes there and back at even speed |
+//! | `{ circle = { centre_mm = [0, 0], radius_mm = 100, period_s = 2, phase_turns = 0 } }` | circles, anticlockwise |
+//! | `{ lissajous = { centre_mm, amplitude_mm = [ax, ay], frequency_hz = [fx, fy], phase_turns = [px, py] } }` | swings |
+
+use std::f64::consts::TAU;
+
+use crate::device::Device;
+use crate::error::SceneError;
+use crate::format::{Limits, Table, Value};
+
+type Point = [f64; 2];
+
+/// A pad's position over sweep points or time.
+#[derive(Clone, Debug)]
+pub(crate) enum Path {
+    Points(Vec<Point>),
+    Line { from: Point, to: Point, period_s: f64 },
+    Swing { centre: Point, amplitude: Point, frequency_hz: Point, phase_turns: Point },
+}
+
+impl Path {
+    /// Reads `position_mm`; the pad must stay wholly on the sheet.
+    pub fn read(pad: &Table, device: &Device) -> Result<Path, SceneError> {
+        const KEY: &str = "position_mm";
+        let path = match pad.get(KEY).map(|node| &node.value) {
+            Some(Value::Table(form)) => Path::read_form(form, device)?,
+            _ => Path::Points(vec![pad.require(KEY, "[x, y]", pad.pair(KEY, Limits::ANY)?)?]),
+        };
+        let reach = device.reach_mm();
+        match path.extremes().into_iter().find(|[x, y]| x.abs() > reach[0] + 1e-9 || y.abs() > reach[1] + 1e-9) {
+            None => Ok(path),
+            Some([x, y]) => Err(pad.error(
+                KEY,
+                format!(
+                    "expected the pad's centre within ±{} × ±{} mm, so that the pad lies wholly on the sheet, got [{x}, {y}]",
+                    reach[0], reach[1]
+                ),
+            )),
+        }
+    }
+
+    fn read_form(form: &Table, device: &Device) -> Result<Path, SceneError> {
+        let points = form.pairs("sweep")?.map(Path::Points);
+        let raster = form.table("raster")?.map(|raster| read_raster(raster, device)).transpose()?;
+        let line = form.table("line")?.map(read_line).transpose()?;
+        let circle = form.table("circle")?.map(read_circle).transpose()?;
+        let lissajous = form.table("lissajous")?.map(read_lissajous).transpose()?;
+        let mut given = [points, raster, line, circle, lissajous].into_iter().flatten();
+        match (given.next(), given.next()) {
+            (Some(path), None) => Ok(path),
+            _ => {
+                Err(form
+                    .error("", "expected exactly one of \"sweep\", \"raster\", \"line\", \"circle\", \"lissajous\""))
+            }
+        }
+    }
+
+    /// Corners of a box that holds the path.
+    fn extremes(&self) -> Vec<Point> {
+        match self {
+            Path::Points(points) => points.clone(),
+            Path::Line { from, to, .. } => vec![*from, *to],
+            Path::Swing { centre: [x, y], amplitude: [ax, ay], .. } => {
+                vec![[x - ax.abs(), y - ay.abs()], [x + ax.abs(), y + ay.abs()]]
+            }
+        }
+    }
+
+    /// How many places a sweep has; one where it does not sweep.
+    pub fn points(&self) -> usize {
+        if let Path::Points(points) = self { points.len() } else { 1 }
+    }
+
+    /// Whether the position depends on time.
+    pub fn moves(&self) -> bool {
+        !matches!(self, Path::Points(_))
+    }
+
+    /// The position at a sweep's point and a time.
+    pub fn at(&self, point: usize, time_s: f64) -> Point {
+        match self {
+            Path::Points(points) => points[point % points.len()],
+            Path::Line { from, to, period_s } => {
+                let turns = time_s / period_s;
+                let there = 1.0 - (2.0 * (turns - turns.floor()) - 1.0).abs();
+                [0, 1].map(|axis| from[axis] + (to[axis] - from[axis]) * there)
+            }
+            Path::Swing { centre, amplitude, frequency_hz, phase_turns } => [0, 1].map(|axis| {
+                centre[axis] + amplitude[axis] * (TAU * (frequency_hz[axis] * time_s + phase_turns[axis])).sin()
+            }),
+        }
+    }
+}
+
+/// Evenly spaced places, the outermost `margin_mm` from the edges; a single column or row is in the middle.
+pub(crate) fn raster(nx: usize, ny: usize, margin_mm: f64, device: &Device) -> Vec<Point> {
+    let along = |n: usize, of: usize, size: f64| match of {
+        1 => 0.0,
+        _ => (size / 2.0 - margin_mm) * (2.0 * n as f64 / (of - 1) as f64 - 1.0),
+    };
+    let place = |n: usize| [along(n % nx, nx, device.width_mm), along(n / nx, ny, device.height_mm)];
+    (0..nx * ny).map(place).collect()
+}
+
+fn read_raster(table: &Table, device: &Device) -> Result<Path, SceneError> {
+    let count = |key| table.require(key, "an integer", table.whole(key, 1, 1000)?);
+    let margin = table.number_or("margin_mm", Limits::POSITIVE, device.pad_diameter_mm / 2.0)?;
+    Ok(Path::Points(raster(count("nx")? as usize, count("ny")? as usize, margin, device)))
+}
+
+fn read_line(table: &Table) -> Result<Path, SceneError> {
+    let pair = |key| table.require(key, "[x, y]", table.pair(key, Limits::ANY)?);
+    Ok(Path::Line { from: pair("from_mm")?, to: pair("to_mm")?, period_s: period(table)? })
+}
+
+fn read_circle(table: &Table) -> Result<Path, SceneError> {
+    let radius = table.require("radius_mm", "a number above 0", table.number("radius_mm", Limits::POSITIVE)?)?;
+    let turns = table.number_or("phase_turns", Limits::ANY, 0.0)?;
+    Ok(Path::Swing {
+        centre: table.pair("centre_mm", Limits::ANY)?.unwrap_or_default(),
+        amplitude: [radius; 2],
+        frequency_hz: [1.0 / period(table)?; 2],
+        phase_turns: [turns + 0.25, turns],
+    })
+}
+
+fn read_lissajous(table: &Table) -> Result<Path, SceneError> {
+    let pair = |key, limits| table.require(key, "two numbers", table.pair(key, limits)?);
+    Ok(Path::Swing {
+        centre: table.pair("centre_mm", Limits::ANY)?.unwrap_or_default(),
+        amplitude: pair("amplitude_mm", Limits::ANY)?,
+        frequency_hz: pair("frequency_hz", Limits::NOT_NEGATIVE)?,
+        phase_turns: table.pair("phase_turns", Limits::ANY)?.unwrap_or_default(),
+    })
+}
+
+fn period(table: &Table) -> Result<f64, SceneError> {
+    table.require("period_s", "a number above 0", table.number("period_s", Limits::POSITIVE)?)
+}

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Random streams named by what they are for, so that no stream depends on how much another was used.
+
+use rand_distr::{Distribution, StandardNormal};
+use rand_xoshiro::rand_core::SeedableRng;
+
+/// A fast generator of good quality, started afresh for each name.
+pub(crate) type Stream = rand_xoshiro::Xoshiro256PlusPlus;
+
+/// What a stream is for.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Purpose {
+    Gain,
+    Offset,
+    PhasorNoise,
+    SampleNoise {
+        /// First sample of the run within its slot.
+        from: u64,
+    },
+}
+
+impl Purpose {
+    fn number(self) -> u64 {
+        match self {
+            Purpose::Gain => 1,
+            Purpose::Offset => 2,
+            Purpose::PhasorNoise => 3,
+            Purpose::SampleNoise { from } => 4 + from,
+        }
+    }
+}
+
+/// The stream for `purpose` at `place` (case, slot) of a scene with this seed.
+pub(crate) fn stream(seed: u64, place: [u64; 2], purpose: Purpose) -> Stream {
+    let name = [place[0], place[1], purpose.number()];
+    Stream::seed_from_u64(name.into_iter().fold(mix(seed), |hash, part| mix(hash ^ part)))
+}
+
+/// `N` standard normal numbers that belong to the hardware: the same in every case and slot.
+pub(crate) fn normals<const N: usize>(seed: u64, purpose: Purpose) -> [f64; N] {
+    let mut stream = stream(seed, [0, 0], purpose);
+    std::array::from_fn(|_| StandardNormal.sample(&mut stream))
+}
+
+/// One step of SplitMix64: every bit of the input reaches every bit of the output (Steele, Lea and Flood, 2014).
+fn mix(word: u64) -> u64 {
+    let word = word.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    let word = (word ^ (word >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let word = (word ^ (word >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    word ^ (word >> 31)
+}
