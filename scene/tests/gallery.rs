@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The bundled scenes load, run and stay on the sheet.
 
-use hapticore_scene::{Plant, Scene, Timing, gallery};
+use hapticore_scene::{Plant, Scene, Timing, Truth, gallery};
 
 fn timing() -> Timing {
     Timing { pads: 4, slot_samples: 256, window_start: 56, window_samples: 200, samples_per_period: 10.0 }
@@ -18,7 +18,6 @@ fn every_bundled_scene_runs() {
             let last = plant.slots() - 1;
             for slot in [0, last / 2, last] {
                 let truth = plant.truth(slot);
-                println!("{name} {} {truth:?}", scene.cases[case].name);
                 assert!(truth.force_n.is_finite() && truth.capacitance_pf > 100.0);
                 let mut samples = Vec::new();
                 plant.samples(slot, 56..256, &mut samples);
@@ -27,4 +26,32 @@ fn every_bundled_scene_runs() {
             }
         }
     }
+}
+
+fn truths(name: &str) -> Vec<Truth> {
+    let scene = Scene::parse(gallery::find(name).unwrap(), name, &[]).unwrap();
+    let mut plant = Plant::new(&scene, 0, &timing()).unwrap();
+    (0..plant.slots()).map(|slot| plant.truth(slot)).collect()
+}
+
+#[test]
+fn fig6_eq_8_holds_within_0_1_n_at_both_loads_with_one_k() {
+    let points: Vec<_> =
+        truths("fig6").iter().map(|t| ((t.capacitance_pf * t.haptic_v_rms * 1e-9).powi(2), t.force_n)).collect();
+    let k = points.iter().map(|(square, force)| square * force).sum::<f64>()
+        / points.iter().map(|(s, _)| s * s).sum::<f64>();
+    let worst = points.iter().map(|(square, force)| (force - k * square).abs()).fold(0.0, f64::max);
+    println!("{worst} N, k {}", k * 1e6);
+    assert!(worst < 0.1, "{worst} N");
+}
+
+#[test]
+fn fig4_capacitance_rises_with_load_and_with_voltage() {
+    let all = truths("fig4");
+    let rises = |from: &Truth, to: &Truth| {
+        let higher = (from.load_g < to.load_g && from.haptic_v_rms == to.haptic_v_rms)
+            || (from.load_g == to.load_g && from.haptic_v_rms < to.haptic_v_rms);
+        !higher || from.capacitance_pf < to.capacitance_pf
+    };
+    assert!(all.iter().all(|from| all.iter().all(|to| rises(from, to))));
 }

@@ -96,18 +96,23 @@ impl Gap {
 
     /// h = g + d in equilibrium on the open branch; the insulators themselves do not yield, so g is never negative.
     fn height(&self, rest_m: f64, pull: f64, pressure_pa: f64) -> f64 {
-        let contact = |height: f64| self.contact_pa * (-(height - self.insulator_m) / self.contact_decay_m).exp();
-        let spring = |height: f64| self.spring_pa_per_m * (rest_m - height);
-        let balance = |height: f64| spring(height) + contact(height) - pull / height.powi(2) - pressure_pa;
+        let balance = |height: f64| self.balance(height, rest_m, pull, pressure_pa);
         let unpulled = rest_m - pressure_pa / self.spring_pa_per_m;
         let top = rest_m + self.contact_pa / self.spring_pa_per_m;
-        let open = open_height(unpulled, pull / self.spring_pa_per_m);
         let fold = (unpulled * 2.0 / 3.0).max(self.insulator_m);
-        match open {
-            Some(open) => bisect(open.max(self.insulator_m), top, balance),
-            None if balance(fold) >= 0.0 => bisect(fold, top, balance),
-            None => bisect(self.insulator_m, fold, balance),
+        match open_height(unpulled, pull / self.spring_pa_per_m) {
+            Some(open) => root(open.max(self.insulator_m), top, balance),
+            None if balance(fold).0 >= 0.0 => root(fold, top, balance),
+            None => root(self.insulator_m, fold, balance),
         }
+    }
+
+    /// F at a height, and its slope.
+    fn balance(&self, height: f64, rest_m: f64, pull: f64, pressure_pa: f64) -> (f64, f64) {
+        let contact = self.contact_pa * (-(height - self.insulator_m) / self.contact_decay_m).exp();
+        let attraction = pull / height.powi(2);
+        let force = self.spring_pa_per_m * (rest_m - height) + contact - attraction - pressure_pa;
+        (force, -self.spring_pa_per_m - contact / self.contact_decay_m + 2.0 * attraction / height)
     }
 }
 
@@ -118,13 +123,21 @@ fn open_height(unpulled: f64, a: f64) -> Option<f64> {
     open.then(|| unpulled / 3.0 * (1.0 + 2.0 * (cosine.acos() / 3.0).cos()))
 }
 
-/// Root between `low` and `high`, where `f` is not positive, to the last bit that matters; `low` where there is none.
-fn bisect(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        *(if f(middle) >= 0.0 { &mut low } else { &mut high }) = middle;
+/// Root between `low` and `high`, where `f` is not positive, to the last bits; `low` where there is none. Newton's steps from
+/// `low`, halving the bracket wherever one would leave it.
+fn root(mut low: f64, mut high: f64, f: impl Fn(f64) -> (f64, f64)) -> f64 {
+    let mut at = low;
+    for _ in 0..100 {
+        let (value, slope) = f(at);
+        *(if value >= 0.0 { &mut low } else { &mut high }) = at;
+        let newton = at - value / slope;
+        let next = if slope < 0.0 && newton >= low && newton <= high { newton } else { 0.5 * (low + high) };
+        if (next - at).abs() <= 1e-15 * at {
+            return next;
+        }
+        at = next;
     }
-    0.5 * (low + high)
+    at
 }
 
 #[cfg(test)]
@@ -168,7 +181,31 @@ mod tests {
     }
 
     #[test]
-    fn every_patch_is_in_balance_and_capacitance_rises_with_load_and_voltage() {
+    fn every_patch_is_in_balance_wherever_it_floats() {
+        let gap = gap(&REST_UM, 2e5);
+        for (rest, volt) in
+            REST_UM.into_iter().flat_map(|um| (0..60).map(move |step| (um * 1e-6, 10.0 * f64::from(step))))
+        {
+            let pull = 0.5 * EPSILON_0 * volt * volt;
+            let height = gap.height(rest, pull, 300.0);
+            let (force, slope) = gap.balance(height, rest, pull, 300.0);
+            assert!(force.abs() < 1e-6 && slope < 0.0, "{rest} m, {volt} V: {force} Pa at {height} m, slope {slope}");
+        }
+    }
+
+    #[test]
+    fn the_branch_is_the_open_one_up_to_the_fold() {
+        let gap = gap(&REST_UM, 2e5);
+        for rest in REST_UM.map(|um| um * 1e-6) {
+            let fold_v = (8.0 * 5e8 * rest.powi(3) / (27.0 * EPSILON_0)).sqrt();
+            let height = |volt: f64| gap.height(rest, 0.5 * EPSILON_0 * volt * volt, 0.0);
+            assert!(height(0.999 * fold_v) > rest * 2.0 / 3.0, "{rest}");
+            assert!(height(1.15 * fold_v) < rest * 0.6, "{rest}: {}", height(1.15 * fold_v));
+        }
+    }
+
+    #[test]
+    fn capacitance_rises_with_load_and_voltage() {
         let gap = gap(&REST_UM, 2e5);
         for load_g in [0.0, 20.0, 50.0, 100.0] {
             let rising: Vec<f64> = (0..80).map(|step| capacitance_pf(&gap, 10.0 * f64::from(step), load_g)).collect();

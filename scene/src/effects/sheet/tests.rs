@@ -2,84 +2,158 @@
 //! The sheet against the check values of PHYSICS §1.
 
 use super::analytic::Analytic;
+use super::bicubic::Bicubic;
+use super::distance::Distance;
+use super::neumann::Neumann;
 use super::*;
 
-fn sheet(terminal_ohm: f64, terminal_radius_mm: f64) -> Sheet {
+/// What the check values were measured with: pads at least 20 mm off the edges.
+const MARGIN_MM: f64 = 20.0;
+
+fn sheet(terminal_ohm: f64) -> Sheet {
     Sheet {
         size_m: [0.86, 0.5],
         pad_radius_m: 0.015,
         ohm_per_square: 150.0,
         terminal_ohm,
-        terminal_radius_m: terminal_radius_mm * 1e-3,
+        terminal_radius_m: 1.7e-3,
         terminals_m: terminals([0.86, 0.5]),
         table: [128, 75],
     }
 }
 
-/// Least squares of x and y on monomials of (r_x, r_y) up to a degree: rms and max of the distance, mm.
-fn fit(points: &[([f64; 2], [f64; 2])], degree: i32) -> (f64, f64) {
-    let basis = |r: &[f64; 2]| -> Vec<f64> {
-        (0..=degree)
-            .flat_map(|p| (0..=degree - p).map(move |q| (p, q)))
-            .map(|(p, q)| r[0].powi(p) * r[1].powi(q))
-            .collect()
-    };
-    // modified Gram-Schmidt on the columns
-    let rows: Vec<Vec<f64>> = points.iter().map(|(r, _)| basis(r)).collect();
-    let n = rows[0].len();
-    let mut columns: Vec<Vec<f64>> = (0..n).map(|c| rows.iter().map(|row| row[c]).collect()).collect();
-    let mut left: Vec<Vec<f64>> = (0..2).map(|axis| points.iter().map(|(_, x)| x[axis]).collect()).collect();
-    for c in 0..n {
-        let pivot = columns[c].clone();
+fn places(margin_mm: f64) -> Vec<[f64; 2]> {
+    let along = |n: usize, of: usize, size: f64| (size / 2.0 - margin_mm) * (2.0 * n as f64 / (of - 1) as f64 - 1.0);
+    (0..81 * 47).map(|n| [along(n % 81, 81, 860.0), along(n / 81, 47, 500.0)]).collect()
+}
+
+fn splits(rung: &impl Rung, margin_mm: f64) -> Vec<Split> {
+    places(margin_mm).into_iter().map(|[x, y]| rung.split(x, y)).collect()
+}
+
+fn corners(split: &Split) -> f64 {
+    split.share[..4].iter().sum()
+}
+
+/// Least, mean and greatest.
+fn range(values: impl Iterator<Item = f64> + Clone) -> [f64; 3] {
+    let count = values.clone().count() as f64;
+    [values.clone().fold(f64::MAX, f64::min), values.clone().sum::<f64>() / count, values.fold(f64::MIN, f64::max)]
+}
+
+fn assert_near(name: &str, got: &[f64], expected: &[f64], tolerance: f64) {
+    let near = got.iter().zip(expected).all(|(got, expected)| (got - expected).abs() <= tolerance);
+    assert!(near, "{name}: got {got:?}, expected {expected:?} ± {tolerance}");
+}
+
+/// Rms and maximum of the shares' difference.
+fn split_error(rung: &impl Rung, margin_mm: f64) -> [f64; 2] {
+    let exact = splits(&Analytic::with_images(&sheet(0.0), 4), margin_mm);
+    let pairs = splits(rung, margin_mm).into_iter().zip(exact);
+    let errors: Vec<f64> =
+        pairs.flat_map(|(a, b)| (0..TERMINALS).map(move |i| (a.share[i] - b.share[i]).abs())).collect();
+    [
+        (errors.iter().map(|e| e * e).sum::<f64>() / errors.len() as f64).sqrt(),
+        errors.iter().copied().fold(0.0, f64::max),
+    ]
+}
+
+/// Least squares of (x, y) on the monomials of (r_x, r_y) up to a degree: rms and maximum of the distance left, mm.
+fn fit_error(points: &[([f64; 2], [f64; 2])], degree: i32) -> [f64; 2] {
+    let powers = (0..=degree).flat_map(|p| (0..=degree - p).map(move |q| (p, q)));
+    let mut columns: Vec<Vec<f64>> =
+        powers.map(|(p, q)| points.iter().map(|(r, _)| r[0].powi(p) * r[1].powi(q)).collect()).collect();
+    let mut left = [0, 1].map(|axis| points.iter().map(|(_, x)| x[axis]).collect::<Vec<f64>>());
+    while let Some(pivot) = columns.pop() {
         let norm: f64 = pivot.iter().map(|v| v * v).sum();
-        for other in columns[c + 1..].iter_mut().chain(left.iter_mut()) {
-            let factor = pivot.iter().zip(other.iter()).map(|(a, b)| a * b).sum::<f64>() / norm;
-            other.iter_mut().zip(&pivot).for_each(|(v, p)| *v -= factor * p);
+        for other in columns.iter_mut().chain(&mut left) {
+            let factor = pivot.iter().zip(&*other).map(|(a, b)| a * b).sum::<f64>() / norm;
+            other.iter_mut().zip(&pivot).for_each(|(value, p)| *value -= factor * p);
         }
     }
-    let distances: Vec<f64> = left[0].iter().zip(&left[1]).map(|(x, y)| x.hypot(*y)).collect();
-    let rms = (distances.iter().map(|d| d * d).sum::<f64>() / distances.len() as f64).sqrt();
-    (rms, distances.iter().fold(0.0, |a, b| a.max(*b)))
+    let squares = left[0].iter().zip(&left[1]).map(|(x, y)| x * x + y * y);
+    [(squares.clone().sum::<f64>() / points.len() as f64).sqrt(), squares.fold(0.0, f64::max).sqrt()]
 }
 
 #[test]
-fn scan() {
-    for margin in [0.01, 5.0, 10.0, 15.0, 20.0, 30.0] {
-        for radius in [1.0, 1.7, 2.5, 3.0, 5.0, 10.0] {
-            let exact = Analytic::new(&sheet(0.0, radius));
-            let n = 81;
-            let m = 47;
-            let (mut lo, mut hi, mut sum) = (1e9f64, 0f64, 0.0);
-            let (mut clo, mut chi) = (1e9f64, 0f64);
-            let mut rmax = 0f64;
-            let mut points = Vec::new();
-            for i in 0..n {
-                for j in 0..m {
-                    let (x, y) = (
-                        (430.0 - margin) * (2.0 * i as f64 / (n - 1) as f64 - 1.0),
-                        (250.0 - margin) * (2.0 * j as f64 / (m - 1) as f64 - 1.0),
-                    );
-                    let s = exact.split(x, y);
-                    lo = lo.min(s.ohm);
-                    hi = hi.max(s.ohm);
-                    sum += s.ohm;
-                    let c: f64 = s.share[..4].iter().sum();
-                    clo = clo.min(c);
-                    chi = chi.max(c);
-                    let w = s.share;
-                    let r = [(w[2] + w[3] - w[0] - w[1]) / c, (w[0] + w[3] - w[1] - w[2]) / c];
-                    rmax = rmax.max(r[0]);
-                    points.push((r, [x, y]));
-                }
-            }
-            println!(
-                "margin {margin} radius {radius}: {lo:.1} {hi:.1} mean {:.1} corner {clo:.3} {chi:.3} rx {rmax:.3} fits {:.1?} {:.1?} {:.1?} {:.1?}",
-                sum / (n * m) as f64,
-                fit(&points, 1),
-                fit(&points, 3),
-                fit(&points, 5),
-                fit(&points, 7)
-            );
-        }
+fn truncation_falls_with_each_image_as_predicted() {
+    let size = [0.86, 0.5];
+    let exact = Neumann::new(size, 6);
+    for (images, predicted) in [(1, 3.8e-6), (2, 8e-11), (3, 2e-15)] {
+        let cut = Neumann::new(size, images);
+        let worst = terminals(size).into_iter().flat_map(|t| places(15.0).into_iter().map(move |p| (t, p))).fold(
+            0.0,
+            |worst, (t, [x, y])| {
+                let at = [x * 1e-3 + 0.43, y * 1e-3 + 0.25];
+                f64::max(worst, (cut.at(t, at, 1e-3) - exact.at(t, at, 1e-3)).abs())
+            },
+        );
+        assert!(worst < 4.0 * predicted + 1e-14, "{images} images: {worst:e}");
     }
+}
+
+#[test]
+fn shares_sum_to_one_and_mirror_at_every_rung() {
+    let sheet = sheet(300.0);
+    let rungs: [Box<dyn Rung>; 3] = ["distance", "bicubic", "analytic"].map(|rung| build(rung, &sheet));
+    for (rung, [x, y]) in rungs.iter().flat_map(|rung| places(15.0).into_iter().map(move |place| (rung, place))) {
+        let (split, mirrored) = (rung.split(x, y), rung.split(-x, -y));
+        assert!((split.share.iter().sum::<f64>() - 1.0).abs() < 1e-11);
+        let [a, b, c, d, e, f] = mirrored.share;
+        assert_near("mirrored", &split.share, &[c, d, a, b, f, e], 1e-9);
+    }
+}
+
+#[test]
+fn resistance_at_the_pad_is_73_to_190_ohm() {
+    let exact = splits(&Analytic::new(&sheet(0.0)), MARGIN_MM);
+    assert_near("R_p", &range(exact.iter().map(|split| split.ohm)), &[73.0, 143.0, 190.0], 1.0);
+}
+
+#[test]
+fn corners_carry_19_to_80_percent() {
+    let exact = splits(&Analytic::new(&sheet(0.0)), 15.0);
+    let [least, _, most] = range(exact.iter().map(corners));
+    assert_near("corner share", &[least, most], &[0.19, 0.80], 0.045);
+}
+
+#[test]
+fn affine_to_septic_fits_leave_69_16_9_and_5_mm() {
+    let exact = Analytic::new(&sheet(0.0));
+    let ratio = |[x, y]: [f64; 2]| {
+        let w = exact.split(x, y).share;
+        let sum = w[0] + w[1] + w[2] + w[3];
+        ([(w[2] + w[3] - w[0] - w[1]) / sum, (w[0] + w[3] - w[1] - w[2]) / sum], [x, y])
+    };
+    let points: Vec<_> = places(MARGIN_MM).into_iter().map(ratio).collect();
+    assert_near("affine", &fit_error(&points, 1), &[69.0, 205.0], 1.0);
+    assert_near("cubic", &fit_error(&points, 3)[..1], &[16.0], 0.5);
+    assert_near("quintic", &fit_error(&points, 5)[..1], &[9.0], 0.3);
+    assert_near("septic", &fit_error(&points, 7), &[4.9, 18.0], 0.2);
+    assert_near("r_x", &[points.iter().fold(0.0, |most, (r, _)| r[0].max(most))], &[0.78], 0.01);
+}
+
+/// PHYSICS §1 says 1 to 1.3 kΩ; that is for the corners alone, with six terminals R_in counts only a sixth.
+#[test]
+fn the_papers_500_ohm_take_1_7_kiloohm_at_each_of_six_terminals_and_narrow_r_x() {
+    let exact = splits(&Analytic::new(&sheet(1700.0)), MARGIN_MM);
+    assert_near("R_p", &range(exact.iter().map(|split| split.ohm)), &[418.0, 443.0, 500.0], 1.0);
+    let r_x = exact.iter().map(|s| (s.share[2] + s.share[3] - s.share[0] - s.share[1]) / corners(s));
+    assert_near("r_x", &range(r_x)[2..], &[0.227], 0.01);
+}
+
+#[test]
+fn bicubic_and_distance_err_as_measured() {
+    let [rms, most] = split_error(&Bicubic::new(&sheet(0.0)), MARGIN_MM);
+    assert!(rms < 1.1e-6 && most < 1.2e-4, "bicubic: {rms:e} {most:e}");
+    let [rms, most] = split_error(&Analytic::new(&sheet(0.0)), MARGIN_MM);
+    assert!(rms < 2e-11 && most < 8e-11, "analytic: {rms:e} {most:e}");
+    let errors = split_error(&Distance::new(&sheet(0.0)), MARGIN_MM);
+    assert_near("distance", &errors, &[4.7e-2, 2.5e-1], 4e-3);
+}
+
+#[test]
+fn halving_the_spacing_divides_the_tables_error_by_twelve_or_more() {
+    let error = |table| split_error(&Bicubic::new(&Sheet { table, ..sheet(0.0) }), MARGIN_MM)[0];
+    assert!(error([64, 37]) > 12.0 * error([128, 75]));
 }

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Every mistake in a scene is one line that names the file, the line, the key, what was expected and what was found.
+
+use hapticore_scene::{Plant, Scene, Timing};
+
+const SCENE: &str = "title = \"t\"\n[[pad]]\nposition_mm = [0, 0]\n";
+
+fn message(text: &str, overrides: &[(&str, &str)]) -> String {
+    let overrides: Vec<_> = overrides.iter().map(|(key, value)| (key.to_string(), value.to_string())).collect();
+    let error = Scene::parse(text, "s.toml", &overrides).expect_err("the scene was accepted").to_string();
+    assert!(!error.contains('\n') && error.len() < 600, "not one line: {error}");
+    error
+}
+
+fn check(table: &str, expected: &str) {
+    let message = message(&format!("{SCENE}{table}"), &[]);
+    assert!(message.starts_with(expected), "got      {message}\nexpected {expected}");
+}
+
+#[test]
+fn unknown_rung() {
+    check(
+        "[sheet]\nrung = \"cubic\"",
+        "s.toml:5: sheet.rung: expected one of \"distance\", \"bicubic\", \"analytic\", got \"cubic\"",
+    );
+}
+
+#[test]
+fn unknown_effect() {
+    let magnet = format!("{SCENE}[magnet]\nrung = \"a\"");
+    assert!(message(&magnet, &[]).starts_with("s.toml:4: magnet: unknown key, expected one of "));
+    assert!(message(&magnet, &[]).contains("\"sheet\", \"gap\", \"friction\""));
+}
+
+#[test]
+fn unknown_key() {
+    check("[gap]\n\nspring = 3", "s.toml:6: gap.spring: unknown key, expected one of \"rung\", \"insulator_um\", ");
+}
+
+#[test]
+fn negative_thickness() {
+    check("[gap]\ninsulator_um = -8", "s.toml:5: gap.insulator_um: expected a number above 0, got -8");
+}
+
+#[test]
+fn wrong_types() {
+    check(
+        "[sheet]\nohm_per_square = \"150\"",
+        "s.toml:5: sheet.ohm_per_square: expected a number above 0, got \"150\"",
+    );
+    check(
+        "[sensor]\nquantisation_bits = 16.5",
+        "s.toml:5: sensor.quantisation_bits: expected an integer from 2 to 32, got 16.5",
+    );
+    check("[sensor]\nhaptic_leakage = 1", "s.toml:5: sensor.haptic_leakage: expected true or false, got 1");
+    check("[[sheet]]", "s.toml:4: sheet: expected a table, got a list of 1");
+    check("[carrier]\nfrequency_hz = nan", "s.toml:5: carrier.frequency_hz: expected a number above 0, got NaN");
+    check(
+        "[carrier]\nfrequency_hz = 99999999999999999999",
+        "s.toml:5: carrier.frequency_hz: expected an integer of at most 64 bits",
+    );
+}
+
+#[test]
+fn pad_outside_the_sheet() {
+    let scene = |position| format!("title = \"t\"\n[[pad]]\nposition_mm = {position}\n");
+    let expected = "s.toml:3: pad.0.position_mm: expected the pad's centre within ±415 × ±235 mm";
+    for position in [
+        "[500, 0]",
+        "[0, -235.1]",
+        "{ sweep = [[0, 0], [416, 0]] }",
+        "{ raster = { nx = 3, ny = 3, margin_mm = 10 } }",
+        "{ line = { from_mm = [0, 0], to_mm = [0, 300], period_s = 1 } }",
+        "{ circle = { centre_mm = [400, 0], radius_mm = 20, period_s = 1 } }",
+        "{ lissajous = { amplitude_mm = [100, 240], frequency_hz = [1, 1] } }",
+    ] {
+        let message = message(&scene(position), &[]);
+        assert!(message.starts_with(expected), "{position}: {message}");
+    }
+}
+
+#[test]
+fn sweeps_and_time_do_not_mix() {
+    let swept = format!("duration_s = 1\n{SCENE}load_g = {{ sweep = [1, 2] }}");
+    assert!(message(&swept, &[]).starts_with("s.toml:1: duration_s: expected none, since the sweep decides"));
+    check(
+        "load_g = { sine = { amplitude = 1, frequency_hz = 1 } }",
+        "s.toml:4: pad.0.load_g.sine: expected a number from 0",
+    );
+    let endless = "load_g = { timeline = [[0, 1], [1, 2]] }";
+    check(endless, "s.toml: duration_s: expected a number above 0, since a pad changes over time, but it is missing");
+    check(
+        "load_g = { sweep = [] }",
+        "s.toml:4: pad.0.load_g.sweep: expected a list, each a number from 0 to 100000, got a list of 0",
+    );
+    check(
+        "load_g = { timeline = [[1, 1], [0, 2]] }",
+        "s.toml:4: pad.0.load_g.timeline: expected times that do not fall",
+    );
+}
+
+#[test]
+fn a_gap_and_a_capacitance_of_its_own() {
+    check(
+        "capacitance_pf = 300\n[gap]",
+        "s.toml:4: pad.0.capacitance_pf: expected no capacitance of its own, since [gap]",
+    );
+}
+
+#[test]
+fn criteria() {
+    let head = "[[criterion]]\nname = \"c\"\nlimit = 1\n";
+    check(
+        &format!("{head}of = \"force_n\"\nmeasure = \"best\""),
+        "s.toml:8: criterion.0.measure: expected one of \"max_abs_error\"",
+    );
+    check(
+        &format!("{head}of = \"force\"\nmeasure = \"rms_error\""),
+        "s.toml:7: criterion.0.of: expected one of \"time_s\"",
+    );
+    check(
+        &format!("{head}of = \"force_n\"\nmeasure = \"increases_with\""),
+        "s.toml:4: criterion.0.with: expected with",
+    );
+    let case = "of = \"force_n\"\nmeasure = \"rms_error\"\ncase = \"wet\"";
+    check(
+        &format!("{head}{case}"),
+        "s.toml:9: criterion.0.case: expected the name of a case, one of [\"main\"], got \"wet\"",
+    );
+}
+
+#[test]
+fn cases() {
+    check("[[case]]\nname = \"a\"\nset = { \"sheet.wet\" = 1 }", "s.toml:6: sheet.wet: unknown key");
+    check("[[case]]\nname = \"a\"\nset = { seed = 1 }", "s.toml:6: case.0.set: seed belongs to the whole scene");
+    check(
+        "[[case]]\nname = \"a\"\n[[case]]\nname = \"a\"",
+        "s.toml:7: case.1.name: expected a name of its own, got \"a\" again",
+    );
+    check("[[case]]\nset = {}", "s.toml:4: case.0.name: expected text, but it is missing");
+}
+
+#[test]
+fn overrides() {
+    let expect = |key, value, expected: &str| {
+        let message = message(SCENE, &[(key, value)]);
+        assert!(message.starts_with(expected), "got      {message}\nexpected {expected}");
+    };
+    expect("sheet.rung", "cubic", "s.toml: --set sheet.rung: expected one of \"distance\"");
+    expect("sheet.wet", "1", "s.toml: --set sheet.wet: unknown key, expected one of \"rung\"");
+    expect("magnet.rung", "1", "s.toml: --set magnet: unknown key");
+    expect("pad.3.load_g", "1", "s.toml: --set pad.3.load_g: there is no 3 that could be entered");
+    expect("title.x", "1", "s.toml: --set title.x: there is no title that could be entered");
+    expect("sheet..rung", "1", "s.toml: --set sheet..rung: expected a key such as sheet.terminal_ohm");
+}
+
+#[test]
+fn no_scene_at_all() {
+    assert_eq!(message("", &[]), "s.toml: title: expected text, but it is missing");
+    assert_eq!(message("title = \"t\"", &[]), "s.toml: pad: expected 1 to 16 tables headed [[pad]], got 0");
+    assert!(message("title = \"t\"\n\ntitle = \"u\"", &[]).starts_with("s.toml:3: duplicate key"));
+    for nonsense in ["%&@\u{0}\u{1b}[2J ", "[[[[", "a = [", "{", "\"\"\"", "a.", "= ", "\n", "é"] {
+        assert!(message(&nonsense.repeat((1 << 20) / nonsense.len()), &[]).starts_with("s.toml"));
+    }
+}
+
+#[test]
+fn too_many_pads_for_the_profile() {
+    let scene = Scene::parse(&format!("{SCENE}[[pad]]\nposition_mm = [9, 9]"), "s.toml", &[]).unwrap();
+    let timing = Timing { pads: 1, slot_samples: 9, window_start: 0, window_samples: 9, samples_per_period: 9.0 };
+    let error = Plant::new(&scene, 0, &timing).map(|_| ()).unwrap_err().to_string();
+    assert_eq!(error, "s: pad: expected at most 1 pads, as profile standard serves, got 2");
+}
