@@ -27,42 +27,50 @@ pub const BIT: Format = Format::unsigned(1, 0);
 
 impl Format {
     /// A signed format of `width` bits, `frac` of them after the point.
+    #[inline(always)]
     pub const fn signed(width: u8, frac: i8) -> Self {
         Format { signed: true, width, frac }
     }
 
     /// An unsigned format of `width` bits, `frac` of them after the point.
+    #[inline(always)]
     pub const fn unsigned(width: u8, frac: i8) -> Self {
         Format { signed: false, width, frac }
     }
 
     /// The narrowest unsigned integer format that holds `0 ..= most`.
+    #[inline(always)]
     pub const fn counter(most: u64) -> Self {
         let bits = 64 - most.leading_zeros();
         Format::unsigned(if bits == 0 { 1 } else { bits as u8 }, 0)
     }
 
     /// The largest code.
+    #[inline(always)]
     pub const fn max_code(self) -> i128 {
         (1i128 << (self.width - self.signed as u8)) - 1
     }
 
     /// The smallest code.
+    #[inline(always)]
     pub const fn min_code(self) -> i128 {
         if self.signed { -(1i128 << (self.width - 1)) } else { 0 }
     }
 
     /// What one code step is worth.
+    #[inline(always)]
     pub fn lsb(self) -> f64 {
         2f64.powi(-i32::from(self.frac))
     }
 
     /// The number that `code` stands for.
+    #[inline(always)]
     pub fn real(self, code: i64) -> f64 {
         code as f64 * self.lsb()
     }
 
     /// The code nearest to `real`, ties to even; `None` where the format cannot hold it.
+    #[inline(always)]
     pub fn code(self, real: f64) -> Option<i64> {
         let code = (real / self.lsb()).round_ties_even();
         let holds = code >= self.min_code() as f64 && code <= self.max_code() as f64;
@@ -70,23 +78,27 @@ impl Format {
     }
 
     /// The code nearest to `real`, held at the rails of the format; zero for NaN.
+    #[inline(always)]
     pub fn code_saturating(self, real: f64) -> i64 {
         let code = (real / self.lsb()).round_ties_even();
         code.clamp(self.min_code() as f64, self.max_code() as f64) as i64
     }
 
     /// Bits before the binary point, without the sign.
+    #[inline(always)]
     pub const fn integer_bits(self) -> i16 {
         self.width as i16 - self.signed as i16 - self.frac as i16
     }
 
     /// Whether every number of `other` is a number of this format.
+    #[inline(always)]
     pub const fn holds(self, other: Format) -> bool {
         let sign = self.signed || !other.signed;
         sign && self.integer_bits() >= other.integer_bits() && self.frac >= other.frac
     }
 
     /// The narrowest format that holds every number of both.
+    #[inline(always)]
     pub fn join(self, other: Format) -> Format {
         let signed = self.signed || other.signed;
         let frac = self.frac.max(other.frac);
@@ -95,18 +107,21 @@ impl Format {
     }
 
     /// The exact format of a sum.
+    #[inline(always)]
     pub fn sum(self, other: Format) -> Format {
         let join = self.join(other);
         Format { width: clip(i16::from(join.width) + 1), ..join }
     }
 
     /// The exact format of a difference.
+    #[inline(always)]
     pub fn difference(self, other: Format) -> Format {
         let join = self.join(other);
         Format { signed: true, width: clip(i16::from(join.width) + 1), frac: join.frac }
     }
 
     /// The exact format of a product.
+    #[inline(always)]
     pub fn product(self, other: Format) -> Format {
         Format {
             signed: self.signed || other.signed,
@@ -117,6 +132,7 @@ impl Format {
 }
 
 /// A width as stored; a width past 255 is a broken invariant long past [`MAX_WIDTH`].
+#[inline(always)]
 fn clip(width: i16) -> u8 {
     width.clamp(1, 255) as u8
 }

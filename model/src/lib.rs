@@ -1,5 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The sensing core, written once and read many ways.
 
+pub mod block;
+pub mod blocks;
+pub mod bundle;
+pub mod calibration;
+pub mod fidelity;
 pub mod format;
+pub mod frame;
+pub mod memory;
 pub mod probe;
+pub mod profile;
+pub mod signal;

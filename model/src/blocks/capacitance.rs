@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Capacitance: the total current over the sensing voltage, with the sheet's resistance taken out.
+//!
+//!   C = gain · a / √(v² − (a·R)²)        (PHYSICS §2, robust form; R of the pad's place, from the map)
+//!   C = gain · a / v                     (paper, eq. 6, where the profile asks for it alone)
+//!
+//!   a ─(×)─[drop]─(²)─(v² −)─[clamp at 0]─[root]─ a ÷ ─[admittance]─(× gain)─[round half even, saturate]─ capacitance
+//!   R ─┘
+//!
+//! | signal      | format      | unit        | overflow                                 |
+//! | drop        | amplitude's | full scale  | saturates, flagged                       |
+//! | radicand    | exact       | full scale² | held at zero from below, then `invalid` |
+//! | admittance  | profile     | –           | saturates, flagged                       |
+//! | capacitance | profile     | pF          | saturates, flagged                       |
+//!
+//! One multiplier serves all four products; it works on codes as integers, so that their points need not agree. Latency:
+//! root + divider + 12 clocks from `start` to `done`.
+
+use super::divider::{self, Divider};
+use super::root::{self, Root};
+use crate::block::{Block, Cell};
+use crate::bundle::Bundle;
+use crate::format::{BIT, Format};
+use crate::profile::Profile;
+use crate::signal::{Exact, HalfEven, Lemma, Saturate, Signal, Value, Wrap, bit, constant, int};
+use crate::{bundle, parts};
+
+bundle! {
+    /// The inputs.
+    pub struct Inputs {
+        /// All others are there, and hold.
+        start,
+        /// The amplitude of the total current.
+        total,
+        /// The amplitude of the sensing voltage.
+        sense,
+        /// The sheet's resistance at the pad, in full scales of voltage per current.
+        sheet,
+        /// Picofarads at an admittance of one.
+        gain,
+    }
+}
+
+bundle! {
+    /// The outputs: registers.
+    pub struct Outputs {
+        /// Set for one clock when the capacitance is there.
+        done,
+        /// The capacitance.
+        capacitance,
+        /// Whether there is no such capacitance.
+        invalid,
+        /// Whether a word is held at a rail.
+        saturated,
+    }
+}
+
+bundle! {
+    /// The registers. `left`, `right` and `product` are codes as integers.
+    pub struct Registers {
+        step: [
+            "idle", "drop", "drop_product", "sense", "sense_product", "drop_square", "radicand", "root", "divide",
+            "gain_product", "finish",
+        ],
+        left, right, product, drop, square, radicand, root_start, divide, capacitance, invalid, saturated, done,
+    }
+}
+
+parts! {
+    /// The blocks within.
+    pub struct Parts of Capacitance {
+        root: Root,
+        divider: Divider,
+    }
+}
+
+/// The configuration.
+#[derive(Debug, Clone)]
+pub struct Capacitance {
+    root: Root,
+    divider: Divider,
+    correct: bool,
+    amplitude: Format,
+    sheet: Format,
+    admittance: Format,
+    gain: Format,
+    registers: Registers<Format>,
+}
+
+impl Capacitance {
+    /// The capacitance of a profile, for amplitudes of a format.
+    pub fn new(profile: &Profile, amplitude: Format) -> Self {
+        let f = &profile.formats;
+        let (sheet, admittance, gain) = (profile.sheet(), f.admittance, f.capacitance_gain);
+        let square = Format::unsigned(2 * amplitude.width, 2 * amplitude.frac);
+        let root = Root::new(square, amplitude.frac);
+        let divider = Divider::new(amplitude, root.root(), admittance);
+        let left = Format::unsigned(amplitude.width.max(admittance.width), 0);
+        let right = Format::unsigned(amplitude.width.max(sheet.width).max(gain.width), 0);
+        let registers = Registers {
+            step: Format::unsigned(4, 0),
+            left,
+            right,
+            product: left.product(right),
+            drop: amplitude,
+            square,
+            radicand: square,
+            root_start: BIT,
+            divide: BIT,
+            capacitance: f.capacitance,
+            invalid: BIT,
+            saturated: BIT,
+            done: BIT,
+        };
+        let correct = profile.capacitance.sheet_correction;
+        Capacitance { root, divider, correct, amplitude, sheet, admittance, gain, registers }
+    }
+
+    /// Clocks from `start` to `done`.
+    pub fn latency(&self) -> u64 {
+        self.root.latency() + self.divider.latency() + 12
+    }
+
+    /// The multiplier's operands of this step, as integers.
+    #[inline(always)]
+    fn operands<V: Value>(
+        &self,
+        r: &Registers<Signal<V>>,
+        i: &Inputs<Signal<V>>,
+        drop: Signal<V>,
+        admittance: Signal<V>,
+    ) -> (Signal<V>, Signal<V>) {
+        let [total, sense, drop] = [i.total, i.sense, drop].map(Signal::integer);
+        let sheet = if self.correct { i.sheet } else { constant(0.0, self.sheet) }.integer();
+        let at = |step: u64| r.step.is(step);
+        let left = at(1).select(total, at(3).select(sense, at(4).select(drop, admittance.integer())));
+        let right = at(1).select(sheet, at(3).select(sense, at(4).select(drop, i.gain.integer())));
+        (left, right)
+    }
+
+    /// The product of two codes, with the point that their formats give it.
+    #[inline(always)]
+    fn product<V: Value>(&self, r: &Registers<Signal<V>>, left: Format, right: Format) -> Signal<V> {
+        let format = left.product(right);
+        let why = Lemma("a product of two codes has at most their widths together");
+        r.product.fit(Format { frac: 0, ..format }, Exact, why).scaled(-format.frac)
+    }
+
+    #[inline(always)]
+    fn step<V: Value>(
+        &self,
+        r: Registers<Signal<V>>,
+        i: Inputs<Signal<V>>,
+        rooted: Signal<V>,
+        divided: divider::Outputs<Signal<V>>,
+    ) -> Registers<Signal<V>> {
+        let at = |step: u64| r.step.is(step);
+        let (fallen, drop_held) = self.product(&r, self.amplitude, self.sheet).saturate(self.amplitude, HalfEven);
+        let square = self.product(&r, self.amplitude, self.amplitude);
+        let (result, held) =
+            self.product(&r, self.admittance, self.gain).saturate(self.registers.capacitance, HalfEven);
+        let drop = at(3).select(fallen, r.drop);
+        let (left, right) = self.operands(&r, &i, drop, divided.quotient);
+        let waits = (at(7) & !rooted) | (at(8) & !divided.done);
+        let onward = at(10).select(int(0), r.step + int(1));
+        let saturated = (at(3) & drop_held) | (at(8) & divided.saturated) | (at(10) & held);
+        Registers {
+            step: waits.select(r.step, onward).fit(self.registers.step, Exact, Wrap),
+            left,
+            right,
+            product: r.left * r.right,
+            drop,
+            square: at(5).select(square, r.square),
+            radicand: at(6).select((r.square - square).fit(self.registers.radicand, Exact, Saturate), r.radicand),
+            root_start: at(6),
+            divide: at(7) & rooted,
+            capacitance: at(10).select(result, r.capacitance),
+            invalid: at(6).select(square.at_least(r.square), r.invalid),
+            saturated: r.saturated | saturated,
+            done: at(10),
+        }
+    }
+}
+
+impl Block for Capacitance {
+    const NAME: &'static str = "capacitance";
+    type Inputs = Inputs;
+    type Outputs = Outputs;
+    type Registers = Registers;
+    type Parts<V: Value> = Parts<V>;
+
+    #[inline]
+    fn inputs(&self) -> Inputs<Format> {
+        let (total, sheet, gain) = (self.amplitude, self.sheet, self.gain);
+        Inputs { start: BIT, total, sense: total, sheet, gain }
+    }
+
+    #[inline]
+    fn outputs(&self) -> Outputs<Format> {
+        let Registers { done, capacitance, invalid, saturated, .. } = self.registers;
+        Outputs { done, capacitance, invalid, saturated }
+    }
+
+    #[inline(always)]
+    fn registers(&self) -> Registers<Format> {
+        self.registers
+    }
+
+    #[inline(always)]
+    fn clock<V: Value>(&self, cell: &mut Cell<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+        let r = cell.load(self);
+        let Registers { done, capacitance, invalid, saturated, .. } = r;
+        let outputs = Outputs { done, capacitance, invalid, saturated };
+        if (i.start | !r.step.is(0) | r.done).idle() {
+            return outputs;
+        }
+        let inputs = root::Inputs { start: r.root_start, radicand: r.radicand };
+        let root = self.root.call("root", &mut cell.parts.root, inputs);
+        let inputs = divider::Inputs { start: r.divide, numerator: i.total, denominator: root.root };
+        let divided = self.divider.call("divider", &mut cell.parts.divider, inputs);
+        let idle = Registers { done: bit(false), ..r };
+        let begin = || Registers { step: int(1), saturated: bit(false), ..idle };
+        let working = || Registers::when(r.step.is(0), || idle, || self.step(idle, i, root.done, divided));
+        let next = Registers::when(i.start, begin, working);
+        cell.store(self, next);
+        outputs
+    }
+}

@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Currents: amplitudes of every channel and of the sum over all terminals, and the sums of eqs. 2 and 3.
+//!
+//!   a_k = √(i_k² + q_k²),   a = √((Σ i_k)² + (Σ q_k)²),   x = Σ ±a_k,   y = Σ ±a_k,   corners = Σ a_k of those in x or y
+//!
+//!   sum ─[round half even, saturate]─ iq ─[words]─(²)─(+)─[root]─ amplitude ─(±)─ x, y, corners
+//!                                      └─(+ over terminals)─[saturate]─ total
+//!
+//! | signal          | format  | unit           | overflow             |
+//! | iq, total       | profile | full scale     | saturates, flagged   |
+//! | power           | exact   | full scale²    | cannot (range proof) |
+//! | amplitude       | total's | full scale     | cannot (range proof) |
+//! | x, y, corners   | exact   | full scale     | cannot (range proof) |
+//!
+//! Latency: (channels + 1) · (root + 4) clocks from the last sum to `done`. Source: paper, eqs. 2–5; the sum is that of
+//! all terminals' complex currents, for the corners alone carry only a part (PHYSICS §1).
+
+use super::root::{self, Root};
+use crate::block::{Block, Cell};
+use crate::bundle::Bundle;
+use crate::format::{BIT, Format};
+use crate::memory::{Memory, Write};
+use crate::profile::Profile;
+use crate::signal::{Exact, HalfEven, Never, Signal, Value, Wrap, bit, constant, int};
+use crate::{bundle, parts};
+
+bundle! {
+    /// The inputs: the demodulator's sums.
+    pub struct Inputs {
+        /// A sum is there.
+        valid,
+        /// Which.
+        index,
+        /// The sum.
+        sum,
+    }
+}
+
+bundle! {
+    /// The outputs: registers, that hold until the next are there.
+    pub struct Outputs {
+        /// Set for one clock when all others are there.
+        done,
+        /// The amplitude of the total current.
+        total,
+        /// The amplitude of the sensing voltage.
+        sense,
+        /// The numerator of r_x.
+        x,
+        /// The numerator of r_y.
+        y,
+        /// Their denominator.
+        corners,
+        /// Whether a terminal's current is missing.
+        lost,
+        /// Whether a word is held at a rail.
+        saturated,
+    }
+}
+
+bundle! {
+    /// The registers.
+    pub struct Registers {
+        step: ["idle", "read", "in_phase", "quadrature", "power", "root"],
+        channel, total_i, total_q, part, power, root_start,
+        amplitude, sense, x, y, corners, least, saturated, done,
+    }
+}
+
+parts! {
+    /// The blocks within.
+    pub struct Parts of Currents {
+        words: Memory,
+        root: Root,
+    }
+}
+
+/// The configuration.
+#[derive(Debug, Clone)]
+pub struct Currents {
+    words: Memory,
+    root: Root,
+    terminals: u64,
+    signs: [Vec<i8>; 2],
+    lost_shift: i8,
+    /// Bits by which a sum over the window is scaled down to full scale.
+    shift: i8,
+    sum: Format,
+    iq: Format,
+    total: Format,
+    registers: Registers<Format>,
+}
+
+impl Currents {
+    /// The currents of a profile.
+    pub fn new(profile: &Profile) -> Self {
+        let (iq, total) = (profile.formats.iq, profile.formats.total);
+        let terminals = profile.terminals.x.len() as u64;
+        let power = Format::unsigned(2 * total.width, 2 * total.frac);
+        let root = Root::new(power, total.frac);
+        let amplitude = root.root();
+        let sums = Format::signed(amplitude.width + 1 + Format::counter(terminals).width, amplitude.frac);
+        let channels = terminals + 1;
+        let registers = Registers {
+            step: Format::unsigned(3, 0),
+            channel: Format::counter(channels),
+            total_i: total,
+            total_q: total,
+            part: total,
+            power,
+            root_start: BIT,
+            amplitude,
+            sense: amplitude,
+            x: sums,
+            y: sums,
+            corners: Format { signed: false, width: sums.width - 1, ..sums },
+            least: amplitude,
+            saturated: BIT,
+            done: BIT,
+        };
+        Currents {
+            words: Memory::new("words", 2 * channels as usize, iq),
+            root,
+            terminals,
+            signs: [profile.terminals.x.clone(), profile.terminals.y.clone()],
+            lost_shift: profile.terminals.lost_shift,
+            shift: profile.sum_shift(),
+            sum: super::demodulator::Demodulator::new(profile).sum(),
+            iq,
+            total,
+            registers,
+        }
+    }
+
+    /// The format of an amplitude.
+    pub fn amplitude(&self) -> Format {
+        self.registers.amplitude
+    }
+
+    /// The formats of the numerators and of the denominator of eqs. 2 and 3.
+    pub fn sums(&self) -> (Format, Format) {
+        (self.registers.x, self.registers.corners)
+    }
+
+    /// Clocks from the last sum to `done`.
+    pub fn latency(&self) -> u64 {
+        (self.terminals + 2) * (self.root.latency() + 4) + 1
+    }
+
+    /// The in-phase or quadrature word of a sum, and whether it is held at a rail.
+    #[inline(always)]
+    fn word<V: Value>(&self, sum: Signal<V>) -> (Signal<V>, Signal<V>) {
+        sum.scaled(-self.shift).saturate(self.iq, HalfEven)
+    }
+
+    /// A sum arrives: terminals' words add to the total's.
+    #[inline(always)]
+    fn take<V: Value>(
+        &self,
+        r: Registers<Signal<V>>,
+        i: Inputs<Signal<V>>,
+        (word, held): (Signal<V>, Signal<V>),
+    ) -> Registers<Signal<V>> {
+        let opening = i.index.is(0);
+        let terminal = i.index.less_than(int(2 * self.terminals));
+        let quadrature = i.index.bits(0, 1);
+        let from = |total: Signal<V>| opening.select(constant(0.0, self.total), total);
+        let (before_i, before_q) = (from(r.total_i), from(r.total_q));
+        let (more_i, held_i) = (before_i + word).saturate(self.total, Exact);
+        let (more_q, held_q) = (before_q + word).saturate(self.total, Exact);
+        let held_total = terminal & quadrature.select(held_q, held_i);
+        let among = i.index.less_than(int(2 * (self.terminals + 1)));
+        Registers {
+            step: i.index.is(2 * self.terminals + 1).select(int(1), r.step),
+            channel: int(0),
+            total_i: (terminal & !quadrature).select(more_i, before_i),
+            total_q: (terminal & quadrature).select(more_q, before_q),
+            saturated: (!opening & r.saturated) | (among & held) | held_total,
+            ..r
+        }
+    }
+
+    /// A step of the loop over channels: squares, root, sums.
+    #[inline(always)]
+    fn step<V: Value>(
+        &self,
+        r: Registers<Signal<V>>,
+        word: Signal<V>,
+        root: root::Outputs<Signal<V>>,
+    ) -> Registers<Signal<V>> {
+        let at = |step: u64| r.step.is(step);
+        let all = r.channel.is(self.terminals + 1);
+        let square = r.part.square();
+        let power = at(4).select(r.power + square, square).fit(self.registers.power, Exact, Never);
+        let rooted = at(5) & root.done;
+        let summed = || self.sum_up(r, root.root);
+        let r = Registers::when(rooted, summed, || r);
+        let part = at(2).select(all.select(r.total_i, word), at(3).select(all.select(r.total_q, word), r.part));
+        let following = at(5).select(r.step, r.step + int(1));
+        Registers {
+            step: rooted.select(all.select(int(0), int(1)), following).fit(self.registers.step, Exact, Wrap),
+            part,
+            power: (at(3) | at(4)).select(power, r.power),
+            root_start: at(4),
+            done: rooted & all,
+            ..r
+        }
+    }
+
+    /// An amplitude is there: of a terminal, of the sensing voltage, and last of the total.
+    #[inline(always)]
+    fn sum_up<V: Value>(&self, r: Registers<Signal<V>>, amplitude: Signal<V>) -> Registers<Signal<V>> {
+        let opening = r.channel.is(0);
+        let terminal = r.channel.less_than(int(self.terminals));
+        let smaller = opening | (terminal & amplitude.less_than(r.least));
+        let from = |sum: Signal<V>| opening.select(constant(0.0, sum.format), sum);
+        let with = |sum: Signal<V>, sign: &dyn Fn(usize) -> i8| {
+            let plus = self.among(r.channel, |k| sign(k) > 0).select(amplitude, constant(0.0, amplitude.format));
+            let minus = self.among(r.channel, |k| sign(k) < 0).select(amplitude, constant(0.0, amplitude.format));
+            (from(sum) + plus - minus).fit(sum.format, Exact, Never)
+        };
+        let [x, y] = &self.signs;
+        Registers {
+            channel: (r.channel + int(1)).fit(self.registers.channel, Exact, Wrap),
+            amplitude,
+            sense: r.channel.is(self.terminals).select(amplitude, r.sense),
+            x: with(r.x, &|k| x[k]),
+            y: with(r.y, &|k| y[k]),
+            corners: with(r.corners, &|k| i8::from(x[k] != 0 || y[k] != 0)),
+            least: smaller.select(amplitude, r.least),
+            ..r
+        }
+    }
+
+    /// Whether the channel is one of the terminals that `choose` names.
+    fn among<V: Value>(&self, channel: Signal<V>, choose: impl Fn(usize) -> bool) -> Signal<V> {
+        let chosen = (0..self.terminals).filter(|&k| choose(k as usize));
+        chosen.map(|k| channel.is(k)).reduce(|a, b| a | b).unwrap_or(bit(false))
+    }
+
+    #[inline(always)]
+    fn results<V: Value>(&self, r: &Registers<Signal<V>>) -> Outputs<Signal<V>> {
+        let lost = r.least.scaled(self.lost_shift).less_than(r.amplitude);
+        let Registers { done, amplitude: total, sense, x, y, corners, saturated, .. } = *r;
+        Outputs { done, total, sense, x, y, corners, lost, saturated }
+    }
+}
+
+impl Block for Currents {
+    const NAME: &'static str = "currents";
+    type Inputs = Inputs;
+    type Outputs = Outputs;
+    type Registers = Registers;
+    type Parts<V: Value> = Parts<V>;
+
+    #[inline]
+    fn inputs(&self) -> Inputs<Format> {
+        Inputs { valid: BIT, index: Format::counter(2 * (self.terminals + 1)), sum: self.sum }
+    }
+
+    #[inline]
+    fn outputs(&self) -> Outputs<Format> {
+        let Registers { done, amplitude: total, sense, x, y, corners, saturated, .. } = self.registers;
+        Outputs { done, total, sense, x, y, corners, lost: BIT, saturated }
+    }
+
+    #[inline(always)]
+    fn registers(&self) -> Registers<Format> {
+        self.registers
+    }
+
+    #[inline(always)]
+    fn clock<V: Value>(&self, cell: &mut Cell<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+        let r = cell.load(self);
+        let outputs = self.results(&r);
+        let busy = !r.step.is(0);
+        if (i.valid | busy | r.done).idle() {
+            return outputs;
+        }
+        let (word, held) = self.word(i.sum);
+        let among = i.index.less_than(int(2 * (self.terminals + 1)));
+        let data = self.words.data(&mut cell.parts.words);
+        let address = r.channel.concat(r.step.is(2));
+        let address = address.bits(0, self.words.address().width);
+        let place = i.index.bits(0, self.words.address().width);
+        self.words.access(
+            &mut cell.parts.words,
+            address,
+            Write { enable: i.valid & among, address: place, data: word },
+        );
+        let inputs = root::Inputs { start: r.root_start, radicand: r.power };
+        let root = self.root.call("root", &mut cell.parts.root, inputs);
+        let r = Registers { done: bit(false), root_start: bit(false), ..r };
+        let working = || Registers::when(busy, || self.step(r, data, root), || r);
+        let next = Registers::when(i.valid, || self.take(r, i, (word, held)), working);
+        cell.store(self, next);
+        outputs
+    }
+}

@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Lock-in demodulator: every channel's in-phase and quadrature sums over a window, and the haptic voltage's mean square.
+//!
+//!   i_k = Σ x_k[n] · (w[n] · cos φ[n]),   q_k = Σ x_k[n] · (w[n] · sin φ[n]),   m = Σ h[n] · (w[n] · h[n])
+//!
+//!   window, codes ──┐
+//!   local oscillator ─(×)─[product]─┬─[round half even]── weighted cosine, sine, haptic code
+//!                                   └─(+)─[sums: one word a channel and phase]── sum
+//!
+//! One multiplier serves all: three products weigh (w·cos, w·sin, w·h), two for each channel and one for h follow.
+//!
+//! | signal   | format               | unit               | overflow            |
+//! | weighted | oscillator's, ADC's  | full scale         | cannot (range proof) |
+//! | sum      | exact                | full scale · samples | cannot (range proof) |
+//!
+//! q is positive where the channel lags. The answer to `channel` is expected a clock later as `code`. Latency: products + 3
+//! clocks from `start` to the last sum. Source: paper, eqs. 1 and 5, detected synchronously; PHYSICS §5 for the window.
+
+use crate::block::{Block, Cell};
+use crate::bundle::Bundle;
+use crate::format::{BIT, Format};
+use crate::memory::{Memory, Write};
+use crate::profile::Profile;
+use crate::signal::{Exact, HalfEven, Never, Signal, Value, bit, constant, int};
+use crate::{bundle, parts};
+
+bundle! {
+    /// The inputs.
+    pub struct Inputs {
+        /// The oscillator's outputs are those of a sample to be integrated.
+        start,
+        /// The sample is the first of its window.
+        first,
+        /// The sample is the last of its window.
+        last,
+        /// The pad that is served.
+        pad,
+        /// The code of the channel asked for in the clock before.
+        code,
+        /// The oscillator's.
+        cosine,
+        /// The oscillator's.
+        sine,
+        /// The oscillator's.
+        window,
+    }
+}
+
+bundle! {
+    /// The outputs.
+    pub struct Outputs {
+        /// The channel whose code is wanted in the next clock.
+        channel,
+        /// Set for a clock for each finished sum of a window.
+        valid,
+        /// Which sum: 2k the in-phase and 2k + 1 the quadrature of channel k, the last the mean square.
+        index,
+        /// The sum.
+        sum,
+        /// The pad of the window.
+        pad,
+        /// Whether a code of the window was at a rail.
+        clipped,
+    }
+}
+
+bundle! {
+    /// The registers.
+    pub struct Registers {
+        busy, step, first, last, pad,
+        left, right, product, weighted_cosine, weighted_sine, weighted_haptic,
+        valid, index, sum, clipped,
+    }
+}
+
+parts! {
+    /// The memory within.
+    pub struct Parts of Demodulator {
+        sums: Memory,
+    }
+}
+
+/// The configuration.
+#[derive(Debug, Clone)]
+pub struct Demodulator {
+    sums: Memory,
+    /// Channels with two sums each: the terminals and the sensing voltage. The haptic voltage is the one after.
+    channels: u64,
+    adc: Format,
+    oscillator: Format,
+    registers: Registers<Format>,
+}
+
+/// Products before those of the channels: window times cosine, sine and haptic code.
+const WEIGHING: u64 = 3;
+/// Clocks from a product's operands to its use.
+const PIPELINE: u64 = 2;
+
+impl Demodulator {
+    /// The demodulator of a profile.
+    pub fn new(profile: &Profile) -> Self {
+        let (adc, oscillator) = (profile.formats.adc, profile.formats.oscillator);
+        let channels = profile.demodulated();
+        let operand = adc.join(oscillator);
+        let product = operand.product(operand);
+        let growth = 64 - (profile.slot.integrate - 1).leading_zeros() as u8;
+        let sum = Format::signed(product.width - 1 + growth, product.frac);
+        let steps = WEIGHING + 2 * channels + 1 + PIPELINE;
+        let words = 2 * channels + 1;
+        let registers = Registers {
+            busy: BIT,
+            step: Format::counter(steps - 1),
+            first: BIT,
+            last: BIT,
+            pad: Format::counter(profile.pads - 1),
+            left: operand,
+            right: operand,
+            product,
+            weighted_cosine: oscillator,
+            weighted_sine: oscillator,
+            weighted_haptic: adc,
+            valid: BIT,
+            index: Format::counter(words - 1),
+            sum,
+            clipped: BIT,
+        };
+        Demodulator { sums: Memory::new("sums", words as usize, sum), channels, adc, oscillator, registers }
+    }
+
+    /// The format of a sum.
+    #[inline]
+    pub fn sum(&self) -> Format {
+        self.registers.sum
+    }
+
+    /// The sums of a window.
+    pub fn sums(&self) -> u64 {
+        2 * self.channels + 1
+    }
+
+    /// Clocks from `start` to the last sum's `valid`.
+    pub fn latency(&self) -> u64 {
+        self.steps() + 1
+    }
+
+    /// The fewest clocks from one sample to the next.
+    pub fn least_clocks_per_sample(&self) -> u64 {
+        self.latency()
+    }
+
+    fn steps(&self) -> u64 {
+        WEIGHING + self.sums() + PIPELINE
+    }
+
+    /// A sample's share of the window: the local oscillator or the haptic code, times the window.
+    #[inline(always)]
+    pub fn weigh<V: Value>(&self, product: Signal<V>, to: Format) -> Signal<V> {
+        product.fit(to, HalfEven, Never)
+    }
+
+    /// A sum with one more product; a window's first product begins it.
+    #[inline(always)]
+    pub fn accumulate<V: Value>(&self, first: Signal<V>, sum: Signal<V>, product: Signal<V>) -> Signal<V> {
+        let before = first.select(constant(0.0, self.sum()), sum);
+        (before + product).fit(self.sum(), Exact, Never)
+    }
+
+    /// Whether a code is at a rail of the ADC.
+    #[inline(always)]
+    pub fn at_rail<V: Value>(&self, code: Signal<V>) -> Signal<V> {
+        let rail = |code: i128| constant(code as f64 * self.adc.lsb(), self.adc);
+        code.equals(rail(self.adc.max_code())) | code.equals(rail(self.adc.min_code()))
+    }
+
+    /// The channel whose code the next clock's operand needs.
+    #[inline(always)]
+    fn channel<V: Value>(&self, r: &Registers<Signal<V>>) -> Signal<V> {
+        let format = Format::counter(self.channels);
+        let ahead = (r.step - int(WEIGHING - 1)).bits(1, format.width);
+        let of_channels = r.step.at_least(int(WEIGHING - 1)) & r.step.less_than(int(WEIGHING - 1 + 2 * self.channels));
+        of_channels.select(ahead, constant(self.channels as f64, format))
+    }
+
+    /// The multiplier's operands of this step.
+    #[inline(always)]
+    fn operands<V: Value>(&self, r: &Registers<Signal<V>>, i: &Inputs<Signal<V>>) -> (Signal<V>, Signal<V>) {
+        let weighing = r.step.less_than(int(WEIGHING));
+        let haptic = r.step.is(WEIGHING + 2 * self.channels);
+        let phase = (r.step - int(WEIGHING)).bits(0, 1);
+        let wave = r.step.is(0).select(i.cosine, r.step.is(1).select(i.sine, i.code));
+        let weighted = haptic.select(r.weighted_haptic, phase.select(r.weighted_sine, r.weighted_cosine));
+        (weighing.select(i.window, i.code), weighing.select(wave, weighted))
+    }
+
+    #[inline(always)]
+    fn begin<V: Value>(&self, r: Registers<Signal<V>>, i: Inputs<Signal<V>>) -> Registers<Signal<V>> {
+        let clipped = i.first.select(bit(false), r.clipped);
+        Registers { busy: bit(true), step: int(0), first: i.first, last: i.last, pad: i.pad, clipped, ..r }
+    }
+
+    #[inline(always)]
+    fn step<V: Value>(
+        &self,
+        r: Registers<Signal<V>>,
+        i: Inputs<Signal<V>>,
+        index: Signal<V>,
+        sum: Signal<V>,
+        summed: Signal<V>,
+    ) -> Registers<Signal<V>> {
+        let (left, right) = self.operands(&r, &i);
+        let uses_code = r.step.at_least(int(WEIGHING - 1)) & r.step.less_than(int(WEIGHING + self.sums()));
+        let weighted =
+            |at: u64, to: Format, else_: Signal<V>| r.step.is(at + PIPELINE).select(self.weigh(r.product, to), else_);
+        let end = r.step.is(self.steps() - 1);
+        Registers {
+            busy: !end,
+            step: end.select(int(0), r.step + int(1)).fit(self.registers.step, Exact, Never),
+            left,
+            right,
+            product: r.left * r.right,
+            weighted_cosine: weighted(0, self.oscillator, r.weighted_cosine),
+            weighted_sine: weighted(1, self.oscillator, r.weighted_sine),
+            weighted_haptic: weighted(2, self.adc, r.weighted_haptic),
+            valid: summed & r.last,
+            index,
+            sum,
+            clipped: r.clipped | (uses_code & self.at_rail(i.code)),
+            ..r
+        }
+    }
+}
+
+impl Block for Demodulator {
+    const NAME: &'static str = "demodulator";
+    type Inputs = Inputs;
+    type Outputs = Outputs;
+    type Registers = Registers;
+    type Parts<V: Value> = Parts<V>;
+
+    #[inline]
+    fn inputs(&self) -> Inputs<Format> {
+        let (pad, code, wave) = (self.registers.pad, self.adc, self.oscillator);
+        Inputs { start: BIT, first: BIT, last: BIT, pad, code, cosine: wave, sine: wave, window: wave }
+    }
+
+    #[inline]
+    fn outputs(&self) -> Outputs<Format> {
+        let Registers { valid, index, sum, pad, clipped, .. } = self.registers;
+        Outputs { channel: Format::counter(self.channels), valid, index, sum, pad, clipped }
+    }
+
+    #[inline(always)]
+    fn registers(&self) -> Registers<Format> {
+        self.registers
+    }
+
+    #[inline(always)]
+    fn clock<V: Value>(&self, cell: &mut Cell<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+        let r = cell.load(self);
+        let channel = self.channel(&r);
+        let outputs = Outputs { channel, valid: r.valid, index: r.index, sum: r.sum, pad: r.pad, clipped: r.clipped };
+        if (i.start | r.busy | r.valid).idle() {
+            return outputs;
+        }
+        let place = |ahead: u64| {
+            let from_end = r.step - int(WEIGHING + PIPELINE - ahead);
+            let in_range = r.step.at_least(int(WEIGHING + PIPELINE - ahead));
+            (in_range & r.busy, from_end.bits(0, self.registers.index.width))
+        };
+        let ((summed, index), (_, next_index)) = (place(0), place(1));
+        let sum = self.accumulate(r.first, self.sums.data(&mut cell.parts.sums), r.product);
+        let write = Write { enable: summed, address: index, data: sum };
+        self.sums.access(&mut cell.parts.sums, next_index, write);
+        let r = Registers { valid: bit(false), ..r };
+        let working = || Registers::when(r.busy, || self.step(r, i, index, sum, summed), || r);
+        let next = Registers::when(i.start, || self.begin(r, i), working);
+        cell.store(self, next);
+        outputs
+    }
+}

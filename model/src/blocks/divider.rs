@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Serial divider: the quotient of two unsigned numbers, correctly rounded.
+//!
+//!   quotient = numerator / denominator, to the nearest code, ties to even
+//!
+//!   numerator ──[remainder : tail]──(− denominator ≥ 0 ?)── one quotient bit a clock ──[round half even, saturate]── quotient
+//!
+//! | signal    | overflow                                                                 |
+//! | quotient  | saturates, and says so                                                   |
+//! | remainder | cannot: it stays below the denominator (lemma, held by an exhaustive test) |
+//!
+//! A zero denominator gives a saturated quotient; the caller says what that means. Latency: quotient width + 2 clocks from
+//! `start` to `done`. Source: restoring division, Parhami, Computer Arithmetic, §13.
+
+use crate::block::{Block, Cell};
+use crate::bundle;
+use crate::bundle::Bundle;
+use crate::format::{BIT, Format};
+use crate::signal::{Exact, Lemma, Never, Signal, Value, Wrap, bit, constant, int};
+
+bundle! {
+    /// The inputs.
+    pub struct Inputs {
+        /// Takes the operands and begins.
+        start,
+        /// What is divided.
+        numerator,
+        /// By what.
+        denominator,
+    }
+}
+
+bundle! {
+    /// The outputs.
+    pub struct Outputs {
+        /// Set for one clock when the quotient is there.
+        done,
+        /// The quotient, held until the next is there.
+        quotient,
+        /// Whether the quotient is held at its rail.
+        saturated,
+    }
+}
+
+bundle! {
+    /// The registers.
+    pub struct Registers {
+        busy, count, numerator, denominator, remainder, tail, partial, over, done, quotient, saturated,
+    }
+}
+
+/// The configuration.
+#[derive(Debug, Clone)]
+pub struct Divider {
+    numerator: Format,
+    denominator: Format,
+    quotient: Format,
+    registers: Registers<Format>,
+    /// The numerator with zeros behind it, so that the integer quotient has the quotient's point.
+    dividend: Format,
+}
+
+const BELOW: &str = "the remainder of a division stays below its denominator";
+
+impl Divider {
+    /// A divider for these unsigned formats.
+    ///
+    /// # Panics
+    /// Where the quotient has fewer fractional bits than the numerator has beyond the denominator's.
+    pub fn new(numerator: Format, denominator: Format, quotient: Format) -> Self {
+        assert!(!(numerator.signed || denominator.signed || quotient.signed), "a divider is unsigned");
+        let pad = quotient.frac - numerator.frac + denominator.frac;
+        assert!(pad >= 0, "{numerator} / {denominator} has more fractional bits than {quotient}");
+        let width = (numerator.width + pad as u8).max(quotient.width + 1);
+        let dividend = Format::unsigned(width, numerator.frac + pad);
+        let head = (width - quotient.width).max(denominator.width);
+        let registers = Registers {
+            busy: BIT,
+            count: Format::counter(quotient.width.into()),
+            numerator: dividend,
+            remainder: Format::unsigned(head, 0),
+            tail: Format::unsigned(quotient.width, 0),
+            denominator,
+            partial: Format::unsigned(quotient.width, 0),
+            over: BIT,
+            done: BIT,
+            quotient,
+            saturated: BIT,
+        };
+        Divider { numerator, denominator, quotient, registers, dividend }
+    }
+
+    /// Clocks from `start` to `done`.
+    pub fn latency(&self) -> u64 {
+        u64::from(self.quotient.width) + 2
+    }
+
+    /// The registers when a division begins: the dividend's high bits are the first remainder, and if those already
+    /// reach the denominator, the quotient does not fit.
+    #[inline(always)]
+    fn begin<V: Value>(&self, r: Registers<Signal<V>>, i: Inputs<Signal<V>>) -> Registers<Signal<V>> {
+        let numerator = i.numerator.fit(self.dividend, Exact, Never);
+        let width = self.quotient.width;
+        let head = numerator.bits(width, self.dividend.width - width);
+        let over = head.at_least(i.denominator.integer());
+        let (busy, count, partial) = (bit(true), int(0), int(0));
+        let (remainder, tail, denominator) = (head, numerator.bits(0, width), i.denominator);
+        Registers { busy, count, numerator, denominator, remainder, tail, partial, over, ..r }
+    }
+
+    /// One more bit of the quotient.
+    #[inline(always)]
+    fn step<V: Value>(&self, r: Registers<Signal<V>>) -> Registers<Signal<V>> {
+        let width = self.quotient.width;
+        let shifted = r.remainder.concat(r.tail.msb());
+        let denominator = r.denominator.integer();
+        let fits = shifted.at_least(denominator);
+        let rest = fits.select(shifted - denominator, shifted);
+        Registers {
+            count: (r.count + int(1)).fit(self.registers.count, Exact, Wrap),
+            remainder: rest.fit(self.registers.remainder, Exact, Lemma(BELOW)),
+            tail: r.tail.concat(bit(false)).bits(0, width),
+            partial: r.partial.concat(fits).bits(0, width),
+            ..r
+        }
+    }
+
+    /// The rounded quotient.
+    #[inline(always)]
+    fn finish<V: Value>(&self, r: Registers<Signal<V>>) -> Registers<Signal<V>> {
+        let (twice, denominator) = (r.remainder.scaled(1), r.denominator.integer());
+        let up = denominator.less_than(twice) | (twice.equals(denominator) & r.partial.bits(0, 1));
+        let (rounded, over) = (r.partial + up).saturate(Format { frac: 0, ..self.quotient }, Exact);
+        let most = constant(self.quotient.max_code() as f64, Format { frac: 0, ..self.quotient });
+        let saturated = over | r.over;
+        let quotient = r.over.select(most, rounded).scaled(-self.quotient.frac);
+        let quotient = quotient.ideally(&[r.numerator, r.denominator], |of| of[0] / of[1]);
+        Registers { busy: bit(false), done: bit(true), quotient, saturated, ..r }
+    }
+}
+
+impl Block for Divider {
+    const NAME: &'static str = "divider";
+    type Inputs = Inputs;
+    type Outputs = Outputs;
+    type Registers = Registers;
+    type Parts<V: Value> = ();
+
+    #[inline]
+    fn inputs(&self) -> Inputs<Format> {
+        Inputs { start: BIT, numerator: self.numerator, denominator: self.denominator }
+    }
+
+    #[inline]
+    fn outputs(&self) -> Outputs<Format> {
+        Outputs { done: BIT, quotient: self.quotient, saturated: BIT }
+    }
+
+    #[inline(always)]
+    fn registers(&self) -> Registers<Format> {
+        self.registers
+    }
+
+    #[inline(always)]
+    fn clock<V: Value>(&self, cell: &mut Cell<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+        let r = cell.load(self);
+        let outputs = Outputs { done: r.done, quotient: r.quotient, saturated: r.saturated };
+        if (i.start | r.busy | r.done).idle() {
+            return outputs;
+        }
+        let last = r.count.is(self.quotient.width.into());
+        let idle = Registers { done: bit(false), ..r };
+        let working = || Registers::when(last, || self.finish(idle), || self.step(idle));
+        let next = Registers::when(i.start, || self.begin(idle, i), || Registers::when(r.busy, working, || idle));
+        cell.store(self, next);
+        outputs
+    }
+}

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Estimator: from a window's sums to a frame, each stage starting the next.
+//!
+//!   sums ─ currents ─ ratio ─ map ─ capacitance ─ force ─ frames ─ words
+//!        └ haptic voltage ──────────────────────────┘
+//!
+//! One slot is in flight at a time, so that nothing of one pad can meet anything of another; the profile's blanking is longer
+//! than the latency. Latency: the sum of the stages', from the last sum to the last word.
+
+use super::capacitance::{self, Capacitance};
+use super::currents::{self, Currents};
+use super::force::{self, Force};
+use super::frames::{self, Frames};
+use super::haptic_voltage::{self, HapticVoltage};
+use super::map::{self, Map};
+use super::ratio::{self, Ratio};
+use crate::block::{Block, Cell};
+use crate::bundle::Bundle;
+use crate::format::{BIT, Format};
+use crate::profile::Profile;
+use crate::signal::{Signal, Value, constant};
+use crate::{bundle, parts};
+
+bundle! {
+    /// The inputs: the demodulator's sums and the calibration.
+    pub struct Inputs {
+        /// A sum is there.
+        valid,
+        /// Which.
+        index,
+        /// The sum.
+        sum,
+        /// The pad of the window.
+        pad,
+        /// Whether a code of the window was at a rail.
+        clipped,
+        /// Calibration: the x ratio in the middle of the box.
+        origin_x,
+        /// Calibration: one over half the box's width.
+        scale_x,
+        /// Calibration: the y ratio in the middle of the box.
+        origin_y,
+        /// Calibration: one over half the box's height.
+        scale_y,
+        /// Calibration: picofarads at an admittance of one.
+        capacitance_gain,
+        /// Calibration: newtons per square picofarad at full haptic mean square.
+        force_gain,
+        /// Calibration: writes a word of the map's tables.
+        write,
+        /// Calibration: where.
+        address,
+        /// Calibration: what.
+        word,
+    }
+}
+
+bundle! {
+    /// The outputs: a frame's words, and what holds for the whole of it.
+    pub struct Outputs {
+        /// Set for a clock for each word of a frame.
+        valid,
+        /// Which field the word is.
+        index,
+        /// The word.
+        word,
+        /// Set with the last word.
+        done,
+        /// The pad of the frame.
+        pad,
+        /// A code was at a rail of the ADC.
+        clipped,
+        /// A word was held at a rail.
+        saturated,
+        /// There is no such position or capacitance; the last valid results stand.
+        invalid,
+        /// A terminal's current is missing.
+        lost,
+    }
+}
+
+bundle! {
+    /// The registers.
+    pub struct Registers {
+        busy, pad, clipped,
+    }
+}
+
+parts! {
+    /// The blocks within.
+    pub struct Parts of Estimator {
+        currents: Currents,
+        ratio: Ratio,
+        map: Map,
+        haptic_voltage: HapticVoltage,
+        capacitance: Capacitance,
+        force: Force,
+        frames: Frames,
+    }
+}
+
+/// The configuration.
+#[derive(Debug, Clone)]
+pub struct Estimator {
+    currents: Currents,
+    ratio: Ratio,
+    map: Map,
+    haptic_voltage: HapticVoltage,
+    capacitance: Capacitance,
+    force: Force,
+    frames: Frames,
+    registers: Registers<Format>,
+}
+
+impl Estimator {
+    /// The estimator of a profile.
+    pub fn new(profile: &Profile) -> Self {
+        let currents = Currents::new(profile);
+        Estimator {
+            ratio: Ratio::new(profile, currents.sums()),
+            map: Map::new(profile),
+            haptic_voltage: HapticVoltage::new(profile),
+            capacitance: Capacitance::new(profile, currents.amplitude()),
+            force: Force::new(profile),
+            frames: Frames::new(profile),
+            registers: Registers { busy: BIT, pad: Format::counter(profile.pads - 1), clipped: BIT },
+            currents,
+        }
+    }
+
+    /// Clocks from the last but one sum (the mean square is the last) to the last word.
+    pub fn latency(&self) -> u64 {
+        let stages = [
+            self.currents.latency(),
+            self.ratio.latency(),
+            self.map.latency(),
+            self.capacitance.latency(),
+            self.force.latency(),
+            self.frames.latency(),
+        ];
+        stages.into_iter().sum()
+    }
+
+    /// The map.
+    pub fn map(&self) -> &Map {
+        &self.map
+    }
+
+    /// The currents.
+    pub fn currents(&self) -> &Currents {
+        &self.currents
+    }
+}
+
+impl Block for Estimator {
+    const NAME: &'static str = "estimator";
+    type Inputs = Inputs;
+    type Outputs = Outputs;
+    type Registers = Registers;
+    type Parts<V: Value> = Parts<V>;
+
+    #[inline]
+    fn inputs(&self) -> Inputs<Format> {
+        let haptic = self.haptic_voltage.inputs();
+        let map = self.map.inputs();
+        Inputs {
+            valid: BIT,
+            index: haptic.index,
+            sum: haptic.sum,
+            pad: self.registers.pad,
+            clipped: BIT,
+            origin_x: map.origin_x,
+            scale_x: map.scale_x,
+            origin_y: map.origin_y,
+            scale_y: map.scale_y,
+            capacitance_gain: self.capacitance.inputs().gain,
+            force_gain: self.force.inputs().gain,
+            write: BIT,
+            address: map.address,
+            word: map.word,
+        }
+    }
+
+    #[inline]
+    fn outputs(&self) -> Outputs<Format> {
+        let frames::Outputs { index, word, .. } = self.frames.outputs();
+        let pad = self.registers.pad;
+        Outputs { valid: BIT, index, word, done: BIT, pad, clipped: BIT, saturated: BIT, invalid: BIT, lost: BIT }
+    }
+
+    #[inline(always)]
+    fn registers(&self) -> Registers<Format> {
+        self.registers
+    }
+
+    #[inline(always)]
+    fn clock<V: Value>(&self, cell: &mut Cell<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+        let r = cell.load(self);
+        if (i.valid | r.busy | i.write).idle() {
+            return self.quiet(r);
+        }
+        let Inputs { valid, index, sum, .. } = i;
+        let parts = &mut cell.parts;
+        let inputs = currents::Inputs { valid, index, sum };
+        let currents = self.currents.call("currents", &mut parts.currents, inputs);
+        let inputs = haptic_voltage::Inputs { valid, index, sum };
+        let haptic = self.haptic_voltage.call("haptic_voltage", &mut parts.haptic_voltage, inputs);
+        let inputs = ratio::Inputs { start: currents.done, x: currents.x, y: currents.y, corners: currents.corners };
+        let ratio = self.ratio.call("ratio", &mut parts.ratio, inputs);
+        let inputs = map::Inputs {
+            start: ratio.done,
+            r_x: ratio.r_x,
+            r_y: ratio.r_y,
+            origin_x: i.origin_x,
+            scale_x: i.scale_x,
+            origin_y: i.origin_y,
+            scale_y: i.scale_y,
+            write: i.write,
+            address: i.address,
+            word: i.word,
+        };
+        let map = self.map.call("map", &mut parts.map, inputs);
+        let inputs = capacitance::Inputs {
+            start: map.done,
+            total: currents.total,
+            sense: currents.sense,
+            sheet: map.sheet,
+            gain: i.capacitance_gain,
+        };
+        let capacitance = self.capacitance.call("capacitance", &mut parts.capacitance, inputs);
+        let inputs = force::Inputs {
+            start: capacitance.done,
+            capacitance: capacitance.capacitance,
+            mean_square: haptic.mean_square,
+            gain: i.force_gain,
+        };
+        let force = self.force.call("force", &mut parts.force, inputs);
+        let invalid = ratio.invalid | capacitance.invalid;
+        let inputs = frames::Inputs {
+            start: force.done,
+            pad: r.pad,
+            invalid,
+            r_x: ratio.r_x,
+            r_y: ratio.r_y,
+            x: map.x,
+            y: map.y,
+            sheet: map.sheet,
+            capacitance: capacitance.capacitance,
+            force: force.force,
+            mean_square: haptic.mean_square,
+        };
+        let frames = self.frames.call("frames", &mut parts.frames, inputs);
+        let held = currents.saturated | haptic.saturated | map.saturated | capacitance.saturated | force.saturated;
+        let pad = valid.select(i.pad, r.pad);
+        let busy = valid | (r.busy & !frames.done);
+        cell.store(self, Registers { busy, pad, clipped: valid.select(i.clipped, r.clipped) });
+        Outputs {
+            valid: frames.valid,
+            index: frames.index,
+            word: frames.word,
+            done: frames.done,
+            pad: r.pad,
+            clipped: r.clipped,
+            saturated: held,
+            invalid,
+            lost: currents.lost,
+        }
+    }
+}
+
+impl Estimator {
+    /// The outputs while nothing is under way: no frame, and so nothing about one.
+    #[inline(always)]
+    fn quiet<V: Value>(&self, r: Registers<Signal<V>>) -> Outputs<Signal<V>> {
+        let zero = Outputs::map(self.outputs(), |format| constant(0.0, format));
+        Outputs { pad: r.pad, clipped: r.clipped, ..zero }
+    }
+}

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The blocks of the core, one file each, from the ADC's codes to frames.
+
+pub mod capacitance;
+pub mod core;
+pub mod currents;
+pub mod demodulator;
+pub mod divider;
+pub mod estimator;
+pub mod force;
+pub mod frames;
+pub mod haptic_voltage;
+pub mod map;
+pub mod multiplexer;
+pub mod oscillator;
+pub mod ratio;
+pub mod root;

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Oscillator (NCO): for every sample the cosine and sine of the carrier, and the window.
+//!
+//!   φ[n] = n · periods / samples,   w[n] = sin²(π m / N) = (1 − cos 2π m/N) / 2 for sample m of the window   (turns; Hann)
+//!
+//!   phase u32.32 ─quadrant 2─┐
+//!                └─address──[quarter wave]──(±)── cosine, then sine, then window
+//!
+//! | signal             | format     | unit           | overflow                                  |
+//! | phase, window_phase | u32.32    | turn           | wraps, meant                              |
+//! | cosine, sine, window | profile  | full amplitude | the table's largest code stands for one |
+//!
+//! The phase begins anew with each slot, so that every slot sees the same carrier. Entries lie at the middles of their
+//! steps, (k + ½) / 4·2^a turns: the wave is symmetric and a constant half step late. Latency: 4 clocks from `sample` to
+//! `ready`. Source: PHYSICS §5 (sine table, Hann window).
+
+use crate::block::{Block, Cell};
+use crate::bundle::Bundle;
+use crate::format::{BIT, Format};
+use crate::memory::Memory;
+use crate::profile::{Profile, Window};
+use crate::signal::{Exact, HalfEven, Saturate, Signal, Value, Wrap, bit, constant, int};
+use crate::{bundle, parts};
+use std::f64::consts::TAU;
+
+bundle! {
+    /// The inputs.
+    pub struct Inputs {
+        /// A sample is there.
+        sample,
+        /// It is the first of its slot.
+        restart,
+        /// It is the first of its window.
+        first,
+    }
+}
+
+bundle! {
+    /// The outputs.
+    pub struct Outputs {
+        /// Set for one clock when the other outputs are those of the sample.
+        ready,
+        /// The cosine of the carrier.
+        cosine,
+        /// The sine of the carrier.
+        sine,
+        /// The window.
+        window,
+    }
+}
+
+bundle! {
+    /// The registers.
+    pub struct Registers {
+        step: ["idle", "cosine", "sine", "window"],
+        phase, window_phase, looked_up, negative, cosine, sine, window, ready,
+    }
+}
+
+parts! {
+    /// The memory within.
+    pub struct Parts of Oscillator {
+        quarter: Memory,
+    }
+}
+
+/// The configuration.
+#[derive(Debug, Clone)]
+pub struct Oscillator {
+    quarter: Memory,
+    address_bits: u8,
+    increment: f64,
+    window_increment: f64,
+    window: Window,
+    registers: Registers<Format>,
+}
+
+/// The format of a phase: turns.
+const PHASE: Format = Format::unsigned(32, 32);
+
+impl Oscillator {
+    /// Clocks from `sample` to `ready`.
+    pub const LATENCY: u64 = 4;
+
+    /// The oscillator of a profile.
+    pub fn new(profile: &Profile) -> Self {
+        let format = profile.formats.oscillator;
+        let address_bits = profile.carrier.quarter_address;
+        let entries = 1usize << address_bits;
+        let entry = |k| (TAU / 4.0 * (k as f64 + 0.5) / entries as f64).sin();
+        // The largest code, not one, is the amplitude: one would not fit.
+        let amplitude = 1.0 - format.lsb();
+        let table = (0..entries).map(|k| amplitude * entry(k)).collect();
+        let registers = Registers {
+            step: Format::unsigned(2, 0),
+            phase: PHASE,
+            window_phase: PHASE,
+            looked_up: PHASE,
+            negative: BIT,
+            cosine: format,
+            sine: format,
+            window: format,
+            ready: BIT,
+        };
+        Oscillator {
+            quarter: Memory::table("quarter", Format { signed: false, width: format.width - 1, ..format }, table),
+            address_bits,
+            increment: profile.carrier.turns_per_sample(),
+            window_increment: 1.0 / profile.slot.integrate as f64,
+            window: profile.carrier.window,
+            registers,
+        }
+    }
+
+    /// Where in the table the sine of a phase lies, and whether it is negative.
+    #[inline(always)]
+    fn look_up<V: Value>(&self, phase: Signal<V>) -> (Signal<V>, Signal<V>) {
+        let index = phase.bits(30 - self.address_bits, self.address_bits);
+        let last = int((1 << self.address_bits) - 1);
+        let mirrored = (last - index).fit(index.format, Exact, Wrap);
+        (phase.bits(30, 1).select(mirrored, index), phase.msb())
+    }
+
+    /// The table's word, with its sign: the sine of the phase that was looked up.
+    #[inline(always)]
+    fn wave<V: Value>(&self, r: &Registers<Signal<V>>, word: Signal<V>) -> Signal<V> {
+        let wave = r.negative.select(-word, word).fit(self.registers.sine, Exact, Wrap);
+        wave.ideally(&[r.looked_up], |turns| (TAU * turns[0]).sin())
+    }
+
+    /// (1 − cos) / 2, or one throughout.
+    #[inline(always)]
+    fn weight<V: Value>(&self, cosine: Signal<V>) -> Signal<V> {
+        let one = constant(1.0, Format::unsigned(1, 0));
+        match self.window {
+            Window::Hann => (one - cosine).scaled(-1).fit(self.registers.window, HalfEven, Saturate),
+            Window::Rectangular => one.fit(self.registers.window, Exact, Saturate),
+        }
+    }
+
+    /// The phase of the clock's look-up: the sine of (φ + ¼) is the cosine.
+    #[inline(always)]
+    fn address_phase<V: Value>(&self, r: &Registers<Signal<V>>, i: &Inputs<Signal<V>>) -> Signal<V> {
+        let quarter = constant(0.25, PHASE);
+        let zero = constant(0.0, PHASE);
+        let begun = i.sample.select(i.restart.select(zero, r.phase), r.phase);
+        let cosine = (begun + quarter).fit(PHASE, Exact, Wrap);
+        let window = (r.window_phase + quarter).fit(PHASE, Exact, Wrap);
+        r.step.is(1).select(r.phase, r.step.is(2).select(window, cosine))
+    }
+
+    /// A sample begins: phases start anew where they should.
+    #[inline(always)]
+    fn begin<V: Value>(&self, r: Registers<Signal<V>>, i: Inputs<Signal<V>>) -> Registers<Signal<V>> {
+        let zero = constant(0.0, PHASE);
+        Registers {
+            step: int(1),
+            phase: i.restart.select(zero, r.phase),
+            window_phase: i.first.select(zero, r.window_phase),
+            ..r
+        }
+    }
+
+    /// The word of the look-up before is there.
+    #[inline(always)]
+    fn step<V: Value>(&self, r: Registers<Signal<V>>, wave: Signal<V>) -> Registers<Signal<V>> {
+        let (cosine, sine, window) = (r.step.is(1), r.step.is(2), r.step.is(3));
+        let advance = |phase: Signal<V>, by: f64| (phase + constant(by, PHASE)).fit(PHASE, Exact, Wrap);
+        Registers {
+            step: (r.step + int(1)).fit(r.step.format, Exact, Wrap),
+            phase: window.select(advance(r.phase, self.increment), r.phase),
+            window_phase: window.select(advance(r.window_phase, self.window_increment), r.window_phase),
+            cosine: cosine.select(wave, r.cosine),
+            sine: sine.select(wave, r.sine),
+            window: window.select(self.weight(wave), r.window),
+            ready: window,
+            ..r
+        }
+    }
+}
+
+impl Block for Oscillator {
+    const NAME: &'static str = "oscillator";
+    type Inputs = Inputs;
+    type Outputs = Outputs;
+    type Registers = Registers;
+    type Parts<V: Value> = Parts<V>;
+
+    #[inline]
+    fn inputs(&self) -> Inputs<Format> {
+        Inputs { sample: BIT, restart: BIT, first: BIT }
+    }
+
+    #[inline]
+    fn outputs(&self) -> Outputs<Format> {
+        let Registers { ready, cosine, sine, window, .. } = self.registers;
+        Outputs { ready, cosine, sine, window }
+    }
+
+    #[inline(always)]
+    fn registers(&self) -> Registers<Format> {
+        self.registers
+    }
+
+    #[inline(always)]
+    fn clock<V: Value>(&self, cell: &mut Cell<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+        let r = cell.load(self);
+        let outputs = Outputs { ready: r.ready, cosine: r.cosine, sine: r.sine, window: r.window };
+        let busy = !r.step.is(0);
+        if (i.sample | busy | r.ready).idle() {
+            return outputs;
+        }
+        let wave = self.wave(&r, self.quarter.data(&mut cell.parts.quarter));
+        let looked_up = self.address_phase(&r, &i);
+        let (address, negative) = self.look_up(looked_up);
+        self.quarter.read(&mut cell.parts.quarter, address);
+        let r = Registers { ready: bit(false), looked_up, negative, ..r };
+        let next =
+            Registers::when(i.sample, || self.begin(r, i), || Registers::when(busy, || self.step(r, wave), || r));
+        cell.store(self, next);
+        outputs
+    }
+}

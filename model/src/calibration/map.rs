@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The map's curves and tables, fitted to points of known place.
+
+use super::least_squares::Fit;
+use crate::blocks::map::{Curve, Layout, Map as Block};
+use crate::profile::Profile;
+
+/// A place on the sheet and what is read there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Point {
+    /// Millimetres from the middle, along the long edges.
+    pub x: f64,
+    /// Millimetres from the middle, along the short edges.
+    pub y: f64,
+    /// Eq. 2.
+    pub r_x: f64,
+    /// Eq. 3.
+    pub r_y: f64,
+    /// The sheet's resistance at the place, in full scales of voltage per current.
+    pub sheet: f64,
+}
+
+/// From ratios to place: the numbers of [`crate::blocks::map`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct Map {
+    /// The ratios in the middle of their box.
+    pub origin: [f64; 2],
+    /// One over half the box.
+    pub scale: [f64; 2],
+    /// The words of curves and tables, as fractions.
+    pub words: Vec<f64>,
+    layout: Layout,
+}
+
+/// What the box is wider than the points, so that noise at an edge stays within.
+const MARGIN: f64 = 1.0 + 1.0 / 64.0;
+/// How much smoothness counts against nearness.
+const SMOOTHNESS: f64 = 1e-3;
+
+impl Map {
+    /// Fits a raster of points: `columns` to a row, the first and last rows and columns being the edges of the area.
+    ///
+    /// # Panics
+    /// Where the points are not whole rows, or fewer than two rows or columns.
+    pub fn fit(profile: &Profile, columns: usize, points: &[Point]) -> Map {
+        let rows = points.len() / columns;
+        assert!(columns > 1 && rows > 1 && rows * columns == points.len(), "a raster of whole rows");
+        let layout = Layout::new(profile);
+        let mut map = Map::boxed(layout, points);
+        let boxed: Vec<[f64; 2]> = points.iter().map(|point| map.in_box(point.r_x, point.r_y)).collect();
+        let row = |row: usize| (0..columns).map(|k| boxed[row * columns + k]).collect::<Vec<_>>();
+        map.straighten(Curve::MiddleY, Curve::StretchY, &row(0), &row(rows - 1));
+        let span = half_span(points.iter().map(|point| point.y));
+        let t: Vec<_> = boxed.iter().map(|&p| map.straight(Curve::MiddleY, Curve::StretchY, p[0], p[1])).collect();
+        map.space(Curve::SpacingY, t.iter().zip(points).map(|(&t, point)| (t, point.y / span)));
+        let v: Vec<_> = t.iter().map(|&t| map.curve(Curve::SpacingY, t)).collect();
+        let column =
+            |first: usize| (first..points.len()).step_by(columns).map(|k| [v[k], boxed[k][0]]).collect::<Vec<_>>();
+        map.straighten(Curve::MiddleX, Curve::StretchX, &column(0), &column(columns - 1));
+        let span = half_span(points.iter().map(|point| point.x));
+        let straight = |k: usize| map.straight(Curve::MiddleX, Curve::StretchX, v[k], boxed[k][0]);
+        let q: Vec<_> = (0..points.len()).map(straight).collect();
+        map.space(Curve::SpacingX, q.iter().zip(points).map(|(&q, point)| (q, point.x / span)));
+        let uv: Vec<_> = q.iter().zip(v).map(|(&q, v)| [map.curve(Curve::SpacingX, q), v]).collect();
+        map.tabulate(&uv, points);
+        map
+    }
+
+    fn boxed(layout: Layout, points: &[Point]) -> Map {
+        let of = |ratio: fn(&Point) -> f64| {
+            let (low, high) = points.iter().map(ratio).fold((f64::MAX, f64::MIN), |(l, h), r| (l.min(r), h.max(r)));
+            ((low + high) / 2.0, 2.0 / (high - low) / MARGIN)
+        };
+        let (x, y) = (of(|point| point.r_x), of(|point| point.r_y));
+        Map { origin: [x.0, y.0], scale: [x.1, y.1], words: vec![0.0; layout.words()], layout }
+    }
+
+    fn in_box(&self, r_x: f64, r_y: f64) -> [f64; 2] {
+        [(r_x - self.origin[0]) * self.scale[0], (r_y - self.origin[1]) * self.scale[1]]
+    }
+
+    /// Curves that take two opposite edges, each points of (along, across), to −1 and 1.
+    fn straighten(&mut self, middle: Curve, stretch: Curve, one: &[[f64; 2]], other: &[[f64; 2]]) {
+        let entries = self.layout.entries(middle);
+        for k in 0..entries {
+            let along = 2.0 * k as f64 / (entries - 1) as f64 - 1.0;
+            let (a, b) = (across(one, along), across(other, along));
+            self.words[self.layout.curve(middle) + k] = (a + b) / 2.0;
+            let unit = 2f64.powi(Block::STRETCH_BITS.into());
+            self.words[self.layout.curve(stretch) + k] = (2.0 / (a - b).abs() / MARGIN / unit).min(1.0);
+        }
+    }
+
+    /// A curve that takes straightened coordinates to evenly spaced ones.
+    fn space(&mut self, curve: Curve, samples: impl Iterator<Item = (f64, f64)>) {
+        let entries = self.layout.entries(curve);
+        let mut fit = Fit::new(entries, 1);
+        let mut count = 0;
+        for (t, even) in samples {
+            fit.ask(&pair(0, t, entries), &[even / MARGIN], 1.0);
+            count += 1;
+        }
+        for k in 1..entries - 1 {
+            let second = [(k - 1, 1.0), (k, -2.0), (k + 1, 1.0)];
+            fit.ask(&second, &[0.0], SMOOTHNESS * f64::from(count) / entries as f64);
+        }
+        let offset = self.layout.curve(curve);
+        self.words[offset..offset + entries].copy_from_slice(fit.solve().as_slice());
+    }
+
+    /// Tables of x, y and the sheet's resistance over evenly spaced coordinates.
+    fn tabulate(&mut self, uv: &[[f64; 2]], points: &[Point]) {
+        let side = self.layout.side();
+        let mut fit = Fit::new(side * side, 3);
+        let full = 2f64.powi(Profile::POSITION_BITS.into());
+        for ([u, v], point) in uv.iter().zip(points) {
+            let values = [point.x / full, point.y / full, point.sheet];
+            fit.ask(&corners(*u, *v, side), &values, 1.0);
+        }
+        let importance = SMOOTHNESS * points.len() as f64 / (side * side) as f64;
+        for line in 0..side {
+            for k in 1..side - 1 {
+                for (start, step) in [(line * side, 1), (line, side)] {
+                    let at = |k: usize| start + k * step;
+                    fit.ask(&[(at(k - 1), 1.0), (at(k), -2.0), (at(k + 1), 1.0)], &[0.0; 3], importance);
+                }
+            }
+        }
+        let offset = self.layout.table(0);
+        self.words[offset..].copy_from_slice(fit.solve().as_slice());
+    }
+
+    fn curve(&self, curve: Curve, at: f64) -> f64 {
+        let terms = pair(self.layout.curve(curve), at, self.layout.entries(curve));
+        terms.iter().map(|&(k, weight)| weight * self.words[k]).sum()
+    }
+
+    fn straight(&self, middle: Curve, stretch: Curve, along: f64, across: f64) -> f64 {
+        let unit = 2f64.powi(Block::STRETCH_BITS.into());
+        (across - self.curve(middle, along)) * self.curve(stretch, along) * unit
+    }
+
+    /// The place and the sheet's resistance for a pair of ratios, in floating point.
+    pub fn look_up(&self, r_x: f64, r_y: f64) -> [f64; 3] {
+        let [p_x, p_y] = self.in_box(r_x, r_y);
+        let v = self.curve(Curve::SpacingY, self.straight(Curve::MiddleY, Curve::StretchY, p_x, p_y));
+        let u = self.curve(Curve::SpacingX, self.straight(Curve::MiddleX, Curve::StretchX, v, p_x));
+        let terms = corners(u, v, self.layout.side());
+        let layer = |layer: usize| {
+            let offset = self.layout.table(layer);
+            terms.iter().map(|&(k, weight)| weight * self.words[offset + k]).sum::<f64>()
+        };
+        let full = 2f64.powi(Profile::POSITION_BITS.into());
+        [layer(0) * full, layer(1) * full, layer(2)]
+    }
+}
+
+fn half_span(values: impl Iterator<Item = f64>) -> f64 {
+    values.fold(0.0, |span, value| value.abs().max(span))
+}
+
+/// The edge's place across, linear between its points, at its ends beyond.
+fn across(edge: &[[f64; 2]], along: f64) -> f64 {
+    let mut edge = edge.to_vec();
+    edge.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    let next = edge.partition_point(|point| point[0] < along);
+    match next {
+        0 => edge[0][1],
+        next if next == edge.len() => edge[next - 1][1],
+        next => {
+            let ([x0, y0], [x1, y1]) = (edge[next - 1], edge[next]);
+            y0 + (y1 - y0) * (along - x0) / (x1 - x0)
+        }
+    }
+}
+
+/// The two entries of a table over −1 … 1 about a coordinate, with their weights.
+fn pair(offset: usize, at: f64, entries: usize) -> [(usize, f64); 2] {
+    let place = (at + 1.0) / 2.0 * (entries - 1) as f64;
+    let cell = place.floor().clamp(0.0, (entries - 2) as f64);
+    let weight = (place - cell).clamp(0.0, 1.0);
+    [(offset + cell as usize, 1.0 - weight), (offset + cell as usize + 1, weight)]
+}
+
+/// The four nodes about a place, with their weights.
+fn corners(u: f64, v: f64, side: usize) -> [(usize, f64); 4] {
+    let ([left, right], [above, below]) = (pair(0, u, side), pair(0, v, side));
+    let node = |(row, a): (usize, f64), (column, b): (usize, f64)| (row * side + column, a * b);
+    [node(above, left), node(above, right), node(below, left), node(below, right)]
+}

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Calibration: the numbers that make a core of a profile into the sensor of a device.
+//!
+//! It is made from points at which ratios and place are both known: a simulation of the device, or a measurement. Numbers
+//! are in the core's own units: fractions of full scale, millimetres, picofarads, newtons.
+
+mod least_squares;
+mod map;
+
+pub use map::{Map, Point};
+
+use crate::blocks::core::Inputs;
+use crate::format::Format;
+use crate::profile::Profile;
+
+/// The calibration of a device.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Calibration {
+    /// Position and sheet resistance from ratios.
+    pub map: Map,
+    /// Picofarads at an admittance of one.
+    pub capacitance_gain: f64,
+    /// Newtons per square picofarad at a haptic mean-square word of one.
+    pub force_gain: f64,
+}
+
+/// A number that a core of the profile cannot be given.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("calibration {name}: expected a number that {format} holds, got {value}")]
+pub struct CalibrationError {
+    name: &'static str,
+    format: Format,
+    value: f64,
+}
+
+impl Calibration {
+    /// Whether a core of the profile can be given all of it.
+    ///
+    /// # Errors
+    /// The first number that its format does not hold, or holds as zero.
+    pub fn check(&self, profile: &Profile) -> Result<(), CalibrationError> {
+        let f = &profile.formats;
+        for (name, format, value) in [
+            ("capacitance gain", f.capacitance_gain, self.capacitance_gain),
+            ("force gain", f.force_gain, self.force_gain),
+            ("map scale x", f.map_scale, self.map.scale[0]),
+            ("map scale y", f.map_scale, self.map.scale[1]),
+        ] {
+            if format.code(value).is_none_or(|code| code == 0) {
+                return Err(CalibrationError { name, format, value });
+            }
+        }
+        Ok(())
+    }
+
+    /// The core's inputs that never change, as codes; the others are zero.
+    pub fn inputs(&self, formats: Inputs<Format>) -> Inputs<i64> {
+        Inputs {
+            strobe: 0,
+            code: 0,
+            origin_x: formats.origin_x.code_saturating(self.map.origin[0]),
+            scale_x: formats.scale_x.code_saturating(self.map.scale[0]),
+            origin_y: formats.origin_y.code_saturating(self.map.origin[1]),
+            scale_y: formats.scale_y.code_saturating(self.map.scale[1]),
+            capacitance_gain: formats.capacitance_gain.code_saturating(self.capacitance_gain),
+            force_gain: formats.force_gain.code_saturating(self.force_gain),
+            write: 0,
+            address: 0,
+            word: 0,
+        }
+    }
+}

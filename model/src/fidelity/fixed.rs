@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Fidelity `fixed`: the frames that `clock` gives, to the bit, without stepping the clocks of every sample.
+//!
+//! A window's sums are made sample by sample with the demodulator's own arithmetic; the local oscillator is the same for
+//! every slot, and so is asked once. The estimator then runs through its clocks, a few hundred a slot. As it is generic over
+//! the reading, the same run gives the rounding error of every signal ([`Shadow`](crate::signal::shadow::Shadow)).
+
+use super::{Gathered, calibrated, signals};
+use crate::block::{Block, Cell};
+use crate::blocks::core::{Core, Inputs as CoreInputs};
+use crate::blocks::estimator::{Inputs, Outputs};
+use crate::blocks::oscillator::Inputs as Sample;
+use crate::bundle::Bundle;
+use crate::calibration::Calibration;
+use crate::format::Format;
+use crate::frame::Frame;
+use crate::profile::Profile;
+use crate::signal::{Signal, Value, bit, constant, int};
+
+/// The weighted carrier at a sample of the window, and the window itself.
+#[derive(Debug, Clone, Copy)]
+struct Local<V> {
+    cosine: Signal<V>,
+    sine: Signal<V>,
+    window: Signal<V>,
+}
+
+/// A core at work, slot by slot.
+pub struct FixedSimulation<V: Value = i64> {
+    core: Core,
+    cell: Cell<Core, V>,
+    adc: Format,
+    channels: usize,
+    local: Vec<Local<V>>,
+    quiet: Inputs<Signal<V>>,
+    sums: Vec<Signal<V>>,
+}
+
+impl<V: Value> FixedSimulation<V> {
+    /// A core of a profile, calibrated, just before its first slot.
+    pub fn new(profile: &Profile, calibration: &Calibration) -> Self {
+        let core = Core::new(profile);
+        let constants = signals::<CoreInputs, V>(calibration.inputs(core.inputs()), core.inputs());
+        let sums = vec![constant(0.0, core.demodulator().sum()); core.demodulator().sums() as usize];
+        FixedSimulation {
+            cell: calibrated(&core, calibration),
+            local: local(&core, profile),
+            quiet: quiet(&core, constants),
+            adc: profile.formats.adc,
+            channels: profile.channels(),
+            sums,
+            core,
+        }
+    }
+
+    /// The samples of a window.
+    pub fn window(&self) -> usize {
+        self.local.len()
+    }
+
+    /// The frame of a slot: `codes` are those of its window, a sample after the other.
+    ///
+    /// # Panics
+    /// Where `codes` is not one code a channel and sample, or the estimator does not finish within its latency.
+    pub fn slot(&mut self, pad: usize, codes: &[i32]) -> Frame {
+        assert_eq!(codes.len(), self.window() * self.channels, "one code a channel and sample of the window");
+        self.demodulate(codes);
+        let clipped = self.clipped(codes);
+        self.estimate(pad, clipped)
+    }
+
+    /// The sums of a window.
+    fn demodulate(&mut self, codes: &[i32]) {
+        let demodulator = self.core.demodulator();
+        let (adc, begun) = (self.adc, bit(false));
+        self.sums.fill(constant(0.0, demodulator.sum()));
+        let (haptic_sum, sums) = self.sums.split_last_mut().expect("there are sums");
+        for (codes, local) in codes.chunks_exact(self.channels).zip(&self.local) {
+            let (&haptic, codes) = codes.split_last().expect("there are channels");
+            for (sums, &code) in sums.chunks_exact_mut(2).zip(codes) {
+                let code = raw(code, adc);
+                sums[0] = demodulator.accumulate(begun, sums[0], code * local.cosine);
+                sums[1] = demodulator.accumulate(begun, sums[1], code * local.sine);
+            }
+            let haptic = raw(haptic, adc);
+            let weighted = demodulator.weigh(local.window * haptic, adc);
+            *haptic_sum = demodulator.accumulate(begun, *haptic_sum, haptic * weighted);
+        }
+    }
+
+    fn clipped(&self, codes: &[i32]) -> bool {
+        let rails = [self.adc.min_code() as i32, self.adc.max_code() as i32];
+        codes.iter().fold(false, |clipped, code| clipped | rails.contains(code))
+    }
+
+    /// Hands the sums to the estimator and runs it until its frame is there.
+    fn estimate(&mut self, pad: usize, clipped: bool) -> Frame {
+        let (pad, clipped) = (constant(pad as f64, self.quiet.pad.format), bit(clipped));
+        let mut gathered = Gathered::default();
+        for index in 0..self.sums.len() {
+            let (sum, index) = (self.sums[index], int(index as u64));
+            let inputs = Inputs { valid: bit(true), index, sum, pad, clipped, ..self.quiet };
+            self.clock(inputs, &mut gathered);
+        }
+        for clock in 0..2 * self.core.estimator().latency() {
+            let outputs = self.clock(self.quiet, &mut gathered);
+            if V::known(outputs.done.value) == Some(true) {
+                if std::env::var("LAT").is_ok() {
+                    eprintln!("took {clock}");
+                }
+                return frame(gathered, &outputs);
+            }
+        }
+        unreachable!("the estimator finishes within its latency")
+    }
+
+    fn clock(&mut self, inputs: Inputs<Signal<V>>, gathered: &mut Gathered) -> Outputs<Signal<V>> {
+        let estimator = self.core.estimator();
+        let outputs = estimator.clock(&mut self.cell.parts.estimator, inputs);
+        if V::known(outputs.valid.value) == Some(true) {
+            gathered.take(1, V::code(outputs.index), V::code(outputs.word));
+        }
+        outputs
+    }
+
+    /// The core, and the state of its estimator.
+    pub fn state(&self) -> (&Core, &Cell<Core, V>) {
+        (&self.core, &self.cell)
+    }
+}
+
+/// A code of the ADC.
+#[inline(always)]
+fn raw<V: Value>(code: i32, adc: Format) -> Signal<V> {
+    Signal { value: V::raw(code.into(), adc), format: adc }
+}
+
+fn frame<V: Value>(gathered: Gathered, outputs: &Outputs<Signal<V>>) -> Frame {
+    let code = V::code;
+    gathered.frame(
+        code(outputs.pad),
+        code(outputs.clipped),
+        code(outputs.saturated),
+        code(outputs.invalid),
+        code(outputs.lost),
+    )
+}
+
+/// The estimator's inputs between sums.
+fn quiet<V: Value>(core: &Core, constants: CoreInputs<Signal<V>>) -> Inputs<Signal<V>> {
+    let zero = Inputs::map(core.estimator().inputs(), |format| constant(0.0, format));
+    Inputs {
+        origin_x: constants.origin_x,
+        scale_x: constants.scale_x,
+        origin_y: constants.origin_y,
+        scale_y: constants.scale_y,
+        capacitance_gain: constants.capacitance_gain,
+        force_gain: constants.force_gain,
+        ..zero
+    }
+}
+
+/// The local oscillator over the window of a slot: the oscillator's own, asked once.
+fn local<V: Value>(core: &Core, profile: &Profile) -> Vec<Local<V>> {
+    let (oscillator, demodulator) = (core.oscillator(), core.demodulator());
+    let lo = profile.formats.oscillator;
+    let mut cell = oscillator.cell();
+    let mut local = Vec::new();
+    for sample in 0..profile.slot.samples() {
+        let [restart, first] = [sample == 0, sample == profile.slot.blanking()].map(bit);
+        let mut out = oscillator.clock(&mut cell, Sample { sample: bit(true), restart, first });
+        while V::known(out.ready.value) != Some(true) {
+            out = oscillator.clock(&mut cell, Sample { sample: bit(false), restart: bit(false), first: bit(false) });
+        }
+        if sample >= profile.slot.blanking() {
+            let [cosine, sine] = [out.cosine, out.sine].map(|wave| demodulator.weigh(out.window * wave, lo));
+            local.push(Local { cosine, sine, window: out.window });
+        }
+    }
+    local
+}

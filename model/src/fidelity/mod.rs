@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! How exactly a core is run: every clock, every slot to the same bits, or in floating point.
+
+pub mod clock;
+pub mod fixed;
+
+use crate::block::{Block, Cell};
+use crate::blocks::core::{Core, Inputs, Outputs};
+use crate::bundle::Bundle;
+use crate::calibration::Calibration;
+use crate::format::Format;
+use crate::frame::{Flags, Frame};
+use crate::signal::{Signal, Value, constant};
+
+/// The signals of a bundle of constants.
+pub(crate) fn signals<S: Bundle, V: Value>(codes: S::Of<i64>, formats: S::Of<Format>) -> S::Of<Signal<V>> {
+    S::map(S::zip(codes, formats), |(code, format)| constant(format.real(code), format))
+}
+
+/// Gathers the words of a frame as the core gives them out.
+#[derive(Debug, Clone, Copy, Default)]
+struct Gathered {
+    codes: [i64; 8],
+}
+
+impl Gathered {
+    #[inline(always)]
+    fn take(&mut self, valid: i64, index: i64, word: i64) {
+        if valid != 0 {
+            self.codes[index as usize] = word;
+        }
+    }
+
+    fn frame(self, pad: i64, clipped: i64, saturated: i64, invalid: i64, lost: i64) -> Frame {
+        let [clipped, saturated, invalid, lost] = [clipped, saturated, invalid, lost].map(|flag| flag != 0);
+        Frame { pad: pad as usize, codes: self.codes, flags: Flags { clipped, saturated, invalid, lost } }
+    }
+}
+
+/// A cell of a core with the calibration's tables written into it, through its port.
+fn calibrated<V: Value>(core: &Core, calibration: &Calibration) -> Cell<Core, V> {
+    let mut cell = core.cell();
+    let formats = core.inputs();
+    let constants = calibration.inputs(formats);
+    let memory = core.estimator().map().words();
+    for (address, &word) in calibration.map.words.iter().enumerate() {
+        let codes = Inputs { write: 1, address: address as i64, ..constants };
+        let mut inputs = signals::<Inputs, V>(codes, formats);
+        inputs.word = constant(word, memory.format);
+        core.clock(&mut cell, inputs);
+    }
+    // One more: a write is registered nowhere, but its outputs are looked at by nobody either.
+    let _: Outputs<Signal<V>> = core.clock(&mut cell, signals::<Inputs, V>(constants, formats));
+    cell
+}

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Memories: words with one read port and one write port, as a block RAM has them.
+//!
+//! The read port has a register: what is asked for in one clock is there in the next. A word that is read and written in
+//! the same clock reads as it was.
+
+use crate::format::Format;
+use crate::signal::{Signal, Value};
+use std::sync::Arc;
+
+/// The configuration of a memory.
+#[derive(Debug, Clone)]
+pub struct Memory {
+    /// Its name among the parts of its block.
+    pub name: &'static str,
+    /// How many words it has.
+    pub words: usize,
+    /// The format of a word.
+    pub format: Format,
+    /// What it holds at reset, before rounding to its format; zero where there is nothing.
+    pub initial: Arc<[f64]>,
+}
+
+/// What is written into a memory at the end of a clock.
+#[derive(Debug, Clone, Copy)]
+pub struct Write<V> {
+    /// Whether anything is.
+    pub enable: Signal<V>,
+    /// Where.
+    pub address: Signal<V>,
+    /// What: of a format that the memory's holds.
+    pub data: Signal<V>,
+}
+
+impl Memory {
+    /// A memory of zeros.
+    pub fn new(name: &'static str, words: usize, format: Format) -> Self {
+        Memory { name, words, format, initial: Arc::new([]) }
+    }
+
+    /// A table that nobody writes. Entries past a rail of the format are held there.
+    pub fn table(name: &'static str, format: Format, initial: Vec<f64>) -> Self {
+        Memory { name, words: initial.len(), format, initial: initial.into() }
+    }
+
+    /// The words at reset, as numbers.
+    pub fn reals(&self) -> Vec<f64> {
+        let mut words = self.initial.to_vec();
+        words.resize(self.words, 0.0);
+        words
+    }
+
+    /// The words at reset, as codes.
+    pub fn codes(&self) -> Vec<i64> {
+        self.reals().into_iter().map(|real| self.format.code_saturating(real)).collect()
+    }
+
+    /// The format of an address.
+    #[inline]
+    pub fn address(&self) -> Format {
+        Format::counter(self.words as u64 - 1)
+    }
+
+    /// What was asked for in the clock before.
+    #[inline(always)]
+    pub fn data<V: Value>(&self, words: &mut V::Words) -> Signal<V> {
+        Signal { value: V::data(self, words), format: self.format }
+    }
+
+    /// Asks for a word.
+    #[inline(always)]
+    pub fn read<V: Value>(&self, words: &mut V::Words, address: Signal<V>) {
+        V::access(self, words, address, None);
+    }
+
+    /// Asks for a word, and writes one.
+    #[inline(always)]
+    pub fn access<V: Value>(&self, words: &mut V::Words, address: Signal<V>, write: Write<V>) {
+        if V::ELABORATES {
+            let given = write.data.format;
+            assert!(self.format.holds(given), "{} holds {}, which does not hold every {given}", self.name, self.format);
+        }
+        V::access(self, words, address, Some(write));
+    }
+}

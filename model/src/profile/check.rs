@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What a profile must hold for a core to be built from it.
+
+use super::{Profile, ProfileError};
+use crate::format::Format;
+use std::fmt::Display;
+
+type Check = Result<(), ProfileError>;
+
+fn ensure(holds: bool, field: &str, expected: impl Display, got: impl Display) -> Check {
+    let (field, expected, got) = (field.into(), expected.to_string(), got.to_string());
+    if holds { Ok(()) } else { Err(ProfileError::Value { field, expected, got }) }
+}
+
+fn within(field: &str, value: u64, low: u64, high: u64) -> Check {
+    ensure((low..=high).contains(&value), field, format_args!("{low} to {high}"), value)
+}
+
+impl Profile {
+    /// Checks every value against its range, and values against each other.
+    ///
+    /// # Errors
+    /// The first that does not hold, with its key.
+    pub fn check(&self) -> Check {
+        within("pads", self.pads, 1, 256)?;
+        self.check_terminals()?;
+        self.check_slot()?;
+        self.check_formats()
+    }
+
+    fn check_terminals(&self) -> Check {
+        let (x, y) = (&self.terminals.x, &self.terminals.y);
+        within("terminals.x", x.len() as u64, 3, 62)?;
+        ensure(y.len() == x.len(), "terminals.y", format_args!("{} signs, as terminals.x has", x.len()), y.len())?;
+        for (field, signs) in [("terminals.x", x), ("terminals.y", y)] {
+            ensure(
+                signs.iter().all(|sign| (-1..=1).contains(sign)),
+                field,
+                "signs -1, 0 or 1",
+                format_args!("{signs:?}"),
+            )?;
+            ensure(signs.contains(&1) && signs.contains(&-1), field, "both signs", format_args!("{signs:?}"))?;
+        }
+        within("terminals.lost_shift", self.terminals.lost_shift.unsigned_abs().into(), 1, 20)
+    }
+
+    fn check_slot(&self) -> Check {
+        let period = self.carrier.samples_per_period;
+        within("carrier.samples_per_period", period, 3, 1 << 16)?;
+        within("carrier.quarter_address", self.carrier.quarter_address.into(), 2, 16)?;
+        within("slot.open", self.slot.open, 1, 1 << 20)?;
+        within("slot.integrate", self.slot.integrate, 2 * period, 1 << 20)?;
+        let whole = self.slot.integrate % period == 0;
+        ensure(
+            whole,
+            "slot.integrate",
+            format_args!("whole carrier periods of {period} samples"),
+            self.slot.integrate,
+        )?;
+        let demodulator = crate::blocks::demodulator::Demodulator::new(self);
+        let least = demodulator.least_clocks_per_sample();
+        within("clocks_per_sample", self.clocks_per_sample, least, 1 << 16)?;
+        let estimate = crate::blocks::estimator::Estimator::new(self).latency();
+        let blanking = self.slot.blanking() * self.clocks_per_sample;
+        ensure(blanking > estimate, "slot.settle", format_args!("more than {estimate} clocks of blanking"), blanking)
+    }
+
+    fn check_formats(&self) -> Check {
+        let f = &self.formats;
+        for (name, format) in [
+            ("adc", f.adc),
+            ("oscillator", f.oscillator),
+            ("iq", f.iq),
+            ("total", f.total),
+            ("ratio", f.ratio),
+            ("map", f.map),
+        ] {
+            ensure(format.signed, &format!("formats.{name}"), "a signed format", format)?;
+        }
+        for (name, format) in [("adc", f.adc), ("oscillator", f.oscillator), ("map", f.map)] {
+            let fraction = format.integer_bits() == 0 && format.width <= 24;
+            ensure(fraction, &format!("formats.{name}"), "a fraction of at most 24 bits, such as s18.17", format)?;
+        }
+        for (name, format) in [("iq", f.iq), ("total", f.total)] {
+            ensure(format.width <= 30, &format!("formats.{name}"), "at most 30 bits", format)?;
+        }
+        let same_point = f.total.frac == f.iq.frac && f.total.width >= f.iq.width;
+        ensure(same_point, "formats.total", format_args!("the point of iq, {}, and no fewer bits", f.iq), f.total)?;
+        ensure(f.ratio.integer_bits() == 1, "formats.ratio", "one integer bit, such as s20.18", f.ratio)?;
+        self.check_unsigned(f.admittance, "admittance")?;
+        self.check_unsigned(f.capacitance, "capacitance")?;
+        self.check_unsigned(f.mean_square, "mean_square")?;
+        self.check_unsigned(f.square, "square")?;
+        self.check_unsigned(f.force, "force")?;
+        self.check_unsigned(f.capacitance_gain, "capacitance_gain")?;
+        self.check_unsigned(f.force_gain, "force_gain")?;
+        self.check_unsigned(f.map_scale, "map_scale")
+    }
+
+    fn check_unsigned(&self, format: Format, name: &str) -> Check {
+        let holds = !format.signed && format.width <= 28;
+        ensure(holds, &format!("formats.{name}"), "an unsigned format of at most 28 bits", format)
+    }
+}

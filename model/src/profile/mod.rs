@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Profiles: word lengths, counts and timings of a core, at run time. The one place where a width is written.
+//!
+//! A profile is TOML. `small`, `standard` and `fine` are bundled; [`Profile::parse`] reads any other, and nothing needs to
+//! be compiled again.
+
+mod check;
+
+use crate::format::Format;
+use serde::{Deserialize, Serialize};
+
+/// A profile.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Profile {
+    /// What it is called.
+    pub name: String,
+    /// Pads that are served in turn.
+    pub pads: u64,
+    /// Clocks of the core from one ADC sample to the next.
+    pub clocks_per_sample: u64,
+    /// The current sensors.
+    pub terminals: Terminals,
+    /// How a pad's slot is spent.
+    pub slot: Slot,
+    /// The sensing carrier.
+    pub carrier: Carrier,
+    /// Position from ratios.
+    pub map: Map,
+    /// Capacitance from currents.
+    pub capacitance: Capacitance,
+    /// Word formats.
+    pub formats: Formats,
+}
+
+/// The current sensors at the sheet's edge, and where they stand in eqs. 2 and 3.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Terminals {
+    /// The sign of each terminal's current in the numerator of r_x.
+    pub x: Vec<i8>,
+    /// The sign of each terminal's current in the numerator of r_y.
+    pub y: Vec<i8>,
+    /// A terminal is lost when its current is below `2^-lost_shift` of the total.
+    pub lost_shift: i8,
+}
+
+/// How a pad's slot is spent, in ADC samples.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Slot {
+    /// Samples with no pad driven, so that the switch before breaks first.
+    pub open: u64,
+    /// Samples for the new pad to settle.
+    pub settle: u64,
+    /// Samples of the demodulator's window.
+    pub integrate: u64,
+}
+
+/// The sensing carrier, made by the core itself.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Carrier {
+    /// Samples in a period.
+    pub samples_per_period: u64,
+    /// Address bits of the quarter-wave table.
+    pub quarter_address: u8,
+    /// What weighs the samples of a window.
+    pub window: Window,
+}
+
+/// What weighs the samples of a window.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Window {
+    /// (1 − cos) / 2.
+    Hann,
+    /// All alike.
+    Rectangular,
+}
+
+/// The tables from ratios to millimetres and sheet resistance.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Map {
+    /// Address bits of the curves that straighten the edges; a curve has one entry more than `2^edge_address`.
+    pub edge_address: u8,
+    /// Address bits of the curves that even out the spacing.
+    pub spacing_address: u8,
+    /// Address bits of either side of the two-dimensional table.
+    pub table_address: u8,
+}
+
+/// Capacitance from currents.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Capacitance {
+    /// Takes the sheet's resistance out (PHYSICS §2); without it, eq. 6 alone.
+    pub sheet_correction: bool,
+}
+
+/// Word formats. Every other width of the core derives from these.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Formats {
+    /// ADC codes; one is full scale.
+    pub adc: Format,
+    /// Cosine, sine and window.
+    pub oscillator: Format,
+    /// In-phase and quadrature words of a channel; one is full scale.
+    pub iq: Format,
+    /// In-phase and quadrature words of the sum over all terminals.
+    pub total: Format,
+    /// The ratios of eqs. 2 and 3.
+    pub ratio: Format,
+    /// Words of the map's tables; all are fractions.
+    pub map: Format,
+    /// Total current over sensing voltage, the sheet's resistance taken out.
+    pub admittance: Format,
+    /// Picofarads.
+    pub capacitance: Format,
+    /// Mean square of the haptic voltage; one is full scale squared.
+    pub mean_square: Format,
+    /// Intermediate words of the force: square picofarads.
+    pub square: Format,
+    /// Newtons.
+    pub force: Format,
+    /// Calibration: picofarads at an admittance of one.
+    pub capacitance_gain: Format,
+    /// Calibration: newtons per square picofarad at the full haptic mean square.
+    pub force_gain: Format,
+    /// Calibration: table width per ratio.
+    pub map_scale: Format,
+}
+
+/// A profile that cannot be.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ProfileError {
+    /// The text is no profile.
+    #[error("{0}")]
+    Syntax(String),
+    /// A value is out of its range.
+    #[error("{field}: expected {expected}, got {got}")]
+    Value {
+        /// The key.
+        field: String,
+        /// What it may be.
+        expected: String,
+        /// What it is.
+        got: String,
+    },
+    /// No bundled profile has this name.
+    #[error("expected a file or a profile among {bundled}, got \"{name}\"", bundled = BUNDLED.map(|(name, _)| name).join(", "))]
+    Unknown {
+        /// The name.
+        name: String,
+    },
+}
+
+/// The bundled profiles: their names and texts.
+pub const BUNDLED: [(&str, &str); 3] = [
+    ("small", include_str!("small.toml")),
+    ("standard", include_str!("standard.toml")),
+    ("fine", include_str!("fine.toml")),
+];
+
+impl Profile {
+    /// Reads a profile.
+    ///
+    /// # Errors
+    /// Where the text is no profile, or a value is out of its range; the message names line or key.
+    pub fn parse(text: &str) -> Result<Profile, ProfileError> {
+        let profile: Profile = toml::from_str(text).map_err(|error| {
+            let line = error.span().map_or(1, |span| text[..span.start.min(text.len())].lines().count().max(1));
+            ProfileError::Syntax(format!("{line}: {}", error.message().replace('\n', " ")))
+        })?;
+        profile.check()?;
+        Ok(profile)
+    }
+
+    /// A bundled profile.
+    ///
+    /// # Errors
+    /// Where none has the name.
+    pub fn bundled(name: &str) -> Result<Profile, ProfileError> {
+        let found = BUNDLED.iter().find(|(bundled, _)| *bundled == name);
+        Profile::parse(found.ok_or_else(|| ProfileError::Unknown { name: name.into() })?.1)
+    }
+
+    /// All bundled profiles.
+    pub fn all() -> Vec<Profile> {
+        BUNDLED.iter().map(|(_, text)| Profile::parse(text).expect("bundled profiles are tested")).collect()
+    }
+
+    /// Channels that are demodulated: the terminals and the sensing voltage.
+    pub fn demodulated(&self) -> u64 {
+        self.terminals.x.len() as u64 + 1
+    }
+
+    /// ADC channels: the terminals, the sensing voltage and the haptic voltage.
+    pub fn channels(&self) -> usize {
+        self.terminals.x.len() + 2
+    }
+
+    /// The core's clocks in a slot.
+    pub fn slot_clocks(&self) -> u64 {
+        self.slot.samples() * self.clocks_per_sample
+    }
+}
+
+impl Slot {
+    /// Samples of the whole slot.
+    pub fn samples(&self) -> u64 {
+        self.open + self.settle + self.integrate
+    }
+
+    /// Samples before the window.
+    pub fn blanking(&self) -> u64 {
+        self.open + self.settle
+    }
+}
+
+impl Carrier {
+    /// The carrier's frequency.
+    pub fn turns_per_sample(&self) -> f64 {
+        1.0 / self.samples_per_period as f64
+    }
+}
+
+impl Window {
+    /// The mean weight.
+    pub fn mean(self) -> f64 {
+        match self {
+            Window::Hann => 0.5,
+            Window::Rectangular => 1.0,
+        }
+    }
+}
+
+impl Profile {
+    /// The format of the sheet's resistance: a word of the map that is never negative.
+    pub fn sheet(&self) -> Format {
+        let map = self.formats.map;
+        Format::unsigned(map.width - 1, map.frac)
+    }
+
+    /// The format of a position, in millimetres: a word of the map.
+    pub fn position(&self) -> Format {
+        let map = self.formats.map;
+        Format { frac: map.frac - Profile::POSITION_BITS, ..map }
+    }
+
+    /// The full scale of a position is `2^POSITION_BITS` mm.
+    pub const POSITION_BITS: i8 = 9;
+
+    /// Bits by which the demodulator's sums are scaled down, so that a full-scale tone is a little below one.
+    pub fn sum_shift(&self) -> i8 {
+        shift(self.slot.integrate as f64 * self.carrier.window.mean() / 2.0)
+    }
+
+    /// Bits by which the sum of squares is scaled down, so that a full-scale square wave is a little below one.
+    pub fn square_shift(&self) -> i8 {
+        shift(self.slot.integrate as f64 * self.carrier.window.mean())
+    }
+
+    /// What an in-phase word is for a tone at full scale.
+    pub fn tone_gain(&self) -> f64 {
+        self.slot.integrate as f64 * self.carrier.window.mean() / 2.0 * 2f64.powi(-i32::from(self.sum_shift()))
+    }
+
+    /// What the mean square's word is for a constant at full scale.
+    pub fn square_gain(&self) -> f64 {
+        self.slot.integrate as f64 * self.carrier.window.mean() * 2f64.powi(-i32::from(self.square_shift()))
+    }
+}
+
+fn shift(scale: f64) -> i8 {
+    scale.log2().ceil() as i8
+}

@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Signals: what blocks compute with. A signal has a format and a value, and what a value *is* depends on the reading.
+//!
+//! | reading | a value is | gives |
+//! | --- | --- | --- |
+//! | [`Clocked`] | a raw code | the cycle-accurate model, at native speed |
+//! | [`Real`](real::Real) | an `f64`, never rounded | what a signal would be with unlimited word length |
+//! | [`Shadow`](shadow::Shadow) | both, control following the code | the rounding error of every signal |
+//! | [`Range`](range::Range) | an interval of codes | a proof that nothing overflows |
+//! | [`Node`](netlist::Node) | a node of a graph | the netlist that is printed as Verilog |
+//!
+//! Operators are exact and infer their format. Only [`Signal::fit`] narrows, and it names its rounding and its overflow.
+
+mod clocked;
+pub mod netlist;
+mod operators;
+pub mod range;
+pub mod real;
+pub mod shadow;
+
+use crate::block::{Block, Cell, Inputs, Outputs};
+use crate::format::{BIT, Format};
+use crate::memory::{Memory, Write};
+
+/// The value of the clocked reading: a raw code.
+pub type Clocked = i64;
+
+/// What a narrowing does with the bits below the new least significant one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Rounding {
+    /// To the nearest code, ties to the even one.
+    HalfEven,
+    /// Towards minus infinity. Meant, as in a table address: readings without rounding follow it too.
+    Floor,
+    /// There are none: the new format has as many fractional bits.
+    Exact,
+}
+
+/// What a narrowing does with a number beyond the new format.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Overflow {
+    /// Holds it at the rail.
+    Saturate,
+    /// Keeps the low bits, as a phase does.
+    Wrap,
+    /// It cannot happen; the range reading proves it.
+    Never,
+    /// It cannot happen for the reason named, which relates several signals and so is beyond intervals; tests over all
+    /// codes of small widths hold it.
+    Lemma(&'static str),
+}
+
+pub use Overflow::{Lemma, Never, Saturate, Wrap};
+pub use Rounding::{Exact, Floor, HalfEven};
+
+/// A signal: a value, and the format in which it is read.
+#[derive(Debug, Clone, Copy)]
+pub struct Signal<V> {
+    /// What the reading makes of it.
+    pub value: V,
+    /// How its code is read as a number.
+    pub format: Format,
+}
+
+/// One way to read a block. Every operation is told the exact format of its result.
+pub trait Value: Copy + std::fmt::Debug + 'static {
+    /// What a memory holds.
+    type Words: Clone + std::fmt::Debug;
+    /// Whether formats are checked at every register and port as it runs (elsewhere only in debug builds).
+    const ELABORATES: bool = false;
+
+    /// A constant: the number `real`, to the nearest code where the reading has codes.
+    fn literal(real: f64, format: Format) -> Self;
+    /// The sum of two signals.
+    fn add(a: Signal<Self>, b: Signal<Self>, to: Format) -> Self;
+    /// The difference of two signals.
+    fn sub(a: Signal<Self>, b: Signal<Self>, to: Format) -> Self;
+    /// The product of two signals.
+    fn mul(a: Signal<Self>, b: Signal<Self>, to: Format) -> Self;
+    /// The square of a signal, which a reading may know to be positive.
+    #[inline(always)]
+    fn square(a: Signal<Self>, to: Format) -> Self {
+        Self::mul(a, a, to)
+    }
+    /// The magnitude of a signal.
+    fn abs(a: Signal<Self>, to: Format) -> Self;
+    /// The signal in a narrower or wider format.
+    fn fit(a: Signal<Self>, to: Format, rounding: Rounding, overflow: Overflow) -> Self;
+    /// The same code with its point moved: the number times `2^by`.
+    fn scale(a: Self, by: i8) -> Self;
+    /// The `to.width` bits of the code from bit `low` up, as an unsigned integer.
+    fn bits(a: Signal<Self>, low: u8, to: Format) -> Self;
+    /// The codes of two unsigned integers, side by side.
+    fn concat(high: Signal<Self>, low: Signal<Self>, to: Format) -> Self;
+    /// Whether `a < b`.
+    fn less(a: Signal<Self>, b: Signal<Self>) -> Self;
+    /// Whether `a = b`.
+    fn equal(a: Signal<Self>, b: Signal<Self>) -> Self;
+    /// One bit: both.
+    fn and(a: Self, b: Self) -> Self;
+    /// One bit: either.
+    fn or(a: Self, b: Self) -> Self;
+    /// One bit: the other.
+    fn not(a: Self) -> Self;
+    /// `a` where the bit is set, else `b`.
+    fn select(bit: Self, a: Signal<Self>, b: Signal<Self>, to: Format) -> Self;
+
+    /// In readings without rounding: what `ideal` makes of the operands. In all others: `a` itself. With it a block that
+    /// approximates (a table) or works digit by digit (a division) says what it approximates.
+    #[inline(always)]
+    fn ideally(a: Self, _operands: &[Signal<Self>], _ideal: fn(&[f64]) -> f64) -> Self {
+        a
+    }
+
+    /// The raw code given, in a format.
+    #[inline(always)]
+    fn raw(code: i64, format: Format) -> Self {
+        Self::literal(format.real(code), format)
+    }
+
+    /// The code that a signal has, in readings that have one; the nearest in others.
+    fn code(a: Signal<Self>) -> i64;
+
+    /// What a bit is, where the reading knows.
+    fn known(bit: Self) -> Option<bool>;
+
+    /// Whether a block may leave this clock out because `busy` is not set.
+    fn idle(_busy: Self) -> bool {
+        false
+    }
+
+    /// The words of a memory at reset, and its read register.
+    fn words(memory: &Memory) -> Self::Words;
+    /// What the read register of a memory holds.
+    fn data(memory: &Memory, words: &mut Self::Words) -> Self;
+    /// One clock of a memory: reads the old word at `address` into the read register, and writes.
+    fn access(memory: &Memory, words: &mut Self::Words, address: Signal<Self>, write: Option<Write<Self>>);
+
+    /// One clock of a block within another; the netlist reading makes it an instance of a module.
+    #[inline(always)]
+    fn instance<B: Block>(
+        block: &B,
+        _name: &'static str,
+        cell: &mut Cell<B, Self>,
+        inputs: Inputs<B, Signal<Self>>,
+    ) -> Outputs<B, Signal<Self>> {
+        block.clock(cell, inputs)
+    }
+
+    /// A name for a signal within a block, which the netlist reading prints.
+    #[inline(always)]
+    fn name(a: Signal<Self>, _name: &'static str) -> Signal<Self> {
+        a
+    }
+}
+
+/// An unsigned integer constant, in the narrowest format that holds it.
+#[inline(always)]
+pub fn int<V: Value>(value: u64) -> Signal<V> {
+    constant(value as f64, Format::counter(value))
+}
+
+/// A constant in a stated format.
+#[inline(always)]
+pub fn constant<V: Value>(real: f64, format: Format) -> Signal<V> {
+    Signal { value: V::literal(real, format), format }
+}
+
+/// A constant bit.
+#[inline(always)]
+pub fn bit<V: Value>(set: bool) -> Signal<V> {
+    constant(f64::from(u8::from(set)), BIT)
+}
+
+impl<V: Value> Signal<V> {
+    /// The signal in the format `to`; what is lost on the way is named.
+    ///
+    /// # Panics
+    /// Where `rounding` is [`Exact`] and `to` has fewer fractional bits.
+    #[inline(always)]
+    pub fn fit(self, to: Format, rounding: Rounding, overflow: Overflow) -> Self {
+        debug_assert!(rounding != Exact || to.frac >= self.format.frac, "{} → {to} is not exact", self.format);
+        if V::ELABORATES {
+            assert!(rounding != Exact || to.frac >= self.format.frac, "{} → {to} is not exact", self.format);
+        }
+        Signal { value: V::fit(self, to, rounding, overflow), format: to }
+    }
+
+    /// As [`Signal::fit`] with saturation, and a bit that says whether it held the number at a rail.
+    #[inline(always)]
+    pub fn saturate(self, to: Format, rounding: Rounding) -> (Self, Self) {
+        let integer = self.format.integer_bits() + 1;
+        let signed = self.format.signed;
+        let width = (integer + i16::from(to.frac) + i16::from(signed)).max(i16::from(to.width)) as u8;
+        let rounded = self.fit(Format { signed, width, frac: to.frac }, rounding, Never);
+        let held = rounded.fit(to, Exact, Saturate);
+        (held, !held.equals(rounded))
+    }
+
+    /// The same bits with the point moved: the number times `2^by`.
+    #[inline(always)]
+    pub fn scaled(self, by: i8) -> Self {
+        let format = Format { frac: self.format.frac - by, ..self.format };
+        Signal { value: V::scale(self.value, by), format }
+    }
+
+    /// The code as an integer: the number times `2^frac`.
+    #[inline(always)]
+    pub fn integer(self) -> Self {
+        self.scaled(self.format.frac)
+    }
+
+    /// The magnitude; that of the most negative code too.
+    #[inline(always)]
+    pub fn abs(self) -> Self {
+        let to = Format::unsigned(self.format.width, self.format.frac);
+        Signal { value: V::abs(self, to), format: to }
+    }
+
+    /// The square.
+    #[inline(always)]
+    pub fn square(self) -> Self {
+        let product = self.format.product(self.format);
+        let to = Format::unsigned(product.width - u8::from(self.format.signed), product.frac);
+        Signal { value: V::square(self, to), format: to }
+    }
+
+    /// `width` bits of the code from bit `low` up, as an unsigned integer.
+    #[inline(always)]
+    pub fn bits(self, low: u8, width: u8) -> Self {
+        let to = Format::unsigned(width, 0);
+        Signal { value: V::bits(self, low, to), format: to }
+    }
+
+    /// The most significant bit.
+    #[inline(always)]
+    pub fn msb(self) -> Self {
+        self.bits(self.format.width - 1, 1)
+    }
+
+    /// This unsigned integer, with `low` to the right of it.
+    #[inline(always)]
+    pub fn concat(self, low: Self) -> Self {
+        let to = Format::unsigned(self.format.width + low.format.width, 0);
+        Signal { value: V::concat(self, low, to), format: to }
+    }
+
+    /// Whether this is less than `other`.
+    #[inline(always)]
+    pub fn less_than(self, other: Self) -> Self {
+        Signal { value: V::less(self, other), format: BIT }
+    }
+
+    /// Whether this is at least `other`.
+    #[inline(always)]
+    pub fn at_least(self, other: Self) -> Self {
+        !self.less_than(other)
+    }
+
+    /// Whether this equals `other`.
+    #[inline(always)]
+    pub fn equals(self, other: Self) -> Self {
+        Signal { value: V::equal(self, other), format: BIT }
+    }
+
+    /// Whether this equals the integer `other`.
+    #[inline(always)]
+    pub fn is(self, other: u64) -> Self {
+        self.equals(int(other))
+    }
+
+    /// `a` where this bit is set, else `b`.
+    #[inline(always)]
+    pub fn select(self, a: Self, b: Self) -> Self {
+        debug_assert!(self.format == BIT);
+        let to = a.format.join(b.format);
+        Signal { value: V::select(self.value, a, b, to), format: to }
+    }
+
+    /// See [`Value::ideally`].
+    #[inline(always)]
+    pub fn ideally(self, operands: &[Self], ideal: fn(&[f64]) -> f64) -> Self {
+        Signal { value: V::ideally(self.value, operands, ideal), ..self }
+    }
+
+    /// Whether a block may leave this clock out, this bit (started or busy) not being set.
+    #[inline(always)]
+    pub fn idle(self) -> bool {
+        V::idle(self.value)
+    }
+
+    /// Names the signal, for those who read the netlist.
+    #[inline(always)]
+    pub fn named(self, name: &'static str) -> Self {
+        V::name(self, name)
+    }
+}
