@@ -11,6 +11,7 @@
 //!
 //! The plant knows no bit widths of the core and writes no file.
 
+mod case;
 mod course;
 mod criterion;
 mod device;
@@ -24,10 +25,17 @@ mod plant;
 mod random;
 mod rotor;
 mod scene;
+mod timing;
+mod truth;
+mod variant;
 
+pub use case::Case;
 pub use criterion::{Criterion, Measure, Per, Quantity, Where};
 pub use device::{CHANNELS, Device, HAPTIC, SENSE, TERMINALS};
+pub use effects::EffectCost;
 pub use error::{Place, SceneError};
 pub use num_complex::Complex64 as Complex;
-pub use plant::{EffectCost, MapPoint, Plant, Timing, Truth};
-pub use scene::{Case, Figure, Record, Scene};
+pub use plant::Plant;
+pub use scene::{Figure, Record, Scene};
+pub use timing::Timing;
+pub use truth::{MapPoint, Truth};

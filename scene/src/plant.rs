@@ -6,92 +6,18 @@
 //! slots in rising order.
 
 use std::ops::Range;
-use std::time::Instant;
 
 use num_complex::Complex64;
 
+use crate::case::{Case, Length};
 use crate::device::{CHANNELS, Device};
-use crate::effects::{ChannelEffect, Effect, Pad, Phasors, Run, Setting};
+use crate::effects::{EffectCost, Effects, Pad, Phasors, Run, Setting};
 use crate::error::{Place, SceneError};
 use crate::pad::resting;
 use crate::path::raster;
-use crate::scene::{Case, Length, Scene};
-
-/// How the core divides its time, from its profile.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Timing {
-    /// Pads that the core can serve.
-    pub pads: usize,
-    /// ADC samples of a slot.
-    pub slot_samples: usize,
-    /// First sample of the integration window within the slot.
-    pub window_start: usize,
-    /// Samples of the integration window.
-    pub window_samples: usize,
-    /// ADC samples per carrier period.
-    pub samples_per_period: f64,
-}
-
-/// The plant in one slot, at the middle of its integration window.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Truth {
-    /// Time since the start of the case, s.
-    pub time_s: f64,
-    /// The pad that the slot serves.
-    pub pad: usize,
-    /// Point of the sweep, 0 where nothing is swept.
-    pub point: usize,
-    /// Points that differ in position alone share a group.
-    pub group: usize,
-    /// Eq. 2 with the true currents.
-    pub r_x: f64,
-    /// Eq. 3 with the true currents.
-    pub r_y: f64,
-    /// Position, mm right of the sheet's centre.
-    pub x_mm: f64,
-    /// Position, mm above the sheet's centre.
-    pub y_mm: f64,
-    /// Capacitance between pad and sheet, pF.
-    pub capacitance_pf: f64,
-    /// Resistance R_p of the sheet at the pad, Ω.
-    pub sheet_ohm: f64,
-    /// Haptic voltage at the pad, V rms.
-    pub haptic_v_rms: f64,
-    /// Haptic force, N.
-    pub force_n: f64,
-    /// Direction of the push, eq. 10; 0 where no hand pushes.
-    pub direction: f64,
-    /// Load on the pad, g.
-    pub load_g: f64,
-}
-
-/// A place of the calibration map.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct MapPoint {
-    /// Position, mm right of the sheet's centre.
-    pub x_mm: f64,
-    /// Position, mm above the sheet's centre.
-    pub y_mm: f64,
-    /// Eq. 2.
-    pub r_x: f64,
-    /// Eq. 3.
-    pub r_y: f64,
-    /// Resistance R_p of the sheet there, Ω.
-    pub sheet_ohm: f64,
-}
-
-/// What an effect has cost so far.
-#[derive(Clone, Debug, PartialEq)]
-pub struct EffectCost {
-    /// Its table, or table and key.
-    pub name: &'static str,
-    /// Its rung.
-    pub rung: String,
-    /// Wall time, s.
-    pub seconds: f64,
-    /// How often it was evaluated: slots, or runs of samples.
-    pub evaluations: u64,
-}
+use crate::scene::Scene;
+use crate::timing::Timing;
+use crate::truth::{MapPoint, Truth, ratios};
 
 /// One case of a scene at work.
 pub struct Plant {
@@ -100,28 +26,9 @@ pub struct Plant {
     timing: Timing,
     seed: u64,
     index: usize,
-    effects: Vec<Running>,
+    effects: Effects,
     /// The slot last asked for, so that truth, phasors and samples of a slot are of one evaluation.
     now: Option<(usize, Pad)>,
-}
-
-struct Running {
-    effect: Effect,
-    cost: EffectCost,
-}
-
-impl Running {
-    /// Runs `work` on the effect and books its time.
-    fn timed(&mut self, work: impl FnOnce(&mut Effect)) {
-        let start = Instant::now();
-        work(&mut self.effect);
-        self.cost.seconds += start.elapsed().as_secs_f64();
-        self.cost.evaluations += 1;
-    }
-
-    fn on_pad(&self) -> bool {
-        matches!(self.effect, Effect::Pad(_))
-    }
 }
 
 impl Plant {
@@ -144,26 +51,16 @@ impl Plant {
         timing.check().map_err(|message| fail("profile", message))?;
         let sample_rate_hz = chosen.device.carrier_hz * timing.samples_per_period;
         let device = Device { sample_rate_hz, ..chosen.device.clone() };
-        let mut plant = Plant {
+        let setting = Setting { device: &device, timing, seed: scene.seed, case };
+        Ok(Plant {
+            effects: Effects::build(&chosen.effects, &setting),
             case: chosen.clone(),
             device,
             timing: timing.clone(),
             seed: scene.seed,
             index: case,
-            effects: Vec::new(),
             now: None,
-        };
-        plant.effects = plant.build();
-        Ok(plant)
-    }
-
-    fn build(&self) -> Vec<Running> {
-        let setting = Setting { device: &self.device, timing: &self.timing, seed: self.seed, case: self.index };
-        let running = |spec: &crate::effects::Spec| Running {
-            effect: (spec.build)(&setting),
-            cost: EffectCost { name: spec.name, rung: spec.rung.clone(), seconds: 0.0, evaluations: 0 },
-        };
-        self.case.effects.iter().map(running).collect()
+        })
     }
 
     /// Finished slots of this case.
@@ -193,7 +90,7 @@ impl Plant {
 
     /// What each effect has cost so far, in the order in which they act.
     pub fn effects(&self) -> Vec<EffectCost> {
-        self.effects.iter().map(|running| running.cost.clone()).collect()
+        self.effects.costs()
     }
 
     /// The plant in a slot.
@@ -227,7 +124,7 @@ impl Plant {
     pub fn phasors(&mut self, slot: usize, out: &mut [Complex64]) -> f64 {
         let pad = self.pad(slot);
         let mut phasors = Phasors { slot: slot as u64, ..Phasors::default() };
-        self.channel_effects(|effect| effect.phasors(&pad, &mut phasors));
+        self.effects.on_channels(|effect| effect.phasors(&pad, &mut phasors));
         out[..CHANNELS - 1].copy_from_slice(&phasors.carrier);
         phasors.haptic_mean_square
     }
@@ -244,18 +141,19 @@ impl Plant {
         out.resize(start + range.len() * CHANNELS, 0.0);
         let run = Run { slot, range, slot_start };
         let rows = out[start..].as_chunks_mut().0;
-        self.channel_effects(|effect| effect.samples(&pad, &run, rows));
+        self.effects.on_channels(|effect| effect.samples(&pad, &run, rows));
         out[start..].iter_mut().for_each(|sample| *sample = sample.clamp(-1.0, 1.0));
     }
 
     /// A raster of places with what the nominal device reads there: no noise, no mismatch, one pad alone and at rest.
     pub fn calibration_map(&self, nx: usize, ny: usize, margin_mm: f64) -> Vec<MapPoint> {
-        let mut effects = self.build();
+        let setting = Setting { device: &self.device, timing: &self.timing, seed: self.seed, case: self.index };
+        let mut effects = Effects::build(&self.case.effects, &setting);
         let places = raster(nx, ny, margin_mm, &self.device).into_iter();
         places
             .map(|place| {
                 let mut pad = resting(place, &self.device);
-                act(&mut effects, &mut pad);
+                effects.on_pad(&mut pad);
                 let (r_x, r_y) = ratios(&pad.split);
                 MapPoint { x_mm: place[0], y_mm: place[1], r_x, r_y, sheet_ohm: pad.sheet_ohm }
             })
@@ -279,50 +177,8 @@ impl Plant {
         let time_s = ((slot * self.timing.slot_samples) as f64 + middle) / self.device.sample_rate_hz;
         let index = slot % self.case.pads.len();
         let mut pad = self.case.pads[index].at(index, self.point(slot), time_s, &self.device);
-        act(&mut self.effects, &mut pad);
+        self.effects.on_pad(&mut pad);
         self.now = Some((slot, pad.clone()));
         pad
     }
-
-    fn channel_effects(&mut self, mut work: impl FnMut(&mut dyn ChannelEffect)) {
-        for running in self.effects.iter_mut().filter(|running| !running.on_pad()) {
-            running.timed(|effect| {
-                if let Effect::Channels(effect) = effect {
-                    work(effect.as_mut());
-                }
-            });
-        }
-    }
-}
-
-impl Timing {
-    fn check(&self) -> Result<(), String> {
-        let window_end = self.window_start + self.window_samples;
-        let periods = self.samples_per_period;
-        let sound = self.window_samples > 0 && window_end <= self.slot_samples && periods.is_finite() && periods > 2.0;
-        if sound {
-            Ok(())
-        } else {
-            Err(format!("expected a window within the slot and over 2 samples a period, got {self:?}"))
-        }
-    }
-}
-
-fn act(effects: &mut [Running], pad: &mut Pad) {
-    for running in effects.iter_mut().filter(|running| running.on_pad()) {
-        running.timed(|effect| {
-            if let Effect::Pad(effect) = effect {
-                effect.act(pad);
-            }
-        });
-    }
-}
-
-/// Eqs. 2 and 3, from the corners' shares.
-fn ratios(split: &[f64]) -> (f64, f64) {
-    let [top_left, bottom_left, bottom_right, top_right] = [split[0], split[1], split[2], split[3]];
-    let sum = top_left + bottom_left + bottom_right + top_right;
-    let right = bottom_right + top_right - top_left - bottom_left;
-    let up = top_left + top_right - bottom_left - bottom_right;
-    (right / sum, up / sum)
 }

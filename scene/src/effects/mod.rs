@@ -8,18 +8,22 @@
 pub(crate) mod carrier;
 mod friction;
 mod gap;
+mod running;
 mod sensor;
 pub(crate) mod sheet;
+
+pub use running::EffectCost;
+pub(crate) use running::Effects;
 
 use std::ops::Range;
 use std::sync::Arc;
 
 use num_complex::Complex64;
 
-use crate::Timing;
 use crate::device::{CHANNELS, Device, TERMINALS};
 use crate::error::SceneError;
 use crate::format::Table;
+use crate::timing::Timing;
 
 /// Every effect, in the order in which they act.
 pub(crate) const EFFECTS: &[Reader] = &[

@@ -3,6 +3,7 @@
 
 mod document;
 mod limits;
+mod lists;
 mod overrides;
 mod table;
 

@@ -8,7 +8,7 @@ use super::document::join;
 use super::{Limits, Node, Value};
 use crate::error::{Place, SceneError};
 
-type Result<T> = std::result::Result<T, SceneError>;
+pub(super) type Result<T> = std::result::Result<T, SceneError>;
 
 /// A TOML table that knows its dotted path, and which of its keys have been read.
 #[derive(Clone, Debug)]
@@ -98,7 +98,7 @@ impl Table {
         SceneError::new(place.clone(), if key.is_empty() { self.path.clone() } else { join(&self.path, key) }, message)
     }
 
-    fn wrong<T>(&self, key: &str, expected: impl std::fmt::Display, got: &Value) -> Result<T> {
+    pub(super) fn wrong<T>(&self, key: &str, expected: impl std::fmt::Display, got: &Value) -> Result<T> {
         Err(self.error(key, format!("expected {expected}, got {got}")))
     }
 
@@ -112,17 +112,6 @@ impl Table {
             None => Ok(None),
             Some(Value::Text(text)) => Ok(Some(text.clone())),
             Some(other) => self.wrong(key, "text", other),
-        }
-    }
-
-    /// A list of texts.
-    pub fn texts(&self, key: &'static str) -> Result<Option<Vec<String>>> {
-        let Some(node) = self.get(key) else { return Ok(None) };
-        let text = |item: &Node| if let Value::Text(text) = &item.value { Some(text.clone()) } else { None };
-        let texts = if let Value::List(list) = &node.value { list.iter().map(text).collect() } else { None };
-        match texts {
-            Some(texts) => Ok(Some(texts)),
-            None => self.wrong(key, "a list of texts", &node.value),
         }
     }
 
@@ -166,44 +155,6 @@ impl Table {
         }
     }
 
-    /// A list of numbers in a stated range, not empty.
-    pub fn numbers(&self, key: &'static str, limits: Limits) -> Result<Option<Vec<f64>>> {
-        let Some(node) = self.get(key) else { return Ok(None) };
-        let list = match &node.value {
-            Value::List(list) if !list.is_empty() => list,
-            other => return self.wrong(key, format_args!("a list, each {limits}"), other),
-        };
-        let number = |item: &Node| match item.value.number().filter(|number| limits.holds(*number)) {
-            Some(number) => Ok(number),
-            None => self.wrong(key, format_args!("a list, each {limits}"), &item.value),
-        };
-        list.iter().map(number).collect::<Result<_>>().map(Some)
-    }
-
-    /// Two numbers, `[x, y]`.
-    pub fn pair(&self, key: &'static str, limits: Limits) -> Result<Option<[f64; 2]>> {
-        let Some(numbers) = self.numbers(key, limits)? else { return Ok(None) };
-        let pair = numbers.as_slice().try_into();
-        pair.map(Some).map_err(|_| self.error(key, format!("expected two numbers, got {}", numbers.len())))
-    }
-
-    /// A list of pairs, not empty.
-    pub fn pairs(&self, key: &'static str) -> Result<Option<Vec<[f64; 2]>>> {
-        let Some(node) = self.get(key) else { return Ok(None) };
-        let pair = |item: &Node| match &item.value {
-            Value::List(list) if list.len() == 2 => Some([list[0].value.number()?, list[1].value.number()?]),
-            _ => None,
-        };
-        let pairs = match &node.value {
-            Value::List(list) if !list.is_empty() => list.iter().map(pair).collect::<Option<Vec<_>>>(),
-            _ => None,
-        };
-        match pairs.filter(|pairs| pairs.iter().flatten().all(|number| number.is_finite())) {
-            Some(pairs) => Ok(Some(pairs)),
-            None => self.wrong(key, "a list of pairs of numbers", &node.value),
-        }
-    }
-
     /// The table at `key`; `false` counts as absent.
     pub fn table(&self, key: &'static str) -> Result<Option<&Table>> {
         match self.get(key).map(|node| &node.value) {
@@ -211,23 +162,6 @@ impl Table {
             Some(Value::Table(table)) => Ok(Some(table)),
             Some(other) => self.wrong(key, "a table", other),
         }
-    }
-
-    /// The list of tables at `key`, `[[key]]`; empty where there is none.
-    pub fn tables(&self, key: &'static str) -> Result<Vec<&Table>> {
-        let Some(node) = self.get(key) else { return Ok(Vec::new()) };
-        let Value::List(list) = &node.value else {
-            return self.wrong(key, format_args!("tables, each headed [[{key}]]"), &node.value);
-        };
-        let table = |item: &'_ Node| match &item.value {
-            Value::Table(_) => Ok(()),
-            other => self.wrong(key, format_args!("tables, each headed [[{key}]]"), other),
-        };
-        list.iter().try_for_each(table)?;
-        Ok(list
-            .iter()
-            .filter_map(|item| if let Value::Table(table) = &item.value { Some(table) } else { None })
-            .collect())
     }
 
     /// The first key, by line, that nobody asked for is an error; so in every table below that somebody read.

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! One variant of a scene, read: the device, what its pads do, which effects are on and how long it lasts.
+
+use crate::device::Device;
+use crate::effects::{EFFECTS, Spec, carrier};
+use crate::error::SceneError;
+use crate::format::{Limits, Table};
+use crate::pad::PadPlan;
+
+/// The most pads of a scene.
+const MOST_PADS: usize = 16;
+
+/// One variant of a scene.
+#[derive(Clone)]
+pub struct Case {
+    /// The case's name, `main` for a scene without cases.
+    pub name: String,
+    /// The device in this case; its sample rate is not a number until a plant is built for a profile.
+    pub device: Device,
+    pub(crate) pads: Vec<PadPlan>,
+    pub(crate) effects: Vec<Spec>,
+    pub(crate) length: Length,
+}
+
+/// How long a case lasts.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Length {
+    Sweep { points: usize, dwell_slots: usize },
+    Time { duration_s: f64 },
+}
+
+impl std::fmt::Debug for Case {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let effects: Vec<_> = self.effects.iter().map(|effect| (effect.name, &effect.rung)).collect();
+        f.debug_struct("Case").field("name", &self.name).field("pads", &self.pads).field("effects", &effects).finish()
+    }
+}
+
+impl Case {
+    /// Names of the pads, in the order of their slots.
+    pub fn pad_names(&self) -> Vec<&str> {
+        self.pads.iter().map(|pad| pad.name.as_str()).collect()
+    }
+
+    /// The effects that are on, with their rungs.
+    pub fn effects(&self) -> Vec<(&'static str, &str)> {
+        self.effects.iter().map(|effect| (effect.name, effect.rung.as_str())).collect()
+    }
+
+    /// Whether the scene wants the float core to demodulate samples too, carrier rung `samples`.
+    pub fn sampled(&self) -> bool {
+        self.effects.iter().any(|effect| effect.name == "carrier" && effect.rung == carrier::SAMPLES)
+    }
+
+    pub(crate) fn read(root: &Table, name: &str) -> Result<Case, SceneError> {
+        let device = Device::read(root)?;
+        let effects: Vec<Spec> =
+            EFFECTS.iter().filter_map(|read| read(root, &device).transpose()).collect::<Result<_, _>>()?;
+        let has_gap = effects.iter().any(|effect| effect.name == "gap");
+        let tables = root.tables("pad")?;
+        if tables.is_empty() || tables.len() > MOST_PADS {
+            return Err(
+                root.error("pad", format!("expected 1 to {MOST_PADS} tables headed [[pad]], got {}", tables.len()))
+            );
+        }
+        let plan = |(index, table): (usize, &&Table)| PadPlan::read(table, index, &device, has_gap);
+        let pads = tables.iter().enumerate().map(plan).collect::<Result<Vec<_>, _>>()?;
+        Ok(Case { name: name.to_string(), length: Length::read(root, &pads)?, device, pads, effects })
+    }
+}
+
+impl Length {
+    fn read(root: &Table, pads: &[PadPlan]) -> Result<Length, SceneError> {
+        let duration_s = root.number("duration_s", Limits::above(0.0, 1e5))?;
+        let dwell = root.whole("dwell_slots", 1, 1_000_000)?;
+        let points = pads.iter().map(PadPlan::points).max().unwrap_or(1);
+        match (duration_s, dwell) {
+            (Some(duration_s), None) if points == 1 => Ok(Length::Time { duration_s }),
+            (Some(_), None) => Err(root.error("duration_s", "expected none, since the sweep decides the duration")),
+            (Some(_), Some(_)) => Err(root.error("dwell_slots", "expected either this or duration_s")),
+            (None, None) if pads.iter().any(PadPlan::moves) && points == 1 => {
+                Err(root
+                    .error("duration_s", "expected a number above 0, since a pad changes over time, but it is missing"))
+            }
+            (None, dwell) => Ok(Length::Sweep { points, dwell_slots: dwell.unwrap_or(1) as usize }),
+        }
+    }
+}

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What the plant tells of itself: its state in a slot, and the map that a calibration starts from.
+
+/// The plant in one slot, at the middle of its integration window.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Truth {
+    /// Time since the start of the case, s.
+    pub time_s: f64,
+    /// The pad that the slot serves.
+    pub pad: usize,
+    /// Point of the sweep, 0 where nothing is swept.
+    pub point: usize,
+    /// Points that differ in position alone share a group.
+    pub group: usize,
+    /// Eq. 2 with the true currents.
+    pub r_x: f64,
+    /// Eq. 3 with the true currents.
+    pub r_y: f64,
+    /// Position, mm right of the sheet's centre.
+    pub x_mm: f64,
+    /// Position, mm above the sheet's centre.
+    pub y_mm: f64,
+    /// Capacitance between pad and sheet, pF.
+    pub capacitance_pf: f64,
+    /// Resistance R_p of the sheet at the pad, Ω.
+    pub sheet_ohm: f64,
+    /// Haptic voltage at the pad, V rms.
+    pub haptic_v_rms: f64,
+    /// Haptic force, N.
+    pub force_n: f64,
+    /// Direction of the push, eq. 10; 0 where no hand pushes.
+    pub direction: f64,
+    /// Load on the pad, g.
+    pub load_g: f64,
+}
+
+/// A place of the calibration map.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MapPoint {
+    /// Position, mm right of the sheet's centre.
+    pub x_mm: f64,
+    /// Position, mm above the sheet's centre.
+    pub y_mm: f64,
+    /// Eq. 2.
+    pub r_x: f64,
+    /// Eq. 3.
+    pub r_y: f64,
+    /// Resistance R_p of the sheet there, Ω.
+    pub sheet_ohm: f64,
+}
+
+/// Eqs. 2 and 3, from the corners' shares.
+pub(crate) fn ratios(split: &[f64]) -> (f64, f64) {
+    let [top_left, bottom_left, bottom_right, top_right] = [split[0], split[1], split[2], split[3]];
+    let sum = top_left + bottom_left + bottom_right + top_right;
+    let right = bottom_right + top_right - top_left - bottom_left;
+    let up = top_left + top_right - bottom_left - bottom_right;
+    (right / sum, up / sum)
+}
