@@ -1,2 +1,4 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Placeholder.
+//! The `hapticore` command as a library, so that tests can run it whole.
+
+pub mod record;

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What a run leaves: rows, criteria, effects. Everything written (CSV, JSON, HTML, the terminal's tables) is made from it.
+
+use serde::Serialize;
+
+/// The quantities of a slot, in physical units; the columns of `frames.csv` from `r_x` on.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+pub struct Quantities {
+    /// Eq. 2.
+    pub r_x: f64,
+    /// Eq. 3.
+    pub r_y: f64,
+    /// From the sheet's middle, along the long edges.
+    pub x_mm: f64,
+    /// From the sheet's middle, along the short edges.
+    pub y_mm: f64,
+    /// The pad's capacitance.
+    pub capacitance_pf: f64,
+    /// The sheet's resistance at the pad.
+    pub sheet_ohm: f64,
+    /// The haptic voltage.
+    pub haptic_v_rms: f64,
+    /// The haptic force.
+    pub force_n: f64,
+    /// The direction of the user's push; zero where nothing measures it.
+    pub direction: f64,
+}
+
+/// A finished slot.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Row {
+    /// Which case of the scene.
+    pub case: usize,
+    /// The middle of the slot's window, counted on over the cases.
+    pub time_s: f64,
+    /// The pad.
+    pub pad: usize,
+    /// What the core says.
+    pub measured: Quantities,
+    /// Names of the flags that are set, joined by `+`.
+    pub flags: String,
+    /// What the plant knows, where there is one.
+    pub truth: Option<Truth>,
+    /// The floating-point reference on the same samples, and eq. 6 alone, where they were asked for.
+    pub reference: Option<Reference>,
+}
+
+/// What the plant knows of a slot.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Truth {
+    /// The quantities.
+    pub quantities: Quantities,
+    /// The load on the pad.
+    pub load_g: f64,
+    /// The point of the sweep, the same for all slots at one place and setting.
+    pub point: usize,
+    /// The group that the slot belongs to: all settings but the position.
+    pub group: usize,
+}
+
+/// What the floating-point reference says of a slot.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Reference {
+    /// The quantities.
+    pub quantities: Quantities,
+    /// The capacitance by eq. 6 alone.
+    pub capacitance_eq6_pf: f64,
+    /// The force from it.
+    pub force_eq6_n: f64,
+}
+
+/// A criterion of the scene and what was measured.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Criterion {
+    /// Its name.
+    pub name: String,
+    /// What was measured, in `unit`.
+    pub measured: f64,
+    /// What it may be at most.
+    pub limit: f64,
+    /// Whether it holds.
+    pub pass: bool,
+    /// The unit of both.
+    pub unit: String,
+    /// Something to compare with: what it is (eq. 6 alone, an affine fit) and its value in `unit`.
+    pub beside: Option<(String, f64)>,
+}
+
+/// An effect of the scene and what it cost.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Effect {
+    /// Its name.
+    pub name: String,
+    /// How exactly it was simulated.
+    pub rung: String,
+    /// What it took.
+    pub seconds: f64,
+}
+
+/// The largest rounding error of a signal, from the shadow reading.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SignalError {
+    /// The signal, with its instances: `estimator.force.force`.
+    pub signal: String,
+    /// Its format: `u20.17`.
+    pub format: String,
+    /// The largest difference from the signal without rounding, in its own unit.
+    pub max_error: f64,
+    /// The same in codes of its format.
+    pub max_codes: f64,
+}
+
+/// A whole run.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Record {
+    /// The scene's or capture's name.
+    pub scene: String,
+    /// Its title.
+    pub title: String,
+    /// What it is about.
+    pub summary: String,
+    /// Which figures to draw: `fig3`, `fig4`, `fig6`, `hockey`; any other gets the general ones.
+    pub figure: Option<String>,
+    /// The profile's name.
+    pub profile: String,
+    /// `float`, `fixed` or `clock`.
+    pub fidelity: String,
+    /// The names of the cases.
+    pub cases: Vec<String>,
+    /// The names of the pads.
+    pub pads: Vec<String>,
+    /// The effects that were on.
+    pub effects: Vec<Effect>,
+    /// The criteria.
+    pub criteria: Vec<Criterion>,
+    /// Rounding errors by signal, where they were asked for.
+    pub errors: Vec<SignalError>,
+    /// Device time.
+    pub simulated_seconds: f64,
+    /// Wall time.
+    pub wall_seconds: f64,
+    /// The slots.
+    #[serde(skip)]
+    pub rows: Vec<Row>,
+}
