@@ -64,7 +64,7 @@ impl Device {
             None => Ok(default),
         };
         let pad_diameter_mm = number("device", "pad_diameter_mm", Limits::POSITIVE, 30.0)?;
-        let smallest = Limits::above(pad_diameter_mm, 1e5);
+        let smallest = Limits::above(pad_diameter_mm, 1e4);
         let mu = number("device", "mu", Limits::above(0.0, 10.0), 0.12)?;
         let carrier_hz = number("carrier", "frequency_hz", Limits::POSITIVE, 100e3)?;
         let pad_area_m2 = PI / 4.0 * (pad_diameter_mm * 1e-3).powi(2);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The bundled scenes load, run and stay on the sheet.
 
-use hapticore_scene::{Plant, Scene, Timing, Truth, gallery};
+use std::collections::BTreeMap;
+
+use hapticore_scene::{Complex, Plant, Scene, TERMINALS, Timing, Truth, gallery};
 
 fn timing() -> Timing {
-    Timing { pads: 4, slot_samples: 256, window_start: 56, window_samples: 200, samples_per_period: 10.0 }
+    Timing { pads: 4, slot_samples: 1700, window_start: 700, window_samples: 1000, samples_per_period: 10.0 }
 }
 
 #[test]
@@ -20,8 +22,8 @@ fn every_bundled_scene_runs() {
                 let truth = plant.truth(slot);
                 assert!(truth.force_n.is_finite() && truth.capacitance_pf > 100.0);
                 let mut samples = Vec::new();
-                plant.samples(slot, 56..256, &mut samples);
-                assert_eq!(samples.len(), 200 * plant.channels());
+                plant.samples(slot, 700..1700, &mut samples);
+                assert_eq!(samples.len(), 1000 * plant.channels());
                 assert!(samples.iter().all(|sample| sample.abs() < 0.99), "{name} clips");
             }
         }
@@ -41,7 +43,6 @@ fn fig6_eq_8_holds_within_0_1_n_at_both_loads_with_one_k() {
     let k = points.iter().map(|(square, force)| square * force).sum::<f64>()
         / points.iter().map(|(s, _)| s * s).sum::<f64>();
     let worst = points.iter().map(|(square, force)| (force - k * square).abs()).fold(0.0, f64::max);
-    println!("{worst} N, k {}", k * 1e6);
     assert!(worst < 0.1, "{worst} N");
 }
 
@@ -54,4 +55,34 @@ fn fig4_capacitance_rises_with_load_and_with_voltage() {
         !higher || from.capacitance_pf < to.capacitance_pf
     };
     assert!(all.iter().all(|from| all.iter().all(|to| rises(from, to))));
+}
+
+/// Force by eq. 8 with PHYSICS §2's exact inversion C = |I|²/(ωVq), from what the plant's sensors show.
+fn ideal_force(plant: &mut Plant, slot: usize) -> f64 {
+    let device = plant.device();
+    let mut phasors = [Complex::default(); TERMINALS + 1];
+    let haptic_square = plant.phasors(slot, &mut phasors) * device.haptic_full_scale_v.powi(2);
+    let total: Complex = phasors[..TERMINALS].iter().map(|current| current * device.current_full_scale_a).sum();
+    let volt = phasors[TERMINALS].re * device.sense_full_scale_v;
+    let capacitance_f = total.norm_sqr() / (device.carrier_rad_s * volt * total.im);
+    device.force_k * capacitance_f.powi(2) * haptic_square
+}
+
+#[test]
+fn fig3_leaves_an_ideal_core_a_force_spread_below_a_third_of_the_tightest_criterion() {
+    let scene = Scene::parse(gallery::find("fig3").unwrap(), "fig3", &[]).unwrap();
+    let tightest = scene.criteria.iter().filter(|c| c.of.name() == "force_n").map(|c| c.limit).fold(f64::MAX, f64::min);
+    for case in 0..scene.cases.len() {
+        let (mut plant, mut groups) =
+            (Plant::new(&scene, case, &timing()).unwrap(), BTreeMap::<usize, Vec<f64>>::new());
+        for slot in 0..plant.slots() {
+            let group = plant.truth(slot).group;
+            groups.entry(group).or_default().push(ideal_force(&mut plant, slot));
+        }
+        for forces in groups.values() {
+            let (least, most) = forces.iter().fold((f64::MAX, f64::MIN), |(l, m), f| (l.min(*f), m.max(*f)));
+            let spread_percent = 200.0 * (most - least) / (most + least);
+            assert!(spread_percent < tightest / 3.0, "{}: {spread_percent} %", scene.cases[case].name);
+        }
+    }
 }

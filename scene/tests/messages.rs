@@ -80,6 +80,19 @@ fn pad_outside_the_sheet() {
 }
 
 #[test]
+fn terminals_inside_the_sheet() {
+    check("[sheet]\nterminal_5_mm = [0, 0]", "s.toml:5: sheet.terminal_5_mm: expected a place on the sheet's edge");
+    check(
+        "[sheet]\nterminal_6_mm = [0, -250]",
+        "s.toml:5: sheet.terminal_6_mm: expected a place other than terminal 5's",
+    );
+    check(
+        "[sheet]\nterminal_radius_mm = 12",
+        "s.toml:5: sheet.terminal_radius_mm: expected a number above 0 and at most 10",
+    );
+}
+
+#[test]
 fn sweeps_and_time_do_not_mix() {
     let swept = format!("duration_s = 1\n{SCENE}load_g = {{ sweep = [1, 2] }}");
     assert!(message(&swept, &[]).starts_with("s.toml:1: duration_s: expected none, since the sweep decides"));

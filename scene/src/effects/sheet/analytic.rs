@@ -10,12 +10,14 @@
 //! The matrix is inverted once. A disc of even current has the split of its centre; only N(p, p) sees its size, through
 //! R_eff = R·e^(−1/4).
 
+use std::f64::consts::PI;
+
 use super::neumann::Neumann;
 use super::{Rung, Sheet, Split};
 use crate::device::TERMINALS;
 
-/// Images of the source in the Neumann function; 8e-11 is cut off.
-const IMAGES: i32 = 2;
+/// What is left of the first image that the Neumann function leaves out; 2 images for the paper's sheet.
+const CUT_OFF: f64 = 1e-9;
 
 /// Unknowns of the bordered system: a current for each terminal and the potential's constant.
 const UNKNOWNS: usize = TERMINALS + 1;
@@ -30,7 +32,9 @@ pub(super) struct Analytic {
 
 impl Analytic {
     pub fn new(sheet: &Sheet) -> Self {
-        Analytic::with_images(sheet, IMAGES)
+        let [width, height] = sheet.size_m;
+        let images = (CUT_OFF.ln() / (-2.0 * PI * width / height)).ceil();
+        Analytic::with_images(sheet, images as i32)
     }
 
     pub fn with_images(sheet: &Sheet, images: i32) -> Self {

@@ -2,7 +2,7 @@
 //! `[sheet]`: how the resistive sheet splits a pad's current among the terminals, and its resistance R_p at the pad.
 //!
 //! Terminals 1 to 4 are the corners top left, bottom left, bottom right, top right (the signs of eqs. 2 and 3); 5 and 6 are
-//! the middles of the bottom and the top edge. Each is a patch of radius `terminal_radius_mm` behind `terminal_ohm`. The
+//! the middles of the bottom and the top edge, or where `terminal_5_mm` and `terminal_6_mm` say. Each is a patch of radius `terminal_radius_mm` behind `terminal_ohm`. The
 //! radius is not the paper's: 1.7 mm gives the R_p of PHYSICS §1, 73 to 190 Ω, mean 143 Ω, for pads 20 mm off the edges.
 //!
 //! | rung | what | look-up | error of the split, rms / max (PHYSICS §1) |
@@ -71,15 +71,38 @@ fn read_sheet(table: &Table, device: &Device) -> Result<Sheet, SceneError> {
         ohm_per_square: table.number_or("ohm_per_square", Limits::POSITIVE, 150.0)?,
         terminal_ohm: table.number_or("terminal_ohm", Limits::NOT_NEGATIVE, 0.0)?,
         terminal_radius_m: 1e-3 * table.number_or("terminal_radius_mm", widest, 1.7)?,
-        terminals_m: terminals(size_m),
+        terminals_m: terminals(table, device)?,
         table: [count("table_columns", 128)?, count("table_rows", 75)?],
     })
 }
 
-fn terminals([width, height]: [f64; 2]) -> [[f64; 2]; TERMINALS] {
-    let corners = [[0.0, height], [0.0, 0.0], [width, 0.0], [width, height]];
-    let edges = [[width / 2.0, 0.0], [width / 2.0, height]];
-    [corners[0], corners[1], corners[2], corners[3], edges[0], edges[1]]
+/// Places from the bottom left corner, m: the corners, and both others where the scene has them.
+fn terminals(table: &Table, device: &Device) -> Result<[[f64; 2]; TERMINALS], SceneError> {
+    let half = [device.width_mm / 2.0, device.height_mm / 2.0];
+    let [x, y] = half;
+    let fifth = edge_place(table, "terminal_5_mm", half)?.unwrap_or([0.0, -y]);
+    let sixth = edge_place(table, "terminal_6_mm", half)?.unwrap_or([0.0, y]);
+    if fifth == sixth {
+        return Err(table.error("terminal_6_mm", format!("expected a place other than terminal 5's, got {sixth:?}")));
+    }
+    let places_mm = [[-x, y], [-x, -y], [x, -y], [x, y], fifth, sixth];
+    Ok(places_mm.map(|place| [0, 1].map(|axis| 1e-3 * (place[axis] + half[axis]))))
+}
+
+fn edge_place(table: &Table, key: &'static str, half: [f64; 2]) -> Result<Option<[f64; 2]>, SceneError> {
+    let Some(place) = table.pair(key, Limits::ANY)? else { return Ok(None) };
+    let at_rim = [0, 1].map(|axis| place[axis].abs() == half[axis]);
+    let inside = [0, 1].map(|axis| place[axis].abs() < half[axis]);
+    if (at_rim[0] && inside[1]) || (at_rim[1] && inside[0]) {
+        return Ok(Some(place));
+    }
+    Err(table.error(
+        key,
+        format!(
+            "expected a place on the sheet's edge between corners, x = ±{} or y = ±{}, got {place:?}",
+            half[0], half[1]
+        ),
+    ))
 }
 
 fn build(rung: &str, sheet: &Sheet) -> Box<dyn Rung> {

@@ -10,6 +10,8 @@ use super::*;
 /// What the check values were measured with: pads at least 20 mm off the edges.
 const MARGIN_MM: f64 = 20.0;
 
+const TERMINALS_M: [[f64; 2]; TERMINALS] = [[0.0, 0.5], [0.0, 0.0], [0.86, 0.0], [0.86, 0.5], [0.43, 0.0], [0.43, 0.5]];
+
 fn sheet(terminal_ohm: f64) -> Sheet {
     Sheet {
         size_m: [0.86, 0.5],
@@ -17,7 +19,7 @@ fn sheet(terminal_ohm: f64) -> Sheet {
         ohm_per_square: 150.0,
         terminal_ohm,
         terminal_radius_m: 1.7e-3,
-        terminals_m: terminals([0.86, 0.5]),
+        terminals_m: TERMINALS_M,
         table: [128, 75],
     }
 }
@@ -81,7 +83,7 @@ fn truncation_falls_with_each_image_as_predicted() {
     let exact = Neumann::new(size, 6);
     for (images, predicted) in [(1, 3.8e-6), (2, 8e-11), (3, 2e-15)] {
         let cut = Neumann::new(size, images);
-        let worst = terminals(size).into_iter().flat_map(|t| places(15.0).into_iter().map(move |p| (t, p))).fold(
+        let worst = TERMINALS_M.into_iter().flat_map(|t| places(15.0).into_iter().map(move |p| (t, p))).fold(
             0.0,
             |worst, (t, [x, y])| {
                 let at = [x * 1e-3 + 0.43, y * 1e-3 + 0.25];
@@ -101,6 +103,19 @@ fn shares_sum_to_one_and_mirror_at_every_rung() {
         assert!((split.share.iter().sum::<f64>() - 1.0).abs() < 1e-11);
         let [a, b, c, d, e, f] = mirrored.share;
         assert_near("mirrored", &split.share, &[c, d, a, b, f, e], 1e-9);
+    }
+}
+
+#[test]
+fn a_sheet_on_its_side_is_the_same_sheet() {
+    let flat = sheet(0.0);
+    let turn = |[x, y]: [f64; 2]| [y, x];
+    let upright = Sheet { size_m: turn(flat.size_m), terminals_m: flat.terminals_m.map(turn), ..flat.clone() };
+    let (flat, upright) = (Analytic::new(&flat), Analytic::new(&upright));
+    for [x, y] in places(15.0) {
+        let (a, b) = (flat.split(x, y), upright.split(y, x));
+        assert_near("share", &a.share, &b.share, 1e-9);
+        assert_near("R_p", &[a.ohm], &[b.ohm], 1e-6);
     }
 }
 
