@@ -38,4 +38,4 @@ pub use num_complex::Complex64 as Complex;
 pub use plant::Plant;
 pub use scene::{Figure, Record, Scene};
 pub use timing::Timing;
-pub use truth::{MapPoint, Truth};
+pub use truth::{ForcePoint, MapPoint, Truth};

@@ -65,9 +65,9 @@ impl PadPlan {
     }
 }
 
-/// A pad at rest, unloaded and unpowered, for a calibration.
-pub(crate) fn resting(at_mm: [f64; 2], device: &Device) -> Pad {
-    still(0, 0.0, at_mm, 0.0, 0.0, CAPACITANCE_PF * 1e-12, device)
+/// A pad at rest, for a calibration.
+pub(crate) fn resting(at_mm: [f64; 2], load_g: f64, haptic_v_rms: f64, device: &Device) -> Pad {
+    still(0, 0.0, at_mm, load_g, haptic_v_rms, CAPACITANCE_PF * 1e-12, device)
 }
 
 fn still(

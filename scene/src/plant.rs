@@ -17,7 +17,7 @@ use crate::pad::resting;
 use crate::path::raster;
 use crate::scene::Scene;
 use crate::timing::Timing;
-use crate::truth::{MapPoint, Truth, ratios};
+use crate::truth::{ForcePoint, MapPoint, Truth, ratios};
 
 /// One case of a scene at work.
 pub struct Plant {
@@ -110,7 +110,7 @@ impl Plant {
             capacitance_pf: pad.capacitance_f * 1e12,
             sheet_ohm: pad.sheet_ohm,
             haptic_v_rms: pad.haptic_v_rms,
-            force_n: pad.force_n.unwrap_or(self.device.force_k * (pad.capacitance_f * pad.haptic_v_rms).powi(2)),
+            force_n: pad.haptic_force_n(&self.device),
             direction: 0.0,
             load_g: pad.load_g,
         }
@@ -147,17 +147,37 @@ impl Plant {
 
     /// A raster of places with what the nominal device reads there: no noise, no mismatch, one pad alone and at rest.
     pub fn calibration_map(&self, nx: usize, ny: usize, margin_mm: f64) -> Vec<MapPoint> {
+        let still =
+            raster(nx, ny, margin_mm, &self.device).into_iter().map(|place| resting(place, 0.0, 0.0, &self.device));
+        let point = |pad: Pad| {
+            let (r_x, r_y) = ratios(&pad.split);
+            MapPoint { x_mm: pad.x_mm, y_mm: pad.y_mm, r_x, r_y, sheet_ohm: pad.sheet_ohm }
+        };
+        self.settle(still).map(point).collect()
+    }
+
+    /// A friction calibration, as for the paper's Fig. 6: one pad alone in the middle of the sheet, under each load at each
+    /// voltage. Eq. 8's k is fitted to it; without `[gap]` every point has `force_k` itself.
+    pub fn friction_calibration(&self, loads_g: &[f64], haptic_v_rms: &[f64]) -> Vec<ForcePoint> {
+        let settings = loads_g.iter().flat_map(|load| haptic_v_rms.iter().map(move |volt| (*load, *volt)));
+        let still = settings.map(|(load, volt)| resting([0.0, 0.0], load, volt, &self.device));
+        let point = |pad: Pad| ForcePoint {
+            load_g: pad.load_g,
+            haptic_v_rms: pad.haptic_v_rms,
+            capacitance_pf: pad.capacitance_f * 1e12,
+            force_n: pad.haptic_force_n(&self.device),
+        };
+        self.settle(still).map(point).collect()
+    }
+
+    /// Lets effects of their own act on each pad, so that a calibration leaves the run as it was.
+    fn settle(&self, pads: impl Iterator<Item = Pad>) -> impl Iterator<Item = Pad> {
         let setting = Setting { device: &self.device, timing: &self.timing, seed: self.seed, case: self.index };
         let mut effects = Effects::build(&self.case.effects, &setting);
-        let places = raster(nx, ny, margin_mm, &self.device).into_iter();
-        places
-            .map(|place| {
-                let mut pad = resting(place, &self.device);
-                effects.on_pad(&mut pad);
-                let (r_x, r_y) = ratios(&pad.split);
-                MapPoint { x_mm: place[0], y_mm: place[1], r_x, r_y, sheet_ohm: pad.sheet_ohm }
-            })
-            .collect()
+        pads.map(move |mut pad| {
+            effects.on_pad(&mut pad);
+            pad
+        })
     }
 
     fn point(&self, slot: usize) -> usize {

@@ -49,6 +49,19 @@ pub struct MapPoint {
     pub sheet_ohm: f64,
 }
 
+/// A point of a friction calibration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ForcePoint {
+    /// Load on the pad, g.
+    pub load_g: f64,
+    /// Haptic voltage at the pad, V rms.
+    pub haptic_v_rms: f64,
+    /// Capacitance between pad and sheet, pF.
+    pub capacitance_pf: f64,
+    /// Haptic force, N.
+    pub force_n: f64,
+}
+
 /// Eqs. 2 and 3, from the corners' shares.
 pub(crate) fn ratios(split: &[f64]) -> (f64, f64) {
     let [top_left, bottom_left, bottom_right, top_right] = [split[0], split[1], split[2], split[3]];

@@ -104,11 +104,19 @@ pub(crate) struct Pad {
     /// Electrostatic attraction summed over the pad, N; where no effect says otherwise that of an even gap, eq. 7.
     pub attraction_n: f64,
     /// Haptic force, N; where no effect says otherwise eq. 8 with the true capacitance and voltage.
+    /// Haptic force, N, where an effect says it.
     pub force_n: Option<f64>,
     /// Share of the current through each terminal.
     pub split: [f64; TERMINALS],
     /// Combined resistance R_p of the sheet at the pad, Ω.
     pub sheet_ohm: f64,
+}
+
+impl Pad {
+    /// The haptic force as an effect says, or else by eq. 8.
+    pub fn haptic_force_n(&self, device: &Device) -> f64 {
+        self.force_n.unwrap_or(device.force_k * (self.capacitance_f * self.haptic_v_rms).powi(2))
+    }
 }
 
 /// Complex amplitudes as fractions of full scale, real part in phase with the carrier.
