@@ -1,22 +1,32 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What the plant costs: nanoseconds per sample instant of eight channels, and per slot, effect by effect.
+//! What the plant costs: nanoseconds per sample instant of eight channels, and per slot, effect by effect and rung by rung.
 //!
 //! `cargo run --release -p hapticore-scene --example speed`
 
 use std::time::Instant;
 
-use hapticore_scene::{Complex, Plant, Scene, Timing, gallery};
+use hapticore_scene::{Complex, Plant, Scene, SceneError, Timing, gallery};
 
 const SLOTS: usize = 2000;
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let timing =
-        Timing { pads: 4, slot_samples: 500, window_start: 100, window_samples: 400, samples_per_period: 10.0 };
-    let scene = Scene::parse(gallery::find("hockey").ok_or("no hockey")?, "hockey.toml", &[])?;
-    let build = Instant::now();
-    let mut plant = Plant::new(&scene, 0, &timing)?;
-    println!("build {:.1} ms", build.elapsed().as_secs_f64() * 1e3);
+fn main() -> Result<(), SceneError> {
+    samples()?;
+    ["distance", "bicubic", "analytic"].into_iter().try_for_each(phasors)
+}
 
+fn hockey(rung: &str) -> Result<(Plant, Timing), SceneError> {
+    let timing =
+        Timing { pads: 4, slot_samples: 1700, window_start: 700, window_samples: 1000, samples_per_period: 10.0 };
+    let text = gallery::find("hockey").unwrap_or_default();
+    let scene = Scene::parse(text, "hockey.toml", &[("sheet.rung".to_string(), rung.to_string())])?;
+    let start = Instant::now();
+    let plant = Plant::new(&scene, 0, &timing)?;
+    println!("{rung}: built in {:.1} ms", start.elapsed().as_secs_f64() * 1e3);
+    Ok((plant, timing))
+}
+
+fn samples() -> Result<(), SceneError> {
+    let (mut plant, timing) = hockey("bicubic")?;
     let (start, mut samples) = (Instant::now(), Vec::new());
     for slot in 0..SLOTS {
         samples.clear();
@@ -24,19 +34,19 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         plant.samples(slot, timing.window_start..timing.slot_samples, &mut samples);
     }
     let instants = (SLOTS * timing.slot_samples) as f64;
-    println!(
-        "samples {:.1} ns per instant of {} channels",
-        start.elapsed().as_secs_f64() * 1e9 / instants,
-        plant.channels()
-    );
+    let each_ns = start.elapsed().as_secs_f64() * 1e9 / instants;
+    println!("samples: {each_ns:.1} ns per instant of {} channels", plant.channels());
     print(&plant, instants);
+    Ok(())
+}
 
-    let mut plant = Plant::new(&scene, 0, &timing)?;
+fn phasors(rung: &str) -> Result<(), SceneError> {
+    let (mut plant, _) = hockey(rung)?;
     let (start, mut phasors) = (Instant::now(), vec![Complex::default(); plant.channels() - 1]);
     for slot in 0..SLOTS {
         plant.phasors(slot, &mut phasors);
     }
-    println!("phasors {:.0} ns per slot", start.elapsed().as_secs_f64() * 1e9 / SLOTS as f64);
+    println!("phasors: {:.0} ns per slot", start.elapsed().as_secs_f64() * 1e9 / SLOTS as f64);
     print(&plant, SLOTS as f64);
     Ok(())
 }

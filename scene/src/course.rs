@@ -2,6 +2,7 @@
 //! A quantity of a pad over the points of a sweep or over time: its load, its haptic voltage, its capacitance.
 //!
 //! | written as | the value is |
+//! | --- | --- |
 //! | `50` | 50 throughout |
 //! | `{ sweep = [20, 50, 100] }` | one after the other, point by point |
 //! | `{ sweep = { from = 0, to = 300, points = 13 } }` | the same, evenly spaced |

@@ -2,9 +2,10 @@
 //! Where a pad is, over the points of a sweep or over time. Millimetres from the sheet's centre, x right, y up.
 //!
 //! | written as `position_mm =` | the pad |
+//! | --- | --- |
 //! | `[100, -50]` | stays |
 //! | `{ sweep = [[0, 0], [100, 0]] }` | is placed point by point |
-//! | `{ raster = { nx = 24, ny = 14, margin_mm = 15 } }` | is placed on a grid, rows from the bottom left; the margin is from the edges to the pad's centre |
+//! | `{ raster = { nx = 24, ny = 14, margin_mm = 15 } }` | is placed on a grid, row by row from the bottom left, its centre `margin_mm` off the edges |
 //! | `{ line = { from_mm = [0, 0], to_mm = [100, 0], period_s = 2 } }` | goes there and back at even speed |
 //! | `{ circle = { centre_mm = [0, 0], radius_mm = 100, period_s = 2, phase_turns = 0 } }` | circles, anticlockwise |
 //! | `{ lissajous = { centre_mm, amplitude_mm = [ax, ay], frequency_hz = [fx, fy], phase_turns = [px, py] } }` | swings |

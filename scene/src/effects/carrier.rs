@@ -7,6 +7,7 @@
 //! since the start of the case.
 //!
 //! | rung | what the `float` core is given | error |
+//! | --- | --- | --- |
 //! | `phasor` | the amplitudes themselves, one set per slot | exact in steady state |
 //! | `samples` | ADC samples, as the other cores always are | sampling effects only |
 //!

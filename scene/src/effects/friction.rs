@@ -2,6 +2,7 @@
 //! `[friction]`: the haptic force that the finger feels.
 //!
 //! | rung | force | source |
+//! | --- | --- | --- |
 //! | `coulomb` | F_h = μ·ΣF_e, the attraction summed over the patches of the gap | PHYSICS §3, §4 |
 //!
 //! Without the table the force is eq. 8 with the true capacitance and voltage, which for an even gap is the same. μ is

@@ -6,6 +6,7 @@
 //!   F(g) = κ(g₀ − g) + p₀·e^(−g/λ) − ½ε₀V²/(g+d)² − W/S = 0,   C = Σ ε₀S_i/(g_i+d),   F_e = Σ ½ε₀S_iV²/(g_i+d)²
 //!
 //! | rung | what |
+//! | --- | --- |
 //! | `static` | the equilibrium on the branch that starts open: the largest root of F, for the slow (relaxed) spring κ |
 //!
 //! Without contact F is a cubic in h = g + d, so its largest root, and the fold where it vanishes, have a closed form:

@@ -2,6 +2,7 @@
 //! `[sensor]`: what the sensor chain adds between the currents and the ADC's codes. Each key switches on one effect.
 //!
 //! | key | effect | realistic |
+//! | --- | --- | --- |
 //! | `haptic_leakage` | the haptic voltage's own current, eq. 1's second term | true |
 //! | `gain_mismatch_percent` | each terminal's gain, standard deviation | 0.1 to 1 |
 //! | `offset_percent` | each channel's offset, of full scale, standard deviation | 0.01 |

@@ -2,13 +2,17 @@
 //! `[sheet]`: how the resistive sheet splits a pad's current among the terminals, and its resistance R_p at the pad.
 //!
 //! Terminals 1 to 4 are the corners top left, bottom left, bottom right, top right (the signs of eqs. 2 and 3); 5 and 6 are
-//! the middles of the bottom and the top edge, or where `terminal_5_mm` and `terminal_6_mm` say. Each is a patch of radius `terminal_radius_mm` behind `terminal_ohm`. The
-//! radius is not the paper's: 1.7 mm gives the R_p of PHYSICS §1, 73 to 190 Ω, mean 143 Ω, for pads 20 mm off the edges.
+//! the middles of the bottom and the top edge, or where `terminal_5_mm` and `terminal_6_mm` say. Each is a patch of radius
+//! `terminal_radius_mm` behind `terminal_ohm`. The radius is not the paper's: 1.7 mm gives the R_p of PHYSICS §1, 73 to
+//! 190 Ω, mean 143 Ω, for pads 20 mm off the edges.
 //!
-//! | rung | what | look-up | error of the split, rms / max (PHYSICS §1) |
-//! | `distance` | R_i ∝ distance, the paper's picture | 10 ns | 4.7e-2 / 2.5e-1 |
-//! | `bicubic` | table of the analytic solution, 128 × 75 | 30 ns | 1.1e-6 / 1.2e-4 |
-//! | `analytic` | Neumann function of the rectangle | 0.5 µs | 8e-11 |
+//! | rung | what | look-up | error of the split, rms / max | build |
+//! | --- | --- | --- | --- | --- |
+//! | `distance` | R_i ∝ distance, the paper's picture | 70 ns | 5.0e-2 / 2.5e-1 | – |
+//! | `bicubic` | table of the analytic solution, `table_columns` × `table_rows` = 128 × 75 | 60 ns | 7e-7 / 6e-5 | 4.5 ms |
+//! | `analytic` | Neumann function of the rectangle | 400 ns | 5e-11 max | – |
+//!
+//! Errors are over pads 20 mm off the edges; at the edges, in front of terminals 5 and 6, the table's reach 2e-4.
 //!
 //! Without the table the sheet is ideal: no resistance, and corner currents that are bilinear in the position.
 
