@@ -7,7 +7,7 @@ use hapticore_model::{
 };
 use std::time::Instant;
 fn main() {
-    for profile in Profile::all() {
+    for profile in Profile::all().into_iter().filter(|p| std::env::args().nth(1).is_none_or(|n| n == p.name)) {
         let core = Core::new(&profile);
         let n = Netlist::of(&core);
         println!(
@@ -57,7 +57,7 @@ fn main() {
         }
         let t = Instant::now();
         let c0 = clock.clocks();
-        for _ in 0..200 {
+        for _ in 0..std::env::var("N").map_or(200, |n| n.parse().unwrap()) {
             for n in 0..slot {
                 clock.sample(&codes[n * ch..(n + 1) * ch]);
             }
@@ -65,15 +65,15 @@ fn main() {
         let dt = t.elapsed().as_secs_f64();
         println!("clock: {:.1} M clocks/s", (clock.clocks() - c0) as f64 / dt / 1e6);
         let t = Instant::now();
-        for s in 0..2000 {
+        for s in 0..std::env::var("M").map_or(2000, |n| n.parse().unwrap()) {
             fixed.slot(s % 4, &codes[profile.slot.blanking() as usize * ch..]);
         }
         let dt = t.elapsed().as_secs_f64();
         println!(
             "fixed: {:.1} M window samples/s, {:.1} us/slot, {:.1} x real time of slot",
-            2000.0 * profile.slot.integrate as f64 / dt / 1e6,
-            dt / 2000.0 * 1e6,
-            2000.0 * slot as f64 / dt / 1e6
+            std::env::var("M").map_or(2000.0, |n| n.parse().unwrap()) * profile.slot.integrate as f64 / dt / 1e6,
+            dt / std::env::var("M").map_or(2000.0, |n| n.parse().unwrap()) * 1e6,
+            std::env::var("M").map_or(2000.0, |n| n.parse().unwrap()) * slot as f64 / dt / 1e6
         );
     }
 }

@@ -126,6 +126,8 @@ pub trait Visitor<V: Value> {
     fn enter(&mut self, name: &'static str);
     /// A register of it.
     fn register(&mut self, name: &'static str, states: &'static [&'static str], format: Format, value: V);
+    /// A memory of it.
+    fn memory(&mut self, _memory: &Memory, _words: &V::Words) {}
     /// The instance ends.
     fn leave(&mut self);
 }
@@ -165,7 +167,9 @@ impl Element for Memory {
         V::words(self)
     }
 
-    fn visit<V: Value>(&self, _name: &'static str, _words: &V::Words, _visitor: &mut impl Visitor<V>) {}
+    fn visit<V: Value>(&self, _name: &'static str, words: &V::Words, visitor: &mut impl Visitor<V>) {
+        visitor.memory(self, words);
+    }
 }
 
 /// A block with no block or memory within.

@@ -22,18 +22,13 @@ pub trait Bundle: 'static {
     /// The struct of pairs.
     fn zip<T: Copy, U: Copy>(a: Self::Of<T>, b: Self::Of<U>) -> Self::Of<(T, U)>;
 
-    /// The signals of `then` where the bit is set, else those of `otherwise`: a multiplexer for each field. A reading that
-    /// knows the bit evaluates one of the two.
+    /// The signals of `a` where the bit is set, else those of `b`: a multiplexer for each field.
     #[inline(always)]
-    fn when<V: Value>(
-        bit: Signal<V>,
-        then: impl FnOnce() -> Self::Of<Signal<V>>,
-        otherwise: impl FnOnce() -> Self::Of<Signal<V>>,
-    ) -> Self::Of<Signal<V>> {
+    fn select<V: Value>(bit: Signal<V>, a: Self::Of<Signal<V>>, b: Self::Of<Signal<V>>) -> Self::Of<Signal<V>> {
         match V::known(bit.value) {
-            Some(true) => then(),
-            Some(false) => otherwise(),
-            None => Self::map(Self::zip(then(), otherwise()), |(a, b)| bit.select(a, b)),
+            Some(true) => a,
+            Some(false) => b,
+            None => Self::map(Self::zip(a, b), |(a, b)| bit.select(a, b)),
         }
     }
 
@@ -66,6 +61,41 @@ impl Bundle for Nothing<()> {
     fn zip<T: Copy, U: Copy>(_a: Nothing<T>, _b: Nothing<U>) -> Nothing<(T, U)> {
         Nothing::default()
     }
+}
+
+/// `when!(V, Registers, bit, a, b)`: the bundle `a` where the bit is set, else `b`. Readings that know every bit evaluate one of
+/// the two; it is a macro, not a function of two closures, because those are not inlined and the registers then travel
+/// through memory (measured: a third of the clocks a second).
+#[macro_export]
+macro_rules! when {
+    ($reading:ident, $bundle:ident, $bit:expr, $a:expr, $b:expr $(,)?) => {
+        if $reading::DECIDES {
+            if $crate::signal::is_set($bit) { $a } else { $b }
+        } else {
+            match $reading::known($bit.value) {
+                Some(true) => $a,
+                Some(false) => $b,
+                None => <$bundle as $crate::bundle::Bundle>::select($bit, $a, $b),
+            }
+        }
+    };
+}
+
+/// `choose!(V, bit, a, b)`: the signal `a` where the bit is set, else `b`, as [`when!`](crate::when!) does for bundles. For
+/// alternatives that cost something; for others `bit.select(a, b)` does.
+#[macro_export]
+macro_rules! choose {
+    ($reading:ident, $bit:expr, $a:expr, $b:expr $(,)?) => {
+        if $reading::DECIDES {
+            if $crate::signal::is_set($bit) { $a } else { $b }
+        } else {
+            match $reading::known($bit.value) {
+                Some(true) => $a,
+                Some(false) => $b,
+                None => $bit.select($a, $b),
+            }
+        }
+    };
 }
 
 /// Declares a [`Bundle`]. A field that is a state lists the names of its codes: `step: ["idle", "run"]`.

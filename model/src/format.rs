@@ -57,6 +57,14 @@ impl Format {
         if self.signed { -(1i128 << (self.width - 1)) } else { 0 }
     }
 
+    /// This unsigned integer format, with what makes it one spelt out: where it is asked for at every clock, the compiler
+    /// then knows that a counter has no point to align.
+    #[inline(always)]
+    pub const fn counting(self) -> Self {
+        debug_assert!(!self.signed && self.frac == 0);
+        Format::unsigned(self.width, 0)
+    }
+
     /// What one code step is worth.
     #[inline(always)]
     pub fn lsb(self) -> f64 {

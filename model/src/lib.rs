@@ -11,4 +11,6 @@ pub mod frame;
 pub mod memory;
 pub mod probe;
 pub mod profile;
+pub mod proof;
+pub mod reference;
 pub mod signal;

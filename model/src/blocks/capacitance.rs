@@ -14,16 +14,15 @@
 //! | capacitance | profile     | pF          | saturates, flagged                       |
 //!
 //! One multiplier serves all four products; it works on codes as integers, so that their points need not agree. Latency:
-//! root + divider + 12 clocks from `start` to `done`.
+//! root + divider + 11 clocks from `start` to `done`.
 
 use super::divider::{self, Divider};
 use super::root::{self, Root};
 use crate::block::{Block, Cell};
-use crate::bundle::Bundle;
 use crate::format::{BIT, Format};
 use crate::profile::Profile;
-use crate::signal::{Exact, HalfEven, Lemma, Saturate, Signal, Value, Wrap, bit, constant, int};
-use crate::{bundle, parts};
+use crate::signal::{Exact, HalfEven, Lemma, Saturate, Signal, Value, Wrap, bit, int, zero};
+use crate::{bundle, parts, when};
 
 bundle! {
     /// The inputs.
@@ -118,7 +117,7 @@ impl Capacitance {
 
     /// Clocks from `start` to `done`.
     pub fn latency(&self) -> u64 {
-        self.root.latency() + self.divider.latency() + 12
+        self.root.latency() + self.divider.latency() + 11
     }
 
     /// The multiplier's operands of this step, as integers.
@@ -131,7 +130,7 @@ impl Capacitance {
         admittance: Signal<V>,
     ) -> (Signal<V>, Signal<V>) {
         let [total, sense, drop] = [i.total, i.sense, drop].map(Signal::integer);
-        let sheet = if self.correct { i.sheet } else { constant(0.0, self.sheet) }.integer();
+        let sheet = if self.correct { i.sheet } else { zero(self.sheet) }.integer();
         let at = |step: u64| r.step.is(step);
         let left = at(1).select(total, at(3).select(sense, at(4).select(drop, admittance.integer())));
         let right = at(1).select(sheet, at(3).select(sense, at(4).select(drop, i.gain.integer())));
@@ -203,7 +202,19 @@ impl Block for Capacitance {
 
     #[inline(always)]
     fn registers(&self) -> Registers<Format> {
-        self.registers
+        let r = self.registers;
+        Registers {
+            done: BIT,
+            root_start: BIT,
+            divide: BIT,
+            invalid: BIT,
+            saturated: BIT,
+            step: r.step.counting(),
+            left: r.left.counting(),
+            right: r.right.counting(),
+            product: r.product.counting(),
+            ..r
+        }
     }
 
     #[inline(always)]
@@ -219,9 +230,14 @@ impl Block for Capacitance {
         let inputs = divider::Inputs { start: r.divide, numerator: i.total, denominator: root.root };
         let divided = self.divider.call("divider", &mut cell.parts.divider, inputs);
         let idle = Registers { done: bit(false), ..r };
-        let begin = || Registers { step: int(1), saturated: bit(false), ..idle };
-        let working = || Registers::when(r.step.is(0), || idle, || self.step(idle, i, root.done, divided));
-        let next = Registers::when(i.start, begin, working);
+        let begin = Registers { step: int(1), saturated: bit(false), ..idle };
+        let next = when!(
+            V,
+            Registers,
+            i.start,
+            begin,
+            when!(V, Registers, r.step.is(0), idle, self.step(idle, i, root.done, divided))
+        );
         cell.store(self, next);
         outputs
     }

@@ -129,7 +129,7 @@ impl Core {
 
     /// Clocks from the strobe of a window's last sample to the last word of its frame.
     pub fn latency(&self) -> u64 {
-        1 + Oscillator::LATENCY + self.demodulator.latency() - 1 + self.estimator.latency()
+        1 + Oscillator::LATENCY + self.demodulator.latency() + self.estimator.latency()
     }
 }
 

@@ -12,17 +12,16 @@
 //! | amplitude       | total's | full scale     | cannot (range proof) |
 //! | x, y, corners   | exact   | full scale     | cannot (range proof) |
 //!
-//! Latency: (channels + 1) · (root + 4) clocks from the last sum to `done`. Source: paper, eqs. 2–5; the sum is that of
+//! Latency: (terminals + 2) · (root + 5) + 1 clocks from the last sum (the mean square's) to `done`. Source: paper, eqs. 2–5; the sum is that of
 //! all terminals' complex currents, for the corners alone carry only a part (PHYSICS §1).
 
 use super::root::{self, Root};
 use crate::block::{Block, Cell};
-use crate::bundle::Bundle;
 use crate::format::{BIT, Format};
 use crate::memory::{Memory, Write};
 use crate::profile::Profile;
-use crate::signal::{Exact, HalfEven, Never, Signal, Value, Wrap, bit, constant, int};
-use crate::{bundle, parts};
+use crate::signal::{Exact, HalfEven, Never, Signal, Value, Wrap, bit, int, zero};
+use crate::{bundle, parts, when};
 
 bundle! {
     /// The inputs: the demodulator's sums.
@@ -144,7 +143,7 @@ impl Currents {
 
     /// Clocks from the last sum to `done`.
     pub fn latency(&self) -> u64 {
-        (self.terminals + 2) * (self.root.latency() + 4) + 1
+        (self.terminals + 2) * (self.root.latency() + 5) + 1
     }
 
     /// The in-phase or quadrature word of a sum, and whether it is held at a rail.
@@ -164,7 +163,7 @@ impl Currents {
         let opening = i.index.is(0);
         let terminal = i.index.less_than(int(2 * self.terminals));
         let quadrature = i.index.bits(0, 1);
-        let from = |total: Signal<V>| opening.select(constant(0.0, self.total), total);
+        let from = |total: Signal<V>| opening.select(zero(self.total), total);
         let (before_i, before_q) = (from(r.total_i), from(r.total_q));
         let (more_i, held_i) = (before_i + word).saturate(self.total, Exact);
         let (more_q, held_q) = (before_q + word).saturate(self.total, Exact);
@@ -193,8 +192,7 @@ impl Currents {
         let square = r.part.square();
         let power = at(4).select(r.power + square, square).fit(self.registers.power, Exact, Never);
         let rooted = at(5) & root.done;
-        let summed = || self.sum_up(r, root.root);
-        let r = Registers::when(rooted, summed, || r);
+        let r = when!(V, Registers, rooted, self.sum_up(r, root.root), r);
         let part = at(2).select(all.select(r.total_i, word), at(3).select(all.select(r.total_q, word), r.part));
         let following = at(5).select(r.step, r.step + int(1));
         Registers {
@@ -213,10 +211,10 @@ impl Currents {
         let opening = r.channel.is(0);
         let terminal = r.channel.less_than(int(self.terminals));
         let smaller = opening | (terminal & amplitude.less_than(r.least));
-        let from = |sum: Signal<V>| opening.select(constant(0.0, sum.format), sum);
+        let from = |sum: Signal<V>| opening.select(zero(sum.format), sum);
         let with = |sum: Signal<V>, sign: &dyn Fn(usize) -> i8| {
-            let plus = self.among(r.channel, |k| sign(k) > 0).select(amplitude, constant(0.0, amplitude.format));
-            let minus = self.among(r.channel, |k| sign(k) < 0).select(amplitude, constant(0.0, amplitude.format));
+            let plus = self.among(r.channel, |k| sign(k) > 0).select(amplitude, zero(amplitude.format));
+            let minus = self.among(r.channel, |k| sign(k) < 0).select(amplitude, zero(amplitude.format));
             (from(sum) + plus - minus).fit(sum.format, Exact, Never)
         };
         let [x, y] = &self.signs;
@@ -266,7 +264,15 @@ impl Block for Currents {
 
     #[inline(always)]
     fn registers(&self) -> Registers<Format> {
-        self.registers
+        let r = self.registers;
+        Registers {
+            done: BIT,
+            root_start: BIT,
+            saturated: BIT,
+            step: r.step.counting(),
+            channel: r.channel.counting(),
+            ..r
+        }
     }
 
     #[inline(always)]
@@ -291,8 +297,13 @@ impl Block for Currents {
         let inputs = root::Inputs { start: r.root_start, radicand: r.power };
         let root = self.root.call("root", &mut cell.parts.root, inputs);
         let r = Registers { done: bit(false), root_start: bit(false), ..r };
-        let working = || Registers::when(busy, || self.step(r, data, root), || r);
-        let next = Registers::when(i.valid, || self.take(r, i, (word, held)), working);
+        let next = when!(
+            V,
+            Registers,
+            i.valid,
+            self.take(r, i, (word, held)),
+            when!(V, Registers, busy, self.step(r, data, root), r)
+        );
         cell.store(self, next);
         outputs
     }

@@ -17,12 +17,11 @@
 //! clocks from `start` to the last sum. Source: paper, eqs. 1 and 5, detected synchronously; PHYSICS §5 for the window.
 
 use crate::block::{Block, Cell};
-use crate::bundle::Bundle;
 use crate::format::{BIT, Format};
 use crate::memory::{Memory, Write};
 use crate::profile::Profile;
-use crate::signal::{Exact, HalfEven, Never, Signal, Value, bit, constant, int};
-use crate::{bundle, parts};
+use crate::signal::{Exact, HalfEven, Never, Signal, Value, bit, code, int, zero};
+use crate::{bundle, choose, parts, when};
 
 bundle! {
     /// The inputs.
@@ -161,14 +160,14 @@ impl Demodulator {
     /// A sum with one more product; a window's first product begins it.
     #[inline(always)]
     pub fn accumulate<V: Value>(&self, first: Signal<V>, sum: Signal<V>, product: Signal<V>) -> Signal<V> {
-        let before = first.select(constant(0.0, self.sum()), sum);
-        (before + product).fit(self.sum(), Exact, Never)
+        let before = first.select(zero(sum.format), sum);
+        (before + product).fit(sum.format, Exact, Never)
     }
 
     /// Whether a code is at a rail of the ADC.
     #[inline(always)]
     pub fn at_rail<V: Value>(&self, code: Signal<V>) -> Signal<V> {
-        let rail = |code: i128| constant(code as f64 * self.adc.lsb(), self.adc);
+        let rail = |rail: i128| crate::signal::code(rail as i64, self.adc);
         code.equals(rail(self.adc.max_code())) | code.equals(rail(self.adc.min_code()))
     }
 
@@ -178,7 +177,7 @@ impl Demodulator {
         let format = Format::counter(self.channels);
         let ahead = (r.step - int(WEIGHING - 1)).bits(1, format.width);
         let of_channels = r.step.at_least(int(WEIGHING - 1)) & r.step.less_than(int(WEIGHING - 1 + 2 * self.channels));
-        of_channels.select(ahead, constant(self.channels as f64, format))
+        of_channels.select(ahead, code(self.channels as i64, format))
     }
 
     /// The multiplier's operands of this step.
@@ -209,8 +208,9 @@ impl Demodulator {
     ) -> Registers<Signal<V>> {
         let (left, right) = self.operands(&r, &i);
         let uses_code = r.step.at_least(int(WEIGHING - 1)) & r.step.less_than(int(WEIGHING + self.sums()));
-        let weighted =
-            |at: u64, to: Format, else_: Signal<V>| r.step.is(at + PIPELINE).select(self.weigh(r.product, to), else_);
+        let weighted = |at: u64, to: Format, before: Signal<V>| {
+            choose!(V, r.step.is(at + PIPELINE), self.weigh(r.product, to), before)
+        };
         let end = r.step.is(self.steps() - 1);
         Registers {
             busy: !end,
@@ -224,7 +224,7 @@ impl Demodulator {
             valid: summed & r.last,
             index,
             sum,
-            clipped: r.clipped | (uses_code & self.at_rail(i.code)),
+            clipped: r.clipped | choose!(V, uses_code, self.at_rail(i.code), bit(false)),
             ..r
         }
     }
@@ -251,7 +251,10 @@ impl Block for Demodulator {
 
     #[inline(always)]
     fn registers(&self) -> Registers<Format> {
-        self.registers
+        let Registers { step, pad, index, .. } = self.registers;
+        let (step, pad, index) = (step.counting(), pad.counting(), index.counting());
+        let data = self.registers;
+        Registers { busy: BIT, step, first: BIT, last: BIT, pad, valid: BIT, index, clipped: BIT, ..data }
     }
 
     #[inline(always)]
@@ -272,8 +275,13 @@ impl Block for Demodulator {
         let write = Write { enable: summed, address: index, data: sum };
         self.sums.access(&mut cell.parts.sums, next_index, write);
         let r = Registers { valid: bit(false), ..r };
-        let working = || Registers::when(r.busy, || self.step(r, i, index, sum, summed), || r);
-        let next = Registers::when(i.start, || self.begin(r, i), working);
+        let next = when!(
+            V,
+            Registers,
+            i.start,
+            self.begin(r, i),
+            when!(V, Registers, r.busy, self.step(r, i, index, sum, summed), r)
+        );
         cell.store(self, next);
         outputs
     }

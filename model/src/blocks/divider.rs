@@ -13,10 +13,9 @@
 //! `start` to `done`. Source: restoring division, Parhami, Computer Arithmetic, §13.
 
 use crate::block::{Block, Cell};
-use crate::bundle;
-use crate::bundle::Bundle;
 use crate::format::{BIT, Format};
-use crate::signal::{Exact, Lemma, Never, Signal, Value, Wrap, bit, constant, int};
+use crate::signal::{Exact, Lemma, Never, Signal, Value, Wrap, bit, code, int};
+use crate::{bundle, when};
 
 bundle! {
     /// The inputs.
@@ -131,7 +130,7 @@ impl Divider {
         let (twice, denominator) = (r.remainder.scaled(1), r.denominator.integer());
         let up = denominator.less_than(twice) | (twice.equals(denominator) & r.partial.bits(0, 1));
         let (rounded, over) = (r.partial + up).saturate(Format { frac: 0, ..self.quotient }, Exact);
-        let most = constant(self.quotient.max_code() as f64, Format { frac: 0, ..self.quotient });
+        let most = code(self.quotient.max_code() as i64, Format { frac: 0, ..self.quotient });
         let saturated = over | r.over;
         let quotient = r.over.select(most, rounded).scaled(-self.quotient.frac);
         let quotient = quotient.ideally(&[r.numerator, r.denominator], |of| of[0] / of[1]);
@@ -158,7 +157,18 @@ impl Block for Divider {
 
     #[inline(always)]
     fn registers(&self) -> Registers<Format> {
-        self.registers
+        let r = self.registers;
+        Registers {
+            busy: BIT,
+            done: BIT,
+            saturated: BIT,
+            over: BIT,
+            count: r.count.counting(),
+            tail: r.tail.counting(),
+            partial: r.partial.counting(),
+            remainder: r.remainder.counting(),
+            ..r
+        }
     }
 
     #[inline(always)]
@@ -170,8 +180,13 @@ impl Block for Divider {
         }
         let last = r.count.is(self.quotient.width.into());
         let idle = Registers { done: bit(false), ..r };
-        let working = || Registers::when(last, || self.finish(idle), || self.step(idle));
-        let next = Registers::when(i.start, || self.begin(idle, i), || Registers::when(r.busy, working, || idle));
+        let next = when!(
+            V,
+            Registers,
+            i.start,
+            self.begin(idle, i),
+            when!(V, Registers, r.busy, when!(V, Registers, last, self.finish(idle), self.step(idle)), idle)
+        );
         cell.store(self, next);
         outputs
     }

@@ -18,7 +18,7 @@ use crate::block::{Block, Cell};
 use crate::bundle::Bundle;
 use crate::format::{BIT, Format};
 use crate::profile::Profile;
-use crate::signal::{Signal, Value, constant};
+use crate::signal::{Signal, Value, zero};
 use crate::{bundle, parts};
 
 bundle! {
@@ -128,7 +128,7 @@ impl Estimator {
         }
     }
 
-    /// Clocks from the last but one sum (the mean square is the last) to the last word.
+    /// Clocks from the last sum to the last word.
     pub fn latency(&self) -> u64 {
         let stages = [
             self.currents.latency(),
@@ -190,7 +190,8 @@ impl Block for Estimator {
 
     #[inline(always)]
     fn registers(&self) -> Registers<Format> {
-        self.registers
+        let r = self.registers;
+        Registers { busy: BIT, clipped: BIT, pad: r.pad.counting(), ..r }
     }
 
     #[inline(always)]
@@ -272,7 +273,7 @@ impl Estimator {
     /// The outputs while nothing is under way: no frame, and so nothing about one.
     #[inline(always)]
     fn quiet<V: Value>(&self, r: Registers<Signal<V>>) -> Outputs<Signal<V>> {
-        let zero = Outputs::map(self.outputs(), |format| constant(0.0, format));
+        let zero = Outputs::map(self.outputs(), |format| zero(format));
         Outputs { pad: r.pad, clipped: r.clipped, ..zero }
     }
 }

@@ -12,11 +12,10 @@
 //! One multiplier serves all three products, on codes as integers. Latency: 8 clocks from `start` to `done`.
 
 use crate::block::{Block, Cell};
-use crate::bundle;
-use crate::bundle::Bundle;
 use crate::format::{BIT, Format};
 use crate::profile::Profile;
 use crate::signal::{Exact, HalfEven, Lemma, Signal, Value, Wrap, bit, int};
+use crate::{bundle, when};
 
 bundle! {
     /// The inputs.
@@ -134,7 +133,16 @@ impl Block for Force {
 
     #[inline(always)]
     fn registers(&self) -> Registers<Format> {
-        self.registers
+        let r = self.registers;
+        Registers {
+            done: BIT,
+            saturated: BIT,
+            step: r.step.counting(),
+            left: r.left.counting(),
+            right: r.right.counting(),
+            product: r.product.counting(),
+            ..r
+        }
     }
 
     #[inline(always)]
@@ -145,9 +153,8 @@ impl Block for Force {
             return outputs;
         }
         let idle = Registers { done: bit(false), ..r };
-        let begin = || Registers { step: int(1), saturated: bit(false), ..idle };
-        let working = || Registers::when(r.step.is(0), || idle, || self.step(idle, i));
-        let next = Registers::when(i.start, begin, working);
+        let begin = Registers { step: int(1), saturated: bit(false), ..idle };
+        let next = when!(V, Registers, i.start, begin, when!(V, Registers, r.step.is(0), idle, self.step(idle, i)));
         cell.store(self, next);
         outputs
     }

@@ -5,15 +5,14 @@
 //!                         └─[held: fields of every pad]─┘
 //!
 //! Words are codes as integers, in the formats of [`Field::format`]. The haptic mean square is always valid and never held.
-//! Latency: fields + 1 clocks from `start` to the last word. Source: DESIGN §3 (invalid: last value held).
+//! Latency: fields + 2 clocks from `start` to the last word. Source: DESIGN §3 (invalid: last value held).
 
 use crate::block::{Block, Cell};
-use crate::bundle::Bundle;
 use crate::format::{BIT, Format};
 use crate::memory::{Memory, Write};
 use crate::profile::Profile;
 use crate::signal::{Exact, Never, Signal, Value, bit, int};
-use crate::{bundle, parts};
+use crate::{bundle, parts, when};
 
 /// A word of a frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -204,7 +203,8 @@ impl Block for Frames {
 
     #[inline(always)]
     fn registers(&self) -> Registers<Format> {
-        self.registers
+        let r = self.registers;
+        Registers { busy: BIT, done: BIT, valid: BIT, count: r.count.counting(), index: r.index.counting(), ..r }
     }
 
     #[inline(always)]
@@ -232,8 +232,8 @@ impl Block for Frames {
             word: emits.select(word, r.word),
             done: emits & end,
         };
-        let begin = || Registers { busy: bit(true), count: int(0), valid: bit(false), done: bit(false), ..r };
-        let next = Registers::when(i.start, begin, || working);
+        let begin = Registers { busy: bit(true), count: int(0), valid: bit(false), done: bit(false), ..r };
+        let next = when!(V, Registers, i.start, begin, working);
         cell.store(self, next);
         outputs
     }

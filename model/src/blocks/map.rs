@@ -21,12 +21,11 @@
 //! Latency: 19 operations of 6 clocks + 1 from `start` to `done`. Source: paper, eqs. 2–3; PHYSICS §1 (det J > 0).
 
 use crate::block::{Block, Cell};
-use crate::bundle::Bundle;
 use crate::format::{BIT, Format};
 use crate::memory::{Memory, Write};
 use crate::profile::Profile;
-use crate::signal::{Exact, Floor, HalfEven, Lemma, Never, Saturate, Signal, Value, Wrap, bit, constant, int};
-use crate::{bundle, parts};
+use crate::signal::{Exact, Floor, HalfEven, Lemma, Never, Saturate, Signal, Value, Wrap, bit, int, zero};
+use crate::{bundle, parts, when};
 
 bundle! {
     /// The inputs.
@@ -244,7 +243,7 @@ impl Map {
     /// A coordinate of −1 … 1 as the cell of `2^bits` in which it lies, and how far into it.
     #[inline(always)]
     fn cell_of<V: Value>(&self, coordinate: Signal<V>, bits: u8) -> (Signal<V>, Signal<V>) {
-        let one = constant(1.0, Format::unsigned(1, 0));
+        let one = int(1);
         let positive = (coordinate + one).fit(Format::unsigned(self.word.width, self.word.frac), Exact, Never);
         let cells = positive.scaled(bits as i8 - 1);
         let index = cells.fit(Format::unsigned(bits, 0), Floor, Never);
@@ -280,7 +279,7 @@ impl Map {
         let (column, across) = self.cell_of(r.u, bits);
         let (row, down) = self.cell_of(r.v, bits);
         let row = row + self.below(r);
-        let rows = row.concat(constant(0.0, Format::unsigned(bits, 0))) + row;
+        let rows = row.concat(zero(Format::unsigned(bits, 0))) + row;
         let offset = |layer: usize| int(self.layout.table(layer) as u64);
         let layer = |k: u64| r.operation.at_least(int(operation::LAYERS + 3 * k));
         let offset = layer(2).select(offset(2), layer(1).select(offset(1), offset(0)));
@@ -389,8 +388,13 @@ impl Map {
             product: at(4).select(r.difference * r.factor, r.product),
             ..r
         };
-        let later = || Registers::when(at(STEPS - 1), || self.finish(moved), || moved);
-        Registers::when(at(0), || self.coordinate(moved, i), later)
+        when!(
+            V,
+            Registers,
+            at(0),
+            self.coordinate(moved, i),
+            when!(V, Registers, at(STEPS - 1), self.finish(moved), moved)
+        )
     }
 }
 
@@ -428,7 +432,17 @@ impl Block for Map {
 
     #[inline(always)]
     fn registers(&self) -> Registers<Format> {
-        self.registers
+        let r = self.registers;
+        Registers {
+            busy: BIT,
+            done: BIT,
+            saturated: BIT,
+            step: r.step.counting(),
+            operation: r.operation.counting(),
+            base: r.base.counting(),
+            factor: r.factor.counting(),
+            ..r
+        }
     }
 
     #[inline(always)]
@@ -442,9 +456,8 @@ impl Block for Map {
         let after = (r.base + r.step.is(2)).fit(self.registers.base, Exact, Wrap);
         self.words.access(&mut cell.parts.words, after, Write { enable: i.write, address: i.address, data: i.word });
         let idle = Registers { done: bit(false), ..r };
-        let begin = || Registers { busy: bit(true), operation: int(0), step: int(0), saturated: bit(false), ..idle };
-        let working = || Registers::when(r.busy, || self.work(idle, i, word), || idle);
-        let next = Registers::when(i.start, begin, working);
+        let begin = Registers { busy: bit(true), operation: int(0), step: int(0), saturated: bit(false), ..idle };
+        let next = when!(V, Registers, i.start, begin, when!(V, Registers, r.busy, self.work(idle, i, word), idle));
         cell.store(self, next);
         outputs
     }

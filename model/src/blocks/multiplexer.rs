@@ -11,11 +11,10 @@
 //! Latency: one clock from a strobe to its `sample`; the flags then hold until the next strobe. Source: DESIGN §3.
 
 use crate::block::{Block, Cell};
-use crate::bundle;
-use crate::bundle::Bundle;
 use crate::format::{BIT, Format};
 use crate::profile::Profile;
 use crate::signal::{Exact, Never, Signal, Value, bit, int};
+use crate::{bundle, when};
 
 bundle! {
     /// The inputs.
@@ -124,7 +123,9 @@ impl Block for Multiplexer {
 
     #[inline(always)]
     fn registers(&self) -> Registers<Format> {
-        self.registers
+        let Registers { count, next, pad, .. } = self.registers;
+        let (count, next, pad) = (count.counting(), next.counting(), pad.counting());
+        Registers { count, next, sample: BIT, restart: BIT, integrate: BIT, first: BIT, last: BIT, pad, closed: BIT }
     }
 
     #[inline(always)]
@@ -135,7 +136,7 @@ impl Block for Multiplexer {
         if (i.strobe | r.sample).idle() {
             return outputs;
         }
-        let next = Registers::when(i.strobe, || self.advance(r), || r);
+        let next = when!(V, Registers, i.strobe, self.advance(r), r);
         cell.store(self, Registers { sample: i.strobe, ..next });
         outputs
     }

@@ -15,12 +15,11 @@
 //! `ready`. Source: PHYSICS §5 (sine table, Hann window).
 
 use crate::block::{Block, Cell};
-use crate::bundle::Bundle;
 use crate::format::{BIT, Format};
 use crate::memory::Memory;
 use crate::profile::{Profile, Window};
-use crate::signal::{Exact, HalfEven, Saturate, Signal, Value, Wrap, bit, constant, int};
-use crate::{bundle, parts};
+use crate::signal::{Exact, HalfEven, Saturate, Signal, Value, Wrap, bit, code, int, zero};
+use crate::{bundle, parts, when};
 use std::f64::consts::TAU;
 
 bundle! {
@@ -69,8 +68,9 @@ parts! {
 pub struct Oscillator {
     quarter: Memory,
     address_bits: u8,
-    increment: f64,
-    window_increment: f64,
+    /// Codes of [`PHASE`]: settings, and so the same in every reading.
+    increment: i64,
+    window_increment: i64,
     window: Window,
     registers: Registers<Format>,
 }
@@ -105,8 +105,8 @@ impl Oscillator {
         Oscillator {
             quarter: Memory::table("quarter", Format { signed: false, width: format.width - 1, ..format }, table),
             address_bits,
-            increment: profile.carrier.turns_per_sample(),
-            window_increment: 1.0 / profile.slot.integrate as f64,
+            increment: PHASE.code_saturating(profile.carrier.turns_per_sample()),
+            window_increment: PHASE.code_saturating(1.0 / profile.slot.integrate as f64),
             window: profile.carrier.window,
             registers,
         }
@@ -131,7 +131,7 @@ impl Oscillator {
     /// (1 − cos) / 2, or one throughout.
     #[inline(always)]
     fn weight<V: Value>(&self, cosine: Signal<V>) -> Signal<V> {
-        let one = constant(1.0, Format::unsigned(1, 0));
+        let one = int(1);
         match self.window {
             Window::Hann => (one - cosine).scaled(-1).fit(self.registers.window, HalfEven, Saturate),
             Window::Rectangular => one.fit(self.registers.window, Exact, Saturate),
@@ -141,8 +141,8 @@ impl Oscillator {
     /// The phase of the clock's look-up: the sine of (φ + ¼) is the cosine.
     #[inline(always)]
     fn address_phase<V: Value>(&self, r: &Registers<Signal<V>>, i: &Inputs<Signal<V>>) -> Signal<V> {
-        let quarter = constant(0.25, PHASE);
-        let zero = constant(0.0, PHASE);
+        let quarter = code(1 << 30, PHASE);
+        let zero = zero(PHASE);
         let begun = i.sample.select(i.restart.select(zero, r.phase), r.phase);
         let cosine = (begun + quarter).fit(PHASE, Exact, Wrap);
         let window = (r.window_phase + quarter).fit(PHASE, Exact, Wrap);
@@ -152,7 +152,7 @@ impl Oscillator {
     /// A sample begins: phases start anew where they should.
     #[inline(always)]
     fn begin<V: Value>(&self, r: Registers<Signal<V>>, i: Inputs<Signal<V>>) -> Registers<Signal<V>> {
-        let zero = constant(0.0, PHASE);
+        let zero = zero(PHASE);
         Registers {
             step: int(1),
             phase: i.restart.select(zero, r.phase),
@@ -165,7 +165,7 @@ impl Oscillator {
     #[inline(always)]
     fn step<V: Value>(&self, r: Registers<Signal<V>>, wave: Signal<V>) -> Registers<Signal<V>> {
         let (cosine, sine, window) = (r.step.is(1), r.step.is(2), r.step.is(3));
-        let advance = |phase: Signal<V>, by: f64| (phase + constant(by, PHASE)).fit(PHASE, Exact, Wrap);
+        let advance = |phase: Signal<V>, by: i64| (phase + code(by, PHASE)).fit(PHASE, Exact, Wrap);
         Registers {
             step: (r.step + int(1)).fit(r.step.format, Exact, Wrap),
             phase: window.select(advance(r.phase, self.increment), r.phase),
@@ -199,7 +199,9 @@ impl Block for Oscillator {
 
     #[inline(always)]
     fn registers(&self) -> Registers<Format> {
-        self.registers
+        let (phase, step) = (PHASE, Format::unsigned(2, 0));
+        let phases = Registers { phase, window_phase: phase, looked_up: phase, ..self.registers };
+        Registers { step, negative: BIT, ready: BIT, ..phases }
     }
 
     #[inline(always)]
@@ -215,8 +217,7 @@ impl Block for Oscillator {
         let (address, negative) = self.look_up(looked_up);
         self.quarter.read(&mut cell.parts.quarter, address);
         let r = Registers { ready: bit(false), looked_up, negative, ..r };
-        let next =
-            Registers::when(i.sample, || self.begin(r, i), || Registers::when(busy, || self.step(r, wave), || r));
+        let next = when!(V, Registers, i.sample, self.begin(r, i), when!(V, Registers, busy, self.step(r, wave), r));
         cell.store(self, next);
         outputs
     }

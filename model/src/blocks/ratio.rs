@@ -12,11 +12,10 @@
 
 use super::divider::{self, Divider};
 use crate::block::{Block, Cell};
-use crate::bundle::Bundle;
 use crate::format::{BIT, Format};
 use crate::profile::Profile;
 use crate::signal::{Exact, Never, Signal, Value, bit, int};
-use crate::{bundle, parts};
+use crate::{bundle, parts, when};
 
 bundle! {
     /// The inputs.
@@ -128,7 +127,8 @@ impl Block for Ratio {
 
     #[inline(always)]
     fn registers(&self) -> Registers<Format> {
-        self.registers
+        let r = self.registers;
+        Registers { done: BIT, divide: BIT, invalid: BIT, step: r.step.counting(), ..r }
     }
 
     #[inline(always)]
@@ -141,8 +141,8 @@ impl Block for Ratio {
         let numerator = r.step.is(1).select(i.x, i.y).abs();
         let inputs = divider::Inputs { start: r.divide, numerator, denominator: i.corners };
         let divided = self.divider.call("divider", &mut cell.parts.divider, inputs);
-        let begin = || Registers { step: int(1), divide: bit(true), done: bit(false), ..r };
-        let next = Registers::when(i.start, begin, || self.step(r, i, divided));
+        let begin = Registers { step: int(1), divide: bit(true), done: bit(false), ..r };
+        let next = when!(V, Registers, i.start, begin, self.step(r, i, divided));
         cell.store(self, next);
         outputs
     }

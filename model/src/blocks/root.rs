@@ -13,10 +13,9 @@
 //! Arithmetic, §21.
 
 use crate::block::{Block, Cell};
-use crate::bundle;
-use crate::bundle::Bundle;
 use crate::format::{BIT, Format};
 use crate::signal::{Exact, Lemma, Never, Signal, Value, Wrap, bit, int};
+use crate::{bundle, when};
 
 bundle! {
     /// The inputs.
@@ -143,7 +142,16 @@ impl Block for Root {
 
     #[inline(always)]
     fn registers(&self) -> Registers<Format> {
-        self.registers
+        let r = self.registers;
+        Registers {
+            busy: BIT,
+            done: BIT,
+            count: r.count.counting(),
+            tail: r.tail.counting(),
+            partial: r.partial.counting(),
+            remainder: r.remainder.counting(),
+            ..r
+        }
     }
 
     #[inline(always)]
@@ -155,8 +163,13 @@ impl Block for Root {
         }
         let last = r.count.is(self.digits.into());
         let idle = Registers { done: bit(false), ..r };
-        let working = || Registers::when(last, || self.finish(idle), || self.step(idle));
-        let next = Registers::when(i.start, || self.begin(idle, i), || Registers::when(r.busy, working, || idle));
+        let next = when!(
+            V,
+            Registers,
+            i.start,
+            self.begin(idle, i),
+            when!(V, Registers, r.busy, when!(V, Registers, last, self.finish(idle), self.step(idle)), idle)
+        );
         cell.store(self, next);
         outputs
     }

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Fidelity `clock`: every clock of the core, as the board runs it.
 
-use super::{Gathered, calibrated};
+use super::{Gathered, calibrated, signals};
 use crate::block::{Block, Cell, sample, variables};
 use crate::blocks::core::{Core, Inputs};
-use crate::bundle::Bundle;
 use crate::calibration::Calibration;
-use crate::format::Format;
+use crate::format::BIT;
 use crate::frame::Frame;
 use crate::probe::{Probe, Variable};
 use crate::profile::Profile;
@@ -16,8 +15,7 @@ use crate::signal::Signal;
 pub struct ClockSimulation {
     core: Core,
     cell: Cell<Core, i64>,
-    formats: Inputs<Format>,
-    inputs: Inputs<i64>,
+    inputs: Inputs<Signal<i64>>,
     clocks_per_sample: u64,
     channels: usize,
     channel: usize,
@@ -33,8 +31,7 @@ impl ClockSimulation {
         let formats = core.inputs();
         ClockSimulation {
             cell: calibrated(&core, calibration),
-            inputs: calibration.inputs(formats),
-            formats,
+            inputs: signals::<Inputs, i64>(calibration.inputs(formats), formats),
             core,
             clocks_per_sample: profile.clocks_per_sample,
             channels: profile.channels(),
@@ -64,9 +61,9 @@ impl ClockSimulation {
 
     #[inline(always)]
     fn clock(&mut self, strobe: i64, codes: &[i32]) {
-        let inputs = Inputs { strobe, code: i64::from(codes[self.channel]), ..self.inputs };
-        let inputs = Inputs::map(Inputs::zip(inputs, self.formats), |(value, format)| Signal { value, format });
-        let outputs = self.core.clock(&mut self.cell, inputs);
+        let code = Signal { value: i64::from(codes[self.channel]), format: self.inputs.code.format };
+        let strobe = Signal { value: strobe, format: BIT };
+        let outputs = self.core.clock(&mut self.cell, Inputs { strobe, code, ..self.inputs });
         self.clocks += 1;
         self.channel = outputs.channel.value as usize;
         self.gathered.take(outputs.valid.value, outputs.index.value, outputs.frame.value);
@@ -84,7 +81,7 @@ impl ClockSimulation {
     /// Runs on without samples until the frame of the slot that has just ended is there.
     pub fn finish_slot(&mut self) -> Option<Frame> {
         let codes = vec![0; self.channels];
-        let mut left = 2 * self.core.latency();
+        let mut left = self.core.latency();
         while self.frame.is_none() && left > 0 {
             self.clock(0, &codes);
             left -= 1;

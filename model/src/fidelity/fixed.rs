@@ -15,14 +15,14 @@ use crate::calibration::Calibration;
 use crate::format::Format;
 use crate::frame::Frame;
 use crate::profile::Profile;
-use crate::signal::{Signal, Value, bit, constant, int};
+use crate::signal::{Signal, Value, bit, code, int, zero};
 
 /// The weighted carrier at a sample of the window, and the window itself.
 #[derive(Debug, Clone, Copy)]
 struct Local<V> {
-    cosine: Signal<V>,
-    sine: Signal<V>,
-    window: Signal<V>,
+    cosine: V,
+    sine: V,
+    window: V,
 }
 
 /// A core at work, slot by slot.
@@ -30,6 +30,7 @@ pub struct FixedSimulation<V: Value = i64> {
     core: Core,
     cell: Cell<Core, V>,
     adc: Format,
+    oscillator: Format,
     channels: usize,
     local: Vec<Local<V>>,
     quiet: Inputs<Signal<V>>,
@@ -41,12 +42,13 @@ impl<V: Value> FixedSimulation<V> {
     pub fn new(profile: &Profile, calibration: &Calibration) -> Self {
         let core = Core::new(profile);
         let constants = signals::<CoreInputs, V>(calibration.inputs(core.inputs()), core.inputs());
-        let sums = vec![constant(0.0, core.demodulator().sum()); core.demodulator().sums() as usize];
+        let sums = vec![zero(core.demodulator().sum()); core.demodulator().sums() as usize];
         FixedSimulation {
             cell: calibrated(&core, calibration),
             local: local(&core, profile),
             quiet: quiet(&core, constants),
             adc: profile.formats.adc,
+            oscillator: profile.formats.oscillator,
             channels: profile.channels(),
             sums,
             core,
@@ -69,23 +71,46 @@ impl<V: Value> FixedSimulation<V> {
         self.estimate(pad, clipped)
     }
 
-    /// The sums of a window.
+    /// The sums of a window, a channel after the other, so that its two sums stay at hand.
     fn demodulate(&mut self, codes: &[i32]) {
-        let demodulator = self.core.demodulator();
-        let (adc, begun) = (self.adc, bit(false));
-        self.sums.fill(constant(0.0, demodulator.sum()));
-        let (haptic_sum, sums) = self.sums.split_last_mut().expect("there are sums");
-        for (codes, local) in codes.chunks_exact(self.channels).zip(&self.local) {
-            let (&haptic, codes) = codes.split_last().expect("there are channels");
-            for (sums, &code) in sums.chunks_exact_mut(2).zip(codes) {
-                let code = raw(code, adc);
-                sums[0] = demodulator.accumulate(begun, sums[0], code * local.cosine);
-                sums[1] = demodulator.accumulate(begun, sums[1], code * local.sine);
-            }
-            let haptic = raw(haptic, adc);
-            let weighted = demodulator.weigh(local.window * haptic, adc);
-            *haptic_sum = demodulator.accumulate(begun, *haptic_sum, haptic * weighted);
+        let (haptic, demodulated) = (self.channels - 1, self.channels - 1);
+        for channel in 0..demodulated {
+            let [in_phase, quadrature] = self.tone(channel, codes);
+            self.sums[2 * channel] = in_phase;
+            self.sums[2 * channel + 1] = quadrature;
         }
+        self.sums[2 * demodulated] = self.squares(haptic, codes);
+    }
+
+    /// The in-phase and quadrature sums of a channel.
+    #[inline]
+    fn tone(&self, channel: usize, codes: &[i32]) -> [Signal<V>; 2] {
+        let (demodulator, adc, begun) = (self.core.demodulator(), self.adc, bit(false));
+        let mut sums = [zero(demodulator.sum()); 2];
+        for (codes, local) in codes.chunks_exact(self.channels).zip(&self.local) {
+            let code = raw(codes[channel], adc);
+            sums[0] = demodulator.accumulate(begun, sums[0], code * self.wave(local.cosine));
+            sums[1] = demodulator.accumulate(begun, sums[1], code * self.wave(local.sine));
+        }
+        sums
+    }
+
+    /// The weighted sum of squares of a channel.
+    #[inline]
+    fn squares(&self, channel: usize, codes: &[i32]) -> Signal<V> {
+        let (demodulator, adc, begun) = (self.core.demodulator(), self.adc, bit(false));
+        let mut sum = zero(demodulator.sum());
+        for (codes, local) in codes.chunks_exact(self.channels).zip(&self.local) {
+            let code = raw(codes[channel], adc);
+            let weighted = demodulator.weigh(self.wave(local.window) * code, adc);
+            sum = demodulator.accumulate(begun, sum, code * weighted);
+        }
+        sum
+    }
+
+    #[inline(always)]
+    fn wave(&self, value: V) -> Signal<V> {
+        Signal { value, format: self.oscillator }
     }
 
     fn clipped(&self, codes: &[i32]) -> bool {
@@ -95,19 +120,16 @@ impl<V: Value> FixedSimulation<V> {
 
     /// Hands the sums to the estimator and runs it until its frame is there.
     fn estimate(&mut self, pad: usize, clipped: bool) -> Frame {
-        let (pad, clipped) = (constant(pad as f64, self.quiet.pad.format), bit(clipped));
+        let (pad, clipped) = (code(pad as i64, self.quiet.pad.format), bit(clipped));
         let mut gathered = Gathered::default();
         for index in 0..self.sums.len() {
             let (sum, index) = (self.sums[index], int(index as u64));
             let inputs = Inputs { valid: bit(true), index, sum, pad, clipped, ..self.quiet };
             self.clock(inputs, &mut gathered);
         }
-        for clock in 0..2 * self.core.estimator().latency() {
+        for _ in 0..self.core.estimator().latency() {
             let outputs = self.clock(self.quiet, &mut gathered);
             if V::known(outputs.done.value) == Some(true) {
-                if std::env::var("LAT").is_ok() {
-                    eprintln!("took {clock}");
-                }
                 return frame(gathered, &outputs);
             }
         }
@@ -136,19 +158,19 @@ fn raw<V: Value>(code: i32, adc: Format) -> Signal<V> {
 }
 
 fn frame<V: Value>(gathered: Gathered, outputs: &Outputs<Signal<V>>) -> Frame {
-    let code = V::code;
+    let code_of = V::code;
     gathered.frame(
-        code(outputs.pad),
-        code(outputs.clipped),
-        code(outputs.saturated),
-        code(outputs.invalid),
-        code(outputs.lost),
+        code_of(outputs.pad),
+        code_of(outputs.clipped),
+        code_of(outputs.saturated),
+        code_of(outputs.invalid),
+        code_of(outputs.lost),
     )
 }
 
 /// The estimator's inputs between sums.
 fn quiet<V: Value>(core: &Core, constants: CoreInputs<Signal<V>>) -> Inputs<Signal<V>> {
-    let zero = Inputs::map(core.estimator().inputs(), |format| constant(0.0, format));
+    let zeros = Inputs::map(core.estimator().inputs(), zero);
     Inputs {
         origin_x: constants.origin_x,
         scale_x: constants.scale_x,
@@ -156,7 +178,7 @@ fn quiet<V: Value>(core: &Core, constants: CoreInputs<Signal<V>>) -> Inputs<Sign
         scale_y: constants.scale_y,
         capacitance_gain: constants.capacitance_gain,
         force_gain: constants.force_gain,
-        ..zero
+        ..zeros
     }
 }
 
@@ -173,8 +195,8 @@ fn local<V: Value>(core: &Core, profile: &Profile) -> Vec<Local<V>> {
             out = oscillator.clock(&mut cell, Sample { sample: bit(false), restart: bit(false), first: bit(false) });
         }
         if sample >= profile.slot.blanking() {
-            let [cosine, sine] = [out.cosine, out.sine].map(|wave| demodulator.weigh(out.window * wave, lo));
-            local.push(Local { cosine, sine, window: out.window });
+            let [cosine, sine] = [out.cosine, out.sine].map(|wave| demodulator.weigh(out.window * wave, lo).value);
+            local.push(Local { cosine, sine, window: out.window.value });
         }
     }
     local

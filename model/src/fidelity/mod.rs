@@ -10,11 +10,11 @@ use crate::bundle::Bundle;
 use crate::calibration::Calibration;
 use crate::format::Format;
 use crate::frame::{Flags, Frame};
-use crate::signal::{Signal, Value, constant};
+use crate::signal::{self, Signal, Value, constant};
 
 /// The signals of a bundle of constants.
 pub(crate) fn signals<S: Bundle, V: Value>(codes: S::Of<i64>, formats: S::Of<Format>) -> S::Of<Signal<V>> {
-    S::map(S::zip(codes, formats), |(code, format)| constant(format.real(code), format))
+    S::map(S::zip(codes, formats), |(code, format)| signal::code(code, format))
 }
 
 /// Gathers the words of a frame as the core gives them out.

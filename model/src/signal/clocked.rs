@@ -15,7 +15,8 @@ pub struct Codes {
 /// The code of `a` with the point where `to` has it, which is never further left than in `a`.
 #[inline(always)]
 fn align(a: Signal<i64>, to: Format) -> i64 {
-    a.value << (to.frac - a.format.frac)
+    // Mostly there is nothing to move; a branch that a loop can be rid of is cheaper than a shift that it cannot.
+    if to.frac == a.format.frac { a.value } else { a.value << (to.frac - a.format.frac) }
 }
 
 /// The code with `drop` fewer fractional bits.
@@ -63,6 +64,7 @@ fn min(format: Format) -> i64 {
 
 impl Value for i64 {
     type Words = Codes;
+    const DECIDES: bool = true;
 
     #[inline(always)]
     fn literal(real: f64, format: Format) -> Self {
@@ -95,7 +97,8 @@ impl Value for i64 {
     #[inline(always)]
     fn fit(a: Signal<i64>, to: Format, rounding: Rounding, overflow: Overflow) -> i64 {
         let drop = a.format.frac - to.frac;
-        let code = if drop > 0 { round(a.value, drop as u32, rounding) } else { a.value << -drop };
+        let exact = rounding == Rounding::Exact || drop <= 0;
+        let code = if exact { align(a, to) } else { round(a.value, drop as u32, rounding) };
         limit(code, to, overflow)
     }
 

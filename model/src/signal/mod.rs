@@ -69,6 +69,9 @@ pub trait Value: Copy + std::fmt::Debug + 'static {
     /// Whether formats are checked at every register and port as it runs (elsewhere only in debug builds).
     const ELABORATES: bool = false;
 
+    /// Whether every bit is known as it runs.
+    const DECIDES: bool = false;
+
     /// A constant: the number `real`, to the nearest code where the reading has codes.
     fn literal(real: f64, format: Format) -> Self;
     /// The sum of two signals.
@@ -154,13 +157,26 @@ pub trait Value: Copy + std::fmt::Debug + 'static {
     }
 }
 
+/// A constant by its code.
+#[inline(always)]
+pub fn code<V: Value>(code: i64, format: Format) -> Signal<V> {
+    Signal { value: V::raw(code, format), format }
+}
+
+/// Zero.
+#[inline(always)]
+pub fn zero<V: Value>(format: Format) -> Signal<V> {
+    code(0, format)
+}
+
 /// An unsigned integer constant, in the narrowest format that holds it.
 #[inline(always)]
 pub fn int<V: Value>(value: u64) -> Signal<V> {
-    constant(value as f64, Format::counter(value))
+    code(value as i64, Format::counter(value))
 }
 
-/// A constant in a stated format.
+/// A constant by its number, which need not be known exactly: readings without rounding have it as it is. Not for a block's
+/// clock, where [`code`] is quicker.
 #[inline(always)]
 pub fn constant<V: Value>(real: f64, format: Format) -> Signal<V> {
     Signal { value: V::literal(real, format), format }
@@ -169,7 +185,13 @@ pub fn constant<V: Value>(real: f64, format: Format) -> Signal<V> {
 /// A constant bit.
 #[inline(always)]
 pub fn bit<V: Value>(set: bool) -> Signal<V> {
-    constant(f64::from(u8::from(set)), BIT)
+    code(i64::from(set), BIT)
+}
+
+/// Whether a bit is set, in readings that know.
+#[inline(always)]
+pub fn is_set<V: Value>(bit: Signal<V>) -> bool {
+    V::known(bit.value) == Some(true)
 }
 
 impl<V: Value> Signal<V> {

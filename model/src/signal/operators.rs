@@ -36,7 +36,7 @@ impl<V: Value> Neg for Signal<V> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        let zero = super::constant(0.0, crate::format::Format { width: 1, signed: false, ..self.format });
+        let zero = super::zero(crate::format::Format { width: 1, signed: false, ..self.format });
         zero - self
     }
 }

@@ -216,6 +216,11 @@ impl Value for Range {
         bit.is_point().then_some(bit.low != 0)
     }
 
+    /// Surely not busy: that skipping changes no bit is tested on the clocked reading.
+    fn idle(busy: Self) -> bool {
+        busy == Range::point(0)
+    }
+
     fn words(memory: &Memory) -> Self::Words {
         (memory.codes().into_iter().map(|code| Range::point(code.into())).collect(), Range::point(0))
     }

@@ -32,6 +32,7 @@ pub(super) fn wrap(real: f64, to: Format) -> f64 {
 
 impl Value for Real {
     type Words = Reals;
+    const DECIDES: bool = true;
 
     fn literal(real: f64, _format: Format) -> Self {
         Real(real)

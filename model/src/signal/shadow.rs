@@ -42,6 +42,7 @@ fn control(code: i64) -> Shadow {
 
 impl Value for Shadow {
     type Words = Shadows;
+    const DECIDES: bool = true;
 
     fn literal(real: f64, format: Format) -> Self {
         both(i64::literal(real, format), Real(real))

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The proof that no signal of a core overflows where its format says that it cannot.
+//!
+//! The range reading runs the core through whole rounds of all pads, with every ADC code, every calibration and every table
+//! word anywhere in its format. Control is data-independent, so it is known exactly; data are intervals. Once the state
+//! after a round lies within the state before it, no further round can leave what has been seen, and the proof holds for
+//! all time. What relates several signals is beyond intervals: those places name a lemma, and tests hold the lemmas.
+
+use crate::block::{Block, Cell, Element, Visitor};
+use crate::blocks::core::{Core, Inputs};
+use crate::bundle::Bundle;
+use crate::format::{BIT, Format};
+use crate::profile::Profile;
+use crate::signal::range::{Range, Violation, take_lemmas, take_violations, whole};
+use crate::signal::{Signal, bit, zero};
+
+/// What was proved, or what stands in the way.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Proof {
+    /// Narrowings whose range does not fit; none where the proof holds.
+    pub violations: Vec<Violation>,
+    /// Whether the state after the last round lies within the state before it.
+    pub closed: bool,
+    /// Lemmas relied on.
+    pub lemmas: Vec<&'static str>,
+    /// Rounds run, from reset.
+    pub rounds: u64,
+    /// Clocks run.
+    pub clocks: u64,
+    /// Registers, with the range that each has between rounds.
+    pub registers: Vec<(String, Format, Range)>,
+}
+
+impl Proof {
+    /// Whether nothing can overflow.
+    pub fn holds(&self) -> bool {
+        self.closed && self.violations.is_empty()
+    }
+}
+
+/// Rounds after which a proof that has not closed is given up.
+const MOST_ROUNDS: u64 = 6;
+
+/// Tries to prove a profile's core.
+pub fn prove(profile: &Profile) -> Proof {
+    let core = Core::new(profile);
+    let mut run = Run { profile, inputs: any_inputs(&core), cell: core.cell(), core, clocks: 0 };
+    take_violations();
+    take_lemmas();
+    run.any_tables();
+    let (mut before, mut closed, mut rounds) = (run.state(), false, 0);
+    while !closed && rounds < MOST_ROUNDS {
+        run.round();
+        rounds += 1;
+        let after = run.state();
+        closed = rounds > 1 && before.holds(&after);
+        before = after;
+    }
+    let registers = before.registers;
+    Proof { violations: take_violations(), lemmas: take_lemmas(), closed, rounds, clocks: run.clocks, registers }
+}
+
+struct Run<'a> {
+    profile: &'a Profile,
+    core: Core,
+    cell: Cell<Core, Range>,
+    inputs: Inputs<Signal<Range>>,
+    clocks: u64,
+}
+
+/// Every code and calibration that the formats allow, and no writing.
+fn any_inputs(core: &Core) -> Inputs<Signal<Range>> {
+    let any = Inputs::map(core.inputs(), |format| Signal { value: whole(format), format });
+    Inputs { strobe: bit(false), write: bit(false), address: zero(any.address.format), ..any }
+}
+
+impl Run<'_> {
+    /// Every word that the format allows, at every address.
+    fn any_tables(&mut self) {
+        let maybe = Signal { value: Range { low: 0, high: 1 }, format: BIT };
+        let words = self.core.estimator().map().words().words as i128;
+        let address = Signal { value: Range { low: 0, high: words - 1 }, ..self.inputs.address };
+        self.core.clock(&mut self.cell, Inputs { write: maybe, address, ..self.inputs });
+        self.core.clock(&mut self.cell, self.inputs);
+    }
+
+    /// A slot of every pad, and clocks enough for the last frame to be finished.
+    fn round(&mut self) {
+        for _ in 0..self.profile.pads * self.profile.slot.samples() {
+            self.clock(true);
+            (1..self.profile.clocks_per_sample).for_each(|_| self.clock(false));
+        }
+        (0..self.core.latency()).for_each(|_| self.clock(false));
+    }
+
+    fn clock(&mut self, strobe: bool) {
+        self.core.clock(&mut self.cell, Inputs { strobe: bit(strobe), ..self.inputs });
+        self.clocks += 1;
+    }
+
+    fn state(&self) -> State {
+        let mut state = State::default();
+        self.core.visit("core", &self.cell, &mut state);
+        state
+    }
+}
+
+/// Everything that a core keeps from clock to clock.
+#[derive(Default)]
+struct State {
+    scope: Vec<&'static str>,
+    registers: Vec<(String, Format, Range)>,
+    words: Vec<Range>,
+}
+
+impl State {
+    fn holds(&self, other: &State) -> bool {
+        let registers = self.registers.iter().zip(&other.registers).all(|(a, b)| a.2.holds(b.2));
+        registers && self.words.iter().zip(&other.words).all(|(a, b)| a.holds(*b))
+    }
+}
+
+impl Visitor<Range> for State {
+    fn enter(&mut self, name: &'static str) {
+        self.scope.push(name);
+    }
+
+    fn register(&mut self, name: &'static str, _: &'static [&'static str], format: Format, value: Range) {
+        self.registers.push((format!("{}.{name}", self.scope.join(".")), format, value));
+    }
+
+    fn memory(&mut self, _memory: &crate::memory::Memory, words: &(Vec<Range>, Range)) {
+        self.words.extend(&words.0);
+        self.words.push(words.1);
+    }
+
+    fn leave(&mut self) {
+        self.scope.pop();
+    }
+}

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Fidelity `float`: a slot's reading in floating point, from the codes of its window or from phasors.
+//!
+//!   i_k = 2/Σw · Σ w·x_k·cos φ,   q_k = 2/Σw · Σ w·x_k·sin φ,   a_k = √(i_k² + q_k²)          (a full-scale tone gives one)
+//!   r_x = Σ ±a_k / Σ a_k,   r_y likewise (eqs. 2, 3);   x, y, R = tables(r_x, r_y)
+//!   a = |Σ (i_k + j q_k)|,   C = gain · a / √(v² − (a·R)²)    or    gain · a / v (eq. 6)
+//!   m = 1/Σw · Σ w·h²,   F = gain · C² · m · square_gain (eq. 8)
+//!
+//! Amplitudes enter results as quotients only, so that the core's tone gain cancels; its square gain does not, and a reading's
+//! mean square holds it, as a frame's does. Nothing saturates.
+
+use crate::calibration::Calibration;
+use crate::frame::{Flags, Reading};
+use crate::profile::{Profile, Window};
+use std::f64::consts::{PI, TAU};
+
+/// What a sample of the window is weighed with.
+#[derive(Debug, Clone, Copy)]
+struct Weights {
+    /// 2 w cos φ / Σw and 2 w sin φ / Σw, per full scale of a code.
+    carrier: [f64; 2],
+    /// w / Σw, per full scale² of a code.
+    square: f64,
+}
+
+/// The results of a pad that stand while there are none.
+#[derive(Debug, Clone, Copy)]
+struct Held {
+    reading: Reading,
+    eq6: f64,
+}
+
+/// A slot's equations.
+struct Solution {
+    values: Held,
+    valid: bool,
+    lost: bool,
+}
+
+/// A core in floating point, slot by slot.
+pub struct Reference {
+    window: Vec<Weights>,
+    channels: usize,
+    rails: [i32; 2],
+    signs: Vec<[f64; 2]>,
+    lost_share: f64,
+    sheet_correction: bool,
+    square_gain: f64,
+    calibration: Calibration,
+    held: Vec<Held>,
+    sums: Vec<[f64; 2]>,
+    last: usize,
+}
+
+impl Reference {
+    /// A core of a profile, calibrated, just before its first slot.
+    pub fn new(profile: &Profile, calibration: &Calibration) -> Self {
+        let pair = |(&x, &y): (&i8, &i8)| [f64::from(x), f64::from(y)];
+        let terminals = &profile.terminals;
+        let half = 1i32 << (profile.formats.adc.width - 1);
+        Reference {
+            window: window(profile),
+            channels: terminals.x.len() + 2,
+            rails: [-half, half - 1],
+            signs: terminals.x.iter().zip(&terminals.y).map(pair).collect(),
+            lost_share: 0.5f64.powi(terminals.lost_shift.into()),
+            sheet_correction: profile.capacitance.sheet_correction,
+            square_gain: profile.square_gain(),
+            calibration: calibration.clone(),
+            held: (0..profile.pads as usize).map(nothing).collect(),
+            sums: vec![[0.0; 2]; terminals.x.len() + 1],
+            last: 0,
+        }
+    }
+
+    /// The reading of a slot: `codes` are those of its window, a sample after the other: terminals, sensing voltage, haptic
+    /// voltage.
+    ///
+    /// # Panics
+    /// Where `codes` is not one code a channel and sample, or there is no such pad.
+    pub fn slot(&mut self, pad: usize, codes: &[i32]) -> Reading {
+        assert_eq!(codes.len(), self.window.len() * self.channels, "one code a channel and sample of the window");
+        let mean_square = match self.channels {
+            8 => self.demodulate::<8>(codes),
+            _ => self.demodulate::<0>(codes),
+        };
+        let [low, high] = self.rails;
+        let clipped = codes.iter().fold(false, |clipped, &code| clipped | (code == low) | (code == high));
+        let phasors = std::mem::take(&mut self.sums);
+        let reading = self.estimate(pad, &phasors, mean_square, clipped);
+        self.sums = phasors;
+        reading
+    }
+
+    /// The reading of a slot with these phasors (in phase, quadrature; fractions of full scale) of the terminals and the
+    /// sensing voltage, and this mean square of the haptic voltage (full scales squared).
+    ///
+    /// # Panics
+    /// Where `phasors` is not one a terminal and one more, or there is no such pad.
+    pub fn phasors(&mut self, pad: usize, phasors: &[(f64, f64)], mean_square: f64) -> Reading {
+        assert_eq!(phasors.len(), self.signs.len() + 1, "a phasor a terminal, and the sensing voltage's");
+        let phasors: Vec<_> = phasors.iter().map(|&(i, q)| [i, q]).collect();
+        self.estimate(pad, &phasors, mean_square, false)
+    }
+
+    /// The capacitance of the last slot by eq. 6 alone, in picofarads: what it is without the sheet's resistance.
+    pub fn capacitance_eq6(&self) -> f64 {
+        self.held[self.last].eq6
+    }
+
+    /// Phasors into `sums`; gives the mean square. `N` is the number of channels where that is known as this is compiled.
+    #[inline(always)]
+    fn demodulate<const N: usize>(&mut self, codes: &[i32]) -> f64 {
+        let channels = if N == 0 { self.channels } else { N };
+        let mut sums = [[0.0; 2]; 64];
+        let sums = &mut sums[..channels - 1];
+        let mut mean_square = 0.0;
+        for (codes, weights) in codes.chunks_exact(channels).zip(&self.window) {
+            let [cosine, sine] = weights.carrier;
+            for (sum, &code) in sums.iter_mut().zip(codes) {
+                let x = f64::from(code);
+                *sum = [sum[0] + x * cosine, sum[1] + x * sine];
+            }
+            let haptic = f64::from(codes[channels - 1]);
+            mean_square += haptic * haptic * weights.square;
+        }
+        self.sums.copy_from_slice(sums);
+        mean_square
+    }
+
+    fn estimate(&mut self, pad: usize, phasors: &[[f64; 2]], mean_square: f64, clipped: bool) -> Reading {
+        let mean_square = mean_square * self.square_gain;
+        let solution = self.solve(pad, phasors, mean_square);
+        self.last = pad;
+        if solution.valid {
+            self.held[pad] = solution.values;
+        }
+        let flags = Flags { clipped, saturated: false, invalid: !solution.valid, lost: solution.lost };
+        Reading { mean_square, flags, ..self.held[pad].reading }
+    }
+
+    /// Eqs. 2, 3, 6 and 8 and the sheet's resistance.
+    fn solve(&self, pad: usize, phasors: &[[f64; 2]], mean_square: f64) -> Solution {
+        let (terminals, sense) = phasors.split_at(self.signs.len());
+        let amplitudes = terminals.iter().map(magnitude);
+        let (mut x, mut y, mut corners, mut least) = (0.0, 0.0, 0.0, f64::INFINITY);
+        for (amplitude, &[sign_x, sign_y]) in amplitudes.zip(&self.signs) {
+            x += sign_x * amplitude;
+            y += sign_y * amplitude;
+            corners += if sign_x != 0.0 || sign_y != 0.0 { amplitude } else { 0.0 };
+            least = amplitude.min(least);
+        }
+        let sum = |part: usize| terminals.iter().map(|phasor| phasor[part]).sum();
+        let (total, sense) = (magnitude(&[sum(0), sum(1)]), magnitude(&sense[0]));
+        let (r_x, r_y) = (x / corners, y / corners);
+        let [x_mm, y_mm, sheet] = self.calibration.map.look_up(r_x, r_y);
+        let sheet = sheet.max(0.0);
+        let drop = if self.sheet_correction { total * sheet } else { 0.0 };
+        let left = sense * sense - drop * drop;
+        let capacitance_pf = self.calibration.capacitance_gain * total / left.sqrt();
+        let force_n = self.calibration.force_gain * capacitance_pf * capacitance_pf * mean_square;
+        let flags = Flags::default();
+        Solution {
+            values: Held {
+                reading: Reading { pad, r_x, r_y, x_mm, y_mm, sheet, capacitance_pf, force_n, mean_square, flags },
+                eq6: self.calibration.capacitance_gain * total / sense,
+            },
+            valid: corners > 0.0 && left > 0.0,
+            lost: least < self.lost_share * total,
+        }
+    }
+}
+
+fn magnitude(phasor: &[f64; 2]) -> f64 {
+    (phasor[0] * phasor[0] + phasor[1] * phasor[1]).sqrt()
+}
+
+/// The weights of a window. The carrier's phase is zero at the first sample of the slot.
+fn window(profile: &Profile) -> Vec<Weights> {
+    let samples = profile.slot.integrate;
+    let weight = |m: u64| match profile.carrier.window {
+        Window::Hann => (PI * m as f64 / samples as f64).sin().powi(2),
+        Window::Rectangular => 1.0,
+    };
+    let sum: f64 = (0..samples).map(weight).sum();
+    let full = 2f64.powi(profile.formats.adc.frac.into());
+    let weights = |m: u64| {
+        let (period, n) = (profile.carrier.samples_per_period, profile.slot.blanking() + m);
+        let (sine, cosine) = (TAU * (n % period) as f64 / period as f64).sin_cos();
+        let scale = 2.0 * weight(m) / sum / full;
+        Weights { carrier: [cosine, sine].map(|wave| scale * wave), square: weight(m) / sum / full / full }
+    };
+    (0..samples).map(weights).collect()
+}
+
+/// A pad of which nothing is known yet.
+fn nothing(pad: usize) -> Held {
+    let [r_x, r_y, x_mm, y_mm, sheet, capacitance_pf, force_n, mean_square] = [0.0; 8];
+    let flags = Flags::default();
+    let reading = Reading { pad, r_x, r_y, x_mm, y_mm, sheet, capacitance_pf, force_n, mean_square, flags };
+    Held { reading, eq6: 0.0 }
+}

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The words of frames: what is invalid is the pad's last valid; the mean square, the last word, is always its own.
+
+use super::Exact;
+use crate::format::Format;
+use crate::profile::Profile;
+
+/// Words of a frame: r_x, r_y, x, y, R, C, F, mean square.
+const WORDS: usize = 8;
+/// The full scale of a position is `2^POSITION` mm.
+const POSITION: i8 = 9;
+
+/// What every pad last was.
+#[derive(Debug, Clone)]
+pub struct Frames {
+    formats: [Format; WORDS],
+    held: Vec<[i64; WORDS]>,
+}
+
+impl Frames {
+    /// Frames of a profile, of pads that never were.
+    pub fn new(profile: &Profile) -> Self {
+        let f = &profile.formats;
+        let position = Format { frac: f.map.frac - POSITION, ..f.map };
+        let sheet = Format { signed: false, width: f.map.width - 1, ..f.map };
+        let formats = [f.ratio, f.ratio, position, position, sheet, f.capacitance, f.force, f.mean_square];
+        Frames { formats, held: vec![[0; WORDS]; profile.pads as usize] }
+    }
+
+    /// The codes of a frame with these values.
+    pub fn words(&mut self, pad: usize, values: [Exact; WORDS], invalid: bool) -> [i64; WORDS] {
+        let mut words = std::array::from_fn(|k| values[k].code(self.formats[k]));
+        if invalid {
+            words[..WORDS - 1].copy_from_slice(&self.held[pad][..WORDS - 1]);
+        }
+        self.held[pad] = words;
+        words
+    }
+}

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The rounded reference: each block's result as "the exact value, rounded so", and a slot's frame from all of them.
+//!
+//! One function a block, taking and giving [`Exact`] numbers; equality with the clocked model is to the bit.
+
+mod capacitance;
+mod currents;
+mod demodulator;
+mod force;
+mod frames;
+mod map;
+mod number;
+mod oscillator;
+mod ratio;
+
+pub use capacitance::{Capacitance, capacitance};
+pub use currents::{Currents, currents};
+pub use demodulator::{Sums, demodulate};
+pub use force::{Force, force, mean_square};
+pub use frames::Frames;
+pub use map::{Map, Place};
+pub use number::{Exact, Rounded, round, round_quotient, round_real, round_root};
+pub use oscillator::{Oscillator, Sample, weighted};
+pub use ratio::{Ratio, ratio};
+
+use crate::calibration::Calibration;
+use crate::frame::{Flags, Frame};
+use crate::profile::Profile;
+
+/// A core, slot by slot, rounded as the blocks round.
+pub struct Slots {
+    profile: Profile,
+    carrier: Vec<Sample>,
+    map: Map,
+    origin: [Exact; 2],
+    scale: [Exact; 2],
+    capacitance_gain: Exact,
+    force_gain: Exact,
+    frames: Frames,
+}
+
+impl Slots {
+    /// A core of a profile, calibrated, just before its first slot.
+    pub fn new(profile: &Profile, calibration: &Calibration) -> Self {
+        let (f, map) = (&profile.formats, &calibration.map);
+        let oscillator = Oscillator::new(profile);
+        let blanking = profile.slot.blanking();
+        let words: Vec<Exact> = map.words.iter().map(|&word| round_real(word, f.map)).collect();
+        Slots {
+            carrier: (0..profile.slot.integrate).map(|m| oscillator.sample(blanking + m, m)).collect(),
+            map: Map::new(profile, &words),
+            origin: map.origin.map(|ratio| round_real(ratio, f.ratio)),
+            scale: map.scale.map(|scale| round_real(scale, f.map_scale)),
+            capacitance_gain: round_real(calibration.capacitance_gain, f.capacitance_gain),
+            force_gain: round_real(calibration.force_gain, f.force_gain),
+            frames: Frames::new(profile),
+            profile: profile.clone(),
+        }
+    }
+
+    /// The frame of a slot: `codes` are those of its window, a sample after the other.
+    pub fn slot(&mut self, pad: usize, codes: &[i32]) -> Frame {
+        let sums = demodulate(&self.profile, &self.carrier, codes);
+        self.frame(pad, &sums)
+    }
+
+    /// The frame of a window's sums.
+    pub fn frame(&mut self, pad: usize, sums: &Sums) -> Frame {
+        let p = &self.profile;
+        let currents = currents(p, &sums.phases);
+        let ratio = ratio(p, &currents);
+        let place = self.map.place([ratio.r_x, ratio.r_y], self.origin, self.scale);
+        let sheet = place.sheet;
+        let capacitance = capacitance(p, currents.total, currents.sense, sheet, self.capacitance_gain);
+        let mean_square = mean_square(p, sums.square);
+        let force = force(p, capacitance.capacitance, mean_square.value, self.force_gain);
+        let saturated =
+            currents.saturated | place.saturated | capacitance.saturated | mean_square.held | force.saturated;
+        let invalid = ratio.invalid | capacitance.invalid;
+        let values =
+            [ratio.r_x, ratio.r_y, place.x, place.y, sheet, capacitance.capacitance, force.force, mean_square.value];
+        let codes = self.frames.words(pad, values, invalid);
+        Frame { pad, codes, flags: Flags { clipped: sums.clipped, saturated, invalid, lost: currents.lost } }
+    }
+}

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Eqs. 2 and 3.
+//!
+//!   r_x = [x / corners],   r_y = [y / corners]        (by zero: the rail on the numerator's side, and invalid)
+
+use super::{Currents, Exact, round_quotient};
+use crate::format::Format;
+use crate::profile::Profile;
+
+/// The ratios.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ratio {
+    /// Eq. 2.
+    pub r_x: Exact,
+    /// Eq. 3.
+    pub r_y: Exact,
+    /// Whether the denominator is zero.
+    pub invalid: bool,
+}
+
+/// The ratios of the currents.
+pub fn ratio(profile: &Profile, currents: &Currents) -> Ratio {
+    let ratio = profile.formats.ratio;
+    let magnitude = Format { signed: false, width: ratio.width - 1, frac: ratio.frac };
+    let of = |numerator: Exact| {
+        let quotient = round_quotient(numerator.magnitude(), currents.corners, magnitude).value;
+        if numerator < Exact::ZERO { -quotient } else { quotient }
+    };
+    Ratio { r_x: of(currents.x), r_y: of(currents.y), invalid: currents.corners == Exact::ZERO }
+}

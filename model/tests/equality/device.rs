@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A device to calibrate with, and what its ADC could see.
+
+use crate::random::Random;
+use hapticore_model::calibration::{Calibration, Map, Point};
+use hapticore_model::profile::Profile;
+use std::f64::consts::TAU;
+
+/// The bundled profiles, their slots cut to a few samples so that slots pass quickly.
+pub fn short_profiles() -> Vec<Profile> {
+    Profile::all().into_iter().map(shortened).collect()
+}
+
+fn shortened(mut profile: Profile) -> Profile {
+    profile.slot.open = 2;
+    profile.slot.settle = 70;
+    profile.slot.integrate = 4 * profile.carrier.samples_per_period;
+    profile.check().expect("seventy samples are longer than the estimator takes");
+    profile
+}
+
+/// A calibration such as a sheet has: ratios that saturate towards its edges.
+pub fn calibration(profile: &Profile) -> Calibration {
+    let (columns, rows) = (41, 25);
+    let point = |k: usize| {
+        let (u, v) = ((k % columns) as f64 / 20.0 - 1.0, (k / columns) as f64 / 12.0 - 1.0);
+        let r_x = 0.78 * (1.3 * u).sin() / 1.3f64.sin() * (1.0 - 0.15 * v * v);
+        let r_y = 0.7 * (1.2 * v).sin() / 1.2f64.sin() * (1.0 - 0.3 * u * u);
+        Point { x: 400.0 * u, y: 220.0 * v, r_x, r_y, sheet: 0.05 + 0.02 * u * u + 0.01 * v }
+    };
+    let points: Vec<Point> = (0..columns * rows).map(point).collect();
+    let calibration =
+        Calibration { map: Map::fit(profile, columns, &points), capacitance_gain: 800.0, force_gain: 2e-6 };
+    calibration.check(profile).expect("a calibration within its formats");
+    calibration
+}
+
+/// The tones of a slot: amplitudes and phases (turns) of the terminals and the sensing voltage, and the haptic amplitude.
+#[derive(Debug, Clone)]
+pub struct Tones {
+    pub phasors: Vec<(f64, f64)>,
+    pub haptic: f64,
+}
+
+/// What the ADC may see.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Sight {
+    /// Nothing at all.
+    Silence,
+    /// Any codes.
+    Noise,
+    /// A few codes about zero.
+    Whisper,
+    /// Codes at the rails.
+    Rails,
+    /// A pad.
+    Tones,
+    /// A pad, one terminal's wire broken.
+    Broken,
+    /// Currents, but no sensing voltage.
+    NoVoltage,
+}
+
+impl Sight {
+    pub const ALL: [Sight; 7] =
+        [Sight::Tones, Sight::Silence, Sight::Noise, Sight::Broken, Sight::NoVoltage, Sight::Whisper, Sight::Rails];
+}
+
+/// A pad somewhere on the sheet.
+pub fn tones(profile: &Profile, random: &mut Random) -> Tones {
+    let terminals = profile.terminals.x.len();
+    let phase = random.unit();
+    let current = |random: &mut Random| (random.between(0.04, 0.14), phase + random.between(-0.02, 0.02));
+    let mut phasors: Vec<_> = (0..terminals).map(|_| current(random)).collect();
+    phasors.push((random.between(0.7, 0.9), random.unit()));
+    Tones { phasors, haptic: random.between(0.1, 0.9) }
+}
+
+/// The codes of a sample with these tones; `n` counts from the first of the slot.
+pub fn tone_codes(profile: &Profile, tones: &Tones, n: u64) -> Vec<i32> {
+    let full = f64::from(1 << (profile.formats.adc.width - 1));
+    let turns = n as f64 / profile.carrier.samples_per_period as f64;
+    let code = |&(amplitude, phase): &(f64, f64)| full * amplitude * (TAU * (turns - phase)).cos();
+    let haptic = full * tones.haptic * (TAU * n as f64 / 5000.0).cos();
+    tones.phasors.iter().map(code).chain([haptic]).map(|x| x.round() as i32).collect()
+}
+
+/// The codes of a whole slot, a sample after the other.
+pub fn codes(profile: &Profile, sight: Sight, random: &mut Random) -> Vec<i32> {
+    let adc = profile.formats.adc;
+    let half = 1i32 << (adc.width - 1);
+    let channels = profile.channels();
+    let mut tones = tones(profile, random);
+    match sight {
+        Sight::Broken => tones.phasors[random.below(profile.terminals.x.len() as u64) as usize].0 = 0.0,
+        Sight::NoVoltage => tones.phasors.last_mut().expect("there are channels").0 = 0.0,
+        _ => (),
+    }
+    let sample = |n: u64| match sight {
+        Sight::Silence => vec![0; channels],
+        Sight::Noise => (0..channels).map(|_| random.word(adc) as i32).collect(),
+        Sight::Whisper => (0..channels).map(|_| random.below(5) as i32 - 2).collect(),
+        Sight::Rails => (0..channels).map(|k| if (n + k as u64) % 3 == 0 { -half } else { half - 1 }).collect(),
+        _ => tone_codes(profile, &tones, n),
+    };
+    (0..profile.slot.samples()).flat_map(sample).collect()
+}

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Blocks that start and finish: their results are the exact values, rounded so.
+
+use crate::harness::{Bench, cases, check};
+use crate::random::Random;
+use hapticore_model::block::Block;
+use hapticore_model::blocks::capacitance::{self, Capacitance};
+use hapticore_model::blocks::currents::Currents;
+use hapticore_model::blocks::divider::Divider;
+use hapticore_model::blocks::force::Force;
+use hapticore_model::blocks::map::{self, Map};
+use hapticore_model::blocks::ratio::{self, Ratio};
+use hapticore_model::blocks::root::Root;
+use hapticore_model::format::Format;
+use hapticore_model::profile::Profile;
+use hapticore_model::reference::rounded::{self, Exact, round_quotient, round_root};
+
+/// Operations of each block over all profiles.
+const MILLION: u64 = 1_000_000;
+
+fn format(text: &str) -> Format {
+    text.parse().expect("a format")
+}
+
+#[test]
+fn quotients_are_the_nearest_codes() {
+    let formats = [
+        ("u29.23", "u28.23", "u21.20"),
+        ("u27.23", "u28.23", "u24.22"),
+        ("u30.26", "u31.26", "u28.26"),
+        ("u12.4", "u9.7", "u7.3"),
+    ];
+    for (seed, (numerator, denominator, quotient)) in (0..).zip(formats) {
+        let [n, d, q] = [numerator, denominator, quotient].map(format);
+        let mut bench = Bench::new(Divider::new(n, d, q));
+        let cases = cases(&bench.block, MILLION / 4, seed);
+        check(&mut bench, cases, |i| {
+            let quotient = round_quotient(Exact::of(i.numerator, n), Exact::of(i.denominator, d), q);
+            [("quotient", quotient.value.code(q)), ("saturated", quotient.held.into())]
+        });
+    }
+}
+
+#[test]
+fn roots_are_the_nearest_codes() {
+    for (seed, (radicand, frac)) in (0..).zip([("u52.46", 23), ("u60.52", 26), ("u11.4", 5), ("u13.-2", 3)]) {
+        let radicand = format(radicand);
+        let mut bench = Bench::new(Root::new(radicand, frac));
+        let (cases, root) = (cases(&bench.block, MILLION / 4, seed), bench.block.root());
+        check(&mut bench, cases, |i| [("root", round_root(Exact::of(i.radicand, radicand), frac).code(root))]);
+    }
+}
+
+#[test]
+fn ratios_are_those_of_eqs_2_and_3() {
+    for (seed, profile) in (0..).zip(Profile::all()) {
+        let (sums, corners) = Currents::new(&profile).sums();
+        let ratio = profile.formats.ratio;
+        let mut bench = Bench::new(Ratio::new(&profile, (sums, corners)));
+        // A numerator is at most its denominator: each term of the one is a term of the other.
+        let bounded = |i: ratio::Inputs<i64>| {
+            let bound = |x: i64| if i.corners == 0 { 0 } else { x % (i.corners + 1) };
+            ratio::Inputs { x: bound(i.x), y: bound(i.y), ..i }
+        };
+        let cases = cases(&bench.block, MILLION / 3, seed).map(bounded);
+        check(&mut bench, cases, |i| {
+            let of = |code| Exact::of(code, sums);
+            let [total, sense] = [Exact::ZERO; 2];
+            let corners = Exact::of(i.corners, corners);
+            let (x, y) = (of(i.x), of(i.y));
+            let currents = rounded::Currents { total, sense, x, y, corners, lost: false, saturated: false };
+            let expected = rounded::ratio(&profile, &currents);
+            let [r_x, r_y] = [expected.r_x, expected.r_y].map(|r| r.code(ratio));
+            [("r_x", r_x), ("r_y", r_y), ("invalid", expected.invalid.into())]
+        });
+    }
+}
+
+#[test]
+fn places_are_those_of_the_tables() {
+    for (seed, profile) in (0..).zip(Profile::all()) {
+        let f = &profile.formats;
+        let block = Map::new(&profile);
+        let formats = block.inputs();
+        let mut random = Random::new(seed);
+        let words: Vec<i64> = (0..block.words().words).map(|_| random.word(f.map)).collect();
+        let mut bench = Bench::new(block);
+        for (address, &word) in words.iter().enumerate() {
+            let quiet = map::Inputs { start: 0, write: 1, address: address as i64, word, ..no_place() };
+            bench.clock(quiet);
+        }
+        let words: Vec<Exact> = words.into_iter().map(|word| Exact::of(word, f.map)).collect();
+        let quiet = |i| map::Inputs { write: 0, ..i };
+        let cases = cases(&bench.block, MILLION / 3, seed).map(quiet);
+        let map = rounded::Map::new(&profile, &words);
+        check(&mut bench, cases, |i| {
+            let origin = [i.origin_x, i.origin_y].map(|code| Exact::of(code, formats.origin_x));
+            let scale = [i.scale_x, i.scale_y].map(|code| Exact::of(code, formats.scale_x));
+            let place = map.place([i.r_x, i.r_y].map(|code| Exact::of(code, f.ratio)), origin, scale);
+            let [x, y] = [place.x, place.y].map(|mm| mm.code(profile.position()));
+            let sheet = place.sheet.code(profile.sheet());
+            [("x", x), ("y", y), ("sheet", sheet), ("saturated", place.saturated.into())]
+        });
+    }
+}
+
+fn no_place() -> map::Inputs<i64> {
+    let [start, r_x, r_y, origin_x, scale_x, origin_y, scale_y, write, address, word] = [0; 10];
+    map::Inputs { start, r_x, r_y, origin_x, scale_x, origin_y, scale_y, write, address, word }
+}
+
+#[test]
+fn capacitances_have_the_sheet_taken_out() {
+    for (seed, mut profile) in (0..).zip(Profile::all().into_iter().chain(Profile::all())) {
+        profile.capacitance.sheet_correction = seed < 3;
+        let amplitude = Currents::new(&profile).amplitude();
+        let f = &profile.formats;
+        let mut bench = Bench::new(Capacitance::new(&profile, amplitude));
+        // Every other current is below the voltage, as a real one is; else most would saturate.
+        let plausible = |i: capacitance::Inputs<i64>| match i.total % 2 {
+            0 => capacitance::Inputs { total: i.total / 4, sense: i.sense.max(i.total / 3), ..i },
+            _ => i,
+        };
+        let cases = cases(&bench.block, MILLION / 6, seed).map(plausible);
+        check(&mut bench, cases, |i| {
+            let [total, sense] = [i.total, i.sense].map(|code| Exact::of(code, amplitude));
+            let (sheet, gain) = (Exact::of(i.sheet, profile.sheet()), Exact::of(i.gain, f.capacitance_gain));
+            let expected = rounded::capacitance(&profile, total, sense, sheet, gain);
+            let code = expected.capacitance.code(f.capacitance);
+            [("capacitance", code), ("invalid", expected.invalid.into()), ("saturated", expected.saturated.into())]
+        });
+    }
+}
+
+#[test]
+fn forces_are_those_of_eq_8() {
+    for (seed, profile) in (0..).zip(Profile::all()) {
+        let f = &profile.formats;
+        let mut bench = Bench::new(Force::new(&profile));
+        let cases = cases(&bench.block, MILLION / 3, seed);
+        check(&mut bench, cases, |i| {
+            let capacitance = Exact::of(i.capacitance, f.capacitance);
+            let (mean_square, gain) = (Exact::of(i.mean_square, f.mean_square), Exact::of(i.gain, f.force_gain));
+            let expected = rounded::force(&profile, capacitance, mean_square, gain);
+            [("force", expected.force.code(f.force)), ("saturated", expected.saturated.into())]
+        });
+    }
+}

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Whole slots: frames of fidelities `fixed` and `clock`, and of the estimator by itself, are those of the reference.
+
+use crate::device::{self, Sight, calibration, short_profiles};
+use crate::harness::{Bench, operations, show};
+use crate::random::Random;
+use hapticore_model::block::Block;
+use hapticore_model::blocks::estimator::{self, Estimator};
+use hapticore_model::bundle::Bundle;
+use hapticore_model::calibration::Calibration;
+use hapticore_model::fidelity::clock::ClockSimulation;
+use hapticore_model::fidelity::fixed::FixedSimulation;
+use hapticore_model::frame::{Flags, Frame};
+use hapticore_model::profile::Profile;
+use hapticore_model::reference::rounded::{Exact, Slots, Sums};
+
+fn check_slots(profile: &Profile, slots: usize, seed: u64) {
+    let calibration = calibration(profile);
+    let mut reference = Slots::new(profile, &calibration);
+    let mut fixed: FixedSimulation = FixedSimulation::new(profile, &calibration);
+    let mut clock = ClockSimulation::new(profile, &calibration);
+    let (mut random, channels) = (Random::new(seed), profile.channels());
+    for slot in 0..slots {
+        let sight = Sight::ALL[(slot + slot / Sight::ALL.len()) % Sight::ALL.len()];
+        let codes = device::codes(profile, sight, &mut random);
+        let pad = slot % profile.pads as usize;
+        let window = &codes[profile.slot.blanking() as usize * channels..];
+        let expected = reference.slot(pad, window);
+        let case = format!("{} slot {slot} of {sight:?}, pad {pad}", profile.name);
+        assert_eq!(fixed.slot(pad, window), expected, "{case}: fixed, reference");
+        codes.chunks_exact(channels).for_each(|sample| clock.sample(sample));
+        let frame = clock.finish_slot().expect("a frame for every slot");
+        assert_eq!(frame, expected, "{case}, clock {}: clock, reference", clock.clocks());
+    }
+}
+
+#[test]
+fn frames_of_whole_slots_are_the_reference() {
+    for profile in Profile::all() {
+        check_slots(&profile, if cfg!(debug_assertions) { 7 } else { 63 }, 1);
+    }
+}
+
+#[test]
+fn frames_of_short_slots_are_the_reference() {
+    for profile in short_profiles() {
+        check_slots(&profile, operations(1400) as usize, 2);
+    }
+}
+
+#[test]
+fn frames_by_eq_6_alone_are_the_reference() {
+    for mut profile in short_profiles() {
+        profile.capacitance.sheet_correction = false;
+        check_slots(&profile, operations(1400) as usize, 3);
+    }
+}
+
+#[test]
+fn frames_of_any_sums_are_the_reference() {
+    for (seed, profile) in (0..).zip(Profile::all()) {
+        let calibration = calibration(&profile);
+        let mut reference = Slots::new(&profile, &calibration);
+        let mut bench = Bench::new(Estimator::new(&profile));
+        let constants = calibrate(&mut bench, &profile, &calibration);
+        let mut random = Random::new(seed);
+        for _ in 0..operations(100_000) {
+            check_sums(&mut bench, &mut reference, constants, &profile, &mut random);
+        }
+    }
+}
+
+fn calibrate(bench: &mut Bench<Estimator>, profile: &Profile, calibration: &Calibration) -> estimator::Inputs<i64> {
+    let f = &profile.formats;
+    let zero = estimator::Inputs::map(bench.block.inputs(), |_| 0);
+    for (address, &word) in (0..).zip(&calibration.map.words) {
+        bench.clock(estimator::Inputs { write: 1, address, word: f.map.code_saturating(word), ..zero });
+    }
+    estimator::Inputs {
+        origin_x: f.ratio.code_saturating(calibration.map.origin[0]),
+        origin_y: f.ratio.code_saturating(calibration.map.origin[1]),
+        scale_x: f.map_scale.code_saturating(calibration.map.scale[0]),
+        scale_y: f.map_scale.code_saturating(calibration.map.scale[1]),
+        capacitance_gain: f.capacitance_gain.code_saturating(calibration.capacitance_gain),
+        force_gain: f.force_gain.code_saturating(calibration.force_gain),
+        ..zero
+    }
+}
+
+fn check_sums(
+    bench: &mut Bench<Estimator>,
+    reference: &mut Slots,
+    constants: estimator::Inputs<i64>,
+    profile: &Profile,
+    random: &mut Random,
+) {
+    let format = bench.block.inputs().sum;
+    let smaller = random.below(u64::from(format.width) / 3);
+    let sums: Vec<i64> = (0..=2 * profile.demodulated()).map(|_| random.word(format) >> smaller).collect();
+    let (pad, clipped) = (random.below(profile.pads) as i64, random.below(2) as i64);
+    for (index, &sum) in (0..).zip(&sums) {
+        bench.clock(estimator::Inputs { valid: 1, index, sum, pad, clipped, ..constants });
+    }
+    let mut codes = [0; 8];
+    let done = (0..10_000).find_map(|_| {
+        let out = bench.clock(constants);
+        if out.valid == 1 {
+            codes[out.index as usize] = out.word;
+        }
+        (out.done == 1).then_some(out)
+    });
+    let out = done.expect("a frame finishes");
+    let [clipped, saturated, invalid, lost] = [out.clipped, out.saturated, out.invalid, out.lost].map(|flag| flag != 0);
+    let frame = Frame { pad: out.pad as usize, codes, flags: Flags { clipped, saturated, invalid, lost } };
+    let of = |code: i64| Exact::of(code, format);
+    let (square, phases) = sums.split_last().expect("there are sums");
+    let phases = phases.chunks(2).map(|iq| [of(iq[0]), of(iq[1])]).collect();
+    let expected = reference.frame(pad as usize, &Sums { phases, square: of(*square), clipped });
+    let shown = show::<estimator::Inputs>(constants);
+    assert_eq!(frame, expected, "clock {}: got, reference of sums {sums:?}; {shown}", bench.clock);
+}
