@@ -1,4 +1,71 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The `hapticore` command as a library, so that tests can run it whole.
+//!
+//! | module | does |
+//! | --- | --- |
+//! | [`args`] | the command line |
+//! | [`simulate`], [`replay`], [`scenes`] | one command each |
+//! | [`inputs`] | scenes and profiles from names and files |
+//! | [`units`] | the one place where volts and fractions meet codes |
+//! | [`calibrate`] | a device as a core is told of it |
+//! | [`engine`] | the core at its three fidelities behind one trait |
+//! | [`session`] | slots in, rows out: the core, the reference beside it, rounding errors |
+//! | [`case`] | a case of a scene, its samples made while the core works |
+//! | [`criteria`] | what a scene claims, measured |
+//! | [`capture`] | ADC samples in CSV and WAV files |
+//! | [`record`] | what a run leaves |
+//! | [`output`], [`print`](mod@print) | the same written into a folder and on the terminal |
 
+pub mod args;
+pub mod calibrate;
+pub mod capture;
+pub mod case;
+pub mod criteria;
+pub mod engine;
+pub mod errors;
+pub mod inputs;
+pub mod interrupt;
+pub mod output;
+pub mod print;
+pub mod progress;
 pub mod record;
+pub mod replay;
+pub mod scenes;
+pub mod session;
+pub mod simulate;
+pub mod units;
+pub mod waves;
+
+use std::process::ExitCode;
+
+use args::{Args, Command};
+use clap::Parser;
+
+/// Runs the command line. The exit code is 0 where all criteria hold, 1 where one fails, 2 on bad input, and 130 where the
+/// run was interrupted.
+pub fn main() -> ExitCode {
+    let args = Args::parse();
+    interrupt::listen();
+    let outcome = match args.command {
+        Command::Scenes(args) => scenes::run(&args),
+        Command::Simulate(args) => simulate::run(&args),
+        Command::Replay(args) => replay::run(&args),
+    };
+    match outcome {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::from(1),
+        Err(error) if error.is::<interrupt::Interrupted>() => {
+            eprintln!("{error}");
+            ExitCode::from(130)
+        }
+        Err(error) => {
+            eprintln!("error: {}", one_line(&error));
+            ExitCode::from(2)
+        }
+    }
+}
+
+/// The error and its causes, joined by colons.
+fn one_line(error: &anyhow::Error) -> String {
+    format!("{error:#}").lines().map(str::trim).collect::<Vec<_>>().join(" ")
+}

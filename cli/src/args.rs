@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The command line.
+
+use std::ops::Range;
+use std::path::PathBuf;
+
+use clap::{Parser, Subcommand, ValueEnum};
+
+/// Simulate, replay and inspect the hapticore sensing core.
+#[derive(Debug, Parser)]
+#[command(version, after_help = EXIT)]
+pub struct Args {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+const EXIT: &str = "Exit status: 0 all criteria hold, 1 one fails, 2 bad input.";
+
+/// The commands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// List the bundled scenes: their cases, effects and criteria
+    Scenes(ScenesArgs),
+    /// Run a scene through the core and check its criteria
+    #[command(after_help = SIMULATE)]
+    Simulate(SimulateArgs),
+    /// Run recorded ADC samples through the core
+    #[command(after_help = REPLAY)]
+    Replay(ReplayArgs),
+}
+
+const SIMULATE: &str = "Examples:
+  hapticore simulate fig6
+  hapticore simulate fig3 --case rest --set sheet.terminal_ohm=500
+  hapticore simulate hockey --core clock --waves vcd
+  hapticore simulate hockey --capture hockey.wav && hapticore replay hockey.wav
+
+Exit status: 0 all criteria hold, 1 one fails, 2 bad input.";
+
+const REPLAY: &str = "A capture is CSV (a header naming columns among i1 … i6, v_sense, v_haptic, pad; one row of integer codes per ADC
+sample; lines \"# key = value\" may give sample_rate_hz and bits) or WAV (channels in that order). Slots begin at the first sample.
+
+Exit status: 0 done, 2 bad input.";
+
+/// Arguments of `scenes`.
+#[derive(Debug, clap::Args)]
+pub struct ScenesArgs {
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Arguments that choose how the core is run.
+#[derive(Debug, Clone, clap::Args)]
+pub struct CoreArgs {
+    /// How exactly the core is run
+    #[arg(long, value_enum, default_value_t = Fidelity::Fixed)]
+    pub core: Fidelity,
+    /// The core's profile: a bundled name (small, standard, fine) or a TOML file
+    #[arg(long, value_name = "PROFILE")]
+    pub profile: Option<String>,
+    /// Also find the rounding error of every signal, against the same signal without rounding
+    #[arg(long)]
+    pub errors: bool,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Arguments of `simulate`.
+#[derive(Debug, Clone, clap::Args)]
+pub struct SimulateArgs {
+    /// A bundled scene (see `hapticore scenes`) or a TOML file
+    pub scene: String,
+    /// The core.
+    #[command(flatten)]
+    pub core: CoreArgs,
+    /// Set a key of the scene: sheet.terminal_ohm=500, pad.0.load_g=50, sensor.quantisation_bits=12
+    #[arg(long, value_name = "KEY=VALUE", value_parser = key_value)]
+    pub set: Vec<(String, String)>,
+    /// Run only the cases of these names
+    #[arg(long, value_name = "NAME")]
+    pub case: Vec<String>,
+    /// Write waveforms of the core's signals, with a save file for GTKWave
+    #[arg(long, value_enum)]
+    pub waves: Option<Waves>,
+    /// What to write waveforms of, in seconds of the first case [default: the first two slots]
+    #[arg(long, value_name = "FROM..TO", value_parser = window)]
+    pub waves_window: Option<Range<f64>>,
+    /// Save the ADC samples of the case that is run, and a calibration beside them for `hapticore replay`
+    #[arg(long, value_name = "FILE.csv|FILE.wav")]
+    pub capture: Option<PathBuf>,
+    /// Where results go [default: out/SCENE]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+}
+
+/// Arguments of `replay`.
+#[derive(Debug, Clone, clap::Args)]
+pub struct ReplayArgs {
+    /// A capture, CSV or WAV
+    pub capture: PathBuf,
+    /// The core.
+    #[command(flatten)]
+    pub core: CoreArgs,
+    /// The device's calibration [default: CAPTURE.calibration.toml where there is one, else the nominal device's]
+    #[arg(long, value_name = "FILE")]
+    pub calibration: Option<PathBuf>,
+    /// How many pads are served in turn [default: as in the calibration, else in the profile]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=256))]
+    pub pads: Option<u64>,
+    /// Where results go [default: out/CAPTURE]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+}
+
+/// How exactly the core is run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Fidelity {
+    /// The equations in floating point
+    Float,
+    /// The core's results to the bit, slot by slot
+    Fixed,
+    /// Every clock of the core
+    Clock,
+}
+
+impl Fidelity {
+    /// Its name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Fidelity::Float => "float",
+            Fidelity::Fixed => "fixed",
+            Fidelity::Clock => "clock",
+        }
+    }
+}
+
+/// Waveform files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Waves {
+    /// Text that every viewer reads
+    Vcd,
+    /// GTKWave's own, much smaller
+    Fst,
+    /// None
+    None,
+}
+
+fn key_value(text: &str) -> Result<(String, String), String> {
+    let split = text.split_once('=').map(|(key, value)| (key.trim().into(), value.trim().into()));
+    split.filter(|(key, _): &(String, String)| !key.is_empty()).ok_or_else(|| "expected KEY=VALUE".into())
+}
+
+fn window(text: &str) -> Result<Range<f64>, String> {
+    let seconds = |text: &str| text.trim().parse::<f64>().ok().filter(|time| time.is_finite() && *time >= 0.0);
+    let range = text.split_once("..").and_then(|(from, to)| Some(seconds(from)?..seconds(to)?));
+    range.filter(|range| range.start < range.end).ok_or_else(|| "expected two times such as 0.1..0.2".into())
+}

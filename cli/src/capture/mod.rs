@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Captures: ADC samples in files, one row per sample instant, as CSV or WAV.
+
+mod csv;
+mod wav;
+
+use std::fs::File;
+use std::io::BufWriter;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, bail};
+use hapticore_model::format::Format;
+use tempfile::NamedTempFile;
+
+/// A capture being read, sample instant by sample instant.
+pub trait Source {
+    /// Reads the next row of codes, one a channel in the order of the ADC, appended to `codes`. `None` at the end.
+    ///
+    /// # Errors
+    /// The file is no capture; the message names file, line or sample, and what was expected.
+    fn row(&mut self, codes: &mut Vec<i32>) -> Result<Option<Sampled>>;
+
+    /// The sample rate, where the file names one. A CSV file does so before its first row.
+    fn sample_rate_hz(&self) -> Option<f64>;
+
+    /// Where the last row was, for messages.
+    fn place(&self) -> String;
+}
+
+/// What a row says beside its codes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Sampled {
+    /// The pad that was served.
+    pub pad: Option<usize>,
+}
+
+/// A capture being written.
+pub trait Recorder {
+    /// Writes the samples of a slot: codes of all channels, a sample after the other.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    fn slot(&mut self, pad: usize, codes: &[i32]) -> Result<()>;
+
+    /// Completes the file and gives it its name.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    fn keep(self: Box<Self>) -> Result<()>;
+}
+
+/// What the ADC is like.
+#[derive(Debug, Clone, Copy)]
+pub struct Adc {
+    /// Current sensors; the sensing and the haptic voltage follow.
+    pub terminals: usize,
+    /// Codes.
+    pub format: Format,
+}
+
+impl Adc {
+    /// Names of the channels: `i1 … iN, v_sense, v_haptic`.
+    pub fn channels(&self) -> Vec<String> {
+        let terminals = (1..=self.terminals).map(|terminal| format!("i{terminal}"));
+        terminals.chain(["v_sense".into(), "v_haptic".into()]).collect()
+    }
+}
+
+#[derive(Clone, Copy)]
+enum Kind {
+    Csv,
+    Wav,
+}
+
+fn kind(path: &Path) -> Result<Kind> {
+    match path.extension().map(|extension| extension.to_string_lossy().to_lowercase()).as_deref() {
+        Some("csv") => Ok(Kind::Csv),
+        Some("wav") => Ok(Kind::Wav),
+        _ => bail!("{}: expected a capture whose name ends in .csv or .wav", path.display()),
+    }
+}
+
+/// Opens a capture.
+///
+/// # Errors
+/// It is not there, or its head is not that of a capture.
+pub fn open(path: &Path, adc: Adc) -> Result<Box<dyn Source>> {
+    Ok(match kind(path)? {
+        Kind::Csv => Box::new(csv::Reader::open(path, adc)?),
+        Kind::Wav => Box::new(wav::Reader::open(path, adc)?),
+    })
+}
+
+/// Creates a capture, to be called `path`.
+///
+/// # Errors
+/// The folder cannot be written to.
+pub fn create(path: &Path, adc: Adc, sample_rate_hz: f64) -> Result<Box<dyn Recorder + Send>> {
+    Ok(match kind(path)? {
+        Kind::Csv => Box::new(csv::Writer::create(path, adc, sample_rate_hz)?),
+        Kind::Wav => Box::new(wav::Writer::create(path, adc, sample_rate_hz)?),
+    })
+}
+
+/// Where the calibration of a capture is looked for: `hockey.wav.calibration.toml`.
+pub fn calibration_path(capture: &Path) -> PathBuf {
+    let mut name = capture.as_os_str().to_owned();
+    name.push(".calibration.toml");
+    name.into()
+}
+
+/// A file that grows beside the one it will be.
+struct Aside {
+    file: BufWriter<File>,
+    temporary: NamedTempFile,
+    path: PathBuf,
+}
+
+impl Aside {
+    fn create(path: &Path) -> Result<Self> {
+        let within = || path.display().to_string();
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let temporary = tempfile::Builder::new().prefix(".partial-").tempfile_in(folder).with_context(within)?;
+        let file = BufWriter::with_capacity(1 << 18, temporary.reopen().with_context(within)?);
+        Ok(Aside { file, temporary, path: path.to_owned() })
+    }
+}
+
+/// Gives a finished file its name, readable as any other.
+fn persist(temporary: NamedTempFile, path: &Path) -> Result<()> {
+    let within = || path.display().to_string();
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        let readable = std::fs::Permissions::from_mode(0o644);
+        temporary.as_file().set_permissions(readable).with_context(within)?;
+    }
+    temporary.persist(path).map(|_| ()).with_context(within)
+}
+
+/// Writes a small text file aside and gives it its name.
+///
+/// # Errors
+/// It cannot be written.
+pub fn write_text(path: &Path, text: &str) -> Result<()> {
+    use std::io::Write;
+    let mut aside = Aside::create(path)?;
+    aside
+        .file
+        .write_all(text.as_bytes())
+        .and_then(|()| aside.file.flush())
+        .with_context(|| path.display().to_string())?;
+    persist(aside.temporary, path)
+}

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A case of a scene, run: its samples are made on one thread while the core works on another.
+//!
+//! The plant's samples depend on the slot alone, so that results do not depend on threads.
+
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::thread;
+
+use anyhow::{Result, ensure};
+use hapticore_model::profile::Profile;
+use hapticore_scene::{Complex, EffectCost, Plant, Scene, TERMINALS, Truth};
+use indicatif::ProgressBar;
+
+use crate::args::Fidelity;
+use crate::calibrate::DeviceCalibration;
+use crate::capture::Recorder;
+use crate::engine::{Signals, Slot};
+use crate::inputs::{serving, timing};
+use crate::interrupt;
+use crate::record::{self, Quantities, Row, SignalError};
+use crate::session::{Session, SlotClock};
+use crate::units::Digitiser;
+
+/// Slots made ahead of the core.
+const AHEAD: usize = 8;
+
+/// A case, ready to be run.
+pub struct Case<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// Which of the scene's cases it is.
+    pub index: usize,
+    /// Which of the cases that are run it is.
+    pub number: usize,
+    /// The profile of a core that serves the pads of the case.
+    pub profile: Arc<Profile>,
+    /// The device's calibration.
+    pub device: DeviceCalibration,
+    /// Slots.
+    pub slots: usize,
+    /// When they are.
+    pub clock: SlotClock,
+}
+
+/// What a case left.
+pub struct Outcome {
+    /// The slots.
+    pub rows: Vec<Row>,
+    /// Effects and what they cost.
+    pub effects: Vec<EffectCost>,
+    /// The largest sample, as a fraction of full scale.
+    pub peak: f64,
+    /// Rounding errors, where they were asked for.
+    pub errors: Vec<SignalError>,
+}
+
+/// How to run cases.
+pub struct Settings {
+    /// How exactly the core is run.
+    pub fidelity: Fidelity,
+    /// Whether rounding errors are asked for.
+    pub errors: bool,
+}
+
+/// A slot on its way to the core.
+struct Made {
+    slot: Slot,
+    truth: Truth,
+    peak: f64,
+}
+
+impl<'a> Case<'a> {
+    /// Case `index` of the scene, the `number`th to be run, from `start_s` on.
+    ///
+    /// # Errors
+    /// A case that the profile cannot serve.
+    pub fn new(scene: &'a Scene, index: usize, number: usize, profile: &Profile, start_s: f64) -> Result<Self> {
+        let terminals = profile.terminals.x.len();
+        let name = &profile.name;
+        ensure!(terminals == TERMINALS, "profile {name}: terminals.x: expected {TERMINALS} signs, got {terminals}");
+        let plant = Plant::new(scene, index, &timing(profile))?;
+        let pads = plant.pad_names().len();
+        let profile = Arc::new(serving(profile, pads));
+        let device = DeviceCalibration::of_plant(&plant);
+        let clock = SlotClock::new(&profile, device.device.sample_rate_hz, start_s);
+        Ok(Case { scene, index, number, profile, device, slots: plant.slots(), clock })
+    }
+
+    /// The case's name.
+    pub fn name(&self) -> &str {
+        &self.scene.cases[self.index].name
+    }
+
+    /// When the case begins.
+    pub fn start_s(&self) -> f64 {
+        self.clock.start_s()
+    }
+
+    /// Device time.
+    pub fn seconds(&self) -> f64 {
+        self.clock.seconds(self.slots)
+    }
+
+    /// The plant, before its first slot.
+    ///
+    /// # Errors
+    /// As [`Case::new`].
+    pub fn plant(&self) -> Result<Plant> {
+        Ok(Plant::new(self.scene, self.index, &timing(&self.profile))?)
+    }
+
+    /// Checks that a core at this fidelity can be given what the scene's carrier offers.
+    ///
+    /// # Errors
+    /// Where the carrier has phasors only.
+    pub fn check(&self, scene: &str, fidelity: Fidelity) -> Result<()> {
+        let sampled = self.scene.cases[self.index].sampled();
+        let core = fidelity.name();
+        ensure!(
+            sampled || fidelity == Fidelity::Float,
+            "{scene}: carrier.rung: expected \"samples\" for --core {core}, got \"phasor\"; try --set carrier.rung=samples"
+        );
+        Ok(())
+    }
+
+    /// Runs the case.
+    ///
+    /// # Errors
+    /// A calibration that the profile does not hold, a capture that cannot be written, an interruption.
+    pub fn run(
+        &self,
+        settings: &Settings,
+        recorder: Option<&mut (dyn Recorder + Send)>,
+        progress: &ProgressBar,
+    ) -> Result<Outcome> {
+        let at = (self.number, self.clock);
+        let session = Session::new(&self.profile, &self.device, settings.fidelity, settings.errors, at)?;
+        let whole = settings.fidelity == Fidelity::Clock || recorder.is_some();
+        let mut maker = Maker::new(self.plant()?, &self.profile, self.scene.cases[self.index].sampled(), whole);
+        let (sender, receiver) = sync_channel(AHEAD);
+        thread::scope(|scope| {
+            let maker = scope.spawn(move || {
+                maker.make(self.slots, &sender);
+                maker.plant.effects()
+            });
+            let mut outcome = consume(session, receiver, recorder, progress)?;
+            outcome.effects = maker.join().expect("the plant does not panic");
+            Ok(outcome)
+        })
+    }
+}
+
+/// Takes slots to the core until there are no more.
+fn consume(
+    mut session: Session,
+    slots: Receiver<Made>,
+    mut recorder: Option<&mut (dyn Recorder + Send)>,
+    progress: &ProgressBar,
+) -> Result<Outcome> {
+    let (mut rows, mut peak) = (Vec::new(), 0f64);
+    for Made { slot, truth, peak: of_slot } in slots {
+        interrupt::check()?;
+        if let Some(recorder) = recorder.as_mut() {
+            recorder.slot(slot.pad, slot.whole())?;
+        }
+        peak = peak.max(of_slot);
+        rows.extend(session.slot(&slot, Some(known(&truth))));
+        progress.inc(1);
+    }
+    rows.extend(session.finish());
+    Ok(Outcome { rows, effects: Vec::new(), peak, errors: session.errors() })
+}
+
+/// What the record keeps of the plant's truth.
+pub fn known(truth: &Truth) -> record::Truth {
+    let quantities = Quantities {
+        r_x: truth.r_x,
+        r_y: truth.r_y,
+        x_mm: truth.x_mm,
+        y_mm: truth.y_mm,
+        capacitance_pf: truth.capacitance_pf,
+        sheet_ohm: truth.sheet_ohm,
+        haptic_v_rms: truth.haptic_v_rms,
+        force_n: truth.force_n,
+        direction: truth.direction,
+    };
+    record::Truth { quantities, load_g: truth.load_g, point: truth.point, group: truth.group }
+}
+
+/// Makes slots.
+pub struct Maker {
+    plant: Plant,
+    digitiser: Digitiser,
+    sampled: bool,
+    blanking: usize,
+    samples: usize,
+    whole: bool,
+    fractions: Vec<f64>,
+}
+
+impl Maker {
+    /// A maker of slots from a plant: with the samples of the blanking where `whole`.
+    pub fn new(plant: Plant, profile: &Profile, sampled: bool, whole: bool) -> Self {
+        let (blanking, samples) = (profile.slot.blanking() as usize, profile.slot.samples() as usize);
+        let digitiser = Digitiser::new(profile.formats.adc);
+        Maker { plant, digitiser, sampled, blanking, samples, whole, fractions: Vec::new() }
+    }
+
+    fn make(&mut self, slots: usize, to: &SyncSender<Made>) {
+        for slot in 0..slots {
+            let truth = self.plant.truth(slot);
+            let (signals, peak) = if self.sampled { self.sample(slot) } else { self.phasors(slot) };
+            let slot = Slot { pad: truth.pad, signals };
+            if to.send(Made { slot, truth, peak }).is_err() {
+                return; // The core has stopped: it tells why.
+            }
+        }
+    }
+
+    /// The samples of a slot, and the largest.
+    pub fn sample(&mut self, slot: usize) -> (Signals, f64) {
+        let first = if self.whole { 0 } else { self.blanking };
+        self.fractions.clear();
+        if self.whole {
+            self.plant.samples(slot, 0..self.blanking, &mut self.fractions);
+        }
+        self.plant.samples(slot, self.blanking..self.samples, &mut self.fractions);
+        let mut codes = Vec::with_capacity(self.fractions.len());
+        let peak = self.digitiser.codes(&self.fractions, &mut codes);
+        let blanking = (self.blanking - first) * self.plant.channels();
+        (Signals::Samples { codes, blanking }, peak)
+    }
+
+    /// The plant.
+    pub fn plant(&mut self) -> &mut Plant {
+        &mut self.plant
+    }
+
+    fn phasors(&mut self, slot: usize) -> (Signals, f64) {
+        let mut found = vec![Complex::default(); self.plant.channels() - 1];
+        let mean_square = self.plant.phasors(slot, &mut found);
+        let largest = found.iter().map(|phasor| phasor.norm()).fold((2.0 * mean_square).sqrt(), f64::max);
+        let amplitudes = found.iter().map(|phasor| (phasor.re, phasor.im)).collect();
+        (Signals::Phasors { amplitudes, mean_square }, largest)
+    }
+}

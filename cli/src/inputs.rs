@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Scenes and profiles, from bundled names or files.
+
+use std::fs;
+use std::path::Path;
+
+use anyhow::{Context, Result, anyhow};
+use hapticore_model::profile::{Profile, ProfileError};
+use hapticore_scene::{Scene, Timing, gallery};
+
+/// The scene of a bundled name or a file, with keys set.
+///
+/// # Errors
+/// No such scene, or one that cannot be run; the message names file, line and key.
+pub fn scene(name: &str, set: &[(String, String)]) -> Result<Scene> {
+    let (text, file) = match gallery::find(name) {
+        Some(text) => (text.to_string(), format!("{name}.toml")),
+        None => (scene_file(name)?, name.to_string()),
+    };
+    Ok(Scene::parse(&text, &file, set)?)
+}
+
+fn scene_file(name: &str) -> Result<String> {
+    if looks_like_a_file(name) {
+        return read(Path::new(name));
+    }
+    let bundled: Vec<_> = gallery::all().iter().map(|(name, _)| *name).collect();
+    Err(anyhow!("expected a file or a scene among {}, got \"{name}\"", bundled.join(", ")))
+}
+
+/// The profile of a bundled name or a file.
+///
+/// # Errors
+/// No such profile, or one that no core can have; the message names file, line or key.
+pub fn profile(name: &str) -> Result<Profile> {
+    match Profile::bundled(name) {
+        Err(ProfileError::Unknown { .. }) if looks_like_a_file(name) => {
+            let text = read(Path::new(name))?;
+            Profile::parse(&text).map_err(|error| match error {
+                ProfileError::Syntax(message) => anyhow!("{name}:{message}"),
+                other => anyhow!("{name}: {other}"),
+            })
+        }
+        other => Ok(other?),
+    }
+}
+
+fn looks_like_a_file(name: &str) -> bool {
+    name.contains(['/', '\\', '.']) || Path::new(name).is_file()
+}
+
+/// A file's text.
+///
+/// # Errors
+/// It cannot be read, or is no text.
+pub fn read(path: &Path) -> Result<String> {
+    fs::read_to_string(path).with_context(|| path.display().to_string())
+}
+
+/// The profile of a core that serves just these pads.
+pub fn serving(profile: &Profile, pads: usize) -> Profile {
+    Profile { pads: pads as u64, ..profile.clone() }
+}
+
+/// How a core of the profile divides its time.
+pub fn timing(profile: &Profile) -> Timing {
+    Timing {
+        pads: profile.pads as usize,
+        slot_samples: profile.slot.samples() as usize,
+        window_start: profile.slot.blanking() as usize,
+        window_samples: profile.slot.integrate as usize,
+        samples_per_period: profile.carrier.samples_per_period as f64,
+    }
+}

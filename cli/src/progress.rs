@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Progress of long work, on standard error and only where a terminal is there to show it.
+
+use std::io::IsTerminal;
+
+use indicatif::{ProgressBar, ProgressStyle};
+
+/// A bar over `steps`, none where unknown; hidden where `quiet` or nobody looks.
+pub fn bar(steps: Option<u64>, quiet: bool) -> ProgressBar {
+    if quiet || !std::io::stderr().is_terminal() {
+        return ProgressBar::hidden();
+    }
+    match steps {
+        Some(steps) => {
+            let template = "{bar:40} {pos}/{len} slots, {eta} left";
+            ProgressBar::new(steps).with_style(ProgressStyle::with_template(template).expect("a valid template"))
+        }
+        None => {
+            let template = "{spinner} {pos} slots";
+            ProgressBar::new_spinner().with_style(ProgressStyle::with_template(template).expect("a valid template"))
+        }
+    }
+}

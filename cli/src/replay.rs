@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `hapticore replay`: recorded ADC samples through the core, in constant memory.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Instant;
+
+use anyhow::{Result, anyhow, bail, ensure};
+use hapticore_model::profile::Profile;
+
+use crate::args::{Fidelity, ReplayArgs};
+use crate::calibrate::DeviceCalibration;
+use crate::capture::{self, Adc, Source};
+use crate::engine::{Signals, Slot};
+use crate::output::{Frames, Output, summary};
+use crate::record::{Record, Row};
+use crate::session::{Session, SlotClock};
+use crate::{inputs, interrupt, print, progress};
+
+/// The profile where none is named.
+const PROFILE: &str = "standard";
+
+/// Rows kept for the report: of longer captures every second, fourth, … row.
+const MOST_ROWS: usize = 1 << 15;
+
+/// Replays a capture.
+///
+/// # Errors
+/// Bad input, files that cannot be written, an interruption; then nothing is written.
+pub fn run(args: &ReplayArgs) -> Result<bool> {
+    let profile = inputs::profile(args.core.profile.as_deref().unwrap_or(PROFILE))?;
+    let mut source =
+        capture::open(&args.capture, Adc { terminals: profile.terminals.x.len(), format: profile.formats.adc })?;
+    let device = device(args, &profile)?;
+    let pads = args.pads.unwrap_or(device.pads);
+    let profile = Arc::new(inputs::serving(&profile, pads as usize));
+    check_rate(source.as_ref(), &device)?;
+    let name = args.capture.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let folder = args.out.clone().unwrap_or_else(|| Path::new("out").join(&name));
+    let output = Output::new(&folder)?;
+    let mut replay = Replay::new(args, &profile, &device, output.aside())?;
+    let left = replay.run(source.as_mut(), args.core.json)?;
+    let record = replay.finish(name, &profile, args)?;
+    output.write("summary.json", &summary(&record))?;
+    let files = output.keep()?;
+    report(args, &record, left, &files);
+    Ok(true)
+}
+
+/// The calibration named, or that of the capture, or the nominal device's.
+fn device(args: &ReplayArgs, profile: &Profile) -> Result<DeviceCalibration> {
+    let beside = capture::calibration_path(&args.capture);
+    match &args.calibration {
+        Some(path) => DeviceCalibration::read(path),
+        None if beside.exists() => DeviceCalibration::read(&beside),
+        None => Ok(DeviceCalibration::nominal(profile)),
+    }
+}
+
+fn check_rate(source: &dyn Source, device: &DeviceCalibration) -> Result<()> {
+    let expected = device.device.sample_rate_hz;
+    match source.sample_rate_hz() {
+        Some(rate) if (rate / expected - 1.0).abs() > 1e-6 => {
+            bail!("{}: sample_rate_hz: expected {expected}, as in the calibration, got {rate}", source.place())
+        }
+        _ => Ok(()),
+    }
+}
+
+/// A capture on its way through the core.
+struct Replay {
+    session: Session,
+    frames: Frames,
+    rows: Thinned,
+    clock: SlotClock,
+    slot_codes: usize,
+    blanking_codes: usize,
+    channels: usize,
+    pads: usize,
+    slots: usize,
+    start: Instant,
+}
+
+impl Replay {
+    fn new(args: &ReplayArgs, profile: &Arc<Profile>, device: &DeviceCalibration, aside: &Path) -> Result<Self> {
+        let clock = SlotClock::new(profile, device.device.sample_rate_hz, 0.0);
+        let channels = profile.channels();
+        Ok(Replay {
+            session: Session::new(profile, device, args.core.core, args.core.errors, (0, clock))?,
+            frames: Frames::create(&aside.join("frames.csv"), false)?,
+            rows: Thinned::default(),
+            clock,
+            slot_codes: profile.slot.samples() as usize * channels,
+            blanking_codes: profile.slot.blanking() as usize * channels,
+            channels,
+            pads: profile.pads as usize,
+            slots: 0,
+            start: Instant::now(),
+        })
+    }
+
+    /// Runs all slots; the samples left over at the end.
+    fn run(&mut self, source: &mut dyn Source, quiet: bool) -> Result<usize> {
+        let bar = progress::bar(None, quiet);
+        let mut codes = Vec::with_capacity(self.slot_codes);
+        while let Some(sampled) = source.row(&mut codes)? {
+            let pad = self.slots % self.pads;
+            if let Some(got) = sampled.pad.filter(|got| *got != pad) {
+                let slot = self.slots;
+                bail!(
+                    "{}: pad: expected {pad} in slot {slot} of a rotation of {}, got {got}",
+                    source.place(),
+                    self.pads
+                );
+            }
+            if codes.len() == self.slot_codes {
+                codes = self.slot(pad, codes)?;
+                bar.inc(1);
+            }
+        }
+        ensure!(self.slots > 0 || !codes.is_empty(), anyhow!("{}: expected samples, got none", source.place()));
+        let last = self.session.finish();
+        last.into_iter().try_for_each(|row| self.row(row))?;
+        bar.finish_and_clear();
+        Ok(codes.len() / self.channels)
+    }
+
+    /// Takes a whole slot to the core; its buffer, emptied.
+    fn slot(&mut self, pad: usize, codes: Vec<i32>) -> Result<Vec<i32>> {
+        interrupt::check()?;
+        let slot = Slot { pad, signals: Signals::Samples { codes, blanking: self.blanking_codes } };
+        let row = self.session.slot(&slot, None);
+        row.into_iter().try_for_each(|row| self.row(row))?;
+        self.slots += 1;
+        match slot.signals {
+            Signals::Samples { mut codes, .. } => {
+                codes.clear();
+                Ok(codes)
+            }
+            Signals::Phasors { .. } => unreachable!("a capture has samples"),
+        }
+    }
+
+    fn row(&mut self, row: Row) -> Result<()> {
+        self.frames.row(&row)?;
+        self.rows.push(row);
+        Ok(())
+    }
+
+    fn finish(self, name: String, profile: &Profile, args: &ReplayArgs) -> Result<Record> {
+        self.frames.finish()?;
+        Ok(Record {
+            title: format!("Replay of {}", args.capture.display()),
+            scene: name,
+            summary: "Recorded ADC samples, replayed.".into(),
+            figure: None,
+            profile: profile.name.clone(),
+            fidelity: args.core.core.name().into(),
+            cases: vec!["main".into()],
+            pads: (0..self.pads).map(|pad| format!("pad {pad}")).collect(),
+            effects: Vec::new(),
+            criteria: Vec::new(),
+            errors: self.session.errors(),
+            simulated_seconds: self.clock.seconds(self.slots),
+            wall_seconds: self.start.elapsed().as_secs_f64(),
+            rows: self.rows.kept,
+        })
+    }
+}
+
+fn report(args: &ReplayArgs, record: &Record, left: usize, files: &[PathBuf]) {
+    if args.core.json {
+        print!("{}", summary(record));
+        return;
+    }
+    let core: Fidelity = args.core.core;
+    println!("{} · core {} · profile {}", record.title, core.name(), record.profile);
+    if left > 0 {
+        println!("{left} samples at the end are no whole slot and were left out");
+    }
+    print::finish(record, files);
+}
+
+/// Rows evenly thinned, so that they stay few.
+struct Thinned {
+    kept: Vec<Row>,
+    every: usize,
+    seen: usize,
+}
+
+impl Default for Thinned {
+    fn default() -> Self {
+        Thinned { kept: Vec::new(), every: 1, seen: 0 }
+    }
+}
+
+impl Thinned {
+    fn push(&mut self, row: Row) {
+        if self.seen.is_multiple_of(self.every) {
+            self.kept.push(row);
+        }
+        self.seen += 1;
+        if self.kept.len() > MOST_ROWS {
+            let mut index = 0;
+            self.kept.retain(|_| {
+                index += 1;
+                index % 2 == 1
+            });
+            self.every *= 2;
+        }
+    }
+}

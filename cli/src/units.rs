@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The one place where volts and fractions of full scale meet codes.
+
+use hapticore_model::format::Format;
+use hapticore_model::frame::Reading;
+use hapticore_model::profile::Profile;
+
+use crate::calibrate::Scales;
+use crate::record::Quantities;
+
+/// An ADC: fractions of full scale to codes, rounded to nearest even, held at its rails.
+#[derive(Debug, Clone, Copy)]
+pub struct Digitiser {
+    scale: f64,
+    low: f64,
+    high: f64,
+}
+
+impl Digitiser {
+    /// An ADC with codes of this format.
+    pub fn new(adc: Format) -> Self {
+        Digitiser { scale: 1.0 / adc.lsb(), low: adc.min_code() as f64, high: adc.max_code() as f64 }
+    }
+
+    /// Appends the codes of some fractions; the largest magnitude among them, as a fraction.
+    pub fn codes(&self, fractions: &[f64], into: &mut Vec<i32>) -> f64 {
+        let mut peak = 0;
+        into.extend(fractions.iter().map(|fraction| {
+            let code = (fraction * self.scale).round_ties_even().clamp(self.low, self.high) as i32;
+            peak = peak.max(code.abs());
+            code
+        }));
+        f64::from(peak) / self.scale
+    }
+}
+
+/// From a core's numbers to physical units.
+#[derive(Debug, Clone, Copy)]
+pub struct Units {
+    ohm: f64,
+    haptic_v: f64,
+    square_gain: f64,
+}
+
+impl Units {
+    /// The units of a core of the profile on a device.
+    pub fn new(profile: &Profile, scales: &Scales) -> Self {
+        Units { ohm: scales.ohm(), haptic_v: scales.haptic_full_scale_v, square_gain: profile.square_gain() }
+    }
+
+    /// A slot's reading in physical units.
+    pub fn quantities(&self, reading: &Reading) -> Quantities {
+        Quantities {
+            r_x: reading.r_x,
+            r_y: reading.r_y,
+            x_mm: reading.x_mm,
+            y_mm: reading.y_mm,
+            capacitance_pf: reading.capacitance_pf,
+            sheet_ohm: reading.sheet * self.ohm,
+            haptic_v_rms: self.haptic_v * (reading.mean_square / self.square_gain).sqrt(),
+            force_n: reading.force_n,
+            direction: 0.0,
+        }
+    }
+}
