@@ -15,7 +15,7 @@ use crate::calibration::Calibration;
 use crate::format::Format;
 use crate::frame::Frame;
 use crate::profile::Profile;
-use crate::signal::{Signal, Value, bit, code, int, zero};
+use crate::signal::{Exact, Never, Signal, Value, bit, code, int, zero};
 
 /// The weighted carrier at a sample of the window, and the window itself.
 #[derive(Debug, Clone, Copy)]
@@ -86,13 +86,13 @@ impl<V: Value> FixedSimulation<V> {
     #[inline]
     fn tone(&self, channel: usize, codes: &[i32]) -> [Signal<V>; 2] {
         let (demodulator, adc, begun) = (self.core.demodulator(), self.adc, bit(false));
-        let mut sums = [zero(demodulator.sum()); 2];
+        let mut sums = [zero(self.running_sum()); 2];
         for (codes, local) in codes.chunks_exact(self.channels).zip(&self.local) {
             let code = raw(codes[channel], adc);
             sums[0] = demodulator.accumulate(begun, sums[0], code * self.wave(local.cosine));
             sums[1] = demodulator.accumulate(begun, sums[1], code * self.wave(local.sine));
         }
-        sums
+        sums.map(|sum| sum.fit(demodulator.sum(), Exact, Never))
     }
 
     /// The weighted sum of squares of a channel.
@@ -106,6 +106,12 @@ impl<V: Value> FixedSimulation<V> {
             sum = demodulator.accumulate(begun, sum, code * weighted);
         }
         sum
+    }
+
+    /// The format of a sum within the loop: with the point of its products, so that nothing is aligned there.
+    fn running_sum(&self) -> Format {
+        let (sum, product) = (self.core.demodulator().sum(), self.adc.product(self.oscillator));
+        Format { width: sum.width - (sum.frac - product.frac) as u8, frac: product.frac, ..sum }
     }
 
     #[inline(always)]

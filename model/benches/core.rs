@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! How fast the core runs, and how exactly, beside idsp's lock-in on the same samples, in one run.
+//!
+//! `cargo bench -p hapticore-model --bench core [PROFILE]`. Figures are medians of alternating rounds; nothing here asserts a
+//! time, for the machine is never quiet: quote the ratios.
+
+use dsp_process::SplitProcess;
+use hapticore_model::calibration::{Calibration, Map, Point};
+use hapticore_model::fidelity::{clock::ClockSimulation, fixed::FixedSimulation};
+use hapticore_model::profile::Profile;
+use idsp::{Lockin, Lowpass, Lowpass2, LowpassState};
+use std::f64::consts::{SQRT_2, TAU};
+use std::num::Wrapping;
+use std::time::Instant;
+
+const ROUNDS: usize = 7;
+const SLOTS: usize = 200;
+/// The board's clock and sample rate (DESIGN §3).
+const BOARD_HZ: f64 = 25e6;
+const SAMPLE_HZ: f64 = 1e6;
+
+fn main() {
+    let name = std::env::args().nth(1).filter(|argument| !argument.starts_with('-'));
+    let profile = Profile::bundled(name.as_deref().unwrap_or("standard")).expect("a bundled profile");
+    let calibration = calibration(&profile);
+    let codes = slot(&profile, 0.2);
+    let mut clock = ClockSimulation::new(&profile, &calibration);
+    let mut fixed: FixedSimulation = FixedSimulation::new(&profile, &calibration);
+    let memory = resident_kib();
+    let (mut clocks, mut instants, mut lockin) = (Vec::new(), Vec::new(), Vec::new());
+    for _ in 0..ROUNDS {
+        clocks.push(rate(|| run_clock(&mut clock, &profile, &codes)));
+        instants.push(rate(|| run_fixed(&mut fixed, &profile, &codes)));
+        lockin.push(rate(|| run_idsp(&profile, &codes)));
+    }
+    let [clocks, instants, lockin] = [clocks, instants, lockin].map(median);
+    let channels = profile.channels() as f64;
+    let share = profile.slot.integrate as f64 / profile.slot.samples() as f64;
+    println!("profile {}, {ROUNDS} rounds, medians", profile.name);
+    println!(
+        "clock   {:8.1} M clocks/s            {:6.2} × a {} MHz board",
+        clocks / 1e6,
+        clocks / BOARD_HZ,
+        BOARD_HZ / 1e6
+    );
+    println!("fixed   {:8.1} M instants/s in window {:6.1} × 1 MS/s", instants / 1e6, instants / SAMPLE_HZ);
+    println!(
+        "        with the blanking between, which it need not look at: {:.1} × real time",
+        instants / share / SAMPLE_HZ
+    );
+    println!("        {:8.1} M channel samples/s", instants * channels / 1e6);
+    println!("idsp    {:8.1} M samples/s of one channel (Lockin<Lowpass2>)", lockin / 1e6);
+    println!("fixed / idsp, per channel sample: {:.2}", instants * channels / lockin);
+    println!("resident memory: {memory} KiB before, {} KiB after {} clocks", resident_kib(), clock.clocks());
+    accuracy(&profile, &calibration);
+}
+
+/// The total current's amplitude over the sensing voltage's, of clean tones: what the core and idsp make of it.
+fn accuracy(profile: &Profile, calibration: &Calibration) {
+    println!("tones without noise, total current / sensing voltage: relative error by level");
+    println!("{:>10} {:>12} {:>12}", "level", "core", "idsp");
+    for level in [0.5, 0.05, 5e-3, 5e-4] {
+        let codes = slot(profile, level);
+        let mut fixed: FixedSimulation = FixedSimulation::new(profile, calibration);
+        let window = &codes[profile.slot.blanking() as usize * profile.channels()..];
+        let core = fixed.slot(0, window).reading(profile).capacitance_pf / calibration.capacitance_gain;
+        let currents: f64 = (0..SHARES.len()).map(|channel| idsp_amplitude(profile, &codes, channel)).sum();
+        let idsp = currents / idsp_amplitude(profile, &codes, SHARES.len());
+        let ideal = level * SHARES.iter().sum::<f64>() / SENSE;
+        println!("{level:>10.0e} {:>+12.1e} {:>+12.1e}", core / ideal - 1.0, idsp / ideal - 1.0);
+    }
+}
+
+const SHARES: [f64; 6] = [0.15, 0.2, 0.25, 0.2, 0.1, 0.1];
+const SENSE: f64 = 0.625;
+
+/// A flat map without sheet resistance, so that capacitance is current over voltage.
+fn calibration(profile: &Profile) -> Calibration {
+    let points: Vec<_> = (0..121)
+        .map(|k| (f64::from(k % 11) - 5.0, f64::from(k / 11) - 5.0))
+        .map(|(i, j)| Point { x: i * 80.0, y: j * 40.0, r_x: i / 6.0, r_y: j / 6.0, sheet: 0.0 })
+        .collect();
+    Calibration { map: Map::fit(profile, 11, &points), capacitance_gain: 796.0, force_gain: 1e-6 }
+}
+
+/// The codes of a slot: currents a quarter turn ahead of the sensing voltage, a slow haptic voltage.
+fn slot(profile: &Profile, level: f64) -> Vec<i32> {
+    let full = -(profile.formats.adc.min_code() as f64);
+    let turn = TAU / profile.carrier.samples_per_period as f64;
+    let mut codes = Vec::new();
+    for n in 0..profile.slot.samples() {
+        let phase = turn * n as f64;
+        codes.extend(SHARES.map(|share| -level * share * phase.sin()).map(|x| (x * full).round() as i32));
+        codes.push((SENSE * full * phase.cos()).round() as i32);
+        codes.push((0.8 * full * (phase / 100.0).sin()).round() as i32);
+    }
+    codes
+}
+
+fn run_clock(clock: &mut ClockSimulation, profile: &Profile, codes: &[i32]) -> f64 {
+    let before = clock.clocks();
+    for _ in 0..SLOTS / 4 {
+        codes.chunks_exact(profile.channels()).for_each(|codes| clock.sample(codes));
+    }
+    (clock.clocks() - before) as f64
+}
+
+fn run_fixed(fixed: &mut FixedSimulation, profile: &Profile, codes: &[i32]) -> f64 {
+    let window = &codes[profile.slot.blanking() as usize * profile.channels()..];
+    for slot in 0..SLOTS {
+        std::hint::black_box(fixed.slot(slot % profile.pads as usize, window));
+    }
+    (SLOTS * fixed.window()) as f64
+}
+
+fn run_idsp(profile: &Profile, codes: &[i32]) -> f64 {
+    for _ in 0..SLOTS {
+        std::hint::black_box(idsp_amplitude(profile, codes, 0));
+    }
+    (SLOTS as u64 * profile.slot.samples()) as f64
+}
+
+/// idsp's lock-in on one channel: a second-order low-pass that settles within the slot; its last output.
+fn idsp_amplitude(profile: &Profile, codes: &[i32], channel: usize) -> f64 {
+    let corner = 4.0 / profile.slot.samples() as f64;
+    let k = TAU * corner;
+    let gain = (k * 2f64.powi(31)) as i64;
+    let lowpass: Lowpass2 = Lowpass([((gain * gain) >> 32) as i32, (-(gain as f64) * SQRT_2) as i32]);
+    let lockin = Lockin(lowpass);
+    let mut state: [LowpassState<2>; 2] = Default::default();
+    let step = (2f64.powi(32) / profile.carrier.samples_per_period as f64).round() as i64 as i32;
+    let shift = 32 - u32::from(profile.formats.adc.width);
+    let mut phase = Wrapping(0i32);
+    let mut out = (0, 0);
+    for codes in codes.chunks_exact(profile.channels()) {
+        let iq = lockin.process(&mut state, (codes[channel] << (shift - 1), phase));
+        phase += step;
+        out = (iq.re(), iq.im());
+    }
+    f64::from(out.0).hypot(f64::from(out.1)) * 2.0 / 2f64.powi(30)
+}
+
+fn rate(mut run: impl FnMut() -> f64) -> f64 {
+    let start = Instant::now();
+    run() / start.elapsed().as_secs_f64()
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}
+
+/// What the process keeps in memory.
+fn resident_kib() -> u64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"));
+    line.and_then(|line| line.trim().trim_end_matches(" kB").parse().ok()).unwrap_or(0)
+}
