@@ -14,6 +14,7 @@
 //! | [`criteria`] | what a scene claims, measured |
 //! | [`capture`] | ADC samples in CSV and WAV files |
 //! | [`record`] | what a run leaves |
+//! | [`report`] | the page with the figures |
 //! | [`output`], [`print`](mod@print) | the same written into a folder and on the terminal |
 
 pub mod args;
@@ -30,6 +31,7 @@ pub mod print;
 pub mod progress;
 pub mod record;
 pub mod replay;
+pub mod report;
 pub mod scenes;
 pub mod session;
 pub mod simulate;

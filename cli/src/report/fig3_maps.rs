@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Fig. 3's maps: the force's deviation and the position's error over the sheet, a map for each setting.
+
+use super::figure::{Figure, box_swatch, key};
+use super::map::map;
+use super::number;
+use super::page::escape;
+use super::paint::{DIVERGING, Paint, SEQUENTIAL};
+use super::select::{Setting, deviation_percent, position_error, rms, spread_percent};
+use crate::record::Row;
+
+/// Tiles that all maps of a figure share.
+const TILES: usize = 7000;
+
+/// Where the steps of the deviation begin, percent.
+const DEVIATION_STEPS: [f64; 5] = [0.05, 0.1, 0.2, 0.5, 2.0];
+
+/// Where the steps of the position error begin, mm.
+const ERROR_STEPS: [f64; 5] = [0.1, 0.2, 0.5, 1.0, 2.0];
+
+/// Deviations of the force from its mean over the sheet, by the core and by eq. 6 alone.
+pub fn force(settings: &[Setting], left_out: usize, core: fn(&Row) -> f64, eq6: fn(&Row) -> f64) -> Figure {
+    let readings = [("core", core), ("eq. 6 alone", eq6)];
+    let known = |get: fn(&Row) -> f64| settings.iter().any(|s| s.rows.iter().any(|(row, _)| get(row).is_finite()));
+    let readings: Vec<_> = readings.into_iter().filter(|(_, get)| known(*get)).collect();
+    let most = TILES / (settings.len() * readings.len()).max(1);
+    let mut maps = String::new();
+    for setting in settings {
+        for (name, get) in &readings {
+            maps += &deviation_map(setting, name, *get, most);
+        }
+    }
+    let mut note = String::from(
+        "Deviation from the mean over the sheet; in brackets (largest − smallest) / mean. The frame is the sheet.",
+    );
+    if left_out > 0 {
+        note += &format!(" {left_out} more settings are left out, here and below.");
+    }
+    Figure::wide("Force over the sheet", &note, deviation_legend(), grid(&maps))
+}
+
+fn deviation_map(setting: &Setting, reading: &str, get: fn(&Row) -> f64, most: usize) -> String {
+    let values: Vec<_> = setting.rows.iter().map(|(row, _)| get(row)).collect();
+    let caption = caption(&setting.name, &format!("{reading} ({} %)", number::short(spread_percent(&values))));
+    let places = places(setting, &deviation_percent(&values));
+    titled(&caption, &map(&caption, &places, most, |d| Paint::diverging(deviation_step(d))))
+}
+
+fn deviation_step(percent: f64) -> i32 {
+    let step = DEVIATION_STEPS.partition_point(|edge| *edge <= percent.abs()) as i32;
+    if percent < 0.0 { -step } else { step }
+}
+
+fn deviation_legend() -> String {
+    let entry = |step: i32| key(&deviation_name(step), &box_swatch(&Paint::diverging(step).fill_class()));
+    (-DIVERGING..=DIVERGING).map(entry).collect()
+}
+
+fn deviation_name(step: i32) -> String {
+    let edge = |n: i32| usize::try_from(n).ok().and_then(|n| DEVIATION_STEPS.get(n)).copied();
+    let sign = if step < 0 { "−" } else { "" };
+    match (edge(step.abs() - 1), edge(step.abs())) {
+        (None, Some(to)) => format!("±{to} %"),
+        (Some(from), Some(to)) if step < 0 => format!("−{to} … −{from}"),
+        (Some(from), Some(to)) => format!("{from} … {to}"),
+        (from, None) => format!("beyond {sign}{}", from.unwrap_or_default()),
+    }
+}
+
+/// Distances of the measured from the true position.
+pub fn position(settings: &[Setting]) -> Figure {
+    let most = TILES / settings.len().max(1);
+    let maps: String = settings.iter().map(|s| error_map(s, most)).collect();
+    let note = "Distance from the true position; in brackets the root mean square.";
+    Figure::wide("Position error over the sheet", note, error_legend(), grid(&maps))
+}
+
+/// A setting's position errors, mm.
+pub fn position_errors(setting: &Setting) -> Vec<f64> {
+    setting.rows.iter().map(|(row, truth)| position_error(&row.measured, truth)).collect()
+}
+
+fn error_map(setting: &Setting, most: usize) -> String {
+    let errors = position_errors(setting);
+    let caption = caption(&setting.name, &format!("({} mm)", number::short(rms(errors.iter().copied()))));
+    let step = |error: f64| Paint::sequential(ERROR_STEPS.partition_point(|edge| *edge <= error));
+    titled(&caption, &map(&caption, &places(setting, &errors), most, step))
+}
+
+fn error_legend() -> String {
+    let edge = |n: usize| ERROR_STEPS.get(n).copied();
+    let name = |n: usize| match (n.checked_sub(1).and_then(edge), edge(n)) {
+        (None, to) => format!("below {} mm", to.unwrap_or_default()),
+        (Some(from), Some(to)) => format!("{from} … {to}"),
+        (Some(from), None) => format!("beyond {from}"),
+    };
+    (0..SEQUENTIAL).map(|n| key(&name(n), &box_swatch(&Paint::sequential(n).fill_class()))).collect()
+}
+
+fn places(setting: &Setting, values: &[f64]) -> Vec<(f64, f64, f64)> {
+    let truths = setting.rows.iter().map(|(_, truth)| truth.quantities);
+    truths.zip(values).map(|(q, value)| (q.x_mm, q.y_mm, *value)).collect()
+}
+
+fn caption(name: &str, what: &str) -> String {
+    if name.is_empty() { what.into() } else { format!("{name}: {what}") }
+}
+
+fn titled(caption: &str, svg: &str) -> String {
+    format!("<div>\n<p>{}</p>\n{svg}</div>\n", escape(caption))
+}
+
+fn grid(maps: &str) -> String {
+    format!("<div class=\"maps\">\n{maps}</div>\n")
+}

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Several pads at once: their paths over the sheet, forces and errors over time.
+
+use super::axis::Axis;
+use super::figure::Figure;
+use super::general::{self, CAPACITANCE, FORCE, VOLTAGE};
+use super::map::HALF_SHEET_MM;
+use super::number;
+use super::paint::Paint;
+use super::plot::Plot;
+use super::select;
+use super::series::{Mark, Point, Series};
+use crate::record::{Record, Row};
+
+/// Bins of time for what is too dense to draw.
+const BINS: u32 = 50;
+
+/// Paths, force, both errors, capacitance, voltage.
+pub fn figures(record: &Record) -> Vec<Figure> {
+    let [force, capacitance, voltage] = [FORCE, CAPACITANCE, VOLTAGE].map(|q| general::over_time(record, q));
+    vec![paths(record), force, position_error(record), force_error(record), capacitance, voltage]
+}
+
+fn paths(record: &Record) -> Figure {
+    let pads = select::pads(record);
+    let true_place = |r: &Row| r.truth.map_or((f64::NAN, f64::NAN), |t| (t.quantities.x_mm, t.quantities.y_mm));
+    let place = |r: &Row| (r.measured.x_mm, r.measured.y_mm);
+    let measured = |pad: &usize| {
+        let name = select::pad_name(record, *pad);
+        Series::dots(&name, Paint::series(*pad), path(record, *pad, place)).mark(Mark::Dots(8))
+    };
+    let truth = |pad: &usize| Series::line("", Paint::INK, path(record, *pad, true_place)).mark(Mark::Line(3));
+    let mut series = vec![frame()];
+    series.extend(pads.iter().map(measured));
+    series.extend(pads.iter().map(truth));
+    series.push(Series::line("truth", Paint::INK, vec![]));
+    let half = HALF_SHEET_MM;
+    let mut plot =
+        Plot::new("Paths of the pads over the sheet", side("x (mm)", half.0), side("y (mm)", half.1), series);
+    plot.height = 777;
+    Figure::plot("Paths over the sheet", "The frame is the sheet's edge.", &plot)
+}
+
+/// The sheet's edge.
+fn frame() -> Series {
+    let (x, y) = HALF_SHEET_MM;
+    Series::line("", Paint::MUTED, vec![(-x, y), (x, y), (x, -y), (-x, -y), (-x, y)]).mark(Mark::Line(2))
+}
+
+fn side(title: &str, half: f64) -> Axis {
+    Axis::exact(title, -half, half)
+}
+
+fn path(record: &Record, pad: usize, place: impl Fn(&Row) -> Point) -> Vec<Point> {
+    let rows: Vec<_> = record.rows.iter().filter(|r| r.pad == pad).collect();
+    let cases = rows.chunk_by(|a, b| a.case == b.case);
+    cases.flat_map(|case| case.iter().map(|r| place(r)).chain([(f64::NAN, f64::NAN)])).collect()
+}
+
+fn position_error(record: &Record) -> Figure {
+    let error = |r: &Row| r.truth.map_or(f64::NAN, |t| select::position_error(&r.measured, &t));
+    let values: Vec<_> = record.rows.iter().map(error).collect();
+    let rms = number::short(select::rms(values.iter().copied()));
+    let mut series = Vec::new();
+    for pad in select::pads(record) {
+        let points = general::points(record, pad, error);
+        let paint = Paint::series(pad);
+        series.push(Series::line(&select::pad_name(record, pad), paint, binned(&points, select::rms)));
+        series.push(Series::dots("", paint, binned(&points, |b| select::extent(b).map_or(f64::NAN, |e| e.1))));
+    }
+    series.push(Series::dots("largest", Paint::INK, vec![]));
+    let y = Axis::with_zero("|Δ position| (mm)", values);
+    let mut plot = Plot::new("Distance from the true position", general::time_axis(record), y, series);
+    plot.breaks = general::breaks(record);
+    let note = format!("Lines: rms over 1/{BINS} of the run, dots: the largest in it. {rms} mm rms over all pads.");
+    Figure::plot("Position error", &note, &plot)
+}
+
+/// A value for each bin of time, from those within it.
+fn binned(points: &[Point], value: impl Fn(Vec<f64>) -> f64) -> Vec<Point> {
+    let Some((start, end)) = select::extent(points.iter().map(|p| p.0)) else {
+        return Vec::new();
+    };
+    let width = ((end - start) / f64::from(BINS)).max(f64::MIN_POSITIVE);
+    let bin = |time: f64| ((time - start) / width).floor().min(f64::from(BINS) - 1.0);
+    let finite: Vec<_> = points.iter().filter(|p| p.0.is_finite()).copied().collect();
+    let chunks = finite.chunk_by(|a, b| bin(a.0) == bin(b.0));
+    chunks.map(|c| (select::mean(c.iter().map(|p| p.0)), value(c.iter().map(|p| p.1).collect()))).collect()
+}
+
+fn force_error(record: &Record) -> Figure {
+    let error = |r: &Row| r.truth.map_or(f64::NAN, |t| r.measured.force_n - t.quantities.force_n);
+    let values: Vec<_> = record.rows.iter().map(error).collect();
+    let note = format!("{} N rms over all pads.", number::short(select::rms(values.iter().copied())));
+    let line = |pad: usize| {
+        let name = select::pad_name(record, pad);
+        Series::line(&name, Paint::series(pad), general::points(record, pad, error)).mark(Mark::Line(3))
+    };
+    let series = select::pads(record).into_iter().map(line).collect();
+    let y = Axis::with_zero("ΔF (N)", values);
+    let mut plot = Plot::new("Measured less true force", general::time_axis(record), y, series);
+    plot.breaks = general::breaks(record);
+    plot.limits = select::limit(record, "N", "force").map_or(Vec::new(), |limit| vec![-limit, limit]);
+    Figure::plot("Force error", &note, &plot)
+}

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The report of a run: one HTML page without scripts, with every figure inside it.
+//!
+//! | module | what it makes |
+//! | --- | --- |
+//! | `page`, `tables` | the page, its tables |
+//! | `figure`, `plot`, `frame`, `map` | a figure, a plot over two axes and what stands around it, a map of the sheet |
+//! | `axis`, `series`, `paint`, `number` | ticks, points, colours of both modes, numbers as text |
+//! | `select`, `sweep` | rows by case, setting and pad; settings by load and voltage |
+//! | `fig3`, `fig4`, `fig6`, `hockey`, `general` | the figures of a scene |
+
+mod axis;
+#[cfg(test)]
+mod contrast;
+mod fig3;
+mod fig3_maps;
+mod fig4;
+mod fig6;
+mod figure;
+mod frame;
+mod general;
+mod hockey;
+mod map;
+mod number;
+mod page;
+mod paint;
+mod plot;
+mod select;
+mod series;
+mod sweep;
+mod tables;
+#[cfg(test)]
+mod tests;
+
+use crate::record::Record;
+use figure::Figure;
+
+/// The report of a run as a self-contained HTML page.
+pub fn html(record: &Record) -> String {
+    let figures = figures(record);
+    let cost = tables::effects(&record.effects, record.wall_seconds);
+    let body = [
+        page::heading(record),
+        page::section("Criteria", &tables::criteria(&record.criteria)),
+        page::section("Figures", &figures),
+        page::section("Effects and what they cost", &cost),
+        page::section("Rounding errors by signal", &tables::errors(&record.errors)),
+        page::section("The run", &tables::run(record)),
+    ];
+    page::document(record, &body.concat())
+}
+
+fn figures(record: &Record) -> String {
+    if record.rows.is_empty() {
+        return "<p class=\"note\">No slot was finished, so there is nothing to draw.</p>\n".into();
+    }
+    let figures: String = chosen(record).iter().map(Figure::html).collect();
+    format!("<div class=\"figures\">\n{figures}</div>\n")
+}
+
+/// The figures of the scene; the general ones where it names none, or where a capture left no truth to compare with.
+fn chosen(record: &Record) -> Vec<Figure> {
+    let truth = record.rows.iter().any(|row| row.truth.is_some());
+    match record.figure.as_deref().filter(|_| truth) {
+        Some("fig3") => fig3::figures(record),
+        Some("fig4") => fig4::figures(record),
+        Some("fig6") => fig6::figures(record),
+        Some("hockey") => hockey::figures(record),
+        _ => general::figures(record),
+    }
+}

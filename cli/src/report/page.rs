@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The page around tables and figures.
+
+use crate::record::Record;
+
+const STYLE: &str = include_str!("report.css");
+
+/// Text as it may stand in an element or an attribute.
+pub fn escape(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '"' => escaped.push_str("&quot;"),
+            '\'' => escaped.push_str("&#39;"),
+            c if c.is_control() && !c.is_whitespace() => escaped.push('\u{fffd}'),
+            c => escaped.push(c),
+        }
+    }
+    escaped
+}
+
+/// The document with these contents.
+pub fn document(record: &Record, main: &str) -> String {
+    let title = escape(&record.title);
+    format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\" />\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\" />\n\
+         <meta name=\"color-scheme\" content=\"light dark\" />\n\
+         <title>{title} – hapticore</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n{main}</main>\n</body>\n</html>\n"
+    )
+}
+
+/// Title, what ran, and what it is about.
+pub fn heading(record: &Record) -> String {
+    let fact = |name: &str, value: &str| format!("<li>{name} <b>{}</b></li>", escape(value));
+    let facts = [("scene", &record.scene), ("profile", &record.profile), ("core", &record.fidelity)];
+    let facts: String = facts.iter().map(|(name, value)| fact(name, value)).collect();
+    let (title, summary) = (escape(&record.title), escape(record.summary.trim()));
+    format!("<header>\n<h1>{title}</h1>\n<ul class=\"facts\">{facts}</ul>\n<p>{summary}</p>\n</header>\n")
+}
+
+/// A section; nothing where it would be empty.
+pub fn section(title: &str, body: &str) -> String {
+    if body.is_empty() {
+        return String::new();
+    }
+    format!("<section>\n<h2>{}</h2>\n{body}</section>\n", escape(title))
+}

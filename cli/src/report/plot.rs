@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A plot of series over two axes, drawn by `plotters`.
+//!
+//! Drawn 1200 units wide, so that its text stays legible when a phone shows it at a third of that; the style sheet makes the text
+//! smaller where there is room.
+
+use std::error::Error;
+
+use plotters::coord::types::RangedCoordf64;
+use plotters::element::{Circle, PathElement, Text};
+use plotters::prelude::{Cartesian2d, ChartBuilder, ChartContext, IntoDrawingArea as _, IntoFont as _, SVGBackend};
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+use plotters::style::{Color as _, ShapeStyle, TextStyle};
+
+use super::axis::Axis;
+use super::frame;
+use super::page::escape;
+use super::paint::{self, Paint};
+use super::series::{Mark, Point, Series, thin_dots, thin_line};
+
+/// Width of every plot, in its own units.
+pub const WIDTH: u32 = 1200;
+
+/// Size of text; `plotters` divides by 1.24.
+const TEXT: u32 = 46;
+
+/// Width to reserve for a character.
+const CHARACTER: usize = 21;
+
+/// Dots that all series of a plot share.
+const DOTS: usize = 2400;
+
+/// Columns that all lines of a plot share.
+const COLUMNS: usize = 2400;
+
+/// What a plot is drawn on.
+pub type Area<'a> = plotters::drawing::DrawingArea<SVGBackend<'a>, plotters::coord::Shift>;
+
+/// A drawing area within a plot.
+pub type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
+
+/// Whether something was drawn.
+pub type Drawn = Result<(), Box<dyn Error>>;
+
+/// A plot.
+#[derive(Clone, Debug)]
+pub struct Plot {
+    /// What it shows, for readers who do not see it.
+    pub about: String,
+    /// The horizontal axis.
+    pub x: Axis,
+    /// The vertical axis.
+    pub y: Axis,
+    /// What is drawn, from back to front.
+    pub series: Vec<Series>,
+    /// Values of y that deserve a line of their own: limits.
+    pub limits: Vec<f64>,
+    /// Values of x where something ends and something else begins.
+    pub breaks: Vec<f64>,
+    /// Height where the width is 1200.
+    pub height: u32,
+}
+
+impl Plot {
+    /// A plot without limits and breaks, of the usual height.
+    pub fn new(about: &str, x: Axis, y: Axis, series: Vec<Series>) -> Plot {
+        Plot { about: about.into(), x, y, series, limits: Vec::new(), breaks: Vec::new(), height: 720 }
+    }
+
+    /// The drawing, or why there is none.
+    pub fn svg(&self) -> String {
+        let mut drawing = String::new();
+        match self.draw(&mut drawing) {
+            Ok(()) => inline(&drawing, &self.about, WIDTH, self.height),
+            Err(error) => format!("<p class=\"note\">Not drawn: {}</p>\n", escape(&error.to_string())),
+        }
+    }
+
+    fn draw(&self, drawing: &mut String) -> Drawn {
+        let root = SVGBackend::with_string(drawing, (WIDTH, self.height)).into_drawing_area();
+        let chart = self.chart(&root)?;
+        frame::draw(&root, &chart, self)?;
+        for series in &self.series {
+            self.series(&root, &chart, series)?;
+        }
+        self.tags(&root, &chart)?;
+        root.present()?;
+        Ok(())
+    }
+
+    fn chart<'a, 'b>(&self, root: &'a Area<'b>) -> Result<Chart<'a, 'b>, Box<dyn Error>> {
+        let (x, y) = (self.x.range(), self.y.range());
+        let mut builder = ChartBuilder::on(root);
+        builder.margin_top(64).margin_right(self.tag_width()).margin_bottom(48);
+        builder.x_label_area_size(56).y_label_area_size(self.label_width());
+        Ok(builder.build_cartesian_2d(x.0..x.1, y.0..y.1)?)
+    }
+
+    fn label_width(&self) -> u32 {
+        let longest = self.y.ticks().iter().map(|(_, text)| text.chars().count()).max().unwrap_or(1);
+        u32::try_from(longest * CHARACTER + 24).unwrap_or(200)
+    }
+
+    fn tag_width(&self) -> u32 {
+        let tags = self.series.iter().filter_map(|s| s.tag.as_ref());
+        let longest = tags.map(|t| t.chars().count()).max().unwrap_or(0);
+        u32::try_from(longest * CHARACTER + 24).unwrap_or(200)
+    }
+
+    fn series(&self, root: &Area, chart: &Chart, series: &Series) -> Drawn {
+        let runs = self.runs(chart, &series.points);
+
+        match series.mark {
+            Mark::Line(width) => {
+                for run in runs {
+                    root.draw(&PathElement::new(thin_line(&run, self.column()), stroke(series.paint, width)))?;
+                }
+            }
+            Mark::Dots(radius) | Mark::Rings(radius) => {
+                let rings = matches!(series.mark, Mark::Rings(_));
+                let style = if rings { stroke(series.paint, 3) } else { series.paint.sentinel().filled() };
+                for at in thin_dots(&runs.concat(), self.dots_each()) {
+                    root.draw(&Circle::new(at, radius, style))?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Width of a column in which a line keeps its extremes.
+    fn column(&self) -> i32 {
+        let lines = self.series.iter().filter(|s| matches!(s.mark, Mark::Line(_))).count();
+        i32::try_from(WIDTH as usize * lines / COLUMNS).unwrap_or(2).max(2)
+    }
+
+    /// Dots that each series may have.
+    fn dots_each(&self) -> usize {
+        let series = self.series.iter().filter(|s| !matches!(s.mark, Mark::Line(_))).count();
+        (DOTS / series.max(1)).min(900)
+    }
+
+    /// The points in units of the drawing, in runs between those that have no place.
+    fn runs(&self, chart: &Chart, points: &[Point]) -> Vec<Vec<(i32, i32)>> {
+        let places: Vec<_> = points.iter().map(|(x, y)| (self.x.place(*x), self.y.place(*y))).collect();
+        let finite = |(x, y): &(f64, f64)| x.is_finite() && y.is_finite();
+        let runs = places.split(|place| !finite(place)).filter(|run| !run.is_empty());
+        runs.map(|run| run.iter().map(|place| chart.backend_coord(place)).collect()).collect()
+    }
+
+    /// Labels at the series' ends, moved apart where they would overlap.
+    fn tags(&self, root: &Area, chart: &Chart) -> Drawn {
+        let mut ends = Vec::new();
+        for series in &self.series {
+            let last = self.runs(chart, &series.points).last().and_then(|run| run.last().copied());
+            if let (Some(tag), Some(at)) = (&series.tag, last) {
+                ends.push((at, tag, series.paint));
+            }
+        }
+        ends.sort_by_key(|((_, y), _, _)| *y);
+        let heights: Vec<_> = ends.iter().map(|((_, y), _, _)| *y).collect();
+        for (((x, _), tag, paint), y) in ends.into_iter().zip(apart(&heights, i32::try_from(self.height)?)) {
+            root.draw(&Text::new(tag.clone(), (x + 14, y), text(paint, HPos::Left, VPos::Center)))?;
+        }
+        Ok(())
+    }
+}
+
+/// Heights at least a line apart, in the same order, above the bottom.
+fn apart(heights: &[i32], bottom: i32) -> Vec<i32> {
+    const LINE: i32 = 40;
+    let mut placed: Vec<i32> = Vec::new();
+    for height in heights {
+        placed.push(placed.last().map_or(*height, |above| (*height).max(above + LINE)));
+    }
+    let mut floor = bottom - 130;
+    for height in placed.iter_mut().rev() {
+        *height = (*height).min(floor);
+        floor = *height - LINE;
+    }
+    placed
+}
+
+/// A line's style.
+pub fn stroke(paint: Paint, width: u32) -> ShapeStyle {
+    paint.sentinel().stroke_width(width)
+}
+
+/// A text's style.
+pub fn text(paint: Paint, horizontal: HPos, vertical: VPos) -> TextStyle<'static> {
+    let font = ("sans-serif", TEXT).into_font();
+    font.color(&paint.sentinel()).pos(Pos::new(horizontal, vertical))
+}
+
+/// A drawing as it stands in the page: classes instead of colours, its size left to the page.
+pub fn inline(drawing: &str, about: &str, width: u32, height: u32) -> String {
+    let inner = drawing.split_once('\n').map_or("", |(_, rest)| rest);
+    let open = format!("<svg viewBox=\"0 0 {width} {height}\" role=\"img\" aria-label=\"{}\">\n", escape(about));
+    open + &paint::to_classes(inner)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::apart;
+
+    #[test]
+    fn labels_do_not_overlap() {
+        assert_eq!(apart(&[100, 105, 300], 720), [100, 140, 300]);
+        assert_eq!(apart(&[600, 610, 615], 720), [510, 550, 590]);
+    }
+}

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Series of points, thinned to what the eye can tell apart.
+
+use std::collections::HashSet;
+
+use super::paint::Paint;
+
+/// A point in the axes' units; not finite where there is none.
+pub type Point = (f64, f64);
+
+/// How a series is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Mark {
+    /// A line of this width.
+    Line(u32),
+    /// Filled circles of this radius.
+    Dots(u32),
+    /// Open circles of this radius.
+    Rings(u32),
+}
+
+/// A series.
+#[derive(Clone, Debug)]
+pub struct Series {
+    /// Its name in the legend; none where another series stands for it.
+    pub name: String,
+    /// Its colour.
+    pub paint: Paint,
+    /// How it is drawn.
+    pub mark: Mark,
+    /// Its points.
+    pub points: Vec<Point>,
+    /// A label at its last point.
+    pub tag: Option<String>,
+}
+
+impl Series {
+    /// A thin line.
+    pub fn line(name: &str, paint: Paint, points: Vec<Point>) -> Series {
+        Series { name: name.into(), paint, mark: Mark::Line(4), points, tag: None }
+    }
+
+    /// Dots.
+    pub fn dots(name: &str, paint: Paint, points: Vec<Point>) -> Series {
+        Series { name: name.into(), paint, mark: Mark::Dots(7), points, tag: None }
+    }
+
+    /// Rings, which let a dot at the same place be seen.
+    pub fn rings(name: &str, paint: Paint, points: Vec<Point>) -> Series {
+        Series { name: name.into(), paint, mark: Mark::Rings(12), points, tag: None }
+    }
+
+    /// With another mark.
+    pub fn mark(self, mark: Mark) -> Series {
+        Series { mark, ..self }
+    }
+
+    /// With a label at its last point.
+    pub fn tagged(self, tag: &str) -> Series {
+        Series { tag: Some(tag.into()), ..self }
+    }
+}
+
+/// At most about `most` of the points, on a raster of `width` × `height`: one per cell, the cells as fine as that allows.
+pub fn thin_dots(points: &[(i32, i32)], most: usize) -> Vec<(i32, i32)> {
+    let mut cell = 2;
+    loop {
+        let mut taken = HashSet::new();
+        let kept: Vec<_> = points.iter().copied().filter(|(x, y)| taken.insert((x / cell, y / cell))).collect();
+        if kept.len() <= most.max(1) {
+            return kept;
+        }
+        cell += 1 + cell / 2;
+    }
+}
+
+/// A line without the points that hardly show: of neighbours that share a column of `width`, the first, least, largest and last.
+pub fn thin_line(points: &[(i32, i32)], width: i32) -> Vec<(i32, i32)> {
+    let mut kept: Vec<(i32, i32)> = Vec::new();
+    for column in points.chunk_by(|a, b| a.0 / width == b.0 / width) {
+        for index in extremes(column) {
+            if kept.last() != Some(&column[index]) {
+                kept.push(column[index]);
+            }
+        }
+    }
+    kept
+}
+
+/// First, least, largest and last of a column, in their order.
+fn extremes(column: &[(i32, i32)]) -> Vec<usize> {
+    let height = |&i: &usize| column[i].1;
+    let least = (0..column.len()).min_by_key(height).unwrap_or(0);
+    let largest = (0..column.len()).max_by_key(height).unwrap_or(0);
+    let mut indices = vec![0, least, largest, column.len() - 1];
+    indices.sort_unstable();
+    indices.dedup();
+    indices
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_keeps_its_peaks() {
+        let points: Vec<_> = (0..100_000).map(|i| (i / 100, if i == 50_050 { 900 } else { i % 7 })).collect();
+        let thin = thin_line(&points, 2);
+        assert!(thin.len() <= 2000 + 4, "{}", thin.len());
+        assert!(thin.contains(&(500, 900)));
+        assert_eq!((thin[0], thin.last()), (points[0], points.last()));
+    }
+
+    #[test]
+    fn dots_are_few_and_spread() {
+        let points: Vec<_> = (0..100_000).map(|i| (i % 1000, i / 100)).collect();
+        let thin = thin_dots(&points, 500);
+        assert!((100..=500).contains(&thin.len()), "{}", thin.len());
+        assert_eq!(thin_dots(&points[..5], 500).len(), 3, "one per two pixels");
+    }
+}

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Every figure on awkward runs: none, one row, no numbers, several cases, no truth, a great many rows.
+
+use super::*;
+use crate::record::{Criterion, Effect, Quantities, Reference, Row, SignalError, Truth};
+
+const FIGURES: [Option<&str>; 6] = [Some("fig3"), Some("fig4"), Some("fig6"), Some("hockey"), Some("fig99"), None];
+
+/// A report may be this large, bytes.
+const MOST_BYTES: usize = 1_500_000;
+
+fn record(figure: Option<&str>, rows: Vec<Row>) -> Record {
+    Record {
+        scene: "a <b> & \"c\"".into(),
+        title: "<script>alert('x')</script>".into(),
+        summary: "d < e".into(),
+        figure: figure.map(String::from),
+        profile: "p&q".into(),
+        fidelity: "fixed".into(),
+        cases: vec!["<case 0>".into(), "case & 1".into()],
+        pads: vec!["<pad>".into()],
+        effects: vec![Effect { name: "<effect>".into(), rung: "<rung>".into(), seconds: 0.1 }],
+        criteria: vec![criterion(0.1), criterion(f64::NAN)],
+        errors: vec![SignalError { signal: "<s>".into(), format: "u1.0".into(), max_error: 1e-9, max_codes: 0.5 }],
+        simulated_seconds: 1.0,
+        wall_seconds: 0.0,
+        rows,
+    }
+}
+
+fn criterion(measured: f64) -> Criterion {
+    let beside = Some(("<eq. 6>".into(), f64::INFINITY));
+    Criterion { name: "<force>".into(), measured, limit: 0.2, pass: measured < 0.2, unit: "N".into(), beside }
+}
+
+/// Row `n` of a made-up run: a pad that wanders, a voltage that rises, three loads, two cases.
+fn row(n: usize) -> Row {
+    let t = n as f64;
+    let quantities = Quantities {
+        x_mm: 400.0 * (t * 0.7).sin(),
+        y_mm: 240.0 * (t * 0.31).cos(),
+        capacitance_pf: 318.0 + (t * 12.9).sin(),
+        haptic_v_rms: (t * 7.0) % 350.0,
+        force_n: 0.1 + 0.01 * (t * 3.1).sin(),
+        ..Quantities::default()
+    };
+    let truth = Truth { quantities, load_g: 20.0 * (n % 3) as f64, point: n, group: n % 48 };
+    let reference = Reference { quantities, capacitance_eq6_pf: 317.0 - (t * 0.1).sin(), force_eq6_n: 0.09 };
+    let measured = Quantities { x_mm: quantities.x_mm + (t * 5.3).sin(), ..quantities };
+    let (truth, reference) = (Some(truth), Some(reference));
+    Row { case: n % 97 / 60, time_s: t * 1e-3, pad: n % 4, measured, flags: String::new(), truth, reference }
+}
+
+fn rows(count: usize) -> Vec<Row> {
+    let mut rows: Vec<_> = (0..count).map(row).collect();
+    rows.sort_by_key(|r| r.case);
+    rows
+}
+
+fn without_numbers(mut row: Row) -> Row {
+    let nan = f64::NAN;
+    row.measured = Quantities { x_mm: nan, y_mm: f64::INFINITY, capacitance_pf: nan, force_n: nan, ..row.measured };
+    row.truth = row.truth.map(|t| Truth { quantities: row.measured, load_g: nan, ..t });
+    row
+}
+
+fn without_truth(row: Row) -> Row {
+    Row { truth: None, reference: None, ..row }
+}
+
+/// The page is well-formed, holds no address and no script, bounds its size, and draws with classes alone.
+fn check(record: &Record) -> String {
+    let page = html(record);
+    let options = roxmltree::ParsingOptions { allow_dtd: true, ..Default::default() };
+    let document = roxmltree::Document::parse_with_options(&page, options).expect("well-formed");
+    let drawn = document.descendants().filter(|n| n.has_tag_name("svg"));
+    for node in drawn.flat_map(|svg| svg.descendants()) {
+        assert!(node.attribute("fill").or(node.attribute("stroke")).is_none(), "{node:?}");
+        assert!(!node.attributes().any(|a| a.value().contains("NaN") || a.value().contains("inf")), "{node:?}");
+    }
+    for absent in ["http", "url(", "<script", "@import", "src=", "A5\""] {
+        assert!(!page.contains(absent), "{absent}");
+    }
+    assert!(page.len() < MOST_BYTES, "{} bytes of {:?}", page.len(), record.figure);
+    page
+}
+
+fn check_all(rows: impl Fn() -> Vec<Row>) {
+    for figure in FIGURES {
+        check(&record(figure, rows()));
+    }
+}
+
+#[test]
+fn no_rows() {
+    check_all(Vec::new);
+    assert!(check(&record(Some("fig3"), vec![])).contains("nothing to draw"));
+}
+
+#[test]
+fn one_row() {
+    check_all(|| rows(1));
+}
+
+#[test]
+fn no_numbers_in_any_row() {
+    check_all(|| rows(100).into_iter().map(without_numbers).collect());
+}
+
+#[test]
+fn no_numbers_in_some_rows() {
+    let some = |row: Row| {
+        if row.time_s > 0.05 { without_numbers(row) } else { row }
+    };
+    check_all(|| rows(100).into_iter().map(some).collect());
+}
+
+#[test]
+fn several_cases() {
+    check_all(|| rows(600));
+}
+
+#[test]
+fn a_capture_has_no_truth_and_still_figures() {
+    check_all(|| rows(600).into_iter().map(without_truth).collect());
+    let rows = rows(600).into_iter().map(without_truth).collect();
+    assert!(check(&record(Some("hockey"), rows)).contains("Haptic force"));
+}
+
+#[test]
+fn a_great_many_rows_stay_small() {
+    check_all(|| rows(60_000));
+}
+
+#[test]
+fn a_great_many_pads_and_cases_stay_small() {
+    let spread = |(n, r): (usize, Row)| Row { pad: n % 16, case: n / 1000, ..r };
+    check_all(|| rows(40_000).into_iter().enumerate().map(spread).collect());
+}
+
+#[test]
+fn names_are_escaped() {
+    let page = check(&record(Some("hockey"), rows(50)));
+    for escaped in
+        ["&lt;script&gt;", "a &lt;b&gt; &amp; &quot;c&quot;", "&lt;pad&gt;", "&lt;effect&gt;", "&lt;eq. 6&gt;"]
+    {
+        assert!(page.contains(escaped), "{escaped}");
+    }
+}
+
+#[test]
+fn a_criterion_that_fails_is_told_in_words() {
+    let page = check(&record(None, rows(1)));
+    assert!(page.contains("1 of 2 criteria hold") && page.contains("✗ fails") && page.contains("✓ holds"));
+}
