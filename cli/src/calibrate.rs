@@ -13,9 +13,11 @@
 //! haptic_full_scale_v = 600.0
 //! force_k = 9.6e15                # eq. 8, N/(F·V)²
 //! [map]
-//! columns = 121                   # places in a row
+//! columns = 61                    # places in a row
 //! places = [[x_mm, y_mm, r_x, r_y, sheet_ohm], …]
 //! ```
+
+mod refine;
 
 use std::f64::consts::TAU;
 use std::fmt::Write;
@@ -30,10 +32,10 @@ use serde::Deserialize;
 use crate::inputs;
 
 /// Places in a row and rows of the raster that a simulated device is calibrated with.
-const RASTER: [usize; 2] = [121, 71];
+const RASTER: [usize; 2] = [61, 41];
 
 /// How much further out than a pad's reach the raster goes, mm: a pad at the very edge then lies inside.
-const BEYOND_MM: f64 = 2.0;
+const BEYOND_MM: f64 = 1.0;
 
 /// Loads, g, and haptic voltages, V rms, at which the friction of a simulated device is measured, as for the paper's Fig. 6.
 const LOADS_G: [f64; 2] = [20.0, 100.0];
@@ -203,9 +205,10 @@ impl DeviceCalibration {
     pub fn of(&self, profile: &Profile) -> Result<Calibration> {
         let device = &self.device;
         let place = |&[x, y, r_x, r_y, sheet_ohm]: &[f64; 5]| Point { x, y, r_x, r_y, sheet: sheet_ohm / device.ohm() };
-        let points: Vec<_> = self.map.places.iter().map(place).collect();
+        let (columns, places) = refine::refine(self.map.columns, &self.map.places);
+        let points: Vec<_> = places.iter().map(place).collect();
         let calibration = Calibration {
-            map: Map::fit(profile, self.map.columns, &points),
+            map: Map::fit(profile, columns, &points),
             capacitance_gain: device.capacitance_gain(),
             force_gain: device.force_k * 1e-24 * device.haptic_full_scale_v.powi(2) / profile.square_gain(),
         };
