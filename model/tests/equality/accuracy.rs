@@ -1,1 +1,159 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What word lengths cost on clean tones: the deviation of fixed point from floating point on the same codes, beside the
+//! deviation that the word lengths predict.
+//!
+//!   q(f) = lsb / √12                                     the deviation of rounding to f
+//!   ε² = carrier² + waves² + 2 q(iq)² / (g a)²           of an amplitude a, relative; g the tone gain
+//!   carrier = |1/P Σ δ_n e^{2jφ_n}| / √2                 δ_n: what the table's step leaves of the phase; its image of the tone
+//!   waves = q(oscillator) √(2/P)                         the table's words, as periodic as the carrier
+//!
+//! Onward, δr = Σ (±1 − r) δa / Σ a; a position follows its table's slope; capacitance and force add their words' own q.
 
+use crate::device::{Tones, calibration, tone_codes};
+use crate::random::Random;
+use hapticore_model::calibration::Calibration;
+use hapticore_model::fidelity::fixed::FixedSimulation;
+use hapticore_model::format::Format;
+use hapticore_model::frame::Reading;
+use hapticore_model::profile::Profile;
+use hapticore_model::reference::Reference;
+use std::f64::consts::TAU;
+
+const SLOTS: usize = if cfg!(debug_assertions) { 20 } else { 300 };
+const NAMES: [&str; 5] = ["r_x", "x_mm", "capacitance", "force", "mean_square"];
+/// By how much a deviation may be more, and less, than predicted.
+const MORE: f64 = 1.5;
+const LESS: f64 = 3.0;
+
+fn q(format: Format) -> f64 {
+    2f64.powi(-i32::from(format.frac)) / 12f64.sqrt()
+}
+
+fn norm(terms: &[f64]) -> f64 {
+    terms.iter().map(|term| term * term).sum::<f64>().sqrt()
+}
+
+/// A pad, its currents' phases spread wider than a sheet would, so that their errors have little in common.
+fn spread_tones(profile: &Profile, random: &mut Random) -> Tones {
+    let phase = random.unit();
+    let mut phasors: Vec<_> = (0..profile.terminals.x.len())
+        .map(|_| (random.between(0.04, 0.14), phase + random.between(-0.12, 0.12)))
+        .collect();
+    phasors.push((random.between(0.7, 0.9), random.unit()));
+    Tones { phasors, haptic: random.between(0.5, 0.9) }
+}
+
+/// The relative deviation of an amplitude from the table's steps and words.
+fn carrier(profile: &Profile) -> f64 {
+    let (period, steps) = (profile.carrier.samples_per_period, 4u64 << profile.carrier.quarter_address);
+    let image = (0..period).fold((0.0, 0.0), |(re, im), n| {
+        let turns = n as f64 / period as f64;
+        let steps = steps as f64;
+        let delta = TAU * (((turns * steps).floor() + 0.5) / steps - turns);
+        let (sine, cosine) = (2.0 * TAU * turns).sin_cos();
+        (re + delta * cosine / period as f64, im + delta * sine / period as f64)
+    });
+    let waves = q(profile.formats.oscillator) * (2.0 / period as f64).sqrt();
+    norm(&[norm(&[image.0, image.1]) / 2f64.sqrt(), waves])
+}
+
+/// The deviation of a position: of its ratios, by the table's slope, and of the map's own words.
+fn position(profile: &Profile, calibration: &Calibration, ideal: &Reading, of_ratio: [f64; 2]) -> f64 {
+    let map = &calibration.map;
+    let word = q(profile.formats.map);
+    let x = |dx: f64, dy: f64| map.look_up(ideal.r_x + dx, ideal.r_y + dy)[0];
+    let step = 1e-3;
+    let slopes = [x(step, 0.0) - x(-step, 0.0), x(0.0, step) - x(0.0, -step)].map(|rise| rise / (2.0 * step));
+    // In the box: p, middle and its interpolation, the straightened word; a stretch's words count 2^5 times half a box.
+    let in_box = word * norm(&[1.0, 1.0, 1.0, 1.0, 16.0, 16.0]);
+    let along = |axis: usize| norm(&[slopes[axis] * of_ratio[axis], slopes[axis] / map.scale[axis] * in_box]);
+    norm(&[along(0), along(1), 512.0 * word * 2.0])
+}
+
+/// The deviations of [`NAMES`] that the word lengths predict.
+fn predict(profile: &Profile, calibration: &Calibration, tones: &Tones, ideal: &Reading) -> [f64; 5] {
+    let (f, g) = (&profile.formats, profile.tone_gain());
+    let (terminals, sense) = tones.phasors.split_at(profile.terminals.x.len());
+    let carrier = carrier(profile);
+    let relative = |words: f64, a: f64| norm(&[carrier, q(f.iq) * words.sqrt() / (g * a)]);
+    let ratio = |signs: &[i8], r: f64| {
+        let corner = |&(a, _): &(f64, f64), sign: i8| (f64::from(sign) - r) * a * relative(2.0, a);
+        let others = profile.terminals.x.iter().zip(&profile.terminals.y);
+        let corners = terminals.iter().zip(signs).zip(others).filter(|&(_, (&x, &y))| x != 0 || y != 0);
+        let (terms, sum) = corners.fold((Vec::new(), 0.0), |(mut terms, sum), ((current, &sign), _)| {
+            terms.push(corner(current, sign));
+            (terms, sum + current.0)
+        });
+        norm(&[norm(&terms) / sum, q(f.ratio)])
+    };
+    let of_ratio = [ratio(&profile.terminals.x, ideal.r_x), ratio(&profile.terminals.y, ideal.r_y)];
+    let total = ideal.capacitance_pf / calibration.capacitance_gain * sense[0].0;
+    let admittance = ideal.capacitance_pf / calibration.capacitance_gain;
+    let words = terminals.len() as f64 + 1.0;
+    let capacitance = norm(&[
+        relative(words, total),
+        relative(2.0, sense[0].0),
+        q(f.admittance) / admittance,
+        q(f.capacitance) / ideal.capacitance_pf,
+    ]);
+    let square = ideal.capacitance_pf.powi(2);
+    let window = TAU / f64::from(4 << profile.carrier.quarter_address) / 12f64.sqrt() / 2.0;
+    let mean_square = norm(&[
+        q(f.mean_square) / ideal.mean_square,
+        norm(&[window, q(f.oscillator)]) / (profile.slot.integrate as f64).sqrt(),
+    ]);
+    let gain =
+        f.force_gain.lsb() * (calibration.force_gain / f.force_gain.lsb()).round() / calibration.force_gain - 1.0;
+    let force = norm(&[
+        2.0 * capacitance,
+        q(f.square) / square,
+        mean_square,
+        q(f.square) / (square * ideal.mean_square),
+        gain,
+        q(f.force) / ideal.force_n,
+    ]);
+    [of_ratio[0], position(profile, calibration, ideal, of_ratio), capacitance, force, mean_square]
+}
+
+fn deviate(ideal: &Reading, fixed: &Reading) -> [f64; 5] {
+    [
+        fixed.r_x - ideal.r_x,
+        fixed.x_mm - ideal.x_mm,
+        fixed.capacitance_pf / ideal.capacitance_pf - 1.0,
+        fixed.force_n / ideal.force_n - 1.0,
+        fixed.mean_square / ideal.mean_square - 1.0,
+    ]
+}
+
+#[test]
+fn deviations_are_those_of_the_word_lengths() {
+    let mut table = format!("{:10} {:12} {:>10} {:>10} {:>6}\n", "profile", "rms of", "predicted", "measured", "ratio");
+    let mut within = true;
+    for (seed, profile) in (0..).zip(Profile::all()) {
+        let calibration = calibration(&profile);
+        let mut fixed: FixedSimulation = FixedSimulation::new(&profile, &calibration);
+        let mut reference = Reference::new(&profile, &calibration);
+        let mut random = Random::new(seed);
+        let mut squares = [[0.0; 2]; NAMES.len()];
+        for _ in 0..SLOTS {
+            let tones = spread_tones(&profile, &mut random);
+            let window = profile.slot.blanking()..profile.slot.samples();
+            let codes: Vec<i32> = window.flat_map(|n| tone_codes(&profile, &tones, n)).collect();
+            let (ideal, got) = (reference.slot(0, &codes), fixed.slot(0, &codes));
+            assert_eq!(got.flags, ideal.flags, "{tones:?}");
+            let predicted = predict(&profile, &calibration, &tones, &ideal);
+            let measured = deviate(&ideal, &got.reading(&profile));
+            for (square, (p, m)) in squares.iter_mut().zip(predicted.into_iter().zip(measured)) {
+                *square = [square[0] + p * p, square[1] + m * m];
+            }
+        }
+        for (name, square) in NAMES.iter().zip(squares) {
+            let [predicted, measured] = square.map(|square| (square / SLOTS as f64).sqrt());
+            let ratio = measured / predicted;
+            table += &format!("{:10} {name:12} {predicted:10.2e} {measured:10.2e} {ratio:6.2}\n", profile.name);
+            within &= ratio < MORE && ratio > 1.0 / LESS;
+        }
+    }
+    println!("{table}");
+    assert!(within, "deviations are between 1/{LESS} and {MORE} of those predicted\n{table}");
+}

@@ -9,6 +9,7 @@
 //! | [`idle`] | skipping an idle block changes no bit on any clock |
 //! | [`netlists`] | the captured graph, run by an interpreter of its own = the clocked model, on every clock |
 //! | [`slots`] | frames of fidelities `fixed` and `clock` = the rounded reference |
+//! | [`ideal`] | the floating-point reference = the equations solved backwards |
 //! | [`accuracy`] | fixed point departs from floating point as word lengths predict |
 //! | [`signals`] | operations on small formats: clocked = exact, ranges hold what happens |
 
@@ -16,6 +17,7 @@ mod accuracy;
 mod device;
 mod exhaustive;
 mod harness;
+mod ideal;
 mod idle;
 mod interpreter;
 mod latencies;
