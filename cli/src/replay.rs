@@ -15,7 +15,7 @@ use crate::engine::{Signals, Slot};
 use crate::output::{Frames, Output, summary};
 use crate::record::{Record, Row};
 use crate::session::{Session, SlotClock};
-use crate::{inputs, interrupt, print, progress};
+use crate::{inputs, interrupt, print, progress, report};
 
 /// The profile where none is named.
 const PROFILE: &str = "standard";
@@ -34,7 +34,7 @@ pub fn run(args: &ReplayArgs) -> Result<bool> {
     let device = device(args, &profile)?;
     let pads = args.pads.unwrap_or(device.pads);
     let profile = Arc::new(inputs::serving(&profile, pads as usize));
-    check_rate(source.as_ref(), &device)?;
+    check_rate(source.as_ref(), &device, &profile)?;
     let name = args.capture.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let folder = args.out.clone().unwrap_or_else(|| Path::new("out").join(&name));
     let output = Output::new(&folder)?;
@@ -42,8 +42,9 @@ pub fn run(args: &ReplayArgs) -> Result<bool> {
     let left = replay.run(source.as_mut(), args.core.json)?;
     let record = replay.finish(name, &profile, args)?;
     output.write("summary.json", &summary(&record))?;
+    output.write("report.html", &report::html(&record))?;
     let files = output.keep()?;
-    report(args, &record, left, &files);
+    tell(args, &record, left, &files);
     Ok(true)
 }
 
@@ -57,14 +58,20 @@ fn device(args: &ReplayArgs, profile: &Profile) -> Result<DeviceCalibration> {
     }
 }
 
-fn check_rate(source: &dyn Source, device: &DeviceCalibration) -> Result<()> {
-    let expected = device.device.sample_rate_hz;
-    match source.sample_rate_hz() {
-        Some(rate) if (rate / expected - 1.0).abs() > 1e-6 => {
-            bail!("{}: sample_rate_hz: expected {expected}, as in the calibration, got {rate}", source.place())
-        }
-        _ => Ok(()),
+/// Checks that capture, calibration and profile are of one sample rate and one carrier.
+fn check_rate(source: &dyn Source, device: &DeviceCalibration, profile: &Profile) -> Result<()> {
+    let (rate, carrier) = (device.device.sample_rate_hz, device.device.carrier_hz);
+    let same = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-6;
+    if let Some(got) = source.sample_rate_hz().filter(|got| !same(*got, rate)) {
+        bail!("{}: sample_rate_hz: expected {rate}, as in the calibration, got {got}", source.place());
     }
+    let (samples, name) = (profile.carrier.samples_per_period, &profile.name);
+    ensure!(
+        same(rate, carrier * samples as f64),
+        "--profile {name}: carrier.samples_per_period: expected {}, as in the calibration, got {samples}",
+        rate / carrier
+    );
+    Ok(())
 }
 
 /// A capture on its way through the core.
@@ -168,7 +175,7 @@ impl Replay {
     }
 }
 
-fn report(args: &ReplayArgs, record: &Record, left: usize, files: &[PathBuf]) {
+fn tell(args: &ReplayArgs, record: &Record, left: usize, files: &[PathBuf]) {
     if args.core.json {
         print!("{}", summary(record));
         return;

@@ -15,7 +15,7 @@ use crate::case::{Case, Outcome, Settings};
 use crate::criteria::{self, CaseRows};
 use crate::output::{Frames, Output, summary};
 use crate::record::{Effect, Record};
-use crate::{errors, inputs, print, progress, waves};
+use crate::{errors, inputs, print, progress, report, waves};
 
 /// Runs a scene; whether all criteria hold.
 ///
@@ -48,6 +48,7 @@ fn write(args: &SimulateArgs, scene: &Scene, folder: &Path) -> Result<(Record, V
     record.rows.iter().try_for_each(|row| frames.row(row))?;
     frames.finish()?;
     output.write("summary.json", &summary(&record))?;
+    output.write("report.html", &report::html(&record))?;
     let mut files = Vec::new();
     if let (Some(path), Some(recorder)) = (capture, recorder) {
         let calibration = capture::calibration_path(&path);
