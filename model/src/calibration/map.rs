@@ -34,6 +34,8 @@ pub struct Map {
 
 /// What the box is wider than the points, so that noise at an edge stays within.
 const MARGIN: f64 = 1.0 + 1.0 / 64.0;
+/// What straightened and evened coordinates leave at either end, for noise and for the corners between two nodes.
+const ROOM: f64 = 1.0 + 1.0 / 16.0;
 /// How much smoothness counts against nearness.
 const SMOOTHNESS: f64 = 1e-3;
 
@@ -82,12 +84,13 @@ impl Map {
     /// Curves that take two opposite edges, each points of (along, across), to −1 and 1.
     fn straighten(&mut self, middle: Curve, stretch: Curve, one: &[[f64; 2]], other: &[[f64; 2]]) {
         let entries = self.layout.entries(middle);
+        let (one, other) = (sorted(one), sorted(other));
         for k in 0..entries {
             let along = 2.0 * k as f64 / (entries - 1) as f64 - 1.0;
-            let (a, b) = (across(one, along), across(other, along));
+            let (a, b) = (across(&one, along), across(&other, along));
             self.words[self.layout.curve(middle) + k] = (a + b) / 2.0;
             let unit = 2f64.powi(Block::STRETCH_BITS.into());
-            self.words[self.layout.curve(stretch) + k] = (2.0 / (a - b).abs() / MARGIN / unit).min(1.0);
+            self.words[self.layout.curve(stretch) + k] = (2.0 / (a - b).abs() / ROOM / unit).min(1.0);
         }
     }
 
@@ -97,7 +100,7 @@ impl Map {
         let mut fit = Fit::new(entries, 1);
         let mut count = 0;
         for (t, even) in samples {
-            fit.ask(&pair(0, t, entries), &[even / MARGIN], 1.0);
+            fit.ask(&pair(0, t, entries), &[even / ROOM], 1.0);
             count += 1;
         }
         for k in 1..entries - 1 {
@@ -159,19 +162,18 @@ fn half_span(values: impl Iterator<Item = f64>) -> f64 {
     values.fold(0.0, |span, value| value.abs().max(span))
 }
 
-/// The edge's place across, linear between its points, at its ends beyond.
-fn across(edge: &[[f64; 2]], along: f64) -> f64 {
+/// An edge's points from one end to the other.
+fn sorted(edge: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let mut edge = edge.to_vec();
     edge.sort_by(|a, b| a[0].total_cmp(&b[0]));
-    let next = edge.partition_point(|point| point[0] < along);
-    match next {
-        0 => edge[0][1],
-        next if next == edge.len() => edge[next - 1][1],
-        next => {
-            let ([x0, y0], [x1, y1]) = (edge[next - 1], edge[next]);
-            y0 + (y1 - y0) * (along - x0) / (x1 - x0)
-        }
-    }
+    edge
+}
+
+/// The edge's place across: linear between its points and, by the outermost two, beyond.
+fn across(edge: &[[f64; 2]], along: f64) -> f64 {
+    let next = edge.partition_point(|point| point[0] < along).clamp(1, edge.len() - 1);
+    let ([x0, y0], [x1, y1]) = (edge[next - 1], edge[next]);
+    y0 + (y1 - y0) * (along - x0) / (x1 - x0)
 }
 
 /// The two entries of a table over −1 … 1 about a coordinate, with their weights.
