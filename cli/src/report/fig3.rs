@@ -58,7 +58,7 @@ fn spreads(settings: &[Setting], title: &str, [eq6, core, reference]: [Get; 3]) 
     let x = Axis::log("(largest − smallest) / mean (%)", series.iter().flat_map(|s| s.points.iter().map(|p| p.0)));
     let names = settings.iter().map(|s| s.name.clone()).collect();
     let mut plot = Plot::new(title, x, Axis::categories("", names), series);
-    plot.height = 200 + 66 * u32::try_from(settings.len()).unwrap_or(8).clamp(2, 40);
+    plot.height = 150 + 66 * u32::try_from(settings.len()).unwrap_or(8).clamp(2, 40);
     Figure::plot(title, "The further left, the less the pad's place matters.", &plot)
 }
 
@@ -116,7 +116,7 @@ fn magnified(setting: &Setting) -> Figure {
 }
 
 fn height(y: f64) -> String {
-    format!("y {} mm", number::fixed(y, 0))
+    format!("y = {} mm", number::fixed(y, 0))
 }
 
 fn titled(what: &str, setting: &Setting) -> String {

@@ -16,7 +16,7 @@ const TILES: usize = 7000;
 const DEVIATION_STEPS: [f64; 5] = [0.05, 0.1, 0.2, 0.5, 2.0];
 
 /// Where the steps of the position error begin, mm.
-const ERROR_STEPS: [f64; 5] = [0.1, 0.2, 0.5, 1.0, 2.0];
+const ERROR_STEPS: [f64; 5] = [0.2, 0.5, 1.0, 2.0, 5.0];
 
 /// Deviations of the force from its mean over the sheet, by the core and by eq. 6 alone.
 pub fn force(settings: &[Setting], left_out: usize, core: fn(&Row) -> f64, eq6: fn(&Row) -> f64) -> Figure {
@@ -31,7 +31,7 @@ pub fn force(settings: &[Setting], left_out: usize, core: fn(&Row) -> f64, eq6: 
         }
     }
     let mut note = String::from(
-        "Deviation from the mean over the sheet; in brackets (largest − smallest) / mean. The frame is the sheet.",
+        "Deviation from the mean over the sheet; above each map (largest − smallest) / mean. The frame is the sheet.",
     );
     if left_out > 0 {
         note += &format!(" {left_out} more settings are left out, here and below.");
@@ -41,9 +41,9 @@ pub fn force(settings: &[Setting], left_out: usize, core: fn(&Row) -> f64, eq6: 
 
 fn deviation_map(setting: &Setting, reading: &str, get: fn(&Row) -> f64, most: usize) -> String {
     let values: Vec<_> = setting.rows.iter().map(|(row, _)| get(row)).collect();
-    let caption = caption(&setting.name, &format!("{reading} ({} %)", number::short(spread_percent(&values))));
+    let what = format!("{reading}: {} %", number::short(spread_percent(&values)));
     let places = places(setting, &deviation_percent(&values));
-    titled(&caption, &map(&caption, &places, most, |d| Paint::diverging(deviation_step(d))))
+    titled(&setting.name, &what, |about| map(about, &places, most, |d| Paint::diverging(deviation_step(d))))
 }
 
 fn deviation_step(percent: f64) -> i32 {
@@ -71,7 +71,7 @@ fn deviation_name(step: i32) -> String {
 pub fn position(settings: &[Setting]) -> Figure {
     let most = TILES / settings.len().max(1);
     let maps: String = settings.iter().map(|s| error_map(s, most)).collect();
-    let note = "Distance from the true position; in brackets the root mean square.";
+    let note = "Distance from the true position; its root mean square above, in brackets that of the floating-point reference.";
     Figure::wide("Position error over the sheet", note, error_legend(), grid(&maps))
 }
 
@@ -82,9 +82,11 @@ pub fn position_errors(setting: &Setting) -> Vec<f64> {
 
 fn error_map(setting: &Setting, most: usize) -> String {
     let errors = position_errors(setting);
-    let caption = caption(&setting.name, &format!("({} mm)", number::short(rms(errors.iter().copied()))));
+    let ideal = rms(setting.rows.iter().filter_map(|(r, t)| Some(position_error(&r.reference?.quantities, t))));
+    let ideal = if ideal.is_finite() { format!(" ({})", number::short(ideal)) } else { String::new() };
+    let what = format!("{} mm{ideal}", number::short(rms(errors.iter().copied())));
     let step = |error: f64| Paint::sequential(ERROR_STEPS.partition_point(|edge| *edge <= error));
-    titled(&caption, &map(&caption, &places(setting, &errors), most, step))
+    titled(&setting.name, &what, |about| map(about, &places(setting, &errors), most, step))
 }
 
 fn error_legend() -> String {
@@ -102,12 +104,11 @@ fn places(setting: &Setting, values: &[f64]) -> Vec<(f64, f64, f64)> {
     truths.zip(values).map(|(q, value)| (q.x_mm, q.y_mm, *value)).collect()
 }
 
-fn caption(name: &str, what: &str) -> String {
-    if name.is_empty() { what.into() } else { format!("{name}: {what}") }
-}
-
-fn titled(caption: &str, svg: &str) -> String {
-    format!("<div>\n<p>{}</p>\n{svg}</div>\n", escape(caption))
+/// A map under the name of its setting and a line on what it shows; `svg` draws it, told what it is about.
+fn titled(name: &str, what: &str, svg: impl Fn(&str) -> String) -> String {
+    let lines = [name, what].into_iter().filter(|line| !line.is_empty()).map(escape).collect::<Vec<_>>();
+    let about = format!("{name} {what}");
+    format!("<div>\n<p>{}</p>\n{}</div>\n", lines.join("<br />"), svg(about.trim()))
 }
 
 fn grid(maps: &str) -> String {

@@ -19,7 +19,7 @@ impl Figure {
     /// One plot; its legend follows from its series.
     pub fn plot(title: &str, note: &str, plot: &Plot) -> Figure {
         let mut legend = keys(&plot.series);
-        if !plot.limits.is_empty() {
+        if plot.shows_limits() {
             legend += &key("limit", &line_swatch(&super::paint::Paint::LIMIT.stroke_class()));
         }
         Figure { title: title.into(), note: note.into(), legend, body: plot.svg(), wide: false }

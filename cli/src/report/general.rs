@@ -25,7 +25,7 @@ pub const CAPACITANCE: Quantity = ("Capacitance", "C (pF)", |q| q.capacitance_pf
 /// Force.
 pub const FORCE: Quantity = ("Haptic force", "F (N)", |q| q.force_n);
 /// Voltage.
-pub const VOLTAGE: Quantity = ("Haptic voltage", "V (V)", |q| q.haptic_v_rms);
+pub const VOLTAGE: Quantity = ("Haptic voltage", "V rms (V)", |q| q.haptic_v_rms);
 /// Direction.
 pub const DIRECTION: Quantity = ("Direction of the push", "direction", |q| q.direction);
 

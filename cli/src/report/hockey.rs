@@ -72,7 +72,10 @@ fn position_error(record: &Record) -> Figure {
     let y = Axis::with_zero("|Δ position| (mm)", values);
     let mut plot = Plot::new("Distance from the true position", general::time_axis(record), y, series);
     plot.breaks = general::breaks(record);
-    let note = format!("Lines: rms over 1/{BINS} of the run, dots: the largest in it. {rms} mm rms over all pads.");
+    plot.limits.extend(select::limit(record, "mm", "position"));
+    let limit = if plot.shows_limits() { " The limit is that of the rms." } else { "" };
+    let note =
+        format!("Lines: rms over 1/{BINS} of the run, dots: the largest in it. {rms} mm rms over all pads.{limit}");
     Figure::plot("Position error", &note, &plot)
 }
 

@@ -67,6 +67,12 @@ impl Plot {
         Plot { about: about.into(), x, y, series, limits: Vec::new(), breaks: Vec::new(), height: 720 }
     }
 
+    /// Whether any limit lies within what is drawn.
+    pub fn shows_limits(&self) -> bool {
+        let (low, high) = self.y.range();
+        self.limits.iter().any(|v| (low..=high).contains(&self.y.place(*v)))
+    }
+
     /// The drawing, or why there is none.
     pub fn svg(&self) -> String {
         let mut drawing = String::new();
@@ -91,7 +97,10 @@ impl Plot {
     fn chart<'a, 'b>(&self, root: &'a Area<'b>) -> Result<Chart<'a, 'b>, Box<dyn Error>> {
         let (x, y) = (self.x.range(), self.y.range());
         let mut builder = ChartBuilder::on(root);
-        builder.margin_top(64).margin_right(self.tag_width()).margin_bottom(48);
+        builder
+            .margin_top(if self.y.title.is_empty() { 12 } else { 64 })
+            .margin_right(self.tag_width())
+            .margin_bottom(48);
         builder.x_label_area_size(56).y_label_area_size(self.label_width());
         Ok(builder.build_cartesian_2d(x.0..x.1, y.0..y.1)?)
     }
@@ -104,7 +113,7 @@ impl Plot {
     fn tag_width(&self) -> u32 {
         let tags = self.series.iter().filter_map(|s| s.tag.as_ref());
         let longest = tags.map(|t| t.chars().count()).max().unwrap_or(0);
-        u32::try_from(longest * CHARACTER + 24).unwrap_or(200)
+        u32::try_from(longest * CHARACTER + 30).unwrap_or(200)
     }
 
     fn series(&self, root: &Area, chart: &Chart, series: &Series) -> Drawn {
@@ -159,7 +168,7 @@ impl Plot {
         ends.sort_by_key(|((_, y), _, _)| *y);
         let heights: Vec<_> = ends.iter().map(|((_, y), _, _)| *y).collect();
         for (((x, _), tag, paint), y) in ends.into_iter().zip(apart(&heights, i32::try_from(self.height)?)) {
-            root.draw(&Text::new(tag.clone(), (x + 14, y), text(paint, HPos::Left, VPos::Center)))?;
+            root.draw(&Text::new(tag.clone(), (x + 22, y), text(paint, HPos::Left, VPos::Center)))?;
         }
         Ok(())
     }
