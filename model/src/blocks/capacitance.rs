@@ -21,7 +21,7 @@ use super::root::{self, Root};
 use crate::block::{Block, Cell};
 use crate::format::{BIT, Format};
 use crate::profile::Profile;
-use crate::signal::{Exact, HalfEven, Lemma, Saturate, Signal, Value, Wrap, bit, int, zero};
+use crate::signal::{Exact, HalfEven, Saturate, Signal, Value, Wrap, bit, int, zero};
 use crate::{bundle, parts, when};
 
 bundle! {
@@ -141,8 +141,7 @@ impl Capacitance {
     #[inline(always)]
     fn product<V: Value>(&self, r: &Registers<Signal<V>>, left: Format, right: Format) -> Signal<V> {
         let format = left.product(right);
-        let why = Lemma("a product of two codes has at most their widths together");
-        r.product.fit(Format { frac: 0, ..format }, Exact, why).scaled(-format.frac)
+        r.product.fit(Format { frac: 0, ..format }, Exact, Wrap).scaled(-format.frac)
     }
 
     #[inline(always)]
@@ -162,7 +161,7 @@ impl Capacitance {
         let (left, right) = self.operands(&r, &i, drop, divided.quotient);
         let waits = (at(7) & !rooted) | (at(8) & !divided.done);
         let onward = at(10).select(int(0), r.step + int(1));
-        let saturated = (at(3) & drop_held) | (at(8) & divided.saturated) | (at(10) & held);
+        let saturated = (at(3) & drop_held) | (at(8) & divided.done & divided.saturated) | (at(10) & held);
         Registers {
             step: waits.select(r.step, onward).fit(self.registers.step, Exact, Wrap),
             left,
