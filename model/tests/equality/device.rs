@@ -100,7 +100,9 @@ pub fn codes(profile: &Profile, sight: Sight, random: &mut Random) -> Vec<i32> {
         Sight::Silence => vec![0; channels],
         Sight::Noise => (0..channels).map(|_| random.word(adc) as i32).collect(),
         Sight::Whisper => (0..channels).map(|_| random.below(5) as i32 - 2).collect(),
-        Sight::Rails => (0..channels).map(|k| if (n + k as u64).is_multiple_of(3) { -half } else { half - 1 }).collect(),
+        Sight::Rails => {
+            (0..channels).map(|k| if (n + k as u64).is_multiple_of(3) { -half } else { half - 1 }).collect()
+        }
         _ => tone_codes(profile, &tones, n),
     };
     (0..profile.slot.samples()).flat_map(sample).collect()
