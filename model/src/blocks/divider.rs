@@ -103,7 +103,9 @@ impl Divider {
         let head = numerator.bits(width, self.dividend.width - width);
         let over = head.at_least(i.denominator.integer());
         let (busy, count, partial) = (bit(true), int(0), int(0));
-        let (remainder, tail, denominator) = (head, numerator.bits(0, width), i.denominator);
+        // A quotient that does not fit is known already: zeros keep the remainder below even so.
+        let (remainder, tail) = (over.select(int(0), head), over.select(int(0), numerator.bits(0, width)));
+        let denominator = i.denominator;
         Registers { busy, count, numerator, denominator, remainder, tail, partial, over, ..r }
     }
 

@@ -191,7 +191,7 @@ impl Block for Estimator {
     #[inline(always)]
     fn registers(&self) -> Registers<Format> {
         let r = self.registers;
-        Registers { busy: BIT, clipped: BIT, pad: r.pad.counting(), ..r }
+        Registers { busy: BIT, pad: r.pad.counting(), clipped: BIT }
     }
 
     #[inline(always)]
@@ -255,16 +255,18 @@ impl Block for Estimator {
         let pad = valid.select(i.pad, r.pad);
         let busy = valid | (r.busy & !frames.done);
         cell.store(self, Registers { busy, pad, clipped: valid.select(i.clipped, r.clipped) });
+        let active = valid | r.busy | i.write;
+        let gate = |a: Signal<V>| active.select(a, zero(a.format));
         Outputs {
             valid: frames.valid,
-            index: frames.index,
-            word: frames.word,
+            index: gate(frames.index),
+            word: gate(frames.word),
             done: frames.done,
             pad: r.pad,
             clipped: r.clipped,
-            saturated: held,
-            invalid,
-            lost: currents.lost,
+            saturated: gate(held),
+            invalid: gate(invalid),
+            lost: gate(currents.lost),
         }
     }
 }

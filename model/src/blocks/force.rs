@@ -14,7 +14,7 @@
 use crate::block::{Block, Cell};
 use crate::format::{BIT, Format};
 use crate::profile::Profile;
-use crate::signal::{Exact, HalfEven, Lemma, Signal, Value, Wrap, bit, int};
+use crate::signal::{Exact, HalfEven, Signal, Value, Wrap, bit, int};
 use crate::{bundle, when};
 
 bundle! {
@@ -88,8 +88,7 @@ impl Force {
         to: Format,
     ) -> (Signal<V>, Signal<V>) {
         let format = left.product(right);
-        let why = Lemma("a product of two codes has at most their widths together");
-        r.product.fit(Format { frac: 0, ..format }, Exact, why).scaled(-format.frac).saturate(to, HalfEven)
+        r.product.fit(Format { frac: 0, ..format }, Exact, Wrap).scaled(-format.frac).saturate(to, HalfEven)
     }
 
     #[inline(always)]

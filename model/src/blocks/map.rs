@@ -189,7 +189,6 @@ pub struct Map {
 }
 
 const FRACTION: &str = "a number less its floor is below one";
-const PRODUCT: &str = "a product of two codes has at most their widths together";
 
 impl Map {
     /// A stretch is stored divided by `2^STRETCH_BITS`.
@@ -342,7 +341,7 @@ impl Map {
         let at = |operation: u64| r.operation.is(operation);
         let product = |left: Format, right: Format| {
             let format = left.product(right);
-            r.product.fit(Format { frac: 0, ..format }, Exact, Lemma(PRODUCT)).scaled(-format.frac)
+            r.product.fit(Format { frac: 0, ..format }, Exact, Wrap).scaled(-format.frac)
         };
         let (word, span) = (self.word, self.word.difference(self.word));
         let (boxed, straightened) = self.kinds(&r);

@@ -216,8 +216,10 @@ impl Block for Oscillator {
         let looked_up = self.address_phase(&r, &i);
         let (address, negative) = self.look_up(looked_up);
         self.quarter.read(&mut cell.parts.quarter, address);
-        let r = Registers { ready: bit(false), looked_up, negative, ..r };
-        let next = when!(V, Registers, i.sample, self.begin(r, i), when!(V, Registers, busy, self.step(r, wave), r));
+        let quiet = Registers { ready: bit(false), ..r };
+        let r = Registers { looked_up, negative, ..quiet };
+        let next =
+            when!(V, Registers, i.sample, self.begin(r, i), when!(V, Registers, busy, self.step(r, wave), quiet));
         cell.store(self, next);
         outputs
     }

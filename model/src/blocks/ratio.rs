@@ -101,7 +101,7 @@ impl Ratio {
             divide: first,
             r_x: first.select(ratio, r.r_x),
             r_y: second.select(ratio, r.r_y),
-            invalid: i.corners.is(0),
+            invalid: second.select(i.corners.is(0), r.invalid),
             done: second,
         }
     }

@@ -50,7 +50,7 @@ impl Profile {
         within("carrier.quarter_address", self.carrier.quarter_address.into(), 2, 16)?;
         within("slot.open", self.slot.open, 1, 1 << 20)?;
         within("slot.integrate", self.slot.integrate, 2 * period, 1 << 20)?;
-        let whole = self.slot.integrate % period == 0;
+        let whole = self.slot.integrate.is_multiple_of(period);
         ensure(
             whole,
             "slot.integrate",
