@@ -19,7 +19,7 @@ use hapticore_model::profile::Profile;
 use hapticore_model::reference::Reference;
 use std::f64::consts::TAU;
 
-const SLOTS: usize = if cfg!(debug_assertions) { 20 } else { 300 };
+const SLOTS: usize = if cfg!(optimised) { 300 } else { 20 };
 const NAMES: [&str; 5] = ["r_x", "x_mm", "capacitance", "force", "mean_square"];
 /// By how much a deviation may be more, and less, than predicted.
 const MORE: f64 = 1.5;

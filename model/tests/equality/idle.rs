@@ -11,7 +11,7 @@ use hapticore_model::bundle::Bundle;
 use hapticore_model::profile::Profile;
 
 /// Slots of each profile.
-const SLOTS: u64 = if cfg!(debug_assertions) { 8 } else { 60 };
+const SLOTS: u64 = if cfg!(optimised) { 60 } else { 8 };
 
 #[test]
 fn skipping_changes_no_bit_on_any_clock() {

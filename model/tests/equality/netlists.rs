@@ -11,7 +11,7 @@ use hapticore_model::profile::Profile;
 use hapticore_model::signal::netlist::Netlist;
 
 /// Slots of each profile.
-const SLOTS: u64 = if cfg!(debug_assertions) { 1 } else { 8 };
+const SLOTS: u64 = if cfg!(optimised) { 8 } else { 1 };
 
 #[test]
 fn every_profile_elaborates() {

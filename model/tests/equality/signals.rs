@@ -106,7 +106,7 @@ fn real(a: Signal<i64>) -> Signal<Real> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: if cfg!(debug_assertions) { 500 } else { 20_000 }, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: if cfg!(optimised) { 20_000 } else { 500 }, ..ProptestConfig::default() })]
 
     #[test]
     fn operators_are_exact(a in signals(), b in signals()) {

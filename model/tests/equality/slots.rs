@@ -37,7 +37,7 @@ fn check_slots(profile: &Profile, slots: usize, seed: u64) {
 #[test]
 fn frames_of_whole_slots_are_the_reference() {
     for profile in Profile::all() {
-        check_slots(&profile, if cfg!(debug_assertions) { 7 } else { 63 }, 1);
+        check_slots(&profile, if cfg!(optimised) { 63 } else { 7 }, 1);
     }
 }
 
