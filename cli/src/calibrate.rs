@@ -13,7 +13,7 @@
 //! haptic_full_scale_v = 600.0
 //! force_k = 9.6e15                # eq. 8, N/(F·V)²
 //! [map]
-//! columns = 61                    # places in a row
+//! columns = 121                   # places in a row
 //! places = [[x_mm, y_mm, r_x, r_y, sheet_ohm], …]
 //! ```
 
@@ -32,10 +32,10 @@ use serde::Deserialize;
 use crate::inputs;
 
 /// Places in a row and rows of the raster that a simulated device is calibrated with.
-const RASTER: [usize; 2] = [61, 41];
+const RASTER: [usize; 2] = [121, 71];
 
 /// How much further out than a pad's reach the raster goes, mm: a pad at the very edge then lies inside.
-const BEYOND_MM: f64 = 1.0;
+const BEYOND_MM: f64 = 2.0;
 
 /// Loads, g, and haptic voltages, V rms, at which the friction of a simulated device is measured, as for the paper's Fig. 6.
 const LOADS_G: [f64; 2] = [20.0, 100.0];
@@ -166,7 +166,7 @@ impl DeviceCalibration {
         let file = path.display();
         let read: DeviceCalibration = toml::from_str(&text).map_err(|error| {
             let line = error.span().map_or(1, |span| text[..span.start].matches('\n').count() + 1);
-            anyhow!("{file}:{line}: {}", error.message())
+            anyhow!("{file}:{}", inputs::with_key(&text, &format!("{line}: {}", error.message())))
         })?;
         let pads = read.pads;
         ensure!((1..=256).contains(&pads), "{file}: pads: expected 1 to 256, got {pads}");

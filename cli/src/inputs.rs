@@ -37,7 +37,7 @@ pub fn profile(name: &str) -> Result<Profile> {
         Err(ProfileError::Unknown { .. }) if looks_like_a_file(name) => {
             let text = read(Path::new(name))?;
             Profile::parse(&text).map_err(|error| match error {
-                ProfileError::Syntax(message) => anyhow!("{name}:{message}"),
+                ProfileError::Syntax(message) => anyhow!("{name}:{}", with_key(&text, &message)),
                 other => anyhow!("{name}: {other}"),
             })
         }
@@ -47,6 +47,16 @@ pub fn profile(name: &str) -> Result<Profile> {
 
 fn looks_like_a_file(name: &str) -> bool {
     name.contains(['/', '\\', '.']) || Path::new(name).is_file()
+}
+
+/// A message `LINE: what` about a TOML text, with the key of the line.
+pub fn with_key(text: &str, message: &str) -> String {
+    let named = message.split_once(':').and_then(|(number, what)| {
+        let line = text.lines().nth(number.parse::<usize>().ok()?.checked_sub(1)?)?;
+        let key = line.split_once('=')?.0.trim();
+        Some(format!("{number}: {key}:{what}"))
+    });
+    named.unwrap_or_else(|| message.to_string())
 }
 
 /// A file's text.

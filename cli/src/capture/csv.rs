@@ -86,7 +86,10 @@ impl Reader {
             }
             let text = self.line.trim_start_matches('\u{feff}').trim();
             match text.strip_prefix('#') {
-                Some(comment) => self.read_comment(&comment.to_owned())?,
+                Some(comment) => {
+                    let comment = comment.to_string();
+                    self.read_comment(&comment)?;
+                }
                 None if text.is_empty() => (),
                 None => return Ok(true),
             }

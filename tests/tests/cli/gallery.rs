@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The bundled scenes, whole: their criteria hold at every fidelity, `fixed` is `clock` on every frame, and nothing depends on
+//! the number of threads.
+
+use std::fs;
+use std::path::Path;
+
+use hapticore_scene::gallery;
+use serde_json::Value;
+
+use crate::{Table, expect};
+
+const HEADER: &str = "time_s,pad,r_x,r_y,x_mm,y_mm,capacitance_pf,sheet_ohm,haptic_v_rms,force_n,direction,flags,\
+true_r_x,true_r_y,true_x_mm,true_y_mm,true_capacitance_pf,true_sheet_ohm,true_haptic_v_rms,true_force_n,true_direction";
+
+fn simulate(folder: &Path, scene: &str, core: &str) -> Value {
+    let output = expect(folder, &["simulate", scene, "--core", core, "--out", core, "--json"], 0);
+    let summary: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let written = fs::read_to_string(folder.join(core).join("summary.json")).unwrap();
+    assert_eq!(summary, serde_json::from_str::<Value>(&written).unwrap(), "what is printed is what is written");
+    summary
+}
+
+fn check(scene: &str) {
+    let folder = tempfile::tempdir().unwrap();
+    for core in ["float", "fixed", "clock"] {
+        let summary = simulate(folder.path(), scene, core);
+        for key in ["scene", "profile", "fidelity", "effects", "simulated_seconds", "wall_seconds"] {
+            assert!(!summary[key].is_null(), "{scene}: {key}");
+        }
+        for criterion in summary["criteria"].as_array().expect("criteria") {
+            println!("{scene} {core}: {} {} of {}", criterion["name"], criterion["measured"], criterion["limit"]);
+            assert_eq!(criterion["pass"], true, "{scene} {core}: {criterion}");
+        }
+        for effect in summary["effects"].as_array().expect("effects") {
+            assert!(effect["rung"].is_string() && effect["seconds"].is_number(), "{effect}");
+        }
+    }
+    let frames = |core: &str| fs::read(folder.path().join(core).join("frames.csv")).unwrap();
+    assert!(frames("fixed") == frames("clock"), "{scene}: fixed is clock, to the bit");
+    let table = Table::read(&folder.path().join("fixed/frames.csv"));
+    assert_eq!(table.names.join(","), HEADER);
+    assert!(table.numbers("time_s").is_sorted() && table.column("flags").iter().all(|flags| flags.is_empty()));
+    let report = fs::read_to_string(folder.path().join("fixed/report.html")).unwrap();
+    assert!(report.contains("<svg") && !report.contains("src=\"http") && !report.contains("<script"));
+}
+
+#[test]
+#[cfg_attr(not(optimised), ignore = "whole scenes, clock by clock: run with --release")]
+fn the_criteria_of_every_scene_hold_and_fixed_is_clock() {
+    gallery::all().iter().for_each(|(name, _)| check(name));
+}
+
+#[test]
+fn results_do_not_depend_on_the_number_of_threads() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = |threads: &str| {
+        let args = ["simulate", "fig3", "--set", "pad.0.position_mm.raster.nx=4", "--out", threads];
+        let output = crate::command(folder.path(), &args).env("RAYON_NUM_THREADS", threads).output().unwrap();
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.code().is_some_and(|code| code < 2), "{said}");
+        fs::read(folder.path().join(threads).join("frames.csv")).unwrap()
+    };
+    assert!(run("1") == run("5"));
+}
+
+#[test]
+fn small_and_fine_profiles_run_the_same_scene() {
+    let folder = tempfile::tempdir().unwrap();
+    for profile in ["small", "fine"] {
+        expect(folder.path(), &["simulate", "fig6", "--profile", profile, "--out", profile], 0);
+    }
+}
+
+#[test]
+fn the_error_of_every_signal_is_small_where_words_are_long() {
+    let folder = tempfile::tempdir().unwrap();
+    let errors = |profile: &str| {
+        let args = ["simulate", "fig6", "--errors", "--json", "--profile", profile, "--set", "dwell_slots=1"];
+        let summary: Value = serde_json::from_slice(&expect(folder.path(), &args, 0).stdout).unwrap();
+        let errors = summary["errors"].as_array().unwrap().clone();
+        let of = |signal: &str| errors.iter().find(|error| error["signal"] == signal).map(|e| e["max_error"].clone());
+        of("estimator.force.force").and_then(|error| error.as_f64()).expect("the force is a signal")
+    };
+    let (small, fine) = (errors("small"), errors("fine"));
+    println!("force: small {small} N, fine {fine} N");
+    assert!(fine < small / 10.0 && small < 0.01);
+}

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The command line, run as its users run it: as a process, with files in and files out.
+
+mod bad_captures;
+mod captures;
+mod gallery;
+mod messages;
+mod waves;
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+/// Runs the command from within `folder`.
+fn hapticore(folder: &Path, args: &[&str]) -> Output {
+    command(folder, args).output().expect("the command starts")
+}
+
+fn command(folder: &Path, args: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_hapticore-command"));
+    command.args(args).current_dir(folder);
+    command
+}
+
+/// Runs the command and expects it to end with `code`.
+fn expect(folder: &Path, args: &[&str], code: i32) -> Output {
+    let output = hapticore(folder, args);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(code), "{args:?}: {said}{}", String::from_utf8_lossy(&output.stdout));
+    output
+}
+
+/// Runs the command on part of a scene, whose criteria may not hold, and expects it to finish.
+fn finish(folder: &Path, args: &[&str]) -> Output {
+    let output = hapticore(folder, args);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.code().is_some_and(|code| code < 2), "{args:?}: {said}");
+    output
+}
+
+/// Runs the command and expects it to refuse: exit code 2, one line on standard error that holds all of `words`, and no folder.
+fn refuse(folder: &Path, args: &[&str], words: &[&str]) {
+    let args = [args, &["--out", "results"]].concat();
+    let output = expect(folder, &args, 2);
+    let said = String::from_utf8(output.stderr).expect("text");
+    assert_eq!(said.lines().count(), 1, "{args:?}: one line, got {said}");
+    for word in words {
+        assert!(said.contains(word), "{args:?}: expected \"{word}\" in {said}");
+    }
+    assert!(!folder.join("results").exists(), "{args:?}: leaves nothing behind");
+}
+
+/// A table: names of the columns, and rows of texts.
+struct Table {
+    names: Vec<String>,
+    rows: Vec<Vec<String>>,
+}
+
+impl Table {
+    fn read(path: &Path) -> Table {
+        let text = fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+        let split = |line: &str| line.split(',').map(ToString::to_string).collect::<Vec<_>>();
+        let mut lines = text.lines();
+        Table { names: split(lines.next().expect("a header")), rows: lines.map(split).collect() }
+    }
+
+    fn column(&self, name: &str) -> Vec<&str> {
+        let index = self.names.iter().position(|known| known == name).unwrap_or_else(|| panic!("no column {name}"));
+        self.rows.iter().map(|row| row[index].as_str()).collect()
+    }
+
+    fn numbers(&self, name: &str) -> Vec<f64> {
+        self.column(name).iter().map(|text| text.parse().expect("a number")).collect()
+    }
+}

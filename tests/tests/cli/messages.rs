@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What the command says and how it ends.
+
+use std::fs;
+
+use hapticore_scene::gallery;
+use serde_json::Value;
+
+use crate::{expect, refuse};
+
+#[test]
+fn scenes_lists_every_bundled_scene() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = String::from_utf8(expect(folder.path(), &["scenes"], 0).stdout).unwrap();
+    let json: Value = serde_json::from_slice(&expect(folder.path(), &["scenes", "--json"], 0).stdout).unwrap();
+    for (index, (name, _)) in gallery::all().iter().enumerate() {
+        assert!(text.contains(name));
+        assert_eq!(json[index]["name"], *name);
+        assert!(!json[index]["effects"].as_array().unwrap().is_empty() && json[index]["title"].is_string());
+    }
+}
+
+#[test]
+fn a_criterion_that_fails_is_exit_code_1_and_the_results_are_there() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = gallery::find("fig6").unwrap().replace("limit = 0.1", "limit = 1e-9");
+    fs::write(folder.path().join("strict.toml"), scene).unwrap();
+    let said = expect(folder.path(), &["simulate", "strict.toml", "--set", "dwell_slots=1"], 1).stdout;
+    assert!(String::from_utf8(said).unwrap().contains("FAILS"));
+    for name in ["frames.csv", "summary.json", "report.html"] {
+        assert!(folder.path().join("out/strict").join(name).exists(), "{name}");
+    }
+    assert_eq!(fs::read_dir(folder.path().join("out/strict")).unwrap().count(), 3, "nothing else stays behind");
+}
+
+#[test]
+fn a_run_says_first_which_effects_are_on() {
+    let folder = tempfile::tempdir().unwrap();
+    let said = expect(folder.path(), &["simulate", "fig6", "--set", "dwell_slots=1"], 0).stdout;
+    let said = String::from_utf8(said).unwrap();
+    let line = said.lines().find(|line| line.starts_with("effects:")).expect("a line of effects");
+    for effect in ["sheet bicubic", "gap static", "friction coulomb", "carrier samples", "sensor.noise"] {
+        assert!(line.contains(effect), "{effect} in {line}");
+    }
+}
+
+#[test]
+fn bad_input_is_one_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let refuse = |args: &[&str], words: &[&str]| refuse(folder.path(), args, words);
+    refuse(&["simulate", "fig7"], &["fig3", "hockey", "\"fig7\""]);
+    refuse(&["simulate", "none.toml"], &["none.toml"]);
+    refuse(&["simulate", "fig6", "--set", "sheet.rung=marble"], &["fig6.toml", "--set sheet.rung", "marble"]);
+    refuse(&["simulate", "fig6", "--profile", "huge"], &["standard", "\"huge\""]);
+    refuse(&["simulate", "fig3", "--case", "best"], &["--case", "rest", "\"best\""]);
+    refuse(&["simulate", "fig3", "--capture", "c.csv"], &["--capture", "one case", "--case"]);
+    refuse(&["simulate", "fig6", "--capture", "c.mp3"], &["c.mp3", ".csv or .wav"]);
+    refuse(
+        &["simulate", "fig6", "--set", "carrier.rung=phasor"],
+        &["fig6", "carrier.rung", "--set carrier.rung=samples"],
+    );
+    refuse(&["simulate", "fig6", "--waves", "vcd", "--waves-window", "7..8"], &["--waves-window", "s"]);
+    fs::write(folder.path().join("bad.toml"), "name = \"x\"\npads = \"four\"\n").unwrap();
+    refuse(&["simulate", "fig6", "--profile", "bad.toml"], &["bad.toml:2: pads", "four"]);
+    fs::write(folder.path().join("scene.toml"), "title = \"x\"\n[[pad]]\nposition_mm = [0, 0]\ncolour = 1\n").unwrap();
+    refuse(&["simulate", "scene.toml"], &["scene.toml:4: ", "colour"]);
+    fs::write(folder.path().join("file"), "").unwrap();
+    let said = expect(folder.path(), &["simulate", "fig6", "--out", "file"], 2).stderr;
+    assert_eq!(String::from_utf8(said).unwrap().lines().count(), 1);
+}
+
+#[test]
+fn phasors_alone_do_for_floating_point() {
+    let folder = tempfile::tempdir().unwrap();
+    expect(folder.path(), &["simulate", "fig6", "--core", "float", "--set", "carrier.rung=phasor"], 0);
+}
+
+#[test]
+#[cfg(unix)]
+fn an_interrupted_run_leaves_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let args = ["simulate", "hockey", "--core", "clock", "--set", "duration_s=600", "--capture", "big.csv"];
+    let mut run = crate::command(folder.path(), &args).stdout(std::process::Stdio::null()).spawn().unwrap();
+    std::thread::sleep(std::time::Duration::from_millis(700));
+    assert!(folder.path().join("out/hockey").exists(), "the run has begun");
+    std::process::Command::new("kill").args(["-INT", &run.id().to_string()]).status().unwrap();
+    assert_eq!(run.wait().unwrap().code(), Some(130));
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0, "nothing stays behind");
+}
