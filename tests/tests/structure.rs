@@ -46,7 +46,9 @@ fn imports_run_one_way() {
 fn the_reference_shares_no_code_with_the_blocks() {
     for path in sources("model/src/reference") {
         let text = fs::read_to_string(&path).expect("a source");
-        for module in ["crate::signal", "crate::blocks", "crate::block", "crate::memory", "crate::fidelity", "crate::proof"] {
+        for module in
+            ["crate::signal", "crate::blocks", "crate::block", "crate::memory", "crate::fidelity", "crate::proof"]
+        {
             // Names of a frame's words are declarations, not behaviour.
             let text = text.replace("crate::blocks::frames::Field", "");
             assert!(!text.contains(module), "{} uses {module}", path.display());
@@ -78,7 +80,9 @@ fn every_source_names_its_licence() {
 fn the_readme_names_files_that_are_there() {
     for document in ["README.md", "ARCHITECTURE.md"] {
         let text = read(document);
-        for path in text.split(['(', ')', '`']).filter(|word| word.contains('/') && !word.contains([' ', '*', '…', ':'])) {
+        for path in
+            text.split(['(', ')', '`']).filter(|word| word.contains('/') && !word.contains([' ', '*', '…', ':']))
+        {
             let path = path.split('#').next().unwrap_or(path);
             let generated = ["out/", "target/", "./", "rtl/", "synth/"].iter().any(|folder| path.starts_with(folder));
             assert!(generated || root().join(path).exists(), "{document} names {path}");

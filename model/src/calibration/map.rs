@@ -35,7 +35,7 @@ pub struct Map {
 /// What the box is wider than the points, so that noise at an edge stays within.
 const MARGIN: f64 = 1.0 + 1.0 / 64.0;
 /// What straightened and evened coordinates leave at either end, for noise and for the corners between two nodes.
-const ROOM: f64 = 1.0 + 1.0 / 16.0;
+const ROOM: f64 = 1.0 + 1.0 / 24.0;
 /// How much smoothness counts against nearness.
 const SMOOTHNESS: f64 = 1e-3;
 
@@ -54,15 +54,18 @@ impl Map {
         map.straighten(Curve::MiddleY, Curve::StretchY, &row(0), &row(rows - 1));
         let span = half_span(points.iter().map(|point| point.y));
         let t: Vec<_> = boxed.iter().map(|&p| map.straight(Curve::MiddleY, Curve::StretchY, p[0], p[1])).collect();
-        map.space(Curve::SpacingY, t.iter().zip(points).map(|(&t, point)| (t, point.y / span)));
+        let column = |first: usize| (first..points.len()).step_by(columns);
+        let even = |first: usize| column(first).map(|k| [t[k], points[k].y / span]).collect::<Vec<_>>();
+        map.space(Curve::SpacingY, &(0..columns).map(even).collect::<Vec<_>>());
         let v: Vec<_> = t.iter().map(|&t| map.curve(Curve::SpacingY, t)).collect();
-        let column =
-            |first: usize| (first..points.len()).step_by(columns).map(|k| [v[k], boxed[k][0]]).collect::<Vec<_>>();
-        map.straighten(Curve::MiddleX, Curve::StretchX, &column(0), &column(columns - 1));
+        let edge = |first: usize| column(first).map(|k| [v[k], boxed[k][0]]).collect::<Vec<_>>();
+        map.straighten(Curve::MiddleX, Curve::StretchX, &edge(0), &edge(columns - 1));
         let span = half_span(points.iter().map(|point| point.x));
         let straight = |k: usize| map.straight(Curve::MiddleX, Curve::StretchX, v[k], boxed[k][0]);
         let q: Vec<_> = (0..points.len()).map(straight).collect();
-        map.space(Curve::SpacingX, q.iter().zip(points).map(|(&q, point)| (q, point.x / span)));
+        let even =
+            |row: usize| (row * columns..(row + 1) * columns).map(|k| [q[k], points[k].x / span]).collect::<Vec<_>>();
+        map.space(Curve::SpacingX, &(0..rows).map(even).collect::<Vec<_>>());
         let uv: Vec<_> = q.iter().zip(v).map(|(&q, v)| [map.curve(Curve::SpacingX, q), v]).collect();
         map.tabulate(&uv, points);
         map
@@ -94,21 +97,17 @@ impl Map {
         }
     }
 
-    /// A curve that takes straightened coordinates to evenly spaced ones.
-    fn space(&mut self, curve: Curve, samples: impl Iterator<Item = (f64, f64)>) {
-        let entries = self.layout.entries(curve);
-        let mut fit = Fit::new(entries, 1);
-        let mut count = 0;
-        for (t, even) in samples {
-            fit.ask(&pair(0, t, entries), &[even / ROOM], 1.0);
-            count += 1;
+    /// A curve that takes straightened coordinates to evenly spaced ones: the mean over lines of points from one edge to the
+    /// other, each (straightened, even). Lines are averaged, not points fitted, because points lie in rows and columns, and a
+    /// curve finer than those would follow their steps.
+    fn space(&mut self, curve: Curve, lines: &[Vec<[f64; 2]>]) {
+        let lines: Vec<_> = lines.iter().map(|line| sorted(line)).collect();
+        let (offset, entries) = (self.layout.curve(curve), self.layout.entries(curve));
+        for k in 0..entries {
+            let t = 2.0 * k as f64 / (entries - 1) as f64 - 1.0;
+            let mean = lines.iter().map(|line| across(line, t)).sum::<f64>() / lines.len() as f64;
+            self.words[offset + k] = (mean / ROOM).clamp(-1.0, 1.0);
         }
-        for k in 1..entries - 1 {
-            let second = [(k - 1, 1.0), (k, -2.0), (k + 1, 1.0)];
-            fit.ask(&second, &[0.0], SMOOTHNESS * f64::from(count) / entries as f64);
-        }
-        let offset = self.layout.curve(curve);
-        self.words[offset..offset + entries].copy_from_slice(fit.solve().as_slice());
     }
 
     /// Tables of x, y and the sheet's resistance over evenly spaced coordinates.
