@@ -208,7 +208,7 @@ impl DeviceCalibration {
         let (columns, places) = refine::refine(self.map.columns, &self.map.places);
         let points: Vec<_> = places.iter().map(place).collect();
         let calibration = Calibration {
-            map: Map::fit(profile, columns, &points),
+            map: Map::fit(profile, columns, &points).map_err(|error| anyhow!("calibration map: {error}"))?,
             capacitance_gain: device.capacitance_gain(),
             force_gain: device.force_k * 1e-24 * device.haptic_full_scale_v.powi(2) / profile.square_gain(),
         };

@@ -80,7 +80,7 @@ fn calibration(profile: &Profile) -> Calibration {
         .map(|k| (f64::from(k % 11) - 5.0, f64::from(k / 11) - 5.0))
         .map(|(i, j)| Point { x: i * 80.0, y: j * 40.0, r_x: i / 6.0, r_y: j / 6.0, sheet: 0.0 })
         .collect();
-    Calibration { map: Map::fit(profile, 11, &points), capacitance_gain: 796.0, force_gain: 1e-6 }
+    Calibration { map: Map::fit(profile, 11, &points).expect("a raster"), capacitance_gain: 796.0, force_gain: 1e-6 }
 }
 
 /// The codes of a slot: currents a quarter turn ahead of the sensing voltage, a slow haptic voltage.

@@ -29,13 +29,9 @@ impl Fit {
         }
     }
 
-    /// The entries: a row each, a column a layer.
-    ///
-    /// # Panics
-    /// Where nothing was asked of some entry.
-    pub fn solve(self) -> DMatrix<f64> {
-        let normal = CscMatrix::from(&self.normal);
-        let factor = CscCholesky::factor(&normal).expect("smoothing asks something of every entry");
-        factor.solve(&self.right)
+    /// The entries: a row each, a column a layer. None where what was asked does not settle them all.
+    pub fn solve(self) -> Option<DMatrix<f64>> {
+        let factor = CscCholesky::factor(&CscMatrix::from(&self.normal)).ok()?;
+        Some(factor.solve(&self.right))
     }
 }

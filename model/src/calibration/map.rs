@@ -32,6 +32,22 @@ pub struct Map {
     layout: Layout,
 }
 
+/// Points that no map can be made from.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum MapError {
+    /// They are no raster.
+    #[error("expected two or more whole rows of two or more places, got {points} places in rows of {columns}")]
+    Raster {
+        /// Places in a row.
+        columns: usize,
+        /// Places.
+        points: usize,
+    },
+    /// Ratios do not tell places apart.
+    #[error("expected ratios that tell the places apart: finite, and rising with x and with y")]
+    Ambiguous,
+}
+
 /// What the box is wider than the points, so that noise at an edge stays within.
 const MARGIN: f64 = 1.0 + 1.0 / 64.0;
 /// What straightened and evened coordinates leave at either end, for noise and for the corners between two nodes.
@@ -42,11 +58,13 @@ const SMOOTHNESS: f64 = 1e-3;
 impl Map {
     /// Fits a raster of points: `columns` to a row, the first and last rows and columns being the edges of the area.
     ///
-    /// # Panics
-    /// Where the points are not whole rows, or fewer than two rows or columns.
-    pub fn fit(profile: &Profile, columns: usize, points: &[Point]) -> Map {
-        let rows = points.len() / columns;
-        assert!(columns > 1 && rows > 1 && rows * columns == points.len(), "a raster of whole rows");
+    /// # Errors
+    /// Where the points are not two or more whole rows of two or more, or their ratios do not tell places apart.
+    pub fn fit(profile: &Profile, columns: usize, points: &[Point]) -> Result<Map, MapError> {
+        let rows = points.len().checked_div(columns).unwrap_or(0);
+        if columns < 2 || rows < 2 || rows * columns != points.len() {
+            return Err(MapError::Raster { columns, points: points.len() });
+        }
         let layout = Layout::new(profile);
         let mut map = Map::boxed(layout, points);
         let boxed: Vec<[f64; 2]> = points.iter().map(|point| map.in_box(point.r_x, point.r_y)).collect();
@@ -67,8 +85,8 @@ impl Map {
             |row: usize| (row * columns..(row + 1) * columns).map(|k| [q[k], points[k].x / span]).collect::<Vec<_>>();
         map.space(Curve::SpacingX, &(0..rows).map(even).collect::<Vec<_>>());
         let uv: Vec<_> = q.iter().zip(v).map(|(&q, v)| [map.curve(Curve::SpacingX, q), v]).collect();
-        map.tabulate(&uv, points);
-        map
+        map.tabulate(&uv, points)?;
+        if map.words.iter().chain(&map.scale).all(|word| word.is_finite()) { Ok(map) } else { Err(MapError::Ambiguous) }
     }
 
     fn boxed(layout: Layout, points: &[Point]) -> Map {
@@ -111,7 +129,7 @@ impl Map {
     }
 
     /// Tables of x, y and the sheet's resistance over evenly spaced coordinates.
-    fn tabulate(&mut self, uv: &[[f64; 2]], points: &[Point]) {
+    fn tabulate(&mut self, uv: &[[f64; 2]], points: &[Point]) -> Result<(), MapError> {
         let side = self.layout.side();
         let mut fit = Fit::new(side * side, 3);
         let full = 2f64.powi(Profile::POSITION_BITS.into());
@@ -129,7 +147,8 @@ impl Map {
             }
         }
         let offset = self.layout.table(0);
-        self.words[offset..].copy_from_slice(fit.solve().as_slice());
+        self.words[offset..].copy_from_slice(fit.solve().ok_or(MapError::Ambiguous)?.as_slice());
+        Ok(())
     }
 
     fn curve(&self, curve: Curve, at: f64) -> f64 {
@@ -188,4 +207,26 @@ fn corners(u: f64, v: f64, side: usize) -> [(usize, f64); 4] {
     let ([left, right], [above, below]) = (pair(0, u, side), pair(0, v, side));
     let node = |(row, a): (usize, f64), (column, b): (usize, f64)| (row * side + column, a * b);
     [node(above, left), node(above, right), node(below, left), node(below, right)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn fit(columns: usize, points: usize, r: f64) -> Result<Map, MapError> {
+        let place = |k: usize| ((k % columns.max(1)) as f64, (k / columns.max(1)) as f64);
+        let point = |(x, y): (f64, f64)| Point { x, y, r_x: r * x, r_y: r * y, sheet: 0.0 };
+        let points: Vec<_> = (0..points).map(place).map(point).collect();
+        Map::fit(&Profile::bundled("small").expect("bundled"), columns, &points)
+    }
+
+    #[test]
+    fn points_that_make_no_map_are_refused() {
+        assert!(fit(9, 81, 0.1).is_ok());
+        for (columns, points) in [(0, 0), (1, 5), (9, 80), (9, 9)] {
+            assert_eq!(fit(columns, points, 0.1), Err(MapError::Raster { columns, points }));
+        }
+        assert_eq!(fit(9, 81, 0.0), Err(MapError::Ambiguous), "the same ratios everywhere");
+        assert_eq!(fit(9, 81, f64::NAN), Err(MapError::Ambiguous));
+    }
 }

@@ -7,7 +7,7 @@
 mod least_squares;
 mod map;
 
-pub use map::{Map, Point};
+pub use map::{Map, MapError, Point};
 
 use crate::blocks::core::Inputs;
 use crate::format::Format;

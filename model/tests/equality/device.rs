@@ -29,8 +29,11 @@ pub fn calibration(profile: &Profile) -> Calibration {
         Point { x: 400.0 * u, y: 220.0 * v, r_x, r_y, sheet: 0.05 + 0.02 * u * u + 0.01 * v }
     };
     let points: Vec<Point> = (0..columns * rows).map(point).collect();
-    let calibration =
-        Calibration { map: Map::fit(profile, columns, &points), capacitance_gain: 800.0, force_gain: 2e-6 };
+    let calibration = Calibration {
+        map: Map::fit(profile, columns, &points).expect("a raster"),
+        capacitance_gain: 800.0,
+        force_gain: 2e-6,
+    };
     calibration.check(profile).expect("a calibration within its formats");
     calibration
 }
