@@ -8,7 +8,7 @@ use std::path::Path;
 use hapticore_scene::gallery;
 use serde_json::Value;
 
-use crate::{Table, expect};
+use crate::{Table, expect, finish};
 
 const HEADER: &str = "time_s,pad,r_x,r_y,x_mm,y_mm,capacitance_pf,sheet_ohm,haptic_v_rms,force_n,direction,flags,\
 true_r_x,true_r_y,true_x_mm,true_y_mm,true_capacitance_pf,true_sheet_ohm,true_haptic_v_rms,true_force_n,true_direction";
@@ -72,17 +72,26 @@ fn small_and_fine_profiles_run_the_same_scene() {
     }
 }
 
+/// The largest haptic force that the paper reaches, N: full scale of the claims about force.
+const FORCE_FULL_SCALE_N: f64 = 1.0;
+
+/// The largest rounding error of the force over a scene, N, as the shadow reading has it.
+fn force_error(folder: &Path, scene: &str, profile: &str) -> f64 {
+    let args = ["simulate", scene, "--errors", "--json", "--profile", profile];
+    let summary: Value = serde_json::from_slice(&finish(folder, &args).stdout).unwrap();
+    let errors = summary["errors"].as_array().expect("errors");
+    let force = errors.iter().find(|error| error["signal"] == "estimator.force.force").expect("the force is a signal");
+    force["max_error"].as_f64().expect("a number")
+}
+
 #[test]
-fn the_error_of_every_signal_is_small_where_words_are_long() {
+fn rounding_moves_the_force_by_little() {
     let folder = tempfile::tempdir().unwrap();
-    let errors = |profile: &str| {
-        let args = ["simulate", "fig6", "--errors", "--json", "--profile", profile, "--set", "dwell_slots=1"];
-        let summary: Value = serde_json::from_slice(&expect(folder.path(), &args, 0).stdout).unwrap();
-        let errors = summary["errors"].as_array().unwrap().clone();
-        let of = |signal: &str| errors.iter().find(|error| error["signal"] == signal).map(|e| e["max_error"].clone());
-        of("estimator.force.force").and_then(|error| error.as_f64()).expect("the force is a signal")
-    };
-    let (small, fine) = (errors("small"), errors("fine"));
-    println!("force: small {small} N, fine {fine} N");
-    assert!(fine < small / 10.0 && small < 0.01);
+    for (scene, _) in gallery::all() {
+        for (profile, percent) in [("small", 0.5), ("standard", 0.05)] {
+            let measured = force_error(folder.path(), scene, profile) / FORCE_FULL_SCALE_N * 100.0;
+            println!("{scene} {profile}: {measured:.4} % of {FORCE_FULL_SCALE_N} N");
+            assert!(measured <= percent, "{scene} {profile}: {measured} % of full scale, at most {percent}");
+        }
+    }
 }
