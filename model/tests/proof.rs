@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The range reading proves that nothing overflows, and would notice if something did.
 
+use hapticore_model::blocks::core::Core;
 use hapticore_model::blocks::demodulator::Demodulator;
 use hapticore_model::format::Format;
 use hapticore_model::profile::Profile;
 use hapticore_model::proof::prove;
+use hapticore_model::signal::netlist::Netlist;
 use hapticore_model::signal::range::{Range, take_violations, whole};
 use hapticore_model::signal::{Exact, Never, Signal, bit, int, zero};
 
@@ -66,4 +68,70 @@ fn a_register_one_bit_short_is_noticed() {
     let byte: Signal<Range> = Signal { value: whole(Format::unsigned(8, 0)), format: Format::unsigned(8, 0) };
     (byte + int(1)).fit(Format::unsigned(8, 0), Exact, Never);
     assert_eq!(take_violations().len(), 1);
+}
+
+/// A profile with one entry of its text replaced.
+fn with(profile: &str, key: &str, value: &str) -> Result<Profile, String> {
+    let text = hapticore_model::profile::BUNDLED.iter().find(|(name, _)| *name == profile).expect("bundled").1;
+    let is_key = |line: &&str| line.split('=').next().is_some_and(|word| word.trim() == key);
+    let line = text.lines().find(is_key).unwrap_or_else(|| panic!("{profile} has {key}"));
+    Profile::parse(&text.replace(line, &format!("{key} = {value}"))).map_err(|error| error.to_string())
+}
+
+const FORMATS: [&str; 13] = [
+    "adc",
+    "oscillator",
+    "iq",
+    "total",
+    "ratio",
+    "map",
+    "admittance",
+    "capacitance",
+    "mean_square",
+    "square",
+    "force",
+    "capacitance_gain",
+    "force_gain",
+];
+
+#[test]
+fn any_profile_that_is_accepted_elaborates_and_is_proved() {
+    let (mut accepted, mut refused) = (0, 0);
+    for key in FORMATS {
+        for sign in ['s', 'u'] {
+            for width in [1, 4, 13, 18, 24, 30, 63] {
+                for frac in [-3, 0, 3, width / 2, width - 2, width - 1, width, width + 20] {
+                    let Ok(profile) = with("small", key, &format!("\"{sign}{width}.{frac}\"")) else {
+                        refused += 1;
+                        continue;
+                    };
+                    accepted += 1;
+                    Netlist::of(&Core::new(&profile));
+                    let violations = prove(&profile).violations;
+                    assert!(violations.is_empty(), "{key} {sign}{width}.{frac}: {:?}", violations.first());
+                }
+            }
+        }
+    }
+    println!("{accepted} accepted, {refused} refused");
+    assert!(accepted > 50 && refused > 50);
+}
+
+#[test]
+fn bad_profiles_say_what_was_expected() {
+    for (key, value, words) in [
+        ("clocks_per_sample", "15", "clocks_per_sample: expected 21 to 65536, got 15"),
+        ("integrate", "501", "slot.integrate: expected whole carrier periods of 5 samples, got 501"),
+        ("settle", "2", "slot.settle: expected more than"),
+        ("iq", "\"u14.13\"", "formats.iq: expected a signed format, got u14.13"),
+        ("iq", "\"14.13\"", "expected a format such as \"s18.17\""),
+        ("x", "[1, 1, 1, 1, 0, 0]", "terminals.x: expected both signs"),
+        ("window", "\"hamming\"", "unknown variant `hamming`"),
+        ("table_address", "15", "map.table_address: expected 1 to 10, got 15"),
+    ] {
+        let message = with("small", key, value).expect_err(key);
+        assert!(message.contains(words), "{key} = {value}: {message}");
+    }
+    let message = Profile::parse("name = \"x\"\nwidth = 3").unwrap_err().to_string();
+    assert!(message.starts_with("2: "), "the line is named: {message}");
 }

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Capacitance: the total current over the sensing voltage, with the sheet's resistance taken out.
 //!
-//!   C = gain · a / √(v² − (a·R)²)        (PHYSICS §2, robust form; R of the pad's place, from the map)
-//!   C = gain · a / v                     (paper, eq. 6, where the profile asks for it alone)
+//! ```text
+//! C = gain · a / √(v² − (a·R)²)        (PHYSICS §2, robust form; R of the pad's place, from the map)
+//! C = gain · a / v                     (paper, eq. 6, where the profile asks for it alone)
+//! ```
 //!
-//!   a ─(×)─[drop]─(²)─(v² −)─[clamp at 0]─[root]─ a ÷ ─[admittance]─(× gain)─[round half even, saturate]─ capacitance
-//!   R ─┘
+//! ```text
+//! a ─(×)─[drop]─(²)─(v² −)─[clamp at 0]─[root]─ a ÷ ─[admittance]─(× gain)─[round half even, saturate]─ capacitance
+//! R ─┘
+//! ```
 //!
 //! | signal      | format      | unit        | overflow                                 |
 //! | drop        | amplitude's | full scale  | saturates, flagged                       |

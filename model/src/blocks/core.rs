@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The core: ADC codes in, frames out.
 //!
-//!   strobe ─ multiplexer ─ oscillator ─ demodulator ─ estimator ─ frames
-//!              └ pad, closed      code ──┘      calibration ──┘
+//! ```text
+//! strobe ─ multiplexer ─ oscillator ─ demodulator ─ estimator ─ frames
+//!            └ pad, closed      code ──┘      calibration ──┘
+//! ```
 //!
 //! The answer to `channel` is expected as `code` one clock later. Pads are selected by `pad` and `closed`, break before make.
 

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Currents: amplitudes of every channel and of the sum over all terminals, and the sums of eqs. 2 and 3.
 //!
-//!   a_k = √(i_k² + q_k²),   a = √((Σ i_k)² + (Σ q_k)²),   x = Σ ±a_k,   y = Σ ±a_k,   corners = Σ a_k of those in x or y
+//! ```text
+//! a_k = √(i_k² + q_k²),   a = √((Σ i_k)² + (Σ q_k)²),   x = Σ ±a_k,   y = Σ ±a_k,   corners = Σ a_k of those in x or y
+//! ```
 //!
-//!   sum ─[round half even, saturate]─ iq ─[words]─(²)─(+)─[root]─ amplitude ─(±)─ x, y, corners
-//!                                      └─(+ over terminals)─[saturate]─ total
+//! ```text
+//! sum ─[round half even, saturate]─ iq ─[words]─(²)─(+)─[root]─ amplitude ─(±)─ x, y, corners
+//!                                    └─(+ over terminals)─[saturate]─ total
+//! ```
 //!
 //! | signal          | format  | unit           | overflow             |
 //! | iq, total       | profile | full scale     | saturates, flagged   |

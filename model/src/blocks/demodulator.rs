@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Lock-in demodulator: every channel's in-phase and quadrature sums over a window, and the haptic voltage's mean square.
 //!
-//!   i_k = Σ x_k[n] · (w[n] · cos φ[n]),   q_k = Σ x_k[n] · (w[n] · sin φ[n]),   m = Σ h[n] · (w[n] · h[n])
+//! ```text
+//! i_k = Σ x_k[n] · (w[n] · cos φ[n]),   q_k = Σ x_k[n] · (w[n] · sin φ[n]),   m = Σ h[n] · (w[n] · h[n])
+//! ```
 //!
-//!   window, codes ──┐
-//!   local oscillator ─(×)─[product]─┬─[round half even]── weighted cosine, sine, haptic code
-//!                                   └─(+)─[sums: one word a channel and phase]── sum
+//! ```text
+//! window, codes ──┐
+//! local oscillator ─(×)─[product]─┬─[round half even]── weighted cosine, sine, haptic code
+//!                                 └─(+)─[sums: one word a channel and phase]── sum
+//! ```
 //!
 //! One multiplier serves all: three products weigh (w·cos, w·sin, w·h), two for each channel and one for h follow.
 //!

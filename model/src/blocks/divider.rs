@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Serial divider: the quotient of two unsigned numbers, correctly rounded.
 //!
-//!   quotient = numerator / denominator, to the nearest code, ties to even
+//! ```text
+//! quotient = numerator / denominator, to the nearest code, ties to even
+//! ```
 //!
-//!   numerator ──[remainder : tail]──(− denominator ≥ 0 ?)── one quotient bit a clock ──[round half even, saturate]── quotient
+//! ```text
+//! numerator ──[remainder : tail]──(− denominator ≥ 0 ?)── one quotient bit a clock ──[round half even, saturate]── quotient
+//! ```
 //!
 //! | signal    | overflow                                                                 |
 //! | quotient  | saturates, and says so                                                   |

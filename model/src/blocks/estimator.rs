@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Estimator: from a window's sums to a frame, each stage starting the next.
 //!
-//!   sums ─ currents ─ ratio ─ map ─ capacitance ─ force ─ frames ─ words
-//!        └ haptic voltage ──────────────────────────┘
+//! ```text
+//! sums ─ currents ─ ratio ─ map ─ capacitance ─ force ─ frames ─ words
+//!      └ haptic voltage ──────────────────────────┘
+//! ```
 //!
 //! One slot is in flight at a time, so that nothing of one pad can meet anything of another; the profile's blanking is longer
 //! than the latency. Latency: the sum of the stages', from the last sum to the last word.

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Force estimator: the haptic force from the capacitance and the haptic voltage.
 //!
-//!   F = gain · C² · m        (paper, eq. 8: F_h = k (C′V_h)²; the gain holds k and the full scales)
+//! ```text
+//! F = gain · C² · m        (paper, eq. 8: F_h = k (C′V_h)²; the gain holds k and the full scales)
+//! ```
 //!
-//!   C ─(²)─[round half even]─ square ─(× m)─[round half even]─ energy ─(× gain)─[round half even, saturate]─ force
+//! ```text
+//! C ─(²)─[round half even]─ square ─(× m)─[round half even]─ energy ─(× gain)─[round half even, saturate]─ force
+//! ```
 //!
 //! | signal         | format  | unit | overflow           |
 //! | square, energy | profile | pF²  | saturates, flagged |

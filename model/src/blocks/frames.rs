@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Frames: a slot's results as words one after the other; where they are invalid, the pad's last valid ones.
 //!
-//!   results ─(one by one)─┬──(valid ?)── word
-//!                         └─[held: fields of every pad]─┘
+//! ```text
+//! results ─(one by one)─┬──(valid ?)── word
+//!                       └─[held: fields of every pad]─┘
+//! ```
 //!
 //! Words are codes as integers, in the formats of [`Field::format`]. The haptic mean square is always valid and never held.
 //! Latency: fields + 2 clocks from `start` to the last word. Source: DESIGN §3 (invalid: last value held).

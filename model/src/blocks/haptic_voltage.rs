@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Haptic voltage: its mean square over the demodulator's window.
 //!
-//!   m = Σ w[n]·h[n]² · 2^-shift        (the weighted sum comes from the demodulator; the host knows Σ w)
+//! ```text
+//! m = Σ w[n]·h[n]² · 2^-shift        (the weighted sum comes from the demodulator; the host knows Σ w)
+//! ```
 //!
-//!   sum ─[round half even, saturate]─ mean_square
+//! ```text
+//! sum ─[round half even, saturate]─ mean_square
+//! ```
 //!
 //! | signal      | format  | unit             | overflow           |
 //! | mean_square | profile | full scale²      | saturates, flagged |

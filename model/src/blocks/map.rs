@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Map: position and sheet resistance from the ratios, by tables.
 //!
-//!   p_x = (r_x − origin_x)·scale_x,              p_y likewise                         the ratios' box becomes −1 … 1
-//!   v = spacing_y((p_y − middle_y(p_x)) · stretch_y(p_x))                             the curved long edges become ±1
-//!   u = spacing_x((p_x − middle_x(v)) · stretch_x(v))                                 then the short ones
-//!   x, y, R = table_x,y,R(u, v)                                                       bilinear
+//! ```text
+//! p_x = (r_x − origin_x)·scale_x,              p_y likewise                         the ratios' box becomes −1 … 1
+//! v = spacing_y((p_y − middle_y(p_x)) · stretch_y(p_x))                             the curved long edges become ±1
+//! u = spacing_x((p_x − middle_x(v)) · stretch_x(v))                                 then the short ones
+//! x, y, R = table_x,y,R(u, v)                                                       bilinear
+//! ```
 //!
 //! At an insulated edge the ratios stand still while the pad moves on (∂w/∂n = 0), and their image is a star that fills a
 //! fifth of its box: a plain table of 33 × 33 is wrong by 3.5 mm rms, after straightening by 0.3 mm. All curves and tables
 //! lie in one memory; one multiplier serves every interpolation.
 //!
-//!   near, far ─[difference]─(× weight)─[product]─(+ near)─[round half even, saturate]─ result
+//! ```text
+//! near, far ─[difference]─(× weight)─[product]─(+ near)─[round half even, saturate]─ result
+//! ```
 //!
 //! | signal            | format  | unit                           | overflow                                           |
 //! | p, u, v, words    | profile | box, or full scale             | saturate, flagged                                  |

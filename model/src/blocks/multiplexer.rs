@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Pad multiplexer: serves the pads one by one, and says what each ADC sample is for.
 //!
-//!   slot, in samples:  | open: no pad driven | settle: blanked            | integrate               |
-//!                        switch breaks          switch made, all settles     the demodulator listens
+//! ```text
+//! slot, in samples:  | open: no pad driven | settle: blanked            | integrate               |
+//!                      switch breaks          switch made, all settles     the demodulator listens
+//! ```
 //!
 //! | signal | format                    | overflow                             |
 //! | count  | counter of a slot         | wraps to zero at the end, by compare |

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Oscillator (NCO): for every sample the cosine and sine of the carrier, and the window.
 //!
-//!   φ[n] = n · periods / samples,   w[n] = sin²(π m / N) = (1 − cos 2π m/N) / 2 for sample m of the window   (turns; Hann)
+//! ```text
+//! φ[n] = n · periods / samples,   w[n] = sin²(π m / N) = (1 − cos 2π m/N) / 2 for sample m of the window   (turns; Hann)
+//! ```
 //!
-//!   phase u32.32 ─quadrant 2─┐
-//!                └─address──[quarter wave]──(±)── cosine, then sine, then window
+//! ```text
+//! phase u32.32 ─quadrant 2─┐
+//!              └─address──[quarter wave]──(±)── cosine, then sine, then window
+//! ```
 //!
 //! | signal             | format     | unit           | overflow                                  |
 //! | phase, window_phase | u32.32    | turn           | wraps, meant                              |

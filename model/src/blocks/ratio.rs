@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Ratios of the currents, one after the other through one divider.
 //!
-//!   r_x = x / corners,   r_y = y / corners        (paper, eqs. 2 and 3)
+//! ```text
+//! r_x = x / corners,   r_y = y / corners        (paper, eqs. 2 and 3)
+//! ```
 //!
-//!   x, y ─[magnitude]─[divider, round half even]─(±)─ r_x, r_y
+//! ```text
+//! x, y ─[magnitude]─[divider, round half even]─(±)─ r_x, r_y
+//! ```
 //!
 //! | signal   | format  | unit | overflow                                             |
 //! | r_x, r_y | profile | –    | cannot: a numerator is at most its denominator        |

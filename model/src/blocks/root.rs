@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Serial square root, correctly rounded.
 //!
-//!   root = √radicand, to the nearest code; a tie cannot be, since (n + ½)² is no integer
+//! ```text
+//! root = √radicand, to the nearest code; a tie cannot be, since (n + ½)² is no integer
+//! ```
 //!
-//!   radicand ──[tail]─2 bits a clock─[remainder]──(− (4·partial + 1) ≥ 0 ?)── one root bit a clock ──[+ ½]── root
+//! ```text
+//! radicand ──[tail]─2 bits a clock─[remainder]──(− (4·partial + 1) ≥ 0 ?)── one root bit a clock ──[+ ½]── root
+//! ```
 //!
 //! | signal    | overflow                                                                   |
 //! | root      | cannot: it has half the radicand's integer bits, and one more              |

@@ -2,7 +2,9 @@
 //! What a profile must hold for a core to be built from it.
 
 use super::{Profile, ProfileError};
-use crate::format::Format;
+use crate::blocks::demodulator::Demodulator;
+use crate::blocks::estimator::Estimator;
+use crate::format::{Format, MAX_WIDTH};
 use std::fmt::Display;
 
 type Check = Result<(), ProfileError>;
@@ -16,6 +18,13 @@ fn within(field: &str, value: u64, low: u64, high: u64) -> Check {
     ensure((low..=high).contains(&value), field, format_args!("{low} to {high}"), value)
 }
 
+const ROUNDED: &str = "what is rounded to it";
+
+/// Bits of a signal with the point of the format to which it is rounded, before that saturates.
+fn before(signal: Format, to: Format) -> i16 {
+    signal.integer_bits() + 2 + i16::from(to.frac).max(i16::from(signal.frac))
+}
+
 impl Profile {
     /// Checks every value against its range, and values against each other.
     ///
@@ -24,8 +33,11 @@ impl Profile {
     pub fn check(&self) -> Check {
         within("pads", self.pads, 1, 256)?;
         self.check_terminals()?;
+        self.check_formats()?;
+        self.check_map()?;
         self.check_slot()?;
-        self.check_formats()
+        self.check_widths()?;
+        self.check_clocks()
     }
 
     fn check_terminals(&self) -> Check {
@@ -49,18 +61,45 @@ impl Profile {
         within("carrier.samples_per_period", period, 3, 1 << 16)?;
         within("carrier.quarter_address", self.carrier.quarter_address.into(), 2, 16)?;
         within("slot.open", self.slot.open, 1, 1 << 20)?;
+        within("slot.settle", self.slot.settle, 0, 1 << 20)?;
         within("slot.integrate", self.slot.integrate, 2 * period, 1 << 20)?;
         let whole = self.slot.integrate.is_multiple_of(period);
-        ensure(
-            whole,
-            "slot.integrate",
-            format_args!("whole carrier periods of {period} samples"),
-            self.slot.integrate,
-        )?;
-        let demodulator = crate::blocks::demodulator::Demodulator::new(self);
-        let least = demodulator.least_clocks_per_sample();
+        ensure(whole, "slot.integrate", format_args!("whole carrier periods of {period} samples"), self.slot.integrate)
+    }
+
+    fn check_map(&self) -> Check {
+        let most = u64::from(self.formats.map.width - 2).min(10);
+        within("map.edge_address", self.map.edge_address.into(), 1, most)?;
+        within("map.spacing_address", self.map.spacing_address.into(), 1, most)?;
+        within("map.table_address", self.map.table_address.into(), 1, most)
+    }
+
+    /// What grows with counts, or with several formats at once, still fits a word of the model.
+    fn check_widths(&self) -> Check {
+        let (f, terminals) = (&self.formats, self.terminals.x.len() as u64);
+        let amplitude = i16::from(f.total.width) + 1;
+        let sums = amplitude + i16::from(Format::counter(terminals).width);
+        for (field, width, of) in [
+            ("slot.integrate", i16::from(Demodulator::new(self).sum().width), "a sum over the window"),
+            ("formats.ratio", sums + i16::from(f.ratio.frac), "the dividend of a ratio"),
+            ("formats.admittance", amplitude + i16::from(f.admittance.frac), "the dividend of the admittance"),
+            ("formats.capacitance", before(f.admittance.product(f.capacitance_gain), f.capacitance), ROUNDED),
+            ("formats.square", before(f.capacitance.product(f.capacitance), f.square), ROUNDED),
+            ("formats.square", before(f.square.product(f.mean_square), f.square), ROUNDED),
+            ("formats.force", before(f.square.product(f.force_gain), f.force), ROUNDED),
+            ("formats.mean_square", before(Demodulator::new(self).sum(), f.mean_square), ROUNDED),
+            ("formats.map_scale", before(f.ratio.difference(f.ratio).product(f.map_scale), f.map), ROUNDED),
+        ] {
+            let most = i16::from(MAX_WIDTH);
+            ensure(width <= most, field, format_args!("{of} of at most {most} bits"), format_args!("{width}"))?;
+        }
+        Ok(())
+    }
+
+    fn check_clocks(&self) -> Check {
+        let least = Demodulator::new(self).least_clocks_per_sample();
         within("clocks_per_sample", self.clocks_per_sample, least, 1 << 16)?;
-        let estimate = crate::blocks::estimator::Estimator::new(self).latency();
+        let estimate = Estimator::new(self).latency();
         let blanking = self.slot.blanking() * self.clocks_per_sample;
         ensure(blanking > estimate, "slot.settle", format_args!("more than {estimate} clocks of blanking"), blanking)
     }
@@ -78,15 +117,18 @@ impl Profile {
             ensure(format.signed, &format!("formats.{name}"), "a signed format", format)?;
         }
         for (name, format) in [("adc", f.adc), ("oscillator", f.oscillator), ("map", f.map)] {
-            let fraction = format.integer_bits() == 0 && format.width <= 24;
-            ensure(fraction, &format!("formats.{name}"), "a fraction of at most 24 bits, such as s18.17", format)?;
+            let fraction = format.integer_bits() == 0 && (4..=24).contains(&format.width);
+            ensure(fraction, &format!("formats.{name}"), "a fraction of 4 to 24 bits, such as s18.17", format)?;
         }
         for (name, format) in [("iq", f.iq), ("total", f.total)] {
-            ensure(format.width <= 30, &format!("formats.{name}"), "at most 30 bits", format)?;
+            let sound = (4..=30).contains(&format.width) && format.frac >= 0;
+            ensure(sound, &format!("formats.{name}"), "4 to 30 bits with a point among them", format)?;
         }
         let same_point = f.total.frac == f.iq.frac && f.total.width >= f.iq.width;
         ensure(same_point, "formats.total", format_args!("the point of iq, {}, and no fewer bits", f.iq), f.total)?;
         ensure(f.ratio.integer_bits() == 1, "formats.ratio", "one integer bit, such as s20.18", f.ratio)?;
+        ensure((4..=30).contains(&f.ratio.width), "formats.ratio", "4 to 30 bits", f.ratio)?;
+        ensure(f.admittance.frac >= 0, "formats.admittance", "fractional bits", f.admittance)?;
         self.check_unsigned(f.admittance, "admittance")?;
         self.check_unsigned(f.capacitance, "capacitance")?;
         self.check_unsigned(f.mean_square, "mean_square")?;
@@ -98,7 +140,7 @@ impl Profile {
     }
 
     fn check_unsigned(&self, format: Format, name: &str) -> Check {
-        let holds = !format.signed && format.width <= 28;
-        ensure(holds, &format!("formats.{name}"), "an unsigned format of at most 28 bits", format)
+        let holds = !format.signed && format.width <= 28 && (-16..=48).contains(&format.frac);
+        ensure(holds, &format!("formats.{name}"), "an unsigned format of at most 28 bits, such as u18.8", format)
     }
 }

@@ -171,7 +171,7 @@ impl Profile {
     /// Where the text is no profile, or a value is out of its range; the message names line or key.
     pub fn parse(text: &str) -> Result<Profile, ProfileError> {
         let profile: Profile = toml::from_str(text).map_err(|error| {
-            let line = error.span().map_or(1, |span| text[..span.start.min(text.len())].lines().count().max(1));
+            let line = error.span().map_or(1, |span| text[..span.start.min(text.len())].matches('\n').count() + 1);
             ProfileError::Syntax(format!("{line}: {}", error.message().replace('\n', " ")))
         })?;
         profile.check()?;

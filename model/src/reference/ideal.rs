@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Fidelity `float`: a slot's reading in floating point, from the codes of its window or from phasors.
 //!
-//!   i_k = 2/Σw · Σ w·x_k·cos φ,   q_k = 2/Σw · Σ w·x_k·sin φ,   a_k = √(i_k² + q_k²)          (a full-scale tone gives one)
-//!   r_x = Σ ±a_k / Σ a_k,   r_y likewise (eqs. 2, 3);   x, y, R = tables(r_x, r_y)
-//!   a = |Σ (i_k + j q_k)|,   C = gain · a / √(v² − (a·R)²)    or    gain · a / v (eq. 6)
-//!   m = 1/Σw · Σ w·h²,   F = gain · C² · m · square_gain (eq. 8)
+//! ```text
+//! i_k = 2/Σw · Σ w·x_k·cos φ,   q_k = 2/Σw · Σ w·x_k·sin φ,   a_k = √(i_k² + q_k²)          (a full-scale tone gives one)
+//! r_x = Σ ±a_k / Σ a_k,   r_y likewise (eqs. 2, 3);   x, y, R = tables(r_x, r_y)
+//! a = |Σ (i_k + j q_k)|,   C = gain · a / √(v² − (a·R)²)    or    gain · a / v (eq. 6)
+//! m = 1/Σw · Σ w·h²,   F = gain · C² · m · square_gain (eq. 8)
+//! ```
 //!
 //! Amplitudes enter results as quotients only, so that the core's tone gain cancels; its square gain does not, and a reading's
 //! mean square holds it, as a frame's does. Nothing saturates.

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Capacitance, with the sheet's resistance taken out (PHYSICS §2, the √ form), or by eq. 6 alone (R taken for zero).
 //!
-//!   drop = [a · R],   left = max(v² − drop², 0),   invalid where v² ≤ drop²
-//!   admittance = [a / [√left]],   C = [admittance · gain]
+//! ```text
+//! drop = [a · R],   left = max(v² − drop², 0),   invalid where v² ≤ drop²
+//! admittance = [a / [√left]],   C = [admittance · gain]
+//! ```
 
 use super::{Exact, round, round_quotient, round_root};
 use crate::format::Format;

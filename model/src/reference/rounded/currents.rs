@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Amplitudes, and the sums of eqs. 2 and 3.
 //!
-//!   i_k = [sum / 2^s],   i = [..[[i_1 + i_2] + i_3]..] over the terminals,   q likewise      ([·]: held at the rails, too)
-//!   a_k = [√(i_k² + q_k²)],   a = [√(i² + q²)]
-//!   x = Σ ±a_k,   y = Σ ±a_k,   corners = Σ a_k of those in x or y,   lost where 2^shift · min a_k < a
+//! ```text
+//! i_k = [sum / 2^s],   i = [..[[i_1 + i_2] + i_3]..] over the terminals,   q likewise      ([·]: held at the rails, too)
+//! a_k = [√(i_k² + q_k²)],   a = [√(i² + q²)]
+//! x = Σ ±a_k,   y = Σ ±a_k,   corners = Σ a_k of those in x or y,   lost where 2^shift · min a_k < a
+//! ```
 
 use super::{Exact, round, round_root};
 use crate::profile::{Profile, Window};

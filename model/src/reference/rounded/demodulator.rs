@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The sums of a window.
 //!
-//!   i_k = Σ x_k · [w cos φ],   q_k = Σ x_k · [w sin φ],   m = Σ h · [w h]        ([·]: to the oscillator's, the ADC's format)
+//! ```text
+//! i_k = Σ x_k · [w cos φ],   q_k = Σ x_k · [w sin φ],   m = Σ h · [w h]        ([·]: to the oscillator's, the ADC's format)
+//! ```
 
 use super::{Exact, Sample, round, weighted};
 use crate::profile::Profile;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The haptic voltage's mean square, and eq. 8.
 //!
-//!   m = [Σ w h² / 2^s],   F = [[[C²] · m] · gain]
+//! ```text
+//! m = [Σ w h² / 2^s],   F = [[[C²] · m] · gain]
+//! ```
 
 use super::currents::{growth, power_above};
 use super::{Exact, Rounded, round};

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Position and sheet resistance from the ratios: nineteen operations, each rounded to a word of the map.
 //!
-//!   p = [(r − origin) · scale]                                        for x and y
-//!   v = spacing_y([(p_y − middle_y(p_x)) · stretch_y(p_x) · 2^5])
-//!   u = spacing_x([(p_x − middle_x(v)) · stretch_x(v) · 2^5])         (a negative stretch counts as zero)
-//!   curve(t) = [near + (far − near) · w],   t = −1 … 1 lying w past the entry `near`
-//!   table(u, v) = [above + (below − above) · w_v],   above = [left + (right − left) · w_u] in the row above, below likewise
-//!   x, y = table · 2^9 mm,   R = max(table, 0)
+//! ```text
+//! p = [(r − origin) · scale]                                        for x and y
+//! v = spacing_y([(p_y − middle_y(p_x)) · stretch_y(p_x) · 2^5])
+//! u = spacing_x([(p_x − middle_x(v)) · stretch_x(v) · 2^5])         (a negative stretch counts as zero)
+//! curve(t) = [near + (far − near) · w],   t = −1 … 1 lying w past the entry `near`
+//! table(u, v) = [above + (below − above) · w_v],   above = [left + (right − left) · w_u] in the row above, below likewise
+//! x, y = table · 2^9 mm,   R = max(table, 0)
+//! ```
 
 use super::{Exact, round};
 use crate::format::Format;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The carrier and the window, sample by sample.
 //!
-//!   φ[n] = n · [1/P] mod 1,   ψ[m] = m · [1/N] mod 1        ([·]: to a 32-bit fraction of a turn)
-//!   wave(φ) = [A sin 2π (j + ½)/M],   j = ⌊φ M⌋,   M = 4 · 2^address,   A = 1 − lsb
-//!   cosine = wave(φ + ¼),   sine = wave(φ),   window = [(1 − wave(ψ + ¼)) / 2]  or one
+//! ```text
+//! φ[n] = n · [1/P] mod 1,   ψ[m] = m · [1/N] mod 1        ([·]: to a 32-bit fraction of a turn)
+//! wave(φ) = [A sin 2π (j + ½)/M],   j = ⌊φ M⌋,   M = 4 · 2^address,   A = 1 − lsb
+//! cosine = wave(φ + ¼),   sine = wave(φ),   window = [(1 − wave(ψ + ¼)) / 2]  or one
+//! ```
 
 use super::{Exact, round, round_real};
 use crate::format::Format;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Eqs. 2 and 3.
 //!
-//!   r_x = [x / corners],   r_y = [y / corners]        (by zero: the rail on the numerator's side, and invalid)
+//! ```text
+//! r_x = [x / corners],   r_y = [y / corners]        (by zero: the rail on the numerator's side, and invalid)
+//! ```
 
 use super::{Currents, Exact, round_quotient};
 use crate::format::Format;
