@@ -25,7 +25,8 @@ fn a_criterion_that_fails_is_exit_code_1_and_the_results_are_there() {
     let folder = tempfile::tempdir().unwrap();
     let scene = gallery::find("fig6").unwrap().replace("limit = 0.1", "limit = 1e-9");
     fs::write(folder.path().join("strict.toml"), scene).unwrap();
-    let said = expect(folder.path(), &["simulate", "strict.toml", "--set", "dwell_slots=1"], 1).stdout;
+    let said =
+        expect(folder.path(), &["simulate", "strict.toml", "--set", "dwell_slots=1", "--waves", "none"], 1).stdout;
     assert!(String::from_utf8(said).unwrap().contains("FAILS"));
     for name in ["frames.csv", "summary.json", "report.html"] {
         assert!(folder.path().join("out/strict").join(name).exists(), "{name}");
