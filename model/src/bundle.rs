@@ -65,7 +65,7 @@ impl Bundle for Nothing<()> {
 
 /// `when!(V, Registers, bit, a, b)`: the bundle `a` where the bit is set, else `b`. Readings that know every bit evaluate one of
 /// the two; it is a macro, not a function of two closures, because those are not inlined and the registers then travel
-/// through memory (measured: a third of the clocks a second).
+/// through memory (measured: half the clocks a second).
 #[macro_export]
 macro_rules! when {
     ($reading:ident, $bundle:ident, $bit:expr, $a:expr, $b:expr $(,)?) => {
