@@ -45,8 +45,8 @@ pub enum Overflow {
     Wrap,
     /// It cannot happen; the range reading proves it.
     Never,
-    /// It cannot happen for the reason named, which relates several signals and so is beyond intervals; tests over all
-    /// codes of small widths hold it.
+    /// It cannot happen for the reason named, which relates several signals and so is beyond intervals. Test builds check it
+    /// at each clock; those of the divider and the root are held over all codes of small widths, too.
     Lemma(&'static str),
 }
 
