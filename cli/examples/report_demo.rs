@@ -68,7 +68,10 @@ fn errors() -> Vec<SignalError> {
         max_error,
         max_codes,
     };
-    vec![error("estimator.force.force", "u20.17", 6.1e-6, 0.8), error("demodulator.0.i", "s24.22", 1.2e-7, 0.5)]
+    vec![
+        error("estimator.force_estimator.haptic_force", "u20.17", 6.1e-6, 0.8),
+        error("demodulator.0.i", "s24.22", 1.2e-7, 0.5),
+    ]
 }
 
 /// Name, series resistance of the sheet, capacitance.

@@ -28,6 +28,9 @@ pub enum Command {
     /// Run recorded ADC samples through the core
     #[command(after_help = REPLAY)]
     Replay(ReplayArgs),
+    /// Print the core as Verilog, alone or with all that a board needs for a bitstream
+    #[command(after_help = HDL)]
+    Hdl(HdlArgs),
 }
 
 const SIMULATE: &str = "Examples:
@@ -42,6 +45,26 @@ const REPLAY: &str = "A capture is CSV (a header naming columns among i1 … i6,
 sample; lines \"# key = value\" may give sample_rate_hz and bits) or WAV (channels in that order). Slots begin at the first sample.
 
 Exit status: 0 done, 2 bad input.";
+
+const HDL: &str = "Examples:
+  hapticore hdl --board ulx3s --out build && build/build.sh
+  hapticore hdl --profile small --out verilog
+
+Exit status: 0 done, 2 bad input.";
+
+/// Arguments of `hdl`.
+#[derive(Debug, Clone, clap::Args)]
+pub struct HdlArgs {
+    /// The core's profile: a bundled name (small, standard, fine) or a TOML file [default: the board's, else standard]
+    #[arg(long, value_name = "PROFILE")]
+    pub profile: Option<String>,
+    /// Where the files go
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
 
 /// Arguments of `scenes`.
 #[derive(Debug, clap::Args)]

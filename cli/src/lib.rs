@@ -4,7 +4,7 @@
 //! | module | does |
 //! | --- | --- |
 //! | [`args`] | the command line |
-//! | [`simulate`], [`replay`], [`scenes`] | one command each |
+//! | [`simulate`], [`replay`], [`hdl`], [`scenes`] | one command each |
 //! | [`inputs`] | scenes and profiles from names and files |
 //! | [`units`] | the one place where volts and fractions meet codes |
 //! | [`calibrate`] | a device as a core is told of it |
@@ -24,6 +24,7 @@ pub mod case;
 pub mod criteria;
 pub mod engine;
 pub mod errors;
+pub mod hdl;
 pub mod inputs;
 pub mod interrupt;
 pub mod output;
@@ -52,6 +53,7 @@ pub fn main() -> ExitCode {
         Command::Scenes(args) => scenes::run(&args),
         Command::Simulate(args) => simulate::run(&args),
         Command::Replay(args) => replay::run(&args),
+        Command::Hdl(args) => hdl::run(&args),
     };
     match outcome {
         Ok(true) => ExitCode::SUCCESS,

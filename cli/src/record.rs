@@ -100,7 +100,7 @@ pub struct Effect {
 /// The largest rounding error of a signal, from the shadow reading.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SignalError {
-    /// The signal, with its instances: `estimator.force.force`.
+    /// The signal, with its instances: `estimator.force_estimator.haptic_force`.
     pub signal: String,
     /// Its format: `u20.17`.
     pub format: String,

@@ -15,6 +15,8 @@ pub trait Bundle: 'static {
     const NAMES: &'static [&'static str];
     /// For each field the names of its codes, where it is a state.
     const STATES: &'static [&'static [&'static str]];
+    /// For each field what its declaration says of it.
+    const DOCS: &'static [&'static str];
 
     /// The struct with `f` of each field.
     fn map<T: Copy, U: Copy>(bundle: Self::Of<T>, f: impl FnMut(T) -> U) -> Self::Of<U>;
@@ -53,6 +55,7 @@ impl Bundle for Nothing<()> {
     type Of<T: Copy> = Nothing<T>;
     const NAMES: &'static [&'static str] = &[];
     const STATES: &'static [&'static [&'static str]] = &[];
+    const DOCS: &'static [&'static str] = &[];
 
     fn map<T: Copy, U: Copy>(_bundle: Nothing<T>, _f: impl FnMut(T) -> U) -> Nothing<U> {
         Nothing::default()
@@ -102,18 +105,19 @@ macro_rules! choose {
 #[macro_export]
 macro_rules! bundle {
     ($(#[$meta:meta])* $vis:vis struct $name:ident {
-        $($(#[$field_meta:meta])* $field:ident $(: [$($state:literal),* $(,)?])?),* $(,)?
+        $($(#[doc = $doc:literal])* $field:ident $(: [$($state:literal),* $(,)?])?),* $(,)?
     }) => {
         $(#[$meta])*
         #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
         $vis struct $name<T = ()> {
-            $($(#[$field_meta])* #[allow(missing_docs)] pub $field: T,)*
+            $($(#[doc = $doc])* #[allow(missing_docs)] pub $field: T,)*
         }
 
         impl $crate::bundle::Bundle for $name<()> {
             type Of<T: Copy> = $name<T>;
             const NAMES: &'static [&'static str] = &[$(stringify!($field)),*];
             const STATES: &'static [&'static [&'static str]] = &[$(&[$($($state),*)?]),*];
+            const DOCS: &'static [&'static str] = &[$(concat!($($doc),*)),*];
 
             #[inline(always)]
             fn map<T: Copy, U: Copy>(bundle: $name<T>, mut f: impl FnMut(T) -> U) -> $name<U> {

@@ -96,7 +96,7 @@ parts! {
         map: Map,
         haptic_voltage: HapticVoltage,
         capacitance: Capacitance,
-        force: Force,
+        force_estimator: Force,
         frames: Frames,
     }
 }
@@ -109,7 +109,7 @@ pub struct Estimator {
     map: Map,
     haptic_voltage: HapticVoltage,
     capacitance: Capacitance,
-    force: Force,
+    force_estimator: Force,
     frames: Frames,
     registers: Registers<Format>,
 }
@@ -123,7 +123,7 @@ impl Estimator {
             map: Map::new(profile),
             haptic_voltage: HapticVoltage::new(profile),
             capacitance: Capacitance::new(profile, currents.amplitude()),
-            force: Force::new(profile),
+            force_estimator: Force::new(profile),
             frames: Frames::new(profile),
             registers: Registers { busy: BIT, pad: Format::counter(profile.pads - 1), clipped: BIT },
             currents,
@@ -137,7 +137,7 @@ impl Estimator {
             self.ratio.latency(),
             self.map.latency(),
             self.capacitance.latency(),
-            self.force.latency(),
+            self.force_estimator.latency(),
             self.frames.latency(),
         ];
         stages.into_iter().sum()
@@ -176,7 +176,7 @@ impl Block for Estimator {
             origin_y: map.origin_y,
             scale_y: map.scale_y,
             capacitance_gain: self.capacitance.inputs().gain,
-            force_gain: self.force.inputs().gain,
+            force_gain: self.force_estimator.inputs().gain,
             write: BIT,
             address: map.address,
             word: map.word,
@@ -237,7 +237,7 @@ impl Block for Estimator {
             mean_square: haptic.mean_square,
             gain: i.force_gain,
         };
-        let force = self.force.call("force", &mut parts.force, inputs);
+        let force = self.force_estimator.call("force_estimator", &mut parts.force_estimator, inputs);
         let invalid = ratio.invalid | capacitance.invalid;
         let inputs = frames::Inputs {
             start: force.done,
@@ -249,7 +249,7 @@ impl Block for Estimator {
             y: map.y,
             sheet: map.sheet,
             capacitance: capacitance.capacitance,
-            force: force.force,
+            haptic_force: force.haptic_force,
             mean_square: haptic.mean_square,
         };
         let frames = self.frames.call("frames", &mut parts.frames, inputs);

@@ -41,7 +41,7 @@ bundle! {
         /// Set for one clock when the force is there.
         done,
         /// The haptic force.
-        force,
+        haptic_force,
         /// Whether a word is held at a rail.
         saturated,
     }
@@ -51,7 +51,7 @@ bundle! {
     /// The registers. `left`, `right` and `product` are codes as integers.
     pub struct Registers {
         step: ["idle", "load", "square", "weigh", "energy", "scale", "force"],
-        left, right, product, force, saturated, done,
+        left, right, product, haptic_force, saturated, done,
     }
 }
 
@@ -74,7 +74,7 @@ impl Force {
         let right = Format::unsigned(capacitance.width.max(mean_square.width).max(gain.width), 0);
         let step = Format::unsigned(3, 0);
         let product = left.product(right);
-        let registers = Registers { step, left, right, product, force: f.force, saturated: BIT, done: BIT };
+        let registers = Registers { step, left, right, product, haptic_force: f.force, saturated: BIT, done: BIT };
         Force { capacitance, mean_square, square, gain, registers }
     }
 
@@ -100,7 +100,7 @@ impl Force {
         let at = |step: u64| r.step.is(step);
         let (square, square_held) = self.product(&r, (self.capacitance, self.capacitance), self.square);
         let (energy, energy_held) = self.product(&r, (self.square, self.mean_square), self.square);
-        let (force, force_held) = self.product(&r, (self.square, self.gain), self.registers.force);
+        let (force, force_held) = self.product(&r, (self.square, self.gain), self.registers.haptic_force);
         let [capacitance, mean_square, gain] = [i.capacitance, i.mean_square, i.gain].map(Signal::integer);
         let factor = at(3).select(square, energy).integer();
         let saturated = (at(3) & square_held) | (at(5) & energy_held) | (at(7) & force_held);
@@ -109,7 +109,7 @@ impl Force {
             left: at(1).select(capacitance, factor),
             right: at(1).select(capacitance, at(3).select(mean_square, gain)),
             product: r.left * r.right,
-            force: at(7).select(force, r.force),
+            haptic_force: at(7).select(force, r.haptic_force),
             saturated: r.saturated | saturated,
             done: at(7),
         }
@@ -131,7 +131,7 @@ impl Block for Force {
 
     #[inline]
     fn outputs(&self) -> Outputs<Format> {
-        Outputs { done: BIT, force: self.registers.force, saturated: BIT }
+        Outputs { done: BIT, haptic_force: self.registers.haptic_force, saturated: BIT }
     }
 
     #[inline(always)]
@@ -151,7 +151,7 @@ impl Block for Force {
     #[inline(always)]
     fn clock<V: Value>(&self, cell: &mut Cell<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
         let r = cell.load(self);
-        let outputs = Outputs { done: r.done, force: r.force, saturated: r.saturated };
+        let outputs = Outputs { done: r.done, haptic_force: r.haptic_force, saturated: r.saturated };
         if (i.start | !r.step.is(0) | r.done).idle() {
             return outputs;
         }

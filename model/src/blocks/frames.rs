@@ -95,7 +95,7 @@ bundle! {
         /// As [`Field::Capacitance`].
         capacitance,
         /// As [`Field::Force`].
-        force,
+        haptic_force,
         /// As [`Field::MeanSquare`].
         mean_square,
     }
@@ -156,7 +156,7 @@ impl Frames {
             y: of(Field::Y),
             sheet: of(Field::Sheet),
             capacitance: of(Field::Capacitance),
-            force: of(Field::Force),
+            haptic_force: of(Field::Force),
             mean_square: of(Field::MeanSquare),
         };
         let registers = Registers {
@@ -179,7 +179,7 @@ impl Frames {
     /// The result that is the field `index`, as an integer.
     #[inline(always)]
     fn result<V: Value>(&self, i: &Inputs<Signal<V>>, index: Signal<V>) -> Signal<V> {
-        let fields = [i.r_x, i.r_y, i.x, i.y, i.sheet, i.capacitance, i.force, i.mean_square];
+        let fields = [i.r_x, i.r_y, i.x, i.y, i.sheet, i.capacitance, i.haptic_force, i.mean_square];
         let word = |k: usize| fields[k].integer().fit(self.registers.word, Exact, Never);
         (0..fields.len() - 1).rev().fold(word(fields.len() - 1), |rest, k| index.is(k as u64).select(word(k), rest))
     }

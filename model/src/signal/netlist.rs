@@ -79,6 +79,8 @@ pub struct Named {
     pub format: Format,
     /// The names of its codes, where it is a state.
     pub states: &'static [&'static str],
+    /// What its declaration says of it.
+    pub about: &'static str,
     /// What drives it: an output, or what a register takes next. An input's own node.
     pub node: Node,
 }
@@ -114,6 +116,8 @@ pub struct Instance {
 pub struct Module {
     /// The name of the block.
     pub name: &'static str,
+    /// The path of its type in the model.
+    pub path: &'static str,
     /// Its input ports.
     pub inputs: Vec<Named>,
     /// Its output ports.
@@ -177,10 +181,10 @@ fn ports<S: Bundle>(formats: S::Of<Format>, op: impl Fn(usize) -> Op) -> (S::Of<
 }
 
 fn named<S: Bundle>(nodes: S::Of<Node>, formats: S::Of<Format>) -> Vec<Named> {
-    let mut states = S::STATES.iter();
     let mut all = Vec::new();
     S::each(S::zip(nodes, formats), |name, (node, format)| {
-        all.push(Named { name, format, states: states.next().expect("as many as fields"), node });
+        let (states, about) = (S::STATES[all.len()], S::DOCS[all.len()].trim());
+        all.push(Named { name, format, states, about, node });
     });
     all
 }
@@ -196,6 +200,7 @@ fn read<B: Block>(block: &B, cell: &mut Cell<B, Node>) -> usize {
     READER.with_borrow_mut(|reader| {
         let mut module = reader.open.pop().expect("opened above").module;
         module.name = B::NAME;
+        module.path = std::any::type_name::<B>();
         module.inputs = input_ports;
         module.outputs = named::<B::Outputs>(outputs, block.outputs());
         module.registers = named::<B::Registers>(cell.registers, block.registers());

@@ -186,8 +186,19 @@ fn frames_hold_what_was_last_valid_of_their_pad() {
             let codes = Field::ALL.map(|field| random.word(field.format(&profile)));
             let [r_x, r_y, x, y, sheet, capacitance, force, mean_square] = codes;
             let (pad, invalid) = (random.word(formats.pad) % profile.pads as i64, random.below(2) as i64);
-            let quiet =
-                frames::Inputs { start: 0, pad, invalid, r_x, r_y, x, y, sheet, capacitance, force, mean_square };
+            let quiet = frames::Inputs {
+                start: 0,
+                pad,
+                invalid,
+                r_x,
+                r_y,
+                x,
+                y,
+                sheet,
+                capacitance,
+                haptic_force: force,
+                mean_square,
+            };
             bench.clock(frames::Inputs { start: 1, ..quiet });
             let mut words = [0; Field::ALL.len()];
             let take = |out: &frames::Outputs<i64>| {

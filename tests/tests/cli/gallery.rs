@@ -80,7 +80,10 @@ fn force_error(folder: &Path, scene: &str, profile: &str) -> f64 {
     let args = ["simulate", scene, "--errors", "--json", "--profile", profile];
     let summary: Value = serde_json::from_slice(&finish(folder, &args).stdout).unwrap();
     let errors = summary["errors"].as_array().expect("errors");
-    let force = errors.iter().find(|error| error["signal"] == "estimator.force.force").expect("the force is a signal");
+    let force = errors
+        .iter()
+        .find(|error| error["signal"] == "estimator.force_estimator.haptic_force")
+        .expect("the force is a signal");
     force["max_error"].as_f64().expect("a number")
 }
 

@@ -66,7 +66,7 @@ fn check(kind: &str, args: &[&str], first: usize) {
     let frames = frames(&mut waves);
     assert!(frames.len() >= 2, "two frames at least");
     compare(&frames, &Table::read(&out.join("frames.csv")), first);
-    let forces = values(&mut waves, "core.estimator.force.force", false);
+    let forces = values(&mut waves, "core.estimator.force_estimator.haptic_force", false);
     let force = Profile::bundled("standard").unwrap().formats.force;
     let last = Table::read(&out.join("frames.csv")).numbers("force_n")[first + frames.len() - 1];
     assert!(forces.iter().any(|(_, code)| force.real(*code) == last), "the register held {last} N");
@@ -94,7 +94,9 @@ fn compare(frames: &[Vec<i64>], table: &Table, first: usize) {
 
 fn check_save_file(out: &Path) {
     let save = fs::read_to_string(out.join("waves.gtkw")).unwrap();
-    for shown in ["core.estimator.force.force[19:0]", "truth.force_n", "waves.core.estimator.map.operation.txt"] {
+    for shown in
+        ["core.estimator.force_estimator.haptic_force[19:0]", "truth.force_n", "waves.core.estimator.map.operation.txt"]
+    {
         assert!(save.contains(shown), "{shown}");
     }
 }

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A module as text: head, ports, registers, wires, memories, instances, clock.
+
+use super::clock::Next;
+use super::expression::{BREAK, bits, literal};
+use super::names::{Names, ports};
+use super::scope::{Scope, range};
+use super::{Direction, Port};
+use hapticore_model::signal::netlist::{Module, Named, Netlist, Node, Op, Ram};
+use std::fmt::Write;
+
+/// The text of a module.
+pub fn print(netlist: &Netlist, modules: &[String], module: &Module, name: &str, made_by: &str) -> String {
+    let ports = ports(module);
+    let mut names = Names::default();
+    ports.iter().for_each(|port| names.take(&port.name));
+    let mut printer = Printer { scope: Scope::new(module, names), netlist, modules, ports, registers: vec![] };
+    let mut text = printer.head(name, made_by);
+    text += &printer.declarations();
+    printer.wires();
+    // These may declare wires yet, which stand before them.
+    let users = [printer.instances(), printer.memories(), printer.clock(), printer.outputs()];
+    let wires = std::mem::take(&mut printer.scope.body);
+    if !wires.is_empty() {
+        text += &format!("\n{}\n", wires.join("\n"));
+    }
+    text += &users.concat();
+    let unused = printer.scope.unused();
+    if !unused.is_empty() {
+        let _ = write!(text, "\n    // What nothing needs.\n    wire unused = &{{1'b0, {}}};\n", folded(&unused));
+    }
+    text.replace(BREAK, " ") + "\nendmodule\n\n`default_nettype wire\n"
+}
+
+/// A list over several lines.
+fn folded(items: &[String]) -> String {
+    let mut text = String::new();
+    let mut column = 28;
+    for (index, item) in items.iter().enumerate() {
+        let comma = if index + 1 < items.len() { ", " } else { "" };
+        if column + item.len() > 118 {
+            text.truncate(text.trim_end().len());
+            text += "\n        ";
+            column = 8;
+        }
+        column += item.len() + 2;
+        text += item;
+        text += comma;
+    }
+    text
+}
+
+struct Printer<'a> {
+    scope: Scope<'a>,
+    netlist: &'a Netlist,
+    modules: &'a [String],
+    ports: Vec<Port>,
+    /// The name of each register that is needed, and whether it is an output as it stands.
+    registers: Vec<Option<(String, bool)>>,
+}
+
+impl Printer<'_> {
+    fn head(&mut self, name: &str, made_by: &str) -> String {
+        self.name_registers();
+        let Module { path, .. } = self.scope.module;
+        let mut text = format!("// {name}: {path}\n// Printed from the model by `{made_by}`; not to be edited.\n\n");
+        text += "`default_nettype none\n\n";
+        let _ = write!(text, "module {name} (\n    input wire clock,\n    input wire reset");
+        let mut comment = String::new();
+        for port in &self.ports {
+            let direction = match port.direction {
+                Direction::Input => "input wire",
+                Direction::Output if self.is_register(&port.name) => "output reg",
+                Direction::Output => "output wire",
+            };
+            let range = range(port.format.width, port.format.signed);
+            let _ = write!(text, ",{comment}\n    {direction} {range}{}", port.name);
+            comment = format!(" // {}{}", port.format, about(port.about, port.states));
+        }
+        text + &comment + "\n);\n"
+    }
+
+    fn is_register(&self, port: &str) -> bool {
+        self.registers.iter().flatten().any(|(name, output)| *output && name == port)
+    }
+
+    /// A register that is an output under its own name is the port; another whose name is taken gets `_q`.
+    fn name_registers(&mut self) {
+        let module = self.scope.module;
+        for (index, register) in module.registers.iter().enumerate() {
+            let named = self.scope.live.registers[index].then(|| {
+                let node = |port: &&Named| module.wires[port.node.0 as usize].op == Op::Register(index);
+                let output = module.outputs.iter().find(|port| port.name == register.name).filter(node);
+                let free = self.ports.iter().any(|p| p.direction == Direction::Output && p.name == register.name);
+                match output {
+                    Some(_) if free => (register.name.to_owned(), true),
+                    _ if self.scope.names.has(register.name) => {
+                        (self.scope.names.unique(&format!("{}_q", register.name)), false)
+                    }
+                    _ => (self.scope.names.unique(register.name), false),
+                }
+            });
+            self.registers.push(named);
+        }
+    }
+
+    /// Registers, memories, and what comes out of instances; each wire that stands for one of them gets its name.
+    fn declarations(&mut self) -> String {
+        let module = self.scope.module;
+        let mut text = String::new();
+        for (register, name) in module.registers.iter().zip(&self.registers) {
+            if let Some((name, false)) = name {
+                let range = range(register.format.width, register.format.signed);
+                let about = about(register.about, register.states);
+                let _ = writeln!(text, "    reg {range}{name}; // {}{about}", register.format);
+            }
+        }
+        let memories: Vec<String> = module.memories.iter().map(|ram| self.scope.names.unique(ram.name)).collect();
+        for (index, ram) in module.memories.iter().enumerate().filter(|(index, _)| self.scope.live.memories[*index]) {
+            let (range, name, words) =
+                (range(ram.format.width, ram.format.signed), &memories[index], ram.initial.len());
+            let _ = writeln!(text, "    reg {range}{name} [0:{}]; // {words} words {}", words - 1, ram.format);
+            let _ = writeln!(text, "    reg {range}{name}_word; // its read register");
+        }
+        for (index, wire) in module.wires.iter().enumerate() {
+            let node = Node(index as u32);
+            let name = match wire.op {
+                Op::Input(port) => self.ports[port].name.clone(),
+                Op::Register(register) if self.registers[register].is_some() => {
+                    self.registers[register].clone().expect("is some").0
+                }
+                Op::Data(ram) if self.scope.live.memories[ram] => format!("{}_word", memories[ram]),
+                Op::Output(instance, port) => {
+                    let of = &module.instances[instance];
+                    let port = &self.netlist.modules[of.module].outputs[port];
+                    let name = self.scope.names.unique(&format!("{}_{}", of.name, port.name));
+                    let range = range(port.format.width, port.format.signed);
+                    let _ = writeln!(text, "    wire {range}{name}; // {}", port.format);
+                    name
+                }
+                _ => continue,
+            };
+            self.scope.bind(node, &name, wire.format);
+        }
+        if text.is_empty() { text } else { format!("\n{text}") }
+    }
+
+    fn wires(&mut self) {
+        self.hints();
+        for index in 0..self.scope.module.wires.len() {
+            if self.scope.live.uses[index] > 0 {
+                self.scope.print(Node(index as u32));
+            }
+        }
+    }
+
+    fn hints(&mut self) {
+        let module = self.scope.module;
+        for (register, name) in module.registers.iter().zip(&self.registers) {
+            if let Some((name, _)) = name {
+                self.scope.hint(register.node, format!("next_{name}"));
+            }
+        }
+        for instance in &module.instances {
+            for (&node, port) in instance.inputs.iter().zip(&self.netlist.modules[instance.module].inputs) {
+                self.scope.hint(node, format!("{}_{}", instance.name, port.name));
+            }
+        }
+        for ram in &module.memories {
+            if let Some(node) = ram.address {
+                self.scope.hint(node, format!("{}_address", ram.name));
+            }
+            if let Some((enable, address, word)) = ram.write {
+                self.scope.hint(enable, format!("write_{}", ram.name));
+                self.scope.hint(address, format!("{}_write_address", ram.name));
+                self.scope.hint(word, format!("{}_write_word", ram.name));
+            }
+        }
+    }
+
+    fn instances(&mut self) -> String {
+        let mut text = String::new();
+        for instance in &self.scope.module.instances {
+            let module = &self.netlist.modules[instance.module];
+            let _ = write!(text, "\n    {} u_{} (\n", self.modules[instance.module], instance.name);
+            let _ = write!(text, "        .clock(clock),\n        .reset(reset)");
+            let ports = ports(module);
+            for (port, &node) in ports.iter().zip(&instance.inputs) {
+                let driven = self.scope.whole(node).text;
+                let _ = write!(text, ",\n        .{}({driven})", port.name);
+            }
+            for (port, named) in ports[module.inputs.len()..].iter().zip(&module.outputs) {
+                let _ = write!(text, ",\n        .{}({}_{})", port.name, instance.name, named.name);
+            }
+            text += "\n    );\n";
+        }
+        text
+    }
+
+    fn memories(&mut self) -> String {
+        let module = self.scope.module;
+        let live = |index: &usize| self.scope.live.memories[*index];
+        let live: Vec<usize> = (0..module.memories.len()).filter(live).collect();
+        live.into_iter().map(|index| self.memory(&module.memories[index])).collect()
+    }
+
+    fn memory(&mut self, ram: &Ram) -> String {
+        let name = ram.name;
+        let mut text = format!("\n{}    always @(posedge clock) begin\n", initial(ram));
+        if let Some((enable, address, word)) = ram.write {
+            let enable = self.scope.whole(enable).text;
+            let (address, word) = (self.scope.whole(address).text, self.scope.whole(word).text);
+            let _ = writeln!(text, "        if ({enable}) {name}[{address}] <= {word};");
+        }
+        if let Some(address) = ram.address {
+            let _ = writeln!(text, "        {name}_word <= {name}[{}];", self.scope.whole(address).text);
+        }
+        text + "    end\n"
+    }
+
+    fn clock(&mut self) -> String {
+        let (mut resets, mut nexts) = (String::new(), Vec::new());
+        for (index, register) in self.scope.module.registers.iter().enumerate() {
+            let Some((name, _)) = self.registers[index].clone() else { continue };
+            let Named { node, format, .. } = *register;
+            let _ = writeln!(resets, "            {name} <= {};", literal(0, format.width));
+            nexts.push(Next { name, own: Op::Register(index), node, format });
+        }
+        if resets.is_empty() {
+            return resets;
+        }
+        let steps = self.scope.statements(nexts, 12);
+        let reset = format!("        if (reset) begin\n{resets}        end else begin\n{steps}        end\n");
+        format!("\n    always @(posedge clock) begin\n{reset}    end\n")
+    }
+
+    fn outputs(&mut self) -> String {
+        let module = self.scope.module;
+        let mut text = String::new();
+        for (index, named) in module.outputs.iter().enumerate() {
+            let port = self.ports[module.inputs.len() + index].clone();
+            let value = self.scope.whole(named.node).text;
+            if !self.is_register(&port.name) {
+                let _ = writeln!(text, "    assign {} = {value};", port.name);
+            }
+        }
+        if text.is_empty() { text } else { format!("\n{text}") }
+    }
+}
+
+/// What a comment says of a port or register besides its format.
+fn about(about: &str, states: &[&str]) -> String {
+    let states: Vec<String> = states.iter().enumerate().map(|(code, name)| format!("{code} {name}")).collect();
+    let about = if about.is_empty() { String::new() } else { format!("  {about}") };
+    if states.is_empty() { about } else { format!("{about}  {}", states.join(", ")) }
+}
+
+/// The words of a memory at the start.
+fn initial(ram: &Ram) -> String {
+    let (name, width, words) = (ram.name, ram.format.width, ram.initial.len());
+    let mut text = format!("    initial begin : initial_{name}\n");
+    if ram.initial.iter().all(|&word| word == 0) {
+        let zero = literal(0, width);
+        text += "        integer i;\n";
+        let _ = writeln!(text, "        for (i = 0; i < {words}; i = i + 1) {name}[i] = {zero};");
+    } else {
+        for (start, row) in ram.initial.chunks(4).enumerate() {
+            let word = |(n, &word): (usize, &i64)| format!("{name}[{}] = {};", 4 * start + n, bits(word as u64, width));
+            let _ = writeln!(text, "        {}", row.iter().enumerate().map(word).collect::<Vec<_>>().join(" "));
+        }
+    }
+    text + "    end\n\n"
+}

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Names: of modules, of ports, and of all else within a module, each once.
+
+use super::{Direction, Port};
+use hapticore_model::signal::netlist::{Module, Named, Netlist};
+use std::collections::HashSet;
+
+/// The words of Verilog-2005 that a signal might be called (IEEE 1364-2005, annex B), and the two ports that every module has.
+const RESERVED: &[&str] = &[
+    "always",
+    "and",
+    "assign",
+    "begin",
+    "buf",
+    "case",
+    "cell",
+    "clock",
+    "config",
+    "deassign",
+    "default",
+    "design",
+    "disable",
+    "edge",
+    "else",
+    "end",
+    "event",
+    "for",
+    "force",
+    "forever",
+    "fork",
+    "function",
+    "generate",
+    "if",
+    "initial",
+    "inout",
+    "input",
+    "instance",
+    "integer",
+    "join",
+    "large",
+    "library",
+    "medium",
+    "module",
+    "nand",
+    "negedge",
+    "nor",
+    "not",
+    "or",
+    "output",
+    "parameter",
+    "posedge",
+    "primitive",
+    "real",
+    "reg",
+    "release",
+    "repeat",
+    "reset",
+    "scalared",
+    "signed",
+    "small",
+    "strong0",
+    "strong1",
+    "supply0",
+    "supply1",
+    "table",
+    "task",
+    "time",
+    "tri",
+    "unsigned",
+    "unused",
+    "use",
+    "vectored",
+    "wait",
+    "wand",
+    "weak0",
+    "weak1",
+    "while",
+    "wire",
+    "wor",
+    "xnor",
+    "xor",
+];
+
+/// The names of a netlist's modules: the blocks', with a number where several differ.
+pub fn of_modules(netlist: &Netlist) -> Vec<String> {
+    let mut names = Names { taken: HashSet::new() };
+    netlist.modules.iter().map(|module| names.unique(module.name)).collect()
+}
+
+/// The ports of a module: inputs, then outputs.
+pub fn ports(module: &Module) -> Vec<Port> {
+    let mut names = Names::default();
+    let mut port = |named: &Named, direction: Direction| {
+        let name = match direction {
+            Direction::Output if names.taken.contains(named.name) => names.unique(&format!("{}_out", named.name)),
+            _ => names.unique(named.name),
+        };
+        Port { name, direction, format: named.format, states: named.states, about: named.about }
+    };
+    let mut all: Vec<Port> = module.inputs.iter().map(|named| port(named, Direction::Input)).collect();
+    all.extend(module.outputs.iter().map(|named| port(named, Direction::Output)));
+    all
+}
+
+/// The names taken in a module.
+pub struct Names {
+    taken: HashSet<String>,
+}
+
+impl Default for Names {
+    fn default() -> Self {
+        Names { taken: RESERVED.iter().map(|word| (*word).to_owned()).collect() }
+    }
+}
+
+impl Names {
+    /// The name, with a number where it is taken.
+    pub fn unique(&mut self, name: &str) -> String {
+        let numbered = (2..).map(|n| format!("{name}_{n}"));
+        let free = std::iter::once(name.to_owned()).chain(numbered).find(|name| !self.taken.contains(name));
+        let free = free.expect("there are numbers enough");
+        self.taken.insert(free.clone());
+        free
+    }
+
+    /// Takes a name that is known to be free, or to be shared on purpose.
+    pub fn take(&mut self, name: &str) {
+        self.taken.insert(name.to_owned());
+    }
+
+    /// Whether a name is taken.
+    pub fn has(&self, name: &str) -> bool {
+        self.taken.contains(name)
+    }
+}
