@@ -1,0 +1,34 @@
+// haptic_voltage: hapticore_model::blocks::haptic_voltage::HapticVoltage
+// Printed from the model by `hapticore hdl --profile small`; not to be edited.
+
+`default_nettype none
+
+module haptic_voltage (
+    input wire clock,
+    input wire reset,
+    input wire valid, // u1.0  A sum is there.
+    input wire [3:0] index, // u4.0  Which.
+    input wire signed [39:0] sum, // s40.30  The sum.
+    output reg [14:0] mean_square, // u15.15  The mean square.
+    output reg saturated // u1.0  Whether it is held at its rail.
+);
+
+    wire bit_7 = valid & (index == 4'd14); // u1.0
+    wire signed [17:0] fit_9 = {sum[39], sum[39:23]} + {17'd0, sum[22] & (sum[23] | (|sum[21:0]))}; // s18.15
+    wire [14:0] fit_10 = fit_9[17] ? 15'd0 : (|fit_9[16:15]) ? {15{1'b1}} : fit_9[14:0]; // u15.15
+
+    always @(posedge clock) begin
+        if (reset) begin
+            mean_square <= 15'd0;
+            saturated <= 1'd0;
+        end else begin
+            if (bit_7) begin
+                mean_square <= fit_10;
+                saturated <= ~({3'd0, fit_10} == fit_9);
+            end
+        end
+    end
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,79 @@
+// ratio: hapticore_model::blocks::ratio::Ratio
+// Printed from the model by `hapticore hdl --profile small`; not to be edited.
+
+`default_nettype none
+
+module ratio (
+    input wire clock,
+    input wire reset,
+    input wire start, // u1.0  The sums are there, and hold.
+    input wire signed [19:0] x, // s20.13  The numerator of r_x.
+    input wire signed [19:0] y, // s20.13  The numerator of r_y.
+    input wire [18:0] corners, // u19.13  Their denominator.
+    output reg done, // u1.0  Set for one clock when the ratios are there.
+    output reg signed [17:0] r_x, // s18.16  The x ratio.
+    output reg signed [17:0] r_y, // s18.16  The y ratio.
+    output reg invalid // u1.0  Whether the denominator is zero.
+);
+
+    reg [1:0] step; // u2.0  0 idle, 1 x, 2 y
+    reg divide; // u1.0
+    wire divider_done; // u1.0
+    wire [16:0] divider_quotient; // u17.16
+    wire divider_saturated; // u1.0
+
+    wire step_is_x = step == 2'd1; // u1.0
+    wire signed [19:0] choice_17 = step_is_x ? x : y; // s20.13
+    wire bit_22 = divider_done & step_is_x; // u1.0
+    wire bit_25 = divider_done & (step == 2'd2); // u1.0
+    wire signed [17:0] choice_29 =
+        (choice_17 < $signed(20'd0)) ? (18'd0 - {1'd0, divider_quotient})
+        : {1'd0, divider_quotient}; // s18.16
+
+    divider u_divider (
+        .clock(clock),
+        .reset(reset),
+        .start(divide),
+        .numerator(choice_17[19] ? 20'd0 - choice_17 : choice_17),
+        .denominator(corners),
+        .done(divider_done),
+        .quotient(divider_quotient),
+        .saturated(divider_saturated)
+    );
+
+    always @(posedge clock) begin
+        if (reset) begin
+            step <= 2'd0;
+            divide <= 1'd0;
+            r_x <= 18'd0;
+            r_y <= 18'd0;
+            invalid <= 1'd0;
+            done <= 1'd0;
+        end else begin
+            if (start) begin
+                step <= 2'd1;
+                divide <= 1'd1;
+                done <= 1'd0;
+            end else begin
+                divide <= bit_22;
+                done <= bit_25;
+                if (bit_22) begin
+                    step <= 2'd2;
+                    r_x <= choice_29;
+                end else if (bit_25) begin
+                    step <= 2'd0;
+                end
+                if (bit_25) begin
+                    r_y <= choice_29;
+                    invalid <= corners == 19'd0;
+                end
+            end
+        end
+    end
+
+    // What nothing needs.
+    wire unused = &{1'b0, divider_saturated};
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,70 @@
+// root_2: hapticore_model::blocks::root::Root
+// Printed from the model by `hapticore hdl --profile small`; not to be edited.
+
+`default_nettype none
+
+module root_2 (
+    input wire clock,
+    input wire reset,
+    input wire start, // u1.0  Takes the radicand and begins.
+    input wire [31:0] radicand, // u32.26  The number whose root is taken.
+    output reg done, // u1.0  Set for one clock when the root is there.
+    output reg [16:0] root // u17.13  The root, held until the next is there.
+);
+
+    reg busy; // u1.0
+    reg [4:0] count; // u5.0
+    reg [31:0] tail; // u32.0
+    reg [16:0] remainder; // u17.0
+    reg [15:0] partial; // u16.0
+
+    wire count_is_16 = count == 5'd16; // u1.0
+    wire [18:0] joined_21 = {remainder, tail[31:30]}; // u19.0
+    wire [17:0] joined_23 = {{partial, 1'd0}, 1'd1}; // u18.0
+    wire bit_25 = ~(joined_21 < {1'd0, joined_23}); // u1.0
+    wire [5:0] sum_28 = {1'd0, count} + 6'd1; // u6.0
+    wire [33:0] joined_31 = {{tail, 1'd0}, 1'd0}; // u34.0
+    wire signed [19:0] choice_27 = bit_25 ? ({1'd0, joined_21} - {2'd0, joined_23}) : {1'd0, joined_21}; // s20.0
+    wire [16:0] joined_34 = {partial, bit_25}; // u17.0
+
+    always @(posedge clock) begin
+        if (reset) begin
+            busy <= 1'd0;
+            count <= 5'd0;
+            tail <= 32'd0;
+            remainder <= 17'd0;
+            partial <= 16'd0;
+            done <= 1'd0;
+            root <= 17'd0;
+        end else begin
+            if (start) begin
+                busy <= 1'd1;
+                count <= 5'd0;
+                tail <= radicand;
+                remainder <= 17'd0;
+                partial <= 16'd0;
+                done <= 1'd0;
+            end else if (busy) begin
+                if (count_is_16) begin
+                    busy <= 1'd0;
+                    done <= 1'd1;
+                    root <= {1'd0, partial} + {16'd0, {1'd0, partial} < remainder};
+                end else begin
+                    count <= sum_28[4:0];
+                    tail <= joined_31[31:0];
+                    remainder <= choice_27[16:0];
+                    partial <= joined_34[15:0];
+                    done <= 1'd0;
+                end
+            end else begin
+                done <= 1'd0;
+            end
+        end
+    end
+
+    // What nothing needs.
+    wire unused = &{1'b0, sum_28[5], joined_31[33:32], choice_27[19:17], joined_34[16]};
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,134 @@
+// demodulator: hapticore_model::blocks::demodulator::Demodulator
+// Printed from the model by `hapticore hdl --profile standard`; not to be edited.
+
+`default_nettype none
+
+module demodulator (
+    input wire clock,
+    input wire reset,
+    input wire start, // u1.0  The oscillator's outputs are those of a sample to be integrated.
+    input wire first, // u1.0  The sample is the first of its window.
+    input wire last, // u1.0  The sample is the last of its window.
+    input wire [1:0] pad, // u2.0  The pad that is served.
+    input wire signed [17:0] code, // s18.17  The code of the channel asked for in the clock before.
+    input wire signed [17:0] cosine, // s18.17  The oscillator's.
+    input wire signed [17:0] sine, // s18.17  The oscillator's.
+    input wire signed [17:0] window, // s18.17  The oscillator's.
+    output wire [2:0] channel, // u3.0  The channel whose code is wanted in the next clock.
+    output reg valid, // u1.0  Set for a clock for each finished sum of a window.
+    output reg [3:0] index, // u4.0  Which sum: 2k the in-phase and 2k + 1 the quadrature of channel k, the last the mean square.
+    output reg signed [44:0] sum, // s45.34  The sum.
+    output wire [1:0] pad_out, // u2.0  The pad of the window.
+    output reg clipped // u1.0  Whether a code of the window was at a rail.
+);
+
+    reg busy; // u1.0
+    reg [4:0] step; // u5.0
+    reg first_q; // u1.0
+    reg last_q; // u1.0
+    reg [1:0] pad_q; // u2.0
+    reg signed [17:0] left; // s18.17
+    reg signed [17:0] right; // s18.17
+    reg signed [35:0] product; // s36.34
+    reg signed [17:0] weighted_cosine; // s18.17
+    reg signed [17:0] weighted_sine; // s18.17
+    reg signed [17:0] weighted_haptic; // s18.17
+    reg signed [44:0] sums [0:14]; // 15 words s45.34
+    reg signed [44:0] sums_word; // its read register
+
+    wire signed [5:0] difference_24 = {1'd0, step} - 6'd2; // s6.0
+    wire bit_27 = ~(step < 5'd2); // u1.0
+    wire write_sums = (~(step < 5'd5)) & busy; // u1.0
+    wire signed [5:0] difference_36 = {1'd0, step} - 6'd5; // s6.0
+    wire signed [5:0] difference_42 = {1'd0, step} - 6'd4; // s6.0
+    wire signed [44:0] choice_49 = first_q ? 45'd0 : sums_word; // s45.34
+    wire signed [45:0] sum_50 = {{1{choice_49[44]}}, choice_49} + {{10{product[35]}}, product}; // s46.34
+    wire less_56 = step < 5'd3; // u1.0
+    wire signed [5:0] difference_59 = {1'd0, step} - 6'd3; // s6.0
+    wire step_is_19 = step == 5'd19; // u1.0
+    wire [5:0] choice_76 = step_is_19 ? 6'd0 : ({1'd0, step} + 6'd1); // u6.0
+    wire signed [35:0] product_78 = left * right; // s36.34
+    wire signed [17:0] fit_80 = product[34:17] + {17'd0, product[16] & (product[17] | (|product[15:0]))}; // s18.17
+    wire bit_93 = clipped | ((bit_27 & (step < 5'd18)) ? ((code == 18'd131071) | (code == 18'h20000)) : 1'd0); // u1.0
+
+    initial begin : initial_sums
+        integer i;
+        for (i = 0; i < 15; i = i + 1) sums[i] = 45'd0;
+    end
+
+    always @(posedge clock) begin
+        if (write_sums) sums[difference_36[3:0]] <= sum_50[44:0];
+        sums_word <= sums[difference_42[3:0]];
+    end
+
+    always @(posedge clock) begin
+        if (reset) begin
+            busy <= 1'd0;
+            step <= 5'd0;
+            first_q <= 1'd0;
+            last_q <= 1'd0;
+            pad_q <= 2'd0;
+            left <= 18'd0;
+            right <= 18'd0;
+            product <= 36'd0;
+            weighted_cosine <= 18'd0;
+            weighted_sine <= 18'd0;
+            weighted_haptic <= 18'd0;
+            valid <= 1'd0;
+            index <= 4'd0;
+            sum <= 45'd0;
+            clipped <= 1'd0;
+        end else begin
+            if (start) begin
+                busy <= 1'd1;
+                step <= 5'd0;
+                first_q <= first;
+                last_q <= last;
+                pad_q <= pad;
+                valid <= 1'd0;
+                if (first) begin
+                    clipped <= 1'd0;
+                end
+            end else if (busy) begin
+                busy <= ~step_is_19;
+                step <= choice_76[4:0];
+                product <= product_78;
+                valid <= write_sums & last_q;
+                index <= difference_36[3:0];
+                sum <= sum_50[44:0];
+                clipped <= bit_93;
+                if (step == 5'd4) begin
+                    weighted_haptic <= fit_80;
+                end
+                if (step == 5'd3) begin
+                    weighted_sine <= fit_80;
+                end
+                if (step == 5'd2) begin
+                    weighted_cosine <= fit_80;
+                end
+                if (less_56) begin
+                    left <= window;
+                    right <= (step == 5'd0) ? cosine : (step == 5'd1) ? sine : code;
+                end else begin
+                    left <= code;
+                    right <=
+                        (step == 5'd17) ? weighted_haptic
+                        : difference_59[0] ? weighted_sine
+                        : weighted_cosine;
+                end
+            end else begin
+                valid <= 1'd0;
+            end
+        end
+    end
+
+    assign channel = (bit_27 & (step < 5'd16)) ? difference_24[3:1] : 3'd7;
+    assign pad_out = pad_q;
+
+    // What nothing needs.
+    wire unused = &{1'b0, difference_24[0], difference_24[5:4], difference_36[5:4], difference_42[5:4], sum_50[45],
+        difference_59[5:1], choice_76[5]};
+
+endmodule
+
+`default_nettype wire

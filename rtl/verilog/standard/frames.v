@@ -1,0 +1,89 @@
+// frames: hapticore_model::blocks::frames::Frames
+// Printed from the model by `hapticore hdl --profile standard`; not to be edited.
+
+`default_nettype none
+
+module frames (
+    input wire clock,
+    input wire reset,
+    input wire start, // u1.0  All others are there, and hold.
+    input wire [1:0] pad, // u2.0  The pad.
+    input wire invalid, // u1.0  The results are invalid: those held go out.
+    input wire signed [21:0] r_x, // s22.20  As [`Field::RatioX`].
+    input wire signed [21:0] r_y, // s22.20  As [`Field::RatioY`].
+    input wire signed [17:0] x, // s18.8  As [`Field::X`].
+    input wire signed [17:0] y, // s18.8  As [`Field::Y`].
+    input wire [16:0] sheet, // u17.17  As [`Field::Sheet`].
+    input wire [23:0] capacitance, // u24.13  As [`Field::Capacitance`].
+    input wire [19:0] haptic_force, // u20.17  As [`Field::Force`].
+    input wire [21:0] mean_square, // u22.22  As [`Field::MeanSquare`].
+    output reg valid, // u1.0  Set for a clock for each word.
+    output reg [2:0] index, // u3.0  Which field the word is.
+    output reg signed [24:0] word, // s25.0  The word.
+    output reg done // u1.0  Set with the last word.
+);
+
+    reg busy; // u1.0
+    reg [3:0] count; // u4.0
+    reg signed [24:0] held [0:31]; // 32 words s25.0
+    reg signed [24:0] held_word; // its read register
+
+    wire signed [4:0] difference_20 = {1'd0, count} - 5'd1; // s5.0
+    wire write_held = busy & (~(count == 4'd0)); // u1.0
+    wire signed [24:0] held_write_word =
+        (invalid & (~(difference_20[2:0] == 3'd7))) ? held_word
+        : (difference_20[2:0] == 3'd0) ? {{3{r_x[21]}}, r_x}
+        : (difference_20[2:0] == 3'd1) ? {{3{r_y[21]}}, r_y}
+        : (difference_20[2:0] == 3'd2) ? {{7{x[17]}}, x}
+        : (difference_20[2:0] == 3'd3) ? {{7{y[17]}}, y}
+        : (difference_20[2:0] == 3'd4) ? {8'd0, sheet}
+        : (difference_20[2:0] == 3'd5) ? {1'd0, capacitance}
+        : (difference_20[2:0] == 3'd6) ? {5'd0, haptic_force}
+        : {3'd0, mean_square}; // s25.0
+    wire [2:0] bits_21 = difference_20[2:0]; // u3.0
+    wire count_is_8 = count == 4'd8; // u1.0
+    wire [4:0] choice_76 = busy ? ({1'd0, count} + 5'd1) : {1'd0, count}; // u5.0
+
+    initial begin : initial_held
+        integer i;
+        for (i = 0; i < 32; i = i + 1) held[i] = 25'd0;
+    end
+
+    always @(posedge clock) begin
+        if (write_held) held[{pad, bits_21}] <= held_write_word;
+        held_word <= held[{pad, count[2:0]}];
+    end
+
+    always @(posedge clock) begin
+        if (reset) begin
+            busy <= 1'd0;
+            count <= 4'd0;
+            index <= 3'd0;
+            valid <= 1'd0;
+            word <= 25'd0;
+            done <= 1'd0;
+        end else begin
+            if (start) begin
+                busy <= 1'd1;
+                count <= 4'd0;
+                valid <= 1'd0;
+                done <= 1'd0;
+            end else begin
+                busy <= busy & (~count_is_8);
+                count <= choice_76[3:0];
+                valid <= write_held;
+                done <= write_held & count_is_8;
+                if (write_held) begin
+                    index <= bits_21;
+                    word <= held_write_word;
+                end
+            end
+        end
+    end
+
+    // What nothing needs.
+    wire unused = &{1'b0, difference_20[4:3], choice_76[4]};
+
+endmodule
+
+`default_nettype wire

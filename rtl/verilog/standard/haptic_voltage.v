@@ -1,0 +1,34 @@
+// haptic_voltage: hapticore_model::blocks::haptic_voltage::HapticVoltage
+// Printed from the model by `hapticore hdl --profile standard`; not to be edited.
+
+`default_nettype none
+
+module haptic_voltage (
+    input wire clock,
+    input wire reset,
+    input wire valid, // u1.0  A sum is there.
+    input wire [3:0] index, // u4.0  Which.
+    input wire signed [44:0] sum, // s45.34  The sum.
+    output reg [21:0] mean_square, // u22.22  The mean square.
+    output reg saturated // u1.0  Whether it is held at its rail.
+);
+
+    wire bit_7 = valid & (index == 4'd14); // u1.0
+    wire signed [24:0] fit_9 = {sum[44], sum[44:21]} + {24'd0, sum[20] & (sum[21] | (|sum[19:0]))}; // s25.22
+    wire [21:0] fit_10 = fit_9[24] ? 22'd0 : (|fit_9[23:22]) ? {22{1'b1}} : fit_9[21:0]; // u22.22
+
+    always @(posedge clock) begin
+        if (reset) begin
+            mean_square <= 22'd0;
+            saturated <= 1'd0;
+        end else begin
+            if (bit_7) begin
+                mean_square <= fit_10;
+                saturated <= ~({3'd0, fit_10} == fit_9);
+            end
+        end
+    end
+
+endmodule
+
+`default_nettype wire

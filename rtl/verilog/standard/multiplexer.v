@@ -1,0 +1,59 @@
+// multiplexer: hapticore_model::blocks::multiplexer::Multiplexer
+// Printed from the model by `hapticore hdl --profile standard`; not to be edited.
+
+`default_nettype none
+
+module multiplexer (
+    input wire clock,
+    input wire reset,
+    input wire strobe, // u1.0  A set of ADC codes is there.
+    output reg sample, // u1.0  Set for one clock for each sample; the flags below are about this sample.
+    output reg restart, // u1.0  The first of a slot: the carrier begins anew.
+    output reg integrate, // u1.0  Within the integration window.
+    output reg first, // u1.0  The first of the window.
+    output reg last, // u1.0  The last of the window.
+    output reg [1:0] pad, // u2.0  The pad that is served.
+    output reg closed // u1.0  Whether the pad's switch is made.
+);
+
+    reg [10:0] count; // u11.0
+    reg [1:0] next; // u2.0
+
+    wire count_is_1699 = count == 11'd1699; // u1.0
+    wire [11:0] choice_16 = count_is_1699 ? 12'd0 : ({1'd0, count} + 12'd1); // u12.0
+    wire [2:0] choice_21 = (next == 2'd3) ? 3'd0 : ({1'd0, next} + 3'd1); // u3.0
+
+    always @(posedge clock) begin
+        if (reset) begin
+            count <= 11'd0;
+            next <= 2'd0;
+            sample <= 1'd0;
+            restart <= 1'd0;
+            integrate <= 1'd0;
+            first <= 1'd0;
+            last <= 1'd0;
+            pad <= 2'd0;
+            closed <= 1'd0;
+        end else begin
+            sample <= strobe;
+            if (strobe) begin
+                count <= choice_16[10:0];
+                restart <= count == 11'd0;
+                integrate <= ~(count < 11'd700);
+                first <= count == 11'd700;
+                last <= count_is_1699;
+                pad <= next;
+                closed <= ~(count < 11'd10);
+                if (count_is_1699) begin
+                    next <= choice_21[1:0];
+                end
+            end
+        end
+    end
+
+    // What nothing needs.
+    wire unused = &{1'b0, choice_16[11], choice_21[2]};
+
+endmodule
+
+`default_nettype wire
