@@ -1,2 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Placeholder.
+//! What the tests that cross crates share.
+//!
+//! | module | does |
+//! | --- | --- |
+//! | [`lockstep`] | the model and its Verilog, every output at every clock |
+//! | [`stimulus`] | what a core is given: random and directed input, whole scenes |
+//! | [`tools`] | the HDL tools, and what is said where one is missing |
+
+pub mod lockstep;
+pub mod stimulus;
+pub mod tools;

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Lock-step: a block's clocked model runs once and leaves a [`Trace`], every input and output at every clock; then its Verilog
+//! runs on the same inputs in a simulator, which stops at the first output that differs.
+//!
+//! | file | runs the Verilog in |
+//! | --- | --- |
+//! | [`verilator`] | Verilator: millions of clocks |
+//! | [`icarus`] | Icarus Verilog: an event-driven simulator with unknown values, written by other people |
+
+pub mod icarus;
+mod trace;
+pub mod verilator;
+
+pub use trace::Trace;
+
+use std::fmt;
+
+/// The first output that differs.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Mismatch {
+    /// At which clock after reset.
+    pub clock: usize,
+    /// Which output.
+    pub signal: String,
+    /// The model's code, as bits.
+    pub model: String,
+    /// The Verilog's, as bits.
+    pub verilog: String,
+    /// The inputs of that clock.
+    pub inputs: String,
+}
+
+impl fmt::Display for Mismatch {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let Mismatch { clock, signal, model, verilog, inputs } = self;
+        write!(f, "clock {clock}: {signal}: model {model}, Verilog {verilog}; inputs {inputs}")
+    }
+}
+
+/// Reads a simulator's verdict: a line `mismatch CLOCK SIGNAL MODEL VERILOG`, or `equal CLOCKS`.
+fn verdict(said: &str, trace: &Trace) -> Result<(), Mismatch> {
+    let words = |line: &str| line.split_whitespace().map(str::to_owned).collect::<Vec<_>>();
+    for line in said.lines().map(words) {
+        match line.iter().map(String::as_str).collect::<Vec<_>>()[..] {
+            ["mismatch", clock, signal, model, verilog] => {
+                let clock: usize = clock.parse().expect("a clock");
+                let [signal, model, verilog] = [signal, model, verilog].map(str::to_owned);
+                return Err(Mismatch { clock, signal, model, verilog, inputs: trace.inputs(clock) });
+            }
+            ["equal", clocks] => {
+                assert_eq!(clocks.parse(), Ok(trace.clocks()), "the simulator ran all clocks");
+                return Ok(());
+            }
+            _ => (),
+        }
+    }
+    panic!("the simulator gave no verdict: {said}");
+}

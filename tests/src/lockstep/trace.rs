@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What a block was given and gave, clock by clock.
+
+use hapticore_model::block::Block;
+use hapticore_model::bundle::Bundle;
+use hapticore_model::signal::Signal;
+use hapticore_rtl::verilog::{Direction, Port};
+
+/// Codes of all ports at every clock after reset: inputs, then outputs, in the order of the ports.
+#[derive(Debug, Clone)]
+pub struct Trace {
+    /// The ports.
+    pub ports: Vec<Port>,
+    codes: Vec<i64>,
+}
+
+impl Trace {
+    /// Runs a block's clocked model from reset. The stimulus is told the outputs of the clock before, and gives the codes of
+    /// the inputs, or nothing at its end.
+    ///
+    /// # Panics
+    /// Where a code is not one of its port's format.
+    pub fn record<B: Block>(
+        block: &B,
+        ports: Vec<Port>,
+        mut stimulus: impl FnMut(&[i64]) -> Option<Vec<i64>>,
+    ) -> Trace {
+        let inputs = ports.iter().filter(|port| port.direction == Direction::Input).count();
+        let mut cell = block.cell::<i64>();
+        let mut codes: Vec<i64> = Vec::new();
+        let mut outputs = vec![0; ports.len() - inputs];
+        while let Some(given) = stimulus(&outputs) {
+            let mut given = given.into_iter();
+            let signals = B::Inputs::map(block.inputs(), |format| {
+                let value = given.next().expect("a code for each input");
+                assert!(
+                    (format.min_code()..=format.max_code()).contains(&value.into()),
+                    "{value} is no code of {format}"
+                );
+                codes.push(value);
+                Signal { value, format }
+            });
+            outputs.clear();
+            B::Outputs::each(block.clock(&mut cell, signals), |_, signal| outputs.push(signal.value));
+            codes.extend(&outputs);
+        }
+        Trace { ports, codes }
+    }
+
+    /// How many clocks.
+    pub fn clocks(&self) -> usize {
+        self.codes.len() / self.ports.len()
+    }
+
+    /// The codes of a clock.
+    pub fn row(&self, clock: usize) -> &[i64] {
+        &self.codes[clock * self.ports.len()..][..self.ports.len()]
+    }
+
+    /// The first clocks of it.
+    pub fn first(&self, clocks: usize) -> Trace {
+        let kept = clocks.min(self.clocks()) * self.ports.len();
+        Trace { ports: self.ports.clone(), codes: self.codes[..kept].to_vec() }
+    }
+
+    /// The inputs of a clock, by name.
+    pub fn inputs(&self, clock: usize) -> String {
+        let inputs = self.ports.iter().zip(self.row(clock)).filter(|(port, _)| port.direction == Direction::Input);
+        inputs.map(|(port, code)| format!("{} {code}", port.name)).collect::<Vec<_>>().join(", ")
+    }
+
+    /// All codes as 64-bit words, least significant byte first.
+    pub fn bytes(&self) -> Vec<u8> {
+        self.codes.iter().flat_map(|code| code.to_le_bytes()).collect()
+    }
+}
+
+/// The bits of a code.
+pub fn bits(code: i64, width: u8) -> u64 {
+    code as u64 & (u64::MAX >> (64 - u32::from(width)))
+}

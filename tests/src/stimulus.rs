@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What a core is given, clock by clock: the calibration through its port, then sets of ADC codes.
+
+use fastrand::Rng;
+use hapticore::case::{Case, Maker};
+use hapticore::engine::Signals;
+use hapticore::inputs;
+use hapticore_model::block::Block;
+use hapticore_model::blocks::core::{Core, Inputs, Outputs};
+use hapticore_model::bundle::Bundle;
+use hapticore_model::format::Format;
+use hapticore_model::memory::Memory;
+use hapticore_model::profile::Profile;
+
+/// What the core is given of the plant: sets of codes, one for each strobe.
+pub type Samples = Box<dyn Iterator<Item = Vec<i64>>>;
+
+/// A stimulus for [`Trace::record`](crate::lockstep::Trace::record).
+pub struct Stimulus {
+    constants: Inputs<i64>,
+    /// Words of the calibration that are still to be written.
+    table: Box<dyn Iterator<Item = (i64, i64)>>,
+    samples: Samples,
+    codes: Vec<i64>,
+    clock: u64,
+    clocks_per_sample: u64,
+    /// Writes into the table while it is in use.
+    disturb: Option<(Rng, Memory)>,
+}
+
+impl Stimulus {
+    /// The inputs of the next clock.
+    pub fn next(&mut self, outputs: &[i64]) -> Option<Vec<i64>> {
+        let inputs = match self.table.next() {
+            Some((address, word)) => Inputs { write: 1, address, word, ..self.constants },
+            None => self.sample(outputs)?,
+        };
+        let mut codes = Vec::with_capacity(Inputs::NAMES.len());
+        Inputs::each(inputs, |_, code| codes.push(code));
+        Some(codes)
+    }
+
+    fn sample(&mut self, outputs: &[i64]) -> Option<Inputs<i64>> {
+        let strobe = self.clock.is_multiple_of(self.clocks_per_sample);
+        if strobe {
+            self.codes = self.samples.next()?;
+        }
+        self.clock += 1;
+        let channel = Outputs::NAMES.iter().position(|name| *name == "channel").expect("a port");
+        let code = self.codes[outputs[channel] as usize];
+        let inputs = Inputs { strobe: i64::from(strobe), code, ..self.constants };
+        Some(match &mut self.disturb {
+            Some((rng, table)) => disturbed(inputs, rng, table),
+            None => inputs,
+        })
+    }
+}
+
+/// The rails of a format, what is next to them and to zero, and else anything.
+pub fn corner(rng: &mut Rng, format: Format) -> i64 {
+    let (low, high) = (format.min_code() as i64, format.max_code() as i64);
+    match rng.u8(..8) {
+        0 => low,
+        1 => high,
+        2 => (low + 1).min(high),
+        3 => 0,
+        4 => 1.min(high),
+        5 => (-1).max(low),
+        _ => rng.i64(low..=high),
+    }
+}
+
+/// Writes into the table while it is read, now and then.
+fn disturbed(inputs: Inputs<i64>, rng: &mut Rng, table: &Memory) -> Inputs<i64> {
+    let write = i64::from(rng.u8(..16) == 0);
+    Inputs { write, address: rng.i64(0..table.words as i64), word: corner(rng, table.format), ..inputs }
+}
+
+/// Slots of a scene's first case, each served to every pad of the profile in turn where the scene has fewer.
+///
+/// # Panics
+/// Where there is no such scene.
+pub fn scene(profile: &Profile, name: &str, slots: usize) -> Stimulus {
+    let scene = inputs::scene(name, &[]).expect("bundled");
+    let case = Case::new(&scene, 0, 0, profile, 0.0).expect("a case");
+    let calibration = case.device.of(profile).expect("a calibration");
+    let mut maker = Maker::new(case.plant().expect("a plant"), &case.profile, true, true);
+    let (channels, last) = (profile.channels(), case.slots);
+    let samples = (0..slots).flat_map(move |slot| {
+        let Signals::Samples { codes, .. } = maker.sample(slot % last).0 else {
+            unreachable!("it was asked for samples")
+        };
+        codes.chunks_exact(channels).map(|set| set.iter().map(|&code| code.into()).collect()).collect::<Vec<Vec<i64>>>()
+    });
+    let formats = Core::new(profile).inputs();
+    let words: Vec<_> = calibration.map.words.iter().map(|&word| formats.word.code_saturating(word)).collect();
+    Stimulus {
+        constants: calibration.inputs(formats),
+        table: Box::new(words.into_iter().enumerate().map(|(address, word)| (address as i64, word))),
+        samples: Box::new(samples),
+        codes: vec![0; channels],
+        clock: 0,
+        clocks_per_sample: profile.clocks_per_sample,
+        disturb: None,
+    }
+}
+
+/// Anything at all, corners more than their share: calibration, tables written while they are read, and codes.
+pub fn random(profile: &Profile, seed: u64, slots: u64) -> Stimulus {
+    let mut rng = Rng::with_seed(seed);
+    let core = Core::new(profile);
+    let memory = core.estimator().map().words().clone();
+    let constants = Inputs::map(core.inputs(), |format| corner(&mut rng, format));
+    let table: Vec<i64> = (0..memory.words).map(|_| corner(&mut rng, memory.format)).collect();
+    let (channels, adc, disturb) = (profile.channels(), profile.formats.adc, (rng.fork(), memory));
+    let samples =
+        (0..slots * profile.slot.samples()).map(move |_| (0..channels).map(|_| corner(&mut rng, adc)).collect());
+    Stimulus {
+        constants: Inputs { strobe: 0, code: 0, write: 0, address: 0, word: 0, ..constants },
+        table: Box::new(table.into_iter().enumerate().map(|(address, word)| (address as i64, word))),
+        samples: Box::new(samples),
+        codes: vec![0; channels],
+        clock: 0,
+        clocks_per_sample: profile.clocks_per_sample,
+        disturb: Some(disturb),
+    }
+}

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The HDL tools that tests look through.
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+/// Whether all these commands are there. Where one is not, it is said; in CI that is a failure.
+///
+/// # Panics
+/// In CI (`CI=true`), where one is missing.
+pub fn have(commands: &[&str]) -> bool {
+    let there = |command: &str| {
+        let paths = std::env::var_os("PATH").unwrap_or_default();
+        std::env::split_paths(&paths).any(|folder| folder.join(command).is_file())
+    };
+    let missing: Vec<_> = commands.iter().copied().filter(|command| !there(command)).collect();
+    if missing.is_empty() {
+        return true;
+    }
+    assert!(std::env::var("CI").as_deref() != Ok("true"), "missing in CI: {}", missing.join(", "));
+    eprintln!("SKIPPED: {} not found; ./test fetches what is missing", missing.join(", "));
+    false
+}
+
+/// Runs a command in a folder to its end.
+///
+/// # Panics
+/// Where it cannot be started, or fails; with all it said.
+pub fn run(command: &mut Command, folder: &Path) -> String {
+    let Output { status, stdout, stderr } =
+        command.current_dir(folder).output().unwrap_or_else(|error| panic!("{command:?}: {error}"));
+    let said = String::from_utf8_lossy(&stdout).into_owned();
+    assert!(status.success(), "{command:?}: {status}\n{said}\n{}", String::from_utf8_lossy(&stderr));
+    said
+}
