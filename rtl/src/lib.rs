@@ -3,6 +3,8 @@
 //!
 //! | module | does |
 //! | --- | --- |
+//! | [`board`] | the peripherals of a board and the board itself, as blocks like those of the core |
 //! | [`verilog`] | prints any block of the model as Verilog-2005, a module for each block within |
 
+pub mod board;
 pub mod verilog;

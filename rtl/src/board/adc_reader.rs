@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! ADC reader: eight channels, sampled together, each on a data line of its own, at the core's clock.
+//!
+//! For an AD7606C-16 or -18 in its serial software mode with eight DOUT lines. C clocks are a conversion's, W the word's
+//! bits, P a sample's; a set is read while the next one is being converted.
+//!
+//! ```text
+//! clock   0        C     C+1  C+2        C+W  C+W+1       then, in the core:
+//! CONVST  ┐‾‾‾‾‾…
+//! BUSY     ┌‾‾‾‾‾┐____________________________             checked at C's end: high is `late`, and so is never having risen
+//! CS      ‾‾‾‾‾‾‾‾┐_______________________┌‾‾‾
+//! SCLK    ‾‾‾‾‾‾‾‾‾‾‾┐_┌‾┐_┌‾ … ┐_┌‾‾‾‾‾‾‾‾‾‾             high, then low, within each of W clocks
+//! DOUTx            ⟨W−1⟩⟨W−2⟩ … ⟨ 0 ⟩                      captured at the end of each of these clocks
+//! store                         C+W … C+W+7                one word a clock, channel 0 first; `strobe` follows
+//! ```
+//!
+//! The ADC puts out the first bit at CS, each other one after a *rising* edge of SCLK, and holds it until the next. Rising edges
+//! leave the FPGA with the edge of the core's clock that also captures the bit before: a bit has a whole clock less the
+//! output's delay, the ADC's access time and the input's set-up (40 ns less about 5 + 15 + 2 ns at 25 MHz), and the hold
+//! is the output's delay and more. Falling edges, half a clock away, move nothing; SDI, which the ADC latches with them, changes
+//! with the core's clock and so has half a clock on either side.
+//!
+//! The registers of the ADC are written through `write` and `word` (16 bits: address and data) while nothing is enabled.
+//!
+//! | signal     | format     | overflow                  |
+//! | phase      | counter P  | wraps at P, by compare    |
+//! | line_a … h | u W−1      | shifted out, meant        |
+//!
+//! Words go to a memory that the board owns (two sets: one is stored while the core reads the other). Latency: C + W + 8
+//! clocks from CONVST to `strobe`. Nothing waits for the ADC, so nothing can hang.
+//! Source: data sheets of the AD7606 family, serial interface ("MSB at CS, the others at the rising edges of SCLK") and register
+//! map; [`Parameters`] holds the times that the schedule asks of the ADC.
+
+use super::bits::{flag, next, read_as, word};
+use super::parameters::Parameters;
+use hapticore_model::block::{Block, Cell};
+use hapticore_model::format::{BIT, Format};
+use hapticore_model::profile::Profile;
+use hapticore_model::signal::{Signal, Value, bit, int, zero};
+use hapticore_model::{bundle, when};
+
+bundle! {
+    /// The inputs.
+    pub struct Inputs {
+        /// Converts and reads, again and again.
+        enable,
+        /// Pin: a conversion is under way.
+        busy,
+        /// Pins: a data line a channel, the first channel the least significant bit.
+        dout,
+        /// Writes a register of the ADC; taken where nothing is enabled.
+        write,
+        /// Six bits of address below two zeros, and eight of data.
+        word,
+    }
+}
+
+bundle! {
+    /// The outputs.
+    pub struct Outputs {
+        /// Pin: its rising edge samples all channels.
+        convst,
+        /// Pin: low while a set is read.
+        cs_n,
+        /// SCLK has a pulse in this clock; the pin follows by the latency of its primitive.
+        sclk_run,
+        /// Pin: a bit of a register's new word.
+        sdi,
+        /// Set for each word of a set.
+        store,
+        /// Where it belongs: the set, and the channel.
+        address,
+        /// The word.
+        code,
+        /// The set that is complete.
+        bank,
+        /// Set for a clock when it is.
+        strobe,
+        /// With `strobe`: the ADC was not done in time, and the codes are none.
+        late,
+    }
+}
+
+bundle! {
+    /// The registers.
+    pub struct Registers {
+        phase, convst, selected, run, capture, unload, index, filling, strobe, busy_pin, busy, began, late,
+        configuring, command, tail, line_a, line_b, line_c, line_d, line_e, line_f, line_g, line_h,
+    }
+}
+
+/// The configuration.
+#[derive(Debug, Clone)]
+pub struct AdcReader {
+    period: u64,
+    conversion: u64,
+    latency: u64,
+    channels: u64,
+    code: Format,
+}
+
+/// Bits of a register access.
+const COMMAND_BITS: u64 = 16;
+
+impl AdcReader {
+    /// The reader of a profile's ADC on a board.
+    pub fn new(profile: &Profile, parameters: &Parameters) -> Self {
+        AdcReader {
+            period: profile.clocks_per_sample,
+            conversion: parameters.conversion(),
+            latency: parameters.sclk_latency,
+            channels: profile.channels() as u64,
+            code: profile.formats.adc,
+        }
+    }
+
+    /// Clocks from CONVST to the strobe of its set.
+    pub fn latency(&self) -> u64 {
+        self.conversion + self.bits() + self.channels
+    }
+
+    fn bits(&self) -> u64 {
+        u64::from(self.code.width)
+    }
+
+    /// One clock of the schedule. What is set while `phase` is t is there from clock t of the chart on.
+    #[inline(always)]
+    fn step<V: Value>(&self, r: Registers<Signal<V>>, i: &Inputs<Signal<V>>) -> Registers<Signal<V>> {
+        let at = |clock: u64| r.phase.is(clock % self.period);
+        let (cs, first) = (self.conversion, self.conversion + 1);
+        let pulses = first - self.latency;
+        let over = |from: u64| at(from + self.bits()) | (r.configuring & at(from + COMMAND_BITS));
+        let (stored, done) = (r.unload & r.index.is(self.channels - 1), r.selected & over(first));
+        let turn = at(self.period - 1) | (r.configuring & done);
+        Registers {
+            phase: turn.select(int(0), next(r.phase)),
+            convst: flag(r.convst, at(0) & !r.configuring, at(self.period / 2)),
+            selected: flag(r.selected, at(cs), done),
+            run: flag(r.run, at(pulses), over(pulses)),
+            capture: flag(r.capture, at(first), at(first + self.bits() - 1)),
+            unload: flag(r.unload, r.capture & at(first + self.bits() - 1) & !r.configuring, stored),
+            index: r.unload.select(stored.select(int(0), next(r.index)), int(0)),
+            filling: stored.select(!r.filling, r.filling),
+            strobe: stored,
+            // BUSY has risen in clock 0 or 1, and passes two registers: so does its fall, which is due by the end of clock C.
+            began: at(4).select(r.busy, r.began),
+            late: at(cs + 3).select(r.busy | !r.began, r.late),
+            configuring: r.configuring & !done,
+            command: r.capture.select(r.command.concat(bit(false)).bits(0, COMMAND_BITS as u8), r.command),
+            ..self.lines(r, i)
+        }
+    }
+
+    /// The data lines' words: shifted in bit by bit, then along from channel to channel. The last bits come straight from the
+    /// pins, so that storing begins a clock earlier than the words are complete.
+    #[inline(always)]
+    fn lines<V: Value>(&self, r: Registers<Signal<V>>, i: &Inputs<Signal<V>>) -> Registers<Signal<V>> {
+        let lines = [r.line_a, r.line_b, r.line_c, r.line_d, r.line_e, r.line_f, r.line_g, r.line_h];
+        let line = |k: usize| {
+            if k as u64 >= self.channels {
+                return zero(self.line());
+            }
+            let shifted = lines[k].concat(i.dout.bits(k as u8, 1)).bits(0, self.line().width);
+            if k as u64 + 1 == self.channels { shifted } else { r.unload.select(lines[k + 1], shifted) }
+        };
+        let tail = r.index.is(0).select(i.dout, bit(false).concat(r.tail));
+        Registers {
+            tail: tail.bits(1, self.tail().width),
+            line_a: line(0),
+            line_b: line(1),
+            line_c: line(2),
+            line_d: line(3),
+            line_e: line(4),
+            line_f: line(5),
+            line_g: line(6),
+            line_h: line(7),
+            ..r
+        }
+    }
+
+    /// Nothing enabled: a register of the ADC may be written.
+    #[inline(always)]
+    fn rest<V: Value>(&self, r: Registers<Signal<V>>, i: &Inputs<Signal<V>>) -> Registers<Signal<V>> {
+        let no = bit(false);
+        Registers {
+            phase: int(0),
+            convst: no,
+            selected: no,
+            run: no,
+            capture: no,
+            unload: no,
+            index: int(0),
+            strobe: no,
+            began: no,
+            late: no,
+            configuring: i.write,
+            command: i.write.select(i.word, r.command),
+            ..r
+        }
+    }
+
+    /// All bits of a word but the last.
+    fn line(&self) -> Format {
+        Format::unsigned(self.code.width - 1, 0)
+    }
+
+    /// The last bits of all channels but the first.
+    fn tail(&self) -> Format {
+        Format::unsigned(self.channels as u8 - 1, 0)
+    }
+
+    fn index(&self) -> Format {
+        Format::counter(self.channels - 1)
+    }
+}
+
+impl Block for AdcReader {
+    const NAME: &'static str = "adc_reader";
+    type Inputs = Inputs;
+    type Outputs = Outputs;
+    type Registers = Registers;
+    type Parts<V: Value> = ();
+
+    fn inputs(&self) -> Inputs<Format> {
+        let word = Format::unsigned(COMMAND_BITS as u8, 0);
+        Inputs { enable: BIT, busy: BIT, dout: Format::unsigned(self.channels as u8, 0), write: BIT, word }
+    }
+
+    fn outputs(&self) -> Outputs<Format> {
+        Outputs {
+            convst: BIT,
+            cs_n: BIT,
+            sclk_run: BIT,
+            sdi: BIT,
+            store: BIT,
+            address: Format::unsigned(self.index().width + 1, 0),
+            code: self.code,
+            bank: BIT,
+            strobe: BIT,
+            late: BIT,
+        }
+    }
+
+    fn registers(&self) -> Registers<Format> {
+        let line = self.line();
+        Registers {
+            phase: Format::counter(self.period - 1),
+            convst: BIT,
+            selected: BIT,
+            run: BIT,
+            capture: BIT,
+            unload: BIT,
+            index: self.index(),
+            filling: BIT,
+            strobe: BIT,
+            busy_pin: BIT,
+            busy: BIT,
+            began: BIT,
+            late: BIT,
+            configuring: BIT,
+            command: Format::unsigned(COMMAND_BITS as u8, 0),
+            tail: self.tail(),
+            line_a: line,
+            line_b: line,
+            line_c: line,
+            line_d: line,
+            line_e: line,
+            line_f: line,
+            line_g: line,
+            line_h: line,
+        }
+    }
+
+    #[inline(always)]
+    fn clock<V: Value>(&self, cell: &mut Cell<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+        let r = cell.load(self);
+        let running = i.enable | r.configuring;
+        let next = when!(V, Registers, running, self.step(r, &i), self.rest(r, &i));
+        cell.store(self, Registers { busy_pin: i.busy, busy: r.busy_pin, ..next });
+        let last_bit = r.index.is(0).select(i.dout.bits(0, 1), r.tail.bits(0, 1));
+        Outputs {
+            convst: r.convst,
+            cs_n: !r.selected,
+            sclk_run: r.run,
+            sdi: r.command.msb(),
+            store: r.unload,
+            address: word([r.index, r.filling]),
+            code: read_as(r.line_a.concat(last_bit), self.code),
+            bank: !r.filling,
+            strobe: r.strobe,
+            late: r.strobe & r.late,
+        }
+    }
+}

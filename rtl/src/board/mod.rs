@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Boards: the core's peripherals as blocks like its own, and what stands between them and the pins of a real board.
+//!
+//! | module | does |
+//! | --- | --- |
+//! | [`whole`] | the board: core and peripherals, its ports the pins |
+//! | [`adc_reader`] | eight channels of a simultaneous ADC, in |
+//! | [`sigma_delta`] | the carrier, out |
+//! | [`pads`] | one pad at a time, out |
+//! | [`uart`], [`crc16`], [`framing`] | the serial line and its packets |
+//! | [`stream`] | frames, out |
+//! | [`registers`] | calibration, in |
+//! | [`packet`] | the host's side of the line |
+//! | [`parameters`] | what a board adds to a profile |
+
+pub mod adc_reader;
+mod bits;
+pub mod crc16;
+pub mod framing;
+pub mod packet;
+pub mod pads;
+pub mod parameters;
+pub mod registers;
+pub mod sigma_delta;
+pub mod stream;
+pub mod uart;
+pub mod whole;
+
+pub use parameters::{Parameters, ParametersError};
+pub use whole::Board;

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What a board adds to a profile: its clock, its serial port, its ADC's pins.
+
+use hapticore_model::profile::Profile;
+
+/// A board's own numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Parameters {
+    /// The core's clock.
+    pub clock_hz: u64,
+    /// Bits a second of the serial port, about: the divider is whole.
+    pub baud: u64,
+    /// Clocks from `sclk_run` to the pulse at the pin: those of the output primitive.
+    pub sclk_latency: u64,
+}
+
+/// A board that cannot be.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{field}: expected {expected}, got {got}")]
+pub struct ParametersError {
+    /// The number.
+    pub field: &'static str,
+    /// What it may be.
+    pub expected: String,
+    /// What it is.
+    pub got: u64,
+}
+
+/// Holds a number within a range.
+fn within(field: &'static str, got: u64, least: u64, most: u64) -> Result<(), ParametersError> {
+    let expected = || format!("{least} to {most}");
+    (least..=most).contains(&got).then_some(()).ok_or_else(|| ParametersError { field, expected: expected(), got })
+}
+
+impl Parameters {
+    /// From a conversion's start until its codes may be read: 0.55 µs and the delay of BUSY.
+    const CONVERSION_MOST_NS: u64 = 600;
+    /// From a conversion's start until its codes may replace those before, which are then still being read.
+    const CONVERSION_LEAST_NS: u64 = 500;
+    /// Clocks that a pad's switch is given to break.
+    const BREAK_NS: u64 = 1000;
+
+    /// Clocks of a bit of the serial port.
+    pub fn divisor(&self) -> u64 {
+        (self.clock_hz + self.baud / 2) / self.baud.max(1)
+    }
+
+    /// Clocks of a conversion.
+    pub fn conversion(&self) -> u64 {
+        (Self::CONVERSION_MOST_NS * self.clock_hz).div_ceil(1_000_000_000)
+    }
+
+    /// Clocks between two pads.
+    pub fn dead(&self) -> u64 {
+        (Self::BREAK_NS * self.clock_hz).div_ceil(1_000_000_000)
+    }
+
+    /// Whether a core of the profile can be served with these.
+    ///
+    /// # Errors
+    /// The first number out of its range.
+    pub fn check(&self, profile: &Profile) -> Result<(), ParametersError> {
+        let (period, bits) = (profile.clocks_per_sample, u64::from(profile.formats.adc.width));
+        let channels = profile.channels() as u64;
+        within("clock_hz", self.clock_hz, 1_000_000, 200_000_000)?;
+        within("baud", self.divisor(), 4, 1 << 16).map_err(|error| ParametersError {
+            expected: format!("{} to {}", self.clock_hz >> 16, self.clock_hz / 4),
+            got: self.baud,
+            ..error
+        })?;
+        within("ADC channels", channels, 2, 8)?;
+        within("ADC bits", bits, 2, 18)?;
+        within("pads", profile.pads, 1, 16)?;
+        within("clocks_per_sample", period, bits + channels - 1, 1 << 16)?;
+        within("sclk_latency", self.sclk_latency, 0, self.conversion())?;
+        let least = period + Self::CONVERSION_LEAST_NS * self.clock_hz / 1_000_000_000;
+        within("clocks from a conversion to the end of its reading", self.conversion() + bits + 1, 1, least)
+    }
+}

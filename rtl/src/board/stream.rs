@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Stream: frames out over the serial line, each a packet with its sequence number and CRC.
+//!
+//! ```text
+//! frame words ─[words: one frame]─┐
+//! sequence, pad, flags, commands ─┼─(group, left)── byte ─┬─[CRC]─┐
+//!                                 └───────────────────────┴───────┴─(escape)─ transmitter ─ tx
+//! ```
+//!
+//! | group   | 0 … 7      | 8                                  | 9             |
+//! | bytes   | B a word   | sequence, pad, flags, commands     | CRC, CRC, END |
+//!
+//! | signal   | format      | overflow                        |
+//! | number   | u8          | wraps, meant: losses show as gaps |
+//! | left     | counter 3   | reloaded, by compare            |
+//!
+//! A frame that comes while one is being sent is dropped whole, takes its number along, and sets a flag in the next packet.
+//! What happened since the packet before (late, refused, overrun) is kept until it is told. Latency: (8·B + 7)·10·D clocks
+//! for a packet, and as much again for each byte that is escaped. Source: [`super::framing`].
+
+use super::bits::{flag, next, previous, word as bits_side_by_side};
+use super::crc16;
+use super::framing::{END, ESC, ESC_END, ESC_ESC, STATUS_BYTES, word_bytes};
+use super::uart::BYTE;
+use super::uart::transmitter::{self, Transmitter};
+use hapticore_model::block::{Block, Cell};
+use hapticore_model::blocks::frames::Field;
+use hapticore_model::format::{BIT, Format};
+use hapticore_model::memory::{Memory, Write};
+use hapticore_model::profile::Profile;
+use hapticore_model::signal::{Exact, Signal, Value, Wrap, bit, code, int};
+use hapticore_model::{bundle, parts};
+
+bundle! {
+    /// The inputs: a frame as the core gives it, and what else is to be told.
+    pub struct Inputs {
+        /// Set for a clock for each word.
+        valid,
+        /// Which field the word is.
+        index,
+        /// The word.
+        frame,
+        /// Set with the last word.
+        done,
+        /// The pad of the frame.
+        pad,
+        /// A code was at a rail of the ADC.
+        clipped,
+        /// A word was held at a rail.
+        saturated,
+        /// The last valid results stand.
+        invalid,
+        /// A terminal's current is missing.
+        lost,
+        /// The ADC was late.
+        late,
+        /// A command was refused.
+        refused,
+        /// Commands taken so far.
+        commands,
+    }
+}
+
+bundle! {
+    /// The output.
+    pub struct Outputs {
+        /// Pin: the line, high at rest.
+        tx,
+    }
+}
+
+bundle! {
+    /// The registers.
+    pub struct Registers {
+        taking, busy, group, left, escaped, crc, frames, number, pad, clipped, saturated, invalid, lost,
+        late, refused, overrun,
+    }
+}
+
+parts! {
+    /// The memory and the block within.
+    pub struct Parts of Stream {
+        words: Memory,
+        transmitter: Transmitter,
+    }
+}
+
+/// The configuration.
+#[derive(Debug, Clone)]
+pub struct Stream {
+    words: Memory,
+    transmitter: Transmitter,
+    pad: Format,
+    bytes: u64,
+}
+
+/// Words of a frame.
+const WORDS: u64 = Field::ALL.len() as u64;
+/// The group after the words: the status.
+const STATUS: u64 = WORDS;
+/// The last group: the CRC and END.
+const TRAILER: u64 = WORDS + 1;
+
+impl Stream {
+    /// The stream of a profile's frames, with so many clocks a bit.
+    pub fn new(profile: &Profile, divisor: u64) -> Self {
+        Stream {
+            words: Memory::new("words", WORDS as usize, Field::word(profile)),
+            transmitter: Transmitter::new(divisor),
+            pad: Format::counter(profile.pads - 1),
+            bytes: word_bytes(profile),
+        }
+    }
+
+    /// Clocks of a packet without escapes, from a frame's last word to the end of its last stop bit.
+    pub fn packet_clocks(&self, divisor: u64) -> u64 {
+        (WORDS * self.bytes + STATUS_BYTES + 3) * 10 * divisor + 1
+    }
+
+    /// The byte of the packet that is due.
+    #[inline(always)]
+    fn byte<V: Value>(&self, r: &Registers<Signal<V>>, i: &Inputs<Signal<V>>, data: Signal<V>) -> Signal<V> {
+        let wide = data.fit(Format::signed(8 * self.bytes as u8, 0), Exact, Wrap);
+        let pick = |bytes: &[Signal<V>]| {
+            let (first, rest) = bytes.split_first().expect("a group has bytes");
+            (1..).zip(rest).fold(*first, |other, (left, byte)| r.left.is(left).select(*byte, other))
+        };
+        let words: Vec<_> = (0..self.bytes).map(|left| wide.bits(8 * left as u8, 8)).collect();
+        let flags =
+            bits_side_by_side([r.clipped, r.saturated, r.invalid, r.lost, r.late, r.refused, r.overrun, bit(false)]);
+        let status = pick(&[i.commands, flags, r.pad.fit(BYTE, Exact, Wrap), r.number]);
+        // The CRC takes its own high byte in as it is sent; what is left is the low byte, moved up.
+        let check = r.crc.bits(8, 8);
+        let trailer = pick(&[code(END.into(), BYTE), check, check]);
+        r.group.is(TRAILER).select(trailer, r.group.is(STATUS).select(status, pick(&words)))
+    }
+
+    /// Where the packet goes on after a byte: the bytes of a group are counted down.
+    #[inline(always)]
+    fn advance<V: Value>(&self, r: &Registers<Signal<V>>) -> (Signal<V>, Signal<V>) {
+        let last = r.left.is(0);
+        let of_next =
+            r.group.is(STATUS).select(int(2), r.group.is(WORDS - 1).select(int(STATUS_BYTES - 1), int(self.bytes - 1)));
+        (last.select(next(r.group), r.group), last.select(of_next, previous(r.left)))
+    }
+}
+
+impl Block for Stream {
+    const NAME: &'static str = "stream";
+    type Inputs = Inputs;
+    type Outputs = Outputs;
+    type Registers = Registers;
+    type Parts<V: Value> = Parts<V>;
+
+    fn inputs(&self) -> Inputs<Format> {
+        Inputs {
+            valid: BIT,
+            index: Format::counter(WORDS - 1),
+            frame: self.words.format,
+            done: BIT,
+            pad: self.pad,
+            clipped: BIT,
+            saturated: BIT,
+            invalid: BIT,
+            lost: BIT,
+            late: BIT,
+            refused: BIT,
+            commands: BYTE,
+        }
+    }
+
+    fn outputs(&self) -> Outputs<Format> {
+        Outputs { tx: BIT }
+    }
+
+    fn registers(&self) -> Registers<Format> {
+        Registers {
+            taking: BIT,
+            busy: BIT,
+            group: Format::counter(TRAILER),
+            left: Format::counter(STATUS_BYTES - 1),
+            escaped: BIT,
+            crc: crc16::CRC,
+            frames: BYTE,
+            number: BYTE,
+            pad: self.pad,
+            clipped: BIT,
+            saturated: BIT,
+            invalid: BIT,
+            lost: BIT,
+            late: BIT,
+            refused: BIT,
+            overrun: BIT,
+        }
+    }
+
+    #[inline(always)]
+    fn clock<V: Value>(&self, cell: &mut Cell<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+        let r = cell.load(self);
+        let taking = (i.valid & i.index.is(0)).select(!r.busy, r.taking);
+        let write = Write { enable: i.valid & taking, address: i.index, data: i.frame };
+        let data = self.words.data(&mut cell.parts.words);
+        // A word is never read while it is written, and in plain sight: the block RAM then needs no logic for that case.
+        let width = self.words.address().width;
+        let elsewhere = next(i.index).bits(0, width);
+        let address = i.valid.select(elsewhere, r.group.bits(0, width));
+        self.words.access(&mut cell.parts.words, address, write);
+
+        let byte = self.byte(&r, &i, data);
+        let at_end = r.group.is(TRAILER) & r.left.is(0);
+        let (is_end, is_esc) = (byte.is(END.into()), byte.is(ESC.into()));
+        let special = (is_end | is_esc) & !at_end;
+        let replaced = is_end.select(code(ESC_END.into(), BYTE), code(ESC_ESC.into(), BYTE));
+        let escape = special & !r.escaped;
+        let line = special.select(r.escaped.select(replaced, code(ESC.into(), BYTE)), byte);
+        let inputs = transmitter::Inputs { valid: r.busy, octet: line };
+        let transmitter = self.transmitter.call("transmitter", &mut cell.parts.transmitter, inputs);
+
+        let sent = transmitter.taken & !escape;
+        let told = sent & r.group.is(STATUS) & r.left.is(1);
+        let begin = i.done & taking;
+        let (group, left) = self.advance(&r);
+        let take = |now: Signal<V>, held: Signal<V>| begin.select(now, held);
+        cell.store(
+            self,
+            Registers {
+                taking,
+                busy: flag(r.busy, begin, sent & at_end),
+                group: take(int(0), sent.select(group, r.group)).fit(r.group.format, Exact, Wrap),
+                left: take(int(self.bytes - 1), sent.select(left, r.left)).fit(r.left.format, Exact, Wrap),
+                escaped: transmitter.taken.select(escape, r.escaped),
+                crc: take(crc16::begin(), sent.select(crc16::with(r.crc, byte), r.crc)),
+                frames: i.done.select(next(r.frames), r.frames),
+                number: take(r.frames, r.number),
+                pad: take(i.pad, r.pad),
+                clipped: take(i.clipped, r.clipped),
+                saturated: take(i.saturated, r.saturated),
+                invalid: take(i.invalid, r.invalid),
+                lost: take(i.lost, r.lost),
+                late: flag(r.late, i.late, told),
+                refused: flag(r.refused, i.refused, told),
+                overrun: flag(r.overrun, i.done & !taking, told),
+            },
+        );
+        Outputs { tx: transmitter.tx }
+    }
+}

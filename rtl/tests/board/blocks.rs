@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Each peripheral by what its file says of it.
+
+use crate::bench::Bench;
+use crate::pins::Host;
+use crate::random::Random;
+use hapticore_model::block::Block;
+use hapticore_model::blocks::core::Core;
+use hapticore_model::format::Format;
+use hapticore_model::profile::Profile;
+use hapticore_rtl::board::packet::Command;
+use hapticore_rtl::board::pads::{self, Pads};
+use hapticore_rtl::board::registers::{self, CommandRegisters};
+use hapticore_rtl::board::sigma_delta::{self, SigmaDelta};
+use hapticore_rtl::board::uart::{receiver, transmitter};
+use hapticore_rtl::board::{Board, Parameters};
+use std::f64::consts::TAU;
+
+#[test]
+fn no_two_pads_are_ever_closed_nor_one_right_after_another() {
+    const DEAD: u64 = 5;
+    let mut bench = Bench::new(Pads::new(4, DEAD));
+    let mut random = Random::new(3);
+    let (mut last, mut open, mut closings) = (0, DEAD, 0);
+    let (mut serve, mut closed) = (0, 0);
+    for _ in 0..100_000 {
+        if random.below(6) == 0 {
+            (serve, closed) = (random.below(4) as i64, (random.below(3) != 0).into());
+        }
+        let select = bench.clock(pads::Inputs { serve, closed }).select;
+        assert!(select.count_ones() <= 1, "{select:b}");
+        match (last, select) {
+            (_, 0) => open += 1,
+            (0, _) => {
+                assert!(open >= DEAD || closings == 0, "closed after {open} clocks");
+                (open, closings) = (0, closings + 1);
+            }
+            (before, now) => assert_eq!(before, now, "one pad to the next with none between"),
+        }
+        last = select;
+    }
+    assert!(closings > 1_000);
+}
+
+#[test]
+fn a_pad_closes_a_clock_after_it_is_wanted() {
+    let mut bench = Bench::new(Pads::new(3, 2));
+    let run: Vec<i64> = (0..4).map(|_| bench.clock(pads::Inputs { serve: 2, closed: 1 }).select).collect();
+    assert_eq!(run, [0, 4, 4, 4]);
+    assert_eq!(bench.clock(pads::Inputs { serve: 2, closed: 0 }).select, 4);
+    assert_eq!(bench.clock(pads::Inputs { serve: 2, closed: 0 }).select, 0);
+}
+
+#[test]
+fn the_bits_of_a_carrier_sum_to_it() {
+    let carrier = Format::signed(16, 15);
+    let mut bench = Bench::new(SigmaDelta::new(carrier));
+    let (mut wanted, mut given, mut worst) = (0.0, 0.0, 0.0f64);
+    let full = [i64::from(i16::MIN), i64::from(i16::MAX)];
+    for clock in 0..60_000 {
+        let code = match clock / 20_000 {
+            0 => (32_000.0 * (TAU * f64::from(clock / 24) / 5.0).cos()) as i64,
+            1 => full[clock as usize / 100 % 2],
+            _ => 12_345,
+        };
+        wanted += (carrier.real(code) + 1.0) / 2.0;
+        bench.clock(sigma_delta::Inputs { carrier: code });
+        // The bit that belongs to this clock comes with the next.
+        given += bench.block_output();
+        worst = worst.max((wanted - given).abs());
+    }
+    println!("sums differ by at most {worst:.3} of a bit");
+    assert!(worst < 1.0 && worst > 0.5, "{worst}");
+}
+
+impl Bench<SigmaDelta> {
+    /// The output register, which a clock has just replaced.
+    fn block_output(&self) -> f64 {
+        self.registers().pulse as f64
+    }
+}
+
+#[test]
+fn bytes_cross_the_line_although_the_clocks_differ() {
+    let mut random = Random::new(5);
+    for divisor in [4, 12, 25, 217] {
+        // The other end's bit is longer or shorter by as much as a byte's middle bits bear.
+        for theirs in [divisor, divisor + divisor / 25, divisor - divisor / 25] {
+            let bytes: Vec<u8> = (0..40).map(|_| random.below(256) as u8).collect();
+            let mut receiver = Bench::new(receiver::Receiver::new(divisor));
+            let mut host = Host::new(theirs);
+            host.send(bytes.clone());
+            let mut heard = Vec::new();
+            for _ in 0..(bytes.len() as u64 + 2) * 10 * theirs {
+                let outputs = receiver.clock(receiver::Inputs { rx: host.line() });
+                host.clock(1);
+                heard.extend((outputs.valid != 0).then_some(outputs.octet as u8));
+            }
+            assert_eq!(heard, bytes, "{divisor} against {theirs}");
+        }
+    }
+}
+
+#[test]
+fn a_glitch_and_a_break_are_no_bytes() {
+    let mut receiver = Bench::new(receiver::Receiver::new(12));
+    let mut hear =
+        |rx: i64, clocks: u64| (0..clocks).filter(|_| receiver.clock(receiver::Inputs { rx }).valid != 0).count();
+    assert_eq!(hear(1, 50) + hear(0, 4) + hear(1, 200), 0, "shorter than half a start bit");
+    assert_eq!(hear(0, 119) + hear(1, 100), 0, "no stop bit");
+}
+
+#[test]
+fn the_transmitter_is_heard_and_takes_a_byte_each_ten_bits() {
+    let mut transmitter = Bench::new(transmitter::Transmitter::new(7));
+    let mut host = Host::new(7);
+    let mut taken = Vec::new();
+    for clock in 0..1_000u64 {
+        let outputs = transmitter.clock(transmitter::Inputs { valid: 1, octet: taken.len() as i64 * 37 % 256 });
+        host.clock(outputs.tx);
+        if outputs.taken != 0 {
+            taken.push(clock);
+        }
+    }
+    assert!(taken.windows(2).all(|pair| pair[1] - pair[0] == 71), "ten bits of seven clocks, and one to take it");
+    let expected: Vec<u8> = (0..host.heard.len()).map(|k| (k * 37 % 256) as u8).collect();
+    assert_eq!(host.heard, expected);
+    assert!(expected.len() >= 13);
+}
+
+#[test]
+fn a_board_that_cannot_be_says_what_was_expected() {
+    let profile = Profile::bundled("standard").expect("bundled");
+    let board = Parameters { clock_hz: 25_000_000, baud: 1_000_000, sclk_latency: 3 };
+    assert!(Board::new(&profile, &board).is_ok());
+    for (parameters, words) in [
+        (Parameters { baud: 20_000_000, ..board }, "baud: expected 381 to 6250000, got 20000000"),
+        (Parameters { clock_hz: 1, ..board }, "clock_hz: expected 1000000 to 200000000, got 1"),
+        (Parameters { sclk_latency: 16, ..board }, "sclk_latency: expected 0 to 15, got 16"),
+        (Parameters { clock_hz: 100_000_000, ..board }, "clocks from a conversion"),
+    ] {
+        let message = Board::new(&profile, &parameters).err().expect(words).to_string();
+        assert!(message.contains(words), "{message}");
+    }
+}
+
+#[test]
+fn every_command_is_taken_escaped_or_not() {
+    let profile = Profile::bundled("small").expect("bundled");
+    let core = Core::new(&profile).inputs();
+    let mut bench = Bench::new(CommandRegisters::new(core, 100));
+    let mut random = Random::new(9);
+    for count in 1..2_000 {
+        let (address, code) = (random.below(100) as u16, random.word(core.word));
+        let mut written = None;
+        let bytes = Command::Map { address, code }.encode(&core);
+        for byte in bytes.iter().map(|&byte| Some(byte)).chain([None]) {
+            let (valid, octet) = (byte.is_some().into(), byte.unwrap_or(0).into());
+            let outputs = bench.clock(registers::Inputs { valid, octet });
+            assert_eq!(outputs.refused, 0, "{count}: {bytes:x?}");
+            if outputs.write != 0 {
+                written = Some((outputs.address as u16, outputs.word));
+            }
+        }
+        assert_eq!(written, Some((address, code)), "{count}: {bytes:x?}");
+    }
+}

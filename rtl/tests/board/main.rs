@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The board and its peripherals, clock by clock, against the model's core and against what they say of themselves.
+
+#[path = "../../../model/tests/equality/device.rs"]
+#[allow(dead_code)]
+mod device;
+#[path = "../../../model/tests/equality/random.rs"]
+#[allow(dead_code)]
+mod random;
+
+mod bench;
+mod blocks;
+mod pins;
+mod ranges;
+mod session;

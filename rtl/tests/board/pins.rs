@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What stands at the board's pins: an ADC, and the host's end of the serial line.
+
+use hapticore_rtl::board::whole::Outputs;
+use std::collections::VecDeque;
+
+/// How the ADC at the pins behaves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Health {
+    /// As its data sheet says.
+    Well,
+    /// Each conversion takes longer than it may.
+    Slow,
+    /// It is not there: BUSY never rises.
+    Absent,
+}
+
+/// An ADC that shifts out what was there at the rising edges of CONVST, the samples of a list.
+pub struct Adc {
+    pub health: Health,
+    samples: VecDeque<Vec<i32>>,
+    conversion: u64,
+    bits: u32,
+    before: Outputs<i64>,
+    /// SCLK's pulses on their way through the output primitive.
+    pulses: VecDeque<i64>,
+    converting: Vec<i32>,
+    shifting: Vec<i32>,
+    left: u64,
+    bit: u32,
+    /// What came over SDI while CS was low, and what it was at the end.
+    sdi: Vec<i64>,
+    pub written: Vec<u32>,
+    /// Edges that the data sheet forbids.
+    pub wrong: Vec<&'static str>,
+}
+
+impl Adc {
+    /// An ADC of `bits` that takes `conversion` clocks, behind an output primitive of so many clocks.
+    pub fn new(samples: impl IntoIterator<Item = Vec<i32>>, bits: u8, conversion: u64, latency: u64) -> Self {
+        let before =
+            Outputs { convst: 0, cs_n: 1, sclk_run: 0, sdi: 0, carrier: 0, select: 0, tx: 1, enabled: 0, late: 0 };
+        Adc {
+            health: Health::Well,
+            samples: samples.into_iter().collect(),
+            conversion,
+            bits: bits.into(),
+            before,
+            pulses: (0..latency).map(|_| 0).collect(),
+            converting: Vec::new(),
+            shifting: vec![0; 8],
+            left: 0,
+            bit: 0,
+            sdi: Vec::new(),
+            written: Vec::new(),
+            wrong: Vec::new(),
+        }
+    }
+
+    /// BUSY, and the data lines.
+    pub fn pins(&self) -> (i64, i64) {
+        let busy = self.left > 0 && self.health != Health::Absent;
+        let shift = (self.bits - 1).saturating_sub(self.bit);
+        let lines = self.shifting.iter().enumerate();
+        let dout = lines.map(|(line, &code)| (i64::from(code) >> shift & 1) << line).sum();
+        (busy.into(), dout)
+    }
+
+    /// One clock, with the board's outputs in it.
+    pub fn clock(&mut self, outputs: &Outputs<i64>) {
+        self.pulses.push_back(outputs.sclk_run);
+        let pulse = self.pulses.pop_front().expect("one was pushed") != 0;
+        self.convert(outputs.convst > self.before.convst);
+        if outputs.cs_n != 0 && pulse {
+            self.wrong.push("SCLK without CS");
+        }
+        if outputs.cs_n < self.before.cs_n {
+            self.bit = 0;
+            self.sdi.clear();
+            if pulse {
+                self.wrong.push("SCLK with CS's edge");
+            }
+        }
+        if pulse {
+            self.bit += 1;
+            self.sdi.push(outputs.sdi);
+        }
+        if outputs.cs_n > self.before.cs_n {
+            self.end_of_read();
+        }
+        self.before = *outputs;
+    }
+
+    fn convert(&mut self, starts: bool) {
+        if self.left == 1 {
+            // The registers that are read change: nobody may be reading.
+            if self.before.cs_n == 0 && self.health == Health::Well {
+                self.wrong.push("codes replaced while they are read");
+            }
+            self.shifting = self.converting.clone();
+        }
+        self.left = self.left.saturating_sub(1);
+        if starts {
+            if self.left > 0 {
+                self.wrong.push("CONVST while BUSY");
+            }
+            self.converting = self.samples.pop_front().unwrap_or_else(|| vec![0; 8]);
+            self.left = if self.health == Health::Slow { self.conversion + 3 } else { self.conversion };
+        }
+    }
+
+    fn end_of_read(&mut self) {
+        let enabled = self.before.enabled != 0;
+        if enabled && self.bit != self.bits {
+            self.wrong.push("a read of another length than the word's");
+        }
+        if !enabled && self.sdi.len() == 16 {
+            self.written.push(self.sdi.iter().fold(0, |word, &bit| word << 1 | bit as u32));
+        }
+    }
+}
+
+/// The host's end of a serial line: bytes in, bytes out, at its own pace.
+pub struct Host {
+    divisor: u64,
+    sending: VecDeque<bool>,
+    clocks: u64,
+    hearing: Option<(u64, Vec<bool>)>,
+    pub heard: Vec<u8>,
+}
+
+impl Host {
+    pub fn new(divisor: u64) -> Self {
+        Host { divisor, sending: VecDeque::new(), clocks: 0, hearing: None, heard: Vec::new() }
+    }
+
+    pub fn send(&mut self, bytes: impl IntoIterator<Item = u8>) {
+        if self.idle() {
+            self.clocks = 0;
+        }
+        for byte in bytes {
+            let bits = (0..8).map(|bit| byte >> bit & 1 != 0);
+            self.sending.extend(std::iter::once(false).chain(bits).chain([true]));
+        }
+    }
+
+    /// Whether everything has been sent.
+    pub fn idle(&self) -> bool {
+        self.sending.is_empty()
+    }
+
+    /// The line to the board.
+    pub fn line(&self) -> i64 {
+        self.sending.front().is_none_or(|&bit| bit).into()
+    }
+
+    /// One clock, with the line from the board.
+    pub fn clock(&mut self, tx: i64) {
+        self.clocks += 1;
+        if self.clocks.is_multiple_of(self.divisor) {
+            self.sending.pop_front();
+        }
+        let Some((left, bits)) = &mut self.hearing else {
+            self.hearing = (tx == 0).then(|| (self.divisor / 2 + self.divisor, Vec::new()));
+            return;
+        };
+        *left -= 1;
+        if *left == 0 {
+            *left = self.divisor;
+            bits.push(tx != 0);
+            if bits.len() == 9 {
+                assert!(bits[8], "a byte ends with a stop bit");
+                self.heard.push(bits[..8].iter().rev().fold(0, |byte, &bit| byte << 1 | u8::from(bit)));
+                self.hearing = None;
+            }
+        }
+    }
+}

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! No signal of a peripheral can overflow, whatever comes in.
+
+use hapticore_model::block::{Block, sample};
+use hapticore_model::blocks::core::Core;
+use hapticore_model::bundle::Bundle;
+use hapticore_model::format::Format;
+use hapticore_model::profile::Profile;
+use hapticore_model::signal::Signal;
+use hapticore_model::signal::netlist::Netlist;
+use hapticore_model::signal::range::{Range, take_lemmas, take_violations, whole};
+use hapticore_rtl::board::adc_reader::AdcReader;
+use hapticore_rtl::board::pads::Pads;
+use hapticore_rtl::board::registers::CommandRegisters;
+use hapticore_rtl::board::sigma_delta::SigmaDelta;
+use hapticore_rtl::board::stream::Stream;
+use hapticore_rtl::board::uart::receiver::Receiver;
+use hapticore_rtl::board::uart::transmitter::Transmitter;
+use hapticore_rtl::board::{Board, Parameters};
+
+/// Clocks the block with any inputs, from reset, until its registers can be nothing new.
+fn prove<B: Block>(block: &B) {
+    let inputs = B::Inputs::map(block.inputs(), |format: Format| Signal { value: whole(format), format });
+    let mut cell = block.cell::<Range>();
+    let mut seen: Vec<Range> = Vec::new();
+    take_violations();
+    take_lemmas();
+    for clock in 0.. {
+        assert!(clock < 5_000, "{} does not close", B::NAME);
+        block.clock(&mut cell, inputs);
+        let mut now = Vec::new();
+        sample(block, &cell, &mut now);
+        let joined: Vec<_> = match seen.is_empty() {
+            true => now.clone(),
+            false => seen.iter().zip(&now).map(|(a, b)| a.join(*b)).collect(),
+        };
+        if joined == seen && clock > 300 {
+            break;
+        }
+        seen = joined;
+    }
+    assert_eq!(take_violations(), [], "{}", B::NAME);
+    assert_eq!(take_lemmas(), Vec::<&str>::new(), "{}", B::NAME);
+}
+
+#[test]
+fn no_signal_of_a_peripheral_can_overflow() {
+    for profile in Profile::all() {
+        let clock_hz = if profile.name == "small" { 12_000_000 } else { 25_000_000 };
+        let parameters = Parameters { clock_hz, baud: 1_000_000, sclk_latency: 2 };
+        let core = Core::new(&profile);
+        prove(&AdcReader::new(&profile, &parameters));
+        prove(&SigmaDelta::new(core.outputs().carrier));
+        prove(&Pads::new(profile.pads, parameters.dead()));
+        prove(&Receiver::new(parameters.divisor()));
+        prove(&Transmitter::new(parameters.divisor()));
+        prove(&CommandRegisters::new(core.inputs(), core.estimator().map().words().words as u64));
+        prove(&Stream::new(&profile, parameters.divisor()));
+        let board = Board::new(&profile, &parameters).expect("bundled profiles fit");
+        assert_eq!(Netlist::of(&board).top().name, "board");
+    }
+}

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The whole board: calibrated over its line and fed at its pins, it tells the frames of the core.
+
+use crate::bench::Bench;
+use crate::device::{Sight, calibration, codes, short_profiles};
+use crate::pins::{Adc, Health, Host};
+use crate::random::Random;
+use hapticore_model::calibration::Calibration;
+use hapticore_model::fidelity::clock::ClockSimulation;
+use hapticore_model::frame::Frame;
+use hapticore_model::profile::Profile;
+use hapticore_rtl::board::packet::{Command, Damage, Decoder, Packet, encode, start};
+use hapticore_rtl::board::whole::Inputs;
+use hapticore_rtl::board::{Board, Parameters};
+
+/// A board with an ADC and a host.
+struct Session {
+    bench: Bench<Board>,
+    profile: Profile,
+    adc: Adc,
+    host: Host,
+    decoder: Decoder,
+    packets: Vec<Result<Packet, Damage>>,
+    closed: Vec<i64>,
+}
+
+const SEED: u64 = 11;
+
+/// A line fast enough for the short slots of the tests.
+fn parameters(profile: &Profile, divisor: u64, sclk_latency: u64) -> Parameters {
+    let clock_hz = if profile.name == "small" { 12_000_000 } else { 25_000_000 };
+    Parameters { clock_hz, baud: clock_hz / divisor, sclk_latency }
+}
+
+impl Session {
+    fn new(profile: &Profile, parameters: Parameters, samples: &[Vec<i32>]) -> Self {
+        let board = Board::new(profile, &parameters).expect("bundled profiles fit their boards");
+        let width = profile.formats.adc.width;
+        let adc = Adc::new(samples.to_vec(), width, parameters.conversion() - 1, parameters.sclk_latency);
+        Session {
+            bench: Bench::new(board),
+            profile: profile.clone(),
+            adc,
+            host: Host::new(parameters.divisor()),
+            decoder: Decoder::new(profile),
+            packets: Vec::new(),
+            closed: Vec::new(),
+        }
+    }
+
+    fn clock(&mut self) {
+        let (busy, dout) = self.adc.pins();
+        let outputs = self.bench.clock(Inputs { dout, busy, rx: self.host.line() });
+        self.adc.clock(&outputs);
+        self.host.clock(outputs.tx);
+        if self.closed.last() != Some(&outputs.select) {
+            self.closed.push(outputs.select);
+        }
+        let bytes = std::mem::take(&mut self.host.heard);
+        self.packets.extend(self.decoder.take_all(bytes));
+    }
+
+    fn run(&mut self, clocks: u64) {
+        (0..clocks).for_each(|_| self.clock());
+    }
+
+    fn send(&mut self, commands: &[Command]) {
+        self.host.send(encode(commands, &self.profile));
+        while !self.host.idle() {
+            self.clock();
+        }
+    }
+
+    /// Runs until so many packets are there.
+    fn packets(&mut self, count: usize) -> Vec<Packet> {
+        let mut left = (count as u64 + 4) * (self.profile.slot_clocks() + 60_000);
+        while self.packets.len() < count {
+            left -= 1;
+            assert!(left > 0, "{}: {} of {count} packets", self.profile.name, self.packets.len());
+            self.clock();
+        }
+        self.packets.iter().map(|packet| packet.expect("the line is clean")).collect()
+    }
+}
+
+/// Samples of some slots, whatever the ADC may see.
+fn samples(profile: &Profile, slots: usize) -> Vec<Vec<i32>> {
+    let mut random = Random::new(SEED);
+    let sights = Sight::ALL.into_iter().cycle().take(slots);
+    sights
+        .flat_map(|sight| {
+            let codes = codes(profile, sight, &mut random);
+            codes.chunks(profile.channels()).map(<[i32]>::to_vec).collect::<Vec<_>>()
+        })
+        .collect()
+}
+
+fn simulated(profile: &Profile, calibration: &Calibration, samples: &[Vec<i32>]) -> Vec<Frame> {
+    let mut simulation = ClockSimulation::new(profile, calibration);
+    let mut frames = Vec::new();
+    for sample in samples {
+        simulation.sample(sample);
+        frames.extend(simulation.take_frame());
+    }
+    frames.extend(simulation.finish_slot());
+    frames
+}
+
+#[test]
+fn over_the_line_come_the_frames_of_the_core() {
+    for (profile, latency) in short_profiles().into_iter().zip([0, 3, 1]) {
+        let calibration = calibration(&profile);
+        let samples = samples(&profile, 9);
+        let mut session = Session::new(&profile, parameters(&profile, 4, latency), &samples);
+        let commands = start(&profile, &calibration);
+        session.send(&commands);
+        let packets = session.packets(9);
+        let expected = simulated(&profile, &calibration, &samples);
+        for (number, (packet, expected)) in packets.iter().zip(&expected).enumerate() {
+            assert_eq!(packet.frame, *expected, "{}: frame {number}", profile.name);
+            assert_eq!(usize::from(packet.sequence), number);
+            assert!(!(packet.late || packet.refused || packet.overrun), "{}: {packet:?}", profile.name);
+            assert_eq!(packet.commands, commands.len() as u8);
+        }
+        assert_eq!(expected.len(), 9);
+        assert!(expected.iter().any(|frame| frame.flags.lost) && expected.iter().any(|frame| frame.flags.invalid));
+        assert_eq!(session.adc.wrong, Vec::<&str>::new(), "{}", profile.name);
+        assert_eq!(session.adc.written, [0x0218, 0], "{}: eight data lines, then conversions", profile.name);
+        let (pads, opened): (Vec<i64>, Vec<i64>) = session.closed.iter().partition(|&&select| select != 0);
+        assert_eq!(pads[..8], [1, 2, 4, 8, 1, 2, 4, 8], "pads in turn");
+        assert!(opened.len() >= pads.len(), "and none between two");
+    }
+}
+
+fn small() -> Profile {
+    short_profiles().swap_remove(0)
+}
+
+#[test]
+fn a_damaged_command_changes_nothing_and_is_told() {
+    let profile = small();
+    let samples = samples(&profile, 3);
+    let mut session = Session::new(&profile, parameters(&profile, 4, 0), &samples);
+    let commands = start(&profile, &calibration(&profile));
+    let good = encode(&[Command::ENABLE], &profile);
+    session.send(&commands[..20]);
+    for (position, flip) in [(1, 0x80), (4, 1), (7, 0x10), (3, 0xff)] {
+        let mut bad = good.clone();
+        bad[position] ^= flip;
+        session.host.send(bad);
+    }
+    session.host.send(good[..5].iter().copied().chain([good[8]]));
+    session.run(5_000);
+    assert_eq!(session.bench.clock(Inputs { dout: 0, busy: 0, rx: 1 }).enabled, 0, "none of them enables");
+    session.send(&commands[20..]);
+    let packets = session.packets(2);
+    assert!(packets[0].refused && !packets[1].refused, "told once");
+    assert_eq!(packets[0].commands, commands.len() as u8);
+    let expected = simulated(&profile, &calibration(&profile), &samples);
+    assert_eq!(packets[1].frame, expected[1]);
+}
+
+#[test]
+fn a_late_or_absent_adc_is_told_and_hangs_nothing() {
+    for health in [Health::Slow, Health::Absent] {
+        let profile = small();
+        let mut session = Session::new(&profile, parameters(&profile, 4, 0), &samples(&profile, 4));
+        session.send(&start(&profile, &calibration(&profile)));
+        let well = session.packets(1);
+        assert!(!well[0].late);
+        session.adc.health = health;
+        assert!(session.packets(3)[2].late, "{health:?}");
+        session.adc.health = Health::Well;
+        assert!(!session.packets(5)[4].late, "{health:?} and over");
+    }
+}
+
+#[test]
+fn a_line_too_slow_drops_whole_frames_and_says_so() {
+    let profile = small();
+    let samples = samples(&profile, 12);
+    let calibration = calibration(&profile);
+    let mut session = Session::new(&profile, parameters(&profile, 10, 0), &samples);
+    session.send(&start(&profile, &calibration));
+    let packets = session.packets(4);
+    let expected = simulated(&profile, &calibration, &samples);
+    assert!(packets.windows(2).any(|pair| pair[1].sequence > pair[0].sequence + 1), "some are dropped");
+    for pair in packets.windows(2) {
+        assert_eq!(pair[0].overrun || pair[1].overrun, true, "and that is said: {pair:?}");
+    }
+    for packet in &packets {
+        assert_eq!(packet.frame, expected[usize::from(packet.sequence)], "those that come are whole");
+    }
+}
+
+#[test]
+fn disabled_the_board_is_still() {
+    let profile = small();
+    let mut session = Session::new(&profile, parameters(&profile, 4, 0), &samples(&profile, 4));
+    session.run(3_000);
+    session.send(&start(&profile, &calibration(&profile)));
+    session.packets(1);
+    session.send(&[Command::DISABLE]);
+    session.run(2 * profile.slot_clocks());
+    let (frames, wrong) = (session.packets.len(), session.adc.wrong.clone());
+    for _ in 0..2 * profile.slot_clocks() {
+        let (busy, dout) = session.adc.pins();
+        let outputs = session.bench.clock(Inputs { dout, busy, rx: 1 });
+        assert_eq!((outputs.convst, outputs.cs_n, outputs.sclk_run, outputs.select), (0, 1, 0, 0));
+    }
+    assert_eq!((session.packets.len(), wrong), (frames, vec![]));
+}
