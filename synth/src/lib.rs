@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! From Verilog to bitstreams and reports.
+//!
+//! ```text
+//! Verilog, pins ─ yosys ─ netlist ─┬─ nextpnr, seeds 1 … 5 ─ fmax of each, median
+//!                                  └─ seed 1 ─ pack ─ bitstream
+//! ```
+//!
+//! | module | does |
+//! | --- | --- |
+//! | [`target`] | families, boards and what must hold on each |
+//! | [`tools`] | the tools that `synth/tools` fetched |
+//! | [`flow`] | synthesis, placement and packing of one design |
+//! | [`harness`] | a core between shift registers, so that it can be placed without a board |
+//! | [`report`] | what is committed in `synth/reports/`, as JSON and as text |
+//! | [`sources`] | the Verilog that a report is about, and its hash |
+//!
+//! `synth/run BOARD` is the command; `synth/formal/` and `tests/formal.rs` hold the proofs.
+
+pub mod flow;
+pub mod harness;
+pub mod report;
+pub mod sources;
+pub mod target;
+pub mod tools;

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `hapticore-synth`: bitstreams and reports.
+
+use anyhow::{Context, Result};
+use clap::{Parser, Subcommand};
+use hapticore_model::profile::Profile;
+use hapticore_synth::flow::Flow;
+use hapticore_synth::report::{BoardReport, CoreRow, CoresReport, limits, median};
+use hapticore_synth::sources::{self, File};
+use hapticore_synth::target::{self, Family};
+use hapticore_synth::tools::Tools;
+use hapticore_synth::{flow, harness};
+use serde::Serialize;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+#[derive(Parser)]
+#[command(about = "Bitstreams of boards, and reports of area and timing", version)]
+struct Args {
+    #[command(subcommand)]
+    what: What,
+    /// Where to work, and to leave bitstreams
+    #[arg(long, global = true, default_value = "target/synth")]
+    work: PathBuf,
+    /// Where reports go
+    #[arg(long, global = true, default_value = "synth/reports")]
+    reports: PathBuf,
+}
+
+#[derive(Subcommand)]
+enum What {
+    /// Synthesise, place with several seeds, pack, report
+    Board {
+        /// ulx3s or icebreaker
+        name: String,
+        /// The folder that `hapticore hdl --board` has written
+        #[arg(long)]
+        verilog: PathBuf,
+        /// Seeds to place with
+        #[arg(long, default_value_t = 5)]
+        seeds: u64,
+    },
+    /// Every bundled profile's core on every family
+    Cores {
+        /// Seeds to place with
+        #[arg(long, default_value_t = 3)]
+        seeds: u64,
+    },
+}
+
+/// Exit status: 0 all limits hold, 1 one does not, 2 it did not come to that.
+fn main() -> ExitCode {
+    let args = Args::parse();
+    let result = match &args.what {
+        What::Board { name, verilog, seeds } => board(&args, name, verilog, *seeds),
+        What::Cores { seeds } => cores(&args, *seeds),
+    };
+    match result {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::from(1),
+        Err(error) => {
+            eprintln!("error: {error:#}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+fn save(folder: &Path, name: &str, report: &impl Serialize, text: &str) -> Result<()> {
+    fs::create_dir_all(folder)?;
+    fs::write(folder.join(format!("{name}.json")), serde_json::to_string_pretty(report)? + "\n")?;
+    fs::write(folder.join(format!("{name}.md")), text)?;
+    Ok(())
+}
+
+fn board(args: &Args, name: &str, verilog: &Path, seeds: u64) -> Result<bool> {
+    let board = target::board(name).context("no such board; there are ulx3s and icebreaker")?;
+    let (tools, files) = (Tools::find()?, sources::read(verilog)?);
+    let flow = Flow::new(&tools, board.family, board.name, &files, &args.work.join(name))?;
+    eprintln!("{name}: synthesis");
+    let (cells, modules) = (flow.synthesise()?, flow.modules()?);
+    eprintln!("{name}: placing and routing with {seeds} seeds");
+    let placed = flow.place_all(seeds)?;
+    let (bitstream, hash) = flow.pack(1)?;
+    let timings: Vec<_> = placed.iter().map(|placed| placed.timing).collect();
+    let (used, median_mhz) = (placed[0].used, median(&timings));
+    let report = BoardReport {
+        made_by: format!("synth/run {name}"),
+        board: name.into(),
+        part: board.family.part().into(),
+        sources: sources::hash_of(&files),
+        cells,
+        used,
+        timings,
+        median_mhz,
+        bitstream: hash,
+        limits: limits(board, &used, median_mhz),
+        modules,
+    };
+    save(&args.reports, name, &report, &report.markdown())?;
+    print!("{}", report.markdown());
+    eprintln!("bitstream: {}", bitstream.display());
+    Ok(report.limits.iter().all(|limit| limit.holds))
+}
+
+fn cores(args: &Args, seeds: u64) -> Result<bool> {
+    let tools = Tools::find()?;
+    let mut rows = Vec::new();
+    for profile in Profile::all() {
+        for family in Family::ALL {
+            eprintln!("{} on {}", profile.name, family.part());
+            rows.push(core(args, &tools, &profile, family, seeds)?);
+        }
+    }
+    let report = CoresReport { made_by: "synth/run cores".into(), rows };
+    save(&args.reports, "cores", &report, &report.markdown())?;
+    print!("{}", report.markdown());
+    Ok(true)
+}
+
+fn core(args: &Args, tools: &Tools, profile: &Profile, family: Family, seeds: u64) -> Result<CoreRow> {
+    let design = sources::core(profile);
+    let files = sources::files(&design);
+    let folder = args.work.join(format!("{}-{family:?}", profile.name));
+    let cells = Flow::new(tools, family, design.top(), &files, &folder.join("bare"))?.synthesise()?;
+    let mut harnessed = files.clone();
+    harnessed.push(File { name: "harness.v".into(), text: harness::verilog(&design) });
+    let flow = Flow::new(tools, family, harness::TOP, &harnessed, &folder.join("harness"))?;
+    flow.synthesise()?;
+    let placed = flow.place_all(seeds);
+    let (timings, unplaced) = match placed {
+        Ok(placed) => (placed.iter().map(|placed: &flow::Placed| placed.timing).collect(), None),
+        Err(error) if error.to_string().contains("Unable to place") || error.to_string().contains("no more") => {
+            (Vec::new(), Some("does not fit".into()))
+        }
+        Err(error) => return Err(error),
+    };
+    let (profile, part) = (profile.name.clone(), family.part().into());
+    Ok(CoreRow { profile, part, sources: sources::hash_of(&files), cells, timings, unplaced })
+}
