@@ -20,7 +20,8 @@
 //! is the output's delay and more. Falling edges, half a clock away, move nothing; SDI, which the ADC latches with them, changes
 //! with the core's clock and so has half a clock on either side.
 //!
-//! The registers of the ADC are written through `write` and `word` (16 bits: address and data) while nothing is enabled.
+//! A register of the ADC (16 bits over SDI: two zeros, address, data) is written while nothing is enabled; its word lies with
+//! the command that brought it, and `shift` moves that on.
 //!
 //! | signal     | format     | overflow                  |
 //! | phase      | counter P  | wraps at P, by compare    |
@@ -48,10 +49,8 @@ bundle! {
         busy,
         /// Pins: a data line a channel, the first channel the least significant bit.
         dout,
-        /// Writes a register of the ADC; taken where nothing is enabled.
+        /// Writes a register of the ADC, 16 bits over SDI; taken where nothing is enabled.
         write,
-        /// Six bits of address below two zeros, and eight of data.
-        word,
     }
 }
 
@@ -64,8 +63,8 @@ bundle! {
         cs_n,
         /// SCLK has a pulse in this clock; the pin follows by the latency of its primitive.
         sclk_run,
-        /// Pin: a bit of a register's new word.
-        sdi,
+        /// The word for a register of the ADC moves on by a bit, a clock from now.
+        shift,
         /// Set for each word of a set.
         store,
         /// Where it belongs: the set, and the channel.
@@ -85,7 +84,7 @@ bundle! {
     /// The registers.
     pub struct Registers {
         phase, convst, selected, run, capture, unload, index, filling, strobe, busy_pin, busy, began, late,
-        configuring, command, tail, line_a, line_b, line_c, line_d, line_e, line_f, line_g, line_h,
+        configuring, tail, line_a, line_b, line_c, line_d, line_e, line_f, line_g, line_h,
     }
 }
 
@@ -146,7 +145,6 @@ impl AdcReader {
             began: at(4).select(r.busy, r.began),
             late: at(cs + 3).select(r.busy | !r.began, r.late),
             configuring: r.configuring & !done,
-            command: r.capture.select(r.command.concat(bit(false)).bits(0, COMMAND_BITS as u8), r.command),
             ..self.lines(r, i)
         }
     }
@@ -194,7 +192,6 @@ impl AdcReader {
             began: no,
             late: no,
             configuring: i.write,
-            command: i.write.select(i.word, r.command),
             ..r
         }
     }
@@ -222,8 +219,7 @@ impl Block for AdcReader {
     type Parts<V: Value> = ();
 
     fn inputs(&self) -> Inputs<Format> {
-        let word = Format::unsigned(COMMAND_BITS as u8, 0);
-        Inputs { enable: BIT, busy: BIT, dout: Format::unsigned(self.channels as u8, 0), write: BIT, word }
+        Inputs { enable: BIT, busy: BIT, dout: Format::unsigned(self.channels as u8, 0), write: BIT }
     }
 
     fn outputs(&self) -> Outputs<Format> {
@@ -231,7 +227,7 @@ impl Block for AdcReader {
             convst: BIT,
             cs_n: BIT,
             sclk_run: BIT,
-            sdi: BIT,
+            shift: BIT,
             store: BIT,
             address: Format::unsigned(self.index().width + 1, 0),
             code: self.code,
@@ -258,7 +254,6 @@ impl Block for AdcReader {
             began: BIT,
             late: BIT,
             configuring: BIT,
-            command: Format::unsigned(COMMAND_BITS as u8, 0),
             tail: self.tail(),
             line_a: line,
             line_b: line,
@@ -282,7 +277,7 @@ impl Block for AdcReader {
             convst: r.convst,
             cs_n: !r.selected,
             sclk_run: r.run,
-            sdi: r.command.msb(),
+            shift: r.selected & r.configuring,
             store: r.unload,
             address: word([r.index, r.filling]),
             code: read_as(r.line_a.concat(last_bit), self.code),

@@ -3,8 +3,8 @@
 //!
 //! ```text
 //! packet:  payload … │ CRC high │ CRC low │ END             END inside: ESC, DC; ESC inside: ESC, DD (hex; SLIP, RFC 1055)
-//! frame:   8 words of B bytes, most significant first │ sequence │ pad │ flags │ commands taken
-//! command: where, 2 bytes │ data, D bytes                    where: 8000 + register, or the address of a word of the map
+//! frame:   sequence │ commands taken (4 bits), pad (4 bits) │ flags │ 8 words of B bytes, most significant first
+//! command: where, 2 bytes │ data, D bytes               where: 8000 (hex) + register, or a word of the map; other bits are ignored
 //! ```
 //!
 //! SLIP rather than COBS or a length: END is nowhere but at the end, so that a reader who has lost its place has it again after
@@ -24,8 +24,8 @@ pub const ESC_END: u8 = 0xdc;
 /// ESC, after ESC.
 pub const ESC_ESC: u8 = 0xdd;
 
-/// Bytes of a frame packet after its words, without the CRC: sequence number, pad, flags, commands taken.
-pub const STATUS_BYTES: u64 = 4;
+/// Bytes of a frame packet before its words: sequence number, commands taken and pad, flags.
+pub const STATUS_BYTES: u64 = 3;
 
 /// The bits of a frame packet's flags.
 pub mod flags {

@@ -12,6 +12,7 @@
 //! | [`registers`] | calibration, in |
 //! | [`packet`] | the host's side of the line |
 //! | [`parameters`] | what a board adds to a profile |
+//! | [`top`], [`target`] | tops in rust-hdl, and the boards that one can buy: pins, constraints |
 
 pub mod adc_reader;
 mod bits;
@@ -23,8 +24,11 @@ pub mod parameters;
 pub mod registers;
 pub mod sigma_delta;
 pub mod stream;
+pub mod target;
+pub mod top;
 pub mod uart;
 pub mod whole;
 
 pub use parameters::{Parameters, ParametersError};
+pub use target::{Target, TargetError};
 pub use whole::Board;

@@ -21,7 +21,7 @@ const CHECK: Crc<u16> = Crc::<u16>::new(&CRC_16_IBM_3740);
 /// A frame as it came over the line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Packet {
-    /// Counts the frames of the core, modulo 256: a gap is a loss.
+    /// Counts the frames of the core, modulo 256; the first after a reset is 1. A gap is a loss.
     pub sequence: u8,
     /// The frame.
     pub frame: Frame,
@@ -31,7 +31,7 @@ pub struct Packet {
     pub refused: bool,
     /// The line was too slow: frames were dropped since the packet before.
     pub overrun: bool,
-    /// Commands taken since reset, modulo 256.
+    /// Commands taken since reset, modulo 16.
     pub commands: u8,
 }
 
@@ -130,10 +130,11 @@ impl Decoder {
         if expected != got {
             return Err(Damage::Crc { expected, got });
         }
-        let (words, status) = payload.split_at(Field::ALL.len() * self.word_bytes);
+        let (status, words) = payload.split_at(STATUS_BYTES as usize);
         let mut codes = words.chunks(self.word_bytes).map(signed);
         let codes = Field::ALL.map(|_| codes.next().expect("a word a field"));
-        let &[sequence, pad, bits, commands] = status else { unreachable!("the length was checked") };
+        let &[sequence, pad, bits] = status else { unreachable!("the length was checked") };
+        let (commands, pad) = (pad >> 4, pad & 0xf);
         if u64::from(pad) >= self.pads {
             return Err(Damage::Pad(pad));
         }

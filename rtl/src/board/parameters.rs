@@ -37,7 +37,9 @@ impl Parameters {
     const CONVERSION_MOST_NS: u64 = 600;
     /// From a conversion's start until its codes may replace those before, which are then still being read.
     const CONVERSION_LEAST_NS: u64 = 500;
-    /// Clocks that a pad's switch is given to break.
+    /// Clocks of a write of an ADC's register, without the wait before it.
+    const WRITE_CLOCKS: u64 = 22;
+    /// What a pad's switch is given to break.
     const BREAK_NS: u64 = 1000;
 
     /// Clocks of a bit of the serial port.
@@ -55,6 +57,11 @@ impl Parameters {
         (Self::BREAK_NS * self.clock_hz).div_ceil(1_000_000_000)
     }
 
+    /// A register of the ADC is written before the next command's first byte is there.
+    fn least_divisor(&self) -> u64 {
+        (self.conversion() + Self::WRITE_CLOCKS).div_ceil(10).max(4)
+    }
+
     /// Whether a core of the profile can be served with these.
     ///
     /// # Errors
@@ -63,8 +70,9 @@ impl Parameters {
         let (period, bits) = (profile.clocks_per_sample, u64::from(profile.formats.adc.width));
         let channels = profile.channels() as u64;
         within("clock_hz", self.clock_hz, 1_000_000, 200_000_000)?;
-        within("baud", self.divisor(), 4, 1 << 16).map_err(|error| ParametersError {
-            expected: format!("{} to {}", self.clock_hz >> 16, self.clock_hz / 4),
+        let least = self.least_divisor();
+        within("baud", self.divisor(), least, 1 << 16).map_err(|error| ParametersError {
+            expected: format!("{} to {}", self.clock_hz >> 16, self.clock_hz / least),
             got: self.baud,
             ..error
         })?;

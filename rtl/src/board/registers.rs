@@ -10,7 +10,7 @@
 //! | place    | u16                      | shifted out by bytes too many: refused    |
 //! | data     | D bytes                  | as above                                  |
 //! | count    | counter D + 5            | held at its end, which no command reaches |
-//! | commands | u8                       | wraps, meant                              |
+//! | commands | u4                       | wraps, meant                              |
 //!
 //! Nothing is written before a command's END has come with the right length and CRC; all else is refused, says so for a clock,
 //! and changes nothing. Latency: two clocks from the byte END. Source: [`super::framing`].
@@ -18,6 +18,7 @@
 use super::bits::{next, read_as};
 use super::crc16;
 use super::framing::{END, ESC, ESC_END, ESC_ESC, Register, data_bytes};
+use super::stream::NIBBLE;
 use super::uart::BYTE;
 use hapticore_model::block::{Block, Cell};
 use hapticore_model::blocks::core;
@@ -32,6 +33,8 @@ bundle! {
         valid,
         /// The byte.
         octet,
+        /// A command's data move on by a bit.
+        shift,
     }
 }
 
@@ -60,9 +63,9 @@ bundle! {
         word,
         /// Writes a register of the ADC.
         adc_write,
-        /// Which, and what.
-        adc_word,
-        /// Commands taken so far.
+        /// What, bit by bit.
+        sdi,
+        /// Commands taken so far, modulo 16.
         commands,
         /// Set for a clock when a command is refused.
         refused,
@@ -87,6 +90,8 @@ pub struct CommandRegisters {
     length: u64,
 }
 
+/// Bits of a register of the ADC.
+const ADC_WORD: u8 = 16;
 /// Bytes of a command's place and of its CRC.
 const AROUND: u64 = 4;
 
@@ -157,7 +162,7 @@ impl CommandRegisters {
     /// Whether the place is this register.
     #[inline(always)]
     fn is<V: Value>(&self, r: &Registers<Signal<V>>, register: Register) -> Signal<V> {
-        r.place.is(register.place().into())
+        r.place.msb() & r.place.bits(0, 3).is(register as u64)
     }
 }
 
@@ -169,7 +174,7 @@ impl Block for CommandRegisters {
     type Parts<V: Value> = ();
 
     fn inputs(&self) -> Inputs<Format> {
-        Inputs { valid: BIT, octet: BYTE }
+        Inputs { valid: BIT, octet: BYTE, shift: BIT }
     }
 
     fn outputs(&self) -> Outputs<Format> {
@@ -187,8 +192,8 @@ impl Block for CommandRegisters {
             address,
             word,
             adc_write: BIT,
-            adc_word: Register::Adc.format(&self.core),
-            commands: BYTE,
+            sdi: BIT,
+            commands: NIBBLE,
             refused: BIT,
         }
     }
@@ -203,7 +208,7 @@ impl Block for CommandRegisters {
             data: self.data,
             act: BIT,
             refused: BIT,
-            commands: BYTE,
+            commands: NIBBLE,
             origin_x: of.origin_x,
             scale_x: of.scale_x,
             origin_y: of.origin_y,
@@ -220,12 +225,14 @@ impl Block for CommandRegisters {
         let of = self.outputs();
         // The CRC begins anew with a command's first octet: a register is zero at reset, a CRC is not at its beginning.
         let crc = r.count.is(0).select(crc16::begin(), r.crc);
-        let quiet = Registers { act: bit(false), refused: bit(false), ..self.written(r) };
+        let data = i.shift.select(r.data.concat(bit(false)).bits(0, self.data.width), r.data);
+        let quiet = Registers { act: bit(false), refused: bit(false), data, ..self.written(r) };
         let fresh = Registers { crc, ..quiet };
         let got = when!(V, Registers, i.octet.is(END.into()), self.end(quiet), self.part(fresh, i.octet));
         let next = when!(V, Registers, i.valid, got, quiet);
         cell.store(self, next);
-        let of_map = r.place.less_than(int(self.words));
+        let address = r.place.bits(0, of.address.width);
+        let of_map = !r.place.msb() & address.less_than(int(self.words));
         Outputs {
             origin_x: r.origin_x,
             scale_x: r.scale_x,
@@ -235,10 +242,10 @@ impl Block for CommandRegisters {
             force_gain: r.force_gain,
             enable: r.enable,
             write: r.act & of_map,
-            address: read_as(r.place, of.address),
+            address,
             word: read_as(r.data, of.word),
             adc_write: r.act & self.is(&r, Register::Adc),
-            adc_word: read_as(r.data, of.adc_word),
+            sdi: r.data.bits(ADC_WORD - 1, 1),
             commands: r.commands,
             refused: r.refused,
         }

@@ -3,19 +3,21 @@
 //!
 //! ```text
 //! frame words ─[words: one frame]─┐
-//! sequence, pad, flags, commands ─┼─(group, left)── byte ─┬─[CRC]─┐
+//! number, commands, pad, flags ────┼─(group, left)── byte ─┬─[CRC]─┐
 //!                                 └───────────────────────┴───────┴─(escape)─ transmitter ─ tx
 //! ```
 //!
-//! | group   | 0 … 7      | 8                                  | 9             |
-//! | bytes   | B a word   | sequence, pad, flags, commands     | CRC, CRC, END |
+//! | group   | 15                            | 0 … 7      | 8             |
+//! | bytes   | sequence, commands/pad, flags | B a word   | CRC, CRC, END |
 //!
-//! | signal   | format      | overflow                        |
-//! | number   | u8          | wraps, meant: losses show as gaps |
-//! | left     | counter 3   | reloaded, by compare            |
+//! | signal | format      | overflow                          |
+//! | number | u8          | wraps, meant: losses show as gaps |
+//! | group  | u4          | wraps, meant: 15 comes before 0   |
+//! | left   | counter 3   | reloaded, by compare              |
 //!
-//! A frame that comes while one is being sent is dropped whole, takes its number along, and sets a flag in the next packet.
-//! What happened since the packet before (late, refused, overrun) is kept until it is told. Latency: (8·B + 7)·10·D clocks
+//! A frame that comes while one is being sent is dropped whole, takes its number along, and sets a flag in the next packet. A
+//! packet's own number is its first byte, gone long before another frame can come.
+//! What happened since the packet before (late, refused, overrun) is kept until it is told. Latency: (8·B + 6)·10·D clocks
 //! for a packet, and as much again for each byte that is escaped. Source: [`super::framing`].
 
 use super::bits::{flag, next, previous, word as bits_side_by_side};
@@ -56,7 +58,7 @@ bundle! {
         late,
         /// A command was refused.
         refused,
-        /// Commands taken so far.
+        /// Commands taken so far, modulo 16.
         commands,
     }
 }
@@ -72,7 +74,7 @@ bundle! {
 bundle! {
     /// The registers.
     pub struct Registers {
-        taking, busy, group, left, escaped, crc, frames, number, pad, clipped, saturated, invalid, lost,
+        taking, busy, group, left, escaped, crc, number, pad, clipped, saturated, invalid, lost,
         late, refused, overrun,
     }
 }
@@ -94,12 +96,17 @@ pub struct Stream {
     bytes: u64,
 }
 
+/// The format of a count of commands, and of a pad.
+pub const NIBBLE: Format = Format::unsigned(4, 0);
+
 /// Words of a frame.
 const WORDS: u64 = Field::ALL.len() as u64;
-/// The group after the words: the status.
-const STATUS: u64 = WORDS;
+/// The group before the words, by wrapping: the status.
+const STATUS: u64 = 15;
 /// The last group: the CRC and END.
-const TRAILER: u64 = WORDS + 1;
+const TRAILER: u64 = WORDS;
+/// Bytes of it.
+const TRAILER_BYTES: u64 = 3;
 
 impl Stream {
     /// The stream of a profile's frames, with so many clocks a bit.
@@ -114,7 +121,7 @@ impl Stream {
 
     /// Clocks of a packet without escapes, from a frame's last word to the end of its last stop bit.
     pub fn packet_clocks(&self, divisor: u64) -> u64 {
-        (WORDS * self.bytes + STATUS_BYTES + 3) * 10 * divisor + 1
+        (STATUS_BYTES + WORDS * self.bytes + TRAILER_BYTES) * 10 * divisor + 1
     }
 
     /// The byte of the packet that is due.
@@ -128,7 +135,8 @@ impl Stream {
         let words: Vec<_> = (0..self.bytes).map(|left| wide.bits(8 * left as u8, 8)).collect();
         let flags =
             bits_side_by_side([r.clipped, r.saturated, r.invalid, r.lost, r.late, r.refused, r.overrun, bit(false)]);
-        let status = pick(&[i.commands, flags, r.pad.fit(BYTE, Exact, Wrap), r.number]);
+        let pad = r.pad.fit(NIBBLE, Exact, Wrap);
+        let status = pick(&[flags, i.commands.concat(pad), r.number]);
         // The CRC takes its own high byte in as it is sent; what is left is the low byte, moved up.
         let check = r.crc.bits(8, 8);
         let trailer = pick(&[code(END.into(), BYTE), check, check]);
@@ -139,8 +147,7 @@ impl Stream {
     #[inline(always)]
     fn advance<V: Value>(&self, r: &Registers<Signal<V>>) -> (Signal<V>, Signal<V>) {
         let last = r.left.is(0);
-        let of_next =
-            r.group.is(STATUS).select(int(2), r.group.is(WORDS - 1).select(int(STATUS_BYTES - 1), int(self.bytes - 1)));
+        let of_next = r.group.is(WORDS - 1).select(int(TRAILER_BYTES - 1), int(self.bytes - 1));
         (last.select(next(r.group), r.group), last.select(of_next, previous(r.left)))
     }
 }
@@ -165,7 +172,7 @@ impl Block for Stream {
             lost: BIT,
             late: BIT,
             refused: BIT,
-            commands: BYTE,
+            commands: NIBBLE,
         }
     }
 
@@ -177,11 +184,10 @@ impl Block for Stream {
         Registers {
             taking: BIT,
             busy: BIT,
-            group: Format::counter(TRAILER),
-            left: Format::counter(STATUS_BYTES - 1),
+            group: Format::counter(STATUS),
+            left: Format::counter(3),
             escaped: BIT,
             crc: crc16::CRC,
-            frames: BYTE,
             number: BYTE,
             pad: self.pad,
             clipped: BIT,
@@ -217,7 +223,7 @@ impl Block for Stream {
         let transmitter = self.transmitter.call("transmitter", &mut cell.parts.transmitter, inputs);
 
         let sent = transmitter.taken & !escape;
-        let told = sent & r.group.is(STATUS) & r.left.is(1);
+        let told = sent & r.group.is(STATUS) & r.left.is(0);
         let begin = i.done & taking;
         let (group, left) = self.advance(&r);
         let take = |now: Signal<V>, held: Signal<V>| begin.select(now, held);
@@ -226,12 +232,11 @@ impl Block for Stream {
             Registers {
                 taking,
                 busy: flag(r.busy, begin, sent & at_end),
-                group: take(int(0), sent.select(group, r.group)).fit(r.group.format, Exact, Wrap),
-                left: take(int(self.bytes - 1), sent.select(left, r.left)).fit(r.left.format, Exact, Wrap),
+                group: take(int(STATUS), sent.select(group, r.group)).fit(r.group.format, Exact, Wrap),
+                left: take(int(STATUS_BYTES - 1), sent.select(left, r.left)).fit(r.left.format, Exact, Wrap),
                 escaped: transmitter.taken.select(escape, r.escaped),
                 crc: take(crc16::begin(), sent.select(crc16::with(r.crc, byte), r.crc)),
-                frames: i.done.select(next(r.frames), r.frames),
-                number: take(r.frames, r.number),
+                number: i.done.select(next(r.number), r.number),
                 pad: take(i.pad, r.pad),
                 clipped: take(i.clipped, r.clipped),
                 saturated: take(i.saturated, r.saturated),

@@ -21,7 +21,6 @@ use super::stream::{self, Stream};
 use super::uart::receiver::{self, Receiver};
 use hapticore_model::block::{Block, Cell};
 use hapticore_model::blocks::core::{self, Core};
-use hapticore_model::bundle::Nothing;
 use hapticore_model::format::{BIT, Format};
 use hapticore_model::memory::{Memory, Write};
 use hapticore_model::profile::Profile;
@@ -61,6 +60,13 @@ bundle! {
         enabled,
         /// For a lamp: the ADC was late in this clock.
         late,
+    }
+}
+
+bundle! {
+    /// The register.
+    pub struct Registers {
+        shift,
     }
 }
 
@@ -151,7 +157,7 @@ impl Block for Board {
     const NAME: &'static str = "board";
     type Inputs = Inputs;
     type Outputs = Outputs;
-    type Registers = Nothing;
+    type Registers = Registers;
     type Parts<V: Value> = Parts<V>;
 
     fn inputs(&self) -> Inputs<Format> {
@@ -172,25 +178,22 @@ impl Block for Board {
         }
     }
 
-    #[inline(always)]
-    fn registers(&self) -> Nothing<Format> {
-        Nothing::default()
+    fn registers(&self) -> Registers<Format> {
+        Registers { shift: BIT }
     }
 
     #[inline(always)]
     fn clock<V: Value>(&self, cell: &mut Cell<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+        let r = cell.load(self);
         let parts = &mut cell.parts;
         let bytes = self.receiver.call("receiver", &mut parts.receiver, receiver::Inputs { rx: i.rx });
-        let inputs = registers::Inputs { valid: bytes.valid, octet: bytes.octet };
+        let inputs = registers::Inputs { valid: bytes.valid, octet: bytes.octet, shift: r.shift };
         let registers = self.registers.call("registers", &mut parts.registers, inputs);
-        let inputs = adc_reader::Inputs {
-            enable: registers.enable,
-            busy: i.busy,
-            dout: i.dout,
-            write: registers.adc_write,
-            word: registers.adc_word,
-        };
+        let inputs =
+            adc_reader::Inputs { enable: registers.enable, busy: i.busy, dout: i.dout, write: registers.adc_write };
         let adc = self.adc_reader.call("adc_reader", &mut parts.adc_reader, inputs);
+        // The reader cannot ask the registers in the same clock that it is told by them.
+        let shift = adc.shift;
         let inputs = core_inputs(&registers, adc.strobe, self.codes.data(&mut parts.codes));
         let core = self.core.call("core", &mut parts.core, inputs);
         let write = Write { enable: adc.store, address: adc.address, data: adc.code };
@@ -214,11 +217,12 @@ impl Block for Board {
             commands: registers.commands,
         };
         let stream = self.stream.call("stream", &mut parts.stream, inputs);
+        cell.store(self, Registers { shift });
         Outputs {
             convst: adc.convst,
             cs_n: adc.cs_n,
             sclk_run: adc.sclk_run,
-            sdi: adc.sdi,
+            sdi: registers.sdi,
             carrier: carrier.pulse,
             select: pads.select,
             tx: stream.tx,

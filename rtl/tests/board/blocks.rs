@@ -139,8 +139,8 @@ fn a_board_that_cannot_be_says_what_was_expected() {
         (Parameters { sclk_latency: 16, ..board }, "sclk_latency: expected 0 to 15, got 16"),
         (Parameters { clock_hz: 100_000_000, ..board }, "clocks from a conversion"),
     ] {
-        let message = Board::new(&profile, &parameters).err().expect(words).to_string();
-        assert!(message.contains(words), "{message}");
+        let Err(error) = Board::new(&profile, &parameters) else { panic!("{words}") };
+        assert!(error.to_string().contains(words), "{error}");
     }
 }
 
@@ -156,7 +156,7 @@ fn every_command_is_taken_escaped_or_not() {
         let bytes = Command::Map { address, code }.encode(&core);
         for byte in bytes.iter().map(|&byte| Some(byte)).chain([None]) {
             let (valid, octet) = (byte.is_some().into(), byte.unwrap_or(0).into());
-            let outputs = bench.clock(registers::Inputs { valid, octet });
+            let outputs = bench.clock(registers::Inputs { valid, octet, shift: 0 });
             assert_eq!(outputs.refused, 0, "{count}: {bytes:x?}");
             if outputs.write != 0 {
                 written = Some((outputs.address as u16, outputs.word));

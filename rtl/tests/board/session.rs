@@ -118,9 +118,9 @@ fn over_the_line_come_the_frames_of_the_core() {
         let expected = simulated(&profile, &calibration, &samples);
         for (number, (packet, expected)) in packets.iter().zip(&expected).enumerate() {
             assert_eq!(packet.frame, *expected, "{}: frame {number}", profile.name);
-            assert_eq!(usize::from(packet.sequence), number);
+            assert_eq!(usize::from(packet.sequence), number + 1);
             assert!(!(packet.late || packet.refused || packet.overrun), "{}: {packet:?}", profile.name);
-            assert_eq!(packet.commands, commands.len() as u8);
+            assert_eq!(packet.commands, commands.len() as u8 % 16);
         }
         assert_eq!(expected.len(), 9);
         assert!(expected.iter().any(|frame| frame.flags.lost) && expected.iter().any(|frame| frame.flags.invalid));
@@ -155,7 +155,7 @@ fn a_damaged_command_changes_nothing_and_is_told() {
     session.send(&commands[20..]);
     let packets = session.packets(2);
     assert!(packets[0].refused && !packets[1].refused, "told once");
-    assert_eq!(packets[0].commands, commands.len() as u8);
+    assert_eq!(packets[0].commands, commands.len() as u8 % 16);
     let expected = simulated(&profile, &calibration(&profile), &samples);
     assert_eq!(packets[1].frame, expected[1]);
 }
@@ -186,10 +186,10 @@ fn a_line_too_slow_drops_whole_frames_and_says_so() {
     let expected = simulated(&profile, &calibration, &samples);
     assert!(packets.windows(2).any(|pair| pair[1].sequence > pair[0].sequence + 1), "some are dropped");
     for pair in packets.windows(2) {
-        assert_eq!(pair[0].overrun || pair[1].overrun, true, "and that is said: {pair:?}");
+        assert!(pair[0].overrun || pair[1].overrun, "and that is said: {pair:?}");
     }
     for packet in &packets {
-        assert_eq!(packet.frame, expected[usize::from(packet.sequence)], "those that come are whole");
+        assert_eq!(packet.frame, expected[usize::from(packet.sequence) - 1], "those that come are whole");
     }
 }
 

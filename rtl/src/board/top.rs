@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Board tops in rust-hdl: the board, its reset, the output primitive of SCLK, and the pins.
+//!
+//! ```text
+//! power-up: 255 clocks ─┬─(or)─ reset ─┬─ board ─ pins
+//! button ─ synchroniser ┘              └─ adc_reset
+//!                                sclk_run ─ DDR output ─ sclk: high, then low, in a clock with a pulse; else high
+//! ```
+//!
+//! The kernel here only wires: what computes is in blocks. The reset is the FPGA's loading of registers with their initial
+//! values, then 255 clocks (the ADC's full reset takes 3.2 µs); loading itself takes long enough for all supplies. Lamps and
+//! button may be active low.
+
+use super::whole;
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::{AutoReset, BitSynchronizer, DFF};
+
+crate::component! {
+    /// The board as a rust-hdl component.
+    pub struct BoardComponent of whole::Board {
+        inputs { dout: Bits<8>, busy: Bit, rx: Bit }
+        outputs {
+            convst: Bit, cs_n: Bit, sclk_run: Bit, sdi: Bit, carrier: Bit, select: Bits<4>, tx: Bit, enabled: Bit, late: Bit
+        }
+    }
+}
+
+/// Which primitive puts SCLK out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Primitive {
+    /// Lattice ECP5's ODDRX1F: three clocks late (its simulation model has three registers).
+    Oddrx1f,
+    /// Lattice iCE40's SB_IO with a DDR output: the second half of a clock is what is there in the middle of it, so that there
+    /// is no latency.
+    SbIo,
+}
+
+impl Primitive {
+    /// Clocks from `run` to the pulse.
+    pub fn latency(self) -> u64 {
+        match self {
+            Primitive::Oddrx1f => 3,
+            Primitive::SbIo => 0,
+        }
+    }
+
+    fn verilog(self) -> &'static str {
+        match self {
+            Primitive::Oddrx1f => "ODDRX1F output_cell (.D0(1'b1), .D1(~run), .SCLK(clock), .RST(1'b0), .Q(sclk));",
+            Primitive::SbIo => {
+                "SB_IO #(.PIN_TYPE(6'b0100_00)) output_cell (\n    .PACKAGE_PIN(sclk), .OUTPUT_CLK(clock), .D_OUT_0(1'b1), .D_OUT_1(~run)\n);"
+            }
+        }
+    }
+}
+
+/// SCLK's output cell. It has no model in rust-hdl, whose clocks have no halves: [`crate::board`]'s tests run its Verilog.
+pub struct SclkOutput {
+    /// The core's clock.
+    pub clock: Signal<In, Clock>,
+    /// A pulse in this clock.
+    pub run: Signal<In, Bit>,
+    /// The pin.
+    pub sclk: Signal<Out, Bit>,
+    primitive: Primitive,
+}
+
+impl SclkOutput {
+    /// With this primitive.
+    pub fn new(primitive: Primitive) -> Self {
+        SclkOutput { clock: Signal::default(), run: Signal::default(), sclk: Signal::default(), primitive }
+    }
+}
+
+impl Logic for SclkOutput {
+    fn update(&mut self) {
+        self.sclk.next = true;
+    }
+
+    fn connect(&mut self) {
+        self.sclk.connect();
+    }
+
+    fn hdl(&self) -> Verilog {
+        Verilog::Wrapper(Wrapper { code: self.primitive.verilog().into(), cores: String::new() })
+    }
+}
+
+impl Block for SclkOutput {
+    fn connect_all(&mut self) {
+        self.connect();
+    }
+
+    fn update_all(&mut self) {
+        self.update();
+        self.clock.update_all();
+        self.run.update_all();
+        self.sclk.update_all();
+    }
+
+    fn has_changed(&self) -> bool {
+        self.clock.has_changed() || self.run.has_changed() || self.sclk.has_changed()
+    }
+
+    fn accept(&self, name: &str, probe: &mut dyn Probe) {
+        probe.visit_start_scope(name, self);
+        self.clock.accept("clock", probe);
+        self.run.accept("run", probe);
+        self.sclk.accept("sclk", probe);
+        probe.visit_end_scope(name, self);
+    }
+}
+
+/// A board's top.
+#[derive(LogicBlock)]
+#[allow(missing_docs)]
+pub struct Top {
+    pub clock: Signal<In, Clock>,
+    pub button: Signal<In, Bit>,
+    pub rx: Signal<In, Bit>,
+    pub tx: Signal<Out, Bit>,
+    pub adc_reset: Signal<Out, Bit>,
+    pub convst: Signal<Out, Bit>,
+    pub busy: Signal<In, Bit>,
+    pub cs_n: Signal<Out, Bit>,
+    pub sclk: Signal<Out, Bit>,
+    pub sdi: Signal<Out, Bit>,
+    pub dout: Signal<In, Bits<8>>,
+    pub carrier: Signal<Out, Bit>,
+    pub pads: Signal<Out, Bits<4>>,
+    pub enabled: Signal<Out, Bit>,
+    pub late: Signal<Out, Bit>,
+    active_low: Constant<Bit>,
+    power_up: AutoReset,
+    pressed: BitSynchronizer,
+    hold: DFF<Bit>,
+    board: BoardComponent,
+    pulses: SclkOutput,
+}
+
+impl Top {
+    /// The top of a board, whose button and lamps may be active low.
+    pub fn new(board: whole::Board, primitive: Primitive, active_low: bool) -> Self {
+        Top {
+            clock: Signal::default(),
+            button: Signal::default(),
+            rx: Signal::default(),
+            tx: Signal::default(),
+            adc_reset: Signal::default(),
+            convst: Signal::default(),
+            busy: Signal::default(),
+            cs_n: Signal::default(),
+            sclk: Signal::default(),
+            sdi: Signal::default(),
+            dout: Signal::default(),
+            carrier: Signal::default(),
+            pads: Signal::default(),
+            enabled: Signal::default(),
+            late: Signal::default(),
+            active_low: Constant::new(active_low),
+            power_up: AutoReset::default(),
+            pressed: BitSynchronizer::default(),
+            hold: DFF::default(),
+            board: BoardComponent::new(board),
+            pulses: SclkOutput::new(primitive),
+        }
+    }
+}
+
+impl Logic for Top {
+    #[hdl_gen]
+    fn update(&mut self) {
+        self.power_up.clock.next = self.clock.val();
+        self.pressed.clock.next = self.clock.val();
+        self.pressed.sig_in.next = self.button.val() ^ self.active_low.val();
+        self.hold.clock.next = self.clock.val();
+        self.hold.d.next = self.power_up.reset.val() | self.pressed.sig_out.val();
+        self.board.clock.next = self.clock.val();
+        self.board.reset.next = self.hold.q.val();
+        self.adc_reset.next = self.hold.q.val();
+        self.board.busy.next = self.busy.val();
+        self.board.dout.next = self.dout.val();
+        self.board.rx.next = self.rx.val();
+        self.convst.next = self.board.convst.val();
+        self.cs_n.next = self.board.cs_n.val();
+        self.sdi.next = self.board.sdi.val();
+        self.carrier.next = self.board.carrier.val();
+        self.pads.next = self.board.select.val();
+        self.tx.next = self.board.tx.val();
+        self.enabled.next = self.board.enabled.val() ^ self.active_low.val();
+        self.late.next = self.board.late.val() ^ self.active_low.val();
+        self.pulses.clock.next = self.clock.val();
+        self.pulses.run.next = self.board.sclk_run.val();
+        self.sclk.next = self.pulses.sclk.val();
+    }
+}

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Components: the model in rust-hdl's simulator, and the printed modules in rust-hdl's Verilog, alike at every clock.
+
+use crate::harness::{Design, Ports, have_icarus, mismatch, simulated};
+use hapticore_model::blocks::divider::Divider;
+use hapticore_model::blocks::multiplexer::Multiplexer;
+use hapticore_model::format::Format;
+use hapticore_model::profile::Profile;
+use hapticore_rtl::board::sigma_delta::SigmaDelta;
+use hapticore_rtl::component;
+use rust_hdl_core::prelude::*;
+
+component! {
+    /// Divides 8 bits by 8 bits.
+    pub struct Quotient of Divider {
+        inputs { start: Bit, numerator: Bits<8>, denominator: Bits<8> }
+        outputs { done: Bit, quotient: Bits<9>, saturated: Bit }
+    }
+}
+
+component! {
+    /// A carrier of 6 bits.
+    pub struct Carrier of SigmaDelta {
+        inputs { carrier: Bits<6> }
+        outputs { pulse: Bit }
+    }
+}
+
+component! {
+    /// Serves the pads of the small profile.
+    pub struct Turns of Multiplexer {
+        inputs { strobe: Bit }
+        outputs { sample: Bit, restart: Bit, integrate: Bit, first: Bit, last: Bit, pad: Bits<2>, closed: Bit }
+    }
+}
+
+/// A divider twice, and a modulator whose output starts one of them: in a kernel of rust-hdl's.
+#[derive(LogicBlock)]
+struct Pair {
+    clock: Signal<In, Clock>,
+    reset: Signal<In, Bit>,
+    start: Signal<In, Bit>,
+    a: Signal<In, Bits<8>>,
+    b: Signal<In, Bits<8>>,
+    done: Signal<Out, Bit>,
+    once: Signal<Out, Bits<9>>,
+    twice: Signal<Out, Bits<9>>,
+    pulse: Signal<Out, Bit>,
+    first: Quotient,
+    second: Quotient,
+    modulator: Carrier,
+}
+
+impl Pair {
+    fn new() -> Self {
+        let integer = Format::unsigned(8, 0);
+        let divider = Divider::new(integer, integer, Format::unsigned(9, 8));
+        Pair {
+            clock: Signal::default(),
+            reset: Signal::default(),
+            start: Signal::default(),
+            a: Signal::default(),
+            b: Signal::default(),
+            done: Signal::default(),
+            once: Signal::default(),
+            twice: Signal::default(),
+            pulse: Signal::default(),
+            first: Quotient::new(divider.clone()),
+            second: Quotient::new(divider),
+            modulator: Carrier::new(SigmaDelta::new(Format::signed(6, 5))),
+        }
+    }
+}
+
+impl Logic for Pair {
+    #[hdl_gen]
+    fn update(&mut self) {
+        self.first.clock.next = self.clock.val();
+        self.first.reset.next = self.reset.val();
+        self.first.start.next = self.start.val();
+        self.first.numerator.next = self.a.val();
+        self.first.denominator.next = self.b.val();
+        self.second.clock.next = self.clock.val();
+        self.second.reset.next = self.reset.val();
+        self.second.start.next = self.modulator.pulse.val();
+        self.second.numerator.next = self.b.val();
+        self.second.denominator.next = self.a.val();
+        self.modulator.clock.next = self.clock.val();
+        self.modulator.reset.next = self.reset.val();
+        self.modulator.carrier.next = self.a.val().get_bits::<6>(0);
+        self.done.next = self.first.done.val() | self.second.done.val();
+        self.once.next = self.first.quotient.val();
+        self.twice.next = self.second.quotient.val();
+        self.pulse.next = self.modulator.pulse.val();
+    }
+}
+
+impl Design for Pair {
+    const PORTS: (Ports, Ports) =
+        (&[("reset", 1), ("start", 1), ("a", 8), ("b", 8)], &[("done", 1), ("once", 9), ("twice", 9), ("pulse", 1)]);
+    const CLOCKED: bool = true;
+    const UNKNOWN: usize = 1;
+
+    fn set(&mut self, inputs: &[u64]) {
+        self.reset.next = inputs[0] != 0;
+        self.start.next = inputs[1] != 0;
+        self.a.next = inputs[2].into();
+        self.b.next = inputs[3].into();
+    }
+
+    fn get(&self) -> Vec<u64> {
+        let bit = |bit: bool| u64::from(bit);
+        vec![bit(self.done.val()), self.once.val().to_u64(), self.twice.val().to_u64(), bit(self.pulse.val())]
+    }
+
+    fn clock(&mut self, high: bool) {
+        self.clock.next = high.into();
+    }
+}
+
+/// Resets, then starts now and then with ever other numbers.
+fn inputs() -> Vec<Vec<u64>> {
+    let numbers = |k: u64| [(k * 7919) >> 3 & 0xff, (k * 104_729) >> 5 & 0xff];
+    let step = |k: u64| {
+        let [a, b] = numbers(k / 14);
+        vec![u64::from(k < 2 || k == 900), u64::from(k % 14 == 3), a, b]
+    };
+    (0..2_000).map(step).collect()
+}
+
+#[test]
+fn components_are_alike_in_simulation_and_in_verilog() {
+    if !have_icarus() {
+        return;
+    }
+    assert_eq!(mismatch(Pair::new(), &inputs()), None);
+}
+
+#[test]
+fn a_component_divides_as_its_block_does() {
+    let outputs = simulated(&mut Pair::new(), &inputs());
+    let quotients: Vec<u64> = outputs.iter().map(|outputs| outputs[1]).collect();
+    let [a, b] = [7919 * 30 / 8 % 256, (30 * 104_729u64) >> 5 & 0xff];
+    let expected = ((a as f64 / b as f64 * 256.0).round_ties_even() as u64).min(511);
+    assert_eq!(quotients[30 * 14 + 14], expected, "{a} / {b}");
+}
+
+#[test]
+fn each_printed_module_is_there_once() {
+    let mut pair = Pair::new();
+    pair.connect_all();
+    let text = component::verilog(&pair);
+    assert_eq!(text.matches("\nmodule divider ").count(), 1);
+    assert_eq!(text.matches("divider block (").count(), 2);
+}
+
+#[test]
+#[should_panic(expected = "the inputs of divider")]
+fn a_component_of_other_widths_is_refused() {
+    let (wide, fraction) = (Format::unsigned(9, 0), Format::unsigned(9, 8));
+    Quotient::new(Divider::new(wide, Format::unsigned(8, 0), fraction));
+}
+
+#[test]
+fn any_block_has_a_component() {
+    let profile = Profile::bundled("small").expect("bundled");
+    let mut turns = Turns::new(Multiplexer::new(&profile));
+    turns.connect_all();
+    assert!(component::verilog(&turns).contains("module multiplexer"));
+}

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// A board's top with an ADC at its pins and a host at its serial line: sends the bytes of a file, writes what it hears to
+// another, one byte a line, and ends after so many packets. Output pins follow their clock by T_OUT ns; data lines need
+// T_IN ns to the core.
+
+`timescale 1ns / 1ps
+`default_nettype none
+
+module board_bench #(
+    parameter BITS = 16,
+    parameter SAMPLES = 1,
+    parameter BYTES = 1,
+    parameter PACKETS = 1,
+    parameter real PERIOD = 83.333,
+    parameter real BIT = 1000.0,
+    parameter real T_OUT = 4.0,
+    parameter real T_IN = 4.0,
+    parameter real LIMIT = 1e9,
+    parameter ACTIVE_LOW = 0
+);
+
+    reg clock, rx;
+    wire tx, adc_reset, convst, busy, cs_n, sclk, sdi, carrier, enabled, late;
+    wire [7:0] dout;
+    wire [3:0] pads;
+    wire convst_pin, cs_n_pin, sdi_pin;
+    wire [7:0] dout_in;
+    reg [7:0] bytes [0:BYTES-1];
+    reg [7:0] heard;
+    integer file, packets, k, bit_number;
+
+    assign #(T_OUT) {convst_pin, cs_n_pin, sdi_pin} = {convst, cs_n, sdi};
+    assign #(T_IN) dout_in = dout;
+
+    top uut (
+        .clock(clock), .button(ACTIVE_LOW != 0), .rx(rx), .tx(tx), .adc_reset(adc_reset), .convst(convst), .busy(busy),
+        .cs_n(cs_n), .sclk(sclk), .sdi(sdi), .dout(dout_in), .carrier(carrier), .pads(pads), .enabled(enabled), .late(late)
+    );
+
+    adc_model #(.BITS(BITS), .SAMPLES(SAMPLES)) adc (
+        .reset(adc_reset), .convst(convst_pin), .cs_n(cs_n_pin), .sclk(sclk), .sdi(sdi_pin), .busy(busy), .dout(dout)
+    );
+
+    initial begin
+        clock = 0;
+        forever #(PERIOD / 2) clock = !clock;
+    end
+
+    initial begin
+        rx = 1;
+        $readmemh("bytes.hex", bytes);
+        #(600 * PERIOD);
+        for (k = 0; k < BYTES; k = k + 1) begin
+            rx = 0;
+            #(BIT);
+            for (bit_number = 0; bit_number < 8; bit_number = bit_number + 1) begin
+                rx = bytes[k][bit_number];
+                #(BIT);
+            end
+            rx = 1;
+            #(BIT);
+        end
+    end
+
+    integer heard_bit;
+    initial begin
+        file = $fopen("heard.hex", "w");
+        packets = 0;
+        #(600 * PERIOD);
+        while (packets < PACKETS) begin
+            @(negedge tx);
+            #(BIT / 2);
+            for (heard_bit = 0; heard_bit < 8; heard_bit = heard_bit + 1) begin
+                #(BIT);
+                heard[heard_bit] = tx;
+            end
+            $fdisplay(file, "%02x", heard);
+            if (heard === 8'hc0) packets = packets + 1;
+            #(BIT);
+        end
+        $fclose(file);
+        $display("faults %0d", adc.faults);
+        $finish;
+    end
+
+    // Break before make, whatever the core says.
+    reg [3:0] closed;
+    initial closed = 0;
+    always @(pads) if ($realtime > 600 * PERIOD) begin
+        if ((pads & (pads - 1)) != 0) $display("two pads closed: %b", pads);
+        if (pads != 0 && closed != 0) $display("%b to %b without a break", closed, pads);
+        closed = pads;
+    end
+
+    initial begin
+        #(LIMIT);
+        $display("no end after %0d packets", packets);
+        $finish;
+    end
+
+endmodule
+
+`default_nettype wire
