@@ -5,7 +5,7 @@
 //! a synchronous `reset`. In rust-hdl's simulator it steps the clocked model; in rust-hdl's Verilog it is the printed
 //! modules. So no block is written twice, and what rust-hdl's own expressions would get wrong is not written in them.
 //! rust-hdl has widths in types and the model has them in profiles, so that a component names its ports' widths once, where
-//! they are used:
+//! they are used ([`declaration`] writes that for any block):
 //!
 //! ```
 //! use hapticore_model::blocks::multiplexer::Multiplexer;
@@ -30,6 +30,7 @@
 
 mod simulated;
 
+use crate::verilog::{Design, Direction, Port};
 use rust_hdl_core::prelude::{Bits, Block, Synth, generate_verilog};
 use std::collections::BTreeMap;
 
@@ -85,6 +86,24 @@ pub fn verilog<U: Block>(design: &U) -> String {
         }
     }
     kept
+}
+
+/// The declaration of a block's component, to be put into a design: [`component!`](crate::component!) with the names and the
+/// widths that this block has. `path` is where its type is, `name` what the component is to be called.
+pub fn declaration<B: hapticore_model::block::Block>(block: &B, path: &str, name: &str) -> String {
+    let design = Design::of(block, "a rust-hdl component");
+    let ports = |direction: Direction| {
+        let ports = design.ports.iter().filter(|port| port.direction == direction);
+        let port = |port: &Port| match port.format.width {
+            1 => format!("{}: Bit", port.name),
+            width => format!("{}: Bits<{width}>", port.name),
+        };
+        ports.map(port).collect::<Vec<_>>().join(", ")
+    };
+    let (inputs, outputs) = (ports(Direction::Input), ports(Direction::Output));
+    format!(
+        "component! {{\n    pub struct {name} of {path} {{\n        inputs {{ {inputs} }}\n        outputs {{ {outputs} }}\n    }}\n}}\n"
+    )
 }
 
 /// Makes a rust-hdl component of a block; see [the module](mod@crate::component).

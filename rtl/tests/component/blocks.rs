@@ -2,6 +2,7 @@
 //! Components: the model in rust-hdl's simulator, and the printed modules in rust-hdl's Verilog, alike at every clock.
 
 use crate::harness::{Design, Ports, have_icarus, mismatch, simulated};
+use hapticore_model::blocks::core::Core;
 use hapticore_model::blocks::divider::Divider;
 use hapticore_model::blocks::multiplexer::Multiplexer;
 use hapticore_model::format::Format;
@@ -167,4 +168,21 @@ fn any_block_has_a_component() {
     let mut turns = Turns::new(Multiplexer::new(&profile));
     turns.connect_all();
     assert!(component::verilog(&turns).contains("module multiplexer"));
+    // As it stands at the top of this file.
+    let declared = component::declaration(&Multiplexer::new(&profile), "Multiplexer", "Turns");
+    let words = |text: &str| text.split_whitespace().map(str::to_owned).collect::<Vec<_>>();
+    let here = include_str!("blocks.rs").replace("    /// Serves the pads of the small profile.\n", "");
+    let here = words(&here[here.find("component! {\n    pub struct Turns").expect("declared above")..]);
+    assert!(here.starts_with(&words(&declared)), "{declared}");
+    // Blocks whose ports have names that Verilog or rust-hdl would not take would not come this far.
+    let core = Core::new(&profile);
+    for text in [
+        component::declaration(&core, "Core", "Sensor"),
+        component::declaration(core.estimator(), "Estimator", "Estimate"),
+        component::declaration(core.demodulator(), "Demodulator", "LockIn"),
+        component::declaration(core.oscillator(), "Oscillator", "Nco"),
+        component::declaration(core.estimator().map(), "Map", "Place"),
+    ] {
+        assert!(!text.contains(" force:") && !text.contains(" config:"), "{text}");
+    }
 }
