@@ -10,16 +10,22 @@
 //! | --- | --- |
 //! | [`target`] | families, boards and what must hold on each |
 //! | [`tools`] | the tools that `synth/tools` fetched |
+//! | [`formal`] | proofs with SymbiYosys |
 //! | [`flow`] | synthesis, placement and packing of one design |
 //! | [`harness`] | a core between shift registers, so that it can be placed without a board |
+//! | [`isolation`] | proof that no pad can change another's frame |
 //! | [`report`] | what is committed in `synth/reports/`, as JSON and as text |
 //! | [`sources`] | the Verilog that a report is about, and its hash |
+//! | [`vectors`] | what users without Rust test the Verilog with |
 //!
 //! `synth/run BOARD` is the command; `synth/formal/` and `tests/formal.rs` hold the proofs.
 
 pub mod flow;
+pub mod formal;
 pub mod harness;
+pub mod isolation;
 pub mod report;
 pub mod sources;
 pub mod target;
 pub mod tools;
+pub mod vectors;

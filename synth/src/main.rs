@@ -8,7 +8,7 @@ use hapticore_synth::flow::Flow;
 use hapticore_synth::report::{BoardReport, CoreRow, CoresReport, limits, median};
 use hapticore_synth::sources::{self, File};
 use hapticore_synth::target::{self, Family};
-use hapticore_synth::tools::Tools;
+use hapticore_synth::tools::{Tools, root};
 use hapticore_synth::{flow, harness};
 use serde::Serialize;
 use std::fs;
@@ -41,6 +41,8 @@ enum What {
         #[arg(long, default_value_t = 5)]
         seeds: u64,
     },
+    /// Vectors for users of the Verilog, into rtl/verilog/vectors
+    Vectors,
     /// Every bundled profile's core on every family
     Cores {
         /// Seeds to place with
@@ -54,6 +56,7 @@ fn main() -> ExitCode {
     let args = Args::parse();
     let result = match &args.what {
         What::Board { name, verilog, seeds } => board(&args, name, verilog, *seeds),
+        What::Vectors => vectors(),
         What::Cores { seeds } => cores(&args, *seeds),
     };
     match result {
@@ -101,6 +104,15 @@ fn board(args: &Args, name: &str, verilog: &Path, seeds: u64) -> Result<bool> {
     print!("{}", report.markdown());
     eprintln!("bitstream: {}", bitstream.display());
     Ok(report.limits.iter().all(|limit| limit.holds))
+}
+
+fn vectors() -> Result<bool> {
+    let folder = root().join("rtl/verilog/vectors");
+    fs::create_dir_all(&folder)?;
+    for file in hapticore_synth::vectors::files() {
+        fs::write(folder.join(&file.name), &file.text)?;
+    }
+    Ok(true)
 }
 
 fn cores(args: &Args, seeds: u64) -> Result<bool> {

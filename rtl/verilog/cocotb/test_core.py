@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""The printed core of the small profile in cocotb: given a slot of samples, it sends the frame that the model sent.
+
+Run by `make -C rtl/verilog test`. The vectors in rtl/verilog/vectors are the model's own.
+"""
+
+import csv
+from pathlib import Path
+
+import cocotb
+from cocotb.clock import Clock
+from cocotb.triggers import FallingEdge, RisingEdge
+
+VECTORS = Path(__file__).resolve().parent.parent / "vectors"
+CLOCKS_PER_SAMPLE = 24  # model/src/profile/small.toml
+CHANNELS = ["i1", "i2", "i3", "i4", "i5", "i6", "v_sense", "v_haptic"]
+FLAGS = ["clipped", "saturated", "invalid", "lost"]
+INPUTS = ["strobe", "code", "write", "address", "word"]
+CONSTANTS = ["origin_x", "origin_y", "scale_x", "scale_y", "capacitance_gain", "force_gain"]
+
+
+def rows(name):
+    with open(VECTORS / name, newline="") as file:
+        return list(csv.DictReader(file))
+
+
+class Core:
+    """The core's pins; inputs change at falling edges, so that each is there before the rising edge that takes it."""
+
+    def __init__(self, dut):
+        self.dut = dut
+        self.words = []
+        self.asked = 0
+        for pin in INPUTS + CONSTANTS:
+            getattr(dut, pin).value = 0
+
+    async def reset(self):
+        self.dut.reset.value = 1
+        await RisingEdge(self.dut.clock)
+        await FallingEdge(self.dut.clock)
+        self.dut.reset.value = 0
+
+    async def tick(self):
+        # The core names the channel whose code it wants in the next clock.
+        self.asked = int(self.dut.channel.value)
+        await FallingEdge(self.dut.clock)
+        if self.dut.valid.value == 1:
+            word = [int(self.dut.pad.value), int(self.dut.index.value), self.dut.frame.value.to_signed()]
+            self.words.append(word + [int(getattr(self.dut, flag).value) for flag in FLAGS])
+
+    async def calibrate(self):
+        for row in rows("calibration.csv"):
+            what, code = row["what"], int(row["code"])
+            if what.isdigit():
+                self.dut.address.value, self.dut.word.value, self.dut.write.value = int(what), code, 1
+                await self.tick()
+            else:
+                getattr(self.dut, what).value = code
+        self.dut.write.value = 0
+
+    async def sample(self, codes):
+        for clock in range(CLOCKS_PER_SAMPLE):
+            self.dut.strobe.value = int(clock == 0)
+            self.dut.code.value = codes[self.asked]
+            await self.tick()
+
+
+@cocotb.test()
+async def a_slot_gives_the_frame_of_the_model(dut):
+    cocotb.start_soon(Clock(dut.clock, 40, unit="ns").start())
+    core = Core(dut)
+    await core.reset()
+    await core.calibrate()
+    for row in rows("samples.csv"):
+        await core.sample([int(row[name]) for name in CHANNELS])
+    dut.strobe.value = 0
+    for _ in range(2000):
+        await core.tick()
+    expected = [[int(code) for code in row.values()] for row in rows("frames.csv")]
+    assert core.words == expected, f"got {core.words}, expected {expected}"

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Proofs with SymbiYosys: a printed module with a checker of `synth/formal/` before its `endmodule`.
+//!
+//! The checker sees the module's registers by the names that the model gives them, and the widths as parameters.
+
+use crate::tools::{Tools, root};
+use anyhow::{Context, Result, bail};
+use hapticore_model::signal::netlist::{Module, Netlist, Node, Op};
+use hapticore_rtl::verilog::Design;
+use std::collections::HashSet;
+use std::fs;
+use std::path::Path;
+
+/// What SymbiYosys found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Verdict {
+    /// Every assertion holds: for ever (`prove`), or for so many clocks after reset (`bmc`).
+    Holds,
+    /// Some input breaks an assertion.
+    Broken,
+    /// Neither was shown.
+    Unknown,
+}
+
+/// How far to look.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Mode {
+    /// By induction over so many clocks: for ever.
+    Prove(u64),
+    /// For so many clocks after reset.
+    Bounded(u64),
+}
+
+/// A module and its checker.
+#[derive(Debug, Clone)]
+pub struct Claim<'a> {
+    /// The printed module.
+    pub verilog: &'a str,
+    /// The name of the module.
+    pub module: &'a str,
+    /// The checker: a file of `synth/formal/` without its ending.
+    pub checker: &'a str,
+    /// The checker's parameters.
+    pub parameters: Vec<(&'static str, u64)>,
+    /// What the checker is to know besides: `SMALL` where words are short enough for the solver to multiply.
+    pub defines: Vec<&'static str>,
+}
+
+impl Claim<'_> {
+    /// The module with the checker in it.
+    fn text(&self) -> Result<String> {
+        let path = root().join("synth/formal").join(format!("{}.sv", self.checker));
+        let checker = fs::read_to_string(&path).with_context(|| path.display().to_string())?;
+        let (module, rest) = self.verilog.rsplit_once("endmodule").context("a module ends")?;
+        let parameter = |(name, value): &(&str, u64)| format!("    localparam {name} = {value};\n");
+        let parameters: String = self.parameters.iter().map(parameter).collect();
+        Ok(format!("{module}\n{parameters}{checker}\nendmodule{rest}"))
+    }
+
+    /// Asks SymbiYosys.
+    ///
+    /// # Errors
+    /// The tools do not run, or do not understand the module.
+    pub fn check(&self, tools: &Tools, mode: Mode, folder: &Path) -> Result<Verdict> {
+        let (Claim { module, defines, .. }, (mode, depth)) = (
+            self,
+            match mode {
+                Mode::Prove(depth) => ("prove", depth),
+                Mode::Bounded(depth) => ("bmc", depth),
+            },
+        );
+        let defines: String = defines.iter().map(|name| format!("-D{name} ")).collect();
+        fs::write(folder.join("claim.sv"), self.text()?)?;
+        let script = format!(
+            "[options]\nmode {mode}\ndepth {depth}\n[engines]\nsmtbmc z3\n[script]\nread -formal {defines}claim.sv\n\
+             prep -top {module}\n[files]\nclaim.sv\n"
+        );
+        fs::write(folder.join("claim.sby"), script)?;
+        let output = tools.command("sby").args(["-f", "claim.sby"]).current_dir(folder).output()?;
+        let said = String::from_utf8_lossy(&output.stdout);
+        match output.status.code() {
+            Some(0) => Ok(Verdict::Holds),
+            Some(2) => Ok(Verdict::Broken),
+            Some(4) => {
+                // Which assertion, at which line of the module with its checker.
+                let lines = said.lines().filter(|line| line.contains("Assert failed"));
+                let text = self.text()?;
+                for line in lines {
+                    let number =
+                        line.split(':').filter_map(|part| part.split('.').next()?.trim().parse::<usize>().ok()).last();
+                    eprintln!(
+                        "{line}\n    {}",
+                        number.and_then(|n| text.lines().nth(n.saturating_sub(1))).unwrap_or("")
+                    );
+                }
+                Ok(Verdict::Unknown)
+            }
+            status => bail!("sby: {status:?}\n{said}"),
+        }
+    }
+}
+
+/// The wires that an output depends on, through registers too.
+fn live(module: &Module) -> HashSet<Node> {
+    let mut live = HashSet::new();
+    let mut open: Vec<_> = module.outputs.iter().map(|output| output.node).collect();
+    while let Some(node) = open.pop() {
+        if !live.insert(node) {
+            continue;
+        }
+        match module.wires[node.0 as usize].op {
+            Op::Register(index) => open.push(module.registers[index].node),
+            Op::Add(a, b) | Op::Sub(a, b) | Op::Mul(a, b) | Op::Concat(a, b) => open.extend([a, b]),
+            Op::Less(a, b) | Op::Equal(a, b) | Op::And(a, b) | Op::Or(a, b) => open.extend([a, b]),
+            Op::Abs(a) | Op::Fit(a, ..) | Op::Scale(a) | Op::Bits(a, _) | Op::Not(a) => open.push(a),
+            Op::Select(bit, a, b) => open.extend([bit, a, b]),
+            Op::Constant(_) | Op::Input(_) | Op::Data(_) | Op::Output(..) => (),
+        }
+    }
+    live
+}
+
+/// A wire, or the one that it passes on whatever happens.
+fn resolve(module: &Module, node: Node) -> Node {
+    match module.wires[node.0 as usize].op {
+        Op::Select(_, a, b) if resolve(module, a) == resolve(module, b) => resolve(module, a),
+        _ => node,
+    }
+}
+
+/// The module with one operator changed, for each operator that matters: a proof that passes for any of them shows nothing.
+pub fn mutants(module: &Module) -> Vec<(String, Module)> {
+    let live = live(module);
+    let change = |op: &Op| match *op {
+        Op::Add(a, b) => Some(Op::Sub(a, b)),
+        Op::Sub(a, b) => Some(Op::Add(a, b)),
+        Op::Less(a, b) => Some(Op::Less(b, a)),
+        Op::And(a, b) => Some(Op::Or(a, b)),
+        Op::Or(a, b) => Some(Op::And(a, b)),
+        Op::Select(bit, a, b) if resolve(module, a) != resolve(module, b) => Some(Op::Select(bit, b, a)),
+        _ => None,
+    };
+    let wires = module.wires.iter().enumerate().filter(|(index, _)| live.contains(&Node(*index as u32)));
+    let mutant = |(index, op): (usize, Op)| {
+        let mut mutant = module.clone();
+        let name = format!("wire {index}, {:?}, as {op:?}", module.wires[index].op);
+        mutant.wires[index].op = op;
+        (name, mutant)
+    };
+    wires.filter_map(|(index, wire)| Some((index, change(&wire.op)?))).map(mutant).collect()
+}
+
+/// The text of a module that has no others within.
+pub fn print(module: &Module) -> String {
+    Design::print(&Netlist { modules: vec![module.clone()] }, "a formal check").text()
+}

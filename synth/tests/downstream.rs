@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What users of the Verilog find in `rtl/verilog/` works: the Makefile, the cocotb test and the FuseSoC core.
+
+use hapticore_synth::tools::{Tools, root};
+use std::fs;
+use std::path::Path;
+
+/// A copy of `rtl/verilog/`, as a user would have it, in which things may be left and changed.
+fn copy(from: &Path, to: &Path) {
+    fs::create_dir_all(to).expect("a folder");
+    for entry in fs::read_dir(from).expect("a folder").flatten() {
+        let target = to.join(entry.file_name());
+        match entry.path().is_dir() {
+            true => copy(&entry.path(), &target),
+            false => drop(fs::copy(entry.path(), target).expect("a file")),
+        }
+    }
+}
+
+fn users_copy() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a folder");
+    copy(&root().join("rtl/verilog"), folder.path());
+    folder
+}
+
+fn python() -> String {
+    format!("PYTHON={}", root().join(".tools/venv/bin/python").display())
+}
+
+/// Every word of the vectors' frame is one more.
+fn falsify(folder: &Path) {
+    let path = folder.join("vectors/frames.csv");
+    let text = fs::read_to_string(&path).expect("the vectors");
+    let changed = text.lines().map(|line| {
+        let mut fields: Vec<String> = line.split(',').map(String::from).collect();
+        if let Ok(word) = fields[2].parse::<i64>() {
+            fields[2] = (word + 1).to_string();
+        }
+        fields.join(",") + "\n"
+    });
+    fs::write(path, changed.collect::<String>()).expect("the vectors");
+}
+
+#[test]
+fn the_makefile_lints_and_simulates() {
+    let Some(tools) = Tools::or_skip() else { return };
+    let folder = users_copy();
+    for profile in ["PROFILE=small", "PROFILE=standard"] {
+        let said = tools.run("make", &["lint", profile], folder.path()).unwrap();
+        assert!(!said.contains("%Warning"), "{said}");
+    }
+    let said = tools.run("make", &["sim"], folder.path()).unwrap();
+    assert!(said.contains("PASSED"), "{said}");
+    falsify(folder.path());
+    let error = tools.run("make", &["sim"], folder.path()).expect_err("a wrong frame").to_string();
+    assert!(error.contains("8 wrong"), "{error}");
+}
+
+#[test]
+fn cocotb_sees_the_frame_of_the_model() {
+    let Some(tools) = Tools::or_skip() else { return };
+    let folder = users_copy();
+    let said = tools.run("make", &["test", &python()], folder.path()).unwrap();
+    assert!(said.contains("1 tests, 0 failures"), "{said}");
+    falsify(folder.path());
+    tools.run("make", &["test", &python()], folder.path()).expect_err("a wrong frame");
+}
+
+#[test]
+fn fusesoc_lints_and_simulates() {
+    let Some(tools) = Tools::or_skip() else { return };
+    let folder = users_copy();
+    let run = |target: &str, flags: &[&str]| {
+        let mut arguments = vec!["--cores-root", ".", "run", "--work-root", target, "--target", target];
+        arguments.extend(flags);
+        arguments.push("hapticore:hapticore:core");
+        tools.run("fusesoc", &arguments, folder.path()).unwrap()
+    };
+    for flags in [&["--flag", "small"][..], &[]] {
+        let said = run("lint", flags);
+        assert!(!said.contains("%Warning"), "{said}");
+    }
+    let said = run("sim", &[]);
+    assert!(said.contains("PASSED"), "{said}");
+}

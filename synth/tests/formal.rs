@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Proofs for all inputs: division and root are right, no two pads are closed. And that the proofs can fail.
+
+use hapticore_model::block::Block;
+use hapticore_model::blocks::core::Core;
+use hapticore_model::blocks::divider::Divider;
+use hapticore_model::blocks::multiplexer::Multiplexer;
+use hapticore_model::blocks::root::Root;
+use hapticore_model::format::Format;
+use hapticore_model::profile::Profile;
+use hapticore_model::signal::netlist::{Module, Named, Netlist};
+use hapticore_rtl::board::pads::Pads;
+use hapticore_synth::formal::{Claim, Mode, Verdict, mutants, print};
+use hapticore_synth::tools::Tools;
+
+type Parameters = Vec<(&'static str, u64)>;
+
+fn format_of(ports: &[Named], name: &str) -> Format {
+    ports.iter().find(|port| port.name == name).unwrap_or_else(|| panic!("no port {name}")).format
+}
+
+fn widths(format: Format) -> u64 {
+    format.width.into()
+}
+
+fn of_divider(module: &Module) -> Parameters {
+    let [numerator, denominator] = ["numerator", "denominator"].map(|name| format_of(&module.inputs, name));
+    let quotient = format_of(&module.outputs, "quotient");
+    let zeros = quotient.frac - numerator.frac + denominator.frac;
+    let latency = Divider::new(numerator, denominator, quotient).latency();
+    let [n, d, q] = [numerator, denominator, quotient].map(widths);
+    vec![("N", n), ("D", d), ("Q", q), ("PAD", zeros as u64), ("LATENCY", latency)]
+}
+
+fn of_root(module: &Module) -> Parameters {
+    let (radicand, root) = (format_of(&module.inputs, "radicand"), format_of(&module.outputs, "root"));
+    let zeros = 2 * root.frac - radicand.frac;
+    let latency = Root::new(radicand, root.frac).latency();
+    vec![("R", widths(radicand)), ("DIGITS", widths(root) - 1), ("PAD", zeros as u64), ("LATENCY", latency)]
+}
+
+fn of_multiplexer(profile: &Profile) -> Parameters {
+    let slot = &profile.slot;
+    vec![("OPEN", slot.open), ("BEGIN", slot.open + slot.settle), ("SLOT", slot.samples()), ("PADS", profile.pads)]
+}
+
+/// The only module of a block that has no others within.
+fn module<B: Block>(block: &B) -> Module {
+    Netlist::of(block).top().clone()
+}
+
+fn verdict(tools: &Tools, module: &Module, parameters: &Parameters, small: bool, mode: Mode) -> Verdict {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (verilog, parameters) = (print(module), parameters.clone());
+    // A divider may keep its denominator, or leave that to its caller.
+    let keeps = module.registers.iter().any(|register| register.name == "denominator");
+    let defines = [(small, "SMALL"), (keeps, "KEEPS")].into_iter().filter(|(holds, _)| *holds).map(|(_, name)| name);
+    let defines = defines.collect();
+    let claim = Claim { verilog: &verilog, module: module.name, checker: module.name, parameters, defines };
+    claim.check(tools, mode, folder.path()).unwrap_or_else(|error| panic!("{}: {error}", module.name))
+}
+
+fn holds(tools: &Tools, module: &Module, parameters: &Parameters, small: bool) {
+    let found = verdict(tools, module, parameters, small, Mode::Prove(4));
+    assert_eq!(found, Verdict::Holds, "{} with {parameters:?}", module.name);
+}
+
+/// Every changed operator breaks the claim within so many clocks after reset, but for those that `harmless` knows.
+fn breaks(tools: &Tools, module: &Module, parameters: &Parameters, clocks: u64, harmless: usize) {
+    let all = mutants(module);
+    assert!(all.len() > 3, "there are operators to change");
+    let survives = |(name, mutant): &(String, Module)| {
+        let found = verdict(tools, mutant, parameters, true, Mode::Bounded(clocks));
+        (found != Verdict::Broken).then(|| name.clone())
+    };
+    let survivors: Vec<_> = all.iter().filter_map(survives).collect();
+    assert!(survivors.len() <= harmless, "{} of {}: nobody notices {survivors:#?}", module.name, all.len());
+}
+
+fn of_profiles(name: &str) -> Vec<Module> {
+    let netlists = Profile::all().into_iter().map(|profile| Netlist::of(&Core::new(&profile)));
+    let mut found: Vec<Module> = Vec::new();
+    for module in netlists.flat_map(|netlist| netlist.modules).filter(|module| module.name == name) {
+        if !found.iter().any(|known| known.inputs == module.inputs && known.outputs == module.outputs) {
+            found.push(module);
+        }
+    }
+    assert!(!found.is_empty(), "no {name}");
+    found
+}
+
+fn narrow_divider() -> Module {
+    module(&Divider::new(Format::unsigned(5, 2), Format::unsigned(3, 1), Format::unsigned(4, 2)))
+}
+
+fn narrow_root() -> Module {
+    module(&Root::new(Format::unsigned(6, 3), 2))
+}
+
+#[test]
+fn division_is_right_for_all_operands() {
+    let Some(tools) = Tools::or_skip() else { return };
+    let narrow = narrow_divider();
+    holds(&tools, &narrow, &of_divider(&narrow), true);
+    for module in of_profiles("divider") {
+        holds(&tools, &module, &of_divider(&module), false);
+    }
+}
+
+#[test]
+fn a_changed_divider_is_noticed() {
+    let Some(tools) = Tools::or_skip() else { return };
+    let narrow = narrow_divider();
+    breaks(&tools, &narrow, &of_divider(&narrow), 10, 0);
+}
+
+#[test]
+fn roots_are_right_for_all_radicands() {
+    let Some(tools) = Tools::or_skip() else { return };
+    let narrow = narrow_root();
+    holds(&tools, &narrow, &of_root(&narrow), true);
+    for module in of_profiles("root") {
+        holds(&tools, &module, &of_root(&module), false);
+    }
+}
+
+#[test]
+fn a_changed_root_is_noticed() {
+    let Some(tools) = Tools::or_skip() else { return };
+    let narrow = narrow_root();
+    breaks(&tools, &narrow, &of_root(&narrow), 10, 0);
+}
+
+#[test]
+fn no_two_pads_are_closed_and_a_break_comes_before() {
+    let Some(tools) = Tools::or_skip() else { return };
+    for profile in Profile::all() {
+        holds(&tools, &module(&Multiplexer::new(&profile)), &of_multiplexer(&profile), false);
+    }
+    for (pads, dead) in [(4, 250), (1, 1), (7, 12)] {
+        holds(&tools, &module(&Pads::new(pads, dead)), &vec![("PADS", pads), ("DEAD", dead)], false);
+    }
+}
+
+#[test]
+fn a_changed_pad_selection_is_noticed() {
+    let Some(tools) = Tools::or_skip() else { return };
+    let mut profile = Profile::bundled("small").expect("bundled");
+    (profile.slot.open, profile.slot.settle, profile.slot.integrate, profile.pads) = (1, 1, 2, 3);
+    breaks(&tools, &module(&Multiplexer::new(&profile)), &of_multiplexer(&profile), 16, 0);
+    breaks(&tools, &module(&Pads::new(3, 2)), &vec![("PADS", 3), ("DEAD", 2)], 10, 0);
+}
