@@ -241,6 +241,11 @@ module DP16KD (
         endcase
     endfunction
 
+    // How many low address bits lie within what the wider of two ports below nine bits takes at once.
+    function integer part(input integer widths);
+        part = widths >= 4 ? 2 : widths >= 2 ? 1 : 0;
+    endfunction
+
     // A cell as the other port sees it. What a cell reads while it is written from there is undefined in hardware: here
     // every bit is wrong, so that a netlist that depends on it is found out.
     function [8:0] seen(input [10:0] at, input written);
@@ -254,6 +259,7 @@ module DP16KD (
         integer k;
         reg [10:0] at;
         reg [8:0] cell_read;
+        reg meet;
         begin
             word = 36'd0;
             case (width)
@@ -267,7 +273,11 @@ module DP16KD (
                 end
                 default: begin
                     at = address[13:3];
-                    cell_read = seen(at, other && writes(other_width, other_address, at));
+                    // Parts of one cell of nine bits are apart.
+                    if (width < 9 && other_width < 9)
+                        meet = address >> part(width | other_width) == other_address >> part(width | other_width);
+                    else meet = writes(other_width, other_address, at);
+                    cell_read = seen(at, other && meet);
                     case (width)
                         9: word[8:0] = cell_read;
                         4: word[3:0] = cell_read[{1'b0, address[2], 2'd0} +: 4];

@@ -5,7 +5,7 @@
 set -eu
 cd "$(dirname "$0")"
 set -- *.v
-yosys -q -p "read_verilog $*; synth_ecp5 -top ulx3s -json ulx3s.json"
+yosys -q -p "read_verilog $*; synth_ecp5 -top top -json ulx3s.json"
 nextpnr-ecp5 -q --85k --package CABGA381 --speed 6 --freq 100 --seed 1 \
     --json ulx3s.json --lpf ulx3s.lpf --textcfg ulx3s.config --report ulx3s.report.json
 ecppack --compress ulx3s.config ulx3s.bit

@@ -87,11 +87,8 @@ impl Claim<'_> {
                 let text = self.text()?;
                 for line in lines {
                     let number =
-                        line.split(':').filter_map(|part| part.split('.').next()?.trim().parse::<usize>().ok()).last();
-                    eprintln!(
-                        "{line}\n    {}",
-                        number.and_then(|n| text.lines().nth(n.saturating_sub(1))).unwrap_or("")
-                    );
+                        line.split("claim.sv:").nth(1).and_then(|rest| rest.split('.').next()?.parse::<usize>().ok());
+                    eprintln!("{line}\n    {}", number.and_then(|number| text.lines().nth(number - 1)).unwrap_or(""));
                 }
                 Ok(Verdict::Unknown)
             }

@@ -34,9 +34,6 @@ enum What {
     Board {
         /// ulx3s or icebreaker
         name: String,
-        /// The folder that `hapticore hdl --board` has written
-        #[arg(long)]
-        verilog: PathBuf,
         /// Seeds to place with
         #[arg(long, default_value_t = 5)]
         seeds: u64,
@@ -55,7 +52,7 @@ enum What {
 fn main() -> ExitCode {
     let args = Args::parse();
     let result = match &args.what {
-        What::Board { name, verilog, seeds } => board(&args, name, verilog, *seeds),
+        What::Board { name, seeds } => board(&args, name, *seeds),
         What::Vectors => vectors(),
         What::Cores { seeds } => cores(&args, *seeds),
     };
@@ -76,10 +73,10 @@ fn save(folder: &Path, name: &str, report: &impl Serialize, text: &str) -> Resul
     Ok(())
 }
 
-fn board(args: &Args, name: &str, verilog: &Path, seeds: u64) -> Result<bool> {
+fn board(args: &Args, name: &str, seeds: u64) -> Result<bool> {
     let board = target::board(name).context("no such board; there are ulx3s and icebreaker")?;
-    let (tools, files) = (Tools::find()?, sources::read(verilog)?);
-    let flow = Flow::new(&tools, board.family, board.name, &files, &args.work.join(name))?;
+    let (tools, files) = (Tools::find()?, sources::board(board.target));
+    let flow = Flow::new(&tools, board.family, target::TOP, &files, &args.work.join(name))?;
     eprintln!("{name}: synthesis");
     let (cells, modules) = (flow.synthesise()?, flow.modules()?);
     eprintln!("{name}: placing and routing with {seeds} seeds");

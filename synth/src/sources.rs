@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The Verilog that a report is about.
 
-use anyhow::{Context, Result, ensure};
 use hapticore_model::blocks::core::Core;
 use hapticore_model::profile::Profile;
+use hapticore_rtl::board::target::Target;
 use hapticore_rtl::verilog::Design;
-use std::fs;
-use std::path::Path;
 
 /// A file by name.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -27,21 +25,10 @@ pub fn files(design: &Design) -> Vec<File> {
     design.modules.iter().map(|file| File { name: format!("{}.v", file.name), text: file.text.clone() }).collect()
 }
 
-/// Verilog and constraints (`.v`, `.lpf`, `.pcf`) in a folder, by name.
-///
-/// # Errors
-/// The folder cannot be read, or has no Verilog.
-pub fn read(folder: &Path) -> Result<Vec<File>> {
-    let mut files = Vec::new();
-    for entry in fs::read_dir(folder).with_context(|| folder.display().to_string())? {
-        let path = entry?.path();
-        if path.extension().is_some_and(|ending| ["v", "lpf", "pcf"].iter().any(|known| ending == *known)) {
-            let name = path.file_name().expect("a file").to_string_lossy().into_owned();
-            files.push(File { name, text: fs::read_to_string(&path)? });
-        }
-    }
-    ensure!(files.iter().any(|file| file.name.ends_with(".v")), "{} has no Verilog", folder.display());
-    Ok(files)
+/// The Verilog of a board's top and all within it, and its constraints.
+pub fn board(target: Target) -> Vec<File> {
+    let (name, text) = target.constraints();
+    vec![File { name: "top.v".into(), text: target.top_verilog() }, File { name, text }]
 }
 
 /// A hash of bytes that does not change with the compiler: FNV-1a, 64 bits.

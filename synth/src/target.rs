@@ -2,6 +2,7 @@
 //! FPGA families, and boards with what must hold on each.
 
 use crate::report::Cells;
+use hapticore_rtl::board::target::Target;
 
 /// An FPGA family, as the part of it that our boards have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -15,12 +16,10 @@ pub enum Family {
 /// A board.
 #[derive(Debug, Clone, Copy)]
 pub struct Board {
-    /// Its name: the board's, its top module's, its constraints'.
-    pub name: &'static str,
+    /// Its pins and its top.
+    pub target: Target,
     /// What it carries.
     pub family: Family,
-    /// The clock of its core.
-    pub clock_mhz: f64,
     /// The clock that the median seed must reach.
     pub least_mhz: f64,
     /// The most of logic cells, multipliers and block RAMs, where the part is small enough for it to matter.
@@ -29,19 +28,21 @@ pub struct Board {
 
 /// The boards.
 pub const BOARDS: [Board; 2] = [
-    Board { name: "ulx3s", family: Family::Ecp5, clock_mhz: 25.0, least_mhz: 100.0, most: None },
+    Board { target: Target::Ulx3s, family: Family::Ecp5, least_mhz: 100.0, most: None },
     Board {
-        name: "icebreaker",
+        target: Target::Icebreaker,
         family: Family::Ice40,
-        clock_mhz: 12.0,
         least_mhz: 1.2 * 12.0,
         most: Some([5280 * 3 / 4, 8, 30]),
     },
 ];
 
+/// The name of every board's top module.
+pub const TOP: &str = "top";
+
 /// The board of a name.
 pub fn board(name: &str) -> Option<&'static Board> {
-    BOARDS.iter().find(|board| board.name == name)
+    BOARDS.iter().find(|board| board.target.name() == name)
 }
 
 impl Family {

@@ -4,7 +4,7 @@
 use hapticore_model::profile::Profile;
 use hapticore_synth::report::{BoardReport, CoresReport, limits, median};
 use hapticore_synth::sources;
-use hapticore_synth::target::{BOARDS, Family};
+use hapticore_synth::target::{BOARDS, Family, TOP};
 use hapticore_synth::tools::root;
 use hapticore_synth::vectors;
 use std::collections::BTreeSet;
@@ -60,29 +60,33 @@ fn the_fusesoc_core_names_every_file_of_its_profiles() {
 #[test]
 fn the_scripts_do_what_the_reports_say() {
     for board in BOARDS {
-        let script = read(&format!("synth/scripts/{}.sh", board.name)).replace("\\\n", "");
+        let name = board.target.name();
+        let script = read(&format!("synth/scripts/{}.sh", name)).replace("\\\n", "");
         let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
         let script = words(&script);
-        assert!(script.contains(&words(&board.family.synthesis(board.name))), "{}: synthesis", board.name);
+        assert!(script.contains(&words(&board.family.synthesis(TOP))), "{}: synthesis", name);
         let (place, options) = board.family.place();
-        assert!(script.contains(place) && script.contains(&options.join(" ")), "{}: {place}", board.name);
+        assert!(script.contains(place) && script.contains(&options.join(" ")), "{}: {place}", name);
         let (pack, options, _) = board.family.pack();
-        assert!(script.contains(&words(&format!("{pack} {}", options.join(" ")))), "{}: {pack}", board.name);
+        assert!(script.contains(&words(&format!("{pack} {}", options.join(" ")))), "{}: {pack}", name);
     }
 }
 
 #[test]
 fn reports_of_boards_say_what_they_measured() {
     for board in BOARDS {
-        let path = format!("synth/reports/{}.json", board.name);
+        let name = board.target.name();
+        let path = format!("synth/reports/{}.json", name);
         if !Path::new(&root().join(&path)).exists() {
             continue;
         }
         let report: BoardReport = serde_json::from_str(&read(&path)).expect("a report");
-        assert_eq!(read(&path.replace(".json", ".md")), report.markdown(), "synth/run {}", board.name);
+        assert_eq!(read(&path.replace(".json", ".md")), report.markdown(), "synth/run {}", name);
+        let hash = sources::hash_of(&sources::board(board.target));
+        assert_eq!(report.sources, hash, "{name}: the Verilog or the pins have changed: run synth/run {name}");
         assert_eq!(report.timings.len(), 5, "five seeds");
         assert_eq!(report.median_mhz, median(&report.timings));
         assert_eq!(report.limits, limits(&board, &report.used, report.median_mhz));
-        assert!(report.limits.iter().all(|limit| limit.holds), "{}: {:?}", board.name, report.limits);
+        assert!(report.limits.iter().all(|limit| limit.holds), "{}: {:?}", name, report.limits);
     }
 }

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The reports of boards are what the tools give: synthesis and the first seed again, to the byte of the bitstream.
+
+use hapticore_synth::flow::Flow;
+use hapticore_synth::report::BoardReport;
+use hapticore_synth::sources;
+use hapticore_synth::target::{TOP, board};
+use hapticore_synth::tools::{Tools, root};
+use std::fs;
+
+fn check(name: &str) {
+    let path = root().join(format!("synth/reports/{name}.json"));
+    let Ok(text) = fs::read_to_string(&path) else { return };
+    let Some(tools) = Tools::or_skip() else { return };
+    let report: BoardReport = serde_json::from_str(&text).expect("a report");
+    let board = board(name).expect("a board");
+    let folder = tempfile::tempdir().expect("a folder");
+    let flow = Flow::new(&tools, board.family, TOP, &sources::board(board.target), folder.path()).expect("a folder");
+    assert_eq!(flow.synthesise().expect("a netlist"), report.cells, "synth/run {name}");
+    let placed = flow.place(1).expect("a placement");
+    assert_eq!((placed.timing, placed.used), (report.timings[0], report.used), "synth/run {name}");
+    assert_eq!(flow.pack(1).expect("a bitstream").1, report.bitstream, "synth/run {name}");
+}
+
+#[test]
+fn ulx3s_is_as_reported() {
+    check("ulx3s");
+}
+
+#[test]
+fn icebreaker_is_as_reported() {
+    check("icebreaker");
+}
