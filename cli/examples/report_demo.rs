@@ -42,7 +42,7 @@ fn record(figure: &str, rows: Vec<Row>) -> Record {
 
 fn effects() -> Vec<Effect> {
     let effects = [("sheet", "bicubic", 0.021), ("gap", "static", 0.43), ("noise", "on", 0.2), ("offset", "on", 1e-5)];
-    effects.map(|(name, rung, seconds)| Effect { name: name.into(), rung: rung.into(), seconds }).to_vec()
+    effects.map(|(name, rung, seconds)| Effect { name: name.into(), rung: rung.into(), seconds, finer: None }).to_vec()
 }
 
 fn criteria() -> Vec<Criterion> {

@@ -9,7 +9,7 @@ use std::thread;
 
 use anyhow::{Result, ensure};
 use hapticore_model::profile::Profile;
-use hapticore_scene::{Complex, EffectCost, Plant, Scene, TERMINALS, Truth};
+use hapticore_scene::{Complex, EffectCost, Plant, RungError, Scene, TERMINALS, Truth};
 use indicatif::ProgressBar;
 
 use crate::args::Fidelity;
@@ -124,6 +124,14 @@ impl<'a> Case<'a> {
         Ok(())
     }
 
+    /// The case's rungs, each with its error against the next finer one.
+    ///
+    /// # Errors
+    /// As [`Case::new`].
+    pub fn rung_errors(&self) -> Result<Vec<RungError>> {
+        Ok(self.scene.rung_errors(self.index, &timing(&self.profile))?)
+    }
+
     /// Runs the case.
     ///
     /// # Errors
@@ -137,7 +145,8 @@ impl<'a> Case<'a> {
         let at = (self.number, self.clock);
         let session = Session::new(&self.profile, &self.device, settings.fidelity, settings.errors, at)?;
         let whole = settings.fidelity == Fidelity::Clock || recorder.is_some();
-        let mut maker = Maker::new(self.plant()?, &self.profile, self.scene.cases[self.index].sampled(), whole);
+        let mut maker =
+            Maker::new(self.plant()?.metered(), &self.profile, self.scene.cases[self.index].sampled(), whole);
         let (sender, receiver) = sync_channel(AHEAD);
         thread::scope(|scope| {
             let maker = scope.spawn(move || {

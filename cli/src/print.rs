@@ -49,7 +49,7 @@ pub fn effects_line<'a>(effects: impl Iterator<Item = (&'static str, &'a str)>) 
 /// The tables at the end of a run.
 pub fn finish(record: &Record, files: &[PathBuf]) {
     if !record.effects.is_empty() {
-        print!("\n{}", effects(&record.effects));
+        print!("\n{}", effects(&record.effects, record.wall_seconds));
     }
     if !record.criteria.is_empty() {
         print!("\n{}", criteria(&record.criteria));
@@ -67,9 +67,18 @@ pub fn finish(record: &Record, files: &[PathBuf]) {
     files.iter().for_each(|file| println!("  {}", file.display()));
 }
 
-fn effects(effects: &[Effect]) -> String {
-    let row = |effect: &Effect| vec![effect.name.clone(), effect.rung.clone(), number(effect.seconds)];
-    table(&["effect", "rung", "seconds"], &effects.iter().map(row).collect::<Vec<_>>())
+fn effects(effects: &[Effect], wall_seconds: f64) -> String {
+    let row = |effect: &Effect| {
+        let error = effect.finer.as_ref().map_or(String::new(), |(finer, percent)| off(*percent, finer));
+        let share = format!("{} %", number(100.0 * effect.seconds / wall_seconds));
+        vec![effect.name.clone(), effect.rung.clone(), error, number(effect.seconds), share]
+    };
+    table(&["effect", "rung", "error", "seconds", "of the run"], &effects.iter().map(row).collect::<Vec<_>>())
+}
+
+/// How far a rung is off the next finer one.
+pub fn off(percent: f64, finer: &str) -> String {
+    format!("{} % off {finer}", number(percent))
 }
 
 fn criteria(criteria: &[Criterion]) -> String {

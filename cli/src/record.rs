@@ -95,6 +95,8 @@ pub struct Effect {
     pub rung: String,
     /// What it took.
     pub seconds: f64,
+    /// The next finer rung and the largest difference to it on the scene, percent.
+    pub finer: Option<(String, f64)>,
 }
 
 /// The largest rounding error of a signal, from the shadow reading.

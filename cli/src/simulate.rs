@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::{Result, ensure};
+use hapticore_model::profile::Profile;
 use hapticore_scene::{Figure, Record as Wanted, Scene};
 use hapticore_waveforms::wave::Kind;
 use rayon::prelude::*;
@@ -23,8 +24,10 @@ use crate::{errors, inputs, print, progress, report, waves};
 /// Bad input, files that cannot be written, an interruption; then nothing is written.
 pub fn run(args: &SimulateArgs) -> Result<bool> {
     let scene = inputs::scene(&args.scene, &args.set)?;
+    let profile = inputs::profile(args.core.profile.as_ref().unwrap_or(&scene.profile))?;
+    let scene = scene.within_budget(&inputs::timing(&profile))?;
     let folder = args.out.clone().unwrap_or_else(|| Path::new("out").join(&scene.name));
-    let (record, files) = write(args, &scene, &folder)?;
+    let (record, files) = write(args, &scene, &profile, &folder)?;
     if args.core.json {
         print!("{}", summary(&record));
     } else {
@@ -34,8 +37,8 @@ pub fn run(args: &SimulateArgs) -> Result<bool> {
 }
 
 /// Runs a scene and writes everything; what it left, and the files.
-fn write(args: &SimulateArgs, scene: &Scene, folder: &Path) -> Result<(Record, Vec<PathBuf>)> {
-    let cases = cases(args, scene)?;
+fn write(args: &SimulateArgs, scene: &Scene, profile: &Profile, folder: &Path) -> Result<(Record, Vec<PathBuf>)> {
+    let cases = cases(args, scene, profile)?;
     let output = Output::new(folder)?;
     let capture = capture_path(args, scene, folder);
     let recorder = capture.as_deref().map(|path| recorder(path, args, &cases)).transpose()?;
@@ -61,8 +64,7 @@ fn write(args: &SimulateArgs, scene: &Scene, folder: &Path) -> Result<(Record, V
 }
 
 /// The cases to be run, one after the other in time.
-fn cases<'a>(args: &SimulateArgs, scene: &'a Scene) -> Result<Vec<Case<'a>>> {
-    let profile = inputs::profile(args.core.profile.as_ref().unwrap_or(&scene.profile))?;
+fn cases<'a>(args: &SimulateArgs, scene: &'a Scene, profile: &Profile) -> Result<Vec<Case<'a>>> {
     let names: Vec<_> = scene.cases.iter().map(|case| case.name.as_str()).collect();
     if let Some(unknown) = args.case.iter().find(|name| !names.contains(&name.as_str())) {
         anyhow::bail!("--case: expected a case among {}, got \"{unknown}\"", names.join(", "));
@@ -71,7 +73,7 @@ fn cases<'a>(args: &SimulateArgs, scene: &'a Scene) -> Result<Vec<Case<'a>>> {
     let mut cases: Vec<Case> = Vec::new();
     for index in (0..names.len()).filter(chosen) {
         let start_s = cases.iter().map(Case::seconds).sum();
-        let case = Case::new(scene, index, cases.len(), &profile, start_s)?;
+        let case = Case::new(scene, index, cases.len(), profile, start_s)?;
         case.check(&args.scene, args.core.core)?;
         cases.push(case);
     }
@@ -137,6 +139,7 @@ fn simulate(args: &SimulateArgs, scene: &Scene, cases: &[Case], mut recorder: Ca
     let mut record = gather(scene, cases, outcomes);
     record.fidelity = args.core.core.name().into();
     record.wall_seconds = start.elapsed().as_secs_f64();
+    add_errors(&mut record.effects, cases)?;
     Ok((record, recorder))
 }
 
@@ -179,9 +182,26 @@ fn add_effects(effects: &mut Vec<Effect>, outcome: &Outcome) {
     for cost in &outcome.effects {
         match effects.iter_mut().find(|effect| effect.name == cost.name && effect.rung == cost.rung) {
             Some(effect) => effect.seconds += cost.seconds,
-            None => effects.push(Effect { name: cost.name.into(), rung: cost.rung.clone(), seconds: cost.seconds }),
+            None => effects.push(Effect {
+                name: cost.name.into(),
+                rung: cost.rung.clone(),
+                seconds: cost.seconds,
+                finer: None,
+            }),
         }
     }
+}
+
+/// Adds how far each rung is from the next finer one: in the case where that is furthest.
+fn add_errors(effects: &mut [Effect], cases: &[Case]) -> Result<()> {
+    for error in cases.par_iter().map(Case::rung_errors).collect::<Result<Vec<_>>>()?.into_iter().flatten() {
+        let same = effects.iter_mut().find(|effect| effect.name == error.effect && effect.rung == error.rung);
+        let (Some(effect), Some((finer, percent))) = (same, error.finer) else { continue };
+        if effect.finer.as_ref().is_none_or(|(_, known)| *known < percent) {
+            effect.finer = Some((finer, percent));
+        }
+    }
+    Ok(())
 }
 
 fn figure_name(figure: Figure) -> String {

@@ -20,7 +20,7 @@ fn hockey(rung: &str) -> Result<(Plant, Timing), SceneError> {
     let text = gallery::find("hockey").unwrap_or_default();
     let scene = Scene::parse(text, "hockey.toml", &[("sheet.rung".to_string(), rung.to_string())])?;
     let start = Instant::now();
-    let plant = Plant::new(&scene, 0, &timing)?;
+    let plant = Plant::new(&scene, 0, &timing)?.metered();
     println!("{rung}: built in {:.1} ms", start.elapsed().as_secs_f64() * 1e3);
     Ok((plant, timing))
 }

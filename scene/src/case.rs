@@ -20,6 +20,8 @@ pub struct Case {
     pub(crate) pads: Vec<PadPlan>,
     pub(crate) effects: Vec<Spec>,
     pub(crate) length: Length,
+    /// Error that all rungs together may leave, where the scene names one: until they are chosen, nothing can be run.
+    pub(crate) budget_percent: Option<f64>,
 }
 
 /// How long a case lasts.
@@ -31,7 +33,7 @@ pub(crate) enum Length {
 
 impl std::fmt::Debug for Case {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let effects: Vec<_> = self.effects.iter().map(|effect| (effect.name, &effect.rung)).collect();
+        let effects: Vec<_> = self.effects.iter().map(|effect| (effect.name, &effect.rung().label)).collect();
         f.debug_struct("Case").field("name", &self.name).field("pads", &self.pads).field("effects", &effects).finish()
     }
 }
@@ -44,12 +46,12 @@ impl Case {
 
     /// The effects that are on, with their rungs.
     pub fn effects(&self) -> Vec<(&'static str, &str)> {
-        self.effects.iter().map(|effect| (effect.name, effect.rung.as_str())).collect()
+        self.effects.iter().map(|effect| (effect.name, effect.rung().label.as_str())).collect()
     }
 
     /// Whether the scene wants the float core to demodulate samples too, carrier rung `samples`.
     pub fn sampled(&self) -> bool {
-        self.effects.iter().any(|effect| effect.name == "carrier" && effect.rung == carrier::SAMPLES)
+        self.effects.iter().any(|effect| effect.name == carrier::CARRIER && effect.is_at(carrier::SAMPLES))
     }
 
     pub(crate) fn read(root: &Table, name: &str) -> Result<Case, SceneError> {
@@ -65,7 +67,8 @@ impl Case {
         }
         let plan = |(index, table): (usize, &&Table)| PadPlan::read(table, index, &device, has_gap);
         let pads = tables.iter().enumerate().map(plan).collect::<Result<Vec<_>, _>>()?;
-        Ok(Case { name: name.to_string(), length: Length::read(root, &pads)?, device, pads, effects })
+        let budget_percent = root.number("error_budget_percent", Limits::above(0.0, 100.0))?;
+        Ok(Case { name: name.to_string(), length: Length::read(root, &pads)?, device, pads, effects, budget_percent })
     }
 }
 

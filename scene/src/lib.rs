@@ -11,6 +11,7 @@
 //!
 //! The plant knows no bit widths of the core and writes no file.
 
+mod budget;
 mod case;
 mod course;
 mod criterion;
@@ -29,6 +30,7 @@ mod timing;
 mod truth;
 mod variant;
 
+pub use budget::RungError;
 pub use case::Case;
 pub use criterion::{Criterion, Measure, Per, Quantity, Where};
 pub use device::{CHANNELS, Device, HAPTIC, SENSE, TERMINALS};

@@ -92,5 +92,6 @@ fn still(
         force_n: None,
         split: ideal_split(at[0], at[1], device),
         sheet_ohm: 0.0,
+        transfer: None,
     }
 }

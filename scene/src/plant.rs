@@ -35,7 +35,8 @@ impl Plant {
     /// Sets up case number `case` of a scene for a profile's timing.
     ///
     /// # Errors
-    /// A scene with more pads than the profile serves, a timing without a window, no such case.
+    /// A scene with more pads than the profile serves, a timing without a window, no such case, an error budget for which
+    /// no rungs have been [chosen](Scene::within_budget).
     pub fn new(scene: &Scene, case: usize, timing: &Timing) -> Result<Plant, SceneError> {
         let fail = |key: &str, message: String| SceneError::new(Place::File, key, message).in_file(&scene.name);
         let Some(chosen) = scene.cases.get(case) else {
@@ -48,19 +49,25 @@ impl Plant {
                 format!("expected at most {} pads, as profile {name} serves, got {pads}", timing.pads),
             ));
         }
-        timing.check().map_err(|message| fail("profile", message))?;
-        let sample_rate_hz = chosen.device.carrier_hz * timing.samples_per_period;
-        let device = Device { sample_rate_hz, ..chosen.device.clone() };
-        let setting = Setting { device: &device, timing, seed: scene.seed, case };
-        Ok(Plant {
-            effects: Effects::build(&chosen.effects, &setting),
-            case: chosen.clone(),
-            device,
-            timing: timing.clone(),
-            seed: scene.seed,
-            index: case,
-            now: None,
-        })
+        if chosen.budget_percent.is_some() {
+            return Err(fail("error_budget_percent", "expected rungs that have been chosen within it".to_string()));
+        }
+        Plant::of_case(chosen.clone(), scene.seed, case, timing).map_err(|error| error.in_file(&scene.name))
+    }
+
+    pub(crate) fn of_case(case: Case, seed: u64, index: usize, timing: &Timing) -> Result<Plant, SceneError> {
+        timing.check().map_err(|message| SceneError::new(Place::File, "profile", message))?;
+        let sample_rate_hz = case.device.carrier_hz * timing.samples_per_period;
+        let device = Device { sample_rate_hz, ..case.device.clone() };
+        let setting = Setting { device: &device, timing, seed, case: index };
+        let effects = Effects::build(&case.effects, &setting);
+        Ok(Plant { effects, case, device, timing: timing.clone(), seed, index, now: None })
+    }
+
+    /// The same plant, which counts and times every evaluation of an effect.
+    pub fn metered(mut self) -> Plant {
+        self.effects.metered(&self.case.effects);
+        self
     }
 
     /// Finished slots of this case.
@@ -88,7 +95,8 @@ impl Plant {
         self.case.pad_names()
     }
 
-    /// What each effect has cost so far, in the order in which they act.
+    /// What each effect has cost so far, in the order in which they act; nothing where the plant is not
+    /// [metered](Plant::metered).
     pub fn effects(&self) -> Vec<EffectCost> {
         self.effects.costs()
     }
@@ -97,7 +105,7 @@ impl Plant {
     pub fn truth(&mut self, slot: usize) -> Truth {
         let pad = self.pad(slot);
         let point = self.point(slot);
-        let (r_x, r_y) = ratios(&pad.split);
+        let (r_x, r_y) = ratios(&pad.amplitudes());
         Truth {
             time_s: pad.time_s,
             pad: pad.index,
@@ -150,7 +158,7 @@ impl Plant {
         let still =
             raster(nx, ny, margin_mm, &self.device).into_iter().map(|place| resting(place, 0.0, 0.0, &self.device));
         let point = |pad: Pad| {
-            let (r_x, r_y) = ratios(&pad.split);
+            let (r_x, r_y) = ratios(&pad.amplitudes());
             MapPoint { x_mm: pad.x_mm, y_mm: pad.y_mm, r_x, r_y, sheet_ohm: pad.sheet_ohm }
         };
         self.settle(still).map(point).collect()
@@ -196,9 +204,20 @@ impl Plant {
         let middle = self.timing.window_start as f64 + self.timing.window_samples as f64 / 2.0;
         let time_s = ((slot * self.timing.slot_samples) as f64 + middle) / self.device.sample_rate_hz;
         let index = slot % self.case.pads.len();
+        let mut pad = self.alone(index, slot, time_s);
+        if self.effects.joins_pads() {
+            let others: Vec<_> = (0..self.case.pads.len()).filter(|other| *other != index).collect();
+            let others: Vec<_> = others.into_iter().map(|other| self.alone(other, slot, time_s)).collect();
+            self.effects.on_pads(&mut pad, &others);
+        }
+        self.now = Some((slot, pad.clone()));
+        pad
+    }
+
+    /// A pad as if it were the only one.
+    fn alone(&mut self, index: usize, slot: usize, time_s: f64) -> Pad {
         let mut pad = self.case.pads[index].at(index, self.point(slot), time_s, &self.device);
         self.effects.on_pad(&mut pad);
-        self.now = Some((slot, pad.clone()));
         pad
     }
 }

@@ -18,7 +18,7 @@ fn scene(effects: &str) -> Scene {
 }
 
 fn plant(effects: &str) -> Plant {
-    Plant::new(&scene(effects), 0, &timing()).unwrap()
+    Plant::new(&scene(effects), 0, &timing()).unwrap().metered()
 }
 
 fn window(plant: &mut Plant, slot: usize) -> Vec<[f64; CHANNELS]> {
@@ -202,7 +202,7 @@ fn pads_take_turns_and_time_runs_through_all_slots() {
 fn the_calibration_map_is_the_truth_without_mismatch_and_costs_the_run_nothing() {
     let middle = [("pad.0.position_mm".to_string(), "[0, 0]".to_string())];
     let scene = Scene::parse(&format!("{BARE}{NOISY}"), "s.toml", &middle).unwrap();
-    let mut plant = Plant::new(&scene, 0, &timing()).unwrap();
+    let mut plant = Plant::new(&scene, 0, &timing()).unwrap().metered();
     let map = plant.calibration_map(3, 5, 50.0);
     assert_eq!((map.len(), map[0].x_mm, map[0].y_mm, map[5].y_mm), (15, -380.0, -200.0, -100.0));
     let (truth, here) = (plant.truth(0), map[7]);

@@ -3,6 +3,7 @@
 
 use super::number;
 use super::page::escape;
+use crate::print;
 use crate::record::{Criterion, Effect, Record, SignalError};
 
 /// The criteria under a sentence that says how many hold.
@@ -49,13 +50,14 @@ pub fn effects(effects: &[Effect], wall_seconds: f64) -> String {
         return String::new();
     }
     let rows = effects.iter().map(|e| effect(e, wall_seconds)).collect::<String>();
-    table("Effects", &["effect", "rung", "#time", "#of the run"], &rows)
+    table("Effects", &["effect", "rung", "error", "#time", "#of the run"], &rows)
 }
 
 fn effect(effect: &Effect, wall_seconds: f64) -> String {
     row(&[
         ("", &escape(&effect.name)),
         ("", &escape(&effect.rung)),
+        ("", &effect.finer.as_ref().map_or(String::new(), |(finer, percent)| escape(&print::off(*percent, finer)))),
         ("number", &number::seconds(effect.seconds)),
         ("number", &share(effect.seconds / wall_seconds)),
     ])

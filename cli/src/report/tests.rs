@@ -19,7 +19,12 @@ fn record(figure: Option<&str>, rows: Vec<Row>) -> Record {
         fidelity: "fixed".into(),
         cases: vec!["<case 0>".into(), "case & 1".into()],
         pads: vec!["<pad>".into()],
-        effects: vec![Effect { name: "<effect>".into(), rung: "<rung>".into(), seconds: 0.1 }],
+        effects: vec![Effect {
+            name: "<effect>".into(),
+            rung: "<rung>".into(),
+            seconds: 0.1,
+            finer: Some(("<finer>".into(), 0.5)),
+        }],
         criteria: vec![criterion(0.1), criterion(f64::NAN)],
         errors: vec![SignalError { signal: "<s>".into(), format: "u1.0".into(), max_error: 1e-9, max_codes: 0.5 }],
         simulated_seconds: 1.0,

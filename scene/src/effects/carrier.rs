@@ -15,21 +15,21 @@
 
 use num_complex::Complex64;
 
-use super::{ChannelEffect, Effect, Pad, Phasors, Run, Setting, Spec};
+use super::{ChannelEffect, Effect, Pad, Phasors, Run, Rung, Setting, Spec};
 use crate::device::{CHANNELS, Device, HAPTIC, SENSE, TERMINALS};
 use crate::error::SceneError;
 use crate::format::Table;
 use crate::rotor::Rotor;
 
+/// The effect's name.
+pub(crate) const CARRIER: &str = "carrier";
+
 /// The rung at which the float core demodulates samples itself.
 pub(crate) const SAMPLES: &str = "samples";
 
 pub(super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
-    let rung = match root.table("carrier")? {
-        Some(table) => table.choice("rung", &["phasor", SAMPLES])?,
-        None => None,
-    };
-    Ok(Spec::new("carrier", rung.unwrap_or("phasor"), |setting| Effect::Channels(Box::new(Carrier::new(setting)))))
+    let rung = |word, cost_ns| Rung::new(word, cost_ns, |setting| Effect::Channels(Box::new(Carrier::new(setting))));
+    Spec::ladder(CARRIER, root.table("carrier")?, vec![rung("phasor", 100.0), rung(SAMPLES, 4e3)], "phasor")
 }
 
 struct Carrier {
@@ -44,20 +44,14 @@ impl Carrier {
 
     fn amplitudes(&self, pad: &Pad) -> [Complex64; CHANNELS] {
         let device = &self.device;
-        let total = admittance(device.carrier_rad_s, pad) * device.carrier_v / device.current_full_scale_a;
+        let scale = device.carrier_v / device.current_full_scale_a;
         let mut amplitudes = [Complex64::ZERO; CHANNELS];
-        for (amplitude, share) in amplitudes.iter_mut().zip(pad.split) {
-            *amplitude = total * share;
+        for (amplitude, siemens) in amplitudes.iter_mut().zip(pad.transfer(device)) {
+            *amplitude = siemens * scale;
         }
         amplitudes[SENSE] = Complex64::new(device.carrier_v / device.sense_full_scale_v, 0.0);
         amplitudes
     }
-}
-
-/// jωC/(1 + jωC·R_p): the pad's capacitance in series with the sheet, S.
-pub(super) fn admittance(rad_s: f64, pad: &Pad) -> Complex64 {
-    let capacitive = Complex64::new(0.0, rad_s * pad.capacitance_f);
-    capacitive / (capacitive * pad.sheet_ohm + 1.0)
 }
 
 /// Phase of the haptic voltage at a run's first sample and its step per sample, turns.

@@ -11,19 +11,19 @@ mod gap;
 mod running;
 mod sensor;
 pub(crate) mod sheet;
+mod spec;
 
 pub use running::EffectCost;
 pub(crate) use running::Effects;
+pub(crate) use spec::{Rung, Setting, Spec};
 
 use std::ops::Range;
-use std::sync::Arc;
 
 use num_complex::Complex64;
 
 use crate::device::{CHANNELS, Device, TERMINALS};
 use crate::error::SceneError;
 use crate::format::Table;
-use crate::timing::Timing;
 
 /// Every effect, in the order in which they act.
 pub(crate) const EFFECTS: &[Reader] = &[
@@ -41,44 +41,21 @@ pub(crate) const EFFECTS: &[Reader] = &[
 /// Reads an effect's table; `None` where the scene leaves the effect out.
 pub(crate) type Reader = fn(&Table, &Device) -> Result<Option<Spec>, SceneError>;
 
-/// An effect as the scene asks for it.
-#[derive(Clone)]
-pub(crate) struct Spec {
-    pub name: &'static str,
-    pub rung: String,
-    pub build: Builder,
-}
-
-type Builder = Arc<dyn Fn(&Setting) -> Effect + Send + Sync>;
-
-impl Spec {
-    pub fn new(
-        name: &'static str,
-        rung: impl Into<String>,
-        build: impl Fn(&Setting) -> Effect + Send + Sync + 'static,
-    ) -> Option<Spec> {
-        Some(Spec { name, rung: rung.into(), build: Arc::new(build) })
-    }
-}
-
-/// What an effect may know of the run it is built for.
-pub(crate) struct Setting<'a> {
-    pub device: &'a Device,
-    pub timing: &'a Timing,
-    pub seed: u64,
-    /// Which case of the scene: its noise differs from the other cases', its hardware does not.
-    pub case: usize,
-}
-
 /// An effect at work.
 pub(crate) enum Effect {
     Pad(Box<dyn PadEffect>),
+    Pads(Box<dyn PadsEffect>),
     Channels(Box<dyn ChannelEffect>),
 }
 
 /// Acts on the pad, once per slot.
 pub(crate) trait PadEffect: Send {
     fn act(&mut self, pad: &mut Pad);
+}
+
+/// Acts on the pad that a slot serves, once per slot, in sight of all others.
+pub(crate) trait PadsEffect: Send {
+    fn act(&mut self, pad: &mut Pad, others: &[Pad]);
 }
 
 /// Acts on what the ADC sees of a pad.
@@ -103,19 +80,39 @@ pub(crate) struct Pad {
     pub capacitance_f: f64,
     /// Electrostatic attraction summed over the pad, N; where no effect says otherwise that of an even gap, eq. 7.
     pub attraction_n: f64,
-    /// Haptic force, N; where no effect says otherwise eq. 8 with the true capacitance and voltage.
-    /// Haptic force, N, where an effect says it.
+    /// Haptic force, N, where an effect says it; else eq. 8 with the true capacitance and voltage.
     pub force_n: Option<f64>,
     /// Share of the current through each terminal.
     pub split: [f64; TERMINALS],
     /// Combined resistance R_p of the sheet at the pad, Ω.
     pub sheet_ohm: f64,
+    /// Current into each terminal per volt of sensing, S, where an effect says it; else each one's share of jωC/(1 + jωC·R_p).
+    pub transfer: Option<[Complex64; TERMINALS]>,
 }
 
 impl Pad {
     /// The haptic force as an effect says, or else by eq. 8.
     pub fn haptic_force_n(&self, device: &Device) -> f64 {
         self.force_n.unwrap_or(device.force_k * (self.capacitance_f * self.haptic_v_rms).powi(2))
+    }
+
+    /// jωC/(1 + jωC·R_p): the pad's capacitance in series with the sheet, S.
+    pub fn admittance(&self, rad_s: f64) -> Complex64 {
+        let capacitive = Complex64::new(0.0, rad_s * self.capacitance_f);
+        capacitive / (capacitive * self.sheet_ohm + 1.0)
+    }
+
+    /// Amplitudes of the terminals' currents, up to a common factor.
+    pub fn amplitudes(&self) -> [f64; TERMINALS] {
+        self.transfer.map_or(self.split, |transfer| transfer.map(Complex64::norm))
+    }
+
+    /// Current into each terminal per volt of sensing, S: eqs. 1 and 4, or as an effect says.
+    pub fn transfer(&self, device: &Device) -> [Complex64; TERMINALS] {
+        self.transfer.unwrap_or_else(|| {
+            let total = self.admittance(device.carrier_rad_s);
+            self.split.map(|share| total * share)
+        })
     }
 }
 

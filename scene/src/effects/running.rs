@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The effects of a run at work, each with what it has cost.
+//! The effects of a run at work, each with what it has cost where somebody wants to know.
 
 use std::time::Instant;
 
-use super::{ChannelEffect, Effect, Pad, PadEffect, Setting, Spec};
+use super::{ChannelEffect, Effect, Pad, Setting, Spec};
 
 /// What an effect has cost so far.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,40 +19,73 @@ pub struct EffectCost {
 }
 
 /// The effects of a run, in the order in which they act.
-pub(crate) struct Effects(Vec<(Effect, EffectCost)>);
+pub(crate) struct Effects {
+    list: Vec<Effect>,
+    meter: Meter,
+}
 
 impl Effects {
     pub fn build(specs: &[Spec], setting: &Setting) -> Self {
-        let idle = |spec: &Spec| EffectCost { name: spec.name, rung: spec.rung.clone(), seconds: 0.0, evaluations: 0 };
-        Effects(specs.iter().map(|spec| ((spec.build)(setting), idle(spec))).collect())
+        Effects { list: specs.iter().map(|spec| spec.build(setting)).collect(), meter: Meter::Off }
     }
 
+    /// Counts and times every evaluation from now on.
+    pub fn metered(&mut self, specs: &[Spec]) {
+        let idle =
+            |spec: &Spec| EffectCost { name: spec.name, rung: spec.rung().label.clone(), seconds: 0.0, evaluations: 0 };
+        self.meter = Meter::On(specs.iter().map(idle).collect());
+    }
+
+    /// What each effect has cost; nothing where nobody asked for it to be metered.
     pub fn costs(&self) -> Vec<EffectCost> {
-        self.0.iter().map(|(_, cost)| cost.clone()).collect()
+        if let Meter::On(costs) = &self.meter { costs.clone() } else { Vec::new() }
     }
 
-    /// Lets the effects on the pad act on it.
+    /// Whether an effect looks at all pads at once.
+    pub fn joins_pads(&self) -> bool {
+        self.list.iter().any(|effect| matches!(effect, Effect::Pads(_)))
+    }
+
+    /// Lets the effects on a single pad act on it.
     pub fn on_pad(&mut self, pad: &mut Pad) {
-        for (effect, cost) in &mut self.0 {
+        for (n, effect) in self.list.iter_mut().enumerate() {
             if let Effect::Pad(effect) = effect {
-                book(cost, || PadEffect::act(effect.as_mut(), pad));
+                self.meter.book(n, || effect.act(pad));
+            }
+        }
+    }
+
+    /// Lets the effects of other pads act on one that has been acted on by itself, as they have.
+    pub fn on_pads(&mut self, pad: &mut Pad, others: &[Pad]) {
+        for (n, effect) in self.list.iter_mut().enumerate() {
+            if let Effect::Pads(effect) = effect {
+                self.meter.book(n, || effect.act(pad, others));
             }
         }
     }
 
     /// Lets the effects on the channels do `work`.
     pub fn on_channels(&mut self, mut work: impl FnMut(&mut dyn ChannelEffect)) {
-        for (effect, cost) in &mut self.0 {
+        for (n, effect) in self.list.iter_mut().enumerate() {
             if let Effect::Channels(effect) = effect {
-                book(cost, || work(effect.as_mut()));
+                self.meter.book(n, || work(effect.as_mut()));
             }
         }
     }
 }
 
-fn book(cost: &mut EffectCost, work: impl FnOnce()) {
-    let start = Instant::now();
-    work();
-    cost.seconds += start.elapsed().as_secs_f64();
-    cost.evaluations += 1;
+/// Counts and times evaluations, where somebody wants to know.
+enum Meter {
+    Off,
+    On(Vec<EffectCost>),
+}
+
+impl Meter {
+    fn book(&mut self, n: usize, work: impl FnOnce()) {
+        let Meter::On(costs) = self else { return work() };
+        let start = Instant::now();
+        work();
+        costs[n].seconds += start.elapsed().as_secs_f64();
+        costs[n].evaluations += 1;
+    }
 }

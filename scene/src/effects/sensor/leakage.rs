@@ -5,7 +5,7 @@
 
 use std::f64::consts::{SQRT_2, TAU};
 
-use super::super::carrier::{admittance, haptic_rotor};
+use super::super::carrier::haptic_rotor;
 use super::super::{ChannelEffect, Effect, Pad, Phasors, Run, Setting, Spec};
 use crate::device::{CHANNELS, Device};
 use crate::error::SceneError;
@@ -26,7 +26,7 @@ impl ChannelEffect for Leakage {
 
     fn samples(&mut self, pad: &Pad, run: &Run, rows: &mut [[f64; CHANNELS]]) {
         let volt = pad.haptic_v_rms * SQRT_2;
-        let total = admittance(TAU * self.device.haptic_hz, pad) * volt / self.device.current_full_scale_a;
+        let total = pad.admittance(TAU * self.device.haptic_hz) * volt / self.device.current_full_scale_a;
         let mut rotor = haptic_rotor(&self.device, run);
         for row in rows {
             let now = (total * rotor.turn()).im;

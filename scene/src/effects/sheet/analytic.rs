@@ -13,7 +13,7 @@
 use std::f64::consts::PI;
 
 use super::neumann::Neumann;
-use super::{Rung, Sheet, Split};
+use super::{Sheet, Solver, Split};
 use crate::device::TERMINALS;
 
 /// What is left of the first image that the Neumann function leaves out; 2 images for the paper's sheet.
@@ -43,7 +43,7 @@ impl Analytic {
     }
 }
 
-impl Rung for Analytic {
+impl Solver for Analytic {
     fn split(&self, x_mm: f64, y_mm: f64) -> Split {
         let Sheet { size_m: [width, height], ohm_per_square, terminal_radius_m, .. } = self.sheet;
         let at = [width / 2.0 + x_mm * 1e-3, height / 2.0 + y_mm * 1e-3];

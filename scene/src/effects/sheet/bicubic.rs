@@ -9,7 +9,7 @@
 //! four-point interpolation of the same nodes leaves; it is largest in front of the terminals at the edges' middles.
 
 use super::analytic::Analytic;
-use super::{Rung, Sheet, Split};
+use super::{Sheet, Solver, Split};
 use crate::device::TERMINALS;
 
 /// What a node holds: the shares and the resistance.
@@ -38,7 +38,7 @@ impl Bicubic {
     }
 }
 
-impl Rung for Bicubic {
+impl Solver for Bicubic {
     fn split(&self, x_mm: f64, y_mm: f64) -> Split {
         let (column, across) = self.axes[0].weights(x_mm);
         let (row, up) = self.axes[1].weights(y_mm);

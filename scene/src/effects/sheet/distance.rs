@@ -2,7 +2,7 @@
 //! The paper's picture: the sheet as a star of strips, R_i = R_in + R_s·(distance to terminal i)/(width of the pad).
 //! R_p is their parallel combination. At the sheet's middle it gives 311 Ω for the paper's device.
 
-use super::{Rung, Sheet, Split};
+use super::{Sheet, Solver, Split};
 use crate::device::TERMINALS;
 
 pub(super) struct Distance {
@@ -21,7 +21,7 @@ impl Distance {
     }
 }
 
-impl Rung for Distance {
+impl Solver for Distance {
     fn split(&self, x_mm: f64, y_mm: f64) -> Split {
         let [width, height] = self.sheet.size_m;
         let at = [width / 2.0 + x_mm * 1e-3, height / 2.0 + y_mm * 1e-3];

@@ -21,7 +21,7 @@ mod bicubic;
 mod distance;
 mod neumann;
 
-use super::{Effect, Pad, PadEffect, Spec};
+use super::{Effect, Pad, PadEffect, Rung, Spec};
 use crate::device::{Device, TERMINALS};
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
@@ -34,7 +34,7 @@ struct Split {
 }
 
 /// One way to get the split at a place, x and y in mm from the centre.
-trait Rung: Send {
+trait Solver: Send {
     fn split(&self, x_mm: f64, y_mm: f64) -> Split;
 }
 
@@ -52,17 +52,17 @@ struct Sheet {
     table: [usize; 2],
 }
 
-const RUNGS: [&str; 3] = ["distance", "bicubic", "analytic"];
-
 pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneError> {
     let Some(table) = root.table("sheet")? else { return Ok(None) };
-    let rung = table.choice("rung", &RUNGS)?.unwrap_or("bicubic");
     let sheet = read_sheet(table, device)?;
-    let name = match (rung, sheet.table) {
-        ("bicubic", [columns, rows]) => format!("bicubic {columns} × {rows}"),
-        _ => rung.to_string(),
+    let rung = |(word, cost_ns): (&'static str, f64)| {
+        let sheet = sheet.clone();
+        Rung::new(word, cost_ns, move |_| Effect::Pad(Box::new(OnSheet { solver: build(word, &sheet) })))
     };
-    Ok(Spec::new("sheet", name, move |_| Effect::Pad(Box::new(OnSheet { rung: build(rung, &sheet) }))))
+    let [columns, rows] = sheet.table;
+    let [distance, bicubic, analytic] = [("distance", 70.0), ("bicubic", 60.0), ("analytic", 400.0)].map(rung);
+    let bicubic = bicubic.labelled(format!("bicubic {columns} × {rows}"));
+    Spec::ladder("sheet", Some(table), vec![distance, bicubic, analytic], "bicubic")
 }
 
 fn read_sheet(table: &Table, device: &Device) -> Result<Sheet, SceneError> {
@@ -109,7 +109,7 @@ fn edge_place(table: &Table, key: &'static str, half: [f64; 2]) -> Result<Option
     ))
 }
 
-fn build(rung: &str, sheet: &Sheet) -> Box<dyn Rung> {
+fn build(rung: &str, sheet: &Sheet) -> Box<dyn Solver> {
     match rung {
         "distance" => Box::new(distance::Distance::new(sheet)),
         "bicubic" => Box::new(bicubic::Bicubic::new(sheet)),
@@ -118,12 +118,12 @@ fn build(rung: &str, sheet: &Sheet) -> Box<dyn Rung> {
 }
 
 struct OnSheet {
-    rung: Box<dyn Rung>,
+    solver: Box<dyn Solver>,
 }
 
 impl PadEffect for OnSheet {
     fn act(&mut self, pad: &mut Pad) {
-        let split = self.rung.split(pad.x_mm, pad.y_mm);
+        let split = self.solver.split(pad.x_mm, pad.y_mm);
         pad.split = split.share;
         pad.sheet_ohm = split.ohm;
     }

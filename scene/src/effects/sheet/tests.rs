@@ -29,7 +29,7 @@ fn places(margin_mm: f64) -> Vec<[f64; 2]> {
     (0..81 * 47).map(|n| [along(n % 81, 81, 860.0), along(n / 81, 47, 500.0)]).collect()
 }
 
-fn splits(rung: &impl Rung, margin_mm: f64) -> Vec<Split> {
+fn splits(rung: &impl Solver, margin_mm: f64) -> Vec<Split> {
     places(margin_mm).into_iter().map(|[x, y]| rung.split(x, y)).collect()
 }
 
@@ -49,7 +49,7 @@ fn assert_near(name: &str, got: &[f64], expected: &[f64], tolerance: f64) {
 }
 
 /// Rms and maximum of the shares' difference.
-fn split_error(rung: &impl Rung, margin_mm: f64) -> [f64; 2] {
+fn split_error(rung: &impl Solver, margin_mm: f64) -> [f64; 2] {
     let exact = splits(&Analytic::with_images(&sheet(0.0), 4), margin_mm);
     let pairs = splits(rung, margin_mm).into_iter().zip(exact);
     let errors: Vec<f64> =
@@ -97,7 +97,7 @@ fn truncation_falls_with_each_image_as_predicted() {
 #[test]
 fn shares_sum_to_one_and_mirror_at_every_rung() {
     let sheet = sheet(300.0);
-    let rungs: [Box<dyn Rung>; 3] = ["distance", "bicubic", "analytic"].map(|rung| build(rung, &sheet));
+    let rungs: [Box<dyn Solver>; 3] = ["distance", "bicubic", "analytic"].map(|rung| build(rung, &sheet));
     for (rung, [x, y]) in rungs.iter().flat_map(|rung| places(15.0).into_iter().map(move |place| (rung, place))) {
         let (split, mirrored) = (rung.split(x, y), rung.split(-x, -y));
         assert!((split.share.iter().sum::<f64>() - 1.0).abs() < 1e-11);

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! An effect as a scene asks for it: its rungs of accuracy and the one that is used.
+
+use std::sync::Arc;
+
+use super::Effect;
+use crate::device::Device;
+use crate::error::SceneError;
+use crate::format::Table;
+use crate::timing::Timing;
+
+/// An effect as the scene asks for it.
+#[derive(Clone)]
+pub(crate) struct Spec {
+    /// Its table, or table and key.
+    pub name: &'static str,
+    /// From the coarsest to the finest; a single one where the effect is one way or not at all.
+    rungs: Vec<Rung>,
+    chosen: usize,
+    /// The scene names the rung itself, so that an error budget leaves it alone.
+    named: bool,
+}
+
+/// One way to evaluate an effect.
+#[derive(Clone)]
+pub(crate) struct Rung {
+    /// What a scene writes.
+    word: &'static str,
+    /// What a run says: the word, and its numbers where it has some.
+    pub label: String,
+    /// What a slot costs, as the `speed` example measured it, ns: an error budget takes the cheapest rung that fits.
+    pub cost_ns: f64,
+    build: Builder,
+}
+
+type Builder = Arc<dyn Fn(&Setting) -> Effect + Send + Sync>;
+
+/// What an effect may know of the run it is built for.
+pub(crate) struct Setting<'a> {
+    pub device: &'a Device,
+    pub timing: &'a Timing,
+    pub seed: u64,
+    /// Which case of the scene: its noise differs from the other cases', its hardware does not.
+    pub case: usize,
+}
+
+impl Rung {
+    /// A rung that a scene asks for by `word`.
+    pub fn new(word: &'static str, cost_ns: f64, build: impl Fn(&Setting) -> Effect + Send + Sync + 'static) -> Self {
+        Rung { word, label: word.to_string(), cost_ns, build: Arc::new(build) }
+    }
+
+    /// The same rung, with its numbers beside its word.
+    pub fn labelled(self, label: String) -> Self {
+        Rung { label, ..self }
+    }
+}
+
+impl Spec {
+    /// An effect that has one way to be evaluated; `label` says how much of it there is.
+    pub fn new(
+        name: &'static str,
+        label: impl Into<String>,
+        build: impl Fn(&Setting) -> Effect + Send + Sync + 'static,
+    ) -> Option<Spec> {
+        let rungs = vec![Rung::new("", 0.0, build).labelled(label.into())];
+        Some(Spec { name, rungs, chosen: 0, named: true })
+    }
+
+    /// An effect with rungs, from the coarsest to the finest, of which `table` names one as `rung`; `usual` where it does
+    /// not.
+    pub fn ladder(
+        name: &'static str,
+        table: Option<&Table>,
+        rungs: Vec<Rung>,
+        usual: &str,
+    ) -> Result<Option<Spec>, SceneError> {
+        let words: Vec<_> = rungs.iter().map(|rung| rung.word).collect();
+        let word = table.map_or(Ok(None), |table| table.choice("rung", &words))?;
+        let chosen = words.iter().position(|known| *known == word.unwrap_or(usual));
+        let chosen = chosen.expect("the usual rung is one of the ladder's");
+        Ok(Some(Spec { name, rungs, chosen, named: word.is_some() }))
+    }
+
+    /// The rung that is used.
+    pub fn rung(&self) -> &Rung {
+        &self.rungs[self.chosen]
+    }
+
+    /// Whether the rung that is used is the one a scene writes so.
+    pub fn is_at(&self, word: &str) -> bool {
+        self.rung().word == word
+    }
+
+    /// Whether an error budget may choose the rung.
+    pub fn is_free(&self) -> bool {
+        !self.named && self.rungs.len() > 1
+    }
+
+    /// The same effect at each of its rungs, coarsest first.
+    pub fn all(&self) -> Vec<Spec> {
+        (0..self.rungs.len()).map(|chosen| self.at(chosen)).collect()
+    }
+
+    /// The same effect at its finest rung.
+    pub fn finest(&self) -> Spec {
+        self.at(self.rungs.len() - 1)
+    }
+
+    /// The same effect one rung up.
+    pub fn finer(&self) -> Option<Spec> {
+        (self.chosen + 1 < self.rungs.len()).then(|| self.at(self.chosen + 1))
+    }
+
+    fn at(&self, chosen: usize) -> Spec {
+        Spec { chosen, ..self.clone() }
+    }
+
+    /// The effect at work.
+    pub fn build(&self, setting: &Setting) -> Effect {
+        (self.rung().build)(setting)
+    }
+}
