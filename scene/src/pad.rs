@@ -8,7 +8,7 @@ use crate::effects::Pad;
 use crate::effects::sheet::ideal_split;
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
-use crate::path::Path;
+use crate::path::{Path, SLACK_MM};
 
 /// Capacitance of a pad that neither names one nor has a gap, pF: 5 kΩ at 100 kHz.
 const CAPACITANCE_PF: f64 = 318.0;
@@ -79,6 +79,7 @@ fn still(
     capacitance_f: f64,
     device: &Device,
 ) -> Pad {
+    let reach_mm = device.reach_mm();
     let attraction_n = (capacitance_f * haptic_v_rms).powi(2) / (2.0 * EPSILON_0 * device.pad_area_m2);
     Pad {
         index,
@@ -91,7 +92,9 @@ fn still(
         attraction_n,
         force_n: None,
         split: ideal_split(at[0], at[1], device),
-        sheet_ohm: 0.0,
+        sheet_ohm: 0.0.into(),
         transfer: None,
+        over_edge: at[0].abs() > reach_mm[0] + SLACK_MM || at[1].abs() > reach_mm[1] + SLACK_MM,
+        touching: false,
     }
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Where a pad is, over the points of a sweep or over time. Millimetres from the sheet's centre, x right, y up.
+//! Where a pad is, over the points of a sweep or over time. Millimetres from the sheet's centre, x right, y up. With
+//! `over_edge = true` beside it the pad may reach over the edge, where its slots are flagged.
 //!
 //! | written as `position_mm =` | the pad |
 //! | --- | --- |
@@ -18,6 +19,9 @@ use crate::format::{Limits, Table, Value};
 
 type Point = [f64; 2];
 
+/// Rounding of a path that reaches just to the edge is not a pad over the edge.
+pub(crate) const SLACK_MM: f64 = 1e-9;
+
 /// A pad's position over sweep points or time.
 #[derive(Clone, Debug)]
 pub(crate) enum Path {
@@ -27,15 +31,19 @@ pub(crate) enum Path {
 }
 
 impl Path {
-    /// Reads `position_mm`; the pad must stay wholly on the sheet.
+    /// Reads `position_mm`; the pad must stay wholly on the sheet, but with `over_edge = true` its centre alone.
     pub fn read(pad: &Table, device: &Device) -> Result<Path, SceneError> {
         const KEY: &str = "position_mm";
         let path = match pad.get(KEY).map(|node| &node.value) {
             Some(Value::Table(form)) => Path::read_form(form, device)?,
             _ => Path::Points(vec![pad.require(KEY, "[x, y]", pad.pair(KEY, Limits::ANY)?)?]),
         };
-        let reach = device.reach_mm();
-        match path.extremes().into_iter().find(|[x, y]| x.abs() > reach[0] + 1e-9 || y.abs() > reach[1] + 1e-9) {
+        let reach = if pad.flag("over_edge")? {
+            [device.width_mm, device.height_mm].map(|size| size / 2.0)
+        } else {
+            device.reach_mm()
+        };
+        match path.extremes().into_iter().find(|[x, y]| x.abs() > reach[0] + SLACK_MM || y.abs() > reach[1] + SLACK_MM) {
             None => Ok(path),
             Some([x, y]) => Err(pad.error(
                 KEY,

@@ -116,11 +116,13 @@ impl Plant {
             x_mm: pad.x_mm,
             y_mm: pad.y_mm,
             capacitance_pf: pad.capacitance_f * 1e12,
-            sheet_ohm: pad.sheet_ohm,
+            sheet_ohm: pad.sheet_ohm.re,
             haptic_v_rms: pad.haptic_v_rms,
             force_n: pad.haptic_force_n(&self.device),
             direction: 0.0,
             load_g: pad.load_g,
+            over_edge: pad.over_edge,
+            touching: pad.touching,
         }
     }
 
@@ -159,7 +161,7 @@ impl Plant {
             raster(nx, ny, margin_mm, &self.device).into_iter().map(|place| resting(place, 0.0, 0.0, &self.device));
         let point = |pad: Pad| {
             let (r_x, r_y) = ratios(&pad.amplitudes());
-            MapPoint { x_mm: pad.x_mm, y_mm: pad.y_mm, r_x, r_y, sheet_ohm: pad.sheet_ohm }
+            MapPoint { x_mm: pad.x_mm, y_mm: pad.y_mm, r_x, r_y, sheet_ohm: pad.sheet_ohm.re }
         };
         self.settle(still).map(point).collect()
     }

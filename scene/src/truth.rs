@@ -32,6 +32,10 @@ pub struct Truth {
     pub direction: f64,
     /// Load on the pad, g.
     pub load_g: f64,
+    /// The pad reaches over the edge; what the plant says is for a pad at the edge.
+    pub over_edge: bool,
+    /// The pad lies on another one; what the plant says is for pads that touch. Known only where pads are coupled.
+    pub touching: bool,
 }
 
 /// A place of the calibration map.

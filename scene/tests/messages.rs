@@ -21,7 +21,7 @@ fn check(table: &str, expected: &str) {
 fn unknown_rung() {
     check(
         "[sheet]\nrung = \"cubic\"",
-        "s.toml:5: sheet.rung: expected one of \"distance\", \"bicubic\", \"analytic\", got \"cubic\"",
+        "s.toml:5: sheet.rung: expected one of \"distance\", \"bilinear\", \"bicubic\", \"bicubic-fine\", \"analytic\", \"grid-20-mm\"",
     );
 }
 
@@ -29,7 +29,7 @@ fn unknown_rung() {
 fn unknown_effect() {
     let magnet = format!("{SCENE}[magnet]\nrung = \"a\"");
     assert!(message(&magnet, &[]).starts_with("s.toml:4: magnet: unknown key, expected one of "));
-    assert!(message(&magnet, &[]).contains("\"sheet\", \"gap\", \"friction\""));
+    assert!(message(&magnet, &[]).contains("\"sheet\", \"shunt\", \"gap\", \"friction\""));
 }
 
 #[test]
@@ -160,7 +160,7 @@ fn overrides() {
         assert!(message.starts_with(expected), "got      {message}\nexpected {expected}");
     };
     expect("sheet.rung", "cubic", "s.toml: --set sheet.rung: expected one of \"distance\"");
-    expect("sheet.wet", "1", "s.toml: --set sheet.wet: unknown key, expected one of \"ohm_per_square\"");
+    expect("sheet.wet", "1", "s.toml: --set sheet.wet: unknown key, expected one of \"slope_percent\"");
     expect("magnet.rung", "1", "s.toml: --set magnet: unknown key");
     expect("pad.3.load_g", "1", "s.toml: --set pad.3.load_g: there is no 3 that could be entered");
     expect("title.x", "1", "s.toml: --set title.x: there is no title that could be entered");

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Effects: what the plant does beyond the ideal, each in a module of its own and switched on by its table.
 //!
-//! Once per slot the effects on the pad run in the order of [`EFFECTS`], each changing the [`Pad`]; then the effects on the
-//! channels turn it into phasors or samples. An effect whose table (or key, for the sensor chain) is absent yields no
-//! [`Spec`], so the plant holds nothing of it. To add an effect: one file with a `read`, one line in the list.
+//! Once per slot the effects on the pad run in the order of [`EFFECTS`], each changing the [`Pad`]; then those that see all
+//! pads at once; then the effects on the channels turn it into phasors or samples. An effect whose table (or key, for the
+//! sensor chain) is absent yields no [`Spec`], so the plant holds nothing of it. To add an effect: one file with a `read`, one
+//! line in the list.
 
 pub(crate) mod carrier;
+mod coupling;
 mod friction;
 mod gap;
 mod running;
 mod sensor;
 pub(crate) mod sheet;
+mod shunt;
 mod spec;
 
 pub use running::EffectCost;
@@ -28,8 +31,10 @@ use crate::format::Table;
 /// Every effect, in the order in which they act.
 pub(crate) const EFFECTS: &[Reader] = &[
     sheet::read,
+    shunt::read,
     gap::read,
     friction::read,
+    coupling::read,
     carrier::read,
     sensor::leakage::read,
     sensor::gain::read,
@@ -82,12 +87,16 @@ pub(crate) struct Pad {
     pub attraction_n: f64,
     /// Haptic force, N, where an effect says it; else eq. 8 with the true capacitance and voltage.
     pub force_n: Option<f64>,
-    /// Share of the current through each terminal.
-    pub split: [f64; TERMINALS],
-    /// Combined resistance R_p of the sheet at the pad, Ω.
-    pub sheet_ohm: f64,
+    /// Share of the current through each terminal; real where the sheet is all there is.
+    pub split: [Complex64; TERMINALS],
+    /// What the pad sees of the sheet, Ω: the combined resistance R_p, or an impedance where an effect makes it one.
+    pub sheet_ohm: Complex64,
     /// Current into each terminal per volt of sensing, S, where an effect says it; else each one's share of jωC/(1 + jωC·R_p).
     pub transfer: Option<[Complex64; TERMINALS]>,
+    /// The pad reaches over the sheet's edge: it is taken as lying at the edge.
+    pub over_edge: bool,
+    /// The pad lies on another one: both are taken as touching.
+    pub touching: bool,
 }
 
 impl Pad {
@@ -104,7 +113,7 @@ impl Pad {
 
     /// Amplitudes of the terminals' currents, up to a common factor.
     pub fn amplitudes(&self) -> [f64; TERMINALS] {
-        self.transfer.map_or(self.split, |transfer| transfer.map(Complex64::norm))
+        self.transfer.unwrap_or(self.split).map(Complex64::norm)
     }
 
     /// Current into each terminal per volt of sensing, S: eqs. 1 and 4, or as an effect says.

@@ -30,7 +30,7 @@ impl ChannelEffect for Leakage {
         let mut rotor = haptic_rotor(&self.device, run);
         for row in rows {
             let now = (total * rotor.turn()).im;
-            row.iter_mut().zip(pad.split).for_each(|(sample, share)| *sample += now * share);
+            row.iter_mut().zip(pad.split).for_each(|(sample, share)| *sample += now * share.re);
         }
     }
 }

@@ -2,29 +2,26 @@
 //! The exact split: Neumann functions tied together by the terminals.
 //!
 //! A unit current into the pad at p leaves as w_i through the terminals, so that the potential is
-//! φ(r) = R_s·[N(r, p) − Σ w_j·N(r, t_j)] + c. Every terminal is grounded through R_in, φ(t_i) = R_in·w_i, and Σ w = 1:
+//! φ(r) = R_s·[N(r, p) − Σ w_j·N(r, t_j)] + c. Every terminal is grounded through R_i, φ(t_i) = R_i·w_i, and Σ w = 1:
 //!
-//!   ⎡ R_s·N(t_i, t_j) + R_in·δ_ij   −1 ⎤ ⎡ w ⎤   ⎡ R_s·N(t_i, p) ⎤
-//!   ⎣ 1 … 1                          0 ⎦ ⎣ c ⎦ = ⎣ 1             ⎦,    R_p = R_s·N(p, p) + c − Σ w_j·R_s·N(t_j, p)
+//!   ⎡ R_s·N(t_i, t_j) + R_i·δ_ij   −1 ⎤ ⎡ w ⎤   ⎡ R_s·N(t_i, p) ⎤
+//!   ⎣ 1 … 1                         0 ⎦ ⎣ c ⎦ = ⎣ 1             ⎦,    R_p = R_s·N(p, p) + c − Σ w_j·R_s·N(t_j, p)
 //!
-//! The matrix is inverted once. A disc of even current has the split of its centre; only N(p, p) sees its size, through
-//! R_eff = R·e^(−1/4).
+//! An open terminal's row says w_i = 0. The matrix is inverted once. A disc of even current has the split of its centre;
+//! only N(p, p) sees its size, through R_eff = R·e^(−1/4).
 
-use std::f64::consts::PI;
-
+use super::linear::{dot, invert};
 use super::neumann::Neumann;
 use super::{Sheet, Solver, Split};
 use crate::device::TERMINALS;
-
-/// What is left of the first image that the Neumann function leaves out; 2 images for the paper's sheet.
-const CUT_OFF: f64 = 1e-9;
 
 /// Unknowns of the bordered system: a current for each terminal and the potential's constant.
 const UNKNOWNS: usize = TERMINALS + 1;
 
 type Matrix = [[f64; UNKNOWNS]; UNKNOWNS];
 
-pub(super) struct Analytic {
+/// An even sheet, exactly.
+pub(crate) struct Analytic {
     sheet: Sheet,
     neumann: Neumann,
     inverse: Matrix,
@@ -32,69 +29,67 @@ pub(super) struct Analytic {
 
 impl Analytic {
     pub fn new(sheet: &Sheet) -> Self {
-        let [width, height] = sheet.size_m;
-        let images = (CUT_OFF.ln() / (-2.0 * PI * width / height)).ceil();
-        Analytic::with_images(sheet, images as i32)
+        Analytic::with(sheet, Neumann::exact(sheet.size_m))
     }
 
-    pub fn with_images(sheet: &Sheet, images: i32) -> Self {
-        let neumann = Neumann::new(sheet.size_m, images);
+    pub fn with(sheet: &Sheet, neumann: Neumann) -> Self {
         Analytic { sheet: sheet.clone(), neumann, inverse: invert(bordered(sheet, &neumann)) }
     }
+
+    /// R_s·N from a place to each terminal, then the border's 1.
+    fn known(&self, at: [f64; 2]) -> [f64; UNKNOWNS] {
+        let mut known = [1.0; UNKNOWNS];
+        for (terminal, value) in known.iter_mut().enumerate().take(TERMINALS) {
+            let there = self.sheet.terminals_m[terminal];
+            let closed = self.sheet.terminal_ohm[terminal].is_finite();
+            let ohm = || self.sheet.film.ohm_per_square * self.neumann.at(there, at, self.sheet.terminal_radius_m);
+            *value = if closed { ohm() } else { 0.0 };
+        }
+        known
+    }
+
+    /// A place, for [`Analytic::between`].
+    pub fn source(&self, x_mm: f64, y_mm: f64) -> Source {
+        let at = self.sheet.place_m(x_mm, y_mm);
+        let known = self.known(at);
+        Source { at, known, unknown: self.inverse.map(|row| dot(&row, &known)) }
+    }
+
+    /// Potential at one place for a unit current into another, Ω; where both are the same, that of the pad's own disc.
+    pub fn between(&self, a: &Source, b: &Source) -> f64 {
+        let free = self.sheet.film.ohm_per_square * self.neumann.at(a.at, b.at, self.sheet.disc_m());
+        free + b.unknown[TERMINALS] - dot(&b.unknown[..TERMINALS], &a.known)
+    }
+}
+
+/// A place on the sheet: R_s·N to the terminals, and the shares and the constant for a current into it.
+pub(crate) struct Source {
+    at: [f64; 2],
+    known: [f64; UNKNOWNS],
+    unknown: [f64; UNKNOWNS],
 }
 
 impl Solver for Analytic {
     fn split(&self, x_mm: f64, y_mm: f64) -> Split {
-        let Sheet { size_m: [width, height], ohm_per_square, terminal_radius_m, .. } = self.sheet;
-        let at = [width / 2.0 + x_mm * 1e-3, height / 2.0 + y_mm * 1e-3];
-        let mut known = [1.0; UNKNOWNS];
-        for (value, terminal) in known.iter_mut().zip(self.sheet.terminals_m) {
-            *value = ohm_per_square * self.neumann.at(terminal, at, terminal_radius_m);
-        }
-        let unknown = self.inverse.map(|row| dot(&row, &known));
-        let share: [f64; TERMINALS] = std::array::from_fn(|terminal| unknown[terminal]);
-        let disc_m = self.sheet.pad_radius_m * (-0.25f64).exp();
-        let own = ohm_per_square * self.neumann.at(at, at, disc_m);
-        Split { share, ohm: own + unknown[TERMINALS] - dot(&share, &known) }
+        let source = self.source(x_mm, y_mm);
+        let share = std::array::from_fn(|terminal| source.unknown[terminal]);
+        Split { share, ohm: self.between(&source, &source) }
     }
 }
 
 fn bordered(sheet: &Sheet, neumann: &Neumann) -> Matrix {
     let mut matrix = [[0.0; UNKNOWNS]; UNKNOWNS];
     for (i, to) in sheet.terminals_m.into_iter().enumerate() {
-        for (j, from) in sheet.terminals_m.into_iter().enumerate() {
-            matrix[i][j] = sheet.ohm_per_square * neumann.at(to, from, sheet.terminal_radius_m);
+        if sheet.terminal_ohm[i].is_infinite() {
+            matrix[i][i] = 1.0;
+            continue;
         }
-        matrix[i][i] += sheet.terminal_ohm;
+        for (j, from) in sheet.terminals_m.into_iter().enumerate() {
+            matrix[i][j] = sheet.film.ohm_per_square * neumann.at(to, from, sheet.terminal_radius_m);
+        }
+        matrix[i][i] += sheet.terminal_ohm[i];
         matrix[i][TERMINALS] = -1.0;
         matrix[TERMINALS][i] = 1.0;
     }
     matrix
-}
-
-/// Scalar product over the shorter of both.
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-/// Gauss–Jordan with row pivoting; the bordered matrix of a connected sheet is never singular.
-fn invert(mut matrix: Matrix) -> Matrix {
-    let mut inverse: Matrix = std::array::from_fn(|row| std::array::from_fn(|column| f64::from(row == column)));
-    for pivot in 0..UNKNOWNS {
-        let rows = pivot..UNKNOWNS;
-        let largest = rows.max_by(|i, j| matrix[*i][pivot].abs().total_cmp(&matrix[*j][pivot].abs())).unwrap_or(pivot);
-        matrix.swap(pivot, largest);
-        inverse.swap(pivot, largest);
-        let scale = 1.0 / matrix[pivot][pivot];
-        matrix[pivot] = matrix[pivot].map(|value| value * scale);
-        inverse[pivot] = inverse[pivot].map(|value| value * scale);
-        for row in (0..UNKNOWNS).filter(|row| *row != pivot) {
-            let factor = matrix[row][pivot];
-            for column in 0..UNKNOWNS {
-                matrix[row][column] -= factor * matrix[pivot][column];
-                inverse[row][column] -= factor * inverse[pivot][column];
-            }
-        }
-    }
-    inverse
 }

@@ -14,18 +14,18 @@ impl Distance {
         Distance { sheet: sheet.clone() }
     }
 
-    fn conductance(&self, at: [f64; 2], terminal: [f64; 2]) -> f64 {
-        let distance = (at[0] - terminal[0]).hypot(at[1] - terminal[1]);
-        let strip = self.sheet.ohm_per_square * distance / (2.0 * self.sheet.pad_radius_m);
-        1.0 / (self.sheet.terminal_ohm + strip)
+    fn conductance(&self, at: [f64; 2], terminal: usize) -> f64 {
+        let there = self.sheet.terminals_m[terminal];
+        let distance = (at[0] - there[0]).hypot(at[1] - there[1]);
+        let strip = self.sheet.film.ohm_per_square * distance / (2.0 * self.sheet.pad_radius_m);
+        1.0 / (self.sheet.terminal_ohm[terminal] + strip)
     }
 }
 
 impl Solver for Distance {
     fn split(&self, x_mm: f64, y_mm: f64) -> Split {
-        let [width, height] = self.sheet.size_m;
-        let at = [width / 2.0 + x_mm * 1e-3, height / 2.0 + y_mm * 1e-3];
-        let each: [f64; TERMINALS] = self.sheet.terminals_m.map(|terminal| self.conductance(at, terminal));
+        let at = self.sheet.place_m(x_mm, y_mm);
+        let each: [f64; TERMINALS] = std::array::from_fn(|terminal| self.conductance(at, terminal));
         let sum: f64 = each.iter().sum();
         Split { share: each.map(|conductance| conductance / sum), ohm: 1.0 / sum }
     }

@@ -2,138 +2,157 @@
 //! `[sheet]`: how the resistive sheet splits a pad's current among the terminals, and its resistance R_p at the pad.
 //!
 //! Terminals 1 to 4 are the corners top left, bottom left, bottom right, top right (the signs of eqs. 2 and 3); 5 and 6 are
-//! the middles of the bottom and the top edge, or where `terminal_5_mm` and `terminal_6_mm` say. Each is a patch of radius
-//! `terminal_radius_mm` behind `terminal_ohm`. The radius is not the paper's: 1.7 mm gives the R_p of PHYSICS §1, 73 to
-//! 190 Ω, mean 143 Ω, for pads 20 mm off the edges.
+//! the middles of the bottom and the top edge, of the left and the right one with `middles = "short"`, or where
+//! `terminal_5_mm` and `terminal_6_mm` say; `terminals = 4` leaves both away. Each is a patch of radius `terminal_radius_mm`
+//! behind `terminal_ohm`; those listed in `shorted` have no resistance, those in `open` no current. The radius is not the
+//! paper's: 1.7 mm gives the R_p of PHYSICS §1, 73 to 190 Ω, mean 143 Ω, for pads 20 mm off the edges.
 //!
 //! | rung | what | look-up | error of the split, rms / max | build |
 //! | --- | --- | --- | --- | --- |
 //! | `distance` | R_i ∝ distance, the paper's picture | 70 ns | 5.0e-2 / 2.5e-1 | – |
-//! | `bicubic` | table of the analytic solution, `table_columns` × `table_rows` = 128 × 75 | 60 ns | 7e-7 / 6e-5 | 4.5 ms |
+//! | `bilinear` | table of the analytic solution, 64 × 37 | | | |
+//! | `bicubic` | spline of the same, `table_columns` × `table_rows` = 128 × 75 | 60 ns | 7e-7 / 6e-5 | 4.5 ms |
+//! | `bicubic-fine` | 512 × 297 | | | |
 //! | `analytic` | Neumann function of the rectangle | 400 ns | 5e-11 max | – |
+//! | `grid-20-mm` … `grid-1.25-mm` | finite differences; the only rungs for a film that is not even | | | |
 //!
 //! Errors are over pads 20 mm off the edges; at the edges, in front of terminals 5 and 6, the table's reach 2e-4.
 //!
 //! Without the table the sheet is ideal: no resistance, and corner currents that are bilinear in the position.
 
-mod analytic;
-mod bicubic;
+pub(super) mod analytic;
 mod distance;
-mod neumann;
+mod film;
+pub(super) mod geometry;
+mod grid;
+pub(super) mod linear;
+pub(super) mod mesh;
+pub(super) mod neumann;
+pub(super) mod spline;
+mod table;
+
+pub(super) use geometry::Sheet;
+
+use num_complex::Complex64;
 
 use super::{Effect, Pad, PadEffect, Rung, Spec};
 use crate::device::{Device, TERMINALS};
 use crate::error::SceneError;
-use crate::format::{Limits, Table};
+use crate::format::Table;
 
 /// The sheet as a pad at one place sees it.
 #[derive(Clone, Copy, Debug)]
-struct Split {
-    share: [f64; TERMINALS],
-    ohm: f64,
+pub(super) struct Split {
+    pub share: [f64; TERMINALS],
+    pub ohm: f64,
+}
+
+impl Split {
+    fn node(self) -> [f64; TERMINALS + 1] {
+        let [a, b, c, d, e, f] = self.share;
+        [a, b, c, d, e, f, self.ohm]
+    }
+
+    fn of_node([a, b, c, d, e, f, ohm]: [f64; TERMINALS + 1]) -> Split {
+        Split { share: [a, b, c, d, e, f], ohm }
+    }
 }
 
 /// One way to get the split at a place, x and y in mm from the centre.
-trait Solver: Send {
+pub(super) trait Solver: Send {
     fn split(&self, x_mm: f64, y_mm: f64) -> Split;
 }
 
-/// What `[sheet]` says, in SI units.
-#[derive(Clone, Debug)]
-struct Sheet {
-    size_m: [f64; 2],
-    pad_radius_m: f64,
-    ohm_per_square: f64,
-    terminal_ohm: f64,
-    terminal_radius_m: f64,
-    /// From the bottom left corner.
-    terminals_m: [[f64; 2]; TERMINALS],
-    /// Columns and rows of the bicubic table.
-    table: [usize; 2],
-}
+/// Rungs of an even sheet, and what a look-up costs, ns.
+const EVEN: [(&str, f64); 5] =
+    [("distance", 70.0), ("bilinear", 20.0), ("bicubic", 60.0), ("bicubic-fine", 61.0), ("analytic", 400.0)];
+
+/// Rungs of any sheet: their spacing in mm, and what a look-up costs, ns.
+const GRIDS: [(&str, f64, f64); 5] = [
+    ("grid-20-mm", 20.0, 60.0),
+    ("grid-10-mm", 10.0, 61.0),
+    ("grid-5-mm", 5.0, 62.0),
+    ("grid-2.5-mm", 2.5, 63.0),
+    ("grid-1.25-mm", 1.25, 64.0),
+];
 
 pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneError> {
     let Some(table) = root.table("sheet")? else { return Ok(None) };
-    let sheet = read_sheet(table, device)?;
-    let rung = |(word, cost_ns): (&'static str, f64)| {
-        let sheet = sheet.clone();
-        Rung::new(word, cost_ns, move |_| Effect::Pad(Box::new(OnSheet { solver: build(word, &sheet) })))
+    let sheet = Sheet::read(table, device)?;
+    let even = sheet.film.is_even();
+    let words: Vec<_> = EVEN.iter().filter(|_| even).map(|rung| rung.0).chain(GRIDS.map(|rung| rung.0)).collect();
+    let word = table.choice("rung", &words)?;
+    if !even || word.is_some_and(|word| word.starts_with("grid")) {
+        let rungs = GRIDS.map(|(word, mm, cost_ns)| rung(&sheet, word, cost_ns, move |sheet| grid(sheet, mm)));
+        Spec::ladder("sheet", Some(table), rungs.into(), "grid-5-mm")
+    } else {
+        let rungs = EVEN.map(|(word, cost_ns)| rung(&sheet, word, cost_ns, move |sheet| exact_or_table(word, sheet)));
+        Spec::ladder("sheet", Some(table), rungs.into(), "bicubic")
+    }
+}
+
+fn rung(
+    sheet: &Sheet,
+    word: &'static str,
+    cost_ns: f64,
+    build: impl Fn(&Sheet) -> Box<dyn Solver> + Send + Sync + 'static,
+) -> Rung {
+    let sheet = sheet.clone();
+    let label = match table_of(word) {
+        Some([columns, rows]) => {
+            format!("{word} {} × {}", sheet.table[0].unwrap_or(columns), sheet.table[1].unwrap_or(rows))
+        }
+        None => word.to_string(),
     };
-    let [columns, rows] = sheet.table;
-    let [distance, bicubic, analytic] = [("distance", 70.0), ("bicubic", 60.0), ("analytic", 400.0)].map(rung);
-    let bicubic = bicubic.labelled(format!("bicubic {columns} × {rows}"));
-    Spec::ladder("sheet", Some(table), vec![distance, bicubic, analytic], "bicubic")
+    let reach_mm = sheet.reach_mm();
+    Rung::new(word, cost_ns, move |_| Effect::Pad(Box::new(OnSheet { solver: build(&sheet), reach_mm })))
+        .labelled(label)
 }
 
-fn read_sheet(table: &Table, device: &Device) -> Result<Sheet, SceneError> {
-    let size_m = [device.width_mm, device.height_mm].map(|mm| mm * 1e-3);
-    let count = |key, default| Ok(table.whole(key, 8, 2048)?.unwrap_or(default) as usize);
-    let widest = Limits::above(0.0, device.pad_diameter_mm / 3.0); // a pad at the edge must not lie on a terminal
-    Ok(Sheet {
-        size_m,
-        pad_radius_m: device.pad_diameter_mm * 0.5e-3,
-        ohm_per_square: table.number_or("ohm_per_square", Limits::POSITIVE, 150.0)?,
-        terminal_ohm: table.number_or("terminal_ohm", Limits::NOT_NEGATIVE, 0.0)?,
-        terminal_radius_m: 1e-3 * table.number_or("terminal_radius_mm", widest, 1.7)?,
-        terminals_m: terminals(table, device)?,
-        table: [count("table_columns", 128)?, count("table_rows", 75)?],
-    })
-}
-
-/// Places from the bottom left corner, m: the corners, and both others where the scene has them.
-fn terminals(table: &Table, device: &Device) -> Result<[[f64; 2]; TERMINALS], SceneError> {
-    let half = [device.width_mm / 2.0, device.height_mm / 2.0];
-    let [x, y] = half;
-    let fifth = edge_place(table, "terminal_5_mm", half)?.unwrap_or([0.0, -y]);
-    let sixth = edge_place(table, "terminal_6_mm", half)?.unwrap_or([0.0, y]);
-    if fifth == sixth {
-        return Err(table.error("terminal_6_mm", format!("expected a place other than terminal 5's, got {sixth:?}")));
+/// Columns and rows of a rung that is a table of the analytic solution.
+fn table_of(word: &str) -> Option<[usize; 2]> {
+    match word {
+        "bilinear" => Some([64, 37]),
+        "bicubic" => Some([128, 75]),
+        "bicubic-fine" => Some([512, 297]),
+        _ => None,
     }
-    let places_mm = [[-x, y], [-x, -y], [x, -y], [x, y], fifth, sixth];
-    Ok(places_mm.map(|place| [0, 1].map(|axis| 1e-3 * (place[axis] + half[axis]))))
 }
 
-fn edge_place(table: &Table, key: &'static str, half: [f64; 2]) -> Result<Option<[f64; 2]>, SceneError> {
-    let Some(place) = table.pair(key, Limits::ANY)? else { return Ok(None) };
-    let at_rim = [0, 1].map(|axis| place[axis].abs() == half[axis]);
-    let inside = [0, 1].map(|axis| place[axis].abs() < half[axis]);
-    if (at_rim[0] && inside[1]) || (at_rim[1] && inside[0]) {
-        return Ok(Some(place));
+fn exact_or_table(word: &str, sheet: &Sheet) -> Box<dyn Solver> {
+    match (word, table_of(word)) {
+        ("bilinear", Some(nodes)) => Box::new(table::Bilinear::new(sheet, nodes)),
+        (_, Some(nodes)) => Box::new(table::Bicubic::new(sheet, nodes)),
+        ("distance", None) => Box::new(distance::Distance::new(sheet)),
+        (_, None) => Box::new(analytic::Analytic::new(sheet)),
     }
-    Err(table.error(
-        key,
-        format!(
-            "expected a place on the sheet's edge between corners, x = ±{} or y = ±{}, got {place:?}",
-            half[0], half[1]
-        ),
-    ))
 }
 
-fn build(rung: &str, sheet: &Sheet) -> Box<dyn Solver> {
-    match rung {
-        "distance" => Box::new(distance::Distance::new(sheet)),
-        "bicubic" => Box::new(bicubic::Bicubic::new(sheet)),
-        _ => Box::new(analytic::Analytic::new(sheet)),
-    }
+fn grid(sheet: &Sheet, spacing_mm: f64) -> Box<dyn Solver> {
+    Box::new(grid::Grid::new(sheet, spacing_mm * 1e-3))
 }
 
 struct OnSheet {
     solver: Box<dyn Solver>,
+    reach_mm: [f64; 2],
 }
 
 impl PadEffect for OnSheet {
     fn act(&mut self, pad: &mut Pad) {
-        let split = self.solver.split(pad.x_mm, pad.y_mm);
-        pad.split = split.share;
-        pad.sheet_ohm = split.ohm;
+        let [x, y] = self.reach_mm;
+        let split = self.solver.split(pad.x_mm.clamp(-x, x), pad.y_mm.clamp(-y, y));
+        pad.split = split.share.map(Complex64::from);
+        pad.sheet_ohm = split.ohm.into();
     }
 }
 
 /// The split of an ideal sheet: corner currents bilinear in the position, so that r_x and r_y are proportional to x and y.
-pub(crate) fn ideal_split(x_mm: f64, y_mm: f64, device: &Device) -> [f64; TERMINALS] {
+pub(crate) fn ideal_split(x_mm: f64, y_mm: f64, device: &Device) -> [Complex64; TERMINALS] {
     let (u, v) = (x_mm / device.width_mm + 0.5, y_mm / device.height_mm + 0.5);
-    [(1.0 - u) * v, (1.0 - u) * (1.0 - v), u * (1.0 - v), u * v, 0.0, 0.0]
+    [(1.0 - u) * v, (1.0 - u) * (1.0 - v), u * (1.0 - v), u * v, 0.0, 0.0].map(Complex64::from)
 }
 
 #[cfg(test)]
-mod tests;
+mod grid_tests;
+#[cfg(test)]
+pub(super) mod tests;

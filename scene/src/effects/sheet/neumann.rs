@@ -10,9 +10,12 @@
 
 use std::f64::consts::PI;
 
+/// What is left of the first image that is left out; 2 images for the paper's sheet.
+const CUT_OFF: f64 = 1e-9;
+
 /// Rectangle `[0, a] × [0, b]`, metres.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Neumann {
+pub(crate) struct Neumann {
     a: f64,
     b: f64,
     images: i32,
@@ -21,6 +24,12 @@ pub(super) struct Neumann {
 }
 
 impl Neumann {
+    /// With as many images as matter.
+    pub fn exact([a, b]: [f64; 2]) -> Self {
+        let images = (CUT_OFF.ln() / (-2.0 * PI * a / b)).ceil();
+        Neumann::new([a, b], images as i32)
+    }
+
     pub fn new([a, b]: [f64; 2], images: i32) -> Self {
         Neumann { a, b, images, next: (-2.0 * PI * a / b).exp() }
     }
@@ -29,12 +38,16 @@ impl Neumann {
     /// radius of a terminal, or R·e^(−1/4) for a disc of even current averaged over itself.
     pub fn at(&self, p: [f64; 2], q: [f64; 2], near: f64) -> f64 {
         let (larger, smaller) = (p[0].max(q[0]), p[0].min(q[0]));
-        let slope = (p[0].powi(2) + q[0].powi(2)) / (2.0 * self.a) - larger + self.a / 3.0;
         let half_sine = |y: f64| (y * PI / (2.0 * self.b)).sin().powi(2);
         let angles = [half_sine(p[1] + q[1]), half_sine(p[1] - q[1])];
         let (delta, sum) = (larger - smaller, larger + smaller);
         let decay = [delta, 2.0 * self.a - delta, sum, 2.0 * self.a - sum].map(|x| (-PI * x / self.b).exp());
-        slope / self.b - self.product(decay, angles, near).ln() / (4.0 * PI)
+        self.slope(p[0], q[0]) / self.b - self.product(decay, angles, near).ln() / (4.0 * PI)
+    }
+
+    /// g₀
+    pub fn slope(&self, x: f64, x1: f64) -> f64 {
+        (x.powi(2) + x1.powi(2)) / (2.0 * self.a) - x.max(x1) + self.a / 3.0
     }
 
     fn product(&self, decay: [f64; 4], angles: [f64; 2], near: f64) -> f64 {

@@ -2,29 +2,31 @@
 //! The sheet against the check values of PHYSICS §1.
 
 use super::analytic::Analytic;
-use super::bicubic::Bicubic;
 use super::distance::Distance;
+use super::film::Film;
 use super::neumann::Neumann;
+use super::table::{Bicubic, Bilinear};
 use super::*;
 
 /// What the check values were measured with: pads at least 20 mm off the edges.
-const MARGIN_MM: f64 = 20.0;
+pub(crate) const MARGIN_MM: f64 = 20.0;
 
-const TERMINALS_M: [[f64; 2]; TERMINALS] = [[0.0, 0.5], [0.0, 0.0], [0.86, 0.0], [0.86, 0.5], [0.43, 0.0], [0.43, 0.5]];
+pub(crate) const TERMINALS_M: [[f64; 2]; TERMINALS] =
+    [[0.0, 0.5], [0.0, 0.0], [0.86, 0.0], [0.86, 0.5], [0.43, 0.0], [0.43, 0.5]];
 
-fn sheet(terminal_ohm: f64) -> Sheet {
+pub(crate) fn sheet(terminal_ohm: f64) -> Sheet {
     Sheet {
         size_m: [0.86, 0.5],
         pad_radius_m: 0.015,
-        ohm_per_square: 150.0,
-        terminal_ohm,
+        film: Film::even(150.0),
+        terminal_ohm: [terminal_ohm; TERMINALS],
         terminal_radius_m: 1.7e-3,
         terminals_m: TERMINALS_M,
-        table: [128, 75],
+        table: [None; 2],
     }
 }
 
-fn places(margin_mm: f64) -> Vec<[f64; 2]> {
+pub(crate) fn places(margin_mm: f64) -> Vec<[f64; 2]> {
     let along = |n: usize, of: usize, size: f64| (size / 2.0 - margin_mm) * (2.0 * n as f64 / (of - 1) as f64 - 1.0);
     (0..81 * 47).map(|n| [along(n % 81, 81, 860.0), along(n / 81, 47, 500.0)]).collect()
 }
@@ -38,19 +40,24 @@ fn corners(split: &Split) -> f64 {
 }
 
 /// Least, mean and greatest.
-fn range(values: impl Iterator<Item = f64> + Clone) -> [f64; 3] {
+pub(crate) fn range(values: impl Iterator<Item = f64> + Clone) -> [f64; 3] {
     let count = values.clone().count() as f64;
     [values.clone().fold(f64::MAX, f64::min), values.clone().sum::<f64>() / count, values.fold(f64::MIN, f64::max)]
 }
 
-fn assert_near(name: &str, got: &[f64], expected: &[f64], tolerance: f64) {
+pub(crate) fn assert_near(name: &str, got: &[f64], expected: &[f64], tolerance: f64) {
     let near = got.iter().zip(expected).all(|(got, expected)| (got - expected).abs() <= tolerance);
     assert!(near, "{name}: got {got:?}, expected {expected:?} ± {tolerance}");
 }
 
+/// Rms and maximum of the shares' difference from the exact split of the paper's sheet.
+pub(crate) fn split_error(rung: &impl Solver, margin_mm: f64) -> [f64; 2] {
+    difference(rung, &Analytic::with(&sheet(0.0), Neumann::new([0.86, 0.5], 4)), margin_mm)
+}
+
 /// Rms and maximum of the shares' difference.
-fn split_error(rung: &impl Solver, margin_mm: f64) -> [f64; 2] {
-    let exact = splits(&Analytic::with_images(&sheet(0.0), 4), margin_mm);
+pub(crate) fn difference(rung: &impl Solver, exact: &impl Solver, margin_mm: f64) -> [f64; 2] {
+    let exact = splits(exact, margin_mm);
     let pairs = splits(rung, margin_mm).into_iter().zip(exact);
     let errors: Vec<f64> =
         pairs.flat_map(|(a, b)| (0..TERMINALS).map(move |i| (a.share[i] - b.share[i]).abs())).collect();
@@ -97,7 +104,7 @@ fn truncation_falls_with_each_image_as_predicted() {
 #[test]
 fn shares_sum_to_one_and_mirror_at_every_rung() {
     let sheet = sheet(300.0);
-    let rungs: [Box<dyn Solver>; 3] = ["distance", "bicubic", "analytic"].map(|rung| build(rung, &sheet));
+    let rungs = EVEN.map(|(word, _)| exact_or_table(word, &sheet));
     for (rung, [x, y]) in rungs.iter().flat_map(|rung| places(15.0).into_iter().map(move |place| (rung, place))) {
         let (split, mirrored) = (rung.split(x, y), rung.split(-x, -y));
         assert!((split.share.iter().sum::<f64>() - 1.0).abs() < 1e-11);
@@ -159,8 +166,12 @@ fn the_papers_500_ohm_take_1_7_kiloohm_at_each_of_six_terminals_and_narrow_r_x()
 
 #[test]
 fn bicubic_and_distance_err_as_measured() {
-    let [rms, most] = split_error(&Bicubic::new(&sheet(0.0)), MARGIN_MM);
+    let [rms, most] = split_error(&Bilinear::new(&sheet(0.0), [64, 37]), MARGIN_MM);
+    assert!(rms < 5.5e-5 && most < 4e-3, "bilinear: {rms:e} {most:e}"); // PHYSICS §1 has 4.5e-5 rms, 4e-3
+    let [rms, most] = split_error(&Bicubic::new(&sheet(0.0), [128, 75]), MARGIN_MM);
     assert!(rms < 1.1e-6 && most < 1.2e-4, "bicubic: {rms:e} {most:e}");
+    let [rms, most] = split_error(&Bicubic::new(&sheet(0.0), [512, 297]), MARGIN_MM);
+    assert!(rms < 7e-9 && most < 1.2e-6, "bicubic-fine: {rms:e} {most:e}");
     let [rms, most] = split_error(&Analytic::new(&sheet(0.0)), MARGIN_MM);
     assert!(rms < 2e-11 && most < 8e-11, "analytic: {rms:e} {most:e}");
     let errors = split_error(&Distance::new(&sheet(0.0)), MARGIN_MM);
@@ -169,6 +180,13 @@ fn bicubic_and_distance_err_as_measured() {
 
 #[test]
 fn halving_the_spacing_divides_the_tables_error_by_twelve_or_more() {
-    let error = |table| split_error(&Bicubic::new(&Sheet { table, ..sheet(0.0) }), MARGIN_MM)[0];
+    let error = |nodes| split_error(&Bicubic::new(&sheet(0.0), nodes), MARGIN_MM)[0];
     assert!(error([64, 37]) > 12.0 * error([128, 75]));
+}
+
+#[test]
+fn halving_the_spacing_divides_the_bilinear_tables_error_by_four() {
+    let error = |nodes| split_error(&Bilinear::new(&sheet(0.0), nodes), MARGIN_MM)[0];
+    let ratio = error([65, 37]) / error([129, 73]);
+    assert!(ratio > 3.5 && ratio < 5.0, "{ratio}");
 }

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `[coupling]`: what the other pads do to the one that a slot serves.
+//!
+//! Only the served pad has the sensing voltage, but every pad lies on the sheet, and for the carrier the others are
+//! capacitors to ground. Where the served pad's current lifts the sheet, they draw some of it away:
+//!
+//!   I_k/(jωC_k) + Σ_l G_kl·I_l = V_k,   V = (V_s, 0, 0, …),   terminal i gets Σ_k w_i(x_k)·I_k
+//!
+//! G_kl is the sheet's potential at pad k for a unit current into pad l; G_kk is R_p. Four pads shift a position by some
+//! tenths of a millimetre at 318 pF and by millimetres at 760 pF (PHYSICS §1), since amplitudes are of second order in ωCG.
+//!
+//! | rung | what | error |
+//! | --- | --- | --- |
+//! | `once` | the other pads answer the served one, not each other | third order in ωCG |
+//! | `full` | all currents at once | – |
+//!
+//! Pads that are nearer to each other than they are wide are taken as touching, and flagged.
+
+#[cfg(test)]
+mod tests;
+
+use num_complex::Complex64;
+
+use super::sheet::Sheet;
+use super::sheet::analytic::{self, Analytic};
+use super::sheet::mesh::{Correction, Mesh, Network};
+use super::shunt::{self, Screened};
+use super::{Effect, Pad, PadsEffect, Rung, Spec};
+use crate::device::{Device, TERMINALS};
+use crate::error::SceneError;
+use crate::format::Table;
+
+/// Spacing of the mesh that an uneven film's G comes from, m.
+const SPACING_M: f64 = 0.01;
+
+pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneError> {
+    let Some(table) = root.table("coupling")? else { return Ok(None) };
+    let Some(sheet) = root.table("sheet")? else {
+        return Err(table.error("", "expected a [sheet] too, since pads are coupled through its resistance"));
+    };
+    let sheet = Sheet::read(sheet, device)?;
+    let screened = shunt::screened(root, device)?;
+    let rung = |word, cost_ns, once| {
+        let (sheet, screened) = (sheet.clone(), screened.clone());
+        Rung::new(word, cost_ns, move |setting| {
+            let field: Box<dyn Field> = match &screened {
+                Some((sheet, siemens_per_m2)) => Box::new(Screened::new(sheet, *siemens_per_m2)),
+                None if sheet.film.is_even() => Box::new(Analytic::new(&sheet)),
+                None => Box::new(Network::new(&sheet, Mesh::new(sheet.size_m, SPACING_M), Correction::Peaceman)),
+            };
+            Effect::Pads(Box::new(Coupling { field, once, device: setting.device.clone() }))
+        })
+    };
+    Spec::ladder("coupling", Some(table), vec![rung("once", 3e3, true), rung("full", 4e3, false)], "full")
+}
+
+/// The sheet's potential at one place for a unit current into another, Ω.
+trait Field: Send {
+    /// For each pair of different places; symmetric.
+    fn ohm(&self, places_mm: &[[f64; 2]]) -> Vec<Vec<Complex64>>;
+}
+
+struct Coupling {
+    field: Box<dyn Field>,
+    once: bool,
+    device: Device,
+}
+
+impl PadsEffect for Coupling {
+    fn act(&mut self, pad: &mut Pad, others: &[Pad]) {
+        let (places, touching) = apart(pad, others, &self.device);
+        pad.touching = touching;
+        let pads: Vec<&Pad> = std::iter::once(&*pad).chain(others).collect();
+        let mut ohm = self.field.ohm(&places);
+        for (k, one) in pads.iter().enumerate() {
+            ohm[k][k] = one.admittance(self.device.carrier_rad_s).inv();
+        }
+        let currents = if self.once { answered_once(&ohm) } else { answered(&ohm) };
+        let into =
+            |terminal: usize| pads.iter().zip(&currents).map(|(pad, current)| pad.split[terminal] * current).sum();
+        let transfer: [Complex64; TERMINALS] = std::array::from_fn(into);
+        pad.transfer = Some(transfer);
+    }
+}
+
+/// Places of all pads, the first one's first: on the sheet, and none nearer to the first than touching; whether one was.
+fn apart(pad: &Pad, others: &[Pad], device: &Device) -> (Vec<[f64; 2]>, bool) {
+    let reach = device.reach_mm();
+    let on_sheet = |pad: &Pad| [pad.x_mm.clamp(-reach[0], reach[0]), pad.y_mm.clamp(-reach[1], reach[1])];
+    let mut places = vec![on_sheet(pad)];
+    let mut touching = false;
+    for place in others.iter().map(on_sheet) {
+        let [x, y] = [0, 1].map(|axis| place[axis] - places[0][axis]);
+        let distance = x.hypot(y);
+        touching |= distance < device.pad_diameter_mm;
+        places.push(match distance {
+            0.0 => [places[0][0] - device.pad_diameter_mm.copysign(places[0][0]), places[0][1]],
+            near if near < device.pad_diameter_mm => {
+                let away = device.pad_diameter_mm / near;
+                [places[0][0] + x * away, places[0][1] + y * away]
+            }
+            _ => place,
+        });
+    }
+    (places, touching)
+}
+
+/// Currents of all pads where the first one has 1 V: the first column of the inverse.
+fn answered(ohm: &[Vec<Complex64>]) -> Vec<Complex64> {
+    use faer::linalg::solvers::Solve;
+    let matrix = faer::Mat::from_fn(ohm.len(), ohm.len(), |k, l| ohm[k][l]);
+    let driven = faer::Col::from_fn(ohm.len(), |k| Complex64::from(f64::from(k == 0)));
+    matrix.partial_piv_lu().solve(driven).iter().copied().collect()
+}
+
+/// The same where each other pad answers the first one's current alone, and the first one takes no notice.
+fn answered_once(ohm: &[Vec<Complex64>]) -> Vec<Complex64> {
+    let first = ohm[0][0].inv();
+    (0..ohm.len()).map(|k| if k == 0 { first } else { -ohm[k][0] / ohm[k][k] * first }).collect()
+}
+
+/// A symmetric matrix from what is above its diagonal.
+fn symmetric(count: usize, above: impl Fn(usize, usize) -> Complex64) -> Vec<Vec<Complex64>> {
+    let mut matrix = vec![vec![Complex64::ZERO; count]; count];
+    for (k, l) in (0..count).flat_map(|k| (k + 1..count).map(move |l| (k, l))) {
+        matrix[k][l] = above(k, l);
+        matrix[l][k] = matrix[k][l];
+    }
+    matrix
+}
+
+impl Field for Analytic {
+    fn ohm(&self, places_mm: &[[f64; 2]]) -> Vec<Vec<Complex64>> {
+        let sources: Vec<analytic::Source> = places_mm.iter().map(|[x, y]| self.source(*x, *y)).collect();
+        symmetric(sources.len(), |k, l| self.between(&sources[k], &sources[l]).into())
+    }
+}
+
+impl Field for Screened {
+    fn ohm(&self, places_mm: &[[f64; 2]]) -> Vec<Vec<Complex64>> {
+        let sources: Vec<shunt::Source> = places_mm.iter().map(|[x, y]| self.source(*x, *y)).collect();
+        symmetric(sources.len(), |k, l| self.between(&sources[k], &sources[l]))
+    }
+}
+
+impl Field for Network {
+    fn ohm(&self, places_mm: &[[f64; 2]]) -> Vec<Vec<Complex64>> {
+        let potentials: Vec<_> = places_mm.iter().map(|place| self.potential_around(*place)).collect();
+        symmetric(places_mm.len(), |k, l| self.read(&potentials[l], places_mm[k]).into())
+    }
+}

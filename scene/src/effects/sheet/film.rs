@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The film's resistance per square: even, or sloping, with rectangles of another one.
+//!
+//! ```toml
+//! [sheet]
+//! ohm_per_square = 150
+//! slope_percent = [10, -4]        # from left to right and from bottom to top, of the middle's
+//! [[sheet.patch]]                 # the last one that covers a place holds
+//! centre_mm = [200, 50]
+//! size_mm = [120, 80]
+//! ohm_per_square = 300
+//! ```
+
+use crate::error::SceneError;
+use crate::format::{Limits, Table};
+
+/// Ohms per square over the sheet.
+#[derive(Clone, Debug)]
+pub(crate) struct Film {
+    /// In the middle, leaving patches aside.
+    pub ohm_per_square: f64,
+    /// Rise along each axis, as a fraction, per metre.
+    slope_per_m: [f64; 2],
+    middle_m: [f64; 2],
+    patches: Vec<Patch>,
+}
+
+#[derive(Clone, Debug)]
+struct Patch {
+    low_m: [f64; 2],
+    high_m: [f64; 2],
+    ohm_per_square: f64,
+}
+
+impl Film {
+    /// The same everywhere.
+    #[cfg(test)]
+    pub fn even(ohm_per_square: f64) -> Film {
+        Film { ohm_per_square, slope_per_m: [0.0; 2], middle_m: [0.0; 2], patches: Vec::new() }
+    }
+
+    pub fn read(table: &Table, size_m: [f64; 2]) -> Result<Film, SceneError> {
+        let slope_percent = table.pair("slope_percent", Limits::within(-90.0, 90.0))?.unwrap_or_default();
+        let middle_m = size_m.map(|size| size / 2.0);
+        let patches = table.tables("patch")?;
+        Ok(Film {
+            ohm_per_square: table.number_or("ohm_per_square", Limits::POSITIVE, 150.0)?,
+            slope_per_m: [0, 1].map(|axis| slope_percent[axis] / 100.0 / size_m[axis]),
+            middle_m,
+            patches: patches.into_iter().map(|patch| Patch::read(patch, middle_m)).collect::<Result<_, _>>()?,
+        })
+    }
+
+    /// Whether it is the same everywhere.
+    pub fn is_even(&self) -> bool {
+        self.slope_per_m == [0.0; 2] && self.patches.is_empty()
+    }
+
+    /// Ohms per square at a place from the bottom left corner.
+    pub fn at(&self, place_m: [f64; 2]) -> f64 {
+        match self.patches.iter().rev().find(|patch| patch.covers(place_m)) {
+            Some(patch) => patch.ohm_per_square,
+            None => {
+                let rise = |axis: usize| self.slope_per_m[axis] * (place_m[axis] - self.middle_m[axis]);
+                self.ohm_per_square * (1.0 + rise(0) + rise(1))
+            }
+        }
+    }
+}
+
+impl Patch {
+    fn read(table: &Table, middle_m: [f64; 2]) -> Result<Patch, SceneError> {
+        let centre_mm = table.require("centre_mm", "[x, y]", table.pair("centre_mm", Limits::ANY)?)?;
+        let size_mm = table.require("size_mm", "[width, height]", table.pair("size_mm", Limits::POSITIVE)?)?;
+        let ohm = table.number("ohm_per_square", Limits::POSITIVE)?;
+        let side =
+            |sign: f64| [0, 1].map(|axis| middle_m[axis] + 1e-3 * (centre_mm[axis] + sign * size_mm[axis] / 2.0));
+        Ok(Patch {
+            low_m: side(-1.0),
+            high_m: side(1.0),
+            ohm_per_square: table.require("ohm_per_square", "a number above 0", ohm)?,
+        })
+    }
+
+    fn covers(&self, place_m: [f64; 2]) -> bool {
+        (0..2).all(|axis| (self.low_m[axis]..=self.high_m[axis]).contains(&place_m[axis]))
+    }
+}

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Finite differences: a table of the split over a mesh from rim to rim, for sheets that are not even.
+//!
+//! By reciprocity the share of a terminal is a field over the pad's place, solved once for all places. It is level at the
+//! insulated rim, and so is its spline. R_p needs a solution for each place: it comes from a mesh of 10 mm or coarser, at
+//! every fourth node along either axis, with the pad's radius put in place of the node's as for terminals. What varies
+//! quickly, near terminals and corners, an even sheet has too: what is solved for is the ratio to its exact R_p.
+
+use std::f64::consts::PI;
+
+use super::analytic::Analytic;
+use super::mesh::{Correction, Mesh, Network};
+use super::spline::{Axis, Spline};
+use super::{Sheet, Solver, Split};
+use crate::device::TERMINALS;
+
+/// Finest spacing that R_p is solved with, m.
+const OWN_SPACING_M: f64 = 0.01;
+
+/// Nodes from one place of R_p to the next.
+const OWN_STEP: usize = 4;
+
+pub(super) struct Grid {
+    share: Spline<TERMINALS>,
+    ohm: Spline<1>,
+}
+
+/// Columns and rows of the table of R_p.
+const OWN_TABLE: [usize; 2] = [128, 75];
+
+impl Grid {
+    pub fn new(sheet: &Sheet, spacing_m: f64) -> Self {
+        Grid::corrected(sheet, spacing_m, Correction::Peaceman)
+    }
+
+    pub fn corrected(sheet: &Sheet, spacing_m: f64, correction: Correction) -> Self {
+        let network = Network::new(sheet, Mesh::new(sheet.size_m, spacing_m), correction);
+        let mesh = network.mesh;
+        let share = Spline::level(axes(&mesh, 0, 1), |column, row| network.share(mesh.node(column, row)));
+        let coarse = (spacing_m < OWN_SPACING_M)
+            .then(|| Network::new(sheet, Mesh::new(sheet.size_m, OWN_SPACING_M), correction));
+        Grid { share, ohm: own(sheet, &coarse.unwrap_or(network)) }
+    }
+}
+
+impl Solver for Grid {
+    fn split(&self, x_mm: f64, y_mm: f64) -> Split {
+        let [ohm] = self.ohm.at(x_mm, y_mm);
+        Split { share: self.share.at(x_mm, y_mm), ohm }
+    }
+}
+
+/// R_p over the places of a pad.
+fn own(sheet: &Sheet, network: &Network) -> Spline<1> {
+    let even = Analytic::new(sheet);
+    let ratio = ratio(sheet, network, &even);
+    let reach_mm = sheet.reach_mm();
+    let axes = [0, 1].map(|axis| Axis::symmetric(reach_mm[axis], OWN_TABLE[axis]));
+    Spline::of(axes, |x, y| [even.split(x, y).ohm * ratio.at(x, y)[0]])
+}
+
+/// R_p of the mesh by that of an even sheet, over the places that are not on the rim.
+fn ratio(sheet: &Sheet, network: &Network, even: &Analytic) -> Spline<1> {
+    let mesh = network.mesh;
+    let axes = axes(&mesh, 1, OWN_STEP);
+    let disc = (mesh.node_radius_m() / sheet.disc_m()).ln() / (2.0 * PI);
+    let ratio = |column: usize, row: usize| {
+        let place = [axes[0].node_mm(column), axes[1].node_mm(row)];
+        let [column, row] = [1 + OWN_STEP * column, 1 + OWN_STEP * row];
+        let node = mesh.node(column, row);
+        let ohm = network.potential(node)[node] + sheet.film.at(mesh.place_m(column, row)) * disc;
+        [ohm / even.split(place[0], place[1]).ohm]
+    };
+    let (columns, rows) = (axes[0].nodes, axes[1].nodes);
+    let solved: Vec<_> = (0..columns * rows).map(|n| ratio(n % columns, n / columns)).collect();
+    Spline::free(axes, |column, row| solved[row * columns + column])
+}
+
+/// Every `step`th node, leaving out so many at the rim.
+fn axes(mesh: &Mesh, rim: usize, step: usize) -> [Axis; 2] {
+    [0, 1].map(|axis| {
+        let cells = mesh.cells[axis] - 2 * rim;
+        Axis::symmetric(5e2 * mesh.step_m[axis] * cells as f64, cells / step + 1)
+    })
+}

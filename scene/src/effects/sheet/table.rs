@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Tables of the analytic split over the places a pad's centre can be.
+//!
+//! Errors are largest in front of the terminals at the edges' middles. They fall with the second power of the spacing for
+//! the bilinear table and with the fourth for the bicubic one.
+
+use super::analytic::Analytic;
+use super::spline::{Axis, Spline};
+use super::{Sheet, Solver, Split};
+use crate::device::TERMINALS;
+
+/// What a node holds: the shares and the resistance.
+type Node = [f64; TERMINALS + 1];
+
+fn axes(sheet: &Sheet, nodes: [usize; 2]) -> [Axis; 2] {
+    let reach_mm = sheet.reach_mm();
+    [0, 1].map(|axis| Axis::symmetric(reach_mm[axis], sheet.table[axis].unwrap_or(nodes[axis])))
+}
+
+/// A bicubic spline with the exact slopes at its rim.
+pub(super) struct Bicubic(Spline<{ TERMINALS + 1 }>);
+
+impl Bicubic {
+    pub fn new(sheet: &Sheet, nodes: [usize; 2]) -> Self {
+        let exact = Analytic::new(sheet);
+        Bicubic(Spline::of(axes(sheet, nodes), |x, y| exact.split(x, y).node()))
+    }
+}
+
+impl Solver for Bicubic {
+    fn split(&self, x_mm: f64, y_mm: f64) -> Split {
+        Split::of_node(self.0.at(x_mm, y_mm))
+    }
+}
+
+/// Linear between four nodes.
+pub(super) struct Bilinear {
+    axes: [Axis; 2],
+    nodes: Vec<Node>,
+}
+
+impl Bilinear {
+    pub fn new(sheet: &Sheet, nodes: [usize; 2]) -> Self {
+        let (exact, axes) = (Analytic::new(sheet), axes(sheet, nodes));
+        let columns = axes[0].nodes;
+        let node = |n: usize| exact.split(axes[0].node_mm(n % columns), axes[1].node_mm(n / columns)).node();
+        Bilinear { axes, nodes: (0..columns * axes[1].nodes).map(node).collect() }
+    }
+}
+
+impl Solver for Bilinear {
+    fn split(&self, x_mm: f64, y_mm: f64) -> Split {
+        let (column, x) = self.axes[0].locate(x_mm);
+        let (row, y) = self.axes[1].locate(y_mm);
+        let below = row * self.axes[0].nodes + column;
+        let [a, b] = [below, below + 1].map(|n| &self.nodes[n]);
+        let [c, d] = [below, below + 1].map(|n| &self.nodes[n + self.axes[0].nodes]);
+        let mix = |n: usize| (1.0 - y) * ((1.0 - x) * a[n] + x * b[n]) + y * ((1.0 - x) * c[n] + x * d[n]);
+        Split::of_node(std::array::from_fn(mix))
+    }
+}

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `[shunt]`: the capacitance between the sheet and the panel behind it, which takes a part of the current and turns the
+//! terminals' phases: 9 nF/m² by −12°, 22 nF/m² by −28° (PHYSICS §1).
+//!
+//! ```toml
+//! [shunt]
+//! nanofarad_per_m2 = 9
+//! ```
+//!
+//! | rung | what | error | look-up | build |
+//! | --- | --- | --- | --- | --- |
+//! | `table` | the exact solution with a spline of its series, 32 × 19 | | | |
+//! | `series` | the exact solution, 100 modes | 3e-7 | | |
+//!
+//! The change against the sheet alone is added to what `[sheet]` says, at any of its rungs; it is that of an even film, so no
+//! other is accepted.
+
+mod screen;
+#[cfg(test)]
+mod tests;
+
+use num_complex::Complex64;
+
+use screen::Screens;
+pub(super) use screen::{Screened, Source};
+
+use super::sheet::analytic::Analytic;
+use super::sheet::spline::{Axis, Spline};
+use super::sheet::{Sheet, Solver, Split};
+use super::{Effect, Pad, PadEffect, Rung, Spec};
+use crate::device::{Device, TERMINALS};
+use crate::error::SceneError;
+use crate::format::{Limits, Table};
+
+/// Columns and rows of the table.
+const NODES: [usize; 2] = [32, 19];
+
+/// Real parts of the seven functions D, then imaginary ones.
+type Node = [f64; 2 * (TERMINALS + 1)];
+
+pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneError> {
+    let Some(sheet) = screened(root, device)? else { return Ok(None) };
+    let rung = |word, cost_ns, nodes| {
+        let sheet = sheet.clone();
+        Rung::new(word, cost_ns, move |_| Effect::Pad(Box::new(Shunt::new(&sheet, nodes))))
+    };
+    let rungs = vec![rung("table", 1e3, Some(NODES)), rung("series", 2e5, None)];
+    Spec::ladder("shunt", root.table("shunt")?, rungs, "table")
+}
+
+/// The sheet and ωc, S/m², where there is a shunt.
+pub(super) fn screened(root: &Table, device: &Device) -> Result<Option<(Sheet, f64)>, SceneError> {
+    let Some(table) = root.table("shunt")? else { return Ok(None) };
+    let limits = Limits::within(0.0, 1e4);
+    let nanofarad = table.number("nanofarad_per_m2", limits)?;
+    let nanofarad = table.require("nanofarad_per_m2", &limits.to_string(), nanofarad)?;
+    let Some(sheet) = root.table("sheet")? else {
+        return Err(table.error("", "expected a [sheet] too, since that is what the capacitance lies across"));
+    };
+    let sheet = Sheet::read(sheet, device)?;
+    match sheet.film.is_even() {
+        true => Ok(Some((sheet, 1e-9 * nanofarad * device.carrier_rad_s))),
+        false => Err(table.error("", "expected an even film, without sheet.slope_percent and sheet.patch")),
+    }
+}
+
+struct Shunt {
+    with: Screened,
+    without: Analytic,
+    table: Option<Spline<{ 2 * (TERMINALS + 1) }>>,
+    reach_mm: [f64; 2],
+}
+
+impl Shunt {
+    /// With a table of so many columns and rows, or none.
+    fn new((sheet, siemens_per_m2): &(Sheet, f64), nodes: Option<[usize; 2]>) -> Self {
+        let (with, reach_mm) = (Screened::new(sheet, *siemens_per_m2), sheet.reach_mm());
+        let table = nodes.map(|nodes| {
+            let axes = [0, 1].map(|axis| Axis::symmetric(reach_mm[axis], nodes[axis]));
+            Spline::of(axes, |x, y| node(&with.screens(x, y)))
+        });
+        Shunt { with, without: Analytic::new(sheet), table, reach_mm }
+    }
+
+    /// What the shunt changes of the shares and of the impedance.
+    fn change(&self, x_mm: f64, y_mm: f64) -> ([Complex64; TERMINALS], Complex64) {
+        let screens = match &self.table {
+            Some(table) => screens(&table.at(x_mm, y_mm)),
+            None => self.with.screens(x_mm, y_mm),
+        };
+        let source = self.with.source_of(x_mm, y_mm, &screens);
+        let Split { share, ohm } = self.without.split(x_mm, y_mm);
+        (std::array::from_fn(|n| source.share[n] - share[n]), self.with.own(&source, &screens) - ohm)
+    }
+}
+
+impl PadEffect for Shunt {
+    fn act(&mut self, pad: &mut Pad) {
+        let [x, y] = self.reach_mm;
+        let (shares, ohm) = self.change(pad.x_mm.clamp(-x, x), pad.y_mm.clamp(-y, y));
+        pad.split.iter_mut().zip(shares).for_each(|(share, change)| *share += change);
+        pad.sheet_ohm += ohm;
+    }
+}
+
+fn node(screens: &Screens) -> Node {
+    let of = |n: usize| if n <= TERMINALS { screens[n].re } else { screens[n - TERMINALS - 1].im };
+    std::array::from_fn(of)
+}
+
+fn screens(node: &Node) -> Screens {
+    std::array::from_fn(|n| Complex64::new(node[n], node[n + TERMINALS + 1]))
+}
