@@ -13,8 +13,8 @@ use num_complex::Complex64;
 
 use crate::case::Case;
 use crate::device::{CHANNELS, TERMINALS};
-use crate::effects::Spec;
 use crate::effects::carrier::CARRIER;
+use crate::effects::{NOISE, Spec};
 use crate::error::SceneError;
 use crate::plant::Plant;
 use crate::rotor::Rotor;
@@ -101,7 +101,7 @@ impl Scene {
     /// What is seen of a case whose effect of that name is at another rung.
     fn looks(&self, case: &Case, index: usize, rung: &Spec, timing: &Timing) -> Result<Vec<Look>, SceneError> {
         let mut case = case.clone();
-        case.effects.retain(|effect| effect.name != "sensor.noise");
+        case.effects.retain(|effect| effect.name != NOISE);
         case.effects.iter_mut().filter(|effect| effect.name == rung.name).for_each(|effect| *effect = rung.clone());
         let sampled = rung.name == CARRIER && case.sampled();
         let mut plant = Plant::of_case(case, self.seed, index, timing).map_err(|error| error.in_file(&self.name))?;

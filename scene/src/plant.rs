@@ -61,7 +61,35 @@ impl Plant {
         let device = Device { sample_rate_hz, ..case.device.clone() };
         let setting = Setting { device: &device, timing, seed, case: index };
         let effects = Effects::build(&case.effects, &setting);
-        Ok(Plant { effects, case, device, timing: timing.clone(), seed, index, now: None })
+        let plant = Plant { effects, case, device, timing: timing.clone(), seed, index, now: None };
+        plant.ask_limited_rungs()?;
+        Ok(plant)
+    }
+
+    /// Asks rungs that refuse some scenes, at slots spread evenly over the case, each pad in turn.
+    fn ask_limited_rungs(&self) -> Result<(), SceneError> {
+        const ASKED: usize = 256;
+        if !self.case.effects.iter().any(|effect| effect.rung().limited) {
+            return Ok(());
+        }
+        let mut effects = self.fresh_effects();
+        let slots = self.slots();
+        for slot in (0..slots).step_by(slots.div_ceil(ASKED).max(1)) {
+            for (index, plan) in self.case.pads.iter().enumerate() {
+                let mut pad = plan.at(index, self.point(slot), self.time_s(slot), &self.device);
+                effects.on_pad(&mut pad);
+                if let Some((n, why)) = effects.refusal(&pad) {
+                    return Err(SceneError::new(Place::File, format!("{}.rung", self.case.effects[n].name), why));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Effects of their own, for what must leave the run as it was.
+    fn fresh_effects(&self) -> Effects {
+        let setting = Setting { device: &self.device, timing: &self.timing, seed: self.seed, case: self.index };
+        Effects::build(&self.case.effects, &setting)
     }
 
     /// The same plant, which counts and times every evaluation of an effect.
@@ -182,12 +210,17 @@ impl Plant {
 
     /// Lets effects of their own act on each pad, so that a calibration leaves the run as it was.
     fn settle(&self, pads: impl Iterator<Item = Pad>) -> impl Iterator<Item = Pad> {
-        let setting = Setting { device: &self.device, timing: &self.timing, seed: self.seed, case: self.index };
-        let mut effects = Effects::build(&self.case.effects, &setting);
+        let mut effects = self.fresh_effects();
         pads.map(move |mut pad| {
             effects.on_pad(&mut pad);
             pad
         })
+    }
+
+    /// The middle of a slot's window.
+    fn time_s(&self, slot: usize) -> f64 {
+        let middle = self.timing.window_start as f64 + self.timing.window_samples as f64 / 2.0;
+        ((slot * self.timing.slot_samples) as f64 + middle) / self.device.sample_rate_hz
     }
 
     fn point(&self, slot: usize) -> usize {
@@ -203,8 +236,7 @@ impl Plant {
         {
             return pad.clone();
         }
-        let middle = self.timing.window_start as f64 + self.timing.window_samples as f64 / 2.0;
-        let time_s = ((slot * self.timing.slot_samples) as f64 + middle) / self.device.sample_rate_hz;
+        let time_s = self.time_s(slot);
         let index = slot % self.case.pads.len();
         let mut pad = self.alone(index, slot, time_s);
         if self.effects.joins_pads() {

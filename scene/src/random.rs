@@ -4,6 +4,8 @@
 use rand_distr::{Distribution, StandardNormal};
 use rand_xoshiro::rand_core::SeedableRng;
 
+use crate::effects::Origin;
+
 /// A fast generator of good quality, started afresh for each name.
 pub(crate) type Stream = rand_xoshiro::Xoshiro256PlusPlus;
 
@@ -12,20 +14,31 @@ pub(crate) type Stream = rand_xoshiro::Xoshiro256PlusPlus;
 pub(crate) enum Purpose {
     Gain,
     Offset,
-    PhasorNoise,
+    PhasorNoise(Origin),
+    /// Of a run that starts so many samples after its slot.
     SampleNoise {
-        /// First sample of the run within its slot.
+        origin: Origin,
+        from: u64,
+    },
+    PhasorJitter,
+    /// The same.
+    SampleJitter {
         from: u64,
     },
 }
+
+/// What is added to a purpose's number for each that came after it, more than a slot has samples.
+const NEXT: u64 = 1 << 40;
 
 impl Purpose {
     fn number(self) -> u64 {
         match self {
             Purpose::Gain => 1,
             Purpose::Offset => 2,
-            Purpose::PhasorNoise => 3,
-            Purpose::SampleNoise { from } => 4 + from,
+            Purpose::PhasorNoise(origin) => 3 + NEXT * origin as u64,
+            Purpose::SampleNoise { origin, from } => 4 + from + NEXT * origin as u64,
+            Purpose::PhasorJitter => 3 + NEXT * 8,
+            Purpose::SampleJitter { from } => 4 + from + NEXT * 8,
         }
     }
 }

@@ -15,9 +15,11 @@ mod sensor;
 pub(crate) mod sheet;
 mod shunt;
 mod spec;
+mod switching;
 
 pub use running::EffectCost;
 pub(crate) use running::Effects;
+pub(crate) use sensor::noise::{NOISE, Origin};
 pub(crate) use spec::{Rung, Setting, Spec};
 
 use std::ops::Range;
@@ -36,10 +38,17 @@ pub(crate) const EFFECTS: &[Reader] = &[
     friction::read,
     coupling::read,
     carrier::read,
+    switching::read,
     sensor::leakage::read,
+    sensor::bandwidth::read,
+    sensor::jitter::read,
+    sensor::crosstalk::read,
+    sensor::scale::read,
     sensor::gain::read,
+    sensor::noise::read_density,
     sensor::offset::read,
     sensor::noise::read,
+    sensor::noise::read_dither,
     sensor::quantisation::read,
 ];
 
@@ -56,6 +65,10 @@ pub(crate) enum Effect {
 /// Acts on the pad, once per slot.
 pub(crate) trait PadEffect: Send {
     fn act(&mut self, pad: &mut Pad);
+    /// Why the rung cannot be used on a pad that it has acted on, as for [`ChannelEffect::refuses`].
+    fn refuses(&self, _: &Pad) -> Option<String> {
+        None
+    }
 }
 
 /// Acts on the pad that a slot serves, once per slot, in sight of all others.
@@ -69,6 +82,10 @@ pub(crate) trait ChannelEffect: Send {
     fn phasors(&mut self, pad: &Pad, phasors: &mut Phasors);
     /// On the samples of a run, one row of channels per sample instant.
     fn samples(&mut self, pad: &Pad, run: &Run, rows: &mut [[f64; CHANNELS]]);
+    /// Why the rung cannot be used on a pad: asked before a run where the rung says that it has [limits](Rung::limited).
+    fn refuses(&self, _: &Pad) -> Option<String> {
+        None
+    }
 }
 
 /// A pad in one slot, as far as the effects have got.

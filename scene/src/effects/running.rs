@@ -55,6 +55,16 @@ impl Effects {
         }
     }
 
+    /// Which effect cannot be used on a pad that they have acted on, and why.
+    pub fn refusal(&self, pad: &Pad) -> Option<(usize, String)> {
+        let refusal = |effect: &Effect| match effect {
+            Effect::Pad(effect) => effect.refuses(pad),
+            Effect::Channels(effect) => effect.refuses(pad),
+            Effect::Pads(_) => None,
+        };
+        self.list.iter().enumerate().find_map(|(n, effect)| refusal(effect).map(|why| (n, why)))
+    }
+
     /// Lets the effects of other pads act on one that has been acted on by itself, as they have.
     pub fn on_pads(&mut self, pad: &mut Pad, others: &[Pad]) {
         for (n, effect) in self.list.iter_mut().enumerate() {

@@ -30,6 +30,8 @@ pub(crate) struct Rung {
     pub label: String,
     /// What a slot costs, as the `speed` example measured it, ns: an error budget takes the cheapest rung that fits.
     pub cost_ns: f64,
+    /// There are scenes that it refuses, so that it has to be asked before a run.
+    pub limited: bool,
     build: Builder,
 }
 
@@ -47,7 +49,12 @@ pub(crate) struct Setting<'a> {
 impl Rung {
     /// A rung that a scene asks for by `word`.
     pub fn new(word: &'static str, cost_ns: f64, build: impl Fn(&Setting) -> Effect + Send + Sync + 'static) -> Self {
-        Rung { word, label: word.to_string(), cost_ns, build: Arc::new(build) }
+        Rung { word, label: word.to_string(), cost_ns, limited: false, build: Arc::new(build) }
+    }
+
+    /// The same rung, which refuses some scenes.
+    pub fn limited(self) -> Self {
+        Rung { limited: true, ..self }
     }
 
     /// The same rung, with its numbers beside its word.

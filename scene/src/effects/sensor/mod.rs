@@ -4,18 +4,28 @@
 //! | key | effect | realistic |
 //! | --- | --- | --- |
 //! | `haptic_leakage` | the haptic voltage's own current, eq. 1's second term | true |
+//! | `bandwidth_khz` | the current sensors' low-pass of first order | 300 to 3000 |
+//! | `jitter_ns_rms` | a random time off at each sample | 0.1 |
+//! | `crosstalk_percent` | of the neighbouring terminals' currents | 0.01 to 0.1 |
+//! | `gain_error_percent` | all terminals' gain | 0.1 to 1 |
 //! | `gain_mismatch_percent` | each terminal's gain, standard deviation | 0.1 to 1 |
+//! | `noise_density_na_per_rthz` | white noise of the current sensors | 0.1 to 1 |
 //! | `offset_percent` | each channel's offset, of full scale, standard deviation | 0.01 |
 //! | `noise_ppm_rms` | white noise per sample, millionths of full scale | 18 (AD7606C-16, 92 dB) |
+//! | `dither_lsb_rms` | noise before the codes, in codes | 0.5 |
 //! | `quantisation_bits` | codes of so many bits, half to even, clipped at the rails | 16, 18 |
 //!
 //! The full scales in the same table belong to the device and are always there.
 
+pub(super) mod bandwidth;
+pub(super) mod crosstalk;
 pub(super) mod gain;
+pub(super) mod jitter;
 pub(super) mod leakage;
 pub(super) mod noise;
 pub(super) mod offset;
 pub(super) mod quantisation;
+pub(super) mod scale;
 
 use crate::error::SceneError;
 use crate::format::{Limits, Table};

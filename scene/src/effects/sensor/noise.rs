@@ -1,64 +1,127 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `sensor.noise_ppm_rms`: white Gaussian noise on every channel, in millionths of full scale per sample.
+//! White Gaussian noise, by what it comes from:
 //!
-//! 18 ppm is an AD7606C-16 (92 dB below a full-scale sine). A run's noise follows from seed, case, slot and first sample
-//! alone, so that leaving one run out changes no other. Amplitudes get what a Hann window over the slot's N samples
-//! passes: σ·√(2·1.5/N) in each of both parts.
+//! | key | on | size per sample |
+//! | --- | --- | --- |
+//! | `noise_ppm_rms` | every channel | millionths of full scale; 18 is an AD7606C-16, 92 dB below a full-scale sine |
+//! | `noise_density_na_per_rthz` | the currents | density·√(half the sample rate, or π/2·`bandwidth_khz` where that is given) |
+//! | `dither_lsb_rms` | every channel | codes of `quantisation_bits` |
+//!
+//! A run's noise follows from seed, case, slot and first sample alone, so that leaving one run out changes no other.
+//! Amplitudes get what a Hann window over the slot's N samples passes: σ·√(2·1.5/N) in each of both parts, so that a force
+//! has the relative noise 2n·√(6·NENBW/T)/|I| of PHYSICS §5.
+
+use std::f64::consts::PI;
 
 use rand_distr::{Distribution, StandardNormal};
 
 use super::super::{ChannelEffect, Effect, Pad, Phasors, Run, Setting, Spec};
-use crate::device::{CHANNELS, Device};
+use crate::device::{CHANNELS, Device, HAPTIC, TERMINALS};
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
 use crate::random::{Purpose, Stream, stream};
 
 /// Equivalent noise bandwidth of a Hann window, bins.
-const HANN_NENBW: f64 = 1.5;
+pub(super) const HANN_NENBW: f64 = 1.5;
 
+/// `noise_ppm_rms`
 pub(in super::super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
     let Some(ppm) = super::key(root, "noise_ppm_rms", Limits::within(0.0, 1e6))? else { return Ok(None) };
-    let build = move |setting: &Setting| Effect::Channels(Box::new(Noise::new(ppm, setting)));
-    Ok(Spec::new("sensor.noise", format!("{ppm} ppm"), build))
+    let build = move |setting: &Setting| Noise::new([ppm * 1e-6; CHANNELS], Origin::Adc, setting);
+    Ok(Spec::new(NOISE, format!("{ppm} ppm"), build))
+}
+
+/// The name of the effect that an error of a rung leaves out.
+pub(crate) const NOISE: &str = "sensor.noise";
+
+/// `noise_density_na_per_rthz`
+pub(in super::super) fn read_density(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
+    let density = super::key(root, "noise_density_na_per_rthz", Limits::within(0.0, 1e6))?;
+    let (Some(na), bandwidth_khz) = (density, super::key(root, "bandwidth_khz", Limits::POSITIVE)?) else {
+        return Ok(None);
+    };
+    let build = move |setting: &Setting| {
+        let half_rate_hz = setting.device.sample_rate_hz / 2.0;
+        let enbw_hz = bandwidth_khz.map_or(half_rate_hz, |khz| PI / 2.0 * 1e3 * khz);
+        let mut sigma = [0.0; CHANNELS];
+        sigma[..TERMINALS].fill(1e-9 * na * enbw_hz.sqrt() / setting.device.current_full_scale_a);
+        Noise::new(sigma, Origin::Amplifier, setting)
+    };
+    Ok(Spec::new("sensor.noise_density", format!("{na} nA/√Hz"), build))
+}
+
+/// `dither_lsb_rms`
+pub(in super::super) fn read_dither(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
+    let Some(lsb) = super::key(root, "dither_lsb_rms", Limits::within(0.0, 1e3))? else { return Ok(None) };
+    let Some(codes) = super::quantisation::codes(root)? else {
+        let table = root.table("sensor")?.unwrap_or(root);
+        return Err(table.error("dither_lsb_rms", "expected quantisation_bits too, since dither is counted in codes"));
+    };
+    let build = move |setting: &Setting| Noise::new([lsb / codes; CHANNELS], Origin::Dither, setting);
+    Ok(Spec::new("sensor.dither", format!("{lsb} LSB"), build))
+}
+
+/// What noise comes from: each has a stream of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Origin {
+    Adc,
+    Amplifier,
+    Dither,
 }
 
 struct Noise {
-    sigma: f64,
+    /// Standard deviation per sample of each channel.
+    sigma: [f64; CHANNELS],
+    origin: Origin,
     window_samples: usize,
-    seed: u64,
-    case: u64,
+    source: Source,
 }
 
 impl Noise {
-    fn new(ppm: f64, setting: &Setting) -> Self {
-        let Setting { timing, seed, case, .. } = *setting;
-        Noise { sigma: ppm * 1e-6, window_samples: timing.window_samples, seed, case: case as u64 }
-    }
-
-    fn stream(&self, slot: u64, purpose: Purpose) -> Stream {
-        stream(self.seed, [self.case, slot], purpose)
+    fn new(sigma: [f64; CHANNELS], origin: Origin, setting: &Setting) -> Effect {
+        let window_samples = setting.timing.window_samples;
+        Effect::Channels(Box::new(Noise { sigma, origin, window_samples, source: Source::new(setting) }))
     }
 }
 
 impl ChannelEffect for Noise {
     fn phasors(&mut self, _: &Pad, phasors: &mut Phasors) {
-        let sigma = self.sigma * (2.0 * HANN_NENBW / self.window_samples as f64).sqrt();
-        let mut random = self.stream(phasors.slot, Purpose::PhasorNoise);
-        for phasor in &mut phasors.carrier {
-            phasor.re += sigma * normal(&mut random);
-            phasor.im += sigma * normal(&mut random);
+        let passed = (2.0 * HANN_NENBW / self.window_samples as f64).sqrt();
+        let mut random = self.source.stream(phasors.slot, Purpose::PhasorNoise(self.origin));
+        for (phasor, sigma) in phasors.carrier.iter_mut().zip(self.sigma) {
+            phasor.re += sigma * passed * normal(&mut random);
+            phasor.im += sigma * passed * normal(&mut random);
         }
-        phasors.haptic_mean_square += self.sigma.powi(2);
+        phasors.haptic_mean_square += self.sigma[HAPTIC].powi(2);
     }
 
     fn samples(&mut self, _: &Pad, run: &Run, rows: &mut [[f64; CHANNELS]]) {
-        let mut random = self.stream(run.slot as u64, Purpose::SampleNoise { from: run.range.start as u64 });
-        for sample in rows.as_flattened_mut() {
-            *sample += self.sigma * normal(&mut random);
+        let from = run.range.start as u64;
+        let mut random = self.source.stream(run.slot as u64, Purpose::SampleNoise { origin: self.origin, from });
+        for row in rows {
+            row.iter_mut().zip(self.sigma).for_each(|(sample, sigma)| *sample += sigma * normal(&mut random));
         }
     }
 }
 
-fn normal(random: &mut Stream) -> f64 {
+/// Where the random numbers of a case come from.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Source {
+    seed: u64,
+    case: u64,
+}
+
+impl Source {
+    pub fn new(setting: &Setting) -> Self {
+        Source { seed: setting.seed, case: setting.case as u64 }
+    }
+
+    /// Those of a slot.
+    pub fn stream(&self, slot: u64, purpose: Purpose) -> Stream {
+        stream(self.seed, [self.case, slot], purpose)
+    }
+}
+
+pub(super) fn normal(random: &mut Stream) -> f64 {
     StandardNormal.sample(random)
 }

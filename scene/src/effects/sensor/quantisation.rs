@@ -11,11 +11,16 @@ use crate::format::Table;
 const ROUNDER: f64 = 6_755_399_441_055_744.0;
 
 pub(in super::super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
-    let bits = root.table("sensor")?.map_or(Ok(None), |table| table.whole("quantisation_bits", 2, 32))?;
-    let Some(bits) = bits else { return Ok(None) };
-    let codes = (1u64 << (bits - 1)) as f64;
+    let Some(codes) = codes(root)? else { return Ok(None) };
+    let bits = codes.log2() + 1.0;
     let build = move |_: &Setting| Effect::Channels(Box::new(Quantisation { codes }));
     Ok(Spec::new("sensor.quantisation", format!("{bits} bit"), build))
+}
+
+/// Codes per full scale, where there are codes.
+pub(super) fn codes(root: &Table) -> Result<Option<f64>, SceneError> {
+    let bits = root.table("sensor")?.map_or(Ok(None), |table| table.whole("quantisation_bits", 2, 32))?;
+    Ok(bits.map(|bits| (1u64 << (bits - 1)) as f64))
 }
 
 struct Quantisation {

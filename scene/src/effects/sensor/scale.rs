@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `sensor.gain_error_percent`: all current sensors' gain is off by the same, so that capacitances are off by as much and
+//! forces by twice that; positions do not see it.
+
+use super::super::{ChannelEffect, Effect, Pad, Phasors, Run, Setting, Spec};
+use crate::device::{CHANNELS, Device, TERMINALS};
+use crate::error::SceneError;
+use crate::format::{Limits, Table};
+
+pub(in super::super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
+    let Some(percent) = super::key(root, "gain_error_percent", Limits::within(-50.0, 50.0))? else { return Ok(None) };
+    let build = move |_: &Setting| Effect::Channels(Box::new(Scale(1.0 + percent / 100.0)));
+    Ok(Spec::new("sensor.scale", format!("{percent} %"), build))
+}
+
+struct Scale(f64);
+
+impl ChannelEffect for Scale {
+    fn phasors(&mut self, _: &Pad, phasors: &mut Phasors) {
+        phasors.carrier[..TERMINALS].iter_mut().for_each(|phasor| *phasor *= self.0);
+    }
+
+    fn samples(&mut self, _: &Pad, _: &Run, rows: &mut [[f64; CHANNELS]]) {
+        rows.iter_mut().flat_map(|row| &mut row[..TERMINALS]).for_each(|sample| *sample *= self.0);
+    }
+}

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What several tests share: scenes of one pad, an ideal demodulator and PHYSICS §2's exact inversion.
+#![allow(dead_code, reason = "each test file uses a part")]
+
+use std::f64::consts::TAU;
+
+use hapticore_scene::{CHANNELS, Complex, Plant, SENSE, Scene, TERMINALS, Timing};
+
+/// A window of 200 µs, 20 periods of the carrier, from the slot's first sample on.
+pub fn timing() -> Timing {
+    Timing { pads: 4, slot_samples: 200, window_start: 0, window_samples: 200, samples_per_period: 10.0 }
+}
+
+pub fn scene(text: &str) -> Scene {
+    Scene::parse(&format!("title = \"t\"\n{text}"), "s.toml", &[]).unwrap_or_else(|error| panic!("{error}"))
+}
+
+pub fn plant(text: &str) -> Plant {
+    Plant::new(&scene(text), 0, &timing()).unwrap_or_else(|error| panic!("{error}")).metered()
+}
+
+/// A pad of 318 pF that stays for 400 slots.
+pub const PAD: &str = "dwell_slots = 400\n[[pad]]\nposition_mm = [120, -60]\nhaptic_v_rms = 150\n";
+
+/// A window's weights, their sum one.
+pub type Window = fn(usize, usize) -> f64;
+
+pub fn hann(n: usize, of: usize) -> f64 {
+    (1.0 - (TAU * n as f64 / of as f64).cos()) / of as f64
+}
+
+pub fn rectangle(_: usize, of: usize) -> f64 {
+    1.0 / of as f64
+}
+
+/// Amplitudes of the terminals and the sensing voltage, from the samples of a slot's window.
+pub fn demodulate(plant: &mut Plant, slot: usize, weight: Window) -> [Complex; SENSE + 1] {
+    let (mut samples, timing) = (Vec::new(), timing());
+    plant.samples(slot, 0..timing.window_samples, &mut samples);
+    let mut phasors = [Complex::default(); SENSE + 1];
+    for (n, row) in samples.chunks_exact(CHANNELS).enumerate() {
+        let turned = Complex::cis(-TAU * n as f64 / timing.samples_per_period);
+        let weight = turned * (2.0 * weight(n, timing.window_samples));
+        phasors.iter_mut().zip(row).for_each(|(phasor, sample)| *phasor += weight * sample);
+    }
+    phasors
+}
+
+/// C = |I|²/(ω·Im(I·V*)), the I/Q inversion of PHYSICS §2 for any phase of V, in F.
+pub fn capacitance_f(plant: &Plant, phasors: &[Complex]) -> f64 {
+    let device = plant.device();
+    let total: Complex = phasors[..TERMINALS].iter().map(|current| current * device.current_full_scale_a).sum();
+    let volt = phasors[SENSE] * device.sense_full_scale_v;
+    total.norm_sqr() / (device.carrier_rad_s * (total * volt.conj()).im)
+}
+
+/// Standard deviation of the force in percent of its mean, over so many slots; force goes with C².
+pub fn force_noise_percent(plant: &mut Plant, slots: usize, weight: Window) -> f64 {
+    let forces: Vec<f64> = (0..slots)
+        .map(|slot| {
+            let phasors = demodulate(plant, slot, weight);
+            capacitance_f(plant, &phasors).powi(2)
+        })
+        .collect();
+    deviation_percent(&forces)
+}
+
+pub fn deviation_percent(values: &[f64]) -> f64 {
+    let mean = values.iter().sum::<f64>() / values.len() as f64;
+    let square = values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / values.len() as f64;
+    100.0 * square.sqrt() / mean
+}
+
+pub fn assert_near(what: &str, got: f64, expected: f64, relative: f64) {
+    assert!((got / expected - 1.0).abs() <= relative, "{what}: got {got:e}, expected {expected:e} ± {relative}");
+}
