@@ -143,7 +143,8 @@ impl<'a> Case<'a> {
         progress: &ProgressBar,
     ) -> Result<Outcome> {
         let at = (self.number, self.clock);
-        let session = Session::new(&self.profile, &self.device, settings.fidelity, settings.errors, at)?;
+        let session = Session::new(&self.profile, &self.device, settings.fidelity, settings.errors, at)?
+            .uncoupling(self.plant()?.uncoupler());
         let whole = settings.fidelity == Fidelity::Clock || recorder.is_some();
         let mut maker =
             Maker::new(self.plant()?.metered(), &self.profile, self.scene.cases[self.index].sampled(), whole);

@@ -13,6 +13,7 @@
 //! | [`case`] | a case of a scene, its samples made while the core works |
 //! | [`criteria`] | what a scene claims, measured |
 //! | [`capture`] | ADC samples in CSV and WAV files |
+//! | [`uncoupling`] | readings of several pads freed of each other |
 //! | [`record`] | what a run leaves |
 //! | [`report`] | the page with the figures |
 //! | [`output`], [`print`](mod@print) | the same written into a folder and on the terminal |
@@ -36,6 +37,7 @@ pub mod report;
 pub mod scenes;
 pub mod session;
 pub mod simulate;
+pub mod uncoupling;
 pub mod units;
 pub mod waves;
 

@@ -8,12 +8,14 @@ use anyhow::Result;
 use hapticore_model::frame::{Flags, Reading};
 use hapticore_model::profile::Profile;
 use hapticore_model::reference::Reference as FloatCore;
+use hapticore_scene::Uncoupler;
 
 use crate::args::Fidelity;
 use crate::calibrate::DeviceCalibration;
 use crate::engine::{Engine, Slot, engine};
 use crate::errors::Errors;
 use crate::record::{Reference, Row, SignalError, Truth};
+use crate::uncoupling::Uncoupling;
 use crate::units::Units;
 
 /// A core at work on one stream of slots.
@@ -25,6 +27,7 @@ pub struct Session {
     clock: SlotClock,
     case: usize,
     waiting: VecDeque<Row>,
+    uncoupling: Option<Uncoupling>,
 }
 
 /// When slots are.
@@ -83,7 +86,14 @@ impl Session {
             clock,
             case,
             waiting: VecDeque::new(),
+            uncoupling: None,
         })
+    }
+
+    /// The same session, which takes out of its readings what other pads did to them.
+    pub fn uncoupling(mut self, uncoupler: Option<Uncoupler>) -> Self {
+        self.uncoupling = uncoupler.map(Uncoupling::new);
+        self
     }
 
     /// Takes a slot and what is known of it; the row that is finished, if one is.
@@ -130,7 +140,11 @@ impl Session {
     fn finished(&mut self, reading: &Reading) -> Option<Row> {
         let row = self.waiting.pop_front()?;
         assert_eq!(row.pad, reading.pad, "readings come in the order of their slots");
-        Some(Row { measured: self.units.quantities(reading), flags: names(reading.flags), ..row })
+        let mut measured = self.units.quantities(reading);
+        if let Some(uncoupling) = self.uncoupling.as_mut().filter(|_| !reading.flags.invalid) {
+            uncoupling.apply(row.pad, &mut measured);
+        }
+        Some(Row { measured, flags: names(reading.flags), ..row })
     }
 }
 

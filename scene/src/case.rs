@@ -22,6 +22,8 @@ pub struct Case {
     pub(crate) length: Length,
     /// Error that all rungs together may leave, where the scene names one: until they are chosen, nothing can be run.
     pub(crate) budget_percent: Option<f64>,
+    /// The host takes out of readings what other pads did to them.
+    pub(crate) uncouple: bool,
 }
 
 /// How long a case lasts.
@@ -68,7 +70,12 @@ impl Case {
         let plan = |(index, table): (usize, &&Table)| PadPlan::read(table, index, &device, has_gap);
         let pads = tables.iter().enumerate().map(plan).collect::<Result<Vec<_>, _>>()?;
         let budget_percent = root.number("error_budget_percent", Limits::above(0.0, 100.0))?;
-        Ok(Case { name: name.to_string(), length: Length::read(root, &pads)?, device, pads, effects, budget_percent })
+        let uncouple = root.flag("uncouple")?;
+        if uncouple && !effects.iter().any(|effect| effect.name == "coupling") {
+            return Err(root.error("uncouple", "expected a [coupling] that could be taken out again"));
+        }
+        let length = Length::read(root, &pads)?;
+        Ok(Case { name: name.to_string(), length, device, pads, effects, budget_percent, uncouple })
     }
 }
 

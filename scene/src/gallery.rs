@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The bundled scenes, after the figures of the paper.
+//! The bundled scenes: after the figures of the paper, of what a device may have besides, and a minimal one per effect.
 
 /// Name and text of each scene.
 const SCENES: &[(&str, &str)] = &[
@@ -7,6 +7,15 @@ const SCENES: &[(&str, &str)] = &[
     ("fig4", include_str!("../gallery/fig4.toml")),
     ("fig6", include_str!("../gallery/fig6.toml")),
     ("hockey", include_str!("../gallery/hockey.toml")),
+    ("terminals-500-ohm", include_str!("../gallery/terminals-500-ohm.toml")),
+    ("shunt-panel", include_str!("../gallery/shunt-panel.toml")),
+    ("non-uniform-sheet", include_str!("../gallery/non-uniform-sheet.toml")),
+    ("four-pads", include_str!("../gallery/four-pads.toml")),
+    ("minimal-sheet", include_str!("../gallery/minimal-sheet.toml")),
+    ("minimal-shunt", include_str!("../gallery/minimal-shunt.toml")),
+    ("minimal-coupling", include_str!("../gallery/minimal-coupling.toml")),
+    ("minimal-switching", include_str!("../gallery/minimal-switching.toml")),
+    ("minimal-sensor", include_str!("../gallery/minimal-sensor.toml")),
 ];
 
 /// All bundled scenes: name and TOML text.

@@ -28,6 +28,7 @@ mod rotor;
 mod scene;
 mod timing;
 mod truth;
+mod uncouple;
 mod variant;
 
 pub use budget::RungError;
@@ -41,3 +42,4 @@ pub use plant::Plant;
 pub use scene::{Figure, Record, Scene};
 pub use timing::Timing;
 pub use truth::{ForcePoint, MapPoint, Truth};
+pub use uncouple::{Lying, Uncoupler};

@@ -70,6 +70,11 @@ pub(crate) fn resting(at_mm: [f64; 2], load_g: f64, haptic_v_rms: f64, device: &
     still(0, 0.0, at_mm, load_g, haptic_v_rms, CAPACITANCE_PF * 1e-12, device)
 }
 
+/// A pad of which no more is known than a frame tells.
+pub(crate) fn lying(at_mm: [f64; 2], capacitance_pf: f64, device: &Device) -> Pad {
+    still(0, 0.0, at_mm, 0.0, 0.0, capacitance_pf * 1e-12, device)
+}
+
 fn still(
     index: usize,
     time_s: f64,

@@ -10,6 +10,7 @@
 //! record = ["frames", "report"]   # frames | report | capture | waves
 //! dwell_slots = 1                 # slots of each pad at each point of a sweep, or
 //! duration_s = 2.0                # time, where pads move and nothing is swept
+//! uncouple = true                 # the host takes out of readings what [coupling] did to them
 //! error_budget_percent = 0.1      # chooses the rungs that the effects' tables leave open; see `budget`
 //!
 //! [[pad]]                         # 1 to 16; served one slot each in turn

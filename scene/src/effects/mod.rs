@@ -7,7 +7,7 @@
 //! line in the list.
 
 pub(crate) mod carrier;
-mod coupling;
+pub(crate) mod coupling;
 mod friction;
 mod gap;
 mod running;
@@ -51,6 +51,9 @@ pub(crate) const EFFECTS: &[Reader] = &[
     sensor::noise::read_dither,
     sensor::quantisation::read,
 ];
+
+/// Those that split a pad's current among the terminals.
+pub(crate) const SPLITTING: [&str; 3] = ["sheet", "shunt", "coupling"];
 
 /// Reads an effect's table; `None` where the scene leaves the effect out.
 pub(crate) type Reader = fn(&Table, &Device) -> Result<Option<Spec>, SceneError>;

@@ -26,10 +26,10 @@ use crate::timing::Timing;
 /// The rungs: steps per sample, and what a slot costs, ns.
 const RC: [(&str, Method, usize, f64); 6] = [
     ("rc-1", Method::Trapezoid, 1, 2e4),
+    ("euler-64", Method::Euler, 64, 6e5),
     ("rc-4", Method::Trapezoid, 4, 5e4),
     ("rc-8", Method::Trapezoid, 8, 9e4),
     ("rc-16", Method::Trapezoid, 16, 1.7e5),
-    ("euler-64", Method::Euler, 64, 6e5),
     ("rc-64", Method::Trapezoid, 64, 6e5),
 ];
 

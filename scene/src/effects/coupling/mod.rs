@@ -17,7 +17,7 @@
 //! Pads that are nearer to each other than they are wide are taken as touching, and flagged.
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 
 use num_complex::Complex64;
 

@@ -10,7 +10,7 @@ use crate::pad::resting;
 use crate::random::{Purpose, stream};
 use crate::truth::ratios;
 
-fn device() -> Device {
+pub(crate) fn device() -> Device {
     Device::read(&crate::format::parse("").unwrap()).unwrap()
 }
 
@@ -30,7 +30,7 @@ fn coupling(once: bool) -> Coupling {
 }
 
 /// Four places at random, their centres so far off the edges, none touching another.
-fn placements(count: usize, margin_mm: f64) -> Vec<[[f64; 2]; 4]> {
+pub(crate) fn placements(count: usize, margin_mm: f64) -> Vec<[[f64; 2]; 4]> {
     let mut random = stream(1, [0, 0], Purpose::Offset);
     let [x, y] = [
         Uniform::new(margin_mm - 430.0, 430.0 - margin_mm).unwrap(),
@@ -48,7 +48,7 @@ fn placements(count: usize, margin_mm: f64) -> Vec<[[f64; 2]; 4]> {
 }
 
 /// Where a lone pad would read these ratios: Newton's steps on the exact map.
-fn place_of(exact: &Analytic, (r_x, r_y): (f64, f64), from: [f64; 2]) -> [f64; 2] {
+pub(crate) fn place_of(exact: &Analytic, (r_x, r_y): (f64, f64), from: [f64; 2]) -> [f64; 2] {
     let read = |[x, y]: [f64; 2]| {
         let (a, b) = ratios(&exact.split(x, y).share);
         [a - r_x, b - r_y]

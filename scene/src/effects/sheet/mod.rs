@@ -20,7 +20,7 @@
 //!
 //! Without the table the sheet is ideal: no resistance, and corner currents that are bilinear in the position.
 
-pub(super) mod analytic;
+pub(crate) mod analytic;
 mod distance;
 mod film;
 pub(super) mod geometry;
@@ -42,7 +42,7 @@ use crate::format::Table;
 
 /// The sheet as a pad at one place sees it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Split {
+pub(crate) struct Split {
     pub share: [f64; TERMINALS],
     pub ohm: f64,
 }
@@ -59,7 +59,7 @@ impl Split {
 }
 
 /// One way to get the split at a place, x and y in mm from the centre.
-pub(super) trait Solver: Send {
+pub(crate) trait Solver: Send {
     fn split(&self, x_mm: f64, y_mm: f64) -> Split;
 }
 
@@ -155,4 +155,4 @@ pub(crate) fn ideal_split(x_mm: f64, y_mm: f64, device: &Device) -> [Complex64; 
 #[cfg(test)]
 mod grid_tests;
 #[cfg(test)]
-pub(super) mod tests;
+pub(crate) mod tests;
