@@ -1,58 +1,111 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What the plant costs: nanoseconds per sample instant of eight channels, and per slot, effect by effect and rung by rung.
+//! What the plant costs for a second of device time, effect by effect and rung by rung, alone and together: slots as
+//! amplitudes and as samples, and how long the effect takes to build.
 //!
 //! `cargo run --release -p hapticore-scene --example speed`
 
 use std::time::Instant;
 
-use hapticore_scene::{Complex, Plant, Scene, SceneError, Timing, gallery};
+use hapticore_scene::{Complex, Plant, Scene, SceneError, Timing};
 
-const SLOTS: usize = 2000;
+/// Slots of a measurement as amplitudes, and of one as samples; the best of so many measurements counts.
+const SLOTS: [usize; 2] = [2000, 100];
+const BEST_OF: usize = 5;
+
+/// Four pads that move, one of them served per slot.
+const PADS: &str = "title = \"speed\"\nduration_s = 10\n\
+    [[pad]]\nposition_mm = { circle = { centre_mm = [280, 20], radius_mm = 110, period_s = 0.9 } }\nhaptic_v_rms = 150\n\
+    [[pad]]\nposition_mm = { circle = { centre_mm = [-280, 20], radius_mm = 110, period_s = 0.7 } }\n\
+    [[pad]]\nposition_mm = { line = { from_mm = [-100, -180], to_mm = [100, 200], period_s = 0.8 } }\n\
+    [[pad]]\nposition_mm = [-60, 205]\n";
+
+/// What is measured: its name, what it is added to, and what it adds.
+const EFFECTS: &[(&str, &str, &str)] = &[
+    ("sheet distance", "", "[sheet]\nrung = \"distance\"\n"),
+    ("sheet bilinear", "", "[sheet]\nrung = \"bilinear\"\n"),
+    ("sheet bicubic", "", "[sheet]\nrung = \"bicubic\"\n"),
+    ("sheet bicubic-fine", "", "[sheet]\nrung = \"bicubic-fine\"\n"),
+    ("sheet analytic", "", "[sheet]\nrung = \"analytic\"\n"),
+    ("sheet grid-20-mm", "", "[sheet]\nrung = \"grid-20-mm\"\n"),
+    ("sheet grid-10-mm", "", "[sheet]\nrung = \"grid-10-mm\"\n"),
+    ("sheet grid-5-mm", "", "[sheet]\nrung = \"grid-5-mm\"\n"),
+    ("sheet grid-2.5-mm", "", "[sheet]\nrung = \"grid-2.5-mm\"\n"),
+    ("sheet grid-1.25-mm", "", "[sheet]\nrung = \"grid-1.25-mm\"\n"),
+    ("shunt table", "[sheet]\n", "[shunt]\nnanofarad_per_m2 = 9\n"),
+    ("shunt series", "[sheet]\n", "[shunt]\nnanofarad_per_m2 = 9\nrung = \"series\"\n"),
+    ("coupling once", "[sheet]\n", "[coupling]\nrung = \"once\"\n"),
+    ("coupling full", "[sheet]\n", "[coupling]\n"),
+    ("switching rc-1", "[sheet]\n", "[switching]\nrung = \"rc-1\"\n"),
+    ("switching rc-4", "[sheet]\n", "[switching]\nrung = \"rc-4\"\n"),
+    ("switching rc-16", "[sheet]\n", "[switching]\nrung = \"rc-16\"\n"),
+    ("switching rc-64", "[sheet]\n", "[switching]\nrung = \"rc-64\"\n"),
+    ("switching settling", "[sheet]\n", "[switching]\n"),
+    ("sensor leakage", "", "[sensor]\nhaptic_leakage = true\n"),
+    ("sensor bandwidth", "", "[sensor]\nbandwidth_khz = 900\n"),
+    ("sensor jitter", "", "[sensor]\njitter_ns_rms = 0.1\n"),
+    ("sensor crosstalk", "", "[sensor]\ncrosstalk_percent = 0.1\n"),
+    ("sensor gain", "", "[sensor]\ngain_mismatch_percent = 1\n"),
+    ("sensor offset", "", "[sensor]\noffset_percent = 0.01\n"),
+    ("sensor noise", "", "[sensor]\nnoise_ppm_rms = 18\n"),
+    ("sensor noise density", "", "[sensor]\nnoise_density_na_per_rthz = 1\n"),
+    ("sensor quantisation", "", "[sensor]\nquantisation_bits = 16\n"),
+    (
+        "together",
+        "",
+        "[sheet]\n[shunt]\nnanofarad_per_m2 = 9\n[coupling]\n[switching]\n[sensor]\nhaptic_leakage = true\n\
+         bandwidth_khz = 900\njitter_ns_rms = 0.1\ncrosstalk_percent = 0.1\ngain_mismatch_percent = 1\n\
+         offset_percent = 0.01\nnoise_ppm_rms = 18\nnoise_density_na_per_rthz = 1\nquantisation_bits = 16\n",
+    ),
+];
 
 fn main() -> Result<(), SceneError> {
-    samples()?;
-    ["distance", "bicubic", "analytic"].into_iter().try_for_each(phasors)
+    println!("{:22} {:>10} {:>16} {:>16}", "", "build, ms", "amplitudes, ms/s", "samples, ms/s");
+    print("carrier", measure("")?);
+    for (name, under, added) in EFFECTS {
+        let (without, with) = (measure(under)?, measure(&format!("{under}{added}"))?);
+        print(name, [0, 1, 2].map(|n| with[n] - without[n]));
+    }
+    Ok(())
 }
 
-fn hockey(rung: &str) -> Result<(Plant, Timing), SceneError> {
+fn print(name: &str, [build, amplitudes, samples]: [f64; 3]) {
+    println!("{name:22} {build:10.2} {amplitudes:16.3} {samples:16.2}");
+}
+
+/// The least milliseconds to build the plant, and for a second of device time as amplitudes and as samples.
+fn measure(effects: &str) -> Result<[f64; 3], SceneError> {
+    let scene = Scene::parse(&format!("{PADS}{effects}"), "speed.toml", &[])?;
+    let mut least = [f64::INFINITY; 3];
+    for _ in 0..BEST_OF {
+        let times = once(&scene)?;
+        least = [0, 1, 2].map(|n| least[n].min(times[n]));
+    }
+    Ok(least)
+}
+
+fn once(scene: &Scene) -> Result<[f64; 3], SceneError> {
     let timing =
         Timing { pads: 4, slot_samples: 1700, window_start: 700, window_samples: 1000, samples_per_period: 10.0 };
-    let text = gallery::find("hockey").unwrap_or_default();
-    let scene = Scene::parse(text, "hockey.toml", &[("sheet.rung".to_string(), rung.to_string())])?;
     let start = Instant::now();
-    let plant = Plant::new(&scene, 0, &timing)?.metered();
-    println!("{rung}: built in {:.1} ms", start.elapsed().as_secs_f64() * 1e3);
-    Ok((plant, timing))
-}
-
-fn samples() -> Result<(), SceneError> {
-    let (mut plant, timing) = hockey("bicubic")?;
-    let (start, mut samples) = (Instant::now(), Vec::new());
-    for slot in 0..SLOTS {
+    let mut plant = Plant::new(scene, 0, &timing)?;
+    let built = start.elapsed().as_secs_f64();
+    let slots_per_second = plant.device().sample_rate_hz / timing.slot_samples as f64;
+    let mut phasors = vec![Complex::default(); plant.channels() - 1];
+    let amplitudes = seconds(SLOTS[0], |slot| {
+        plant.phasors(slot, &mut phasors);
+    });
+    let mut samples = Vec::new();
+    let sampled = seconds(SLOTS[1], |slot| {
         samples.clear();
         plant.samples(slot, 0..timing.window_start, &mut samples);
         plant.samples(slot, timing.window_start..timing.slot_samples, &mut samples);
-    }
-    let instants = (SLOTS * timing.slot_samples) as f64;
-    let each_ns = start.elapsed().as_secs_f64() * 1e9 / instants;
-    println!("samples: {each_ns:.1} ns per instant of {} channels", plant.channels());
-    print(&plant, instants);
-    Ok(())
+    });
+    Ok([built, amplitudes * slots_per_second, sampled * slots_per_second].map(|seconds| 1e3 * seconds))
 }
 
-fn phasors(rung: &str) -> Result<(), SceneError> {
-    let (mut plant, _) = hockey(rung)?;
-    let (start, mut phasors) = (Instant::now(), vec![Complex::default(); plant.channels() - 1]);
-    for slot in 0..SLOTS {
-        plant.phasors(slot, &mut phasors);
-    }
-    println!("phasors: {:.0} ns per slot", start.elapsed().as_secs_f64() * 1e9 / SLOTS as f64);
-    print(&plant, SLOTS as f64);
-    Ok(())
-}
-
-fn print(plant: &Plant, per: f64) {
-    for cost in plant.effects() {
-        println!("  {:20} {:18} {:8.2} ns", cost.name, cost.rung, cost.seconds * 1e9 / per);
-    }
+/// Seconds a slot.
+fn seconds(slots: usize, mut slot: impl FnMut(usize)) -> f64 {
+    let start = Instant::now();
+    (0..slots).for_each(&mut slot);
+    start.elapsed().as_secs_f64() / slots as f64
 }

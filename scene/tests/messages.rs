@@ -34,12 +34,73 @@ fn unknown_effect() {
 
 #[test]
 fn unknown_key() {
-    check("[gap]\n\nspring = 3", "s.toml:6: gap.spring: unknown key, expected one of \"rung\", \"insulator_um\", ");
+    check("[gap]\n\ncoil = 3", "s.toml:6: gap.coil: unknown key, expected one of \"rung\", \"insulator_um\", ");
 }
 
 #[test]
 fn negative_thickness() {
     check("[gap]\ninsulator_um = -8", "s.toml:5: gap.insulator_um: expected a number above 0, got -8");
+}
+
+#[test]
+fn missing_unit() {
+    let bare = message("title = \"t\"\n[[pad]]\nposition = [0, 0]", &[]);
+    assert_eq!(bare, "s.toml:3: pad.0.position: expected position_mm, since a key names its unit");
+    check("load = 20", "s.toml:4: pad.0.load: expected load_g, since a key names its unit");
+    check("[sheet]\n[shunt]\nnanofarad = 9", "s.toml:6: shunt.nanofarad: expected nanofarad_per_m2, since a key");
+    check("[sensor]\njitter_ns = 1", "s.toml:5: sensor.jitter_ns: expected jitter_ns_rms, since a key names its unit");
+}
+
+#[test]
+fn effects_that_need_a_sheet() {
+    let sheet = "expected a [sheet] too, since";
+    check("[shunt]\nnanofarad_per_m2 = 9", &format!("s.toml:4: shunt: {sheet}"));
+    check("[coupling]", &format!("s.toml:4: coupling: {sheet}"));
+    check("[switching]", &format!("s.toml:4: switching: {sheet}"));
+    let uneven = "[sheet]\nslope_percent = [5, 0]\n[shunt]\nnanofarad_per_m2 = 9";
+    check(uneven, "s.toml:6: shunt: expected an even film, without sheet.slope_percent and sheet.patch");
+    let wish = message(&format!("uncouple = true\n{SCENE}"), &[]);
+    assert_eq!(wish, "s.toml:1: uncouple: expected a [coupling] that could be taken out again");
+}
+
+#[test]
+fn sheets_that_cannot_be() {
+    check("[sheet]\nterminals = 5", "s.toml:5: sheet.terminals: expected 4 or 6, got 5");
+    check(
+        "[sheet]\nterminals = 4\nopen = [6]",
+        "s.toml:6: sheet.open: expected a list, each a number from 1 to 4, got 6",
+    );
+    check("[sheet]\nopen = [1.5]", "s.toml:5: sheet.open: expected numbers of terminals, 1 to 6, got 1.5");
+    check(
+        "[sheet]\nopen = [1, 2, 3, 4, 5, 6]",
+        "s.toml:5: sheet.open: expected a terminal that is not open, since the current has to leave",
+    );
+    check("[sheet]\nslope_percent = [95, 0]", "s.toml:5: sheet.slope_percent: expected a list, each a number from -90");
+    check(
+        "[sheet]\nslope_percent = [5, 0]\nrung = \"bicubic\"",
+        "s.toml:6: sheet.rung: expected one of \"grid-20-mm\"",
+    );
+    check(
+        "[[sheet.patch]]\ncentre_mm = [0, 0]\nsize_mm = [1, 0]",
+        "s.toml:6: sheet.patch.0.size_mm: expected a list, each a number above 0, got 0",
+    );
+    check(
+        "[shunt]\nnanofarad_per_m2 = -9",
+        "s.toml:5: shunt.nanofarad_per_m2: expected a number from 0 to 10000, got -9",
+    );
+    check("[sensor]\ndither_lsb_rms = 1", "s.toml:5: sensor.dither_lsb_rms: expected quantisation_bits too");
+}
+
+#[test]
+fn timelines_that_go_back_or_nowhere() {
+    check(
+        "load_g = { timeline = [] }",
+        "s.toml:4: pad.0.load_g.timeline: expected a list of pairs of numbers, got a list of 0",
+    );
+    check(
+        "load_g = { timeline = [[0, 1], [1, 2], [0, 1]] }",
+        "s.toml:4: pad.0.load_g.timeline: expected times that do not fall",
+    );
 }
 
 #[test]

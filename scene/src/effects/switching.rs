@@ -33,6 +33,9 @@ const RC: [(&str, Method, usize, f64); 6] = [
     ("rc-64", Method::Trapezoid, 64, 6e5),
 ];
 
+/// What a transient has decayed to when it is left out.
+const NOTHING: f64 = 1e-30;
+
 pub(super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
     let Some(table) = root.table("switching")? else { return Ok(None) };
     if root.table("sheet")?.is_none() {
@@ -75,13 +78,13 @@ struct Switching {
 }
 
 impl Switching {
-    /// d at the samples of a slot up to `end`.
+    /// d at the samples of a slot up to `end`, or until nothing is left of it.
     fn deviation(&self, pad: &Pad, end: usize) -> Vec<Complex64> {
         let tau_s = pad.sheet_ohm.re * pad.capacitance_f;
         let j_omega_tau = Complex64::new(0.0, self.device.carrier_rad_s * tau_s);
         if self.method == Method::Exact {
             let decay = |n: usize| (-(n as f64) / (self.device.sample_rate_hz * tau_s)).exp();
-            return (0..end).map(|n| decay(n) / j_omega_tau).collect();
+            return (0..end).map(decay).take_while(|left| *left > NOTHING).map(|left| left / j_omega_tau).collect();
         }
         let step_s = 1.0 / (self.device.sample_rate_hz * self.steps as f64);
         let mut source = Rotor::new(0.0, self.device.carrier_rad_s * step_s / TAU);
@@ -115,7 +118,7 @@ impl ChannelEffect for Switching {
         let mut hann = Rotor::new(0.0, 1.0 / window_samples as f64);
         // The current is (A·d + its conjugate)/2: a demodulator weighs both.
         let [mut with, mut against] = [Complex64::ZERO; 2];
-        for d in &deviation[window_start..] {
+        for d in deviation.get(window_start..).unwrap_or_default() {
             let weight = carrier.turn() * ((1.0 - hann.turn().re) / window_samples as f64);
             with += weight * d;
             against += weight * d.conj();
@@ -128,7 +131,7 @@ impl ChannelEffect for Switching {
     fn samples(&mut self, pad: &Pad, run: &Run, rows: &mut [[f64; CHANNELS]]) {
         let amplitudes = self.amplitudes(pad);
         let deviation = self.deviation(pad, run.range.end);
-        for (row, d) in rows.iter_mut().zip(&deviation[run.range.start..]) {
+        for (row, d) in rows.iter_mut().zip(deviation.get(run.range.start..).unwrap_or_default()) {
             row.iter_mut().zip(amplitudes).for_each(|(sample, amplitude)| *sample += (amplitude * d).re);
         }
     }

@@ -104,7 +104,11 @@ impl Table {
 
     /// `value`, or an error that `key` is missing.
     pub fn require<T>(&self, key: &'static str, expected: &str, value: Option<T>) -> Result<T> {
-        value.ok_or_else(|| self.error(key, format!("expected {expected}, but it is missing")))
+        let bare = || self.entries.keys().find(|given| lacks_unit(given, key));
+        value.ok_or_else(|| match bare() {
+            Some(given) => self.error(given, format!("expected {key}, since a key names its unit")),
+            None => self.error(key, format!("expected {expected}, but it is missing")),
+        })
     }
 
     pub fn text(&self, key: &'static str) -> Result<Option<String>> {
@@ -182,8 +186,11 @@ impl Table {
             match &node.value {
                 _ if self.free.get() => {}
                 _ if !used.get() => {
-                    let known = quoted(&self.known.borrow());
-                    errors.push(self.error(key, format!("unknown key, expected one of {known}")));
+                    let known = self.known.borrow();
+                    errors.push(match known.iter().find(|known| lacks_unit(key, known)) {
+                        Some(known) => self.error(key, format!("expected {known}, since a key names its unit")),
+                        None => self.error(key, format!("unknown key, expected one of {}", quoted(&known))),
+                    });
                 }
                 Value::Table(table) => errors.extend(table.unknown()),
                 Value::List(list) => {
@@ -196,6 +203,11 @@ impl Table {
         }
         errors
     }
+}
+
+/// Whether `given` is `known` without the unit that it ends with, as `load` is of `load_g`.
+fn lacks_unit(given: &str, known: &str) -> bool {
+    known.strip_prefix(given).is_some_and(|unit| unit.starts_with('_'))
 }
 
 fn quoted(words: &[&str]) -> String {

@@ -21,6 +21,9 @@ use crate::effects::sheet::neumann::Neumann;
 /// Modes along y; those left out are below 3e-7 of the sum at 22 nF/m².
 const MODES: usize = 100;
 
+/// Modes that have decayed by so much along x, to 1e-11, are left out.
+const NEPERS: f64 = 25.0;
+
 /// An even sheet with a shunt.
 pub(in super::super) struct Screened {
     sheet: Sheet,
@@ -115,7 +118,9 @@ impl Screened {
             let along = (n * angle(p[1])).cos() * (n * angle(q[1])).cos();
             (mode(*screened, a, p[0], q[0]) - plain) * (2.0 * along)
         };
-        (first + self.modes.iter().enumerate().skip(1).map(term).sum::<Complex64>()) / b
+        let apart = angle((p[0] - q[0]).abs());
+        let reaches = |(n, _): &(usize, &Complex64)| *n as f64 * apart < NEPERS;
+        (first + self.modes.iter().enumerate().skip(1).take_while(reaches).map(term).sum::<Complex64>()) / b
     }
 }
 
