@@ -25,12 +25,12 @@ use crate::timing::Timing;
 
 /// The rungs: steps per sample, and what a slot costs, ns.
 const RC: [(&str, Method, usize, f64); 6] = [
-    ("rc-1", Method::Trapezoid, 1, 2e4),
-    ("euler-64", Method::Euler, 64, 6e5),
-    ("rc-4", Method::Trapezoid, 4, 5e4),
-    ("rc-8", Method::Trapezoid, 8, 9e4),
-    ("rc-16", Method::Trapezoid, 16, 1.7e5),
-    ("rc-64", Method::Trapezoid, 64, 6e5),
+    ("rc-1", Method::Trapezoid, 1, 1.4e4),
+    ("euler-64", Method::Euler, 64, 1e6),
+    ("rc-4", Method::Trapezoid, 4, 4.6e4),
+    ("rc-8", Method::Trapezoid, 8, 1e5),
+    ("rc-16", Method::Trapezoid, 16, 2.5e5),
+    ("rc-64", Method::Trapezoid, 64, 1e6),
 ];
 
 /// What a transient has decayed to when it is left out.
@@ -58,7 +58,7 @@ pub(super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError>
         if method == Method::Euler { rung.limited() } else { rung }
     };
     let mut rungs: Vec<_> = RC.map(integrated).into();
-    rungs.push(rung("settling", Method::Exact, 1, 1e3));
+    rungs.push(rung("settling", Method::Exact, 1, 50.0));
     Spec::ladder("switching", Some(table), rungs, "settling")
 }
 

@@ -9,10 +9,10 @@
 //! G_kl is the sheet's potential at pad k for a unit current into pad l; G_kk is R_p. Four pads shift a position by some
 //! tenths of a millimetre at 318 pF and by millimetres at 760 pF (PHYSICS §1), since amplitudes are of second order in ωCG.
 //!
-//! | rung | what | error |
-//! | --- | --- | --- |
-//! | `once` | the other pads answer the served one, not each other | third order in ωCG |
-//! | `full` | all currents at once | – |
+//! | rung | what | error | four pads |
+//! | --- | --- | --- | --- |
+//! | `once` | the other pads answer the served one, not each other | second order in ωCG | 3.6 µs |
+//! | `full` | all currents at once | – | 4.6 µs |
 //!
 //! Pads that are nearer to each other than they are wide are taken as touching, and flagged.
 
@@ -51,7 +51,7 @@ pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneE
             Effect::Pads(Box::new(Coupling { field, once, device: setting.device.clone() }))
         })
     };
-    Spec::ladder("coupling", Some(table), vec![rung("once", 3e3, true), rung("full", 4e3, false)], "full")
+    Spec::ladder("coupling", Some(table), vec![rung("once", 3.6e3, true), rung("full", 4.6e3, false)], "full")
 }
 
 /// The sheet's potential at one place for a unit current into another, Ω.

@@ -9,13 +9,18 @@
 //!
 //! | rung | what | look-up | error of the split, rms / max | build |
 //! | --- | --- | --- | --- | --- |
-//! | `distance` | R_i ∝ distance, the paper's picture | 70 ns | 5.0e-2 / 2.5e-1 | – |
-//! | `bilinear` | table of the analytic solution, 64 × 37 | | | |
-//! | `bicubic` | spline of the same, `table_columns` × `table_rows` = 128 × 75 | 60 ns | 7e-7 / 6e-5 | 4.5 ms |
-//! | `bicubic-fine` | 512 × 297 | | | |
-//! | `analytic` | Neumann function of the rectangle | 400 ns | 5e-11 max | – |
-//! | `grid-20-mm` … `grid-1.25-mm` | finite differences; the only rungs for a film that is not even | | | |
+//! | `distance` | R_i ∝ distance, the paper's picture | 50 ns | 5.0e-2 / 2.5e-1 | – |
+//! | `bilinear` | table of the analytic solution, 64 × 37 | 20 ns | 5.4e-5 / 2.4e-3 | 0.8 ms |
+//! | `bicubic` | spline of the same, 128 × 75 | 40 ns | 7e-7 / 6e-5 | 4 ms |
+//! | `bicubic-fine` | 512 × 297 | 70 ns | 5e-9 / 1e-6 | 90 ms |
+//! | `analytic` | Neumann function of the rectangle | 360 ns | 5e-11 max | – |
+//! | `grid-20-mm` | finite differences | 60 ns | 2.8e-4 / 7e-3 | 9 ms |
+//! | `grid-10-mm` | | 70 ns | 6.9e-5 / 3.9e-3 | 52 ms |
+//! | `grid-5-mm` | | 90 ns | 1.7e-5 / 1.0e-3 | 82 ms |
+//! | `grid-2.5-mm` | | 100 ns | 3.9e-6 / 1.9e-4 | 0.2 s |
+//! | `grid-1.25-mm` | | 170 ns | 9.7e-7 / 4.7e-5 | 0.9 s |
 //!
+//! A table may have `table_columns` × `table_rows` of its own. Grids are the only rungs for a film that is not even.
 //! Errors are over pads 20 mm off the edges; at the edges, in front of terminals 5 and 6, the table's reach 2e-4.
 //!
 //! Without the table the sheet is ideal: no resistance, and corner currents that are bilinear in the position.
