@@ -23,6 +23,7 @@ use num_complex::Complex64;
 
 use super::sheet::Sheet;
 use super::sheet::analytic::{self, Analytic};
+use super::sheet::linear::solve;
 use super::sheet::mesh::{Correction, Mesh, Network};
 use super::shunt::{self, Screened};
 use super::{Effect, Pad, PadsEffect, Rung, Spec};
@@ -75,7 +76,7 @@ impl PadsEffect for Coupling {
         for (k, one) in pads.iter().enumerate() {
             ohm[k][k] = one.admittance(self.device.carrier_rad_s).inv();
         }
-        let currents = if self.once { answered_once(&ohm) } else { answered(&ohm) };
+        let currents = if self.once { answered_once(&ohm) } else { answered(ohm) };
         let into =
             |terminal: usize| pads.iter().zip(&currents).map(|(pad, current)| pad.split[terminal] * current).sum();
         let transfer: [Complex64; TERMINALS] = std::array::from_fn(into);
@@ -106,11 +107,9 @@ fn apart(pad: &Pad, others: &[Pad], device: &Device) -> (Vec<[f64; 2]>, bool) {
 }
 
 /// Currents of all pads where the first one has 1 V: the first column of the inverse.
-fn answered(ohm: &[Vec<Complex64>]) -> Vec<Complex64> {
-    use faer::linalg::solvers::Solve;
-    let matrix = faer::Mat::from_fn(ohm.len(), ohm.len(), |k, l| ohm[k][l]);
-    let driven = faer::Col::from_fn(ohm.len(), |k| Complex64::from(f64::from(k == 0)));
-    matrix.partial_piv_lu().solve(driven).iter().copied().collect()
+fn answered(ohm: Vec<Vec<Complex64>>) -> Vec<Complex64> {
+    let driven = (0..ohm.len()).map(|k| vec![Complex64::from(f64::from(u8::from(k == 0)))]).collect();
+    solve(ohm, driven).into_iter().flatten().collect()
 }
 
 /// The same where each other pad answers the first one's current alone, and the first one takes no notice.

@@ -27,7 +27,7 @@ pub(super) const HANN_NENBW: f64 = 1.5;
 /// `noise_ppm_rms`
 pub(in super::super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
     let Some(ppm) = super::key(root, "noise_ppm_rms", Limits::within(0.0, 1e6))? else { return Ok(None) };
-    let build = move |setting: &Setting| Noise::new([ppm * 1e-6; CHANNELS], Origin::Adc, setting);
+    let build = move |setting: &Setting| Noise::effect([ppm * 1e-6; CHANNELS], Origin::Adc, setting);
     Ok(Spec::new(NOISE, format!("{ppm} ppm"), build))
 }
 
@@ -45,7 +45,7 @@ pub(in super::super) fn read_density(root: &Table, _: &Device) -> Result<Option<
         let enbw_hz = bandwidth_khz.map_or(half_rate_hz, |khz| PI / 2.0 * 1e3 * khz);
         let mut sigma = [0.0; CHANNELS];
         sigma[..TERMINALS].fill(1e-9 * na * enbw_hz.sqrt() / setting.device.current_full_scale_a);
-        Noise::new(sigma, Origin::Amplifier, setting)
+        Noise::effect(sigma, Origin::Amplifier, setting)
     };
     Ok(Spec::new("sensor.noise_density", format!("{na} nA/√Hz"), build))
 }
@@ -57,7 +57,7 @@ pub(in super::super) fn read_dither(root: &Table, _: &Device) -> Result<Option<S
         let table = root.table("sensor")?.unwrap_or(root);
         return Err(table.error("dither_lsb_rms", "expected quantisation_bits too, since dither is counted in codes"));
     };
-    let build = move |setting: &Setting| Noise::new([lsb / codes; CHANNELS], Origin::Dither, setting);
+    let build = move |setting: &Setting| Noise::effect([lsb / codes; CHANNELS], Origin::Dither, setting);
     Ok(Spec::new("sensor.dither", format!("{lsb} LSB"), build))
 }
 
@@ -78,7 +78,7 @@ struct Noise {
 }
 
 impl Noise {
-    fn new(sigma: [f64; CHANNELS], origin: Origin, setting: &Setting) -> Effect {
+    fn effect(sigma: [f64; CHANNELS], origin: Origin, setting: &Setting) -> Effect {
         let window_samples = setting.timing.window_samples;
         Effect::Channels(Box::new(Noise { sigma, origin, window_samples, source: Source::new(setting) }))
     }
