@@ -92,6 +92,8 @@ fn still(
         x_mm: at[0],
         y_mm: at[1],
         load_g,
+        source_v_rms: haptic_v_rms,
+        supply: None,
         haptic_v_rms,
         capacitance_f,
         attraction_n,

@@ -221,7 +221,7 @@ impl Plant {
     fn settle(&self, pads: impl Iterator<Item = Pad>) -> impl Iterator<Item = Pad> {
         let mut effects = self.fresh_effects();
         pads.map(move |mut pad| {
-            effects.on_pad(&mut pad);
+            effects.on_resting_pad(&mut pad);
             pad
         })
     }

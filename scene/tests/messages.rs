@@ -29,7 +29,7 @@ fn unknown_rung() {
 fn unknown_effect() {
     let magnet = format!("{SCENE}[magnet]\nrung = \"a\"");
     assert!(message(&magnet, &[]).starts_with("s.toml:4: magnet: unknown key, expected one of "));
-    assert!(message(&magnet, &[]).contains("\"sheet\", \"shunt\", \"gap\", \"friction\""));
+    assert!(message(&magnet, &[]).contains("\"sheet\", \"shunt\", \"supply\", \"gap\", "));
 }
 
 #[test]
@@ -100,6 +100,18 @@ fn timelines_that_go_back_or_nowhere() {
     check(
         "load_g = { timeline = [[0, 1], [1, 2], [0, 1]] }",
         "s.toml:4: pad.0.load_g.timeline: expected times that do not fall",
+    );
+}
+
+#[test]
+fn steps_too_long_for_the_gap() {
+    check(
+        "[gap]\nrung = \"tr-bdf2\"\nstep_us = 1500",
+        "s.toml:6: gap.step_us: expected at most 1000, since near the fold a longer step pulls in seconds too early or too late, got 1500",
+    );
+    check(
+        "[gap]\nrung = \"semi-implicit\"\nstep_us = 500",
+        "s.toml:6: gap.step_us: expected at most 200, since a longer step bounces off the contact, got 500",
     );
 }
 

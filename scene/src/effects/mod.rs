@@ -16,6 +16,7 @@ pub(crate) mod sheet;
 mod shunt;
 mod spec;
 mod switching;
+mod supply;
 
 pub use running::EffectCost;
 pub(crate) use running::Effects;
@@ -34,6 +35,7 @@ use crate::format::Table;
 pub(crate) const EFFECTS: &[Reader] = &[
     sheet::read,
     shunt::read,
+    supply::read,
     gap::read,
     friction::read,
     coupling::read,
@@ -72,6 +74,10 @@ pub(crate) trait PadEffect: Send {
     fn refuses(&self, _: &Pad) -> Option<String> {
         None
     }
+    /// As if the pad had been there for ever: what a calibration waits for.
+    fn settle(&mut self, pad: &mut Pad) {
+        self.act(pad);
+    }
 }
 
 /// Acts on the pad that a slot serves, once per slot, in sight of all others.
@@ -101,6 +107,11 @@ pub(crate) struct Pad {
     pub x_mm: f64,
     pub y_mm: f64,
     pub load_g: f64,
+    /// Haptic voltage at the source.
+    pub source_v_rms: f64,
+    /// What lies between source and pad, where an effect says it.
+    pub supply: Option<supply::Supply>,
+    /// Haptic voltage at the pad.
     pub haptic_v_rms: f64,
     pub capacitance_f: f64,
     /// Electrostatic attraction summed over the pad, N; where no effect says otherwise that of an even gap, eq. 7.
@@ -120,6 +131,11 @@ pub(crate) struct Pad {
 }
 
 impl Pad {
+    /// The haptic voltage at the pad, were its capacitance this.
+    pub fn haptic_v_at(&self, capacitance_f: f64) -> f64 {
+        self.supply.map_or(self.source_v_rms, |supply| self.source_v_rms * supply.share(capacitance_f))
+    }
+
     /// The haptic force as an effect says, or else by eq. 8.
     pub fn haptic_force_n(&self, device: &Device) -> f64 {
         self.force_n.unwrap_or(device.force_k * (self.capacitance_f * self.haptic_v_rms).powi(2))

@@ -74,6 +74,15 @@ impl Effects {
         }
     }
 
+    /// Lets a pad settle under the effects on it.
+    pub fn on_resting_pad(&mut self, pad: &mut Pad) {
+        for (n, effect) in self.list.iter_mut().enumerate() {
+            if let Effect::Pad(effect) = effect {
+                self.meter.book(n, || effect.settle(pad));
+            }
+        }
+    }
+
     /// Lets the effects on the channels do `work`.
     pub fn on_channels(&mut self, mut work: impl FnMut(&mut dyn ChannelEffect)) {
         for (n, effect) in self.list.iter_mut().enumerate() {

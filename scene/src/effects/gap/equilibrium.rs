@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Where a patch rests once its rubber has relaxed: the largest gap at which no pressure is left, the branch that starts open.
+//!
+//! Without contact the balance is a cubic in h = g + d, so its largest root, and the fold where it vanishes, have a closed
+//! form: V_PI = √(8κh₀³/27ε₀). The contact only adds pressure, so the root with it lies above the cubic's, where the
+//! balance falls steadily: bisection cannot miss it. Past the fold the contact alone holds the patch. Source: PHYSICS §3.
+
+use super::law::{Drive, Law, root};
+
+/// The gap in equilibrium; the insulators themselves do not yield, so it is never negative.
+pub(super) fn equilibrium(law: &Law, rest_m: f64, drive: Drive) -> f64 {
+    let balance = |gap: f64| law.relaxed(gap, rest_m, drive);
+    let open_height = rest_m + law.insulator_m;
+    let unpulled = open_height - drive.pressure_pa / law.spring_pa_per_m;
+    let top = rest_m + law.contact_pa / law.spring_pa_per_m;
+    let fold = (unpulled * 2.0 / 3.0 - law.insulator_m).max(0.0);
+    match open_root(unpulled, drive.pull_n / law.spring_pa_per_m) {
+        Some(height) => {
+            let open = (height - law.insulator_m).max(0.0);
+            root(open, top, open, balance)
+        }
+        None if balance(fold).value >= 0.0 => root(fold, top, fold, balance),
+        None => root(0.0, fold, 0.0, balance),
+    }
+}
+
+/// Largest root of h²(H − h) = a, by the trigonometric form; none past the fold a = 4H³/27.
+fn open_root(unpulled: f64, a: f64) -> Option<f64> {
+    let cosine = 1.0 - 13.5 * a / unpulled.powi(3);
+    let open = unpulled > 0.0 && cosine >= -1.0;
+    open.then(|| unpulled / 3.0 * (1.0 + 2.0 * (cosine.acos() / 3.0).cos()))
+}

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `[gap]`: the air gap under the pad, its capacitance and its attraction, patch by patch.
+//!
+//!   C = Σ ε₀S_i/(g_i+d),   F_e = Σ ½ε₀S_iV²/(g_i+d)²;   how g moves: see `law`
+//!
+//! | rung | what | largest error of C, 0 → 400 → 0 V |
+//! | --- | --- | --- |
+//! | `static` | the relaxed equilibrium, on the branch that starts open | – |
+//! | `quasi-static` | film and creep without inertia, linearly implicit, 1 ms | 8e-2 |
+//! | `semi-implicit` | inertia too; film and creep implicit, contact explicit, 100 µs | 3.1e-2 |
+//! | `implicit-euler` | all implicit, 100 µs | 3.3e-2 |
+//! | `trapezoid` | second order, 100 µs | 1.1e-3 |
+//! | `tr-bdf2` | second order and damping, 100 µs: the reference | 3.0e-4 |
+//!
+//! `step_us` sets another step for the rung that is named, up to 1 ms. A pad starts at rest under the drive of its first slot; between slots load and
+//! square of the voltage are taken as linear. `drive = "sine"` pulls with the haptic voltage's own sine instead of its mean
+//! square; the force that is reported is then still of the mean square, at the gap of the moment. Behind `[supply]` the pad's
+//! voltage falls as its capacitance grows. Source: PHYSICS §3.
+
+mod dynamic;
+mod equilibrium;
+mod law;
+mod pad;
+mod quasi_static;
+mod read;
+
+pub(super) use read::read;
+
+#[cfg(test)]
+mod tests;

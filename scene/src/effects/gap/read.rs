@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `[gap]` as a scene writes it.
+
+use std::f64::consts::{PI, TAU};
+
+use super::dynamic::Method;
+use super::law::Law;
+use super::pad::{Gap, Motion, Rubber};
+use crate::device::Device;
+use crate::effects::{Effect, Rung, Setting, Spec};
+use crate::error::SceneError;
+use crate::format::{Limits, Table};
+
+/// Heights g₀ + d of eight patches of equal area, µm: fitted to the paper's Fig. 7 (PHYSICS §3).
+const REST_UM: [f64; 8] = [13.0, 14.5, 16.0, 17.5, 19.106, 19.585, 26.0, 34.0];
+
+/// Viscosity of air, Pa·s.
+const AIR_PA_S: f64 = 1.8e-5;
+
+/// The longest step, µs.
+const LONGEST_US: f64 = 1000.0;
+
+/// The longest step whose contact is explicit, µs.
+const LONGEST_SEMI_IMPLICIT_US: f64 = 200.0;
+
+/// Rungs, and what a slot of 1.7 ms costs at its usual step, ns.
+const RUNGS: [(&str, Motion, f64); 6] = [
+    ("static", Motion::Static, 500.0),
+    ("quasi-static", Motion::QuasiStatic, 400.0),
+    ("semi-implicit", Motion::Dynamic(Method::SemiImplicit), 2.4e3),
+    ("implicit-euler", Motion::Dynamic(Method::ImplicitEuler), 10e3),
+    ("trapezoid", Motion::Dynamic(Method::Trapezoid), 12e3),
+    ("tr-bdf2", Motion::Dynamic(Method::TrBdf2), 14e3),
+];
+
+pub(in super::super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneError> {
+    let Some(table) = root.table("gap")? else { return Ok(None) };
+    let named = table.choice("rung", &RUNGS.map(|(word, ..)| word))?;
+    let rubber = read_rubber(table, device)?;
+    let sine = table.choice("drive", &["rms", "sine"])? == Some("sine");
+    let sine_rad_s = sine.then_some(TAU * device.haptic_hz);
+    let asked_us = table.number("step_us", Limits::POSITIVE)?;
+    let mut rungs = Vec::new();
+    for (word, motion, cost_ns) in RUNGS {
+        let asked_us = asked_us.filter(|_| named == Some(word));
+        let step_us = asked_us.unwrap_or(usual_step_us(motion));
+        check_step(table, motion, step_us)?;
+        let rubber = rubber.clone();
+        let build =
+            move |_: &Setting| Effect::Pad(Box::new(Gap::new(rubber.clone(), motion, step_us * 1e-6, sine_rad_s)));
+        let label = if motion == Motion::Static { word.to_string() } else { format!("{word} {step_us} µs") };
+        rungs.push(Rung::new(word, cost_ns, build).labelled(label));
+    }
+    Spec::ladder("gap", Some(table), rungs, "static")
+}
+
+fn usual_step_us(motion: Motion) -> f64 {
+    if motion == Motion::QuasiStatic { LONGEST_US } else { 100.0 }
+}
+
+fn check_step(table: &Table, motion: Motion, step_us: f64) -> Result<(), SceneError> {
+    let (longest_us, reason) = match motion {
+        Motion::Dynamic(Method::SemiImplicit) => (LONGEST_SEMI_IMPLICIT_US, "a longer step bounces off the contact"),
+        _ => (LONGEST_US, "near the fold a longer step pulls in seconds too early or too late"),
+    };
+    if step_us <= longest_us {
+        return Ok(());
+    }
+    Err(table.error("step_us", format!("expected at most {longest_us}, since {reason}, got {step_us}")))
+}
+
+fn read_rubber(table: &Table, device: &Device) -> Result<Rubber, SceneError> {
+    let thickness_um = table.number_or("insulator_um", Limits::POSITIVE, 16.0)?;
+    let permittivity = table.number_or("insulator_permittivity", Limits::within(1.0, 1e5), 3.2)?;
+    let insulator_um = thickness_um / permittivity;
+    let rest_um = table.numbers("rest_um", Limits::above(insulator_um, 1e4))?.unwrap_or(REST_UM.to_vec());
+    let patch_m2 = device.pad_area_m2 / rest_um.len() as f64;
+    let spring_pa_per_m = table.number_or("spring_pa_per_m", Limits::POSITIVE, 5e8)?;
+    let law = Law {
+        spring_pa_per_m,
+        creep_spring_pa_per_m: spring_pa_per_m * table.number_or("creep_share", Limits::NOT_NEGATIVE, 0.35)?,
+        creep_s: table.number_or("creep_s", Limits::POSITIVE, 1.5)?,
+        contact_pa: table.number_or("contact_pa", Limits::NOT_NEGATIVE, 2e5)?,
+        contact_decay_m: 1e-6 * table.number_or("contact_decay_um", Limits::POSITIVE, 0.5)?,
+        insulator_m: 1e-6 * insulator_um,
+        film_n_s: 1.5 * table.number_or("film_pa_s", Limits::POSITIVE, AIR_PA_S)? * patch_m2 / PI,
+        film_rest_m: 1e-6 * table.number_or("film_rest_um", Limits::POSITIVE, 0.7)?,
+        inertia_kg_m2: table.number_or("inertia_kg_m2", Limits::POSITIVE, 7.0)?,
+    };
+    let rest_m = rest_um.iter().map(|um| 1e-6 * (um - insulator_um)).collect();
+    Ok(Rubber { law, patch_m2, pad_m2: device.pad_area_m2, rest_m })
+}
