@@ -8,6 +8,7 @@ use hapticore_scene::{Criterion, Measure, Per, Quantity};
 use crate::record::{self, Quantities, Row};
 
 mod affine;
+mod jumps;
 
 /// A case that was run, as criteria see it.
 pub struct CaseRows<'a> {
@@ -39,8 +40,13 @@ fn one(criterion: &Criterion, cases: &[CaseRows]) -> record::Criterion {
     let covered = || cases.iter().filter(|case| criterion.covers(case.name));
     let sets: Vec<Vec<&Row>> = covered().flat_map(|case| sets(criterion, case)).collect();
     let worst = |of: &dyn Fn(&[&Row]) -> f64| greatest(sets.iter().map(|set| of(set)));
+    let jump = |case: &CaseRows| {
+        let off = |rows: &Vec<&Row>| jumps::off(rows, criterion, case.start_s);
+        greatest(self::sets(criterion, case).iter().map(off))
+    };
     let measured = match criterion.measure {
         Measure::MaxPercentOfFullScale => 100.0 * greatest(covered().map(|case| case.peak)),
+        Measure::JumpOff => greatest(covered().map(jump)),
         _ => worst(&|rows| value(criterion, rows, Estimate::Core)),
     };
     record::Criterion {
@@ -84,7 +90,7 @@ type Beside = fn(&Criterion, &[&Row]) -> f64;
 /// Something to compare the measure with: its name and how it is measured.
 fn beside(criterion: &Criterion) -> Option<(&'static str, Beside)> {
     match (criterion.measure, criterion.of) {
-        (Measure::MaxPercentOfFullScale | Measure::InvalidPercent, _) => None,
+        (Measure::MaxPercentOfFullScale | Measure::InvalidPercent | Measure::JumpOff, _) => None,
         (Measure::MaxAbsError | Measure::RmsError, Quantity::PositionMm) => {
             Some(("best affine fit", |criterion, rows| errors(criterion.measure, affine::distances(rows))))
         }
@@ -112,7 +118,11 @@ fn value(criterion: &Criterion, rows: &[&Row], estimate: Estimate) -> f64 {
         Measure::SpreadPercent => spread(rows.iter().map(|row| said(row, of, estimate))),
         Measure::IncreasesWith => rise(rows, of, criterion.with.unwrap_or(of), estimate),
         Measure::InvalidPercent => 100.0 * mean(rows.iter().map(|row| f64::from(row.flags.contains("invalid")))),
-        Measure::MaxPercentOfFullScale => f64::NAN,
+        Measure::MaxOff => {
+            let expected = criterion.expected.unwrap_or(f64::NAN);
+            greatest(rows.iter().map(|row| (said(row, of, estimate) - expected).abs()))
+        }
+        Measure::MaxPercentOfFullScale | Measure::JumpOff => f64::NAN,
     }
 }
 

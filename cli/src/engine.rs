@@ -6,9 +6,10 @@ use std::sync::Arc;
 use hapticore_model::calibration::Calibration;
 use hapticore_model::fidelity::clock::ClockSimulation;
 use hapticore_model::fidelity::fixed::FixedSimulation;
-use hapticore_model::frame::Reading;
+use hapticore_model::frame::{Frame, Reading};
 use hapticore_model::profile::Profile;
 use hapticore_model::reference::Reference;
+use hapticore_model::signal::Value;
 
 use crate::args::Fidelity;
 
@@ -60,6 +61,14 @@ impl Slot {
         }
     }
 
+    /// The frame of the slot, without its clocks.
+    pub fn frame<V: Value>(&self, core: &mut FixedSimulation<V>) -> Frame {
+        match &self.signals {
+            Signals::Samples { .. } => core.slot(self.pad, self.window()),
+            Signals::Phasors { amplitudes, mean_square } => core.phasors(self.pad, amplitudes, *mean_square),
+        }
+    }
+
     /// The reference's reading of the slot.
     pub fn refer(&self, reference: &mut Reference) -> Reading {
         match &self.signals {
@@ -101,7 +110,7 @@ struct Fixed(FixedSimulation<i64>, Arc<Profile>);
 
 impl Engine for Fixed {
     fn slot(&mut self, slot: &Slot) -> Option<Reading> {
-        Some(self.0.slot(slot.pad, slot.window()).reading(&self.1))
+        Some(slot.frame(&mut self.0).reading(&self.1))
     }
 }
 

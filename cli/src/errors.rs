@@ -8,6 +8,7 @@ use hapticore_model::probe::Variable;
 use hapticore_model::profile::Profile;
 use hapticore_model::signal::shadow::Shadow;
 
+use crate::engine::Slot;
 use crate::record::SignalError;
 
 /// The largest rounding errors so far.
@@ -26,9 +27,9 @@ impl Errors {
         Errors { core, largest: vec![0.0; variables.len()], values: Vec::with_capacity(variables.len()), variables }
     }
 
-    /// Takes the window of a slot.
-    pub fn slot(&mut self, pad: usize, codes: &[i32]) {
-        self.core.slot(pad, codes);
+    /// Takes a slot.
+    pub fn slot(&mut self, slot: &Slot) {
+        slot.frame(&mut self.core);
         let (core, cell) = self.core.state();
         self.values.clear();
         sample(core, cell, &mut self.values);

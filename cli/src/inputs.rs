@@ -72,6 +72,18 @@ pub fn serving(profile: &Profile, pads: usize) -> Profile {
     Profile { pads: pads as u64, ..profile.clone() }
 }
 
+/// The profile with the window that a scene asks for.
+///
+/// # Errors
+/// A window that the profile's core cannot have.
+pub fn windowed(mut profile: Profile, scene: &Scene) -> Result<Profile> {
+    if let Some(samples) = scene.window_samples {
+        profile.slot.integrate = samples;
+        profile.check().with_context(|| format!("{}: window_samples", scene.name))?;
+    }
+    Ok(profile)
+}
+
 /// How a core of the profile divides its time.
 pub fn timing(profile: &Profile) -> Timing {
     Timing {

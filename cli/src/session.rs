@@ -99,7 +99,7 @@ impl Session {
     /// Takes a slot and what is known of it; the row that is finished, if one is.
     pub fn slot(&mut self, slot: &Slot, truth: Option<Truth>) -> Option<Row> {
         if let Some(errors) = &mut self.errors {
-            errors.slot(slot.pad, slot.window());
+            errors.slot(slot);
         }
         let reference = self.refer(slot);
         self.waiting.push_back(Row {

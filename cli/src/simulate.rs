@@ -25,6 +25,7 @@ use crate::{errors, inputs, print, progress, report, waves};
 pub fn run(args: &SimulateArgs) -> Result<bool> {
     let scene = inputs::scene(&args.scene, &args.set)?;
     let profile = inputs::profile(args.core.profile.as_ref().unwrap_or(&scene.profile))?;
+    let profile = inputs::windowed(profile, &scene)?;
     let scene = scene.within_budget(&inputs::timing(&profile))?;
     let folder = args.out.clone().unwrap_or_else(|| Path::new("out").join(&scene.name));
     let (record, files) = write(args, &scene, &profile, &folder)?;

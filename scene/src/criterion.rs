@@ -7,6 +7,7 @@
 //! measure = "spread_percent"      # see `Measure`
 //! of = "force_n"                  # see `Quantity`
 //! limit = 0.1                     # the measure must be at most this
+//! expected = 343                  # with max_off and jump_off: what it should be
 //! case = "rest"                   # or cases = ["a", "b"]; all cases where absent
 //! per = "group"                   # case | group: taken over each, the worst counts
 //! where = { haptic_v_rms = [50, 300], time_s = [0.5, 10] }   # only slots whose truth lies within
@@ -35,9 +36,14 @@ pub enum Measure {
     MaxPercentOfFullScale,
     /// Percent of finished slots whose result is flagged invalid.
     InvalidPercent,
+    /// Largest |estimate − expected|.
+    MaxOff,
+    /// How far from the expected time the estimate jumps: where a pad's reading rises most from one slot to the next, by
+    /// five times its mean change at least.
+    JumpOff,
 }
 
-const MEASURES: [(&str, Measure); 8] = [
+const MEASURES: [(&str, Measure); 10] = [
     ("max_abs_error", Measure::MaxAbsError),
     ("rms_error", Measure::RmsError),
     ("mean_error", Measure::MeanError),
@@ -46,6 +52,8 @@ const MEASURES: [(&str, Measure); 8] = [
     ("increases_with", Measure::IncreasesWith),
     ("max_percent_of_full_scale", Measure::MaxPercentOfFullScale),
     ("invalid_percent", Measure::InvalidPercent),
+    ("max_off", Measure::MaxOff),
+    ("jump_off", Measure::JumpOff),
 ];
 
 /// A quantity that a frame estimates, or that the plant alone knows.
@@ -116,7 +124,8 @@ impl Measure {
     /// Unit of the measured value.
     pub fn unit(self, of: Quantity) -> &'static str {
         match self {
-            Measure::MaxAbsError | Measure::RmsError | Measure::MeanError => of.unit(),
+            Measure::MaxAbsError | Measure::RmsError | Measure::MeanError | Measure::MaxOff => of.unit(),
+            Measure::JumpOff => Quantity::TimeS.unit(),
             _ => "%",
         }
     }
@@ -154,6 +163,8 @@ pub struct Criterion {
     pub of: Quantity,
     /// For [`Measure::IncreasesWith`]: with which.
     pub with: Option<Quantity>,
+    /// For [`Measure::MaxOff`] and [`Measure::JumpOff`]: the value or the time, s, that is expected.
+    pub expected: Option<f64>,
     /// Names of the cases it covers; all where empty.
     pub cases: Vec<String>,
     /// Over what the measure is taken.
@@ -180,6 +191,7 @@ impl Criterion {
             measure,
             of,
             with,
+            expected: read_expected(table, measure)?,
             cases: read_cases(table, cases)?,
             per: word(table, "per", &[("case", Per::Case), ("group", Per::Group)])?.unwrap_or_default(),
             filters: read_filters(table)?,
@@ -192,6 +204,14 @@ impl Criterion {
     pub fn covers(&self, case: &str) -> bool {
         self.cases.is_empty() || self.cases.iter().any(|name| name == case)
     }
+}
+
+fn read_expected(table: &Table, measure: Measure) -> Result<Option<f64>, SceneError> {
+    let expected = table.number("expected", Limits::ANY)?;
+    if expected.is_some() == matches!(measure, Measure::MaxOff | Measure::JumpOff) {
+        return Ok(expected);
+    }
+    Err(table.error("expected", "expected with measure = \"max_off\" or \"jump_off\", and only there"))
 }
 
 fn read_cases(table: &Table, known: &[String]) -> Result<Vec<String>, SceneError> {

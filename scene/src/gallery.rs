@@ -6,6 +6,7 @@ const SCENES: &[(&str, &str)] = &[
     ("fig3", include_str!("../gallery/fig3.toml")),
     ("fig4", include_str!("../gallery/fig4.toml")),
     ("fig6", include_str!("../gallery/fig6.toml")),
+    ("fig7", include_str!("../gallery/fig7.toml")),
     ("hockey", include_str!("../gallery/hockey.toml")),
     ("terminals-500-ohm", include_str!("../gallery/terminals-500-ohm.toml")),
     ("shunt-panel", include_str!("../gallery/shunt-panel.toml")),

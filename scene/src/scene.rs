@@ -5,6 +5,7 @@
 //! title = "Force over position"
 //! summary = "One pad rastered over the sheet"
 //! profile = "standard"            # the core's; default "standard"
+//! window_samples = 5000           # of the core's window, where the profile's is too short for the haptic frequency
 //! seed = 1                        # of noise and mismatch; default 1
 //! figure = "fig3"                 # fig3 | fig4 | fig6 | hockey; how a report draws it
 //! record = ["frames", "report"]   # frames | report | capture | waves
@@ -75,6 +76,8 @@ pub struct Scene {
     pub summary: String,
     /// Name of the core's profile.
     pub profile: String,
+    /// Samples of the core's integration window, where the scene does not leave it to the profile.
+    pub window_samples: Option<u64>,
     /// Seed of noise and mismatch.
     pub seed: u64,
     /// How a report draws it.
@@ -121,6 +124,7 @@ impl Scene {
             title: root.require("title", "text", root.text("title")?)?,
             summary: root.text("summary")?.unwrap_or_default(),
             profile: root.text("profile")?.unwrap_or_else(|| "standard".to_string()),
+            window_samples: root.whole("window_samples", 1, 1 << 20)?,
             seed: root.whole("seed", 0, i64::MAX as u64)?.unwrap_or(1),
             figure: figures.into_iter().find(|(name, _)| Some(*name) == figure).map(|(_, figure)| figure),
             record: read_record(root)?,

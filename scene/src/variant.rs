@@ -5,7 +5,8 @@ use crate::error::SceneError;
 use crate::format::{Node, Table};
 
 /// Keys that belong to the scene as a whole, so that a case cannot set them.
-const WHOLE: [&str; 8] = ["title", "summary", "profile", "seed", "figure", "record", "case", "criterion"];
+const WHOLE: [&str; 9] =
+    ["title", "summary", "profile", "window_samples", "seed", "figure", "record", "case", "criterion"];
 
 /// A case before it is read: its name and what it sets.
 pub(crate) struct Variant {

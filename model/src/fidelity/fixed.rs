@@ -5,6 +5,7 @@
 //! every slot, and so is asked once. The estimator then runs through its clocks, a few hundred a slot. As it is generic over
 //! the reading, the same run gives the rounding error of every signal ([`Shadow`](crate::signal::shadow::Shadow)).
 
+use super::tone::Response;
 use super::{Gathered, calibrated, signals};
 use crate::block::{Block, Cell};
 use crate::blocks::core::{Core, Inputs as CoreInputs};
@@ -15,7 +16,7 @@ use crate::calibration::Calibration;
 use crate::format::Format;
 use crate::frame::Frame;
 use crate::profile::Profile;
-use crate::signal::{Exact, Never, Signal, Value, bit, code, int, zero};
+use crate::signal::{Exact, Never, Signal, Value, bit, code, constant, int, zero};
 
 /// The weighted carrier at a sample of the window, and the window itself.
 #[derive(Debug, Clone, Copy)]
@@ -33,6 +34,7 @@ pub struct FixedSimulation<V: Value = i64> {
     oscillator: Format,
     channels: usize,
     local: Vec<Local<V>>,
+    response: Response,
     quiet: Inputs<Signal<V>>,
     sums: Vec<Signal<V>>,
 }
@@ -43,9 +45,11 @@ impl<V: Value> FixedSimulation<V> {
         let core = Core::new(profile);
         let constants = signals::<CoreInputs, V>(calibration.inputs(core.inputs()), core.inputs());
         let sums = vec![zero(core.demodulator().sum()); core.demodulator().sums() as usize];
+        let local = local(&core, profile);
         FixedSimulation {
             cell: calibrated(&core, calibration),
-            local: local(&core, profile),
+            response: response(&local, profile),
+            local,
             quiet: quiet(&core, constants),
             adc: profile.formats.adc,
             oscillator: profile.formats.oscillator,
@@ -68,6 +72,26 @@ impl<V: Value> FixedSimulation<V> {
         assert_eq!(codes.len(), self.window() * self.channels, "one code a channel and sample of the window");
         self.demodulate(codes);
         let clipped = self.clipped(codes);
+        self.estimate(pad, clipped)
+    }
+
+    /// The frame of a slot whose samples nobody made: from the amplitudes of the terminals and of the sensing voltage, in
+    /// phase and a quarter turn ahead of the carrier, and the haptic voltage's mean square, all of full scale. The ADC's
+    /// rounding is absent, so that [`slot`](FixedSimulation::slot) of the same tones' samples differs by it.
+    ///
+    /// # Panics
+    /// Where `amplitudes` is not one a demodulated channel, or the estimator does not finish within its latency.
+    pub fn phasors(&mut self, pad: usize, amplitudes: &[(f64, f64)], mean_square: f64) -> Frame {
+        assert_eq!(amplitudes.len(), self.channels - 1, "an amplitude a terminal, and the sensing voltage's");
+        let format = self.core.demodulator().sum();
+        let (square, mut clipped) = self.response.square(mean_square);
+        for (channel, amplitude) in amplitudes.iter().enumerate() {
+            let (sums, held) = self.response.tone(*amplitude);
+            self.sums[2 * channel] = constant(sums[0], format);
+            self.sums[2 * channel + 1] = constant(sums[1], format);
+            clipped |= held;
+        }
+        self.sums[2 * amplitudes.len()] = constant(square, format);
         self.estimate(pad, clipped)
     }
 
@@ -186,6 +210,15 @@ fn quiet<V: Value>(core: &Core, constants: CoreInputs<Signal<V>>) -> Inputs<Sign
         force_gain: constants.force_gain,
         ..zeros
     }
+}
+
+/// What the window makes of tones, with the oscillator's own words.
+fn response<V: Value>(local: &[Local<V>], profile: &Profile) -> Response {
+    let format = profile.formats.oscillator;
+    let real = |value: V| format.real(V::code(Signal { value, format }));
+    let weights = local.iter().map(|local| [local.cosine, local.sine, local.window].map(real));
+    let rail = 1.0 - profile.formats.adc.lsb();
+    Response::new(weights, profile.slot.blanking(), profile.carrier.samples_per_period, rail)
 }
 
 /// The local oscillator over the window of a slot: the oscillator's own, asked once.

@@ -3,6 +3,7 @@
 
 pub mod clock;
 pub mod fixed;
+mod tone;
 
 use crate::block::{Block, Cell};
 use crate::blocks::core::{Core, Inputs};

@@ -9,6 +9,7 @@
 //! | [`idle`] | skipping an idle block changes no bit on any clock |
 //! | [`netlists`] | the captured graph, run by an interpreter of its own = the clocked model, on every clock |
 //! | [`slots`] | frames of fidelities `fixed` and `clock` = the rounded reference |
+//! | [`phasors`] | frames from amplitudes = frames from the same tones' samples, but for the ADC's rounding |
 //! | [`ideal`] | the floating-point reference = the equations solved backwards |
 //! | [`accuracy`] | fixed point departs from floating point as word lengths predict |
 //! | [`signals`] | operations on small formats: clocked = exact, ranges hold what happens |
@@ -23,6 +24,7 @@ mod interpreter;
 mod latencies;
 mod netlists;
 mod never_idle;
+mod phasors;
 mod random;
 mod serial;
 mod signals;

@@ -49,7 +49,7 @@ fn a_run_says_first_which_effects_are_on() {
 fn bad_input_is_one_line() {
     let folder = tempfile::tempdir().unwrap();
     let refuse = |args: &[&str], words: &[&str]| refuse(folder.path(), args, words);
-    refuse(&["simulate", "fig7"], &["fig3", "hockey", "\"fig7\""]);
+    refuse(&["simulate", "fig5"], &["fig3", "hockey", "\"fig5\""]);
     refuse(&["simulate", "none.toml"], &["none.toml"]);
     refuse(&["simulate", "fig6", "--set", "sheet.rung=marble"], &["fig6.toml", "--set sheet.rung", "marble"]);
     refuse(&["simulate", "fig6", "--profile", "huge"], &["standard", "\"huge\""]);
@@ -57,7 +57,7 @@ fn bad_input_is_one_line() {
     refuse(&["simulate", "fig3", "--capture", "c.csv"], &["--capture", "one case", "--case"]);
     refuse(&["simulate", "fig6", "--capture", "c.mp3"], &["c.mp3", ".csv or .wav"]);
     refuse(
-        &["simulate", "fig6", "--set", "carrier.rung=phasor"],
+        &["simulate", "fig6", "--core", "clock", "--set", "carrier.rung=phasor"],
         &["fig6", "carrier.rung", "--set carrier.rung=samples"],
     );
     refuse(&["simulate", "fig6", "--waves", "vcd", "--waves-window", "7..8"], &["--waves-window", "s"]);
@@ -71,9 +71,11 @@ fn bad_input_is_one_line() {
 }
 
 #[test]
-fn phasors_alone_do_for_floating_point() {
+fn phasors_alone_do_for_slots() {
     let folder = tempfile::tempdir().unwrap();
-    expect(folder.path(), &["simulate", "fig6", "--core", "float", "--set", "carrier.rung=phasor"], 0);
+    for core in ["float", "fixed"] {
+        expect(folder.path(), &["simulate", "fig6", "--core", core, "--set", "carrier.rung=phasor", "--errors"], 0);
+    }
 }
 
 #[test]

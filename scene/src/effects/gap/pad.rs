@@ -122,15 +122,13 @@ impl Gap {
         self.pads[pad.index] = Some(moving);
     }
 
+    /// The pad at the start of the case, when its voltage is switched on: relaxed under its load.
     fn begin(&self, pad: &Pad) -> Moving {
-        let (_, gaps) = self.rest(pad);
+        let pressure_pa = self.rubber.pressure_pa(pad.load_g);
+        let gaps = self.rubber.equilibrium_m(Drive::new(0.0, pressure_pa));
         let still = |(gap_m, rest_m): (f64, &f64)| State { gap_m, speed_m_s: 0.0, creep_m: rest_m - gap_m };
-        Moving {
-            time_s: pad.time_s,
-            source_v_rms: pad.source_v_rms,
-            pressure_pa: self.rubber.pressure_pa(pad.load_g),
-            patches: gaps.into_iter().zip(&self.rubber.rest_m).map(still).collect(),
-        }
+        let patches = gaps.zip(&self.rubber.rest_m).map(still).collect();
+        Moving { time_s: 0.0, source_v_rms: pad.source_v_rms, pressure_pa, patches }
     }
 
     fn advance(&self, mut moving: Moving, pad: &Pad) -> Moving {

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A window's sums from amplitudes: what a demodulator would sum up of tones that no ADC has rounded.
+//!
+//! ```text
+//! x[n] = p·cos φ[n] − q·sin φ[n]  ⇒  i = p·Σ cos φ·(w·cos) − q·Σ sin φ·(w·cos),   q likewise with (w·sin);   m = h̄²·Σ w
+//! ```
+//!
+//! The sums are linear in p and q, so that four numbers of the local oscillator, found once, stand for the window's samples.
+//! Quantisation is absent here, and so is whatever a window passes of the haptic voltage.
+
+use std::f64::consts::TAU;
+
+/// A sample of the window: the oscillator's weighted cosine and sine, and the window.
+pub(super) type Weights = [f64; 3];
+
+/// What a window makes of signals of unit amplitude.
+#[derive(Debug, Clone)]
+pub(super) struct Response {
+    /// Both sums of a unit cosine, then of a unit negative sine.
+    tones: [[f64; 2]; 2],
+    /// The sum of squares of a unit constant.
+    square: f64,
+    /// The largest amplitude that the ADC takes.
+    rail: f64,
+}
+
+impl Response {
+    /// The response of a window that begins `blanking` samples after the carrier.
+    pub fn new(window: impl Iterator<Item = Weights>, blanking: u64, samples_per_period: u64, rail: f64) -> Self {
+        let mut response = Response { tones: [[0.0; 2]; 2], square: 0.0, rail };
+        for (sample, [cosine, sine, weight]) in (blanking..).zip(window) {
+            let phase = TAU * (sample % samples_per_period) as f64 / samples_per_period as f64;
+            for (tone, wave) in response.tones.iter_mut().zip([phase.cos(), -phase.sin()]) {
+                *tone = [tone[0] + wave * cosine, tone[1] + wave * sine];
+            }
+            response.square += weight;
+        }
+        response
+    }
+
+    /// The in-phase and quadrature sums of a tone, held at the rail, and whether it was.
+    pub fn tone(&self, (p, q): (f64, f64)) -> ([f64; 2], bool) {
+        let amplitude = p.hypot(q);
+        let held = (self.rail / amplitude).min(1.0);
+        let [of_p, of_q] = self.tones;
+        ([0, 1].map(|phase| held * (p * of_p[phase] + q * of_q[phase])), amplitude >= self.rail)
+    }
+
+    /// The sum of squares of a sine of this mean square, held at the rail, and whether it was.
+    pub fn square(&self, mean_square: f64) -> (f64, bool) {
+        let most = 0.5 * self.rail * self.rail;
+        (mean_square.min(most) * self.square, mean_square >= most)
+    }
+}
