@@ -5,7 +5,7 @@ use crate::device::Device;
 use crate::effects::{EFFECTS, Spec, carrier};
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
-use crate::pad::PadPlan;
+use crate::pad::{PadPlan, Tables};
 
 /// The most pads of a scene.
 const MOST_PADS: usize = 16;
@@ -60,14 +60,15 @@ impl Case {
         let device = Device::read(root)?;
         let effects: Vec<Spec> =
             EFFECTS.iter().filter_map(|read| read(root, &device).transpose()).collect::<Result<_, _>>()?;
-        let has_gap = effects.iter().any(|effect| effect.name == "gap");
+        let has = |name| effects.iter().any(|effect| effect.name == name);
+        let has = Tables { gap: has("gap"), hand: has("hand"), halves: has("halves") };
         let tables = root.tables("pad")?;
         if tables.is_empty() || tables.len() > MOST_PADS {
             return Err(
                 root.error("pad", format!("expected 1 to {MOST_PADS} tables headed [[pad]], got {}", tables.len()))
             );
         }
-        let plan = |(index, table): (usize, &&Table)| PadPlan::read(table, index, &device, has_gap);
+        let plan = |(index, table): (usize, &&Table)| PadPlan::read(table, index, &device, has);
         let pads = tables.iter().enumerate().map(plan).collect::<Result<Vec<_>, _>>()?;
         let budget_percent = root.number("error_budget_percent", Limits::above(0.0, 100.0))?;
         let uncouple = root.flag("uncouple")?;

@@ -87,6 +87,11 @@ impl Device {
         })
     }
 
+    /// How far the centre of either electrode of a split pad is off the pad's, mm.
+    pub(crate) fn half_centre_mm(&self) -> f64 {
+        0.25 * self.pad_diameter_mm
+    }
+
     /// How far from the sheet's centre a pad's centre may be, so that the pad lies wholly on the sheet.
     pub fn reach_mm(&self) -> [f64; 2] {
         [self.width_mm, self.height_mm].map(|size| (size - self.pad_diameter_mm) / 2.0)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `[[pad]]`: what one pad does. A sweep runs over all combinations of what is swept, the position fastest, then the load,
-//! the haptic voltage and the capacitance.
+//! the haptic voltage, the capacitance and the eccentricity.
 
 use crate::course::Course;
 use crate::device::{Device, EPSILON_0};
@@ -13,6 +13,9 @@ use crate::path::{Path, SLACK_MM};
 /// Capacitance of a pad that neither names one nor has a gap, pF: 5 kΩ at 100 kHz.
 const CAPACITANCE_PF: f64 = 318.0;
 
+/// Newtons per gram.
+pub(crate) const NEWTON_PER_G: f64 = 9.806_65e-3;
+
 /// The course of one pad.
 #[derive(Clone, Debug)]
 pub(crate) struct PadPlan {
@@ -21,15 +24,29 @@ pub(crate) struct PadPlan {
     load_g: Course,
     haptic_v_rms: Course,
     capacitance_pf: Course,
+    eccentricity_mm: Course,
+    /// Along x and y; a pad without a hand is not pushed.
+    push_n: [Course; 2],
 }
 
 impl PadPlan {
-    pub fn read(table: &Table, index: usize, device: &Device, has_gap: bool) -> Result<PadPlan, SceneError> {
+    pub fn read(table: &Table, index: usize, device: &Device, has: Tables) -> Result<PadPlan, SceneError> {
         let course = |key, limits, default| Ok(Course::read(table, key, limits)?.unwrap_or(Course::Constant(default)));
-        if has_gap && table.get("capacitance_pf").is_some() {
+        if has.gap && table.get("capacitance_pf").is_some() {
             return Err(table.error("capacitance_pf", "expected no capacitance of its own, since [gap] decides it"));
         }
+        let push = |key| match has.hand {
+            true => read_push(table, key),
+            false => Ok(Course::Constant(0.0)),
+        };
+        let reach_mm = device.half_centre_mm();
+        let eccentricity_mm = match has.halves {
+            true => course("eccentricity_mm", Limits::within(-reach_mm, reach_mm), 0.0)?,
+            false => Course::Constant(0.0),
+        };
         Ok(PadPlan {
+            eccentricity_mm,
+            push_n: [push("push_x_n")?, push("push_y_n")?],
             name: table.text("name")?.unwrap_or_else(|| format!("pad {index}")),
             path: Path::read(table, device)?,
             load_g: course("load_g", Limits::within(0.0, 1e5), 20.0)?,
@@ -38,14 +55,19 @@ impl PadPlan {
         })
     }
 
+    fn courses(&self) -> [&Course; 6] {
+        let [x, y] = &self.push_n;
+        [&self.load_g, &self.haptic_v_rms, &self.capacitance_pf, &self.eccentricity_mm, x, y]
+    }
+
     /// Points of the whole sweep; one where nothing is swept.
     pub fn points(&self) -> usize {
-        self.path.points() * self.load_g.points() * self.haptic_v_rms.points() * self.capacitance_pf.points()
+        self.path.points() * self.courses().into_iter().map(Course::points).product::<usize>()
     }
 
     /// Whether anything depends on time.
     pub fn moves(&self) -> bool {
-        self.path.moves() || [&self.load_g, &self.haptic_v_rms, &self.capacitance_pf].into_iter().any(Course::moves)
+        self.path.moves() || self.courses().into_iter().any(Course::moves)
     }
 
     /// Points that differ in position alone are one group.
@@ -61,8 +83,33 @@ impl PadPlan {
         let [x_mm, y_mm] = self.path.at(point, time_s);
         let capacitance_f = 1e-12 * self.capacitance_pf.at(capacitance, time_s);
         let haptic_v_rms = self.haptic_v_rms.at(haptic, time_s);
-        still(index, time_s, [x_mm, y_mm], self.load_g.at(load, time_s), haptic_v_rms, capacitance_f, device)
+        let eccentricity = capacitance / self.capacitance_pf.points();
+        let eccentricity_mm = self.eccentricity_mm.at(eccentricity, time_s);
+        let push_n = [0, 1].map(|axis| self.push_n[axis].at(0, time_s));
+        let load_g = self.load_g.at(load, time_s);
+        Pad {
+            eccentricity_mm,
+            push_n,
+            ..still(index, time_s, [x_mm, y_mm], load_g, haptic_v_rms, capacitance_f, device)
+        }
     }
+}
+
+/// A push, over time only.
+fn read_push(table: &Table, key: &'static str) -> Result<Course, SceneError> {
+    let course = Course::read(table, key, Limits::ANY)?.unwrap_or(Course::Constant(0.0));
+    match course.points() {
+        1 => Ok(course),
+        points => Err(table.error(key, format!("expected a push over time, got a sweep of {points} points"))),
+    }
+}
+
+/// The tables of a scene that give a pad's keys their meaning.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Tables {
+    pub gap: bool,
+    pub hand: bool,
+    pub halves: bool,
 }
 
 /// A pad at rest, for a calibration.
@@ -98,6 +145,11 @@ fn still(
         capacitance_f,
         attraction_n,
         force_n: None,
+        eccentricity_mm: 0.0,
+        direction: 0.0,
+        push_n: [0.0; 2],
+        hand: None,
+        friction_n: 0.0,
         split: ideal_split(at[0], at[1], device),
         sheet_ohm: 0.0.into(),
         transfer: None,

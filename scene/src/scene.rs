@@ -17,11 +17,15 @@
 //! [[pad]]                         # 1 to 16; served one slot each in turn
 //! name = "mallet"
 //! position_mm = [0, 0]            # see `path`
-//! load_g = 50                     # see `course`; also haptic_v_rms, capacitance_pf
+//! load_g = 50                     # see `course`; also haptic_v_rms, capacitance_pf; with
+//!                                 # [hand] push_x_n, push_y_n; with [halves] eccentricity_mm
 //!
 //! [device]                        # width_mm, height_mm, pad_diameter_mm, mu
 //! [sheet]                         # effects, each with its `rung`; see `effects`
+//! [supply]
 //! [gap]
+//! [halves]
+//! [hand]
 //! [friction]
 //! [carrier]
 //! [sensor]

@@ -28,7 +28,9 @@ pub struct Truth {
     pub haptic_v_rms: f64,
     /// Haptic force, N.
     pub force_n: f64,
-    /// Direction of the push, eq. 10; 0 where no hand pushes.
+    /// Friction that acts on the pad, N; 0 where `[friction]` has no law of motion.
+    pub friction_n: f64,
+    /// Direction of the push, eq. 10; 0 without `[halves]`.
     pub direction: f64,
     /// Load on the pad, g.
     pub load_g: f64,

@@ -29,7 +29,7 @@ fn unknown_rung() {
 fn unknown_effect() {
     let magnet = format!("{SCENE}[magnet]\nrung = \"a\"");
     assert!(message(&magnet, &[]).starts_with("s.toml:4: magnet: unknown key, expected one of "));
-    assert!(message(&magnet, &[]).contains("\"sheet\", \"shunt\", \"supply\", \"gap\", "));
+    assert!(message(&magnet, &[]).contains("\"supply\", \"gap\", \"halves\", \"hand\", \"friction\""));
 }
 
 #[test]
@@ -112,6 +112,22 @@ fn steps_too_long_for_the_gap() {
     check(
         "[gap]\nrung = \"semi-implicit\"\nstep_us = 500",
         "s.toml:6: gap.step_us: expected at most 200, since a longer step bounces off the contact, got 500",
+    );
+}
+
+#[test]
+fn tables_and_keys_that_mean_nothing_alone() {
+    check("[hand]", "s.toml:4: hand: expected [friction] too");
+    check("[halves]", "s.toml:4: halves: expected [gap] too");
+    check("push_x_n = 1", "s.toml:4: pad.0.push_x_n: unknown key");
+    check("eccentricity_mm = 1", "s.toml:4: pad.0.eccentricity_mm: unknown key");
+    check(
+        "push_x_n = { sweep = [1, 2] }\n[hand]\n[friction]",
+        "s.toml:4: pad.0.push_x_n: expected a push over time, got a sweep of 2 points",
+    );
+    check(
+        "eccentricity_mm = 8\n[halves]\n[gap]",
+        "s.toml:4: pad.0.eccentricity_mm: expected a number from -7.5 to 7.5, got 8",
     );
 }
 

@@ -10,6 +10,8 @@ pub(crate) mod carrier;
 pub(crate) mod coupling;
 mod friction;
 mod gap;
+mod halves;
+mod hand;
 mod running;
 mod sensor;
 pub(crate) mod sheet;
@@ -33,11 +35,13 @@ use crate::format::Table;
 
 /// Every effect, in the order in which they act.
 pub(crate) const EFFECTS: &[Reader] = &[
-    sheet::read,
-    shunt::read,
     supply::read,
     gap::read,
+    halves::read,
+    hand::read,
     friction::read,
+    sheet::read,
+    shunt::read,
     coupling::read,
     carrier::read,
     switching::read,
@@ -118,6 +122,16 @@ pub(crate) struct Pad {
     pub attraction_n: f64,
     /// Haptic force, N, where an effect says it; else eq. 8 with the true capacitance and voltage.
     pub force_n: Option<f64>,
+    /// How far along x the push is off the pad's centre.
+    pub eccentricity_mm: f64,
+    /// Eq. 10, where an effect says it.
+    pub direction: f64,
+    /// What pushes the pad besides its hand, N.
+    pub push_n: [f64; 2],
+    /// What the pad hangs on, where an effect says it; else it goes where its path says.
+    pub hand: Option<hand::Hand>,
+    /// Friction that acts on the pad, N, where an effect says it.
+    pub friction_n: f64,
     /// Share of the current through each terminal; real where the sheet is all there is.
     pub split: [Complex64; TERMINALS],
     /// What the pad sees of the sheet, Ω: the combined resistance R_p, or an impedance where an effect makes it one.

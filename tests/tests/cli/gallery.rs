@@ -63,7 +63,7 @@ fn seconds(args: &[&str]) -> [f64; 2] {
 }
 
 #[test]
-#[cfg_attr(not(optimised), ignore = "a claim about speed: run with --release")]
+#[cfg_attr(any(not(optimised), debug_assertions), ignore = "a claim about speed: run with --release")]
 fn fig7_takes_less_than_a_second_from_amplitudes_and_less_than_its_own_time_clock_by_clock() {
     let [wall, simulated] = seconds(&["simulate", "fig7", "--set", "carrier.rung=phasor", "--json"]);
     println!("fig7, phasor, fixed: {simulated} s in {wall} s");

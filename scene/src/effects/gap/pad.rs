@@ -7,9 +7,7 @@ use super::law::{Drive, Law, State};
 use super::quasi_static;
 use crate::device::EPSILON_0;
 use crate::effects::{Pad, PadEffect};
-
-/// Newtons per gram.
-const NEWTON_PER_G: f64 = 9.806_65e-3;
+use crate::pad::NEWTON_PER_G;
 
 /// How a pad's gaps follow their drive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

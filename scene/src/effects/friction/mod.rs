@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `[friction]`: the haptic force that the finger feels, and the pad's motion against friction.
+//!
+//! | rung | what |
+//! | --- | --- |
+//! | `coulomb` | F_h = μ·ΣF_e, the attraction summed over the patches of the gap; the pad goes where it is told |
+//! | `stiction` | besides, friction μ(N + F_e) that sticks and slides |
+//! | `dahl` | besides, bristles that bend before they slide |
+//! | `lugre` | besides, the Stribeck fall of sliding friction and the bristles' damping |
+//!
+//! The step's error in the pad's place is 1.4, 16 and 150 µm at 10 µs, 100 µs and 1 ms, of a hand that swings 30 mm twice a
+//! second; PHYSICS §4 has 1.8, 18 and 180 µm.
+//!
+//! Without the table the force is eq. 8 with the true capacitance and voltage, which for an even gap is the same. μ is
+//! `device.mu`: 0.12, or 0.065 where the loop has to agree with the paper's K = 600. The haptic force is what friction can do
+//! because of the voltage, whether the pad slides or sticks; how much it does is the truth's `friction_n`. With `[hand]` the
+//! pad lags behind its path; a step is `step_us`, 100 µs. Source: PHYSICS §3, §4.
+
+mod law;
+mod moving;
+
+use super::{Effect, Pad, PadEffect, Rung, Spec};
+use crate::device::Device;
+use crate::error::SceneError;
+use crate::format::{Limits, Table};
+use law::{Law, Surface};
+use moving::Moving;
+
+/// Rungs that have a law of motion, and what a slot of 1.7 ms costs at 100 µs, ns.
+const LAWS: [(&str, Law, f64); 3] =
+    [("stiction", Law::Stiction, 600.0), ("dahl", Law::Dahl, 4e3), ("lugre", Law::LuGre, 5e3)];
+
+pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneError> {
+    let Some(table) = root.table("friction")? else { return Ok(None) };
+    let surface = Surface {
+        stiction: table.number_or("stiction", Limits::within(1.0, 10.0), 1.2)?,
+        stribeck_m_s: 1e-3 * table.number_or("stribeck_mm_per_s", Limits::POSITIVE, 10.0)?,
+        bristle_n_per_m: table.number_or("bristle_n_per_m", Limits::POSITIVE, 1e5)?,
+        bristle_n_s_per_m: table.number_or("bristle_n_s_per_m", Limits::NOT_NEGATIVE, 300.0)?,
+    };
+    let step_s = 1e-6 * table.number_or("step_us", Limits::within(1.0, 1000.0), 100.0)?;
+    let mu = device.mu;
+    let mut rungs = vec![Rung::new("coulomb", 20.0, move |_| Effect::Pad(Box::new(Coulomb { mu })))];
+    for (word, law, cost_ns) in LAWS {
+        let device = device.clone();
+        let build = move |_: &super::Setting| Effect::Pad(Box::new(Moving::new(law, surface, step_s, device.clone())));
+        rungs.push(Rung::new(word, cost_ns, build));
+    }
+    let usual = if root.table("hand")?.is_some() { "lugre" } else { "coulomb" };
+    Spec::ladder("friction", Some(table), rungs, usual)
+}
+
+struct Coulomb {
+    mu: f64,
+}
+
+impl PadEffect for Coulomb {
+    fn act(&mut self, pad: &mut Pad) {
+        pad.force_n = Some(self.mu * pad.attraction_n);
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `[halves]`: a pad of two electrodes side by side along x, which reads the direction of the push.
+//!
+//!   F₁,₂ = W/2·(1 ∓ e/x_c),   Δx = Σa_i·x_i/Σa_i − Σx_i/2,   x_i = ∓x_c,   a_i ∝ C_i      (CoP and eq. 10)
+//!
+//! A push off the centre, a pad's `eccentricity_mm`, presses one half more than the other; its gap closes further, and
+//! eq. 10 reads a part of e. `mismatch_percent` is by how much the left electrode is larger than the right one: it reads as a
+//! constant offset. The centres lie a quarter of the pad's diameter off its own. Each half has gaps of its own, at the rung of
+//! `[gap]`. The truth's direction is Δx over half the sheet's width, as the ratios of eq. 10 are. Source: PHYSICS §4.
+
+use super::{Effect, Pad, PadEffect, Rung, Setting, Spec, gap};
+use crate::device::Device;
+use crate::error::SceneError;
+use crate::format::{Limits, Table};
+
+pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneError> {
+    let Some(table) = root.table("halves")? else { return Ok(None) };
+    let Some(gap) = gap::read(root, device)? else {
+        return Err(table.error("", "expected [gap] too, which the push closes on one side"));
+    };
+    let mismatch = 0.01 * table.number_or("mismatch_percent", Limits::within(-50.0, 50.0), 0.0)?;
+    let build = move |setting: &Setting| {
+        let halves = [gap.build(setting), gap.build(setting)];
+        let (centre_mm, half_width_mm) = (setting.device.half_centre_mm(), 0.5 * setting.device.width_mm);
+        Effect::Pad(Box::new(Halves { gaps: halves, mismatch, centre_mm, half_width_mm }))
+    };
+    Spec::ladder("halves", Some(table), vec![Rung::new("gaps", 1e3, build)], "gaps")
+}
+
+struct Halves {
+    /// The gap effect of the left and the right half.
+    gaps: [Effect; 2],
+    mismatch: f64,
+    centre_mm: f64,
+    half_width_mm: f64,
+}
+
+impl Halves {
+    fn both(&mut self, pad: &mut Pad, mut act: impl FnMut(&mut dyn PadEffect, &mut Pad)) {
+        let lean = pad.eccentricity_mm / self.centre_mm;
+        let sides = [-1.0, 1.0].map(|side| Pad { load_g: pad.load_g * (1.0 + side * lean), ..pad.clone() });
+        let mut halves = sides;
+        for (gap, half) in self.gaps.iter_mut().zip(&mut halves) {
+            if let Effect::Pad(gap) = gap {
+                act(gap.as_mut(), half);
+            }
+        }
+        self.tell(pad, &halves);
+    }
+
+    fn tell(&self, pad: &mut Pad, [left, right]: &[Pad; 2]) {
+        let areas = [0.5 + 0.25 * self.mismatch, 0.5 - 0.25 * self.mismatch];
+        let [a, b] = [areas[0] * left.capacitance_f, areas[1] * right.capacitance_f];
+        pad.capacitance_f = a + b;
+        pad.haptic_v_rms = pad.haptic_v_at(a + b);
+        pad.attraction_n = areas[0] * left.attraction_n + areas[1] * right.attraction_n;
+        pad.direction = self.centre_mm * (b - a) / (a + b) / self.half_width_mm;
+    }
+}
+
+impl PadEffect for Halves {
+    fn act(&mut self, pad: &mut Pad) {
+        self.both(pad, |gap, half| gap.act(half));
+    }
+
+    fn settle(&mut self, pad: &mut Pad) {
+        self.both(pad, |gap, half| gap.settle(half));
+    }
+}

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `[hand]`: the pad hangs on the hand by a spring and a damper, and the hand is what follows the pad's path.
+//!
+//!   m·v̇ = k(x_h − x) + c(v_h − v) + push − friction
+//!
+//! Without the table the pad itself follows its path. A pad's `push_x_n` and `push_y_n` push it besides; with a `stiffness_n_per_m`
+//! and a `damping_n_s_per_m` of 0 they alone move it. The friction that the hand works against is `[friction]`'s, which also
+//! takes the steps. Source: PHYSICS §4, 300 N/m, 3 N·s/m, 0.05 kg.
+
+use super::{Effect, Pad, PadEffect, Rung, Spec};
+use crate::device::Device;
+use crate::error::SceneError;
+use crate::format::{Limits, Table};
+
+pub(super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
+    let Some(table) = root.table("hand")? else { return Ok(None) };
+    if root.table("friction")?.is_none() {
+        return Err(table.error("", "expected [friction] too, which is what the hand works against"));
+    }
+    let hand = Hand {
+        stiffness_n_per_m: table.number_or("stiffness_n_per_m", Limits::NOT_NEGATIVE, 300.0)?,
+        damping_n_s_per_m: table.number_or("damping_n_s_per_m", Limits::NOT_NEGATIVE, 3.0)?,
+        mass_kg: table.number_or("mass_kg", Limits::POSITIVE, 0.05)?,
+    };
+    let spring = Rung::new("spring", 5.0, move |_| Effect::Pad(Box::new(OnHand { hand })));
+    Spec::ladder("hand", Some(table), vec![spring], "spring")
+}
+
+/// Spring, damper and mass between the hand and the pad.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Hand {
+    pub stiffness_n_per_m: f64,
+    pub damping_n_s_per_m: f64,
+    pub mass_kg: f64,
+}
+
+struct OnHand {
+    hand: Hand,
+}
+
+impl PadEffect for OnHand {
+    fn act(&mut self, pad: &mut Pad) {
+        pad.hand = Some(self.hand);
+    }
+}
