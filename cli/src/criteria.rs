@@ -8,6 +8,7 @@ use hapticore_scene::{Criterion, Measure, Per, Quantity};
 use crate::record::{self, Quantities, Row};
 
 mod affine;
+mod departure;
 mod jumps;
 
 /// A case that was run, as criteria see it.
@@ -122,6 +123,7 @@ fn value(criterion: &Criterion, rows: &[&Row], estimate: Estimate) -> f64 {
             let expected = criterion.expected.unwrap_or(f64::NAN);
             greatest(rows.iter().map(|row| (said(row, of, estimate) - expected).abs()))
         }
+        Measure::DepartureOff => departure::off(rows, criterion, estimate),
         Measure::MaxPercentOfFullScale | Measure::JumpOff => f64::NAN,
     }
 }

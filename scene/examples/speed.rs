@@ -40,6 +40,19 @@ const EFFECTS: &[(&str, &str, &str)] = &[
     ("switching rc-16", "[sheet]\n", "[switching]\nrung = \"rc-16\"\n"),
     ("switching rc-64", "[sheet]\n", "[switching]\nrung = \"rc-64\"\n"),
     ("switching settling", "[sheet]\n", "[switching]\n"),
+    ("supply steady", "", "[supply]\n"),
+    ("gap static", "", "[gap]\nrung = \"static\"\n"),
+    ("gap quasi-static", "", "[gap]\nrung = \"quasi-static\"\n"),
+    ("gap semi-implicit", "", "[gap]\nrung = \"semi-implicit\"\n"),
+    ("gap implicit-euler", "", "[gap]\nrung = \"implicit-euler\"\n"),
+    ("gap trapezoid", "", "[gap]\nrung = \"trapezoid\"\n"),
+    ("gap tr-bdf2", "", "[gap]\nrung = \"tr-bdf2\"\n"),
+    ("halves gaps", "[gap]\n", "[halves]\n"),
+    ("friction coulomb", "[gap]\n", "[friction]\nrung = \"coulomb\"\n"),
+    ("friction stiction", "[gap]\n", "[friction]\nrung = \"stiction\"\n"),
+    ("friction dahl", "[gap]\n", "[friction]\nrung = \"dahl\"\n"),
+    ("friction lugre", "[gap]\n", "[friction]\nrung = \"lugre\"\n"),
+    ("hand, lugre", "[gap]\n", "[friction]\nrung = \"lugre\"\n[hand]\n"),
     ("sensor leakage", "", "[sensor]\nhaptic_leakage = true\n"),
     ("sensor bandwidth", "", "[sensor]\nbandwidth_khz = 900\n"),
     ("sensor jitter", "", "[sensor]\njitter_ns_rms = 0.1\n"),
@@ -52,7 +65,7 @@ const EFFECTS: &[(&str, &str, &str)] = &[
     (
         "together",
         "",
-        "[sheet]\n[shunt]\nnanofarad_per_m2 = 9\n[coupling]\n[switching]\n[sensor]\nhaptic_leakage = true\n\
+        "[supply]\n[gap]\nrung = \"tr-bdf2\"\n[hand]\n[friction]\n[sheet]\n[shunt]\nnanofarad_per_m2 = 9\n[coupling]\n[switching]\n[sensor]\nhaptic_leakage = true\n\
          bandwidth_khz = 900\njitter_ns_rms = 0.1\ncrosstalk_percent = 0.1\ngain_mismatch_percent = 1\n\
          offset_percent = 0.01\nnoise_ppm_rms = 18\nnoise_density_na_per_rthz = 1\nquantisation_bits = 16\n",
     ),
@@ -94,6 +107,7 @@ fn once(scene: &Scene) -> Result<[f64; 3], SceneError> {
     let amplitudes = seconds(SLOTS[0], |slot| {
         plant.phasors(slot, &mut phasors);
     });
+    let mut plant = Plant::new(scene, 0, &timing)?; // from the start again, for effects with a state
     let mut samples = Vec::new();
     let sampled = seconds(SLOTS[1], |slot| {
         samples.clear();

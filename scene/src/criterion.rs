@@ -7,7 +7,7 @@
 //! measure = "spread_percent"      # see `Measure`
 //! of = "force_n"                  # see `Quantity`
 //! limit = 0.1                     # the measure must be at most this
-//! expected = 343                  # with max_off and jump_off: what it should be
+//! expected = 343                  # with max_off, jump_off and departure_off: what it should be
 //! case = "rest"                   # or cases = ["a", "b"]; all cases where absent
 //! per = "group"                   # case | group: taken over each, the worst counts
 //! where = { haptic_v_rms = [50, 300], time_s = [0.5, 10] }   # only slots whose truth lies within
@@ -41,9 +41,12 @@ pub enum Measure {
     /// How far from the expected time the estimate jumps: where a pad's reading rises most from one slot to the next, by
     /// five times its mean change at least.
     JumpOff,
+    /// How far from the expected haptic voltage the estimate leaves the square law: where it first is a quarter more, per
+    /// volt squared, than it is up to 100 V.
+    DepartureOff,
 }
 
-const MEASURES: [(&str, Measure); 10] = [
+const MEASURES: [(&str, Measure); 11] = [
     ("max_abs_error", Measure::MaxAbsError),
     ("rms_error", Measure::RmsError),
     ("mean_error", Measure::MeanError),
@@ -54,6 +57,7 @@ const MEASURES: [(&str, Measure); 10] = [
     ("invalid_percent", Measure::InvalidPercent),
     ("max_off", Measure::MaxOff),
     ("jump_off", Measure::JumpOff),
+    ("departure_off", Measure::DepartureOff),
 ];
 
 /// A quantity that a frame estimates, or that the plant alone knows.
@@ -126,6 +130,7 @@ impl Measure {
         match self {
             Measure::MaxAbsError | Measure::RmsError | Measure::MeanError | Measure::MaxOff => of.unit(),
             Measure::JumpOff => Quantity::TimeS.unit(),
+            Measure::DepartureOff => Quantity::HapticVRms.unit(),
             _ => "%",
         }
     }
@@ -163,7 +168,8 @@ pub struct Criterion {
     pub of: Quantity,
     /// For [`Measure::IncreasesWith`]: with which.
     pub with: Option<Quantity>,
-    /// For [`Measure::MaxOff`] and [`Measure::JumpOff`]: the value or the time, s, that is expected.
+    /// For [`Measure::MaxOff`], [`Measure::JumpOff`] and [`Measure::DepartureOff`]: the value, the time, s, or the haptic
+    /// voltage, V rms, that is expected.
     pub expected: Option<f64>,
     /// Names of the cases it covers; all where empty.
     pub cases: Vec<String>,
@@ -208,10 +214,11 @@ impl Criterion {
 
 fn read_expected(table: &Table, measure: Measure) -> Result<Option<f64>, SceneError> {
     let expected = table.number("expected", Limits::ANY)?;
-    if expected.is_some() == matches!(measure, Measure::MaxOff | Measure::JumpOff) {
+    if expected.is_some() == matches!(measure, Measure::MaxOff | Measure::JumpOff | Measure::DepartureOff) {
         return Ok(expected);
     }
-    Err(table.error("expected", "expected with measure = \"max_off\" or \"jump_off\", and only there"))
+    let with = "\"max_off\", \"jump_off\" or \"departure_off\"";
+    Err(table.error("expected", format!("expected with measure = {with}, and only there")))
 }
 
 fn read_cases(table: &Table, known: &[String]) -> Result<Vec<String>, SceneError> {

@@ -17,6 +17,10 @@ const SCENES: &[(&str, &str)] = &[
     ("minimal-coupling", include_str!("../gallery/minimal-coupling.toml")),
     ("minimal-switching", include_str!("../gallery/minimal-switching.toml")),
     ("minimal-sensor", include_str!("../gallery/minimal-sensor.toml")),
+    ("minimal-friction", include_str!("../gallery/minimal-friction.toml")),
+    ("minimal-gap", include_str!("../gallery/minimal-gap.toml")),
+    ("minimal-halves", include_str!("../gallery/minimal-halves.toml")),
+    ("minimal-supply", include_str!("../gallery/minimal-supply.toml")),
 ];
 
 /// All bundled scenes: name and TOML text.

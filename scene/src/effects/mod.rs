@@ -17,8 +17,8 @@ mod sensor;
 pub(crate) mod sheet;
 mod shunt;
 mod spec;
-mod switching;
 mod supply;
+mod switching;
 
 pub use running::EffectCost;
 pub(crate) use running::Effects;

@@ -8,7 +8,8 @@ use crate::device::Device;
 use crate::effects::hand::Hand;
 use crate::effects::sheet::ideal_split;
 use crate::effects::{Pad, PadEffect};
-use crate::pad::{NEWTON_PER_G, SLACK_MM};
+use crate::pad::NEWTON_PER_G;
+use crate::path::SLACK_MM;
 
 /// The effect: a law, and where each pad is.
 pub(super) struct Moving {
@@ -96,7 +97,8 @@ impl PadEffect for Moving {
         let now = self.now(pad);
         let track = self.pads[pad.index].map_or(now, |from| self.advance(from, now, pad.hand));
         self.pads[pad.index] = Some(track);
-        let [half_mm, reach_mm] = [[self.device.width_mm, self.device.height_mm].map(|mm| mm / 2.0), self.device.reach_mm()];
+        let [half_mm, reach_mm] =
+            [[self.device.width_mm, self.device.height_mm].map(|mm| mm / 2.0), self.device.reach_mm()];
         let at_mm = track.pad_m.map(|m| 1e3 * m);
         pad.over_edge |= [0, 1].into_iter().any(|axis| at_mm[axis].abs() > reach_mm[axis] + SLACK_MM);
         [pad.x_mm, pad.y_mm] = [0, 1].map(|axis| at_mm[axis].clamp(-half_mm[axis], half_mm[axis]));
