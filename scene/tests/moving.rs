@@ -63,6 +63,23 @@ fn every_rung_of_the_gap_settles_at_the_static_one() {
 }
 
 #[test]
+fn a_sine_pulls_as_its_mean_square_does_but_for_a_ripple() {
+    let capacitances = |drive: &str| {
+        let text = format!(
+            "duration_s = 1\n[[pad]]\nposition_mm = [0, 0]\nload_g = 50\nhaptic_v_rms = 150\n\
+             [carrier]\nhaptic_hz = 200\n[gap]\nrung = \"tr-bdf2\"\ndrive = \"{drive}\"\n"
+        );
+        let tail = truths(&text).split_off(400);
+        tail.iter().map(|truth| truth.capacitance_pf).collect::<Vec<_>>()
+    };
+    let [rms, sine] = ["rms", "sine"].map(capacitances);
+    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
+    let ripple = |values: &[f64]| values.iter().map(|value| (value / mean(values) - 1.0).abs()).fold(0.0, f64::max);
+    assert!((mean(&sine) / mean(&rms) - 1.0).abs() < 2e-3, "{} {}", mean(&sine), mean(&rms));
+    assert!(ripple(&sine) > 1e-3 && ripple(&rms) < 1e-3, "{} {}", ripple(&sine), ripple(&rms));
+}
+
+#[test]
 fn a_large_limiting_resistor_holds_the_voltage_down_and_nothing_swings() {
     for rung in RUNGS {
         for kohm in [3e3, 3e5] {

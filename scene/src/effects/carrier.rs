@@ -6,10 +6,10 @@
 //! The sensing voltage is V·cos ωt with t = 0 at each slot's first sample; the haptic voltage is √2·V_h·sin ω_h·t with t
 //! since the start of the case.
 //!
-//! | rung | what the `float` core is given | error |
+//! | rung | what the `float` and `fixed` cores are given | error |
 //! | --- | --- | --- |
 //! | `phasor` | the amplitudes themselves, one set per slot | exact in steady state |
-//! | `samples` | ADC samples, as the other cores always are | sampling effects only |
+//! | `samples` | ADC samples, as the `clock` core always is | sampling effects only |
 //!
 //! The carrier is how the device measures: it is there even without its table, at the defaults.
 
@@ -24,7 +24,7 @@ use crate::rotor::Rotor;
 /// The effect's name.
 pub(crate) const CARRIER: &str = "carrier";
 
-/// The rung at which the float core demodulates samples itself.
+/// The rung at which a core demodulates samples itself.
 pub(crate) const SAMPLES: &str = "samples";
 
 pub(super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
