@@ -89,7 +89,7 @@ fn run(by: By, law: &Law, volt: impl Fn(f64) -> f64, step_s: f64, every_s: f64, 
     let step = |n: usize| {
         let drive = |fraction: f64| Drive::new(volt((n as f64 + fraction.clamp(INSIDE, 1.0 - INSIDE)) * step_s), 0.0);
         at = by.step(law, at, step_s, drive);
-        ((n + 1) % steps_each == 0).then_some(at)
+        (n + 1).is_multiple_of(steps_each).then_some(at)
     };
     (0..(until_s / step_s).round() as usize).filter_map(step).collect()
 }
