@@ -76,7 +76,8 @@ fn a_sine_pulls_as_its_mean_square_does_but_for_a_ripple() {
     let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
     let ripple = |values: &[f64]| values.iter().map(|value| (value / mean(values) - 1.0).abs()).fold(0.0, f64::max);
     assert!((mean(&sine) / mean(&rms) - 1.0).abs() < 2e-3, "{} {}", mean(&sine), mean(&rms));
-    assert!(ripple(&sine) > 1e-3 && ripple(&rms) < 1e-3, "{} {}", ripple(&sine), ripple(&rms));
+    // What is left of the creep moves both by 0.15 %.
+    assert!(ripple(&sine) > 1e-2 && ripple(&rms) < 2e-3, "{} {}", ripple(&sine), ripple(&rms));
 }
 
 #[test]
