@@ -101,6 +101,50 @@ fn truncation_falls_with_each_image_as_predicted() {
     }
 }
 
+/// Places of rings in a pad's disc, each for as much of its area: `within` says where in its share of the area a ring runs.
+fn disc([x_mm, y_mm]: [f64; 2], within: f64) -> impl Iterator<Item = [f64; 2]> {
+    const RINGS: usize = 8;
+    const ON_A_RING: usize = 24;
+    (0..RINGS * ON_A_RING).map(move |n| {
+        let radius_mm = 15.0 * (((n / ON_A_RING) as f64 + within) / RINGS as f64).sqrt();
+        let (sin, cos) = (std::f64::consts::TAU * (n % ON_A_RING) as f64 / ON_A_RING as f64).sin_cos();
+        [x_mm + radius_mm * cos, y_mm + radius_mm * sin]
+    })
+}
+
+/// Centres of discs that lie on the sheet and off the terminals.
+const DISCS_MM: [[f64; 2]; 5] = [[0.0, 0.0], [120.0, -60.0], [-300.0, 150.0], [405.0, 40.0], [40.0, 225.0]];
+
+/// PHYSICS §1's theorem: the shares are harmonic in the pad's place, so that their mean over a disc is the centre's.
+#[test]
+fn an_even_disc_has_exactly_the_split_of_its_centre() {
+    for terminal_ohm in [0.0, 300.0] {
+        let exact = Analytic::new(&sheet(terminal_ohm));
+        for at in DISCS_MM {
+            let splits: Vec<Split> = disc(at, 0.5).map(|[x, y]| exact.split(x, y)).collect();
+            let mean = |terminal: usize| splits.iter().map(|s| s.share[terminal]).sum::<f64>() / splits.len() as f64;
+            let varies = splits.iter().map(|s| s.share[0]).fold(0.0, f64::max) - mean(0);
+            assert!(varies > 1e-4, "{at:?}: {varies}, over the disc shares differ");
+            let mean: [f64; TERMINALS] = std::array::from_fn(mean);
+            assert_near("mean", &mean, &exact.split(at[0], at[1]).share, 1e-10);
+        }
+    }
+}
+
+/// The potential of an even disc in its mean over itself is that of a ring of R·e^(−1/4); two sets of rings, so that no two
+/// places are the same, are 0.013 Ω off (measured, before the limit was set); R instead of R·e^(−1/4) would be 6 Ω off.
+#[test]
+fn resistance_sees_the_disc() {
+    let exact = Analytic::new(&sheet(0.0));
+    for at in DISCS_MM {
+        let [from, to] =
+            [0.25, 0.75].map(|within| disc(at, within).map(|[x, y]| exact.source(x, y)).collect::<Vec<_>>());
+        let sum: f64 = from.iter().map(|a| to.iter().map(|b| exact.between(a, b)).sum::<f64>()).sum();
+        let mean = sum / (from.len() * to.len()) as f64;
+        assert_near("R_p", &[mean], &[exact.split(at[0], at[1]).ohm], 0.02);
+    }
+}
+
 #[test]
 fn shares_sum_to_one_and_mirror_at_every_rung() {
     let sheet = sheet(300.0);
@@ -156,6 +200,7 @@ fn affine_to_septic_fits_leave_69_16_9_and_5_mm() {
 }
 
 /// PHYSICS §1 says 1 to 1.3 kΩ; that is for the corners alone, with six terminals R_in counts only a sixth.
+/// 418, 443 and 500 Ω and a span of 0.227 are what was measured, PHYSICS has about 0.35.
 #[test]
 fn the_papers_500_ohm_take_1_7_kiloohm_at_each_of_six_terminals_and_narrow_r_x() {
     let exact = splits(&Analytic::new(&sheet(1700.0)), MARGIN_MM);
@@ -164,10 +209,11 @@ fn the_papers_500_ohm_take_1_7_kiloohm_at_each_of_six_terminals_and_narrow_r_x()
     assert_near("r_x", &range(r_x)[2..], &[0.227], 0.01);
 }
 
+/// PHYSICS §1's figures, but for the bilinear rms: 5.4e-5 was measured where PHYSICS has 4.5e-5.
 #[test]
 fn bicubic_and_distance_err_as_measured() {
     let [rms, most] = split_error(&Bilinear::new(&sheet(0.0), [64, 37]), MARGIN_MM);
-    assert!(rms < 5.5e-5 && most < 4e-3, "bilinear: {rms:e} {most:e}"); // PHYSICS §1 has 4.5e-5 rms, 4e-3
+    assert!(rms < 5.5e-5 && most < 4e-3, "bilinear: {rms:e} {most:e}");
     let [rms, most] = split_error(&Bicubic::new(&sheet(0.0), [128, 75]), MARGIN_MM);
     assert!(rms < 1.1e-6 && most < 1.2e-4, "bicubic: {rms:e} {most:e}");
     let [rms, most] = split_error(&Bicubic::new(&sheet(0.0), [512, 297]), MARGIN_MM);

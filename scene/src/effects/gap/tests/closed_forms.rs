@@ -39,6 +39,7 @@ fn a_squeezed_film_takes_stefans_time() {
 }
 
 /// t → πc/(κ√(1.5ε)), c at the fold; the path to the fold and from it adds a share that falls as √ε.
+/// PHYSICS §3 gives the form without a limit; the limits were set after measuring.
 #[test]
 fn delay_above_the_fold_tends_to_the_closed_form() {
     let law = Law { inertia_kg_m2: 1e-3, ..bare() };
@@ -54,6 +55,7 @@ fn delay_above_the_fold_tends_to_the_closed_form() {
         time_s / (PI * fold / (1.5 * epsilon).sqrt()) - 1.0
     };
     let [near, nearer, nearest] = [1e-4, 1e-5, 1e-6].map(excess);
+    println!("off by {near:e} {nearer:e} {nearest:e}");
     assert!(nearest.abs() < 2e-4 && nearer.abs() < 6e-4 && near.abs() < 2e-3, "{near:e} {nearer:e} {nearest:e}");
 }
 

@@ -40,6 +40,7 @@ fn flat(((by, order), volt): ((By, i32), f64)) -> (By, i32, f64) {
 }
 
 /// PHYSICS §3, within a factor of 1.3: its film is about a quarter thicker than that of a disc of an eighth of the pad.
+/// The factor was set after measuring errors of 1.2 to 1.27 times PHYSICS'; a trapezoid at 1 ms rings to 0.81, PHYSICS 0.38.
 #[test]
 fn errors_of_0_to_400_to_0_v_are_those_of_the_table() {
     let law = law(AIR_PA_S);
