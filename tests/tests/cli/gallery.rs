@@ -51,28 +51,6 @@ fn the_criteria_of_every_scene_hold_and_fixed_is_clock() {
     gallery::all().iter().for_each(|(name, _)| check(name));
 }
 
-/// The best of three runs, for the machine is never quiet: wall and simulated seconds.
-fn seconds(args: &[&str]) -> [f64; 2] {
-    let folder = tempfile::tempdir().unwrap();
-    let run = || {
-        let output = expect(folder.path(), args, 0);
-        let summary: Value = serde_json::from_slice(&output.stdout).expect("JSON");
-        ["wall_seconds", "simulated_seconds"].map(|key| summary[key].as_f64().expect("a number"))
-    };
-    (0..3).map(|_| run()).min_by(|a, b| a[0].total_cmp(&b[0])).expect("three runs")
-}
-
-#[test]
-#[cfg_attr(any(not(optimised), debug_assertions), ignore = "a claim about speed: run with --release")]
-fn fig7_takes_less_than_a_second_from_amplitudes_and_less_than_its_own_time_clock_by_clock() {
-    let [wall, simulated] = seconds(&["simulate", "fig7", "--set", "carrier.rung=phasor", "--json"]);
-    println!("fig7, phasor, fixed: {simulated} s in {wall} s");
-    assert!(wall < 1.0 && simulated > 3.9);
-    let [wall, simulated] = seconds(&["simulate", "fig7", "--core", "clock", "--json"]);
-    println!("fig7, samples, clock: {simulated} s in {wall} s");
-    assert!(wall < simulated);
-}
-
 #[test]
 fn results_do_not_depend_on_the_number_of_threads() {
     let folder = tempfile::tempdir().unwrap();
