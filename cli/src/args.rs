@@ -55,6 +55,9 @@ Exit status: 0 done, 2 bad input.";
 /// Arguments of `hdl`.
 #[derive(Debug, Clone, clap::Args)]
 pub struct HdlArgs {
+    /// A board: its top, constraints and a script that makes a bitstream, too
+    #[arg(long, value_name = "ulx3s|icebreaker")]
+    pub board: Option<String>,
     /// The core's profile: a bundled name (small, standard, fine) or a TOML file [default: the board's, else standard]
     #[arg(long, value_name = "PROFILE")]
     pub profile: Option<String>,

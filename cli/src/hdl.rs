@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `hapticore hdl`: Verilog from the model.
 
-use anyhow::Result;
+use std::path::PathBuf;
+
+use anyhow::{Context, Result};
 use hapticore_model::blocks::core::Core;
+use hapticore_model::profile::Profile;
+use hapticore_rtl::board::Target;
+use hapticore_rtl::component;
 use hapticore_rtl::verilog::Design;
 use serde_json::json;
 
@@ -10,28 +15,58 @@ use crate::args::HdlArgs;
 use crate::inputs;
 use crate::output::Output;
 
-/// The profile where none is named.
+/// The profile where neither it nor a board is named.
 const PROFILE: &str = "standard";
 
-/// Prints the core into the folder.
+/// Prints the core, or a whole board, into the folder.
 ///
 /// # Errors
-/// No such profile, or a folder that cannot be written.
+/// No such profile or board, a board that cannot serve the profile, or a folder that cannot be written.
 pub fn run(args: &HdlArgs) -> Result<bool> {
-    let profile = inputs::profile(args.profile.as_deref().unwrap_or(PROFILE))?;
+    let board = args.board.as_deref().map(str::parse::<Target>).transpose().context("--board")?;
+    let name = board.map_or(PROFILE, Target::profile_name);
+    let profile = inputs::profile(args.profile.as_deref().unwrap_or(name))?;
     let output = Output::new(&args.out)?;
-    let design = Design::of(&Core::new(&profile), &format!("hapticore hdl --profile {}", profile.name));
-    for file in &design.modules {
-        output.write(&format!("{}.v", file.name), &file.text)?;
+    let top = match board {
+        Some(board) => write_board(&output, board, &profile)?,
+        None => write_core(&output, &profile)?,
+    };
+    tell(args, &profile, &top, &output.keep()?)
+}
+
+/// The core: a file for each module.
+fn write_core(output: &Output, profile: &Profile) -> Result<String> {
+    let design = Design::of(&Core::new(profile), &format!("hapticore hdl --profile {}", profile.name));
+    design.modules.iter().try_for_each(|file| output.write(&format!("{}.v", file.name), &file.text))?;
+    Ok(design.top().to_owned())
+}
+
+/// A board: its Verilog, its constraints, and the script that makes its bitstream.
+fn write_board(output: &Output, board: Target, profile: &Profile) -> Result<String> {
+    let top = board.top_of(profile).with_context(|| format!("board {}, profile {}", board.name(), profile.name))?;
+    output.write("top.v", &component::verilog(&top))?;
+    let (name, constraints) = board.constraints();
+    output.write(&name, &constraints)?;
+    output.write_script("build.sh", script(board))?;
+    Ok("top".to_owned())
+}
+
+fn script(board: Target) -> &'static str {
+    match board {
+        Target::Ulx3s => include_str!("../../synth/scripts/ulx3s.sh"),
+        Target::Icebreaker => include_str!("../../synth/scripts/icebreaker.sh"),
     }
-    let files = output.keep()?;
+}
+
+fn tell(args: &HdlArgs, profile: &Profile, top: &str, files: &[PathBuf]) -> Result<bool> {
     if args.json {
-        println!(
-            "{}",
-            serde_json::to_string_pretty(&json!({ "profile": profile.name, "top": design.top(), "files": files }))?
-        );
+        let told = json!({ "profile": profile.name, "board": args.board, "top": top, "files": files });
+        println!("{}", serde_json::to_string_pretty(&told)?);
         return Ok(true);
     }
-    println!("{}: {} modules, top {}, in {}", profile.name, files.len(), design.top(), args.out.display());
+    println!("{}: top {top}, {} files in {}", profile.name, files.len(), args.out.display());
+    if args.board.is_some() {
+        println!("bitstream: {}", args.out.join("build.sh").display());
+    }
     Ok(true)
 }

@@ -64,6 +64,17 @@ impl Output {
         fs::write(self.aside().join(name), text).with_context(|| self.folder.join(name).display().to_string())
     }
 
+    /// Writes a file that can be run.
+    ///
+    /// # Errors
+    /// It cannot be written.
+    pub fn write_script(&self, name: &str, text: &str) -> Result<()> {
+        self.write(name, text)?;
+        #[cfg(unix)]
+        fs::set_permissions(self.aside().join(name), std::os::unix::fs::PermissionsExt::from_mode(0o755))?;
+        Ok(())
+    }
+
     /// Gives all files their names, in place of older ones; their paths.
     ///
     /// # Errors

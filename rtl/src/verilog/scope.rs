@@ -127,7 +127,8 @@ impl<'a> Scope<'a> {
     pub fn keep(&mut self, node: Node, text: Text, alone: bool) {
         let index = node.0 as usize;
         let named = self.module.wires[index].name.is_some();
-        let shared = self.live.uses[index] > 1 && !(text.kind == Kind::Atom && !text.text.contains('{'));
+        let plain = text.kind == Kind::Atom && !text.text.contains('{');
+        let shared = self.live.uses[index] > 1 && !plain;
         let declare = alone || named || shared || (text.text.len() > LONG && text.kind != Kind::Select);
         self.texts[index] = Some(text);
         if declare {
