@@ -6,8 +6,13 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Which crates of the workspace a crate may use.
-const IMPORTS: [(&str, &[&str]); 4] =
-    [("model", &[]), ("rtl", &["hapticore-model"]), ("scene", &[]), ("waveforms", &["hapticore-model"])];
+const IMPORTS: [(&str, &[&str]); 5] = [
+    ("model", &[]),
+    ("rtl", &["hapticore-model"]),
+    ("synth", &["hapticore-model", "hapticore-rtl"]),
+    ("scene", &[]),
+    ("waveforms", &["hapticore-model"]),
+];
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the workspace").into()
@@ -69,7 +74,7 @@ fn the_model_knows_no_files_and_no_time() {
 
 #[test]
 fn every_source_names_its_licence() {
-    for folder in ["model", "rtl", "scene", "waveforms", "cli", "tests"] {
+    for folder in ["model", "rtl", "synth", "scene", "waveforms", "cli", "tests"] {
         for path in sources(folder) {
             let text = fs::read_to_string(&path).expect("a source");
             assert!(text.starts_with("// SPDX-License-Identifier: MIT OR Apache-2.0"), "{}", path.display());
