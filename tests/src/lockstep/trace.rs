@@ -57,12 +57,6 @@ impl Trace {
         &self.codes[clock * self.ports.len()..][..self.ports.len()]
     }
 
-    /// The first clocks of it.
-    pub fn first(&self, clocks: usize) -> Trace {
-        let kept = clocks.min(self.clocks()) * self.ports.len();
-        Trace { ports: self.ports.clone(), codes: self.codes[..kept].to_vec() }
-    }
-
     /// The inputs of a clock, by name.
     pub fn inputs(&self, clock: usize) -> String {
         let inputs = self.ports.iter().zip(self.row(clock)).filter(|(port, _)| port.direction == Direction::Input);
