@@ -21,6 +21,9 @@ pub type Registers<B, T> = <<B as Block>::Registers as Bundle>::Of<T>;
 pub trait Block: Sized + 'static {
     /// Its name: of the Verilog module, too.
     const NAME: &'static str;
+    /// Whether its registers take zero at reset in hardware. Where they do not, what they hold before their first operands
+    /// matters to nobody.
+    const RESETS: bool = true;
     /// Its input ports.
     type Inputs: Bundle;
     /// Its output ports.

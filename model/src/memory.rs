@@ -17,6 +17,9 @@ pub struct Memory {
     pub words: usize,
     /// The format of a word.
     pub format: Format,
+    /// Whether somebody may use a word that was read while it was being written. Where nobody does, a block RAM needs no
+    /// logic that sees to it that the word is the old one.
+    pub collides: bool,
     /// What it holds at reset, before rounding to its format; zero where there is nothing.
     pub initial: Arc<[f64]>,
 }
@@ -35,12 +38,17 @@ pub struct Write<V> {
 impl Memory {
     /// A memory of zeros.
     pub fn new(name: &'static str, words: usize, format: Format) -> Self {
-        Memory { name, words, format, initial: Arc::new([]) }
+        Memory { name, words, format, collides: true, initial: Arc::new([]) }
+    }
+
+    /// The memory, of which nobody uses a word that was read while it was being written.
+    pub fn never_colliding(self) -> Self {
+        Memory { collides: false, ..self }
     }
 
     /// A table that nobody writes. Entries past a rail of the format are held there.
     pub fn table(name: &'static str, format: Format, initial: Vec<f64>) -> Self {
-        Memory { name, words: initial.len(), format, initial: initial.into() }
+        Memory { name, words: initial.len(), format, collides: false, initial: initial.into() }
     }
 
     /// The words at reset, as numbers.

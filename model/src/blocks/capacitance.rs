@@ -17,10 +17,11 @@
 //! | admittance  | profile     | –           | saturates, flagged                       |
 //! | capacitance | profile     | pF          | saturates, flagged                       |
 //!
-//! One multiplier serves all four products; it works on codes as integers, so that their points need not agree. Latency:
-//! root + divider + 11 clocks from `start` to `done`.
+//! One multiplier serves all four products; it works on codes as integers, so that their points need not agree, and a step
+//! takes as long as it does. Latency: 7 products + root + divider + 3 clocks from `start` to `done`.
 
 use super::divider::{self, Divider};
+use super::multiplier::{self, Multiplier};
 use super::root::{self, Root};
 use crate::block::{Block, Cell};
 use crate::format::{BIT, Format};
@@ -59,19 +60,20 @@ bundle! {
 }
 
 bundle! {
-    /// The registers. `left`, `right` and `product` are codes as integers.
+    /// The registers. `left` and `right` are codes as integers.
     pub struct Registers {
         step: [
-            "idle", "drop", "drop_product", "sense", "sense_product", "drop_square", "radicand", "root", "divide",
-            "gain_product", "finish",
+            "idle", "load", "sense", "drop", "square", "drop_square", "radicand", "root", "divide", "gain_product",
+            "finish",
         ],
-        left, right, product, drop, square, radicand, root_start, divide, capacitance, invalid, saturated, done,
+        waited, left, right, drop, square, root_start, divide, capacitance, invalid, saturated, done,
     }
 }
 
 parts! {
     /// The blocks within.
     pub struct Parts of Capacitance {
+        multiplier: Multiplier,
         root: Root,
         divider: Divider,
     }
@@ -80,6 +82,7 @@ parts! {
 /// The configuration.
 #[derive(Debug, Clone)]
 pub struct Capacitance {
+    multiplier: Multiplier,
     root: Root,
     divider: Divider,
     correct: bool,
@@ -102,12 +105,11 @@ impl Capacitance {
         let right = Format::unsigned(amplitude.width.max(sheet.width).max(gain.width), 0);
         let registers = Registers {
             step: Format::unsigned(4, 0),
+            waited: BIT,
             left,
             right,
-            product: left.product(right),
             drop: amplitude,
             square,
-            radicand: square,
             root_start: BIT,
             divide: BIT,
             capacitance: f.capacitance,
@@ -116,12 +118,13 @@ impl Capacitance {
             done: BIT,
         };
         let correct = profile.capacitance.sheet_correction;
-        Capacitance { root, divider, correct, amplitude, sheet, admittance, gain, registers }
+        let multiplier = Multiplier::new(left, right, profile.multiplier);
+        Capacitance { multiplier, root, divider, correct, amplitude, sheet, admittance, gain, registers }
     }
 
     /// Clocks from `start` to `done`.
     pub fn latency(&self) -> u64 {
-        self.root.latency() + self.divider.latency() + 11
+        7 * self.multiplier.latency() + self.root.latency() + self.divider.latency() + 3
     }
 
     /// The multiplier's operands of this step, as integers.
@@ -130,22 +133,28 @@ impl Capacitance {
         &self,
         r: &Registers<Signal<V>>,
         i: &Inputs<Signal<V>>,
-        drop: Signal<V>,
         admittance: Signal<V>,
     ) -> (Signal<V>, Signal<V>) {
-        let [total, sense, drop] = [i.total, i.sense, drop].map(Signal::integer);
+        let [total, sense, drop, admittance] = [i.total, i.sense, r.drop, admittance].map(Signal::integer);
         let sheet = if self.correct { i.sheet } else { zero(self.sheet) }.integer();
         let at = |step: u64| r.step.is(step);
-        let left = at(1).select(total, at(3).select(sense, at(4).select(drop, admittance.integer())));
-        let right = at(1).select(sheet, at(3).select(sense, at(4).select(drop, i.gain.integer())));
+        let left = at(1).select(total, at(2).select(sense, at(4).select(drop, admittance)));
+        let right = at(1).select(sheet, at(2).select(sense, at(4).select(drop, i.gain.integer())));
         (left, right)
     }
 
     /// The product of two codes, with the point that their formats give it.
     #[inline(always)]
-    fn product<V: Value>(&self, r: &Registers<Signal<V>>, left: Format, right: Format) -> Signal<V> {
+    fn pointed<V: Value>(product: Signal<V>, left: Format, right: Format) -> Signal<V> {
         let format = left.product(right);
-        r.product.fit(Format { frac: 0, ..format }, Exact, Wrap).scaled(-format.frac)
+        product.fit(Format { frac: 0, ..format }, Exact, Wrap).scaled(-format.frac)
+    }
+
+    /// v² − (a·R)², held at zero from below, and whether nothing is left.
+    #[inline(always)]
+    fn radicand<V: Value>(&self, r: &Registers<Signal<V>>, product: Signal<V>) -> (Signal<V>, Signal<V>) {
+        let drop = Self::pointed(product, self.amplitude, self.amplitude);
+        ((r.square - drop).fit(self.registers.square, Exact, Saturate), drop.at_least(r.square))
     }
 
     #[inline(always)]
@@ -153,31 +162,28 @@ impl Capacitance {
         &self,
         r: Registers<Signal<V>>,
         i: Inputs<Signal<V>>,
-        rooted: Signal<V>,
-        divided: divider::Outputs<Signal<V>>,
+        (product, nothing_left, rooted, divided): (Signal<V>, Signal<V>, Signal<V>, divider::Outputs<Signal<V>>),
     ) -> Registers<Signal<V>> {
         let at = |step: u64| r.step.is(step);
-        let (fallen, drop_held) = self.product(&r, self.amplitude, self.sheet).saturate(self.amplitude, HalfEven);
-        let square = self.product(&r, self.amplitude, self.amplitude);
+        let (drop, drop_held) = Self::pointed(product, self.amplitude, self.sheet).saturate(self.amplitude, HalfEven);
+        let square = Self::pointed(product, self.amplitude, self.amplitude);
         let (result, held) =
-            self.product(&r, self.admittance, self.gain).saturate(self.registers.capacitance, HalfEven);
-        let drop = at(3).select(fallen, r.drop);
-        let (left, right) = self.operands(&r, &i, drop, divided.quotient);
+            Self::pointed(product, self.admittance, self.gain).saturate(self.registers.capacitance, HalfEven);
+        let (left, right) = self.operands(&r, &i, divided.quotient);
         let waits = (at(7) & !rooted) | (at(8) & !divided.done);
         let onward = at(10).select(int(0), r.step + int(1));
         let saturated = (at(3) & drop_held) | (at(8) & divided.done & divided.saturated) | (at(10) & held);
         Registers {
             step: waits.select(r.step, onward).fit(self.registers.step, Exact, Wrap),
+            waited: bit(false),
             left,
             right,
-            product: r.left * r.right,
-            drop,
-            square: at(5).select(square, r.square),
-            radicand: at(6).select((r.square - square).fit(self.registers.radicand, Exact, Saturate), r.radicand),
-            root_start: at(6),
+            drop: at(3).select(drop, r.drop),
+            square: at(4).select(square, r.square),
+            root_start: at(5),
             divide: at(7) & rooted,
             capacitance: at(10).select(result, r.capacitance),
-            invalid: at(6).select(square.at_least(r.square), r.invalid),
+            invalid: at(6).select(nothing_left, r.invalid),
             saturated: r.saturated | saturated,
             done: at(10),
         }
@@ -212,10 +218,10 @@ impl Block for Capacitance {
             divide: BIT,
             invalid: BIT,
             saturated: BIT,
+            waited: BIT,
             step: r.step.counting(),
             left: r.left.counting(),
             right: r.right.counting(),
-            product: r.product.counting(),
             ..r
         }
     }
@@ -228,18 +234,24 @@ impl Block for Capacitance {
         if (i.start | !r.step.is(0) | r.done).idle() {
             return outputs;
         }
-        let inputs = root::Inputs { start: r.root_start, radicand: r.radicand };
+        let inputs = multiplier::Inputs { enable: !r.step.is(0), left: r.left, right: r.right };
+        let product = self.multiplier.call("multiplier", &mut cell.parts.multiplier, inputs).product;
+        let (radicand, nothing_left) = self.radicand(&r, product);
+        let inputs = root::Inputs { start: r.root_start, radicand };
         let root = self.root.call("root", &mut cell.parts.root, inputs);
         let inputs = divider::Inputs { start: r.divide, numerator: i.total, denominator: root.root };
         let divided = self.divider.call("divider", &mut cell.parts.divider, inputs);
-        let idle = Registers { done: bit(false), ..r };
-        let begin = Registers { step: int(1), saturated: bit(false), ..idle };
+        let idle = Registers { root_start: bit(false), divide: bit(false), done: bit(false), ..r };
+        let begin = Registers { step: int(1), waited: bit(false), saturated: bit(false), ..idle };
+        let waits = Registers { waited: bit(true), ..idle };
+        let acts = self.multiplier.paces(r.waited) | r.step.is(7) | r.step.is(8);
+        let results = (product, nothing_left, root.done, divided);
         let next = when!(
             V,
             Registers,
             i.start,
             begin,
-            when!(V, Registers, r.step.is(0), idle, self.step(idle, i, root.done, divided))
+            when!(V, Registers, r.step.is(0), idle, when!(V, Registers, acts, self.step(idle, i, results), waits))
         );
         cell.store(self, next);
         outputs

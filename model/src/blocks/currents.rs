@@ -16,15 +16,16 @@
 //! | amplitude       | total's | full scale     | cannot (range proof) |
 //! | x, y, corners   | exact   | full scale     | cannot (range proof) |
 //!
-//! Latency: (terminals + 2) · (root + 5) + 1 clocks from the last sum (the mean square's) to `done`. Source: paper, eqs. 2–5; the sum is that of
+//! Latency: (terminals + 2) · (6 products + root + 1) + 1 clocks from the last sum (the mean square's) to `done`. Source: paper, eqs. 2–5; the sum is that of
 //! all terminals' complex currents, for the corners alone carry only a part (PHYSICS §1).
 
+use super::multiplier::{self, Multiplier};
 use super::root::{self, Root};
 use crate::block::{Block, Cell};
 use crate::format::{BIT, Format};
 use crate::memory::{Memory, Write};
 use crate::profile::Profile;
-use crate::signal::{Exact, HalfEven, Never, Signal, Value, Wrap, bit, int, zero};
+use crate::signal::{Exact, HalfEven, Lemma, Never, Signal, Value, Wrap, bit, int, zero};
 use crate::{bundle, parts, when};
 
 bundle! {
@@ -64,8 +65,8 @@ bundle! {
 bundle! {
     /// The registers.
     pub struct Registers {
-        step: ["idle", "read", "in_phase", "quadrature", "power", "root"],
-        channel, total_i, total_q, part, power, root_start,
+        step: ["idle", "read", "in_phase", "read_quadrature", "quadrature", "square", "power", "root"],
+        waited, channel, total_i, total_q, part, power, root_start,
         amplitude, sense, x, y, corners, least, saturated, done,
     }
 }
@@ -74,6 +75,7 @@ parts! {
     /// The blocks within.
     pub struct Parts of Currents {
         words: Memory,
+        multiplier: Multiplier,
         root: Root,
     }
 }
@@ -82,6 +84,7 @@ parts! {
 #[derive(Debug, Clone)]
 pub struct Currents {
     words: Memory,
+    multiplier: Multiplier,
     root: Root,
     terminals: u64,
     signs: [Vec<i8>; 2],
@@ -92,6 +95,13 @@ pub struct Currents {
     iq: Format,
     total: Format,
     registers: Registers<Format>,
+}
+
+const SQUARE: &str = "a square is not negative";
+
+/// The codes of a format as integers.
+fn integer(format: Format) -> Format {
+    Format { frac: 0, ..format }
 }
 
 impl Currents {
@@ -106,6 +116,7 @@ impl Currents {
         let channels = terminals + 1;
         let registers = Registers {
             step: Format::unsigned(3, 0),
+            waited: BIT,
             channel: Format::counter(channels),
             total_i: total,
             total_q: total,
@@ -122,7 +133,8 @@ impl Currents {
             done: BIT,
         };
         Currents {
-            words: Memory::new("words", 2 * channels as usize, iq),
+            words: Memory::new("words", 2 * channels as usize, iq).never_colliding(),
+            multiplier: Multiplier::new(integer(total), integer(total), profile.multiplier),
             root,
             terminals,
             signs: [profile.terminals.x.clone(), profile.terminals.y.clone()],
@@ -147,7 +159,7 @@ impl Currents {
 
     /// Clocks from the last sum to `done`.
     pub fn latency(&self) -> u64 {
-        (self.terminals + 2) * (self.root.latency() + 5) + 1
+        (self.terminals + 2) * (6 * self.multiplier.latency() + self.root.latency() + 1) + 1
     }
 
     /// The in-phase or quadrature word of a sum, and whether it is held at a rail.
@@ -156,57 +168,65 @@ impl Currents {
         sum.scaled(-self.shift).saturate(self.iq, HalfEven)
     }
 
-    /// A sum arrives: terminals' words add to the total's.
+    /// A sum arrives: its word goes into the memory, and with the last the loop over channels begins.
     #[inline(always)]
-    fn take<V: Value>(
-        &self,
-        r: Registers<Signal<V>>,
-        i: Inputs<Signal<V>>,
-        (word, held): (Signal<V>, Signal<V>),
-    ) -> Registers<Signal<V>> {
-        let opening = i.index.is(0);
-        let terminal = i.index.less_than(int(2 * self.terminals));
-        let quadrature = i.index.bits(0, 1);
-        let from = |total: Signal<V>| opening.select(zero(self.total), total);
-        let (before_i, before_q) = (from(r.total_i), from(r.total_q));
-        let (more_i, held_i) = (before_i + word).saturate(self.total, Exact);
-        let (more_q, held_q) = (before_q + word).saturate(self.total, Exact);
-        let held_total = terminal & quadrature.select(held_q, held_i);
+    fn take<V: Value>(&self, r: Registers<Signal<V>>, i: Inputs<Signal<V>>, held: Signal<V>) -> Registers<Signal<V>> {
         let among = i.index.less_than(int(2 * (self.terminals + 1)));
         Registers {
             step: i.index.is(2 * self.terminals + 1).select(int(1), r.step),
+            waited: bit(false),
             channel: int(0),
-            total_i: (terminal & !quadrature).select(more_i, before_i),
-            total_q: (terminal & quadrature).select(more_q, before_q),
-            saturated: (!opening & r.saturated) | (among & held) | held_total,
+            total_i: zero(self.total),
+            total_q: zero(self.total),
+            saturated: (!i.index.is(0) & r.saturated) | (among & held),
             ..r
         }
     }
 
-    /// A step of the loop over channels: squares, root, sums.
+    /// The total's in-phase or quadrature with a terminal's word more, and whether it is held at a rail.
+    #[inline(always)]
+    fn more<V: Value>(&self, r: &Registers<Signal<V>>, in_phase: Signal<V>) -> (Signal<V>, Signal<V>) {
+        let before = in_phase.select(r.total_i, r.total_q);
+        (before + r.part).saturate(self.total, Exact)
+    }
+
+    /// A step of the loop over channels: words, squares, root, sums.
     #[inline(always)]
     fn step<V: Value>(
         &self,
         r: Registers<Signal<V>>,
         word: Signal<V>,
+        product: Signal<V>,
         root: root::Outputs<Signal<V>>,
     ) -> Registers<Signal<V>> {
         let at = |step: u64| r.step.is(step);
         let all = r.channel.is(self.terminals + 1);
-        let square = r.part.square();
-        let power = at(4).select(r.power + square, square).fit(self.registers.power, Exact, Never);
-        let rooted = at(5) & root.done;
+        let terminal = r.channel.less_than(int(self.terminals));
+        let square = product.fit(self.square(), Exact, Lemma(SQUARE)).scaled(-2 * self.total.frac);
+        let power = at(6).select(r.power + square, square).fit(self.registers.power, Exact, Never);
+        let (more, held) = self.more(&r, at(3));
+        let rooted = at(7) & root.done;
         let r = when!(V, Registers, rooted, self.sum_up(r, root.root), r);
-        let part = at(2).select(all.select(r.total_i, word), at(3).select(all.select(r.total_q, word), r.part));
-        let following = at(5).select(r.step, r.step + int(1));
+        let part = at(2).select(all.select(r.total_i, word), at(4).select(all.select(r.total_q, word), r.part));
+        let following = at(7).select(r.step, r.step + int(1));
         Registers {
             step: rooted.select(all.select(int(0), int(1)), following).fit(self.registers.step, Exact, Wrap),
+            waited: bit(false),
+            total_i: (at(3) & terminal).select(more, r.total_i),
+            total_q: (at(5) & terminal).select(more, r.total_q),
             part,
-            power: (at(3) | at(4)).select(power, r.power),
-            root_start: at(4),
+            power: (at(4) | at(6)).select(power, r.power),
+            root_start: at(6),
+            saturated: r.saturated | ((at(3) | at(5)) & terminal & held),
             done: rooted & all,
             ..r
         }
+    }
+
+    /// The format of a square as an integer.
+    #[inline(always)]
+    fn square(&self) -> Format {
+        Format { frac: 0, ..self.registers.power }
     }
 
     /// An amplitude is there: of a terminal, of the sensing voltage, and last of the total.
@@ -215,11 +235,11 @@ impl Currents {
         let opening = r.channel.is(0);
         let terminal = r.channel.less_than(int(self.terminals));
         let smaller = opening | (terminal & amplitude.less_than(r.least));
-        let from = |sum: Signal<V>| opening.select(zero(sum.format), sum);
+        let negative = -amplitude;
         let with = |sum: Signal<V>, sign: &dyn Fn(usize) -> i8| {
             let plus = self.among(r.channel, |k| sign(k) > 0).select(amplitude, zero(amplitude.format));
-            let minus = self.among(r.channel, |k| sign(k) < 0).select(amplitude, zero(amplitude.format));
-            (from(sum) + plus - minus).fit(sum.format, Exact, Never)
+            let more = self.among(r.channel, |k| sign(k) < 0).select(negative, plus);
+            (opening.select(zero(sum.format), sum) + more).fit(sum.format, Exact, Never)
         };
         let [x, y] = &self.signs;
         Registers {
@@ -273,6 +293,7 @@ impl Block for Currents {
             done: BIT,
             root_start: BIT,
             saturated: BIT,
+            waited: BIT,
             step: r.step.counting(),
             channel: r.channel.counting(),
             ..r
@@ -288,9 +309,11 @@ impl Block for Currents {
             return outputs;
         }
         let (word, held) = self.word(i.sum);
+        let inputs = multiplier::Inputs { enable: busy, left: r.part.integer(), right: r.part.integer() };
+        let product = self.multiplier.call("multiplier", &mut cell.parts.multiplier, inputs).product;
         let among = i.index.less_than(int(2 * (self.terminals + 1)));
         let data = self.words.data(&mut cell.parts.words);
-        let address = r.channel.concat(r.step.is(2));
+        let address = r.channel.concat(!r.step.less_than(int(3)));
         let address = address.bits(0, self.words.address().width);
         let place = i.index.bits(0, self.words.address().width);
         self.words.access(
@@ -300,13 +323,15 @@ impl Block for Currents {
         );
         let inputs = root::Inputs { start: r.root_start, radicand: r.power };
         let root = self.root.call("root", &mut cell.parts.root, inputs);
-        let r = Registers { done: bit(false), root_start: bit(false), ..r };
+        let idle = Registers { done: bit(false), root_start: bit(false), ..r };
+        let waits = Registers { waited: bit(true), ..idle };
+        let acts = self.multiplier.paces(r.waited) | r.step.is(7);
         let next = when!(
             V,
             Registers,
             i.valid,
-            self.take(r, i, (word, held)),
-            when!(V, Registers, busy, self.step(r, data, root), r)
+            self.take(idle, i, held),
+            when!(V, Registers, busy, when!(V, Registers, acts, self.step(idle, data, product, root), waits), idle)
         );
         cell.store(self, next);
         outputs

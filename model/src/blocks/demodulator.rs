@@ -20,6 +20,7 @@
 //! q is positive where the channel lags. The answer to `channel` is expected a clock later as `code`. Latency: products + 3
 //! clocks from `start` to the last sum. Source: paper, eqs. 1 and 5, detected synchronously; PHYSICS §5 for the window.
 
+use super::oscillator::Oscillator;
 use crate::block::{Block, Cell};
 use crate::format::{BIT, Format};
 use crate::memory::{Memory, Write};
@@ -127,7 +128,13 @@ impl Demodulator {
             sum,
             clipped: BIT,
         };
-        Demodulator { sums: Memory::new("sums", words as usize, sum), channels, adc, oscillator, registers }
+        Demodulator {
+            sums: Memory::new("sums", words as usize, sum).never_colliding(),
+            channels,
+            adc,
+            oscillator,
+            registers,
+        }
     }
 
     /// The format of a sum.
@@ -146,9 +153,10 @@ impl Demodulator {
         self.steps() + 1
     }
 
-    /// The fewest clocks from one sample to the next.
+    /// The fewest clocks from one sample to the next: the last code is asked for while it is there.
     pub fn least_clocks_per_sample(&self) -> u64 {
-        self.latency()
+        let asks = 2 + Oscillator::LATENCY + WEIGHING + self.sums();
+        asks.max(self.latency())
     }
 
     fn steps(&self) -> u64 {

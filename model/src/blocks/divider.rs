@@ -6,14 +6,14 @@
 //! ```
 //!
 //! ```text
-//! numerator ──[remainder : tail]──(− denominator ≥ 0 ?)── one quotient bit a clock ──[round half even, saturate]── quotient
+//! numerator ──[remainder : tail]──(− denominator ≥ 0 ?)── one quotient bit a clock ──[partial]──[round half even, saturate]── quotient
 //! ```
 //!
 //! | signal    | overflow                                                                 |
 //! | quotient  | saturates, and says so                                                   |
 //! | remainder | cannot: it stays below the denominator (lemma, held by an exhaustive test) |
 //!
-//! A zero denominator gives a saturated quotient; the caller says what that means. Latency: quotient width + 2 clocks from
+//! A zero denominator gives a saturated quotient; the caller says what that means. Latency: quotient width + 4 clocks from
 //! `start` to `done`. Source: restoring division, Parhami, Computer Arithmetic, §13.
 
 use crate::block::{Block, Cell};
@@ -26,9 +26,9 @@ bundle! {
     pub struct Inputs {
         /// Takes the operands and begins.
         start,
-        /// What is divided.
+        /// What is divided; holds until the quotient is there.
         numerator,
-        /// By what.
+        /// By what; holds likewise.
         denominator,
     }
 }
@@ -48,7 +48,7 @@ bundle! {
 bundle! {
     /// The registers.
     pub struct Registers {
-        busy, count, numerator, denominator, remainder, tail, partial, over, done, quotient, saturated,
+        busy, count, remainder, tail, partial, over, up, done, quotient, saturated,
     }
 }
 
@@ -79,13 +79,12 @@ impl Divider {
         let head = (width - quotient.width).max(denominator.width);
         let registers = Registers {
             busy: BIT,
-            count: Format::counter(quotient.width.into()),
-            numerator: dividend,
+            count: Format::counter(u64::from(quotient.width) + 2),
             remainder: Format::unsigned(head, 0),
             tail: Format::unsigned(quotient.width, 0),
-            denominator,
             partial: Format::unsigned(quotient.width, 0),
             over: BIT,
+            up: BIT,
             done: BIT,
             quotient,
             saturated: BIT,
@@ -95,34 +94,43 @@ impl Divider {
 
     /// Clocks from `start` to `done`.
     pub fn latency(&self) -> u64 {
-        u64::from(self.quotient.width) + 2
+        u64::from(self.quotient.width) + 4
     }
 
-    /// The registers when a division begins: the dividend's high bits are the first remainder, and if those already
-    /// reach the denominator, the quotient does not fit.
+    /// The registers when a division begins: the dividend's high bits are the first remainder.
     #[inline(always)]
     fn begin<V: Value>(&self, r: Registers<Signal<V>>, i: Inputs<Signal<V>>) -> Registers<Signal<V>> {
         let numerator = i.numerator.fit(self.dividend, Exact, Never);
         let width = self.quotient.width;
-        let head = numerator.bits(width, self.dividend.width - width);
-        let over = head.at_least(i.denominator.integer());
-        let (busy, count, partial) = (bit(true), int(0), int(0));
-        // A quotient that does not fit is known already: zeros keep the remainder below even so.
-        let (remainder, tail) = (over.select(int(0), head), over.select(int(0), numerator.bits(0, width)));
-        let denominator = i.denominator;
-        Registers { busy, count, numerator, denominator, remainder, tail, partial, over, ..r }
+        let (remainder, tail) = (numerator.bits(width, self.dividend.width - width), numerator.bits(0, width));
+        Registers { busy: bit(true), count: int(0), remainder, tail, partial: int(0), ..r }
+    }
+
+    /// The count goes on.
+    #[inline(always)]
+    fn count<V: Value>(&self, r: &Registers<Signal<V>>) -> Signal<V> {
+        (r.count + int(1)).fit(self.registers.count, Exact, Wrap)
+    }
+
+    /// If the high bits already reach the denominator, the quotient does not fit: it is known already, and zeros keep the
+    /// remainder below even so.
+    #[inline(always)]
+    fn check<V: Value>(&self, r: Registers<Signal<V>>, i: Inputs<Signal<V>>) -> Registers<Signal<V>> {
+        let over = r.remainder.at_least(i.denominator.integer());
+        let (remainder, tail) = (over.select(int(0), r.remainder), over.select(int(0), r.tail));
+        Registers { count: self.count(&r), remainder, tail, over, ..r }
     }
 
     /// One more bit of the quotient.
     #[inline(always)]
-    fn step<V: Value>(&self, r: Registers<Signal<V>>) -> Registers<Signal<V>> {
+    fn step<V: Value>(&self, r: Registers<Signal<V>>, i: Inputs<Signal<V>>) -> Registers<Signal<V>> {
         let width = self.quotient.width;
         let shifted = r.remainder.concat(r.tail.msb());
-        let denominator = r.denominator.integer();
+        let denominator = i.denominator.integer();
         let fits = shifted.at_least(denominator);
         let rest = fits.select(shifted - denominator, shifted);
         Registers {
-            count: (r.count + int(1)).fit(self.registers.count, Exact, Wrap),
+            count: self.count(&r),
             remainder: rest.fit(self.registers.remainder, Exact, Lemma(BELOW)),
             tail: r.tail.concat(bit(false)).bits(0, width),
             partial: r.partial.concat(fits).bits(0, width),
@@ -130,16 +138,22 @@ impl Divider {
         }
     }
 
+    /// Whether the quotient is rounded up.
+    #[inline(always)]
+    fn round<V: Value>(&self, r: Registers<Signal<V>>, i: Inputs<Signal<V>>) -> Registers<Signal<V>> {
+        let (twice, denominator) = (r.remainder.scaled(1), i.denominator.integer());
+        let up = denominator.less_than(twice) | (twice.equals(denominator) & r.partial.bits(0, 1));
+        Registers { count: self.count(&r), up, ..r }
+    }
+
     /// The rounded quotient.
     #[inline(always)]
-    fn finish<V: Value>(&self, r: Registers<Signal<V>>) -> Registers<Signal<V>> {
-        let (twice, denominator) = (r.remainder.scaled(1), r.denominator.integer());
-        let up = denominator.less_than(twice) | (twice.equals(denominator) & r.partial.bits(0, 1));
-        let (rounded, over) = (r.partial + up).saturate(Format { frac: 0, ..self.quotient }, Exact);
+    fn finish<V: Value>(&self, r: Registers<Signal<V>>, i: Inputs<Signal<V>>) -> Registers<Signal<V>> {
+        let (rounded, over) = (r.partial + r.up).saturate(Format { frac: 0, ..self.quotient }, Exact);
         let most = code(self.quotient.max_code() as i64, Format { frac: 0, ..self.quotient });
         let saturated = over | r.over;
         let quotient = r.over.select(most, rounded).scaled(-self.quotient.frac);
-        let quotient = quotient.ideally(&[r.numerator, r.denominator], |of| of[0] / of[1]);
+        let quotient = quotient.ideally(&[i.numerator, i.denominator], |of| of[0] / of[1]);
         Registers { busy: bit(false), done: bit(true), quotient, saturated, ..r }
     }
 }
@@ -169,6 +183,7 @@ impl Block for Divider {
             done: BIT,
             saturated: BIT,
             over: BIT,
+            up: BIT,
             count: r.count.counting(),
             tail: r.tail.counting(),
             partial: r.partial.counting(),
@@ -184,15 +199,25 @@ impl Block for Divider {
         if (i.start | r.busy | r.done).idle() {
             return outputs;
         }
-        let last = r.count.is(self.quotient.width.into());
+        let at = |count: u64| r.count.is(count);
+        let width = u64::from(self.quotient.width);
         let idle = Registers { done: bit(false), ..r };
-        let next = when!(
-            V,
-            Registers,
-            i.start,
-            self.begin(idle, i),
-            when!(V, Registers, r.busy, when!(V, Registers, last, self.finish(idle), self.step(idle)), idle)
-        );
+        let work = |r: Registers<Signal<V>>| {
+            when!(
+                V,
+                Registers,
+                at(0),
+                self.check(r, i),
+                when!(
+                    V,
+                    Registers,
+                    at(width + 1),
+                    self.round(r, i),
+                    when!(V, Registers, at(width + 2), self.finish(r, i), self.step(r, i))
+                )
+            )
+        };
+        let next = when!(V, Registers, i.start, self.begin(idle, i), when!(V, Registers, r.busy, work(idle), idle));
         cell.store(self, next);
         outputs
     }

@@ -13,13 +13,15 @@
 //! | square, energy | profile | pF²  | saturates, flagged |
 //! | force          | profile | N    | saturates, flagged |
 //!
-//! One multiplier serves all three products, on codes as integers. Latency: 8 clocks from `start` to `done`.
+//! One multiplier serves all three products, on codes as integers; a step takes as long as it does. Latency: 9 steps and a
+//! clock from `start` to `done`.
 
+use super::multiplier::{self, Multiplier};
 use crate::block::{Block, Cell};
 use crate::format::{BIT, Format};
 use crate::profile::Profile;
 use crate::signal::{Exact, HalfEven, Signal, Value, Wrap, bit, int};
-use crate::{bundle, when};
+use crate::{bundle, parts, when};
 
 bundle! {
     /// The inputs.
@@ -48,16 +50,26 @@ bundle! {
 }
 
 bundle! {
-    /// The registers. `left`, `right` and `product` are codes as integers.
+    /// The registers. `left` and `right` are codes as integers.
     pub struct Registers {
-        step: ["idle", "load", "square", "weigh", "energy", "scale", "force"],
-        left, right, product, haptic_force, saturated, done,
+        step: [
+            "idle", "load", "square", "narrow_square", "weigh", "energy", "narrow_energy", "scale", "gain_product", "finish",
+        ],
+        waited, left, right, factor, haptic_force, saturated, done,
+    }
+}
+
+parts! {
+    /// The block within.
+    pub struct Parts of Force {
+        multiplier: Multiplier,
     }
 }
 
 /// The configuration.
 #[derive(Debug, Clone)]
 pub struct Force {
+    multiplier: Multiplier,
     capacitance: Format,
     mean_square: Format,
     square: Format,
@@ -72,46 +84,61 @@ impl Force {
         let (capacitance, mean_square, square, gain) = (f.capacitance, f.mean_square, f.square, f.force_gain);
         let left = Format::unsigned(capacitance.width.max(square.width), 0);
         let right = Format::unsigned(capacitance.width.max(mean_square.width).max(gain.width), 0);
-        let step = Format::unsigned(3, 0);
-        let product = left.product(right);
-        let registers = Registers { step, left, right, product, haptic_force: f.force, saturated: BIT, done: BIT };
-        Force { capacitance, mean_square, square, gain, registers }
+        let step = Format::unsigned(4, 0);
+        let multiplier = Multiplier::new(left, right, profile.multiplier);
+        let registers = Registers {
+            step,
+            waited: BIT,
+            left,
+            right,
+            factor: square,
+            haptic_force: f.force,
+            saturated: BIT,
+            done: BIT,
+        };
+        Force { multiplier, capacitance, mean_square, square, gain, registers }
     }
 
     /// Clocks from `start` to `done`.
     pub fn latency(&self) -> u64 {
-        8
+        9 * self.multiplier.latency() + 1
     }
 
     /// The product of two codes in the format `to`, and whether it is held at a rail.
     #[inline(always)]
-    fn product<V: Value>(
+    fn narrow<V: Value>(
         &self,
-        r: &Registers<Signal<V>>,
+        product: Signal<V>,
         (left, right): (Format, Format),
         to: Format,
     ) -> (Signal<V>, Signal<V>) {
         let format = left.product(right);
-        r.product.fit(Format { frac: 0, ..format }, Exact, Wrap).scaled(-format.frac).saturate(to, HalfEven)
+        product.fit(Format { frac: 0, ..format }, Exact, Wrap).scaled(-format.frac).saturate(to, HalfEven)
     }
 
     #[inline(always)]
-    fn step<V: Value>(&self, r: Registers<Signal<V>>, i: Inputs<Signal<V>>) -> Registers<Signal<V>> {
+    fn step<V: Value>(
+        &self,
+        r: Registers<Signal<V>>,
+        i: Inputs<Signal<V>>,
+        product: Signal<V>,
+    ) -> Registers<Signal<V>> {
         let at = |step: u64| r.step.is(step);
-        let (square, square_held) = self.product(&r, (self.capacitance, self.capacitance), self.square);
-        let (energy, energy_held) = self.product(&r, (self.square, self.mean_square), self.square);
-        let (force, force_held) = self.product(&r, (self.square, self.gain), self.registers.haptic_force);
+        let (square, square_held) = self.narrow(product, (self.capacitance, self.capacitance), self.square);
+        let (energy, energy_held) = self.narrow(product, (self.square, self.mean_square), self.square);
+        let (force, force_held) = self.narrow(product, (self.square, self.gain), self.registers.haptic_force);
         let [capacitance, mean_square, gain] = [i.capacitance, i.mean_square, i.gain].map(Signal::integer);
-        let factor = at(3).select(square, energy).integer();
-        let saturated = (at(3) & square_held) | (at(5) & energy_held) | (at(7) & force_held);
+        let factor = at(3).select(square, energy);
+        let saturated = (at(3) & square_held) | (at(6) & energy_held) | (at(9) & force_held);
         Registers {
-            step: at(7).select(int(0), r.step + int(1)).fit(self.registers.step, Exact, Wrap),
-            left: at(1).select(capacitance, factor),
-            right: at(1).select(capacitance, at(3).select(mean_square, gain)),
-            product: r.left * r.right,
-            haptic_force: at(7).select(force, r.haptic_force),
+            step: at(9).select(int(0), r.step + int(1)).fit(self.registers.step, Exact, Wrap),
+            waited: bit(false),
+            left: at(1).select(capacitance, r.factor.integer()),
+            right: at(1).select(capacitance, at(4).select(mean_square, gain)),
+            factor: (at(3) | at(6)).select(factor, r.factor),
+            haptic_force: at(9).select(force, r.haptic_force),
             saturated: r.saturated | saturated,
-            done: at(7),
+            done: at(9),
         }
     }
 }
@@ -121,7 +148,7 @@ impl Block for Force {
     type Inputs = Inputs;
     type Outputs = Outputs;
     type Registers = Registers;
-    type Parts<V: Value> = ();
+    type Parts<V: Value> = Parts<V>;
 
     #[inline]
     fn inputs(&self) -> Inputs<Format> {
@@ -143,7 +170,7 @@ impl Block for Force {
             step: r.step.counting(),
             left: r.left.counting(),
             right: r.right.counting(),
-            product: r.product.counting(),
+            waited: BIT,
             ..r
         }
     }
@@ -155,9 +182,19 @@ impl Block for Force {
         if (i.start | !r.step.is(0) | r.done).idle() {
             return outputs;
         }
+        let inputs = multiplier::Inputs { enable: !r.step.is(0), left: r.left, right: r.right };
+        let product = self.multiplier.call("multiplier", &mut cell.parts.multiplier, inputs).product;
+        let acts = self.multiplier.paces(r.waited);
         let idle = Registers { done: bit(false), ..r };
-        let begin = Registers { step: int(1), saturated: bit(false), ..idle };
-        let next = when!(V, Registers, i.start, begin, when!(V, Registers, r.step.is(0), idle, self.step(idle, i)));
+        let waits = Registers { waited: bit(true), ..idle };
+        let begin = Registers { step: int(1), waited: bit(false), saturated: bit(false), ..idle };
+        let next = when!(
+            V,
+            Registers,
+            i.start,
+            begin,
+            when!(V, Registers, r.step.is(0), idle, when!(V, Registers, acts, self.step(idle, i, product), waits))
+        );
         cell.store(self, next);
         outputs
     }

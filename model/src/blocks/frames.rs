@@ -168,7 +168,7 @@ impl Frames {
             done: BIT,
         };
         let words = (1usize << pad.width) * Field::ALL.len();
-        Frames { held: Memory::new("held", words, word), inputs, registers }
+        Frames { held: Memory::new("held", words, word).never_colliding(), inputs, registers }
     }
 
     /// Clocks from `start` to the last word.
@@ -181,7 +181,10 @@ impl Frames {
     fn result<V: Value>(&self, i: &Inputs<Signal<V>>, index: Signal<V>) -> Signal<V> {
         let fields = [i.r_x, i.r_y, i.x, i.y, i.sheet, i.capacitance, i.haptic_force, i.mean_square];
         let word = |k: usize| fields[k].integer().fit(self.registers.word, Exact, Never);
-        (0..fields.len() - 1).rev().fold(word(fields.len() - 1), |rest, k| index.is(k as u64).select(word(k), rest))
+        // A tree of multiplexers, a level for each bit of the index.
+        let pair = |k: usize| index.bits(0, 1).select(word(2 * k + 1), word(2 * k));
+        let four = |k: usize| index.bits(1, 1).select(pair(2 * k + 1), pair(2 * k));
+        index.bits(2, 1).select(four(1), four(0))
     }
 }
 

@@ -12,6 +12,7 @@ pub mod frames;
 pub mod haptic_voltage;
 pub mod map;
 pub mod multiplexer;
+pub mod multiplier;
 pub mod oscillator;
 pub mod ratio;
 pub mod root;

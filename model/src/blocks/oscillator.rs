@@ -7,7 +7,7 @@
 //!
 //! ```text
 //! phase u32.32 ─quadrant 2─┐
-//!              └─address──[quarter wave]──(±)── cosine, then sine, then window
+//!              └─address──[quarter wave]──[wave]──(±)── window, then cosine, then sine
 //! ```
 //!
 //! | signal             | format     | unit           | overflow                                  |
@@ -41,7 +41,7 @@ bundle! {
 bundle! {
     /// The outputs.
     pub struct Outputs {
-        /// Set for one clock when the other outputs are those of the sample.
+        /// Set for one clock before the other outputs are those of the sample.
         ready,
         /// The cosine of the carrier.
         cosine,
@@ -55,8 +55,8 @@ bundle! {
 bundle! {
     /// The registers.
     pub struct Registers {
-        step: ["idle", "cosine", "sine", "window"],
-        phase, window_phase, looked_up, negative, cosine, sine, window, ready,
+        step: ["idle", "look_up", "wave", "cosine", "sine"],
+        phase, window_phase, looked_up, negative, wave, sign, cosine, sine, window, ready,
     }
 }
 
@@ -96,11 +96,13 @@ impl Oscillator {
         let amplitude = 1.0 - format.lsb();
         let table = (0..entries).map(|k| amplitude * entry(k)).collect();
         let registers = Registers {
-            step: Format::unsigned(2, 0),
+            step: Format::unsigned(3, 0),
             phase: PHASE,
             window_phase: PHASE,
             looked_up: PHASE,
             negative: BIT,
+            wave: Format { signed: false, width: format.width - 1, ..format },
+            sign: BIT,
             cosine: format,
             sine: format,
             window: format,
@@ -125,11 +127,10 @@ impl Oscillator {
         (phase.bits(30, 1).select(mirrored, index), phase.msb())
     }
 
-    /// The table's word, with its sign: the sine of the phase that was looked up.
+    /// The magnitude of the sine of the phase that was looked up.
     #[inline(always)]
-    fn wave<V: Value>(&self, r: &Registers<Signal<V>>, word: Signal<V>) -> Signal<V> {
-        let wave = r.negative.select(-word, word).fit(self.registers.sine, Exact, Wrap);
-        wave.ideally(&[r.looked_up], |turns| (TAU * turns[0]).sin())
+    fn magnitude<V: Value>(&self, r: &Registers<Signal<V>>, word: Signal<V>) -> Signal<V> {
+        word.ideally(&[r.looked_up], |turns| (TAU * turns[0]).sin().abs())
     }
 
     /// (1 − cos) / 2, or one throughout.
@@ -147,10 +148,10 @@ impl Oscillator {
     fn address_phase<V: Value>(&self, r: &Registers<Signal<V>>, i: &Inputs<Signal<V>>) -> Signal<V> {
         let quarter = code(1 << 30, PHASE);
         let zero = zero(PHASE);
-        let begun = i.sample.select(i.restart.select(zero, r.phase), r.phase);
-        let cosine = (begun + quarter).fit(PHASE, Exact, Wrap);
-        let window = (r.window_phase + quarter).fit(PHASE, Exact, Wrap);
-        r.step.is(1).select(r.phase, r.step.is(2).select(window, cosine))
+        let begun = (i.sample & i.first).select(zero, r.window_phase);
+        let sine = r.step.is(2);
+        let phase = (r.step.is(1) | sine).select(r.phase, begun);
+        (phase + sine.select(zero, quarter)).fit(PHASE, Exact, Wrap)
     }
 
     /// A sample begins: phases start anew where they should.
@@ -165,19 +166,28 @@ impl Oscillator {
         }
     }
 
-    /// The word of the look-up before is there.
+    /// The word of the look-up before is there, and that of the one before it gets its sign.
     #[inline(always)]
-    fn step<V: Value>(&self, r: Registers<Signal<V>>, wave: Signal<V>) -> Registers<Signal<V>> {
-        let (cosine, sine, window) = (r.step.is(1), r.step.is(2), r.step.is(3));
+    fn step<V: Value>(
+        &self,
+        r: Registers<Signal<V>>,
+        magnitude: Signal<V>,
+        negative: Signal<V>,
+    ) -> Registers<Signal<V>> {
+        let at = |step: u64| r.step.is(step);
         let advance = |phase: Signal<V>, by: i64| (phase + code(by, PHASE)).fit(PHASE, Exact, Wrap);
+        let wave = r.sign.select(-r.wave, r.wave).fit(self.registers.sine, Exact, Wrap);
+        let end = at(4);
         Registers {
-            step: (r.step + int(1)).fit(r.step.format, Exact, Wrap),
-            phase: window.select(advance(r.phase, self.increment), r.phase),
-            window_phase: window.select(advance(r.window_phase, self.window_increment), r.window_phase),
-            cosine: cosine.select(wave, r.cosine),
-            sine: sine.select(wave, r.sine),
-            window: window.select(self.weight(wave), r.window),
-            ready: window,
+            step: end.select(int(0), r.step + int(1)).fit(r.step.format, Exact, Wrap),
+            phase: end.select(advance(r.phase, self.increment), r.phase),
+            window_phase: end.select(advance(r.window_phase, self.window_increment), r.window_phase),
+            wave: magnitude,
+            sign: negative,
+            window: at(2).select(wave, at(3).select(self.weight(r.window), r.window)),
+            cosine: at(3).select(wave, r.cosine),
+            sine: end.select(wave, r.sine),
+            ready: at(3),
             ..r
         }
     }
@@ -203,9 +213,9 @@ impl Block for Oscillator {
 
     #[inline(always)]
     fn registers(&self) -> Registers<Format> {
-        let (phase, step) = (PHASE, Format::unsigned(2, 0));
+        let (phase, step) = (PHASE, Format::unsigned(3, 0));
         let phases = Registers { phase, window_phase: phase, looked_up: phase, ..self.registers };
-        Registers { step, negative: BIT, ready: BIT, ..phases }
+        Registers { step, negative: BIT, sign: BIT, ready: BIT, ..phases }
     }
 
     #[inline(always)]
@@ -216,14 +226,20 @@ impl Block for Oscillator {
         if (i.sample | busy | r.ready).idle() {
             return outputs;
         }
-        let wave = self.wave(&r, self.quarter.data(&mut cell.parts.quarter));
+        let magnitude = self.magnitude(&r, self.quarter.data(&mut cell.parts.quarter));
         let looked_up = self.address_phase(&r, &i);
         let (address, negative) = self.look_up(looked_up);
         self.quarter.read(&mut cell.parts.quarter, address);
         let quiet = Registers { ready: bit(false), ..r };
+        let before = r.negative;
         let r = Registers { looked_up, negative, ..quiet };
-        let next =
-            when!(V, Registers, i.sample, self.begin(r, i), when!(V, Registers, busy, self.step(r, wave), quiet));
+        let next = when!(
+            V,
+            Registers,
+            i.sample,
+            self.begin(r, i),
+            when!(V, Registers, busy, self.step(r, magnitude, before), quiet)
+        );
         cell.store(self, next);
         outputs
     }

@@ -229,10 +229,12 @@ fn local<V: Value>(core: &Core, profile: &Profile) -> Vec<Local<V>> {
     let mut local = Vec::new();
     for sample in 0..profile.slot.samples() {
         let [restart, first] = [sample == 0, sample == profile.slot.blanking()].map(bit);
+        let quiet = Sample { sample: bit(false), restart: bit(false), first: bit(false) };
         let mut out = oscillator.clock(&mut cell, Sample { sample: bit(true), restart, first });
         while V::known(out.ready.value) != Some(true) {
-            out = oscillator.clock(&mut cell, Sample { sample: bit(false), restart: bit(false), first: bit(false) });
+            out = oscillator.clock(&mut cell, quiet);
         }
+        let out = oscillator.clock(&mut cell, quiet);
         if sample >= profile.slot.blanking() {
             let [cosine, sine] = [out.cosine, out.sine].map(|wave| demodulator.weigh(out.window * wave, lo).value);
             local.push(Local { cosine, sine, window: out.window.value });

@@ -32,6 +32,7 @@ impl Profile {
     /// The first that does not hold, with its key.
     pub fn check(&self) -> Check {
         within("pads", self.pads, 1, 256)?;
+        within("multiplier", self.multiplier.into(), 8, 64)?;
         self.check_terminals()?;
         self.check_formats()?;
         self.check_map()?;

@@ -19,6 +19,8 @@ pub struct Profile {
     pub pads: u64,
     /// Clocks of the core from one ADC sample to the next.
     pub clocks_per_sample: u64,
+    /// The width of the words that a hardware multiplier of the part takes; wider products take two clocks.
+    pub multiplier: u8,
     /// The current sensors.
     pub terminals: Terminals,
     /// How a pad's slot is spent.

@@ -216,7 +216,23 @@ impl<V: Value> Signal<V> {
         let width = (integer + i16::from(to.frac) + i16::from(signed)).max(i16::from(to.width)) as u8;
         let rounded = self.fit(Format { signed, width, frac: to.frac }, rounding, Never);
         let held = rounded.fit(to, Exact, Saturate);
-        (held, !held.equals(rounded))
+        let beyond = rounded.beyond(to).ideally(&[held, rounded], |of| f64::from(u8::from(of[0] != of[1])));
+        (held, beyond)
+    }
+
+    /// Whether the code, read as one of `to`, is not this number: bits from its sign up are not all alike.
+    #[inline(always)]
+    fn beyond(self, to: Format) -> Self {
+        let Format { signed, width, .. } = self.format;
+        let low = to.width - u8::from(to.signed);
+        if width <= low {
+            return if signed && !to.signed { self.msb() } else { bit(false) };
+        }
+        let above = self.bits(low, width - low);
+        match signed && to.signed {
+            true => !(above.is(0) | above.is((1 << (width - low)) - 1)),
+            false => !above.is(0),
+        }
     }
 
     /// The same bits with the point moved: the number times `2^by`.

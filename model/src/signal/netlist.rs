@@ -92,6 +92,8 @@ pub struct Ram {
     pub name: &'static str,
     /// The format of a word.
     pub format: Format,
+    /// Whether somebody may use a word that was read while it was being written.
+    pub collides: bool,
     /// The words at reset.
     pub initial: Vec<i64>,
     /// What its read port asks for.
@@ -122,6 +124,8 @@ pub struct Module {
     pub inputs: Vec<Named>,
     /// Its output ports.
     pub outputs: Vec<Named>,
+    /// Whether its registers take zero at reset.
+    pub resets: bool,
     /// Its registers.
     pub registers: Vec<Named>,
     /// Its memories.
@@ -171,6 +175,14 @@ fn wire(op: Op, format: Format) -> Node {
     })
 }
 
+/// The code of a wire that a profile has settled.
+fn settled(node: Node) -> Option<i64> {
+    with_module(|open| match open.module.wires[node.0 as usize].op {
+        Op::Constant(code) => Some(code),
+        _ => None,
+    })
+}
+
 fn ports<S: Bundle>(formats: S::Of<Format>, op: impl Fn(usize) -> Op) -> (S::Of<Node>, Vec<Named>) {
     let mut index = 0;
     let nodes = S::map(formats, |format| {
@@ -200,6 +212,7 @@ fn read<B: Block>(block: &B, cell: &mut Cell<B, Node>) -> usize {
     READER.with_borrow_mut(|reader| {
         let mut module = reader.open.pop().expect("opened above").module;
         module.name = B::NAME;
+        module.resets = B::RESETS;
         module.path = std::any::type_name::<B>();
         module.inputs = input_ports;
         module.outputs = named::<B::Outputs>(outputs, block.outputs());
@@ -281,11 +294,19 @@ impl Value for Node {
     }
 
     fn and(a: Self, b: Self) -> Self {
-        wire(Op::And(a, b), BIT)
+        match (settled(a), settled(b)) {
+            (Some(0), _) | (_, Some(1)) => a,
+            (Some(_), _) | (_, Some(_)) => b,
+            _ => wire(Op::And(a, b), BIT),
+        }
     }
 
     fn or(a: Self, b: Self) -> Self {
-        wire(Op::Or(a, b), BIT)
+        match (settled(a), settled(b)) {
+            (Some(1), _) | (_, Some(0)) => a,
+            (Some(_), _) | (_, Some(_)) => b,
+            _ => wire(Op::Or(a, b), BIT),
+        }
     }
 
     fn not(a: Self) -> Self {
@@ -293,6 +314,9 @@ impl Value for Node {
     }
 
     fn select(bit: Self, a: Signal<Self>, b: Signal<Self>, to: Format) -> Self {
+        if let Some(code) = settled(bit) {
+            return Self::fit(if code == 1 { a } else { b }, to, Rounding::Exact, Overflow::Never);
+        }
         wire(Op::Select(bit, a.value, b.value), to)
     }
 
@@ -356,8 +380,8 @@ impl Value for Node {
 fn ram(memory: &Memory, index: &mut Option<usize>) -> usize {
     *index.get_or_insert_with(|| {
         with_module(|open| {
-            let (name, format, initial) = (memory.name, memory.format, memory.codes());
-            open.module.memories.push(Ram { name, format, initial, address: None, write: None });
+            let (name, format, collides, initial) = (memory.name, memory.format, memory.collides, memory.codes());
+            open.module.memories.push(Ram { name, format, collides, initial, address: None, write: None });
             open.module.memories.len() - 1
         })
     })

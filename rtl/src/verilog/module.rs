@@ -25,7 +25,10 @@ pub fn print(netlist: &Netlist, modules: &[String], module: &Module, name: &str,
         text += &format!("\n{}\n", wires.join("\n"));
     }
     text += &users.concat();
-    let unused = printer.scope.unused();
+    let mut unused = printer.scope.unused();
+    if !(module.resets && printer.registers.iter().any(Option::is_some)) && module.instances.is_empty() {
+        unused.push("reset".into());
+    }
     if !unused.is_empty() {
         let _ = write!(text, "\n    // What nothing needs.\n    wire unused = &{{1'b0, {}}};\n", folded(&unused));
     }
@@ -119,6 +122,9 @@ impl Printer<'_> {
         for (index, ram) in module.memories.iter().enumerate().filter(|(index, _)| self.scope.live.memories[*index]) {
             let (range, name, words) =
                 (range(ram.format.width, ram.format.signed), &memories[index], ram.initial.len());
+            if !ram.collides && ram.write.is_some() {
+                text += "    (* no_rw_check *) // nobody uses a word that was read while it was being written\n";
+            }
             let _ = writeln!(text, "    reg {range}{name} [0:{}]; // {words} words {}", words - 1, ram.format);
             let _ = writeln!(text, "    reg {range}{name}_word; // its read register");
         }
@@ -228,6 +234,9 @@ impl Printer<'_> {
         }
         if resets.is_empty() {
             return resets;
+        }
+        if !self.scope.module.resets {
+            return format!("\n    always @(posedge clock) begin\n{}    end\n", self.scope.statements(nexts, 8));
         }
         let steps = self.scope.statements(nexts, 12);
         let reset = format!("        if (reset) begin\n{resets}        end else begin\n{steps}        end\n");

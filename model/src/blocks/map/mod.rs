@@ -13,7 +13,8 @@
 //! lie in one memory; one multiplier serves every interpolation.
 //!
 //! ```text
-//! near, far ─[difference]─(× weight)─[product]─(+ near)─[round half even, saturate]─ result
+//!     near ─┐
+//! far ─(−)──[difference]─(× factor)─[product]─(+ near)─[aligned]─[round half even, saturate]─ result
 //! ```
 //!
 //! | signal            | format  | unit                           | overflow                                           |
@@ -22,12 +23,14 @@
 //! | x, y              | words   | `2^POSITION_BITS` mm           | as above                                           |
 //! | R                 | words   | full scales, voltage / current | held at zero from below                            |
 //!
-//! Latency: 19 operations of 6 clocks + 1 from `start` to `done`. Source: paper, eqs. 2–3; PHYSICS §1 (det J > 0).
+//! What an operation makes replaces what no later one needs: p_x becomes u, p_y becomes v. Latency: 19 operations of 10 clocks and a
+//! product each, and a clock, from `start` to `done`. Source: paper, eqs. 2–3; PHYSICS §1 (det J > 0).
 
 mod layout;
 
 pub use layout::{Curve, Layout};
 
+use super::multiplier::{self, Multiplier};
 use crate::block::{Block, Cell};
 use crate::format::{BIT, Format};
 use crate::memory::{Memory, Write};
@@ -78,16 +81,16 @@ bundle! {
 }
 
 bundle! {
-    /// The registers. `difference`, `factor` and `product` are codes as integers.
+    /// The registers. `near`, `difference` and `factor` are codes as integers; `first` and `second` are what the last two
+    /// interpolations gave: the middle and the stretch of a curve, or the words above and below the pad.
     pub struct Registers {
         busy,
         operation: [
             "box_x", "box_y", "middle_y", "stretch_y", "straighten_y", "spacing_y", "middle_x", "stretch_x",
             "straighten_x", "spacing_x", "x_above", "x_below", "x", "y_above", "y_below", "y", "r_above", "r_below", "r",
         ],
-        step: ["coordinate", "near", "far", "difference", "multiply", "finish"],
-        p_x, p_y, middle, stretch, u, v, above, below, base, near, difference, factor, product, x, y, sheet,
-        saturated, done,
+        step: ["cell", "row", "look_up", "look_up_next", "near", "far", "difference", "multiply"],
+        across, along, first, second, base, word, near, difference, factor, aligned, result, x, y, sheet, saturated, done,
     }
 }
 
@@ -95,6 +98,7 @@ parts! {
     /// The memory within.
     pub struct Parts of Map {
         words: Memory,
+        multiplier: Multiplier,
     }
 }
 
@@ -115,18 +119,21 @@ mod operation {
     pub const ALL: u64 = LAYERS + 9;
 }
 
-/// Clocks of an operation.
-const STEPS: u64 = 6;
+/// Clocks of an operation, without its product.
+const STEPS: u64 = 10;
 
 /// The configuration.
 #[derive(Debug, Clone)]
 pub struct Map {
     words: Memory,
+    multiplier: Multiplier,
     layout: Layout,
     ratio: Format,
     scale: Format,
     word: Format,
     weight: Format,
+    /// Of the three kinds of operation: into the box, straighten, interpolate.
+    products: [Format; 3],
     registers: Registers<Format>,
 }
 
@@ -140,40 +147,48 @@ impl Map {
     pub fn new(profile: &Profile) -> Self {
         let (ratio, word, scale) = (profile.formats.ratio, profile.formats.map, profile.formats.map_scale);
         let layout = Layout::new(profile);
-        let words = Memory::new("words", layout.words(), word);
+        // A slot whose tables are written meanwhile gives a frame of neither calibration in any case.
+        let words = Memory::new("words", layout.words(), word).never_colliding();
         let fraction = word.width - layout.edge.min(layout.spacing).min(layout.table);
         let weight = Format::unsigned(fraction, fraction as i8);
-        let difference = Format::signed(word.width.max(ratio.width) + 1, 0);
+        let near = Format::signed(word.width.max(ratio.width), 0);
+        let difference = near.difference(near);
         let factor = Format::unsigned(weight.width.max(scale.width).max(word.width - 1), 0);
+        let multiplier = Multiplier::new(difference, factor, profile.multiplier);
+        let (span, stretch) = (word.difference(word), Format::unsigned(word.width - 1, word.frac - Map::STRETCH_BITS));
+        let products = [ratio.difference(ratio).product(scale), span.product(stretch), span.product(weight)];
         let registers = Registers {
             busy: BIT,
             operation: Format::counter(operation::ALL - 1),
-            step: Format::counter(STEPS - 1),
-            p_x: word,
-            p_y: word,
-            middle: word,
-            stretch: word,
-            u: word,
-            v: word,
-            above: word,
-            below: word,
+            step: Format::counter(STEPS + multiplier.latency() - 1),
+            across: word,
+            along: word,
+            first: word,
+            second: word,
             base: words.address(),
-            near: word,
+            word,
+            near,
             difference,
             factor,
-            product: difference.product(factor),
+            aligned: products[0].join(products[1]).join(products[2].sum(word)),
+            result: word,
             x: profile.position(),
             y: profile.position(),
             sheet: profile.sheet(),
             saturated: BIT,
             done: BIT,
         };
-        Map { words, layout, ratio, scale, word, weight, registers }
+        Map { words, multiplier, layout, ratio, scale, word, weight, products, registers }
+    }
+
+    /// Clocks of an operation.
+    fn steps(&self) -> u64 {
+        STEPS + self.multiplier.latency()
     }
 
     /// Clocks from `start` to `done`.
     pub fn latency(&self) -> u64 {
-        operation::ALL * STEPS + 1
+        operation::ALL * self.steps() + 1
     }
 
     /// The memory of curves and tables.
@@ -191,155 +206,209 @@ impl Map {
         (index, (cells - index).fit(self.weight, Exact, Lemma(FRACTION)))
     }
 
-    /// The address at which an operation reads, and the weight of the word after it.
+    /// What the operation is.
     #[inline(always)]
-    fn place<V: Value>(&self, r: &Registers<Signal<V>>) -> (Signal<V>, Signal<V>) {
+    fn kind<V: Value>(&self, operation: Signal<V>) -> Kind<V> {
         use operation::*;
-        let at = |operation: u64| r.operation.is(operation);
-        let offset = |curve: Curve| int(self.layout.curve(curve) as u64);
-        let straight = at(MIDDLE_Y) | at(STRETCH_Y);
-        let (edge, edge_weight) = self.cell_of(straight.select(r.p_x, r.v), self.layout.edge);
-        let (spacing, spacing_weight) = self.cell_of(at(SPACING_Y).select(r.v, r.u), self.layout.spacing);
-        let edge_offset = straight.select(
-            at(MIDDLE_Y).select(offset(Curve::MiddleY), offset(Curve::StretchY)),
-            at(MIDDLE_X).select(offset(Curve::MiddleX), offset(Curve::StretchX)),
-        );
-        let spacing_offset = at(SPACING_Y).select(offset(Curve::SpacingY), offset(Curve::SpacingX));
-        let spaced = at(SPACING_Y) | at(SPACING_X);
-        let curve = spaced.select(spacing_offset + spacing, edge_offset + edge);
-        let (node, node_weight) = self.node(r);
-        let tables = r.operation.at_least(int(LAYERS));
-        let weight = tables.select(node_weight, spaced.select(spacing_weight, edge_weight));
-        (tables.select(node, curve).fit(self.registers.base, Exact, Lemma(WITHIN)), weight)
+        let at = |which: u64| operation.is(which);
+        let in_layers = |which: u64| at(LAYERS + which) | at(LAYERS + 3 + which) | at(LAYERS + 6 + which);
+        Kind {
+            boxed: at(BOX_X) | at(BOX_Y),
+            straightened: at(STRAIGHTEN_Y) | at(STRAIGHTEN_X),
+            spaced: at(SPACING_Y) | at(SPACING_X),
+            tables: !operation.less_than(int(LAYERS)),
+            below: in_layers(1),
+            between: in_layers(2),
+        }
     }
 
-    /// Of the tables: the node left of the pad in the row above or below it, and the weight of the next.
+    /// The coordinate that an operation looks at: across the sheet's length (x), or along its other side (y).
     #[inline(always)]
-    fn node<V: Value>(&self, r: &Registers<Signal<V>>) -> (Signal<V>, Signal<V>) {
-        let bits = self.layout.table;
-        let (column, across) = self.cell_of(r.u, bits);
-        let (row, down) = self.cell_of(r.v, bits);
-        let row = row + self.below(r);
-        let rows = row.concat(zero(Format::unsigned(bits, 0))) + row;
-        let offset = |layer: usize| int(self.layout.table(layer) as u64);
-        let layer = |k: u64| r.operation.at_least(int(operation::LAYERS + 3 * k));
-        let offset = layer(2).select(offset(2), layer(1).select(offset(1), offset(0)));
-        (offset + rows + column, self.between(r).select(down, across))
-    }
-
-    /// Whether the operation is the one of its kind in any of the layers.
-    #[inline(always)]
-    fn in_layers<V: Value>(&self, r: &Registers<Signal<V>>, which: u64) -> Signal<V> {
-        let at = |layer: u64| r.operation.is(operation::LAYERS + 3 * layer + which);
-        at(0) | at(1) | at(2)
-    }
-
-    #[inline(always)]
-    fn below<V: Value>(&self, r: &Registers<Signal<V>>) -> Signal<V> {
-        self.in_layers(r, 1)
-    }
-
-    #[inline(always)]
-    fn between<V: Value>(&self, r: &Registers<Signal<V>>) -> Signal<V> {
-        self.in_layers(r, 2)
-    }
-
-    /// Whether the operation multiplies a difference that needs no look-up: box or straighten.
-    #[inline(always)]
-    fn kinds<V: Value>(&self, r: &Registers<Signal<V>>) -> (Signal<V>, Signal<V>) {
+    fn coordinate<V: Value>(&self, r: &Registers<Signal<V>>, kind: &Kind<V>) -> Signal<V> {
         use operation::*;
-        let at = |operation: u64| r.operation.is(operation);
-        (at(BOX_X) | at(BOX_Y), at(STRAIGHTEN_Y) | at(STRAIGHTEN_X))
+        let at = |which: u64| r.operation.is(which);
+        let of_x = at(MIDDLE_Y) | at(STRETCH_Y) | at(STRAIGHTEN_X) | at(SPACING_X) | (kind.tables & !kind.between);
+        of_x.select(r.across, r.along)
     }
 
-    /// The first step: where to read and with which weight, or what to multiply straight away.
+    /// Where the curve or table of an operation begins in the memory.
     #[inline(always)]
-    fn coordinate<V: Value>(&self, r: Registers<Signal<V>>, i: Inputs<Signal<V>>) -> Registers<Signal<V>> {
-        let at = |operation: u64| r.operation.is(operation);
-        let (boxed, straightened) = self.kinds(&r);
-        let between = self.between(&r);
-        let (base, weight) = self.place(&r);
-        let along_x = at(operation::BOX_X);
-        let from_origin = along_x.select(i.r_x, i.r_y) - along_x.select(i.origin_x, i.origin_y);
-        let from_middle = at(operation::STRAIGHTEN_Y).select(r.p_y, r.p_x) - r.middle;
-        let stretch = r.stretch.fit(Format::unsigned(self.word.width - 1, self.word.frac), Exact, Saturate);
-        let scale = along_x.select(i.scale_x, i.scale_y);
-        let of_rows = r.below - r.above;
-        let difference = straightened.select(from_middle.integer(), of_rows.integer());
-        let factor = straightened.select(stretch.integer(), weight.integer());
+    fn offset<V: Value>(&self, operation: Signal<V>) -> Signal<V> {
+        use operation::*;
+        let at = |which: u64| operation.is(which);
+        let curve = |curve: Curve| int(self.layout.curve(curve) as u64);
+        let table = |layer: usize| int(self.layout.table(layer) as u64);
+        let layer = |k: u64| !operation.less_than(int(LAYERS + 3 * k));
+        let curves = [
+            (MIDDLE_Y, Curve::MiddleY),
+            (STRETCH_Y, Curve::StretchY),
+            (MIDDLE_X, Curve::MiddleX),
+            (STRETCH_X, Curve::StretchX),
+            (SPACING_Y, Curve::SpacingY),
+        ];
+        let of_curve =
+            curves.iter().fold(curve(Curve::SpacingX), |rest, &(which, of)| at(which).select(curve(of), rest));
+        let of_table = layer(2).select(table(2), layer(1).select(table(1), table(0)));
+        layer(0).select(of_table, of_curve)
+    }
+
+    /// First: the cell in which the coordinate lies, and what the difference is multiplied by.
+    #[inline(always)]
+    fn cell<V: Value>(&self, r: Registers<Signal<V>>, i: &Inputs<Signal<V>>, kind: &Kind<V>) -> Registers<Signal<V>> {
+        let along_x = r.operation.is(operation::BOX_X);
+        let coordinate = self.coordinate(&r, kind);
+        let [edge, spacing, table] =
+            [self.layout.edge, self.layout.spacing, self.layout.table].map(|bits| self.cell_of(coordinate, bits));
+        let choose = |table: Signal<V>, spacing: Signal<V>, edge: Signal<V>| {
+            kind.tables.select(table, kind.spaced.select(spacing, edge))
+        };
+        let (index, weight) = (choose(table.0, spacing.0, edge.0), choose(table.1, spacing.1, edge.1));
+        let stretch = r.second.fit(Format::unsigned(self.word.width - 1, self.word.frac), Exact, Saturate).integer();
+        let scale = along_x.select(i.scale_x, i.scale_y).integer();
+        let origin = along_x.select(i.origin_x, i.origin_y);
+        let factor = kind.straightened.select(stretch, weight.integer());
         Registers {
-            base,
-            near: between.select(r.above, r.near),
-            difference: boxed.select(from_origin.integer(), difference),
-            factor: boxed.select(scale.integer(), factor),
+            base: (self.offset(r.operation) + index).fit(self.registers.base, Exact, Wrap),
+            near: kind.boxed.select(origin.integer(), r.first.integer()),
+            difference: self.far(&r, i, kind),
+            factor: kind.boxed.select(scale, factor),
             ..r
         }
     }
 
-    /// The last step: the product, rounded, goes where the operation says.
+    /// Then, in a table: the row above the pad, or the one below it.
     #[inline(always)]
-    fn finish<V: Value>(&self, r: Registers<Signal<V>>) -> Registers<Signal<V>> {
+    fn row<V: Value>(&self, r: Registers<Signal<V>>, kind: &Kind<V>) -> Registers<Signal<V>> {
+        let bits = self.layout.table;
+        let row = self.cell_of(r.along, bits).0 + kind.below;
+        let rows = row.concat(zero(Format::unsigned(bits, 0))) + row;
+        Registers { base: kind.tables.select(r.base + rows, r.base).fit(self.registers.base, Exact, Wrap), ..r }
+    }
+
+    /// What the difference is taken of where it is no word of the memory: a ratio, a coordinate, or the word below.
+    #[inline(always)]
+    fn far<V: Value>(&self, r: &Registers<Signal<V>>, i: &Inputs<Signal<V>>, kind: &Kind<V>) -> Signal<V> {
+        let ratio = r.operation.is(operation::BOX_X).select(i.r_x, i.r_y);
+        let coordinate = r.operation.is(operation::STRAIGHTEN_X).select(r.across, r.along);
+        kind.boxed.select(ratio.integer(), kind.straightened.select(coordinate.integer(), r.second.integer()))
+    }
+
+    /// The product with its point, and in an interpolation what it starts from.
+    #[inline(always)]
+    fn aligned<V: Value>(&self, r: &Registers<Signal<V>>, kind: &Kind<V>, product: Signal<V>) -> Signal<V> {
+        let [boxed, straight, between] =
+            self.products.map(|format| product.fit(Format { frac: 0, ..format }, Exact, Wrap).scaled(-format.frac));
+        let near = r.near.fit(Format { frac: 0, ..self.word }, Exact, Wrap).scaled(-self.word.frac);
+        kind.boxed.select(boxed, kind.straightened.select(straight, between + near))
+    }
+
+    /// Last: the result goes where the operation says.
+    #[inline(always)]
+    fn finish<V: Value>(&self, r: Registers<Signal<V>>, kind: &Kind<V>) -> Registers<Signal<V>> {
         use operation::*;
         let at = |operation: u64| r.operation.is(operation);
-        let product = |left: Format, right: Format| {
-            let format = left.product(right);
-            r.product.fit(Format { frac: 0, ..format }, Exact, Wrap).scaled(-format.frac)
-        };
-        let (word, span) = (self.word, self.word.difference(self.word));
-        let (boxed, straightened) = self.kinds(&r);
-        let in_box = product(self.ratio.difference(self.ratio), self.scale).saturate(word, HalfEven);
-        let stretch = Format::unsigned(word.width - 1, word.frac);
-        let straight = product(span, stretch).scaled(Map::STRETCH_BITS).saturate(word, HalfEven);
-        let between = (r.near + product(span, self.weight)).saturate(word, HalfEven);
-        let result = boxed.select(in_box.0, straightened.select(straight.0, between.0));
-        let held = boxed.select(in_box.1, straightened.select(straight.1, between.1));
-        let to = |operation: u64, register: Signal<V>| at(operation).select(result, register);
-        let either = |a: u64, b: u64, register: Signal<V>| (at(a) | at(b)).select(result, register);
+        let result = r.result;
         let mm = result.scaled(Profile::POSITION_BITS);
         let end = at(ALL - 1);
+        let of_x = at(BOX_X) | at(STRAIGHTEN_X) | at(SPACING_X);
+        let of_y = at(BOX_Y) | at(STRAIGHTEN_Y) | at(SPACING_Y);
+        let second = at(STRETCH_Y) | at(STRETCH_X) | kind.below;
         Registers {
             busy: !end,
             operation: end.select(int(0), r.operation + int(1)).fit(self.registers.operation, Exact, Never),
-            p_x: to(BOX_X, r.p_x),
-            p_y: to(BOX_Y, r.p_y),
-            middle: either(MIDDLE_Y, MIDDLE_X, r.middle),
-            stretch: either(STRETCH_Y, STRETCH_X, r.stretch),
-            v: either(STRAIGHTEN_Y, SPACING_Y, r.v),
-            u: either(STRAIGHTEN_X, SPACING_X, r.u),
-            above: self.in_layers(&r, 0).select(result, r.above),
-            below: self.below(&r).select(result, r.below),
+            step: int(0),
+            across: of_x.select(result, r.across),
+            along: of_y.select(result, r.along),
+            first: (of_x | of_y | second).select(r.first, result),
+            second: second.select(result, r.second),
             x: at(LAYERS + 2).select(mm, r.x),
             y: at(LAYERS + 5).select(mm, r.y),
             sheet: end.select(result.fit(self.registers.sheet, Exact, Saturate), r.sheet),
-            saturated: r.saturated | held,
             done: end,
             ..r
         }
     }
 
+    /// Before: the result is rounded.
     #[inline(always)]
-    fn work<V: Value>(&self, r: Registers<Signal<V>>, i: Inputs<Signal<V>>, word: Signal<V>) -> Registers<Signal<V>> {
+    fn round<V: Value>(&self, r: Registers<Signal<V>>) -> Registers<Signal<V>> {
+        let (result, held) = r.aligned.saturate(self.word, HalfEven);
+        Registers { result, saturated: r.saturated | held, ..r }
+    }
+
+    #[inline(always)]
+    fn work<V: Value>(
+        &self,
+        r: Registers<Signal<V>>,
+        i: Inputs<Signal<V>>,
+        (word, product): (Signal<V>, Signal<V>),
+    ) -> Registers<Signal<V>> {
         let at = |step: u64| r.step.is(step);
-        let (boxed, straightened) = self.kinds(&r);
-        let reads = !(boxed | straightened | self.between(&r));
-        let moved = Registers {
-            step: at(STEPS - 1).select(int(0), r.step + int(1)).fit(self.registers.step, Exact, Never),
-            near: (at(2) & reads).select(word, r.near),
-            difference: (at(3) & reads).select((word - r.near).integer(), r.difference),
-            product: at(4).select(r.difference * r.factor, r.product),
-            ..r
-        };
+        let kind = self.kind(r.operation);
+        let moved = Registers { step: (r.step + int(1)).fit(self.registers.step, Exact, Wrap), word, ..r };
         when!(
             V,
             Registers,
             at(0),
-            self.coordinate(moved, i),
-            when!(V, Registers, at(STEPS - 1), self.finish(moved), moved)
+            self.cell(moved, &i, &kind),
+            when!(
+                V,
+                Registers,
+                at(1),
+                self.row(moved, &kind),
+                when!(
+                    V,
+                    Registers,
+                    at(self.steps() - 3),
+                    Registers { aligned: self.aligned(&r, &kind, product), ..moved },
+                    when!(
+                        V,
+                        Registers,
+                        at(self.steps() - 2),
+                        self.round(moved),
+                        when!(
+                            V,
+                            Registers,
+                            at(self.steps() - 1),
+                            self.finish(moved, &kind),
+                            self.subtract(moved, &kind, r.word)
+                        )
+                    )
+                )
+            )
         )
+    }
+
+    /// Between: the words that were asked for, and the difference.
+    #[inline(always)]
+    fn subtract<V: Value>(&self, r: Registers<Signal<V>>, kind: &Kind<V>, word: Signal<V>) -> Registers<Signal<V>> {
+        let before = |step: u64| r.step.is(step + 1);
+        let reads = !(kind.boxed | kind.straightened | kind.between);
+        let difference = (r.difference - r.near).fit(self.registers.difference, Exact, Wrap);
+        let far = (before(5) & reads).select(word.integer(), r.difference);
+        Registers {
+            near: (before(4) & reads).select(word.integer(), r.near),
+            difference: before(6).select(difference, far),
+            ..r
+        }
     }
 }
 
-const WITHIN: &str = "the cells of a curve or table lie within the memory";
+/// Which kinds of operation one is.
+struct Kind<V> {
+    /// Brings a ratio into the box.
+    boxed: Signal<V>,
+    /// Straightens an edge.
+    straightened: Signal<V>,
+    /// Evens out the spacing.
+    spaced: Signal<V>,
+    /// Looks up a table.
+    tables: Signal<V>,
+    /// In the row below the pad.
+    below: Signal<V>,
+    /// Between the two rows.
+    between: Signal<V>,
+}
 
 impl Block for Map {
     const NAME: &'static str = "map";
@@ -394,11 +463,14 @@ impl Block for Map {
             return outputs;
         }
         let word = self.words.data(&mut cell.parts.words);
-        let after = (r.base + r.step.is(2)).fit(self.registers.base, Exact, Wrap);
+        let after = (r.base + r.step.is(3)).fit(self.registers.base, Exact, Wrap);
         self.words.access(&mut cell.parts.words, after, Write { enable: i.write, address: i.address, data: i.word });
+        let inputs = multiplier::Inputs { enable: r.busy, left: r.difference, right: r.factor };
+        let product = self.multiplier.call("multiplier", &mut cell.parts.multiplier, inputs).product;
         let idle = Registers { done: bit(false), ..r };
         let begin = Registers { busy: bit(true), operation: int(0), step: int(0), saturated: bit(false), ..idle };
-        let next = when!(V, Registers, i.start, begin, when!(V, Registers, r.busy, self.work(idle, i, word), idle));
+        let next =
+            when!(V, Registers, i.start, begin, when!(V, Registers, r.busy, self.work(idle, i, (word, product)), idle));
         cell.store(self, next);
         outputs
     }
