@@ -112,7 +112,7 @@ impl Stream {
     /// The stream of a profile's frames, with so many clocks a bit.
     pub fn new(profile: &Profile, divisor: u64) -> Self {
         Stream {
-            words: Memory::new("words", WORDS as usize, Field::word(profile)),
+            words: Memory::new("words", WORDS as usize, Field::word(profile)).never_colliding(),
             transmitter: Transmitter::new(divisor),
             pad: Format::counter(profile.pads - 1),
             bytes: word_bytes(profile),

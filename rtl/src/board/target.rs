@@ -126,8 +126,7 @@ impl Target {
         let mut text = String::new();
         match self {
             Target::Ulx3s => {
-                let mhz = self.clock_hz() / 1_000_000;
-                let _ = writeln!(text, "FREQUENCY PORT \"clock\" {mhz} MHZ;");
+                // No FREQUENCY: the tool is told what to aim at, which is more than the board's clock.
                 for Pin { port, site, also } in pins {
                     let _ = writeln!(text, "LOCATE COMP \"{port}\" SITE \"{site}\";");
                     let _ = writeln!(text, "IOBUF PORT \"{port}\" IO_TYPE=LVCMOS33{also};");

@@ -112,7 +112,7 @@ impl Board {
             receiver: Receiver::new(parameters.divisor()),
             registers: CommandRegisters::new(core.inputs(), words),
             adc_reader: reader,
-            codes: Memory::new("codes", sets, profile.formats.adc),
+            codes: Memory::new("codes", sets, profile.formats.adc).never_colliding(),
             sigma_delta: SigmaDelta::new(core.outputs().carrier),
             pads: Pads::new(profile.pads, parameters.dead()),
             stream: Stream::new(profile, parameters.divisor()),
