@@ -154,7 +154,8 @@ impl Capacitance {
     #[inline(always)]
     fn radicand<V: Value>(&self, r: &Registers<Signal<V>>, product: Signal<V>) -> (Signal<V>, Signal<V>) {
         let drop = Self::pointed(product, self.amplitude, self.amplitude);
-        ((r.square - drop).fit(self.registers.square, Exact, Saturate), drop.at_least(r.square))
+        let left = (r.square - drop).fit(self.registers.square, Exact, Saturate);
+        (left, left.equals(zero(left.format)))
     }
 
     #[inline(always)]

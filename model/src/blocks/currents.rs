@@ -67,7 +67,7 @@ bundle! {
     pub struct Registers {
         step: ["idle", "read", "in_phase", "read_quadrature", "quadrature", "square", "power", "root"],
         waited, channel, total_i, total_q, part, power, root_start,
-        amplitude, sense, x, y, corners, least, saturated, done,
+        sense, x, y, corners, least, saturated, done,
     }
 }
 
@@ -123,7 +123,6 @@ impl Currents {
             part: total,
             power,
             root_start: BIT,
-            amplitude,
             sense: amplitude,
             x: sums,
             y: sums,
@@ -149,7 +148,7 @@ impl Currents {
 
     /// The format of an amplitude.
     pub fn amplitude(&self) -> Format {
-        self.registers.amplitude
+        self.registers.sense
     }
 
     /// The formats of the numerators and of the denominator of eqs. 2 and 3.
@@ -244,7 +243,6 @@ impl Currents {
         let [x, y] = &self.signs;
         Registers {
             channel: (r.channel + int(1)).fit(self.registers.channel, Exact, Wrap),
-            amplitude,
             sense: r.channel.is(self.terminals).select(amplitude, r.sense),
             x: with(r.x, &|k| x[k]),
             y: with(r.y, &|k| y[k]),
@@ -261,9 +259,9 @@ impl Currents {
     }
 
     #[inline(always)]
-    fn results<V: Value>(&self, r: &Registers<Signal<V>>) -> Outputs<Signal<V>> {
-        let lost = r.least.scaled(self.lost_shift).less_than(r.amplitude);
-        let Registers { done, amplitude: total, sense, x, y, corners, saturated, .. } = *r;
+    fn results<V: Value>(&self, r: &Registers<Signal<V>>, total: Signal<V>) -> Outputs<Signal<V>> {
+        let lost = r.least.scaled(self.lost_shift).less_than(total);
+        let Registers { done, sense, x, y, corners, saturated, .. } = *r;
         Outputs { done, total, sense, x, y, corners, lost, saturated }
     }
 }
@@ -282,8 +280,8 @@ impl Block for Currents {
 
     #[inline]
     fn outputs(&self) -> Outputs<Format> {
-        let Registers { done, amplitude: total, sense, x, y, corners, saturated, .. } = self.registers;
-        Outputs { done, total, sense, x, y, corners, lost: BIT, saturated }
+        let Registers { done, sense, x, y, corners, saturated, .. } = self.registers;
+        Outputs { done, total: sense, sense, x, y, corners, lost: BIT, saturated }
     }
 
     #[inline(always)]
@@ -303,7 +301,10 @@ impl Block for Currents {
     #[inline(always)]
     fn clock<V: Value>(&self, cell: &mut Cell<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
         let r = cell.load(self);
-        let outputs = self.results(&r);
+        // The last root, the total's, stays until the next slot's first.
+        let inputs = root::Inputs { start: r.root_start, radicand: r.power };
+        let root = self.root.call("root", &mut cell.parts.root, inputs);
+        let outputs = self.results(&r, root.root);
         let busy = !r.step.is(0);
         if (i.valid | busy | r.done).idle() {
             return outputs;
@@ -321,8 +322,6 @@ impl Block for Currents {
             address,
             Write { enable: i.valid & among, address: place, data: word },
         );
-        let inputs = root::Inputs { start: r.root_start, radicand: r.power };
-        let root = self.root.call("root", &mut cell.parts.root, inputs);
         let idle = Registers { done: bit(false), root_start: bit(false), ..r };
         let waits = Registers { waited: bit(true), ..idle };
         let acts = self.multiplier.paces(r.waited) | r.step.is(7);

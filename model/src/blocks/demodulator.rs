@@ -20,9 +20,10 @@
 //! q is positive where the channel lags. The answer to `channel` is expected a clock later as `code`. Latency: products + 3
 //! clocks from `start` to the last sum. Source: paper, eqs. 1 and 5, detected synchronously; PHYSICS §5 for the window.
 
+use super::multiplier::{self, Multiplier};
 use super::oscillator::Oscillator;
 use crate::block::{Block, Cell};
-use crate::format::{BIT, Format};
+use crate::format::{BIT, Format, MAX_WIDTH};
 use crate::memory::{Memory, Write};
 use crate::profile::Profile;
 use crate::signal::{Exact, HalfEven, Never, Signal, Value, bit, code, int, zero};
@@ -72,14 +73,15 @@ bundle! {
     /// The registers.
     pub struct Registers {
         busy, step, first, last, pad,
-        left, right, product, weighted_cosine, weighted_sine, weighted_haptic,
+        left, right, weighted_cosine, weighted_sine, weighted_haptic,
         valid, index, sum, clipped,
     }
 }
 
 parts! {
-    /// The memory within.
+    /// The blocks and memories within.
     pub struct Parts of Demodulator {
+        multiplier: Multiplier,
         sums: Memory,
     }
 }
@@ -87,6 +89,7 @@ parts! {
 /// The configuration.
 #[derive(Debug, Clone)]
 pub struct Demodulator {
+    multiplier: Multiplier,
     sums: Memory,
     /// Channels with two sums each: the terminals and the sensing voltage. The haptic voltage is the one after.
     channels: u64,
@@ -119,7 +122,6 @@ impl Demodulator {
             pad: Format::counter(profile.pads - 1),
             left: operand,
             right: operand,
-            product,
             weighted_cosine: oscillator,
             weighted_sine: oscillator,
             weighted_haptic: adc,
@@ -128,7 +130,10 @@ impl Demodulator {
             sum,
             clipped: BIT,
         };
+        let integer = Format { frac: 0, ..operand };
         Demodulator {
+            // In one clock whatever its width: products keep pace with the channels.
+            multiplier: Multiplier::new(integer, integer, MAX_WIDTH),
             sums: Memory::new("sums", words as usize, sum).never_colliding(),
             channels,
             adc,
@@ -215,13 +220,13 @@ impl Demodulator {
         r: Registers<Signal<V>>,
         i: Inputs<Signal<V>>,
         index: Signal<V>,
-        sum: Signal<V>,
-        summed: Signal<V>,
+        product: Signal<V>,
+        (sum, summed): (Signal<V>, Signal<V>),
     ) -> Registers<Signal<V>> {
         let (left, right) = self.operands(&r, &i);
         let uses_code = r.step.at_least(int(WEIGHING - 1)) & r.step.less_than(int(WEIGHING + self.sums()));
         let weighted = |at: u64, to: Format, before: Signal<V>| {
-            choose!(V, r.step.is(at + PIPELINE), self.weigh(r.product, to), before)
+            choose!(V, r.step.is(at + PIPELINE), self.weigh(product, to), before)
         };
         let end = r.step.is(self.steps() - 1);
         Registers {
@@ -229,7 +234,6 @@ impl Demodulator {
             step: end.select(int(0), r.step + int(1)).fit(self.registers.step, Exact, Never),
             left,
             right,
-            product: r.left * r.right,
             weighted_cosine: weighted(0, self.oscillator, r.weighted_cosine),
             weighted_sine: weighted(1, self.oscillator, r.weighted_sine),
             weighted_haptic: weighted(2, self.adc, r.weighted_haptic),
@@ -283,7 +287,10 @@ impl Block for Demodulator {
             (in_range & r.busy, from_end.bits(0, self.registers.index.width))
         };
         let ((summed, index), (_, next_index)) = (place(0), place(1));
-        let sum = self.accumulate(r.first, self.sums.data(&mut cell.parts.sums), r.product);
+        let inputs = multiplier::Inputs { enable: r.busy, left: r.left.integer(), right: r.right.integer() };
+        let product = self.multiplier.call("multiplier", &mut cell.parts.multiplier, inputs).product;
+        let product = product.scaled(-2 * r.left.format.frac);
+        let sum = self.accumulate(r.first, self.sums.data(&mut cell.parts.sums), product);
         let write = Write { enable: summed, address: index, data: sum };
         self.sums.access(&mut cell.parts.sums, next_index, write);
         let r = Registers { valid: bit(false), ..r };
@@ -292,7 +299,7 @@ impl Block for Demodulator {
             Registers,
             i.start,
             self.begin(r, i),
-            when!(V, Registers, r.busy, self.step(r, i, index, sum, summed), r)
+            when!(V, Registers, r.busy, self.step(r, i, index, product, (sum, summed)), r)
         );
         cell.store(self, next);
         outputs

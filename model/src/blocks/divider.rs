@@ -6,7 +6,7 @@
 //! ```
 //!
 //! ```text
-//! numerator ──[remainder : tail]──(− denominator ≥ 0 ?)── one quotient bit a clock ──[partial]──[round half even, saturate]── quotient
+//! numerator ──[remainder : tail]──(− denominator ≥ 0 ?)── one quotient bit a clock ──[tail]──[round half even, saturate]── quotient
 //! ```
 //!
 //! | signal    | overflow                                                                 |
@@ -48,7 +48,7 @@ bundle! {
 bundle! {
     /// The registers.
     pub struct Registers {
-        busy, count, remainder, tail, partial, over, up, done, quotient, saturated,
+        busy, count, remainder, tail, over, up, done, quotient, saturated,
     }
 }
 
@@ -82,7 +82,6 @@ impl Divider {
             count: Format::counter(u64::from(quotient.width) + 2),
             remainder: Format::unsigned(head, 0),
             tail: Format::unsigned(quotient.width, 0),
-            partial: Format::unsigned(quotient.width, 0),
             over: BIT,
             up: BIT,
             done: BIT,
@@ -103,7 +102,7 @@ impl Divider {
         let numerator = i.numerator.fit(self.dividend, Exact, Never);
         let width = self.quotient.width;
         let (remainder, tail) = (numerator.bits(width, self.dividend.width - width), numerator.bits(0, width));
-        Registers { busy: bit(true), count: int(0), remainder, tail, partial: int(0), ..r }
+        Registers { busy: bit(true), count: int(0), remainder, tail, ..r }
     }
 
     /// The count goes on.
@@ -121,35 +120,29 @@ impl Divider {
         Registers { count: self.count(&r), remainder, tail, over, ..r }
     }
 
-    /// One more bit of the quotient.
+    /// One more bit of the quotient, which follows what is left of the numerator's.
     #[inline(always)]
-    fn step<V: Value>(&self, r: Registers<Signal<V>>, i: Inputs<Signal<V>>) -> Registers<Signal<V>> {
-        let width = self.quotient.width;
-        let shifted = r.remainder.concat(r.tail.msb());
-        let denominator = i.denominator.integer();
-        let fits = shifted.at_least(denominator);
-        let rest = fits.select(shifted - denominator, shifted);
+    fn step<V: Value>(&self, r: Registers<Signal<V>>, rest: Signal<V>, shifted: Signal<V>) -> Registers<Signal<V>> {
+        let fits = !rest.msb();
         Registers {
             count: self.count(&r),
-            remainder: rest.fit(self.registers.remainder, Exact, Lemma(BELOW)),
-            tail: r.tail.concat(bit(false)).bits(0, width),
-            partial: r.partial.concat(fits).bits(0, width),
+            remainder: fits.select(rest, shifted).fit(self.registers.remainder, Exact, Lemma(BELOW)),
+            tail: r.tail.concat(fits).bits(0, self.quotient.width),
             ..r
         }
     }
 
-    /// Whether the quotient is rounded up.
+    /// Whether the quotient is rounded up: twice the remainder is past the denominator, or just there and the quotient odd.
     #[inline(always)]
-    fn round<V: Value>(&self, r: Registers<Signal<V>>, i: Inputs<Signal<V>>) -> Registers<Signal<V>> {
-        let (twice, denominator) = (r.remainder.scaled(1), i.denominator.integer());
-        let up = denominator.less_than(twice) | (twice.equals(denominator) & r.partial.bits(0, 1));
+    fn round<V: Value>(&self, r: Registers<Signal<V>>, rest: Signal<V>) -> Registers<Signal<V>> {
+        let up = !rest.msb() & (!rest.is(0) | r.tail.bits(0, 1));
         Registers { count: self.count(&r), up, ..r }
     }
 
     /// The rounded quotient.
     #[inline(always)]
     fn finish<V: Value>(&self, r: Registers<Signal<V>>, i: Inputs<Signal<V>>) -> Registers<Signal<V>> {
-        let (rounded, over) = (r.partial + r.up).saturate(Format { frac: 0, ..self.quotient }, Exact);
+        let (rounded, over) = (r.tail + r.up).saturate(Format { frac: 0, ..self.quotient }, Exact);
         let most = code(self.quotient.max_code() as i64, Format { frac: 0, ..self.quotient });
         let saturated = over | r.over;
         let quotient = r.over.select(most, rounded).scaled(-self.quotient.frac);
@@ -186,7 +179,6 @@ impl Block for Divider {
             up: BIT,
             count: r.count.counting(),
             tail: r.tail.counting(),
-            partial: r.partial.counting(),
             remainder: r.remainder.counting(),
             ..r
         }
@@ -202,6 +194,9 @@ impl Block for Divider {
         let at = |count: u64| r.count.is(count);
         let width = u64::from(self.quotient.width);
         let idle = Registers { done: bit(false), ..r };
+        // One subtractor serves every step; the last looks at twice the remainder.
+        let shifted = r.remainder.concat(r.tail.msb() & !at(width + 1));
+        let rest = shifted - i.denominator.integer();
         let work = |r: Registers<Signal<V>>| {
             when!(
                 V,
@@ -212,8 +207,8 @@ impl Block for Divider {
                     V,
                     Registers,
                     at(width + 1),
-                    self.round(r, i),
-                    when!(V, Registers, at(width + 2), self.finish(r, i), self.step(r, i))
+                    self.round(r, rest),
+                    when!(V, Registers, at(width + 2), self.finish(r, i), self.step(r, rest, shifted))
                 )
             )
         };

@@ -107,12 +107,12 @@ impl Root {
         let width = self.padded.width;
         let shifted = r.remainder.concat(r.tail.bits(width - 2, 2));
         let trial = r.partial.concat(bit(false)).concat(bit(true));
-        let fits = shifted.at_least(trial);
-        let rest = fits.select(shifted - trial, shifted);
+        let rest = shifted - trial;
+        let fits = !rest.msb();
         Registers {
             count: (r.count + int(1)).fit(self.registers.count, Exact, Wrap),
             tail: r.tail.concat(int::<V>(0)).concat(int(0)).bits(0, width),
-            remainder: rest.fit(self.registers.remainder, Exact, Lemma(BELOW)),
+            remainder: fits.select(rest, shifted).fit(self.registers.remainder, Exact, Lemma(BELOW)),
             partial: r.partial.concat(fits).bits(0, self.digits),
             ..r
         }
