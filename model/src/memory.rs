@@ -20,6 +20,8 @@ pub struct Memory {
     /// Whether somebody may use a word that was read while it was being written. Where nobody does, a block RAM needs no
     /// logic that sees to it that the word is the old one.
     pub collides: bool,
+    /// Whether it shall be a block RAM although it is so small that synthesis would rather take registers.
+    pub block: bool,
     /// What it holds at reset, before rounding to its format; zero where there is nothing.
     pub initial: Arc<[f64]>,
 }
@@ -38,7 +40,7 @@ pub struct Write<V> {
 impl Memory {
     /// A memory of zeros.
     pub fn new(name: &'static str, words: usize, format: Format) -> Self {
-        Memory { name, words, format, collides: true, initial: Arc::new([]) }
+        Memory { name, words, format, collides: true, block: false, initial: Arc::new([]) }
     }
 
     /// The memory, of which nobody uses a word that was read while it was being written.
@@ -46,9 +48,14 @@ impl Memory {
         Memory { collides: false, ..self }
     }
 
+    /// The memory as a block RAM, however small it is.
+    pub fn in_block(self) -> Self {
+        Memory { block: true, ..self }
+    }
+
     /// A table that nobody writes. Entries past a rail of the format are held there.
     pub fn table(name: &'static str, format: Format, initial: Vec<f64>) -> Self {
-        Memory { name, words: initial.len(), format, collides: false, initial: initial.into() }
+        Memory { name, words: initial.len(), format, collides: false, block: false, initial: initial.into() }
     }
 
     /// The words at reset, as numbers.

@@ -182,11 +182,10 @@ impl Currents {
         }
     }
 
-    /// The total's in-phase or quadrature with a terminal's word more, and whether it is held at a rail.
+    /// A total with a terminal's word more, and whether it is held at a rail.
     #[inline(always)]
-    fn more<V: Value>(&self, r: &Registers<Signal<V>>, in_phase: Signal<V>) -> (Signal<V>, Signal<V>) {
-        let before = in_phase.select(r.total_i, r.total_q);
-        (before + r.part).saturate(self.total, Exact)
+    fn more<V: Value>(&self, r: &Registers<Signal<V>>) -> (Signal<V>, Signal<V>) {
+        (r.total_i + r.part).saturate(self.total, Exact)
     }
 
     /// A step of the loop over channels: words, squares, root, sums.
@@ -203,7 +202,8 @@ impl Currents {
         let terminal = r.channel.less_than(int(self.terminals));
         let square = product.fit(self.square(), Exact, Lemma(SQUARE)).scaled(-2 * self.total.frac);
         let power = at(6).select(r.power + square, square).fit(self.registers.power, Exact, Never);
-        let (more, held) = self.more(&r, at(3));
+        let adds = (at(3) | at(5)) & terminal;
+        let (more, held) = self.more(&r);
         let rooted = at(7) & root.done;
         let r = when!(V, Registers, rooted, self.sum_up(r, root.root), r);
         let part = at(2).select(all.select(r.total_i, word), at(4).select(all.select(r.total_q, word), r.part));
@@ -211,12 +211,13 @@ impl Currents {
         Registers {
             step: rooted.select(all.select(int(0), int(1)), following).fit(self.registers.step, Exact, Wrap),
             waited: bit(false),
-            total_i: (at(3) & terminal).select(more, r.total_i),
-            total_q: (at(5) & terminal).select(more, r.total_q),
+            // The totals change places with every addition: one adder, one register that takes its result.
+            total_i: adds.select(r.total_q, r.total_i),
+            total_q: adds.select(more, r.total_q),
             part,
             power: (at(4) | at(6)).select(power, r.power),
             root_start: at(6),
-            saturated: r.saturated | ((at(3) | at(5)) & terminal & held),
+            saturated: r.saturated | (adds & held),
             done: rooted & all,
             ..r
         }

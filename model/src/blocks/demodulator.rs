@@ -7,14 +7,15 @@
 //!
 //! ```text
 //! window, codes ──┐
-//! local oscillator ─(×)─[product]─┬─[round half even]── weighted cosine, sine, haptic code
-//!                                 └─(+)─[sums: one word a channel and phase]── sum
+//! local oscillator ─(×)─[product]─┬─[weighted: round half even]─[weights: w·cos, w·sin, w·h]
+//!                                 └─(+)─[sum]─[sums: one word a channel and phase]
 //! ```
 //!
-//! One multiplier serves all: three products weigh (w·cos, w·sin, w·h), two for each channel and one for h follow.
+//! One multiplier serves all: three products weigh (w·cos, w·sin, w·h), two for each channel and one for h follow. What has
+//! been made in a clock is stored in the next; the first channel takes its weights on their way to their memory.
 //!
 //! | signal   | format               | unit               | overflow            |
-//! | weighted | oscillator's, ADC's  | full scale         | cannot (range proof) |
+//! | weighted | ADC's and oscillator's, joined | full scale | cannot (range proof) |
 //! | sum      | exact                | full scale · samples | cannot (range proof) |
 //!
 //! q is positive where the channel lags. The answer to `channel` is expected a clock later as `code`. Latency: products + 3
@@ -73,8 +74,8 @@ bundle! {
     /// The registers.
     pub struct Registers {
         busy, step, first, last, pad,
-        left, right, weighted_cosine, weighted_sine, weighted_haptic,
-        valid, index, sum, clipped,
+        left, right, weighted,
+        valid, summed, index, sum, clipped,
     }
 }
 
@@ -82,6 +83,7 @@ parts! {
     /// The blocks and memories within.
     pub struct Parts of Demodulator {
         multiplier: Multiplier,
+        weights: Memory,
         sums: Memory,
     }
 }
@@ -90,6 +92,7 @@ parts! {
 #[derive(Debug, Clone)]
 pub struct Demodulator {
     multiplier: Multiplier,
+    weights: Memory,
     sums: Memory,
     /// Channels with two sums each: the terminals and the sensing voltage. The haptic voltage is the one after.
     channels: u64,
@@ -122,10 +125,9 @@ impl Demodulator {
             pad: Format::counter(profile.pads - 1),
             left: operand,
             right: operand,
-            weighted_cosine: oscillator,
-            weighted_sine: oscillator,
-            weighted_haptic: adc,
+            weighted: operand,
             valid: BIT,
+            summed: BIT,
             index: Format::counter(words - 1),
             sum,
             clipped: BIT,
@@ -134,6 +136,7 @@ impl Demodulator {
         Demodulator {
             // In one clock whatever its width: products keep pace with the channels.
             multiplier: Multiplier::new(integer, integer, MAX_WIDTH),
+            weights: Memory::new("weights", WEIGHING as usize, operand).never_colliding().in_block(),
             sums: Memory::new("sums", words as usize, sum).never_colliding(),
             channels,
             adc,
@@ -199,13 +202,42 @@ impl Demodulator {
 
     /// The multiplier's operands of this step.
     #[inline(always)]
-    fn operands<V: Value>(&self, r: &Registers<Signal<V>>, i: &Inputs<Signal<V>>) -> (Signal<V>, Signal<V>) {
+    fn operands<V: Value>(
+        &self,
+        r: &Registers<Signal<V>>,
+        i: &Inputs<Signal<V>>,
+        weight: Signal<V>,
+    ) -> (Signal<V>, Signal<V>) {
         let weighing = r.step.less_than(int(WEIGHING));
-        let haptic = r.step.is(WEIGHING + 2 * self.channels);
-        let phase = (r.step - int(WEIGHING)).bits(0, 1);
         let wave = r.step.is(0).select(i.cosine, r.step.is(1).select(i.sine, i.code));
-        let weighted = haptic.select(r.weighted_haptic, phase.select(r.weighted_sine, r.weighted_cosine));
+        let weighted = r.step.less_than(int(WEIGHING + PIPELINE)).select(r.weighted, weight);
         (weighing.select(i.window, i.code), weighing.select(wave, weighted))
+    }
+
+    /// Stores the weight that the clock before has made, and asks for that of the next step.
+    #[inline(always)]
+    fn weights<V: Value>(&self, r: &Registers<Signal<V>>, words: &mut V::Words) -> Signal<V> {
+        let weight = self.weights.data(words);
+        let place = (r.step - int(WEIGHING)).bits(0, self.weights.address().width);
+        let enable = r.busy & r.step.at_least(int(WEIGHING)) & r.step.less_than(int(2 * WEIGHING));
+        let haptic = r.step.is(WEIGHING - 1 + 2 * self.channels);
+        let sine = (r.step - int(WEIGHING - 1)).bits(0, 1);
+        let wanted = haptic.concat(sine & !haptic);
+        self.weights.access(words, wanted, Write { enable, address: place, data: r.weighted });
+        weight
+    }
+
+    /// The weight that a product is: the haptic code's comes last.
+    #[inline(always)]
+    fn weighted<V: Value>(&self, r: &Registers<Signal<V>>, product: Signal<V>) -> Signal<V> {
+        let made = r.step - int(PIPELINE);
+        let weighing = r.step.at_least(int(PIPELINE)) & made.less_than(int(WEIGHING));
+        let to = |format: Format| self.weigh(product, format).fit(r.weighted.format, Exact, Never);
+        if self.adc == self.oscillator {
+            return choose!(V, weighing, to(self.adc), r.weighted);
+        }
+        let haptic = r.step.is(PIPELINE + WEIGHING - 1);
+        choose!(V, weighing, choose!(V, haptic, to(self.adc), to(self.oscillator)), r.weighted)
     }
 
     #[inline(always)]
@@ -220,24 +252,20 @@ impl Demodulator {
         r: Registers<Signal<V>>,
         i: Inputs<Signal<V>>,
         index: Signal<V>,
-        product: Signal<V>,
+        (product, weight): (Signal<V>, Signal<V>),
         (sum, summed): (Signal<V>, Signal<V>),
     ) -> Registers<Signal<V>> {
-        let (left, right) = self.operands(&r, &i);
+        let (left, right) = self.operands(&r, &i, weight);
         let uses_code = r.step.at_least(int(WEIGHING - 1)) & r.step.less_than(int(WEIGHING + self.sums()));
-        let weighted = |at: u64, to: Format, before: Signal<V>| {
-            choose!(V, r.step.is(at + PIPELINE), self.weigh(product, to), before)
-        };
         let end = r.step.is(self.steps() - 1);
         Registers {
             busy: !end,
             step: end.select(int(0), r.step + int(1)).fit(self.registers.step, Exact, Never),
             left,
             right,
-            weighted_cosine: weighted(0, self.oscillator, r.weighted_cosine),
-            weighted_sine: weighted(1, self.oscillator, r.weighted_sine),
-            weighted_haptic: weighted(2, self.adc, r.weighted_haptic),
+            weighted: self.weighted(&r, product),
             valid: summed & r.last,
+            summed,
             index,
             sum,
             clipped: r.clipped | choose!(V, uses_code, self.at_rail(i.code), bit(false)),
@@ -270,7 +298,7 @@ impl Block for Demodulator {
         let Registers { step, pad, index, .. } = self.registers;
         let (step, pad, index) = (step.counting(), pad.counting(), index.counting());
         let data = self.registers;
-        Registers { busy: BIT, step, first: BIT, last: BIT, pad, valid: BIT, index, clipped: BIT, ..data }
+        Registers { step, pad, index, ..data }
     }
 
     #[inline(always)]
@@ -278,7 +306,7 @@ impl Block for Demodulator {
         let r = cell.load(self);
         let channel = self.channel(&r);
         let outputs = Outputs { channel, valid: r.valid, index: r.index, sum: r.sum, pad: r.pad, clipped: r.clipped };
-        if (i.start | r.busy | r.valid).idle() {
+        if (i.start | r.busy | r.summed).idle() {
             return outputs;
         }
         let place = |ahead: u64| {
@@ -291,15 +319,16 @@ impl Block for Demodulator {
         let product = self.multiplier.call("multiplier", &mut cell.parts.multiplier, inputs).product;
         let product = product.scaled(-2 * r.left.format.frac);
         let sum = self.accumulate(r.first, self.sums.data(&mut cell.parts.sums), product);
-        let write = Write { enable: summed, address: index, data: sum };
+        let write = Write { enable: r.summed, address: r.index, data: r.sum };
         self.sums.access(&mut cell.parts.sums, next_index, write);
-        let r = Registers { valid: bit(false), ..r };
+        let weight = self.weights(&r, &mut cell.parts.weights);
+        let r = Registers { valid: bit(false), summed: bit(false), ..r };
         let next = when!(
             V,
             Registers,
             i.start,
             self.begin(r, i),
-            when!(V, Registers, r.busy, self.step(r, i, index, product, (sum, summed)), r)
+            when!(V, Registers, r.busy, self.step(r, i, index, (product, weight), (sum, summed)), r)
         );
         cell.store(self, next);
         outputs

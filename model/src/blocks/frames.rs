@@ -226,7 +226,7 @@ impl Block for Frames {
         let never_held = before.is(FIELDS - 1);
         let word = (i.invalid & !never_held).select(held, self.result(&i, before));
         let place = |index: Signal<V>| i.pad.concat(index.bits(0, self.registers.index.width));
-        let write = Write { enable: emits, address: place(before), data: word };
+        let write = Write { enable: r.valid, address: place(r.index), data: r.word };
         self.held.access(&mut cell.parts.held, place(r.count), write);
         let end = r.count.is(FIELDS);
         let working = Registers {

@@ -185,8 +185,9 @@ impl Oscillator {
             wave: magnitude,
             sign: negative,
             window: at(2).select(wave, at(3).select(self.weight(r.window), r.window)),
-            cosine: at(3).select(wave, r.cosine),
-            sine: end.select(wave, r.sine),
+            // The cosine comes first, and moves on: one value, one register that takes it.
+            cosine: end.select(r.sine, r.cosine),
+            sine: (at(3) | end).select(wave, r.sine),
             ready: at(3),
             ..r
         }

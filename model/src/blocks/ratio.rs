@@ -103,8 +103,9 @@ impl Ratio {
         Registers {
             step: first.select(int(2), second.select(int(0), r.step)),
             divide: first,
-            r_x: first.select(ratio, r.r_x),
-            r_y: second.select(ratio, r.r_y),
+            // That of x comes first, and moves on: one value, one register that takes it.
+            r_x: second.select(r.r_y, r.r_x),
+            r_y: divided.done.select(ratio, r.r_y),
             invalid: second.select(i.corners.is(0), r.invalid),
             done: second,
         }

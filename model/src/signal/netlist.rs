@@ -94,6 +94,8 @@ pub struct Ram {
     pub format: Format,
     /// Whether somebody may use a word that was read while it was being written.
     pub collides: bool,
+    /// Whether it shall be a block RAM however small.
+    pub block: bool,
     /// The words at reset.
     pub initial: Vec<i64>,
     /// What its read port asks for.
@@ -317,6 +319,9 @@ impl Value for Node {
         if let Some(code) = settled(bit) {
             return Self::fit(if code == 1 { a } else { b }, to, Rounding::Exact, Overflow::Never);
         }
+        if a.value == b.value && a.format == b.format {
+            return Self::fit(a, to, Rounding::Exact, Overflow::Never);
+        }
         wire(Op::Select(bit, a.value, b.value), to)
     }
 
@@ -380,8 +385,9 @@ impl Value for Node {
 fn ram(memory: &Memory, index: &mut Option<usize>) -> usize {
     *index.get_or_insert_with(|| {
         with_module(|open| {
-            let (name, format, collides, initial) = (memory.name, memory.format, memory.collides, memory.codes());
-            open.module.memories.push(Ram { name, format, collides, initial, address: None, write: None });
+            let &Memory { name, format, collides, block, .. } = memory;
+            let initial = memory.codes();
+            open.module.memories.push(Ram { name, format, collides, block, initial, address: None, write: None });
             open.module.memories.len() - 1
         })
     })

@@ -125,6 +125,9 @@ impl Printer<'_> {
             if !ram.collides && ram.write.is_some() {
                 text += "    (* no_rw_check *) // nobody uses a word that was read while it was being written\n";
             }
+            if ram.block {
+                text += "    (* ram_style = \"block\" *)\n";
+            }
             let _ = writeln!(text, "    reg {range}{name} [0:{}]; // {words} words {}", words - 1, ram.format);
             let _ = writeln!(text, "    reg {range}{name}_word; // its read register");
         }
