@@ -14,7 +14,7 @@ use hapticore_model::signal::{Exact, Never, Signal, bit, int, zero};
 /// small widths, and every test build checks each of these narrowings at each clock.
 const LEMMAS: [&str; 4] = [
     "a number less its floor is below one",
-    "the cells of a curve or table lie within the memory",
+    "a square is not negative",
     "the remainder of a division stays below its denominator",
     "the remainder of a root is at most twice the root so far",
 ];
@@ -120,7 +120,7 @@ fn any_profile_that_is_accepted_elaborates_and_is_proved() {
 #[test]
 fn bad_profiles_say_what_was_expected() {
     for (key, value, words) in [
-        ("clocks_per_sample", "15", "clocks_per_sample: expected 21 to 65536, got 15"),
+        ("clocks_per_sample", "15", "clocks_per_sample: expected 24 to 65536, got 15"),
         ("integrate", "501", "slot.integrate: expected whole carrier periods of 5 samples, got 501"),
         ("settle", "2", "slot.settle: expected more than"),
         ("iq", "\"u14.13\"", "formats.iq: expected a signed format, got u14.13"),

@@ -3,16 +3,22 @@
 //
 // Stands at the end of the printed module, after the widths N, D, Q of numerator, denominator and quotient, PAD (the zeros
 // behind the numerator) and LATENCY. The product of partial quotient and denominator is kept by shifting and adding, as the
-// solver cannot multiply words of this length; `divider_small` has the product itself.
+// solver cannot multiply words of this length; with SMALL, where it can, the product itself is looked at too.
 
     localparam W = N + PAD > Q + 1 ? N + PAD : Q + 1;
 
     reg [N-1:0] given_numerator;
     reg [D-1:0] given_denominator;
+    reg [Q-1:0] partial;
     reg [Q+D-1:0] product;
     reg [7:0] age;
     reg was_reset = 0;
     reg pending = 0;
+    // Count 0 looks whether the quotient fits, each of the next Q finds a digit, then come rounding and the answer.
+    wire finds = count != 0 && count <= Q;
+    wire [7:0] found = count == 0 ? 0 : count > Q ? Q : count - 1;
+    // The digit that this clock finds: the reference's own comparison.
+    wire digit = {remainder, tail[Q-1]} >= given_denominator;
     always @(posedge clock) begin
         was_reset <= 1;
         pending <= !reset && (start || (pending && !done));
@@ -20,19 +26,20 @@
         if (start) begin
             given_numerator <= numerator;
             given_denominator <= denominator;
+            partial <= 0;
             product <= 0;
             age <= 1;
-        end else if (busy && count != Q) begin
-            product <= {product, 1'b0} + (bit_fits ? {{Q{1'b0}}, given_denominator} : 0);
+        end else if (busy && finds) begin
+            partial <= {partial, digit};
+            product <= {product, 1'b0} + (digit ? {{Q{1'b0}}, given_denominator} : 0);
         end
     end
-    // The digit that this clock finds: the reference's own comparison.
-    wire bit_fits = {remainder, tail[Q-1]} >= given_denominator;
 
     wire [W-1:0] dividend = {{W{1'b0}}, given_numerator} << PAD;
-    wire [W-1:0] taken = dividend >> (Q - count);
-    wire [Q-1:0] still = dividend[Q-1:0] << count;
+    wire [W-1:0] taken = dividend >> (Q - found);
+    wire [Q-1:0] still = dividend[Q-1:0] << found;
     wire too_large = (dividend >> Q) >= given_denominator;
+    wire [D+1:0] twice = 2 * remainder;
 
     // The contract of the caller.
     always @(*) if (busy) assume (numerator == given_numerator && denominator == given_denominator);
@@ -40,20 +47,19 @@
 
     always @(posedge clock) if (was_reset) begin
         // What holds all along.
-        assert (count <= Q || !busy);
+        assert (count <= Q + 2 || !busy);
         assert (!(busy && done));
         if (busy) assert (age == count + 1);
-`ifdef KEEPS
-        if (busy) assert (denominator_q == given_denominator);
-`endif
         if (busy || done) begin
-            assert (over == too_large);
-            assert (partial >> count == 0);
-            if (done) assert (count == Q);
-            if (!over) begin
+            if (count != 0) assert (over == too_large);
+            if (done) assert (count == Q + 2);
+            if (count == 0 || !over) begin
+                assert (partial >> found == 0);
                 assert (taken == product + remainder);
-                assert (remainder < given_denominator);
-                assert (tail == still);
+                assert (tail == (still | partial));
+                if (count != 0) assert (remainder < given_denominator);
+                if (count == Q + 2)
+                    assert (up == (twice > given_denominator || (twice == given_denominator && partial[0])));
 `ifdef SMALL
                 assert (product == partial * given_denominator);
 `endif

@@ -66,11 +66,11 @@ impl Seen {
 }
 
 impl State {
-    /// After reset.
+    /// After reset. What has none, a read register among it, may hold anything.
     pub fn new(netlist: &Netlist, module: &Module) -> State {
-        let memory = |words: &Vec<i64>| (words.iter().map(|&code| Known(code)).collect(), Known(0));
+        let memory = |words: &Vec<i64>| (words.iter().map(|&code| Known(code)).collect(), Other);
         State {
-            registers: vec![Known(0); module.registers.len()],
+            registers: vec![if module.resets { Known(0) } else { Other }; module.registers.len()],
             memories: module.memories.iter().map(|memory_| memory(&memory_.initial)).collect(),
             within: module.instances.iter().map(|part| State::new(netlist, &netlist.modules[part.module])).collect(),
         }

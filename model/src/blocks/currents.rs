@@ -6,8 +6,8 @@
 //! ```
 //!
 //! ```text
-//! sum ─[round half even, saturate]─ iq ─[words]─(²)─(+)─[root]─ amplitude ─(±)─ x, y, corners
-//!                                    └─(+ over terminals)─[saturate]─ total
+//! sum ─(round half even, saturate)─[iq]─[words]─(²)─(+)─[root]─ amplitude ─(±)─ x, y, corners
+//!                                            └─(+ over terminals)─[saturate]─ total
 //! ```
 //!
 //! | signal          | format  | unit           | overflow             |
@@ -16,8 +16,8 @@
 //! | amplitude       | total's | full scale     | cannot (range proof) |
 //! | x, y, corners   | exact   | full scale     | cannot (range proof) |
 //!
-//! Latency: (terminals + 2) · (6 products + root + 1) + 1 clocks from the last sum (the mean square's) to `done`. Source: paper, eqs. 2–5; the sum is that of
-//! all terminals' complex currents, for the corners alone carry only a part (PHYSICS §1).
+//! Latency: (terminals + 2) · (6 products + root + 1) + 1 clocks from the last sum (the mean square's) to `done`. Source: paper,
+//! eqs. 2–5; the sum is that of all terminals' complex currents, for the corners alone carry only a part (PHYSICS §1).
 
 use super::multiplier::{self, Multiplier};
 use super::root::{self, Root};
@@ -66,7 +66,7 @@ bundle! {
     /// The registers.
     pub struct Registers {
         step: ["idle", "read", "in_phase", "read_quadrature", "quadrature", "square", "power", "root"],
-        waited, channel, total_i, total_q, part, power, root_start,
+        arrived, place, word, waited, channel, total_i, total_q, part, power, root_start,
         sense, x, y, corners, least, saturated, done,
     }
 }
@@ -114,8 +114,12 @@ impl Currents {
         let amplitude = root.root();
         let sums = Format::signed(amplitude.width + 1 + Format::counter(terminals).width, amplitude.frac);
         let channels = terminals + 1;
+        let words = Memory::new("words", 2 * channels as usize, iq).never_colliding();
         let registers = Registers {
             step: Format::unsigned(3, 0),
+            arrived: BIT,
+            place: words.address(),
+            word: iq,
             waited: BIT,
             channel: Format::counter(channels),
             total_i: total,
@@ -132,7 +136,7 @@ impl Currents {
             done: BIT,
         };
         Currents {
-            words: Memory::new("words", 2 * channels as usize, iq).never_colliding(),
+            words,
             multiplier: Multiplier::new(integer(total), integer(total), profile.multiplier),
             root,
             terminals,
@@ -292,6 +296,8 @@ impl Block for Currents {
             done: BIT,
             root_start: BIT,
             saturated: BIT,
+            arrived: BIT,
+            place: r.place.counting(),
             waited: BIT,
             step: r.step.counting(),
             channel: r.channel.counting(),
@@ -307,7 +313,7 @@ impl Block for Currents {
         let root = self.root.call("root", &mut cell.parts.root, inputs);
         let outputs = self.results(&r, root.root);
         let busy = !r.step.is(0);
-        if (i.valid | busy | r.done).idle() {
+        if (i.valid | r.arrived | busy | r.done).idle() {
             return outputs;
         }
         let (word, held) = self.word(i.sum);
@@ -317,12 +323,8 @@ impl Block for Currents {
         let data = self.words.data(&mut cell.parts.words);
         let address = r.channel.concat(!r.step.less_than(int(3)));
         let address = address.bits(0, self.words.address().width);
-        let place = i.index.bits(0, self.words.address().width);
-        self.words.access(
-            &mut cell.parts.words,
-            address,
-            Write { enable: i.valid & among, address: place, data: word },
-        );
+        let write = Write { enable: r.arrived, address: r.place, data: r.word };
+        self.words.access(&mut cell.parts.words, address, write);
         let idle = Registers { done: bit(false), root_start: bit(false), ..r };
         let waits = Registers { waited: bit(true), ..idle };
         let acts = self.multiplier.paces(r.waited) | r.step.is(7);
@@ -333,7 +335,10 @@ impl Block for Currents {
             self.take(idle, i, held),
             when!(V, Registers, busy, when!(V, Registers, acts, self.step(idle, data, product, root), waits), idle)
         );
-        cell.store(self, next);
+        let arrived = i.valid & among;
+        let place = i.index.bits(0, self.words.address().width);
+        let (place, word) = (arrived.select(place, r.place), arrived.select(word, r.word));
+        cell.store(self, Registers { arrived, place, word, ..next });
         outputs
     }
 }

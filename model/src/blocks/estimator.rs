@@ -257,8 +257,7 @@ impl Block for Estimator {
         let pad = valid.select(i.pad, r.pad);
         let busy = valid | (r.busy & !frames.done);
         cell.store(self, Registers { busy, pad, clipped: valid.select(i.clipped, r.clipped) });
-        let active = valid | r.busy | i.write;
-        let gate = |a: Signal<V>| active.select(a, zero(a.format));
+        let gate = |a: Signal<V>| frames.valid.select(a, zero(a.format));
         Outputs {
             valid: frames.valid,
             index: gate(frames.index),
