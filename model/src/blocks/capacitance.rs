@@ -154,7 +154,7 @@ impl Capacitance {
     #[inline(always)]
     fn radicand<V: Value>(&self, r: &Registers<Signal<V>>, product: Signal<V>) -> (Signal<V>, Signal<V>) {
         let drop = Self::pointed(product, self.amplitude, self.amplitude);
-        let left = (r.square - drop).fit(self.registers.square, Exact, Saturate);
+        let left = (r.square - drop).named("left_over").fit(self.registers.square, Exact, Saturate);
         (left, left.equals(zero(left.format)))
     }
 

@@ -189,7 +189,7 @@ impl Currents {
     /// A total with a terminal's word more, and whether it is held at a rail.
     #[inline(always)]
     fn more<V: Value>(&self, r: &Registers<Signal<V>>) -> (Signal<V>, Signal<V>) {
-        (r.total_i + r.part).saturate(self.total, Exact)
+        (r.total_i + r.part).named("more").saturate(self.total, Exact)
     }
 
     /// A step of the loop over channels: words, squares, root, sums.
@@ -206,9 +206,9 @@ impl Currents {
         let terminal = r.channel.less_than(int(self.terminals));
         let square = product.fit(self.square(), Exact, Lemma(SQUARE)).scaled(-2 * self.total.frac);
         let power = at(6).select(r.power + square, square).fit(self.registers.power, Exact, Never);
-        let adds = (at(3) | at(5)) & terminal;
+        let adds = ((at(3) | at(5)) & terminal).named("adds");
         let (more, held) = self.more(&r);
-        let rooted = at(7) & root.done;
+        let rooted = (at(7) & root.done).named("rooted");
         let r = when!(V, Registers, rooted, self.sum_up(r, root.root), r);
         let part = at(2).select(all.select(r.total_i, word), at(4).select(all.select(r.total_q, word), r.part));
         let following = at(7).select(r.step, r.step + int(1));
@@ -239,7 +239,7 @@ impl Currents {
         let opening = r.channel.is(0);
         let terminal = r.channel.less_than(int(self.terminals));
         let smaller = opening | (terminal & amplitude.less_than(r.least));
-        let negative = -amplitude;
+        let negative = (-amplitude).named("negative");
         let with = |sum: Signal<V>, sign: &dyn Fn(usize) -> i8| {
             let plus = self.among(r.channel, |k| sign(k) > 0).select(amplitude, zero(amplitude.format));
             let more = self.among(r.channel, |k| sign(k) < 0).select(negative, plus);
@@ -319,7 +319,7 @@ impl Block for Currents {
         let (word, held) = self.word(i.sum);
         let inputs = multiplier::Inputs { enable: busy, left: r.part.integer(), right: r.part.integer() };
         let product = self.multiplier.call("multiplier", &mut cell.parts.multiplier, inputs).product;
-        let among = i.index.less_than(int(2 * (self.terminals + 1)));
+        let among = i.index.less_than(int(2 * (self.terminals + 1))).named("among");
         let data = self.words.data(&mut cell.parts.words);
         let address = r.channel.concat(!r.step.less_than(int(3)));
         let address = address.bits(0, self.words.address().width);

@@ -180,8 +180,8 @@ impl Demodulator {
     /// A sum with one more product; a window's first product begins it.
     #[inline(always)]
     pub fn accumulate<V: Value>(&self, first: Signal<V>, sum: Signal<V>, product: Signal<V>) -> Signal<V> {
-        let before = first.select(zero(sum.format), sum);
-        (before + product).fit(sum.format, Exact, Never)
+        let before = first.select(zero(sum.format), sum).named("so_far");
+        (before + product).named("accumulated").fit(sum.format, Exact, Never)
     }
 
     /// Whether a code is at a rail of the ADC.
@@ -208,7 +208,7 @@ impl Demodulator {
         i: &Inputs<Signal<V>>,
         weight: Signal<V>,
     ) -> (Signal<V>, Signal<V>) {
-        let weighing = r.step.less_than(int(WEIGHING));
+        let weighing = r.step.less_than(int(WEIGHING)).named("weighing");
         let wave = r.step.is(0).select(i.cosine, r.step.is(1).select(i.sine, i.code));
         let weighted = r.step.less_than(int(WEIGHING + PIPELINE)).select(r.weighted, weight);
         (weighing.select(i.window, i.code), weighing.select(wave, weighted))

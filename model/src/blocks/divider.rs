@@ -115,7 +115,7 @@ impl Divider {
     /// remainder below even so.
     #[inline(always)]
     fn check<V: Value>(&self, r: Registers<Signal<V>>, i: Inputs<Signal<V>>) -> Registers<Signal<V>> {
-        let over = r.remainder.at_least(i.denominator.integer());
+        let over = r.remainder.at_least(i.denominator.integer()).named("too_large");
         let (remainder, tail) = (over.select(int(0), r.remainder), over.select(int(0), r.tail));
         Registers { count: self.count(&r), remainder, tail, over, ..r }
     }
@@ -123,7 +123,7 @@ impl Divider {
     /// One more bit of the quotient, which follows what is left of the numerator's.
     #[inline(always)]
     fn step<V: Value>(&self, r: Registers<Signal<V>>, rest: Signal<V>, shifted: Signal<V>) -> Registers<Signal<V>> {
-        let fits = !rest.msb();
+        let fits = (!rest.msb()).named("fits");
         Registers {
             count: self.count(&r),
             remainder: fits.select(rest, shifted).fit(self.registers.remainder, Exact, Lemma(BELOW)),
@@ -195,8 +195,8 @@ impl Block for Divider {
         let width = u64::from(self.quotient.width);
         let idle = Registers { done: bit(false), ..r };
         // One subtractor serves every step; the last looks at twice the remainder.
-        let shifted = r.remainder.concat(r.tail.msb() & !at(width + 1));
-        let rest = shifted - i.denominator.integer();
+        let shifted = r.remainder.concat(r.tail.msb() & !at(width + 1)).named("shifted");
+        let rest = (shifted - i.denominator.integer()).named("rest");
         let work = |r: Registers<Signal<V>>| {
             when!(
                 V,

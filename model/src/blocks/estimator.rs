@@ -254,6 +254,7 @@ impl Block for Estimator {
         };
         let frames = self.frames.call("frames", &mut parts.frames, inputs);
         let held = currents.saturated | haptic.saturated | map.saturated | capacitance.saturated | force.saturated;
+        let held = held.named("any_saturated");
         let pad = valid.select(i.pad, r.pad);
         let busy = valid | (r.busy & !frames.done);
         cell.store(self, Registers { busy, pad, clipped: valid.select(i.clipped, r.clipped) });

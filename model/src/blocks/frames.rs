@@ -221,7 +221,7 @@ impl Block for Frames {
         }
         // While the word of `count − 1` goes out, that of `count` is asked for.
         let before = (r.count - int(1)).bits(0, self.registers.index.width);
-        let emits = r.busy & !r.count.is(0);
+        let emits = (r.busy & !r.count.is(0)).named("emits");
         let held = self.held.data(&mut cell.parts.held);
         let never_held = before.is(FIELDS - 1);
         let word = (i.invalid & !never_held).select(held, self.result(&i, before));

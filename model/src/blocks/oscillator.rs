@@ -151,7 +151,7 @@ impl Oscillator {
         let begun = (i.sample & i.first).select(zero, r.window_phase);
         let sine = r.step.is(2);
         let phase = (r.step.is(1) | sine).select(r.phase, begun);
-        (phase + sine.select(zero, quarter)).fit(PHASE, Exact, Wrap)
+        (phase + sine.select(zero, quarter)).fit(PHASE, Exact, Wrap).named("angle")
     }
 
     /// A sample begins: phases start anew where they should.
@@ -176,7 +176,7 @@ impl Oscillator {
     ) -> Registers<Signal<V>> {
         let at = |step: u64| r.step.is(step);
         let advance = |phase: Signal<V>, by: i64| (phase + code(by, PHASE)).fit(PHASE, Exact, Wrap);
-        let wave = r.sign.select(-r.wave, r.wave).fit(self.registers.sine, Exact, Wrap);
+        let wave = r.sign.select(-r.wave, r.wave).fit(self.registers.sine, Exact, Wrap).named("signed_wave");
         let end = at(4);
         Registers {
             step: end.select(int(0), r.step + int(1)).fit(r.step.format, Exact, Wrap),

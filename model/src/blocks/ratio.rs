@@ -97,7 +97,7 @@ impl Ratio {
         divided: divider::Outputs<Signal<V>>,
     ) -> Registers<Signal<V>> {
         let (first, second) = (divided.done & r.step.is(1), divided.done & r.step.is(2));
-        let numerator = r.step.is(1).select(i.x, i.y);
+        let numerator = r.step.is(1).select(i.x, i.y).named("numerator");
         let negative = numerator.less_than(int(0));
         let ratio = negative.select(-divided.quotient, divided.quotient).fit(self.registers.r_x, Exact, Never);
         Registers {

@@ -105,10 +105,10 @@ impl Root {
     #[inline(always)]
     fn step<V: Value>(&self, r: Registers<Signal<V>>) -> Registers<Signal<V>> {
         let width = self.padded.width;
-        let shifted = r.remainder.concat(r.tail.bits(width - 2, 2));
+        let shifted = r.remainder.concat(r.tail.bits(width - 2, 2)).named("shifted");
         let trial = r.partial.concat(bit(false)).concat(bit(true));
-        let rest = shifted - trial;
-        let fits = !rest.msb();
+        let rest = (shifted - trial).named("rest");
+        let fits = (!rest.msb()).named("fits");
         Registers {
             count: (r.count + int(1)).fit(self.registers.count, Exact, Wrap),
             tail: r.tail.concat(int::<V>(0)).concat(int(0)).bits(0, width),

@@ -5,81 +5,22 @@ use super::{Direction, Port};
 use hapticore_model::signal::netlist::{Module, Named, Netlist};
 use std::collections::HashSet;
 
-/// The words of Verilog-2005 that a signal might be called (IEEE 1364-2005, annex B), and the two ports that every module has.
-const RESERVED: &[&str] = &[
-    "always",
-    "and",
-    "assign",
-    "begin",
-    "buf",
-    "case",
-    "cell",
-    "clock",
-    "config",
-    "deassign",
-    "default",
-    "design",
-    "disable",
-    "edge",
-    "else",
-    "end",
-    "event",
-    "for",
-    "force",
-    "forever",
-    "fork",
-    "function",
-    "generate",
-    "if",
-    "initial",
-    "inout",
-    "input",
-    "instance",
-    "integer",
-    "join",
-    "large",
-    "library",
-    "medium",
-    "module",
-    "nand",
-    "negedge",
-    "nor",
-    "not",
-    "or",
-    "output",
-    "parameter",
-    "posedge",
-    "primitive",
-    "real",
-    "reg",
-    "release",
-    "repeat",
-    "reset",
-    "scalared",
-    "signed",
-    "small",
-    "strong0",
-    "strong1",
-    "supply0",
-    "supply1",
-    "table",
-    "task",
-    "time",
-    "tri",
-    "unsigned",
-    "unused",
-    "use",
-    "vectored",
-    "wait",
-    "wand",
-    "weak0",
-    "weak1",
-    "while",
-    "wire",
-    "wor",
-    "xnor",
-    "xor",
-];
+/// What a signal may not be called, although it might be: the words of Verilog (IEEE 1364-2005, annex B), ...
+const VERILOG: &str = "\
+    always and assign begin buf case cell config deassign default design disable edge else end event for force \
+    forever fork function generate if initial inout input instance integer join large library medium module nand \
+    negedge nor not or output parameter posedge primitive real reg release repeat scalared signed small strong0 \
+    strong1 supply0 supply1 table task time tri unsigned use vectored wait wand weak0 weak1 while wire wor xnor \
+    xor";
+/// ... those that SystemVerilog has besides (IEEE 1800-2017, annex B), for most tools read the one as the other, ...
+const SYSTEM_VERILOG: &str = "\
+    alias assert assume before bit bins break byte chandle checker class constraint context continue cover cross \
+    dist do enum expect export extends extern final global iff implies import inside int interface intersect local \
+    logic longint matches modport new null packed package priority program property protected pure rand randc ref \
+    restrict return sequence shortint shortreal soft solve static string strong struct super tagged this \
+    throughout type typedef union unique untyped uwire var virtual void weak wildcard with within";
+/// ... and what every module has.
+const OWN: [&str; 3] = ["clock", "reset", "unused"];
 
 /// The names of a netlist's modules: the blocks', with a number where several differ.
 pub fn of_modules(netlist: &Netlist) -> Vec<String> {
@@ -109,7 +50,8 @@ pub struct Names {
 
 impl Default for Names {
     fn default() -> Self {
-        Names { taken: RESERVED.iter().map(|word| (*word).to_owned()).collect() }
+        let words = [VERILOG, SYSTEM_VERILOG].into_iter().flat_map(str::split_whitespace);
+        Names { taken: words.chain(OWN).map(str::to_owned).collect() }
     }
 }
 

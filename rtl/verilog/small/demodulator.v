@@ -29,26 +29,40 @@ module demodulator (
     reg [1:0] pad_q; // u2.0
     reg signed [15:0] left; // s16.15
     reg signed [15:0] right; // s16.15
-    reg signed [31:0] product; // s32.30
-    reg signed [15:0] weighted_cosine; // s16.15
-    reg signed [15:0] weighted_sine; // s16.15
-    reg signed [15:0] weighted_haptic; // s16.15
+    reg signed [15:0] weighted; // s16.15
+    reg summed; // u1.0
+    (* no_rw_check *) // nobody uses a word that was read while it was being written
     reg signed [39:0] sums [0:14]; // 15 words s40.30
     reg signed [39:0] sums_word; // its read register
+    (* no_rw_check *) // nobody uses a word that was read while it was being written
+    (* ram_style = "block" *)
+    reg signed [15:0] weights [0:2]; // 3 words s16.15
+    reg signed [15:0] weights_word; // its read register
+    wire signed [31:0] multiplier_product; // s32.0
 
-    wire signed [5:0] difference_24 = {1'd0, step} - 6'd2; // s6.0
-    wire bit_27 = ~(step < 5'd2); // u1.0
-    wire write_sums = (~(step < 5'd5)) & busy; // u1.0
-    wire signed [5:0] difference_36 = {1'd0, step} - 6'd5; // s6.0
-    wire signed [5:0] difference_42 = {1'd0, step} - 6'd4; // s6.0
-    wire signed [39:0] choice_49 = first_q ? 40'd0 : sums_word; // s40.30
-    wire signed [40:0] sum_50 = {{1{choice_49[39]}}, choice_49} + {{9{product[31]}}, product}; // s41.30
-    wire less_56 = step < 5'd3; // u1.0
-    wire signed [5:0] difference_59 = {1'd0, step} - 6'd3; // s6.0
+    wire signed [5:0] difference_22 = {1'd0, step} - 6'd2; // s6.0
+    wire bit_25 = ~(step < 5'd2); // u1.0
+    wire less_35 = step < 5'd5; // u1.0
+    wire bit_37 = (~less_35) & busy; // u1.0
+    wire signed [5:0] difference_34 = {1'd0, step} - 6'd5; // s6.0
+    wire signed [5:0] difference_40 = {1'd0, step} - 6'd4; // s6.0
+    wire signed [39:0] so_far = first_q ? 40'd0 : sums_word; // s40.30
+    wire signed [40:0] accumulated = {{1{so_far[39]}}, so_far} + {{9{multiplier_product[31]}}, multiplier_product}; // s41.30
+    wire signed [5:0] difference_56 = {1'd0, step} - 6'd3; // s6.0
+    wire weighing = step < 5'd3; // u1.0
+    wire step_is_16 = step == 5'd16; // u1.0
     wire step_is_19 = step == 5'd19; // u1.0
-    wire [5:0] choice_76 = step_is_19 ? 6'd0 : ({1'd0, step} + 6'd1); // u6.0
-    wire signed [31:0] product_78 = left * right; // s32.30
-    wire signed [15:0] fit_80 = product[30:15] + {15'd0, product[14] & (product[15] | (|product[13:0]))}; // s16.15
+    wire [5:0] choice_86 = step_is_19 ? 6'd0 : ({1'd0, step} + 6'd1); // u6.0
+    wire signed [15:0] fit_90 = multiplier_product[30:15] + {15'd0, multiplier_product[14] & (multiplier_product[15] | (|multiplier_product[13:0]))}; // s16.15
+
+    multiplier u_multiplier (
+        .clock(clock),
+        .reset(reset),
+        .enable(busy),
+        .left(left),
+        .right(right),
+        .product(multiplier_product)
+    );
 
     initial begin : initial_sums
         integer i;
@@ -56,8 +70,18 @@ module demodulator (
     end
 
     always @(posedge clock) begin
-        if (write_sums) sums[difference_36[3:0]] <= sum_50[39:0];
-        sums_word <= sums[difference_42[3:0]];
+        if (summed) sums[index] <= sum;
+        sums_word <= sums[difference_40[3:0]];
+    end
+
+    initial begin : initial_weights
+        integer i;
+        for (i = 0; i < 3; i = i + 1) weights[i] = 16'd0;
+    end
+
+    always @(posedge clock) begin
+        if ((busy & (~weighing)) & (step < 5'd6)) weights[difference_56[1:0]] <= weighted;
+        weights_word <= weights[{step_is_16, difference_22[0] & (~step_is_16)}];
     end
 
     always @(posedge clock) begin
@@ -69,11 +93,9 @@ module demodulator (
             pad_q <= 2'd0;
             left <= 16'd0;
             right <= 16'd0;
-            product <= 32'd0;
-            weighted_cosine <= 16'd0;
-            weighted_sine <= 16'd0;
-            weighted_haptic <= 16'd0;
+            weighted <= 16'd0;
             valid <= 1'd0;
+            summed <= 1'd0;
             index <= 4'd0;
             sum <= 40'd0;
             clipped <= 1'd0;
@@ -85,48 +107,40 @@ module demodulator (
                 last_q <= last;
                 pad_q <= pad;
                 valid <= 1'd0;
+                summed <= 1'd0;
                 if (first) begin
                     clipped <= 1'd0;
                 end
             end else if (busy) begin
                 busy <= ~step_is_19;
-                step <= choice_76[4:0];
-                product <= product_78;
-                valid <= write_sums & last_q;
-                index <= difference_36[3:0];
-                sum <= sum_50[39:0];
-                clipped <= clipped | ((bit_27 & (step < 5'd18)) ? ((code == 16'd32767) | (code == 16'h8000)) : 1'd0);
-                if (step == 5'd4) begin
-                    weighted_haptic <= fit_80;
+                step <= choice_86[4:0];
+                valid <= bit_37 & last_q;
+                summed <= bit_37;
+                index <= difference_34[3:0];
+                sum <= accumulated[39:0];
+                clipped <= clipped | ((bit_25 & (step < 5'd18)) ? ((code == 16'd32767) | (code == 16'h8000)) : 1'd0);
+                if (bit_25 & (difference_22 < $signed(6'd3))) begin
+                    weighted <= fit_90;
                 end
-                if (step == 5'd3) begin
-                    weighted_sine <= fit_80;
-                end
-                if (step == 5'd2) begin
-                    weighted_cosine <= fit_80;
-                end
-                if (less_56) begin
+                if (weighing) begin
                     left <= window;
                     right <= (step == 5'd0) ? cosine : (step == 5'd1) ? sine : code;
                 end else begin
                     left <= code;
-                    right <=
-                        (step == 5'd17) ? weighted_haptic
-                        : difference_59[0] ? weighted_sine
-                        : weighted_cosine;
+                    right <= less_35 ? weighted : weights_word;
                 end
             end else begin
                 valid <= 1'd0;
+                summed <= 1'd0;
             end
         end
     end
 
-    assign channel = (bit_27 & (step < 5'd16)) ? difference_24[3:1] : 3'd7;
+    assign channel = (bit_25 & (step < 5'd16)) ? difference_22[3:1] : 3'd7;
     assign pad_out = pad_q;
 
     // What nothing needs.
-    wire unused = &{1'b0, difference_24[0], difference_24[5:4], difference_36[5:4], difference_42[5:4], sum_50[40],
-        difference_59[5:1], choice_76[5]};
+    wire unused = &{1'b0, difference_34[5:4], difference_40[5:4], accumulated[40], difference_56[5:2], choice_86[5]};
 
 endmodule
 

@@ -31,7 +31,6 @@ module estimator (
     output wire lost // u1.0  A terminal's current is missing.
 );
 
-    reg busy; // u1.0
     reg [1:0] pad_q; // u2.0
     reg clipped_q; // u1.0
     wire currents_done; // u1.0
@@ -65,9 +64,8 @@ module estimator (
     wire signed [17:0] frames_word; // s18.0
     wire frames_done; // u1.0
 
-    wire bit_18 = (valid | busy) | write; // u1.0
     wire frames_invalid = ratio_invalid | capacitance_invalid; // u1.0
-    wire bit_53 = (((currents_saturated | haptic_voltage_saturated) | map_saturated) | capacitance_saturated) | force_estimator_saturated; // u1.0
+    wire any_saturated = (((currents_saturated | haptic_voltage_saturated) | map_saturated) | capacitance_saturated) | force_estimator_saturated; // u1.0
 
     currents u_currents (
         .clock(clock),
@@ -176,11 +174,9 @@ module estimator (
 
     always @(posedge clock) begin
         if (reset) begin
-            busy <= 1'd0;
             pad_q <= 2'd0;
             clipped_q <= 1'd0;
         end else begin
-            busy <= valid | (busy & (~frames_done));
             if (valid) begin
                 pad_q <= pad;
                 clipped_q <= clipped;
@@ -189,14 +185,14 @@ module estimator (
     end
 
     assign valid_out = frames_valid;
-    assign index_out = bit_18 ? frames_index : 3'd0;
-    assign word_out = bit_18 ? frames_word : 18'd0;
+    assign index_out = frames_valid ? frames_index : 3'd0;
+    assign word_out = frames_valid ? frames_word : 18'd0;
     assign done = frames_done;
     assign pad_out = pad_q;
     assign clipped_out = clipped_q;
-    assign saturated = bit_18 ? bit_53 : 1'd0;
-    assign invalid = bit_18 ? frames_invalid : 1'd0;
-    assign lost = bit_18 ? currents_lost : 1'd0;
+    assign saturated = frames_valid ? any_saturated : 1'd0;
+    assign invalid = frames_valid ? frames_invalid : 1'd0;
+    assign lost = frames_valid ? currents_lost : 1'd0;
 
 endmodule
 

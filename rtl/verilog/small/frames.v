@@ -25,24 +25,15 @@ module frames (
 
     reg busy; // u1.0
     reg [3:0] count; // u4.0
+    (* no_rw_check *) // nobody uses a word that was read while it was being written
     reg signed [17:0] held [0:31]; // 32 words s18.0
     reg signed [17:0] held_word; // its read register
 
     wire signed [4:0] difference_20 = {1'd0, count} - 5'd1; // s5.0
-    wire write_held = busy & (~(count == 4'd0)); // u1.0
-    wire signed [17:0] held_write_word =
-        (invalid & (~(difference_20[2:0] == 3'd7))) ? held_word
-        : (difference_20[2:0] == 3'd0) ? r_x
-        : (difference_20[2:0] == 3'd1) ? r_y
-        : (difference_20[2:0] == 3'd2) ? {{2{x[15]}}, x}
-        : (difference_20[2:0] == 3'd3) ? {{2{y[15]}}, y}
-        : (difference_20[2:0] == 3'd4) ? {3'd0, sheet}
-        : (difference_20[2:0] == 3'd5) ? {3'd0, capacitance}
-        : (difference_20[2:0] == 3'd6) ? {3'd0, haptic_force}
-        : {3'd0, mean_square}; // s18.0
+    wire emits = busy & (~(count == 4'd0)); // u1.0
     wire [2:0] bits_21 = difference_20[2:0]; // u3.0
     wire count_is_8 = count == 4'd8; // u1.0
-    wire [4:0] choice_74 = busy ? ({1'd0, count} + 5'd1) : {1'd0, count}; // u5.0
+    wire [4:0] choice_65 = busy ? ({1'd0, count} + 5'd1) : {1'd0, count}; // u5.0
 
     initial begin : initial_held
         integer i;
@@ -50,7 +41,7 @@ module frames (
     end
 
     always @(posedge clock) begin
-        if (write_held) held[{pad, bits_21}] <= held_write_word;
+        if (valid) held[{pad, index}] <= word;
         held_word <= held[{pad, count[2:0]}];
     end
 
@@ -70,19 +61,28 @@ module frames (
                 done <= 1'd0;
             end else begin
                 busy <= busy & (~count_is_8);
-                count <= choice_74[3:0];
-                valid <= write_held;
-                done <= write_held & count_is_8;
-                if (write_held) begin
+                count <= choice_65[3:0];
+                valid <= emits;
+                done <= emits & count_is_8;
+                if (emits) begin
                     index <= bits_21;
-                    word <= held_write_word;
+                    word <=
+                        (invalid & (~(difference_20[2:0] == 3'd7))) ? held_word
+                        : bits_21[2] ? (bits_21[1] ? (bits_21[0] ? {3'd0, mean_square}
+                        : {3'd0, haptic_force})
+                        : bits_21[0] ? {3'd0, capacitance}
+                        : {3'd0, sheet})
+                        : bits_21[1] ? (bits_21[0] ? {{2{y[15]}}, y}
+                        : {{2{x[15]}}, x})
+                        : bits_21[0] ? r_y
+                        : r_x;
                 end
             end
         end
     end
 
     // What nothing needs.
-    wire unused = &{1'b0, difference_20[4:3], choice_74[4]};
+    wire unused = &{1'b0, difference_20[4:3], choice_65[4]};
 
 endmodule
 

@@ -15,7 +15,6 @@ module haptic_voltage (
 
     wire bit_7 = valid & (index == 4'd14); // u1.0
     wire signed [17:0] fit_9 = {sum[39], sum[39:23]} + {17'd0, sum[22] & (sum[23] | (|sum[21:0]))}; // s18.15
-    wire [14:0] fit_10 = fit_9[17] ? 15'd0 : (|fit_9[16:15]) ? {15{1'b1}} : fit_9[14:0]; // u15.15
 
     always @(posedge clock) begin
         if (reset) begin
@@ -23,8 +22,8 @@ module haptic_voltage (
             saturated <= 1'd0;
         end else begin
             if (bit_7) begin
-                mean_square <= fit_10;
-                saturated <= ~({3'd0, fit_10} == fit_9);
+                mean_square <= fit_9[17] ? 15'd0 : (|fit_9[16:15]) ? {15{1'b1}} : fit_9[14:0];
+                saturated <= ~(fit_9[17:15] == 3'd0);
             end
         end
     end

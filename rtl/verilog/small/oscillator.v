@@ -9,34 +9,34 @@ module oscillator (
     input wire sample, // u1.0  A sample is there.
     input wire restart, // u1.0  It is the first of its slot.
     input wire first, // u1.0  It is the first of its window.
-    output reg ready, // u1.0  Set for one clock when the other outputs are those of the sample.
+    output reg ready, // u1.0  Set for one clock before the other outputs are those of the sample.
     output reg signed [15:0] cosine, // s16.15  The cosine of the carrier.
     output reg signed [15:0] sine, // s16.15  The sine of the carrier.
     output reg signed [15:0] window // s16.15  The window.
 );
 
-    reg [1:0] step; // u2.0  0 idle, 1 cosine, 2 sine, 3 window
+    reg [2:0] step; // u3.0  0 idle, 1 look_up, 2 wave, 3 cosine, 4 sine
     reg [31:0] phase; // u32.32
     reg [31:0] window_phase; // u32.32
     reg negative; // u1.0
+    reg [14:0] wave; // u15.15
+    reg sign; // u1.0
     reg [14:0] quarter [0:255]; // 256 words u15.15
     reg [14:0] quarter_word; // its read register
 
-    wire bit_14 = ~(step == 2'd0); // u1.0
-    wire signed [15:0] choice_20 = negative ? (16'd0 - {1'd0, quarter_word}) : {1'd0, quarter_word}; // s16.15
-    wire [31:0] choice_23 = restart ? 32'd0 : phase; // u32.32
-    wire [32:0] sum_25 = {1'd0, sample ? choice_23 : phase} + 33'd1073741824; // u33.32
-    wire [32:0] sum_27 = {1'd0, window_phase} + 33'd1073741824; // u33.32
-    wire step_is_cosine = step == 2'd1; // u1.0
-    wire step_is_sine = step == 2'd2; // u1.0
-    wire [31:0] choice_34 = step_is_cosine ? phase : step_is_sine ? sum_27[31:0] : sum_25[31:0]; // u32.32
-    wire signed [8:0] difference_37 = 9'd255 - {1'd0, choice_34[29:22]}; // s9.0
-    wire step_is_window = step == 2'd3; // u1.0
-    wire [2:0] sum_45 = {1'd0, step} + 3'd1; // u3.0
-    wire [32:0] sum_48 = {1'd0, phase} + 33'd858993459; // u33.32
-    wire [32:0] sum_52 = {1'd0, window_phase} + 33'd8589935; // u33.32
-    wire signed [17:0] difference_57 = 18'd32768 - {{2{choice_20[15]}}, choice_20}; // s18.15
-    wire signed [17:0] rounded = {difference_57[17], difference_57[17:1]} + {17'd0, difference_57[0] & difference_57[1]};
+    wire bit_16 = ~(step == 3'd0); // u1.0
+    wire step_is_wave = step == 3'd2; // u1.0
+    wire [32:0] sum_31 = {1'd0, ((step == 3'd1) | step_is_wave) ? phase : (sample & first) ? 32'd0 : window_phase} + {1'd0, step_is_wave ? 32'd0 : 32'd1073741824}; // u33.32
+    wire [31:0] angle = sum_31[31:0]; // u32.32
+    wire signed [8:0] difference_35 = 9'd255 - {1'd0, angle[29:22]}; // s9.0
+    wire signed [15:0] signed_wave = sign ? (16'd0 - {1'd0, wave}) : {1'd0, wave}; // s16.15
+    wire step_is_sine = step == 3'd4; // u1.0
+    wire [3:0] choice_48 = step_is_sine ? 4'd0 : ({1'd0, step} + 4'd1); // u4.0
+    wire [32:0] sum_51 = {1'd0, phase} + 33'd858993459; // u33.32
+    wire [32:0] sum_55 = {1'd0, window_phase} + 33'd8589935; // u33.32
+    wire step_is_cosine = step == 3'd3; // u1.0
+    wire signed [17:0] difference_60 = 18'd32768 - {{2{window[15]}}, window}; // s18.15
+    wire signed [17:0] rounded = {difference_60[17], difference_60[17:1]} + {17'd0, difference_60[0] & difference_60[1]};
 
     initial begin : initial_quarter
         quarter[0] = 15'h0065; quarter[1] = 15'h012e; quarter[2] = 15'h01f7; quarter[3] = 15'h02c0;
@@ -106,43 +106,49 @@ module oscillator (
     end
 
     always @(posedge clock) begin
-        quarter_word <= quarter[choice_34[30] ? difference_37[7:0] : choice_34[29:22]];
+        quarter_word <= quarter[angle[30] ? difference_35[7:0] : angle[29:22]];
     end
 
     always @(posedge clock) begin
         if (reset) begin
-            step <= 2'd0;
+            step <= 3'd0;
             phase <= 32'd0;
             window_phase <= 32'd0;
             negative <= 1'd0;
+            wave <= 15'd0;
+            sign <= 1'd0;
             cosine <= 16'd0;
             sine <= 16'd0;
             window <= 16'd0;
             ready <= 1'd0;
         end else begin
             if (sample) begin
-                step <= 2'd1;
-                phase <= choice_23;
-                negative <= choice_34[31];
+                step <= 3'd1;
+                negative <= angle[31];
                 ready <= 1'd0;
                 if (first) begin
                     window_phase <= 32'd0;
                 end
-            end else if (bit_14) begin
-                step <= sum_45[1:0];
-                negative <= choice_34[31];
-                ready <= step_is_window;
+                if (restart) begin
+                    phase <= 32'd0;
+                end
+            end else if (bit_16) begin
+                step <= choice_48[2:0];
+                negative <= angle[31];
+                wave <= quarter_word;
+                sign <= negative;
+                window <=
+                    step_is_wave ? signed_wave
+                    : step_is_cosine ? ((rounded[17:15] == {3{rounded[17]}}) ? rounded[15:0] : {rounded[17], {15{~rounded[17]}}})
+                    : window;
+                ready <= step_is_cosine;
+                if (step_is_cosine | step_is_sine) begin
+                    sine <= signed_wave;
+                end
                 if (step_is_sine) begin
-                    sine <= choice_20;
-                end
-                if (step_is_cosine) begin
-                    cosine <= choice_20;
-                end
-                if (step_is_window) begin
-                    phase <= sum_48[31:0];
-                    window_phase <= sum_52[31:0];
-                    window <=
-                        (rounded[17:15] == {3{rounded[17]}}) ? rounded[15:0] : {rounded[17], {15{~rounded[17]}}};
+                    phase <= sum_51[31:0];
+                    window_phase <= sum_55[31:0];
+                    cosine <= sine;
                 end
             end else begin
                 ready <= 1'd0;
@@ -151,8 +157,7 @@ module oscillator (
     end
 
     // What nothing needs.
-    wire unused = &{1'b0, sum_25[32], sum_27[32], choice_34[21:0], difference_37[8], sum_45[2], sum_48[32],
-        sum_52[32]};
+    wire unused = &{1'b0, sum_31[32], angle[21:0], difference_35[8], choice_48[3], sum_51[32], sum_55[32]};
 
 endmodule
 

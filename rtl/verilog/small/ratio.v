@@ -23,18 +23,15 @@ module ratio (
     wire divider_saturated; // u1.0
 
     wire step_is_x = step == 2'd1; // u1.0
-    wire signed [19:0] choice_17 = step_is_x ? x : y; // s20.13
+    wire signed [19:0] numerator = step_is_x ? x : y; // s20.13
     wire bit_22 = divider_done & step_is_x; // u1.0
     wire bit_25 = divider_done & (step == 2'd2); // u1.0
-    wire signed [17:0] choice_29 =
-        (choice_17 < $signed(20'd0)) ? (18'd0 - {1'd0, divider_quotient})
-        : {1'd0, divider_quotient}; // s18.16
 
     divider u_divider (
         .clock(clock),
         .reset(reset),
         .start(divide),
-        .numerator(choice_17[19] ? 20'd0 - choice_17 : choice_17),
+        .numerator(numerator[19] ? 20'd0 - numerator : numerator),
         .denominator(corners),
         .done(divider_done),
         .quotient(divider_quotient),
@@ -55,16 +52,16 @@ module ratio (
                 divide <= 1'd1;
                 done <= 1'd0;
             end else begin
+                step <= bit_22 ? 2'd2 : bit_25 ? 2'd0 : step;
                 divide <= bit_22;
                 done <= bit_25;
-                if (bit_22) begin
-                    step <= 2'd2;
-                    r_x <= choice_29;
-                end else if (bit_25) begin
-                    step <= 2'd0;
+                if (divider_done) begin
+                    r_y <=
+                        (numerator < $signed(20'd0)) ? (18'd0 - {1'd0, divider_quotient})
+                        : {1'd0, divider_quotient};
                 end
                 if (bit_25) begin
-                    r_y <= choice_29;
+                    r_x <= r_y;
                     invalid <= corners == 19'd0;
                 end
             end

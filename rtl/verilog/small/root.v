@@ -19,13 +19,13 @@ module root (
     reg [14:0] partial; // u15.0
 
     wire count_is_15 = count == 4'd15; // u1.0
-    wire [17:0] joined_21 = {remainder, tail[29:28]}; // u18.0
-    wire [16:0] joined_23 = {{partial, 1'd0}, 1'd1}; // u17.0
-    wire bit_25 = ~(joined_21 < {1'd0, joined_23}); // u1.0
-    wire [4:0] sum_28 = {1'd0, count} + 5'd1; // u5.0
-    wire [31:0] joined_31 = {{tail, 1'd0}, 1'd0}; // u32.0
-    wire signed [18:0] choice_27 = bit_25 ? ({1'd0, joined_21} - {2'd0, joined_23}) : {1'd0, joined_21}; // s19.0
-    wire [15:0] joined_34 = {partial, bit_25}; // u16.0
+    wire [17:0] shifted = {remainder, tail[29:28]}; // u18.0
+    wire signed [18:0] rest = {1'd0, shifted} - {2'd0, {{partial, 1'd0}, 1'd1}}; // s19.0
+    wire fits = ~rest[18]; // u1.0
+    wire [4:0] sum_27 = {1'd0, count} + 5'd1; // u5.0
+    wire [31:0] joined_30 = {{tail, 1'd0}, 1'd0}; // u32.0
+    wire signed [18:0] choice_32 = fits ? rest : {1'd0, shifted}; // s19.0
+    wire [15:0] joined_34 = {partial, fits}; // u16.0
 
     always @(posedge clock) begin
         if (reset) begin
@@ -50,9 +50,9 @@ module root (
                     done <= 1'd1;
                     root <= {1'd0, partial} + {15'd0, {1'd0, partial} < remainder};
                 end else begin
-                    count <= sum_28[3:0];
-                    tail <= joined_31[29:0];
-                    remainder <= choice_27[15:0];
+                    count <= sum_27[3:0];
+                    tail <= joined_30[29:0];
+                    remainder <= choice_32[15:0];
                     partial <= joined_34[14:0];
                     done <= 1'd0;
                 end
@@ -63,7 +63,7 @@ module root (
     end
 
     // What nothing needs.
-    wire unused = &{1'b0, sum_28[4], joined_31[31:30], choice_27[18:16], joined_34[15]};
+    wire unused = &{1'b0, sum_27[4], joined_30[31:30], choice_32[18:16], joined_34[15]};
 
 endmodule
 

@@ -19,70 +19,67 @@ module currents (
     output reg saturated // u1.0  Whether a word is held at a rail.
 );
 
-    reg [2:0] step; // u3.0  0 idle, 1 read, 2 in_phase, 3 quadrature, 4 power, 5 root
+    reg [2:0] step; // u3.0  0 idle, 1 read, 2 in_phase, 3 read_quadrature, 4 quadrature, 5 square, 6 power, 7 root
+    reg arrived; // u1.0
+    reg [3:0] place; // u4.0
+    reg signed [23:0] word; // s24.23
+    reg waited; // u1.0
     reg [2:0] channel; // u3.0
     reg signed [25:0] total_i; // s26.23
     reg signed [25:0] total_q; // s26.23
     reg signed [25:0] part; // s26.23
     reg [51:0] power; // u52.46
     reg root_start; // u1.0
-    reg [26:0] amplitude; // u27.23
     reg [26:0] least; // u27.23
+    (* no_rw_check *) // nobody uses a word that was read while it was being written
     reg signed [23:0] words [0:13]; // 14 words s24.23
     reg signed [23:0] words_word; // its read register
     wire root_done; // u1.0
     wire [26:0] root_root; // u27.23
+    wire signed [51:0] multiplier_product; // s52.0
 
-    wire bit_22 = ~(step == 3'd0); // u1.0
-    wire signed [26:0] fit_26 = {sum[44], sum[44:19]} + {26'd0, sum[18] & (sum[19] | (|sum[17:0]))}; // s27.23
-    wire signed [23:0] words_write_word =
-        (fit_26[26:23] == {4{fit_26[26]}}) ? fit_26[23:0] : {fit_26[26], {23{~fit_26[26]}}}; // s24.23
-    wire less_31 = index < 4'd14; // u1.0
-    wire step_is_in_phase = step == 3'd2; // u1.0
-    wire [3:0] joined_35 = {channel, step_is_in_phase}; // u4.0
-    wire equal_41 = index == 4'd0; // u1.0
-    wire less_43 = index < 4'd12; // u1.0
-    wire signed [25:0] choice_46 = equal_41 ? 26'd0 : total_i; // s26.23
-    wire signed [25:0] choice_47 = equal_41 ? 26'd0 : total_q; // s26.23
-    wire signed [26:0] sum_48 = {{1{choice_46[25]}}, choice_46} + {{3{words_write_word[23]}}, words_write_word}; // s27.23
-    wire signed [27:0] fit_49 = {{1{sum_48[26]}}, sum_48}; // s28.23
-    wire signed [25:0] fit_50 =
-        (fit_49[27:25] == {3{fit_49[27]}}) ? fit_49[25:0] : {fit_49[27], {25{~fit_49[27]}}}; // s26.23
-    wire signed [26:0] sum_53 = {{1{choice_47[25]}}, choice_47} + {{3{words_write_word[23]}}, words_write_word}; // s27.23
-    wire signed [27:0] fit_54 = {{1{sum_53[26]}}, sum_53}; // s28.23
-    wire signed [25:0] fit_55 =
-        (fit_54[27:25] == {3{fit_54[27]}}) ? fit_54[25:0] : {fit_54[27], {25{~fit_54[27]}}}; // s26.23
-    wire bit_59 = less_43 & (index[0] ? (~({{2{fit_55[25]}}, fit_55} == fit_54)) : (~({{2{fit_50[25]}}, fit_50} == fit_49))); // u1.0
-    wire bit_72 = ((~equal_41) & saturated) | (less_31 & (~({{3{words_write_word[23]}}, words_write_word} == fit_26))); // u1.0
+    wire multiplier_enable = ~(step == 3'd0); // u1.0
+    wire signed [26:0] fit_32 = {sum[44], sum[44:19]} + {26'd0, sum[18] & (sum[19] | (|sum[17:0]))}; // s27.23
+    wire among = index < 4'd14; // u1.0
+    wire [3:0] joined_48 = {channel, ~(step < 3'd3)}; // u4.0
+    wire step_is_root = step == 3'd7; // u1.0
+    wire bit_53 = waited | step_is_root; // u1.0
+    wire bit_62 = ((~(index == 4'd0)) & saturated) | (among & (~((fit_32[26:23] == 4'd0) | (fit_32[26:23] == 4'd15)))); // u1.0
     wire channel_is_7 = channel == 3'd7; // u1.0
-    wire [50:0] product_76 = part * part; // u51.46
-    wire step_is_power = step == 3'd4; // u1.0
-    wire [52:0] choice_80 = step_is_power ? ({1'd0, power} + {2'd0, product_76}) : {2'd0, product_76}; // u53.46
-    wire step_is_root = step == 3'd5; // u1.0
-    wire bit_84 = step_is_root & root_done; // u1.0
+    wire less_65 = channel < 3'd6; // u1.0
+    wire step_is_power = step == 3'd6; // u1.0
+    wire [52:0] choice_70 =
+        step_is_power ? ({1'd0, power} + {1'd0, multiplier_product})
+        : {1'd0, multiplier_product}; // u53.46
+    wire adds = ((step == 3'd3) | (step == 3'd5)) & less_65; // u1.0
+    wire signed [26:0] more = {{1{total_i[25]}}, total_i} + {{1{part[25]}}, part}; // s27.23
+    wire signed [27:0] fit_78 = {{1{more[26]}}, more}; // s28.23
+    wire rooted = step_is_root & root_done; // u1.0
     wire channel_is_0 = channel == 3'd0; // u1.0
-    wire [3:0] sum_91 = {1'd0, channel} + 4'd1; // u4.0
+    wire signed [27:0] negative = 28'd0 - {1'd0, root_root}; // s28.23
+    wire [3:0] sum_92 = {1'd0, channel} + 4'd1; // u4.0
     wire channel_is_2 = channel == 3'd2; // u1.0
     wire channel_is_3 = channel == 3'd3; // u1.0
     wire channel_is_1 = channel == 3'd1; // u1.0
-    wire bit_102 = channel_is_0 | channel_is_1; // u1.0
-    wire signed [30:0] choice_105 = channel_is_0 ? 31'd0 : x; // s31.23
-    wire signed [31:0] sum_106 = {{1{choice_105[30]}}, choice_105} + {5'd0, (channel_is_2 | channel_is_3) ? root_root : 27'd0}; // s32.23
-    wire signed [32:0] difference_107 = {{1{sum_106[31]}}, sum_106} - {6'd0, bit_102 ? root_root : 27'd0}; // s33.23
+    wire bit_103 = channel_is_0 | channel_is_1; // u1.0
+    wire signed [30:0] choice_106 = channel_is_0 ? 31'd0 : x; // s31.23
+    wire signed [27:0] choice_104 = bit_103 ? negative : {1'd0, (channel_is_2 | channel_is_3) ? root_root : 27'd0}; // s28.23
+    wire signed [31:0] sum_107 = {{1{choice_106[30]}}, choice_106} + {{4{choice_104[27]}}, choice_104}; // s32.23
     wire signed [30:0] choice_113 = channel_is_0 ? 31'd0 : y; // s31.23
-    wire signed [31:0] sum_114 = {{1{choice_113[30]}}, choice_113} + {5'd0, (channel_is_0 | channel_is_3) ? root_root : 27'd0}; // s32.23
-    wire signed [32:0] difference_115 = {{1{sum_114[31]}}, sum_114} - {6'd0, (channel_is_1 | channel_is_2) ? root_root : 27'd0}; // s33.23
-    wire [30:0] sum_123 = {1'd0, channel_is_0 ? 30'd0 : corners} + {4'd0, ((bit_102 | channel_is_2) | channel_is_3) ? root_root : 27'd0}; // u31.23
-    wire signed [31:0] difference_124 = {1'd0, sum_123} - {5'd0, 1'd0 ? root_root : 27'd0}; // s32.23
-    wire [2:0] choice_127 = bit_84 ? step : step; // u3.0
-    wire signed [25:0] choice_129 = bit_84 ? total_i : total_i; // s26.23
-    wire signed [25:0] choice_130 = bit_84 ? total_q : total_q; // s26.23
-    wire step_is_quadrature = step == 3'd3; // u1.0
-    wire [3:0] choice_149 =
-        bit_84 ? {3'd0, channel_is_7 ? 1'd0
+    wire signed [27:0] choice_112 =
+        (channel_is_1 | channel_is_2) ? negative
+        : {1'd0, (channel_is_0 | channel_is_3) ? root_root
+        : 27'd0}; // s28.23
+    wire signed [31:0] sum_114 = {{1{choice_113[30]}}, choice_113} + {{4{choice_112[27]}}, choice_112}; // s32.23
+    wire signed [27:0] fit_119 = {1'd0, ((bit_103 | channel_is_2) | channel_is_3) ? root_root : 27'd0}; // s28.23
+    wire signed [31:0] sum_122 = {2'd0, channel_is_0 ? 30'd0 : corners} + {{4{fit_119[27]}}, fit_119}; // s32.23
+    wire step_is_quadrature = step == 3'd4; // u1.0
+    wire [3:0] choice_141 =
+        rooted ? {3'd0, channel_is_7 ? 1'd0
         : 1'd1}
-        : step_is_root ? {1'd0, choice_127}
-        : ({1'd0, choice_127} + 4'd1); // u4.0
+        : step_is_root ? {1'd0, step}
+        : ({1'd0, step} + 4'd1); // u4.0
+    wire next_arrived = valid & among; // u1.0
 
     root u_root (
         .clock(clock),
@@ -93,26 +90,38 @@ module currents (
         .root(root_root)
     );
 
+    multiplier_2 u_multiplier (
+        .clock(clock),
+        .reset(reset),
+        .enable(multiplier_enable),
+        .left(part),
+        .right(part),
+        .product(multiplier_product)
+    );
+
     initial begin : initial_words
         integer i;
         for (i = 0; i < 14; i = i + 1) words[i] = 24'd0;
     end
 
     always @(posedge clock) begin
-        if (valid & less_31) words[index] <= words_write_word;
-        words_word <= words[joined_35];
+        if (arrived) words[place] <= word;
+        words_word <= words[joined_48];
     end
 
     always @(posedge clock) begin
         if (reset) begin
             step <= 3'd0;
+            arrived <= 1'd0;
+            place <= 4'd0;
+            word <= 24'd0;
+            waited <= 1'd0;
             channel <= 3'd0;
             total_i <= 26'd0;
             total_q <= 26'd0;
             part <= 26'd0;
             power <= 52'd0;
             root_start <= 1'd0;
-            amplitude <= 27'd0;
             sense <= 27'd0;
             x <= 31'd0;
             y <= 31'd0;
@@ -121,42 +130,60 @@ module currents (
             saturated <= 1'd0;
             done <= 1'd0;
         end else begin
+            arrived <= next_arrived;
+            if (next_arrived) begin
+                place <= index;
+                word <=
+                    (fit_32[26:23] == {4{fit_32[26]}}) ? fit_32[23:0] : {fit_32[26], {23{~fit_32[26]}}};
+            end
             if (valid) begin
+                waited <= 1'd0;
                 channel <= 3'd0;
-                total_i <= (less_43 & (~index[0])) ? fit_50 : choice_46;
-                total_q <= (less_43 & index[0]) ? fit_55 : choice_47;
+                total_i <= 26'd0;
+                total_q <= 26'd0;
                 root_start <= 1'd0;
-                saturated <= bit_72 | bit_59;
+                saturated <= bit_62;
                 done <= 1'd0;
                 if (index == 4'd13) begin
                     step <= 3'd1;
                 end
-            end else if (bit_22) begin
-                step <= choice_149[2:0];
-                total_i <= choice_129;
-                total_q <= choice_130;
-                part <=
-                    step_is_in_phase ? (channel_is_7 ? choice_129
-                    : {{2{words_word[23]}}, words_word})
-                    : step_is_quadrature ? (channel_is_7 ? choice_130
-                    : {{2{words_word[23]}}, words_word})
-                    : bit_84 ? part
-                    : part;
-                power <= (step_is_quadrature | step_is_power) ? choice_80[51:0] : bit_84 ? power : power;
-                root_start <= step_is_power;
-                done <= bit_84 & channel_is_7;
-                if (bit_84) begin
-                    channel <= sum_91[2:0];
-                    amplitude <= root_root;
-                    x <= difference_107[30:0];
-                    y <= difference_115[30:0];
-                    corners <= difference_124[29:0];
-                    if (channel_is_0 | ((channel < 3'd6) & (root_root < least))) begin
-                        least <= root_root;
+            end else if (multiplier_enable) begin
+                if (bit_53) begin
+                    step <= choice_141[2:0];
+                    waited <= 1'd0;
+                    part <=
+                        (step == 3'd2) ? (channel_is_7 ? total_i
+                        : {{2{words_word[23]}}, words_word})
+                        : step_is_quadrature ? (channel_is_7 ? total_q
+                        : {{2{words_word[23]}}, words_word})
+                        : part;
+                    root_start <= step_is_power;
+                    saturated <= saturated | (adds & (~((fit_78[27:25] == 3'd0) | (fit_78[27:25] == 3'd7))));
+                    done <= rooted & channel_is_7;
+                    if (step_is_quadrature | step_is_power) begin
+                        power <= choice_70[51:0];
                     end
-                    if (channel == 3'd6) begin
-                        sense <= root_root;
+                    if (adds) begin
+                        total_i <= total_q;
+                        total_q <=
+                            (fit_78[27:25] == {3{fit_78[27]}}) ? fit_78[25:0] : {fit_78[27], {25{~fit_78[27]}}};
                     end
+                    if (rooted) begin
+                        channel <= sum_92[2:0];
+                        x <= sum_107[30:0];
+                        y <= sum_114[30:0];
+                        corners <= sum_122[29:0];
+                        if (channel_is_0 | (less_65 & (root_root < least))) begin
+                            least <= root_root;
+                        end
+                        if (channel == 3'd6) begin
+                            sense <= root_root;
+                        end
+                    end
+                end else begin
+                    waited <= 1'd1;
+                    root_start <= 1'd0;
+                    done <= 1'd0;
                 end
             end else begin
                 root_start <= 1'd0;
@@ -165,12 +192,11 @@ module currents (
         end
     end
 
-    assign total = amplitude;
-    assign lost = {least, 9'd0} < {9'd0, amplitude};
+    assign total = root_root;
+    assign lost = {least, 9'd0} < {9'd0, root_root};
 
     // What nothing needs.
-    wire unused = &{1'b0, choice_80[52], sum_91[3], difference_107[32:31], difference_115[32:31],
-        difference_124[31:30], choice_149[3]};
+    wire unused = &{1'b0, choice_70[52], sum_92[3], sum_107[31], sum_114[31], sum_122[31:30], choice_141[3]};
 
 endmodule
 

@@ -7,8 +7,8 @@ module divider (
     input wire clock,
     input wire reset,
     input wire start, // u1.0  Takes the operands and begins.
-    input wire [30:0] numerator, // u31.23  What is divided.
-    input wire [29:0] denominator, // u30.23  By what.
+    input wire [30:0] numerator, // u31.23  What is divided; holds until the quotient is there.
+    input wire [29:0] denominator, // u30.23  By what; holds likewise.
     output reg done, // u1.0  Set for one clock when the quotient is there.
     output reg [20:0] quotient, // u21.20  The quotient, held until the next is there.
     output reg saturated // u1.0  Whether the quotient is held at its rail.
@@ -16,34 +16,32 @@ module divider (
 
     reg busy; // u1.0
     reg [4:0] count; // u5.0
-    reg [29:0] denominator_q; // u30.23
     reg [29:0] remainder; // u30.0
     reg [20:0] tail; // u21.0
-    reg [20:0] partial; // u21.0
     reg over; // u1.0
+    reg up; // u1.0
 
-    wire count_is_21 = count == 5'd21; // u1.0
-    wire [50:0] fit_19 = {numerator, 20'd0}; // u51.43
-    wire bit_23 = ~(fit_19[50:21] < denominator); // u1.0
-    wire bit_34 = ({1'd0, denominator_q} < {remainder, 1'd0}) | (({remainder, 1'd0} == {1'd0, denominator_q}) & partial[0]); // u1.0
-    wire [22:0] fit_36 = {1'd0, {1'd0, partial} + {21'd0, bit_34}}; // u23.0
-    wire [20:0] fit_37 = (|fit_36[22:21]) ? {21{1'b1}} : fit_36[20:0]; // u21.0
-    wire [30:0] joined_45 = {remainder, tail[20]}; // u31.0
-    wire bit_47 = ~(joined_45 < {1'd0, denominator_q}); // u1.0
-    wire [5:0] sum_50 = {1'd0, count} + 6'd1; // u6.0
-    wire signed [31:0] choice_49 = bit_47 ? ({1'd0, joined_45} - {2'd0, denominator_q}) : {1'd0, joined_45}; // s32.0
-    wire [21:0] joined_53 = {tail, 1'd0}; // u22.0
-    wire [21:0] joined_55 = {partial, bit_47}; // u22.0
+    wire count_is_22 = count == 5'd22; // u1.0
+    wire [30:0] shifted = {remainder, tail[20] & (~count_is_22)}; // u31.0
+    wire signed [31:0] rest = {1'd0, shifted} - {2'd0, denominator}; // s32.0
+    wire [50:0] fit_23 = {numerator, 20'd0}; // u51.43
+    wire count_is_0 = count == 5'd0; // u1.0
+    wire too_large = ~(remainder < denominator); // u1.0
+    wire [5:0] sum_32 = {1'd0, count} + 6'd1; // u6.0
+    wire fits = ~rest[31]; // u1.0
+    wire count_is_23 = count == 5'd23; // u1.0
+    wire [22:0] fit_44 = {1'd0, {1'd0, tail} + {21'd0, up}}; // u23.0
+    wire signed [31:0] choice_53 = fits ? rest : {1'd0, shifted}; // s32.0
+    wire [21:0] joined_55 = {tail, fits}; // u22.0
 
     always @(posedge clock) begin
         if (reset) begin
             busy <= 1'd0;
             count <= 5'd0;
-            denominator_q <= 30'd0;
             remainder <= 30'd0;
             tail <= 21'd0;
-            partial <= 21'd0;
             over <= 1'd0;
+            up <= 1'd0;
             done <= 1'd0;
             quotient <= 21'd0;
             saturated <= 1'd0;
@@ -51,28 +49,31 @@ module divider (
             if (start) begin
                 busy <= 1'd1;
                 count <= 5'd0;
-                denominator_q <= denominator;
-                partial <= 21'd0;
-                over <= bit_23;
+                remainder <= fit_23[50:21];
+                tail <= fit_23[20:0];
                 done <= 1'd0;
-                if (bit_23) begin
-                    remainder <= 30'd0;
-                    tail <= 21'd0;
-                end else begin
-                    remainder <= fit_19[50:21];
-                    tail <= fit_19[20:0];
-                end
             end else if (busy) begin
-                if (count_is_21) begin
+                if (count_is_0) begin
+                    count <= sum_32[4:0];
+                    over <= too_large;
+                    done <= 1'd0;
+                    if (too_large) begin
+                        remainder <= 30'd0;
+                        tail <= 21'd0;
+                    end
+                end else if (count_is_22) begin
+                    count <= sum_32[4:0];
+                    up <= fits & ((~(rest == 32'd0)) | tail[0]);
+                    done <= 1'd0;
+                end else if (count_is_23) begin
                     busy <= 1'd0;
                     done <= 1'd1;
-                    quotient <= over ? 21'd2097151 : fit_37;
-                    saturated <= (~({2'd0, fit_37} == fit_36)) | over;
+                    quotient <= over ? 21'd2097151 : (|fit_44[22:21]) ? {21{1'b1}} : fit_44[20:0];
+                    saturated <= (~(fit_44[22:21] == 2'd0)) | over;
                 end else begin
-                    count <= sum_50[4:0];
-                    remainder <= choice_49[29:0];
-                    tail <= joined_53[20:0];
-                    partial <= joined_55[20:0];
+                    count <= sum_32[4:0];
+                    remainder <= choice_53[29:0];
+                    tail <= joined_55[20:0];
                     done <= 1'd0;
                 end
             end else begin
@@ -82,7 +83,7 @@ module divider (
     end
 
     // What nothing needs.
-    wire unused = &{1'b0, sum_50[5], choice_49[31:30], joined_53[21], joined_55[21]};
+    wire unused = &{1'b0, sum_32[5], choice_53[31:30], joined_55[21]};
 
 endmodule
 

@@ -15,67 +15,82 @@ module force_estimator (
     output reg saturated // u1.0  Whether a word is held at a rail.
 );
 
-    reg [2:0] step; // u3.0  0 idle, 1 load, 2 square, 3 weigh, 4 energy, 5 scale, 6 force
+    reg [3:0] step; // u4.0  0 idle, 1 load, 2 square, 3 narrow_square, 4 weigh, 5 energy, 6 narrow_energy, 7 scale, 8 gain_product, 9 finish
+    reg waited; // u1.0
     reg [23:0] left; // u24.0
     reg [23:0] right; // u24.0
-    reg [47:0] product; // u48.0
+    reg [23:0] factor; // u24.3
+    wire [47:0] multiplier_product; // u48.0
 
-    wire step_is_idle = step == 3'd0; // u1.0
-    wire [25:0] fit_18 = {1'b0, product[47:23]} + {25'd0, product[22] & (product[23] | (|product[21:0]))}; // u26.3
-    wire [23:0] fit_19 = (|fit_18[25:24]) ? {24{1'b1}} : fit_18[23:0]; // u24.3
-    wire [45:0] fit_22 = product[45:0]; // u46.0
-    wire [24:0] fit_24 = {1'b0, fit_22[45:22]} + {24'd0, fit_22[21] & (fit_22[22] | (|fit_22[20:0]))}; // u25.3
-    wire [23:0] fit_25 = (|fit_24[24]) ? {24{1'b1}} : fit_24[23:0]; // u24.3
-    wire [41:0] fit_28 = product[41:0]; // u42.0
-    wire [22:0] fit_30 = {1'b0, fit_28[41:20]} + {22'd0, fit_28[19] & (fit_28[20] | (|fit_28[18:0]))}; // u23.17
-    wire [19:0] fit_31 = (|fit_30[22:20]) ? {20{1'b1}} : fit_30[19:0]; // u20.17
-    wire step_is_weigh = step == 3'd3; // u1.0
-    wire bit_45 = (step_is_weigh & (~({2'd0, fit_19} == fit_18))) | ((step == 3'd5) & (~({1'd0, fit_25} == fit_24))); // u1.0
-    wire step_is_7 = step == 3'd7; // u1.0
-    wire [3:0] choice_51 = step_is_7 ? 4'd0 : ({1'd0, step} + 4'd1); // u4.0
-    wire step_is_load = step == 3'd1; // u1.0
-    wire [47:0] product_57 = left * right; // u48.0
+    wire step_is_idle = step == 4'd0; // u1.0
+    wire [25:0] fit_20 = {1'b0, multiplier_product[47:23]} + {25'd0, multiplier_product[22] & (multiplier_product[23] | (|multiplier_product[21:0]))}; // u26.3
+    wire [45:0] fit_25 = multiplier_product[45:0]; // u46.0
+    wire [24:0] fit_27 = {1'b0, fit_25[45:22]} + {24'd0, fit_25[21] & (fit_25[22] | (|fit_25[20:0]))}; // u25.3
+    wire [41:0] fit_32 = multiplier_product[41:0]; // u42.0
+    wire [22:0] fit_34 = {1'b0, fit_32[41:20]} + {22'd0, fit_32[19] & (fit_32[20] | (|fit_32[18:0]))}; // u23.17
+    wire step_is_narrow_square = step == 4'd3; // u1.0
+    wire step_is_narrow_energy = step == 4'd6; // u1.0
+    wire bit_49 = (step_is_narrow_square & (~(fit_20[25:24] == 2'd0))) | (step_is_narrow_energy & (~(fit_27[24] == 1'd0))); // u1.0
+    wire step_is_finish = step == 4'd9; // u1.0
+    wire [4:0] choice_55 = step_is_finish ? 5'd0 : ({1'd0, step} + 5'd1); // u5.0
+    wire step_is_load = step == 4'd1; // u1.0
+
+    multiplier_5 u_multiplier (
+        .clock(clock),
+        .reset(reset),
+        .enable(~step_is_idle),
+        .left(left),
+        .right(right),
+        .product(multiplier_product)
+    );
 
     always @(posedge clock) begin
         if (reset) begin
-            step <= 3'd0;
+            step <= 4'd0;
+            waited <= 1'd0;
             left <= 24'd0;
             right <= 24'd0;
-            product <= 48'd0;
+            factor <= 24'd0;
             haptic_force <= 20'd0;
             saturated <= 1'd0;
             done <= 1'd0;
         end else begin
             if (start) begin
-                step <= 3'd1;
+                step <= 4'd1;
+                waited <= 1'd0;
                 saturated <= 1'd0;
                 done <= 1'd0;
             end else if (step_is_idle) begin
                 done <= 1'd0;
-            end else begin
-                step <= choice_51[2:0];
-                product <= product_57;
-                saturated <= saturated | (bit_45 | (step_is_7 & (~({3'd0, fit_31} == fit_30))));
-                done <= step_is_7;
-                if (step_is_7) begin
-                    haptic_force <= fit_31;
+            end else if (waited) begin
+                step <= choice_55[3:0];
+                waited <= 1'd0;
+                saturated <= saturated | (bit_49 | (step_is_finish & (~(fit_34[22:20] == 3'd0))));
+                done <= step_is_finish;
+                if (step_is_finish) begin
+                    haptic_force <= (|fit_34[22:20]) ? {20{1'b1}} : fit_34[19:0];
+                end
+                if (step_is_narrow_square | step_is_narrow_energy) begin
+                    factor <=
+                        step_is_narrow_square ? ((|fit_20[25:24]) ? {24{1'b1}} : fit_20[23:0])
+                        : (|fit_27[24]) ? {24{1'b1}} : fit_27[23:0];
                 end
                 if (step_is_load) begin
                     left <= capacitance;
                     right <= capacitance;
-                end else if (step_is_weigh) begin
-                    left <= fit_19;
-                    right <= {2'd0, mean_square};
                 end else begin
-                    left <= fit_25;
-                    right <= {6'd0, gain};
+                    left <= factor;
+                    right <= {2'd0, (step == 4'd4) ? mean_square : {4'd0, gain}};
                 end
+            end else begin
+                waited <= 1'd1;
+                done <= 1'd0;
             end
         end
     end
 
     // What nothing needs.
-    wire unused = &{1'b0, choice_51[3]};
+    wire unused = &{1'b0, choice_55[4]};
 
 endmodule
 

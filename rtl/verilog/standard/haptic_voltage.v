@@ -15,7 +15,6 @@ module haptic_voltage (
 
     wire bit_7 = valid & (index == 4'd14); // u1.0
     wire signed [24:0] fit_9 = {sum[44], sum[44:21]} + {24'd0, sum[20] & (sum[21] | (|sum[19:0]))}; // s25.22
-    wire [21:0] fit_10 = fit_9[24] ? 22'd0 : (|fit_9[23:22]) ? {22{1'b1}} : fit_9[21:0]; // u22.22
 
     always @(posedge clock) begin
         if (reset) begin
@@ -23,8 +22,8 @@ module haptic_voltage (
             saturated <= 1'd0;
         end else begin
             if (bit_7) begin
-                mean_square <= fit_10;
-                saturated <= ~({3'd0, fit_10} == fit_9);
+                mean_square <= fit_9[24] ? 22'd0 : (|fit_9[23:22]) ? {22{1'b1}} : fit_9[21:0];
+                saturated <= ~(fit_9[24:22] == 3'd0);
             end
         end
     end

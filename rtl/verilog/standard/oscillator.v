@@ -9,34 +9,34 @@ module oscillator (
     input wire sample, // u1.0  A sample is there.
     input wire restart, // u1.0  It is the first of its slot.
     input wire first, // u1.0  It is the first of its window.
-    output reg ready, // u1.0  Set for one clock when the other outputs are those of the sample.
+    output reg ready, // u1.0  Set for one clock before the other outputs are those of the sample.
     output reg signed [17:0] cosine, // s18.17  The cosine of the carrier.
     output reg signed [17:0] sine, // s18.17  The sine of the carrier.
     output reg signed [17:0] window // s18.17  The window.
 );
 
-    reg [1:0] step; // u2.0  0 idle, 1 cosine, 2 sine, 3 window
+    reg [2:0] step; // u3.0  0 idle, 1 look_up, 2 wave, 3 cosine, 4 sine
     reg [31:0] phase; // u32.32
     reg [31:0] window_phase; // u32.32
     reg negative; // u1.0
+    reg [16:0] wave; // u17.17
+    reg sign; // u1.0
     reg [16:0] quarter [0:1023]; // 1024 words u17.17
     reg [16:0] quarter_word; // its read register
 
-    wire bit_14 = ~(step == 2'd0); // u1.0
-    wire signed [17:0] choice_20 = negative ? (18'd0 - {1'd0, quarter_word}) : {1'd0, quarter_word}; // s18.17
-    wire [31:0] choice_23 = restart ? 32'd0 : phase; // u32.32
-    wire [32:0] sum_25 = {1'd0, sample ? choice_23 : phase} + 33'd1073741824; // u33.32
-    wire [32:0] sum_27 = {1'd0, window_phase} + 33'd1073741824; // u33.32
-    wire step_is_cosine = step == 2'd1; // u1.0
-    wire step_is_sine = step == 2'd2; // u1.0
-    wire [31:0] choice_34 = step_is_cosine ? phase : step_is_sine ? sum_27[31:0] : sum_25[31:0]; // u32.32
-    wire signed [10:0] difference_37 = 11'd1023 - {1'd0, choice_34[29:20]}; // s11.0
-    wire step_is_window = step == 2'd3; // u1.0
-    wire [2:0] sum_45 = {1'd0, step} + 3'd1; // u3.0
-    wire [32:0] sum_48 = {1'd0, phase} + 33'd429496730; // u33.32
-    wire [32:0] sum_52 = {1'd0, window_phase} + 33'd4294967; // u33.32
-    wire signed [19:0] difference_57 = 20'd131072 - {{2{choice_20[17]}}, choice_20}; // s20.17
-    wire signed [19:0] rounded = {difference_57[19], difference_57[19:1]} + {19'd0, difference_57[0] & difference_57[1]};
+    wire bit_16 = ~(step == 3'd0); // u1.0
+    wire step_is_wave = step == 3'd2; // u1.0
+    wire [32:0] sum_31 = {1'd0, ((step == 3'd1) | step_is_wave) ? phase : (sample & first) ? 32'd0 : window_phase} + {1'd0, step_is_wave ? 32'd0 : 32'd1073741824}; // u33.32
+    wire [31:0] angle = sum_31[31:0]; // u32.32
+    wire signed [10:0] difference_35 = 11'd1023 - {1'd0, angle[29:20]}; // s11.0
+    wire signed [17:0] signed_wave = sign ? (18'd0 - {1'd0, wave}) : {1'd0, wave}; // s18.17
+    wire step_is_sine = step == 3'd4; // u1.0
+    wire [3:0] choice_48 = step_is_sine ? 4'd0 : ({1'd0, step} + 4'd1); // u4.0
+    wire [32:0] sum_51 = {1'd0, phase} + 33'd429496730; // u33.32
+    wire [32:0] sum_55 = {1'd0, window_phase} + 33'd4294967; // u33.32
+    wire step_is_cosine = step == 3'd3; // u1.0
+    wire signed [19:0] difference_60 = 20'd131072 - {{2{window[17]}}, window}; // s20.17
+    wire signed [19:0] rounded = {difference_60[19], difference_60[19:1]} + {19'd0, difference_60[0] & difference_60[1]};
 
     initial begin : initial_quarter
         quarter[0] = 17'h00065; quarter[1] = 17'h0012e; quarter[2] = 17'h001f7; quarter[3] = 17'h002c0;
@@ -298,43 +298,49 @@ module oscillator (
     end
 
     always @(posedge clock) begin
-        quarter_word <= quarter[choice_34[30] ? difference_37[9:0] : choice_34[29:20]];
+        quarter_word <= quarter[angle[30] ? difference_35[9:0] : angle[29:20]];
     end
 
     always @(posedge clock) begin
         if (reset) begin
-            step <= 2'd0;
+            step <= 3'd0;
             phase <= 32'd0;
             window_phase <= 32'd0;
             negative <= 1'd0;
+            wave <= 17'd0;
+            sign <= 1'd0;
             cosine <= 18'd0;
             sine <= 18'd0;
             window <= 18'd0;
             ready <= 1'd0;
         end else begin
             if (sample) begin
-                step <= 2'd1;
-                phase <= choice_23;
-                negative <= choice_34[31];
+                step <= 3'd1;
+                negative <= angle[31];
                 ready <= 1'd0;
                 if (first) begin
                     window_phase <= 32'd0;
                 end
-            end else if (bit_14) begin
-                step <= sum_45[1:0];
-                negative <= choice_34[31];
-                ready <= step_is_window;
+                if (restart) begin
+                    phase <= 32'd0;
+                end
+            end else if (bit_16) begin
+                step <= choice_48[2:0];
+                negative <= angle[31];
+                wave <= quarter_word;
+                sign <= negative;
+                window <=
+                    step_is_wave ? signed_wave
+                    : step_is_cosine ? ((rounded[19:17] == {3{rounded[19]}}) ? rounded[17:0] : {rounded[19], {17{~rounded[19]}}})
+                    : window;
+                ready <= step_is_cosine;
+                if (step_is_cosine | step_is_sine) begin
+                    sine <= signed_wave;
+                end
                 if (step_is_sine) begin
-                    sine <= choice_20;
-                end
-                if (step_is_cosine) begin
-                    cosine <= choice_20;
-                end
-                if (step_is_window) begin
-                    phase <= sum_48[31:0];
-                    window_phase <= sum_52[31:0];
-                    window <=
-                        (rounded[19:17] == {3{rounded[19]}}) ? rounded[17:0] : {rounded[19], {17{~rounded[19]}}};
+                    phase <= sum_51[31:0];
+                    window_phase <= sum_55[31:0];
+                    cosine <= sine;
                 end
             end else begin
                 ready <= 1'd0;
@@ -343,8 +349,7 @@ module oscillator (
     end
 
     // What nothing needs.
-    wire unused = &{1'b0, sum_25[32], sum_27[32], choice_34[19:0], difference_37[10], sum_45[2], sum_48[32],
-        sum_52[32]};
+    wire unused = &{1'b0, sum_31[32], angle[19:0], difference_35[10], choice_48[3], sum_51[32], sum_55[32]};
 
 endmodule
 

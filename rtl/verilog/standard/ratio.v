@@ -23,18 +23,15 @@ module ratio (
     wire divider_saturated; // u1.0
 
     wire step_is_x = step == 2'd1; // u1.0
-    wire signed [30:0] choice_17 = step_is_x ? x : y; // s31.23
+    wire signed [30:0] numerator = step_is_x ? x : y; // s31.23
     wire bit_22 = divider_done & step_is_x; // u1.0
     wire bit_25 = divider_done & (step == 2'd2); // u1.0
-    wire signed [21:0] choice_29 =
-        (choice_17 < $signed(31'd0)) ? (22'd0 - {1'd0, divider_quotient})
-        : {1'd0, divider_quotient}; // s22.20
 
     divider u_divider (
         .clock(clock),
         .reset(reset),
         .start(divide),
-        .numerator(choice_17[30] ? 31'd0 - choice_17 : choice_17),
+        .numerator(numerator[30] ? 31'd0 - numerator : numerator),
         .denominator(corners),
         .done(divider_done),
         .quotient(divider_quotient),
@@ -55,16 +52,16 @@ module ratio (
                 divide <= 1'd1;
                 done <= 1'd0;
             end else begin
+                step <= bit_22 ? 2'd2 : bit_25 ? 2'd0 : step;
                 divide <= bit_22;
                 done <= bit_25;
-                if (bit_22) begin
-                    step <= 2'd2;
-                    r_x <= choice_29;
-                end else if (bit_25) begin
-                    step <= 2'd0;
+                if (divider_done) begin
+                    r_y <=
+                        (numerator < $signed(31'd0)) ? (22'd0 - {1'd0, divider_quotient})
+                        : {1'd0, divider_quotient};
                 end
                 if (bit_25) begin
-                    r_y <= choice_29;
+                    r_x <= r_y;
                     invalid <= corners == 30'd0;
                 end
             end

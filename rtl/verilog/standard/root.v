@@ -19,13 +19,13 @@ module root (
     reg [25:0] partial; // u26.0
 
     wire count_is_26 = count == 5'd26; // u1.0
-    wire [28:0] joined_21 = {remainder, tail[51:50]}; // u29.0
-    wire [27:0] joined_23 = {{partial, 1'd0}, 1'd1}; // u28.0
-    wire bit_25 = ~(joined_21 < {1'd0, joined_23}); // u1.0
-    wire [5:0] sum_28 = {1'd0, count} + 6'd1; // u6.0
-    wire [53:0] joined_31 = {{tail, 1'd0}, 1'd0}; // u54.0
-    wire signed [29:0] choice_27 = bit_25 ? ({1'd0, joined_21} - {2'd0, joined_23}) : {1'd0, joined_21}; // s30.0
-    wire [26:0] joined_34 = {partial, bit_25}; // u27.0
+    wire [28:0] shifted = {remainder, tail[51:50]}; // u29.0
+    wire signed [29:0] rest = {1'd0, shifted} - {2'd0, {{partial, 1'd0}, 1'd1}}; // s30.0
+    wire fits = ~rest[29]; // u1.0
+    wire [5:0] sum_27 = {1'd0, count} + 6'd1; // u6.0
+    wire [53:0] joined_30 = {{tail, 1'd0}, 1'd0}; // u54.0
+    wire signed [29:0] choice_32 = fits ? rest : {1'd0, shifted}; // s30.0
+    wire [26:0] joined_34 = {partial, fits}; // u27.0
 
     always @(posedge clock) begin
         if (reset) begin
@@ -50,9 +50,9 @@ module root (
                     done <= 1'd1;
                     root <= {1'd0, partial} + {26'd0, {1'd0, partial} < remainder};
                 end else begin
-                    count <= sum_28[4:0];
-                    tail <= joined_31[51:0];
-                    remainder <= choice_27[26:0];
+                    count <= sum_27[4:0];
+                    tail <= joined_30[51:0];
+                    remainder <= choice_32[26:0];
                     partial <= joined_34[25:0];
                     done <= 1'd0;
                 end
@@ -63,7 +63,7 @@ module root (
     end
 
     // What nothing needs.
-    wire unused = &{1'b0, sum_28[5], joined_31[53:52], choice_27[29:27], joined_34[26]};
+    wire unused = &{1'b0, sum_27[5], joined_30[53:52], choice_32[29:27], joined_34[26]};
 
 endmodule
 

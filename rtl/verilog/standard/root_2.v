@@ -19,13 +19,13 @@ module root_2 (
     reg [26:0] partial; // u27.0
 
     wire count_is_27 = count == 5'd27; // u1.0
-    wire [29:0] joined_21 = {remainder, tail[53:52]}; // u30.0
-    wire [28:0] joined_23 = {{partial, 1'd0}, 1'd1}; // u29.0
-    wire bit_25 = ~(joined_21 < {1'd0, joined_23}); // u1.0
-    wire [5:0] sum_28 = {1'd0, count} + 6'd1; // u6.0
-    wire [55:0] joined_31 = {{tail, 1'd0}, 1'd0}; // u56.0
-    wire signed [30:0] choice_27 = bit_25 ? ({1'd0, joined_21} - {2'd0, joined_23}) : {1'd0, joined_21}; // s31.0
-    wire [27:0] joined_34 = {partial, bit_25}; // u28.0
+    wire [29:0] shifted = {remainder, tail[53:52]}; // u30.0
+    wire signed [30:0] rest = {1'd0, shifted} - {2'd0, {{partial, 1'd0}, 1'd1}}; // s31.0
+    wire fits = ~rest[30]; // u1.0
+    wire [5:0] sum_27 = {1'd0, count} + 6'd1; // u6.0
+    wire [55:0] joined_30 = {{tail, 1'd0}, 1'd0}; // u56.0
+    wire signed [30:0] choice_32 = fits ? rest : {1'd0, shifted}; // s31.0
+    wire [27:0] joined_34 = {partial, fits}; // u28.0
 
     always @(posedge clock) begin
         if (reset) begin
@@ -50,9 +50,9 @@ module root_2 (
                     done <= 1'd1;
                     root <= {1'd0, partial} + {27'd0, {1'd0, partial} < remainder};
                 end else begin
-                    count <= sum_28[4:0];
-                    tail <= joined_31[53:0];
-                    remainder <= choice_27[27:0];
+                    count <= sum_27[4:0];
+                    tail <= joined_30[53:0];
+                    remainder <= choice_32[27:0];
                     partial <= joined_34[26:0];
                     done <= 1'd0;
                 end
@@ -63,7 +63,7 @@ module root_2 (
     end
 
     // What nothing needs.
-    wire unused = &{1'b0, sum_28[5], joined_31[55:54], choice_27[30:28], joined_34[27]};
+    wire unused = &{1'b0, sum_27[5], joined_30[55:54], choice_32[30:28], joined_34[27]};
 
 endmodule
 

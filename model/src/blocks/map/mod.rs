@@ -213,12 +213,12 @@ impl Map {
         let at = |which: u64| operation.is(which);
         let in_layers = |which: u64| at(LAYERS + which) | at(LAYERS + 3 + which) | at(LAYERS + 6 + which);
         Kind {
-            boxed: at(BOX_X) | at(BOX_Y),
-            straightened: at(STRAIGHTEN_Y) | at(STRAIGHTEN_X),
-            spaced: at(SPACING_Y) | at(SPACING_X),
-            tables: !operation.less_than(int(LAYERS)),
-            below: in_layers(1),
-            between: in_layers(2),
+            boxed: (at(BOX_X) | at(BOX_Y)).named("boxed"),
+            straightened: (at(STRAIGHTEN_Y) | at(STRAIGHTEN_X)).named("straightened"),
+            spaced: (at(SPACING_Y) | at(SPACING_X)).named("spaced"),
+            tables: (!operation.less_than(int(LAYERS))).named("tables"),
+            below: in_layers(1).named("below"),
+            between: in_layers(2).named("between"),
         }
     }
 
@@ -228,7 +228,7 @@ impl Map {
         use operation::*;
         let at = |which: u64| r.operation.is(which);
         let of_x = at(MIDDLE_Y) | at(STRETCH_Y) | at(STRAIGHTEN_X) | at(SPACING_X) | (kind.tables & !kind.between);
-        of_x.select(r.across, r.along)
+        of_x.select(r.across, r.along).named("coordinate")
     }
 
     /// Where the curve or table of an operation begins in the memory.
@@ -310,8 +310,8 @@ impl Map {
         let result = r.result;
         let mm = result.scaled(Profile::POSITION_BITS);
         let end = at(ALL - 1);
-        let of_x = at(BOX_X) | at(STRAIGHTEN_X) | at(SPACING_X);
-        let of_y = at(BOX_Y) | at(STRAIGHTEN_Y) | at(SPACING_Y);
+        let of_x = (at(BOX_X) | at(STRAIGHTEN_X) | at(SPACING_X)).named("of_x");
+        let of_y = (at(BOX_Y) | at(STRAIGHTEN_Y) | at(SPACING_Y)).named("of_y");
         let second = at(STRETCH_Y) | at(STRETCH_X) | kind.below;
         Registers {
             busy: !end,

@@ -1,0 +1,28 @@
+// multiplier: hapticore_model::blocks::multiplier::Multiplier
+// Printed from the model by `hapticore hdl --profile standard`; not to be edited.
+
+`default_nettype none
+
+module multiplier (
+    input wire clock,
+    input wire reset,
+    input wire enable, // u1.0  Set while somebody waits for a product.
+    input wire signed [17:0] left, // s18.0  A code as an integer.
+    input wire signed [17:0] right, // s18.0  A code as an integer.
+    output reg signed [35:0] product // s36.0  The product.
+);
+
+    wire signed [35:0] product_8 = left * right; // s36.0
+
+    always @(posedge clock) begin
+        if (enable) begin
+            product <= product_8;
+        end
+    end
+
+    // What nothing needs.
+    wire unused = &{1'b0, reset};
+
+endmodule
+
+`default_nettype wire
