@@ -18,7 +18,7 @@ pub struct Memory {
     /// The format of a word.
     pub format: Format,
     /// Whether somebody may use a word that was read while it was being written. Where nobody does, a block RAM needs no
-    /// logic that sees to it that the word is the old one.
+    /// logic that sees to it that the word is the old one. Test builds then read a wrong word.
     pub collides: bool,
     /// Whether it shall be a block RAM although it is so small that synthesis would rather take registers.
     pub block: bool,

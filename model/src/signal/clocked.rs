@@ -184,9 +184,18 @@ impl Value for i64 {
         if let Some(write) = write
             && write.enable.value != 0
         {
+            if cfg!(debug_assertions) && !memory.collides && write.address.value == address.value {
+                // Nobody is to use this word: test builds bring another, so that somebody who does is noticed.
+                words.data = mirrored(words.data, memory.format);
+            }
             words.words[write.address.value as usize] = align(write.data, memory.format);
         }
     }
+}
+
+/// Another code: as far from the one end of the format as this is from the other.
+fn mirrored(code: i64, format: Format) -> i64 {
+    (format.max_code() + format.min_code()) as i64 - code
 }
 
 #[cfg(test)]
