@@ -40,6 +40,11 @@ impl Stimulus {
         Some(codes)
     }
 
+    /// What stays, addresses and words of the table, and the sets of codes.
+    pub fn into_parts(self) -> (Inputs<i64>, impl Iterator<Item = (i64, i64)>, Samples) {
+        (self.constants, self.table, self.samples)
+    }
+
     fn sample(&mut self, outputs: &[i64]) -> Option<Inputs<i64>> {
         let strobe = self.clock.is_multiple_of(self.clocks_per_sample);
         if strobe {

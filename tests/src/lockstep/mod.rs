@@ -11,7 +11,7 @@ pub mod icarus;
 mod trace;
 pub mod verilator;
 
-pub use trace::Trace;
+pub use trace::{Trace, bits};
 
 use std::fmt;
 

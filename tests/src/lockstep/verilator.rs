@@ -20,10 +20,45 @@ pub enum Speed {
     Run,
 }
 
-/// A compiled design.
-pub struct Verilated {
+/// A compiled program around a design.
+pub struct Program {
     folder: tempfile::TempDir,
-    program: PathBuf,
+}
+
+impl Program {
+    /// Compiles a design given as Verilog text with `main`, the C++ around it, in which the design is the class `Vtop`.
+    ///
+    /// # Panics
+    /// Where a tool fails.
+    pub fn compile(top: &str, main: &str, verilog: &str, speed: Speed) -> Program {
+        let program = Program { folder: tempfile::tempdir().expect("a folder") };
+        fs::write(program.at("design.v"), verilog).expect("written");
+        fs::write(program.at("main.cpp"), main).expect("written");
+        let mut verilate = Command::new("verilator");
+        verilate.args(["--cc", "-O3", "--x-assign", "fast", "--x-initial", "fast", "--noassert"]);
+        verilate.args(["-Wno-fatal", "-Wno-lint", "-Wno-style", "--top-module", top, "--prefix", "Vtop"]);
+        run(verilate.arg("--exe").arg(program.at("main.cpp")).arg("design.v"), &program.at(""));
+        let optimise = if speed == Speed::Run { "-O3 -march=native" } else { "-O1" };
+        let mut make = Command::new("make");
+        make.args(["-C", "obj_dir", "-f", "Vtop.mk", "-j2"]).arg(format!("OPT_FAST={optimise}"));
+        run(&mut make, &program.at(""));
+        program
+    }
+
+    /// A file beside it.
+    pub fn at(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    /// The program itself.
+    pub fn path(&self) -> PathBuf {
+        self.at("obj_dir/Vtop")
+    }
+}
+
+/// A compiled design that is compared with traces.
+pub struct Verilated {
+    program: Program,
 }
 
 impl Verilated {
@@ -32,19 +67,7 @@ impl Verilated {
     /// # Panics
     /// Where a tool fails.
     pub fn new(top: &str, ports: &[Port], verilog: &str, speed: Speed) -> Verilated {
-        let folder = tempfile::tempdir().expect("a folder");
-        let at = |name: &str| folder.path().join(name);
-        fs::write(at("design.v"), verilog).expect("written");
-        fs::write(at("main.cpp"), program(top, ports)).expect("written");
-        let mut verilate = Command::new("verilator");
-        verilate.args(["--cc", "-O3", "--x-assign", "fast", "--noassert", "-Wno-fatal", "-Wno-lint", "-Wno-style"]);
-        verilate.args(["--top-module", top, "--prefix", "Vtop", "--exe"]).arg(at("main.cpp")).arg("design.v");
-        run(&mut verilate, folder.path());
-        let optimise = if speed == Speed::Run { "-O3 -march=native" } else { "-O1" };
-        let mut make = Command::new("make");
-        make.args(["-C", "obj_dir", "-f", "Vtop.mk", "-j2"]).arg(format!("OPT_FAST={optimise}"));
-        run(&mut make, folder.path());
-        Verilated { program: at("obj_dir/Vtop"), folder }
+        Verilated { program: Program::compile(top, &main(top, ports), verilog, speed) }
     }
 
     /// Runs a trace; the first mismatch, if there is one.
@@ -52,32 +75,20 @@ impl Verilated {
     /// # Errors
     /// An output that differs.
     pub fn check(&self, trace: &Trace) -> Result<(), Mismatch> {
-        verdict(&self.run(trace, "check"), trace)
-    }
-
-    /// Seconds that the design takes for the clocks of a trace, without comparing and without reading it.
-    pub fn seconds(&self, trace: &Trace) -> f64 {
-        let said = self.run(trace, "time");
-        let seconds = said.lines().find_map(|line| line.strip_prefix("seconds ")).expect("a time");
-        seconds.parse().expect("a number")
-    }
-
-    fn run(&self, trace: &Trace, what: &str) -> String {
-        let file = self.folder.path().join("trace.bin");
+        let file = self.program.at("trace.bin");
         fs::write(&file, trace.bytes()).expect("written");
-        run(Command::new(&self.program).arg(&file).arg(what), self.folder.path())
+        verdict(&run(Command::new(self.program.path()).arg(&file), &self.program.at("")), trace)
     }
 }
 
 /// The program around the design.
-fn program(top: &str, ports: &[Port]) -> String {
-    let (mut give, mut compare, mut sum) = (String::new(), String::new(), String::new());
+fn main(top: &str, ports: &[Port]) -> String {
+    let (mut give, mut compare) = (String::new(), String::new());
     for (index, port) in ports.iter().enumerate() {
         let (name, mask) = (&port.name, u64::MAX >> (64 - u32::from(port.format.width)));
         let _ = match port.direction {
             Direction::Input => writeln!(give, "    top->{name} = row[{index}] & {mask}ull;"),
             Direction::Output => {
-                let _ = writeln!(sum, "    sum = sum * 31 + top->{name};");
                 writeln!(compare, "    differ(clock, \"{name}\", row[{index}] & {mask}ull, top->{name} & {mask}ull);")
             }
         };
@@ -87,5 +98,4 @@ fn program(top: &str, ports: &[Port]) -> String {
         .replace("@PORTS@", &ports.len().to_string())
         .replace("@GIVE@", &give)
         .replace("@COMPARE@", &compare)
-        .replace("@SUM@", &sum)
 }
