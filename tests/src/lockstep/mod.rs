@@ -7,10 +7,12 @@
 //! | [`verilator`] | Verilator: millions of clocks |
 //! | [`icarus`] | Icarus Verilog: an event-driven simulator with unknown values, written by other people |
 
+mod bench;
 pub mod icarus;
 mod trace;
 pub mod verilator;
 
+pub use bench::Bench;
 pub use trace::{Trace, bits};
 
 use std::fmt;

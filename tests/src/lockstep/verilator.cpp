@@ -36,7 +36,8 @@ static std::vector<uint64_t> read(const char* path) {
     return words;
 }
 
-int main(int, char** arguments) {
+int main(int count, char** arguments) {
+    Verilated::commandArgs(count, arguments);
     const std::vector<uint64_t> trace = read(arguments[1]);
     const size_t clocks = trace.size() / PORTS;
     Vtop* top = new Vtop;

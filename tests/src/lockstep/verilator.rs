@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Verilog in Verilator, as a program that reads a trace and compares every output at every clock.
+//!
+//! What has neither a reset nor an initial value (the read register of a memory, an input that a cell leaves open) starts with
+//! anything: Verilator makes it up, the same at each run.
 
 use std::fmt::Write;
 use std::fs;
@@ -14,7 +17,7 @@ use crate::tools::run;
 /// How the program is compiled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Speed {
-    /// Soon.
+    /// Soon; what has no initial value starts with anything.
     Compile,
     /// As fast as Verilator can be.
     Run,
@@ -35,7 +38,8 @@ impl Program {
         fs::write(program.at("design.v"), verilog).expect("written");
         fs::write(program.at("main.cpp"), main).expect("written");
         let mut verilate = Command::new("verilator");
-        verilate.args(["--cc", "-O3", "--x-assign", "fast", "--x-initial", "fast", "--noassert"]);
+        let unknown = if speed == Speed::Run { "fast" } else { "unique" };
+        verilate.args(["--cc", "-O3", "--x-assign", unknown, "--x-initial", unknown, "--noassert"]);
         verilate.args(["-Wno-fatal", "-Wno-lint", "-Wno-style", "--top-module", top, "--prefix", "Vtop"]);
         run(verilate.arg("--exe").arg(program.at("main.cpp")).arg("design.v"), &program.at(""));
         let optimise = if speed == Speed::Run { "-O3 -march=native" } else { "-O1" };
@@ -66,8 +70,8 @@ impl Verilated {
     ///
     /// # Panics
     /// Where a tool fails.
-    pub fn new(top: &str, ports: &[Port], verilog: &str, speed: Speed) -> Verilated {
-        Verilated { program: Program::compile(top, &main(top, ports), verilog, speed) }
+    pub fn new(top: &str, ports: &[Port], verilog: &str) -> Verilated {
+        Verilated { program: Program::compile(top, &main(top, ports), verilog, Speed::Compile) }
     }
 
     /// Runs a trace; the first mismatch, if there is one.
@@ -77,7 +81,9 @@ impl Verilated {
     pub fn check(&self, trace: &Trace) -> Result<(), Mismatch> {
         let file = self.program.at("trace.bin");
         fs::write(&file, trace.bytes()).expect("written");
-        verdict(&run(Command::new(self.program.path()).arg(&file), &self.program.at("")), trace)
+        let mut command = Command::new(self.program.path());
+        command.arg(&file).args(["+verilator+seed+1", "+verilator+rand+reset+2"]);
+        verdict(&run(&mut command, &self.program.at("")), trace)
     }
 }
 
