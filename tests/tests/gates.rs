@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Clocked model = gates, every output at every clock: the whole core as Yosys makes it of the printed Verilog, in the cells of
-//! both FPGA families. What has no initial value starts with anything (`lockstep::verilator`).
+//! both FPGA families. What has no initial value in the cells starts with
+//! anything.
 //!
 //! Clocks per core: slots of two scenes, and corners at random with tables that are written while they are read.
 
@@ -8,7 +9,7 @@ use std::fs;
 
 use hapticore_synth::tools::{Tools, root};
 use hapticore_tests::lockstep::Bench;
-use hapticore_tests::lockstep::verilator::Verilated;
+use hapticore_tests::lockstep::verilator::{Start, Verilated};
 use hapticore_tests::{stimulus, tools};
 
 /// Clocks of each core at least.
@@ -31,7 +32,7 @@ fn gates_run_what_the_model_runs(family: &str, profile: &str) {
     }
     let bench = Bench::new(profile);
     let top = format!("{}_gate", bench.design.top());
-    let verilated = Verilated::new(&top, &bench.design.ports, &gates(&tools, family, &bench));
+    let verilated = Verilated::new(&top, &bench.design.ports, &gates(&tools, family, &bench), Start::Anything);
     let mut clocks = 0;
     for stimulus in [
         stimulus::scene(&bench.profile, "fig6", 3),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Clocked model = printed Verilog, every output at every clock: random input and whole scenes, in two simulators.
 
-use hapticore_tests::lockstep::verilator::Verilated;
+use hapticore_tests::lockstep::verilator::{Start, Verilated};
 use hapticore_tests::lockstep::{Bench, icarus};
 use hapticore_tests::{stimulus, tools};
 
@@ -13,7 +13,7 @@ fn verilator_runs_what_the_model_runs(profile: &str) {
         return;
     }
     let bench = Bench::new(profile);
-    let verilated = Verilated::new(bench.design.top(), &bench.design.ports, &bench.design.text());
+    let verilated = Verilated::new(bench.design.top(), &bench.design.ports, &bench.design.text(), Start::Zero);
     let mut clocks = 0;
     for stimulus in [
         stimulus::scene(&bench.profile, "fig6", 16),

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Verilog in Verilator, as a program that reads a trace and compares every output at every clock.
 //!
-//! What has neither a reset nor an initial value (the read register of a memory, an input that a cell leaves open) starts with
-//! anything: Verilator makes it up, the same at each run.
+//! What has no initial value starts at zero or with anything, as [`Start`] says.
 
 use std::fmt::Write;
 use std::fs;
@@ -17,10 +16,21 @@ use crate::tools::run;
 /// How the program is compiled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Speed {
-    /// Soon; what has no initial value starts with anything.
+    /// Soon; what has no initial value is decided at run time.
     Compile,
     /// As fast as Verilator can be.
     Run,
+}
+
+/// What a design holds before its first clock, where it does not say.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Start {
+    /// Zero, as registers of both FPGA families do. For printed Verilog: a register that starts with anything may write into a
+    /// memory at the clock that resets it.
+    Zero,
+    /// What Verilator makes up, the same at each run. For gates, whose registers say what they start with: read registers of
+    /// memories, inputs that a cell leaves open.
+    Anything,
 }
 
 /// A compiled program around a design.
@@ -63,6 +73,7 @@ impl Program {
 /// A compiled design that is compared with traces.
 pub struct Verilated {
     program: Program,
+    start: Start,
 }
 
 impl Verilated {
@@ -70,8 +81,8 @@ impl Verilated {
     ///
     /// # Panics
     /// Where a tool fails.
-    pub fn new(top: &str, ports: &[Port], verilog: &str) -> Verilated {
-        Verilated { program: Program::compile(top, &main(top, ports), verilog, Speed::Compile) }
+    pub fn new(top: &str, ports: &[Port], verilog: &str, start: Start) -> Verilated {
+        Verilated { program: Program::compile(top, &main(top, ports), verilog, Speed::Compile), start }
     }
 
     /// Runs a trace; the first mismatch, if there is one.
@@ -79,11 +90,35 @@ impl Verilated {
     /// # Errors
     /// An output that differs.
     pub fn check(&self, trace: &Trace) -> Result<(), Mismatch> {
-        let file = self.program.at("trace.bin");
-        fs::write(&file, trace.bytes()).expect("written");
-        let mut command = Command::new(self.program.path());
-        command.arg(&file).args(["+verilator+seed+1", "+verilator+rand+reset+2"]);
-        verdict(&run(&mut command, &self.program.at("")), trace)
+        self.given(trace.clone()).check(0)
+    }
+
+    /// A trace beside the program, to be run more than once.
+    pub fn given(&self, trace: Trace) -> Given<'_> {
+        let file = tempfile::NamedTempFile::new_in(self.program.at("")).expect("a file");
+        fs::write(file.path(), trace.bytes()).expect("written");
+        Given { verilated: self, trace, file }
+    }
+}
+
+/// A compiled design with a trace.
+pub struct Given<'a> {
+    verilated: &'a Verilated,
+    trace: Trace,
+    file: tempfile::NamedTempFile,
+}
+
+impl Given<'_> {
+    /// Runs the trace with a fault of a [`Planted`](crate::faults::Planted) design, or none (0).
+    ///
+    /// # Errors
+    /// An output that differs.
+    pub fn check(&self, fault: usize) -> Result<(), Mismatch> {
+        let Verilated { program, start } = self.verilated;
+        let random = if *start == Start::Zero { 0 } else { 2 };
+        let mut command = Command::new(program.path());
+        command.arg(self.file.path()).args(["+verilator+seed+1", &format!("+verilator+rand+reset+{random}")]);
+        verdict(&run(command.arg(format!("+fault={fault}")), &program.at("")), &self.trace)
     }
 }
 
