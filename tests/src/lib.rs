@@ -3,10 +3,14 @@
 //!
 //! | module | does |
 //! | --- | --- |
+//! | [`faults`] | deliberate faults in printed Verilog |
 //! | [`lockstep`] | the model and its Verilog, every output at every clock |
+//! | [`speed`] | how fast the model is, and Verilator |
 //! | [`stimulus`] | what a core is given: random and directed input, whole scenes |
 //! | [`tools`] | the HDL tools, and what is said where one is missing |
 
+pub mod faults;
 pub mod lockstep;
+pub mod speed;
 pub mod stimulus;
 pub mod tools;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What a core is given, clock by clock: the calibration through its port, then sets of ADC codes.
 
+use std::f64::consts::TAU;
+
 use fastrand::Rng;
 use hapticore::case::{Case, Maker};
 use hapticore::engine::Signals;
@@ -18,12 +20,15 @@ pub type Samples = Box<dyn Iterator<Item = Vec<i64>>>;
 /// A stimulus for [`Trace::record`](crate::lockstep::Trace::record).
 pub struct Stimulus {
     constants: Inputs<i64>,
+    formats: Inputs<Format>,
     /// Words of the calibration that are still to be written.
     table: Box<dyn Iterator<Item = (i64, i64)>>,
     samples: Samples,
     codes: Vec<i64>,
     clock: u64,
     clocks_per_sample: u64,
+    /// Other constants with each slot of so many clocks.
+    recalibrate: Option<(Rng, u64)>,
     /// Writes into the table while it is in use.
     disturb: Option<(Rng, Memory)>,
 }
@@ -40,15 +45,23 @@ impl Stimulus {
         Some(codes)
     }
 
+    /// What stays, addresses and words of the table, and the sets of codes.
+    pub fn into_parts(self) -> (Inputs<i64>, impl Iterator<Item = (i64, i64)>, Samples) {
+        (self.constants, self.table, self.samples)
+    }
+
     fn sample(&mut self, outputs: &[i64]) -> Option<Inputs<i64>> {
         let strobe = self.clock.is_multiple_of(self.clocks_per_sample);
         if strobe {
             self.codes = self.samples.next()?;
         }
+        if let Some((rng, _)) = self.recalibrate.as_mut().filter(|(_, slot)| self.clock.is_multiple_of(*slot)) {
+            self.constants = Inputs::map(self.formats, |format| anything(rng, format));
+        }
         self.clock += 1;
         let channel = Outputs::NAMES.iter().position(|name| *name == "channel").expect("a port");
         let code = self.codes[outputs[channel] as usize];
-        let inputs = Inputs { strobe: i64::from(strobe), code, ..self.constants };
+        let inputs = Inputs { strobe: i64::from(strobe), code, write: 0, ..self.constants };
         Some(match &mut self.disturb {
             Some((rng, table)) => disturbed(inputs, rng, table),
             None => inputs,
@@ -68,6 +81,11 @@ pub fn corner(rng: &mut Rng, format: Format) -> i64 {
         5 => (-1).max(low),
         _ => rng.i64(low..=high),
     }
+}
+
+/// Any code, each alike.
+fn anything(rng: &mut Rng, format: Format) -> i64 {
+    rng.i64(format.min_code() as i64..=format.max_code() as i64)
 }
 
 /// Writes into the table while it is read, now and then.
@@ -96,13 +114,37 @@ pub fn scene(profile: &Profile, name: &str, slots: usize) -> Stimulus {
     let words: Vec<_> = calibration.map.words.iter().map(|&word| formats.word.code_saturating(word)).collect();
     Stimulus {
         constants: calibration.inputs(formats),
+        formats,
         table: Box::new(words.into_iter().enumerate().map(|(address, word)| (address as i64, word))),
         samples: Box::new(samples),
         codes: vec![0; channels],
         clock: 0,
         clocks_per_sample: profile.clocks_per_sample,
+        recalibrate: None,
         disturb: None,
     }
+}
+
+/// Tones in step with the carrier, of any phase, or all of one, and of no, small, full or clipped amplitude, other ones in each
+/// slot, as is the calibration; its tables as of [`random`]. Where random codes average out, these fill every word.
+pub fn tones(profile: &Profile, seed: u64, slots: u64) -> Stimulus {
+    let (mut rng, channels, adc) = (Rng::with_seed(!seed), profile.channels(), profile.formats.adc);
+    let (samples, period) = (profile.slot.samples(), profile.carrier.samples_per_period);
+    let tone = |rng: &mut Rng| (rng.f64(), [0.0, 0.01, 0.1, 0.5, 0.9, 1.0, 3.0][rng.usize(..7)]);
+    let slot = move |_| {
+        let mut tones: Vec<(f64, f64)> = (0..channels).map(|_| tone(&mut rng)).collect();
+        if rng.bool() {
+            let one = tones[0].0;
+            tones.iter_mut().for_each(|(phase, _)| *phase = one);
+        }
+        (0..samples).map(move |sample| {
+            let turns = sample as f64 / period as f64;
+            let code = |&(phase, level): &(f64, f64)| adc.code_saturating(level * (TAU * (turns + phase)).cos());
+            tones.iter().map(code).collect()
+        })
+    };
+    let recalibrate = Some((Rng::with_seed(seed), samples * profile.clocks_per_sample));
+    Stimulus { samples: Box::new((0..slots).flat_map(slot)), recalibrate, ..random(profile, seed, 0) }
 }
 
 /// Anything at all, corners more than their share: calibration, tables written while they are read, and codes.
@@ -117,11 +159,13 @@ pub fn random(profile: &Profile, seed: u64, slots: u64) -> Stimulus {
         (0..slots * profile.slot.samples()).map(move |_| (0..channels).map(|_| corner(&mut rng, adc)).collect());
     Stimulus {
         constants: Inputs { strobe: 0, code: 0, write: 0, address: 0, word: 0, ..constants },
+        formats: core.inputs(),
         table: Box::new(table.into_iter().enumerate().map(|(address, word)| (address as i64, word))),
         samples: Box::new(samples),
         codes: vec![0; channels],
         clock: 0,
         clocks_per_sample: profile.clocks_per_sample,
+        recalibrate: None,
         disturb: Some(disturb),
     }
 }

@@ -1,29 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Clocked model = printed Verilog, every output at every clock: random input and whole scenes, in two simulators.
 
-use hapticore_model::blocks::core::Core;
-use hapticore_model::profile::Profile;
-use hapticore_rtl::verilog::Design;
-use hapticore_tests::lockstep::verilator::{Speed, Verilated};
-use hapticore_tests::lockstep::{Trace, icarus};
-use hapticore_tests::stimulus::{self, Stimulus};
-use hapticore_tests::tools;
-
-struct Bench {
-    core: Core,
-    design: Design,
-}
-
-impl Bench {
-    fn new(profile: &Profile) -> Bench {
-        let core = Core::new(profile);
-        Bench { design: Design::of(&core, "a test"), core }
-    }
-
-    fn record(&self, mut stimulus: Stimulus) -> Trace {
-        Trace::record(&self.core, self.design.ports.clone(), |outputs| stimulus.next(outputs))
-    }
-}
+use hapticore_tests::lockstep::verilator::{Start, Verilated};
+use hapticore_tests::lockstep::{Bench, icarus};
+use hapticore_tests::{stimulus, tools};
 
 /// Clocks that Verilator runs at least, of each profile.
 const CLOCKS: usize = 1_000_000;
@@ -32,23 +12,22 @@ fn verilator_runs_what_the_model_runs(profile: &str) {
     if !tools::have(&["verilator", "make", "g++"]) {
         return;
     }
-    let profile = Profile::bundled(profile).expect("bundled");
-    let bench = Bench::new(&profile);
-    let verilated = Verilated::new(bench.design.top(), &bench.design.ports, &bench.design.text(), Speed::Compile);
+    let bench = Bench::new(profile);
+    let verilated = Verilated::new(bench.design.top(), &bench.design.ports, &bench.design.text(), Start::Zero);
     let mut clocks = 0;
     for stimulus in [
-        stimulus::scene(&profile, "fig6", 16),
-        stimulus::scene(&profile, "hockey", 20),
-        stimulus::random(&profile, 1, 8),
-        stimulus::random(&profile, 2, 8),
+        stimulus::scene(&bench.profile, "fig6", 16),
+        stimulus::scene(&bench.profile, "hockey", 20),
+        stimulus::random(&bench.profile, 1, 8),
+        stimulus::random(&bench.profile, 2, 8),
     ] {
         let trace = bench.record(stimulus);
         clocks += trace.clocks();
         if let Err(mismatch) = verilated.check(&trace) {
-            panic!("{}: {mismatch}", profile.name);
+            panic!("{profile}: {mismatch}");
         }
     }
-    println!("{}: {clocks} clocks equal in Verilator", profile.name);
+    println!("{profile}: {clocks} clocks equal in Verilator");
     assert!(clocks >= CLOCKS, "{clocks} clocks");
 }
 
@@ -68,9 +47,8 @@ fn icarus_runs_what_the_model_runs() {
         return;
     }
     for name in ["small", "standard"] {
-        let profile = Profile::bundled(name).expect("bundled");
-        let bench = Bench::new(&profile);
-        for stimulus in [stimulus::scene(&profile, "hockey", 2), stimulus::random(&profile, 3, 2)] {
+        let bench = Bench::new(name);
+        for stimulus in [stimulus::scene(&bench.profile, "hockey", 2), stimulus::random(&bench.profile, 3, 2)] {
             if let Err(mismatch) = icarus::check(bench.design.top(), &bench.design.text(), &bench.record(stimulus)) {
                 panic!("{name}: {mismatch}");
             }

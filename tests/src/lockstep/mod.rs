@@ -7,11 +7,13 @@
 //! | [`verilator`] | Verilator: millions of clocks |
 //! | [`icarus`] | Icarus Verilog: an event-driven simulator with unknown values, written by other people |
 
+mod bench;
 pub mod icarus;
 mod trace;
 pub mod verilator;
 
-pub use trace::Trace;
+pub use bench::Bench;
+pub use trace::{Trace, bits};
 
 use std::fmt;
 

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Runs @TOP@ on the inputs of a trace: `check` compares every output at every clock, `time` takes the time.
+// Runs @TOP@ on the inputs of a trace and compares every output at every clock.
 #include "Vtop.h"
 #include "verilated.h"
-#include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <vector>
 
 static const size_t PORTS = @PORTS@;
@@ -38,9 +36,9 @@ static std::vector<uint64_t> read(const char* path) {
     return words;
 }
 
-int main(int, char** arguments) {
+int main(int count, char** arguments) {
+    Verilated::commandArgs(count, arguments);
     const std::vector<uint64_t> trace = read(arguments[1]);
-    const bool check = std::strcmp(arguments[2], "check") == 0;
     const size_t clocks = trace.size() / PORTS;
     Vtop* top = new Vtop;
     top->reset = 1;
@@ -48,18 +46,13 @@ int main(int, char** arguments) {
     give(top, trace.data());
     for (int clock = 0; clock < 2; clock++) { top->eval(); edge(top); }
     top->reset = 0;
-    uint64_t sum = 0;
-    const auto start = std::chrono::steady_clock::now();
     for (size_t clock = 0; clock < clocks; clock++) {
         const uint64_t* row = &trace[clock * PORTS];
         give(top, row);
         top->eval();
-        if (check) compare(top, row, clock);
-        else {
-@SUM@        }
+        compare(top, row, clock);
         edge(top);
     }
-    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
-    std::printf("equal %zu\nseconds %.9f\nsum %llu\n", clocks, taken.count(), (unsigned long long)sum);
+    std::printf("equal %zu\n", clocks);
     return 0;
 }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Verilog in Verilator, as a program that reads a trace and compares every output at every clock.
+//!
+//! What has no initial value starts at zero or with anything, as [`Start`] says.
 
 use std::fmt::Write;
 use std::fs;
@@ -14,16 +16,64 @@ use crate::tools::run;
 /// How the program is compiled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Speed {
-    /// Soon.
+    /// Soon; what has no initial value is decided at run time.
     Compile,
     /// As fast as Verilator can be.
     Run,
 }
 
-/// A compiled design.
-pub struct Verilated {
+/// What a design holds before its first clock, where it does not say.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Start {
+    /// Zero, as registers of both FPGA families do. For printed Verilog: a register that starts with anything may write into a
+    /// memory at the clock that resets it.
+    Zero,
+    /// What Verilator makes up, the same at each run. For gates, whose registers say what they start with: read registers of
+    /// memories, inputs that a cell leaves open.
+    Anything,
+}
+
+/// A compiled program around a design.
+pub struct Program {
     folder: tempfile::TempDir,
-    program: PathBuf,
+}
+
+impl Program {
+    /// Compiles a design given as Verilog text with `main`, the C++ around it, in which the design is the class `Vtop`.
+    ///
+    /// # Panics
+    /// Where a tool fails.
+    pub fn compile(top: &str, main: &str, verilog: &str, speed: Speed) -> Program {
+        let program = Program { folder: tempfile::tempdir().expect("a folder") };
+        fs::write(program.at("design.v"), verilog).expect("written");
+        fs::write(program.at("main.cpp"), main).expect("written");
+        let mut verilate = Command::new("verilator");
+        let unknown = if speed == Speed::Run { "fast" } else { "unique" };
+        verilate.args(["--cc", "-O3", "--x-assign", unknown, "--x-initial", unknown, "--noassert"]);
+        verilate.args(["-Wno-fatal", "-Wno-lint", "-Wno-style", "--top-module", top, "--prefix", "Vtop"]);
+        run(verilate.arg("--exe").arg(program.at("main.cpp")).arg("design.v"), &program.at(""));
+        let optimise = if speed == Speed::Run { "-O3 -march=native" } else { "-O1" };
+        let mut make = Command::new("make");
+        make.args(["-C", "obj_dir", "-f", "Vtop.mk", "-j2"]).arg(format!("OPT_FAST={optimise}"));
+        run(&mut make, &program.at(""));
+        program
+    }
+
+    /// A file beside it.
+    pub fn at(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    /// The program itself.
+    pub fn path(&self) -> PathBuf {
+        self.at("obj_dir/Vtop")
+    }
+}
+
+/// A compiled design that is compared with traces.
+pub struct Verilated {
+    program: Program,
+    start: Start,
 }
 
 impl Verilated {
@@ -31,20 +81,8 @@ impl Verilated {
     ///
     /// # Panics
     /// Where a tool fails.
-    pub fn new(top: &str, ports: &[Port], verilog: &str, speed: Speed) -> Verilated {
-        let folder = tempfile::tempdir().expect("a folder");
-        let at = |name: &str| folder.path().join(name);
-        fs::write(at("design.v"), verilog).expect("written");
-        fs::write(at("main.cpp"), program(top, ports)).expect("written");
-        let mut verilate = Command::new("verilator");
-        verilate.args(["--cc", "-O3", "--x-assign", "fast", "--noassert", "-Wno-fatal", "-Wno-lint", "-Wno-style"]);
-        verilate.args(["--top-module", top, "--prefix", "Vtop", "--exe"]).arg(at("main.cpp")).arg("design.v");
-        run(&mut verilate, folder.path());
-        let optimise = if speed == Speed::Run { "-O3 -march=native" } else { "-O1" };
-        let mut make = Command::new("make");
-        make.args(["-C", "obj_dir", "-f", "Vtop.mk", "-j2"]).arg(format!("OPT_FAST={optimise}"));
-        run(&mut make, folder.path());
-        Verilated { program: at("obj_dir/Vtop"), folder }
+    pub fn new(top: &str, ports: &[Port], verilog: &str, start: Start) -> Verilated {
+        Verilated { program: Program::compile(top, &main(top, ports), verilog, Speed::Compile), start }
     }
 
     /// Runs a trace; the first mismatch, if there is one.
@@ -52,32 +90,46 @@ impl Verilated {
     /// # Errors
     /// An output that differs.
     pub fn check(&self, trace: &Trace) -> Result<(), Mismatch> {
-        verdict(&self.run(trace, "check"), trace)
+        self.given(trace.clone()).check(0)
     }
 
-    /// Seconds that the design takes for the clocks of a trace, without comparing and without reading it.
-    pub fn seconds(&self, trace: &Trace) -> f64 {
-        let said = self.run(trace, "time");
-        let seconds = said.lines().find_map(|line| line.strip_prefix("seconds ")).expect("a time");
-        seconds.parse().expect("a number")
+    /// A trace beside the program, to be run more than once.
+    pub fn given(&self, trace: Trace) -> Given<'_> {
+        let file = tempfile::NamedTempFile::new_in(self.program.at("")).expect("a file");
+        fs::write(file.path(), trace.bytes()).expect("written");
+        Given { verilated: self, trace, file }
     }
+}
 
-    fn run(&self, trace: &Trace, what: &str) -> String {
-        let file = self.folder.path().join("trace.bin");
-        fs::write(&file, trace.bytes()).expect("written");
-        run(Command::new(&self.program).arg(&file).arg(what), self.folder.path())
+/// A compiled design with a trace.
+pub struct Given<'a> {
+    verilated: &'a Verilated,
+    trace: Trace,
+    file: tempfile::NamedTempFile,
+}
+
+impl Given<'_> {
+    /// Runs the trace with a fault of a [`Planted`](crate::faults::Planted) design, or none (0).
+    ///
+    /// # Errors
+    /// An output that differs.
+    pub fn check(&self, fault: usize) -> Result<(), Mismatch> {
+        let Verilated { program, start } = self.verilated;
+        let random = if *start == Start::Zero { 0 } else { 2 };
+        let mut command = Command::new(program.path());
+        command.arg(self.file.path()).args(["+verilator+seed+1", &format!("+verilator+rand+reset+{random}")]);
+        verdict(&run(command.arg(format!("+fault={fault}")), &program.at("")), &self.trace)
     }
 }
 
 /// The program around the design.
-fn program(top: &str, ports: &[Port]) -> String {
-    let (mut give, mut compare, mut sum) = (String::new(), String::new(), String::new());
+fn main(top: &str, ports: &[Port]) -> String {
+    let (mut give, mut compare) = (String::new(), String::new());
     for (index, port) in ports.iter().enumerate() {
         let (name, mask) = (&port.name, u64::MAX >> (64 - u32::from(port.format.width)));
         let _ = match port.direction {
             Direction::Input => writeln!(give, "    top->{name} = row[{index}] & {mask}ull;"),
             Direction::Output => {
-                let _ = writeln!(sum, "    sum = sum * 31 + top->{name};");
                 writeln!(compare, "    differ(clock, \"{name}\", row[{index}] & {mask}ull, top->{name} & {mask}ull);")
             }
         };
@@ -87,5 +139,4 @@ fn program(top: &str, ports: &[Port]) -> String {
         .replace("@PORTS@", &ports.len().to_string())
         .replace("@GIVE@", &give)
         .replace("@COMPARE@", &compare)
-        .replace("@SUM@", &sum)
 }

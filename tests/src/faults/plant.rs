@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Writes faults into a design, each asleep until its number is called.
+
+use std::collections::{HashMap, HashSet};
+use std::fmt::Write;
+
+use hapticore_rtl::verilog::{Design, File};
+use regex::Regex;
+
+use super::kinds::{Variant, variants};
+use super::statements::{Statement, statements, unused};
+use super::word::Word;
+use super::{Fault, Kind};
+
+/// A design with faults, number 1 the first.
+#[derive(Debug, Clone)]
+pub struct Planted {
+    /// Its Verilog.
+    pub verilog: String,
+    /// The faults.
+    pub faults: Vec<Fault>,
+}
+
+impl Planted {
+    /// Every fault of every module.
+    pub fn new(design: &Design) -> Planted {
+        let mut faults = Vec::new();
+        let plant = |file: &File| Module::new(file, &mut faults).planted(&file.text);
+        Planted { verilog: design.modules.iter().map(plant).collect(), faults }
+    }
+}
+
+/// A module while it is written.
+struct Module<'a> {
+    name: &'a str,
+    ranges: HashMap<String, String>,
+    unused: HashSet<String>,
+    /// Wires between blocks.
+    driven: HashSet<String>,
+    /// The instance that is being written.
+    instance: String,
+    faults: &'a mut Vec<Fault>,
+}
+
+/// What wakes a fault.
+const HEAD: &str = "\n    integer fault;\n    initial if (!$value$plusargs(\"fault=%d\", fault)) fault = 0;\n";
+
+impl<'a> Module<'a> {
+    fn new(file: &'a File, faults: &'a mut Vec<Fault>) -> Self {
+        let port = Regex::new(r"output wire ((?:signed )?(?:\[\d+:0\] )?)(\w+)").expect("an expression");
+        let ranges = port.captures_iter(&file.text).map(|c| (c[2].into(), c[1].into())).collect();
+        Module {
+            name: &file.name,
+            ranges,
+            unused: unused(&file.text),
+            driven: HashSet::new(),
+            instance: String::new(),
+            faults,
+        }
+    }
+
+    fn planted(&mut self, text: &str) -> String {
+        let (head, body) = text.split_once("\n);\n").expect("a head");
+        let head = head.lines().filter(|line| !line.starts_with("//")).collect::<Vec<_>>().join("\n");
+        let mut text = format!("{head}\n);\n{HEAD}");
+        for statement in statements(body) {
+            text += &self.statement(statement);
+            text.push('\n');
+        }
+        text
+    }
+
+    fn statement(&mut self, statement: Statement) -> String {
+        match statement {
+            Statement::Wire { range, name, value } => {
+                self.wire(&range, &name, &value) + &format!("wire {range}{name} = {name}_given;\n")
+            }
+            Statement::Output { name, value } => {
+                let range = self.ranges[&name].clone();
+                self.wire(&range, &name, &value) + &format!("assign {name} = {name}_given;\n")
+            }
+            Statement::Driven { range, name } => self.driven(&range, &name),
+            Statement::Register { name, value } => self.register(&name, &value),
+            Statement::Condition { value, rest } => self.condition(&value, &rest),
+            Statement::Other(code) => self.other(code),
+        }
+    }
+
+    /// A number for a fault.
+    fn number(&mut self, name: &str, kind: Kind, printed: &str, instead: &str) -> usize {
+        let [module, name, printed, instead] = [self.name, name, printed, instead].map(str::to_owned);
+        self.faults.push(Fault { module, name, kind, printed, instead });
+        self.faults.len()
+    }
+
+    fn numbered(&mut self, name: &str, variants: Vec<Variant>) -> Vec<(usize, String)> {
+        let mut number = |v: Variant| (self.number(name, v.kind, &v.printed, &v.instead), v.text);
+        variants.into_iter().map(&mut number).collect()
+    }
+
+    /// `NAME_given`: what was printed, or one of its faults.
+    fn wire(&mut self, range: &str, name: &str, value: &str) -> String {
+        let mut text = format!("wire {range}{name}_true = {value};\n");
+        let mut given = String::new();
+        let word = Word::new(range, name, value, &self.unused);
+        let (variants, narrow) = (word.variants(), word.narrow());
+        for (number, value) in self.numbered(name, variants) {
+            let _ = writeln!(text, "wire {range}{name}_{number} = {value};");
+            let _ = write!(given, "fault == {number} ? {name}_{number} : ");
+        }
+        for narrow in narrow {
+            let number = self.number(name, Kind::Width, name, &narrow);
+            let _ = writeln!(text, "wire {range}{name}_{number} = {narrow};");
+            let _ = write!(given, "fault == {number} ? {name}_{number} : ");
+        }
+        let (late, number) = self.late(range, name);
+        text + &late + &format!("wire {range}{name}_given = {given}fault == {number} ? {name}_late : {name}_true;\n")
+    }
+
+    fn late(&mut self, range: &str, name: &str) -> (String, usize) {
+        let number = self.number(name, Kind::Latency, name, "the same of the clock before");
+        (format!("reg {range}{name}_late;\nalways @(posedge clock) {name}_late <= {name}_true;\n"), number)
+    }
+
+    /// A wire between blocks.
+    fn driven(&mut self, range: &str, name: &str) -> String {
+        self.driven.insert(name.to_owned());
+        let (late, number) = self.late(range, name);
+        format!("wire {range}{name}_true;\n{late}wire {range}{name} = fault == {number} ? {name}_late : {name}_true;")
+    }
+
+    fn register(&mut self, name: &str, value: &str) -> String {
+        let numbered = self.numbered(name, variants(value));
+        let faulty =
+            numbered.into_iter().map(|(number, value)| format!("if (fault == {number}) {name} <= {value}; else "));
+        faulty.collect::<String>() + &format!("{name} <= {value};")
+    }
+
+    fn condition(&mut self, value: &str, rest: &str) -> String {
+        let numbered = self.numbered("a condition", variants(value));
+        let faulty: String =
+            numbered.into_iter().map(|(number, value)| format!("fault == {number} ? ({value}) : ")).collect();
+        let (before, behind) = rest.split_once('\n').expect("two sides");
+        format!("{before} ({faulty}({value})) {behind}")
+    }
+
+    /// The outputs of an instance go to the wires that may be late.
+    fn other(&mut self, code: String) -> String {
+        if let Some((_, name)) = code.strip_suffix(" (").and_then(|head| head.split_once(" u_")) {
+            self.instance = name.to_owned();
+        }
+        // A port that has an input's name has `_out` behind it, its wire has not.
+        let driven = |(port, wire): &(&str, &str)| {
+            let name = wire.strip_prefix(&self.instance).and_then(|rest| rest.strip_prefix('_'));
+            let output = name.is_some_and(|name| *port == name || port.strip_suffix("_out") == Some(name));
+            output && self.driven.contains(*wire)
+        };
+        let port = code.strip_prefix('.').and_then(|rest| rest.split_once('('));
+        let port = port.map(|(port, wire)| (port, wire.trim_end_matches(',').trim_end_matches(')'))).filter(driven);
+        if port.is_some() { code.replace(')', "_true)") } else { code }
+    }
+}

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The statements of a printed module that compute something.
+
+use std::collections::HashSet;
+use std::sync::LazyLock;
+
+use regex::{Captures, Regex};
+
+/// A statement.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Statement {
+    /// A wire with what drives it; the range has the sign in front and a space behind.
+    Wire { range: String, name: String, value: String },
+    /// A wire that an instance drives.
+    Driven { range: String, name: String },
+    /// An output with what drives it.
+    Output { name: String, value: String },
+    /// A register with what it takes at a clock.
+    Register { name: String, value: String },
+    /// A condition that registers hang on; the rest of its line.
+    Condition { value: String, rest: String },
+    /// Anything else, as it stands.
+    Other(String),
+}
+
+type Reading = fn(&Captures) -> Statement;
+
+/// Shapes of a statement, comments taken away, with what it is.
+static SHAPES: LazyLock<Vec<(Regex, Reading)>> = LazyLock::new(|| {
+    let shapes: [(&str, Reading); 5] = [
+        (r"(?s)^wire ((?:signed )?(?:\[\d+:0\] )?)(\w+) =\s+(.*);$", |c| Statement::Wire {
+            range: c[1].into(),
+            name: c[2].into(),
+            value: c[3].into(),
+        }),
+        (r"^wire ((?:signed )?(?:\[\d+:0\] )?)(\w+);$", |c| Statement::Driven {
+            range: c[1].into(),
+            name: c[2].into(),
+        }),
+        (r"(?s)^assign (\w+) =\s+(.*);$", |c| Statement::Output { name: c[1].into(), value: c[2].into() }),
+        (r"(?s)^(\w+(?:\[.*\])?) <=\s+(.*);$", |c| Statement::Register { name: c[1].into(), value: c[2].into() }),
+        (r"^((?:end else )?if) \((.*)\) (begin|\w+\[.*;)$", |c| Statement::Condition {
+            value: c[2].into(),
+            rest: format!("{}\n{}", &c[1], &c[3]),
+        }),
+    ];
+    shapes.map(|(shape, of)| (Regex::new(shape).expect("an expression"), of)).into()
+});
+
+/// The text of a module, below its ports, as statements.
+///
+/// # Panics
+/// Where a line computes something in a shape that is not known here, so that no operator is left out unseen. (What stands in
+/// the port list of an instance is left out.)
+pub fn statements(module: &str) -> Vec<Statement> {
+    let mut all = Vec::new();
+    let mut open = String::new();
+    for line in module.lines() {
+        let code = line.split(" // ").next().unwrap_or_default().trim();
+        let continued = !open.is_empty() || (begins(code) && !code.ends_with(';'));
+        if continued {
+            open += if open.is_empty() { "" } else { "\n" };
+            open += code;
+        }
+        match (continued, code.ends_with(';')) {
+            (true, false) => (),
+            (true, true) => all.push(read(&std::mem::take(&mut open))),
+            _ => all.push(read(code)),
+        }
+    }
+    all
+}
+
+/// Whether a line without its end is a statement that goes on below.
+fn begins(code: &str) -> bool {
+    code.ends_with('=') || code.starts_with("wire unused")
+}
+
+fn read(code: &str) -> Statement {
+    if code.starts_with("wire unused") || code.starts_with("if (reset)") {
+        return Statement::Other(code.into());
+    }
+    let found = SHAPES.iter().find_map(|(shape, of)| shape.captures(code).map(|captures| of(&captures)));
+    found.unwrap_or_else(|| {
+        let plain = ["for (", "."].iter().any(|start| code.starts_with(start));
+        assert!(
+            plain || ![" + ", " - ", " * ", " < ", " ? "].iter().any(|sign| code.contains(sign)),
+            "unknown: {code}"
+        );
+        Statement::Other(code.into())
+    })
+}
+
+/// What a module's wire `unused` names: `name[high:low]`, or a name.
+pub fn unused(module: &str) -> HashSet<String> {
+    let list = module.split_once("wire unused = &{1'b0, ").and_then(|(_, rest)| rest.split_once('}'));
+    list.map(|(list, _)| list.split(',').map(|part| part.trim().to_owned()).collect()).unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn statements_are_told_apart() {
+        let module = "    wire signed [3:0] a =\n        b ? c\n        : d; // s4.0\n    wire e; // u1.0\n    x <= a + b;\n    if (e) begin\n    assign y = x;\n    wire unused = &{1'b0, a[3], b};\n";
+        let [a, b, c, d, e, f] = &statements(module)[..] else { panic!("{:?}", statements(module)) };
+        let text = str::to_owned;
+        assert_eq!(*a, Statement::Wire { range: text("signed [3:0] "), name: text("a"), value: text("b ? c\n: d") });
+        assert_eq!(*b, Statement::Driven { range: text(""), name: text("e") });
+        assert_eq!(*c, Statement::Register { name: text("x"), value: text("a + b") });
+        assert_eq!(*d, Statement::Condition { value: text("e"), rest: text("if\nbegin") });
+        assert_eq!(*e, Statement::Output { name: text("y"), value: text("x") });
+        assert!(matches!(f, Statement::Other(_)));
+        assert_eq!(unused(module), HashSet::from([text("a[3]"), text("b")]));
+    }
+
+    #[test]
+    #[should_panic(expected = "unknown: z <- a + b;")]
+    fn no_operator_is_left_out() {
+        statements("    z <- a + b;");
+    }
+}

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The core of a profile on the bench: the model beside its Verilog.
+
+use hapticore_model::blocks::core::Core;
+use hapticore_model::profile::Profile;
+use hapticore_rtl::verilog::Design;
+
+use super::Trace;
+use crate::stimulus::Stimulus;
+
+/// A core and what is printed of it.
+pub struct Bench {
+    /// The profile.
+    pub profile: Profile,
+    /// The core.
+    pub core: Core,
+    /// Its Verilog.
+    pub design: Design,
+}
+
+impl Bench {
+    /// The core of a bundled profile.
+    ///
+    /// # Panics
+    /// Where there is no such profile.
+    pub fn new(profile: &str) -> Bench {
+        let profile = Profile::bundled(profile).expect("bundled");
+        let core = Core::new(&profile);
+        Bench { design: Design::of(&core, "a test"), core, profile }
+    }
+
+    /// The trace that the model leaves of a stimulus.
+    pub fn record(&self, mut stimulus: Stimulus) -> Trace {
+        Trace::record(&self.core, self.design.ports.clone(), |outputs| stimulus.next(outputs))
+    }
+}

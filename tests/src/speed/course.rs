@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A stimulus at rest: all its codes in memory, small enough to stay near the processor.
+
+use hapticore_model::blocks::core::Inputs;
+use hapticore_model::profile::Profile;
+
+use crate::stimulus::Stimulus;
+
+/// What a core is given, over and over.
+#[derive(Debug, Clone)]
+pub struct Course {
+    /// Inputs that stay: the calibration's.
+    pub constants: Inputs<i64>,
+    /// Addresses and words of the calibration's tables, which are written before the time is taken.
+    pub table: Vec<(i64, i64)>,
+    /// Sets of codes, one for each strobe.
+    pub samples: Vec<i32>,
+    /// Codes of a set.
+    pub channels: usize,
+    /// Clocks of a set.
+    pub clocks_per_sample: u64,
+    /// How often the samples are run through.
+    pub passes: usize,
+}
+
+impl Course {
+    /// A stimulus's samples, so many times.
+    pub fn new(profile: &Profile, stimulus: Stimulus, passes: usize) -> Course {
+        let (constants, table, samples) = stimulus.into_parts();
+        let code = |code: i64| i32::try_from(code).expect("an ADC's code");
+        Course {
+            constants,
+            table: table.collect(),
+            samples: samples.flatten().map(code).collect(),
+            channels: profile.channels(),
+            clocks_per_sample: profile.clocks_per_sample,
+            passes,
+        }
+    }
+
+    /// Clocks that are timed.
+    pub fn clocks(&self) -> u64 {
+        (self.samples.len() / self.channels * self.passes) as u64 * self.clocks_per_sample
+    }
+}

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Clocks a second of the model and of Verilator on the Verilog that is printed of it, both over the same [`Course`].
+//!
+//! | file | runs a course in |
+//! | --- | --- |
+//! | [`model`] | the clocked model |
+//! | [`verilator`] | Verilator, as fast as it can be |
+//!
+//! What is outside of the core is the same few instructions on both sides: a set of codes for each strobe, the code of the
+//! channel that was asked for, and at every clock all outputs into a sum, so that none is spared. Equal sums are equal
+//! outputs (the lock-step tests compare them one by one).
+
+mod course;
+pub mod model;
+pub mod verilator;
+
+pub use course::Course;
+
+/// What a run gave.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Lap {
+    /// How long it took, without calibration and without reading the course.
+    pub seconds: f64,
+    /// The sum of all outputs at every clock.
+    pub sum: u64,
+}
+
+/// By how many bits the sum is rotated at each clock.
+const ROTATED: u32 = 7;
+
+/// By how many bits output number `index` is moved before it is added.
+const fn moved(index: usize) -> u32 {
+    index as u32 * 5 % 64
+}

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A course in the clocked model.
+
+use std::time::Instant;
+
+use hapticore_model::block::{Block, Cell};
+use hapticore_model::blocks::core::{Core, Inputs, Outputs};
+use hapticore_model::bundle::Bundle;
+use hapticore_model::signal::Signal;
+
+use super::{Course, Lap, ROTATED, moved};
+
+/// Runs a course from reset.
+pub fn run(core: &Core, course: &Course) -> Lap {
+    let mut cell = core.cell();
+    for &(address, word) in &course.table {
+        core.clock(&mut cell, signals(core, Inputs { write: 1, address, word, ..course.constants }));
+    }
+    let start = Instant::now();
+    let sum = timed(core, &mut cell, course);
+    Lap { seconds: start.elapsed().as_secs_f64(), sum }
+}
+
+#[inline(never)]
+fn timed(core: &Core, cell: &mut Cell<Core, i64>, course: &Course) -> u64 {
+    let constants = signals(core, course.constants);
+    let signal = |value, of: Signal<i64>| Signal { value, ..of };
+    let (mut channel, mut sum) = (0, 0);
+    for _ in 0..course.passes {
+        for set in course.samples.chunks_exact(course.channels) {
+            for clock in 0..course.clocks_per_sample {
+                let strobe = signal(i64::from(clock == 0), constants.strobe);
+                let code = signal(set[channel].into(), constants.code);
+                let outputs = core.clock(cell, Inputs { strobe, code, ..constants });
+                channel = outputs.channel.value as usize;
+                sum = added(sum, outputs);
+            }
+        }
+    }
+    sum
+}
+
+fn signals(core: &Core, codes: Inputs<i64>) -> Inputs<Signal<i64>> {
+    Inputs::map(Inputs::zip(codes, core.inputs()), |(value, format)| Signal { value, format })
+}
+
+#[inline(always)]
+fn added(sum: u64, outputs: Outputs<Signal<i64>>) -> u64 {
+    let mut sum = sum.rotate_left(ROTATED);
+    let mut index = 0;
+    Outputs::each(outputs, |_, output| {
+        sum = sum.wrapping_add((output.value as u64) << moved(index));
+        index += 1;
+    });
+    sum
+}
