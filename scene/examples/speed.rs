@@ -65,7 +65,7 @@ const EFFECTS: &[(&str, &str, &str)] = &[
     (
         "together",
         "",
-        "[supply]\n[gap]\nrung = \"tr-bdf2\"\n[hand]\n[friction]\n[sheet]\n[shunt]\nnanofarad_per_m2 = 9\n[coupling]\n[switching]\n[sensor]\nhaptic_leakage = true\n\
+        "[supply]\n[gap]\nrung = \"tr-bdf2\"\n[halves]\n[hand]\n[friction]\nrung = \"lugre\"\n[sheet]\n[shunt]\nnanofarad_per_m2 = 9\n[coupling]\n[switching]\n[sensor]\nhaptic_leakage = true\n\
          bandwidth_khz = 900\njitter_ns_rms = 0.1\ncrosstalk_percent = 0.1\ngain_mismatch_percent = 1\n\
          offset_percent = 0.01\nnoise_ppm_rms = 18\nnoise_density_na_per_rthz = 1\nquantisation_bits = 16\n",
     ),

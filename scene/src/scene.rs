@@ -20,7 +20,7 @@
 //! load_g = 50                     # see `course`; also haptic_v_rms, capacitance_pf; with
 //!                                 # [hand] push_x_n, push_y_n; with [halves] eccentricity_mm
 //!
-//! [device]                        # width_mm, height_mm, pad_diameter_mm, mu
+//! [device]                        # width_mm, height_mm, pad_diameter_mm, mu, gravity_m_s2
 //! [sheet]                         # effects, each with its `rung`; see `effects`
 //! [supply]
 //! [gap]
