@@ -100,7 +100,7 @@ fn a_centimetre_of_shift_among_four_pads_of_760_pf_is_taken_out_to_a_millimetre(
 }
 
 /// The host's sheet is not the device's: meshed instead of exact, other terminals, a film that resists more, or is not even.
-/// A film that slopes by ±20 % leaves 1.05 mm in a corner.
+/// A film with 20 % from left to right leaves 1.05 mm in a corner.
 #[test]
 fn a_sheet_that_is_not_the_nominal_one_leaves_less_than_a_millimetre_too() {
     for (sheet, count) in [
