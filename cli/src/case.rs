@@ -142,8 +142,9 @@ impl<'a> Case<'a> {
         progress: &ProgressBar,
     ) -> Result<Outcome> {
         let at = (self.number, self.clock);
+        let uncouplers = self.plant()?.uncoupler().zip(self.plant()?.uncoupler());
         let session = Session::new(&self.profile, &self.device, settings.fidelity, settings.errors, at)?
-            .uncoupling(self.plant()?.uncoupler());
+            .uncoupling(uncouplers.map(<[_; 2]>::from));
         let whole = settings.fidelity == Fidelity::Clock || recorder.is_some();
         let mut maker =
             Maker::new(self.plant()?.metered(), &self.profile, self.scene.cases[self.index].sampled(), whole);

@@ -121,7 +121,7 @@ pub struct Record {
     pub title: String,
     /// What it is about.
     pub summary: String,
-    /// Which figures to draw: `fig3`, `fig4`, `fig6`, `hockey`; any other gets the general ones.
+    /// Which figures to draw: `fig3`, `fig4`, `fig6`, `fig7`, `hockey`; any other gets the general ones.
     pub figure: Option<String>,
     /// The profile's name.
     pub profile: String,

@@ -27,7 +27,8 @@ pub struct Session {
     clock: SlotClock,
     case: usize,
     waiting: VecDeque<Row>,
-    uncoupling: Option<Uncoupling>,
+    /// Of the core and of the reference.
+    uncoupling: Option<[Uncoupling; 2]>,
 }
 
 /// When slots are.
@@ -90,9 +91,9 @@ impl Session {
         })
     }
 
-    /// The same session, which takes out of its readings what other pads did to them.
-    pub fn uncoupling(mut self, uncoupler: Option<Uncoupler>) -> Self {
-        self.uncoupling = uncoupler.map(Uncoupling::new);
+    /// The same session, which takes out of its readings, the core's and the reference's, what other pads did to them.
+    pub fn uncoupling(mut self, uncouplers: Option<[Uncoupler; 2]>) -> Self {
+        self.uncoupling = uncouplers.map(|both| both.map(Uncoupling::new));
         self
     }
 
@@ -130,8 +131,12 @@ impl Session {
         let reading = slot.refer(&mut self.reference);
         let capacitance_pf = self.reference.capacitance_eq6();
         let ratio = capacitance_pf / reading.capacitance_pf;
+        let mut quantities = self.units.quantities(&reading);
+        if let Some([_, reference]) = self.uncoupling.as_mut().filter(|_| !reading.flags.invalid) {
+            reference.apply(slot.pad, &mut quantities);
+        }
         Reference {
-            quantities: self.units.quantities(&reading),
+            quantities,
             capacitance_eq6_pf: capacitance_pf,
             force_eq6_n: if reading.capacitance_pf > 0.0 { reading.force_n * ratio * ratio } else { 0.0 },
         }
@@ -141,8 +146,8 @@ impl Session {
         let row = self.waiting.pop_front()?;
         assert_eq!(row.pad, reading.pad, "readings come in the order of their slots");
         let mut measured = self.units.quantities(reading);
-        if let Some(uncoupling) = self.uncoupling.as_mut().filter(|_| !reading.flags.invalid) {
-            uncoupling.apply(row.pad, &mut measured);
+        if let Some([core, _]) = self.uncoupling.as_mut().filter(|_| !reading.flags.invalid) {
+            core.apply(row.pad, &mut measured);
         }
         Some(Row { measured, flags: names(reading.flags), ..row })
     }

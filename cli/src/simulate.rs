@@ -210,6 +210,7 @@ fn figure_name(figure: Figure) -> String {
         Figure::Fig3 => "fig3",
         Figure::Fig4 => "fig4",
         Figure::Fig6 => "fig6",
+        Figure::Fig7 => "fig7",
         Figure::Hockey => "hockey",
     }
     .into()

@@ -19,70 +19,77 @@ const PADS: &str = "title = \"speed\"\nduration_s = 10\n\
     [[pad]]\nposition_mm = { line = { from_mm = [-100, -180], to_mm = [100, 200], period_s = 0.8 } }\n\
     [[pad]]\nposition_mm = [-60, 205]\n";
 
-/// What is measured: its name, what it is added to, and what it adds.
-const EFFECTS: &[(&str, &str, &str)] = &[
-    ("sheet distance", "", "[sheet]\nrung = \"distance\"\n"),
-    ("sheet bilinear", "", "[sheet]\nrung = \"bilinear\"\n"),
-    ("sheet bicubic", "", "[sheet]\nrung = \"bicubic\"\n"),
-    ("sheet bicubic-fine", "", "[sheet]\nrung = \"bicubic-fine\"\n"),
-    ("sheet analytic", "", "[sheet]\nrung = \"analytic\"\n"),
-    ("sheet grid-20-mm", "", "[sheet]\nrung = \"grid-20-mm\"\n"),
-    ("sheet grid-10-mm", "", "[sheet]\nrung = \"grid-10-mm\"\n"),
-    ("sheet grid-5-mm", "", "[sheet]\nrung = \"grid-5-mm\"\n"),
-    ("sheet grid-2.5-mm", "", "[sheet]\nrung = \"grid-2.5-mm\"\n"),
-    ("sheet grid-1.25-mm", "", "[sheet]\nrung = \"grid-1.25-mm\"\n"),
-    ("shunt table", "[sheet]\n", "[shunt]\nnanofarad_per_m2 = 9\n"),
-    ("shunt series", "[sheet]\n", "[shunt]\nnanofarad_per_m2 = 9\nrung = \"series\"\n"),
-    ("coupling once", "[sheet]\n", "[coupling]\nrung = \"once\"\n"),
-    ("coupling full", "[sheet]\n", "[coupling]\n"),
-    ("switching rc-1", "[sheet]\n", "[switching]\nrung = \"rc-1\"\n"),
-    ("switching rc-4", "[sheet]\n", "[switching]\nrung = \"rc-4\"\n"),
-    ("switching rc-16", "[sheet]\n", "[switching]\nrung = \"rc-16\"\n"),
-    ("switching rc-64", "[sheet]\n", "[switching]\nrung = \"rc-64\"\n"),
-    ("switching settling", "[sheet]\n", "[switching]\n"),
-    ("supply steady", "", "[supply]\n"),
-    ("gap static", "", "[gap]\nrung = \"static\"\n"),
-    ("gap quasi-static", "", "[gap]\nrung = \"quasi-static\"\n"),
-    ("gap semi-implicit", "", "[gap]\nrung = \"semi-implicit\"\n"),
-    ("gap implicit-euler", "", "[gap]\nrung = \"implicit-euler\"\n"),
-    ("gap trapezoid", "", "[gap]\nrung = \"trapezoid\"\n"),
-    ("gap tr-bdf2", "", "[gap]\nrung = \"tr-bdf2\"\n"),
-    ("halves gaps", "[gap]\n", "[halves]\n"),
-    ("friction coulomb", "[gap]\n", "[friction]\nrung = \"coulomb\"\n"),
-    ("friction stiction", "[gap]\n", "[friction]\nrung = \"stiction\"\n"),
-    ("friction dahl", "[gap]\n", "[friction]\nrung = \"dahl\"\n"),
-    ("friction lugre", "[gap]\n", "[friction]\nrung = \"lugre\"\n"),
-    ("hand, lugre", "[gap]\n", "[friction]\nrung = \"lugre\"\n[hand]\n"),
-    ("sensor leakage", "", "[sensor]\nhaptic_leakage = true\n"),
-    ("sensor bandwidth", "", "[sensor]\nbandwidth_khz = 900\n"),
-    ("sensor jitter", "", "[sensor]\njitter_ns_rms = 0.1\n"),
-    ("sensor crosstalk", "", "[sensor]\ncrosstalk_percent = 0.1\n"),
-    ("sensor gain", "", "[sensor]\ngain_mismatch_percent = 1\n"),
-    ("sensor offset", "", "[sensor]\noffset_percent = 0.01\n"),
-    ("sensor noise", "", "[sensor]\nnoise_ppm_rms = 18\n"),
-    ("sensor noise density", "", "[sensor]\nnoise_density_na_per_rthz = 1\n"),
-    ("sensor quantisation", "", "[sensor]\nquantisation_bits = 16\n"),
+/// What is measured: its name, what it is added to, what it adds, and what PHYSICS has of it, in milliseconds to build or for a
+/// second; there one patch of a gap, here 32.
+const EFFECTS: &[(&str, &str, &str, &str)] = &[
+    ("sheet distance", "", "[sheet]\nrung = \"distance\"\n", "10 ns a look-up: 0.006"),
+    ("sheet bilinear", "", "[sheet]\nrung = \"bilinear\"\n", "0.9; 12 ns: 0.007"),
+    ("sheet bicubic", "", "[sheet]\nrung = \"bicubic\"\n", "3.7; 30 ns: 0.018"),
+    ("sheet bicubic-fine", "", "[sheet]\nrung = \"bicubic-fine\"\n", "60; 37 ns: 0.022"),
+    ("sheet analytic", "", "[sheet]\nrung = \"analytic\"\n", "395 ns: 0.23"),
+    ("sheet grid-20-mm", "", "[sheet]\nrung = \"grid-20-mm\"\n", "0.8"),
+    ("sheet grid-10-mm", "", "[sheet]\nrung = \"grid-10-mm\"\n", "4.3"),
+    ("sheet grid-5-mm", "", "[sheet]\nrung = \"grid-5-mm\"\n", "30"),
+    ("sheet grid-2.5-mm", "", "[sheet]\nrung = \"grid-2.5-mm\"\n", "75"),
+    ("sheet grid-1.25-mm", "", "[sheet]\nrung = \"grid-1.25-mm\"\n", "646"),
+    ("shunt table", "[sheet]\n", "[shunt]\nnanofarad_per_m2 = 9\n", ""),
+    ("shunt series", "[sheet]\n", "[shunt]\nnanofarad_per_m2 = 9\nrung = \"series\"\n", ""),
+    ("coupling once", "[sheet]\n", "[coupling]\nrung = \"once\"\n", ""),
+    ("coupling full", "[sheet]\n", "[coupling]\n", ""),
+    ("switching rc-1", "[sheet]\n", "[switching]\nrung = \"rc-1\"\n", "22 ns a step: 22"),
+    ("switching rc-4", "[sheet]\n", "[switching]\nrung = \"rc-4\"\n", "88"),
+    ("switching rc-8", "[sheet]\n", "[switching]\nrung = \"rc-8\"\n", "176"),
+    ("switching rc-16", "[sheet]\n", "[switching]\nrung = \"rc-16\"\n", "352"),
+    ("switching rc-64", "[sheet]\n", "[switching]\nrung = \"rc-64\"\n", "1408"),
+    ("switching euler-64", "[sheet]\n", "[switching]\nrung = \"euler-64\"\n", ""),
+    ("switching settling", "[sheet]\n", "[switching]\n", "small"),
+    ("supply steady", "", "[supply]\n", ""),
+    ("gap static", "", "[gap]\nrung = \"static\"\n", ""),
+    ("gap quasi-static", "", "[gap]\nrung = \"quasi-static\"\n", "32 patches: 0.34"),
+    ("gap semi-implicit", "", "[gap]\nrung = \"semi-implicit\"\n", "11"),
+    ("gap implicit-euler", "", "[gap]\nrung = \"implicit-euler\"\n", "74"),
+    ("gap trapezoid", "", "[gap]\nrung = \"trapezoid\"\n", "80"),
+    ("gap tr-bdf2", "", "[gap]\nrung = \"tr-bdf2\"\n", "144"),
+    ("halves gaps", "[gap]\n", "[halves]\n", ""),
+    ("friction coulomb", "[gap]\n", "[friction]\nrung = \"coulomb\"\n", ""),
+    ("friction stiction", "[gap]\n", "[friction]\nrung = \"stiction\"\n", ""),
+    ("friction dahl", "[gap]\n", "[friction]\nrung = \"dahl\"\n", ""),
+    ("friction lugre", "[gap]\n", "[friction]\nrung = \"lugre\"\n", ""),
+    ("hand, lugre", "[gap]\n", "[friction]\nrung = \"lugre\"\n[hand]\n", ""),
+    ("sensor leakage", "", "[sensor]\nhaptic_leakage = true\n", ""),
+    ("sensor bandwidth", "", "[sensor]\nbandwidth_khz = 900\n", ""),
+    ("sensor jitter", "", "[sensor]\njitter_ns_rms = 0.1\n", ""),
+    ("sensor crosstalk", "", "[sensor]\ncrosstalk_percent = 0.1\n", ""),
+    ("sensor scale", "", "[sensor]\ngain_error_percent = 1\n", ""),
+    ("sensor gain", "", "[sensor]\ngain_mismatch_percent = 1\n", ""),
+    ("sensor offset", "", "[sensor]\noffset_percent = 0.01\n", ""),
+    ("sensor noise", "", "[sensor]\nnoise_ppm_rms = 18\n", ""),
+    ("sensor noise density", "", "[sensor]\nnoise_density_na_per_rthz = 1\n", ""),
+    ("sensor quantisation", "", "[sensor]\nquantisation_bits = 16\n", ""),
+    ("sensor dither", "[sensor]\nquantisation_bits = 16\n", "dither_lsb_rms = 0.5\n", ""),
     (
         "together",
         "",
-        "[supply]\n[gap]\nrung = \"tr-bdf2\"\n[hand]\n[friction]\n[sheet]\n[shunt]\nnanofarad_per_m2 = 9\n[coupling]\n[switching]\n[sensor]\nhaptic_leakage = true\n\
+        "[supply]\n[gap]\nrung = \"tr-bdf2\"\n[halves]\n[hand]\n[friction]\nrung = \"lugre\"\n[sheet]\n[shunt]\nnanofarad_per_m2 = 9\n[coupling]\n[switching]\n[sensor]\nhaptic_leakage = true\n\
          bandwidth_khz = 900\njitter_ns_rms = 0.1\ncrosstalk_percent = 0.1\ngain_mismatch_percent = 1\n\
-         offset_percent = 0.01\nnoise_ppm_rms = 18\nnoise_density_na_per_rthz = 1\nquantisation_bits = 16\n",
+         offset_percent = 0.01\nnoise_ppm_rms = 18\nnoise_density_na_per_rthz = 1\nquantisation_bits = 16\n\
+         dither_lsb_rms = 0.5\ngain_error_percent = 1\n",
+        "",
     ),
 ];
 
 fn main() -> Result<(), SceneError> {
-    println!("{:22} {:>10} {:>16} {:>16}", "", "build, ms", "amplitudes, ms/s", "samples, ms/s");
-    print("carrier", measure("")?);
-    for (name, under, added) in EFFECTS {
+    println!("{:22} {:>10} {:>16} {:>14}  PHYSICS", "", "build, ms", "amplitudes, ms/s", "samples, ms/s");
+    print("carrier", measure("")?, "0.17; samples 21");
+    for (name, under, added, physics) in EFFECTS {
         let (without, with) = (measure(under)?, measure(&format!("{under}{added}"))?);
-        print(name, [0, 1, 2].map(|n| with[n] - without[n]));
+        print(name, [0, 1, 2].map(|n| with[n] - without[n]), physics);
     }
     Ok(())
 }
 
-fn print(name: &str, [build, amplitudes, samples]: [f64; 3]) {
-    println!("{name:22} {build:10.2} {amplitudes:16.3} {samples:16.2}");
+fn print(name: &str, [build, amplitudes, samples]: [f64; 3], physics: &str) {
+    println!("{name:22} {build:10.2} {amplitudes:16.3} {samples:14.2}  {physics}");
 }
 
 /// The least milliseconds to build the plant, and for a second of device time as amplitudes and as samples.

@@ -2,13 +2,16 @@
 //! One variant of a scene, read: the device, what its pads do, which effects are on and how long it lasts.
 
 use crate::device::Device;
-use crate::effects::{EFFECTS, Spec, carrier};
+use crate::effects::{EFFECTS, SPLITTING, Spec, carrier};
 use crate::error::SceneError;
-use crate::format::{Limits, Table};
+use crate::format::{Limits, Node, Table, Value};
 use crate::pad::{PadPlan, Tables};
 
 /// The most pads of a scene.
 const MOST_PADS: usize = 16;
+
+/// Keys of `[sheet]` of which the host knows nothing: what makes a film uneven.
+const UNEVEN: [&str; 2] = ["slope_percent", "patch"];
 
 /// One variant of a scene.
 #[derive(Clone)]
@@ -22,8 +25,9 @@ pub struct Case {
     pub(crate) length: Length,
     /// Error that all rungs together may leave, where the scene names one: until they are chosen, nothing can be run.
     pub(crate) budget_percent: Option<f64>,
-    /// The host takes out of readings what other pads did to them.
-    pub(crate) uncouple: bool,
+    /// What the host knows of the device, where it takes out of readings what other pads did to them: the effects that split
+    /// a current, on a film that is even.
+    pub(crate) nominal: Option<Vec<Spec>>,
 }
 
 /// How long a case lasts.
@@ -75,9 +79,21 @@ impl Case {
         if uncouple && !effects.iter().any(|effect| effect.name == "coupling") {
             return Err(root.error("uncouple", "expected a [coupling] that could be taken out again"));
         }
+        let nominal = if uncouple { Some(nominal(root, &device)?) } else { None };
         let length = Length::read(root, &pads)?;
-        Ok(Case { name: name.to_string(), length, device, pads, effects, budget_percent, uncouple })
+        Ok(Case { name: name.to_string(), length, device, pads, effects, budget_percent, nominal })
     }
+}
+
+/// Effects that split a current among the terminals, as they would be were the film even.
+fn nominal(root: &Table, device: &Device) -> Result<Vec<Spec>, SceneError> {
+    let mut even = root.clone();
+    if let Node { value: Value::Table(sheet), .. } = even.entry("sheet", || unreachable!("coupling needs a sheet")) {
+        UNEVEN.iter().for_each(|key| sheet.remove(key));
+    }
+    let specs = EFFECTS.iter().filter_map(|read| read(&even, device).transpose());
+    let splitting = |spec: &Spec| SPLITTING.contains(&spec.name);
+    specs.filter(|spec| spec.as_ref().is_ok_and(splitting)).collect()
 }
 
 impl Length {

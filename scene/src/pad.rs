@@ -13,9 +13,6 @@ use crate::path::{Path, SLACK_MM};
 /// Capacitance of a pad that neither names one nor has a gap, pF: 5 kΩ at 100 kHz.
 const CAPACITANCE_PF: f64 = 318.0;
 
-/// Newtons per gram.
-pub(crate) const NEWTON_PER_G: f64 = 9.806_65e-3;
-
 /// The course of one pad.
 #[derive(Clone, Debug)]
 pub(crate) struct PadPlan {

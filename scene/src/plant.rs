@@ -11,14 +11,14 @@ use num_complex::Complex64;
 
 use crate::case::{Case, Length};
 use crate::device::{CHANNELS, Device};
-use crate::effects::{EffectCost, Effects, Pad, Phasors, Run, SPLITTING, Setting};
+use crate::effects::{EffectCost, Effects, Pad, Phasors, Run, Setting};
 use crate::error::{Place, SceneError};
 use crate::pad::resting;
 use crate::path::raster;
 use crate::scene::Scene;
 use crate::timing::Timing;
 use crate::truth::{ForcePoint, MapPoint, Truth, ratios};
-use crate::uncouple::Uncoupler;
+use crate::uncouple::{RASTER, Uncoupler};
 
 /// One case of a scene at work.
 pub struct Plant {
@@ -89,14 +89,15 @@ impl Plant {
 
     /// What takes the other pads' influence out of readings of this device; none where the case does not ask for it.
     pub fn uncoupler(&self) -> Option<Uncoupler> {
-        let splitting: Vec<_> =
-            self.case.effects.iter().filter(|effect| SPLITTING.contains(&effect.name)).cloned().collect();
+        let nominal = self.case.nominal.as_ref()?;
         let setting = Setting { device: &self.device, timing: &self.timing, seed: self.seed, case: self.index };
-        self.case.uncouple.then(|| Uncoupler::new(Effects::build(&splitting, &setting), self.device()))
+        let [columns, rows] = RASTER;
+        let calibration = self.calibration_map(columns, rows, self.device.pad_diameter_mm / 2.0);
+        Some(Uncoupler::new(Effects::build(nominal, &setting), self.device(), &calibration))
     }
 
     /// Effects of their own, for what must leave the run as it was.
-    fn fresh_effects(&self) -> Effects {
+    pub(crate) fn fresh_effects(&self) -> Effects {
         let setting = Setting { device: &self.device, timing: &self.timing, seed: self.seed, case: self.index };
         Effects::build(&self.case.effects, &setting)
     }

@@ -7,7 +7,7 @@
 //! profile = "standard"            # the core's; default "standard"
 //! window_samples = 5000           # of the core's window, where the profile's is too short for the haptic frequency
 //! seed = 1                        # of noise and mismatch; default 1
-//! figure = "fig3"                 # fig3 | fig4 | fig6 | hockey; how a report draws it
+//! figure = "fig3"                 # fig3 | fig4 | fig6 | fig7 | hockey; how a report draws it
 //! record = ["frames", "report"]   # frames | report | capture | waves
 //! dwell_slots = 1                 # slots of each pad at each point of a sweep, or
 //! duration_s = 2.0                # time, where pads move and nothing is swept
@@ -20,7 +20,7 @@
 //! load_g = 50                     # see `course`; also haptic_v_rms, capacitance_pf; with
 //!                                 # [hand] push_x_n, push_y_n; with [halves] eccentricity_mm
 //!
-//! [device]                        # width_mm, height_mm, pad_diameter_mm, mu
+//! [device]                        # width_mm, height_mm, pad_diameter_mm, mu, gravity_m_s2
 //! [sheet]                         # effects, each with its `rung`; see `effects`
 //! [supply]
 //! [gap]
@@ -52,6 +52,8 @@ pub enum Figure {
     Fig4,
     /// Friction and eq. 8 over the haptic voltage.
     Fig6,
+    /// Friction, eq. 8 and the pad's voltage over time.
+    Fig7,
     /// Paths of several pads.
     Hockey,
 }
@@ -120,8 +122,13 @@ impl Scene {
     }
 
     fn read_head(root: &Table, name: &str, cases: &[String]) -> Result<Scene, SceneError> {
-        let figures =
-            [("fig3", Figure::Fig3), ("fig4", Figure::Fig4), ("fig6", Figure::Fig6), ("hockey", Figure::Hockey)];
+        let figures = [
+            ("fig3", Figure::Fig3),
+            ("fig4", Figure::Fig4),
+            ("fig6", Figure::Fig6),
+            ("fig7", Figure::Fig7),
+            ("hockey", Figure::Hockey),
+        ];
         let figure = root.choice("figure", &figures.map(|(name, _)| name))?;
         Ok(Scene {
             name: name.to_string(),

@@ -1,44 +1,20 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Pay for what you use: an effect that a scene does not name is never evaluated and changes no bit, and none depends on
-//! what else is asked for, on which thread.
+//! Effects together: those of no size change no bit, and none depends on what else is asked for, on which thread.
 
 mod common;
 
+use common::every::{PARTS, scene_of};
 use common::{plant, scene, timing};
 use hapticore_scene::{CHANNELS, Complex, Plant, SENSE, Truth};
 
-/// Two pads of a case with every effect of the sheet and the sensor chain.
+/// Two pads of a case.
 const PADS: &str = "dwell_slots = 6\n[[pad]]\nposition_mm = [120, -60]\nhaptic_v_rms = 150\n\
                     [[pad]]\nposition_mm = [-200, 90]\ncapacitance_pf = 760\n";
 
-const TABLES: [(&str, &str); 5] = [
-    ("sheet", "[sheet]\n"),
-    ("shunt", "[shunt]\nnanofarad_per_m2 = 9\n"),
-    ("coupling", "[coupling]\n"),
-    ("carrier", "[carrier]\nrung = \"samples\"\n"),
-    ("switching", "[switching]\n"),
-];
-
-const SENSORS: [(&str, &str); 11] = [
-    ("sensor.leakage", "haptic_leakage = true\n"),
-    ("sensor.bandwidth", "bandwidth_khz = 900\n"),
-    ("sensor.jitter", "jitter_ns_rms = 0.1\n"),
-    ("sensor.crosstalk", "crosstalk_percent = 0.1\n"),
-    ("sensor.scale", "gain_error_percent = 1\n"),
-    ("sensor.gain", "gain_mismatch_percent = 1\n"),
-    ("sensor.noise_density", "noise_density_na_per_rthz = 1\n"),
-    ("sensor.offset", "offset_percent = 0.01\n"),
-    ("sensor.noise", "noise_ppm_rms = 18\n"),
-    ("sensor.dither", "dither_lsb_rms = 0.5\n"),
-    ("sensor.quantisation", "quantisation_bits = 16\n"),
-];
-
-/// The scene with all effects but one.
-fn without(left_out: &str) -> String {
-    let keep = |(name, text): &(&str, &'static str)| (*name != left_out).then_some(*text);
-    let (tables, keys): (String, String) =
-        (TABLES.iter().filter_map(keep).collect(), SENSORS.iter().filter_map(keep).collect());
-    format!("{PADS}{tables}[sensor]\n{keys}")
+/// A scene with all effects that have no state: a slot can then be asked for in any order.
+fn all_without_state() -> String {
+    let states = ["gap", "halves", "hand", "friction"];
+    scene_of(&PARTS.iter().filter(|part| !states.contains(&part.name)).collect::<Vec<_>>())
 }
 
 #[derive(Debug, PartialEq)]
@@ -51,24 +27,6 @@ fn see(plant: &mut Plant, slot: usize) -> Seen {
     plant.samples(slot, 0..timing().window_samples, &mut samples);
     assert_eq!(samples.len(), timing().window_samples * CHANNELS);
     Seen(truth, mean_square, phasors, samples)
-}
-
-fn evaluated(plant: &Plant) -> Vec<&'static str> {
-    plant.effects().iter().filter(|cost| cost.evaluations > 0).map(|cost| cost.name).collect()
-}
-
-#[test]
-fn every_effect_named_is_evaluated_and_no_other() {
-    let all: Vec<_> = TABLES.iter().chain(&SENSORS).map(|(name, _)| *name).collect();
-    let mut full = plant(&without(""));
-    see(&mut full, 0);
-    assert_eq!(evaluated(&full), all);
-    for left_out in all.iter().filter(|name| !["sheet", "carrier", "sensor.quantisation"].contains(name)) {
-        let mut plant = plant(&without(left_out));
-        see(&mut plant, 0);
-        let rest: Vec<_> = all.iter().filter(|name| *name != left_out).copied().collect();
-        assert_eq!(evaluated(&plant), rest);
-    }
 }
 
 /// The slots of one pad: the other's effects, and effects of no size, change no bit of it.
@@ -84,7 +42,7 @@ fn effects_that_do_nothing_change_no_bit() {
 
 #[test]
 fn a_metered_plant_and_one_that_is_not_tell_the_same() {
-    let scene = scene(&without(""));
+    let scene = scene(&all_without_state());
     let mut silent = Plant::new(&scene, 0, &timing()).unwrap();
     let mut metered = Plant::new(&scene, 0, &timing()).unwrap().metered();
     assert_eq!(see(&mut silent, 1), see(&mut metered, 1));
@@ -93,7 +51,7 @@ fn a_metered_plant_and_one_that_is_not_tell_the_same() {
 
 #[test]
 fn slots_are_the_same_on_any_number_of_threads_and_in_any_order() {
-    let scene = scene(&without(""));
+    let scene = scene(&all_without_state());
     let one_by_one: Vec<_> = {
         let mut plant = Plant::new(&scene, 0, &timing()).unwrap();
         (0..12).map(|slot| see(&mut plant, slot)).collect()

@@ -18,7 +18,7 @@ const BINS: u32 = 50;
 /// Paths, force, both errors, capacitance, voltage.
 pub fn figures(record: &Record) -> Vec<Figure> {
     let [force, capacitance, voltage] = [FORCE, CAPACITANCE, VOLTAGE].map(|q| general::over_time(record, q));
-    vec![paths(record), force, position_error(record), force_error(record), capacitance, voltage]
+    vec![paths(record), force, position_error(record), force_error(record, "force"), capacitance, voltage]
 }
 
 fn paths(record: &Record) -> Figure {
@@ -91,7 +91,8 @@ fn binned(points: &[Point], value: impl Fn(Vec<f64>) -> f64) -> Vec<Point> {
     chunks.map(|c| (select::mean(c.iter().map(|p| p.0)), value(c.iter().map(|p| p.1).collect()))).collect()
 }
 
-fn force_error(record: &Record) -> Figure {
+/// Measured less true force over time, and the limits of the criterion whose name has the word.
+pub fn force_error(record: &Record, word: &str) -> Figure {
     let error = |r: &Row| r.truth.map_or(f64::NAN, |t| r.measured.force_n - t.quantities.force_n);
     let values: Vec<_> = record.rows.iter().map(error).collect();
     let note = format!("{} N rms over all pads.", number::short(select::rms(values.iter().copied())));
@@ -103,6 +104,6 @@ fn force_error(record: &Record) -> Figure {
     let y = Axis::with_zero("ΔF (N)", values);
     let mut plot = Plot::new("Measured less true force", general::time_axis(record), y, series);
     plot.breaks = general::breaks(record);
-    plot.limits = select::limit(record, "N", "force").map_or(Vec::new(), |limit| vec![-limit, limit]);
+    plot.limits = select::limit(record, "N", word).map_or(Vec::new(), |limit| vec![-limit, limit]);
     Figure::plot("Force error", &note, &plot)
 }

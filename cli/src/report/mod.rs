@@ -7,7 +7,7 @@
 //! | `figure`, `plot`, `frame`, `map` | a figure, a plot over two axes and what stands around it, a map of the sheet |
 //! | `axis`, `series`, `paint`, `number` | ticks, points, colours of both modes, numbers as text |
 //! | `select`, `sweep` | rows by case, setting and pad; settings by load and voltage |
-//! | `fig3`, `fig4`, `fig6`, `hockey`, `general` | the figures of a scene |
+//! | `fig3`, `fig4`, `fig6`, `fig7`, `hockey`, `general` | the figures of a scene |
 
 mod axis;
 #[cfg(test)]
@@ -16,6 +16,7 @@ mod fig3;
 mod fig3_maps;
 mod fig4;
 mod fig6;
+mod fig7;
 mod figure;
 mod frame;
 mod general;
@@ -65,6 +66,7 @@ fn chosen(record: &Record) -> Vec<Figure> {
         Some("fig3") => fig3::figures(record),
         Some("fig4") => fig4::figures(record),
         Some("fig6") => fig6::figures(record),
+        Some("fig7") => fig7::figures(record),
         Some("hockey") => hockey::figures(record),
         _ => general::figures(record),
     }

@@ -4,7 +4,8 @@
 use super::*;
 use crate::record::{Criterion, Effect, Quantities, Reference, Row, SignalError, Truth};
 
-const FIGURES: [Option<&str>; 6] = [Some("fig3"), Some("fig4"), Some("fig6"), Some("hockey"), Some("fig99"), None];
+const FIGURES: [Option<&str>; 7] =
+    [Some("fig3"), Some("fig4"), Some("fig6"), Some("fig7"), Some("hockey"), Some("fig99"), None];
 
 /// A report may be this large, bytes.
 const MOST_BYTES: usize = 1_500_000;

@@ -49,6 +49,10 @@ impl Table {
         self.entries.insert(key.to_string(), (node, Cell::new(false)));
     }
 
+    pub fn remove(&mut self, key: &str) {
+        self.entries.remove(key);
+    }
+
     /// The entry at `key`, made by `missing` where there is none.
     pub fn entry(&mut self, key: &str, missing: impl FnOnce() -> Node) -> &mut Node {
         &mut self.entries.entry(key.to_string()).or_insert_with(|| (missing(), Cell::new(false))).0

@@ -2,6 +2,8 @@
 //! What several tests share: scenes of one pad, an ideal demodulator and PHYSICS §2's exact inversion.
 #![allow(dead_code, reason = "each test file uses a part")]
 
+pub mod every;
+
 use std::f64::consts::TAU;
 
 use hapticore_scene::{CHANNELS, Complex, Plant, SENSE, Scene, TERMINALS, Timing};

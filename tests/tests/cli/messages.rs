@@ -70,6 +70,36 @@ fn bad_input_is_one_line() {
     assert_eq!(String::from_utf8(said).unwrap().lines().count(), 1);
 }
 
+/// A scene of one pad, of which each adds a line 4 and further.
+const PAD: &str = "title = \"t\"\n[[pad]]\nposition_mm = [0, 0]\n";
+
+#[test]
+fn a_bad_scene_is_one_line_that_names_line_and_key() {
+    let folder = tempfile::tempdir().unwrap();
+    let refuse = |text: &str, place: &str| {
+        fs::write(folder.path().join("bad.toml"), text).unwrap();
+        refuse(folder.path(), &["simulate", "bad.toml"], &[place]);
+    };
+    for (added, place) in [
+        ("[magnet]\nrung = \"a\"", "bad.toml:4: magnet: unknown key"),
+        ("[gap]\nrung = \"marble\"", "bad.toml:5: gap.rung: expected one of \"static\", \"quasi-static\""),
+        ("load = 20", "bad.toml:4: pad.0.load: expected load_g, since a key names its unit"),
+        ("[gap]\ninsulator_um = -8", "bad.toml:5: gap.insulator_um: expected a number above 0, got -8"),
+        ("load_g = { timeline = [] }", "bad.toml:4: pad.0.load_g.timeline: expected a list of pairs"),
+        ("load_g = { timeline = [[0, 1], [1, 2], [0, 1]] }", "bad.toml:4: pad.0.load_g.timeline: expected times that"),
+        (
+            "[gap]\nrung = \"tr-bdf2\"\nstep_us = 1500",
+            "bad.toml:6: gap.step_us: expected at most 1000, since near the fold",
+        ),
+    ] {
+        refuse(&format!("{PAD}{added}\n"), place);
+    }
+    refuse(&PAD.replace("[0, 0]", "[500, 0]"), "bad.toml:3: pad.0.position_mm: expected the pad's centre within");
+    for nonsense in ["%&@\u{0}\u{1b}[2J ", "[[[[", "é\n"] {
+        refuse(&nonsense.repeat((1 << 20) / nonsense.len()), "bad.toml:1: ");
+    }
+}
+
 #[test]
 fn phasors_alone_do_for_slots() {
     let folder = tempfile::tempdir().unwrap();

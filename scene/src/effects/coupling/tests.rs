@@ -48,7 +48,7 @@ pub(crate) fn placements(count: usize, margin_mm: f64) -> Vec<[[f64; 2]; 4]> {
 }
 
 /// Where a lone pad would read these ratios: Newton's steps on the exact map.
-pub(crate) fn place_of(exact: &Analytic, (r_x, r_y): (f64, f64), from: [f64; 2]) -> [f64; 2] {
+pub(crate) fn place_of(exact: &impl Solver, (r_x, r_y): (f64, f64), from: [f64; 2]) -> [f64; 2] {
     let read = |[x, y]: [f64; 2]| {
         let (a, b) = ratios(&exact.split(x, y).share);
         [a - r_x, b - r_y]

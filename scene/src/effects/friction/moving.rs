@@ -8,7 +8,6 @@ use crate::device::Device;
 use crate::effects::hand::Hand;
 use crate::effects::sheet::ideal_split;
 use crate::effects::{Pad, PadEffect};
-use crate::pad::NEWTON_PER_G;
 use crate::path::SLACK_MM;
 
 /// The effect: a law, and where each pad is.
@@ -39,7 +38,7 @@ impl Moving {
     /// Where the path, the push and the friction's strength are now.
     fn now(&self, pad: &Pad) -> Track {
         let at_m = [1e-3 * pad.x_mm, 1e-3 * pad.y_mm];
-        let sliding_n = self.device.mu * (pad.load_g * NEWTON_PER_G + pad.attraction_n);
+        let sliding_n = self.device.mu * (self.device.weight_n(pad.load_g) + pad.attraction_n);
         let motion = Motion::default();
         Track { time_s: pad.time_s, hand_m: at_m, pad_m: at_m, push_n: pad.push_n, sliding_n, motion }
     }

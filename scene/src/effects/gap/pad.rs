@@ -7,7 +7,6 @@ use super::law::{Drive, Law, State};
 use super::quasi_static;
 use crate::device::EPSILON_0;
 use crate::effects::{Pad, PadEffect};
-use crate::pad::NEWTON_PER_G;
 
 /// How a pad's gaps follow their drive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,16 +21,13 @@ pub(super) enum Motion {
 pub(super) struct Rubber {
     pub law: Law,
     pub patch_m2: f64,
-    pub pad_m2: f64,
+    /// W/S of a gram.
+    pub pa_per_g: f64,
     /// g₀ of each patch.
     pub rest_m: Vec<f64>,
 }
 
 impl Rubber {
-    pub fn pressure_pa(&self, load_g: f64) -> f64 {
-        load_g * NEWTON_PER_G / self.pad_m2
-    }
-
     pub fn capacitance_f(&self, gaps_m: impl Iterator<Item = f64>) -> f64 {
         gaps_m.map(|gap| EPSILON_0 * self.patch_m2 / (gap + self.law.insulator_m)).sum()
     }
@@ -93,7 +89,7 @@ impl Gap {
     /// Voltage at the pad and relaxed gaps. Behind a supply the voltage falls as the capacitance rises, and that rises with
     /// the voltage: there is one voltage that agrees, found by halving.
     fn rest(&self, pad: &Pad) -> (f64, Vec<f64>) {
-        let pressure_pa = self.rubber.pressure_pa(pad.load_g);
+        let pressure_pa = self.rubber.pa_per_g * pad.load_g;
         let gaps = |volt: f64| self.rubber.equilibrium_m(Drive::new(volt, pressure_pa));
         let (mut low, mut high) = (0.0, pad.source_v_rms);
         if pad.supply.is_none() {
@@ -122,7 +118,7 @@ impl Gap {
 
     /// The pad at the start of the case, when its voltage is switched on: relaxed under its load.
     fn begin(&self, pad: &Pad) -> Moving {
-        let pressure_pa = self.rubber.pressure_pa(pad.load_g);
+        let pressure_pa = self.rubber.pa_per_g * pad.load_g;
         let gaps = self.rubber.equilibrium_m(Drive::new(0.0, pressure_pa));
         let still = |(gap_m, rest_m): (f64, &f64)| State { gap_m, speed_m_s: 0.0, creep_m: rest_m - gap_m };
         let patches = gaps.zip(&self.rubber.rest_m).map(still).collect();
@@ -132,7 +128,7 @@ impl Gap {
     fn advance(&self, mut moving: Moving, pad: &Pad) -> Moving {
         let span_s = (pad.time_s - moving.time_s).max(0.0);
         let steps = (span_s / self.step_s).ceil();
-        let pressure_pa = self.rubber.pressure_pa(pad.load_g);
+        let pressure_pa = self.rubber.pa_per_g * pad.load_g;
         for step in 0..steps as usize {
             let seen = self.seen_square(&moving.patches, pad);
             let drive = |fraction: f64| {

@@ -88,5 +88,5 @@ fn read_rubber(table: &Table, device: &Device) -> Result<Rubber, SceneError> {
         inertia_kg_m2: table.number_or("inertia_kg_m2", Limits::POSITIVE, 7.0)?,
     };
     let rest_m = rest_um.iter().map(|um| 1e-6 * (um - insulator_um)).collect();
-    Ok(Rubber { law, patch_m2, pad_m2: device.pad_area_m2, rest_m })
+    Ok(Rubber { law, patch_m2, pa_per_g: device.weight_n(1.0) / device.pad_area_m2, rest_m })
 }

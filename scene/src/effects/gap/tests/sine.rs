@@ -6,7 +6,7 @@ use std::f64::consts::{SQRT_2, TAU};
 use super::*;
 
 const STEP_S: f64 = 1e-5;
-const PRESSURE_PA: f64 = 693.7;
+const PRESSURE_PA: f64 = 707.4;
 
 /// The pad's Σ1/(g+d) and Σpull/(g+d)² over the last tenth of a second: capacitance and force, up to factors.
 fn tail(volt: f64, sine_hz: Option<f64>) -> [Vec<f64>; 2] {

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The paper's Fig. 7: friction and what eq. 8 makes of it over time, the pad's capacitance, and its voltage, which falls.
+
+use super::figure::Figure;
+use super::general::{self, CAPACITANCE, FORCE, Quantity};
+use super::hockey::force_error;
+use crate::record::Record;
+
+/// Below this the haptic voltage is off, V rms.
+const OFF_V: f64 = 1.0;
+
+/// Voltage on an axis of its own range, since it falls by some percent.
+const VOLTAGE: Quantity =
+    ("Haptic voltage while it is on", "V rms (V)", |q| if q.haptic_v_rms > OFF_V { q.haptic_v_rms } else { f64::NAN });
+
+/// Force, its error, capacitance, voltage.
+pub fn figures(record: &Record) -> Vec<Figure> {
+    let [force, capacitance, voltage] = [FORCE, CAPACITANCE, VOLTAGE].map(|q| general::over_time(record, q));
+    vec![force, force_error(record, "estimate"), capacitance, voltage]
+}

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Pay for what you use: an effect that a scene does not name is not built, never evaluated, holds no memory and leaves the
+//! bits of the run alone.
+
+mod common;
+
+use allocation_counter::measure;
+use common::every::{PARTS, Part, optional, scene_of};
+use common::{plant, scene, timing};
+use hapticore_scene::{CHANNELS, Complex, Plant, SENSE, Scene, Truth};
+
+const SLOTS: usize = 6;
+
+fn parts(keep: impl Fn(&Part) -> bool) -> Vec<&'static Part> {
+    PARTS.iter().filter(|part| keep(part)).collect()
+}
+
+/// All effects but one and those that need it.
+fn all_but(name: &str) -> Vec<&'static Part> {
+    parts(|part| !part.goes_with(name))
+}
+
+fn names(parts: &[&Part]) -> Vec<&'static str> {
+    parts.iter().map(|part| part.name).collect()
+}
+
+#[derive(Debug, PartialEq)]
+struct Seen(Truth, f64, [Complex; SENSE + 1], Vec<f64>);
+
+fn see(plant: &mut Plant, slot: usize) -> Seen {
+    let (mut phasors, mut samples) = ([Complex::default(); SENSE + 1], Vec::new());
+    let truth = plant.truth(slot);
+    let mean_square = plant.phasors(slot, &mut phasors);
+    plant.samples(slot, 0..timing().window_samples, &mut samples);
+    Seen(truth, mean_square, phasors, samples)
+}
+
+fn run(text: &str, overrides: &[(String, String)]) -> Vec<Seen> {
+    let scene = Scene::parse(&format!("title = \"t\"\n{text}"), "s.toml", overrides);
+    let mut plant = Plant::new(&scene.unwrap_or_else(|error| panic!("{error}")), 0, &timing()).unwrap();
+    (0..SLOTS).map(|slot| see(&mut plant, slot)).collect()
+}
+
+/// Evaluations of each effect over the run.
+fn evaluations(parts: &[&Part]) -> Vec<(&'static str, u64)> {
+    let mut plant = plant(&scene_of(parts));
+    (0..SLOTS).for_each(|slot| drop(see(&mut plant, slot)));
+    plant.effects().into_iter().map(|cost| (cost.name, cost.evaluations)).collect()
+}
+
+/// An effect on a pad acts once a slot, on each pad where pads are coupled; one on all pads once; one on the channels on
+/// amplitudes and on samples.
+fn expected(parts: &[&Part]) -> Vec<(&'static str, u64)> {
+    let coupled = parts.iter().any(|part| part.name == "coupling");
+    let each = |name: &str| match name {
+        "coupling" => 1,
+        "carrier" | "switching" => 2,
+        name if name.starts_with("sensor.") => 2,
+        _ => 1 + u64::from(coupled),
+    };
+    names(parts).into_iter().map(|name| (name, SLOTS as u64 * each(name))).collect()
+}
+
+#[test]
+fn every_effect_that_a_scene_names_is_evaluated_as_often_as_it_must_be_and_no_other() {
+    assert_eq!(evaluations(&parts(|_| true)), expected(&parts(|_| true)));
+    for left_out in optional() {
+        assert_eq!(
+            evaluations(&all_but(left_out.name)),
+            expected(&all_but(left_out.name)),
+            "without {}",
+            left_out.name
+        );
+    }
+    let carrier = parts(|part| part.name == "carrier");
+    assert_eq!(evaluations(&carrier), expected(&carrier));
+}
+
+#[test]
+fn a_run_without_an_effect_has_the_bits_of_one_that_never_had_it() {
+    let all = scene_of(&parts(|_| true));
+    let full = run(&all, &[]);
+    for left_out in optional() {
+        let gone = parts(|part| part.goes_with(left_out.name));
+        let off: Vec<_> = gone.iter().map(|part| part.off()).collect();
+        let never = run(&scene_of(&all_but(left_out.name)), &[]);
+        assert!(run(&all, &off) == never, "{} switched off", left_out.name);
+        assert!(full != never, "{} changes nothing where it is on", left_out.name);
+    }
+}
+
+/// Bytes that a plant holds.
+fn held(parts: &[&Part]) -> i64 {
+    let scene = scene(&scene_of(parts));
+    let mut plant = None;
+    let memory = measure(|| plant = Some(Plant::new(&scene, 0, &timing()).unwrap()));
+    drop(plant);
+    memory.bytes_current
+}
+
+/// What an effect holds is gone with it: as much among all others as on the least scene that has it, so that none keeps
+/// anything for another, and none anything for itself where it is not named. (Shunt and coupling are looked at one by one:
+/// pads are coupled through what the shunt makes of the sheet.)
+#[test]
+fn an_effect_that_a_scene_leaves_out_holds_no_memory() {
+    held(&parts(|_| true)); // whatever a library keeps for ever is there now
+    println!("all effects hold {} bytes", held(&parts(|_| true)));
+    for one in optional() {
+        let needed = |part: &Part| part.name == "carrier" || one.needs(part.name);
+        let alone = held(&parts(|part| part.name == one.name || needed(part))) - held(&parts(needed));
+        let tied = |part: &Part| {
+            part.needs(one.name) || [("shunt", "coupling"), ("coupling", "shunt")].contains(&(one.name, part.name))
+        };
+        let among = held(&parts(|part| !tied(part))) - held(&parts(|part| !tied(part) && part.name != one.name));
+        println!("{}: {alone} bytes alone, {among} among all others", one.name);
+        assert!(alone > 0 && alone == among, "{}: {alone} bytes alone, {among} among all others", one.name);
+    }
+}
+
+/// Allocations of a slot: truth, amplitudes, and samples into a buffer that is there.
+fn allocations(parts: &[&Part]) -> u64 {
+    let mut plant = Plant::new(&scene(&scene_of(parts)), 0, &timing()).unwrap();
+    let mut samples = Vec::with_capacity(timing().window_samples * CHANNELS);
+    let mut phasors = [Complex::default(); SENSE + 1];
+    let mut slot = |slot: usize| {
+        samples.clear();
+        plant.truth(slot);
+        plant.phasors(slot, &mut phasors);
+        plant.samples(slot, 0..timing().window_samples, &mut samples);
+    };
+    (0..SLOTS).for_each(&mut slot); // states that grow with the pads are there now
+    measure(|| (SLOTS..2 * SLOTS).for_each(&mut slot)).count_total
+}
+
+#[test]
+fn a_slot_allocates_nothing_but_for_transients_and_coupled_pads() {
+    const ALLOCATE: [&str; 2] = ["coupling", "switching"];
+    for one in optional() {
+        let with = parts(|part| part.name == "carrier" || part.name == one.name || one.needs(part.name));
+        let count = allocations(&with);
+        assert_eq!(count > 0, ALLOCATE.contains(&one.name), "{}: {count} allocations", one.name);
+    }
+    assert_eq!(allocations(&parts(|part| !ALLOCATE.contains(&part.name))), 0, "all others together");
+}
