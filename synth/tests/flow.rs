@@ -10,10 +10,7 @@ use std::fs;
 
 fn check(name: &str) {
     let path = root().join(format!("synth/reports/{name}.json"));
-    let Ok(text) = fs::read_to_string(&path) else {
-        eprintln!("SKIPPED: no report of {name} yet, for its limits do not hold: synth/run {name}");
-        return;
-    };
+    let text = fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}: synth/run {name}", path.display()));
     let Some(tools) = Tools::or_skip() else { return };
     let report: BoardReport = serde_json::from_str(&text).expect("a report");
     let board = board(name).expect("a board");
