@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a core is given, clock by clock: the calibration through its port, then sets of ADC codes.
+//! What a core is given, clock by clock: the calibration through its port, then sets of ADC codes. And what a block alone is
+//! given, one operation after the other.
 
+use std::collections::VecDeque;
 use std::f64::consts::TAU;
 
 use fastrand::Rng;
@@ -86,6 +88,103 @@ pub fn corner(rng: &mut Rng, format: Format) -> i64 {
 /// Any code, each alike.
 fn anything(rng: &mut Rng, format: Format) -> i64 {
     rng.i64(format.min_code() as i64..=format.max_code() as i64)
+}
+
+/// A corner, any code, one of two bits, or of ones, or one of any length with any number of zeros at its end: products of such codes are of
+/// every size, and halves, or what is next to them, come often where they are rounded.
+pub fn shaped(rng: &mut Rng, format: Format) -> i64 {
+    match rng.u8(..8) {
+        0 => corner(rng, format),
+        1 | 2 => anything(rng, format),
+        kind => {
+            let length = rng.u8(..=format.width.min(61));
+            let (code, zeros) = (rng.i64(0..1 << length), rng.u8(..=length));
+            let code = match kind {
+                3 => (1 << length) + (1 << zeros),
+                4 => (1 << length) - 1,
+                _ => code >> zeros << zeros,
+            };
+            let code = if format.min_code() == 0 || rng.bool() { code } else { -code };
+            code.clamp(format.min_code() as i64, format.max_code() as i64)
+        }
+    }
+}
+
+/// Operations of a block alone: operands that hold while it works, a clock of `start`, and rest until some clocks after `done`.
+/// Where words stream in (`valid`, `index`), all of them one after the other; where there is a table of so many words, it is
+/// filled, and some of it is written anew before each operation. Operands are [`shaped`], or one of them is such that its product
+/// with another ends in a one, zeros and a one, next to a half. Where there is no `done`, the block is given so many clocks.
+///
+/// # Panics
+/// Where the block has neither `start` nor `valid`.
+pub fn operations<B: Block>(
+    block: &B,
+    seed: u64,
+    operations: usize,
+    words: i64,
+    clocks: u32,
+) -> impl FnMut(&[i64]) -> Option<Vec<i64>> + use<B> {
+    let (mut rng, mut formats) = (Rng::with_seed(seed), Vec::new());
+    B::Inputs::each(block.inputs(), |name, format| formats.push((name, format)));
+    let at = move |wanted: &str| B::Inputs::NAMES.iter().position(|name| *name == wanted);
+    let done = B::Outputs::NAMES.iter().position(|name| *name == "done");
+    let mut operands = vec![0; formats.len()];
+    let mut script: VecDeque<Vec<i64>> = VecDeque::new();
+    let (mut left, mut first, mut waiting) = (operations, true, 0);
+    move |outputs| {
+        waiting = if done.is_some_and(|done| outputs[done] == 1) { 0_u32 } else { waiting.saturating_sub(1) };
+        if script.is_empty() && waiting == 0 {
+            left = left.checked_sub(1)?;
+            waiting = if done.is_some() { 1 << 20 } else { clocks };
+            operands = formats.iter().map(|&(_, format)| shaped(&mut rng, format)).collect();
+            next_to_half(&mut rng, &mut operands, &formats);
+            if let Some(window) = at("window") {
+                // The oscillator gives no −1, and the demodulator relies on it.
+                operands[window] = operands[window].max(formats[window].1.min_code() as i64 + 1);
+            }
+            let strobes = ["start", "valid", "write"].map(at);
+            strobes.iter().flatten().for_each(|&strobe| operands[strobe] = 0);
+            let with = |of: &[(Option<usize>, i64)]| {
+                let mut row = operands.clone();
+                of.iter().for_each(|&(port, code)| row[port.expect("a port")] = code);
+                row
+            };
+            if let (Some(_), Some(word)) = (strobes[2], at("word")) {
+                let addresses: Vec<_> =
+                    if first { (0..words).collect() } else { (0..8).map(|_| rng.i64(0..words)).collect() };
+                for address in addresses {
+                    let code = shaped(&mut rng, formats[word].1);
+                    script.push_back(with(&[(strobes[2], 1), (at("address"), address), (Some(word), code)]));
+                }
+            }
+            first = false;
+            (0..rng.u8(..4)).for_each(|_| script.push_back(operands.clone()));
+            if strobes[0].is_some() {
+                script.push_back(with(&[(strobes[0], 1)]));
+            } else {
+                let (index, sum) = (at("index").expect("a port"), at("sum").expect("a port"));
+                for word in 0..=words {
+                    let code = shaped(&mut rng, formats[sum].1);
+                    script.push_back(with(&[(strobes[1], 1), (Some(index), word), (Some(sum), code)]));
+                }
+            }
+        }
+        Some(script.pop_front().unwrap_or_else(|| operands.clone()))
+    }
+}
+
+/// Now and then, makes one operand such that the lowest bits of its product with another, odd one are a one, zeros and a one.
+fn next_to_half(rng: &mut Rng, operands: &mut [i64], formats: &[(&str, Format)]) {
+    let (a, b) = (rng.usize(..operands.len()), rng.usize(..operands.len()));
+    let (width, low) = (formats[b].1.width.min(32), formats[b].1.min_code() as i64);
+    if a == b || operands[a] % 2 == 0 || rng.bool() {
+        return;
+    }
+    // Newton's iteration for 1/a modulo 2^64: from 3 bits that are right to 96.
+    let odd = operands[a];
+    let inverse = (0..5).fold(odd, |x, _| x.wrapping_mul(2_i64.wrapping_sub(odd.wrapping_mul(x))));
+    let wanted = 1 + (1 << rng.u8(width / 2..=width));
+    operands[b] = (inverse.wrapping_mul(wanted) & ((1 << width) - 1)) + low;
 }
 
 /// Writes into the table while it is read, now and then.

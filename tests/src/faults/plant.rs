@@ -28,6 +28,16 @@ impl Planted {
         let plant = |file: &File| Module::new(file, &mut faults).planted(&file.text);
         Planted { verilog: design.modules.iter().map(plant).collect(), faults }
     }
+
+    /// The Verilog of one module with those within it, as `alone`: Verilator takes no port with the name of the top module.
+    ///
+    /// # Panics
+    /// Where there is no such module.
+    pub fn alone(&self, module: &str) -> String {
+        let (before, rest) = self.verilog.split_once(&format!("module {module} (")).expect("a module");
+        let (within, _) = rest.split_once("endmodule").expect("a module's end");
+        format!("{before}module alone ({within}endmodule\n")
+    }
 }
 
 /// A module while it is written.
