@@ -147,7 +147,7 @@ impl<'a> Module<'a> {
     }
 
     fn condition(&mut self, value: &str, rest: &str) -> String {
-        let numbered = self.numbered("a condition", variants(value));
+        let numbered = self.numbered(&format!("if ({value})"), variants(value));
         let faulty: String =
             numbered.into_iter().map(|(number, value)| format!("fault == {number} ? ({value}) : ")).collect();
         let (before, behind) = rest.split_once('\n').expect("two sides");
