@@ -225,12 +225,15 @@ pub fn scene(profile: &Profile, name: &str, slots: usize) -> Stimulus {
 }
 
 /// Tones in step with the carrier, of any phase, or all of one, and of no, small, full or clipped amplitude, other ones in each
-/// slot, as is the calibration; its tables as of [`random`]. Where random codes average out, these fill every word.
+/// slot, as is the calibration; its tables as of [`random`]. Where random codes average out, these fill every word. In half of the
+/// slots they begin late: of a tone that lasts, a window's cosine adds nothing to the sum, whatever its sign.
 pub fn tones(profile: &Profile, seed: u64, slots: u64) -> Stimulus {
     let (mut rng, channels, adc) = (Rng::with_seed(!seed), profile.channels(), profile.formats.adc);
     let (samples, period) = (profile.slot.samples(), profile.carrier.samples_per_period);
     let tone = |rng: &mut Rng| (rng.f64(), [0.0, 0.01, 0.1, 0.5, 0.9, 1.0, 3.0][rng.usize(..7)]);
+    let mut onsets = Rng::with_seed(seed ^ 1 << 32);
     let slot = move |_| {
+        let onset = if onsets.bool() { 0 } else { onsets.u64(..samples) };
         let mut tones: Vec<(f64, f64)> = (0..channels).map(|_| tone(&mut rng)).collect();
         if rng.bool() {
             let one = tones[0].0;
@@ -238,7 +241,10 @@ pub fn tones(profile: &Profile, seed: u64, slots: u64) -> Stimulus {
         }
         (0..samples).map(move |sample| {
             let turns = sample as f64 / period as f64;
-            let code = |&(phase, level): &(f64, f64)| adc.code_saturating(level * (TAU * (turns + phase)).cos());
+            let code = |&(phase, level): &(f64, f64)| match sample < onset {
+                true => 0,
+                false => adc.code_saturating(level * (TAU * (turns + phase)).cos()),
+            };
             tones.iter().map(code).collect()
         })
     };
