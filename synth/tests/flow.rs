@@ -10,7 +10,8 @@ use std::fs;
 
 fn check(name: &str) {
     let path = root().join(format!("synth/reports/{name}.json"));
-    let text = fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}: synth/run {name}", path.display()));
+    let text =
+        fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}: synth/run {name}", path.display()));
     let Some(tools) = Tools::or_skip() else { return };
     let report: BoardReport = serde_json::from_str(&text).expect("a report");
     let board = board(name).expect("a board");
