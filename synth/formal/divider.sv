@@ -38,7 +38,7 @@
     wire [W-1:0] dividend = {{W{1'b0}}, given_numerator} << PAD;
     wire [W-1:0] taken = dividend >> (Q - found);
     wire [Q-1:0] still = dividend[Q-1:0] << found;
-    wire too_large = (dividend >> Q) >= given_denominator;
+    wire overflows = (dividend >> Q) >= given_denominator;
     wire [D+1:0] twice = 2 * remainder;
 
     // The contract of the caller.
@@ -51,7 +51,7 @@
         assert (!(busy && done));
         if (busy) assert (age == count + 1);
         if (busy || done) begin
-            if (count != 0) assert (over == too_large);
+            if (count != 0) assert (over == overflows);
             if (done) assert (count == Q + 2);
             if (count == 0 || !over) begin
                 assert (partial >> found == 0);
@@ -70,7 +70,7 @@
         // What is claimed.
         if (done) begin
             assert (age == LATENCY);
-            if (too_large) begin
+            if (overflows) begin
                 assert (saturated && &quotient);
             end else if (saturated) begin
                 // Rounded up past the rail.

@@ -32,7 +32,7 @@ pub const BOARDS: [Board; 2] = [
     Board {
         target: Target::Icebreaker,
         family: Family::Ice40,
-        least_mhz: 1.2 * 12.0,
+        least_mhz: 14.4, // 1.2 × 12
         most: Some([5280 * 3 / 4, 8, 30]),
     },
 ];

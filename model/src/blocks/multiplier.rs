@@ -18,7 +18,7 @@
 
 use crate::block::{Block, Cell};
 use crate::format::{BIT, Format};
-use crate::signal::{Exact, Floor, Never, Signal, Value, bit, int};
+use crate::signal::{Exact, Floor, Never, Signal, Value, bit};
 use crate::{bundle, when};
 
 bundle! {
@@ -100,12 +100,12 @@ impl Multiplier {
         self.registers.product
     }
 
-    /// An operand as a multiple of `2^low` and the rest.
+    /// An operand as a multiple of `2^low` and the rest: nothing where numbers are not rounded.
     #[inline(always)]
     fn halves<V: Value>(operand: Signal<V>, low: u8) -> (Signal<V>, Signal<V>) {
         let Format { signed, width, .. } = operand.format;
         let high = operand.fit(Format { signed, width: width - low, frac: -(low as i8) }, Floor, Never);
-        let rest = operand.bits(0, low).ideally(&[operand, int(1 << low)], |of| of[0].rem_euclid(of[1]));
+        let rest = operand.bits(0, low).ideally(&[operand], |_| 0.0);
         (high, rest)
     }
 
