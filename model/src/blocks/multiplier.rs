@@ -18,7 +18,7 @@
 
 use crate::block::{Block, Cell};
 use crate::format::{BIT, Format};
-use crate::signal::{Exact, Floor, Never, Signal, Value, bit};
+use crate::signal::{Exact, Floor, Never, Signal, Value, bit, int};
 use crate::{bundle, when};
 
 bundle! {
@@ -105,7 +105,7 @@ impl Multiplier {
     fn halves<V: Value>(operand: Signal<V>, low: u8) -> (Signal<V>, Signal<V>) {
         let Format { signed, width, .. } = operand.format;
         let high = operand.fit(Format { signed, width: width - low, frac: -(low as i8) }, Floor, Never);
-        let rest = operand.bits(0, low).ideally(&[operand], |_| 0.0);
+        let rest = operand.bits(0, low).ideally(&[operand, high, int(1 << low)], |of| of[0] - of[1] / of[2] * of[2]);
         (high, rest)
     }
 
