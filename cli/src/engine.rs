@@ -119,9 +119,7 @@ struct Clock(ClockSimulation, Arc<Profile>);
 
 impl Engine for Clock {
     fn slot(&mut self, slot: &Slot) -> Option<Reading> {
-        for codes in slot.whole().chunks_exact(self.1.channels()) {
-            self.0.sample(codes);
-        }
+        self.0.samples(slot.whole());
         self.0.take_frame().map(|frame| frame.reading(&self.1))
     }
 

@@ -4,7 +4,6 @@
 use std::path::PathBuf;
 
 use anyhow::{Context, Result};
-use hapticore_model::blocks::core::Core;
 use hapticore_model::profile::Profile;
 use hapticore_rtl::board::Target;
 use hapticore_rtl::component;
@@ -36,7 +35,7 @@ pub fn run(args: &HdlArgs) -> Result<bool> {
 
 /// The core: a file for each module.
 fn write_core(output: &Output, profile: &Profile) -> Result<String> {
-    let design = Design::of(&Core::new(profile), &format!("hapticore hdl --profile {}", profile.name));
+    let design = Design::of_core(profile);
     design.modules.iter().try_for_each(|file| output.write(&format!("{}.v", file.name), &file.text))?;
     Ok(design.top().to_owned())
 }

@@ -84,6 +84,25 @@ macro_rules! when {
     };
 }
 
+/// `next!(V, Registers, block, cell, bit => a, …, else b)`: the registers of a cell take the bundle of the first bit that is
+/// set, or the last. Readings that know every bit store within the branch, where the compiler sees which registers keep what
+/// they hold.
+#[macro_export]
+macro_rules! next {
+    (@chosen $reading:ident, $bundle:ident, else $b:expr) => { $b };
+    (@chosen $reading:ident, $bundle:ident, $bit:expr => $a:expr, $($others:tt)+) => {
+        $crate::when!($reading, $bundle, $bit, $a, $crate::next!(@chosen $reading, $bundle, $($others)+))
+    };
+    ($reading:ident, $bundle:ident, $block:expr, $cell:expr, $($bit:expr => $a:expr,)+ else $b:expr $(,)?) => {
+        if $reading::DECIDES {
+            $(if $crate::signal::is_set($bit) { $cell.store($block, $a) } else)+ { $cell.store($block, $b) }
+        } else {
+            let next = $crate::next!(@chosen $reading, $bundle, $($bit => $a,)+ else $b);
+            $cell.store($block, next);
+        }
+    };
+}
+
 /// `choose!(V, bit, a, b)`: the signal `a` where the bit is set, else `b`, as [`when!`](crate::when!) does for bundles. For
 /// alternatives that cost something; for others `bit.select(a, b)` does.
 #[macro_export]

@@ -57,12 +57,25 @@ impl Format {
         if self.signed { -(1i128 << (self.width - 1)) } else { 0 }
     }
 
-    /// This unsigned integer format, with what makes it one spelt out: where it is asked for at every clock, the compiler
-    /// then knows that a counter has no point to align.
+    /// This unsigned integer format: [`Format::with_point`] for a counter.
     #[inline(always)]
     pub const fn counting(self) -> Self {
         debug_assert!(!self.signed && self.frac == 0);
         Format::unsigned(self.width, 0)
+    }
+
+    /// This format, whose point is known to be there: said where it is asked for at every clock, for the compiler then knows
+    /// which formats have theirs at the same place, and need no aligning.
+    #[inline(always)]
+    pub const fn with_point(self, frac: i8) -> Self {
+        debug_assert!(self.frac == frac);
+        Format { frac, ..self }
+    }
+
+    /// The codes of this format, read as integers.
+    #[inline(always)]
+    pub const fn integer(self) -> Self {
+        Format { frac: 0, ..self }
     }
 
     /// What one code step is worth.

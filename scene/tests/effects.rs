@@ -4,8 +4,8 @@
 mod common;
 
 use common::every::{PARTS, scene_of};
-use common::{plant, scene, timing};
-use hapticore_scene::{CHANNELS, Complex, Plant, SENSE, Truth};
+use common::{plant, scene, see, timing};
+use hapticore_scene::{Complex, Plant, SENSE};
 
 /// Two pads of a case.
 const PADS: &str = "dwell_slots = 6\n[[pad]]\nposition_mm = [120, -60]\nhaptic_v_rms = 150\n\
@@ -15,18 +15,6 @@ const PADS: &str = "dwell_slots = 6\n[[pad]]\nposition_mm = [120, -60]\nhaptic_v
 fn all_without_state() -> String {
     let states = ["gap", "halves", "hand", "friction"];
     scene_of(&PARTS.iter().filter(|part| !states.contains(&part.name)).collect::<Vec<_>>())
-}
-
-#[derive(Debug, PartialEq)]
-struct Seen(Truth, f64, [Complex; SENSE + 1], Vec<f64>);
-
-fn see(plant: &mut Plant, slot: usize) -> Seen {
-    let (mut phasors, mut samples) = ([Complex::default(); SENSE + 1], Vec::new());
-    let truth = plant.truth(slot);
-    let mean_square = plant.phasors(slot, &mut phasors);
-    plant.samples(slot, 0..timing().window_samples, &mut samples);
-    assert_eq!(samples.len(), timing().window_samples * CHANNELS);
-    Seen(truth, mean_square, phasors, samples)
 }
 
 /// The slots of one pad: the other's effects, and effects of no size, change no bit of it.

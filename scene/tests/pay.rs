@@ -6,8 +6,8 @@ mod common;
 
 use allocation_counter::measure;
 use common::every::{PARTS, Part, optional, scene_of};
-use common::{plant, scene, timing};
-use hapticore_scene::{CHANNELS, Complex, Plant, SENSE, Scene, Truth};
+use common::{Seen, plant, scene, see, timing};
+use hapticore_scene::{CHANNELS, Complex, Plant, SENSE, Scene};
 
 const SLOTS: usize = 6;
 
@@ -22,17 +22,6 @@ fn all_but(name: &str) -> Vec<&'static Part> {
 
 fn names(parts: &[&Part]) -> Vec<&'static str> {
     parts.iter().map(|part| part.name).collect()
-}
-
-#[derive(Debug, PartialEq)]
-struct Seen(Truth, f64, [Complex; SENSE + 1], Vec<f64>);
-
-fn see(plant: &mut Plant, slot: usize) -> Seen {
-    let (mut phasors, mut samples) = ([Complex::default(); SENSE + 1], Vec::new());
-    let truth = plant.truth(slot);
-    let mean_square = plant.phasors(slot, &mut phasors);
-    plant.samples(slot, 0..timing().window_samples, &mut samples);
-    Seen(truth, mean_square, phasors, samples)
 }
 
 fn run(text: &str, overrides: &[(String, String)]) -> Vec<Seen> {

@@ -4,6 +4,7 @@
 use anyhow::{Context, Result};
 use clap::{Parser, Subcommand};
 use hapticore_model::profile::Profile;
+use hapticore_rtl::verilog::Design;
 use hapticore_synth::flow::Flow;
 use hapticore_synth::report::{BoardReport, CoreRow, CoresReport, limits, median};
 use hapticore_synth::sources::{self, File};
@@ -128,7 +129,7 @@ fn cores(args: &Args, seeds: u64) -> Result<bool> {
 }
 
 fn core(args: &Args, tools: &Tools, profile: &Profile, family: Family, seeds: u64) -> Result<CoreRow> {
-    let design = sources::core(profile);
+    let design = Design::of_core(profile);
     let files = sources::files(&design);
     let folder = args.work.join(format!("{}-{family:?}", profile.name));
     let cells = Flow::new(tools, family, design.top(), &files, &folder.join("bare"))?.synthesise()?;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The Verilog that a report is about.
 
-use hapticore_model::blocks::core::Core;
-use hapticore_model::profile::Profile;
 use hapticore_rtl::board::target::Target;
 use hapticore_rtl::verilog::Design;
 
@@ -13,11 +11,6 @@ pub struct File {
     pub name: String,
     /// What stands in it.
     pub text: String,
-}
-
-/// The printed core of a profile.
-pub fn core(profile: &Profile) -> Design {
-    Design::of(&Core::new(profile), &format!("hapticore hdl --profile {}", profile.name))
 }
 
 /// The files of a printed design.

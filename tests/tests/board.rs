@@ -51,7 +51,7 @@ fn simulated(profile: &Profile, calibration: &Calibration, samples: &[i32]) -> V
     let mut simulation = ClockSimulation::new(profile, calibration);
     let mut frames = Vec::new();
     for sample in samples.chunks(profile.channels()) {
-        simulation.sample(sample);
+        simulation.samples(sample);
         frames.extend(simulation.take_frame());
     }
     frames.extend(simulation.finish_slot());

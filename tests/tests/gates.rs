@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Clocked model = gates, every output at every clock: the whole core as Yosys makes it of the printed Verilog, in the cells of
-//! both FPGA families. What has no initial value in the cells starts with
-//! anything.
+//! both FPGA families. What has no initial value in the cells starts with anything.
 //!
 //! Clocks per core: slots of two scenes, and corners at random with tables that are written while they are read.
 

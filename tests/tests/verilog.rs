@@ -5,7 +5,6 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use hapticore_model::blocks::core::Core;
 use hapticore_model::profile::Profile;
 use hapticore_rtl::verilog::Design;
 
@@ -17,8 +16,7 @@ fn committed(folder: &Path) -> BTreeMap<String, String> {
 }
 
 fn printed(profile: &str) -> BTreeMap<String, String> {
-    let command = format!("hapticore hdl --profile {profile}");
-    let design = Design::of(&Core::new(&Profile::bundled(profile).expect("bundled")), &command);
+    let design = Design::of_core(&Profile::bundled(profile).expect("bundled"));
     design.modules.into_iter().map(|file| (format!("{}.v", file.name), file.text)).collect()
 }
 

@@ -27,7 +27,7 @@ use crate::block::{Block, Cell};
 use crate::format::{BIT, Format};
 use crate::profile::Profile;
 use crate::signal::{Exact, HalfEven, Saturate, Signal, Value, Wrap, bit, int, zero};
-use crate::{bundle, parts, when};
+use crate::{bundle, next, parts};
 
 bundle! {
     /// The inputs.
@@ -146,15 +146,14 @@ impl Capacitance {
     /// The product of two codes, with the point that their formats give it.
     #[inline(always)]
     fn pointed<V: Value>(product: Signal<V>, left: Format, right: Format) -> Signal<V> {
-        let format = left.product(right);
-        product.fit(Format { frac: 0, ..format }, Exact, Wrap).scaled(-format.frac)
+        product.as_code(left.product(right))
     }
 
     /// v² − (a·R)², held at zero from below, and whether nothing is left.
     #[inline(always)]
     fn radicand<V: Value>(&self, r: &Registers<Signal<V>>, product: Signal<V>) -> (Signal<V>, Signal<V>) {
         let drop = Self::pointed(product, self.amplitude, self.amplitude);
-        let left = (r.square - drop).named("left_over").fit(self.registers.square, Exact, Saturate);
+        let left = (r.square - drop).named("left_over").fit(r.square.format, Exact, Saturate);
         (left, left.equals(zero(left.format)))
     }
 
@@ -169,13 +168,13 @@ impl Capacitance {
         let (drop, drop_held) = Self::pointed(product, self.amplitude, self.sheet).saturate(self.amplitude, HalfEven);
         let square = Self::pointed(product, self.amplitude, self.amplitude);
         let (result, held) =
-            Self::pointed(product, self.admittance, self.gain).saturate(self.registers.capacitance, HalfEven);
+            Self::pointed(product, self.admittance, self.gain).saturate(r.capacitance.format, HalfEven);
         let (left, right) = self.operands(&r, &i, divided.quotient);
         let waits = (at(7) & !rooted) | (at(8) & !divided.done);
         let onward = at(10).select(int(0), r.step + int(1));
         let saturated = (at(3) & drop_held) | (at(8) & divided.done & divided.saturated) | (at(10) & held);
         Registers {
-            step: waits.select(r.step, onward).fit(self.registers.step, Exact, Wrap),
+            step: waits.select(r.step, onward).fit(r.step.format, Exact, Wrap),
             waited: bit(false),
             left,
             right,
@@ -223,7 +222,9 @@ impl Block for Capacitance {
             step: r.step.counting(),
             left: r.left.counting(),
             right: r.right.counting(),
-            ..r
+            drop: self.amplitude,
+            square: r.square.with_point(2 * self.amplitude.frac),
+            capacitance: r.capacitance,
         }
     }
 
@@ -247,14 +248,16 @@ impl Block for Capacitance {
         let waits = Registers { waited: bit(true), ..idle };
         let acts = self.multiplier.paces(r.waited) | r.step.is(7) | r.step.is(8);
         let results = (product, nothing_left, root.done, divided);
-        let next = when!(
+        next!(
             V,
             Registers,
-            i.start,
-            begin,
-            when!(V, Registers, r.step.is(0), idle, when!(V, Registers, acts, self.step(idle, i, results), waits))
+            self,
+            cell,
+            i.start => begin,
+            r.step.is(0) => idle,
+            acts => self.step(idle, i, results),
+            else waits
         );
-        cell.store(self, next);
         outputs
     }
 }

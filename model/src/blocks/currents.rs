@@ -26,7 +26,7 @@ use crate::format::{BIT, Format};
 use crate::memory::{Memory, Write};
 use crate::profile::Profile;
 use crate::signal::{Exact, HalfEven, Lemma, Never, Signal, Value, Wrap, bit, int, zero};
-use crate::{bundle, parts, when};
+use crate::{bundle, choose, parts, when};
 
 bundle! {
     /// The inputs: the demodulator's sums.
@@ -99,11 +99,6 @@ pub struct Currents {
 
 const SQUARE: &str = "a square is not negative";
 
-/// The codes of a format as integers.
-fn integer(format: Format) -> Format {
-    Format { frac: 0, ..format }
-}
-
 impl Currents {
     /// The currents of a profile.
     pub fn new(profile: &Profile) -> Self {
@@ -137,7 +132,7 @@ impl Currents {
         };
         Currents {
             words,
-            multiplier: Multiplier::new(integer(total), integer(total), profile.multiplier),
+            multiplier: Multiplier::new(total.integer(), total.integer(), profile.multiplier),
             root,
             terminals,
             signs: [profile.terminals.x.clone(), profile.terminals.y.clone()],
@@ -205,7 +200,7 @@ impl Currents {
         let all = r.channel.is(self.terminals + 1);
         let terminal = r.channel.less_than(int(self.terminals));
         let square = product.fit(self.square(), Exact, Lemma(SQUARE)).scaled(-2 * self.total.frac);
-        let power = at(6).select(r.power + square, square).fit(self.registers.power, Exact, Never);
+        let power = at(6).select(r.power + square, square).fit(r.power.format, Exact, Never);
         let adds = ((at(3) | at(5)) & terminal).named("adds");
         let (more, held) = self.more(&r);
         let rooted = (at(7) & root.done).named("rooted");
@@ -213,13 +208,16 @@ impl Currents {
         let part = at(2).select(all.select(r.total_i, word), at(4).select(all.select(r.total_q, word), r.part));
         let following = at(7).select(r.step, r.step + int(1));
         Registers {
-            step: rooted.select(all.select(int(0), int(1)), following).fit(self.registers.step, Exact, Wrap),
+            step: rooted.select(all.select(int(0), int(1)), following).fit(r.step.format, Exact, Wrap),
             waited: bit(false),
             // The totals change places with every addition: one adder, one register that takes its result.
             total_i: adds.select(r.total_q, r.total_i),
-            total_q: adds.select(more, r.total_q),
+            total_q: choose!(V, adds, more, r.total_q),
             part,
-            power: (at(4) | at(6)).select(power, r.power),
+            power: {
+                let squared = at(4) | at(6);
+                choose!(V, squared, power, r.power)
+            },
             root_start: at(6),
             saturated: r.saturated | (adds & held),
             done: rooted & all,
@@ -230,7 +228,7 @@ impl Currents {
     /// The format of a square as an integer.
     #[inline(always)]
     fn square(&self) -> Format {
-        Format { frac: 0, ..self.registers.power }
+        self.registers.power.integer()
     }
 
     /// An amplitude is there: of a terminal, of the sensing voltage, and last of the total.
@@ -247,7 +245,7 @@ impl Currents {
         };
         let [x, y] = &self.signs;
         Registers {
-            channel: (r.channel + int(1)).fit(self.registers.channel, Exact, Wrap),
+            channel: (r.channel + int(1)).fit(r.channel.format, Exact, Wrap),
             sense: r.channel.is(self.terminals).select(amplitude, r.sense),
             x: with(r.x, &|k| x[k]),
             y: with(r.y, &|k| y[k]),
@@ -291,7 +289,8 @@ impl Block for Currents {
 
     #[inline(always)]
     fn registers(&self) -> Registers<Format> {
-        let r = self.registers;
+        let (r, total) = (self.registers, self.total);
+        let amplitude = |format: Format| format.with_point(total.frac);
         Registers {
             done: BIT,
             root_start: BIT,
@@ -301,7 +300,16 @@ impl Block for Currents {
             waited: BIT,
             step: r.step.counting(),
             channel: r.channel.counting(),
-            ..r
+            word: self.iq,
+            total_i: total,
+            total_q: total,
+            part: total,
+            power: r.power.with_point(2 * total.frac),
+            sense: amplitude(r.sense),
+            x: amplitude(r.x),
+            y: amplitude(r.y),
+            corners: amplitude(r.corners),
+            least: amplitude(r.least),
         }
     }
 
@@ -310,7 +318,8 @@ impl Block for Currents {
         let r = cell.load(self);
         // The last root, the total's, stays until the next slot's first.
         let inputs = root::Inputs { start: r.root_start, radicand: r.power };
-        let root = self.root.call("root", &mut cell.parts.root, inputs);
+        let root::Outputs { done, root } = self.root.call("root", &mut cell.parts.root, inputs);
+        let root = root::Outputs { done, root: root.aligned(r.sense.format) };
         let outputs = self.results(&r, root.root);
         let busy = !r.step.is(0);
         if (i.valid | r.arrived | busy | r.done).idle() {
@@ -320,7 +329,7 @@ impl Block for Currents {
         let inputs = multiplier::Inputs { enable: busy, left: r.part.integer(), right: r.part.integer() };
         let product = self.multiplier.call("multiplier", &mut cell.parts.multiplier, inputs).product;
         let among = i.index.less_than(int(2 * (self.terminals + 1))).named("among");
-        let data = self.words.data(&mut cell.parts.words);
+        let data = self.words.data(&mut cell.parts.words).aligned(r.part.format);
         let address = r.channel.concat(!r.step.less_than(int(3)));
         let address = address.bits(0, self.words.address().width);
         let write = Write { enable: r.arrived, address: r.place, data: r.word };
@@ -337,7 +346,7 @@ impl Block for Currents {
         );
         let arrived = i.valid & among;
         let place = i.index.bits(0, self.words.address().width);
-        let (place, word) = (arrived.select(place, r.place), arrived.select(word, r.word));
+        let (place, word) = (arrived.select(place, r.place), choose!(V, arrived, word, r.word));
         cell.store(self, Registers { arrived, place, word, ..next });
         outputs
     }

@@ -28,7 +28,7 @@ use crate::format::{BIT, Format, MAX_WIDTH};
 use crate::memory::{Memory, Write};
 use crate::profile::Profile;
 use crate::signal::{Exact, HalfEven, Never, Signal, Value, bit, code, int, zero};
-use crate::{bundle, choose, parts, when};
+use crate::{bundle, choose, next, parts};
 
 bundle! {
     /// The inputs.
@@ -98,7 +98,14 @@ pub struct Demodulator {
     channels: u64,
     adc: Format,
     oscillator: Format,
-    registers: Registers<Format>,
+    /// The ADC's largest and smallest codes.
+    rails: [i64; 2],
+    operand: Format,
+    sum_width: u8,
+    channel: Format,
+    step: Format,
+    index: Format,
+    pad: Format,
 }
 
 /// Products before those of the channels: window times cosine, sine and haptic code.
@@ -117,38 +124,28 @@ impl Demodulator {
         let sum = Format::signed(product.width - 1 + growth, product.frac);
         let steps = WEIGHING + 2 * channels + 1 + PIPELINE;
         let words = 2 * channels + 1;
-        let registers = Registers {
-            busy: BIT,
-            step: Format::counter(steps - 1),
-            first: BIT,
-            last: BIT,
-            pad: Format::counter(profile.pads - 1),
-            left: operand,
-            right: operand,
-            weighted: operand,
-            valid: BIT,
-            summed: BIT,
-            index: Format::counter(words - 1),
-            sum,
-            clipped: BIT,
-        };
-        let integer = Format { frac: 0, ..operand };
         Demodulator {
             // In one clock whatever its width: products keep pace with the channels.
-            multiplier: Multiplier::new(integer, integer, MAX_WIDTH),
+            multiplier: Multiplier::new(operand.integer(), operand.integer(), MAX_WIDTH),
             weights: Memory::new("weights", WEIGHING as usize, operand).never_colliding().in_block(),
             sums: Memory::new("sums", words as usize, sum).never_colliding(),
             channels,
             adc,
             oscillator,
-            registers,
+            rails: [adc.max_code(), adc.min_code()].map(|rail| rail as i64),
+            operand,
+            sum_width: sum.width,
+            channel: Format::counter(channels),
+            step: Format::counter(steps - 1),
+            index: Format::counter(words - 1),
+            pad: Format::counter(profile.pads - 1),
         }
     }
 
     /// The format of a sum.
-    #[inline]
+    #[inline(always)]
     pub fn sum(&self) -> Format {
-        self.registers.sum
+        Format::signed(self.sum_width, 2 * self.operand.frac)
     }
 
     /// The sums of a window.
@@ -187,14 +184,14 @@ impl Demodulator {
     /// Whether a code is at a rail of the ADC.
     #[inline(always)]
     pub fn at_rail<V: Value>(&self, code: Signal<V>) -> Signal<V> {
-        let rail = |rail: i128| crate::signal::code(rail as i64, self.adc);
-        code.equals(rail(self.adc.max_code())) | code.equals(rail(self.adc.min_code()))
+        let [most, least] = self.rails;
+        code.equals(crate::signal::code(most, code.format)) | code.equals(crate::signal::code(least, code.format))
     }
 
     /// The channel whose code the next clock's operand needs.
     #[inline(always)]
     fn channel<V: Value>(&self, r: &Registers<Signal<V>>) -> Signal<V> {
-        let format = Format::counter(self.channels);
+        let format = self.channel.counting();
         let ahead = (r.step - int(WEIGHING - 1)).bits(1, format.width);
         let of_channels = r.step.at_least(int(WEIGHING - 1)) & r.step.less_than(int(WEIGHING - 1 + 2 * self.channels));
         of_channels.select(ahead, code(self.channels as i64, format))
@@ -209,16 +206,17 @@ impl Demodulator {
         weight: Signal<V>,
     ) -> (Signal<V>, Signal<V>) {
         let weighing = r.step.less_than(int(WEIGHING)).named("weighing");
-        let wave = r.step.is(0).select(i.cosine, r.step.is(1).select(i.sine, i.code));
+        let [code, window, cosine, sine] = [i.code, i.window, i.cosine, i.sine].map(|a| a.aligned(r.left.format));
+        let wave = r.step.is(0).select(cosine, r.step.is(1).select(sine, code));
         let weighted = r.step.less_than(int(WEIGHING + PIPELINE)).select(r.weighted, weight);
-        (weighing.select(i.window, i.code), weighing.select(wave, weighted))
+        (weighing.select(window, code), weighing.select(wave, weighted))
     }
 
     /// Stores the weight that the clock before has made, and asks for that of the next step.
     #[inline(always)]
     fn weights<V: Value>(&self, r: &Registers<Signal<V>>, words: &mut V::Words) -> Signal<V> {
-        let weight = self.weights.data(words);
-        let place = (r.step - int(WEIGHING)).bits(0, self.weights.address().width);
+        let weight = Signal { format: r.weighted.format, ..self.weights.data(words) };
+        let place = (r.step - int(WEIGHING)).bits(0, Format::counter(WEIGHING - 1).width);
         let enable = r.busy & r.step.at_least(int(WEIGHING)) & r.step.less_than(int(2 * WEIGHING));
         let haptic = r.step.is(WEIGHING - 1 + 2 * self.channels);
         let sine = (r.step - int(WEIGHING - 1)).bits(0, 1);
@@ -227,17 +225,23 @@ impl Demodulator {
         weight
     }
 
-    /// The weight that a product is: the haptic code's comes last.
+    /// While there are weights to be made, the one that the product is.
     #[inline(always)]
     fn weighted<V: Value>(&self, r: &Registers<Signal<V>>, product: Signal<V>) -> Signal<V> {
         let made = r.step - int(PIPELINE);
         let weighing = r.step.at_least(int(PIPELINE)) & made.less_than(int(WEIGHING));
+        choose!(V, weighing, self.made(r, product), r.weighted)
+    }
+
+    /// The weight that a product is: the haptic code's comes last.
+    #[inline(always)]
+    fn made<V: Value>(&self, r: &Registers<Signal<V>>, product: Signal<V>) -> Signal<V> {
         let to = |format: Format| self.weigh(product, format).fit(r.weighted.format, Exact, Never);
         if self.adc == self.oscillator {
-            return choose!(V, weighing, to(self.adc), r.weighted);
+            return to(self.adc);
         }
         let haptic = r.step.is(PIPELINE + WEIGHING - 1);
-        choose!(V, weighing, choose!(V, haptic, to(self.adc), to(self.oscillator)), r.weighted)
+        choose!(V, haptic, to(self.adc), to(self.oscillator))
     }
 
     #[inline(always)]
@@ -260,7 +264,7 @@ impl Demodulator {
         let end = r.step.is(self.steps() - 1);
         Registers {
             busy: !end,
-            step: end.select(int(0), r.step + int(1)).fit(self.registers.step, Exact, Never),
+            step: end.select(int(0), r.step + int(1)).fit(r.step.format, Exact, Never),
             left,
             right,
             weighted: self.weighted(&r, product),
@@ -283,22 +287,35 @@ impl Block for Demodulator {
 
     #[inline]
     fn inputs(&self) -> Inputs<Format> {
-        let (pad, code, wave) = (self.registers.pad, self.adc, self.oscillator);
+        let (pad, code, wave) = (self.pad, self.adc, self.oscillator);
         Inputs { start: BIT, first: BIT, last: BIT, pad, code, cosine: wave, sine: wave, window: wave }
     }
 
     #[inline]
     fn outputs(&self) -> Outputs<Format> {
-        let Registers { valid, index, sum, pad, clipped, .. } = self.registers;
-        Outputs { channel: Format::counter(self.channels), valid, index, sum, pad, clipped }
+        let Registers { valid, index, sum, pad, clipped, .. } = self.registers();
+        Outputs { channel: self.channel, valid, index, sum, pad, clipped }
     }
 
     #[inline(always)]
     fn registers(&self) -> Registers<Format> {
-        let Registers { step, pad, index, .. } = self.registers;
-        let (step, pad, index) = (step.counting(), pad.counting(), index.counting());
-        let data = self.registers;
-        Registers { step, pad, index, ..data }
+        let [step, index, pad] = [self.step, self.index, self.pad].map(Format::counting);
+        let operand = self.operand;
+        Registers {
+            busy: BIT,
+            step,
+            first: BIT,
+            last: BIT,
+            pad,
+            left: operand,
+            right: operand,
+            weighted: operand,
+            valid: BIT,
+            summed: BIT,
+            index,
+            sum: self.sum(),
+            clipped: BIT,
+        }
     }
 
     #[inline(always)]
@@ -312,25 +329,27 @@ impl Block for Demodulator {
         let place = |ahead: u64| {
             let from_end = r.step - int(WEIGHING + PIPELINE - ahead);
             let in_range = r.step.at_least(int(WEIGHING + PIPELINE - ahead));
-            (in_range & r.busy, from_end.bits(0, self.registers.index.width))
+            (in_range & r.busy, from_end.bits(0, self.index.width))
         };
         let ((summed, index), (_, next_index)) = (place(0), place(1));
         let inputs = multiplier::Inputs { enable: r.busy, left: r.left.integer(), right: r.right.integer() };
         let product = self.multiplier.call("multiplier", &mut cell.parts.multiplier, inputs).product;
         let product = product.scaled(-2 * r.left.format.frac);
-        let sum = self.accumulate(r.first, self.sums.data(&mut cell.parts.sums), product);
+        let so_far = Signal { format: self.sum(), ..self.sums.data(&mut cell.parts.sums) };
+        let sum = self.accumulate(r.first, so_far, product);
         let write = Write { enable: r.summed, address: r.index, data: r.sum };
         self.sums.access(&mut cell.parts.sums, next_index, write);
         let weight = self.weights(&r, &mut cell.parts.weights);
         let r = Registers { valid: bit(false), summed: bit(false), ..r };
-        let next = when!(
+        next!(
             V,
             Registers,
-            i.start,
-            self.begin(r, i),
-            when!(V, Registers, r.busy, self.step(r, i, index, (product, weight), (sum, summed)), r)
+            self,
+            cell,
+            i.start => self.begin(r, i),
+            r.busy => self.step(r, i, index, (product, weight), (sum, summed)),
+            else r
         );
-        cell.store(self, next);
         outputs
     }
 }

@@ -19,7 +19,7 @@
 use crate::block::{Block, Cell};
 use crate::format::{BIT, Format};
 use crate::signal::{Exact, Lemma, Never, Signal, Value, Wrap, bit, code, int};
-use crate::{bundle, when};
+use crate::{bundle, next, when};
 
 bundle! {
     /// The inputs.
@@ -108,7 +108,7 @@ impl Divider {
     /// The count goes on.
     #[inline(always)]
     fn count<V: Value>(&self, r: &Registers<Signal<V>>) -> Signal<V> {
-        (r.count + int(1)).fit(self.registers.count, Exact, Wrap)
+        (r.count + int(1)).fit(r.count.format, Exact, Wrap)
     }
 
     /// If the high bits already reach the denominator, the quotient does not fit: it is known already, and zeros keep the
@@ -126,7 +126,7 @@ impl Divider {
         let fits = (!rest.msb()).named("fits");
         Registers {
             count: self.count(&r),
-            remainder: fits.select(rest, shifted).fit(self.registers.remainder, Exact, Lemma(BELOW)),
+            remainder: fits.select(rest, shifted).fit(r.remainder.format, Exact, Lemma(BELOW)),
             tail: r.tail.concat(fits).bits(0, self.quotient.width),
             ..r
         }
@@ -142,12 +142,40 @@ impl Divider {
     /// The rounded quotient.
     #[inline(always)]
     fn finish<V: Value>(&self, r: Registers<Signal<V>>, i: Inputs<Signal<V>>) -> Registers<Signal<V>> {
-        let (rounded, over) = (r.tail + r.up).saturate(Format { frac: 0, ..self.quotient }, Exact);
-        let most = code(self.quotient.max_code() as i64, Format { frac: 0, ..self.quotient });
+        let (rounded, over) = (r.tail + r.up).saturate(self.quotient.integer(), Exact);
+        let most = code(self.quotient.max_code() as i64, self.quotient.integer());
         let saturated = over | r.over;
         let quotient = r.over.select(most, rounded).scaled(-self.quotient.frac);
         let quotient = quotient.ideally(&[i.numerator, i.denominator], |of| of[0] / of[1]);
         Registers { busy: bit(false), done: bit(true), quotient, saturated, ..r }
+    }
+}
+
+impl Divider {
+    /// A clock of a division.
+    #[inline(always)]
+    fn work<V: Value>(
+        &self,
+        r: Registers<Signal<V>>,
+        i: Inputs<Signal<V>>,
+        rest: Signal<V>,
+        shifted: Signal<V>,
+    ) -> Registers<Signal<V>> {
+        let at = |count: u64| r.count.is(count);
+        let width = u64::from(self.quotient.width);
+        when!(
+            V,
+            Registers,
+            at(0),
+            self.check(r, i),
+            when!(
+                V,
+                Registers,
+                at(width + 1),
+                self.round(r, rest),
+                when!(V, Registers, at(width + 2), self.finish(r, i), self.step(r, rest, shifted))
+            )
+        )
     }
 }
 
@@ -191,29 +219,20 @@ impl Block for Divider {
         if (i.start | r.busy | r.done).idle() {
             return outputs;
         }
-        let at = |count: u64| r.count.is(count);
         let width = u64::from(self.quotient.width);
         let idle = Registers { done: bit(false), ..r };
         // One subtractor serves every step; the last looks at twice the remainder.
-        let shifted = r.remainder.concat(r.tail.msb() & !at(width + 1)).named("shifted");
+        let shifted = r.remainder.concat(r.tail.msb() & !r.count.is(width + 1)).named("shifted");
         let rest = (shifted - i.denominator.integer()).named("rest");
-        let work = |r: Registers<Signal<V>>| {
-            when!(
-                V,
-                Registers,
-                at(0),
-                self.check(r, i),
-                when!(
-                    V,
-                    Registers,
-                    at(width + 1),
-                    self.round(r, rest),
-                    when!(V, Registers, at(width + 2), self.finish(r, i), self.step(r, rest, shifted))
-                )
-            )
-        };
-        let next = when!(V, Registers, i.start, self.begin(idle, i), when!(V, Registers, r.busy, work(idle), idle));
-        cell.store(self, next);
+        next!(
+            V,
+            Registers,
+            self,
+            cell,
+            i.start => self.begin(idle, i),
+            r.busy => self.work(idle, i, rest, shifted),
+            else idle
+        );
         outputs
     }
 }

@@ -21,7 +21,7 @@ use crate::bundle::Bundle;
 use crate::format::{BIT, Format};
 use crate::profile::Profile;
 use crate::signal::{Signal, Value, zero};
-use crate::{bundle, parts};
+use crate::{bundle, choose, parts};
 
 bundle! {
     /// The inputs: the demodulator's sums and the calibration.
@@ -258,7 +258,7 @@ impl Block for Estimator {
         let pad = valid.select(i.pad, r.pad);
         let busy = valid | (r.busy & !frames.done);
         cell.store(self, Registers { busy, pad, clipped: valid.select(i.clipped, r.clipped) });
-        let gate = |a: Signal<V>| frames.valid.select(a, zero(a.format));
+        let gate = |a: Signal<V>| choose!(V, frames.valid, a, zero(a.format));
         Outputs {
             valid: frames.valid,
             index: gate(frames.index),

@@ -21,7 +21,7 @@ use crate::block::{Block, Cell};
 use crate::format::{BIT, Format};
 use crate::profile::Profile;
 use crate::signal::{Exact, HalfEven, Signal, Value, Wrap, bit, int};
-use crate::{bundle, parts, when};
+use crate::{bundle, next, parts};
 
 bundle! {
     /// The inputs.
@@ -112,8 +112,7 @@ impl Force {
         (left, right): (Format, Format),
         to: Format,
     ) -> (Signal<V>, Signal<V>) {
-        let format = left.product(right);
-        product.fit(Format { frac: 0, ..format }, Exact, Wrap).scaled(-format.frac).saturate(to, HalfEven)
+        product.as_code(left.product(right)).saturate(to, HalfEven)
     }
 
     #[inline(always)]
@@ -126,12 +125,12 @@ impl Force {
         let at = |step: u64| r.step.is(step);
         let (square, square_held) = self.narrow(product, (self.capacitance, self.capacitance), self.square);
         let (energy, energy_held) = self.narrow(product, (self.square, self.mean_square), self.square);
-        let (force, force_held) = self.narrow(product, (self.square, self.gain), self.registers.haptic_force);
+        let (force, force_held) = self.narrow(product, (self.square, self.gain), r.haptic_force.format);
         let [capacitance, mean_square, gain] = [i.capacitance, i.mean_square, i.gain].map(Signal::integer);
         let factor = at(3).select(square, energy);
         let saturated = (at(3) & square_held) | (at(6) & energy_held) | (at(9) & force_held);
         Registers {
-            step: at(9).select(int(0), r.step + int(1)).fit(self.registers.step, Exact, Wrap),
+            step: at(9).select(int(0), r.step + int(1)).fit(r.step.format, Exact, Wrap),
             waited: bit(false),
             left: at(1).select(capacitance, r.factor.integer()),
             right: at(1).select(capacitance, at(4).select(mean_square, gain)),
@@ -171,7 +170,8 @@ impl Block for Force {
             left: r.left.counting(),
             right: r.right.counting(),
             waited: BIT,
-            ..r
+            factor: self.square,
+            haptic_force: r.haptic_force,
         }
     }
 
@@ -188,14 +188,16 @@ impl Block for Force {
         let idle = Registers { done: bit(false), ..r };
         let waits = Registers { waited: bit(true), ..idle };
         let begin = Registers { step: int(1), waited: bit(false), saturated: bit(false), ..idle };
-        let next = when!(
+        next!(
             V,
             Registers,
-            i.start,
-            begin,
-            when!(V, Registers, r.step.is(0), idle, when!(V, Registers, acts, self.step(idle, i, product), waits))
+            self,
+            cell,
+            i.start => begin,
+            r.step.is(0) => idle,
+            acts => self.step(idle, i, product),
+            else waits
         );
-        cell.store(self, next);
         outputs
     }
 }

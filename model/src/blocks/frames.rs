@@ -14,7 +14,7 @@ use crate::format::{BIT, Format};
 use crate::memory::{Memory, Write};
 use crate::profile::Profile;
 use crate::signal::{Exact, Never, Signal, Value, bit, int};
-use crate::{bundle, parts, when};
+use crate::{bundle, next, parts};
 
 /// A word of a frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -180,7 +180,7 @@ impl Frames {
     #[inline(always)]
     fn result<V: Value>(&self, i: &Inputs<Signal<V>>, index: Signal<V>) -> Signal<V> {
         let fields = [i.r_x, i.r_y, i.x, i.y, i.sheet, i.capacitance, i.haptic_force, i.mean_square];
-        let word = |k: usize| fields[k].integer().fit(self.registers.word, Exact, Never);
+        let word = |k: usize| fields[k].integer().fit(self.registers.word.with_point(0), Exact, Never);
         // A tree of multiplexers, a level for each bit of the index.
         let pair = |k: usize| index.bits(0, 1).select(word(2 * k + 1), word(2 * k));
         let four = |k: usize| index.bits(1, 1).select(pair(2 * k + 1), pair(2 * k));
@@ -209,7 +209,14 @@ impl Block for Frames {
     #[inline(always)]
     fn registers(&self) -> Registers<Format> {
         let r = self.registers;
-        Registers { busy: BIT, done: BIT, valid: BIT, count: r.count.counting(), index: r.index.counting(), ..r }
+        Registers {
+            busy: BIT,
+            done: BIT,
+            valid: BIT,
+            count: r.count.counting(),
+            index: r.index.counting(),
+            word: r.word.with_point(0),
+        }
     }
 
     #[inline(always)]
@@ -231,15 +238,14 @@ impl Block for Frames {
         let end = r.count.is(FIELDS);
         let working = Registers {
             busy: r.busy & !end,
-            count: r.busy.select(r.count + int(1), r.count).fit(self.registers.count, Exact, crate::signal::Wrap),
+            count: r.busy.select(r.count + int(1), r.count).fit(r.count.format, Exact, crate::signal::Wrap),
             index: emits.select(before, r.index),
             valid: emits,
             word: emits.select(word, r.word),
             done: emits & end,
         };
         let begin = Registers { busy: bit(true), count: int(0), valid: bit(false), done: bit(false), ..r };
-        let next = when!(V, Registers, i.start, begin, working);
-        cell.store(self, next);
+        next!(V, Registers, self, cell, i.start => begin, else working);
         outputs
     }
 }

@@ -99,7 +99,7 @@ impl Block for HapticVoltage {
             return outputs;
         }
         let squares = i.valid & i.index.is(self.sums - 1);
-        let (mean_square, saturated) = i.sum.scaled(-self.shift).saturate(self.registers.mean_square, HalfEven);
+        let (mean_square, saturated) = i.sum.scaled(-self.shift).saturate(r.mean_square.format, HalfEven);
         let mean_square = squares.select(mean_square, r.mean_square);
         cell.store(self, Registers { mean_square, saturated: squares.select(saturated, r.saturated) });
         outputs

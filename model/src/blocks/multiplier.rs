@@ -19,7 +19,7 @@
 use crate::block::{Block, Cell};
 use crate::format::{BIT, Format};
 use crate::signal::{Exact, Floor, Never, Signal, Value, bit, int};
-use crate::{bundle, when};
+use crate::{bundle, next};
 
 bundle! {
     /// The inputs.
@@ -100,7 +100,7 @@ impl Multiplier {
         self.registers.product
     }
 
-    /// An operand as a multiple of `2^low` and the rest: nothing where numbers are not rounded.
+    /// An operand as a multiple of `2^low` and the rest: where numbers are not rounded, what the multiple leaves of it.
     #[inline(always)]
     fn halves<V: Value>(operand: Signal<V>, low: u8) -> (Signal<V>, Signal<V>) {
         let Format { signed, width, .. } = operand.format;
@@ -161,7 +161,15 @@ impl Block for Multiplier {
 
     #[inline(always)]
     fn registers(&self) -> Registers<Format> {
-        self.registers
+        let Registers { high_high, high_low, low_high, low_low, product } = self.registers;
+        let [left, right] = self.low.map(|bits| bits as i8);
+        Registers {
+            high_high: high_high.with_point(-left - right),
+            high_low: high_low.with_point(-left),
+            low_high: low_high.with_point(-right),
+            low_low: low_low.with_point(0),
+            product: product.with_point(0),
+        }
     }
 
     #[inline(always)]
@@ -171,11 +179,12 @@ impl Block for Multiplier {
         if i.enable.idle() {
             return outputs;
         }
-        let next = match self.latency() {
-            1 => Registers { product: i.left * i.right, ..r },
-            _ => Registers { product: self.sum(&r), ..self.partials(i, r) },
-        };
-        cell.store(self, when!(V, Registers, i.enable, next, r));
+        if self.latency() == 1 {
+            next!(V, Registers, self, cell, i.enable => Registers { product: i.left * i.right, ..r }, else r);
+        } else {
+            let next = Registers { product: self.sum(&r), ..self.partials(i, r) };
+            next!(V, Registers, self, cell, i.enable => next, else r);
+        }
         outputs
     }
 }

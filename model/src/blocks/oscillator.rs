@@ -23,7 +23,7 @@ use crate::format::{BIT, Format};
 use crate::memory::Memory;
 use crate::profile::{Profile, Window};
 use crate::signal::{Exact, HalfEven, Saturate, Signal, Value, Wrap, bit, code, int, zero};
-use crate::{bundle, parts, when};
+use crate::{bundle, choose, next, parts};
 use std::f64::consts::TAU;
 
 bundle! {
@@ -76,11 +76,18 @@ pub struct Oscillator {
     increment: i64,
     window_increment: i64,
     window: Window,
-    registers: Registers<Format>,
+    /// Of the cosine, the sine and the window.
+    wave: Format,
 }
 
 /// The format of a phase: turns.
 const PHASE: Format = Format::unsigned(32, 32);
+
+/// The format of a wave without its sign.
+#[inline(always)]
+const fn magnitude(wave: Format) -> Format {
+    Format { signed: false, width: wave.width - 1, ..wave }
+}
 
 impl Oscillator {
     /// Clocks from `sample` to `ready`.
@@ -95,26 +102,13 @@ impl Oscillator {
         // The largest code, not one, is the amplitude: one would not fit.
         let amplitude = 1.0 - format.lsb();
         let table = (0..entries).map(|k| amplitude * entry(k)).collect();
-        let registers = Registers {
-            step: Format::unsigned(3, 0),
-            phase: PHASE,
-            window_phase: PHASE,
-            looked_up: PHASE,
-            negative: BIT,
-            wave: Format { signed: false, width: format.width - 1, ..format },
-            sign: BIT,
-            cosine: format,
-            sine: format,
-            window: format,
-            ready: BIT,
-        };
         Oscillator {
-            quarter: Memory::table("quarter", Format { signed: false, width: format.width - 1, ..format }, table),
+            quarter: Memory::table("quarter", magnitude(format), table),
             address_bits,
             increment: PHASE.code_saturating(profile.carrier.turns_per_sample()),
             window_increment: PHASE.code_saturating(1.0 / profile.slot.integrate as f64),
             window: profile.carrier.window,
-            registers,
+            wave: format,
         }
     }
 
@@ -138,8 +132,8 @@ impl Oscillator {
     fn weight<V: Value>(&self, cosine: Signal<V>) -> Signal<V> {
         let one = int(1);
         match self.window {
-            Window::Hann => (one - cosine).scaled(-1).fit(self.registers.window, HalfEven, Saturate),
-            Window::Rectangular => one.fit(self.registers.window, Exact, Saturate),
+            Window::Hann => (one - cosine).scaled(-1).fit(cosine.format, HalfEven, Saturate),
+            Window::Rectangular => one.fit(cosine.format, Exact, Saturate),
         }
     }
 
@@ -176,7 +170,7 @@ impl Oscillator {
     ) -> Registers<Signal<V>> {
         let at = |step: u64| r.step.is(step);
         let advance = |phase: Signal<V>, by: i64| (phase + code(by, PHASE)).fit(PHASE, Exact, Wrap);
-        let wave = r.sign.select(-r.wave, r.wave).fit(self.registers.sine, Exact, Wrap).named("signed_wave");
+        let wave = r.sign.select(-r.wave, r.wave).fit(r.sine.format, Exact, Wrap).named("signed_wave");
         let end = at(4);
         Registers {
             step: end.select(int(0), r.step + int(1)).fit(r.step.format, Exact, Wrap),
@@ -184,7 +178,10 @@ impl Oscillator {
             window_phase: end.select(advance(r.window_phase, self.window_increment), r.window_phase),
             wave: magnitude,
             sign: negative,
-            window: at(2).select(wave, at(3).select(self.weight(r.window), r.window)),
+            window: at(2).select(wave, {
+                let weighs = at(3);
+                choose!(V, weighs, self.weight(r.window), r.window)
+            }),
             // The cosine comes first, and moves on: one value, one register that takes it.
             cosine: end.select(r.sine, r.cosine),
             sine: (at(3) | end).select(wave, r.sine),
@@ -208,15 +205,25 @@ impl Block for Oscillator {
 
     #[inline]
     fn outputs(&self) -> Outputs<Format> {
-        let Registers { ready, cosine, sine, window, .. } = self.registers;
-        Outputs { ready, cosine, sine, window }
+        Outputs { ready: BIT, cosine: self.wave, sine: self.wave, window: self.wave }
     }
 
     #[inline(always)]
     fn registers(&self) -> Registers<Format> {
-        let (phase, step) = (PHASE, Format::unsigned(3, 0));
-        let phases = Registers { phase, window_phase: phase, looked_up: phase, ..self.registers };
-        Registers { step, negative: BIT, sign: BIT, ready: BIT, ..phases }
+        let full = self.wave;
+        Registers {
+            step: Format::unsigned(3, 0),
+            phase: PHASE,
+            window_phase: PHASE,
+            looked_up: PHASE,
+            negative: BIT,
+            wave: magnitude(full),
+            sign: BIT,
+            cosine: full,
+            sine: full,
+            window: full,
+            ready: BIT,
+        }
     }
 
     #[inline(always)]
@@ -234,14 +241,15 @@ impl Block for Oscillator {
         let quiet = Registers { ready: bit(false), ..r };
         let before = r.negative;
         let r = Registers { looked_up, negative, ..quiet };
-        let next = when!(
+        next!(
             V,
             Registers,
-            i.sample,
-            self.begin(r, i),
-            when!(V, Registers, busy, self.step(r, magnitude, before), quiet)
+            self,
+            cell,
+            i.sample => self.begin(r, i),
+            busy => self.step(r, magnitude, before),
+            else quiet
         );
-        cell.store(self, next);
         outputs
     }
 }

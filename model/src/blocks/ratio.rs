@@ -19,7 +19,7 @@ use crate::block::{Block, Cell};
 use crate::format::{BIT, Format};
 use crate::profile::Profile;
 use crate::signal::{Exact, Never, Signal, Value, bit, int};
-use crate::{bundle, parts, when};
+use crate::{bundle, next, parts};
 
 bundle! {
     /// The inputs.
@@ -99,7 +99,7 @@ impl Ratio {
         let (first, second) = (divided.done & r.step.is(1), divided.done & r.step.is(2));
         let numerator = r.step.is(1).select(i.x, i.y).named("numerator");
         let negative = numerator.less_than(int(0));
-        let ratio = negative.select(-divided.quotient, divided.quotient).fit(self.registers.r_x, Exact, Never);
+        let ratio = negative.select(-divided.quotient, divided.quotient).fit(r.r_x.format, Exact, Never);
         Registers {
             step: first.select(int(2), second.select(int(0), r.step)),
             divide: first,
@@ -147,8 +147,7 @@ impl Block for Ratio {
         let inputs = divider::Inputs { start: r.divide, numerator, denominator: i.corners };
         let divided = self.divider.call("divider", &mut cell.parts.divider, inputs);
         let begin = Registers { step: int(1), divide: bit(true), done: bit(false), ..r };
-        let next = when!(V, Registers, i.start, begin, self.step(r, i, divided));
-        cell.store(self, next);
+        next!(V, Registers, self, cell, i.start => begin, else self.step(r, i, divided));
         outputs
     }
 }

@@ -19,7 +19,7 @@
 use crate::block::{Block, Cell};
 use crate::format::{BIT, Format};
 use crate::signal::{Exact, Lemma, Never, Signal, Value, Wrap, bit, int};
-use crate::{bundle, when};
+use crate::{bundle, next, when};
 
 bundle! {
     /// The inputs.
@@ -110,9 +110,9 @@ impl Root {
         let rest = (shifted - trial).named("rest");
         let fits = (!rest.msb()).named("fits");
         Registers {
-            count: (r.count + int(1)).fit(self.registers.count, Exact, Wrap),
+            count: (r.count + int(1)).fit(r.count.format, Exact, Wrap),
             tail: r.tail.concat(int::<V>(0)).concat(int(0)).bits(0, width),
-            remainder: fits.select(rest, shifted).fit(self.registers.remainder, Exact, Lemma(BELOW)),
+            remainder: fits.select(rest, shifted).fit(r.remainder.format, Exact, Lemma(BELOW)),
             partial: r.partial.concat(fits).bits(0, self.digits),
             ..r
         }
@@ -154,7 +154,8 @@ impl Block for Root {
             tail: r.tail.counting(),
             partial: r.partial.counting(),
             remainder: r.remainder.counting(),
-            ..r
+            radicand: self.padded,
+            root: r.root,
         }
     }
 
@@ -167,14 +168,15 @@ impl Block for Root {
         }
         let last = r.count.is(self.digits.into());
         let idle = Registers { done: bit(false), ..r };
-        let next = when!(
+        next!(
             V,
             Registers,
-            i.start,
-            self.begin(idle, i),
-            when!(V, Registers, r.busy, when!(V, Registers, last, self.finish(idle), self.step(idle)), idle)
+            self,
+            cell,
+            i.start => self.begin(idle, i),
+            r.busy => when!(V, Registers, last, self.finish(idle), self.step(idle)),
+            else idle
         );
-        cell.store(self, next);
         outputs
     }
 }

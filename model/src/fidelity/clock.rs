@@ -5,19 +5,25 @@ use super::{Gathered, calibrated, signals};
 use crate::block::{Block, Cell, sample, variables};
 use crate::blocks::core::{Core, Inputs};
 use crate::calibration::Calibration;
-use crate::format::BIT;
 use crate::frame::Frame;
 use crate::probe::{Probe, Variable};
 use crate::profile::Profile;
-use crate::signal::Signal;
+use crate::signal::{Signal, bit};
+use std::slice::ChunksExact;
 
 /// A core at work, clock by clock. Its memory does not grow with time.
 pub struct ClockSimulation {
     core: Core,
-    cell: Cell<Core, i64>,
     inputs: Inputs<Signal<i64>>,
     clocks_per_sample: u64,
     channels: usize,
+    state: State,
+}
+
+/// What changes from clock to clock: apart from what does not, so that the compiler need not look at formats again after
+/// every word that is written.
+struct State {
+    cell: Cell<Core, i64>,
     channel: usize,
     gathered: Gathered,
     frame: Option<Frame>,
@@ -29,61 +35,50 @@ impl ClockSimulation {
     pub fn new(profile: &Profile, calibration: &Calibration) -> Self {
         let core = Core::new(profile);
         let formats = core.inputs();
+        let cell = calibrated(&core, calibration);
         ClockSimulation {
-            cell: calibrated(&core, calibration),
             inputs: signals::<Inputs, i64>(calibration.inputs(formats), formats),
             core,
             clocks_per_sample: profile.clocks_per_sample,
             channels: profile.channels(),
-            channel: 0,
-            gathered: Gathered::default(),
-            frame: None,
-            clocks: 0,
+            state: State { cell, channel: 0, gathered: Gathered::default(), frame: None, clocks: 0 },
         }
     }
 
-    /// The clocks of one sample: codes of every channel, in the order terminals, sensing voltage, haptic voltage.
+    /// The clocks of samples that follow one another: of each the codes of every channel, in the order terminals, sensing
+    /// voltage, haptic voltage. Of the frames that are finished meanwhile, the last is kept.
+    ///
+    /// # Panics
+    /// Where `codes` has not one code a channel and sample.
+    pub fn samples(&mut self, codes: &[i32]) {
+        assert_eq!(codes.len() % self.channels, 0, "one code a channel and sample");
+        let samples = codes.chunks_exact(self.channels);
+        self.state.samples(&self.core, &self.inputs, self.clocks_per_sample, samples);
+    }
+
+    /// As [`ClockSimulation::samples`] for one of them, with a look at the simulation after each clock.
     ///
     /// # Panics
     /// Where `codes` has not one code a channel.
-    pub fn sample(&mut self, codes: &[i32]) {
-        self.sample_with(codes, |_| ());
-    }
-
-    /// As [`ClockSimulation::sample`], with a look at the simulation after each clock.
     pub fn sample_with(&mut self, codes: &[i32], mut look: impl FnMut(&Self)) {
         assert_eq!(codes.len(), self.channels, "one code a channel");
         for clock in 0..self.clocks_per_sample {
-            self.clock(i64::from(clock == 0), codes);
+            self.state.clock(&self.core, &self.inputs, clock == 0, codes);
             look(self);
-        }
-    }
-
-    #[inline(always)]
-    fn clock(&mut self, strobe: i64, codes: &[i32]) {
-        let code = Signal { value: i64::from(codes[self.channel]), format: self.inputs.code.format };
-        let strobe = Signal { value: strobe, format: BIT };
-        let outputs = self.core.clock(&mut self.cell, Inputs { strobe, code, ..self.inputs });
-        self.clocks += 1;
-        self.channel = outputs.channel.value as usize;
-        self.gathered.take(outputs.valid.value, outputs.index.value, outputs.frame.value);
-        if outputs.done.value != 0 {
-            let flags = [outputs.clipped, outputs.saturated, outputs.invalid, outputs.lost].map(|flag| flag.value);
-            self.frame = Some(self.gathered.frame(outputs.pad.value, flags[0], flags[1], flags[2], flags[3]));
         }
     }
 
     /// The frame that has been finished since the last call.
     pub fn take_frame(&mut self) -> Option<Frame> {
-        self.frame.take()
+        self.state.frame.take()
     }
 
     /// Runs on without samples until the frame of the slot that has just ended is there.
     pub fn finish_slot(&mut self) -> Option<Frame> {
         let codes = vec![0; self.channels];
         let mut left = self.core.latency();
-        while self.frame.is_none() && left > 0 {
-            self.clock(0, &codes);
+        while self.state.frame.is_none() && left > 0 {
+            self.state.clock(&self.core, &self.inputs, false, &codes);
             left -= 1;
         }
         self.take_frame()
@@ -91,7 +86,32 @@ impl ClockSimulation {
 
     /// Clocks since the first sample.
     pub fn clocks(&self) -> u64 {
-        self.clocks
+        self.state.clocks
+    }
+}
+
+impl State {
+    /// Not inlined: what it borrows is then known to be apart.
+    #[inline(never)]
+    fn samples(&mut self, core: &Core, inputs: &Inputs<Signal<i64>>, clocks: u64, samples: ChunksExact<'_, i32>) {
+        for codes in samples {
+            for clock in 0..clocks {
+                self.clock(core, inputs, clock == 0, codes);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn clock(&mut self, core: &Core, inputs: &Inputs<Signal<i64>>, strobe: bool, codes: &[i32]) {
+        let code = Signal { value: i64::from(codes[self.channel]), format: inputs.code.format };
+        let outputs = core.clock(&mut self.cell, Inputs { strobe: bit(strobe), code, ..*inputs });
+        self.clocks += 1;
+        self.channel = outputs.channel.value as usize;
+        self.gathered.take(outputs.valid.value, outputs.index.value, outputs.frame.value);
+        if outputs.done.value != 0 {
+            let flags = [outputs.clipped, outputs.saturated, outputs.invalid, outputs.lost].map(|flag| flag.value);
+            self.frame = Some(self.gathered.frame(outputs.pad.value, flags[0], flags[1], flags[2], flags[3]));
+        }
     }
 }
 
@@ -101,6 +121,6 @@ impl Probe for ClockSimulation {
     }
 
     fn sample(&self, codes: &mut Vec<i64>) {
-        sample(&self.core, &self.cell, codes);
+        sample(&self.core, &self.state.cell, codes);
     }
 }

@@ -9,14 +9,14 @@ use super::tone::Response;
 use super::{Gathered, calibrated, signals};
 use crate::block::{Block, Cell};
 use crate::blocks::core::{Core, Inputs as CoreInputs};
-use crate::blocks::estimator::{Inputs, Outputs};
+use crate::blocks::estimator::{Estimator, Inputs, Outputs};
 use crate::blocks::oscillator::Inputs as Sample;
 use crate::bundle::Bundle;
 use crate::calibration::Calibration;
 use crate::format::Format;
 use crate::frame::Frame;
 use crate::profile::Profile;
-use crate::signal::{Exact, Never, Signal, Value, bit, code, constant, int, zero};
+use crate::signal::{Exact, Never, Signal, Value, bit, code, constant, zero};
 
 /// The weighted carrier at a sample of the window, and the window itself.
 #[derive(Debug, Clone, Copy)]
@@ -151,34 +151,43 @@ impl<V: Value> FixedSimulation<V> {
     /// Hands the sums to the estimator and runs it until its frame is there.
     fn estimate(&mut self, pad: usize, clipped: bool) -> Frame {
         let (pad, clipped) = (code(pad as i64, self.quiet.pad.format), bit(clipped));
-        let mut gathered = Gathered::default();
-        for index in 0..self.sums.len() {
-            let (sum, index) = (self.sums[index], int(index as u64));
-            let inputs = Inputs { valid: bit(true), index, sum, pad, clipped, ..self.quiet };
-            self.clock(inputs, &mut gathered);
-        }
-        for _ in 0..self.core.estimator().latency() {
-            let outputs = self.clock(self.quiet, &mut gathered);
-            if V::known(outputs.done.value) == Some(true) {
-                return frame(gathered, &outputs);
-            }
-        }
-        unreachable!("the estimator finishes within its latency")
-    }
-
-    fn clock(&mut self, inputs: Inputs<Signal<V>>, gathered: &mut Gathered) -> Outputs<Signal<V>> {
-        let estimator = self.core.estimator();
-        let outputs = estimator.clock(&mut self.cell.parts.estimator, inputs);
-        if V::known(outputs.valid.value) == Some(true) {
-            gathered.take(1, V::code(outputs.index), V::code(outputs.word));
-        }
-        outputs
+        let quiet = Inputs { pad, clipped, ..self.quiet };
+        run(self.core.estimator(), &mut self.cell.parts.estimator, &quiet, &self.sums)
     }
 
     /// The core, and the state of its estimator.
     pub fn state(&self) -> (&Core, &Cell<Core, V>) {
         (&self.core, &self.cell)
     }
+}
+
+/// The frame that an estimator makes of a window's sums. Not inlined: what it borrows is then known to be apart, and formats
+/// need not be looked at again after every word that is written.
+///
+/// # Panics
+/// Where it does not finish within its latency.
+#[inline(never)]
+fn run<V: Value>(
+    estimator: &Estimator,
+    cell: &mut Cell<Estimator, V>,
+    quiet: &Inputs<Signal<V>>,
+    sums: &[Signal<V>],
+) -> Frame {
+    let mut gathered = Gathered::default();
+    for clock in 0..sums.len() + estimator.latency() as usize {
+        let inputs = match sums.get(clock) {
+            Some(&sum) => Inputs { valid: bit(true), index: code(clock as i64, quiet.index.format), sum, ..*quiet },
+            None => *quiet,
+        };
+        let outputs = estimator.clock(cell, inputs);
+        if V::known(outputs.valid.value) == Some(true) {
+            gathered.take(1, V::code(outputs.index), V::code(outputs.word));
+        }
+        if V::known(outputs.done.value) == Some(true) {
+            return frame(gathered, &outputs);
+        }
+    }
+    unreachable!("the estimator finishes within its latency")
 }
 
 /// A code of the ADC.

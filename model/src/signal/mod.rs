@@ -208,6 +208,13 @@ impl<V: Value> Signal<V> {
         Signal { value: V::fit(self, to, rounding, overflow), format: to }
     }
 
+    /// The same number in a format that holds its own: a reading that computes with codes aligns it once, here, and not at
+    /// every operation that it meets others in. To all others it is the signal as it was.
+    #[inline(always)]
+    pub fn aligned(self, to: Format) -> Self {
+        if V::DECIDES { self.fit(to, Exact, Never) } else { self }
+    }
+
     /// As [`Signal::fit`] with saturation, and a bit that says whether it held the number at a rail.
     #[inline(always)]
     pub fn saturate(self, to: Format, rounding: Rounding) -> (Self, Self) {
@@ -246,6 +253,12 @@ impl<V: Value> Signal<V> {
     #[inline(always)]
     pub fn integer(self) -> Self {
         self.scaled(self.format.frac)
+    }
+
+    /// The number whose code in the format `to` this integer is: the low bits of it, where it has more.
+    #[inline(always)]
+    pub fn as_code(self, to: Format) -> Self {
+        self.fit(to.integer(), Exact, Wrap).scaled(-to.frac)
     }
 
     /// The magnitude; that of the most negative code too.

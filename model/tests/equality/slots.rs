@@ -28,7 +28,7 @@ fn check_slots(profile: &Profile, slots: usize, seed: u64) {
         let expected = reference.slot(pad, window);
         let case = format!("{} slot {slot} of {sight:?}, pad {pad}", profile.name);
         assert_eq!(fixed.slot(pad, window), expected, "{case}: fixed, reference");
-        codes.chunks_exact(channels).for_each(|sample| clock.sample(sample));
+        clock.samples(&codes);
         let frame = clock.finish_slot().expect("a frame for every slot");
         assert_eq!(frame, expected, "{case}, clock {}: clock, reference", clock.clocks());
     }

@@ -25,8 +25,7 @@ pub fn xor<V: Value>(a: Signal<V>, b: Signal<V>) -> Signal<V> {
 /// The low bits of a word as a code of a format.
 #[inline(always)]
 pub fn read_as<V: Value>(word: Signal<V>, format: Format) -> Signal<V> {
-    let code = word.bits(0, format.width).fit(Format { frac: 0, ..format }, Exact, Wrap);
-    code.scaled(-format.frac)
+    word.bits(0, format.width).as_code(format)
 }
 
 /// Set by one bit, cleared by another, else as it was; setting wins.

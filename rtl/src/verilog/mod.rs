@@ -26,7 +26,9 @@ mod names;
 mod scope;
 
 use hapticore_model::block::Block;
+use hapticore_model::blocks::core::Core;
 use hapticore_model::format::Format;
+use hapticore_model::profile::Profile;
 use hapticore_model::signal::netlist::{Module, Netlist};
 
 /// A file of a design: one module.
@@ -72,6 +74,11 @@ pub struct Design {
 }
 
 impl Design {
+    /// Prints the core of a profile, as `hapticore hdl --profile` does.
+    pub fn of_core(profile: &Profile) -> Design {
+        Design::of(&Core::new(profile), &format!("hapticore hdl --profile {}", profile.name))
+    }
+
     /// Prints a block and all within it. `made_by` goes into the head of each file: the command, and the profile.
     ///
     /// # Panics

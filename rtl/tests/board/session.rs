@@ -99,7 +99,7 @@ fn simulated(profile: &Profile, calibration: &Calibration, samples: &[Vec<i32>])
     let mut simulation = ClockSimulation::new(profile, calibration);
     let mut frames = Vec::new();
     for sample in samples {
-        simulation.sample(sample);
+        simulation.samples(sample);
         frames.extend(simulation.take_frame());
     }
     frames.extend(simulation.finish_slot());

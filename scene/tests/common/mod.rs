@@ -6,7 +6,7 @@ pub mod every;
 
 use std::f64::consts::TAU;
 
-use hapticore_scene::{CHANNELS, Complex, Plant, SENSE, Scene, TERMINALS, Timing};
+use hapticore_scene::{CHANNELS, Complex, Plant, SENSE, Scene, TERMINALS, Timing, Truth};
 
 /// A window of 200 µs, 20 periods of the carrier, from the slot's first sample on.
 pub fn timing() -> Timing {
@@ -19,6 +19,19 @@ pub fn scene(text: &str) -> Scene {
 
 pub fn plant(text: &str) -> Plant {
     Plant::new(&scene(text), 0, &timing()).unwrap_or_else(|error| panic!("{error}")).metered()
+}
+
+/// All that a slot gives: the truth, the haptic voltage's mean square, amplitudes and samples.
+#[derive(Debug, PartialEq)]
+pub struct Seen(pub Truth, pub f64, pub [Complex; SENSE + 1], pub Vec<f64>);
+
+pub fn see(plant: &mut Plant, slot: usize) -> Seen {
+    let (mut phasors, mut samples) = ([Complex::default(); SENSE + 1], Vec::new());
+    let truth = plant.truth(slot);
+    let mean_square = plant.phasors(slot, &mut phasors);
+    plant.samples(slot, 0..timing().window_samples, &mut samples);
+    assert_eq!(samples.len(), timing().window_samples * CHANNELS);
+    Seen(truth, mean_square, phasors, samples)
 }
 
 /// A pad of 318 pF that stays for 400 slots.

@@ -38,7 +38,7 @@ use crate::format::{BIT, Format};
 use crate::memory::{Memory, Write};
 use crate::profile::Profile;
 use crate::signal::{Exact, Signal, Value, Wrap, bit, int};
-use crate::{bundle, parts, when};
+use crate::{bundle, next, parts};
 
 bundle! {
     /// The inputs.
@@ -212,7 +212,8 @@ impl Block for Map {
 
     #[inline(always)]
     fn registers(&self) -> Registers<Format> {
-        let r = self.registers;
+        let (r, word) = (self.registers, self.word);
+        let position = r.x.with_point(word.frac - Profile::POSITION_BITS);
         Registers {
             busy: BIT,
             done: BIT,
@@ -221,7 +222,18 @@ impl Block for Map {
             operation: r.operation.counting(),
             base: r.base.counting(),
             factor: r.factor.counting(),
-            ..r
+            across: word,
+            along: word,
+            first: word,
+            second: word,
+            word,
+            near: r.near.with_point(0),
+            difference: r.difference.with_point(0),
+            aligned: r.aligned,
+            result: word,
+            x: position,
+            y: position,
+            sheet: r.sheet,
         }
     }
 
@@ -233,15 +245,13 @@ impl Block for Map {
             return outputs;
         }
         let word = self.words.data(&mut cell.parts.words);
-        let after = (r.base + r.step.is(3)).fit(self.registers.base, Exact, Wrap);
+        let after = (r.base + r.step.is(3)).fit(r.base.format, Exact, Wrap);
         self.words.access(&mut cell.parts.words, after, Write { enable: i.write, address: i.address, data: i.word });
         let inputs = multiplier::Inputs { enable: r.busy, left: r.difference, right: r.factor };
         let product = self.multiplier.call("multiplier", &mut cell.parts.multiplier, inputs).product;
         let idle = Registers { done: bit(false), ..r };
         let begin = Registers { busy: bit(true), operation: int(0), step: int(0), saturated: bit(false), ..idle };
-        let next =
-            when!(V, Registers, i.start, begin, when!(V, Registers, r.busy, self.work(idle, i, (word, product)), idle));
-        cell.store(self, next);
+        next!(V, Registers, self, cell, i.start => begin, r.busy => self.work(idle, i, (word, product)), else idle);
         outputs
     }
 }

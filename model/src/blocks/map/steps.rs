@@ -45,7 +45,7 @@ impl Map {
         let origin = along_x.select(i.origin_x, i.origin_y);
         let factor = kind.straightened.select(stretch, weight.integer());
         Registers {
-            base: (operation::offset(&self.layout, r.operation) + index).fit(self.registers.base, Exact, Wrap),
+            base: (operation::offset(&self.layout, r.operation) + index).fit(r.base.format, Exact, Wrap),
             near: kind.boxed.select(origin.integer(), r.first.integer()),
             difference: self.far(&r, i, kind),
             factor: kind.boxed.select(scale, factor),
@@ -59,7 +59,7 @@ impl Map {
         let bits = self.layout.table;
         let row = self.cell_of(r.along, bits).0 + kind.below;
         let rows = row.concat(zero(Format::unsigned(bits, 0))) + row;
-        Registers { base: kind.tables.select(r.base + rows, r.base).fit(self.registers.base, Exact, Wrap), ..r }
+        Registers { base: kind.tables.select(r.base + rows, r.base).fit(r.base.format, Exact, Wrap), ..r }
     }
 
     /// What the difference is taken of where it is no word of the memory: a ratio, a coordinate, or the word below.
@@ -73,9 +73,8 @@ impl Map {
     /// The product with its point, and in an interpolation what it starts from.
     #[inline(always)]
     fn aligned<V: Value>(&self, r: &Registers<Signal<V>>, kind: &Kind<V>, product: Signal<V>) -> Signal<V> {
-        let [boxed, straight, between] =
-            self.products.map(|format| product.fit(Format { frac: 0, ..format }, Exact, Wrap).scaled(-format.frac));
-        let near = r.near.fit(Format { frac: 0, ..self.word }, Exact, Wrap).scaled(-self.word.frac);
+        let [boxed, straight, between] = self.products.map(|format| product.as_code(format));
+        let near = r.near.as_code(self.word);
         kind.boxed.select(boxed, kind.straightened.select(straight, between + near))
     }
 
@@ -92,7 +91,7 @@ impl Map {
         let second = at(STRETCH_Y) | at(STRETCH_X) | kind.below;
         Registers {
             busy: !end,
-            operation: end.select(int(0), r.operation + int(1)).fit(self.registers.operation, Exact, Never),
+            operation: end.select(int(0), r.operation + int(1)).fit(r.operation.format, Exact, Never),
             step: int(0),
             across: of_x.select(result, r.across),
             along: of_y.select(result, r.along),
@@ -100,7 +99,7 @@ impl Map {
             second: second.select(result, r.second),
             x: at(LAYERS + 2).select(mm, r.x),
             y: at(LAYERS + 5).select(mm, r.y),
-            sheet: end.select(result.fit(self.registers.sheet, Exact, Saturate), r.sheet),
+            sheet: end.select(result.fit(r.sheet.format, Exact, Saturate), r.sheet),
             done: end,
             ..r
         }
@@ -123,7 +122,7 @@ impl Map {
     ) -> Registers<Signal<V>> {
         let at = |step: u64| r.step.is(step);
         let kind = Kind::of(r.operation);
-        let moved = Registers { step: (r.step + int(1)).fit(self.registers.step, Exact, Wrap), word, ..r };
+        let moved = Registers { step: (r.step + int(1)).fit(r.step.format, Exact, Wrap), word, ..r };
         when!(
             V,
             Registers,
@@ -162,7 +161,7 @@ impl Map {
     fn subtract<V: Value>(&self, r: Registers<Signal<V>>, kind: &Kind<V>, word: Signal<V>) -> Registers<Signal<V>> {
         let before = |step: u64| r.step.is(step + 1);
         let reads = !(kind.boxed | kind.straightened | kind.between);
-        let difference = (r.difference - r.near).fit(self.registers.difference, Exact, Wrap);
+        let difference = (r.difference - r.near).fit(r.difference.format, Exact, Wrap);
         let far = (before(5) & reads).select(word.integer(), r.difference);
         Registers {
             near: (before(4) & reads).select(word.integer(), r.near),
