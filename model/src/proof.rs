@@ -80,8 +80,8 @@ impl Run<'_> {
         let maybe = Signal { value: Range { low: 0, high: 1 }, format: BIT };
         let words = self.core.estimator().map().words().words as i128;
         let address = Signal { value: Range { low: 0, high: words - 1 }, ..self.inputs.address };
-        self.core.clock(&mut self.cell, Inputs { write: maybe, address, ..self.inputs });
-        self.core.clock(&mut self.cell, self.inputs);
+        self.run(Inputs { write: maybe, address, ..self.inputs });
+        self.run(self.inputs);
     }
 
     /// A slot of every pad, and clocks enough for the last frame to be finished.
@@ -94,8 +94,14 @@ impl Run<'_> {
     }
 
     fn clock(&mut self, strobe: bool) {
-        self.core.clock(&mut self.cell, Inputs { strobe: bit(strobe), ..self.inputs });
+        self.run(Inputs { strobe: bit(strobe), ..self.inputs });
         self.clocks += 1;
+    }
+
+    /// The core in intervals is some megabytes of instructions: once is enough.
+    #[inline(never)]
+    fn run(&mut self, inputs: Inputs<Signal<Range>>) {
+        self.core.clock(&mut self.cell, inputs);
     }
 
     fn state(&self) -> State {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Fidelity `clock`: every clock of the core, as the board runs it.
 
-use super::{Gathered, calibrated, signals};
+use super::{Gathered, calibrated, clock, signals};
 use crate::block::{Block, Cell, sample, variables};
-use crate::blocks::core::{Core, Inputs};
+use crate::blocks::core::{Core, Inputs, Outputs};
 use crate::calibration::Calibration;
 use crate::frame::Frame;
 use crate::probe::{Probe, Variable};
@@ -62,8 +62,8 @@ impl ClockSimulation {
     /// Where `codes` has not one code a channel.
     pub fn sample_with(&mut self, codes: &[i32], mut look: impl FnMut(&Self)) {
         assert_eq!(codes.len(), self.channels, "one code a channel");
-        for clock in 0..self.clocks_per_sample {
-            self.state.clock(&self.core, &self.inputs, clock == 0, codes);
+        for count in 0..self.clocks_per_sample {
+            self.state.clock(&self.core, &self.inputs, count == 0, codes);
             look(self);
         }
     }
@@ -95,16 +95,29 @@ impl State {
     #[inline(never)]
     fn samples(&mut self, core: &Core, inputs: &Inputs<Signal<i64>>, clocks: u64, samples: ChunksExact<'_, i32>) {
         for codes in samples {
-            for clock in 0..clocks {
-                self.clock(core, inputs, clock == 0, codes);
+            for count in 0..clocks {
+                let inputs = self.given(inputs, count == 0, codes);
+                let outputs = core.clock(&mut self.cell, inputs);
+                self.take(outputs);
             }
         }
     }
 
-    #[inline(always)]
     fn clock(&mut self, core: &Core, inputs: &Inputs<Signal<i64>>, strobe: bool, codes: &[i32]) {
+        let inputs = self.given(inputs, strobe, codes);
+        let outputs = clock(core, &mut self.cell, inputs);
+        self.take(outputs);
+    }
+
+    /// The inputs of a clock: the code is that of the channel that was asked for.
+    #[inline(always)]
+    fn given(&self, inputs: &Inputs<Signal<i64>>, strobe: bool, codes: &[i32]) -> Inputs<Signal<i64>> {
         let code = Signal { value: i64::from(codes[self.channel]), format: inputs.code.format };
-        let outputs = core.clock(&mut self.cell, Inputs { strobe: bit(strobe), code, ..*inputs });
+        Inputs { strobe: bit(strobe), code, ..*inputs }
+    }
+
+    #[inline(always)]
+    fn take(&mut self, outputs: Outputs<Signal<i64>>) {
         self.clocks += 1;
         self.channel = outputs.channel.value as usize;
         self.gathered.take(outputs.valid.value, outputs.index.value, outputs.frame.value);
