@@ -143,16 +143,10 @@ impl Capacitance {
         (left, right)
     }
 
-    /// The product of two codes, with the point that their formats give it.
-    #[inline(always)]
-    fn pointed<V: Value>(product: Signal<V>, left: Format, right: Format) -> Signal<V> {
-        product.as_code(left.product(right))
-    }
-
     /// v² − (a·R)², held at zero from below, and whether nothing is left.
     #[inline(always)]
     fn radicand<V: Value>(&self, r: &Registers<Signal<V>>, product: Signal<V>) -> (Signal<V>, Signal<V>) {
-        let drop = Self::pointed(product, self.amplitude, self.amplitude);
+        let drop = product.as_code(self.amplitude.product(self.amplitude));
         let left = (r.square - drop).named("left_over").fit(r.square.format, Exact, Saturate);
         (left, left.equals(zero(left.format)))
     }
@@ -165,10 +159,10 @@ impl Capacitance {
         (product, nothing_left, rooted, divided): (Signal<V>, Signal<V>, Signal<V>, divider::Outputs<Signal<V>>),
     ) -> Registers<Signal<V>> {
         let at = |step: u64| r.step.is(step);
-        let (drop, drop_held) = Self::pointed(product, self.amplitude, self.sheet).saturate(self.amplitude, HalfEven);
-        let square = Self::pointed(product, self.amplitude, self.amplitude);
+        let (drop, drop_held) = product.as_code(self.amplitude.product(self.sheet)).saturate(self.amplitude, HalfEven);
+        let square = product.as_code(self.amplitude.product(self.amplitude));
         let (result, held) =
-            Self::pointed(product, self.admittance, self.gain).saturate(r.capacitance.format, HalfEven);
+            product.as_code(self.admittance.product(self.gain)).saturate(r.capacitance.format, HalfEven);
         let (left, right) = self.operands(&r, &i, divided.quotient);
         let waits = (at(7) & !rooted) | (at(8) & !divided.done);
         let onward = at(10).select(int(0), r.step + int(1));

@@ -101,7 +101,6 @@ pub struct Demodulator {
     /// The ADC's largest and smallest codes.
     rails: [i64; 2],
     operand: Format,
-    sum_width: u8,
     channel: Format,
     step: Format,
     index: Format,
@@ -134,7 +133,6 @@ impl Demodulator {
             oscillator,
             rails: [adc.max_code(), adc.min_code()].map(|rail| rail as i64),
             operand,
-            sum_width: sum.width,
             channel: Format::counter(channels),
             step: Format::counter(steps - 1),
             index: Format::counter(words - 1),
@@ -145,7 +143,7 @@ impl Demodulator {
     /// The format of a sum.
     #[inline(always)]
     pub fn sum(&self) -> Format {
-        Format::signed(self.sum_width, 2 * self.operand.frac)
+        self.sums.format.with_point(2 * self.operand.frac)
     }
 
     /// The sums of a window.
@@ -215,7 +213,8 @@ impl Demodulator {
     /// Stores the weight that the clock before has made, and asks for that of the next step.
     #[inline(always)]
     fn weights<V: Value>(&self, r: &Registers<Signal<V>>, words: &mut V::Words) -> Signal<V> {
-        let weight = Signal { format: r.weighted.format, ..self.weights.data(words) };
+        let format = self.weights.format.with_point(self.operand.frac);
+        let weight = Signal { format, ..self.weights.data(words) };
         let place = (r.step - int(WEIGHING)).bits(0, Format::counter(WEIGHING - 1).width);
         let enable = r.busy & r.step.at_least(int(WEIGHING)) & r.step.less_than(int(2 * WEIGHING));
         let haptic = r.step.is(WEIGHING - 1 + 2 * self.channels);
