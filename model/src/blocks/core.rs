@@ -12,6 +12,7 @@ use super::demodulator::{self, Demodulator};
 use super::estimator::{self, Estimator};
 use super::multiplexer::{self, Multiplexer};
 use super::oscillator::{self, Oscillator};
+use super::pace::{self, Pace};
 use crate::block::{Block, Cell};
 use crate::bundle::Nothing;
 use crate::format::{BIT, Format};
@@ -24,6 +25,8 @@ bundle! {
     pub struct Inputs {
         /// A set of ADC codes is there.
         strobe,
+        /// Abandons the slot under way: the next strobe is the first of the first pad's slot.
+        clear,
         /// The code of the channel asked for in the clock before.
         code,
         /// Calibration: the x ratio in the middle of the box.
@@ -76,6 +79,8 @@ bundle! {
         invalid,
         /// A terminal's current is missing.
         lost,
+        /// Strobes have come closer than the profile's clocks a sample since reset or `clear`: frames are wrong.
+        overrun,
     }
 }
 
@@ -83,6 +88,7 @@ parts! {
     /// The blocks within.
     pub struct Parts of Core {
         multiplexer: Multiplexer,
+        pace: Pace,
         oscillator: Oscillator,
         demodulator: Demodulator,
         estimator: Estimator,
@@ -93,6 +99,7 @@ parts! {
 #[derive(Debug, Clone)]
 pub struct Core {
     multiplexer: Multiplexer,
+    pace: Pace,
     oscillator: Oscillator,
     demodulator: Demodulator,
     estimator: Estimator,
@@ -103,6 +110,7 @@ impl Core {
     pub fn new(profile: &Profile) -> Self {
         Core {
             multiplexer: Multiplexer::new(profile),
+            pace: Pace::new(profile),
             oscillator: Oscillator::new(profile),
             demodulator: Demodulator::new(profile),
             estimator: Estimator::new(profile),
@@ -150,6 +158,7 @@ impl Block for Core {
         let code = self.demodulator.inputs().code;
         Inputs {
             strobe: BIT,
+            clear: BIT,
             code,
             origin_x,
             scale_x,
@@ -183,6 +192,7 @@ impl Block for Core {
             saturated,
             invalid,
             lost,
+            overrun: BIT,
         }
     }
 
@@ -194,8 +204,10 @@ impl Block for Core {
     #[inline(always)]
     fn clock<V: Value>(&self, cell: &mut Cell<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
         let parts = &mut cell.parts;
-        let inputs = multiplexer::Inputs { strobe: i.strobe };
+        let inputs = multiplexer::Inputs { strobe: i.strobe, clear: i.clear };
         let slot = self.multiplexer.call("multiplexer", &mut parts.multiplexer, inputs);
+        let inputs = pace::Inputs { strobe: i.strobe, clear: i.clear };
+        let pace = self.pace.call("pace", &mut parts.pace, inputs);
         let inputs = oscillator::Inputs { sample: slot.sample, restart: slot.restart, first: slot.first };
         let oscillator = self.oscillator.call("oscillator", &mut parts.oscillator, inputs);
         let inputs = demodulator::Inputs {
@@ -240,6 +252,7 @@ impl Block for Core {
             saturated: frame.saturated,
             invalid: frame.invalid,
             lost: frame.lost,
+            overrun: pace.overrun,
         }
     }
 }

@@ -14,5 +14,6 @@ pub mod map;
 pub mod multiplexer;
 pub mod multiplier;
 pub mod oscillator;
+pub mod pace;
 pub mod ratio;
 pub mod root;

@@ -57,6 +57,7 @@ impl Calibration {
     pub fn inputs(&self, formats: Inputs<Format>) -> Inputs<i64> {
         Inputs {
             strobe: 0,
+            clear: 0,
             code: 0,
             origin_x: formats.origin_x.code_saturating(self.map.origin[0]),
             scale_x: formats.scale_x.code_saturating(self.map.scale[0]),
