@@ -27,8 +27,8 @@ use crate::block::{Block, Cell};
 use crate::format::{BIT, Format, MAX_WIDTH};
 use crate::memory::{Memory, Write};
 use crate::profile::Profile;
-use crate::signal::{Exact, HalfEven, Never, Signal, Value, bit, code, int, zero};
-use crate::{bundle, choose, next, parts};
+use crate::signal::{Exact, Floor, HalfEven, Never, Signal, Value, bit, code, int, zero};
+use crate::{bundle, choose, next, parts, when};
 
 bundle! {
     /// The inputs.
@@ -74,7 +74,7 @@ bundle! {
     /// The registers.
     pub struct Registers {
         busy, step, first, last, pad,
-        left, right, weighted,
+        left, right, weighted, residue, other_residue,
         valid, summed, index, sum, clipped,
     }
 }
@@ -113,6 +113,9 @@ const WEIGHING: u64 = 3;
 const PIPELINE: u64 = 2;
 
 impl Demodulator {
+    /// What the polyphase sums' cosine and sine have for one.
+    pub const POLYPHASE_GAIN: f64 = 1.0;
+
     /// The demodulator of a profile.
     pub fn new(profile: &Profile) -> Self {
         let (adc, oscillator) = (profile.formats.adc, profile.formats.oscillator);
@@ -166,10 +169,34 @@ impl Demodulator {
         WEIGHING + self.sums() + PIPELINE
     }
 
-    /// A sample's share of the window: the local oscillator or the haptic code, times the window.
+    /// The haptic code's share of the window: its product with the window.
     #[inline(always)]
-    pub fn weigh<V: Value>(&self, product: Signal<V>, to: Format) -> Signal<V> {
-        product.fit(to, HalfEven, Never)
+    pub fn weigh<V: Value>(&self, product: Signal<V>) -> Signal<V> {
+        product.fit(self.adc, HalfEven, Never)
+    }
+
+    /// The local oscillator at a sample, windowed: the product to the nearest word, with what the samples before have left
+    /// over; and what it leaves to the next. So rounding has no share at low frequencies.
+    #[inline(always)]
+    pub fn carry<V: Value>(&self, product: Signal<V>, residue: Signal<V>) -> (Signal<V>, Signal<V>) {
+        let sum = (product + residue).named("carried");
+        let word = sum.fit(self.oscillator, Floor, Never).ideally(&[product], |of| of[0]);
+        let rest = sum.bits(0, residue.format.width).scaled(-residue.format.frac);
+        (word, rest.ideally(&[], |_| 0.0))
+    }
+
+    /// What is left over before a window's first sample: half a word, so that words are the nearest.
+    #[inline(always)]
+    pub fn fresh_residue<V: Value>(&self) -> Signal<V> {
+        let format = self.residue();
+        code(1 << (format.width - 1), format)
+    }
+
+    /// The format of what rounding leaves over.
+    #[inline(always)]
+    fn residue(&self) -> Format {
+        let frac = 2 * self.operand.frac;
+        Format::unsigned((frac - self.oscillator.frac) as u8, frac)
     }
 
     /// A sum with one more product; a window's first product begins it.
@@ -224,23 +251,21 @@ impl Demodulator {
         weight
     }
 
-    /// While there are weights to be made, the one that the product is.
+    /// While there are weights to be made, the one that the product is: of cosine, sine, and the haptic code. The residues of
+    /// cosine and sine change places with each.
     #[inline(always)]
-    fn weighted<V: Value>(&self, r: &Registers<Signal<V>>, product: Signal<V>) -> Signal<V> {
-        let made = r.step - int(PIPELINE);
-        let weighing = r.step.at_least(int(PIPELINE)) & made.less_than(int(WEIGHING));
-        choose!(V, weighing, self.made(r, product), r.weighted)
-    }
-
-    /// The weight that a product is: the haptic code's comes last.
-    #[inline(always)]
-    fn made<V: Value>(&self, r: &Registers<Signal<V>>, product: Signal<V>) -> Signal<V> {
-        let to = |format: Format| self.weigh(product, format).fit(r.weighted.format, Exact, Never);
-        if self.adc == self.oscillator {
-            return to(self.adc);
+    fn weighted<V: Value>(&self, r: Registers<Signal<V>>, product: Signal<V>) -> Registers<Signal<V>> {
+        let of_wave = (r.step.is(PIPELINE) | r.step.is(PIPELINE + 1)).named("of_wave");
+        let of_haptic = r.step.is(PIPELINE + WEIGHING - 1);
+        let residue = r.first.select(self.fresh_residue(), r.residue);
+        let (wave, rest) = self.carry(product, residue);
+        let [wave, haptic] = [wave, self.weigh(product)].map(|word| word.fit(r.weighted.format, Exact, Never));
+        Registers {
+            weighted: of_wave.select(wave, of_haptic.select(haptic, r.weighted)),
+            residue: of_wave.select(r.other_residue, r.residue),
+            other_residue: of_wave.select(rest, r.other_residue),
+            ..r
         }
-        let haptic = r.step.is(PIPELINE + WEIGHING - 1);
-        choose!(V, haptic, to(self.adc), to(self.oscillator))
     }
 
     #[inline(always)]
@@ -261,12 +286,13 @@ impl Demodulator {
         let (left, right) = self.operands(&r, &i, weight);
         let uses_code = r.step.at_least(int(WEIGHING - 1)) & r.step.less_than(int(WEIGHING + self.sums()));
         let end = r.step.is(self.steps() - 1);
+        let weighing = r.step.at_least(int(PIPELINE)) & r.step.less_than(int(PIPELINE + WEIGHING));
+        let r = when!(V, Registers, weighing, self.weighted(r, product), r);
         Registers {
             busy: !end,
             step: end.select(int(0), r.step + int(1)).fit(r.step.format, Exact, Never),
             left,
             right,
-            weighted: self.weighted(&r, product),
             valid: summed & r.last,
             summed,
             index,
@@ -309,6 +335,8 @@ impl Block for Demodulator {
             left: operand,
             right: operand,
             weighted: operand,
+            residue: self.residue(),
+            other_residue: self.residue(),
             valid: BIT,
             summed: BIT,
             index,

@@ -126,7 +126,7 @@ impl<V: Value> FixedSimulation<V> {
         let mut sum = zero(demodulator.sum());
         for (codes, local) in codes.chunks_exact(self.channels).zip(&self.local) {
             let code = raw(codes[channel], adc);
-            let weighted = demodulator.weigh(self.wave(local.window) * code, adc);
+            let weighted = demodulator.weigh(self.wave(local.window) * code);
             sum = demodulator.accumulate(begun, sum, code * weighted);
         }
         sum
@@ -227,15 +227,14 @@ fn response<V: Value>(local: &[Local<V>], profile: &Profile) -> Response {
     let real = |value: V| format.real(V::code(Signal { value, format }));
     let weights = local.iter().map(|local| [local.cosine, local.sine, local.window].map(real));
     let rail = 1.0 - profile.formats.adc.lsb();
-    Response::new(weights, profile.slot.blanking(), profile.carrier.samples_per_period, rail)
+    Response::new(weights, profile.slot.blanking(), profile.turns_per_sample(), rail)
 }
 
 /// The local oscillator over the window of a slot: the oscillator's own, asked once.
 fn local<V: Value>(core: &Core, profile: &Profile) -> Vec<Local<V>> {
     let (oscillator, demodulator) = (core.oscillator(), core.demodulator());
-    let lo = profile.formats.oscillator;
     let mut cell = oscillator.cell();
-    let mut local = Vec::new();
+    let (mut local, mut residues) = (Vec::new(), [demodulator.fresh_residue(); 2]);
     for sample in 0..profile.slot.samples() {
         let [restart, first] = [sample == 0, sample == profile.slot.blanking()].map(bit);
         let quiet = Sample { sample: bit(false), restart: bit(false), first: bit(false) };
@@ -245,8 +244,10 @@ fn local<V: Value>(core: &Core, profile: &Profile) -> Vec<Local<V>> {
         }
         let out = oscillator.clock(&mut cell, quiet);
         if sample >= profile.slot.blanking() {
-            let [cosine, sine] = [out.cosine, out.sine].map(|wave| demodulator.weigh(out.window * wave, lo).value);
-            local.push(Local { cosine, sine, window: out.window.value });
+            let [(cosine, of_cosine), (sine, of_sine)] = [(out.cosine, residues[0]), (out.sine, residues[1])]
+                .map(|(wave, residue)| demodulator.carry(out.window * wave, residue));
+            residues = [of_cosine, of_sine];
+            local.push(Local { cosine: cosine.value, sine: sine.value, window: out.window.value });
         }
     }
     local

@@ -6,6 +6,7 @@
 
 mod check;
 
+use crate::blocks::demodulator::Demodulator;
 use crate::format::Format;
 use serde::{Deserialize, Serialize};
 
@@ -63,12 +64,26 @@ pub struct Slot {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Carrier {
-    /// Samples in a period.
-    pub samples_per_period: u64,
-    /// Address bits of the quarter-wave table.
-    pub quarter_address: u8,
+    /// Periods in a window. With no divisor in common with the window's samples every sample meets another phase, so that
+    /// harmonics of the carrier stay off it and undithered rounding averages out.
+    pub periods: u64,
+    /// The code that stands for one: of the carrier's words where a sample is multiplied by them, else of the window's.
+    pub amplitude: u64,
+    /// How a channel's in-phase and quadrature sums are made.
+    pub method: Method,
     /// What weighs the samples of a window.
     pub window: Window,
+}
+
+/// How a channel's in-phase and quadrature sums are made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Method {
+    /// Each sample times the windowed cosine and sine: any number of periods.
+    Products,
+    /// Each sample times the window, summed by phase of a carrier of five samples a period; cosine and sine are applied to
+    /// the five sums at the end of the window.
+    Polyphase,
 }
 
 /// What weighs the samples of a window.
@@ -222,13 +237,6 @@ impl Slot {
     }
 }
 
-impl Carrier {
-    /// The carrier's frequency.
-    pub fn turns_per_sample(&self) -> f64 {
-        1.0 / self.samples_per_period as f64
-    }
-}
-
 impl Window {
     /// The mean weight.
     pub fn mean(self) -> f64 {
@@ -240,6 +248,33 @@ impl Window {
 }
 
 impl Profile {
+    /// The carrier's frequency.
+    pub fn turns_per_sample(&self) -> f64 {
+        self.carrier.periods as f64 / self.slot.integrate as f64
+    }
+
+    /// ADC samples in a period of the carrier.
+    pub fn samples_per_period(&self) -> f64 {
+        1.0 / self.turns_per_sample()
+    }
+
+    /// The profile with a window of another length, its carrier as near to what it was as whole periods are.
+    pub fn with_window(mut self, samples: u64) -> Self {
+        self.carrier.periods = (self.turns_per_sample() * samples as f64).round() as u64;
+        self.slot.integrate = samples;
+        self
+    }
+
+    /// The number that the carrier's amplitude stands for.
+    pub fn amplitude(&self) -> f64 {
+        self.carrier.amplitude as f64 * self.formats.oscillator.lsb()
+    }
+
+    /// The mean weight of a window's samples.
+    pub fn mean_weight(&self) -> f64 {
+        self.carrier.window.mean() * self.amplitude()
+    }
+
     /// The format of the sheet's resistance: a word of the map that is never negative.
     pub fn sheet(&self) -> Format {
         let map = self.formats.map;
@@ -267,12 +302,16 @@ impl Profile {
 
     /// What an in-phase word is for a tone at full scale.
     pub fn tone_gain(&self) -> f64 {
-        self.slot.integrate as f64 * self.carrier.window.mean() / 2.0 * 2f64.powi(-i32::from(self.sum_shift()))
+        let wave = match self.carrier.method {
+            Method::Products => self.amplitude(),
+            Method::Polyphase => Demodulator::POLYPHASE_GAIN,
+        };
+        self.slot.integrate as f64 * self.mean_weight() * wave / 2.0 * 2f64.powi(-i32::from(self.sum_shift()))
     }
 
     /// What the mean square's word is for a constant at full scale.
     pub fn square_gain(&self) -> f64 {
-        self.slot.integrate as f64 * self.carrier.window.mean() * 2f64.powi(-i32::from(self.square_shift()))
+        self.slot.integrate as f64 * self.mean_weight() * 2f64.powi(-i32::from(self.square_shift()))
     }
 }
 

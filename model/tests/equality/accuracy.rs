@@ -3,9 +3,8 @@
 //! deviation that the word lengths predict.
 //!
 //!   q(f) = lsb / √12                                     the deviation of rounding to f
-//!   ε² = carrier² + waves² + 2 q(iq)² / (g a)²           of an amplitude a, relative; g the tone gain
-//!   carrier = |1/P Σ δ_n e^{2jφ_n}| / √2                 δ_n: what the table's step leaves of the phase; its image of the tone
-//!   waves = q(oscillator) √(2/P)                         the table's words, as periodic as the carrier
+//!   ε² = carrier² + 2 q(iq)² / (g a)²           of an amplitude a, relative; g the tone gain
+//!   carrier = 2 q(oscillator) / √N                       the local oscillator's words, of N samples
 //!
 //! Onward, δr = Σ (±1 − r) δa / Σ a; a position follows its table's slope; capacitance and force add their words' own q.
 
@@ -17,7 +16,6 @@ use hapticore_model::format::Format;
 use hapticore_model::frame::Reading;
 use hapticore_model::profile::Profile;
 use hapticore_model::reference::Reference;
-use std::f64::consts::TAU;
 
 const SLOTS: usize = if cfg!(optimised) { 300 } else { 20 };
 const NAMES: [&str; 5] = ["r_x", "x_mm", "capacitance", "force", "mean_square"];
@@ -43,18 +41,9 @@ fn spread_tones(profile: &Profile, random: &mut Random) -> Tones {
     Tones { phasors, haptic: random.between(0.5, 0.9) }
 }
 
-/// The relative deviation of an amplitude from the table's steps and words.
+/// The relative deviation of an amplitude from the local oscillator's words, one error for each sample of the window.
 fn carrier(profile: &Profile) -> f64 {
-    let (period, steps) = (profile.carrier.samples_per_period, 4u64 << profile.carrier.quarter_address);
-    let image = (0..period).fold((0.0, 0.0), |(re, im), n| {
-        let turns = n as f64 / period as f64;
-        let steps = steps as f64;
-        let delta = TAU * (((turns * steps).floor() + 0.5) / steps - turns);
-        let (sine, cosine) = (2.0 * TAU * turns).sin_cos();
-        (re + delta * cosine / period as f64, im + delta * sine / period as f64)
-    });
-    let waves = q(profile.formats.oscillator) * (2.0 / period as f64).sqrt();
-    norm(&[norm(&[image.0, image.1]) / 2f64.sqrt(), waves])
+    q(profile.formats.oscillator) * 2.0 / (profile.slot.integrate as f64).sqrt()
 }
 
 /// The deviation of a position: of its ratios, by the table's slope, and of the map's own words.
@@ -97,10 +86,9 @@ fn predict(profile: &Profile, calibration: &Calibration, tones: &Tones, ideal: &
         q(f.capacitance) / ideal.capacitance_pf,
     ]);
     let square = ideal.capacitance_pf.powi(2);
-    let window = TAU / f64::from(4 << profile.carrier.quarter_address) / 12f64.sqrt() / 2.0;
     let mean_square = norm(&[
         q(f.mean_square) / ideal.mean_square,
-        norm(&[window, q(f.oscillator)]) / (profile.slot.integrate as f64).sqrt(),
+        norm(&[q(f.adc), q(f.oscillator)]) / (profile.slot.integrate as f64).sqrt(),
     ]);
     let gain =
         f.force_gain.lsb() * (calibration.force_gain / f.force_gain.lsb()).round() / calibration.force_gain - 1.0;

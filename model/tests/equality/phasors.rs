@@ -27,7 +27,12 @@ fn window(profile: &Profile, tones: &Tones) -> Vec<i32> {
 /// What lies between two amplitudes: rounding that repeats with each period, lsb/√12 in each of its samples, and the
 /// in-phase and quadrature words' own on either side.
 fn rounding(profile: &Profile) -> f64 {
-    let adc = profile.formats.adc.lsb() * (2.0 / profile.carrier.samples_per_period as f64).sqrt();
+    let (mut period, mut rest) = (profile.slot.integrate, profile.carrier.periods);
+    while rest != 0 {
+        (period, rest) = (rest, period % rest);
+    }
+    let distinct = profile.slot.integrate / period;
+    let adc = profile.formats.adc.lsb() * (2.0 / distinct as f64).sqrt();
     let words = profile.formats.iq.lsb() * 2f64.sqrt() / profile.tone_gain();
     adc.hypot(words) / 12f64.sqrt()
 }

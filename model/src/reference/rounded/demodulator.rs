@@ -2,7 +2,7 @@
 //! The sums of a window.
 //!
 //! ```text
-//! i_k = Σ x_k · [w cos φ],   q_k = Σ x_k · [w sin φ],   m = Σ h · [w h]        ([·]: to the oscillator's, the ADC's format)
+//! i_k = Σ x_k · lo_i,   q_k = Σ x_k · lo_q,   m = Σ h · [w h]        ([·]: to the ADC's format)
 //! ```
 
 use super::{Exact, Sample, round, weighted};
@@ -24,8 +24,8 @@ pub fn demodulate(profile: &Profile, carrier: &[Sample], codes: &[i32]) -> Sums 
     let adc = profile.formats.adc;
     let channels = profile.terminals.x.len() + 2;
     let mut sums = Sums { phases: vec![[Exact::ZERO; 2]; channels - 1], square: Exact::ZERO, clipped: false };
-    for (codes, sample) in codes.chunks_exact(channels).zip(carrier) {
-        let [cosine, sine] = weighted(profile, sample);
+    let local = weighted(profile, carrier);
+    for ((codes, sample), [cosine, sine]) in codes.chunks_exact(channels).zip(carrier).zip(local) {
         let x = |k: usize| Exact::of(codes[k].into(), adc);
         for (k, [i, q]) in sums.phases.iter_mut().enumerate() {
             *i = *i + x(k) * cosine;
