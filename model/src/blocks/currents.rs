@@ -109,7 +109,8 @@ impl Currents {
         let amplitude = root.root();
         let sums = Format::signed(amplitude.width + 1 + Format::counter(terminals).width, amplitude.frac);
         let channels = terminals + 1;
-        let words = Memory::new("words", 2 * channels as usize, iq).never_colliding();
+        let demodulator = super::demodulator::Demodulator::new(profile);
+        let words = Memory::new("words", (2 * channels + 2).next_power_of_two() as usize, iq).never_colliding();
         let registers = Registers {
             step: Format::unsigned(3, 0),
             arrived: BIT,
@@ -137,8 +138,8 @@ impl Currents {
             terminals,
             signs: [profile.terminals.x.clone(), profile.terminals.y.clone()],
             lost_shift: profile.terminals.lost_shift,
-            shift: profile.sum_shift(),
-            sum: super::demodulator::Demodulator::new(profile).sum(),
+            shift: profile.sum_shift() - demodulator.shift(),
+            sum: demodulator.sum(),
             iq,
             total,
             registers,

@@ -16,14 +16,18 @@
 //!
 //! A phase counts modulo the window's samples, so that the quarter wave has an entry for each phase that there is, and no
 //! other: none is truncated. The bit that the window's halving drops is carried to the next sample. The phase begins anew
-//! with each slot, so that every slot sees the same carrier. Latency: 4 clocks from `sample` to `ready`. Source: paper, eq. 5;
-//! Harris, Proc. IEEE 66 (1978) 51, for the window.
+//! with each slot, so that every slot sees the same carrier.
+//!
+//! A polyphase demodulator needs the window and the number of the phase only: the table then holds half a window, whose other
+//! half is its mirror image, and the carrier is one of five constants.
+//!
+//! Latency: 4 clocks from `sample` to `ready`, polyphase 2. Source: paper, eq. 5; Harris, Proc. IEEE 66 (1978) 51, for the window.
 
 use crate::block::{Block, Cell};
 use crate::format::{BIT, Format};
 use crate::memory::Memory;
-use crate::profile::{Profile, Window};
-use crate::signal::{Exact, Floor, Never, Signal, Value, Wrap, bit, code, int};
+use crate::profile::{Method, Profile, Window};
+use crate::signal::{Exact, Floor, Never, Signal, Value, Wrap, bit, code, int, zero};
 use crate::{bundle, next, parts};
 use std::f64::consts::TAU;
 
@@ -50,6 +54,8 @@ bundle! {
         sine,
         /// The window.
         window,
+        /// Polyphase: which of the carrier's five phases the sample has.
+        phase,
     }
 }
 
@@ -75,13 +81,37 @@ pub struct Oscillator {
     /// The carrier's step from sample to sample: quadrants, and steps of a window's part.
     step: [u64; 2],
     window: Window,
+    /// Samples of the window.
+    samples: u64,
+    polyphase: bool,
+    /// Polyphase: the carrier's codes at its phases 0, 1 and 2; phases 4 and 3 are as 1 and 2.
+    carrier: [i64; 3],
     amplitude: i64,
     /// Of the cosine, the sine and the window.
     wave: Format,
 }
 
+/// Phases of a polyphase demodulator's carrier.
+pub const PHASES: u64 = 5;
+
 /// A phase: its quadrant, and how far into that it is in steps of a window's part of a turn.
 type Phase<V> = [Signal<V>; 2];
+
+/// The sine of a quarter turn, an entry for each step of a window's part.
+fn quarter_wave(profile: &Profile) -> Vec<f64> {
+    let quarter = profile.slot.integrate / 4;
+    (0..=quarter).map(|k| profile.amplitude() * (TAU / 4.0 * k as f64 / quarter as f64).sin()).collect()
+}
+
+/// The first half of the window, its middle among it.
+fn half_window(profile: &Profile) -> Vec<f64> {
+    let samples = profile.slot.integrate;
+    let weight = |m: u64| match profile.carrier.window {
+        Window::Hann => (TAU / 2.0 * m as f64 / samples as f64).sin().powi(2),
+        Window::Rectangular => 1.0,
+    };
+    (0..=samples / 2).map(|m| profile.amplitude() * weight(m)).collect()
+}
 
 /// The format of a wave without its sign.
 #[inline(always)]
@@ -91,14 +121,20 @@ const fn magnitude(wave: Format) -> Format {
 
 impl Oscillator {
     /// Clocks from `sample` to `ready`.
-    pub const LATENCY: u64 = 4;
+    pub fn latency(&self) -> u64 {
+        if self.polyphase { 2 } else { 4 }
+    }
 
     /// The oscillator of a profile.
     pub fn new(profile: &Profile) -> Self {
         let (format, quarter) = (profile.formats.oscillator, profile.slot.integrate / 4);
-        let entry = |k| profile.amplitude() * (TAU / 4.0 * k as f64 / quarter as f64).sin();
+        let polyphase = profile.carrier.method == Method::Polyphase;
+        let table = if polyphase { half_window(profile) } else { quarter_wave(profile) };
         Oscillator {
-            quarter: Memory::table("quarter", magnitude(format), (0..=quarter).map(entry).collect()),
+            quarter: Memory::table("quarter", magnitude(format), table),
+            samples: profile.slot.integrate,
+            polyphase,
+            carrier: [0.0, 1.0, 2.0].map(|k| format.code_saturating((TAU * k / PHASES as f64).cos())),
             step: [profile.carrier.periods / quarter, profile.carrier.periods % quarter],
             window: profile.carrier.window,
             amplitude: profile.carrier.amplitude as i64,
@@ -162,6 +198,47 @@ impl Oscillator {
         let quadrant = of(r.quadrant, r.window_quadrant);
         let turned = (quadrant + int(1)).fit(quadrant.format, Exact, Wrap);
         [r.step.is(2).select(quadrant, turned), of(r.phase, r.window_phase)]
+    }
+
+    /// Polyphase: a sample begins, with the next phase and the next place in the window.
+    #[inline(always)]
+    fn begin_polyphase<V: Value>(&self, r: Registers<Signal<V>>, i: Inputs<Signal<V>>) -> Registers<Signal<V>> {
+        let next = |anew: Signal<V>, count: Signal<V>, last: u64| {
+            let further = (count + int(1)).fit(count.format, Exact, Wrap);
+            (anew | count.is(last)).select(int(0), further)
+        };
+        Registers {
+            step: int(1),
+            phase: next(i.restart, r.phase, PHASES - 1),
+            window_phase: next(i.first, r.window_phase, self.samples - 1),
+            ..r
+        }
+    }
+
+    /// Polyphase: the word of the window's place, or of its mirror image, is looked up; a clock later it is there.
+    #[inline(always)]
+    fn clock_polyphase<V: Value>(&self, cell: &mut Cell<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+        let r = cell.load(self);
+        let window = self.quarter.data(&mut cell.parts.quarter).fit(self.wave, Exact, Never);
+        let outputs = Outputs { ready: r.ready, cosine: self.carrier(r.phase), sine: zero(self.wave), window, phase: r.phase };
+        let busy = !r.step.is(0);
+        if (i.sample | busy | r.ready).idle() {
+            return outputs;
+        }
+        let mirrored = (int(self.samples) - r.window_phase).fit(self.quarter.address(), Exact, Wrap);
+        let first_half = r.window_phase.less_than(int(self.quarter.words as u64));
+        let place = r.window_phase.fit(self.quarter.address(), Exact, Wrap);
+        self.quarter.read(&mut cell.parts.quarter, first_half.select(place, mirrored));
+        let r = Registers { step: int(0), ready: busy, ..r };
+        next!(V, Registers, self, cell, i.sample => self.begin_polyphase(r, i), else r);
+        outputs
+    }
+
+    /// Polyphase: the carrier at a phase.
+    #[inline(always)]
+    fn carrier<V: Value>(&self, phase: Signal<V>) -> Signal<V> {
+        let [first, second, third] = self.carrier.map(|wave| code(wave, self.wave));
+        phase.is(0).select(first, (phase.is(1) | phase.is(4)).select(second, third))
     }
 
     /// A sample begins: phases start anew where they should.
@@ -230,7 +307,8 @@ impl Block for Oscillator {
 
     #[inline]
     fn outputs(&self) -> Outputs<Format> {
-        Outputs { ready: BIT, cosine: self.wave, sine: self.wave, window: self.wave }
+        let phase = if self.polyphase { self.registers().phase } else { BIT };
+        Outputs { ready: BIT, cosine: self.wave, sine: self.wave, window: self.wave, phase }
     }
 
     #[inline(always)]
@@ -239,9 +317,9 @@ impl Block for Oscillator {
         Registers {
             step: Format::unsigned(3, 0),
             quadrant: Format::unsigned(2, 0),
-            phase: self.quarter_phase(),
+            phase: if self.polyphase { Format::counter(PHASES - 1) } else { self.quarter_phase() },
             window_quadrant: Format::unsigned(2, 0),
-            window_phase: self.quarter_phase(),
+            window_phase: if self.polyphase { Format::counter(self.samples - 1) } else { self.quarter_phase() },
             negative: BIT,
             wave: magnitude(full),
             sign: BIT,
@@ -255,8 +333,12 @@ impl Block for Oscillator {
 
     #[inline(always)]
     fn clock<V: Value>(&self, cell: &mut Cell<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+        if self.polyphase {
+            return self.clock_polyphase(cell, i);
+        }
         let r = cell.load(self);
-        let outputs = Outputs { ready: r.ready, cosine: r.cosine, sine: r.sine, window: r.window };
+        let outputs =
+            Outputs { ready: r.ready, cosine: r.cosine, sine: r.sine, window: r.window, phase: bit(false) };
         let busy = !r.step.is(0);
         if (i.sample | busy | r.ready).idle() {
             return outputs;

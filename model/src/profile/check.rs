@@ -78,7 +78,13 @@ impl Profile {
     fn check_polyphase(&self) -> Check {
         let samples = self.slot.integrate;
         let expected = format_args!("five samples of each of {} periods", self.carrier.periods).to_string();
-        ensure(samples == 5 * self.carrier.periods, "slot.integrate", expected, samples)
+        ensure(samples == 5 * self.carrier.periods, "slot.integrate", expected, samples)?;
+        let begins = self.slot.blanking();
+        ensure(begins.is_multiple_of(5), "slot.settle", "whole periods of five samples before the window", begins)?;
+        let f = &self.formats;
+        ensure(f.adc == Format::signed(16, 15), "formats.adc", "s16.15, with carrier.method polyphase", f.adc)?;
+        let waves = Format::signed(17, 16);
+        ensure(f.oscillator == waves, "formats.oscillator", "s17.16, with carrier.method polyphase", f.oscillator)
     }
 
     fn check_map(&self) -> Check {

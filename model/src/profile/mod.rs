@@ -6,7 +6,6 @@
 
 mod check;
 
-use crate::blocks::demodulator::Demodulator;
 use crate::format::Format;
 use serde::{Deserialize, Serialize};
 
@@ -304,7 +303,7 @@ impl Profile {
     pub fn tone_gain(&self) -> f64 {
         let wave = match self.carrier.method {
             Method::Products => self.amplitude(),
-            Method::Polyphase => Demodulator::POLYPHASE_GAIN,
+            Method::Polyphase => crate::blocks::demodulator::POLYPHASE_GAIN,
         };
         self.slot.integrate as f64 * self.mean_weight() * wave / 2.0 * 2f64.powi(-i32::from(self.sum_shift()))
     }

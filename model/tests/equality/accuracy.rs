@@ -88,7 +88,7 @@ fn predict(profile: &Profile, calibration: &Calibration, tones: &Tones, ideal: &
     let square = ideal.capacitance_pf.powi(2);
     let mean_square = norm(&[
         q(f.mean_square) / ideal.mean_square,
-        norm(&[q(f.adc), q(f.oscillator)]) / (profile.slot.integrate as f64).sqrt(),
+        2.0 * norm(&[q(f.adc), q(f.oscillator)]) / (profile.slot.integrate as f64 * ideal.mean_square).sqrt(),
     ]);
     let gain =
         f.force_gain.lsb() * (calibration.force_gain / f.force_gain.lsb()).round() / calibration.force_gain - 1.0;

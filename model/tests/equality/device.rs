@@ -13,10 +13,10 @@ pub fn short_profiles() -> Vec<Profile> {
 
 fn shortened(mut profile: Profile) -> Profile {
     profile.slot.open = 2;
-    profile.slot.settle = 70;
+    profile.slot.settle = 98;
     let samples = 4 * profile.samples_per_period().round() as u64;
     let profile = profile.with_window(samples);
-    profile.check().expect("seventy samples are longer than the estimator takes");
+    profile.check().expect("a hundred samples are longer than the estimator takes");
     profile
 }
 

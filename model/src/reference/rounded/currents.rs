@@ -8,7 +8,7 @@
 //! ```
 
 use super::{Exact, round, round_root};
-use crate::profile::{Profile, Window};
+use crate::profile::{Method, Profile, Window};
 
 /// Amplitudes and sums.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,7 +52,11 @@ pub fn currents(profile: &Profile, sums: &[[Exact; 2]]) -> Currents {
         saturated |= rounded.held;
         rounded.value
     };
-    let shift = power_above(growth(profile, 0.5));
+    let smaller = match profile.carrier.method {
+        Method::Products => 0,
+        Method::Polyphase => (power_above(growth(profile, 0.4)) - 1).max(0),
+    };
+    let shift = power_above(growth(profile, 0.5)) - smaller;
     let words: Vec<[Exact; 2]> = sums.iter().map(|sum| sum.map(|part| held(part.scaled(-shift), f.iq))).collect();
     let (terminals, sense) = words.split_at(profile.terminals.x.len());
     let mut add = |sum: Exact, word: Exact| held(sum + word, f.total);

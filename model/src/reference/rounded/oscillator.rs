@@ -6,11 +6,13 @@
 //! window = ⌊T(m+1)/2⌋ − ⌊T(m)/2⌋,   T(m) = Σ_{k<m} (A − wave(k + N/4))   in words;   or A
 //! local oscillator = {C(m+1)} − {C(m)},   C(m) = Σ_{k<m} window·cosine; the sine likewise     ({·}: ⌊· + ½⌋ of a word)
 //! ```
+//!
+//! Polyphase: window = [A sin² π m/N], the cosine that of five samples a period, no sine.
 
 use super::{Exact, round_real};
 use crate::format::Format;
-use crate::profile::{Profile, Window};
-use std::f64::consts::TAU;
+use crate::profile::{Method, Profile, Window};
+use std::f64::consts::{PI, TAU};
 
 /// A sample of the carrier.
 #[derive(Debug, Clone, Copy)]
@@ -33,6 +35,7 @@ pub struct Oscillator {
     periods: u64,
     /// A, the number that stands for one.
     amplitude: f64,
+    polyphase: bool,
     window: Window,
     /// T(m) for m up to N, in words.
     weights: Vec<i128>,
@@ -47,6 +50,7 @@ impl Oscillator {
             samples: profile.slot.integrate,
             periods: profile.carrier.periods,
             amplitude: profile.carrier.amplitude as f64 * 2f64.powi(-i32::from(format.frac)),
+            polyphase: profile.carrier.method == Method::Polyphase,
             window: profile.carrier.window,
             weights: vec![0],
         };
@@ -70,6 +74,10 @@ impl Oscillator {
 
     /// Sample `n` of a slot, which is sample `m` of its window.
     pub fn sample(&self, n: u64, m: u64) -> Sample {
+        if self.polyphase {
+            let cosine = round_real((TAU * (n % 5) as f64 / 5.0).cos(), self.format);
+            return Sample { cosine, sine: Exact::ZERO, window: self.weight(m) };
+        }
         let phase = n % self.samples * self.periods;
         Sample { cosine: self.wave(phase + self.samples / 4), sine: self.wave(phase), window: self.weight(m) }
     }
@@ -80,6 +88,10 @@ impl Oscillator {
             whole + self.weights[(m % self.samples) as usize]
         };
         match self.window {
+            Window::Hann if self.polyphase => {
+                let turns = (m % self.samples) as f64 / self.samples as f64;
+                round_real(self.amplitude * (PI * turns.min(1.0 - turns)).sin().powi(2), self.format)
+            }
             Window::Hann => {
                 let code = total(m + 1).div_euclid(2) - total(m).div_euclid(2);
                 Exact::new(code, -i32::from(self.format.frac))
