@@ -133,14 +133,17 @@ impl Demodulator {
         let growth = 64 - (products - 1).leading_zeros() as u8;
         let operand = if polyphase.is_some() { polyphase::OPERAND } else { adc.join(oscillator) };
         let product = if polyphase.is_some() { polyphase::PRODUCT } else { operand.product(operand) };
-        let sum = Format::signed(product.width - u8::from(product.signed) + growth + u8::from(!product.signed), product.frac);
+        let sum =
+            Format::signed(product.width - u8::from(product.signed) + growth + u8::from(!product.signed), product.frac);
         let sums = 2 * channels + 1;
         let words = polyphase.as_ref().map_or(sums, |polyphase| polyphase.words());
         let steps = if polyphase.is_some() { channels + 2 } else { WEIGHING + sums } + PIPELINE;
         Demodulator {
             // In one clock whatever its width: products keep pace with the channels.
             multiplier: Multiplier::new(operand.integer(), operand.integer(), MAX_WIDTH),
-            weights: Memory::new("weights", WEIGHING.next_power_of_two() as usize, operand).never_colliding().in_block(),
+            weights: Memory::new("weights", WEIGHING.next_power_of_two() as usize, operand)
+                .never_colliding()
+                .in_block(),
             sums: Memory::new("sums", words.next_power_of_two() as usize, sum).never_colliding(),
             channels,
             adc,
@@ -300,7 +303,17 @@ impl Demodulator {
         // Polyphase: a window's first five samples begin the sums of their phases.
         let fresh = i.first | (r.fresh & !i.phase.is(0));
         let phase = i.phase;
-        Registers { busy: bit(true), step: int(0), first: i.first, last: i.last, pad: i.pad, clipped, fresh, phase, ..r }
+        Registers {
+            busy: bit(true),
+            step: int(0),
+            first: i.first,
+            last: i.last,
+            pad: i.pad,
+            clipped,
+            fresh,
+            phase,
+            ..r
+        }
     }
 
     #[inline(always)]

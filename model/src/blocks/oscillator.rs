@@ -220,7 +220,8 @@ impl Oscillator {
     fn clock_polyphase<V: Value>(&self, cell: &mut Cell<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
         let r = cell.load(self);
         let window = self.quarter.data(&mut cell.parts.quarter).fit(self.wave, Exact, Never);
-        let outputs = Outputs { ready: r.ready, cosine: self.carrier(r.phase), sine: zero(self.wave), window, phase: r.phase };
+        let outputs =
+            Outputs { ready: r.ready, cosine: self.carrier(r.phase), sine: zero(self.wave), window, phase: r.phase };
         let busy = !r.step.is(0);
         if (i.sample | busy | r.ready).idle() {
             return outputs;
@@ -337,8 +338,7 @@ impl Block for Oscillator {
             return self.clock_polyphase(cell, i);
         }
         let r = cell.load(self);
-        let outputs =
-            Outputs { ready: r.ready, cosine: r.cosine, sine: r.sine, window: r.window, phase: bit(false) };
+        let outputs = Outputs { ready: r.ready, cosine: r.cosine, sine: r.sine, window: r.window, phase: bit(false) };
         let busy = !r.step.is(0);
         if (i.sample | busy | r.ready).idle() {
             return outputs;

@@ -144,8 +144,12 @@ impl Profile {
             let sound = (4..=30).contains(&format.width) && format.frac >= 0;
             ensure(sound, &format!("formats.{name}"), "4 to 30 bits with a point among them", format)?;
         }
+        let wide = f.iq.width + f.block_shift.min(63);
+        ensure(wide <= 40, "formats.block_shift", format_args!("at most 40 bits with those of iq, {}", f.iq), wide)?;
         let same_point = f.total.frac == f.iq.frac && f.total.width >= f.iq.width;
-        ensure(same_point, "formats.total", format_args!("the point of iq, {}, and no fewer bits", f.iq), f.total)?;
+        let moved = f.block_shift > 0 && f.total.frac <= f.iq.frac;
+        let expected = format_args!("the point of iq, {}, and no fewer bits", f.iq);
+        ensure(same_point || moved, "formats.total", expected, f.total)?;
         ensure(f.ratio.integer_bits() == 1, "formats.ratio", "one integer bit, such as s20.18", f.ratio)?;
         ensure((4..=30).contains(&f.ratio.width), "formats.ratio", "4 to 30 bits", f.ratio)?;
         ensure(f.admittance.frac >= 0, "formats.admittance", "fractional bits", f.admittance)?;

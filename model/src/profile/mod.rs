@@ -127,6 +127,9 @@ pub struct Formats {
     pub iq: Format,
     /// In-phase and quadrature words of the sum over all terminals.
     pub total: Format,
+    /// Bits by which in-phase and quadrature words may be moved up, those of all terminals together, so that the largest
+    /// fills its word; 0 leaves the point where it is. `total` is then the format of the amplitudes that are given on.
+    pub block_shift: u8,
     /// The ratios of eqs. 2 and 3.
     pub ratio: Format,
     /// Words of the map's tables; all are fractions.
@@ -278,6 +281,12 @@ impl Profile {
     pub fn sheet(&self) -> Format {
         let map = self.formats.map;
         Format::unsigned(map.width - 1, map.frac)
+    }
+
+    /// The format of the amplitudes of total current and sensing voltage: of the root of two squares of a total's word, one
+    /// more bit than the word without its sign and one for the root's rounding.
+    pub fn amplitude_format(&self) -> Format {
+        Format::unsigned(self.formats.total.width + 1, self.formats.total.frac)
     }
 
     /// The format of a position, in millimetres: a word of the map.

@@ -4,6 +4,7 @@
 //!
 //!   q(f) = lsb / √12                                     the deviation of rounding to f
 //!   ε² = carrier² + 2 q(iq)² / (g a)²           of an amplitude a, relative; g the tone gain
+//!   q(iq) 2^-by where words are moved up by bits; the total's and the sensing voltage's amplitudes then add q(total)
 //!   carrier = 2 q(oscillator) / √N                       the local oscillator's words, of N samples
 //!
 //! Onward, δr = Σ (±1 − r) δa / Σ a; a position follows its table's slope; capacitance and force add their words' own q.
@@ -64,9 +65,15 @@ fn predict(profile: &Profile, calibration: &Calibration, tones: &Tones, ideal: &
     let (f, g) = (&profile.formats, profile.tone_gain());
     let (terminals, sense) = tones.phasors.split_at(profile.terminals.x.len());
     let carrier = carrier(profile);
-    let relative = |words: f64, a: f64| norm(&[carrier, q(f.iq) * words.sqrt() / (g * a)]);
+    let up = |tones: &[(f64, f64)]| {
+        let largest = tones.iter().map(|(a, _)| g * a).fold(0.0, f64::max);
+        2f64.powi((-largest.log2()).floor().clamp(0.0, f.block_shift.into()) as i32)
+    };
+    let [of_terminals, of_sense] = [terminals, sense].map(|tones| q(f.iq) / up(tones));
+    let relative = |word: f64, words: f64, a: f64| norm(&[carrier, word * words.sqrt() / (g * a)]);
+    let given = |a: f64| if f.block_shift > 0 { q(f.total) / (g * a) } else { 0.0 };
     let ratio = |signs: &[i8], r: f64| {
-        let corner = |&(a, _): &(f64, f64), sign: i8| (f64::from(sign) - r) * a * relative(2.0, a);
+        let corner = |&(a, _): &(f64, f64), sign: i8| (f64::from(sign) - r) * a * relative(of_terminals, 2.0, a);
         let others = profile.terminals.x.iter().zip(&profile.terminals.y);
         let corners = terminals.iter().zip(signs).zip(others).filter(|&(_, (&x, &y))| x != 0 || y != 0);
         let (terms, sum) = corners.fold((Vec::new(), 0.0), |(mut terms, sum), ((current, &sign), _)| {
@@ -78,10 +85,14 @@ fn predict(profile: &Profile, calibration: &Calibration, tones: &Tones, ideal: &
     let of_ratio = [ratio(&profile.terminals.x, ideal.r_x), ratio(&profile.terminals.y, ideal.r_y)];
     let total = ideal.capacitance_pf / calibration.capacitance_gain * sense[0].0;
     let admittance = ideal.capacitance_pf / calibration.capacitance_gain;
-    let words = terminals.len() as f64 + 1.0;
+    // The total's own word has fewer bits than a terminal's, by as many as their number has.
+    let narrowed = if f.block_shift > 0 { f64::from(1 << (2 * terminals.len().ilog2() + 2)) } else { 1.0 };
+    let words = terminals.len() as f64 + narrowed;
     let capacitance = norm(&[
-        relative(words, total),
-        relative(2.0, sense[0].0),
+        relative(of_terminals, words, total),
+        relative(of_sense, 2.0, sense[0].0),
+        given(total),
+        given(sense[0].0),
         q(f.admittance) / admittance,
         q(f.capacitance) / ideal.capacitance_pf,
     ]);

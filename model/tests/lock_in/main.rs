@@ -17,7 +17,10 @@ fn check(measured: &Measured, (name, excess, reserve, constant): (&str, f64, f64
     assert_eq!(measured.profile.name, name);
     assert!(measured.excess <= excess, "{name}: above floating point by at most {excess} dB: {measured:?}");
     assert!(measured.reserve >= reserve, "{name}: a reserve of at least {reserve} dB: {measured:?}");
-    assert!(measured.reserve >= measured.float_reserve - LESS, "{name}: within {LESS} dB of floating point: {measured:?}");
+    assert!(
+        measured.reserve >= measured.float_reserve - LESS,
+        "{name}: within {LESS} dB of floating point: {measured:?}"
+    );
     let left = measured.constant.unwrap_or(f64::NEG_INFINITY);
     assert!(left < constant.unwrap_or(-1e3), "{name}: of a constant: {measured:?}");
 }
@@ -31,5 +34,9 @@ fn interferers_are_rejected_and_the_document_says_how_far() {
     assert!(standard.bias <= BIAS, "standard: an undithered tone is off by at most {BIAS}: {standard:?}");
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/lock-in.md");
     let kept = std::fs::read_to_string(path).expect("docs/lock-in.md");
-    assert_eq!(kept, document(&measured), "docs/lock-in.md: made anew by cargo bench -p hapticore-model --bench lock_in");
+    assert_eq!(
+        kept,
+        document(&measured),
+        "docs/lock-in.md: made anew by cargo bench -p hapticore-model --bench lock_in"
+    );
 }

@@ -79,7 +79,8 @@ fn measure(profile: Profile, rate_hz: f64) -> Measured {
 /// The sums of the first channel but for what they are of silence.
 fn sums(profile: &Profile, core: &mut FixedSimulation, code: impl Fn(usize, usize) -> i32) -> Vec<Pair> {
     let channels = profile.channels();
-    let codes: Vec<i32> = (0..profile.slot.integrate as usize * channels).map(|k| code(k / channels, k % channels)).collect();
+    let codes: Vec<i32> =
+        (0..profile.slot.integrate as usize * channels).map(|k| code(k / channels, k % channels)).collect();
     core.sums(&codes)[..2 * (channels - 1)].chunks(2).map(|pair| [pair[0], pair[1]]).collect()
 }
 

@@ -124,7 +124,11 @@ impl Demodulator {
     }
 
     /// In-phase and quadrature sums from those of the phases.
-    pub(crate) fn combine<V: Value>(&self, polyphase: &Polyphase, sums: [Signal<V>; PHASES as usize]) -> [Signal<V>; 2] {
+    pub(crate) fn combine<V: Value>(
+        &self,
+        polyphase: &Polyphase,
+        sums: [Signal<V>; PHASES as usize],
+    ) -> [Signal<V>; 2] {
         [bit(false), bit(true)].map(|part| {
             let mut sum = zero(self.sum());
             for high in [bit(false), bit(true)] {
@@ -141,13 +145,7 @@ impl Demodulator {
 
     /// Sixteen bits of a phase's sum, or what they lack to all ones.
     #[inline(always)]
-    fn limb<V: Value>(
-        &self,
-        polyphase: &Polyphase,
-        sum: Signal<V>,
-        high: Signal<V>,
-        negative: Signal<V>,
-    ) -> Signal<V> {
+    fn limb<V: Value>(&self, polyphase: &Polyphase, sum: Signal<V>, high: Signal<V>, negative: Signal<V>) -> Signal<V> {
         let upper = sum.bits(polyphase.dropped + LIMB, LIMB);
         let whole = sum.scaled(sum.format.frac - polyphase.dropped as i8);
         let lower = sum.bits(polyphase.dropped, LIMB).ideally(&[whole, upper], |of| of[0] - of[1] * 65536.0);
@@ -158,13 +156,7 @@ impl Demodulator {
     /// What a product of the read-out is added to: nothing, the sum of the lower halves' products less what negative waves
     /// add, or the sum so far.
     #[inline(always)]
-    fn carried<V: Value>(
-        &self,
-        sum: Signal<V>,
-        tap: Signal<V>,
-        high: Signal<V>,
-        part: Signal<V>,
-    ) -> Signal<V> {
+    fn carried<V: Value>(&self, sum: Signal<V>, tap: Signal<V>, high: Signal<V>, part: Signal<V>) -> Signal<V> {
         let format = self.sum();
         let shifted = sum.scaled(-(LIMB as i8));
         let above = shifted.fit(Format::unsigned(18, format.frac), Floor, Wrap).ideally(&[shifted], |of| of[0]);
@@ -237,7 +229,7 @@ impl Demodulator {
         // Of the sum of squares one product is made, with the quadrature's first wave: zero.
         let last_channel = r.channel.is(self.channels - 1);
         let part = turns(r.part, result) | (last_channel & r.part);
-        let channel = (r.channel + (result & r.part)).fit(r.channel.format, Exact, Never);
+        let channel = (r.channel + (result & r.part)).fit(r.channel.format, Exact, Wrap);
         let place = r.channel.concat(r.part & !square);
         let index = place.fit(r.index.format, Exact, Never);
         let loads = r.beat.is(1);
@@ -270,7 +262,8 @@ impl Demodulator {
         let haptic = code(self.channels as i64, self.channel.counting());
         let asked = r.step.fit(self.channel.counting(), Exact, Wrap);
         let channel = (r.busy & r.step.less_than(int(self.channels))).select(asked, haptic);
-        let outputs = Outputs { channel, valid: r.valid, index: self.result(&r), sum: r.sum, pad: r.pad, clipped: r.clipped };
+        let outputs =
+            Outputs { channel, valid: r.valid, index: self.result(&r), sum: r.sum, pad: r.pad, clipped: r.clipped };
         if (i.start | r.busy | r.summed | r.reading | r.valid).idle() {
             return outputs;
         }
