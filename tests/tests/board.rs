@@ -41,7 +41,8 @@ fn shortened(target: Target) -> Profile {
     let mut profile = target.profile();
     profile.slot.open = 2;
     profile.slot.settle = 420;
-    profile.slot.integrate = 4 * profile.carrier.samples_per_period;
+    let samples = 4 * profile.samples_per_period().round() as u64;
+    profile = profile.with_window(samples);
     (profile.map.edge_address, profile.map.spacing_address, profile.map.table_address) = (4, 4, 2);
     profile.check().expect("a profile");
     profile
