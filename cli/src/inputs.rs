@@ -92,5 +92,6 @@ pub fn timing(profile: &Profile) -> Timing {
         window_start: profile.slot.blanking() as usize,
         window_samples: profile.slot.integrate as usize,
         samples_per_period: profile.carrier.samples_per_period as f64,
+        signs: Some([profile.terminals.x.clone(), profile.terminals.y.clone()]),
     }
 }

@@ -4,8 +4,8 @@
 mod common;
 
 use common::every::{PARTS, scene_of};
-use common::{plant, scene, see, timing};
-use hapticore_scene::{Complex, Plant, SENSE};
+use common::{SENSE, plant, scene, see, timing};
+use hapticore_scene::{Complex, Plant};
 
 /// Two pads of a case.
 const PADS: &str = "dwell_slots = 6\n[[pad]]\nposition_mm = [120, -60]\nhaptic_v_rms = 150\n\

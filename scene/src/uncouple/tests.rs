@@ -12,7 +12,7 @@ use crate::scene::Scene;
 use crate::timing::Timing;
 
 const TIMING: Timing =
-    Timing { pads: 4, slot_samples: 200, window_start: 0, window_samples: 200, samples_per_period: 10.0 };
+    Timing { pads: 4, slot_samples: 200, window_start: 0, window_samples: 200, samples_per_period: 10.0, signs: None };
 
 const NOMINAL: &str = "[sheet]\nrung = \"analytic\"\n";
 
@@ -42,6 +42,7 @@ impl Exact {
         let device = plant.device();
         Exact(RefCell::new(Uncoupler {
             effects: plant.fresh_effects(),
+            ratios: Ratios::new(&device, None).unwrap(),
             beyond: Beyond::none(device.reach_mm()),
             device,
         }))
@@ -52,7 +53,7 @@ impl Exact {
         let pads: Vec<_> = places.iter().map(|place| at(*place)).collect();
         let one = |slot: usize| {
             let truth = plant.truth(slot);
-            let place = place_of(self, (truth.r_x, truth.r_y), places[slot]);
+            let place = place_of(self, &plant.ratios(), [truth.r_x, truth.r_y], places[slot]);
             let mut exact = self.0.borrow_mut();
             let share = exact.see(pads[slot], &without(&pads, slot)).1 / exact.see(pads[slot], &[]).1;
             (Lying { capacitance_pf: PICOFARAD * share, ..at(place) }, [truth.r_x, truth.r_y])
@@ -76,7 +77,7 @@ fn off(sheet: &str, count: usize) -> [f64; 3] {
     let exact = Exact::of(&lone);
     let nominal = plant(&[[0.0, 0.0]], NOMINAL).uncoupler().unwrap();
     let calibration = lone.calibration_map(RASTER[0], RASTER[1], 15.0);
-    let mut host = Uncoupler::new(nominal.effects, nominal.device, &calibration);
+    let mut host = Uncoupler::new(nominal.effects, nominal.device, nominal.ratios, &calibration);
     let mut worst = [0.0f64; 3];
     for places in placements(count, 20.0) {
         let read = exact.read(&mut plant(&places, sheet), &places);
