@@ -15,7 +15,9 @@ impl<T: Copy + Default, const MOST: usize> Few<T, MOST> {
     /// Of each value another one.
     #[inline]
     pub fn map<U: Copy + Default>(&self, of: impl Fn(T) -> U) -> Few<U, MOST> {
-        self.iter().map(|value| of(*value)).collect()
+        let mut few = Few { values: [U::default(); MOST], count: self.count };
+        few.iter_mut().zip(self.iter()).for_each(|(to, from)| *to = of(*from));
+        few
     }
 
     /// So many values, which `fill` puts in front of as many as there may be.
@@ -24,6 +26,15 @@ impl<T: Copy + Default, const MOST: usize> Few<T, MOST> {
         let mut few = Few { values: [T::default(); MOST], count };
         fill(&mut few.values);
         few
+    }
+
+    /// These values.
+    ///
+    /// # Panics
+    /// If there are more than there may be.
+    #[inline]
+    pub fn from_slice(from: &[T]) -> Self {
+        Few::of(from.len(), |values| values[..from.len()].copy_from_slice(from))
     }
 
     /// All there may be, the default where there is none: a loop over these and a shorter row has the row's length.

@@ -71,3 +71,13 @@ fn signs_of_the_papers_six_terminals_are_the_sides_that_they_are_on() {
     let places = plant(&all_on("")).terminals().to_vec();
     assert_eq!(signs_by_place(&places, [860.0, 500.0]), [vec![-1, -1, 1, 1, 0, 0], vec![1, -1, -1, 1, -1, 1]]);
 }
+
+/// Where the third of the sheet on one side has no terminal, and where a half has none.
+#[test]
+fn signs_of_other_terminals_leave_no_axis_without_both() {
+    let size_mm = [600.0, 300.0];
+    let places = [[-300.0, 150.0], [-300.0, -150.0], [60.0, 150.0], [-20.0, -150.0]];
+    assert_eq!(signs_by_place(&places, size_mm), [vec![-1, -1, 1, -1], vec![1, -1, 1, -1]]);
+    let places = [[-300.0, 150.0], [-300.0, -150.0], [-100.0, 150.0]];
+    assert_eq!(signs_by_place(&places, size_mm), [vec![-1, -1, 1], vec![1, -1, 1]]);
+}

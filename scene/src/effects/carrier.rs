@@ -46,7 +46,11 @@ impl Carrier {
     /// Of the terminals' currents, then of the sensing voltage.
     fn amplitudes(&self, pad: &Pad) -> Few<Complex64, { MOST_CHANNELS - 1 }> {
         let sense = Complex64::new(self.device.carrier_v / self.device.sense_full_scale_v, 0.0);
-        pad.terminal_amplitudes(&self.device).iter().copied().chain([sense]).collect()
+        let terminals = pad.terminal_amplitudes(&self.device);
+        Few::of(terminals.len() + 1, |amplitudes| {
+            amplitudes[..terminals.len()].copy_from_slice(&terminals);
+            amplitudes[terminals.len()] = sense;
+        })
     }
 }
 

@@ -70,7 +70,7 @@ pub(crate) struct Source {
 impl Solver for Analytic {
     fn split(&self, x_mm: f64, y_mm: f64) -> Split {
         let source = self.source(x_mm, y_mm);
-        let share = source.unknown[..self.sheet.terminals()].iter().copied().collect();
+        let share = Few::from_slice(&source.unknown[..self.sheet.terminals()]);
         Split { share, ohm: self.between(&source, &source) }
     }
 }

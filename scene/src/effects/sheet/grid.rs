@@ -13,6 +13,7 @@ use super::mesh::{Correction, Mesh, Network};
 use super::nodes::Values;
 use super::spline::{Axis, Spline};
 use super::{Sheet, Solver, Split};
+use crate::few::Few;
 
 /// Finest spacing that R_p is solved with, m.
 const OWN_SPACING_M: f64 = 0.01;
@@ -46,7 +47,7 @@ impl Grid {
 
 impl Solver for Grid {
     fn split(&self, x_mm: f64, y_mm: f64) -> Split {
-        let share = self.share.at(x_mm, y_mm).iter().copied().collect();
+        let share = Few::from_slice(&self.share.at(x_mm, y_mm));
         Split { share, ohm: self.ohm.at(x_mm, y_mm)[0] }
     }
 }

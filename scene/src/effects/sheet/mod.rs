@@ -48,6 +48,7 @@ use num_complex::Complex64;
 use super::{Effect, Pad, PadEffect, Rung, Spec};
 use crate::device::{Device, PerTerminal};
 use crate::error::SceneError;
+use crate::few::Few;
 use crate::format::Table;
 
 /// The sheet as a pad at one place sees it.
@@ -64,7 +65,7 @@ impl Split {
 
     fn of_node(node: &Values) -> Split {
         let terminals = node.len() - 1;
-        Split { share: node[..terminals].iter().copied().collect(), ohm: node[terminals] }
+        Split { share: Few::from_slice(&node[..terminals]), ohm: node[terminals] }
     }
 }
 
@@ -161,7 +162,9 @@ impl PadEffect for OnSheet {
 pub(crate) fn ideal_split(x_mm: f64, y_mm: f64, device: &Device) -> PerTerminal<Complex64> {
     let (u, v) = (x_mm / device.width_mm + 0.5, y_mm / device.height_mm + 0.5);
     let corners = [(1.0 - u) * v, (1.0 - u) * (1.0 - v), u * (1.0 - v), u * v];
-    corners.into_iter().chain(std::iter::repeat(0.0)).take(device.terminals()).map(Complex64::from).collect()
+    Few::of(device.terminals(), |shares| {
+        shares.iter_mut().zip(corners).take(device.terminals()).for_each(|(share, corner)| *share = corner.into());
+    })
 }
 
 #[cfg(test)]
