@@ -308,7 +308,7 @@ fn overrides() {
         assert!(message.starts_with(expected), "got      {message}\nexpected {expected}");
     };
     expect("sheet.rung", "cubic", "s.toml: --set sheet.rung: expected one of \"distance\"");
-    expect("sheet.wet", "1", "s.toml: --set sheet.wet: unknown key, expected one of \"slope_percent\"");
+    expect("sheet.wet", "1", "s.toml: --set sheet.wet: unknown key, expected one of \"terminals\", \"middles\"");
     expect("magnet.rung", "1", "s.toml: --set magnet: unknown key");
     expect("pad.3.load_g", "1", "s.toml: --set pad.3.load_g: there is no 3 that could be entered");
     expect("title.x", "1", "s.toml: --set title.x: there is no title that could be entered");

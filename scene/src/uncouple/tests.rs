@@ -11,8 +11,11 @@ use crate::plant::Plant;
 use crate::scene::Scene;
 use crate::timing::Timing;
 
-const TIMING: Timing =
-    Timing { pads: 4, slot_samples: 200, window_start: 0, window_samples: 200, samples_per_period: 10.0, signs: None };
+/// With the paper's ratios, eqs. 2 and 3: the shifts that are taken out are those of PHYSICS §1.
+fn timing() -> Timing {
+    let signs = Some([vec![-1, -1, 1, 1, 0, 0], vec![1, -1, -1, 1, 0, 0]]);
+    Timing { pads: 4, slot_samples: 200, window_start: 0, window_samples: 200, samples_per_period: 10.0, signs }
+}
 
 const NOMINAL: &str = "[sheet]\nrung = \"analytic\"\n";
 
@@ -23,7 +26,7 @@ fn plant(places: &[[f64; 2]], sheet: &str) -> Plant {
     let pad = |[x, y]: &[f64; 2]| format!("[[pad]]\nposition_mm = [{x}, {y}]\ncapacitance_pf = {PICOFARAD}\n");
     let pads: String = places.iter().map(pad).collect();
     let text = format!("title = \"t\"\nuncouple = true\n{pads}{sheet}[coupling]\n");
-    Plant::new(&Scene::parse(&text, "s.toml", &[]).unwrap(), 0, &TIMING).unwrap()
+    Plant::new(&Scene::parse(&text, "s.toml", &[]).unwrap(), 0, &timing()).unwrap()
 }
 
 fn at([x_mm, y_mm]: [f64; 2]) -> Lying {
@@ -42,7 +45,7 @@ impl Exact {
         let device = plant.device();
         Exact(RefCell::new(Uncoupler {
             effects: plant.fresh_effects(),
-            ratios: Ratios::new(&device, None).unwrap(),
+            ratios: plant.ratios(),
             beyond: Beyond::none(device.reach_mm()),
             device,
         }))
