@@ -41,5 +41,5 @@ pub use num_complex::Complex64 as Complex;
 pub use plant::Plant;
 pub use scene::{Figure, Record, Scene};
 pub use timing::Timing;
-pub use truth::{ForcePoint, MapPoint, Truth};
+pub use truth::{ForcePoint, MapPoint, Setpoint, Truth};
 pub use uncouple::{Lying, Uncoupler};
