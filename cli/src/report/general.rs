@@ -33,7 +33,7 @@ pub const DIRECTION: Quantity = ("Direction of the push", "direction", |q| q.dir
 /// Slots of a pad of which each has a dot of its own; more become a line of means and the band that they fill.
 const FEW: usize = 300;
 
-/// Means on the line of a case.
+/// Means on the lines of a pad.
 const BINS: usize = 200;
 
 /// Every quantity that is measured: over what is swept where something is, else over time.
@@ -70,7 +70,7 @@ pub fn over_time(record: &Record, (title, axis, get): Quantity) -> Figure {
 /// What a band is.
 pub fn band_note(bands: bool) -> String {
     if bands {
-        format!("Lines are means of 1/{BINS} of a case, bands from the least to the largest in it.")
+        format!("Lines are means over 1/{BINS} of a pad's slots, bands from the least to the largest in it.")
     } else {
         String::new()
     }
@@ -101,7 +101,7 @@ pub fn noisy(name: &str, paint: Paint, points: Vec<Point>) -> Vec<Series> {
     }
     let (mut line, mut bands) = (Vec::new(), Vec::new());
     for run in points.split(|point| !(point.0.is_finite() && point.1.is_finite())).filter(|run| !run.is_empty()) {
-        let bins = run.chunks(run.len().div_ceil(BINS));
+        let bins = run.chunks(points.len().div_ceil(BINS));
         let bins = bins.filter_map(|bin| {
             Some((select::mean(bin.iter().map(|p| p.0)), bin, select::extent(bin.iter().map(|p| p.1))?))
         });
