@@ -61,7 +61,7 @@ impl Wav {
     /// The file of the signal, its codes at the top of their containers.
     fn integers(&self, signal: &[[f64; CHANNELS]]) -> Vec<u8> {
         let (full, shift) = (f64::from(1u32 << (self.valid - 1)), 8 * self.bytes - usize::from(self.valid));
-        let code = |part: &f64| (((part * full).round() / coarser).round_ties_even() as i64) << shift;
+        let code = |part: &f64| ((part * full).round() as i64) << shift;
         let samples: Vec<u8> =
             signal.iter().flatten().flat_map(|part| code(part).to_le_bytes()[..self.bytes].to_vec()).collect();
         self.file(CHANNELS, &samples)
