@@ -56,9 +56,9 @@ fn transform(window: Window, x: f64) -> f64 {
 
 /// Samples of one period, in whole periods of the carrier.
 fn whole_period(profile: &Profile, haptic_hz: f64, sample_rate_hz: f64) -> u64 {
-    let carrier = profile.carrier.samples_per_period;
-    let periods = (sample_rate_hz / haptic_hz / carrier as f64).round().max(1.0);
-    periods as u64 * carrier
+    let carrier = profile.samples_per_period();
+    let periods = (sample_rate_hz / haptic_hz / carrier).round().max(1.0);
+    (periods * carrier).round() as u64
 }
 
 /// Measures the frequency of the haptic channel of a capture, from its first samples.

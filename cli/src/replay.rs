@@ -30,14 +30,15 @@ const MOST_ROWS: usize = 1 << 15;
 /// Bad input, files that cannot be written, an interruption; then nothing is written.
 pub fn run(args: &ReplayArgs) -> Result<bool> {
     let profile = inputs::profile(args.core.profile.as_deref().unwrap_or(PROFILE))?;
-    let adc = Adc { terminals: profile.terminals.x.len(), format: profile.formats.adc };
-    let described = Described { channels: args.channels.clone(), bits: args.bits, full_scale_v: args.full_scale_v };
-    let mut source = capture::open(&args.capture, adc, &described)?;
     let calibration = calibration(args);
     let device = match &calibration {
         Some(path) => DeviceCalibration::read(path)?,
-        None => DeviceCalibration::nominal(&profile),
+        None => DeviceCalibration::nominal(&profile)?,
     };
+    let profile = inputs::for_terminals(&profile, &[device.terminals.x.clone(), device.terminals.y.clone()])?;
+    let adc = Adc { terminals: profile.terminals.x.len(), format: profile.formats.adc };
+    let described = Described { channels: args.channels.clone(), bits: args.bits, full_scale_v: args.full_scale_v };
+    let mut source = capture::open(&args.capture, adc, &described)?;
     let pads = args.pads.unwrap_or(device.pads);
     let profile = Arc::new(inputs::serving(&profile, pads as usize));
     check_rate(source.as_ref(), &device, &profile)?;
@@ -81,7 +82,7 @@ fn check_rate(source: &dyn Source, device: &DeviceCalibration, profile: &Profile
             "{}: sample_rate_hz: expected {rate}, as in the calibration, got {got}: the core samples its carrier {} times a \
              period, so resample the capture, or calibrate at its rate",
             source.place(),
-            profile.carrier.samples_per_period
+            profile.samples_per_period()
         );
     }
     let (samples, name) = (profile.samples_per_period(), &profile.name);
