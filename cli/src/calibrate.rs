@@ -33,6 +33,7 @@ use hapticore_scene::{ForcePoint, Plant, Scene};
 use serde::Deserialize;
 
 use crate::inputs;
+use crate::residual::Residual;
 
 /// Places in a row and rows of the raster that a simulated device is calibrated with.
 const RASTER: [usize; 2] = [121, 71];
@@ -228,6 +229,14 @@ impl DeviceCalibration {
         }
         text.push_str("]\n");
         text
+    }
+
+    /// What is left of the calibration's own places, looked up in the table that was fitted to them.
+    pub fn residual(&self, calibration: &Calibration) -> Residual {
+        Residual::of(self.map.places.iter().map(|&[x, y, r_x, r_y, _]| {
+            let [x_mm, y_mm, _] = calibration.map.look_up(r_x, r_y);
+            ([x, y], [x_mm, y_mm])
+        }))
     }
 
     /// The calibration for a core of the profile.

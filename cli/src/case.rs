@@ -19,6 +19,7 @@ use crate::engine::{Signals, Slot};
 use crate::inputs::{for_terminals, serving, timing};
 use crate::interrupt;
 use crate::record::{self, Quantities, Row, SignalError};
+use crate::residual::Residual;
 use crate::session::{Session, SlotClock};
 use crate::units::Digitiser;
 
@@ -53,6 +54,8 @@ pub struct Outcome {
     pub peak: f64,
     /// Rounding errors, where they were asked for.
     pub errors: Vec<SignalError>,
+    /// What the position table leaves of its own places.
+    pub residual: Residual,
 }
 
 /// How to run cases.
@@ -179,7 +182,7 @@ fn consume(
         progress.inc(1);
     }
     rows.extend(session.finish());
-    Ok(Outcome { rows, effects: Vec::new(), peak, errors: session.errors() })
+    Ok(Outcome { rows, effects: Vec::new(), peak, errors: session.errors(), residual: session.residual() })
 }
 
 /// What the record keeps of the plant's truth.

@@ -41,6 +41,7 @@ pub mod provenance;
 pub mod record;
 pub mod replay;
 pub mod report;
+pub mod residual;
 pub mod scenes;
 pub mod session;
 pub mod simulate;

@@ -64,6 +64,9 @@ pub fn finish(record: &Record, files: &[PathBuf]) {
     if !record.errors.is_empty() {
         console::print(format_args!("\n{}", errors(&record.errors)));
     }
+    if let Some(residual) = &record.position_table {
+        say!("\nposition table: {}", residual.text());
+    }
     let speed = record.wall_seconds / record.simulated_seconds;
     say!(
         "\n{} s simulated in {} s ({} s a second)",

@@ -7,6 +7,8 @@ use std::path::PathBuf;
 use hapticore_scene::Setpoint;
 use serde::Serialize;
 
+use crate::residual::Residual;
+
 /// The quantities of a slot, in physical units; the columns of `frames.csv` from `r_x` on.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 pub struct Quantities {
@@ -173,6 +175,8 @@ pub struct Record {
     pub wall_seconds: f64,
     /// What its user must know before using the results.
     pub warnings: Vec<String>,
+    /// What the position table leaves of its own places; of several cases the worst.
+    pub position_table: Option<Residual>,
     /// Width and height of the sheet, where they are known.
     pub sheet_mm: Option<[f64; 2]>,
     /// The keys of the pads that are swept.

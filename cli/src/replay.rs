@@ -15,6 +15,7 @@ use crate::engine::{Signals, Slot};
 use crate::haptic::Meter;
 use crate::output::{Frames, Output, summary};
 use crate::record::{Provenance, Record, Row};
+use crate::residual;
 use crate::session::{Session, SlotClock};
 use crate::{console, folder, haptic, inputs, interrupt, print, progress, report, say};
 
@@ -188,7 +189,8 @@ impl Replay {
     }
 
     fn finish(self, name: String, profile: &Profile, args: &ReplayArgs) -> Result<Record> {
-        let warnings = self.haptic_warning(profile).into_iter().collect();
+        let of_table = self.session.residual().warning(residual::LIMIT_MM);
+        let warnings = self.haptic_warning(profile).into_iter().chain(of_table).collect();
         self.frames.finish()?;
         Ok(Record {
             title: format!("Replay of {}", args.capture.display()),
@@ -205,6 +207,7 @@ impl Replay {
             simulated_seconds: self.clock.seconds(self.slots),
             wall_seconds: self.start.elapsed().as_secs_f64(),
             warnings,
+            position_table: Some(self.session.residual()),
             sheet_mm: None,
             swept: Vec::new(),
             provenance: Provenance::new(),

@@ -15,11 +15,13 @@ use crate::calibrate::DeviceCalibration;
 use crate::engine::{Engine, Slot, engine};
 use crate::errors::Errors;
 use crate::record::{Reference, Row, SignalError, Truth};
+use crate::residual::Residual;
 use crate::uncoupling::Uncoupling;
 use crate::units::Units;
 
 /// A core at work on one stream of slots.
 pub struct Session {
+    residual: Residual,
     engine: Box<dyn Engine>,
     reference: FloatCore,
     errors: Option<Errors>,
@@ -80,6 +82,7 @@ impl Session {
     ) -> Result<Self> {
         let calibration = device.of(profile)?;
         Ok(Session {
+            residual: device.residual(&calibration),
             engine: engine(fidelity, profile, &calibration),
             reference: FloatCore::new(profile, &calibration),
             errors: errors.then(|| Errors::new(profile, &calibration)),
@@ -120,6 +123,11 @@ impl Session {
     pub fn finish(&mut self) -> Option<Row> {
         let reading = self.engine.finish()?;
         self.finished(&reading)
+    }
+
+    /// What the position table leaves of its own places.
+    pub fn residual(&self) -> Residual {
+        self.residual
     }
 
     /// Rounding errors, where they were asked for.

@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use anyhow::{Result, ensure};
 use hapticore_model::profile::Profile;
-use hapticore_scene::{Figure, Record as Wanted, Scene, Timing};
+use hapticore_scene::{Figure, Quantity, Record as Wanted, Scene, Timing};
 use hapticore_waveforms::wave::Kind;
 use rayon::prelude::*;
 
@@ -16,6 +16,7 @@ use crate::case::{Case, Outcome, Settings};
 use crate::criteria::{self, CaseRows};
 use crate::output::{Frames, OfScene, Output, is_of_a_run, summary};
 use crate::record::{Effect, Provenance, Record, Row};
+use crate::residual::{self, Residual};
 use crate::{console, errors, folder, haptic, inputs, print, progress, report, say, waves};
 
 /// Below this the haptic voltage is off, V rms.
@@ -172,8 +173,16 @@ fn simulate(args: &SimulateArgs, scene: &Scene, cases: &[Case], mut recorder: Ca
     record.wall_seconds = start.elapsed().as_secs_f64();
     record.provenance = Provenance::of_scene(scene, &args.set);
     record.warnings.extend(haptic_warning(&record, cases));
+    let warned = record.position_table.and_then(|residual| residual.warning(position_limit_mm(scene)));
+    record.warnings.extend(warned);
     add_errors(&mut record.effects, cases)?;
     Ok((record, recorder))
+}
+
+/// What the scene allows a position, mm.
+fn position_limit_mm(scene: &Scene) -> f64 {
+    let positions = scene.criteria.iter().filter(|criterion| criterion.of == Quantity::PositionMm);
+    positions.map(|criterion| criterion.limit).fold(residual::LIMIT_MM, f64::min)
 }
 
 /// Says where the core's window is too short for the haptic voltage, in the first case where it is.
@@ -201,6 +210,7 @@ fn gather(scene: &Scene, cases: &[Case], outcomes: Vec<Outcome>) -> Record {
     });
     let criteria = criteria::measure(&scene.criteria, &rows.collect::<Vec<_>>());
     let (mut effects, mut signal_errors, mut all) = (Vec::new(), Vec::new(), Vec::new());
+    let position_table = outcomes.iter().map(|outcome| outcome.residual).reduce(Residual::worse);
     for outcome in outcomes {
         add_effects(&mut effects, &outcome);
         errors::merge(&mut signal_errors, outcome.errors);
@@ -222,6 +232,7 @@ fn gather(scene: &Scene, cases: &[Case], outcomes: Vec<Outcome>) -> Record {
         simulated_seconds: cases.iter().map(Case::seconds).sum(),
         wall_seconds: 0.0,
         warnings: Vec::new(),
+        position_table,
         sheet_mm: Some([device.width_mm, device.height_mm]),
         swept: swept(scene, cases),
         provenance: Provenance::default(),

@@ -24,15 +24,15 @@ module divider (
     wire count_is_18 = count == 5'd18; // u1.0
     wire [19:0] shifted = {remainder, tail[16] & (~count_is_18)}; // u20.0
     wire signed [20:0] rest = {1'd0, shifted} - {2'd0, denominator}; // s21.0
-    wire [35:0] fit_23 = {numerator, 16'd0}; // u36.29
     wire count_is_0 = count == 5'd0; // u1.0
-    wire too_large = ~(remainder < denominator); // u1.0
-    wire [5:0] sum_32 = {1'd0, count} + 6'd1; // u6.0
-    wire fits = ~rest[20]; // u1.0
     wire count_is_19 = count == 5'd19; // u1.0
-    wire [18:0] fit_44 = {1'd0, {1'd0, tail} + {17'd0, up}}; // u19.0
-    wire signed [20:0] choice_53 = fits ? rest : {1'd0, shifted}; // s21.0
-    wire [17:0] joined_55 = {tail, fits}; // u18.0
+    wire fits = ~rest[20]; // u1.0
+    wire [5:0] sum_29 = {1'd0, count} + 6'd1; // u6.0
+    wire signed [20:0] choice_31 = fits ? rest : {1'd0, shifted}; // s21.0
+    wire [17:0] joined_33 = {tail, fits}; // u18.0
+    wire [18:0] fit_36 = {1'd0, {1'd0, tail} + {17'd0, up}}; // u19.0
+    wire too_large = ~(remainder < denominator); // u1.0
+    wire [35:0] fit_87 = {numerator, 16'd0}; // u36.29
 
     always @(posedge clock) begin
         if (reset) begin
@@ -49,12 +49,12 @@ module divider (
             if (start) begin
                 busy <= 1'd1;
                 count <= 5'd0;
-                remainder <= fit_23[35:17];
-                tail <= fit_23[16:0];
+                remainder <= fit_87[35:17];
+                tail <= fit_87[16:0];
                 done <= 1'd0;
             end else if (busy) begin
                 if (count_is_0) begin
-                    count <= sum_32[4:0];
+                    count <= sum_29[4:0];
                     over <= too_large;
                     done <= 1'd0;
                     if (too_large) begin
@@ -62,18 +62,18 @@ module divider (
                         tail <= 17'd0;
                     end
                 end else if (count_is_18) begin
-                    count <= sum_32[4:0];
+                    count <= sum_29[4:0];
                     up <= fits & ((~(rest == 21'd0)) | tail[0]);
                     done <= 1'd0;
                 end else if (count_is_19) begin
                     busy <= 1'd0;
                     done <= 1'd1;
-                    quotient <= over ? 17'd131071 : (|fit_44[18:17]) ? {17{1'b1}} : fit_44[16:0];
-                    saturated <= (~(fit_44[18:17] == 2'd0)) | over;
+                    quotient <= over ? 17'd131071 : (|fit_36[18:17]) ? {17{1'b1}} : fit_36[16:0];
+                    saturated <= (~(fit_36[18:17] == 2'd0)) | over;
                 end else begin
-                    count <= sum_32[4:0];
-                    remainder <= choice_53[18:0];
-                    tail <= joined_55[16:0];
+                    count <= sum_29[4:0];
+                    remainder <= choice_31[18:0];
+                    tail <= joined_33[16:0];
                     done <= 1'd0;
                 end
             end else begin
@@ -83,7 +83,7 @@ module divider (
     end
 
     // What nothing needs.
-    wire unused = &{1'b0, sum_32[5], choice_53[20:19], joined_55[17]};
+    wire unused = &{1'b0, sum_29[5], choice_31[20:19], joined_33[17]};
 
 endmodule
 

@@ -24,15 +24,15 @@ module divider_2 (
     wire count_is_16 = count == 5'd16; // u1.0
     wire [17:0] shifted = {remainder, tail[14] & (~count_is_16)}; // u18.0
     wire signed [18:0] rest = {1'd0, shifted} - {2'd0, denominator}; // s19.0
-    wire [29:0] fit_23 = {numerator, 14'd0}; // u30.27
     wire count_is_0 = count == 5'd0; // u1.0
-    wire too_large = ~(remainder < denominator); // u1.0
-    wire [5:0] sum_32 = {1'd0, count} + 6'd1; // u6.0
-    wire fits = ~rest[18]; // u1.0
     wire count_is_17 = count == 5'd17; // u1.0
-    wire [16:0] fit_44 = {1'd0, {1'd0, tail} + {15'd0, up}}; // u17.0
-    wire signed [18:0] choice_53 = fits ? rest : {1'd0, shifted}; // s19.0
-    wire [15:0] joined_55 = {tail, fits}; // u16.0
+    wire fits = ~rest[18]; // u1.0
+    wire [5:0] sum_29 = {1'd0, count} + 6'd1; // u6.0
+    wire signed [18:0] choice_31 = fits ? rest : {1'd0, shifted}; // s19.0
+    wire [15:0] joined_33 = {tail, fits}; // u16.0
+    wire [16:0] fit_36 = {1'd0, {1'd0, tail} + {15'd0, up}}; // u17.0
+    wire too_large = ~(remainder < denominator); // u1.0
+    wire [29:0] fit_87 = {numerator, 14'd0}; // u30.27
 
     always @(posedge clock) begin
         if (reset) begin
@@ -49,12 +49,12 @@ module divider_2 (
             if (start) begin
                 busy <= 1'd1;
                 count <= 5'd0;
-                remainder <= {2'd0, fit_23[29:15]};
-                tail <= fit_23[14:0];
+                remainder <= {2'd0, fit_87[29:15]};
+                tail <= fit_87[14:0];
                 done <= 1'd0;
             end else if (busy) begin
                 if (count_is_0) begin
-                    count <= sum_32[4:0];
+                    count <= sum_29[4:0];
                     over <= too_large;
                     done <= 1'd0;
                     if (too_large) begin
@@ -62,18 +62,18 @@ module divider_2 (
                         tail <= 15'd0;
                     end
                 end else if (count_is_16) begin
-                    count <= sum_32[4:0];
+                    count <= sum_29[4:0];
                     up <= fits & ((~(rest == 19'd0)) | tail[0]);
                     done <= 1'd0;
                 end else if (count_is_17) begin
                     busy <= 1'd0;
                     done <= 1'd1;
-                    quotient <= over ? 15'd32767 : (|fit_44[16:15]) ? {15{1'b1}} : fit_44[14:0];
-                    saturated <= (~(fit_44[16:15] == 2'd0)) | over;
+                    quotient <= over ? 15'd32767 : (|fit_36[16:15]) ? {15{1'b1}} : fit_36[14:0];
+                    saturated <= (~(fit_36[16:15] == 2'd0)) | over;
                 end else begin
-                    count <= sum_32[4:0];
-                    remainder <= choice_53[16:0];
-                    tail <= joined_55[14:0];
+                    count <= sum_29[4:0];
+                    remainder <= choice_31[16:0];
+                    tail <= joined_33[14:0];
                     done <= 1'd0;
                 end
             end else begin
@@ -83,7 +83,7 @@ module divider_2 (
     end
 
     // What nothing needs.
-    wire unused = &{1'b0, sum_32[5], choice_53[18:17], joined_55[15]};
+    wire unused = &{1'b0, sum_29[5], choice_31[18:17], joined_33[15]};
 
 endmodule
 

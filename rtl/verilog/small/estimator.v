@@ -8,7 +8,7 @@ module estimator (
     input wire reset,
     input wire valid, // u1.0  A sum is there.
     input wire [3:0] index, // u4.0  Which.
-    input wire signed [39:0] sum, // s40.30  The sum.
+    input wire signed [41:0] sum, // s42.31  The sum.
     input wire [1:0] pad, // u2.0  The pad of the window.
     input wire clipped, // u1.0  Whether a code of the window was at a rail.
     input wire signed [17:0] origin_x, // s18.16  Calibration: the x ratio in the middle of the box.

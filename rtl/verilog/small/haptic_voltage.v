@@ -8,13 +8,13 @@ module haptic_voltage (
     input wire reset,
     input wire valid, // u1.0  A sum is there.
     input wire [3:0] index, // u4.0  Which.
-    input wire signed [39:0] sum, // s40.30  The sum.
+    input wire signed [41:0] sum, // s42.31  The sum.
     output reg [14:0] mean_square, // u15.15  The mean square.
     output reg saturated // u1.0  Whether it is held at its rail.
 );
 
     wire bit_7 = valid & (index == 4'd14); // u1.0
-    wire signed [17:0] fit_9 = {sum[39], sum[39:23]} + {17'd0, sum[22] & (sum[23] | (|sum[21:0]))}; // s18.15
+    wire signed [18:0] fit_9 = {sum[41], sum[41:24]} + {18'd0, sum[23] & (sum[24] | (|sum[22:0]))}; // s19.15
 
     always @(posedge clock) begin
         if (reset) begin
@@ -22,8 +22,8 @@ module haptic_voltage (
             saturated <= 1'd0;
         end else begin
             if (bit_7) begin
-                mean_square <= fit_9[17] ? 15'd0 : (|fit_9[16:15]) ? {15{1'b1}} : fit_9[14:0];
-                saturated <= ~(fit_9[17:15] == 3'd0);
+                mean_square <= fit_9[18] ? 15'd0 : (|fit_9[17:15]) ? {15{1'b1}} : fit_9[14:0];
+                saturated <= ~(fit_9[18:15] == 4'd0);
             end
         end
     end

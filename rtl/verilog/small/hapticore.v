@@ -21,7 +21,7 @@ module hapticore (
     output wire [2:0] channel, // u3.0  The channel whose code is wanted.
     output wire [1:0] serve, // u2.0  The pad that is served.
     output wire closed, // u1.0  Whether its switch is made.
-    output wire signed [15:0] carrier, // s16.15  The carrier.
+    output wire signed [16:0] carrier, // s17.16  The carrier.
     output wire valid, // u1.0  Set for a clock for each word of a frame.
     output wire [2:0] index, // u3.0  Which field the word is.
     output wire signed [17:0] frame, // s18.0  The word.
@@ -43,13 +43,14 @@ module hapticore (
     wire multiplexer_closed; // u1.0
     wire pace_overrun; // u1.0
     wire oscillator_ready; // u1.0
-    wire signed [15:0] oscillator_cosine; // s16.15
-    wire signed [15:0] oscillator_sine; // s16.15
-    wire signed [15:0] oscillator_window; // s16.15
+    wire signed [16:0] oscillator_cosine; // s17.16
+    wire signed [16:0] oscillator_sine; // s17.16
+    wire signed [16:0] oscillator_window; // s17.16
+    wire [2:0] oscillator_phase; // u3.0
     wire [2:0] demodulator_channel; // u3.0
     wire demodulator_valid; // u1.0
     wire [3:0] demodulator_index; // u4.0
-    wire signed [39:0] demodulator_sum; // s40.30
+    wire signed [41:0] demodulator_sum; // s42.31
     wire [1:0] demodulator_pad; // u2.0
     wire demodulator_clipped; // u1.0
     wire estimator_valid; // u1.0
@@ -93,7 +94,8 @@ module hapticore (
         .ready(oscillator_ready),
         .cosine(oscillator_cosine),
         .sine(oscillator_sine),
-        .window(oscillator_window)
+        .window(oscillator_window),
+        .phase(oscillator_phase)
     );
 
     demodulator u_demodulator (
@@ -107,6 +109,7 @@ module hapticore (
         .cosine(oscillator_cosine),
         .sine(oscillator_sine),
         .window(oscillator_window),
+        .phase(oscillator_phase),
         .channel(demodulator_channel),
         .valid(demodulator_valid),
         .index(demodulator_index),

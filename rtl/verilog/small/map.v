@@ -60,40 +60,40 @@ module map (
     wire between = (operation_is_x | operation_is_y) | operation_is_r; // u1.0
     wire [4:0] sum_72 = {1'd0, step} + 5'd1; // u5.0
     wire step_is_cell = step == 4'd0; // u1.0
-    wire operation_is_middle_y = operation == 5'd2; // u1.0
-    wire operation_is_stretch_y = operation == 5'd3; // u1.0
-    wire bit_80 = ((operation_is_middle_y | operation_is_stretch_y) | operation_is_straighten_x) | operation_is_spacing_x; // u1.0
-    wire signed [15:0] coordinate = (bit_80 | (tables & (~between))) ? across : along; // s16.15
-    wire signed [17:0] sum_85 = {{2{coordinate[15]}}, coordinate} + 18'd32768; // s18.15
-    wire [15:0] fit_86 = sum_85[15:0]; // u16.15
-    wire signed [16:0] difference_89 = {1'd0, fit_86} - {1'd0, fit_86[15:10], 10'd0}; // s17.10
-    wire signed [16:0] difference_93 = {1'd0, fit_86} - {1'd0, fit_86[15:9], 9'd0}; // s17.9
-    wire signed [16:0] difference_97 = {1'd0, fit_86} - {1'd0, fit_86[15:12], 12'd0}; // s17.12
-    wire operation_is_stretch_x = operation == 5'd7; // u1.0
-    wire [11:0] sum_136 = {1'd0, tables ? ((~(operation < 5'd16)) ? 11'd1096 : {1'd0, (~(operation < 5'd13)) ? 10'd807 : 10'd518}) : {2'd0, operation_is_spacing_y ? 9'd260 : operation_is_stretch_x ? 9'd195 : (operation == 5'd6) ? 9'd130 : operation_is_stretch_y ? 9'd65 : operation_is_middle_y ? 9'd0 : 9'd389}} + {5'd0, tables ? {3'd0, fit_86[15:12]} : spaced ? fit_86[15:9] : {1'd0, fit_86[15:10]}}; // u12.0
-    wire signed [15:0] choice_146 = straightened ? (operation_is_straighten_x ? across : along) : second; // s16.0
     wire step_is_row = step == 4'd1; // u1.0
-    wire signed [17:0] sum_150 = {{2{along[15]}}, along} + 18'd32768; // s18.15
-    wire [15:0] fit_151 = sum_150[15:0]; // u16.15
-    wire [4:0] sum_156 = {1'd0, fit_151[15:12]} + {4'd0, below}; // u5.0
-    wire [11:0] choice_161 =
-        tables ? ({1'd0, base} + {2'd0, {1'd0, {sum_156, 4'd0}} + {5'd0, sum_156}})
-        : {1'd0, base}; // u12.0
     wire step_is_9 = step == 4'd9; // u1.0
-    wire signed [28:0] fit_167 = multiplier_product[28:0]; // s29.0
-    wire signed [15:0] fit_169 = near[15:0]; // s16.0
-    wire signed [29:0] sum_171 = {{1{fit_167[28]}}, fit_167} + {{2{fit_169[15]}}, fit_169, 12'd0}; // s30.27
-    wire signed [33:0] choice_172 = straightened ? {multiplier_product[31:0], 2'd0} : {{4{sum_171[29]}}, sum_171}; // s34.27
     wire step_is_10 = step == 4'd10; // u1.0
-    wire signed [23:0] fit_175 = {aligned[34], aligned[34:12]} + {23'd0, aligned[11] & (aligned[12] | (|aligned[10:0]))}; // s24.15
     wire step_is_11 = step == 4'd11; // u1.0
+    wire bit_81 = ~((boxed | straightened) | between); // u1.0
+    wire signed [19:0] difference_82 = {{1{difference[18]}}, difference} - {{2{near[17]}}, near}; // s20.0
     wire of_x = (operation_is_box_x | operation_is_straighten_x) | operation_is_spacing_x; // u1.0
     wire of_y = (operation_is_box_y | operation_is_straighten_y) | operation_is_spacing_y; // u1.0
-    wire bit_191 = (operation_is_stretch_y | operation_is_stretch_x) | below; // u1.0
-    wire [5:0] choice_194 = operation_is_r ? 6'd0 : ({1'd0, operation} + 6'd1); // u6.0
-    wire bit_208 = ~((boxed | straightened) | between); // u1.0
-    wire signed [19:0] difference_209 = {{1{difference[18]}}, difference} - {{2{near[17]}}, near}; // s20.0
-    wire signed [17:0] choice_147 = boxed ? (operation_is_box_x ? r_x : r_y) : {{2{choice_146[15]}}, choice_146}; // s18.0
+    wire operation_is_stretch_y = operation == 5'd3; // u1.0
+    wire operation_is_stretch_x = operation == 5'd7; // u1.0
+    wire bit_103 = (operation_is_stretch_y | operation_is_stretch_x) | below; // u1.0
+    wire [5:0] choice_106 = operation_is_r ? 6'd0 : ({1'd0, operation} + 6'd1); // u6.0
+    wire signed [23:0] fit_131 = {aligned[34], aligned[34:12]} + {23'd0, aligned[11] & (aligned[12] | (|aligned[10:0]))}; // s24.15
+    wire signed [28:0] fit_158 = multiplier_product[28:0]; // s29.0
+    wire signed [15:0] fit_160 = near[15:0]; // s16.0
+    wire signed [29:0] sum_162 = {{1{fit_158[28]}}, fit_158} + {{2{fit_160[15]}}, fit_160, 12'd0}; // s30.27
+    wire signed [33:0] choice_163 = straightened ? {multiplier_product[31:0], 2'd0} : {{4{sum_162[29]}}, sum_162}; // s34.27
+    wire signed [17:0] sum_181 = {{2{along[15]}}, along} + 18'd32768; // s18.15
+    wire [15:0] fit_182 = sum_181[15:0]; // u16.15
+    wire [4:0] sum_187 = {1'd0, fit_182[15:12]} + {4'd0, below}; // u5.0
+    wire [11:0] choice_192 =
+        tables ? ({1'd0, base} + {2'd0, {1'd0, {sum_187, 4'd0}} + {5'd0, sum_187}})
+        : {1'd0, base}; // u12.0
+    wire operation_is_middle_y = operation == 5'd2; // u1.0
+    wire bit_215 = ((operation_is_middle_y | operation_is_stretch_y) | operation_is_straighten_x) | operation_is_spacing_x; // u1.0
+    wire signed [15:0] coordinate = (bit_215 | (tables & (~between))) ? across : along; // s16.15
+    wire signed [17:0] sum_220 = {{2{coordinate[15]}}, coordinate} + 18'd32768; // s18.15
+    wire [15:0] fit_221 = sum_220[15:0]; // u16.15
+    wire signed [16:0] difference_224 = {1'd0, fit_221} - {1'd0, fit_221[15:10], 10'd0}; // s17.10
+    wire signed [16:0] difference_228 = {1'd0, fit_221} - {1'd0, fit_221[15:9], 9'd0}; // s17.9
+    wire signed [16:0] difference_232 = {1'd0, fit_221} - {1'd0, fit_221[15:12], 12'd0}; // s17.12
+    wire [11:0] sum_268 = {1'd0, tables ? ((~(operation < 5'd16)) ? 11'd1096 : {1'd0, (~(operation < 5'd13)) ? 10'd807 : 10'd518}) : {2'd0, operation_is_spacing_y ? 9'd260 : operation_is_stretch_x ? 9'd195 : (operation == 5'd6) ? 9'd130 : operation_is_stretch_y ? 9'd65 : operation_is_middle_y ? 9'd0 : 9'd389}} + {5'd0, tables ? {3'd0, fit_221[15:12]} : spaced ? fit_221[15:9] : {1'd0, fit_221[15:10]}}; // u12.0
+    wire signed [15:0] choice_278 = straightened ? (operation_is_straighten_x ? across : along) : second; // s16.0
+    wire signed [17:0] choice_279 = boxed ? (operation_is_box_x ? r_x : r_y) : {{2{choice_278[15]}}, choice_278}; // s18.0
 
     multiplier_3 u_multiplier (
         .clock(clock),
@@ -146,8 +146,8 @@ module map (
                 word_q <= words_word;
                 if (step_is_cell) begin
                     step <= sum_72[3:0];
-                    base <= sum_136[10:0];
-                    difference <= {{1{choice_147[17]}}, choice_147};
+                    base <= sum_268[10:0];
+                    difference <= {{1{choice_279[17]}}, choice_279};
                     done <= 1'd0;
                     if (boxed) begin
                         if (operation_is_box_x) begin
@@ -161,27 +161,27 @@ module map (
                         near <= {{2{first[15]}}, first};
                         factor <=
                             straightened ? (second[15] ? 15'd0 : second[14:0])
-                            : {3'd0, tables ? difference_97[11:0]
-                            : spaced ? {difference_93[8:0], 3'd0}
-                            : {difference_89[9:0], 2'd0}};
+                            : {3'd0, tables ? difference_232[11:0]
+                            : spaced ? {difference_228[8:0], 3'd0}
+                            : {difference_224[9:0], 2'd0}};
                     end
                 end else if (step_is_row) begin
                     step <= sum_72[3:0];
-                    base <= choice_161[10:0];
+                    base <= choice_192[10:0];
                     done <= 1'd0;
                 end else if (step_is_9) begin
                     step <= sum_72[3:0];
-                    aligned <= boxed ? {multiplier_product, 1'd0} : {{1{choice_172[33]}}, choice_172};
+                    aligned <= boxed ? {multiplier_product, 1'd0} : {{1{choice_163[33]}}, choice_163};
                     done <= 1'd0;
                 end else if (step_is_10) begin
                     step <= sum_72[3:0];
                     result <=
-                        (fit_175[23:15] == {9{fit_175[23]}}) ? fit_175[15:0] : {fit_175[23], {15{~fit_175[23]}}};
-                    saturated <= saturated | (~((fit_175[23:15] == 9'd0) | (fit_175[23:15] == 9'd511)));
+                        (fit_131[23:15] == {9{fit_131[23]}}) ? fit_131[15:0] : {fit_131[23], {15{~fit_131[23]}}};
+                    saturated <= saturated | (~((fit_131[23:15] == 9'd0) | (fit_131[23:15] == 9'd511)));
                     done <= 1'd0;
                 end else if (step_is_11) begin
                     busy <= ~operation_is_r;
-                    operation <= choice_194[4:0];
+                    operation <= choice_106[4:0];
                     step <= 4'd0;
                     done <= operation_is_r;
                     if (operation_is_r) begin
@@ -193,10 +193,10 @@ module map (
                     if (operation_is_x) begin
                         x <= result;
                     end
-                    if (bit_191) begin
+                    if (bit_103) begin
                         second <= result;
                     end
-                    if (~((of_x | of_y) | bit_191)) begin
+                    if (~((of_x | of_y) | bit_103)) begin
                         first <= result;
                     end
                     if (of_y) begin
@@ -208,11 +208,11 @@ module map (
                 end else begin
                     step <= sum_72[3:0];
                     difference <=
-                        (sum_72[3:0] == 4'd7) ? difference_209[18:0]
-                        : ((sum_72[3:0] == 4'd6) & bit_208) ? {{3{word_q[15]}}, word_q}
+                        (sum_72[3:0] == 4'd7) ? difference_82[18:0]
+                        : ((sum_72[3:0] == 4'd6) & bit_81) ? {{3{word_q[15]}}, word_q}
                         : difference;
                     done <= 1'd0;
-                    if ((sum_72[3:0] == 4'd5) & bit_208) begin
+                    if ((sum_72[3:0] == 4'd5) & bit_81) begin
                         near <= {{2{word_q[15]}}, word_q};
                     end
                 end
@@ -223,9 +223,9 @@ module map (
     end
 
     // What nothing needs.
-    wire unused = &{1'b0, sum_35[11], sum_72[4], sum_85[17:16], difference_89[16:10], difference_93[16:9],
-        difference_97[16:12], sum_136[11], sum_150[17:16], fit_151[11:0], choice_161[11], choice_194[5],
-        difference_209[19]};
+    wire unused = &{1'b0, sum_35[11], sum_72[4], difference_82[19], choice_106[5], sum_181[17:16], fit_182[11:0],
+        choice_192[11], sum_220[17:16], difference_224[16:10], difference_228[16:9], difference_232[16:12],
+        sum_268[11]};
 
 endmodule
 

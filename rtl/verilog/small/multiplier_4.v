@@ -7,12 +7,12 @@ module multiplier_4 (
     input wire clock,
     input wire reset,
     input wire enable, // u1.0  Set while somebody waits for a product.
-    input wire [15:0] left, // u16.0  A code as an integer.
-    input wire [15:0] right, // u16.0  A code as an integer.
-    output reg [31:0] product // u32.0  The product.
+    input wire [14:0] left, // u15.0  A code as an integer.
+    input wire [14:0] right, // u15.0  A code as an integer.
+    output reg [29:0] product // u30.0  The product.
 );
 
-    wire [31:0] product_8 = left * right; // u32.0
+    wire [29:0] product_8 = left * right; // u30.0
 
     always @(posedge clock) begin
         if (enable) begin

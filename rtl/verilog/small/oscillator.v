@@ -10,154 +10,114 @@ module oscillator (
     input wire restart, // u1.0  It is the first of its slot.
     input wire first, // u1.0  It is the first of its window.
     output reg ready, // u1.0  Set for one clock before the other outputs are those of the sample.
-    output reg signed [15:0] cosine, // s16.15  The cosine of the carrier.
-    output reg signed [15:0] sine, // s16.15  The sine of the carrier.
-    output reg signed [15:0] window // s16.15  The window.
+    output wire signed [16:0] cosine, // s17.16  The cosine of the carrier.
+    output wire signed [16:0] sine, // s17.16  The sine of the carrier.
+    output wire signed [16:0] window, // s17.16  The window.
+    output reg [2:0] phase // u3.0  Polyphase: which of the carrier's five phases the sample has.
 );
 
     reg [2:0] step; // u3.0  0 idle, 1 look_up, 2 wave, 3 cosine, 4 sine
-    reg [31:0] phase; // u32.32
-    reg [31:0] window_phase; // u32.32
-    reg negative; // u1.0
-    reg [14:0] wave; // u15.15
-    reg sign; // u1.0
-    reg [14:0] quarter [0:255]; // 256 words u15.15
-    reg [14:0] quarter_word; // its read register
+    reg [8:0] window_phase; // u9.0
+    reg [15:0] quarter [0:250]; // 251 words u16.16
+    reg [15:0] quarter_word; // its read register
 
-    wire bit_16 = ~(step == 3'd0); // u1.0
-    wire step_is_wave = step == 3'd2; // u1.0
-    wire [32:0] sum_31 = {1'd0, ((step == 3'd1) | step_is_wave) ? phase : (sample & first) ? 32'd0 : window_phase} + {1'd0, step_is_wave ? 32'd0 : 32'd1073741824}; // u33.32
-    wire [31:0] angle = sum_31[31:0]; // u32.32
-    wire signed [8:0] difference_35 = 9'd255 - {1'd0, angle[29:22]}; // s9.0
-    wire signed [15:0] signed_wave = sign ? (16'd0 - {1'd0, wave}) : {1'd0, wave}; // s16.15
-    wire step_is_sine = step == 3'd4; // u1.0
-    wire [3:0] choice_48 = step_is_sine ? 4'd0 : ({1'd0, step} + 4'd1); // u4.0
-    wire [32:0] sum_51 = {1'd0, phase} + 33'd858993459; // u33.32
-    wire [32:0] sum_55 = {1'd0, window_phase} + 33'd8589935; // u33.32
-    wire step_is_cosine = step == 3'd3; // u1.0
-    wire signed [17:0] difference_60 = 18'd32768 - {{2{window[15]}}, window}; // s18.15
-    wire signed [17:0] rounded = {difference_60[17], difference_60[17:1]} + {17'd0, difference_60[0] & difference_60[1]};
+    wire phase_is_4 = phase == 3'd4; // u1.0
+    wire signed [9:0] difference_36 = 10'd500 - {1'd0, window_phase}; // s10.0
+    wire [3:0] sum_42 = {1'd0, phase} + 4'd1; // u4.0
+    wire [9:0] sum_46 = {1'd0, window_phase} + 10'd1; // u10.0
 
     initial begin : initial_quarter
-        quarter[0] = 15'h0065; quarter[1] = 15'h012e; quarter[2] = 15'h01f7; quarter[3] = 15'h02c0;
-        quarter[4] = 15'h0389; quarter[5] = 15'h0452; quarter[6] = 15'h051b; quarter[7] = 15'h05e3;
-        quarter[8] = 15'h06ac; quarter[9] = 15'h0775; quarter[10] = 15'h083e; quarter[11] = 15'h0906;
-        quarter[12] = 15'h09cf; quarter[13] = 15'h0a97; quarter[14] = 15'h0b5f; quarter[15] = 15'h0c28;
-        quarter[16] = 15'h0cf0; quarter[17] = 15'h0db8; quarter[18] = 15'h0e80; quarter[19] = 15'h0f47;
-        quarter[20] = 15'h100f; quarter[21] = 15'h10d6; quarter[22] = 15'h119d; quarter[23] = 15'h1264;
-        quarter[24] = 15'h132b; quarter[25] = 15'h13f2; quarter[26] = 15'h14b9; quarter[27] = 15'h157f;
-        quarter[28] = 15'h1645; quarter[29] = 15'h170b; quarter[30] = 15'h17d0; quarter[31] = 15'h1896;
-        quarter[32] = 15'h195b; quarter[33] = 15'h1a20; quarter[34] = 15'h1ae5; quarter[35] = 15'h1ba9;
-        quarter[36] = 15'h1c6d; quarter[37] = 15'h1d31; quarter[38] = 15'h1df5; quarter[39] = 15'h1eb8;
-        quarter[40] = 15'h1f7b; quarter[41] = 15'h203e; quarter[42] = 15'h2100; quarter[43] = 15'h21c2;
-        quarter[44] = 15'h2284; quarter[45] = 15'h2346; quarter[46] = 15'h2407; quarter[47] = 15'h24c8;
-        quarter[48] = 15'h2588; quarter[49] = 15'h2648; quarter[50] = 15'h2708; quarter[51] = 15'h27c7;
-        quarter[52] = 15'h2886; quarter[53] = 15'h2944; quarter[54] = 15'h2a02; quarter[55] = 15'h2ac0;
-        quarter[56] = 15'h2b7d; quarter[57] = 15'h2c3a; quarter[58] = 15'h2cf7; quarter[59] = 15'h2db3;
-        quarter[60] = 15'h2e6e; quarter[61] = 15'h2f2a; quarter[62] = 15'h2fe4; quarter[63] = 15'h309e;
-        quarter[64] = 15'h3158; quarter[65] = 15'h3211; quarter[66] = 15'h32ca; quarter[67] = 15'h3383;
-        quarter[68] = 15'h343a; quarter[69] = 15'h34f2; quarter[70] = 15'h35a8; quarter[71] = 15'h365f;
-        quarter[72] = 15'h3715; quarter[73] = 15'h37ca; quarter[74] = 15'h387e; quarter[75] = 15'h3933;
-        quarter[76] = 15'h39e6; quarter[77] = 15'h3a99; quarter[78] = 15'h3b4c; quarter[79] = 15'h3bfe;
-        quarter[80] = 15'h3caf; quarter[81] = 15'h3d60; quarter[82] = 15'h3e10; quarter[83] = 15'h3ebf;
-        quarter[84] = 15'h3f6e; quarter[85] = 15'h401d; quarter[86] = 15'h40ca; quarter[87] = 15'h4177;
-        quarter[88] = 15'h4224; quarter[89] = 15'h42d0; quarter[90] = 15'h437b; quarter[91] = 15'h4425;
-        quarter[92] = 15'h44cf; quarter[93] = 15'h4578; quarter[94] = 15'h4621; quarter[95] = 15'h46c9;
-        quarter[96] = 15'h4770; quarter[97] = 15'h4816; quarter[98] = 15'h48bc; quarter[99] = 15'h4961;
-        quarter[100] = 15'h4a06; quarter[101] = 15'h4aa9; quarter[102] = 15'h4b4c; quarter[103] = 15'h4bee;
-        quarter[104] = 15'h4c90; quarter[105] = 15'h4d31; quarter[106] = 15'h4dd1; quarter[107] = 15'h4e70;
-        quarter[108] = 15'h4f0e; quarter[109] = 15'h4fac; quarter[110] = 15'h5049; quarter[111] = 15'h50e5;
-        quarter[112] = 15'h5181; quarter[113] = 15'h521b; quarter[114] = 15'h52b5; quarter[115] = 15'h534e;
-        quarter[116] = 15'h53e7; quarter[117] = 15'h547e; quarter[118] = 15'h5515; quarter[119] = 15'h55aa;
-        quarter[120] = 15'h563f; quarter[121] = 15'h56d3; quarter[122] = 15'h5767; quarter[123] = 15'h57f9;
-        quarter[124] = 15'h588b; quarter[125] = 15'h591c; quarter[126] = 15'h59ac; quarter[127] = 15'h5a3b;
-        quarter[128] = 15'h5ac9; quarter[129] = 15'h5b56; quarter[130] = 15'h5be2; quarter[131] = 15'h5c6e;
-        quarter[132] = 15'h5cf9; quarter[133] = 15'h5d82; quarter[134] = 15'h5e0b; quarter[135] = 15'h5e93;
-        quarter[136] = 15'h5f1a; quarter[137] = 15'h5fa0; quarter[138] = 15'h6025; quarter[139] = 15'h60aa;
-        quarter[140] = 15'h612d; quarter[141] = 15'h61af; quarter[142] = 15'h6231; quarter[143] = 15'h62b1;
-        quarter[144] = 15'h6331; quarter[145] = 15'h63af; quarter[146] = 15'h642d; quarter[147] = 15'h64aa;
-        quarter[148] = 15'h6525; quarter[149] = 15'h65a0; quarter[150] = 15'h661a; quarter[151] = 15'h6693;
-        quarter[152] = 15'h670a; quarter[153] = 15'h6781; quarter[154] = 15'h67f7; quarter[155] = 15'h686c;
-        quarter[156] = 15'h68e0; quarter[157] = 15'h6952; quarter[158] = 15'h69c4; quarter[159] = 15'h6a35;
-        quarter[160] = 15'h6aa4; quarter[161] = 15'h6b13; quarter[162] = 15'h6b81; quarter[163] = 15'h6bed;
-        quarter[164] = 15'h6c59; quarter[165] = 15'h6cc3; quarter[166] = 15'h6d2d; quarter[167] = 15'h6d95;
-        quarter[168] = 15'h6dfd; quarter[169] = 15'h6e63; quarter[170] = 15'h6ec8; quarter[171] = 15'h6f2c;
-        quarter[172] = 15'h6f90; quarter[173] = 15'h6ff2; quarter[174] = 15'h7053; quarter[175] = 15'h70b2;
-        quarter[176] = 15'h7111; quarter[177] = 15'h716f; quarter[178] = 15'h71cb; quarter[179] = 15'h7227;
-        quarter[180] = 15'h7281; quarter[181] = 15'h72db; quarter[182] = 15'h7333; quarter[183] = 15'h738a;
-        quarter[184] = 15'h73e0; quarter[185] = 15'h7435; quarter[186] = 15'h7488; quarter[187] = 15'h74db;
-        quarter[188] = 15'h752d; quarter[189] = 15'h757d; quarter[190] = 15'h75cc; quarter[191] = 15'h761a;
-        quarter[192] = 15'h7667; quarter[193] = 15'h76b3; quarter[194] = 15'h76fe; quarter[195] = 15'h7747;
-        quarter[196] = 15'h778f; quarter[197] = 15'h77d7; quarter[198] = 15'h781d; quarter[199] = 15'h7862;
-        quarter[200] = 15'h78a5; quarter[201] = 15'h78e8; quarter[202] = 15'h7929; quarter[203] = 15'h796a;
-        quarter[204] = 15'h79a9; quarter[205] = 15'h79e6; quarter[206] = 15'h7a23; quarter[207] = 15'h7a5f;
-        quarter[208] = 15'h7a99; quarter[209] = 15'h7ad2; quarter[210] = 15'h7b0a; quarter[211] = 15'h7b41;
-        quarter[212] = 15'h7b77; quarter[213] = 15'h7bab; quarter[214] = 15'h7bde; quarter[215] = 15'h7c10;
-        quarter[216] = 15'h7c41; quarter[217] = 15'h7c71; quarter[218] = 15'h7c9f; quarter[219] = 15'h7ccd;
-        quarter[220] = 15'h7cf9; quarter[221] = 15'h7d24; quarter[222] = 15'h7d4d; quarter[223] = 15'h7d76;
-        quarter[224] = 15'h7d9d; quarter[225] = 15'h7dc3; quarter[226] = 15'h7de8; quarter[227] = 15'h7e0b;
-        quarter[228] = 15'h7e2e; quarter[229] = 15'h7e4f; quarter[230] = 15'h7e6f; quarter[231] = 15'h7e8d;
-        quarter[232] = 15'h7eab; quarter[233] = 15'h7ec7; quarter[234] = 15'h7ee2; quarter[235] = 15'h7efc;
-        quarter[236] = 15'h7f15; quarter[237] = 15'h7f2c; quarter[238] = 15'h7f42; quarter[239] = 15'h7f57;
-        quarter[240] = 15'h7f6b; quarter[241] = 15'h7f7d; quarter[242] = 15'h7f8f; quarter[243] = 15'h7f9f;
-        quarter[244] = 15'h7fad; quarter[245] = 15'h7fbb; quarter[246] = 15'h7fc7; quarter[247] = 15'h7fd2;
-        quarter[248] = 15'h7fdc; quarter[249] = 15'h7fe5; quarter[250] = 15'h7fec; quarter[251] = 15'h7ff3;
-        quarter[252] = 15'h7ff7; quarter[253] = 15'h7ffb; quarter[254] = 15'h7ffe; quarter[255] = 15'h7fff;
+        quarter[0] = 16'h0000; quarter[1] = 16'h0003; quarter[2] = 16'h000a; quarter[3] = 16'h0017;
+        quarter[4] = 16'h0028; quarter[5] = 16'h003f; quarter[6] = 16'h005b; quarter[7] = 16'h007c;
+        quarter[8] = 16'h00a1; quarter[9] = 16'h00cc; quarter[10] = 16'h00fc; quarter[11] = 16'h0131;
+        quarter[12] = 16'h016b; quarter[13] = 16'h01aa; quarter[14] = 16'h01ee; quarter[15] = 16'h0236;
+        quarter[16] = 16'h0284; quarter[17] = 16'h02d7; quarter[18] = 16'h032e; quarter[19] = 16'h038b;
+        quarter[20] = 16'h03ec; quarter[21] = 16'h0453; quarter[22] = 16'h04be; quarter[23] = 16'h052e;
+        quarter[24] = 16'h05a3; quarter[25] = 16'h061d; quarter[26] = 16'h069b; quarter[27] = 16'h071f;
+        quarter[28] = 16'h07a7; quarter[29] = 16'h0834; quarter[30] = 16'h08c5; quarter[31] = 16'h095c;
+        quarter[32] = 16'h09f6; quarter[33] = 16'h0a96; quarter[34] = 16'h0b3a; quarter[35] = 16'h0be3;
+        quarter[36] = 16'h0c90; quarter[37] = 16'h0d42; quarter[38] = 16'h0df9; quarter[39] = 16'h0eb4;
+        quarter[40] = 16'h0f73; quarter[41] = 16'h1037; quarter[42] = 16'h10ff; quarter[43] = 16'h11cb;
+        quarter[44] = 16'h129c; quarter[45] = 16'h1371; quarter[46] = 16'h144b; quarter[47] = 16'h1528;
+        quarter[48] = 16'h160a; quarter[49] = 16'h16f0; quarter[50] = 16'h17da; quarter[51] = 16'h18c8;
+        quarter[52] = 16'h19bb; quarter[53] = 16'h1ab1; quarter[54] = 16'h1bab; quarter[55] = 16'h1ca9;
+        quarter[56] = 16'h1dab; quarter[57] = 16'h1eb1; quarter[58] = 16'h1fbb; quarter[59] = 16'h20c8;
+        quarter[60] = 16'h21da; quarter[61] = 16'h22ef; quarter[62] = 16'h2407; quarter[63] = 16'h2523;
+        quarter[64] = 16'h2643; quarter[65] = 16'h2766; quarter[66] = 16'h288d; quarter[67] = 16'h29b7;
+        quarter[68] = 16'h2ae4; quarter[69] = 16'h2c15; quarter[70] = 16'h2d49; quarter[71] = 16'h2e80;
+        quarter[72] = 16'h2fba; quarter[73] = 16'h30f8; quarter[74] = 16'h3238; quarter[75] = 16'h337c;
+        quarter[76] = 16'h34c2; quarter[77] = 16'h360c; quarter[78] = 16'h3758; quarter[79] = 16'h38a7;
+        quarter[80] = 16'h39f9; quarter[81] = 16'h3b4e; quarter[82] = 16'h3ca5; quarter[83] = 16'h3dff;
+        quarter[84] = 16'h3f5b; quarter[85] = 16'h40ba; quarter[86] = 16'h421b; quarter[87] = 16'h437f;
+        quarter[88] = 16'h44e5; quarter[89] = 16'h464d; quarter[90] = 16'h47b8; quarter[91] = 16'h4924;
+        quarter[92] = 16'h4a93; quarter[93] = 16'h4c04; quarter[94] = 16'h4d76; quarter[95] = 16'h4eeb;
+        quarter[96] = 16'h5061; quarter[97] = 16'h51da; quarter[98] = 16'h5354; quarter[99] = 16'h54cf;
+        quarter[100] = 16'h564d; quarter[101] = 16'h57cc; quarter[102] = 16'h594c; quarter[103] = 16'h5ace;
+        quarter[104] = 16'h5c51; quarter[105] = 16'h5dd6; quarter[106] = 16'h5f5b; quarter[107] = 16'h60e2;
+        quarter[108] = 16'h626a; quarter[109] = 16'h63f4; quarter[110] = 16'h657e; quarter[111] = 16'h6709;
+        quarter[112] = 16'h6895; quarter[113] = 16'h6a22; quarter[114] = 16'h6baf; quarter[115] = 16'h6d3e;
+        quarter[116] = 16'h6ecd; quarter[117] = 16'h705c; quarter[118] = 16'h71ec; quarter[119] = 16'h737d;
+        quarter[120] = 16'h750d; quarter[121] = 16'h769f; quarter[122] = 16'h7830; quarter[123] = 16'h79c2;
+        quarter[124] = 16'h7b53; quarter[125] = 16'h7ce5; quarter[126] = 16'h7e77; quarter[127] = 16'h8008;
+        quarter[128] = 16'h819a; quarter[129] = 16'h832b; quarter[130] = 16'h84bd; quarter[131] = 16'h864d;
+        quarter[132] = 16'h87de; quarter[133] = 16'h896e; quarter[134] = 16'h8afd; quarter[135] = 16'h8c8c;
+        quarter[136] = 16'h8e1b; quarter[137] = 16'h8fa8; quarter[138] = 16'h9135; quarter[139] = 16'h92c1;
+        quarter[140] = 16'h944c; quarter[141] = 16'h95d6; quarter[142] = 16'h9760; quarter[143] = 16'h98e8;
+        quarter[144] = 16'h9a6f; quarter[145] = 16'h9bf4; quarter[146] = 16'h9d79; quarter[147] = 16'h9efc;
+        quarter[148] = 16'ha07e; quarter[149] = 16'ha1fe; quarter[150] = 16'ha37d; quarter[151] = 16'ha4fb;
+        quarter[152] = 16'ha676; quarter[153] = 16'ha7f0; quarter[154] = 16'ha969; quarter[155] = 16'haadf;
+        quarter[156] = 16'hac54; quarter[157] = 16'hadc6; quarter[158] = 16'haf37; quarter[159] = 16'hb0a6;
+        quarter[160] = 16'hb212; quarter[161] = 16'hb37d; quarter[162] = 16'hb4e5; quarter[163] = 16'hb64b;
+        quarter[164] = 16'hb7af; quarter[165] = 16'hb910; quarter[166] = 16'hba6f; quarter[167] = 16'hbbcb;
+        quarter[168] = 16'hbd25; quarter[169] = 16'hbe7c; quarter[170] = 16'hbfd1; quarter[171] = 16'hc123;
+        quarter[172] = 16'hc272; quarter[173] = 16'hc3be; quarter[174] = 16'hc508; quarter[175] = 16'hc64e;
+        quarter[176] = 16'hc792; quarter[177] = 16'hc8d2; quarter[178] = 16'hca10; quarter[179] = 16'hcb4a;
+        quarter[180] = 16'hcc81; quarter[181] = 16'hcdb5; quarter[182] = 16'hcee6; quarter[183] = 16'hd013;
+        quarter[184] = 16'hd13d; quarter[185] = 16'hd264; quarter[186] = 16'hd387; quarter[187] = 16'hd4a7;
+        quarter[188] = 16'hd5c3; quarter[189] = 16'hd6db; quarter[190] = 16'hd7f0; quarter[191] = 16'hd902;
+        quarter[192] = 16'hda0f; quarter[193] = 16'hdb19; quarter[194] = 16'hdc1f; quarter[195] = 16'hdd21;
+        quarter[196] = 16'hde1f; quarter[197] = 16'hdf19; quarter[198] = 16'he00f; quarter[199] = 16'he102;
+        quarter[200] = 16'he1f0; quarter[201] = 16'he2da; quarter[202] = 16'he3c0; quarter[203] = 16'he4a2;
+        quarter[204] = 16'he57f; quarter[205] = 16'he659; quarter[206] = 16'he72e; quarter[207] = 16'he7ff;
+        quarter[208] = 16'he8cb; quarter[209] = 16'he993; quarter[210] = 16'hea57; quarter[211] = 16'heb16;
+        quarter[212] = 16'hebd1; quarter[213] = 16'hec88; quarter[214] = 16'hed3a; quarter[215] = 16'hede7;
+        quarter[216] = 16'hee90; quarter[217] = 16'hef34; quarter[218] = 16'hefd4; quarter[219] = 16'hf06e;
+        quarter[220] = 16'hf105; quarter[221] = 16'hf196; quarter[222] = 16'hf223; quarter[223] = 16'hf2ab;
+        quarter[224] = 16'hf32f; quarter[225] = 16'hf3ad; quarter[226] = 16'hf427; quarter[227] = 16'hf49c;
+        quarter[228] = 16'hf50c; quarter[229] = 16'hf577; quarter[230] = 16'hf5de; quarter[231] = 16'hf63f;
+        quarter[232] = 16'hf69c; quarter[233] = 16'hf6f3; quarter[234] = 16'hf746; quarter[235] = 16'hf794;
+        quarter[236] = 16'hf7dc; quarter[237] = 16'hf820; quarter[238] = 16'hf85f; quarter[239] = 16'hf899;
+        quarter[240] = 16'hf8ce; quarter[241] = 16'hf8fe; quarter[242] = 16'hf929; quarter[243] = 16'hf94e;
+        quarter[244] = 16'hf96f; quarter[245] = 16'hf98b; quarter[246] = 16'hf9a2; quarter[247] = 16'hf9b3;
+        quarter[248] = 16'hf9c0; quarter[249] = 16'hf9c7; quarter[250] = 16'hf9ca;
     end
 
     always @(posedge clock) begin
-        quarter_word <= quarter[angle[30] ? difference_35[7:0] : angle[29:22]];
+        quarter_word <= quarter[(window_phase < 9'd251) ? window_phase[7:0] : difference_36[7:0]];
     end
 
     always @(posedge clock) begin
         if (reset) begin
             step <= 3'd0;
-            phase <= 32'd0;
-            window_phase <= 32'd0;
-            negative <= 1'd0;
-            wave <= 15'd0;
-            sign <= 1'd0;
-            cosine <= 16'd0;
-            sine <= 16'd0;
-            window <= 16'd0;
+            phase <= 3'd0;
+            window_phase <= 9'd0;
             ready <= 1'd0;
         end else begin
+            step <= {2'd0, sample ? 1'd1 : 1'd0};
+            ready <= ~(step == 3'd0);
             if (sample) begin
-                step <= 3'd1;
-                negative <= angle[31];
-                ready <= 1'd0;
-                if (first) begin
-                    window_phase <= 32'd0;
-                end
-                if (restart) begin
-                    phase <= 32'd0;
-                end
-            end else if (bit_16) begin
-                step <= choice_48[2:0];
-                negative <= angle[31];
-                wave <= quarter_word;
-                sign <= negative;
-                window <=
-                    step_is_wave ? signed_wave
-                    : step_is_cosine ? ((rounded[17:15] == {3{rounded[17]}}) ? rounded[15:0] : {rounded[17], {15{~rounded[17]}}})
-                    : window;
-                ready <= step_is_cosine;
-                if (step_is_cosine | step_is_sine) begin
-                    sine <= signed_wave;
-                end
-                if (step_is_sine) begin
-                    phase <= sum_51[31:0];
-                    window_phase <= sum_55[31:0];
-                    cosine <= sine;
-                end
-            end else begin
-                ready <= 1'd0;
+                phase <= (restart | phase_is_4) ? 3'd0 : sum_42[2:0];
+                window_phase <= (first | (window_phase == 9'd499)) ? 9'd0 : sum_46[8:0];
             end
         end
     end
 
+    assign cosine = (phase == 3'd0) ? 17'd65535 : ((phase == 3'd1) | phase_is_4) ? 17'd20252 : 17'h130e4;
+    assign sine = 17'd0;
+    assign window = {1'd0, quarter_word};
+
     // What nothing needs.
-    wire unused = &{1'b0, sum_31[32], angle[21:0], difference_35[8], choice_48[3], sum_51[32], sum_55[32]};
+    wire unused = &{1'b0, difference_36[9:8], sum_42[3], sum_46[9]};
 
 endmodule
 

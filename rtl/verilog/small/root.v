@@ -22,10 +22,10 @@ module root (
     wire [17:0] shifted = {remainder, tail[29:28]}; // u18.0
     wire signed [18:0] rest = {1'd0, shifted} - {2'd0, {{partial, 1'd0}, 1'd1}}; // s19.0
     wire fits = ~rest[18]; // u1.0
-    wire [4:0] sum_27 = {1'd0, count} + 5'd1; // u5.0
-    wire [31:0] joined_30 = {{tail, 1'd0}, 1'd0}; // u32.0
-    wire signed [18:0] choice_32 = fits ? rest : {1'd0, shifted}; // s19.0
-    wire [15:0] joined_34 = {partial, fits}; // u16.0
+    wire [4:0] sum_23 = {1'd0, count} + 5'd1; // u5.0
+    wire [31:0] joined_26 = {{tail, 1'd0}, 1'd0}; // u32.0
+    wire signed [18:0] choice_28 = fits ? rest : {1'd0, shifted}; // s19.0
+    wire [15:0] joined_30 = {partial, fits}; // u16.0
 
     always @(posedge clock) begin
         if (reset) begin
@@ -50,10 +50,10 @@ module root (
                     done <= 1'd1;
                     root <= {1'd0, partial} + {15'd0, {1'd0, partial} < remainder};
                 end else begin
-                    count <= sum_27[3:0];
-                    tail <= joined_30[29:0];
-                    remainder <= choice_32[15:0];
-                    partial <= joined_34[14:0];
+                    count <= sum_23[3:0];
+                    tail <= joined_26[29:0];
+                    remainder <= choice_28[15:0];
+                    partial <= joined_30[14:0];
                     done <= 1'd0;
                 end
             end else begin
@@ -63,7 +63,7 @@ module root (
     end
 
     // What nothing needs.
-    wire unused = &{1'b0, sum_27[4], joined_30[31:30], choice_32[18:16], joined_34[15]};
+    wire unused = &{1'b0, sum_23[4], joined_26[31:30], choice_28[18:16], joined_30[15]};
 
 endmodule
 

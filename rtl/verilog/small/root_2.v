@@ -22,10 +22,10 @@ module root_2 (
     wire [18:0] shifted = {remainder, tail[31:30]}; // u19.0
     wire signed [19:0] rest = {1'd0, shifted} - {2'd0, {{partial, 1'd0}, 1'd1}}; // s20.0
     wire fits = ~rest[19]; // u1.0
-    wire [5:0] sum_27 = {1'd0, count} + 6'd1; // u6.0
-    wire [33:0] joined_30 = {{tail, 1'd0}, 1'd0}; // u34.0
-    wire signed [19:0] choice_32 = fits ? rest : {1'd0, shifted}; // s20.0
-    wire [16:0] joined_34 = {partial, fits}; // u17.0
+    wire [5:0] sum_23 = {1'd0, count} + 6'd1; // u6.0
+    wire [33:0] joined_26 = {{tail, 1'd0}, 1'd0}; // u34.0
+    wire signed [19:0] choice_28 = fits ? rest : {1'd0, shifted}; // s20.0
+    wire [16:0] joined_30 = {partial, fits}; // u17.0
 
     always @(posedge clock) begin
         if (reset) begin
@@ -50,10 +50,10 @@ module root_2 (
                     done <= 1'd1;
                     root <= {1'd0, partial} + {16'd0, {1'd0, partial} < remainder};
                 end else begin
-                    count <= sum_27[4:0];
-                    tail <= joined_30[31:0];
-                    remainder <= choice_32[16:0];
-                    partial <= joined_34[15:0];
+                    count <= sum_23[4:0];
+                    tail <= joined_26[31:0];
+                    remainder <= choice_28[16:0];
+                    partial <= joined_30[15:0];
                     done <= 1'd0;
                 end
             end else begin
@@ -63,7 +63,7 @@ module root_2 (
     end
 
     // What nothing needs.
-    wire unused = &{1'b0, sum_27[5], joined_30[33:32], choice_32[19:17], joined_34[16]};
+    wire unused = &{1'b0, sum_23[5], joined_26[33:32], choice_28[19:17], joined_30[16]};
 
 endmodule
 

@@ -19,7 +19,7 @@ module currents (
     output reg saturated // u1.0  Whether a word is held at a rail.
 );
 
-    reg [2:0] step; // u3.0  0 idle, 1 read, 2 in_phase, 3 read_quadrature, 4 quadrature, 5 square, 6 power, 7 root
+    reg [2:0] step; // u3.0  0 idle, 1 read, 2 in_phase, 3 read_quadrature, 4 quadrature, 5 square, 6 power, 7 root, 8 align_read, 9 align_load, 10 align_move, 11 align_keep, 12 restore
     reg arrived; // u1.0
     reg [3:0] place; // u4.0
     reg signed [23:0] word; // s24.23
@@ -32,53 +32,53 @@ module currents (
     reg root_start; // u1.0
     reg [26:0] least; // u27.23
     (* no_rw_check *) // nobody uses a word that was read while it was being written
-    reg signed [23:0] words [0:13]; // 14 words s24.23
+    reg signed [23:0] words [0:15]; // 16 words s24.23
     reg signed [23:0] words_word; // its read register
     wire root_done; // u1.0
     wire [26:0] root_root; // u27.23
     wire signed [51:0] multiplier_product; // s52.0
 
     wire multiplier_enable = ~(step == 3'd0); // u1.0
-    wire signed [26:0] fit_32 = {sum[44], sum[44:19]} + {26'd0, sum[18] & (sum[19] | (|sum[17:0]))}; // s27.23
+    wire signed [26:0] fit_40 = {sum[44], sum[44:19]} + {26'd0, sum[18] & (sum[19] | (|sum[17:0]))}; // s27.23
     wire among = index < 4'd14; // u1.0
-    wire [3:0] joined_48 = {channel, ~(step < 3'd3)}; // u4.0
+    wire [3:0] joined_56 = {channel, ~(step < 3'd3)}; // u4.0
     wire step_is_root = step == 3'd7; // u1.0
-    wire bit_53 = waited | step_is_root; // u1.0
-    wire bit_62 = ((~(index == 4'd0)) & saturated) | (among & (~((fit_32[26:23] == 4'd0) | (fit_32[26:23] == 4'd15)))); // u1.0
+    wire bit_61 = waited | step_is_root; // u1.0
     wire channel_is_7 = channel == 3'd7; // u1.0
-    wire less_65 = channel < 3'd6; // u1.0
+    wire less_64 = channel < 3'd6; // u1.0
     wire step_is_power = step == 3'd6; // u1.0
-    wire [52:0] choice_70 =
+    wire [52:0] choice_69 =
         step_is_power ? ({1'd0, power} + {1'd0, multiplier_product})
         : {1'd0, multiplier_product}; // u53.46
-    wire adds = ((step == 3'd3) | (step == 3'd5)) & less_65; // u1.0
+    wire adds = ((step == 3'd3) | (step == 3'd5)) & less_64; // u1.0
     wire signed [26:0] more = {{1{total_i[25]}}, total_i} + {{1{part[25]}}, part}; // s27.23
-    wire signed [27:0] fit_78 = {{1{more[26]}}, more}; // s28.23
+    wire signed [27:0] fit_77 = {{1{more[26]}}, more}; // s28.23
     wire rooted = step_is_root & root_done; // u1.0
     wire channel_is_0 = channel == 3'd0; // u1.0
     wire signed [27:0] negative = 28'd0 - {1'd0, root_root}; // s28.23
-    wire [3:0] sum_92 = {1'd0, channel} + 4'd1; // u4.0
+    wire [3:0] sum_91 = {1'd0, channel} + 4'd1; // u4.0
     wire channel_is_2 = channel == 3'd2; // u1.0
     wire channel_is_3 = channel == 3'd3; // u1.0
     wire channel_is_1 = channel == 3'd1; // u1.0
-    wire bit_103 = channel_is_0 | channel_is_1; // u1.0
-    wire signed [30:0] choice_106 = channel_is_0 ? 31'd0 : x; // s31.23
-    wire signed [27:0] choice_104 = bit_103 ? negative : {1'd0, (channel_is_2 | channel_is_3) ? root_root : 27'd0}; // s28.23
-    wire signed [31:0] sum_107 = {{1{choice_106[30]}}, choice_106} + {{4{choice_104[27]}}, choice_104}; // s32.23
-    wire signed [30:0] choice_113 = channel_is_0 ? 31'd0 : y; // s31.23
-    wire signed [27:0] choice_112 =
+    wire bit_102 = channel_is_0 | channel_is_1; // u1.0
+    wire signed [30:0] choice_105 = channel_is_0 ? 31'd0 : x; // s31.23
+    wire signed [27:0] choice_103 = bit_102 ? negative : {1'd0, (channel_is_2 | channel_is_3) ? root_root : 27'd0}; // s28.23
+    wire signed [31:0] sum_106 = {{1{choice_105[30]}}, choice_105} + {{4{choice_103[27]}}, choice_103}; // s32.23
+    wire signed [30:0] choice_112 = channel_is_0 ? 31'd0 : y; // s31.23
+    wire signed [27:0] choice_111 =
         (channel_is_1 | channel_is_2) ? negative
         : {1'd0, (channel_is_0 | channel_is_3) ? root_root
         : 27'd0}; // s28.23
-    wire signed [31:0] sum_114 = {{1{choice_113[30]}}, choice_113} + {{4{choice_112[27]}}, choice_112}; // s32.23
-    wire signed [27:0] fit_119 = {1'd0, ((bit_103 | channel_is_2) | channel_is_3) ? root_root : 27'd0}; // s28.23
-    wire signed [31:0] sum_122 = {2'd0, channel_is_0 ? 30'd0 : corners} + {{4{fit_119[27]}}, fit_119}; // s32.23
+    wire signed [31:0] sum_113 = {{1{choice_112[30]}}, choice_112} + {{4{choice_111[27]}}, choice_111}; // s32.23
+    wire signed [27:0] fit_118 = {1'd0, ((bit_102 | channel_is_2) | channel_is_3) ? root_root : 27'd0}; // s28.23
+    wire signed [31:0] sum_121 = {2'd0, channel_is_0 ? 30'd0 : corners} + {{4{fit_118[27]}}, fit_118}; // s32.23
     wire step_is_quadrature = step == 3'd4; // u1.0
-    wire [3:0] choice_141 =
+    wire [3:0] choice_140 =
         rooted ? {3'd0, channel_is_7 ? 1'd0
         : 1'd1}
         : step_is_root ? {1'd0, step}
         : ({1'd0, step} + 4'd1); // u4.0
+    wire bit_186 = ((~(index == 4'd0)) & saturated) | (among & (~((fit_40[26:23] == 4'd0) | (fit_40[26:23] == 4'd15)))); // u1.0
     wire next_arrived = valid & among; // u1.0
 
     root u_root (
@@ -101,12 +101,12 @@ module currents (
 
     initial begin : initial_words
         integer i;
-        for (i = 0; i < 14; i = i + 1) words[i] = 24'd0;
+        for (i = 0; i < 16; i = i + 1) words[i] = 24'd0;
     end
 
     always @(posedge clock) begin
         if (arrived) words[place] <= word;
-        words_word <= words[joined_48];
+        words_word <= words[joined_56];
     end
 
     always @(posedge clock) begin
@@ -134,7 +134,7 @@ module currents (
             if (next_arrived) begin
                 place <= index;
                 word <=
-                    (fit_32[26:23] == {4{fit_32[26]}}) ? fit_32[23:0] : {fit_32[26], {23{~fit_32[26]}}};
+                    (fit_40[26:23] == {4{fit_40[26]}}) ? fit_40[23:0] : {fit_40[26], {23{~fit_40[26]}}};
             end
             if (valid) begin
                 waited <= 1'd0;
@@ -142,14 +142,14 @@ module currents (
                 total_i <= 26'd0;
                 total_q <= 26'd0;
                 root_start <= 1'd0;
-                saturated <= bit_62;
+                saturated <= bit_186;
                 done <= 1'd0;
-                if (index == 4'd13) begin
+                if (index == 4'd14) begin
                     step <= 3'd1;
                 end
             end else if (multiplier_enable) begin
-                if (bit_53) begin
-                    step <= choice_141[2:0];
+                if (bit_61) begin
+                    step <= choice_140[2:0];
                     waited <= 1'd0;
                     part <=
                         (step == 3'd2) ? (channel_is_7 ? total_i
@@ -158,22 +158,22 @@ module currents (
                         : {{2{words_word[23]}}, words_word})
                         : part;
                     root_start <= step_is_power;
-                    saturated <= saturated | (adds & (~((fit_78[27:25] == 3'd0) | (fit_78[27:25] == 3'd7))));
+                    saturated <= saturated | (adds & (~((fit_77[27:25] == 3'd0) | (fit_77[27:25] == 3'd7))));
                     done <= rooted & channel_is_7;
                     if (step_is_quadrature | step_is_power) begin
-                        power <= choice_70[51:0];
+                        power <= choice_69[51:0];
                     end
                     if (adds) begin
                         total_i <= total_q;
                         total_q <=
-                            (fit_78[27:25] == {3{fit_78[27]}}) ? fit_78[25:0] : {fit_78[27], {25{~fit_78[27]}}};
+                            (fit_77[27:25] == {3{fit_77[27]}}) ? fit_77[25:0] : {fit_77[27], {25{~fit_77[27]}}};
                     end
                     if (rooted) begin
-                        channel <= sum_92[2:0];
-                        x <= sum_107[30:0];
-                        y <= sum_114[30:0];
-                        corners <= sum_122[29:0];
-                        if (channel_is_0 | (less_65 & (root_root < least))) begin
+                        channel <= sum_91[2:0];
+                        x <= sum_106[30:0];
+                        y <= sum_113[30:0];
+                        corners <= sum_121[29:0];
+                        if (channel_is_0 | (less_64 & (root_root < least))) begin
                             least <= root_root;
                         end
                         if (channel == 3'd6) begin
@@ -196,7 +196,7 @@ module currents (
     assign lost = {least, 9'd0} < {9'd0, root_root};
 
     // What nothing needs.
-    wire unused = &{1'b0, choice_70[52], sum_92[3], sum_107[31], sum_114[31], sum_122[31:30], choice_141[3]};
+    wire unused = &{1'b0, choice_69[52], sum_91[3], sum_106[31], sum_113[31], sum_121[31:30], choice_140[3]};
 
 endmodule
 

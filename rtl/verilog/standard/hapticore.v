@@ -46,6 +46,7 @@ module hapticore (
     wire signed [17:0] oscillator_cosine; // s18.17
     wire signed [17:0] oscillator_sine; // s18.17
     wire signed [17:0] oscillator_window; // s18.17
+    wire oscillator_phase; // u1.0
     wire [2:0] demodulator_channel; // u3.0
     wire demodulator_valid; // u1.0
     wire [3:0] demodulator_index; // u4.0
@@ -93,7 +94,8 @@ module hapticore (
         .ready(oscillator_ready),
         .cosine(oscillator_cosine),
         .sine(oscillator_sine),
-        .window(oscillator_window)
+        .window(oscillator_window),
+        .phase(oscillator_phase)
     );
 
     demodulator u_demodulator (
@@ -107,6 +109,7 @@ module hapticore (
         .cosine(oscillator_cosine),
         .sine(oscillator_sine),
         .window(oscillator_window),
+        .phase(oscillator_phase),
         .channel(demodulator_channel),
         .valid(demodulator_valid),
         .index(demodulator_index),

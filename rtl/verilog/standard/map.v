@@ -60,40 +60,40 @@ module map (
     wire between = (operation_is_x | operation_is_y) | operation_is_r; // u1.0
     wire [4:0] sum_72 = {1'd0, step} + 5'd1; // u5.0
     wire step_is_cell = step == 4'd0; // u1.0
-    wire operation_is_middle_y = operation == 5'd2; // u1.0
-    wire operation_is_stretch_y = operation == 5'd3; // u1.0
-    wire bit_80 = ((operation_is_middle_y | operation_is_stretch_y) | operation_is_straighten_x) | operation_is_spacing_x; // u1.0
-    wire signed [17:0] coordinate = (bit_80 | (tables & (~between))) ? across : along; // s18.17
-    wire signed [19:0] sum_85 = {{2{coordinate[17]}}, coordinate} + 20'd131072; // s20.17
-    wire [17:0] fit_86 = sum_85[17:0]; // u18.17
-    wire signed [18:0] difference_89 = {1'd0, fit_86} - {1'd0, fit_86[17:12], 12'd0}; // s19.12
-    wire signed [18:0] difference_93 = {1'd0, fit_86} - {1'd0, fit_86[17:11], 11'd0}; // s19.11
-    wire signed [18:0] difference_97 = {1'd0, fit_86} - {1'd0, fit_86[17:13], 13'd0}; // s19.13
-    wire operation_is_stretch_x = operation == 5'd7; // u1.0
-    wire [12:0] sum_136 = {1'd0, tables ? ((~(operation < 5'd16)) ? 12'd2696 : {1'd0, (~(operation < 5'd13)) ? 11'd1607 : 11'd518}) : {3'd0, operation_is_spacing_y ? 9'd260 : operation_is_stretch_x ? 9'd195 : (operation == 5'd6) ? 9'd130 : operation_is_stretch_y ? 9'd65 : operation_is_middle_y ? 9'd0 : 9'd389}} + {6'd0, tables ? {2'd0, fit_86[17:13]} : spaced ? fit_86[17:11] : {1'd0, fit_86[17:12]}}; // u13.0
-    wire signed [17:0] choice_146 = straightened ? (operation_is_straighten_x ? across : along) : second; // s18.0
     wire step_is_row = step == 4'd1; // u1.0
-    wire signed [19:0] sum_150 = {{2{along[17]}}, along} + 20'd131072; // s20.17
-    wire [17:0] fit_151 = sum_150[17:0]; // u18.17
-    wire [5:0] sum_156 = {1'd0, fit_151[17:13]} + {5'd0, below}; // u6.0
-    wire [12:0] choice_161 =
-        tables ? ({1'd0, base} + {1'd0, {1'd0, {sum_156, 5'd0}} + {6'd0, sum_156}})
-        : {1'd0, base}; // u13.0
     wire step_is_9 = step == 4'd9; // u1.0
-    wire signed [31:0] fit_167 = multiplier_product[31:0]; // s32.0
-    wire signed [17:0] fit_169 = near[17:0]; // s18.0
-    wire signed [32:0] sum_171 = {{1{fit_167[31]}}, fit_167} + {{2{fit_169[17]}}, fit_169, 13'd0}; // s33.30
-    wire signed [36:0] choice_172 = straightened ? {multiplier_product[35:0], 1'd0} : {{4{sum_171[32]}}, sum_171}; // s37.30
     wire step_is_10 = step == 4'd10; // u1.0
-    wire signed [25:0] fit_175 = {aligned[40], aligned[40:16]} + {25'd0, aligned[15] & (aligned[16] | (|aligned[14:0]))}; // s26.17
     wire step_is_11 = step == 4'd11; // u1.0
+    wire bit_81 = ~((boxed | straightened) | between); // u1.0
+    wire signed [23:0] difference_82 = {{1{difference[22]}}, difference} - {{2{near[21]}}, near}; // s24.0
     wire of_x = (operation_is_box_x | operation_is_straighten_x) | operation_is_spacing_x; // u1.0
     wire of_y = (operation_is_box_y | operation_is_straighten_y) | operation_is_spacing_y; // u1.0
-    wire bit_191 = (operation_is_stretch_y | operation_is_stretch_x) | below; // u1.0
-    wire [5:0] choice_194 = operation_is_r ? 6'd0 : ({1'd0, operation} + 6'd1); // u6.0
-    wire bit_208 = ~((boxed | straightened) | between); // u1.0
-    wire signed [23:0] difference_209 = {{1{difference[22]}}, difference} - {{2{near[21]}}, near}; // s24.0
-    wire signed [21:0] choice_147 = boxed ? (operation_is_box_x ? r_x : r_y) : {{4{choice_146[17]}}, choice_146}; // s22.0
+    wire operation_is_stretch_y = operation == 5'd3; // u1.0
+    wire operation_is_stretch_x = operation == 5'd7; // u1.0
+    wire bit_103 = (operation_is_stretch_y | operation_is_stretch_x) | below; // u1.0
+    wire [5:0] choice_106 = operation_is_r ? 6'd0 : ({1'd0, operation} + 6'd1); // u6.0
+    wire signed [25:0] fit_131 = {aligned[40], aligned[40:16]} + {25'd0, aligned[15] & (aligned[16] | (|aligned[14:0]))}; // s26.17
+    wire signed [31:0] fit_158 = multiplier_product[31:0]; // s32.0
+    wire signed [17:0] fit_160 = near[17:0]; // s18.0
+    wire signed [32:0] sum_162 = {{1{fit_158[31]}}, fit_158} + {{2{fit_160[17]}}, fit_160, 13'd0}; // s33.30
+    wire signed [36:0] choice_163 = straightened ? {multiplier_product[35:0], 1'd0} : {{4{sum_162[32]}}, sum_162}; // s37.30
+    wire signed [19:0] sum_181 = {{2{along[17]}}, along} + 20'd131072; // s20.17
+    wire [17:0] fit_182 = sum_181[17:0]; // u18.17
+    wire [5:0] sum_187 = {1'd0, fit_182[17:13]} + {5'd0, below}; // u6.0
+    wire [12:0] choice_192 =
+        tables ? ({1'd0, base} + {1'd0, {1'd0, {sum_187, 5'd0}} + {6'd0, sum_187}})
+        : {1'd0, base}; // u13.0
+    wire operation_is_middle_y = operation == 5'd2; // u1.0
+    wire bit_215 = ((operation_is_middle_y | operation_is_stretch_y) | operation_is_straighten_x) | operation_is_spacing_x; // u1.0
+    wire signed [17:0] coordinate = (bit_215 | (tables & (~between))) ? across : along; // s18.17
+    wire signed [19:0] sum_220 = {{2{coordinate[17]}}, coordinate} + 20'd131072; // s20.17
+    wire [17:0] fit_221 = sum_220[17:0]; // u18.17
+    wire signed [18:0] difference_224 = {1'd0, fit_221} - {1'd0, fit_221[17:12], 12'd0}; // s19.12
+    wire signed [18:0] difference_228 = {1'd0, fit_221} - {1'd0, fit_221[17:11], 11'd0}; // s19.11
+    wire signed [18:0] difference_232 = {1'd0, fit_221} - {1'd0, fit_221[17:13], 13'd0}; // s19.13
+    wire [12:0] sum_268 = {1'd0, tables ? ((~(operation < 5'd16)) ? 12'd2696 : {1'd0, (~(operation < 5'd13)) ? 11'd1607 : 11'd518}) : {3'd0, operation_is_spacing_y ? 9'd260 : operation_is_stretch_x ? 9'd195 : (operation == 5'd6) ? 9'd130 : operation_is_stretch_y ? 9'd65 : operation_is_middle_y ? 9'd0 : 9'd389}} + {6'd0, tables ? {2'd0, fit_221[17:13]} : spaced ? fit_221[17:11] : {1'd0, fit_221[17:12]}}; // u13.0
+    wire signed [17:0] choice_278 = straightened ? (operation_is_straighten_x ? across : along) : second; // s18.0
+    wire signed [21:0] choice_279 = boxed ? (operation_is_box_x ? r_x : r_y) : {{4{choice_278[17]}}, choice_278}; // s22.0
 
     multiplier_3 u_multiplier (
         .clock(clock),
@@ -146,8 +146,8 @@ module map (
                 word_q <= words_word;
                 if (step_is_cell) begin
                     step <= sum_72[3:0];
-                    base <= sum_136[11:0];
-                    difference <= {{1{choice_147[21]}}, choice_147};
+                    base <= sum_268[11:0];
+                    difference <= {{1{choice_279[21]}}, choice_279};
                     done <= 1'd0;
                     if (boxed) begin
                         if (operation_is_box_x) begin
@@ -159,25 +159,25 @@ module map (
                         end
                     end else begin
                         near <= {{4{first[17]}}, first};
-                        factor <= {1'd0, straightened ? (second[17] ? 17'd0 : second[16:0]) : {4'd0, tables ? difference_97[12:0] : spaced ? {difference_93[10:0], 2'd0} : {difference_89[11:0], 1'd0}}};
+                        factor <= {1'd0, straightened ? (second[17] ? 17'd0 : second[16:0]) : {4'd0, tables ? difference_232[12:0] : spaced ? {difference_228[10:0], 2'd0} : {difference_224[11:0], 1'd0}}};
                     end
                 end else if (step_is_row) begin
                     step <= sum_72[3:0];
-                    base <= choice_161[11:0];
+                    base <= choice_192[11:0];
                     done <= 1'd0;
                 end else if (step_is_9) begin
                     step <= sum_72[3:0];
-                    aligned <= boxed ? multiplier_product : {{1{choice_172[36]}}, choice_172, 3'd0};
+                    aligned <= boxed ? multiplier_product : {{1{choice_163[36]}}, choice_163, 3'd0};
                     done <= 1'd0;
                 end else if (step_is_10) begin
                     step <= sum_72[3:0];
                     result <=
-                        (fit_175[25:17] == {9{fit_175[25]}}) ? fit_175[17:0] : {fit_175[25], {17{~fit_175[25]}}};
-                    saturated <= saturated | (~((fit_175[25:17] == 9'd0) | (fit_175[25:17] == 9'd511)));
+                        (fit_131[25:17] == {9{fit_131[25]}}) ? fit_131[17:0] : {fit_131[25], {17{~fit_131[25]}}};
+                    saturated <= saturated | (~((fit_131[25:17] == 9'd0) | (fit_131[25:17] == 9'd511)));
                     done <= 1'd0;
                 end else if (step_is_11) begin
                     busy <= ~operation_is_r;
-                    operation <= choice_194[4:0];
+                    operation <= choice_106[4:0];
                     step <= 4'd0;
                     done <= operation_is_r;
                     if (operation_is_r) begin
@@ -189,10 +189,10 @@ module map (
                     if (operation_is_x) begin
                         x <= result;
                     end
-                    if (bit_191) begin
+                    if (bit_103) begin
                         second <= result;
                     end
-                    if (~((of_x | of_y) | bit_191)) begin
+                    if (~((of_x | of_y) | bit_103)) begin
                         first <= result;
                     end
                     if (of_y) begin
@@ -204,11 +204,11 @@ module map (
                 end else begin
                     step <= sum_72[3:0];
                     difference <=
-                        (sum_72[3:0] == 4'd7) ? difference_209[22:0]
-                        : ((sum_72[3:0] == 4'd6) & bit_208) ? {{5{word_q[17]}}, word_q}
+                        (sum_72[3:0] == 4'd7) ? difference_82[22:0]
+                        : ((sum_72[3:0] == 4'd6) & bit_81) ? {{5{word_q[17]}}, word_q}
                         : difference;
                     done <= 1'd0;
-                    if ((sum_72[3:0] == 4'd5) & bit_208) begin
+                    if ((sum_72[3:0] == 4'd5) & bit_81) begin
                         near <= {{4{word_q[17]}}, word_q};
                     end
                 end
@@ -219,9 +219,9 @@ module map (
     end
 
     // What nothing needs.
-    wire unused = &{1'b0, sum_35[12], sum_72[4], sum_85[19:18], difference_89[18:12], difference_93[18:11],
-        difference_97[18:13], sum_136[12], sum_150[19:18], fit_151[12:0], choice_161[12], choice_194[5],
-        difference_209[23]};
+    wire unused = &{1'b0, sum_35[12], sum_72[4], difference_82[23], choice_106[5], sum_181[19:18], fit_182[12:0],
+        choice_192[12], sum_220[19:18], difference_224[18:12], difference_228[18:11], difference_232[18:13],
+        sum_268[12]};
 
 endmodule
 

@@ -22,10 +22,10 @@ module root (
     wire [28:0] shifted = {remainder, tail[51:50]}; // u29.0
     wire signed [29:0] rest = {1'd0, shifted} - {2'd0, {{partial, 1'd0}, 1'd1}}; // s30.0
     wire fits = ~rest[29]; // u1.0
-    wire [5:0] sum_27 = {1'd0, count} + 6'd1; // u6.0
-    wire [53:0] joined_30 = {{tail, 1'd0}, 1'd0}; // u54.0
-    wire signed [29:0] choice_32 = fits ? rest : {1'd0, shifted}; // s30.0
-    wire [26:0] joined_34 = {partial, fits}; // u27.0
+    wire [5:0] sum_23 = {1'd0, count} + 6'd1; // u6.0
+    wire [53:0] joined_26 = {{tail, 1'd0}, 1'd0}; // u54.0
+    wire signed [29:0] choice_28 = fits ? rest : {1'd0, shifted}; // s30.0
+    wire [26:0] joined_30 = {partial, fits}; // u27.0
 
     always @(posedge clock) begin
         if (reset) begin
@@ -50,10 +50,10 @@ module root (
                     done <= 1'd1;
                     root <= {1'd0, partial} + {26'd0, {1'd0, partial} < remainder};
                 end else begin
-                    count <= sum_27[4:0];
-                    tail <= joined_30[51:0];
-                    remainder <= choice_32[26:0];
-                    partial <= joined_34[25:0];
+                    count <= sum_23[4:0];
+                    tail <= joined_26[51:0];
+                    remainder <= choice_28[26:0];
+                    partial <= joined_30[25:0];
                     done <= 1'd0;
                 end
             end else begin
@@ -63,7 +63,7 @@ module root (
     end
 
     // What nothing needs.
-    wire unused = &{1'b0, sum_27[5], joined_30[53:52], choice_32[29:27], joined_34[26]};
+    wire unused = &{1'b0, sum_23[5], joined_26[53:52], choice_28[29:27], joined_30[26]};
 
 endmodule
 

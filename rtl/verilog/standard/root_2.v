@@ -22,10 +22,10 @@ module root_2 (
     wire [29:0] shifted = {remainder, tail[53:52]}; // u30.0
     wire signed [30:0] rest = {1'd0, shifted} - {2'd0, {{partial, 1'd0}, 1'd1}}; // s31.0
     wire fits = ~rest[30]; // u1.0
-    wire [5:0] sum_27 = {1'd0, count} + 6'd1; // u6.0
-    wire [55:0] joined_30 = {{tail, 1'd0}, 1'd0}; // u56.0
-    wire signed [30:0] choice_32 = fits ? rest : {1'd0, shifted}; // s31.0
-    wire [27:0] joined_34 = {partial, fits}; // u28.0
+    wire [5:0] sum_23 = {1'd0, count} + 6'd1; // u6.0
+    wire [55:0] joined_26 = {{tail, 1'd0}, 1'd0}; // u56.0
+    wire signed [30:0] choice_28 = fits ? rest : {1'd0, shifted}; // s31.0
+    wire [27:0] joined_30 = {partial, fits}; // u28.0
 
     always @(posedge clock) begin
         if (reset) begin
@@ -50,10 +50,10 @@ module root_2 (
                     done <= 1'd1;
                     root <= {1'd0, partial} + {27'd0, {1'd0, partial} < remainder};
                 end else begin
-                    count <= sum_27[4:0];
-                    tail <= joined_30[53:0];
-                    remainder <= choice_32[27:0];
-                    partial <= joined_34[26:0];
+                    count <= sum_23[4:0];
+                    tail <= joined_26[53:0];
+                    remainder <= choice_28[27:0];
+                    partial <= joined_30[26:0];
                     done <= 1'd0;
                 end
             end else begin
@@ -63,7 +63,7 @@ module root_2 (
     end
 
     // What nothing needs.
-    wire unused = &{1'b0, sum_27[5], joined_30[55:54], choice_32[30:28], joined_34[27]};
+    wire unused = &{1'b0, sum_23[5], joined_26[55:54], choice_28[30:28], joined_30[27]};
 
 endmodule
 
