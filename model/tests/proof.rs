@@ -130,7 +130,9 @@ fn bad_profiles_say_what_was_expected() {
         ("iq", "\"14.13\"", "expected a format such as \"s18.17\""),
         ("x", "[1, 1, 1, 1, 0, 0]", "terminals.x: expected both signs"),
         ("window", "\"hamming\"", "unknown variant `hamming`"),
-        ("table_address", "15", "map.table_address: expected 1 to 10, got 15"),
+        ("table_address", "8", "map.table_address: expected 1 to 7, got 8"),
+        ("lost_shift", "-1", "terminals.lost_shift: expected 0 (never) to 20, got -1"),
+        ("y", "[-1, -1, 1, 1, 0, 0]", "terminals.y: expected signs other than those of terminals.x"),
     ] {
         let message = with("small", key, value).expect_err(key);
         assert!(message.contains(words), "{key} = {value}: {message}");

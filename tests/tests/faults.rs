@@ -48,7 +48,8 @@ fn blocks(profile: &Profile) -> Vec<Alone> {
     let (currents, map, words) = (Currents::new(profile), Map::new(profile), 2 * (profile.channels() as i64 - 1));
     let amplitudes = currents.outputs();
     vec![
-        alone(&Demodulator::new(profile), 2000, 0, 24),
+        // As long as polyphase sums take to be read out.
+        alone(&Demodulator::new(profile), 500, 0, 640),
         alone(&map, 3000, map.words().words as i64, 3),
         alone(&currents, 200, words, 3),
         alone(&HapticVoltage::new(profile), 1000, words, 3),

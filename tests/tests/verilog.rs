@@ -5,7 +5,13 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use hapticore_model::block::{Block, Cell};
+use hapticore_model::bundle::Nothing;
+use hapticore_model::format::Format;
+use hapticore_model::memory::Memory;
 use hapticore_model::profile::Profile;
+use hapticore_model::signal::{Signal, Value};
+use hapticore_model::{bundle, parts};
 use hapticore_rtl::verilog::Design;
 
 fn committed(folder: &Path) -> BTreeMap<String, String> {
@@ -34,4 +40,60 @@ fn the_committed_verilog_is_fresh() {
             assert!(committed[&name] == text, "rtl/verilog/{profile}/{name} {again}");
         }
     }
+}
+
+/// A block whose memory has a name that is a word of Verilog.
+#[derive(Debug, Clone)]
+struct Keeper {
+    table: Memory,
+}
+
+bundle! {
+    /// The input.
+    pub struct Asked { address }
+}
+
+bundle! {
+    /// The output.
+    pub struct Given { word }
+}
+
+parts! {
+    /// The memory within.
+    pub struct Within of Keeper { table: Memory }
+}
+
+impl Block for Keeper {
+    const NAME: &'static str = "keeper";
+    type Inputs = Asked;
+    type Outputs = Given;
+    type Registers = Nothing;
+    type Parts<V: Value> = Within<V>;
+
+    fn inputs(&self) -> Asked<Format> {
+        Asked { address: self.table.address() }
+    }
+
+    fn outputs(&self) -> Given<Format> {
+        Given { word: self.table.format }
+    }
+
+    fn registers(&self) -> Nothing<Format> {
+        Nothing::default()
+    }
+
+    fn clock<V: Value>(&self, cell: &mut Cell<Self, V>, i: Asked<Signal<V>>) -> Given<Signal<V>> {
+        let word = self.table.data(&mut cell.parts.table);
+        self.table.read(&mut cell.parts.table, i.address);
+        Given { word }
+    }
+}
+
+#[test]
+fn a_memory_named_by_a_word_of_the_language_has_one_other_name_throughout() {
+    let table = Memory::table("table", Format::unsigned(4, 0), (0..8).map(f64::from).collect());
+    let text = &Design::of(&Keeper { table }, "a test").modules[0].text;
+    assert!(text.contains("reg [3:0] table_2 [0:7]") && text.contains("table_2[0] = "), "{text}");
+    let words = text.split(|letter: char| !(letter.is_alphanumeric() || letter == '_'));
+    assert_eq!(words.filter(|word| *word == "table").count(), 0, "{text}");
 }

@@ -14,7 +14,8 @@ pub fn print(netlist: &Netlist, modules: &[String], module: &Module, name: &str,
     let ports = ports(module);
     let mut names = Names::default();
     ports.iter().for_each(|port| names.take(&port.name));
-    let mut printer = Printer { scope: Scope::new(module, names), netlist, modules, ports, registers: vec![] };
+    let mut printer =
+        Printer { scope: Scope::new(module, names), netlist, modules, ports, registers: vec![], memories: vec![] };
     let mut text = printer.head(name, made_by);
     text += &printer.declarations();
     printer.wires();
@@ -60,6 +61,8 @@ struct Printer<'a> {
     ports: Vec<Port>,
     /// The name of each register that is needed, and whether it is an output as it stands.
     registers: Vec<Option<(String, bool)>>,
+    /// The name of each memory: its own, but for a word of the language or a name that is taken.
+    memories: Vec<String>,
 }
 
 impl Printer<'_> {
@@ -118,7 +121,8 @@ impl Printer<'_> {
                 let _ = writeln!(text, "    reg {range}{name}; // {}{about}", register.format);
             }
         }
-        let memories: Vec<String> = module.memories.iter().map(|ram| self.scope.names.unique(ram.name)).collect();
+        self.memories = module.memories.iter().map(|ram| self.scope.names.unique(ram.name)).collect();
+        let memories = self.memories.clone();
         for (index, ram) in module.memories.iter().enumerate().filter(|(index, _)| self.scope.live.memories[*index]) {
             let (range, name, words) =
                 (range(ram.format.width, ram.format.signed), &memories[index], ram.initial.len());
@@ -210,12 +214,11 @@ impl Printer<'_> {
         let module = self.scope.module;
         let live = |index: &usize| self.scope.live.memories[*index];
         let live: Vec<usize> = (0..module.memories.len()).filter(live).collect();
-        live.into_iter().map(|index| self.memory(&module.memories[index])).collect()
+        live.into_iter().map(|index| self.memory(&module.memories[index], &self.memories[index].clone())).collect()
     }
 
-    fn memory(&mut self, ram: &Ram) -> String {
-        let name = ram.name;
-        let mut text = format!("\n{}    always @(posedge clock) begin\n", initial(ram));
+    fn memory(&mut self, ram: &Ram, name: &str) -> String {
+        let mut text = format!("\n{}    always @(posedge clock) begin\n", initial(ram, name));
         if let Some((enable, address, word)) = ram.write {
             let enable = self.scope.whole(enable).text;
             let (address, word) = (self.scope.whole(address).text, self.scope.whole(word).text);
@@ -268,8 +271,8 @@ fn about(about: &str, states: &[&str]) -> String {
 }
 
 /// The words of a memory at the start.
-fn initial(ram: &Ram) -> String {
-    let (name, width, words) = (ram.name, ram.format.width, ram.initial.len());
+fn initial(ram: &Ram, name: &str) -> String {
+    let (width, words) = (ram.format.width, ram.initial.len());
     let mut text = format!("    initial begin : initial_{name}\n");
     if ram.initial.iter().all(|&word| word == 0) {
         let zero = literal(0, width);

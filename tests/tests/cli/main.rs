@@ -8,6 +8,7 @@ mod messages;
 mod recorders;
 mod runs;
 mod streams;
+mod terminals;
 mod waves;
 
 use std::fs;

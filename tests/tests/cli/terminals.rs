@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Devices with another sheet and other terminals than the paper's: they run, and a run says where positions are off.
+
+use std::fs;
+
+use crate::{Table, expect, finish, refuse};
+
+/// A sheet with this many terminals along its edges.
+const PLACES: [(usize, &str); 4] = [
+    (3, "sheet.terminals_mm=[[-430, -250], [430, -250], [0, 250]]"),
+    (4, "sheet.terminals=4"),
+    (5, "sheet.terminals_mm=[[-430, 250], [-430, -250], [430, -250], [430, 250], [0, 250]]"),
+    (
+        8,
+        "sheet.terminals_mm=[[-430, 250], [-430, -250], [430, -250], [430, 250], [0, 250], [0, -250], [430, 0], [-430, 0]]",
+    ),
+];
+
+#[test]
+fn bundled_profiles_take_the_terminals_of_the_device() {
+    let folder = tempfile::tempdir().unwrap();
+    for (terminals, places) in PLACES {
+        let common = ["simulate", "minimal-sheet", "--set", places, "--waves", "none"];
+        let run = |core: &str, out: &str| {
+            finish(folder.path(), &[&common[..], &["--core", core, "--out", out]].concat());
+            fs::read_to_string(folder.path().join(out).join("frames.csv")).unwrap()
+        };
+        let (fixed, clock) = (run("fixed", "fixed"), run("clock", "clock"));
+        assert_eq!(fixed, clock, "{terminals} terminals");
+        let table = Table::read(&folder.path().join("fixed/frames.csv"));
+        assert!(table.column("flags").iter().all(|flags| !flags.contains("lost")), "{terminals} terminals");
+        let force = table.numbers("force_n").into_iter().zip(table.numbers("true_force_n"));
+        force.for_each(|(force, truth)| assert!((force / truth - 1.0).abs() < 0.02, "{terminals}: {force} {truth} N"));
+    }
+}
+
+#[test]
+fn a_capture_of_four_terminals_is_replayed_as_it_was_simulated() {
+    let folder = tempfile::tempdir().unwrap();
+    let args = ["simulate", "minimal-sheet", "--set", "sheet.terminals=4", "--waves", "none", "--out", "o"];
+    finish(folder.path(), &[&args[..], &["--capture", "c.wav"]].concat());
+    expect(folder.path(), &["replay", "c.wav", "--out", "r"], 0);
+    let [simulated, replayed] =
+        ["o", "r"].map(|run| Table::read(&folder.path().join(run).join("frames.csv")).numbers("capacitance_pf"));
+    assert_eq!(simulated, replayed);
+}
+
+#[test]
+fn a_profile_of_ones_own_keeps_its_number_of_terminals() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = hapticore_model::profile::BUNDLED.iter().find(|(name, _)| *name == "standard").unwrap().1;
+    fs::write(folder.path().join("mine.toml"), text.replace("name = \"standard\"", "name = \"mine\"")).unwrap();
+    let set = ["--set", "sheet.terminals=4", "--profile", "mine.toml"];
+    let words = ["profile mine", "terminals.x", "expected 4 signs", "got 6"];
+    refuse(folder.path(), &[&["simulate", "minimal-sheet"], &set[..]].concat(), &words);
+}
+
+#[test]
+fn a_position_table_that_does_not_fit_its_sheet_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let said = |set: &[&str]| {
+        let args = [&["simulate", "minimal-sheet", "--waves", "none", "--out", "o"], set].concat();
+        String::from_utf8(finish(folder.path(), &args).stderr).unwrap()
+    };
+    let other = ["--set", "device.width_mm=300", "--set", "device.height_mm=200"];
+    assert!(said(&other).contains("the position table does not fit this device"), "300 × 200 mm");
+    assert!(!said(&[]).contains("the position table"), "860 × 500 mm");
+    let summary = fs::read_to_string(folder.path().join("o/summary.json")).unwrap();
+    let summary: serde_json::Value = serde_json::from_str(&summary).unwrap();
+    assert!(summary["position_table"]["rms_mm"].as_f64().is_some_and(|rms| rms > 0.0 && rms < 1.0));
+}
