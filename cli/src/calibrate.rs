@@ -24,7 +24,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use anyhow::{Result, anyhow, ensure};
-use hapticore_model::calibration::{Calibration, Map, Point};
+use hapticore_model::calibration::{Calibration, Point, PositionTable};
 use hapticore_model::profile::Profile;
 use hapticore_scene::{ForcePoint, Plant, Scene};
 use serde::Deserialize;
@@ -205,10 +205,10 @@ impl DeviceCalibration {
     pub fn of(&self, profile: &Profile) -> Result<Calibration> {
         let device = &self.device;
         let place = |&[x, y, r_x, r_y, sheet_ohm]: &[f64; 5]| Point { x, y, r_x, r_y, sheet: sheet_ohm / device.ohm() };
-        let (columns, places) = refine::refine(self.map.columns, &self.map.places);
+        let (_, places) = refine::refine(self.map.columns, &self.map.places);
         let points: Vec<_> = places.iter().map(place).collect();
         let calibration = Calibration {
-            map: Map::fit(profile, columns, &points).map_err(|error| anyhow!("calibration map: {error}"))?,
+            position: PositionTable::fit(profile, &points).map_err(|error| anyhow!("calibration map: {error}"))?,
             capacitance_gain: device.capacitance_gain(),
             force_gain: device.force_k * 1e-24 * device.haptic_full_scale_v.powi(2) / profile.square_gain(),
         };

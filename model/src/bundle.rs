@@ -66,21 +66,39 @@ impl Bundle for Nothing<()> {
     }
 }
 
-/// `when!(V, Registers, bit, a, b)`: the bundle `a` where the bit is set, else `b`. Readings that know every bit evaluate one of
-/// the two; it is a macro, not a function of two closures, because those are not inlined and the registers then travel
-/// through memory (measured: half the clocks a second).
+/// `when!(V, Registers, bit => a, …, else b)`: the bundle of the first bit that is set, or the last; `when!(V, Registers, bit, a, b)`
+/// is short for one bit. Where every bit is known, one alternative is evaluated; elsewhere all are, and multiplexers choose.
+///
+/// It is a macro, not a function of closures, because those are not inlined and the registers then travel through memory
+/// (measured: half the clocks a second). Each alternative is written out twice, whatever their number: nested in one another,
+/// they would be written out three times a level.
 #[macro_export]
 macro_rules! when {
-    ($reading:ident, $bundle:ident, $bit:expr, $a:expr, $b:expr $(,)?) => {
+    (@select $bundle:ident, $set:ident, else $b:expr) => { $b };
+    (@select $bundle:ident, $set:ident, $bit:expr => $a:expr, $($others:tt)+) => {{
+        #[allow(unused_variables)]
+        let rest = &$set[1..];
+        let others = $crate::when!(@select $bundle, rest, $($others)+);
+        <$bundle as $crate::bundle::Bundle>::select($set[0], $a, others)
+    }};
+    ($reading:ident, $bundle:ident, $($bit:expr => $a:expr,)+ else $b:expr $(,)?) => {
         if $reading::DECIDES {
-            if $crate::signal::is_set($bit) { $a } else { $b }
+            $(if $crate::signal::is_set($bit) { $a } else)+ { $b }
         } else {
-            match $reading::known($bit.value) {
-                Some(true) => $a,
-                Some(false) => $b,
-                None => <$bundle as $crate::bundle::Bundle>::select($bit, $a, $b),
+            let bits = [$($bit),+];
+            if bits.iter().all(|bit| $reading::known(bit.value).is_some()) {
+                let mut bits = bits.into_iter();
+                let mut set = || $crate::signal::is_set(bits.next().expect("a bit for each alternative"));
+                $(if $crate::when!(@first $bit, set) { $a } else)+ { $b }
+            } else {
+                let set = &bits[..];
+                $crate::when!(@select $bundle, set, $($bit => $a,)+ else $b)
             }
         }
+    };
+    (@first $bit:expr, $set:ident) => { $set() };
+    ($reading:ident, $bundle:ident, $bit:expr, $a:expr, $b:expr $(,)?) => {
+        $crate::when!($reading, $bundle, $bit => $a, else $b)
     };
 }
 
@@ -89,15 +107,11 @@ macro_rules! when {
 /// they hold.
 #[macro_export]
 macro_rules! next {
-    (@chosen $reading:ident, $bundle:ident, else $b:expr) => { $b };
-    (@chosen $reading:ident, $bundle:ident, $bit:expr => $a:expr, $($others:tt)+) => {
-        $crate::when!($reading, $bundle, $bit, $a, $crate::next!(@chosen $reading, $bundle, $($others)+))
-    };
     ($reading:ident, $bundle:ident, $block:expr, $cell:expr, $($bit:expr => $a:expr,)+ else $b:expr $(,)?) => {
         if $reading::DECIDES {
             $(if $crate::signal::is_set($bit) { $cell.store($block, $a) } else)+ { $cell.store($block, $b) }
         } else {
-            let next = $crate::next!(@chosen $reading, $bundle, $($bit => $a,)+ else $b);
+            let next = $crate::when!($reading, $bundle, $($bit => $a,)+ else $b);
             $cell.store($block, next);
         }
     };

@@ -26,19 +26,11 @@ bundle! {
         strobe,
         /// The code of the channel asked for in the clock before.
         code,
-        /// Calibration: the x ratio in the middle of the box.
-        origin_x,
-        /// Calibration: one over half the box's width.
-        scale_x,
-        /// Calibration: the y ratio in the middle of the box.
-        origin_y,
-        /// Calibration: one over half the box's height.
-        scale_y,
         /// Calibration: picofarads at an admittance of one.
         capacitance_gain,
         /// Calibration: newtons per square picofarad at full haptic mean square.
         force_gain,
-        /// Calibration: writes a word of the map's tables.
+        /// Calibration: writes a word of the position table.
         write,
         /// Calibration: where.
         address,
@@ -144,23 +136,9 @@ impl Block for Core {
 
     #[inline]
     fn inputs(&self) -> Inputs<Format> {
-        let estimator::Inputs {
-            origin_x, scale_x, origin_y, scale_y, capacitance_gain, force_gain, address, word, ..
-        } = self.estimator.inputs();
+        let estimator::Inputs { capacitance_gain, force_gain, address, word, .. } = self.estimator.inputs();
         let code = self.demodulator.inputs().code;
-        Inputs {
-            strobe: BIT,
-            code,
-            origin_x,
-            scale_x,
-            origin_y,
-            scale_y,
-            capacitance_gain,
-            force_gain,
-            write: BIT,
-            address,
-            word,
-        }
+        Inputs { strobe: BIT, code, capacitance_gain, force_gain, write: BIT, address, word }
     }
 
     #[inline]
@@ -215,10 +193,6 @@ impl Block for Core {
             sum: demodulator.sum,
             pad: demodulator.pad,
             clipped: demodulator.clipped,
-            origin_x: i.origin_x,
-            scale_x: i.scale_x,
-            origin_y: i.origin_y,
-            scale_y: i.scale_y,
             capacitance_gain: i.capacitance_gain,
             force_gain: i.force_gain,
             write: i.write,

@@ -166,15 +166,10 @@ impl Divider {
         when!(
             V,
             Registers,
-            at(0),
-            self.check(r, i),
-            when!(
-                V,
-                Registers,
-                at(width + 1),
-                self.round(r, rest),
-                when!(V, Registers, at(width + 2), self.finish(r, i), self.step(r, rest, shifted))
-            )
+            at(0) => self.check(r, i),
+            at(width + 1) => self.round(r, rest),
+            at(width + 2) => self.finish(r, i),
+            else self.step(r, rest, shifted)
         )
     }
 }

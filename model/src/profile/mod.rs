@@ -28,7 +28,7 @@ pub struct Profile {
     /// The sensing carrier.
     pub carrier: Carrier,
     /// Position from ratios.
-    pub map: Map,
+    pub position: Position,
     /// Capacitance from currents.
     pub capacitance: Capacitance,
     /// Word formats.
@@ -81,16 +81,18 @@ pub enum Window {
     Rectangular,
 }
 
-/// The tables from ratios to millimetres and sheet resistance.
+/// The position table and its inversion.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Map {
-    /// Address bits of the curves that straighten the edges; a curve has one entry more than `2^edge_address`.
-    pub edge_address: u8,
-    /// Address bits of the curves that even out the spacing.
-    pub spacing_address: u8,
-    /// Address bits of either side of the two-dimensional table.
-    pub table_address: u8,
+pub struct Position {
+    /// Coefficients of a ratio's spline along the long edges; an odd number, so that one lies in the middle.
+    pub columns: u64,
+    /// Coefficients along the short edges, likewise.
+    pub rows: u64,
+    /// The resistance's cells are `2^resistance_shift` of the ratios' wide and high.
+    pub resistance_shift: u8,
+    /// Newton steps.
+    pub steps: u64,
 }
 
 /// Capacitance from currents.
@@ -115,8 +117,10 @@ pub struct Formats {
     pub total: Format,
     /// The ratios of eqs. 2 and 3.
     pub ratio: Format,
-    /// Words of the map's tables; all are fractions.
-    pub map: Format,
+    /// Words of the position table; all are fractions.
+    pub table: Format,
+    /// Millimetres.
+    pub position: Format,
     /// Total current over sensing voltage, the sheet's resistance taken out.
     pub admittance: Format,
     /// Picofarads.
@@ -131,8 +135,6 @@ pub struct Formats {
     pub capacitance_gain: Format,
     /// Calibration: newtons per square picofarad at the full haptic mean square.
     pub force_gain: Format,
-    /// Calibration: table width per ratio.
-    pub map_scale: Format,
 }
 
 /// A profile that cannot be.
@@ -240,20 +242,11 @@ impl Window {
 }
 
 impl Profile {
-    /// The format of the sheet's resistance: a word of the map that is never negative.
+    /// The format of the sheet's resistance: a word of the position table that is never negative.
     pub fn sheet(&self) -> Format {
-        let map = self.formats.map;
-        Format::unsigned(map.width - 1, map.frac)
+        let word = self.formats.table;
+        Format::unsigned(word.width - 1, word.frac)
     }
-
-    /// The format of a position, in millimetres: a word of the map.
-    pub fn position(&self) -> Format {
-        let map = self.formats.map;
-        Format { frac: map.frac - Profile::POSITION_BITS, ..map }
-    }
-
-    /// The full scale of a position is `2^POSITION_BITS` mm.
-    pub const POSITION_BITS: i8 = 9;
 
     /// Bits by which the demodulator's sums are scaled down, so that a full-scale tone is a little below one.
     pub fn sum_shift(&self) -> i8 {

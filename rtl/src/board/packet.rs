@@ -163,8 +163,8 @@ fn signed(bytes: &[u8]) -> i64 {
 pub enum Command {
     /// A register's code.
     Register(Register, i64),
-    /// A word of the map's tables.
-    Map {
+    /// A word of the position table.
+    Table {
         /// Where.
         address: u16,
         /// Its code.
@@ -187,7 +187,7 @@ impl Command {
     pub fn encode(self, core: &Inputs<Format>) -> Vec<u8> {
         let (place, code) = match self {
             Command::Register(register, code) => (register.place(), code),
-            Command::Map { address, code } => (address, code),
+            Command::Table { address, code } => (address, code),
         };
         let data = &code.to_be_bytes()[8 - data_bytes(core) as usize..];
         let payload = [&place.to_be_bytes(), data].concat();
@@ -207,25 +207,21 @@ fn escape(byte: u8) -> impl Iterator<Item = u8> {
 }
 
 /// The commands that make a calibration's sensor of a board just reset and start it: the ADC's lines, the registers, the
-/// map, and on.
+/// position table, and on.
 pub fn start(profile: &Profile, calibration: &Calibration) -> Vec<Command> {
     let core = Core::new(profile);
     let inputs = calibration.inputs(core.inputs());
     let register = |register, code| Command::Register(register, code);
-    let word = core.estimator().map().words().format;
-    let map = calibration.map.words.iter().enumerate();
-    let map = map.map(|(address, &real)| Command::Map { address: address as u16, code: word.code_saturating(real) });
+    let word = core.estimator().position().table().format;
+    let table = calibration.position.words.iter().enumerate();
+    let table = table.map(|(address, &real)| Command::Table { address: address as u16, code: word.code_saturating(real) });
     let before = [
         register(Register::Adc, ADC_EIGHT_LINES),
         register(Register::Adc, ADC_CONVERT),
-        register(Register::OriginX, inputs.origin_x),
-        register(Register::ScaleX, inputs.scale_x),
-        register(Register::OriginY, inputs.origin_y),
-        register(Register::ScaleY, inputs.scale_y),
         register(Register::CapacitanceGain, inputs.capacitance_gain),
         register(Register::ForceGain, inputs.force_gain),
     ];
-    before.into_iter().chain(map).chain([Command::ENABLE]).collect()
+    before.into_iter().chain(table).chain([Command::ENABLE]).collect()
 }
 
 /// The bytes of commands, with an END before them that clears the line.
@@ -244,11 +240,11 @@ mod tests {
 
     #[test]
     fn a_command_is_its_bytes() {
-        let bytes = Command::Map { address: 0x0102, code: -2 }.encode(&core());
+        let bytes = Command::Table { address: 0x0102, code: -2 }.encode(&core());
         assert_eq!(bytes[..5], [1, 2, 0xff, 0xff, 0xfe]);
         assert_eq!(bytes.len(), 2 + 3 + 2 + 1);
         assert_eq!(bytes.last(), Some(&END));
-        let escaped = Command::Map { address: 0xc0db_u16 & 0x7fff, code: 0xdb }.encode(&core());
+        let escaped = Command::Table { address: 0xc0db_u16 & 0x7fff, code: 0xdb }.encode(&core());
         assert!(escaped.windows(2).any(|pair| pair == [ESC, ESC_ESC]));
         assert_eq!(escaped.iter().filter(|&&byte| byte == END).count(), 1);
     }
