@@ -71,7 +71,7 @@ struct Run<'a> {
 /// Every code and calibration that the formats allow, and no writing.
 fn any_inputs(core: &Core) -> Inputs<Signal<Range>> {
     let any = Inputs::map(core.inputs(), |format| Signal { value: whole(format), format });
-    Inputs { strobe: bit(false), write: bit(false), address: zero(any.address.format), ..any }
+    Inputs { strobe: bit(false), clear: bit(false), write: bit(false), address: zero(any.address.format), ..any }
 }
 
 impl Run<'_> {

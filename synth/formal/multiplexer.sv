@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // Multiplexer: at most one pad is ever selected, and between two pads none is, for OPEN samples at least; every pad gets its
-// turn in order; for all times at which samples may come.
+// turn in order; for all times at which samples may come and slots be abandoned. Abandoning one is a reset but for the pads:
+// whoever drives them after it must keep a break of its own, as the boards' pad selection does.
 //
 // Stands at the end of the printed module, after OPEN, BEGIN, SLOT (samples) and PADS.
 
@@ -13,11 +14,11 @@
     wire [PADS-1:0] select = closed ? 1 << pad : 0;
     always @(posedge clock) begin
         was_reset <= 1;
-        past_valid <= !reset;
+        past_valid <= !reset && !clear;
         past_strobe <= strobe;
-        before <= reset ? 0 : select;
+        before <= reset || clear ? 0 : select;
         // The pad that was selected last, and for how many samples none has been since.
-        if (reset) begin
+        if (reset || clear) begin
             driven <= 0;
             open_for <= 0;
         end else if (select != 0) begin

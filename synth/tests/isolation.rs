@@ -44,6 +44,7 @@ fn follow(netlist: &Netlist, profile: &Profile, pad: u64, own: bool) -> Found {
     let (valid, whose) = (output("valid"), output("pad"));
     let mut inputs = vec![Seen::Same; top.inputs.len()];
     inputs[write] = Seen::Known(0);
+    inputs[place(&top.inputs, "clear")] = Seen::Known(0);
     let (mut words, mut rounds) = (0, Vec::new());
     for round in 0..3 {
         for slot in 0..profile.pads {

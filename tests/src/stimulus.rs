@@ -263,7 +263,7 @@ pub fn random(profile: &Profile, seed: u64, slots: u64) -> Stimulus {
     let samples =
         (0..slots * profile.slot.samples()).map(move |_| (0..channels).map(|_| corner(&mut rng, adc)).collect());
     Stimulus {
-        constants: Inputs { strobe: 0, code: 0, write: 0, address: 0, word: 0, ..constants },
+        constants: Inputs { strobe: 0, clear: 0, code: 0, write: 0, address: 0, word: 0, ..constants },
         formats: core.inputs(),
         table: Box::new(table.into_iter().enumerate().map(|(address, word)| (address as i64, word))),
         samples: Box::new(samples),

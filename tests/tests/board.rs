@@ -14,11 +14,15 @@ use hapticore::args::Fidelity;
 use hapticore::case::{Case, Maker};
 use hapticore::engine::{Slot, engine};
 use hapticore::inputs;
+use hapticore_model::block::Block;
+use hapticore_model::blocks::core::Core;
 use hapticore_model::calibration::Calibration;
 use hapticore_model::fidelity::clock::ClockSimulation;
 use hapticore_model::frame::Frame;
 use hapticore_model::profile::Profile;
-use hapticore_rtl::board::packet::{Decoder, encode, start};
+use hapticore_rtl::board::framing::Register;
+use hapticore_rtl::board::packet::{Command as BoardCommand, Decoder, Told, encode};
+use hapticore_rtl::board::startup::{AdcSetup, check, prepare};
 use hapticore_rtl::board::{Parameters, Target};
 use hapticore_rtl::component;
 use hapticore_tests::tools;
@@ -29,6 +33,8 @@ use std::process::Command;
 
 const SEED: u64 = 23;
 const SLOTS: usize = 5;
+/// Commands while frames come.
+const STORM: usize = 16;
 
 /// The board's profile with slots just longer than a packet and small tables, so that Icarus comes to an end.
 fn shortened(target: Target) -> Profile {
@@ -180,23 +186,54 @@ fn ulx3s_returns_over_its_line_the_frames_that_simulate_gives() {
     returns_what_simulate_gives(Target::Ulx3s, Simulator::Verilator);
 }
 
-/// The frames that a board's host hears, after it has sent the calibration: nothing else, and no fault of the ADC's pins.
+/// Commands that change nothing, to be taken while frames come: a register's own code, with any bits in the bytes that the
+/// register has not, and words beyond the map.
+fn storm(profile: &Profile, calibration: &Calibration) -> Vec<BoardCommand> {
+    let (mut random, gain) = (Random::new(SEED), Register::ForceGain.format(&Core::new(profile).inputs()));
+    let own = calibration.inputs(Core::new(profile).inputs()).force_gain;
+    let any = |random: &mut Random| random.bits() as i64;
+    let of_gain = |random: &mut Random| own | any(random) & 0xffff << gain.width;
+    let adc = |random: &mut Random| BoardCommand::Register(Register::Adc, any(random) & 0xffff);
+    let one = |k| {
+        if k % 2 == 0 { adc(&mut random) } else { BoardCommand::Register(Register::ForceGain, of_gain(&mut random)) }
+    };
+    (0..STORM).map(one).collect()
+}
+
+/// The frames that a board's host hears, after it has sent the calibration: heartbeats that say so before them, nothing else,
+/// and no fault of the ADC's pins, whatever else the host then sends.
 fn heard(
     simulator: Simulator,
     (target, profile): (Target, &Profile),
     calibration: &Calibration,
     samples: &[i32],
 ) -> Vec<Frame> {
-    let commands = encode(&start(profile, calibration), profile);
+    let setup = AdcSetup::default();
+    let prepared = prepare(profile, calibration, &setup);
+    let mut commands = prepared.clone();
+    // The time of a heartbeat and more.
+    commands.extend([BoardCommand::DISABLE; 64]);
+    let taken = commands.len() + 1;
+    commands.push(BoardCommand::ENABLE);
+    let storm = storm(profile, calibration);
+    let commands = encode(&[commands.as_slice(), &storm].concat(), profile);
     let folder = tempfile::tempdir().expect("a folder");
     let (said, heard) = bench(simulator, (target, profile), &commands, samples, folder.path());
     let said: Vec<_> = said.lines().filter(|line| !line.contains("$finish") && !line.starts_with("- ")).collect();
-    assert_eq!(said, ["faults 0"], "{target:?}");
-    let packets: Result<Vec<_>, _> = Decoder::new(profile).take_all(heard).collect();
-    let packets = packets.expect("every packet is whole");
+    assert_eq!(said, [format!("faults 0, commands {}", setup.words().len())], "{target:?}");
+    let told: Result<Vec<_>, _> = Decoder::new(profile).take_all(heard).collect();
+    let told = told.expect("every packet is whole");
+    let heartbeats =
+        told.iter().filter_map(|told| if let Told::Heartbeat(heartbeat) = told { Some(heartbeat) } else { None });
+    let last = heartbeats.last().expect("the board told that it was there");
+    let before = (16 + last.commands - (prepared.len() % 16) as u8) % 16;
+    assert_eq!(check(last, profile, calibration, (before, &prepared)), Ok(()), "{target:?}");
+    let packets: Vec<_> = told.iter().filter_map(|told| told.frame()).collect();
     assert_eq!(packets.len(), SLOTS, "{target:?}");
+    assert!(packets.iter().any(|packet| packet.refused), "{target:?}: the ADC is not spoken to while enabled");
+    assert_eq!(packets[SLOTS - 1].commands, ((taken + STORM / 2) % 16) as u8, "{target:?}: all but those were taken");
     for packet in &packets {
-        assert!(!(packet.late || packet.refused || packet.overrun), "{target:?}: {packet:?}");
+        assert!(!(packet.late || packet.overrun), "{target:?}: {packet:?}");
     }
     packets.into_iter().map(|packet| packet.frame).collect()
 }

@@ -12,6 +12,7 @@ use super::demodulator::{self, Demodulator};
 use super::estimator::{self, Estimator};
 use super::multiplexer::{self, Multiplexer};
 use super::oscillator::{self, Oscillator};
+use super::pace::{self, Pace};
 use crate::block::{Block, Cell};
 use crate::bundle::Nothing;
 use crate::format::{BIT, Format};
@@ -24,6 +25,8 @@ bundle! {
     pub struct Inputs {
         /// A set of ADC codes is there.
         strobe,
+        /// Abandons the slot under way: the next strobe is the first of the first pad's slot.
+        clear,
         /// The code of the channel asked for in the clock before.
         code,
         /// Calibration: picofarads at an admittance of one.
@@ -68,6 +71,8 @@ bundle! {
         invalid,
         /// A terminal's current is missing.
         lost,
+        /// Strobes have come closer than the profile's clocks a sample since reset or `clear`: frames are wrong.
+        overrun,
     }
 }
 
@@ -75,6 +80,7 @@ parts! {
     /// The blocks within.
     pub struct Parts of Core {
         multiplexer: Multiplexer,
+        pace: Pace,
         oscillator: Oscillator,
         demodulator: Demodulator,
         estimator: Estimator,
@@ -85,6 +91,7 @@ parts! {
 #[derive(Debug, Clone)]
 pub struct Core {
     multiplexer: Multiplexer,
+    pace: Pace,
     oscillator: Oscillator,
     demodulator: Demodulator,
     estimator: Estimator,
@@ -95,6 +102,7 @@ impl Core {
     pub fn new(profile: &Profile) -> Self {
         Core {
             multiplexer: Multiplexer::new(profile),
+            pace: Pace::new(profile),
             oscillator: Oscillator::new(profile),
             demodulator: Demodulator::new(profile),
             estimator: Estimator::new(profile),
@@ -138,7 +146,7 @@ impl Block for Core {
     fn inputs(&self) -> Inputs<Format> {
         let estimator::Inputs { capacitance_gain, force_gain, address, word, .. } = self.estimator.inputs();
         let code = self.demodulator.inputs().code;
-        Inputs { strobe: BIT, code, capacitance_gain, force_gain, write: BIT, address, word }
+        Inputs { strobe: BIT, clear: BIT, code, capacitance_gain, force_gain, write: BIT, address, word }
     }
 
     #[inline]
@@ -161,6 +169,7 @@ impl Block for Core {
             saturated,
             invalid,
             lost,
+            overrun: BIT,
         }
     }
 
@@ -172,8 +181,10 @@ impl Block for Core {
     #[inline(always)]
     fn clock<V: Value>(&self, cell: &mut Cell<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
         let parts = &mut cell.parts;
-        let inputs = multiplexer::Inputs { strobe: i.strobe };
+        let inputs = multiplexer::Inputs { strobe: i.strobe, clear: i.clear };
         let slot = self.multiplexer.call("multiplexer", &mut parts.multiplexer, inputs);
+        let inputs = pace::Inputs { strobe: i.strobe, clear: i.clear };
+        let pace = self.pace.call("pace", &mut parts.pace, inputs);
         let inputs = oscillator::Inputs { sample: slot.sample, restart: slot.restart, first: slot.first };
         let oscillator = self.oscillator.call("oscillator", &mut parts.oscillator, inputs);
         let inputs = demodulator::Inputs {
@@ -214,6 +225,7 @@ impl Block for Core {
             saturated: frame.saturated,
             invalid: frame.invalid,
             lost: frame.lost,
+            overrun: pace.overrun,
         }
     }
 }

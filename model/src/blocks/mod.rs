@@ -13,6 +13,7 @@ pub mod haptic_voltage;
 pub mod multiplexer;
 pub mod multiplier;
 pub mod oscillator;
+pub mod pace;
 pub mod position;
 pub mod ratio;
 pub mod root;

@@ -10,12 +10,14 @@
 //! | count  | counter of a slot         | wraps to zero at the end, by compare |
 //! | pad    | counter of the pads       | wraps to zero at the end, by compare |
 //!
-//! Latency: one clock from a strobe to its `sample`; the flags then hold until the next strobe. Source: DESIGN §3.
+//! `clear` abandons the slot under way: no pad is driven, and the next strobe is the first of the first pad's slot.
+//!
+//! Latency: one clock from a strobe to its `sample`; the flags then hold until the next strobe.
 
 use crate::block::{Block, Cell};
 use crate::format::{BIT, Format};
 use crate::profile::Profile;
-use crate::signal::{Exact, Never, Signal, Value, bit, int};
+use crate::signal::{Exact, Never, Signal, Value, bit, int, zero};
 use crate::{bundle, when};
 
 bundle! {
@@ -23,6 +25,8 @@ bundle! {
     pub struct Inputs {
         /// A set of ADC codes is there.
         strobe,
+        /// Abandons the slot under way; wins over `strobe`.
+        clear,
     }
 }
 
@@ -105,6 +109,26 @@ impl Multiplexer {
     }
 }
 
+impl Multiplexer {
+    /// As at reset.
+    #[inline(always)]
+    fn cleared<V: Value>(&self) -> Registers<Signal<V>> {
+        let Registers { count, next, pad, .. } = self.registers();
+        let no = bit(false);
+        Registers {
+            count: zero(count),
+            next: zero(next),
+            pad: zero(pad),
+            sample: no,
+            restart: no,
+            integrate: no,
+            first: no,
+            last: no,
+            closed: no,
+        }
+    }
+}
+
 impl Block for Multiplexer {
     const NAME: &'static str = "multiplexer";
     type Inputs = Inputs;
@@ -114,7 +138,7 @@ impl Block for Multiplexer {
 
     #[inline]
     fn inputs(&self) -> Inputs<Format> {
-        Inputs { strobe: BIT }
+        Inputs { strobe: BIT, clear: BIT }
     }
 
     #[inline]
@@ -135,11 +159,13 @@ impl Block for Multiplexer {
         let r = cell.load(self);
         let Registers { sample, restart, integrate, first, last, pad, closed, .. } = r;
         let outputs = Outputs { sample, restart, integrate, first, last, pad, closed };
-        if (i.strobe | r.sample).idle() {
+        if (i.strobe | r.sample | i.clear).idle() {
             return outputs;
         }
         let next = when!(V, Registers, i.strobe, self.advance(r), r);
-        cell.store(self, Registers { sample: i.strobe, ..next });
+        let next = Registers { sample: i.strobe, ..next };
+        let next = when!(V, Registers, i.clear, self.cleared(), next);
+        cell.store(self, next);
         outputs
     }
 }

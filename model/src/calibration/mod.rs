@@ -55,6 +55,7 @@ impl Calibration {
     pub fn inputs(&self, formats: Inputs<Format>) -> Inputs<i64> {
         Inputs {
             strobe: 0,
+            clear: 0,
             code: 0,
             capacitance_gain: formats.capacitance_gain.code_saturating(self.capacitance_gain),
             force_gain: formats.force_gain.code_saturating(self.force_gain),

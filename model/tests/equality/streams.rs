@@ -21,10 +21,10 @@ fn samples_are_counted_into_slots() {
     for (seed, profile) in (0..).zip(Profile::all()) {
         let (mut bench, mut random) = (Bench::new(Multiplexer::new(&profile)), Random::new(seed));
         for n in 0..operations(MILLION / 3) {
-            bench.clock(multiplexer::Inputs { strobe: 1 });
-            let sampled = bench.clock(multiplexer::Inputs { strobe: 0 });
+            bench.clock(multiplexer::Inputs { strobe: 1, clear: 0 });
+            let sampled = bench.clock(multiplexer::Inputs { strobe: 0, clear: 0 });
             for _ in 0..random.below(3) {
-                let waiting = bench.clock(multiplexer::Inputs { strobe: 0 });
+                let waiting = bench.clock(multiplexer::Inputs { strobe: 0, clear: 0 });
                 assert_eq!(waiting, multiplexer::Outputs { sample: 0, ..sampled }, "sample {n}");
             }
             let (slot, at) = (&profile.slot, n % profile.slot.samples());

@@ -20,8 +20,11 @@
 //! is the output's delay and more. Falling edges, half a clock away, move nothing; SDI, which the ADC latches with them, changes
 //! with the core's clock and so has half a clock on either side.
 //!
-//! A register of the ADC (16 bits over SDI: two zeros, address, data) is written while nothing is enabled; its word lies with
-//! the command that brought it, and `shift` moves that on.
+//! A word for a register of the ADC (16 bits over SDI) is sent while nothing is enabled; it lies with the command that brought
+//! it, and `shift` moves that on; what the ADC answers on its first data line comes in behind it. While `shift` is low, SDI is.
+//!
+//! Once it is no longer enabled, the reader starts no conversion, but reads the set of one that it has started, without
+//! a strobe: CS and SCLK end as they always do.
 //!
 //! | signal     | format     | overflow                  |
 //! | phase      | counter P  | wraps at P, by compare    |
@@ -83,7 +86,7 @@ bundle! {
 bundle! {
     /// The registers.
     pub struct Registers {
-        phase, convst, selected, run, capture, unload, index, filling, strobe, busy_pin, busy, began, late,
+        phase, active, convst, selected, run, capture, unload, index, filling, strobe, busy_pin, busy, began, late,
         configuring, tail, line_a, line_b, line_c, line_d, line_e, line_f, line_g, line_h,
     }
 }
@@ -131,16 +134,19 @@ impl AdcReader {
         let over = |from: u64| at(from + self.bits()) | (r.configuring & at(from + COMMAND_BITS));
         let (stored, done) = (r.unload & r.index.is(self.channels - 1), r.selected & over(first));
         let turn = at(self.period - 1) | (r.configuring & done);
+        let reads = r.active | r.configuring;
+        let converts = at(0) & i.enable & !r.configuring;
         Registers {
             phase: turn.select(int(0), next(r.phase)),
-            convst: flag(r.convst, at(0) & !r.configuring, at(self.period / 2)),
-            selected: flag(r.selected, at(cs), done),
-            run: flag(r.run, at(pulses), over(pulses)),
+            active: flag(r.active, converts, at(first)),
+            convst: flag(r.convst, converts, at(self.period / 2)),
+            selected: flag(r.selected, at(cs) & reads, done),
+            run: flag(r.run, at(pulses) & reads, over(pulses)),
             capture: flag(r.capture, at(first), at(first + self.bits() - 1)),
             unload: flag(r.unload, r.capture & at(first + self.bits() - 1) & !r.configuring, stored),
             index: r.unload.select(stored.select(int(0), next(r.index)), int(0)),
             filling: stored.select(!r.filling, r.filling),
-            strobe: stored,
+            strobe: stored & i.enable,
             // BUSY has risen in clock 0 or 1, and passes two registers: so does its fall, which is due by the end of clock C.
             began: at(4).select(r.busy, r.began),
             late: at(cs + 3).select(r.busy | !r.began, r.late),
@@ -182,6 +188,7 @@ impl AdcReader {
         let no = bit(false);
         Registers {
             phase: int(0),
+            active: no,
             convst: no,
             selected: no,
             run: no,
@@ -241,6 +248,7 @@ impl Block for AdcReader {
         let line = self.line();
         Registers {
             phase: Format::counter(self.period - 1),
+            active: BIT,
             convst: BIT,
             selected: BIT,
             run: BIT,
@@ -269,7 +277,7 @@ impl Block for AdcReader {
     #[inline(always)]
     fn clock<V: Value>(&self, cell: &mut Cell<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
         let r = cell.load(self);
-        let running = i.enable | r.configuring;
+        let running = i.enable | r.active | r.selected | r.unload | r.configuring;
         let next = when!(V, Registers, running, self.step(r, &i), self.rest(r, &i));
         cell.store(self, Registers { busy_pin: i.busy, busy: r.busy_pin, ..next });
         let last_bit = r.index.is(0).select(i.dout.bits(0, 1), r.tail.bits(0, 1));

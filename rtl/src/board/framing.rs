@@ -4,7 +4,9 @@
 //! ```text
 //! packet:  payload … │ CRC high │ CRC low │ END             END inside: ESC, DC; ESC inside: ESC, DD (hex; SLIP, RFC 1055)
 //! frame:   sequence │ commands taken (4 bits), pad (4 bits) │ flags │ 8 words of B bytes, most significant first
-//! command: where, 2 bytes │ data, D bytes               where: 8000 (hex) + register, or a word of the map; other bits are ignored
+//! heartbeat: the same with the flag of that name; the words are those of [`Register::ALL`] as they were written last, but for
+//!          the profile's digest in place of the control register, and for the ADC's answer to the last word that it was sent
+//! command: where, 2 bytes │ data, D bytes               where: 8000 (hex) + register, or a word of the position table; other bits are ignored
 //! ```
 //!
 //! SLIP rather than COBS or a length: END is nowhere but at the end, so that a reader who has lost its place has it again after
@@ -43,6 +45,26 @@ pub mod flags {
     pub const REFUSED: u8 = 5;
     /// A frame was dropped since the packet before.
     pub const OVERRUN: u8 = 6;
+    /// The packet is no frame but a heartbeat, and the first four flags are others: [`CALIBRATED`], and from [`VERSION`] on
+    /// [`super::VERSION`]. That one is neither 0 nor 5, so that no flags of a heartbeat are END or ESC.
+    pub const HEARTBEAT: u8 = 7;
+    /// Of a heartbeat: since reset the last calibration register has been written.
+    pub const CALIBRATED: u8 = 0;
+    /// Of a heartbeat: the first of three bits.
+    pub const VERSION: u8 = 1;
+}
+
+/// The version of what this file says: 1 to 7, but not 5.
+pub const VERSION: u8 = 1;
+
+/// The digest of a profile, as a board has it: what no two profiles share that differ in more than their name, but for chance.
+///
+/// FNV-1a of the profile as JSON-like text, folded to sixteen bits.
+pub fn digest(profile: &Profile) -> u16 {
+    let text = format!("{:?}", Profile { name: String::new(), ..profile.clone() });
+    let step = |hash: u64, byte: u8| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+    let hash = text.bytes().fold(0xcbf2_9ce4_8422_2325, step);
+    (hash ^ hash >> 16 ^ hash >> 32 ^ hash >> 48) as u16
 }
 
 /// Bytes of a frame's word.
@@ -53,38 +75,26 @@ pub fn word_bytes(profile: &Profile) -> u64 {
 /// The registers that commands write.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Register {
-    /// The x ratio in the middle of the box.
-    OriginX,
-    /// One over half the box's width.
-    ScaleX,
-    /// The y ratio in the middle of the box.
-    OriginY,
-    /// One over half the box's height.
-    ScaleY,
     /// Picofarads at an admittance of one.
     CapacitanceGain,
     /// Newtons per square picofarad.
     ForceGain,
-    /// Whether the board converts and measures.
-    Enable,
+    /// What the board does: the bits of [`Control`].
+    Control,
     /// A register of the ADC: address and data.
     Adc,
 }
 
 impl Register {
     /// All registers, in the order of their numbers.
-    pub const ALL: [Register; 8] = [
-        Register::OriginX,
-        Register::ScaleX,
-        Register::OriginY,
-        Register::ScaleY,
+    pub const ALL: [Register; 4] = [
         Register::CapacitanceGain,
         Register::ForceGain,
-        Register::Enable,
+        Register::Control,
         Register::Adc,
     ];
 
-    /// Set in `where` of a register, clear in that of a word of the map.
+    /// Set in `where` of a register, clear in that of a word of the position table.
     pub const SELECT: u16 = 0x8000;
 
     /// What commands call it.
@@ -95,16 +105,25 @@ impl Register {
     /// The format of its code, of a core with these inputs.
     pub fn format(self, core: &core::Inputs<Format>) -> Format {
         match self {
-            Register::OriginX => core.origin_x,
-            Register::ScaleX => core.scale_x,
-            Register::OriginY => core.origin_y,
-            Register::ScaleY => core.scale_y,
             Register::CapacitanceGain => core.capacitance_gain,
             Register::ForceGain => core.force_gain,
-            Register::Enable => Format::unsigned(1, 0),
+            Register::Control => Control::FORMAT,
             Register::Adc => Format::unsigned(16, 0),
         }
     }
+}
+
+/// The bits of the control register.
+#[derive(Debug, Clone, Copy)]
+pub struct Control;
+
+impl Control {
+    /// The board converts and measures. Setting it begins the first pad's slot.
+    pub const ENABLE: u8 = 0;
+    /// The ADC is held in reset.
+    pub const ADC_RESET: u8 = 1;
+    /// The format of the register.
+    pub const FORMAT: Format = Format::unsigned(2, 0);
 }
 
 /// Bytes of a command's data, for a core with these inputs.

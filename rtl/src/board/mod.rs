@@ -11,6 +11,7 @@
 //! | [`stream`] | frames, out |
 //! | [`registers`] | calibration, in |
 //! | [`packet`] | the host's side of the line |
+//! | [`startup`] | what a host sends first, and what it checks before it enables the board |
 //! | [`parameters`] | what a board adds to a profile |
 //! | [`top`], [`target`] | tops in rust-hdl, and the boards that one can buy: pins, constraints |
 
@@ -23,6 +24,7 @@ pub mod pads;
 pub mod parameters;
 pub mod registers;
 pub mod sigma_delta;
+pub mod startup;
 pub mod stream;
 pub mod target;
 pub mod top;

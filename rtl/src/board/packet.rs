@@ -2,16 +2,15 @@
 //! The host's side of the serial line: frames from bytes, and commands to bytes.
 //!
 //! A [`Decoder`] takes bytes as they come and gives a packet at each END; what it has lost it says, and the next END puts it
-//! right. [`Command::encode`] makes the bytes of a command, [`start`] those of a whole calibration. Framing and CRC are
-//! [`super::framing`]'s and [`super::crc16`]'s, here by the crate `crc`, so that neither side checks itself.
+//! right. [`Command::encode`] makes the bytes of a command, [`super::startup`] knows those that make a sensor of a board.
+//! Framing and CRC are [`super::framing`]'s and [`super::crc16`]'s, here by the crate `crc`, so that neither side checks itself.
 
-use super::framing::{END, ESC, ESC_END, ESC_ESC, Register, STATUS_BYTES, data_bytes, flags, word_bytes};
+use super::framing::{Control, END, ESC, ESC_END, ESC_ESC, Register, STATUS_BYTES, data_bytes, flags, word_bytes};
 use bitvec::prelude::{BitArray, Lsb0};
 use crc::{CRC_16_IBM_3740, Crc};
 use hapticore_model::block::Block;
 use hapticore_model::blocks::core::{Core, Inputs};
 use hapticore_model::blocks::frames::Field;
-use hapticore_model::calibration::Calibration;
 use hapticore_model::format::Format;
 use hapticore_model::frame::{Flags, Frame};
 use hapticore_model::profile::Profile;
@@ -33,6 +32,66 @@ pub struct Packet {
     pub overrun: bool,
     /// Commands taken since reset, modulo 16.
     pub commands: u8,
+}
+
+/// What a board tells while it is disabled.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Heartbeat {
+    /// As [`Packet::sequence`], of the last frame.
+    pub sequence: u8,
+    /// As [`Packet::late`].
+    pub late: bool,
+    /// As [`Packet::refused`].
+    pub refused: bool,
+    /// As [`Packet::overrun`].
+    pub overrun: bool,
+    /// As [`Packet::commands`].
+    pub commands: u8,
+    /// Since its reset the board has been given the last register of a calibration.
+    pub calibrated: bool,
+    /// The version of the line's [`super::framing`], [`super::framing::VERSION`] here.
+    pub version: u8,
+    words: [i64; Field::ALL.len()],
+    bits: u8,
+}
+
+impl Heartbeat {
+    /// The low bits of what was last written into a register, as many as fit a word of a frame, and how many these are; none
+    /// of the control register, which heartbeats do not tell.
+    pub fn register(&self, register: Register) -> Option<(u64, u8)> {
+        let word = self.words[register as usize] as u64 & ((1 << self.bits) - 1);
+        (!matches!(register, Register::Control | Register::Adc)).then_some((word, self.bits))
+    }
+
+    /// The digest of the profile that the board was made for.
+    pub fn digest(&self) -> u16 {
+        self.words[Register::Control as usize] as u16
+    }
+
+    /// What the ADC put out while the last word was sent to it: the register that the word before has read.
+    pub fn adc_answer(&self) -> u8 {
+        // A bit more has come in than the word has.
+        (self.words[Register::Adc as usize] >> 1) as u8
+    }
+}
+
+/// What a board tells.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Told {
+    /// A frame.
+    Frame(Packet),
+    /// That it is there, and disabled.
+    Heartbeat(Heartbeat),
+}
+
+impl Told {
+    /// The frame, if it is one.
+    pub fn frame(self) -> Option<Packet> {
+        match self {
+            Told::Frame(packet) => Some(packet),
+            Told::Heartbeat(_) => None,
+        }
+    }
 }
 
 /// Bytes between two ENDs that are no packet.
@@ -66,6 +125,8 @@ pub enum Damage {
 #[derive(Debug, Clone)]
 pub struct Decoder {
     word_bytes: usize,
+    /// Bits of a register that a heartbeat tells.
+    register_bits: u8,
     pads: u64,
     bytes: Vec<u8>,
     escaped: bool,
@@ -76,11 +137,13 @@ impl Decoder {
     /// For the frames of a profile's board.
     pub fn new(profile: &Profile) -> Self {
         let word_bytes = word_bytes(profile) as usize;
-        Decoder { word_bytes, pads: profile.pads, bytes: Vec::new(), escaped: false, damage: None }
+        let data = 8 * data_bytes(&Core::new(profile).inputs()) as u8;
+        let register_bits = Field::word(profile).width.min(data);
+        Decoder { word_bytes, register_bits, pads: profile.pads, bytes: Vec::new(), escaped: false, damage: None }
     }
 
     /// Takes a byte; gives a packet, or what became of it, at its END.
-    pub fn take(&mut self, byte: u8) -> Option<Result<Packet, Damage>> {
+    pub fn take(&mut self, byte: u8) -> Option<Result<Told, Damage>> {
         match (byte, std::mem::take(&mut self.escaped)) {
             (END, _) => return self.end(),
             (ESC, false) => self.escaped = true,
@@ -96,7 +159,7 @@ impl Decoder {
     pub fn take_all<'a>(
         &'a mut self,
         bytes: impl IntoIterator<Item = u8> + 'a,
-    ) -> impl Iterator<Item = Result<Packet, Damage>> + 'a {
+    ) -> impl Iterator<Item = Result<Told, Damage>> + 'a {
         bytes.into_iter().filter_map(|byte| self.take(byte))
     }
 
@@ -112,7 +175,7 @@ impl Decoder {
         }
     }
 
-    fn end(&mut self) -> Option<Result<Packet, Damage>> {
+    fn end(&mut self) -> Option<Result<Told, Damage>> {
         let (bytes, damage) = (std::mem::take(&mut self.bytes), self.damage.take());
         match damage {
             Some(damage) => Some(Err(damage)),
@@ -121,7 +184,7 @@ impl Decoder {
         }
     }
 
-    fn packet(&self, bytes: &[u8]) -> Result<Packet, Damage> {
+    fn packet(&self, bytes: &[u8]) -> Result<Told, Damage> {
         if bytes.len() != self.length() {
             return Err(Damage::Length { expected: self.length(), got: bytes.len() });
         }
@@ -135,11 +198,18 @@ impl Decoder {
         let codes = Field::ALL.map(|_| codes.next().expect("a word a field"));
         let &[sequence, pad, bits] = status else { unreachable!("the length was checked") };
         let (commands, pad) = (pad >> 4, pad & 0xf);
+        let version = bits >> flags::VERSION & 7;
+        let bits = BitArray::<_, Lsb0>::new([bits]);
+        let is = |flag: u8| bits[usize::from(flag)];
+        let [late, refused, overrun] = [flags::LATE, flags::REFUSED, flags::OVERRUN].map(is);
+        if is(flags::HEARTBEAT) {
+            let (words, calibrated, bits) = (codes, is(flags::CALIBRATED), self.register_bits);
+            let heartbeat = Heartbeat { sequence, late, refused, overrun, commands, calibrated, version, words, bits };
+            return Ok(Told::Heartbeat(heartbeat));
+        }
         if u64::from(pad) >= self.pads {
             return Err(Damage::Pad(pad));
         }
-        let bits = BitArray::<_, Lsb0>::new([bits]);
-        let is = |flag: u8| bits[usize::from(flag)];
         let flags = Flags {
             clipped: is(flags::CLIPPED),
             saturated: is(flags::SATURATED),
@@ -147,8 +217,7 @@ impl Decoder {
             lost: is(flags::LOST),
         };
         let frame = Frame { pad: pad.into(), codes, flags };
-        let [late, refused, overrun] = [flags::LATE, flags::REFUSED, flags::OVERRUN].map(is);
-        Ok(Packet { sequence, frame, late, refused, overrun, commands })
+        Ok(Told::Frame(Packet { sequence, frame, late, refused, overrun, commands }))
     }
 }
 
@@ -172,16 +241,13 @@ pub enum Command {
     },
 }
 
-/// The ADC's register of its configuration, told to use eight data lines (DOUT_FORMAT, bits 4 and 3, both set).
-const ADC_EIGHT_LINES: i64 = 0x0218;
-/// The ADC's register 0, which ends the writing of registers.
-const ADC_CONVERT: i64 = 0x0000;
-
 impl Command {
     /// What switches the board on.
-    pub const ENABLE: Command = Command::Register(Register::Enable, 1);
+    pub const ENABLE: Command = Command::Register(Register::Control, 1 << Control::ENABLE);
     /// What switches it off.
-    pub const DISABLE: Command = Command::Register(Register::Enable, 0);
+    pub const DISABLE: Command = Command::Register(Register::Control, 0);
+    /// What switches it off and holds the ADC in reset, until the next command to the control register.
+    pub const RESET_ADC: Command = Command::Register(Register::Control, 1 << Control::ADC_RESET);
 
     /// The bytes, for a core with these inputs.
     pub fn encode(self, core: &Inputs<Format>) -> Vec<u8> {
@@ -204,24 +270,6 @@ fn escape(byte: u8) -> impl Iterator<Item = u8> {
         byte => (byte, None),
     };
     std::iter::once(first).chain(second)
-}
-
-/// The commands that make a calibration's sensor of a board just reset and start it: the ADC's lines, the registers, the
-/// position table, and on.
-pub fn start(profile: &Profile, calibration: &Calibration) -> Vec<Command> {
-    let core = Core::new(profile);
-    let inputs = calibration.inputs(core.inputs());
-    let register = |register, code| Command::Register(register, code);
-    let word = core.estimator().position().table().format;
-    let table = calibration.position.words.iter().enumerate();
-    let table = table.map(|(address, &real)| Command::Table { address: address as u16, code: word.code_saturating(real) });
-    let before = [
-        register(Register::Adc, ADC_EIGHT_LINES),
-        register(Register::Adc, ADC_CONVERT),
-        register(Register::CapacitanceGain, inputs.capacitance_gain),
-        register(Register::ForceGain, inputs.force_gain),
-    ];
-    before.into_iter().chain(table).chain([Command::ENABLE]).collect()
 }
 
 /// The bytes of commands, with an END before them that clears the line.

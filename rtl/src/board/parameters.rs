@@ -82,6 +82,7 @@ impl Parameters {
         within("clocks_per_sample", period, bits + channels - 1, 1 << 16)?;
         within("sclk_latency", self.sclk_latency, 0, self.conversion())?;
         let least = period + Self::CONVERSION_LEAST_NS * self.clock_hz / 1_000_000_000;
-        within("clocks from a conversion to the end of its reading", self.conversion() + bits + 1, 1, least)
+        within("clocks from a conversion to the end of its reading", self.conversion() + bits + 1, 1, least)?;
+        within("clocks of a conversion", self.conversion(), 1, period - 2)
     }
 }

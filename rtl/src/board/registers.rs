@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Registers: commands in, over the serial line: calibration, the map's words, the ADC's registers, on and off.
+//! Registers: commands in, over the serial line: calibration, the position table's words, the ADC's registers, on and off.
 //!
 //! ```text
 //! bytes ─(unescape)─┬─[place, data: as they come]─┬─ registers
-//!                   └─[CRC]── zero at END? ───────┴─ a word of the map, or of the ADC
+//!                   └─[CRC]── zero at END? ───────┴─ a word of the position table, or of the ADC
 //! ```
 //!
 //! | signal   | format                   | overflow                                  |
@@ -13,11 +13,13 @@
 //! | commands | u4                       | wraps, meant                              |
 //!
 //! Nothing is written before a command's END has come with the right length and CRC; all else is refused, says so for a clock,
-//! and changes nothing. Latency: two clocks from the byte END. Source: [`super::framing`].
+//! and changes nothing. So is a command for the ADC while the board is enabled. The data of a command for the ADC leave at
+//! one end of their register while the ADC's answer comes in at the other. Latency: two clocks from the byte END. Source:
+//! [`super::framing`].
 
 use super::bits::{next, read_as};
 use super::crc16;
-use super::framing::{END, ESC, ESC_END, ESC_ESC, Register, data_bytes};
+use super::framing::{Control, END, ESC, ESC_END, ESC_ESC, Register, data_bytes};
 use super::stream::NIBBLE;
 use super::uart::BYTE;
 use hapticore_model::block::{Block, Cell};
@@ -35,6 +37,8 @@ bundle! {
         octet,
         /// A command's data move on by a bit.
         shift,
+        /// The bit that comes in behind them.
+        answer,
     }
 }
 
@@ -42,20 +46,14 @@ bundle! {
     /// The outputs.
     pub struct Outputs {
         /// The register of the same name.
-        origin_x,
-        /// The register of the same name.
-        scale_x,
-        /// The register of the same name.
-        origin_y,
-        /// The register of the same name.
-        scale_y,
-        /// The register of the same name.
         capacitance_gain,
         /// The register of the same name.
         force_gain,
         /// Whether the board converts and measures.
         enable,
-        /// Writes a word of the map.
+        /// Whether the ADC is in reset.
+        adc_reset,
+        /// Writes a word of the position table.
         write,
         /// Where.
         address,
@@ -69,6 +67,14 @@ bundle! {
         commands,
         /// Set for a clock when a command is refused.
         refused,
+        /// Set for a clock when a register other than the control register has been written.
+        written,
+        /// The number of the register that the last command named.
+        place,
+        /// Its data, or the ADC's answer.
+        data,
+        /// All calibration may be there: since reset its last register has been written.
+        calibrated,
     }
 }
 
@@ -76,7 +82,7 @@ bundle! {
     /// The registers.
     pub struct Registers {
         escaped, count, crc, place, data, act, refused, commands,
-        origin_x, scale_x, origin_y, scale_y, capacitance_gain, force_gain, enable,
+        capacitance_gain, force_gain, control, calibrated,
     }
 }
 
@@ -92,11 +98,13 @@ pub struct CommandRegisters {
 
 /// Bits of a register of the ADC.
 const ADC_WORD: u8 = 16;
+/// The format of a register's number.
+pub const PLACE: Format = Format::unsigned(3, 0);
 /// Bytes of a command's place and of its CRC.
 const AROUND: u64 = 4;
 
 impl CommandRegisters {
-    /// The registers of a core with these inputs, whose map has so many words.
+    /// The registers of a core with these inputs, whose position table has so many words.
     pub fn new(core: core::Inputs<Format>, words: u64) -> Self {
         let bytes = data_bytes(&core);
         CommandRegisters { core, words, data: Format::unsigned(8 * bytes as u8, 0), length: bytes + AROUND }
@@ -132,7 +140,8 @@ impl CommandRegisters {
     /// END: the command counts, or it does not.
     #[inline(always)]
     fn end<V: Value>(&self, r: Registers<Signal<V>>) -> Registers<Signal<V>> {
-        let good = r.count.is(self.length) & r.crc.is(0) & !r.escaped;
+        let forbidden = self.is(&r, Register::Adc) & r.control.bits(Control::ENABLE, 1);
+        let good = r.count.is(self.length) & r.crc.is(0) & !r.escaped & !forbidden;
         // END twice is nothing, not a command: a sender may clear the line with it.
         let nothing = r.count.is(0) & !r.escaped;
         let commands = good.select(next(r.commands), r.commands);
@@ -148,13 +157,10 @@ impl CommandRegisters {
             here.select(read_as(r.data, before.format), before)
         };
         Registers {
-            origin_x: write(Register::OriginX, r.origin_x),
-            scale_x: write(Register::ScaleX, r.scale_x),
-            origin_y: write(Register::OriginY, r.origin_y),
-            scale_y: write(Register::ScaleY, r.scale_y),
             capacitance_gain: write(Register::CapacitanceGain, r.capacitance_gain),
             force_gain: write(Register::ForceGain, r.force_gain),
-            enable: write(Register::Enable, r.enable),
+            control: write(Register::Control, r.control),
+            calibrated: r.calibrated | (r.act & self.is(&r, Register::ForceGain)),
             ..r
         }
     }
@@ -162,7 +168,7 @@ impl CommandRegisters {
     /// Whether the place is this register.
     #[inline(always)]
     fn is<V: Value>(&self, r: &Registers<Signal<V>>, register: Register) -> Signal<V> {
-        r.place.msb() & r.place.bits(0, 3).is(register as u64)
+        r.place.msb() & r.place.bits(0, PLACE.width).is(register as u64)
     }
 }
 
@@ -174,20 +180,16 @@ impl Block for CommandRegisters {
     type Parts<V: Value> = ();
 
     fn inputs(&self) -> Inputs<Format> {
-        Inputs { valid: BIT, octet: BYTE, shift: BIT }
+        Inputs { valid: BIT, octet: BYTE, shift: BIT, answer: BIT }
     }
 
     fn outputs(&self) -> Outputs<Format> {
-        let core::Inputs { origin_x, scale_x, origin_y, scale_y, capacitance_gain, force_gain, address, word, .. } =
-            self.core;
+        let core::Inputs { capacitance_gain, force_gain, address, word, .. } = self.core;
         Outputs {
-            origin_x,
-            scale_x,
-            origin_y,
-            scale_y,
             capacitance_gain,
             force_gain,
             enable: BIT,
+            adc_reset: BIT,
             write: BIT,
             address,
             word,
@@ -195,6 +197,10 @@ impl Block for CommandRegisters {
             sdi: BIT,
             commands: NIBBLE,
             refused: BIT,
+            written: BIT,
+            place: PLACE,
+            data: self.data,
+            calibrated: BIT,
         }
     }
 
@@ -209,13 +215,10 @@ impl Block for CommandRegisters {
             act: BIT,
             refused: BIT,
             commands: NIBBLE,
-            origin_x: of.origin_x,
-            scale_x: of.scale_x,
-            origin_y: of.origin_y,
-            scale_y: of.scale_y,
             capacitance_gain: of.capacitance_gain,
             force_gain: of.force_gain,
-            enable: BIT,
+            control: Control::FORMAT,
+            calibrated: BIT,
         }
     }
 
@@ -225,29 +228,30 @@ impl Block for CommandRegisters {
         let of = self.outputs();
         // The CRC begins anew with a command's first octet: a register is zero at reset, a CRC is not at its beginning.
         let crc = r.count.is(0).select(crc16::begin(), r.crc);
-        let data = i.shift.select(r.data.concat(bit(false)).bits(0, self.data.width), r.data);
+        let data = i.shift.select(r.data.concat(i.answer).bits(0, self.data.width), r.data);
         let quiet = Registers { act: bit(false), refused: bit(false), data, ..self.written(r) };
         let fresh = Registers { crc, ..quiet };
         let got = when!(V, Registers, i.octet.is(END.into()), self.end(quiet), self.part(fresh, i.octet));
         let next = when!(V, Registers, i.valid, got, quiet);
         cell.store(self, next);
         let address = r.place.bits(0, of.address.width);
-        let of_map = !r.place.msb() & address.less_than(int(self.words));
+        let of_table = !r.place.msb() & address.less_than(int(self.words));
         Outputs {
-            origin_x: r.origin_x,
-            scale_x: r.scale_x,
-            origin_y: r.origin_y,
-            scale_y: r.scale_y,
             capacitance_gain: r.capacitance_gain,
             force_gain: r.force_gain,
-            enable: r.enable,
-            write: r.act & of_map,
+            enable: r.control.bits(Control::ENABLE, 1),
+            adc_reset: r.control.bits(Control::ADC_RESET, 1),
+            write: r.act & of_table,
             address,
             word: read_as(r.data, of.word),
             adc_write: r.act & self.is(&r, Register::Adc),
             sdi: r.data.bits(ADC_WORD - 1, 1),
             commands: r.commands,
             refused: r.refused,
+            written: r.act & r.place.msb() & !self.is(&r, Register::Control),
+            place: r.place.bits(0, PLACE.width),
+            data: r.data,
+            calibrated: r.calibrated,
         }
     }
 }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Stream: frames out over the serial line, each a packet with its sequence number and CRC.
+//! Stream: frames out over the serial line, each a packet with its sequence number and CRC; heartbeats while disabled.
 //!
 //! ```text
-//! frame words ─[words: one frame]─┐
-//! number, commands, pad, flags ────┼─(group, left)── byte ─┬─[CRC]─┐
-//!                                 └───────────────────────┴───────┴─(escape)─ transmitter ─ tx
+//! frame words ──────────┐
+//! written registers ────┴─[words: a frame, a heartbeat]─┐
+//! number, commands, pad, flags ─────────────────────────┼─(group, left)── byte ─┬─[CRC]─┐
+//!                                                       └───────────────────────┴───────┴─(escape)─ transmitter ─ tx
 //! ```
 //!
 //! | group   | 15                            | 0 … 7      | 8             |
@@ -14,6 +15,10 @@
 //! | number | u8          | wraps, meant: losses show as gaps |
 //! | group  | u4          | wraps, meant: 15 comes before 0   |
 //! | left   | counter 3   | reloaded, by compare              |
+//! | pause  | u BEAT + 1  | held at zero while anything is sent or the board is enabled; its top bit ends the pause |
+//!
+//! A heartbeat is a packet whose words are those that have been written into registers. A word that is to be kept for it waits
+//! for the words of a frame to be through, and while one is written none is read: the line rests for a clock.
 //!
 //! A frame that comes while one is being sent is dropped whole, takes its number along, and sets a flag in the next packet. A
 //! packet's own number is its first byte, gone long before another frame can come.
@@ -22,7 +27,8 @@
 
 use super::bits::{flag, next, previous, word as bits_side_by_side};
 use super::crc16;
-use super::framing::{END, ESC, ESC_END, ESC_ESC, STATUS_BYTES, word_bytes};
+use super::framing::{END, ESC, ESC_END, ESC_ESC, Register, STATUS_BYTES, VERSION, digest, word_bytes};
+use super::registers::PLACE;
 use super::uart::BYTE;
 use super::uart::transmitter::{self, Transmitter};
 use hapticore_model::block::{Block, Cell};
@@ -60,6 +66,16 @@ bundle! {
         refused,
         /// Commands taken so far, modulo 16.
         commands,
+        /// The board is enabled: no heartbeats.
+        enable,
+        /// Set for a clock when a word is to be kept for heartbeats.
+        keep,
+        /// Which of its words; holds until the next.
+        place,
+        /// The word; holds until the next.
+        data,
+        /// A flag of heartbeats.
+        calibrated,
     }
 }
 
@@ -74,8 +90,8 @@ bundle! {
 bundle! {
     /// The registers.
     pub struct Registers {
-        taking, busy, group, left, escaped, crc, number, pad, clipped, saturated, invalid, lost,
-        late, refused, overrun,
+        taking, busy, heartbeat, group, left, escaped, crc, number, pad, commands, clipped, saturated, invalid, lost,
+        late, refused, overrun, keep, wrote, pause,
     }
 }
 
@@ -93,6 +109,7 @@ pub struct Stream {
     words: Memory,
     transmitter: Transmitter,
     pad: Format,
+    data: Format,
     bytes: u64,
 }
 
@@ -107,12 +124,24 @@ const STATUS: u64 = 15;
 const TRAILER: u64 = WORDS;
 /// Bytes of it.
 const TRAILER_BYTES: u64 = 3;
+/// Heartbeats pause for two to the power of so many clocks.
+const BEAT: u8 = 14;
+
+/// A bit of the version, as heartbeats tell it.
+fn version<V: Value>(at: u8) -> Signal<V> {
+    bit(VERSION >> at & 1 != 0)
+}
 
 impl Stream {
-    /// The stream of a profile's frames, with so many clocks a bit.
-    pub fn new(profile: &Profile, divisor: u64) -> Self {
+    /// The stream of a profile's frames, with so many clocks a bit, and of a board whose commands bring so much data.
+    pub fn new(profile: &Profile, divisor: u64, data: Format) -> Self {
+        let format = Field::word(profile);
+        let mut initial = vec![0.0; 2 * WORDS as usize];
+        initial[WORDS as usize + Register::Control as usize] = f64::from(digest(profile));
+        let words = Memory { initial: initial.into(), ..Memory::new("words", 2 * WORDS as usize, format) };
         Stream {
-            words: Memory::new("words", WORDS as usize, Field::word(profile)).never_colliding(),
+            words: words.never_colliding(),
+            data,
             transmitter: Transmitter::new(divisor),
             pad: Format::counter(profile.pads - 1),
             bytes: word_bytes(profile),
@@ -126,7 +155,7 @@ impl Stream {
 
     /// The byte of the packet that is due.
     #[inline(always)]
-    fn byte<V: Value>(&self, r: &Registers<Signal<V>>, i: &Inputs<Signal<V>>, data: Signal<V>) -> Signal<V> {
+    fn byte<V: Value>(&self, r: &Registers<Signal<V>>, data: Signal<V>) -> Signal<V> {
         let wide = data.fit(Format::signed(8 * self.bytes as u8, 0), Exact, Wrap);
         let pick = |bytes: &[Signal<V>]| {
             let (first, rest) = bytes.split_first().expect("a group has bytes");
@@ -134,13 +163,25 @@ impl Stream {
         };
         let words: Vec<_> = (0..self.bytes).map(|left| wide.bits(8 * left as u8, 8)).collect();
         let flags =
-            bits_side_by_side([r.clipped, r.saturated, r.invalid, r.lost, r.late, r.refused, r.overrun, bit(false)]);
+            bits_side_by_side([r.clipped, r.saturated, r.invalid, r.lost, r.late, r.refused, r.overrun, r.heartbeat]);
         let pad = r.pad.fit(NIBBLE, Exact, Wrap);
-        let status = pick(&[flags, i.commands.concat(pad), r.number]);
+        let status = pick(&[flags, r.commands.concat(pad), r.number]);
         // The CRC takes its own high byte in as it is sent; what is left is the low byte, moved up.
         let check = r.crc.bits(8, 8);
         let trailer = pick(&[code(END.into(), BYTE), check, check]);
         r.group.is(TRAILER).select(trailer, r.group.is(STATUS).select(status, pick(&words)))
+    }
+
+    /// What is written: a frame's word, or, between frames, the one that is kept for heartbeats.
+    #[inline(always)]
+    fn write<V: Value>(&self, r: &Registers<Signal<V>>, i: &Inputs<Signal<V>>, taking: Signal<V>) -> Write<V> {
+        let (format, address) = (self.words.format, self.words.address());
+        let kept = i.data.fit(Format::unsigned(format.width, 0), Exact, Wrap).as_code(format);
+        Write {
+            enable: i.valid.select(taking, r.keep),
+            address: (!i.valid).concat(i.valid.select(i.index, i.place)).as_code(address),
+            data: i.valid.select(i.frame, kept),
+        }
     }
 
     /// Where the packet goes on after a byte: the bytes of a group are counted down.
@@ -173,6 +214,11 @@ impl Block for Stream {
             late: BIT,
             refused: BIT,
             commands: NIBBLE,
+            enable: BIT,
+            keep: BIT,
+            place: PLACE,
+            data: self.data,
+            calibrated: BIT,
         }
     }
 
@@ -184,12 +230,14 @@ impl Block for Stream {
         Registers {
             taking: BIT,
             busy: BIT,
+            heartbeat: BIT,
             group: Format::counter(STATUS),
             left: Format::counter(3),
             escaped: BIT,
             crc: crc16::CRC,
             number: BYTE,
             pad: self.pad,
+            commands: NIBBLE,
             clipped: BIT,
             saturated: BIT,
             invalid: BIT,
@@ -197,6 +245,9 @@ impl Block for Stream {
             late: BIT,
             refused: BIT,
             overrun: BIT,
+            keep: BIT,
+            wrote: BIT,
+            pause: Format::unsigned(BEAT + 1, 0),
         }
     }
 
@@ -204,27 +255,27 @@ impl Block for Stream {
     fn clock<V: Value>(&self, cell: &mut Cell<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
         let r = cell.load(self);
         let taking = (i.valid & i.index.is(0)).select(!r.busy, r.taking);
-        let write = Write { enable: i.valid & taking, address: i.index, data: i.frame };
         let data = self.words.data(&mut cell.parts.words);
+        let write = self.write(&r, &i, taking);
         // A word is never read while it is written, and in plain sight: the block RAM then needs no logic for that case.
-        let width = self.words.address().width;
-        let elsewhere = next(i.index).bits(0, width);
-        let address = i.valid.select(elsewhere, r.group.bits(0, width));
+        let address = write.enable.select(next(write.address), r.heartbeat.concat(r.group.bits(0, PLACE.width)));
         self.words.access(&mut cell.parts.words, address, write);
 
-        let byte = self.byte(&r, &i, data);
+        let byte = self.byte(&r, data);
         let at_end = r.group.is(TRAILER) & r.left.is(0);
         let (is_end, is_esc) = (byte.is(END.into()), byte.is(ESC.into()));
         let special = (is_end | is_esc) & !at_end;
         let replaced = is_end.select(code(ESC_END.into(), BYTE), code(ESC_ESC.into(), BYTE));
         let escape = special & !r.escaped;
         let line = special.select(r.escaped.select(replaced, code(ESC.into(), BYTE)), byte);
-        let inputs = transmitter::Inputs { valid: r.busy, octet: line };
+        let inputs = transmitter::Inputs { valid: r.busy & !r.wrote, octet: line };
         let transmitter = self.transmitter.call("transmitter", &mut cell.parts.transmitter, inputs);
 
         let sent = transmitter.taken & !escape;
         let told = sent & r.group.is(STATUS) & r.left.is(0);
-        let begin = i.done & taking;
+        let frame = i.done & taking;
+        let heartbeat = r.pause.msb() & !r.busy & !i.enable & !i.valid;
+        let begin = frame | heartbeat;
         let (group, left) = self.advance(&r);
         let take = |now: Signal<V>, held: Signal<V>| begin.select(now, held);
         cell.store(
@@ -232,19 +283,24 @@ impl Block for Stream {
             Registers {
                 taking,
                 busy: flag(r.busy, begin, sent & at_end),
+                heartbeat: take(heartbeat, r.heartbeat),
                 group: take(int(STATUS), sent.select(group, r.group)).fit(r.group.format, Exact, Wrap),
                 left: take(int(STATUS_BYTES - 1), sent.select(left, r.left)).fit(r.left.format, Exact, Wrap),
                 escaped: transmitter.taken.select(escape, r.escaped),
                 crc: take(crc16::begin(), sent.select(crc16::with(r.crc, byte), r.crc)),
                 number: i.done.select(next(r.number), r.number),
                 pad: take(i.pad, r.pad),
-                clipped: take(i.clipped, r.clipped),
-                saturated: take(i.saturated, r.saturated),
-                invalid: take(i.invalid, r.invalid),
-                lost: take(i.lost, r.lost),
+                commands: take(i.commands, r.commands),
+                clipped: take(heartbeat.select(i.calibrated, i.clipped), r.clipped),
+                saturated: take(heartbeat.select(version(0), i.saturated), r.saturated),
+                invalid: take(heartbeat.select(version(1), i.invalid), r.invalid),
+                lost: take(heartbeat.select(version(2), i.lost), r.lost),
                 late: flag(r.late, i.late, told),
                 refused: flag(r.refused, i.refused, told),
                 overrun: flag(r.overrun, i.done & !taking, told),
+                keep: flag(r.keep, i.keep, !i.valid),
+                wrote: write.enable,
+                pause: (i.enable | r.busy).select(int(0), next(r.pause)).fit(r.pause.format, Exact, Wrap),
             },
         );
         Outputs { tx: transmitter.tx }

@@ -20,7 +20,8 @@ crate::component! {
     pub struct BoardComponent of whole::Board {
         inputs { dout: Bits<8>, busy: Bit, rx: Bit }
         outputs {
-            convst: Bit, cs_n: Bit, sclk_run: Bit, sdi: Bit, carrier: Bit, select: Bits<4>, tx: Bit, enabled: Bit, late: Bit
+            convst: Bit, cs_n: Bit, sclk_run: Bit, sdi: Bit, carrier: Bit, select: Bits<4>, tx: Bit, enabled: Bit, late: Bit,
+            adc_reset: Bit
         }
     }
 }
@@ -177,7 +178,7 @@ impl Logic for Top {
         self.hold.d.next = self.power_up.reset.val() | self.pressed.sig_out.val();
         self.board.clock.next = self.clock.val();
         self.board.reset.next = self.hold.q.val();
-        self.adc_reset.next = self.hold.q.val();
+        self.adc_reset.next = self.hold.q.val() | self.board.adc_reset.val();
         self.board.busy.next = self.busy.val();
         self.board.dout.next = self.dout.val();
         self.board.rx.next = self.rx.val();

@@ -9,8 +9,9 @@
 //!
 //! Ports are pins; what they need of a device (the clock pulses of SCLK, the reset) is the top's. Codes are numbered as the
 //! ADC's channels: the terminals, the sensing voltage, the haptic voltage. Until a host enables it, the board converts
-//! nothing and no pad is driven; disabling it leaves the core where it is, and only a reset begins a round anew.
-//! Latency: that of the reader, the core and the stream, one after the other. Source: DESIGN §3.
+//! nothing, no pad is driven, and the stream tells heartbeats; enabling it begins the first pad's slot. Disabling abandons the
+//! slot under way; a frame that the core is already computing is still told.
+//! Latency: that of the reader, the core and the stream, one after the other.
 
 use super::adc_reader::{self, AdcReader};
 use super::pads::{self, Pads};
@@ -58,15 +59,17 @@ bundle! {
         tx,
         /// For a lamp: the board is enabled.
         enabled,
-        /// For a lamp: the ADC was late in this clock.
+        /// For a lamp: the ADC has been late since the board was enabled.
         late,
+        /// The ADC's reset.
+        adc_reset,
     }
 }
 
 bundle! {
-    /// The register.
+    /// The registers.
     pub struct Registers {
-        shift,
+        shift, late,
     }
 }
 
@@ -106,16 +109,17 @@ impl Board {
         parameters.check(profile)?;
         let core = Core::new(profile);
         let reader = AdcReader::new(profile, parameters);
-        let words = core.estimator().map().words().words as u64;
+        let words = core.estimator().position().table().words as u64;
+        let registers = CommandRegisters::new(core.inputs(), words);
         let sets = 1usize << reader.outputs().address.width;
         Ok(Board {
             receiver: Receiver::new(parameters.divisor()),
-            registers: CommandRegisters::new(core.inputs(), words),
+            stream: Stream::new(profile, parameters.divisor(), registers.outputs().data),
+            registers,
             adc_reader: reader,
             codes: Memory::new("codes", sets, profile.formats.adc).never_colliding(),
             sigma_delta: SigmaDelta::new(core.outputs().carrier),
             pads: Pads::new(profile.pads, parameters.dead()),
-            stream: Stream::new(profile, parameters.divisor()),
             core,
         })
     }
@@ -140,11 +144,8 @@ fn core_inputs<V: Value>(
 ) -> core::Inputs<Signal<V>> {
     core::Inputs {
         strobe,
+        clear: !registers.enable,
         code,
-        origin_x: registers.origin_x,
-        scale_x: registers.scale_x,
-        origin_y: registers.origin_y,
-        scale_y: registers.scale_y,
         capacitance_gain: registers.capacitance_gain,
         force_gain: registers.force_gain,
         write: registers.write,
@@ -175,11 +176,12 @@ impl Block for Board {
             tx: BIT,
             enabled: BIT,
             late: BIT,
+            adc_reset: BIT,
         }
     }
 
     fn registers(&self) -> Registers<Format> {
-        Registers { shift: BIT }
+        Registers { shift: BIT, late: BIT }
     }
 
     #[inline(always)]
@@ -187,7 +189,8 @@ impl Block for Board {
         let r = cell.load(self);
         let parts = &mut cell.parts;
         let bytes = self.receiver.call("receiver", &mut parts.receiver, receiver::Inputs { rx: i.rx });
-        let inputs = registers::Inputs { valid: bytes.valid, octet: bytes.octet, shift: r.shift };
+        let answer = i.dout.bits(0, 1);
+        let inputs = registers::Inputs { valid: bytes.valid, octet: bytes.octet, shift: r.shift, answer };
         let registers = self.registers.call("registers", &mut parts.registers, inputs);
         let inputs =
             adc_reader::Inputs { enable: registers.enable, busy: i.busy, dout: i.dout, write: registers.adc_write };
@@ -215,19 +218,25 @@ impl Block for Board {
             late: adc.late,
             refused: registers.refused,
             commands: registers.commands,
+            enable: registers.enable,
+            keep: registers.written | (r.shift & !shift),
+            place: registers.place,
+            data: registers.data,
+            calibrated: registers.calibrated,
         };
         let stream = self.stream.call("stream", &mut parts.stream, inputs);
-        cell.store(self, Registers { shift });
+        cell.store(self, Registers { shift, late: registers.enable & (r.late | adc.late) });
         Outputs {
             convst: adc.convst,
             cs_n: adc.cs_n,
             sclk_run: adc.sclk_run,
-            sdi: registers.sdi,
+            sdi: registers.sdi & shift,
             carrier: carrier.pulse,
             select: pads.select,
             tx: stream.tx,
             enabled: registers.enable,
-            late: adc.late,
+            late: r.late,
+            adc_reset: registers.adc_reset,
         }
     }
 }

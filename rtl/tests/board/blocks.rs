@@ -5,7 +5,8 @@ use crate::bench::Bench;
 use crate::pins::Host;
 use crate::random::Random;
 use hapticore_model::block::Block;
-use hapticore_model::blocks::core::Core;
+use hapticore_model::blocks::core::{self, Core};
+use hapticore_model::bundle::Bundle;
 use hapticore_model::format::Format;
 use hapticore_model::profile::Profile;
 use hapticore_rtl::board::packet::Command;
@@ -145,6 +146,26 @@ fn a_board_that_cannot_be_says_what_was_expected() {
 }
 
 #[test]
+fn strobes_that_come_closer_than_the_profile_s_are_told_until_the_slot_is_abandoned() {
+    for profile in Profile::all() {
+        let clocks = profile.clocks_per_sample;
+        let core = Core::new(&profile);
+        let quiet = core::Inputs::map(core.inputs(), |_| 0);
+        let mut bench = Bench::new(core);
+        let strobe = |bench: &mut Bench<Core>, clocks: u64| -> i64 {
+            bench.clock(core::Inputs { strobe: 1, ..quiet });
+            (1..clocks).map(|_| bench.clock(quiet).overrun).max().expect("clocks")
+        };
+        assert_eq!((0..50).map(|_| strobe(&mut bench, clocks)).max(), Some(0), "{}", profile.name);
+        strobe(&mut bench, clocks - 1);
+        assert_eq!(strobe(&mut bench, clocks), 1, "{}: a clock too early", profile.name);
+        assert_eq!(strobe(&mut bench, clocks), 1, "it stays");
+        bench.clock(core::Inputs { clear: 1, ..quiet });
+        assert_eq!(strobe(&mut bench, clocks), 0, "and is cleared");
+    }
+}
+
+#[test]
 fn every_command_is_taken_escaped_or_not() {
     let profile = Profile::bundled("small").expect("bundled");
     let core = Core::new(&profile).inputs();
@@ -153,10 +174,10 @@ fn every_command_is_taken_escaped_or_not() {
     for count in 1..2_000 {
         let (address, code) = (random.below(100) as u16, random.word(core.word));
         let mut written = None;
-        let bytes = Command::Map { address, code }.encode(&core);
+        let bytes = Command::Table { address, code }.encode(&core);
         for byte in bytes.iter().map(|&byte| Some(byte)).chain([None]) {
             let (valid, octet) = (byte.is_some().into(), byte.unwrap_or(0).into());
-            let outputs = bench.clock(registers::Inputs { valid, octet, shift: 0 });
+            let outputs = bench.clock(registers::Inputs { valid, octet, shift: 0, answer: 0 });
             assert_eq!(outputs.refused, 0, "{count}: {bytes:x?}");
             if outputs.write != 0 {
                 written = Some((outputs.address as u16, outputs.word));

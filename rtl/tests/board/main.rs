@@ -10,6 +10,9 @@ mod random;
 
 mod bench;
 mod blocks;
+mod commands;
+mod part;
 mod pins;
 mod ranges;
 mod session;
+mod startup;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What stands at the board's pins: an ADC, and the host's end of the serial line.
 
+use crate::part::Part;
+use hapticore_rtl::board::Parameters;
 use hapticore_rtl::board::whole::Outputs;
 use std::collections::VecDeque;
 
@@ -15,6 +17,9 @@ pub enum Health {
     Absent,
 }
 
+/// From the end of a reset until the part may be spoken to, by its data sheet.
+const SETUP_US: u64 = 253;
+
 /// An ADC that shifts out what was there at the rising edges of CONVST, the samples of a list.
 pub struct Adc {
     pub health: Health,
@@ -28,18 +33,40 @@ pub struct Adc {
     shifting: Vec<i32>,
     left: u64,
     bit: u32,
-    /// What came over SDI while CS was low, and what it was at the end.
+    /// Clocks from a reset until it may be spoken to, and those that are left of them.
+    setup: u64,
+    ready: u64,
+    /// What came over SDI while CS was low.
     sdi: Vec<i64>,
-    pub written: Vec<u32>,
+    /// What the first data line puts out in register mode.
+    answer: Option<u16>,
+    /// The registers.
+    pub part: Part,
+    /// Conversions that it has begun.
+    pub conversions: usize,
+    /// Changes of SDI while CS was low.
+    pub sdi_changes: u64,
     /// Edges that the data sheet forbids.
     pub wrong: Vec<&'static str>,
 }
 
 impl Adc {
-    /// An ADC of `bits` that takes `conversion` clocks, behind an output primitive of so many clocks.
-    pub fn new(samples: impl IntoIterator<Item = Vec<i32>>, bits: u8, conversion: u64, latency: u64) -> Self {
-        let before =
-            Outputs { convst: 0, cs_n: 1, sclk_run: 0, sdi: 0, carrier: 0, select: 0, tx: 1, enabled: 0, late: 0 };
+    /// An ADC of `bits` on a board with these parameters.
+    pub fn new(samples: impl IntoIterator<Item = Vec<i32>>, bits: u8, parameters: &Parameters) -> Self {
+        let (conversion, latency) = (parameters.conversion() - 1, parameters.sclk_latency);
+        let setup = SETUP_US * parameters.clock_hz / 1_000_000;
+        let before = Outputs {
+            convst: 0,
+            cs_n: 1,
+            sclk_run: 0,
+            sdi: 0,
+            carrier: 0,
+            select: 0,
+            tx: 1,
+            enabled: 0,
+            late: 0,
+            adc_reset: 0,
+        };
         Adc {
             health: Health::Well,
             samples: samples.into_iter().collect(),
@@ -51,8 +78,13 @@ impl Adc {
             shifting: vec![0; 8],
             left: 0,
             bit: 0,
+            setup,
+            ready: setup,
             sdi: Vec::new(),
-            written: Vec::new(),
+            answer: None,
+            part: Part::new(0x31),
+            conversions: 0,
+            sdi_changes: 0,
             wrong: Vec::new(),
         }
     }
@@ -60,23 +92,31 @@ impl Adc {
     /// BUSY, and the data lines.
     pub fn pins(&self) -> (i64, i64) {
         let busy = self.left > 0 && self.health != Health::Absent;
+        if let Some(answer) = self.answer {
+            return (busy.into(), i64::from(answer) >> 15u32.saturating_sub(self.bit) & 1);
+        }
         let shift = (self.bits - 1).saturating_sub(self.bit);
-        let lines = self.shifting.iter().enumerate();
+        let lines = self.shifting.iter().enumerate().take(self.part.lines());
         let dout = lines.map(|(line, &code)| (i64::from(code) >> shift & 1) << line).sum();
         (busy.into(), dout)
     }
 
     /// One clock, with the board's outputs in it.
     pub fn clock(&mut self, outputs: &Outputs<i64>) {
+        self.reset(outputs.adc_reset != 0);
         self.pulses.push_back(outputs.sclk_run);
         let pulse = self.pulses.pop_front().expect("one was pushed") != 0;
         self.convert(outputs.convst > self.before.convst);
+        if outputs.cs_n + self.before.cs_n == 0 && outputs.sdi != self.before.sdi {
+            self.sdi_changes += 1;
+        }
         if outputs.cs_n != 0 && pulse {
             self.wrong.push("SCLK without CS");
         }
         if outputs.cs_n < self.before.cs_n {
             self.bit = 0;
             self.sdi.clear();
+            self.answer = self.part.register_mode().then(|| self.part.answer());
             if pulse {
                 self.wrong.push("SCLK with CS's edge");
             }
@@ -104,19 +144,35 @@ impl Adc {
             if self.left > 0 {
                 self.wrong.push("CONVST while BUSY");
             }
+            if self.ready > 0 {
+                self.wrong.push("CONVST before it was ready after its reset");
+            }
+            if self.part.register_mode() {
+                self.wrong.push("CONVST in register mode");
+            }
+            self.conversions += 1;
             self.converting = self.samples.pop_front().unwrap_or_else(|| vec![0; 8]);
             self.left = if self.health == Health::Slow { self.conversion + 3 } else { self.conversion };
         }
     }
 
+    fn reset(&mut self, reset: bool) {
+        self.ready = self.ready.saturating_sub(1);
+        if reset {
+            self.part.reset();
+            (self.ready, self.left) = (self.setup, 0);
+        }
+    }
+
     fn end_of_read(&mut self) {
-        let enabled = self.before.enabled != 0;
-        if enabled && self.bit != self.bits {
+        self.answer = None;
+        if self.ready > 0 {
+            self.wrong.push("spoken to before it was ready after its reset");
+        }
+        if !self.part.register_mode() && self.sdi.iter().all(|&bit| bit == 0) && self.bit != self.bits {
             self.wrong.push("a read of another length than the word's");
         }
-        if !enabled && self.sdi.len() == 16 {
-            self.written.push(self.sdi.iter().fold(0, |word, &bit| word << 1 | bit as u32));
-        }
+        self.wrong.extend(self.part.word(&self.sdi).err());
     }
 }
 

@@ -26,7 +26,7 @@ fn prove<B: Block>(block: &B) {
     take_violations();
     take_lemmas();
     for clock in 0.. {
-        assert!(clock < 5_000, "{} does not close", B::NAME);
+        assert!(clock < 50_000, "{} does not close", B::NAME);
         block.clock(&mut cell, inputs);
         let mut now = Vec::new();
         sample(block, &cell, &mut now);
@@ -54,8 +54,9 @@ fn no_signal_of_a_peripheral_can_overflow() {
         prove(&Pads::new(profile.pads, parameters.dead()));
         prove(&Receiver::new(parameters.divisor()));
         prove(&Transmitter::new(parameters.divisor()));
-        prove(&CommandRegisters::new(core.inputs(), core.estimator().map().words().words as u64));
-        prove(&Stream::new(&profile, parameters.divisor()));
+        let registers = CommandRegisters::new(core.inputs(), core.estimator().position().table().words as u64);
+        prove(&Stream::new(&profile, parameters.divisor(), registers.outputs().data));
+        prove(&registers);
         let board = Board::new(&profile, &parameters).expect("bundled profiles fit");
         assert_eq!(Netlist::of(&board).top().name, "board");
     }

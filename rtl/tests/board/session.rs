@@ -9,34 +9,36 @@ use hapticore_model::calibration::Calibration;
 use hapticore_model::fidelity::clock::ClockSimulation;
 use hapticore_model::frame::Frame;
 use hapticore_model::profile::Profile;
-use hapticore_rtl::board::packet::{Command, Damage, Decoder, Packet, encode, start};
+use hapticore_rtl::board::packet::{Command, Damage, Decoder, Heartbeat, Packet, Told, encode};
+use hapticore_rtl::board::startup::start;
 use hapticore_rtl::board::whole::Inputs;
 use hapticore_rtl::board::{Board, Parameters};
 
 /// A board with an ADC and a host.
-struct Session {
-    bench: Bench<Board>,
-    profile: Profile,
-    adc: Adc,
-    host: Host,
+pub struct Session {
+    pub bench: Bench<Board>,
+    pub profile: Profile,
+    pub adc: Adc,
+    pub host: Host,
     decoder: Decoder,
-    packets: Vec<Result<Packet, Damage>>,
+    pub packets: Vec<Result<Packet, Damage>>,
+    pub heartbeats: Vec<Heartbeat>,
     closed: Vec<i64>,
 }
 
 const SEED: u64 = 11;
 
 /// A line fast enough for the short slots of the tests.
-fn parameters(profile: &Profile, divisor: u64, sclk_latency: u64) -> Parameters {
+pub fn parameters(profile: &Profile, divisor: u64, sclk_latency: u64) -> Parameters {
     let clock_hz = if profile.name == "small" { 12_000_000 } else { 25_000_000 };
     Parameters { clock_hz, baud: clock_hz / divisor, sclk_latency }
 }
 
 impl Session {
-    fn new(profile: &Profile, parameters: Parameters, samples: &[Vec<i32>]) -> Self {
+    pub fn new(profile: &Profile, parameters: Parameters, samples: &[Vec<i32>]) -> Self {
         let board = Board::new(profile, &parameters).expect("bundled profiles fit their boards");
         let width = profile.formats.adc.width;
-        let adc = Adc::new(samples.to_vec(), width, parameters.conversion() - 1, parameters.sclk_latency);
+        let adc = Adc::new(samples.to_vec(), width, &parameters);
         Session {
             bench: Bench::new(board),
             profile: profile.clone(),
@@ -44,11 +46,12 @@ impl Session {
             host: Host::new(parameters.divisor()),
             decoder: Decoder::new(profile),
             packets: Vec::new(),
+            heartbeats: Vec::new(),
             closed: Vec::new(),
         }
     }
 
-    fn clock(&mut self) {
+    pub fn clock(&mut self) {
         let (busy, dout) = self.adc.pins();
         let outputs = self.bench.clock(Inputs { dout, busy, rx: self.host.line() });
         self.adc.clock(&outputs);
@@ -57,14 +60,20 @@ impl Session {
             self.closed.push(outputs.select);
         }
         let bytes = std::mem::take(&mut self.host.heard);
-        self.packets.extend(self.decoder.take_all(bytes));
+        for told in self.decoder.take_all(bytes) {
+            match told {
+                Ok(Told::Heartbeat(heartbeat)) => self.heartbeats.push(heartbeat),
+                Ok(Told::Frame(packet)) => self.packets.push(Ok(packet)),
+                Err(damage) => self.packets.push(Err(damage)),
+            }
+        }
     }
 
-    fn run(&mut self, clocks: u64) {
+    pub fn run(&mut self, clocks: u64) {
         (0..clocks).for_each(|_| self.clock());
     }
 
-    fn send(&mut self, commands: &[Command]) {
+    pub fn send(&mut self, commands: &[Command]) {
         self.host.send(encode(commands, &self.profile));
         while !self.host.idle() {
             self.clock();
@@ -72,7 +81,7 @@ impl Session {
     }
 
     /// Runs until so many packets are there.
-    fn packets(&mut self, count: usize) -> Vec<Packet> {
+    pub fn packets(&mut self, count: usize) -> Vec<Packet> {
         let mut left = (count as u64 + 4) * (self.profile.slot_clocks() + 60_000);
         while self.packets.len() < count {
             left -= 1;
@@ -84,7 +93,7 @@ impl Session {
 }
 
 /// Samples of some slots, whatever the ADC may see.
-fn samples(profile: &Profile, slots: usize) -> Vec<Vec<i32>> {
+pub fn samples(profile: &Profile, slots: usize) -> Vec<Vec<i32>> {
     let mut random = Random::new(SEED);
     let sights = Sight::ALL.into_iter().cycle().take(slots);
     sights
@@ -95,7 +104,7 @@ fn samples(profile: &Profile, slots: usize) -> Vec<Vec<i32>> {
         .collect()
 }
 
-fn simulated(profile: &Profile, calibration: &Calibration, samples: &[Vec<i32>]) -> Vec<Frame> {
+pub fn simulated(profile: &Profile, calibration: &Calibration, samples: &[Vec<i32>]) -> Vec<Frame> {
     let mut simulation = ClockSimulation::new(profile, calibration);
     let mut frames = Vec::new();
     for sample in samples {
@@ -125,14 +134,14 @@ fn over_the_line_come_the_frames_of_the_core() {
         assert_eq!(expected.len(), 9);
         assert!(expected.iter().any(|frame| frame.flags.lost) && expected.iter().any(|frame| frame.flags.invalid));
         assert_eq!(session.adc.wrong, Vec::<&str>::new(), "{}", profile.name);
-        assert_eq!(session.adc.written, [0x0218, 0], "{}: eight data lines, then conversions", profile.name);
+        assert_eq!(session.adc.part.lines(), 8, "{}: eight data lines", profile.name);
         let (pads, opened): (Vec<i64>, Vec<i64>) = session.closed.iter().partition(|&&select| select != 0);
         assert_eq!(pads[..8], [1, 2, 4, 8, 1, 2, 4, 8], "pads in turn");
         assert!(opened.len() >= pads.len(), "and none between two");
     }
 }
 
-fn small() -> Profile {
+pub fn small() -> Profile {
     short_profiles().swap_remove(0)
 }
 
@@ -153,8 +162,10 @@ fn a_damaged_command_changes_nothing_and_is_told() {
     session.run(5_000);
     assert_eq!(session.bench.clock(Inputs { dout: 0, busy: 0, rx: 1 }).enabled, 0, "none of them enables");
     session.send(&commands[20..]);
+    let refusals = session.heartbeats.iter().filter(|heartbeat| heartbeat.refused).count();
+    assert!((1..=5).contains(&refusals), "told once each, or several together: {refusals}");
     let packets = session.packets(2);
-    assert!(packets[0].refused && !packets[1].refused, "told once");
+    assert!(!packets[0].refused && !packets[1].refused, "and not again");
     assert_eq!(packets[0].commands, commands.len() as u8 % 16);
     let expected = simulated(&profile, &calibration(&profile), &samples);
     assert_eq!(packets[1].frame, expected[1]);
@@ -172,6 +183,11 @@ fn a_late_or_absent_adc_is_told_and_hangs_nothing() {
         assert!(session.packets(3)[2].late, "{health:?}");
         session.adc.health = Health::Well;
         assert!(!session.packets(5)[4].late, "{health:?} and over");
+        let lamp = |session: &mut Session| session.bench.clock(Inputs { dout: 0, busy: 0, rx: 1 }).late;
+        assert_eq!(lamp(&mut session), 1, "the lamp stays on");
+        session.send(&[Command::DISABLE]);
+        session.run(50);
+        assert_eq!(lamp(&mut session), 0, "until the board is disabled");
     }
 }
 

@@ -14,14 +14,14 @@ module bench;
     wire [2:0] channel, index;
     wire [1:0] pad;
     wire signed [17:0] frame;
-    wire valid, clipped, saturated, invalid, lost;
+    wire valid, clipped, saturated, invalid, lost, overrun;
 
     hapticore core (
-        .clock(clock), .reset(reset), .strobe(strobe), .code(code), .origin_x(origin_x), .scale_x(scale_x),
+        .clock(clock), .reset(reset), .strobe(strobe), .clear(1'b0), .code(code), .origin_x(origin_x), .scale_x(scale_x),
         .origin_y(origin_y), .scale_y(scale_y), .capacitance_gain(capacitance_gain), .force_gain(force_gain),
         .write(write), .address(address), .word(word), .channel(channel), .serve(), .closed(), .carrier(),
         .valid(valid), .index(index), .frame(frame), .done(), .pad(pad), .clipped(clipped), .saturated(saturated),
-        .invalid(invalid), .lost(lost)
+        .invalid(invalid), .lost(lost), .overrun(overrun)
     );
 
     integer file, frames, found, value, step, words, wrong, letter;

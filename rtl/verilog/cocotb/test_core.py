@@ -15,7 +15,7 @@ VECTORS = Path(__file__).resolve().parent.parent / "vectors"
 CLOCKS_PER_SAMPLE = 24  # model/src/profile/small.toml
 CHANNELS = ["i1", "i2", "i3", "i4", "i5", "i6", "v_sense", "v_haptic"]
 FLAGS = ["clipped", "saturated", "invalid", "lost"]
-INPUTS = ["strobe", "code", "write", "address", "word"]
+INPUTS = ["strobe", "clear", "code", "write", "address", "word"]
 CONSTANTS = ["origin_x", "origin_y", "scale_x", "scale_y", "capacitance_gain", "force_gain"]
 
 

@@ -3,8 +3,10 @@
 // from a file, eight a sample. Delays in nanoseconds; between the end of its hold time and its access time a data line is
 // unknown, so that a bit captured at the wrong moment is seen. What the data sheet forbids counts in `faults`.
 //
-// After reset one data line is in use; writing 18 (hex) into register 2 makes it eight (DOUT_FORMAT), and while
-// registers are being written, up to a write into register 0, no codes come out.
+// After a reset two data lines are in use; 18 (hex) in register 2 makes it eight (DOUT_FORMAT). A read of a register puts
+// the part into register mode, where no codes come out; a write to address 0 ends it. Outside of it a write is refused. The
+// register that was read comes out on the first line during the next word. SDI may move while CS is low only for such words,
+// and what is no reading of codes counts in `commands`.
 
 `timescale 1ns / 1ps
 `default_nettype none
@@ -18,7 +20,10 @@ module adc_model #(
     parameter real T_CS = 12.0,       // CS to the first bit
     parameter real T_HOLD = 5.0,      // rising edge of SCLK to the end of the bit before
     parameter real T_ACCESS = 15.0,   // rising edge of SCLK to the next bit
-    parameter real T_PULSE = 6.0      // the shortest low pulse of SCLK
+    parameter real T_PULSE = 6.0,     // the shortest low pulse of SCLK
+    parameter real T_RESET = 3200.0,  // the shortest reset
+    parameter real T_SETUP = 253000.0, // the end of a reset to the first word or conversion
+    parameter [7:0] ID = 8'h31
 ) (
     input wire reset,
     input wire convst,
@@ -32,9 +37,11 @@ module adc_model #(
     reg [BITS-1:0] codes [0:8*SAMPLES-1];
     reg [BITS-1:0] shown [0:7];
     reg [15:0] command;
-    reg eight_lines, writing, ready;
-    integer sample, taken, falls, bits, line, faults;
-    realtime fell;
+    reg [7:0] registers [0:63];
+    reg [15:0] answer;
+    reg register_mode, ready, moved;
+    integer sample, taken, falls, bits, line, lines, faults, commands, k;
+    realtime fell, reset_at, released, selected;
 
     initial begin
         $readmemh(FILE, codes);
@@ -42,13 +49,29 @@ module adc_model #(
         dout = 8'hxx;
         sample = 0;
         faults = 0;
-        eight_lines = 0;
-        writing = 0;
+        commands = 0;
         ready = 0;
         bits = 0;
         falls = 0;
         fell = 0;
+        reset_at = 0;
+        released = 0;
+        selected = 0;
+        defaults;
     end
+
+    task defaults;
+        begin
+            for (k = 0; k < 64; k = k + 1) registers[k] = 0;
+            registers[2] = 8'h08;
+            for (k = 3; k < 7; k = k + 1) registers[k] = 8'h33;
+            registers[6'h2f] = ID;
+            register_mode = 0;
+            answer = 16'hxxxx;
+            moved = 0;
+            lines = 2;
+        end
+    endtask
 
     task fault(input integer what);
         if (ready) begin
@@ -61,20 +84,57 @@ module adc_model #(
     task show;
         begin
             for (line = 0; line < 8; line = line + 1)
-                dout[line] = (writing || (line > 0 && !eight_lines) || bits >= BITS) ? 1'bx : shown[line][BITS-1-bits];
+                dout[line] = (register_mode || line >= lines || bits >= BITS) ? 1'bx : shown[line][BITS-1-bits];
+            if (register_mode && bits < 16) dout[0] = answer[15-bits];
         end
     endtask
 
     always @(posedge reset) begin
-        eight_lines = 0;
-        writing = 0;
+        defaults;
+        reset_at = $realtime;
     end
 
     // Before its first reset nothing is asked of anybody.
-    always @(negedge reset) if ($realtime > 0) ready = 1;
+    always @(negedge reset) if ($realtime > 0) begin
+        if ($realtime - reset_at < T_RESET) fault(6);
+        released = $realtime;
+        ready = 1;
+    end
+
+    // A word that came over SDI: sixteen bits, or another number of them.
+    task word;
+        if (register_mode || command != 0) begin
+            commands = commands + 1;
+            answer = 16'hxxxx;
+            if (falls != 16 || command[15]) fault(7);
+            else if (command[14]) begin
+                register_mode = 1;
+                if (command[13:8] == 0 || command[13:8] > 6'h2f) fault(8);
+                answer = {8'hxx, registers[command[13:8]]};
+            end else if (!register_mode) fault(9); // a write without a read before it
+            else if (command[13:8] == 0) begin
+                register_mode = 0;
+                if (command[7:0] != 0) fault(10);
+            end else begin
+                case (command[13:8])
+                    6'h02: if (command[7] || command[2]) fault(11);
+                    6'h03, 6'h04, 6'h05, 6'h06: if (command[3:0] > 11 || command[7:4] > 11) fault(11);
+                    6'h07: ;
+                    default: fault(12); // nothing that a board has to write
+                endcase
+                registers[command[13:8]] = command[7:0];
+                lines = 1 << registers[2][4:3];
+            end
+        end
+    endtask
+
+    // A change with CS's own edge is none.
+    always @(sdi) if (cs_n === 1'b0 && $realtime > selected) moved = 1;
 
     always @(posedge convst) if (!reset) begin
         if (busy) fault(1);
+        if (register_mode) fault(13);
+        if ($realtime - released < T_SETUP) fault(14);
         taken = sample;
         sample = sample + 1;
         #(T_BUSY) busy = 1;
@@ -87,8 +147,12 @@ module adc_model #(
 
     always @(negedge cs_n) begin
         if (sclk !== 1'b1) fault(3); // SCLK rests high
+        if ($realtime - released < T_SETUP) fault(14);
         bits = 0;
         falls = 0;
+        command = 0;
+        moved = 0;
+        selected = $realtime + 1;
         #(T_CS) show;
     end
 
@@ -108,10 +172,9 @@ module adc_model #(
 
     always @(posedge cs_n) if (!reset) begin
         dout = 8'hxx;
-        if (falls == 16 && command[15:14] == 2'b00 && (writing || command[13:0] != 0)) begin
-            if (command[13:8] == 6'h02) eight_lines = command[4:3] == 2'b11;
-            writing = command[13:8] != 0;
-        end
+        // A word of one bit only, over and over, is none: SDI rests.
+        if (moved && !register_mode && command == 0) fault(15);
+        word;
     end
 
 endmodule

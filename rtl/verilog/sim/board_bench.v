@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // A board's top with an ADC at its pins and a host at its serial line: sends the bytes of a file, writes what it hears to
-// another, one byte a line, and ends after so many packets. Output pins follow their clock by T_OUT ns; data lines need
+// another, one byte a line, and ends after so many frames (heartbeats do not count). Output pins follow their clock by T_OUT ns; data lines need
 // T_IN ns to the core.
 
 `timescale 1ns / 1ps
@@ -62,10 +62,14 @@ module board_bench #(
         end
     end
 
-    integer heard_bit;
+    // The third byte of a packet, escaped or not, says whether it is a heartbeat.
+    integer heard_bit, place;
+    reg heartbeat;
     initial begin
         file = $fopen("heard.hex", "w");
         packets = 0;
+        place = 0;
+        heartbeat = 0;
         #(600 * PERIOD);
         while (packets < PACKETS) begin
             @(negedge tx);
@@ -75,11 +79,17 @@ module board_bench #(
                 heard[heard_bit] = tx;
             end
             $fdisplay(file, "%02x", heard);
-            if (heard === 8'hc0) packets = packets + 1;
+            if (heard === 8'hc0) begin
+                if (place > 3 && !heartbeat) packets = packets + 1;
+                place = 0;
+            end else if (heard !== 8'hdb) begin
+                if (place == 2) heartbeat = heard[7];
+                place = place + 1;
+            end
             #(BIT);
         end
         $fclose(file);
-        $display("faults %0d", adc.faults);
+        $display("faults %0d, commands %0d", adc.faults, adc.commands);
         $finish;
     end
 

@@ -7,6 +7,7 @@ module hapticore (
     input wire clock,
     input wire reset,
     input wire strobe, // u1.0  A set of ADC codes is there.
+    input wire clear, // u1.0  Abandons the slot under way: the next strobe is the first of the first pad's slot.
     input wire signed [17:0] code, // s18.17  The code of the channel asked for in the clock before.
     input wire signed [21:0] origin_x, // s22.20  Calibration: the x ratio in the middle of the box.
     input wire [17:0] scale_x, // u18.13  Calibration: one over half the box's width.
@@ -29,7 +30,8 @@ module hapticore (
     output wire clipped, // u1.0  A code was at a rail of the ADC.
     output wire saturated, // u1.0  A word was held at a rail.
     output wire invalid, // u1.0  The last valid results stand.
-    output wire lost // u1.0  A terminal's current is missing.
+    output wire lost, // u1.0  A terminal's current is missing.
+    output wire overrun // u1.0  Strobes have come closer than the profile's clocks a sample since reset or `clear`: frames are wrong.
 );
 
     wire multiplexer_sample; // u1.0
@@ -39,6 +41,7 @@ module hapticore (
     wire multiplexer_last; // u1.0
     wire [1:0] multiplexer_pad; // u2.0
     wire multiplexer_closed; // u1.0
+    wire pace_overrun; // u1.0
     wire oscillator_ready; // u1.0
     wire signed [17:0] oscillator_cosine; // s18.17
     wire signed [17:0] oscillator_sine; // s18.17
@@ -63,6 +66,7 @@ module hapticore (
         .clock(clock),
         .reset(reset),
         .strobe(strobe),
+        .clear(clear),
         .sample(multiplexer_sample),
         .restart(multiplexer_restart),
         .integrate(multiplexer_integrate),
@@ -70,6 +74,14 @@ module hapticore (
         .last(multiplexer_last),
         .pad(multiplexer_pad),
         .closed(multiplexer_closed)
+    );
+
+    pace u_pace (
+        .clock(clock),
+        .reset(reset),
+        .strobe(strobe),
+        .clear(clear),
+        .overrun(pace_overrun)
     );
 
     oscillator u_oscillator (
@@ -144,6 +156,7 @@ module hapticore (
     assign saturated = estimator_saturated;
     assign invalid = estimator_invalid;
     assign lost = estimator_lost;
+    assign overrun = pace_overrun;
 
 endmodule
 

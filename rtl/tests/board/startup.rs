@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! From a reset to frames, and from one enabling to the next.
+
+use crate::device::{Sight, calibration, codes};
+use crate::part::Part;
+use crate::random::Random;
+use crate::session::{Session, parameters, samples, simulated, small};
+use hapticore_model::blocks::core::Core;
+use hapticore_model::profile::Profile;
+use hapticore_rtl::board::framing::{self, Register, digest};
+use hapticore_rtl::board::packet::{Command, Heartbeat};
+use hapticore_rtl::board::startup::{AdcSetup, Range, StartupError, check, prepare, start};
+
+const SEED: u64 = 43;
+const ROUNDS: usize = 200;
+
+/// A board that has been sent what makes a sensor of it, and is not enabled.
+fn prepared(profile: &Profile, id: u8, setup: &AdcSetup) -> (Session, Vec<Command>) {
+    let commands = prepare(profile, &calibration(profile), setup);
+    let mut session = Session::new(profile, parameters(profile, 4, 0), &samples(profile, 9));
+    session.adc.part = Part::new(id);
+    session.send(&commands);
+    (session, commands)
+}
+
+/// What the board tells next that has begun after now.
+fn heartbeat(session: &mut Session) -> Heartbeat {
+    let before = session.heartbeats.len();
+    while session.heartbeats.len() < before + 2 {
+        session.clock();
+    }
+    *session.heartbeats.last().expect("two have come")
+}
+
+#[test]
+fn a_prepared_board_tells_what_it_is_and_has_set_up_its_adc() {
+    let profile = small();
+    let setup = AdcSetup {
+        ranges: [Range::V5, Range::V5, Range::V5, Range::V5, Range::V5, Range::V5, Range::V10, Range::V2_5],
+    };
+    let (mut session, commands) = prepared(&profile, 0x31, &setup);
+    let told = heartbeat(&mut session);
+    assert_eq!(check(&told, &profile, &calibration(&profile), (0, &commands)), Ok(()));
+    assert_eq!((told.version, told.digest(), told.adc_answer()), (framing::VERSION, digest(&profile), 0x31));
+    assert_eq!(session.adc.wrong, Vec::<&str>::new());
+    assert_eq!(session.adc.part.inputs(), ([0x11, 0x11, 0x11, 0x03], 0xff), "ranges, and 220 kHz everywhere");
+    assert_eq!((session.adc.part.lines(), session.adc.part.register_mode()), (8, false));
+    assert_eq!(session.adc.part.commands.len(), setup.words().len());
+    assert_eq!(session.adc.conversions, 0);
+}
+
+#[test]
+fn a_board_that_is_not_as_it_should_be_is_not_enabled() {
+    let profile = small();
+    let calibration = calibration(&profile);
+    for id in [0x14, 0x00, 0xff] {
+        let (mut session, commands) = prepared(&profile, id, &AdcSetup::default());
+        let told = heartbeat(&mut session);
+        assert_eq!(check(&told, &profile, &calibration, (0, &commands)), Err(StartupError::Adc(id)));
+    }
+    let (mut session, mut commands) = prepared(&profile, 0x22, &AdcSetup::default());
+    let told = heartbeat(&mut session);
+    assert_eq!(check(&told, &profile, &calibration, (0, &commands)), Ok(()), "as users of the AD7606C-16 report it");
+    let other = Profile { pads: 3, ..profile.clone() };
+    let error = check(&told, &other, &calibration, (0, &commands)).expect_err("another profile");
+    assert!(matches!(error, StartupError::Profile { .. }), "{error}");
+    let error = check(&told, &profile, &calibration, (0, &commands[1..])).expect_err("a command more");
+    assert!(matches!(error, StartupError::Commands { .. }), "{error}");
+    let wrong = Command::Register(Register::ForceGain, 5);
+    session.send(&[wrong]);
+    commands.push(wrong);
+    let error = check(&heartbeat(&mut session), &profile, &calibration, (0, &commands)).expect_err("another scale");
+    assert!(matches!(error, StartupError::Register { register: Register::ForceGain, got: 5, .. }), "{error}");
+}
+
+#[test]
+fn the_adc_takes_no_command_while_the_board_is_enabled() {
+    let profile = small();
+    let mut session = Session::new(&profile, parameters(&profile, 4, 0), &samples(&profile, 4));
+    let commands = start(&profile, &calibration(&profile));
+    session.send(&commands);
+    session.packets(1);
+    session.send(&[Command::Register(Register::Adc, 0x6f00)]);
+    let told = session.packets(3);
+    assert!(told.iter().any(|packet| packet.refused), "it is refused");
+    assert_eq!(told[2].commands, commands.len() as u8 % 16, "and not counted");
+    assert_eq!(session.adc.part.commands.len(), AdcSetup::default().words().len());
+}
+
+/// Slots of a pad, one after the other.
+fn tones(profile: &Profile, slots: usize) -> Vec<Vec<i32>> {
+    let mut random = Random::new(SEED);
+    let slot = |_| codes(profile, Sight::Tones, &mut random);
+    let codes: Vec<i32> = (0..slots).flat_map(slot).collect();
+    codes.chunks(profile.channels()).map(<[i32]>::to_vec).collect()
+}
+
+#[test]
+fn whenever_a_board_is_disabled_and_enabled_again_its_first_frame_is_whole() {
+    let profile = small();
+    let (calibration, samples) = (calibration(&profile), tones(&profile, 1_200));
+    let (slot, latency) = (profile.slot_clocks(), Core::new(&profile).latency());
+    let mut session = Session::new(&profile, parameters(&profile, 4, 0), &samples);
+    session.send(&start(&profile, &calibration));
+    let (mut random, mut commanded) = (Random::new(SEED), session.adc.part.commands.len());
+    for round in 0..ROUNDS {
+        session.run(random.below(2 * slot));
+        session.send(&[Command::DISABLE]);
+        if random.below(2) == 0 {
+            let words = AdcSetup::default().words();
+            let set_up: Vec<_> = words.iter().map(|&word| Command::Register(Register::Adc, word)).collect();
+            session.send(&set_up);
+            commanded += words.len();
+        }
+        session.run(latency + 2_000 + random.below(slot));
+        let (from, heard) = (session.adc.conversions, session.packets.len());
+        session.send(&[Command::ENABLE]);
+        let packet = session.packets(heard + 1)[heard];
+        let of_slot = &samples[from..from + profile.slot.samples() as usize];
+        assert_eq!(packet.frame, simulated(&profile, &calibration, of_slot)[0], "round {round}, from sample {from}");
+        assert!(!(packet.late || packet.refused || packet.overrun), "round {round}: {packet:?}");
+        assert_eq!(session.adc.part.commands.len(), commanded, "round {round}: nothing else was commanded");
+    }
+    assert_eq!(session.adc.wrong, Vec::<&str>::new());
+}
