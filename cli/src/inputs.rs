@@ -78,7 +78,7 @@ pub fn serving(profile: &Profile, pads: usize) -> Profile {
 /// A window that the profile's core cannot have.
 pub fn windowed(mut profile: Profile, scene: &Scene) -> Result<Profile> {
     if let Some(samples) = scene.window_samples {
-        profile.slot.integrate = samples;
+        profile = profile.with_window(samples);
         profile.check().with_context(|| format!("{}: window_samples", scene.name))?;
     }
     Ok(profile)
@@ -91,6 +91,6 @@ pub fn timing(profile: &Profile) -> Timing {
         slot_samples: profile.slot.samples() as usize,
         window_start: profile.slot.blanking() as usize,
         window_samples: profile.slot.integrate as usize,
-        samples_per_period: profile.carrier.samples_per_period as f64,
+        samples_per_period: profile.samples_per_period(),
     }
 }

@@ -65,10 +65,10 @@ fn check_rate(source: &dyn Source, device: &DeviceCalibration, profile: &Profile
     if let Some(got) = source.sample_rate_hz().filter(|got| !same(*got, rate)) {
         bail!("{}: sample_rate_hz: expected {rate}, as in the calibration, got {got}", source.place());
     }
-    let (samples, name) = (profile.carrier.samples_per_period, &profile.name);
+    let (samples, name) = (profile.samples_per_period(), &profile.name);
     ensure!(
-        same(rate, carrier * samples as f64),
-        "--profile {name}: carrier.samples_per_period: expected {}, as in the calibration, got {samples}",
+        same(rate, carrier * samples),
+        "--profile {name}: carrier: expected {} samples per period, as in the calibration, got {samples}",
         rate / carrier
     );
     Ok(())

@@ -87,7 +87,7 @@ fn calibration(profile: &Profile) -> Calibration {
 /// The codes of a slot: currents a quarter turn ahead of the sensing voltage, a slow haptic voltage.
 fn slot(profile: &Profile, level: f64) -> Vec<i32> {
     let full = -(profile.formats.adc.min_code() as f64);
-    let turn = TAU / profile.carrier.samples_per_period as f64;
+    let turn = TAU * profile.turns_per_sample();
     let mut codes = Vec::new();
     for n in 0..profile.slot.samples() {
         let phase = turn * n as f64;
@@ -129,7 +129,7 @@ fn idsp_amplitude(profile: &Profile, codes: &[i32], channel: usize) -> f64 {
     let lowpass: Lowpass2 = Lowpass([((gain * gain) >> 32) as i32, (-(gain as f64) * SQRT_2) as i32]);
     let lockin = Lockin(lowpass);
     let mut state: [LowpassState<2>; 2] = Default::default();
-    let step = (2f64.powi(32) / profile.carrier.samples_per_period as f64).round() as i64 as i32;
+    let step = (2f64.powi(32) * profile.turns_per_sample()).round() as i64 as i32;
     let shift = 32 - u32::from(profile.formats.adc.width);
     let mut phase = Wrapping(0i32);
     let mut out = (0, 0);

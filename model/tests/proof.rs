@@ -120,8 +120,10 @@ fn any_profile_that_is_accepted_elaborates_and_is_proved() {
 #[test]
 fn bad_profiles_say_what_was_expected() {
     for (key, value, words) in [
-        ("clocks_per_sample", "15", "clocks_per_sample: expected 24 to 65536, got 15"),
-        ("integrate", "501", "slot.integrate: expected whole carrier periods of 5 samples, got 501"),
+        ("clocks_per_sample", "12", "clocks_per_sample: expected 13 to 65536, got 12"),
+        ("integrate", "501", "slot.integrate: expected five samples of each of 100 periods, got 501"),
+        ("periods", "200", "carrier.periods: expected 2 to 166, got 200"),
+        ("amplitude", "140000", "carrier.amplitude: expected 32767 to 65535, got 140000"),
         ("settle", "2", "slot.settle: expected more than"),
         ("iq", "\"u14.13\"", "formats.iq: expected a signed format, got u14.13"),
         ("iq", "\"14.13\"", "expected a format such as \"s18.17\""),

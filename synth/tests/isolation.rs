@@ -8,7 +8,8 @@ use hapticore_synth::isolation::{Seen, State};
 
 /// A profile with slots as short as they may be: what happens within does not depend on their length.
 fn short(mut profile: Profile) -> Profile {
-    profile.slot.integrate = 2 * profile.carrier.samples_per_period;
+    let samples = 4 * profile.samples_per_period().round() as u64;
+    profile = profile.with_window(samples);
     profile.slot.open = 2;
     profile.slot.settle = 0;
     while profile.check().is_err() {

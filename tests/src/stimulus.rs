@@ -210,7 +210,7 @@ pub fn scene(profile: &Profile, name: &str, slots: usize) -> Stimulus {
         codes.chunks_exact(channels).map(|set| set.iter().map(|&code| code.into()).collect()).collect::<Vec<Vec<i64>>>()
     });
     let formats = Core::new(profile).inputs();
-    let words: Vec<_> = calibration.map.words.iter().map(|&word| formats.word.code_saturating(word)).collect();
+    let words: Vec<_> = calibration.position.words.iter().map(|&word| formats.word.code_saturating(word)).collect();
     Stimulus {
         constants: calibration.inputs(formats),
         formats,
@@ -229,7 +229,7 @@ pub fn scene(profile: &Profile, name: &str, slots: usize) -> Stimulus {
 /// slots they begin late: of a tone that lasts, a window's cosine adds nothing to the sum, whatever its sign.
 pub fn tones(profile: &Profile, seed: u64, slots: u64) -> Stimulus {
     let (mut rng, channels, adc) = (Rng::with_seed(!seed), profile.channels(), profile.formats.adc);
-    let (samples, period) = (profile.slot.samples(), profile.carrier.samples_per_period);
+    let (samples, turns_per_sample) = (profile.slot.samples(), profile.turns_per_sample());
     let tone = |rng: &mut Rng| (rng.f64(), [0.0, 0.01, 0.1, 0.5, 0.9, 1.0, 3.0][rng.usize(..7)]);
     let mut onsets = Rng::with_seed(seed ^ 1 << 32);
     let slot = move |_| {
@@ -240,7 +240,7 @@ pub fn tones(profile: &Profile, seed: u64, slots: u64) -> Stimulus {
             tones.iter_mut().for_each(|(phase, _)| *phase = one);
         }
         (0..samples).map(move |sample| {
-            let turns = sample as f64 / period as f64;
+            let turns = sample as f64 * turns_per_sample;
             let code = |&(phase, level): &(f64, f64)| match sample < onset {
                 true => 0,
                 false => adc.code_saturating(level * (TAU * (turns + phase)).cos()),
@@ -256,7 +256,7 @@ pub fn tones(profile: &Profile, seed: u64, slots: u64) -> Stimulus {
 pub fn random(profile: &Profile, seed: u64, slots: u64) -> Stimulus {
     let mut rng = Rng::with_seed(seed);
     let core = Core::new(profile);
-    let memory = core.estimator().map().words().clone();
+    let memory = core.estimator().position().table().clone();
     let constants = Inputs::map(core.inputs(), |format| corner(&mut rng, format));
     let table: Vec<i64> = (0..memory.words).map(|_| corner(&mut rng, memory.format)).collect();
     let (channels, adc, disturb) = (profile.channels(), profile.formats.adc, (rng.fork(), memory));

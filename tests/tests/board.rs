@@ -41,8 +41,9 @@ fn shortened(target: Target) -> Profile {
     let mut profile = target.profile();
     profile.slot.open = 2;
     profile.slot.settle = 420;
-    profile.slot.integrate = 4 * profile.carrier.samples_per_period;
-    (profile.map.edge_address, profile.map.spacing_address, profile.map.table_address) = (4, 4, 2);
+    let samples = 4 * profile.samples_per_period().round() as u64;
+    profile = profile.with_window(samples);
+    (profile.position.columns, profile.position.rows) = (9, 7);
     profile.check().expect("a profile");
     profile
 }

@@ -19,7 +19,7 @@ use hapticore_model::blocks::currents::Currents;
 use hapticore_model::blocks::demodulator::Demodulator;
 use hapticore_model::blocks::force::Force;
 use hapticore_model::blocks::haptic_voltage::HapticVoltage;
-use hapticore_model::blocks::map::Map;
+use hapticore_model::blocks::position::Position;
 use hapticore_model::blocks::ratio::Ratio;
 use hapticore_model::profile::Profile;
 use hapticore_rtl::verilog::Design;
@@ -45,11 +45,11 @@ fn alone<B: Block>(block: &B, operations: usize, words: i64, clocks: u32) -> Alo
 
 /// The blocks that compute, each alone.
 fn blocks(profile: &Profile) -> Vec<Alone> {
-    let (currents, map, words) = (Currents::new(profile), Map::new(profile), 2 * (profile.channels() as i64 - 1));
+    let (currents, position, words) = (Currents::new(profile), Position::new(profile), 2 * (profile.channels() as i64 - 1));
     let amplitudes = currents.outputs();
     vec![
         alone(&Demodulator::new(profile), 2000, 0, 24),
-        alone(&map, 3000, map.words().words as i64, 3),
+        alone(&position, 600, position.table().words as i64, 3),
         alone(&currents, 200, words, 3),
         alone(&HapticVoltage::new(profile), 1000, words, 3),
         alone(&Ratio::new(profile, (amplitudes.x, amplitudes.corners)), 800, 0, 3),

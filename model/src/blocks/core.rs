@@ -131,7 +131,7 @@ impl Core {
 
     /// Clocks from the strobe of a window's last sample to the last word of its frame.
     pub fn latency(&self) -> u64 {
-        1 + Oscillator::LATENCY + self.demodulator.latency() + self.estimator.latency()
+        1 + self.oscillator.latency() + self.demodulator.latency() + self.estimator.latency()
     }
 }
 
@@ -196,6 +196,7 @@ impl Block for Core {
             cosine: oscillator.cosine,
             sine: oscillator.sine,
             window: oscillator.window,
+            phase: oscillator.phase,
         };
         let demodulator = self.demodulator.call("demodulator", &mut parts.demodulator, inputs);
         let inputs = estimator::Inputs {

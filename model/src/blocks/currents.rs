@@ -19,13 +19,15 @@
 //! Latency: (terminals + 2) · (6 products + root + 1) + 1 clocks from the last sum (the mean square's) to `done`. Source: paper,
 //! eqs. 2–5; the sum is that of all terminals' complex currents, for the corners alone carry only a part (PHYSICS §1).
 
+mod block;
+
 use super::multiplier::{self, Multiplier};
 use super::root::{self, Root};
 use crate::block::{Block, Cell};
 use crate::format::{BIT, Format};
 use crate::memory::{Memory, Write};
 use crate::profile::Profile;
-use crate::signal::{Exact, HalfEven, Lemma, Never, Signal, Value, Wrap, bit, int, zero};
+use crate::signal::{Exact, Floor, HalfEven, Lemma, Never, Signal, Value, Wrap, bit, int, zero};
 use crate::{bundle, choose, parts, when};
 
 bundle! {
@@ -65,9 +67,13 @@ bundle! {
 bundle! {
     /// The registers.
     pub struct Registers {
-        step: ["idle", "read", "in_phase", "read_quadrature", "quadrature", "square", "power", "root"],
+        step: [
+            "idle", "read", "in_phase", "read_quadrature", "quadrature", "square", "power", "root",
+            "align_read", "align_load", "align_move", "align_keep", "restore",
+        ],
         arrived, place, word, waited, channel, total_i, total_q, part, power, root_start,
         sense, x, y, corners, least, saturated, done,
+        long, count, limit, other, quadrature, aligning, whole, lost,
     }
 }
 
@@ -93,7 +99,14 @@ pub struct Currents {
     shift: i8,
     sum: Format,
     iq: Format,
+    /// Of the sums over all terminals.
     total: Format,
+    /// Of what is squared.
+    part: Format,
+    /// Bits by which words may be moved up, together; none where they all have one point.
+    block: u8,
+    /// The amplitudes that are given out.
+    given: Format,
     registers: Registers<Format>,
 }
 
@@ -102,24 +115,30 @@ const SQUARE: &str = "a square is not negative";
 impl Currents {
     /// The currents of a profile.
     pub fn new(profile: &Profile) -> Self {
-        let (iq, total) = (profile.formats.iq, profile.formats.total);
+        let (iq, block) = (profile.formats.iq, profile.formats.block_shift);
         let terminals = profile.terminals.x.len() as u64;
-        let power = Format::unsigned(2 * total.width, 2 * total.frac);
-        let root = Root::new(power, total.frac);
+        let (part, total) = match block {
+            0 => (profile.formats.total, profile.formats.total),
+            _ => (iq, Format::signed(iq.width + Format::counter(terminals).width, iq.frac)),
+        };
+        let wide = Format::signed(iq.width + block, iq.frac + block as i8);
+        let power = Format::unsigned(2 * part.width, 2 * part.frac);
+        let root = Root::new(power, part.frac);
         let amplitude = root.root();
         let sums = Format::signed(amplitude.width + 1 + Format::counter(terminals).width, amplitude.frac);
         let channels = terminals + 1;
-        let words = Memory::new("words", 2 * channels as usize, iq).never_colliding();
+        let demodulator = super::demodulator::Demodulator::new(profile);
+        let words = Memory::new("words", (2 * channels + 2).next_power_of_two() as usize, wide).never_colliding();
         let registers = Registers {
-            step: Format::unsigned(3, 0),
+            step: Format::unsigned(if block == 0 { 3 } else { 4 }, 0),
             arrived: BIT,
             place: words.address(),
-            word: iq,
+            word: wide,
             waited: BIT,
             channel: Format::counter(channels),
             total_i: total,
             total_q: total,
-            part: total,
+            part,
             power,
             root_start: BIT,
             sense: amplitude,
@@ -129,25 +148,36 @@ impl Currents {
             least: amplitude,
             saturated: BIT,
             done: BIT,
+            long: wide,
+            count: Format::counter(block.into()),
+            limit: Format::counter(block.into()),
+            other: Format::counter(block.into()),
+            quadrature: BIT,
+            aligning: BIT,
+            whole: Format::unsigned(amplitude.width + Format::counter(terminals).width, amplitude.frac),
+            lost: BIT,
         };
         Currents {
             words,
-            multiplier: Multiplier::new(total.integer(), total.integer(), profile.multiplier),
+            multiplier: Multiplier::new(part.integer(), part.integer(), profile.multiplier),
             root,
             terminals,
             signs: [profile.terminals.x.clone(), profile.terminals.y.clone()],
             lost_shift: profile.terminals.lost_shift,
-            shift: profile.sum_shift(),
-            sum: super::demodulator::Demodulator::new(profile).sum(),
+            shift: profile.sum_shift() - demodulator.shift(),
+            sum: demodulator.sum(),
             iq,
             total,
+            part,
+            block,
+            given: if block == 0 { amplitude } else { profile.amplitude_format() },
             registers,
         }
     }
 
     /// The format of an amplitude.
     pub fn amplitude(&self) -> Format {
-        self.registers.sense
+        self.given
     }
 
     /// The formats of the numerators and of the denominator of eqs. 2 and 3.
@@ -157,21 +187,24 @@ impl Currents {
 
     /// Clocks from the last sum to `done`.
     pub fn latency(&self) -> u64 {
-        (self.terminals + 2) * (6 * self.multiplier.latency() + self.root.latency() + 1) + 1
+        (self.terminals + 2) * (6 * self.multiplier.latency() + self.root.latency() + 1) + 1 + self.block_latency()
     }
 
     /// The in-phase or quadrature word of a sum, and whether it is held at a rail.
     #[inline(always)]
     fn word<V: Value>(&self, sum: Signal<V>) -> (Signal<V>, Signal<V>) {
-        sum.scaled(-self.shift).saturate(self.iq, HalfEven)
+        let rounding = if self.block == 0 { HalfEven } else { Floor };
+        sum.scaled(-self.shift).saturate(self.wide(), rounding)
     }
 
     /// A sum arrives: its word goes into the memory, and with the last the loop over channels begins.
     #[inline(always)]
     fn take<V: Value>(&self, r: Registers<Signal<V>>, i: Inputs<Signal<V>>, held: Signal<V>) -> Registers<Signal<V>> {
         let among = i.index.less_than(int(2 * (self.terminals + 1)));
+        let begin = if self.block == 0 { int(1) } else { int(block::READ) };
+        let r = if self.block == 0 { r } else { self.unaligned(r) };
         Registers {
-            step: i.index.is(2 * self.terminals + 1).select(int(1), r.step),
+            step: i.index.is(2 * self.terminals + 2).select(begin, r.step),
             waited: bit(false),
             channel: int(0),
             total_i: zero(self.total),
@@ -199,16 +232,19 @@ impl Currents {
         let at = |step: u64| r.step.is(step);
         let all = r.channel.is(self.terminals + 1);
         let terminal = r.channel.less_than(int(self.terminals));
-        let square = product.fit(self.square(), Exact, Lemma(SQUARE)).scaled(-2 * self.total.frac);
+        let square = product.fit(self.square(), Exact, Lemma(SQUARE)).scaled(-2 * self.part.frac);
         let power = at(6).select(r.power + square, square).fit(r.power.format, Exact, Never);
         let adds = ((at(3) | at(5)) & terminal).named("adds");
         let (more, held) = self.more(&r);
         let rooted = (at(7) & root.done).named("rooted");
         let r = when!(V, Registers, rooted, self.sum_up(r, root.root), r);
-        let part = at(2).select(all.select(r.total_i, word), at(4).select(all.select(r.total_q, word), r.part));
+        let total = |total: Signal<V>| if self.block == 0 { total } else { self.narrow_total(total) };
+        let (in_phase, quadrature) = (all.select(total(r.total_i), word), all.select(total(r.total_q), word));
+        let part = at(2).select(in_phase, at(4).select(quadrature, r.part));
+        let after = if self.block == 0 { int(0) } else { int(block::RESTORE) };
         let following = at(7).select(r.step, r.step + int(1));
         Registers {
-            step: rooted.select(all.select(int(0), int(1)), following).fit(r.step.format, Exact, Wrap),
+            step: rooted.select(all.select(after, int(1)), following).fit(r.step.format, Exact, Wrap),
             waited: bit(false),
             // The totals change places with every addition: one adder, one register that takes its result.
             total_i: adds.select(r.total_q, r.total_i),
@@ -220,7 +256,7 @@ impl Currents {
             },
             root_start: at(6),
             saturated: r.saturated | (adds & held),
-            done: rooted & all,
+            done: if self.block == 0 { rooted & all } else { bit(false) },
             ..r
         }
     }
@@ -246,6 +282,8 @@ impl Currents {
         let [x, y] = &self.signs;
         Registers {
             channel: (r.channel + int(1)).fit(r.channel.format, Exact, Wrap),
+            whole: self.whole(&r, amplitude),
+            lost: self.lost(&r, amplitude),
             sense: r.channel.is(self.terminals).select(amplitude, r.sense),
             x: with(r.x, &|k| x[k]),
             y: with(r.y, &|k| y[k]),
@@ -263,9 +301,61 @@ impl Currents {
 
     #[inline(always)]
     fn results<V: Value>(&self, r: &Registers<Signal<V>>, total: Signal<V>) -> Outputs<Signal<V>> {
-        let lost = r.least.scaled(self.lost_shift).less_than(total);
-        let Registers { done, sense, x, y, corners, saturated, .. } = *r;
-        Outputs { done, total, sense, x, y, corners, lost, saturated }
+        let Registers { done, x, y, corners, .. } = *r;
+        if self.block == 0 {
+            let lost = r.least.scaled(self.lost_shift).less_than(total);
+            return Outputs { done, total, sense: r.sense, x, y, corners, lost, saturated: r.saturated };
+        }
+        let ((total, beyond), (sense, too)) = (self.rounded(r.whole), self.rounded(r.sense));
+        Outputs { done, total, sense, x, y, corners, lost: r.lost, saturated: r.saturated | beyond | too }
+    }
+
+    /// The total's amplitude, to be moved back.
+    #[inline(always)]
+    fn whole<V: Value>(&self, r: &Registers<Signal<V>>, amplitude: Signal<V>) -> Signal<V> {
+        if self.block == 0 { r.whole } else { amplitude.scaled(self.down()).fit(r.whole.format, Exact, Never) }
+    }
+
+    /// Whether a terminal's amplitude is too small for this total's, before that is moved back.
+    #[inline(always)]
+    fn lost<V: Value>(&self, r: &Registers<Signal<V>>, amplitude: Signal<V>) -> Signal<V> {
+        if self.block == 0 {
+            return r.lost;
+        }
+        r.least.scaled(self.lost_shift).less_than(amplitude.scaled(self.down()))
+    }
+}
+
+impl Currents {
+    /// A clock on the way from words to results.
+    #[inline(always)]
+    fn busy<V: Value>(
+        &self,
+        r: Registers<Signal<V>>,
+        data: Signal<V>,
+        product: Signal<V>,
+        root: root::Outputs<Signal<V>>,
+    ) -> Registers<Signal<V>> {
+        let waits = Registers { waited: bit(true), ..r };
+        let acts = self.multiplier.paces(r.waited) | r.step.is(7);
+        if self.block == 0 {
+            return when!(V, Registers, acts, self.step(r, data.aligned(r.part.format), product, root), waits);
+        }
+        let aligns = r.step.at_least(int(block::READ)) & r.step.less_than(int(block::RESTORE));
+        let restores = r.step.is(block::RESTORE);
+        when!(
+            V,
+            Registers,
+            aligns,
+            self.align(r, data),
+            when!(
+                V,
+                Registers,
+                restores,
+                self.restore(r),
+                when!(V, Registers, acts, self.step(r, self.narrow(data), product, root), waits)
+            )
+        )
     }
 }
 
@@ -283,14 +373,14 @@ impl Block for Currents {
 
     #[inline]
     fn outputs(&self) -> Outputs<Format> {
-        let Registers { done, sense, x, y, corners, saturated, .. } = self.registers;
-        Outputs { done, total: sense, sense, x, y, corners, lost: BIT, saturated }
+        let Registers { done, x, y, corners, saturated, .. } = self.registers;
+        Outputs { done, total: self.given, sense: self.given, x, y, corners, lost: BIT, saturated }
     }
 
     #[inline(always)]
     fn registers(&self) -> Registers<Format> {
-        let (r, total) = (self.registers, self.total);
-        let amplitude = |format: Format| format.with_point(total.frac);
+        let (r, total, part) = (self.registers, self.total, self.part);
+        let amplitude = |format: Format| format.with_point(part.frac);
         Registers {
             done: BIT,
             root_start: BIT,
@@ -300,16 +390,24 @@ impl Block for Currents {
             waited: BIT,
             step: r.step.counting(),
             channel: r.channel.counting(),
-            word: self.iq,
+            word: self.wide(),
             total_i: total,
             total_q: total,
-            part: total,
-            power: r.power.with_point(2 * total.frac),
+            part,
+            power: r.power.with_point(2 * part.frac),
             sense: amplitude(r.sense),
             x: amplitude(r.x),
             y: amplitude(r.y),
             corners: amplitude(r.corners),
             least: amplitude(r.least),
+            long: self.wide(),
+            count: r.count.counting(),
+            limit: r.limit.counting(),
+            other: r.other.counting(),
+            quadrature: BIT,
+            aligning: BIT,
+            whole: amplitude(r.whole),
+            lost: BIT,
         }
     }
 
@@ -329,24 +427,31 @@ impl Block for Currents {
         let inputs = multiplier::Inputs { enable: busy, left: r.part.integer(), right: r.part.integer() };
         let product = self.multiplier.call("multiplier", &mut cell.parts.multiplier, inputs).product;
         let among = i.index.less_than(int(2 * (self.terminals + 1))).named("among");
-        let data = self.words.data(&mut cell.parts.words).aligned(r.part.format);
-        let address = r.channel.concat(!r.step.less_than(int(3)));
+        let data = self.words.data(&mut cell.parts.words);
+        let second = !r.step.less_than(int(3));
+        let second = if self.block == 0 { second } else { r.step.less_than(int(8)).select(second, r.quadrature) };
+        let address = r.channel.concat(second);
         let address = address.bits(0, self.words.address().width);
         let write = Write { enable: r.arrived, address: r.place, data: r.word };
         self.words.access(&mut cell.parts.words, address, write);
         let idle = Registers { done: bit(false), root_start: bit(false), ..r };
-        let waits = Registers { waited: bit(true), ..idle };
-        let acts = self.multiplier.paces(r.waited) | r.step.is(7);
         let next = when!(
             V,
             Registers,
             i.valid,
             self.take(idle, i, held),
-            when!(V, Registers, busy, when!(V, Registers, acts, self.step(idle, data, product, root), waits), idle)
+            when!(V, Registers, busy, self.busy(idle, data, product, root), idle)
         );
         let arrived = i.valid & among;
         let place = i.index.bits(0, self.words.address().width);
         let (place, word) = (arrived.select(place, r.place), choose!(V, arrived, word, r.word));
+        let (arrived, place, word) = if self.block == 0 {
+            (arrived, place, word)
+        } else {
+            let (moved, keeps) = self.moved(&r);
+            let here = r.channel.concat(r.quadrature).bits(0, self.words.address().width);
+            (arrived | keeps, keeps.select(here, place), choose!(V, keeps, moved.fit(word.format, Exact, Never), word))
+        };
         cell.store(self, Registers { arrived, place, word, ..next });
         outputs
     }

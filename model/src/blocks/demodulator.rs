@@ -21,14 +21,16 @@
 //! q is positive where the channel lags. The answer to `channel` is expected a clock later as `code`. Latency: products + 3
 //! clocks from `start` to the last sum. Source: paper, eqs. 1 and 5, detected synchronously; PHYSICS §5 for the window.
 
+mod polyphase;
+
+pub(crate) use self::polyphase::{GAIN as POLYPHASE_GAIN, Polyphase};
 use super::multiplier::{self, Multiplier};
-use super::oscillator::Oscillator;
 use crate::block::{Block, Cell};
 use crate::format::{BIT, Format, MAX_WIDTH};
 use crate::memory::{Memory, Write};
-use crate::profile::Profile;
-use crate::signal::{Exact, HalfEven, Never, Signal, Value, bit, code, int, zero};
-use crate::{bundle, choose, next, parts};
+use crate::profile::{Method, Profile};
+use crate::signal::{Exact, Floor, HalfEven, Never, Signal, Value, bit, code, int, zero};
+use crate::{bundle, choose, next, parts, when};
 
 bundle! {
     /// The inputs.
@@ -49,6 +51,8 @@ bundle! {
         sine,
         /// The oscillator's.
         window,
+        /// The oscillator's.
+        phase,
     }
 }
 
@@ -74,8 +78,9 @@ bundle! {
     /// The registers.
     pub struct Registers {
         busy, step, first, last, pad,
-        left, right, weighted,
+        left, right, weighted, residue, other_residue,
         valid, summed, index, sum, clipped,
+        fresh, phase, reading, beat, tap, high, part, channel,
     }
 }
 
@@ -91,20 +96,25 @@ parts! {
 /// The configuration.
 #[derive(Debug, Clone)]
 pub struct Demodulator {
-    multiplier: Multiplier,
+    pub(super) multiplier: Multiplier,
     weights: Memory,
-    sums: Memory,
+    pub(super) sums: Memory,
     /// Channels with two sums each: the terminals and the sensing voltage. The haptic voltage is the one after.
-    channels: u64,
-    adc: Format,
-    oscillator: Format,
+    pub(super) channels: u64,
+    pub(super) adc: Format,
+    pub(super) oscillator: Format,
     /// The ADC's largest and smallest codes.
     rails: [i64; 2],
-    operand: Format,
+    /// Operands of the multiplier, and their product: the point of both is known here.
+    pub(super) operand: Format,
+    /// Where the sums' point is.
+    point: i8,
     channel: Format,
     step: Format,
     index: Format,
     pad: Format,
+    /// Where sums are kept by phase: what is particular to that.
+    pub(super) polyphase: Option<Polyphase>,
 }
 
 /// Products before those of the channels: window times cosine, sine and haptic code.
@@ -117,33 +127,42 @@ impl Demodulator {
     pub fn new(profile: &Profile) -> Self {
         let (adc, oscillator) = (profile.formats.adc, profile.formats.oscillator);
         let channels = profile.demodulated();
-        let operand = adc.join(oscillator);
-        let product = operand.product(operand);
-        let growth = 64 - (profile.slot.integrate - 1).leading_zeros() as u8;
-        let sum = Format::signed(product.width - 1 + growth, product.frac);
-        let steps = WEIGHING + 2 * channels + 1 + PIPELINE;
-        let words = 2 * channels + 1;
+        let polyphase = (profile.carrier.method == Method::Polyphase).then(|| Polyphase::new(profile));
+        // Of products with nothing to join, two more are looked at.
+        let products = if polyphase.is_some() { profile.slot.integrate + 2 } else { profile.slot.integrate };
+        let growth = 64 - (products - 1).leading_zeros() as u8;
+        let operand = if polyphase.is_some() { polyphase::OPERAND } else { adc.join(oscillator) };
+        let product = if polyphase.is_some() { polyphase::PRODUCT } else { operand.product(operand) };
+        let sum =
+            Format::signed(product.width - u8::from(product.signed) + growth + u8::from(!product.signed), product.frac);
+        let sums = 2 * channels + 1;
+        let words = polyphase.as_ref().map_or(sums, |polyphase| polyphase.words());
+        let steps = if polyphase.is_some() { channels + 2 } else { WEIGHING + sums } + PIPELINE;
         Demodulator {
             // In one clock whatever its width: products keep pace with the channels.
             multiplier: Multiplier::new(operand.integer(), operand.integer(), MAX_WIDTH),
-            weights: Memory::new("weights", WEIGHING as usize, operand).never_colliding().in_block(),
-            sums: Memory::new("sums", words as usize, sum).never_colliding(),
+            weights: Memory::new("weights", WEIGHING.next_power_of_two() as usize, operand)
+                .never_colliding()
+                .in_block(),
+            sums: Memory::new("sums", words.next_power_of_two() as usize, sum).never_colliding(),
             channels,
             adc,
             oscillator,
             rails: [adc.max_code(), adc.min_code()].map(|rail| rail as i64),
             operand,
+            point: product.frac,
             channel: Format::counter(channels),
             step: Format::counter(steps - 1),
-            index: Format::counter(words - 1),
+            index: Format::counter(words.max(sums) - 1),
             pad: Format::counter(profile.pads - 1),
+            polyphase,
         }
     }
 
     /// The format of a sum.
     #[inline(always)]
     pub fn sum(&self) -> Format {
-        self.sums.format.with_point(2 * self.operand.frac)
+        self.sums.format.with_point(self.point)
     }
 
     /// The sums of a window.
@@ -151,25 +170,62 @@ impl Demodulator {
         2 * self.channels + 1
     }
 
+    /// What is particular to polyphase sums, where they are used.
+    pub(crate) fn polyphase(&self) -> Option<&Polyphase> {
+        self.polyphase.as_ref()
+    }
+
+    /// Bits by which in-phase and quadrature sums come smaller than the sum of squares does.
+    pub fn shift(&self) -> i8 {
+        self.polyphase.as_ref().map_or(0, |polyphase| polyphase.dropped as i8)
+    }
+
     /// Clocks from `start` to the last sum's `valid`.
     pub fn latency(&self) -> u64 {
-        self.steps() + 1
+        self.steps() + 1 + if self.polyphase.is_some() { polyphase::read_out(self.channels) } else { 0 }
     }
 
     /// The fewest clocks from one sample to the next: the last code is asked for while it is there.
     pub fn least_clocks_per_sample(&self) -> u64 {
-        let asks = 2 + Oscillator::LATENCY + WEIGHING + self.sums();
-        asks.max(self.latency())
+        let asks = 2 + if self.polyphase.is_some() { 2 } else { 4 } + self.steps() - PIPELINE;
+        asks.max(self.steps() + 1)
     }
 
-    fn steps(&self) -> u64 {
-        WEIGHING + self.sums() + PIPELINE
+    pub(super) fn steps(&self) -> u64 {
+        PIPELINE + if self.polyphase.is_some() { self.channels + 2 } else { WEIGHING + self.sums() }
     }
 
-    /// A sample's share of the window: the local oscillator or the haptic code, times the window.
+    /// The haptic code's share of the window: its product with the window.
     #[inline(always)]
-    pub fn weigh<V: Value>(&self, product: Signal<V>, to: Format) -> Signal<V> {
-        product.fit(to, HalfEven, Never)
+    pub fn weigh<V: Value>(&self, product: Signal<V>) -> Signal<V> {
+        product.fit(self.adc, HalfEven, Never)
+    }
+
+    /// The local oscillator at a sample, windowed: the product to the nearest word, with what the samples before have left
+    /// over; and what it leaves to the next. So rounding has no share at low frequencies.
+    #[inline(always)]
+    pub fn carry<V: Value>(&self, product: Signal<V>, residue: Signal<V>) -> (Signal<V>, Signal<V>) {
+        let sum = (product + residue).named("carried");
+        let word = sum.fit(self.oscillator, Floor, Never).ideally(&[product], |of| of[0]);
+        let rest = sum.bits(0, residue.format.width).scaled(-residue.format.frac);
+        (word, rest.ideally(&[], |_| 0.0))
+    }
+
+    /// What is left over before a window's first sample: half a word, so that words are the nearest.
+    #[inline(always)]
+    pub fn fresh_residue<V: Value>(&self) -> Signal<V> {
+        let format = self.residue();
+        code(1 << (format.width - 1), format)
+    }
+
+    /// The format of what rounding leaves over.
+    #[inline(always)]
+    fn residue(&self) -> Format {
+        if self.polyphase.is_some() {
+            return BIT;
+        }
+        let frac = 2 * self.operand.frac;
+        Format::unsigned((frac - self.oscillator.frac) as u8, frac)
     }
 
     /// A sum with one more product; a window's first product begins it.
@@ -224,29 +280,40 @@ impl Demodulator {
         weight
     }
 
-    /// While there are weights to be made, the one that the product is.
+    /// While there are weights to be made, the one that the product is: of cosine, sine, and the haptic code. The residues of
+    /// cosine and sine change places with each.
     #[inline(always)]
-    fn weighted<V: Value>(&self, r: &Registers<Signal<V>>, product: Signal<V>) -> Signal<V> {
-        let made = r.step - int(PIPELINE);
-        let weighing = r.step.at_least(int(PIPELINE)) & made.less_than(int(WEIGHING));
-        choose!(V, weighing, self.made(r, product), r.weighted)
-    }
-
-    /// The weight that a product is: the haptic code's comes last.
-    #[inline(always)]
-    fn made<V: Value>(&self, r: &Registers<Signal<V>>, product: Signal<V>) -> Signal<V> {
-        let to = |format: Format| self.weigh(product, format).fit(r.weighted.format, Exact, Never);
-        if self.adc == self.oscillator {
-            return to(self.adc);
+    fn weighted<V: Value>(&self, r: Registers<Signal<V>>, product: Signal<V>) -> Registers<Signal<V>> {
+        let of_wave = (r.step.is(PIPELINE) | r.step.is(PIPELINE + 1)).named("of_wave");
+        let of_haptic = r.step.is(PIPELINE + WEIGHING - 1);
+        let residue = r.first.select(self.fresh_residue(), r.residue);
+        let (wave, rest) = self.carry(product, residue);
+        let word = |word: Signal<V>| word.fit(r.weighted.format, Exact, Never);
+        Registers {
+            weighted: choose!(V, of_haptic, word(self.weigh(product)), word(wave)),
+            residue: of_wave.select(r.other_residue, r.residue),
+            other_residue: of_wave.select(rest, r.other_residue),
+            ..r
         }
-        let haptic = r.step.is(PIPELINE + WEIGHING - 1);
-        choose!(V, haptic, to(self.adc), to(self.oscillator))
     }
 
     #[inline(always)]
     fn begin<V: Value>(&self, r: Registers<Signal<V>>, i: Inputs<Signal<V>>) -> Registers<Signal<V>> {
         let clipped = i.first.select(bit(false), r.clipped);
-        Registers { busy: bit(true), step: int(0), first: i.first, last: i.last, pad: i.pad, clipped, ..r }
+        // Polyphase: a window's first five samples begin the sums of their phases.
+        let fresh = i.first | (r.fresh & !i.phase.is(0));
+        let phase = i.phase;
+        Registers {
+            busy: bit(true),
+            step: int(0),
+            first: i.first,
+            last: i.last,
+            pad: i.pad,
+            clipped,
+            fresh,
+            phase,
+            ..r
+        }
     }
 
     #[inline(always)]
@@ -261,12 +328,13 @@ impl Demodulator {
         let (left, right) = self.operands(&r, &i, weight);
         let uses_code = r.step.at_least(int(WEIGHING - 1)) & r.step.less_than(int(WEIGHING + self.sums()));
         let end = r.step.is(self.steps() - 1);
+        let weighing = r.step.at_least(int(PIPELINE)) & r.step.less_than(int(PIPELINE + WEIGHING));
+        let r = when!(V, Registers, weighing, self.weighted(r, product), r);
         Registers {
             busy: !end,
             step: end.select(int(0), r.step + int(1)).fit(r.step.format, Exact, Never),
             left,
             right,
-            weighted: self.weighted(&r, product),
             valid: summed & r.last,
             summed,
             index,
@@ -287,12 +355,14 @@ impl Block for Demodulator {
     #[inline]
     fn inputs(&self) -> Inputs<Format> {
         let (pad, code, wave) = (self.pad, self.adc, self.oscillator);
-        Inputs { start: BIT, first: BIT, last: BIT, pad, code, cosine: wave, sine: wave, window: wave }
+        let phase = self.registers().phase;
+        Inputs { start: BIT, first: BIT, last: BIT, pad, code, cosine: wave, sine: wave, window: wave, phase }
     }
 
     #[inline]
     fn outputs(&self) -> Outputs<Format> {
-        let Registers { valid, index, sum, pad, clipped, .. } = self.registers();
+        let Registers { valid, sum, pad, clipped, .. } = self.registers();
+        let index = Format::counter(self.sums() - 1);
         Outputs { channel: self.channel, valid, index, sum, pad, clipped }
     }
 
@@ -309,16 +379,29 @@ impl Block for Demodulator {
             left: operand,
             right: operand,
             weighted: operand,
+            residue: self.residue(),
+            other_residue: self.residue(),
             valid: BIT,
             summed: BIT,
             index,
             sum: self.sum(),
             clipped: BIT,
+            fresh: BIT,
+            phase: if self.polyphase.is_some() { polyphase::PHASE } else { BIT },
+            reading: BIT,
+            beat: polyphase::BEAT,
+            tap: polyphase::PHASE,
+            high: BIT,
+            part: BIT,
+            channel: self.channel.counting(),
         }
     }
 
     #[inline(always)]
     fn clock<V: Value>(&self, cell: &mut Cell<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+        if let Some(polyphase) = &self.polyphase {
+            return self.clock_polyphase(polyphase, cell, i);
+        }
         let r = cell.load(self);
         let channel = self.channel(&r);
         let outputs = Outputs { channel, valid: r.valid, index: r.index, sum: r.sum, pad: r.pad, clipped: r.clipped };

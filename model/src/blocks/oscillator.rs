@@ -2,28 +2,33 @@
 //! Oscillator (NCO): for every sample the cosine and sine of the carrier, and the window.
 //!
 //! ```text
-//! φ[n] = n · periods / samples,   w[n] = sin²(π m / N) = (1 − cos 2π m/N) / 2 for sample m of the window   (turns; Hann)
+//! φ[n] = n · periods / N,   w[m] = sin²(π m / N) = (1 − cos 2π m/N) / 2 for sample m of the window's N   (turns; Hann)
 //! ```
 //!
 //! ```text
-//! phase u32.32 ─quadrant 2─┐
-//!              └─address──[quarter wave]──[wave]──(±)── window, then cosine, then sine
+//! phase ─ quadrant ───────┐
+//!       └ rest ─(N/4 − )?─[quarter wave]──[wave]──(±)── window, then cosine, then sine
 //! ```
 //!
-//! | signal             | format     | unit           | overflow                                  |
-//! | phase, window_phase | u32.32    | turn           | wraps, meant                              |
-//! | cosine, sine, window | profile  | full amplitude | the table's largest code stands for one |
+//! | signal               | format            | unit           | overflow                            |
+//! | quadrant, phase      | 2 bits, 0 … N/4−1 | 1/4, 1/N turn  | counts modulo N                     |
+//! | cosine, sine, window | profile           | full amplitude | the profile's amplitude stands for one |
 //!
-//! The phase begins anew with each slot, so that every slot sees the same carrier. Entries lie at the middles of their
-//! steps, (k + ½) / 4·2^a turns: the wave is symmetric and a constant half step late. Latency: 4 clocks from `sample` to
-//! `ready`. Source: PHYSICS §5 (sine table, Hann window).
+//! A phase counts modulo the window's samples, so that the quarter wave has an entry for each phase that there is, and no
+//! other: none is truncated. The bit that the window's halving drops is carried to the next sample. The phase begins anew
+//! with each slot, so that every slot sees the same carrier.
+//!
+//! A polyphase demodulator needs the window and the number of the phase only: the table then holds half a window, whose other
+//! half is its mirror image, and the carrier is one of five constants.
+//!
+//! Latency: 4 clocks from `sample` to `ready`, polyphase 2. Source: paper, eq. 5; Harris, Proc. IEEE 66 (1978) 51, for the window.
 
 use crate::block::{Block, Cell};
 use crate::format::{BIT, Format};
 use crate::memory::Memory;
-use crate::profile::{Profile, Window};
-use crate::signal::{Exact, HalfEven, Saturate, Signal, Value, Wrap, bit, code, int, zero};
-use crate::{bundle, choose, next, parts};
+use crate::profile::{Method, Profile, Window};
+use crate::signal::{Exact, Floor, Never, Signal, Value, Wrap, bit, code, int, zero};
+use crate::{bundle, next, parts};
 use std::f64::consts::TAU;
 
 bundle! {
@@ -49,6 +54,8 @@ bundle! {
         sine,
         /// The window.
         window,
+        /// Polyphase: which of the carrier's five phases the sample has.
+        phase,
     }
 }
 
@@ -56,7 +63,7 @@ bundle! {
     /// The registers.
     pub struct Registers {
         step: ["idle", "look_up", "wave", "cosine", "sine"],
-        phase, window_phase, looked_up, negative, wave, sign, cosine, sine, window, ready,
+        quadrant, phase, window_quadrant, window_phase, negative, wave, sign, cosine, sine, window, residue, ready,
     }
 }
 
@@ -71,17 +78,40 @@ parts! {
 #[derive(Debug, Clone)]
 pub struct Oscillator {
     quarter: Memory,
-    address_bits: u8,
-    /// Codes of [`PHASE`]: settings, and so the same in every reading.
-    increment: i64,
-    window_increment: i64,
+    /// The carrier's step from sample to sample: quadrants, and steps of a window's part.
+    step: [u64; 2],
     window: Window,
+    /// Samples of the window.
+    samples: u64,
+    polyphase: bool,
+    /// Polyphase: the carrier's codes at its phases 0, 1 and 2; phases 4 and 3 are as 1 and 2.
+    carrier: [i64; 3],
+    amplitude: i64,
     /// Of the cosine, the sine and the window.
     wave: Format,
 }
 
-/// The format of a phase: turns.
-const PHASE: Format = Format::unsigned(32, 32);
+/// Phases of a polyphase demodulator's carrier.
+pub const PHASES: u64 = 5;
+
+/// A phase: its quadrant, and how far into that it is in steps of a window's part of a turn.
+type Phase<V> = [Signal<V>; 2];
+
+/// The sine of a quarter turn, an entry for each step of a window's part.
+fn quarter_wave(profile: &Profile) -> Vec<f64> {
+    let quarter = profile.slot.integrate / 4;
+    (0..=quarter).map(|k| profile.amplitude() * (TAU / 4.0 * k as f64 / quarter as f64).sin()).collect()
+}
+
+/// The first half of the window, its middle among it.
+fn half_window(profile: &Profile) -> Vec<f64> {
+    let samples = profile.slot.integrate;
+    let weight = |m: u64| match profile.carrier.window {
+        Window::Hann => (TAU / 2.0 * m as f64 / samples as f64).sin().powi(2),
+        Window::Rectangular => 1.0,
+    };
+    (0..=samples / 2).map(|m| profile.amplitude() * weight(m)).collect()
+}
 
 /// The format of a wave without its sign.
 #[inline(always)]
@@ -91,71 +121,138 @@ const fn magnitude(wave: Format) -> Format {
 
 impl Oscillator {
     /// Clocks from `sample` to `ready`.
-    pub const LATENCY: u64 = 4;
+    pub fn latency(&self) -> u64 {
+        if self.polyphase { 2 } else { 4 }
+    }
 
     /// The oscillator of a profile.
     pub fn new(profile: &Profile) -> Self {
-        let format = profile.formats.oscillator;
-        let address_bits = profile.carrier.quarter_address;
-        let entries = 1usize << address_bits;
-        let entry = |k| (TAU / 4.0 * (k as f64 + 0.5) / entries as f64).sin();
-        // The largest code, not one, is the amplitude: one would not fit.
-        let amplitude = 1.0 - format.lsb();
-        let table = (0..entries).map(|k| amplitude * entry(k)).collect();
+        let (format, quarter) = (profile.formats.oscillator, profile.slot.integrate / 4);
+        let polyphase = profile.carrier.method == Method::Polyphase;
+        let table = if polyphase { half_window(profile) } else { quarter_wave(profile) };
         Oscillator {
             quarter: Memory::table("quarter", magnitude(format), table),
-            address_bits,
-            increment: PHASE.code_saturating(profile.carrier.turns_per_sample()),
-            window_increment: PHASE.code_saturating(1.0 / profile.slot.integrate as f64),
+            samples: profile.slot.integrate,
+            polyphase,
+            carrier: [0.0, 1.0, 2.0].map(|k| format.code_saturating((TAU * k / PHASES as f64).cos())),
+            step: [profile.carrier.periods / quarter, profile.carrier.periods % quarter],
             window: profile.carrier.window,
+            amplitude: profile.carrier.amplitude as i64,
             wave: format,
         }
     }
 
+    /// Steps of a quadrant.
+    #[inline(always)]
+    fn steps(&self) -> u64 {
+        self.quarter.words as u64 - 1
+    }
+
+    /// The format of a phase within its quadrant.
+    #[inline(always)]
+    fn quarter_phase(&self) -> Format {
+        Format::counter(self.steps() - 1)
+    }
+
     /// Where in the table the sine of a phase lies, and whether it is negative.
     #[inline(always)]
-    fn look_up<V: Value>(&self, phase: Signal<V>) -> (Signal<V>, Signal<V>) {
-        let index = phase.bits(30 - self.address_bits, self.address_bits);
-        let last = int((1 << self.address_bits) - 1);
-        let mirrored = (last - index).fit(index.format, Exact, Wrap);
-        (phase.bits(30, 1).select(mirrored, index), phase.msb())
+    fn look_up<V: Value>(&self, [quadrant, phase]: Phase<V>) -> (Signal<V>, Signal<V>) {
+        let mirrored = (int(self.steps()) - phase).fit(self.quarter.address(), Exact, Never);
+        (quadrant.bits(0, 1).select(mirrored, phase), quadrant.msb())
     }
 
-    /// The magnitude of the sine of the phase that was looked up.
+    /// A phase further on by a step.
     #[inline(always)]
-    fn magnitude<V: Value>(&self, r: &Registers<Signal<V>>, word: Signal<V>) -> Signal<V> {
-        word.ideally(&[r.looked_up], |turns| (TAU * turns[0]).sin().abs())
+    fn advance<V: Value>(&self, [quadrant, phase]: Phase<V>, [quadrants, steps]: [u64; 2]) -> Phase<V> {
+        let sum = phase + int(steps);
+        let over = sum.at_least(int(self.steps()));
+        let rest = (sum - int(self.steps())).fit(phase.format, Exact, Wrap);
+        let carried = over.select(int(quadrants + 1), int(quadrants));
+        let quadrant = (quadrant + carried).fit(quadrant.format, Exact, Wrap);
+        [quadrant, over.select(rest, sum.fit(phase.format, Exact, Wrap))]
     }
 
-    /// (1 − cos) / 2, or one throughout.
+    /// (1 − cos) / 2 and what the halving drops, or one throughout.
     #[inline(always)]
-    fn weight<V: Value>(&self, cosine: Signal<V>) -> Signal<V> {
-        let one = int(1);
+    fn weight<V: Value>(&self, cosine: Signal<V>, residue: Signal<V>) -> (Signal<V>, Signal<V>) {
+        let one = code(self.amplitude, magnitude(self.wave));
+        let twice = (one - cosine).named("twice");
+        let sum = twice + residue.scaled(-self.wave.frac);
         match self.window {
-            Window::Hann => (one - cosine).scaled(-1).fit(cosine.format, HalfEven, Saturate),
-            Window::Rectangular => one.fit(cosine.format, Exact, Saturate),
+            Window::Hann => {
+                let half = sum.scaled(-1).fit(cosine.format, Floor, Never).ideally(&[twice], |of| of[0] / 2.0);
+                (half, sum.bits(0, 1))
+            }
+            Window::Rectangular => (one, residue),
         }
     }
 
     /// The phase of the clock's look-up: the sine of (φ + ¼) is the cosine.
     #[inline(always)]
-    fn address_phase<V: Value>(&self, r: &Registers<Signal<V>>, i: &Inputs<Signal<V>>) -> Signal<V> {
-        let quarter = code(1 << 30, PHASE);
-        let zero = zero(PHASE);
-        let begun = (i.sample & i.first).select(zero, r.window_phase);
-        let sine = r.step.is(2);
-        let phase = (r.step.is(1) | sine).select(r.phase, begun);
-        (phase + sine.select(zero, quarter)).fit(PHASE, Exact, Wrap).named("angle")
+    fn address_phase<V: Value>(&self, r: &Registers<Signal<V>>, i: &Inputs<Signal<V>>) -> Phase<V> {
+        let begins = i.sample & i.first;
+        let of = |carrier: Signal<V>, window: Signal<V>| {
+            let begun = begins.select(int(0), window);
+            (r.step.is(1) | r.step.is(2)).select(carrier, begun)
+        };
+        let quadrant = of(r.quadrant, r.window_quadrant);
+        let turned = (quadrant + int(1)).fit(quadrant.format, Exact, Wrap);
+        [r.step.is(2).select(quadrant, turned), of(r.phase, r.window_phase)]
+    }
+
+    /// Polyphase: a sample begins, with the next phase and the next place in the window.
+    #[inline(always)]
+    fn begin_polyphase<V: Value>(&self, r: Registers<Signal<V>>, i: Inputs<Signal<V>>) -> Registers<Signal<V>> {
+        let next = |anew: Signal<V>, count: Signal<V>, last: u64| {
+            let further = (count + int(1)).fit(count.format, Exact, Wrap);
+            (anew | count.is(last)).select(int(0), further)
+        };
+        Registers {
+            step: int(1),
+            phase: next(i.restart, r.phase, PHASES - 1),
+            window_phase: next(i.first, r.window_phase, self.samples - 1),
+            ..r
+        }
+    }
+
+    /// Polyphase: the word of the window's place, or of its mirror image, is looked up; a clock later it is there.
+    #[inline(always)]
+    fn clock_polyphase<V: Value>(&self, cell: &mut Cell<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+        let r = cell.load(self);
+        let window = self.quarter.data(&mut cell.parts.quarter).fit(self.wave, Exact, Never);
+        let outputs =
+            Outputs { ready: r.ready, cosine: self.carrier(r.phase), sine: zero(self.wave), window, phase: r.phase };
+        let busy = !r.step.is(0);
+        if (i.sample | busy | r.ready).idle() {
+            return outputs;
+        }
+        let mirrored = (int(self.samples) - r.window_phase).fit(self.quarter.address(), Exact, Wrap);
+        let first_half = r.window_phase.less_than(int(self.quarter.words as u64));
+        let place = r.window_phase.fit(self.quarter.address(), Exact, Wrap);
+        self.quarter.read(&mut cell.parts.quarter, first_half.select(place, mirrored));
+        let r = Registers { step: int(0), ready: busy, ..r };
+        next!(V, Registers, self, cell, i.sample => self.begin_polyphase(r, i), else r);
+        outputs
+    }
+
+    /// Polyphase: the carrier at a phase.
+    #[inline(always)]
+    fn carrier<V: Value>(&self, phase: Signal<V>) -> Signal<V> {
+        let [first, second, third] = self.carrier.map(|wave| code(wave, self.wave));
+        phase.is(0).select(first, (phase.is(1) | phase.is(4)).select(second, third))
     }
 
     /// A sample begins: phases start anew where they should.
     #[inline(always)]
     fn begin<V: Value>(&self, r: Registers<Signal<V>>, i: Inputs<Signal<V>>) -> Registers<Signal<V>> {
-        let zero = zero(PHASE);
+        let anew = |bit: Signal<V>, phase: Signal<V>| bit.select(int(0), phase);
         Registers {
             step: int(1),
-            phase: i.restart.select(zero, r.phase),
-            window_phase: i.first.select(zero, r.window_phase),
+            quadrant: anew(i.restart, r.quadrant),
+            phase: anew(i.restart, r.phase),
+            window_quadrant: anew(i.first, r.window_quadrant),
+            window_phase: anew(i.first, r.window_phase),
+            residue: i.first.select(bit(false), r.residue),
             ..r
         }
     }
@@ -169,19 +266,25 @@ impl Oscillator {
         negative: Signal<V>,
     ) -> Registers<Signal<V>> {
         let at = |step: u64| r.step.is(step);
-        let advance = |phase: Signal<V>, by: i64| (phase + code(by, PHASE)).fit(PHASE, Exact, Wrap);
-        let wave = r.sign.select(-r.wave, r.wave).fit(r.sine.format, Exact, Wrap).named("signed_wave");
         let end = at(4);
+        let advanced = |phase: Phase<V>, step: [u64; 2]| {
+            let [quadrant, rest] = self.advance(phase, step);
+            [end.select(quadrant, phase[0]), end.select(rest, phase[1])]
+        };
+        let [quadrant, phase] = advanced([r.quadrant, r.phase], self.step);
+        let [window_quadrant, window_phase] = advanced([r.window_quadrant, r.window_phase], [0, 1]);
+        let wave = r.sign.select(-r.wave, r.wave).fit(r.sine.format, Exact, Wrap).named("signed_wave");
+        let (weight, residue) = self.weight(r.window, r.residue);
         Registers {
             step: end.select(int(0), r.step + int(1)).fit(r.step.format, Exact, Wrap),
-            phase: end.select(advance(r.phase, self.increment), r.phase),
-            window_phase: end.select(advance(r.window_phase, self.window_increment), r.window_phase),
+            quadrant,
+            phase,
+            window_quadrant,
+            window_phase,
             wave: magnitude,
             sign: negative,
-            window: at(2).select(wave, {
-                let weighs = at(3);
-                choose!(V, weighs, self.weight(r.window), r.window)
-            }),
+            window: at(2).select(wave, at(3).select(weight, r.window)),
+            residue: at(3).select(residue, r.residue),
             // The cosine comes first, and moves on: one value, one register that takes it.
             cosine: end.select(r.sine, r.cosine),
             sine: (at(3) | end).select(wave, r.sine),
@@ -205,7 +308,8 @@ impl Block for Oscillator {
 
     #[inline]
     fn outputs(&self) -> Outputs<Format> {
-        Outputs { ready: BIT, cosine: self.wave, sine: self.wave, window: self.wave }
+        let phase = if self.polyphase { self.registers().phase } else { BIT };
+        Outputs { ready: BIT, cosine: self.wave, sine: self.wave, window: self.wave, phase }
     }
 
     #[inline(always)]
@@ -213,34 +317,38 @@ impl Block for Oscillator {
         let full = self.wave;
         Registers {
             step: Format::unsigned(3, 0),
-            phase: PHASE,
-            window_phase: PHASE,
-            looked_up: PHASE,
+            quadrant: Format::unsigned(2, 0),
+            phase: if self.polyphase { Format::counter(PHASES - 1) } else { self.quarter_phase() },
+            window_quadrant: Format::unsigned(2, 0),
+            window_phase: if self.polyphase { Format::counter(self.samples - 1) } else { self.quarter_phase() },
             negative: BIT,
             wave: magnitude(full),
             sign: BIT,
             cosine: full,
             sine: full,
             window: full,
+            residue: BIT,
             ready: BIT,
         }
     }
 
     #[inline(always)]
     fn clock<V: Value>(&self, cell: &mut Cell<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+        if self.polyphase {
+            return self.clock_polyphase(cell, i);
+        }
         let r = cell.load(self);
-        let outputs = Outputs { ready: r.ready, cosine: r.cosine, sine: r.sine, window: r.window };
+        let outputs = Outputs { ready: r.ready, cosine: r.cosine, sine: r.sine, window: r.window, phase: bit(false) };
         let busy = !r.step.is(0);
         if (i.sample | busy | r.ready).idle() {
             return outputs;
         }
-        let magnitude = self.magnitude(&r, self.quarter.data(&mut cell.parts.quarter));
-        let looked_up = self.address_phase(&r, &i);
-        let (address, negative) = self.look_up(looked_up);
+        let magnitude = self.quarter.data(&mut cell.parts.quarter);
+        let (address, negative) = self.look_up(self.address_phase(&r, &i));
         self.quarter.read(&mut cell.parts.quarter, address);
         let quiet = Registers { ready: bit(false), ..r };
         let before = r.negative;
-        let r = Registers { looked_up, negative, ..quiet };
+        let r = Registers { negative, ..quiet };
         next!(
             V,
             Registers,

@@ -48,7 +48,7 @@ impl<V: Value> FixedSimulation<V> {
         let local = local(&core, profile);
         FixedSimulation {
             cell: calibrated(&core, calibration),
-            response: response(&local, profile),
+            response: response(&core, &local, profile),
             local,
             quiet: quiet(&core, constants),
             adc: profile.formats.adc,
@@ -95,6 +95,16 @@ impl<V: Value> FixedSimulation<V> {
         self.estimate(pad, clipped)
     }
 
+    /// The sums of a window, as numbers: in phase and quadrature of each channel, then of the haptic voltage's squares.
+    ///
+    /// # Panics
+    /// Where `codes` is not one code a channel and sample.
+    pub fn sums(&mut self, codes: &[i32]) -> Vec<f64> {
+        assert_eq!(codes.len(), self.window() * self.channels, "one code a channel and sample of the window");
+        self.demodulate(codes);
+        self.sums.iter().map(|&sum| sum.format.real(V::code(sum))).collect()
+    }
+
     /// The sums of a window, a channel after the other, so that its two sums stay at hand.
     fn demodulate(&mut self, codes: &[i32]) {
         let (haptic, demodulated) = (self.channels - 1, self.channels - 1);
@@ -107,8 +117,34 @@ impl<V: Value> FixedSimulation<V> {
     }
 
     /// The in-phase and quadrature sums of a channel.
-    #[inline]
     fn tone(&self, channel: usize, codes: &[i32]) -> [Signal<V>; 2] {
+        match self.core.demodulator().polyphase() {
+            None => self.products(channel, codes),
+            Some(polyphase) => {
+                let sums = self.phases(channel, codes);
+                self.core.demodulator().combine(polyphase, sums)
+            }
+        }
+    }
+
+    /// A channel's sums by the phases of a carrier with five samples a period.
+    #[inline]
+    fn phases(&self, channel: usize, codes: &[i32]) -> [Signal<V>; 5] {
+        let (demodulator, adc) = (self.core.demodulator(), self.adc);
+        let mut sums = [zero(demodulator.sum()); 5];
+        let (samples, local) = (codes.chunks_exact(5 * self.channels), self.local.chunks_exact(5));
+        for (samples, local) in samples.zip(local) {
+            for ((sum, codes), local) in sums.iter_mut().zip(samples.chunks_exact(self.channels)).zip(local) {
+                let code = demodulator.raised(raw(codes[channel], adc));
+                *sum = demodulator.add(*sum, code * demodulator.weight(self.wave(local.window)));
+            }
+        }
+        sums
+    }
+
+    /// The in-phase and quadrature sums of a channel, from products with the local oscillator.
+    #[inline]
+    fn products(&self, channel: usize, codes: &[i32]) -> [Signal<V>; 2] {
         let (demodulator, adc, begun) = (self.core.demodulator(), self.adc, bit(false));
         let mut sums = [zero(self.running_sum()); 2];
         for (codes, local) in codes.chunks_exact(self.channels).zip(&self.local) {
@@ -124,9 +160,17 @@ impl<V: Value> FixedSimulation<V> {
     fn squares(&self, channel: usize, codes: &[i32]) -> Signal<V> {
         let (demodulator, adc, begun) = (self.core.demodulator(), self.adc, bit(false));
         let mut sum = zero(demodulator.sum());
+        if demodulator.polyphase().is_some() {
+            for (codes, local) in codes.chunks_exact(self.channels).zip(&self.local) {
+                let code = demodulator.magnitude(raw(codes[channel], adc));
+                let share = demodulator.share(demodulator.weight(self.wave(local.window)) * code);
+                sum = demodulator.add(sum, code * share);
+            }
+            return sum;
+        }
         for (codes, local) in codes.chunks_exact(self.channels).zip(&self.local) {
             let code = raw(codes[channel], adc);
-            let weighted = demodulator.weigh(self.wave(local.window) * code, adc);
+            let weighted = demodulator.weigh(self.wave(local.window) * code);
             sum = demodulator.accumulate(begun, sum, code * weighted);
         }
         sum
@@ -214,20 +258,29 @@ fn quiet<V: Value>(core: &Core, constants: CoreInputs<Signal<V>>) -> Inputs<Sign
 }
 
 /// What the window makes of tones, with the oscillator's own words.
-fn response<V: Value>(local: &[Local<V>], profile: &Profile) -> Response {
+fn response<V: Value>(core: &Core, local: &[Local<V>], profile: &Profile) -> Response {
     let format = profile.formats.oscillator;
     let real = |value: V| format.real(V::code(Signal { value, format }));
-    let weights = local.iter().map(|local| [local.cosine, local.sine, local.window].map(real));
+    let polyphase = core.demodulator().polyphase();
+    let weights = local.iter().enumerate().map(|(sample, local)| {
+        let [cosine, sine, window] = [local.cosine, local.sine, local.window].map(real);
+        match polyphase {
+            None => [cosine, sine, window],
+            Some(polyphase) => {
+                let [cosine, sine] = polyphase.waves(sample);
+                [window * cosine, window * sine, window]
+            }
+        }
+    });
     let rail = 1.0 - profile.formats.adc.lsb();
-    Response::new(weights, profile.slot.blanking(), profile.carrier.samples_per_period, rail)
+    Response::new(weights, profile.slot.blanking(), profile.turns_per_sample(), rail)
 }
 
 /// The local oscillator over the window of a slot: the oscillator's own, asked once.
 fn local<V: Value>(core: &Core, profile: &Profile) -> Vec<Local<V>> {
     let (oscillator, demodulator) = (core.oscillator(), core.demodulator());
-    let lo = profile.formats.oscillator;
     let mut cell = oscillator.cell();
-    let mut local = Vec::new();
+    let (mut local, mut residues) = (Vec::new(), [demodulator.fresh_residue(); 2]);
     for sample in 0..profile.slot.samples() {
         let [restart, first] = [sample == 0, sample == profile.slot.blanking()].map(bit);
         let quiet = Sample { sample: bit(false), restart: bit(false), first: bit(false) };
@@ -237,8 +290,14 @@ fn local<V: Value>(core: &Core, profile: &Profile) -> Vec<Local<V>> {
         }
         let out = oscillator.clock(&mut cell, quiet);
         if sample >= profile.slot.blanking() {
-            let [cosine, sine] = [out.cosine, out.sine].map(|wave| demodulator.weigh(out.window * wave, lo).value);
-            local.push(Local { cosine, sine, window: out.window.value });
+            if demodulator.polyphase().is_some() {
+                local.push(Local { cosine: out.cosine.value, sine: out.sine.value, window: out.window.value });
+                continue;
+            }
+            let [(cosine, of_cosine), (sine, of_sine)] = [(out.cosine, residues[0]), (out.sine, residues[1])]
+                .map(|(wave, residue)| demodulator.carry(out.window * wave, residue));
+            residues = [of_cosine, of_sine];
+            local.push(Local { cosine: cosine.value, sine: sine.value, window: out.window.value });
         }
     }
     local

@@ -26,10 +26,10 @@ pub(super) struct Response {
 
 impl Response {
     /// The response of a window that begins `blanking` samples after the carrier.
-    pub fn new(window: impl Iterator<Item = Weights>, blanking: u64, samples_per_period: u64, rail: f64) -> Self {
+    pub fn new(window: impl Iterator<Item = Weights>, blanking: u64, turns_per_sample: f64, rail: f64) -> Self {
         let mut response = Response { tones: [[0.0; 2]; 2], square: 0.0, rail };
         for (sample, [cosine, sine, weight]) in (blanking..).zip(window) {
-            let phase = TAU * (sample % samples_per_period) as f64 / samples_per_period as f64;
+            let phase = TAU * (sample as f64 * turns_per_sample).fract();
             for (tone, wave) in response.tones.iter_mut().zip([phase.cos(), -phase.sin()]) {
                 *tone = [tone[0] + wave * cosine, tone[1] + wave * sine];
             }

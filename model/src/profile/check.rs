@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What a profile must hold for a core to be built from it.
 
-use super::{Profile, ProfileError};
+use super::{Method, Profile, ProfileError};
 use crate::blocks::demodulator::Demodulator;
 use crate::blocks::estimator::Estimator;
 use crate::blocks::position::Layout;
@@ -59,14 +59,33 @@ impl Profile {
     }
 
     fn check_slot(&self) -> Check {
-        let period = self.carrier.samples_per_period;
-        within("carrier.samples_per_period", period, 3, 1 << 16)?;
-        within("carrier.quarter_address", self.carrier.quarter_address.into(), 2, 16)?;
+        let (samples, periods) = (self.slot.integrate, self.carrier.periods);
         within("slot.open", self.slot.open, 1, 1 << 20)?;
         within("slot.settle", self.slot.settle, 0, 1 << 20)?;
-        within("slot.integrate", self.slot.integrate, 2 * period, 1 << 20)?;
-        let whole = self.slot.integrate.is_multiple_of(period);
-        ensure(whole, "slot.integrate", format_args!("whole carrier periods of {period} samples"), self.slot.integrate)
+        within("slot.integrate", samples, 8, 1 << 16)?;
+        within("carrier.periods", periods, 2, samples / 3)?;
+        let most = self.formats.oscillator.max_code() as u64;
+        within("carrier.amplitude", self.carrier.amplitude, most / 2, most)?;
+        match self.carrier.method {
+            Method::Products => {
+                ensure(samples.is_multiple_of(4), "slot.integrate", "a multiple of four samples", samples)
+            }
+            Method::Polyphase => self.check_polyphase(),
+        }
+    }
+
+    /// Five sums of a window's weights, one a phase of the carrier, must be the same: what a constant makes of them then
+    /// leaves nothing.
+    fn check_polyphase(&self) -> Check {
+        let samples = self.slot.integrate;
+        let expected = format_args!("five samples of each of {} periods", self.carrier.periods).to_string();
+        ensure(samples == 5 * self.carrier.periods, "slot.integrate", expected, samples)?;
+        let begins = self.slot.blanking();
+        ensure(begins.is_multiple_of(5), "slot.settle", "whole periods of five samples before the window", begins)?;
+        let f = &self.formats;
+        ensure(f.adc == Format::signed(16, 15), "formats.adc", "s16.15, with carrier.method polyphase", f.adc)?;
+        let waves = Format::signed(17, 16);
+        ensure(f.oscillator == waves, "formats.oscillator", "s17.16, with carrier.method polyphase", f.oscillator)
     }
 
     fn check_position(&self) -> Check {
@@ -132,8 +151,12 @@ impl Profile {
             let sound = (4..=30).contains(&format.width) && format.frac >= 0;
             ensure(sound, &format!("formats.{name}"), "4 to 30 bits with a point among them", format)?;
         }
+        let wide = f.iq.width + f.block_shift.min(63);
+        ensure(wide <= 40, "formats.block_shift", format_args!("at most 40 bits with those of iq, {}", f.iq), wide)?;
         let same_point = f.total.frac == f.iq.frac && f.total.width >= f.iq.width;
-        ensure(same_point, "formats.total", format_args!("the point of iq, {}, and no fewer bits", f.iq), f.total)?;
+        let moved = f.block_shift > 0 && f.total.frac <= f.iq.frac;
+        let expected = format_args!("the point of iq, {}, and no fewer bits", f.iq);
+        ensure(same_point || moved, "formats.total", expected, f.total)?;
         ensure(f.ratio.integer_bits() == 1, "formats.ratio", "one integer bit, such as s20.18", f.ratio)?;
         ensure((4..=30).contains(&f.ratio.width), "formats.ratio", "4 to 30 bits", f.ratio)?;
         let sound = (8..=28).contains(&f.position.width) && f.position.frac >= 0;

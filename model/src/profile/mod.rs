@@ -63,12 +63,26 @@ pub struct Slot {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Carrier {
-    /// Samples in a period.
-    pub samples_per_period: u64,
-    /// Address bits of the quarter-wave table.
-    pub quarter_address: u8,
+    /// Periods in a window. With no divisor in common with the window's samples every sample meets another phase, so that
+    /// harmonics of the carrier stay off it and undithered rounding averages out.
+    pub periods: u64,
+    /// The code that stands for one: of the carrier's words where a sample is multiplied by them, else of the window's.
+    pub amplitude: u64,
+    /// How a channel's in-phase and quadrature sums are made.
+    pub method: Method,
     /// What weighs the samples of a window.
     pub window: Window,
+}
+
+/// How a channel's in-phase and quadrature sums are made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Method {
+    /// Each sample times the windowed cosine and sine: any number of periods.
+    Products,
+    /// Each sample times the window, summed by phase of a carrier of five samples a period; cosine and sine are applied to
+    /// the five sums at the end of the window.
+    Polyphase,
 }
 
 /// What weighs the samples of a window.
@@ -115,6 +129,9 @@ pub struct Formats {
     pub iq: Format,
     /// In-phase and quadrature words of the sum over all terminals.
     pub total: Format,
+    /// Bits by which in-phase and quadrature words may be moved up, those of all terminals together, so that the largest
+    /// fills its word; 0 leaves the point where it is. `total` is then the format of the amplitudes that are given on.
+    pub block_shift: u8,
     /// The ratios of eqs. 2 and 3.
     pub ratio: Format,
     /// Words of the position table; all are fractions.
@@ -224,13 +241,6 @@ impl Slot {
     }
 }
 
-impl Carrier {
-    /// The carrier's frequency.
-    pub fn turns_per_sample(&self) -> f64 {
-        1.0 / self.samples_per_period as f64
-    }
-}
-
 impl Window {
     /// The mean weight.
     pub fn mean(self) -> f64 {
@@ -242,10 +252,43 @@ impl Window {
 }
 
 impl Profile {
+    /// The carrier's frequency.
+    pub fn turns_per_sample(&self) -> f64 {
+        self.carrier.periods as f64 / self.slot.integrate as f64
+    }
+
+    /// ADC samples in a period of the carrier.
+    pub fn samples_per_period(&self) -> f64 {
+        1.0 / self.turns_per_sample()
+    }
+
+    /// The profile with a window of another length, its carrier as near to what it was as whole periods are.
+    pub fn with_window(mut self, samples: u64) -> Self {
+        self.carrier.periods = (self.turns_per_sample() * samples as f64).round() as u64;
+        self.slot.integrate = samples;
+        self
+    }
+
+    /// The number that the carrier's amplitude stands for.
+    pub fn amplitude(&self) -> f64 {
+        self.carrier.amplitude as f64 * self.formats.oscillator.lsb()
+    }
+
+    /// The mean weight of a window's samples.
+    pub fn mean_weight(&self) -> f64 {
+        self.carrier.window.mean() * self.amplitude()
+    }
+
     /// The format of the sheet's resistance: a word of the position table that is never negative.
     pub fn sheet(&self) -> Format {
         let word = self.formats.table;
         Format::unsigned(word.width - 1, word.frac)
+    }
+
+    /// The format of the amplitudes of total current and sensing voltage: of the root of two squares of a total's word, one
+    /// more bit than the word without its sign and one for the root's rounding.
+    pub fn amplitude_format(&self) -> Format {
+        Format::unsigned(self.formats.total.width + 1, self.formats.total.frac)
     }
 
     /// Bits by which the demodulator's sums are scaled down, so that a full-scale tone is a little below one.
@@ -260,12 +303,16 @@ impl Profile {
 
     /// What an in-phase word is for a tone at full scale.
     pub fn tone_gain(&self) -> f64 {
-        self.slot.integrate as f64 * self.carrier.window.mean() / 2.0 * 2f64.powi(-i32::from(self.sum_shift()))
+        let wave = match self.carrier.method {
+            Method::Products => self.amplitude(),
+            Method::Polyphase => crate::blocks::demodulator::POLYPHASE_GAIN,
+        };
+        self.slot.integrate as f64 * self.mean_weight() * wave / 2.0 * 2f64.powi(-i32::from(self.sum_shift()))
     }
 
     /// What the mean square's word is for a constant at full scale.
     pub fn square_gain(&self) -> f64 {
-        self.slot.integrate as f64 * self.carrier.window.mean() * 2f64.powi(-i32::from(self.square_shift()))
+        self.slot.integrate as f64 * self.mean_weight() * 2f64.powi(-i32::from(self.square_shift()))
     }
 }
 

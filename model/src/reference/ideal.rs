@@ -187,8 +187,8 @@ fn window(profile: &Profile) -> Vec<Weights> {
     let sum: f64 = (0..samples).map(weight).sum();
     let full = 2f64.powi(profile.formats.adc.frac.into());
     let weights = |m: u64| {
-        let (period, n) = (profile.carrier.samples_per_period, profile.slot.blanking() + m);
-        let (sine, cosine) = (TAU * (n % period) as f64 / period as f64).sin_cos();
+        let step = (profile.slot.blanking() + m) * profile.carrier.periods % samples;
+        let (sine, cosine) = (TAU * step as f64 / samples as f64).sin_cos();
         let scale = 2.0 * weight(m) / sum / full;
         Weights { carrier: [cosine, sine].map(|wave| scale * wave), square: weight(m) / sum / full / full }
     };

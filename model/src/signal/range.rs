@@ -19,12 +19,12 @@ pub struct Range {
     pub high: i128,
 }
 
-/// A narrowing that said it could not overflow, and a range that does.
+/// A narrowing that said it could not overflow, and a range that does; or an address beyond the words of a memory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Violation {
-    /// The range before the narrowing, in codes of the narrowed format.
+    /// The range before the narrowing, in codes of the narrowed format; or of the address.
     pub range: Range,
-    /// The format that does not hold it.
+    /// The format that does not hold it; or of the memory's addresses.
     pub format: Format,
 }
 
@@ -176,6 +176,11 @@ impl Value for Range {
         Range { low: (high.value.low << shift) | low.value.low, high: (high.value.high << shift) | low.value.high }
     }
 
+    fn at_most(a: Signal<Self>, most: Signal<Self>) -> Self {
+        let (a, most) = (a.value, most.value);
+        Range { low: a.low.min(most.low), high: a.high.min(most.high) }
+    }
+
     fn less(a: Signal<Self>, b: Signal<Self>) -> Self {
         let to = a.format.join(b.format);
         let (a, b) = (align(a, to), align(b, to));
@@ -230,21 +235,27 @@ impl Value for Range {
     }
 
     fn access(memory: &Memory, words: &mut Self::Words, address: Signal<Self>, write: Option<Write<Self>>) {
-        words.1 = read(&words.0, address.value);
+        let within = |address: Range| {
+            let last = memory.words as i128 - 1;
+            if address.low < 0 || address.high > last {
+                let violation = Violation { range: address, format: memory.address() };
+                VIOLATIONS.with_borrow_mut(|found| found.push(violation));
+            }
+            Range { low: address.low.clamp(0, last), high: address.high.clamp(0, last) }
+        };
+        words.1 = read(&words.0, within(address.value));
         let Some(write) = write.filter(|write| write.enable.value.high != 0) else { return };
         let data = align(write.data, memory.format);
         let surely = write.enable.value.low == 1 && write.address.value.is_point();
-        for word in &mut words.0[write.address.value.low as usize..=write.address.value.high as usize] {
+        let place = within(write.address.value);
+        for word in &mut words.0[place.low as usize..=place.high as usize] {
             *word = if surely { data } else { word.join(data) };
         }
     }
 }
 
-/// The join of the words that an address may mean; zero past the end.
+/// The join of the words that an address may mean.
 fn read(words: &[Range], address: Range) -> Range {
-    let last = words.len() as i128 - 1;
-    let past = (address.high > last).then(|| Range::point(0));
-    let within =
-        &words[address.low.min(last + 1) as usize..=address.high.min(last).max(address.low.min(last)) as usize];
-    within.iter().copied().chain(past).reduce(Range::join).unwrap_or(Range::point(0))
+    let within = &words[address.low as usize..=address.high as usize];
+    within.iter().copied().reduce(Range::join).expect("an address means a word")
 }

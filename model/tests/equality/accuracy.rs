@@ -3,9 +3,9 @@
 //! deviation that the word lengths predict.
 //!
 //!   q(f) = lsb / √12                                     the deviation of rounding to f
-//!   ε² = carrier² + waves² + 2 q(iq)² / (g a)²           of an amplitude a, relative; g the tone gain
-//!   carrier = |1/P Σ δ_n e^{2jφ_n}| / √2                 δ_n: what the table's step leaves of the phase; its image of the tone
-//!   waves = q(oscillator) √(2/P)                         the table's words, as periodic as the carrier
+//!   ε² = carrier² + 2 q(iq)² / (g a)²           of an amplitude a, relative; g the tone gain
+//!   q(iq) 2^-by where words are moved up by bits; the total's and the sensing voltage's amplitudes then add q(total)
+//!   carrier = 2 q(oscillator) / √N                       the local oscillator's words, of N samples
 //!
 //! Onward, δr = Σ (±1 − r) δa / Σ a; a position follows its table's slope; capacitance and force add their words' own q.
 
@@ -17,7 +17,6 @@ use hapticore_model::format::Format;
 use hapticore_model::frame::Reading;
 use hapticore_model::profile::Profile;
 use hapticore_model::reference::Reference;
-use std::f64::consts::TAU;
 
 const SLOTS: usize = if cfg!(optimised) { 300 } else { 20 };
 const NAMES: [&str; 5] = ["r_x", "x_mm", "capacitance", "force", "mean_square"];
@@ -43,18 +42,9 @@ fn spread_tones(profile: &Profile, random: &mut Random) -> Tones {
     Tones { phasors, haptic: random.between(0.5, 0.9) }
 }
 
-/// The relative deviation of an amplitude from the table's steps and words.
+/// The relative deviation of an amplitude from the local oscillator's words, one error for each sample of the window.
 fn carrier(profile: &Profile) -> f64 {
-    let (period, steps) = (profile.carrier.samples_per_period, 4u64 << profile.carrier.quarter_address);
-    let image = (0..period).fold((0.0, 0.0), |(re, im), n| {
-        let turns = n as f64 / period as f64;
-        let steps = steps as f64;
-        let delta = TAU * (((turns * steps).floor() + 0.5) / steps - turns);
-        let (sine, cosine) = (2.0 * TAU * turns).sin_cos();
-        (re + delta * cosine / period as f64, im + delta * sine / period as f64)
-    });
-    let waves = q(profile.formats.oscillator) * (2.0 / period as f64).sqrt();
-    norm(&[norm(&[image.0, image.1]) / 2f64.sqrt(), waves])
+    q(profile.formats.oscillator) * 2.0 / (profile.slot.integrate as f64).sqrt()
 }
 
 /// The deviation of a position: of its ratios and of the table's words, by the slope of the place over the ratios, and of the
@@ -77,9 +67,15 @@ fn predict(profile: &Profile, calibration: &Calibration, tones: &Tones, ideal: &
     let (f, g) = (&profile.formats, profile.tone_gain());
     let (terminals, sense) = tones.phasors.split_at(profile.terminals.x.len());
     let carrier = carrier(profile);
-    let relative = |words: f64, a: f64| norm(&[carrier, q(f.iq) * words.sqrt() / (g * a)]);
+    let up = |tones: &[(f64, f64)]| {
+        let largest = tones.iter().map(|(a, _)| g * a).fold(0.0, f64::max);
+        2f64.powi((-largest.log2()).floor().clamp(0.0, f.block_shift.into()) as i32)
+    };
+    let [of_terminals, of_sense] = [terminals, sense].map(|tones| q(f.iq) / up(tones));
+    let relative = |word: f64, words: f64, a: f64| norm(&[carrier, word * words.sqrt() / (g * a)]);
+    let given = |a: f64| if f.block_shift > 0 { q(f.total) / (g * a) } else { 0.0 };
     let ratio = |signs: &[i8], r: f64| {
-        let corner = |&(a, _): &(f64, f64), sign: i8| (f64::from(sign) - r) * a * relative(2.0, a);
+        let corner = |&(a, _): &(f64, f64), sign: i8| (f64::from(sign) - r) * a * relative(of_terminals, 2.0, a);
         let others = profile.terminals.x.iter().zip(&profile.terminals.y);
         let corners = terminals.iter().zip(signs).zip(others).filter(|&(_, (&x, &y))| x != 0 || y != 0);
         let (terms, sum) = corners.fold((Vec::new(), 0.0), |(mut terms, sum), ((current, &sign), _)| {
@@ -91,18 +87,21 @@ fn predict(profile: &Profile, calibration: &Calibration, tones: &Tones, ideal: &
     let of_ratio = [ratio(&profile.terminals.x, ideal.r_x), ratio(&profile.terminals.y, ideal.r_y)];
     let total = ideal.capacitance_pf / calibration.capacitance_gain * sense[0].0;
     let admittance = ideal.capacitance_pf / calibration.capacitance_gain;
-    let words = terminals.len() as f64 + 1.0;
+    // The total's own word has fewer bits than a terminal's, by as many as their number has.
+    let narrowed = if f.block_shift > 0 { f64::from(1 << (2 * terminals.len().ilog2() + 2)) } else { 1.0 };
+    let words = terminals.len() as f64 + narrowed;
     let capacitance = norm(&[
-        relative(words, total),
-        relative(2.0, sense[0].0),
+        relative(of_terminals, words, total),
+        relative(of_sense, 2.0, sense[0].0),
+        given(total),
+        given(sense[0].0),
         q(f.admittance) / admittance,
         q(f.capacitance) / ideal.capacitance_pf,
     ]);
     let square = ideal.capacitance_pf.powi(2);
-    let window = TAU / f64::from(4 << profile.carrier.quarter_address) / 12f64.sqrt() / 2.0;
     let mean_square = norm(&[
         q(f.mean_square) / ideal.mean_square,
-        norm(&[window, q(f.oscillator)]) / (profile.slot.integrate as f64).sqrt(),
+        2.0 * norm(&[q(f.adc), q(f.oscillator)]) / (profile.slot.integrate as f64 * ideal.mean_square).sqrt(),
     ]);
     let gain =
         f.force_gain.lsb() * (calibration.force_gain / f.force_gain.lsb()).round() / calibration.force_gain - 1.0;

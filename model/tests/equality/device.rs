@@ -13,8 +13,9 @@ pub fn short_profiles() -> Vec<Profile> {
 
 fn shortened(mut profile: Profile) -> Profile {
     profile.slot.open = 2;
-    profile.slot.settle = 140;
-    profile.slot.integrate = 4 * profile.carrier.samples_per_period;
+    profile.slot.settle = 160;
+    let samples = 4 * profile.samples_per_period().round() as u64;
+    let profile = profile.with_window(samples);
     profile.check().expect("the samples are longer than the estimator takes");
     profile
 }
@@ -82,7 +83,7 @@ pub fn tones(profile: &Profile, random: &mut Random) -> Tones {
 /// The codes of a sample with these tones; `n` counts from the first of the slot.
 pub fn tone_codes(profile: &Profile, tones: &Tones, n: u64) -> Vec<i32> {
     let full = f64::from(1 << (profile.formats.adc.width - 1));
-    let turns = n as f64 / profile.carrier.samples_per_period as f64;
+    let turns = n as f64 * profile.turns_per_sample();
     let code = |&(amplitude, phase): &(f64, f64)| full * amplitude * (TAU * (turns - phase)).cos();
     let haptic = full * tones.haptic * (TAU * n as f64 / 5000.0).cos();
     tones.phasors.iter().map(code).chain([haptic]).map(|x| x.round() as i32).collect()

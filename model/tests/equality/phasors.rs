@@ -27,7 +27,16 @@ fn window(profile: &Profile, tones: &Tones) -> Vec<i32> {
 /// What lies between two amplitudes: rounding that repeats with each period, lsb/√12 in each of its samples, and the
 /// in-phase and quadrature words' own on either side.
 fn rounding(profile: &Profile) -> f64 {
-    let adc = profile.formats.adc.lsb() * (2.0 / profile.carrier.samples_per_period as f64).sqrt();
+    let (mut common, mut rest) = (profile.slot.integrate, profile.carrier.periods);
+    while rest != 0 {
+        (common, rest) = (rest, common % rest);
+    }
+    rounding_of(profile, profile.slot.integrate / common)
+}
+
+/// The same of a tone that repeats after so many samples.
+fn rounding_of(profile: &Profile, distinct: u64) -> f64 {
+    let adc = profile.formats.adc.lsb() * (2.0 / distinct as f64).sqrt();
     let words = profile.formats.iq.lsb() * 2f64.sqrt() / profile.tone_gain();
     adc.hypot(words) / 12f64.sqrt()
 }
@@ -52,7 +61,7 @@ fn check(profile: &Profile, random: &mut Random) {
         let allowed = MORE * expected * from_phasors.capacitance_pf + 2.0 * profile.formats.capacitance.lsb();
         assert!(capacitance < allowed, "{}: capacitance {capacitance} pF, {allowed}", profile.name);
         let square = off(from_samples.mean_square, from_phasors.mean_square);
-        let allowed = MORE * 2.0 * rounding(profile) + 2.0 * profile.formats.mean_square.lsb();
+        let allowed = MORE * 2.0 * rounding_of(profile, HAPTIC_PERIOD) + 2.0 * profile.formats.mean_square.lsb();
         assert!(square < allowed, "{}: mean square {square}, {allowed}", profile.name);
         let ratio = off(from_samples.r_x, from_phasors.r_x);
         let corners: f64 = tones.phasors.iter().take(4).map(|(a, _)| a).sum();

@@ -10,8 +10,9 @@ use hapticore_model::blocks::frames::{self, Field, Frames};
 use hapticore_model::blocks::haptic_voltage::{self, HapticVoltage};
 use hapticore_model::blocks::multiplexer::{self, Multiplexer};
 use hapticore_model::blocks::oscillator::{self, Oscillator};
+use hapticore_model::bundle::Bundle;
 use hapticore_model::format::Format;
-use hapticore_model::profile::{Profile, Window};
+use hapticore_model::profile::{Method, Profile, Window};
 use hapticore_model::reference::rounded::{self, Exact, Sample};
 
 const MILLION: u64 = 1_000_000;
@@ -60,7 +61,8 @@ fn waves_are_those_of_the_table_at_the_phase() {
             let out = bench.clock(quiet);
             let Sample { cosine, sine, window } = reference.sample(since_restart, since_first);
             let [cosine, sine, window] = [cosine, sine, window].map(|wave| wave.code(format));
-            let expected = oscillator::Outputs { ready: 0, cosine, sine, window };
+            let phase = if profile.carrier.method == Method::Polyphase { since_restart as i64 % 5 } else { 0 };
+            let expected = oscillator::Outputs { ready: 0, cosine, sine, window, phase };
             assert_eq!(out, expected, "clock {}: sample {since_restart}, of the window {since_first}", bench.clock);
         }
     }
@@ -73,6 +75,8 @@ fn sums_are_those_of_the_products() {
         let mut left = operations(MILLION / 3) as i64;
         while left > 0 {
             let samples = 1 + random.below(random.clone().below(profile.slot.integrate) + 1);
+            // By phase, each sum has a sample at least.
+            let samples = if profile.carrier.method == Method::Polyphase { samples.max(5) } else { samples };
             left -= samples as i64;
             check_window(&mut bench, &profile, samples, &mut random);
         }
@@ -88,10 +92,14 @@ fn check_window(bench: &mut Bench<Demodulator>, profile: &Profile, samples: u64,
         let codes: Vec<i64> = (0..profile.channels()).map(|_| random.word(adc)).collect();
         let [cosine, sine] = [random.word(lo), random.word(lo)];
         let window = random.word(Format { signed: false, width: lo.width - 1, ..lo });
+        // By phase, sums have room for what a window weighs in the mean.
+        let polyphase = profile.carrier.method == Method::Polyphase;
+        let (window, phase) = if polyphase { (window / 2, m as i64 % 5) } else { (window, 0) };
         let [first, last] = [m == 0, m == samples - 1].map(i64::from);
         for clock in 0..bench.block.least_clocks_per_sample() + random.below(3) {
             let (start, code) = (i64::from(clock == 0), codes[channel as usize]);
-            let out = bench.clock(demodulator::Inputs { start, first, last, pad: 0, code, cosine, sine, window });
+            let out =
+                bench.clock(demodulator::Inputs { start, first, last, pad: 0, code, cosine, sine, window, phase });
             (channel, clipped) = (out.channel, out.clipped);
             if out.valid == 1 {
                 assert_eq!(out.index, sums.len() as i64, "clock {}: sums in their order", bench.clock);
@@ -102,18 +110,13 @@ fn check_window(bench: &mut Bench<Demodulator>, profile: &Profile, samples: u64,
         let [cosine, sine, window] = [cosine, sine, window].map(|code| Exact::of(code, lo));
         carrier.push(Sample { cosine, sine, window });
     }
-    let out = bench.clock(demodulator::Inputs {
-        start: 0,
-        first: 0,
-        last: 0,
-        pad: 0,
-        code: 0,
-        cosine: 0,
-        sine: 0,
-        window: 0,
-    });
-    if out.valid == 1 {
-        sums.push(out.sum);
+    let quiet = demodulator::Inputs::map(bench.block.inputs(), |_| 0);
+    for _ in 0..bench.block.latency() {
+        let out = bench.clock(quiet);
+        if out.valid == 1 {
+            assert_eq!(out.index, sums.len() as i64, "clock {}: sums in their order", bench.clock);
+            sums.push(out.sum);
+        }
     }
     let expected = rounded::demodulate(profile, &carrier, &all_codes);
     let parts = expected.phases.iter().flatten().chain([&expected.square]);
@@ -140,6 +143,7 @@ fn check_currents(bench: &mut Bench<Currents>, profile: &Profile, random: &mut R
     for (index, &sum) in (0..).zip(&codes) {
         bench.clock(currents::Inputs { valid: 1, index, sum });
     }
+    bench.clock(currents::Inputs { valid: 1, index: count as i64, sum: 0 });
     let quiet = currents::Inputs { valid: 0, index: 0, sum: 0 };
     let out = (0..10_000).map(|_| bench.clock(quiet)).find(|out| out.done == 1).expect("currents finish");
     let words: Vec<[Exact; 2]> = codes.chunks(2).map(|iq| [0, 1].map(|part| Exact::of(iq[part], sum))).collect();

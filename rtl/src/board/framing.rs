@@ -87,12 +87,7 @@ pub enum Register {
 
 impl Register {
     /// All registers, in the order of their numbers.
-    pub const ALL: [Register; 4] = [
-        Register::CapacitanceGain,
-        Register::ForceGain,
-        Register::Control,
-        Register::Adc,
-    ];
+    pub const ALL: [Register; 4] = [Register::CapacitanceGain, Register::ForceGain, Register::Control, Register::Adc];
 
     /// Set in `where` of a register, clear in that of a word of the position table.
     pub const SELECT: u16 = 0x8000;

@@ -67,10 +67,7 @@ impl AdcSetup {
 /// A calibration's registers: their codes.
 fn registers(profile: &Profile, calibration: &Calibration) -> [(Register, i64); 2] {
     let inputs = calibration.inputs(Core::new(profile).inputs());
-    [
-        (Register::CapacitanceGain, inputs.capacitance_gain),
-        (Register::ForceGain, inputs.force_gain),
-    ]
+    [(Register::CapacitanceGain, inputs.capacitance_gain), (Register::ForceGain, inputs.force_gain)]
 }
 
 /// The commands that make a calibration's sensor of a board: all but the last, [`Command::ENABLE`], for which a heartbeat
@@ -78,7 +75,8 @@ fn registers(profile: &Profile, calibration: &Calibration) -> [(Register, i64); 
 pub fn prepare(profile: &Profile, calibration: &Calibration, adc: &AdcSetup) -> Vec<Command> {
     let word = Core::new(profile).estimator().position().table().format;
     let table = calibration.position.words.iter().enumerate();
-    let table = table.map(|(address, &real)| Command::Table { address: address as u16, code: word.code_saturating(real) });
+    let table =
+        table.map(|(address, &real)| Command::Table { address: address as u16, code: word.code_saturating(real) });
     let adc = adc.words().into_iter().map(|word| Command::Register(Register::Adc, word));
     let registers = registers(profile, calibration).map(|(register, code)| Command::Register(register, code));
     [Command::RESET_ADC, Command::DISABLE].into_iter().chain(registers).chain(table).chain(adc).collect()

@@ -88,7 +88,7 @@ fn wav_files_that_are_cut_short_or_too_fine() {
     refuse(
         folder.path(),
         &["replay", "h.wav", "--profile", "small"],
-        &["--profile small", "carrier.samples_per_period", "10"],
+        &["--profile small", "samples per period", "9.9"],
     );
 }
 

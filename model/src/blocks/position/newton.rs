@@ -115,7 +115,6 @@ impl Position {
         let format = self.formats.place;
         let last = |axis| code(((self.layout.cells(axis) as i64) << format.frac) - 1, format);
         let most = of_v.select(last(Axis::Y), last(Axis::X));
-        let place = place.fit(format, Exact, Saturate);
-        most.less_than(place).select(most, place)
+        place.fit(format, Exact, Saturate).at_most(most)
     }
 }

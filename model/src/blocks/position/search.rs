@@ -88,7 +88,8 @@ impl Position {
             ..next
         };
         let again = Registers { clock: int(0), ..guessed };
-        when!(V, Registers, ends, self.enter(guessed, task::ADDRESS), again)
+        let ended = Registers { address: now.address, ..guessed };
+        when!(V, Registers, ends, self.enter(ended, task::ADDRESS), again)
     }
 
     /// Words from a coefficient of r_x to that of r_y.

@@ -105,10 +105,15 @@ impl Position {
         let at = |clock: u64| now.clock.is(clock);
         let wait = self.product_clocks();
         let asks = now.clock.less_than(int(2)).named("asks");
-        let on = |address: Signal<V>| (address + asks).fit(address.format, Exact, Wrap);
+        let of_rows = now.line.less_than(int(VALUES)).named("of_rows");
+        let on = |address: Signal<V>, asks: Signal<V>| (address + asks).fit(address.format, Exact, Wrap);
         let loads = (at(2) | at(3)).named("loads");
-        let next =
-            Registers { address: on(now.address), slot: on(now.slot), near: loads.select(now.word, now.near), ..next };
+        let next = Registers {
+            address: on(now.address, asks & of_rows),
+            slot: on(now.slot, asks & !of_rows),
+            near: loads.select(now.word, now.near),
+            ..next
+        };
         when!(
             V,
             Registers,
@@ -242,11 +247,12 @@ impl Position {
         // Two words of the row are behind the address.
         let to_next_row = |surface| int(self.layout.coefficients(surface, Axis::X) as u64 - 2);
         let row = self.of_ratio(now).select(to_next_row(Surface::RatioX), to_next_row(Surface::Resistance));
+        let row_follows = now.line.less_than(int(VALUES - 1)).named("row_follows");
         let tolerance = code(1, crate::format::Format::unsigned(1, Position::TOLERANCE_BITS));
         let beyond = tolerance.less_than(now.deviation.abs()).named("beyond");
         let goes_on = Registers {
             line: (now.line + int(1)).fit(now.line.format, Exact, Wrap),
-            address: (now.address + row).fit(now.address.format, Exact, Wrap),
+            address: row_follows.select((now.address + row).fit(now.address.format, Exact, Wrap), now.address),
             slot: values.select(int(slots::SLOPES), int(slots::VALUES)),
             invalid: (values & of_x).select(beyond, (values & of_y).select(now.invalid | beyond, now.invalid)),
             clock: int(0),
