@@ -41,13 +41,13 @@ pub struct Device {
     pub haptic_full_scale_v: f64,
     /// Amplitude of the sensing carrier, V (peak).
     pub carrier_v: f64,
-    /// Frequency of the sensing carrier, Hz.
+    /// Frequency of the sensing carrier, Hz: the scene's, until a plant is built for a core.
     pub carrier_hz: f64,
     /// The same in rad/s.
     pub carrier_rad_s: f64,
     /// Frequency of the haptic voltage, Hz.
     pub haptic_hz: f64,
-    /// ADC sample rate, Hz: the carrier's frequency times the profile's samples per period.
+    /// ADC sample rate, Hz: the scene's carrier times the profile's samples per period, rounded.
     pub sample_rate_hz: f64,
     /// Size of the sheet along x, mm.
     pub width_mm: f64,
@@ -66,6 +66,14 @@ pub struct Device {
 }
 
 impl Device {
+    /// The device under a core whose oscillator has so many ADC samples a period: the sample rate is the whole multiple of the
+    /// scene's carrier that is nearest, and the carrier what the oscillator makes of it, 101 kHz for 100 kHz at 9.9 samples.
+    pub(crate) fn sampled(self, samples_per_period: f64) -> Self {
+        let sample_rate_hz = self.carrier_hz * samples_per_period.round();
+        let carrier_hz = sample_rate_hz / samples_per_period;
+        Device { sample_rate_hz, carrier_hz, carrier_rad_s: TAU * carrier_hz, ..self }
+    }
+
     /// Reads `[device]`, `[carrier]`'s voltages and frequencies and `[sensor]`'s full scales; all have defaults.
     pub(crate) fn read(root: &Table) -> Result<Device, SceneError> {
         let number = |table: &'static str, key: &'static str, limits: Limits, default: f64| match root.table(table)? {

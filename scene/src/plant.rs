@@ -58,8 +58,7 @@ impl Plant {
 
     pub(crate) fn of_case(case: Case, seed: u64, index: usize, timing: &Timing) -> Result<Plant, SceneError> {
         timing.check().map_err(|message| SceneError::new(Place::File, "profile", message))?;
-        let sample_rate_hz = case.device.carrier_hz * timing.samples_per_period;
-        let device = Device { sample_rate_hz, ..case.device.clone() };
+        let device = case.device.clone().sampled(timing.samples_per_period);
         let setting = Setting { device: &device, timing, seed, case: index };
         let effects = Effects::build(&case.effects, &setting);
         let plant = Plant { effects, case, device, timing: timing.clone(), seed, index, now: None };

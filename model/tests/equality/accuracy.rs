@@ -94,7 +94,8 @@ fn predict(profile: &Profile, calibration: &Calibration, tones: &Tones, ideal: &
         relative(of_terminals, words, total),
         relative(of_sense, 2.0, sense[0].0),
         given(total),
-        given(sense[0].0),
+        // Its amplitude, and the root of what the sheet's drop leaves of it.
+        2f64.sqrt() * given(sense[0].0),
         q(f.admittance) / admittance,
         q(f.capacitance) / ideal.capacitance_pf,
     ]);

@@ -68,7 +68,7 @@ fn measure(profile: Profile, rate_hz: f64) -> Measured {
         rate_hz,
         excess: over(worst),
         excess_hz: hz(worst),
-        constant: (fixed_db[0] > -250.0).then_some(fixed_db[0]),
+        constant: constant(&profile, &mut core, &fixed),
         reserve: band(&fixed_db),
         float_reserve: band(&float_db),
         bias: bias(&profile, &mut core, &fixed),
@@ -82,6 +82,16 @@ fn sums(profile: &Profile, core: &mut FixedSimulation, code: impl Fn(usize, usiz
     let codes: Vec<i32> =
         (0..profile.slot.integrate as usize * channels).map(|k| code(k / channels, k % channels)).collect();
     core.sums(&codes)[..2 * (channels - 1)].chunks(2).map(|pair| [pair[0], pair[1]]).collect()
+}
+
+/// The response to a constant of a third of full scale, in dB; none where not a bit of it is left.
+fn constant(profile: &Profile, core: &mut FixedSimulation, weights: &[Pair]) -> Option<f64> {
+    let code = profile.formats.adc.max_code() as i32 / 3;
+    let silence = sums(profile, core, |_, _| 0)[0];
+    let read = sums(profile, core, |_, _| code)[0];
+    let left = (read[0] - silence[0]).hypot(read[1] - silence[1]) / f64::from(code);
+    let carrier = amplitude(weights, profile.carrier.periods as usize * PARTS);
+    (left > 0.0).then(|| 20.0 * (2.0 * left / carrier).log10())
 }
 
 /// What a code of one adds to the sums, by the sample where it is: an impulse in each channel at a sample of its own.
@@ -108,20 +118,22 @@ fn ideal(profile: &Profile) -> Vec<Pair> {
 
 /// The response from zero to half the sample rate, in dB of that at `carrier`.
 fn response(weights: &[Pair], carrier: usize) -> Vec<f64> {
+    let one = amplitude(weights, carrier);
+    let half = PARTS * weights.len() / 2;
+    (0..=half).map(|k| 20.0 * (amplitude(weights, k) / one).max(1e-15).log10()).collect()
+}
+
+/// |H(f)| + |H(−f)| at a frequency of so many parts of a bin.
+fn amplitude(weights: &[Pair], frequency: usize) -> f64 {
     let turn = PARTS * weights.len();
-    let wave: Vec<Pair> = (0..turn).map(|k| (TAU * k as f64 / turn as f64).sin_cos()).map(|(s, c)| [c, s]).collect();
-    let at = |k: usize| {
-        // Of both w_i and w_q the sums with cosine and sine; H(±f) are made of these four.
-        let mut of = [0.0; 4];
-        for (n, [i, q]) in weights.iter().enumerate() {
-            let [cosine, sine] = wave[k * n % turn];
-            of = [of[0] + i * cosine, of[1] + i * sine, of[2] + q * cosine, of[3] + q * sine];
-        }
-        let [ic, is, qc, qs] = of;
-        (ic + qs).hypot(is - qc) + (ic - qs).hypot(is + qc)
-    };
-    let one = at(carrier);
-    (0..=turn / 2).map(|k| 20.0 * (at(k) / one).max(1e-15).log10()).collect()
+    let (step, mut of) = (TAU / turn as f64, [0.0; 4]);
+    // Of both w_i and w_q the sums with cosine and sine; H(±f) are made of these four.
+    for (n, [i, q]) in weights.iter().enumerate() {
+        let (sine, cosine) = (step * (frequency * n % turn) as f64).sin_cos();
+        of = [of[0] + i * cosine, of[1] + i * sine, of[2] + q * cosine, of[3] + q * sine];
+    }
+    let [ic, is, qc, qs] = of;
+    (ic + qs).hypot(is - qc) + (ic - qs).hypot(is + qc)
 }
 
 /// How far the amplitude of a tone on the carrier is off that is not dithered, rms over phases.

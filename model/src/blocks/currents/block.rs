@@ -9,7 +9,7 @@
 //! ```
 //!
 //! Every word takes the same clocks, however far it is moved. Position is a ratio of terminals: it needs no point.
-//! Latency: 2 (clocks of a word) · (2 · terminals + 2) clocks, and those of moving back.
+//! Latency: B + 3 clocks a word, of 2 · terminals + 2 words, twice; B clocks of moving back; B the profile's `block_shift`.
 
 use super::{Currents, Registers};
 use crate::format::Format;
