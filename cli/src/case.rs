@@ -9,7 +9,7 @@ use std::thread;
 
 use anyhow::{Result, ensure};
 use hapticore_model::profile::Profile;
-use hapticore_scene::{Complex, EffectCost, Plant, RungError, Scene, TERMINALS, Truth};
+use hapticore_scene::{Complex, EffectCost, Plant, RungError, Scene, Truth};
 use indicatif::ProgressBar;
 
 use crate::args::Fidelity;
@@ -76,9 +76,9 @@ impl<'a> Case<'a> {
     /// # Errors
     /// A case that the profile cannot serve.
     pub fn new(scene: &'a Scene, index: usize, number: usize, profile: &Profile, start_s: f64) -> Result<Self> {
-        let terminals = profile.terminals.x.len();
+        let (signs, terminals) = (profile.terminals.x.len(), scene.cases[index].device.terminals());
         let name = &profile.name;
-        ensure!(terminals == TERMINALS, "profile {name}: terminals.x: expected {TERMINALS} signs, got {terminals}");
+        ensure!(signs == terminals, "profile {name}: terminals.x: expected {terminals} signs, got {signs}");
         let plant = Plant::new(scene, index, &timing(profile))?;
         let pads = plant.pad_names().len();
         let profile = Arc::new(serving(profile, pads));

@@ -92,5 +92,6 @@ pub fn timing(profile: &Profile) -> Timing {
         window_start: profile.slot.blanking() as usize,
         window_samples: profile.slot.integrate as usize,
         samples_per_period: profile.samples_per_period(),
+        signs: Some([profile.terminals.x.clone(), profile.terminals.y.clone()]),
     }
 }

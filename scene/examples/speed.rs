@@ -104,8 +104,14 @@ fn measure(effects: &str) -> Result<[f64; 3], SceneError> {
 }
 
 fn once(scene: &Scene) -> Result<[f64; 3], SceneError> {
-    let timing =
-        Timing { pads: 4, slot_samples: 1700, window_start: 700, window_samples: 1000, samples_per_period: 10.0 };
+    let timing = Timing {
+        pads: 4,
+        slot_samples: 1700,
+        window_start: 700,
+        window_samples: 1000,
+        samples_per_period: 10.0,
+        signs: None,
+    };
     let start = Instant::now();
     let mut plant = Plant::new(scene, 0, &timing)?;
     let built = start.elapsed().as_secs_f64();

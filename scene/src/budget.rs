@@ -12,7 +12,7 @@
 use num_complex::Complex64;
 
 use crate::case::Case;
-use crate::device::{CHANNELS, TERMINALS};
+use crate::device::PerTerminal;
 use crate::effects::carrier::CARRIER;
 use crate::effects::{NOISE, Spec};
 use crate::error::SceneError;
@@ -117,7 +117,7 @@ impl Scene {
 
 /// What is seen in one slot.
 struct Look {
-    currents: [Complex64; TERMINALS],
+    currents: PerTerminal<Complex64>,
     capacitance_pf: f64,
     force_n: f64,
 }
@@ -125,13 +125,13 @@ struct Look {
 impl Look {
     fn at(plant: &mut Plant, slot: usize, sampled: bool, timing: &Timing) -> Look {
         let truth = plant.truth(slot);
-        let mut phasors = [Complex64::ZERO; CHANNELS - 1];
+        let mut phasors = vec![Complex64::ZERO; plant.channels() - 1];
         if sampled {
             lock_in(plant, slot, timing, &mut phasors);
         } else {
             plant.phasors(slot, &mut phasors);
         }
-        let currents = std::array::from_fn(|terminal| phasors[terminal]);
+        let currents = phasors[..plant.terminals().len()].iter().copied().collect();
         Look { currents, capacitance_pf: truth.capacitance_pf, force_n: truth.force_n }
     }
 }
@@ -144,7 +144,7 @@ fn lock_in(plant: &mut Plant, slot: usize, timing: &Timing, phasors: &mut [Compl
     let turns = 1.0 / timing.samples_per_period;
     let mut carrier = Rotor::new(-turns * first as f64, -turns);
     let mut hann = Rotor::new(0.0, 1.0 / timing.window_samples as f64);
-    for row in samples.chunks_exact(CHANNELS) {
+    for row in samples.chunks_exact(plant.channels()) {
         let weight = carrier.turn() * ((1.0 - hann.turn().re) * 2.0 / timing.window_samples as f64);
         phasors.iter_mut().zip(row).for_each(|(phasor, sample)| *phasor += weight * sample);
     }
@@ -154,7 +154,7 @@ fn error_percent(coarse: &[Look], fine: &[Look]) -> f64 {
     let largest_n = fine.iter().map(|look| look.force_n.abs()).fold(f64::MIN_POSITIVE, f64::max);
     let error = |(coarse, fine): (&Look, &Look)| {
         let sum = fine.currents.iter().sum::<Complex64>().norm();
-        let currents = coarse.currents.iter().zip(fine.currents).map(|(a, b)| (a - b).norm() / sum);
+        let currents = coarse.currents.iter().zip(fine.currents.iter()).map(|(a, b)| (a - b).norm() / sum);
         let capacitance = (coarse.capacitance_pf / fine.capacitance_pf - 1.0).abs();
         let force = (coarse.force_n - fine.force_n).abs() / largest_n;
         currents.fold(capacitance.max(force), f64::max)

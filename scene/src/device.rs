@@ -3,20 +3,25 @@
 
 use std::f64::consts::{PI, TAU};
 
+use crate::effects::sheet;
 use crate::error::SceneError;
+use crate::few::Few;
 use crate::format::{Limits, Table};
 
-/// Current sensors at the edge of the sheet.
-pub const TERMINALS: usize = 6;
+/// The fewest terminals of a sheet: two ratios need three currents.
+pub const LEAST_TERMINALS: usize = 3;
 
-/// ADC channels: the terminals' currents, the sensing voltage, the haptic voltage.
-pub const CHANNELS: usize = TERMINALS + 2;
+/// The most terminals of a sheet.
+pub const MOST_TERMINALS: usize = 16;
 
-/// The channel of the sensing voltage.
-pub const SENSE: usize = TERMINALS;
+/// ADC channels beside the terminals' currents: the sensing voltage, then the haptic voltage.
+pub(crate) const VOLTAGES: usize = 2;
 
-/// The channel of the haptic voltage.
-pub const HAPTIC: usize = TERMINALS + 1;
+/// The most ADC channels.
+pub(crate) const MOST_CHANNELS: usize = MOST_TERMINALS + VOLTAGES;
+
+/// One value per terminal, held in place: no slot or sample allocates.
+pub(crate) type PerTerminal<T> = Few<T, MOST_TERMINALS>;
 
 /// Permittivity of free space, F/m.
 pub const EPSILON_0: f64 = 8.854_187_812_8e-12;
@@ -31,8 +36,8 @@ const GRAVITY_M_S2: f64 = 10.0;
 /// Sizes, full scales, frequencies and the nominal force law of the display.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Device {
-    /// Number of current sensors, channels `0 .. terminals`.
-    pub terminals: usize,
+    /// Where the current sensors are, mm from the sheet's centre, in the order of their channels: 3 to 16 of them.
+    pub terminals_mm: Vec<[f64; 2]>,
     /// Current at the end of a terminal's ADC range, A (peak).
     pub current_full_scale_a: f64,
     /// Sensing voltage at the end of its ADC range, V (peak).
@@ -85,8 +90,8 @@ impl Device {
         let mu = number("device", "mu", Limits::above(0.0, 10.0), 0.12)?;
         let carrier_hz = number("carrier", "frequency_hz", Limits::POSITIVE, 100e3)?;
         let pad_area_m2 = PI / 4.0 * (pad_diameter_mm * 1e-3).powi(2);
-        Ok(Device {
-            terminals: TERMINALS,
+        let mut device = Device {
+            terminals_mm: Vec::new(),
             current_full_scale_a: 1e-3 * number("sensor", "current_full_scale_ma", Limits::POSITIVE, 4.0)?,
             sense_full_scale_v: number("sensor", "sense_full_scale_v", Limits::POSITIVE, 8.0)?,
             haptic_full_scale_v: number("sensor", "haptic_full_scale_v", Limits::POSITIVE, 600.0)?,
@@ -102,7 +107,29 @@ impl Device {
             mu,
             gravity_m_s2: number("device", "gravity_m_s2", Limits::POSITIVE, GRAVITY_M_S2)?,
             force_k: mu / (2.0 * EPSILON_0 * pad_area_m2),
-        })
+        };
+        device.terminals_mm = sheet::terminals_mm(root, &device)?;
+        Ok(device)
+    }
+
+    /// Number of current sensors, channels `0 .. terminals`.
+    pub fn terminals(&self) -> usize {
+        self.terminals_mm.len()
+    }
+
+    /// Number of ADC channels: the terminals' currents, the sensing voltage, the haptic voltage.
+    pub fn channels(&self) -> usize {
+        self.terminals() + VOLTAGES
+    }
+
+    /// The channel of the sensing voltage.
+    pub fn sense(&self) -> usize {
+        self.terminals()
+    }
+
+    /// The channel of the haptic voltage.
+    pub fn haptic(&self) -> usize {
+        self.terminals() + 1
     }
 
     /// What presses a pad under a load, N.

@@ -10,14 +10,15 @@ use std::ops::Range;
 use num_complex::Complex64;
 
 use crate::case::{Case, Length};
-use crate::device::{CHANNELS, Device};
+use crate::device::Device;
 use crate::effects::{EffectCost, Effects, Pad, Phasors, Run, Setting};
 use crate::error::{Place, SceneError};
 use crate::pad::resting;
 use crate::path::raster;
+use crate::ratios::Ratios;
 use crate::scene::Scene;
 use crate::timing::Timing;
-use crate::truth::{ForcePoint, MapPoint, Truth, ratios};
+use crate::truth::{ForcePoint, MapPoint, Truth};
 use crate::uncouple::{RASTER, Uncoupler};
 
 /// One case of a scene at work.
@@ -27,9 +28,10 @@ pub struct Plant {
     timing: Timing,
     seed: u64,
     index: usize,
+    ratios: Ratios,
     effects: Effects,
     /// The slot last asked for, so that truth, phasors and samples of a slot are of one evaluation.
-    now: Option<(usize, Pad)>,
+    now: (Option<usize>, Pad),
 }
 
 impl Plant {
@@ -61,7 +63,10 @@ impl Plant {
         let device = case.device.clone().sampled(timing.samples_per_period);
         let setting = Setting { device: &device, timing, seed, case: index };
         let effects = Effects::build(&case.effects, &setting);
-        let plant = Plant { effects, case, device, timing: timing.clone(), seed, index, now: None };
+        let now = (None, resting([0.0; 2], 0.0, 0.0, &device));
+        let ratios = Ratios::new(&device, timing.signs.as_ref());
+        let ratios = ratios.map_err(|message| SceneError::new(Place::File, "profile", message))?;
+        let plant = Plant { effects, ratios, case, device, timing: timing.clone(), seed, index, now };
         plant.ask_limited_rungs()?;
         Ok(plant)
     }
@@ -92,13 +97,19 @@ impl Plant {
         let setting = Setting { device: &self.device, timing: &self.timing, seed: self.seed, case: self.index };
         let [columns, rows] = RASTER;
         let calibration = self.calibration_map(columns, rows, self.device.pad_diameter_mm / 2.0);
-        Some(Uncoupler::new(Effects::build(nominal, &setting), self.device(), &calibration))
+        Some(Uncoupler::new(Effects::build(nominal, &setting), self.device(), self.ratios.clone(), &calibration))
     }
 
     /// Effects of their own, for what must leave the run as it was.
     pub(crate) fn fresh_effects(&self) -> Effects {
         let setting = Setting { device: &self.device, timing: &self.timing, seed: self.seed, case: self.index };
         Effects::build(&self.case.effects, &setting)
+    }
+
+    /// The ratios that truth tells.
+    #[cfg(test)]
+    pub(crate) fn ratios(&self) -> Ratios {
+        self.ratios.clone()
     }
 
     /// The same plant, which counts and times every evaluation of an effect.
@@ -119,7 +130,12 @@ impl Plant {
 
     /// Number of ADC channels: terminals, sensing voltage, haptic voltage.
     pub fn channels(&self) -> usize {
-        CHANNELS
+        self.device.channels()
+    }
+
+    /// Where the terminals are, mm from the sheet's centre, in the order of their channels.
+    pub fn terminals(&self) -> &[[f64; 2]] {
+        &self.device.terminals_mm
     }
 
     /// What a calibration may know.
@@ -140,9 +156,9 @@ impl Plant {
 
     /// The plant in a slot.
     pub fn truth(&mut self, slot: usize) -> Truth {
-        let pad = self.pad(slot);
-        let point = self.point(slot);
-        let (r_x, r_y) = ratios(&pad.amplitudes());
+        self.look(slot);
+        let (pad, point) = (&self.now.1, self.point(slot));
+        let [r_x, r_y] = self.ratios.of(&pad.amplitudes());
         Truth {
             time_s: pad.time_s,
             pad: pad.index,
@@ -170,10 +186,10 @@ impl Plant {
     /// # Panics
     /// If `out` is shorter than that.
     pub fn phasors(&mut self, slot: usize, out: &mut [Complex64]) -> f64 {
-        let pad = self.pad(slot);
+        self.look(slot);
         let mut phasors = Phasors { slot: slot as u64, ..Phasors::default() };
-        self.effects.on_channels(|effect| effect.phasors(&pad, &mut phasors));
-        out[..CHANNELS - 1].copy_from_slice(&phasors.carrier);
+        self.effects.on_channels(|effect| effect.phasors(&self.now.1, &mut phasors));
+        out[..phasors.carrier.len()].copy_from_slice(&phasors.carrier);
         phasors.haptic_mean_square
     }
 
@@ -183,13 +199,12 @@ impl Plant {
     /// The noise of a run depends on where it starts, not on which runs were asked for before. Take the blanking part and
     /// the window whole, so that it is the same each time.
     pub fn samples(&mut self, slot: usize, range: Range<usize>, out: &mut Vec<f64>) {
-        let pad = self.pad(slot);
+        self.look(slot);
         let slot_start = (slot * self.timing.slot_samples) as u64;
         let start = out.len();
-        out.resize(start + range.len() * CHANNELS, 0.0);
-        let run = Run { slot, range, slot_start };
-        let rows = out[start..].as_chunks_mut().0;
-        self.effects.on_channels(|effect| effect.samples(&pad, &run, rows));
+        out.resize(start + range.len() * self.channels(), 0.0);
+        let run = Run { slot, range, slot_start, channels: self.channels() };
+        self.effects.on_channels(|effect| effect.samples(&self.now.1, &run, &mut out[start..]));
         out[start..].iter_mut().for_each(|sample| *sample = sample.clamp(-1.0, 1.0));
     }
 
@@ -198,7 +213,7 @@ impl Plant {
         let still =
             raster(nx, ny, margin_mm, &self.device).into_iter().map(|place| resting(place, 0.0, 0.0, &self.device));
         let point = |pad: Pad| {
-            let (r_x, r_y) = ratios(&pad.amplitudes());
+            let [r_x, r_y] = self.ratios.of(&pad.amplitudes());
             MapPoint { x_mm: pad.x_mm, y_mm: pad.y_mm, r_x, r_y, sheet_ohm: pad.sheet_ohm.re }
         };
         self.settle(still).map(point).collect()
@@ -240,22 +255,19 @@ impl Plant {
         }
     }
 
-    fn pad(&mut self, slot: usize) -> Pad {
-        if let Some((same, pad)) = &self.now
-            && *same == slot
-        {
-            return pad.clone();
+    /// Lets the effects act on the pad that a slot serves, if they have not yet.
+    fn look(&mut self, slot: usize) {
+        if self.now.0 == Some(slot) {
+            return;
         }
         let time_s = self.time_s(slot);
         let index = slot % self.case.pads.len();
-        let mut pad = self.alone(index, slot, time_s);
+        self.now = (Some(slot), self.alone(index, slot, time_s));
         if self.effects.joins_pads() {
             let others: Vec<_> = (0..self.case.pads.len()).filter(|other| *other != index).collect();
             let others: Vec<_> = others.into_iter().map(|other| self.alone(other, slot, time_s)).collect();
-            self.effects.on_pads(&mut pad, &others);
+            self.effects.on_pads(&mut self.now.1, &others);
         }
-        self.now = Some((slot, pad.clone()));
-        pad
     }
 
     /// A pad as if it were the only one.

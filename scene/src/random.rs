@@ -49,10 +49,9 @@ pub(crate) fn stream(seed: u64, place: [u64; 2], purpose: Purpose) -> Stream {
     Stream::seed_from_u64(name.into_iter().fold(mix(seed), |hash, part| mix(hash ^ part)))
 }
 
-/// `N` standard normal numbers that belong to the hardware: the same in every case and slot.
-pub(crate) fn normals<const N: usize>(seed: u64, purpose: Purpose) -> [f64; N] {
-    let mut stream = stream(seed, [0, 0], purpose);
-    std::array::from_fn(|_| StandardNormal.sample(&mut stream))
+/// Standard normal numbers that belong to the hardware: the same in every case and slot.
+pub(crate) fn normals(seed: u64, purpose: Purpose) -> impl Iterator<Item = f64> {
+    StandardNormal.sample_iter(stream(seed, [0, 0], purpose))
 }
 
 /// One step of SplitMix64: every bit of the input reaches every bit of the output (Steele, Lea and Flood, 2014).

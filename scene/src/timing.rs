@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How the core divides its time: the one thing a plant has to know of it.
+//! How the core divides its time and reads positions: what a plant has to know of it.
 
-/// How the core divides its time, from its profile.
+/// How the core divides its time and reads positions, from its profile.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Timing {
     /// Pads that the core can serve.
@@ -14,6 +14,9 @@ pub struct Timing {
     pub window_samples: usize,
     /// ADC samples per carrier period.
     pub samples_per_period: f64,
+    /// Sign of each terminal's current in the ratios r_x and r_y, as [`Truth`](crate::Truth) tells them; by the terminals'
+    /// places ([`signs_by_place`](crate::signs_by_place)) where there are none.
+    pub signs: Option<[Vec<i8>; 2]>,
 }
 
 impl Timing {

@@ -12,9 +12,9 @@ pub struct Truth {
     pub point: usize,
     /// Points that differ in position alone share a group.
     pub group: usize,
-    /// Eq. 2 with the true currents.
+    /// Ratio of the true currents along x: eq. 2, with the signs of [`Timing`](crate::Timing).
     pub r_x: f64,
-    /// Eq. 3 with the true currents.
+    /// The same along y, eq. 3.
     pub r_y: f64,
     /// Position, mm right of the sheet's centre.
     pub x_mm: f64,
@@ -47,9 +47,9 @@ pub struct MapPoint {
     pub x_mm: f64,
     /// Position, mm above the sheet's centre.
     pub y_mm: f64,
-    /// Eq. 2.
+    /// Ratio of the currents along x.
     pub r_x: f64,
-    /// Eq. 3.
+    /// Ratio of the currents along y.
     pub r_y: f64,
     /// Resistance R_p of the sheet there, Ω.
     pub sheet_ohm: f64,
@@ -66,13 +66,4 @@ pub struct ForcePoint {
     pub capacitance_pf: f64,
     /// Haptic force, N.
     pub force_n: f64,
-}
-
-/// Eqs. 2 and 3, from the corners' shares.
-pub(crate) fn ratios(split: &[f64]) -> (f64, f64) {
-    let [top_left, bottom_left, bottom_right, top_right] = [split[0], split[1], split[2], split[3]];
-    let sum = top_left + bottom_left + bottom_right + top_right;
-    let right = bottom_right + top_right - top_left - bottom_left;
-    let up = top_left + top_right - bottom_left - bottom_right;
-    (right / sum, up / sum)
 }

@@ -7,7 +7,7 @@ const HEAD: &str = "title = \"t\"\n";
 const REST: &str = "[[pad]]\nposition_mm = { raster = { nx = 7, ny = 5, margin_mm = 20 } }\n[sheet]\n";
 
 fn timing() -> Timing {
-    Timing { pads: 4, slot_samples: 500, window_start: 100, window_samples: 400, samples_per_period: 10.0 }
+    Timing { pads: 4, slot_samples: 500, window_start: 100, window_samples: 400, samples_per_period: 10.0, signs: None }
 }
 
 fn scene(head: &str, rest: &str) -> Scene {

@@ -3,10 +3,20 @@
 
 use std::collections::BTreeMap;
 
-use hapticore_scene::{Complex, Plant, Scene, TERMINALS, Timing, Truth, gallery};
+use hapticore_scene::{Complex, Plant, Scene, Timing, Truth, gallery};
+
+/// Terminals of the bundled scenes' devices.
+const TERMINALS: usize = 6;
 
 fn timing() -> Timing {
-    Timing { pads: 4, slot_samples: 1700, window_start: 700, window_samples: 1000, samples_per_period: 10.0 }
+    Timing {
+        pads: 4,
+        slot_samples: 1700,
+        window_start: 700,
+        window_samples: 1000,
+        samples_per_period: 10.0,
+        signs: None,
+    }
 }
 
 #[test]

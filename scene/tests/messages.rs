@@ -65,7 +65,10 @@ fn effects_that_need_a_sheet() {
 
 #[test]
 fn sheets_that_cannot_be() {
-    check("[sheet]\nterminals = 5", "s.toml:5: sheet.terminals: expected 4 or 6, got 5");
+    check(
+        "[sheet]\nterminals = 5",
+        "s.toml:5: sheet.terminals: expected 4 or 6, got 5; terminals_mm takes the places of any other number",
+    );
     check(
         "[sheet]\nterminals = 4\nopen = [6]",
         "s.toml:6: sheet.open: expected a list, each a number from 1 to 4, got 6",
@@ -182,6 +185,62 @@ fn terminals_inside_the_sheet() {
 }
 
 #[test]
+fn places_of_terminals_that_cannot_be() {
+    let places = |list: &str, expected: &str| {
+        check(&format!("[sheet]\nterminals_mm = {list}"), &format!("s.toml:5: sheet.{expected}"))
+    };
+    let [a, b, c] = ["[-430, 250]", "[-430, -250]", "[430, 0]"];
+    places(
+        &format!("[{a}, {b}, [420, 0]]"),
+        "terminals_mm: expected places on the sheet's edge, x = ±430 or y = ±250, got [420.0, 0.0] as terminal 3",
+    );
+    places(&format!("[{a}, {b}, [430, 251]]"), "terminals_mm: expected places on the sheet's edge");
+    places(
+        &format!("[{a}, {b}, {c}, {b}]"),
+        "terminals_mm: expected different places, got [-430.0, -250.0] as terminals 2 and 4",
+    );
+    places(&format!("[{a}, {b}]"), "terminals_mm: expected 3 to 16 places, got 2");
+    let many: Vec<_> = (0..17).map(|n| format!("[{}, 250]", n * 20 - 200)).collect();
+    places(&format!("[{}]", many.join(", ")), "terminals_mm: expected 3 to 16 places, got 17");
+    places("[1, 2, 3]", "terminals_mm: expected a list of pairs of numbers");
+    for (key, value) in
+        [("terminals", "4"), ("middles", "\"short\""), ("terminal_5_mm", "[0, 250]"), ("terminal_6_mm", "[0, 250]")]
+    {
+        check(
+            &format!("[sheet]\nterminals_mm = [{a}, {b}, {c}]\n{key} = {value}"),
+            &format!("s.toml:6: sheet.{key}: expected none, since terminals_mm says where all terminals are"),
+        );
+    }
+    check(
+        &format!("[sheet]\nterminals_mm = [{a}, {b}, {c}]\nopen = [4]"),
+        "s.toml:6: sheet.open: expected a list, each a number from 1 to 3, got 4",
+    );
+    check("[sheet]\nterminals = 17", "s.toml:5: sheet.terminals: expected an integer from 3 to 16, got 17");
+}
+
+#[test]
+fn a_resistance_for_each_terminal() {
+    check(
+        "[sheet]\nterminals = 4\nterminal_ohm = [1, 2, 3]",
+        "s.toml:6: sheet.terminal_ohm: expected a number, or one for each of 4 terminals, got a list of 3",
+    );
+    check(
+        "[sheet]\nterminals = 4\nterminal_ohm = [1, 2, 3, -4]",
+        "s.toml:6: sheet.terminal_ohm: expected a list, each a number of at least 0, got -4",
+    );
+}
+
+#[test]
+fn signs_for_other_terminals() {
+    let scene = Scene::parse(&format!("{SCENE}[sheet]\nterminals = 4"), "s.toml", &[]).unwrap();
+    let signs = Some([vec![-1, -1, 1, 1, 0, 0], vec![1, -1, -1, 1, 0, 0]]);
+    let timing =
+        Timing { pads: 1, slot_samples: 9, window_start: 0, window_samples: 9, samples_per_period: 9.0, signs };
+    let error = Plant::new(&scene, 0, &timing).map(|_| ()).unwrap_err().to_string();
+    assert_eq!(error, "s: profile: expected 4 signs, as the device has terminals, got 6");
+}
+
+#[test]
 fn sweeps_and_time_do_not_mix() {
     let swept = format!("duration_s = 1\n{SCENE}load_g = {{ sweep = [1, 2] }}");
     assert!(message(&swept, &[]).starts_with("s.toml:1: duration_s: expected none, since the sweep decides"));
@@ -249,7 +308,7 @@ fn overrides() {
         assert!(message.starts_with(expected), "got      {message}\nexpected {expected}");
     };
     expect("sheet.rung", "cubic", "s.toml: --set sheet.rung: expected one of \"distance\"");
-    expect("sheet.wet", "1", "s.toml: --set sheet.wet: unknown key, expected one of \"slope_percent\"");
+    expect("sheet.wet", "1", "s.toml: --set sheet.wet: unknown key, expected one of \"terminals\", \"middles\"");
     expect("magnet.rung", "1", "s.toml: --set magnet: unknown key");
     expect("pad.3.load_g", "1", "s.toml: --set pad.3.load_g: there is no 3 that could be entered");
     expect("title.x", "1", "s.toml: --set title.x: there is no title that could be entered");
@@ -269,7 +328,8 @@ fn no_scene_at_all() {
 #[test]
 fn too_many_pads_for_the_profile() {
     let scene = Scene::parse(&format!("{SCENE}[[pad]]\nposition_mm = [9, 9]"), "s.toml", &[]).unwrap();
-    let timing = Timing { pads: 1, slot_samples: 9, window_start: 0, window_samples: 9, samples_per_period: 9.0 };
+    let timing =
+        Timing { pads: 1, slot_samples: 9, window_start: 0, window_samples: 9, samples_per_period: 9.0, signs: None };
     let error = Plant::new(&scene, 0, &timing).map(|_| ()).unwrap_err().to_string();
     assert_eq!(error, "s: pad: expected at most 1 pads, as profile standard serves, got 2");
 }

@@ -5,7 +5,14 @@
 use hapticore_scene::{Complex, Plant, Scene, Timing, Truth};
 
 fn timing() -> Timing {
-    Timing { pads: 4, slot_samples: 1700, window_start: 700, window_samples: 1000, samples_per_period: 10.0 }
+    Timing {
+        pads: 4,
+        slot_samples: 1700,
+        window_start: 700,
+        window_samples: 1000,
+        samples_per_period: 10.0,
+        signs: None,
+    }
 }
 
 fn plant(text: &str) -> Plant {

@@ -6,8 +6,8 @@ mod common;
 
 use allocation_counter::measure;
 use common::every::{PARTS, Part, optional, scene_of};
-use common::{Seen, plant, scene, see, timing};
-use hapticore_scene::{CHANNELS, Complex, Plant, SENSE, Scene};
+use common::{CHANNELS, SENSE, Seen, plant, scene, see, timing};
+use hapticore_scene::{Complex, Plant, Scene};
 
 const SLOTS: usize = 6;
 

@@ -4,13 +4,19 @@
 
 use std::f64::consts::TAU;
 
-use hapticore_scene::{CHANNELS, Complex, HAPTIC, Plant, SENSE, Scene, TERMINALS, Timing};
+use hapticore_scene::{Complex, Plant, Scene, Timing};
+
+/// Terminals, channels, and the voltages' channels of the default device.
+const TERMINALS: usize = 6;
+const CHANNELS: usize = 8;
+const SENSE: usize = 6;
+const HAPTIC: usize = 7;
 
 const BARE: &str = "title = \"t\"\ndwell_slots = 50\n[[pad]]\nposition_mm = [120, -60]\nhaptic_v_rms = 150\n";
 const NOISY: &str = "[sheet]\n[gap]\n[sensor]\nnoise_ppm_rms = 18\nhaptic_leakage = true\ngain_mismatch_percent = 1\noffset_percent = 0.1\n";
 
 fn timing() -> Timing {
-    Timing { pads: 4, slot_samples: 500, window_start: 100, window_samples: 400, samples_per_period: 10.0 }
+    Timing { pads: 4, slot_samples: 500, window_start: 100, window_samples: 400, samples_per_period: 10.0, signs: None }
 }
 
 fn scene(effects: &str) -> Scene {
@@ -118,9 +124,15 @@ fn currents_follow_equations_1_and_4() {
     let capacitance_pf = 1e12 * total.norm_sqr() / (device.carrier_rad_s * device.carrier_v * total.im);
     let sheet_ohm = device.carrier_v * total.re / total.norm_sqr();
     assert!((capacitance_pf - truth.capacitance_pf).abs() < 1e-9 && (sheet_ohm - truth.sheet_ohm).abs() < 1e-8);
-    let [a, b, c, d] = [0, 1, 2, 3].map(|corner| phasors[corner].norm());
-    let (r_x, r_y) = ((c + d - a - b) / (a + b + c + d), (a + d - b - c) / (a + b + c + d));
+    let [a, b, c, d, e, f] = [0, 1, 2, 3, 4, 5].map(|terminal| phasors[terminal].norm());
+    let all = a + b + c + d + e + f;
+    let (r_x, r_y) = ((c + d - a - b) / all, (a + d + f - b - c - e) / all);
     assert!((r_x - truth.r_x).abs() < 1e-12 && (r_y - truth.r_y).abs() < 1e-12 && r_x > 0.0 && r_y < 0.0);
+    let corners = [vec![-1, -1, 1, 1, 0, 0], vec![1, -1, -1, 1, 0, 0]];
+    let timing = Timing { signs: Some(corners), ..timing() };
+    let paper = Plant::new(&scene("[sheet]\nterminal_ohm = 500\n"), 0, &timing).unwrap().truth(0);
+    let (r_x, r_y) = ((c + d - a - b) / (a + b + c + d), (a + d - b - c) / (a + b + c + d)); // eqs. 2 and 3
+    assert!((r_x - paper.r_x).abs() < 1e-12 && (r_y - paper.r_y).abs() < 1e-12);
 }
 
 /// PHYSICS §5, with V_h in V rms and V_s in V peak: f_h·V_h/(f_s·V_s).

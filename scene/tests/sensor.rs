@@ -4,9 +4,10 @@
 mod common;
 
 use common::{
-    PAD, assert_near, capacitance_f, demodulate, deviation_percent, force_noise_percent, hann, plant, rectangle,
+    CHANNELS, PAD, SENSE, TERMINALS, assert_near, capacitance_f, demodulate, deviation_percent, force_noise_percent,
+    hann, plant, rectangle,
 };
-use hapticore_scene::{CHANNELS, Complex, Plant, SENSE, TERMINALS};
+use hapticore_scene::{Complex, Plant};
 
 const SLOTS: usize = 400;
 

@@ -5,8 +5,8 @@ mod common;
 
 use std::f64::consts::PI;
 
-use common::{PAD, capacitance_f, demodulate, hann, plant, scene, timing};
-use hapticore_scene::{CHANNELS, Complex, Plant, SENSE, TERMINALS, Timing};
+use common::{CHANNELS, PAD, SENSE, TERMINALS, capacitance_f, demodulate, hann, plant, scene, timing};
+use hapticore_scene::{Complex, Plant, Timing};
 
 /// Terminals of 1.7 kΩ give the paper's R_p of up to 500 Ω: τ is 0.16 µs.
 fn with(switching: &str) -> String {

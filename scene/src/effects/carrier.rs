@@ -13,10 +13,11 @@
 //!
 //! The carrier is how the device measures: it is there even without its table, at the defaults.
 
+use crate::few::Few;
 use num_complex::Complex64;
 
 use super::{ChannelEffect, Effect, Pad, Phasors, Run, Rung, Setting, Spec};
-use crate::device::{CHANNELS, Device, HAPTIC, SENSE, TERMINALS};
+use crate::device::{Device, MOST_CHANNELS};
 use crate::error::SceneError;
 use crate::format::Table;
 use crate::rotor::Rotor;
@@ -42,15 +43,14 @@ impl Carrier {
         Carrier { device: setting.device.clone(), turns_per_sample: 1.0 / setting.timing.samples_per_period }
     }
 
-    fn amplitudes(&self, pad: &Pad) -> [Complex64; CHANNELS] {
-        let device = &self.device;
-        let scale = device.carrier_v / device.current_full_scale_a;
-        let mut amplitudes = [Complex64::ZERO; CHANNELS];
-        for (amplitude, siemens) in amplitudes.iter_mut().zip(pad.transfer(device)) {
-            *amplitude = siemens * scale;
-        }
-        amplitudes[SENSE] = Complex64::new(device.carrier_v / device.sense_full_scale_v, 0.0);
-        amplitudes
+    /// Of the terminals' currents, then of the sensing voltage.
+    fn amplitudes(&self, pad: &Pad) -> Few<Complex64, { MOST_CHANNELS - 1 }> {
+        let sense = Complex64::new(self.device.carrier_v / self.device.sense_full_scale_v, 0.0);
+        let terminals = pad.terminal_amplitudes(&self.device);
+        Few::of(terminals.len() + 1, |amplitudes| {
+            amplitudes[..terminals.len()].copy_from_slice(&terminals);
+            amplitudes[terminals.len()] = sense;
+        })
     }
 }
 
@@ -62,22 +62,22 @@ pub(super) fn haptic_rotor(device: &Device, run: &Run) -> Rotor {
 
 impl ChannelEffect for Carrier {
     fn phasors(&mut self, pad: &Pad, phasors: &mut Phasors) {
-        phasors.carrier.copy_from_slice(&self.amplitudes(pad)[..=TERMINALS]);
+        phasors.carrier = self.amplitudes(pad);
         phasors.haptic_mean_square = (pad.haptic_v_rms / self.device.haptic_full_scale_v).powi(2);
     }
 
-    fn samples(&mut self, pad: &Pad, run: &Run, rows: &mut [[f64; CHANNELS]]) {
-        let amplitudes = self.amplitudes(pad);
+    fn samples(&mut self, pad: &Pad, run: &Run, samples: &mut [f64]) {
+        let amplitudes = self.amplitudes(pad).padded();
         let (inphase, quadrature) = (amplitudes.map(|a| a.re), amplitudes.map(|a| a.im));
         let haptic = pad.haptic_v_rms * std::f64::consts::SQRT_2 / self.device.haptic_full_scale_v;
         let mut carrier = Rotor::new(self.turns_per_sample * run.range.start as f64, self.turns_per_sample);
         let mut slow = haptic_rotor(&self.device, run);
-        for row in rows {
+        run.rows(samples, |row| {
             let now = carrier.turn();
-            for channel in 0..CHANNELS {
-                row[channel] = inphase[channel] * now.re - quadrature[channel] * now.im;
+            for (sample, (re, im)) in row.iter_mut().zip(inphase.iter().zip(&quadrature)) {
+                *sample = re * now.re - im * now.im;
             }
-            row[HAPTIC] = haptic * slow.turn().im;
-        }
+            row[row.len() - 1] = haptic * slow.turn().im;
+        });
     }
 }

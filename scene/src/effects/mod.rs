@@ -27,9 +27,10 @@ pub(crate) use spec::{Rung, Setting, Spec};
 
 use std::ops::Range;
 
+use crate::few::Few;
 use num_complex::Complex64;
 
-use crate::device::{CHANNELS, Device, TERMINALS};
+use crate::device::{Device, MOST_CHANNELS, PerTerminal, VOLTAGES};
 use crate::error::SceneError;
 use crate::format::Table;
 
@@ -93,8 +94,8 @@ pub(crate) trait PadsEffect: Send {
 pub(crate) trait ChannelEffect: Send {
     /// On the amplitudes that a demodulator over the slot's window would find.
     fn phasors(&mut self, pad: &Pad, phasors: &mut Phasors);
-    /// On the samples of a run, one row of channels per sample instant.
-    fn samples(&mut self, pad: &Pad, run: &Run, rows: &mut [[f64; CHANNELS]]);
+    /// On the samples of a run, one [row](Run::rows) of channels per sample instant.
+    fn samples(&mut self, pad: &Pad, run: &Run, samples: &mut [f64]);
     /// Why the rung cannot be used on a pad: asked before a run where the rung says that it has [limits](Rung::limited).
     fn refuses(&self, _: &Pad) -> Option<String> {
         None
@@ -133,11 +134,11 @@ pub(crate) struct Pad {
     /// Friction that acts on the pad, N, where an effect says it.
     pub friction_n: f64,
     /// Share of the current through each terminal; real where the sheet is all there is.
-    pub split: [Complex64; TERMINALS],
+    pub split: PerTerminal<Complex64>,
     /// What the pad sees of the sheet, Ω: the combined resistance R_p, or an impedance where an effect makes it one.
     pub sheet_ohm: Complex64,
     /// Current into each terminal per volt of sensing, S, where an effect says it; else each one's share of jωC/(1 + jωC·R_p).
-    pub transfer: Option<[Complex64; TERMINALS]>,
+    pub transfer: Option<PerTerminal<Complex64>>,
     /// The pad reaches over the sheet's edge: it is taken as lying at the edge.
     pub over_edge: bool,
     /// The pad lies on another one: both are taken as touching.
@@ -162,16 +163,28 @@ impl Pad {
     }
 
     /// Amplitudes of the terminals' currents, up to a common factor.
-    pub fn amplitudes(&self) -> [f64; TERMINALS] {
+    pub fn amplitudes(&self) -> PerTerminal<f64> {
         self.transfer.unwrap_or(self.split).map(Complex64::norm)
     }
 
     /// Current into each terminal per volt of sensing, S: eqs. 1 and 4, or as an effect says.
-    pub fn transfer(&self, device: &Device) -> [Complex64; TERMINALS] {
+    pub fn transfer(&self, device: &Device) -> PerTerminal<Complex64> {
         self.transfer.unwrap_or_else(|| {
             let total = self.admittance(device.carrier_rad_s);
             self.split.map(|share| total * share)
         })
+    }
+
+    /// Amplitudes of the terminals' channels, as fractions of full scale.
+    pub fn terminal_amplitudes(&self, device: &Device) -> PerTerminal<Complex64> {
+        let scale = device.carrier_v / device.current_full_scale_a;
+        match &self.transfer {
+            Some(transfer) => transfer.map(|siemens| siemens * scale),
+            None => {
+                let total = self.admittance(device.carrier_rad_s);
+                self.split.map(|share| total * share * scale)
+            }
+        }
     }
 }
 
@@ -179,9 +192,18 @@ impl Pad {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Phasors {
     pub slot: u64,
-    pub carrier: [Complex64; CHANNELS - 1],
+    /// The terminals', then the sensing voltage's.
+    pub carrier: Few<Complex64, { MOST_CHANNELS - 1 }>,
     /// Mean square of the haptic channel, as a fraction of full scale squared.
     pub haptic_mean_square: f64,
+}
+
+impl Phasors {
+    /// The terminals' amplitudes.
+    pub fn terminals(&mut self) -> &mut [Complex64] {
+        let terminals = self.carrier.len().saturating_sub(1);
+        &mut self.carrier[..terminals]
+    }
 }
 
 /// A run of samples within a slot.
@@ -192,4 +214,26 @@ pub(crate) struct Run {
     pub range: Range<usize>,
     /// Index of the slot's first sample since the start of the case.
     pub slot_start: u64,
+    /// Samples per instant.
+    pub channels: usize,
+}
+
+impl Run {
+    /// Lets `act` see each row of channels. A device's number of channels is known at run time only; for the usual ones the
+    /// compiler gets it as a constant, so that what `act` does to a row unrolls.
+    #[inline]
+    pub fn rows(&self, samples: &mut [f64], mut act: impl FnMut(&mut [f64])) {
+        match self.channels {
+            6 => samples.as_chunks_mut::<6>().0.iter_mut().for_each(|row| act(row)),
+            8 => samples.as_chunks_mut::<8>().0.iter_mut().for_each(|row| act(row)),
+            10 => samples.as_chunks_mut::<10>().0.iter_mut().for_each(|row| act(row)),
+            channels => samples.chunks_exact_mut(channels).for_each(act),
+        }
+    }
+
+    /// The terminals' part of a row.
+    pub fn terminals(row: &mut [f64]) -> &mut [f64] {
+        let terminals = row.len() - VOLTAGES;
+        &mut row[..terminals]
+    }
 }

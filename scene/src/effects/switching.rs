@@ -17,7 +17,7 @@ use std::f64::consts::TAU;
 use num_complex::Complex64;
 
 use super::{ChannelEffect, Effect, Pad, Phasors, Run, Rung, Spec};
-use crate::device::{CHANNELS, Device, TERMINALS};
+use crate::device::Device;
 use crate::error::SceneError;
 use crate::format::Table;
 use crate::rotor::Rotor;
@@ -103,11 +103,6 @@ impl Switching {
         }
         deviation
     }
-
-    fn amplitudes(&self, pad: &Pad) -> [Complex64; TERMINALS] {
-        let scale = self.device.carrier_v / self.device.current_full_scale_a;
-        pad.transfer(&self.device).map(|siemens| siemens * scale)
-    }
 }
 
 impl ChannelEffect for Switching {
@@ -123,17 +118,22 @@ impl ChannelEffect for Switching {
             with += weight * d;
             against += weight * d.conj();
         }
-        for (phasor, amplitude) in phasors.carrier.iter_mut().zip(self.amplitudes(pad)) {
+        for (phasor, amplitude) in phasors.carrier.iter_mut().zip(pad.terminal_amplitudes(&self.device)) {
             *phasor += amplitude * with + amplitude.conj() * against;
         }
     }
 
-    fn samples(&mut self, pad: &Pad, run: &Run, rows: &mut [[f64; CHANNELS]]) {
-        let amplitudes = self.amplitudes(pad);
+    fn samples(&mut self, pad: &Pad, run: &Run, samples: &mut [f64]) {
+        let amplitudes = pad.terminal_amplitudes(&self.device).padded();
         let deviation = self.deviation(pad, run.range.end);
-        for (row, d) in rows.iter_mut().zip(deviation.get(run.range.start..).unwrap_or_default()) {
-            row.iter_mut().zip(amplitudes).for_each(|(sample, amplitude)| *sample += (amplitude * d).re);
-        }
+        let deviation = deviation.get(run.range.start..).unwrap_or_default();
+        let until = deviation.len().min(run.range.len()) * run.channels;
+        let mut deviation = deviation.iter();
+        run.rows(&mut samples[..until], |row| {
+            let Some(d) = deviation.next() else { return };
+            let terminals = Run::terminals(row).iter_mut();
+            terminals.zip(&amplitudes).for_each(|(sample, amplitude)| *sample += (amplitude * d).re);
+        });
     }
 
     fn refuses(&self, pad: &Pad) -> Option<String> {

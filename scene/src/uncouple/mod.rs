@@ -19,7 +19,8 @@ use num_complex::Complex64;
 use crate::device::Device;
 use crate::effects::{Effects, Pad};
 use crate::pad::lying;
-use crate::truth::{MapPoint, ratios};
+use crate::ratios::Ratios;
+use crate::truth::MapPoint;
 use beyond::Beyond;
 pub(crate) use beyond::RASTER;
 
@@ -47,17 +48,18 @@ pub struct Lying {
 pub struct Uncoupler {
     effects: Effects,
     device: Device,
+    ratios: Ratios,
     beyond: Beyond,
 }
 
 impl Uncoupler {
     /// With the effects that split a current among the terminals of the nominal sheet, and what the device's calibration
     /// reads at [`beyond::RASTER`], as far out as a pad reaches.
-    pub(crate) fn new(effects: Effects, device: Device, calibration: &[MapPoint]) -> Self {
-        let mut uncoupler = Uncoupler { effects, beyond: Beyond::none(device.reach_mm()), device };
+    pub(crate) fn new(effects: Effects, device: Device, ratios: Ratios, calibration: &[MapPoint]) -> Self {
+        let mut uncoupler = Uncoupler { effects, ratios, beyond: Beyond::none(device.reach_mm()), device };
         let places = calibration.iter().map(|point| {
             let nominal = uncoupler.on_sheet(&Lying { x_mm: point.x_mm, y_mm: point.y_mm, capacitance_pf: 1.0 });
-            let (r_x, r_y) = ratios(&nominal.amplitudes());
+            let [r_x, r_y] = uncoupler.ratios.of(&nominal.amplitudes());
             [point.r_x - r_x, point.r_y - r_y, point.sheet_ohm / nominal.sheet_ohm.re]
         });
         let places = places.collect();
@@ -65,7 +67,7 @@ impl Uncoupler {
         uncoupler
     }
 
-    /// The pad that has these ratios (eqs. 2 and 3) among those others, and is read as `read`.
+    /// The pad that has these ratios among those others, and is read as `read`.
     pub fn uncouple(&mut self, read: Lying, ratios: [f64; 2], others: &[Lying]) -> Lying {
         let mut pad = read;
         self.hold(&mut pad);
@@ -114,8 +116,7 @@ impl Uncoupler {
         let others: Vec<_> = others.iter().map(|pad| self.on_sheet(pad)).collect();
         let mut pad = self.on_sheet(&pad);
         self.effects.on_pads(&mut pad, &others);
-        let (r_x, r_y) = ratios(&pad.amplitudes());
-        ([r_x, r_y], pad.transfer(&self.device).iter().sum::<Complex64>().norm())
+        (self.ratios.of(&pad.amplitudes()), pad.transfer(&self.device).iter().sum::<Complex64>().norm())
     }
 
     /// A pad on the nominal sheet, as coupled as it is on the device's: only ωCG counts, so that where the calibration has

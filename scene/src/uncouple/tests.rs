@@ -11,8 +11,11 @@ use crate::plant::Plant;
 use crate::scene::Scene;
 use crate::timing::Timing;
 
-const TIMING: Timing =
-    Timing { pads: 4, slot_samples: 200, window_start: 0, window_samples: 200, samples_per_period: 10.0 };
+/// With the paper's ratios, eqs. 2 and 3: the shifts that are taken out are those of PHYSICS §1.
+fn timing() -> Timing {
+    let signs = Some([vec![-1, -1, 1, 1, 0, 0], vec![1, -1, -1, 1, 0, 0]]);
+    Timing { pads: 4, slot_samples: 200, window_start: 0, window_samples: 200, samples_per_period: 10.0, signs }
+}
 
 const NOMINAL: &str = "[sheet]\nrung = \"analytic\"\n";
 
@@ -23,7 +26,7 @@ fn plant(places: &[[f64; 2]], sheet: &str) -> Plant {
     let pad = |[x, y]: &[f64; 2]| format!("[[pad]]\nposition_mm = [{x}, {y}]\ncapacitance_pf = {PICOFARAD}\n");
     let pads: String = places.iter().map(pad).collect();
     let text = format!("title = \"t\"\nuncouple = true\n{pads}{sheet}[coupling]\n");
-    Plant::new(&Scene::parse(&text, "s.toml", &[]).unwrap(), 0, &TIMING).unwrap()
+    Plant::new(&Scene::parse(&text, "s.toml", &[]).unwrap(), 0, &timing()).unwrap()
 }
 
 fn at([x_mm, y_mm]: [f64; 2]) -> Lying {
@@ -42,6 +45,7 @@ impl Exact {
         let device = plant.device();
         Exact(RefCell::new(Uncoupler {
             effects: plant.fresh_effects(),
+            ratios: plant.ratios(),
             beyond: Beyond::none(device.reach_mm()),
             device,
         }))
@@ -52,7 +56,7 @@ impl Exact {
         let pads: Vec<_> = places.iter().map(|place| at(*place)).collect();
         let one = |slot: usize| {
             let truth = plant.truth(slot);
-            let place = place_of(self, (truth.r_x, truth.r_y), places[slot]);
+            let place = place_of(self, &plant.ratios(), [truth.r_x, truth.r_y], places[slot]);
             let mut exact = self.0.borrow_mut();
             let share = exact.see(pads[slot], &without(&pads, slot)).1 / exact.see(pads[slot], &[]).1;
             (Lying { capacitance_pf: PICOFARAD * share, ..at(place) }, [truth.r_x, truth.r_y])
@@ -76,7 +80,7 @@ fn off(sheet: &str, count: usize) -> [f64; 3] {
     let exact = Exact::of(&lone);
     let nominal = plant(&[[0.0, 0.0]], NOMINAL).uncoupler().unwrap();
     let calibration = lone.calibration_map(RASTER[0], RASTER[1], 15.0);
-    let mut host = Uncoupler::new(nominal.effects, nominal.device, &calibration);
+    let mut host = Uncoupler::new(nominal.effects, nominal.device, nominal.ratios, &calibration);
     let mut worst = [0.0f64; 3];
     for places in placements(count, 20.0) {
         let read = exact.read(&mut plant(&places, sheet), &places);

@@ -6,11 +6,16 @@ pub mod every;
 
 use std::f64::consts::TAU;
 
-use hapticore_scene::{CHANNELS, Complex, Plant, SENSE, Scene, TERMINALS, Timing, Truth};
+use hapticore_scene::{Complex, Plant, Scene, Timing, Truth};
+
+/// Terminals, channels, and the voltages' channels of the default device.
+pub const TERMINALS: usize = 6;
+pub const CHANNELS: usize = 8;
+pub const SENSE: usize = 6;
 
 /// A window of 200 µs, 20 periods of the carrier, from the slot's first sample on.
 pub fn timing() -> Timing {
-    Timing { pads: 4, slot_samples: 200, window_start: 0, window_samples: 200, samples_per_period: 10.0 }
+    Timing { pads: 4, slot_samples: 200, window_start: 0, window_samples: 200, samples_per_period: 10.0, signs: None }
 }
 
 pub fn scene(text: &str) -> Scene {
@@ -49,11 +54,11 @@ pub fn rectangle(_: usize, of: usize) -> f64 {
 }
 
 /// Amplitudes of the terminals and the sensing voltage, from the samples of a slot's window.
-pub fn demodulate(plant: &mut Plant, slot: usize, weight: Window) -> [Complex; SENSE + 1] {
+pub fn demodulate(plant: &mut Plant, slot: usize, weight: Window) -> Vec<Complex> {
     let (mut samples, timing) = (Vec::new(), timing());
     plant.samples(slot, 0..timing.window_samples, &mut samples);
-    let mut phasors = [Complex::default(); SENSE + 1];
-    for (n, row) in samples.chunks_exact(CHANNELS).enumerate() {
+    let mut phasors = vec![Complex::default(); plant.channels() - 1];
+    for (n, row) in samples.chunks_exact(plant.channels()).enumerate() {
         let turned = Complex::cis(-TAU * n as f64 / timing.samples_per_period);
         let weight = turned * (2.0 * weight(n, timing.window_samples));
         phasors.iter_mut().zip(row).for_each(|(phasor, sample)| *phasor += weight * sample);

@@ -27,7 +27,7 @@ use super::sheet::linear::solve;
 use super::sheet::mesh::{Correction, Mesh, Network};
 use super::shunt::{self, Screened};
 use super::{Effect, Pad, PadsEffect, Rung, Spec};
-use crate::device::{Device, TERMINALS};
+use crate::device::{Device, PerTerminal};
 use crate::error::SceneError;
 use crate::format::Table;
 
@@ -79,7 +79,7 @@ impl PadsEffect for Coupling {
         let currents = if self.once { answered_once(&ohm) } else { answered(ohm) };
         let into =
             |terminal: usize| pads.iter().zip(&currents).map(|(pad, current)| pad.split[terminal] * current).sum();
-        let transfer: [Complex64; TERMINALS] = std::array::from_fn(into);
+        let transfer: PerTerminal<Complex64> = (0..pad.split.len()).map(into).collect();
         pad.transfer = Some(transfer);
     }
 }

@@ -8,7 +8,7 @@ use crate::effects::sheet::Solver;
 use crate::effects::sheet::tests::sheet;
 use crate::pad::resting;
 use crate::random::{Purpose, stream};
-use crate::truth::ratios;
+use crate::ratios::Ratios;
 
 pub(crate) fn device() -> Device {
     Device::read(&crate::format::parse("").unwrap()).unwrap()
@@ -47,10 +47,15 @@ pub(crate) fn placements(count: usize, margin_mm: f64) -> Vec<[[f64; 2]; 4]> {
     placements
 }
 
+/// The paper's ratios, of the corners' currents.
+fn eqs_2_and_3() -> Ratios {
+    Ratios::new(&device(), Some(&[vec![-1, -1, 1, 1, 0, 0], vec![1, -1, -1, 1, 0, 0]])).unwrap()
+}
+
 /// Where a lone pad would read these ratios: Newton's steps on the exact map.
-pub(crate) fn place_of(exact: &impl Solver, (r_x, r_y): (f64, f64), from: [f64; 2]) -> [f64; 2] {
+pub(crate) fn place_of(exact: &impl Solver, ratios: &Ratios, [r_x, r_y]: [f64; 2], from: [f64; 2]) -> [f64; 2] {
     let read = |[x, y]: [f64; 2]| {
-        let (a, b) = ratios(&exact.split(x, y).share);
+        let [a, b] = ratios.of(&exact.split(x, y).share);
         [a - r_x, b - r_y]
     };
     let mut at = from;
@@ -77,11 +82,12 @@ pub(crate) fn place_of(exact: &impl Solver, (r_x, r_y): (f64, f64), from: [f64; 
 /// amplitude of the sum, percent.
 fn shifts(picofarad: f64, margin_mm: f64) -> ([f64; 3], [f64; 2]) {
     let exact = Analytic::new(&sheet(0.0));
+    let ratios = eqs_2_and_3();
     let (mut shifts, mut forces) = (Vec::new(), Vec::new());
     for places in placements(500, margin_mm) {
         let [mut first, others @ ..] = places.map(|place| pad(&exact, place, picofarad * 1e-12));
         coupling(false).act(&mut first, &others);
-        let read = place_of(&exact, ratios(&first.amplitudes()), places[0]);
+        let read = place_of(&exact, &ratios, ratios.of(&first.amplitudes()), places[0]);
         shifts.push((read[0] - places[0][0]).hypot(read[1] - places[0][1]));
         let total: Complex64 = first.transfer.unwrap().iter().sum();
         let alone = first.admittance(device().carrier_rad_s).norm();

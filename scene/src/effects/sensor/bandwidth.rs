@@ -6,7 +6,7 @@
 use num_complex::Complex64;
 
 use super::super::{ChannelEffect, Effect, Pad, Phasors, Run, Setting, Spec};
-use crate::device::{CHANNELS, Device, TERMINALS};
+use crate::device::Device;
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
 use crate::rotor::Rotor;
@@ -31,16 +31,17 @@ struct Bandwidth {
 
 impl ChannelEffect for Bandwidth {
     fn phasors(&mut self, _: &Pad, phasors: &mut Phasors) {
-        phasors.carrier[..TERMINALS].iter_mut().for_each(|phasor| *phasor *= self.passes);
+        phasors.terminals().iter_mut().for_each(|phasor| *phasor *= self.passes);
     }
 
-    fn samples(&mut self, pad: &Pad, run: &Run, rows: &mut [[f64; CHANNELS]]) {
+    fn samples(&mut self, pad: &Pad, run: &Run, samples: &mut [f64]) {
         let change = (self.passes - 1.0) * (self.device.carrier_v / self.device.current_full_scale_a);
-        let change = pad.transfer(&self.device).map(|siemens| siemens * change);
+        let change = pad.transfer(&self.device).map(|siemens| siemens * change).padded();
         let mut carrier = Rotor::new(self.turns_per_sample * run.range.start as f64, self.turns_per_sample);
-        for row in rows {
+        run.rows(samples, |row| {
             let now = carrier.turn();
-            row.iter_mut().zip(change).for_each(|(sample, change)| *sample += (change * now).re);
-        }
+            let terminals = Run::terminals(row).iter_mut();
+            terminals.zip(&change).for_each(|(sample, change)| *sample += (change * now).re);
+        });
     }
 }

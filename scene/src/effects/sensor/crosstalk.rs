@@ -5,7 +5,7 @@
 use std::ops::{Add, Mul};
 
 use super::super::{ChannelEffect, Effect, Pad, Phasors, Run, Setting, Spec};
-use crate::device::{CHANNELS, Device, TERMINALS};
+use crate::device::Device;
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
 
@@ -18,21 +18,23 @@ pub(in super::super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, S
 struct Crosstalk(f64);
 
 impl Crosstalk {
-    fn mix<T: Copy + Add<Output = T> + Mul<f64, Output = T>>(&self, channels: &mut [T]) {
-        let own: [T; TERMINALS] = std::array::from_fn(|n| channels[n]);
-        for n in 0..TERMINALS {
-            let neighbours = [n.checked_sub(1), (n + 1 < TERMINALS).then_some(n + 1)];
-            channels[n] = neighbours.into_iter().flatten().fold(own[n], |sum, other| sum + own[other] * self.0);
+    fn mix<T: Copy + Add<Output = T> + Mul<f64, Output = T>>(&self, terminals: &mut [T]) {
+        let mut before = None;
+        for n in 0..terminals.len() {
+            let own = terminals[n];
+            let neighbours = [before, terminals.get(n + 1).copied()];
+            terminals[n] = neighbours.into_iter().flatten().fold(own, |sum, other| sum + other * self.0);
+            before = Some(own);
         }
     }
 }
 
 impl ChannelEffect for Crosstalk {
     fn phasors(&mut self, _: &Pad, phasors: &mut Phasors) {
-        self.mix(&mut phasors.carrier);
+        self.mix(phasors.terminals());
     }
 
-    fn samples(&mut self, _: &Pad, _: &Run, rows: &mut [[f64; CHANNELS]]) {
-        rows.iter_mut().for_each(|row| self.mix(row));
+    fn samples(&mut self, _: &Pad, run: &Run, samples: &mut [f64]) {
+        run.rows(samples, |row| self.mix(Run::terminals(row)));
     }
 }

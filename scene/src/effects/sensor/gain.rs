@@ -3,7 +3,7 @@
 //! 1 % costs 0.31 % rms of force over the map (PHYSICS §5).
 
 use super::super::{ChannelEffect, Effect, Pad, Phasors, Run, Setting, Spec};
-use crate::device::{CHANNELS, Device, TERMINALS};
+use crate::device::{Device, PerTerminal};
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
 use crate::random::{Purpose, normals};
@@ -15,22 +15,25 @@ pub(in super::super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, S
     }))
 }
 
-struct Gain([f64; TERMINALS]);
+/// Factors of the terminals.
+struct Gain(PerTerminal<f64>);
 
 impl Gain {
     fn new(percent: f64, setting: &Setting) -> Self {
-        Gain(normals(setting.seed, Purpose::Gain).map(|normal| 1.0 + percent / 100.0 * normal))
+        let normals = normals(setting.seed, Purpose::Gain).take(setting.device.terminals());
+        Gain(normals.map(|normal| 1.0 + percent / 100.0 * normal).collect())
     }
 }
 
 impl ChannelEffect for Gain {
     fn phasors(&mut self, _: &Pad, phasors: &mut Phasors) {
-        phasors.carrier.iter_mut().zip(self.0).for_each(|(phasor, gain)| *phasor *= gain);
+        phasors.terminals().iter_mut().zip(self.0).for_each(|(phasor, gain)| *phasor *= gain);
     }
 
-    fn samples(&mut self, _: &Pad, _: &Run, rows: &mut [[f64; CHANNELS]]) {
-        for row in rows {
-            row.iter_mut().zip(self.0).for_each(|(sample, gain)| *sample *= gain);
-        }
+    fn samples(&mut self, _: &Pad, run: &Run, samples: &mut [f64]) {
+        let gains = self.0.padded();
+        run.rows(samples, |row| {
+            Run::terminals(row).iter_mut().zip(&gains).for_each(|(sample, gain)| *sample *= gain);
+        });
     }
 }

@@ -7,11 +7,12 @@
 
 use std::f64::consts::TAU;
 
+use crate::few::Few;
 use num_complex::Complex64;
 
 use super::super::{ChannelEffect, Effect, Pad, Phasors, Run, Setting, Spec};
 use super::noise::{HANN_NENBW, Source, normal};
-use crate::device::{CHANNELS, Device, SENSE};
+use crate::device::{Device, MOST_CHANNELS};
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
 use crate::random::Purpose;
@@ -44,10 +45,9 @@ impl Jitter {
     }
 
     /// Amplitudes of the terminals and the sensing voltage.
-    fn amplitudes(&self, pad: &Pad) -> [Complex64; SENSE + 1] {
-        let scale = self.device.carrier_v / self.device.current_full_scale_a;
-        let [a, b, c, d, e, f] = pad.transfer(&self.device).map(|siemens| siemens * scale);
-        [a, b, c, d, e, f, Complex64::from(self.device.carrier_v / self.device.sense_full_scale_v)]
+    fn amplitudes(&self, pad: &Pad) -> Few<Complex64, { MOST_CHANNELS - 1 }> {
+        let sense = Complex64::from(self.device.carrier_v / self.device.sense_full_scale_v);
+        pad.terminal_amplitudes(&self.device).iter().copied().chain([sense]).collect()
     }
 }
 
@@ -63,13 +63,14 @@ impl ChannelEffect for Jitter {
         }
     }
 
-    fn samples(&mut self, pad: &Pad, run: &Run, rows: &mut [[f64; CHANNELS]]) {
-        let amplitudes = self.amplitudes(pad);
+    fn samples(&mut self, pad: &Pad, run: &Run, samples: &mut [f64]) {
+        let amplitudes = self.amplitudes(pad).padded();
         let mut random = self.source.stream(run.slot as u64, Purpose::SampleJitter { from: run.range.start as u64 });
         let mut carrier = Rotor::new(self.turns_per_sample * run.range.start as f64, self.turns_per_sample);
-        for row in rows {
+        run.rows(samples, |row| {
             let slope = carrier.turn() * (self.sigma * normal(&mut random));
-            row.iter_mut().zip(amplitudes).for_each(|(sample, amplitude)| *sample -= (amplitude * slope).im);
-        }
+            let driven = row.len() - 1; // the haptic voltage is slow
+            row[..driven].iter_mut().zip(&amplitudes).for_each(|(sample, amplitude)| *sample -= (amplitude * slope).im);
+        });
     }
 }

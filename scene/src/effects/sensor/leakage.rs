@@ -7,7 +7,7 @@ use std::f64::consts::{SQRT_2, TAU};
 
 use super::super::carrier::haptic_rotor;
 use super::super::{ChannelEffect, Effect, Pad, Phasors, Run, Setting, Spec};
-use crate::device::{CHANNELS, Device};
+use crate::device::Device;
 use crate::error::SceneError;
 use crate::format::Table;
 
@@ -24,13 +24,14 @@ struct Leakage {
 impl ChannelEffect for Leakage {
     fn phasors(&mut self, _: &Pad, _: &mut Phasors) {}
 
-    fn samples(&mut self, pad: &Pad, run: &Run, rows: &mut [[f64; CHANNELS]]) {
+    fn samples(&mut self, pad: &Pad, run: &Run, samples: &mut [f64]) {
         let volt = pad.haptic_v_rms * SQRT_2;
         let total = pad.admittance(TAU * self.device.haptic_hz) * volt / self.device.current_full_scale_a;
         let mut rotor = haptic_rotor(&self.device, run);
-        for row in rows {
+        let shares = pad.split.map(|share| share.re).padded();
+        run.rows(samples, |row| {
             let now = (total * rotor.turn()).im;
-            row.iter_mut().zip(pad.split).for_each(|(sample, share)| *sample += now * share.re);
-        }
+            Run::terminals(row).iter_mut().zip(&shares).for_each(|(sample, share)| *sample += now * share);
+        });
     }
 }

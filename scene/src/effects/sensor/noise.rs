@@ -16,7 +16,7 @@ use std::f64::consts::PI;
 use rand_distr::{Distribution, StandardNormal};
 
 use super::super::{ChannelEffect, Effect, Pad, Phasors, Run, Setting, Spec};
-use crate::device::{CHANNELS, Device, HAPTIC, TERMINALS};
+use crate::device::{Device, MOST_CHANNELS};
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
 use crate::random::{Purpose, Stream, stream};
@@ -27,7 +27,7 @@ pub(super) const HANN_NENBW: f64 = 1.5;
 /// `noise_ppm_rms`
 pub(in super::super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
     let Some(ppm) = super::key(root, "noise_ppm_rms", Limits::within(0.0, 1e6))? else { return Ok(None) };
-    let build = move |setting: &Setting| Noise::effect([ppm * 1e-6; CHANNELS], Origin::Adc, setting);
+    let build = move |setting: &Setting| Noise::effect([ppm * 1e-6; MOST_CHANNELS], Origin::Adc, setting);
     Ok(Spec::new(NOISE, format!("{ppm} ppm"), build))
 }
 
@@ -43,8 +43,8 @@ pub(in super::super) fn read_density(root: &Table, _: &Device) -> Result<Option<
     let build = move |setting: &Setting| {
         let half_rate_hz = setting.device.sample_rate_hz / 2.0;
         let enbw_hz = bandwidth_khz.map_or(half_rate_hz, |khz| PI / 2.0 * 1e3 * khz);
-        let mut sigma = [0.0; CHANNELS];
-        sigma[..TERMINALS].fill(1e-9 * na * enbw_hz.sqrt() / setting.device.current_full_scale_a);
+        let mut sigma = [0.0; MOST_CHANNELS];
+        sigma[..setting.device.terminals()].fill(1e-9 * na * enbw_hz.sqrt() / setting.device.current_full_scale_a);
         Noise::effect(sigma, Origin::Amplifier, setting)
     };
     Ok(Spec::new("sensor.noise_density", format!("{na} nA/√Hz"), build))
@@ -57,7 +57,7 @@ pub(in super::super) fn read_dither(root: &Table, _: &Device) -> Result<Option<S
         let table = root.table("sensor")?.unwrap_or(root);
         return Err(table.error("dither_lsb_rms", "expected quantisation_bits too, since dither is counted in codes"));
     };
-    let build = move |setting: &Setting| Noise::effect([lsb / codes; CHANNELS], Origin::Dither, setting);
+    let build = move |setting: &Setting| Noise::effect([lsb / codes; MOST_CHANNELS], Origin::Dither, setting);
     Ok(Spec::new("sensor.dither", format!("{lsb} LSB"), build))
 }
 
@@ -71,16 +71,18 @@ pub(crate) enum Origin {
 
 struct Noise {
     /// Standard deviation per sample of each channel.
-    sigma: [f64; CHANNELS],
+    sigma: [f64; MOST_CHANNELS],
+    /// The haptic channel.
+    haptic: usize,
     origin: Origin,
     window_samples: usize,
     source: Source,
 }
 
 impl Noise {
-    fn effect(sigma: [f64; CHANNELS], origin: Origin, setting: &Setting) -> Effect {
-        let window_samples = setting.timing.window_samples;
-        Effect::Channels(Box::new(Noise { sigma, origin, window_samples, source: Source::new(setting) }))
+    fn effect(sigma: [f64; MOST_CHANNELS], origin: Origin, setting: &Setting) -> Effect {
+        let (window_samples, haptic) = (setting.timing.window_samples, setting.device.haptic());
+        Effect::Channels(Box::new(Noise { sigma, haptic, origin, window_samples, source: Source::new(setting) }))
     }
 }
 
@@ -92,15 +94,15 @@ impl ChannelEffect for Noise {
             phasor.re += sigma * passed * normal(&mut random);
             phasor.im += sigma * passed * normal(&mut random);
         }
-        phasors.haptic_mean_square += self.sigma[HAPTIC].powi(2);
+        phasors.haptic_mean_square += self.sigma[self.haptic].powi(2);
     }
 
-    fn samples(&mut self, _: &Pad, run: &Run, rows: &mut [[f64; CHANNELS]]) {
+    fn samples(&mut self, _: &Pad, run: &Run, samples: &mut [f64]) {
         let from = run.range.start as u64;
         let mut random = self.source.stream(run.slot as u64, Purpose::SampleNoise { origin: self.origin, from });
-        for row in rows {
-            row.iter_mut().zip(self.sigma).for_each(|(sample, sigma)| *sample += sigma * normal(&mut random));
-        }
+        run.rows(samples, |row| {
+            row.iter_mut().zip(&self.sigma).for_each(|(sample, sigma)| *sample += sigma * normal(&mut random));
+        });
     }
 }
 

@@ -3,7 +3,7 @@
 //! does not see it; the mean square of the haptic voltage does.
 
 use super::super::{ChannelEffect, Effect, Pad, Phasors, Run, Setting, Spec};
-use crate::device::{CHANNELS, Device, HAPTIC};
+use crate::device::{Device, MOST_CHANNELS};
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
 use crate::random::{Purpose, normals};
@@ -14,22 +14,31 @@ pub(in super::super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, S
     Ok(Spec::new("sensor.offset", format!("{percent} %"), build))
 }
 
-struct Offset([f64; CHANNELS]);
+struct Offset {
+    /// Of each channel.
+    offsets: [f64; MOST_CHANNELS],
+    /// The haptic channel.
+    haptic: usize,
+}
 
 impl Offset {
     fn new(percent: f64, setting: &Setting) -> Self {
-        Offset(normals(setting.seed, Purpose::Offset).map(|normal| percent / 100.0 * normal))
+        let mut offsets = [0.0; MOST_CHANNELS];
+        for (offset, normal) in offsets.iter_mut().zip(normals(setting.seed, Purpose::Offset)) {
+            *offset = percent / 100.0 * normal;
+        }
+        Offset { offsets, haptic: setting.device.haptic() }
     }
 }
 
 impl ChannelEffect for Offset {
     fn phasors(&mut self, _: &Pad, phasors: &mut Phasors) {
-        phasors.haptic_mean_square += self.0[HAPTIC].powi(2);
+        phasors.haptic_mean_square += self.offsets[self.haptic].powi(2);
     }
 
-    fn samples(&mut self, _: &Pad, _: &Run, rows: &mut [[f64; CHANNELS]]) {
-        for row in rows {
-            row.iter_mut().zip(self.0).for_each(|(sample, offset)| *sample += offset);
-        }
+    fn samples(&mut self, _: &Pad, run: &Run, samples: &mut [f64]) {
+        run.rows(samples, |row| {
+            row.iter_mut().zip(&self.offsets).for_each(|(sample, offset)| *sample += offset);
+        });
     }
 }

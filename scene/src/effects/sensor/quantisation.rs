@@ -3,7 +3,7 @@
 //! Amplitudes stay exact: quantisation is a matter of samples.
 
 use super::super::{ChannelEffect, Effect, Pad, Phasors, Run, Setting, Spec};
-use crate::device::{CHANNELS, Device};
+use crate::device::Device;
 use crate::error::SceneError;
 use crate::format::Table;
 
@@ -31,9 +31,9 @@ struct Quantisation {
 impl ChannelEffect for Quantisation {
     fn phasors(&mut self, _: &Pad, _: &mut Phasors) {}
 
-    fn samples(&mut self, _: &Pad, _: &Run, rows: &mut [[f64; CHANNELS]]) {
+    fn samples(&mut self, _: &Pad, _: &Run, samples: &mut [f64]) {
         let (codes, step) = (self.codes, 1.0 / self.codes);
-        for sample in rows.as_flattened_mut() {
+        for sample in samples {
             let code = (*sample * codes + ROUNDER) - ROUNDER;
             *sample = code.max(-codes).min(codes - 1.0) * step;
         }

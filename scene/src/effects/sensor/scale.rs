@@ -3,7 +3,7 @@
 //! forces by twice that; positions do not see it.
 
 use super::super::{ChannelEffect, Effect, Pad, Phasors, Run, Setting, Spec};
-use crate::device::{CHANNELS, Device, TERMINALS};
+use crate::device::Device;
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
 
@@ -17,10 +17,10 @@ struct Scale(f64);
 
 impl ChannelEffect for Scale {
     fn phasors(&mut self, _: &Pad, phasors: &mut Phasors) {
-        phasors.carrier[..TERMINALS].iter_mut().for_each(|phasor| *phasor *= self.0);
+        phasors.terminals().iter_mut().for_each(|phasor| *phasor *= self.0);
     }
 
-    fn samples(&mut self, _: &Pad, _: &Run, rows: &mut [[f64; CHANNELS]]) {
-        rows.iter_mut().flat_map(|row| &mut row[..TERMINALS]).for_each(|sample| *sample *= self.0);
+    fn samples(&mut self, _: &Pad, run: &Run, samples: &mut [f64]) {
+        run.rows(samples, |row| Run::terminals(row).iter_mut().for_each(|sample| *sample *= self.0));
     }
 }

@@ -10,21 +10,20 @@
 //! An open terminal's row says w_i = 0. The matrix is inverted once. A disc of even current has the split of its centre;
 //! only N(p, p) sees its size, through R_eff = R·e^(−1/4).
 
-use super::linear::{dot, invert};
+use super::linear::{Square, dot};
 use super::neumann::Neumann;
 use super::{Sheet, Solver, Split};
-use crate::device::TERMINALS;
+use crate::device::MOST_TERMINALS;
+use crate::few::Few;
 
-/// Unknowns of the bordered system: a current for each terminal and the potential's constant.
-const UNKNOWNS: usize = TERMINALS + 1;
-
-type Matrix = [[f64; UNKNOWNS]; UNKNOWNS];
+/// Of the bordered system: a number for each terminal, then the border's.
+type Bordered = Few<f64, { MOST_TERMINALS + 1 }>;
 
 /// An even sheet, exactly.
 pub(crate) struct Analytic {
     sheet: Sheet,
     neumann: Neumann,
-    inverse: Matrix,
+    inverse: Square<f64>,
 }
 
 impl Analytic {
@@ -33,63 +32,60 @@ impl Analytic {
     }
 
     pub fn with(sheet: &Sheet, neumann: Neumann) -> Self {
-        Analytic { sheet: sheet.clone(), neumann, inverse: invert(bordered(sheet, &neumann)) }
+        Analytic { sheet: sheet.clone(), neumann, inverse: bordered(sheet, &neumann).invert() }
     }
 
     /// R_s·N from a place to each terminal, then the border's 1.
-    fn known(&self, at: [f64; 2]) -> [f64; UNKNOWNS] {
-        let mut known = [1.0; UNKNOWNS];
-        for (terminal, value) in known.iter_mut().enumerate().take(TERMINALS) {
-            let there = self.sheet.terminals_m[terminal];
-            let closed = self.sheet.terminal_ohm[terminal].is_finite();
-            let ohm = || self.sheet.film.ohm_per_square * self.neumann.at(there, at, self.sheet.terminal_radius_m);
-            *value = if closed { ohm() } else { 0.0 };
-        }
-        known
+    fn known(&self, at: [f64; 2]) -> Bordered {
+        let sheet = &self.sheet;
+        let ohm = |there| sheet.film.ohm_per_square * self.neumann.at(there, at, sheet.terminal_radius_m);
+        let terminals = sheet.terminals_m.iter().zip(&sheet.terminal_ohm);
+        let known = terminals.map(|(there, series)| if series.is_finite() { ohm(*there) } else { 0.0 });
+        known.chain([1.0]).collect()
     }
 
     /// A place, for [`Analytic::between`].
     pub fn source(&self, x_mm: f64, y_mm: f64) -> Source {
         let at = self.sheet.place_m(x_mm, y_mm);
         let known = self.known(at);
-        Source { at, known, unknown: self.inverse.map(|row| dot(&row, &known)) }
+        let unknown = self.inverse.rows().map(|row| dot(row, &known)).collect();
+        Source { at, known, unknown }
     }
 
     /// Potential at one place for a unit current into another, Ω; where both are the same, that of the pad's own disc.
     pub fn between(&self, a: &Source, b: &Source) -> f64 {
         let free = self.sheet.film.ohm_per_square * self.neumann.at(a.at, b.at, self.sheet.disc_m());
-        free + b.unknown[TERMINALS] - dot(&b.unknown[..TERMINALS], &a.known)
+        let terminals = self.sheet.terminals();
+        free + b.unknown[terminals] - dot(&b.unknown[..terminals], &a.known)
     }
 }
 
 /// A place on the sheet: R_s·N to the terminals, and the shares and the constant for a current into it.
 pub(crate) struct Source {
     at: [f64; 2],
-    known: [f64; UNKNOWNS],
-    unknown: [f64; UNKNOWNS],
+    known: Bordered,
+    unknown: Bordered,
 }
 
 impl Solver for Analytic {
     fn split(&self, x_mm: f64, y_mm: f64) -> Split {
         let source = self.source(x_mm, y_mm);
-        let share = std::array::from_fn(|terminal| source.unknown[terminal]);
+        let share = Few::from_slice(&source.unknown[..self.sheet.terminals()]);
         Split { share, ohm: self.between(&source, &source) }
     }
 }
 
-fn bordered(sheet: &Sheet, neumann: &Neumann) -> Matrix {
-    let mut matrix = [[0.0; UNKNOWNS]; UNKNOWNS];
-    for (i, to) in sheet.terminals_m.into_iter().enumerate() {
-        if sheet.terminal_ohm[i].is_infinite() {
-            matrix[i][i] = 1.0;
-            continue;
-        }
-        for (j, from) in sheet.terminals_m.into_iter().enumerate() {
-            matrix[i][j] = sheet.film.ohm_per_square * neumann.at(to, from, sheet.terminal_radius_m);
-        }
-        matrix[i][i] += sheet.terminal_ohm[i];
-        matrix[i][TERMINALS] = -1.0;
-        matrix[TERMINALS][i] = 1.0;
-    }
-    matrix
+fn bordered(sheet: &Sheet, neumann: &Neumann) -> Square<f64> {
+    let border = sheet.terminals();
+    let ohm = |i: usize, j: usize| {
+        let between = neumann.at(sheet.terminals_m[i], sheet.terminals_m[j], sheet.terminal_radius_m);
+        sheet.film.ohm_per_square * between + if i == j { sheet.terminal_ohm[i] } else { 0.0 }
+    };
+    let closed = |terminal: usize| terminal < border && sheet.terminal_ohm[terminal].is_finite();
+    Square::of(border + 1, |i, j| match (i, j) {
+        (i, j) if i < border && !closed(i) => f64::from(u8::from(i == j)),
+        (i, j) if i < border && j < border => ohm(i, j),
+        (i, _) if i < border => -1.0,
+        (_, j) => f64::from(u8::from(closed(j))),
+    })
 }

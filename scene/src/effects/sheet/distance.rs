@@ -3,7 +3,7 @@
 //! R_p is their parallel combination. At the sheet's middle it gives 311 Ω for the paper's device.
 
 use super::{Sheet, Solver, Split};
-use crate::device::TERMINALS;
+use crate::device::PerTerminal;
 
 pub(super) struct Distance {
     sheet: Sheet,
@@ -25,7 +25,8 @@ impl Distance {
 impl Solver for Distance {
     fn split(&self, x_mm: f64, y_mm: f64) -> Split {
         let at = self.sheet.place_m(x_mm, y_mm);
-        let each: [f64; TERMINALS] = std::array::from_fn(|terminal| self.conductance(at, terminal));
+        let terminals = 0..self.sheet.terminals();
+        let each: PerTerminal<f64> = terminals.map(|terminal| self.conductance(at, terminal)).collect();
         let sum: f64 = each.iter().sum();
         Split { share: each.map(|conductance| conductance / sum), ohm: 1.0 / sum }
     }

@@ -2,9 +2,9 @@
 //! What `[sheet]` says, in SI units: sizes, resistances, and where the terminals are and what they are in series with.
 
 use super::film::Film;
-use crate::device::{Device, TERMINALS};
+use crate::device::Device;
 use crate::error::SceneError;
-use crate::format::{Limits, Table};
+use crate::format::{Limits, Node, Table, Value};
 
 /// Resistance in series with a terminal that is not connected, Ω.
 pub(crate) const OPEN: f64 = f64::INFINITY;
@@ -16,10 +16,10 @@ pub(crate) struct Sheet {
     pub pad_radius_m: f64,
     pub film: Film,
     /// In series with each terminal, Ω; [`OPEN`] where it carries no current.
-    pub terminal_ohm: [f64; TERMINALS],
+    pub terminal_ohm: Vec<f64>,
     pub terminal_radius_m: f64,
     /// From the bottom left corner.
-    pub terminals_m: [[f64; 2]; TERMINALS],
+    pub terminals_m: Vec<[f64; 2]>,
     /// Columns and rows of a table, where the scene says.
     pub table: [Option<usize>; 2],
 }
@@ -33,11 +33,15 @@ impl Sheet {
             size_m,
             pad_radius_m: device.pad_diameter_mm * 0.5e-3,
             film: Film::read(table, size_m)?,
-            terminal_ohm: series(table)?,
+            terminal_ohm: series(table, device.terminals())?,
             terminal_radius_m: 1e-3 * table.number_or("terminal_radius_mm", widest, 1.7)?,
-            terminals_m: terminals(table, device)?,
+            terminals_m: terminals_m(device),
             table: [count("table_columns")?, count("table_rows")?],
         })
+    }
+
+    pub fn terminals(&self) -> usize {
+        self.terminals_m.len()
     }
 
     /// Millimetres from the middle to metres from the bottom left corner.
@@ -56,14 +60,16 @@ impl Sheet {
     }
 }
 
-/// Resistance in series with each terminal: `terminal_ohm`, none where shorted, infinite where open or not there.
-fn series(table: &Table) -> Result<[f64; TERMINALS], SceneError> {
-    let mut ohm = [table.number_or("terminal_ohm", Limits::NOT_NEGATIVE, 0.0)?; TERMINALS];
-    let count = table.whole("terminals", 4, 6)?.unwrap_or(TERMINALS as u64) as usize;
-    if count == 5 {
-        return Err(table.error("terminals", "expected 4 or 6, got 5"));
-    }
-    ohm[count..].fill(OPEN);
+/// The device's terminals from the bottom left corner.
+fn terminals_m(device: &Device) -> Vec<[f64; 2]> {
+    let half = [device.width_mm / 2.0, device.height_mm / 2.0];
+    let place = |place: &[f64; 2]| [0, 1].map(|axis| 1e-3 * (place[axis] + half[axis]));
+    device.terminals_mm.iter().map(place).collect()
+}
+
+/// Resistance in series with each of so many terminals: `terminal_ohm`, none where shorted, infinite where open.
+fn series(table: &Table, count: usize) -> Result<Vec<f64>, SceneError> {
+    let mut ohm = each(table, count)?;
     for (key, value) in [("shorted", 0.0), ("open", OPEN)] {
         for number in table.numbers(key, Limits::within(1.0, count as f64))?.unwrap_or_default() {
             if number.fract() != 0.0 {
@@ -78,35 +84,19 @@ fn series(table: &Table) -> Result<[f64; TERMINALS], SceneError> {
     }
 }
 
-/// Places from the bottom left corner, m: the corners, and both others where the scene has them.
-fn terminals(table: &Table, device: &Device) -> Result<[[f64; 2]; TERMINALS], SceneError> {
-    let half = [device.width_mm / 2.0, device.height_mm / 2.0];
-    let [x, y] = half;
-    let usual = match table.choice("middles", &["long", "short"])? {
-        Some("short") => [[-x, 0.0], [x, 0.0]],
-        _ => [[0.0, -y], [0.0, y]],
-    };
-    let fifth = edge_place(table, "terminal_5_mm", half)?.unwrap_or(usual[0]);
-    let sixth = edge_place(table, "terminal_6_mm", half)?.unwrap_or(usual[1]);
-    if fifth == sixth {
-        return Err(table.error("terminal_6_mm", format!("expected a place other than terminal 5's, got {sixth:?}")));
+/// `terminal_ohm`: a number for all terminals, or a list of one for each.
+fn each(table: &Table, count: usize) -> Result<Vec<f64>, SceneError> {
+    const KEY: &str = "terminal_ohm";
+    if !matches!(table.get(KEY), Some(Node { value: Value::List(_), .. })) {
+        return Ok(vec![table.number_or(KEY, Limits::NOT_NEGATIVE, 0.0)?; count]);
     }
-    let places_mm = [[-x, y], [-x, -y], [x, -y], [x, y], fifth, sixth];
-    Ok(places_mm.map(|place| [0, 1].map(|axis| 1e-3 * (place[axis] + half[axis]))))
-}
-
-fn edge_place(table: &Table, key: &'static str, half: [f64; 2]) -> Result<Option<[f64; 2]>, SceneError> {
-    let Some(place) = table.pair(key, Limits::ANY)? else { return Ok(None) };
-    let at_rim = [0, 1].map(|axis| place[axis].abs() == half[axis]);
-    let inside = [0, 1].map(|axis| place[axis].abs() < half[axis]);
-    if (at_rim[0] && inside[1]) || (at_rim[1] && inside[0]) {
-        return Ok(Some(place));
+    let list = table.numbers(KEY, Limits::NOT_NEGATIVE)?.unwrap_or_default();
+    match list.len() == count {
+        true => Ok(list),
+        false => {
+            let got = list.len();
+            Err(table
+                .error(KEY, format!("expected a number, or one for each of {count} terminals, got a list of {got}")))
+        }
     }
-    Err(table.error(
-        key,
-        format!(
-            "expected a place on the sheet's edge between corners, x = ±{} or y = ±{}, got {place:?}",
-            half[0], half[1]
-        ),
-    ))
 }

@@ -10,9 +10,10 @@ use std::f64::consts::PI;
 
 use super::analytic::Analytic;
 use super::mesh::{Correction, Mesh, Network};
+use super::nodes::Values;
 use super::spline::{Axis, Spline};
 use super::{Sheet, Solver, Split};
-use crate::device::TERMINALS;
+use crate::few::Few;
 
 /// Finest spacing that R_p is solved with, m.
 const OWN_SPACING_M: f64 = 0.01;
@@ -21,8 +22,8 @@ const OWN_SPACING_M: f64 = 0.01;
 const OWN_STEP: usize = 4;
 
 pub(super) struct Grid {
-    share: Spline<TERMINALS>,
-    ohm: Spline<1>,
+    share: Spline,
+    ohm: Spline,
 }
 
 /// Columns and rows of the table of R_p.
@@ -36,7 +37,8 @@ impl Grid {
     pub fn corrected(sheet: &Sheet, spacing_m: f64, correction: Correction) -> Self {
         let network = Network::new(sheet, Mesh::new(sheet.size_m, spacing_m), correction);
         let mesh = network.mesh;
-        let share = Spline::level(axes(&mesh, 0, 1), |column, row| network.share(mesh.node(column, row)));
+        let node = |column, row| network.share(mesh.node(column, row));
+        let share = Spline::level(axes(&mesh, 0, 1), sheet.terminals(), node);
         let coarse = (spacing_m < OWN_SPACING_M)
             .then(|| Network::new(sheet, Mesh::new(sheet.size_m, OWN_SPACING_M), correction));
         Grid { share, ohm: own(sheet, &coarse.unwrap_or(network)) }
@@ -45,22 +47,27 @@ impl Grid {
 
 impl Solver for Grid {
     fn split(&self, x_mm: f64, y_mm: f64) -> Split {
-        let [ohm] = self.ohm.at(x_mm, y_mm);
-        Split { share: self.share.at(x_mm, y_mm), ohm }
+        let share = Few::from_slice(&self.share.at(x_mm, y_mm));
+        Split { share, ohm: self.ohm.at(x_mm, y_mm)[0] }
     }
 }
 
+/// A single value.
+fn one(value: f64) -> Values {
+    std::iter::once(value).collect()
+}
+
 /// R_p over the places of a pad.
-fn own(sheet: &Sheet, network: &Network) -> Spline<1> {
+fn own(sheet: &Sheet, network: &Network) -> Spline {
     let even = Analytic::new(sheet);
     let ratio = ratio(sheet, network, &even);
     let reach_mm = sheet.reach_mm();
     let axes = [0, 1].map(|axis| Axis::symmetric(reach_mm[axis], OWN_TABLE[axis]));
-    Spline::of(axes, |x, y| [even.split(x, y).ohm * ratio.at(x, y)[0]])
+    Spline::of(axes, 1, |x, y| one(even.split(x, y).ohm * ratio.at(x, y)[0]))
 }
 
 /// R_p of the mesh by that of an even sheet, over the places that are not on the rim.
-fn ratio(sheet: &Sheet, network: &Network, even: &Analytic) -> Spline<1> {
+fn ratio(sheet: &Sheet, network: &Network, even: &Analytic) -> Spline {
     let mesh = network.mesh;
     let axes = axes(&mesh, 1, OWN_STEP);
     let disc = (mesh.node_radius_m() / sheet.disc_m()).ln() / (2.0 * PI);
@@ -69,11 +76,11 @@ fn ratio(sheet: &Sheet, network: &Network, even: &Analytic) -> Spline<1> {
         let [column, row] = [1 + OWN_STEP * column, 1 + OWN_STEP * row];
         let node = mesh.node(column, row);
         let ohm = network.potential(node)[node] + sheet.film.at(mesh.place_m(column, row)) * disc;
-        [ohm / even.split(place[0], place[1]).ohm]
+        one(ohm / even.split(place[0], place[1]).ohm)
     };
     let (columns, rows) = (axes[0].nodes, axes[1].nodes);
     let solved: Vec<_> = (0..columns * rows).map(|n| ratio(n % columns, n / columns)).collect();
-    Spline::free(axes, |column, row| solved[row * columns + column])
+    Spline::free(axes, 1, |column, row| solved[row * columns + column])
 }
 
 /// Every `step`th node, leaving out so many at the rim.

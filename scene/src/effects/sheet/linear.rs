@@ -45,11 +45,34 @@ pub(crate) fn solve<T: Scalar>(mut a: Vec<Vec<T>>, mut b: Vec<Vec<T>>) -> Vec<Ve
     b
 }
 
-/// The inverse of a matrix that is not singular.
-pub(crate) fn invert<const N: usize, T: Scalar>(matrix: [[T; N]; N]) -> [[T; N]; N] {
-    let unit = |row| (0..N).map(|column| T::from(f64::from(u8::from(row == column)))).collect();
-    let inverse = solve(matrix.map(|row| row.to_vec()).to_vec(), (0..N).map(unit).collect());
-    std::array::from_fn(|row| std::array::from_fn(|column| inverse[row][column]))
+/// A square matrix in one allocation, row by row.
+#[derive(Clone, Debug)]
+pub(crate) struct Square<T> {
+    order: usize,
+    values: Vec<T>,
+}
+
+impl<T: Scalar> Square<T> {
+    /// From each row's and column's value.
+    pub fn of(order: usize, value: impl Fn(usize, usize) -> T) -> Self {
+        Square { order, values: (0..order * order).map(|n| value(n / order, n % order)).collect() }
+    }
+
+    pub fn rows(&self) -> impl Iterator<Item = &[T]> {
+        self.values.chunks_exact(self.order)
+    }
+
+    pub fn at(&self, row: usize, column: usize) -> T {
+        self.values[row * self.order + column]
+    }
+
+    /// The inverse of a matrix that is not singular.
+    pub fn invert(&self) -> Self {
+        let unit = Square::of(self.order, |row, column| T::from(f64::from(u8::from(row == column))));
+        let [matrix, unit] = [self, &unit].map(|square| square.rows().map(<[T]>::to_vec).collect());
+        let inverse = solve(matrix, unit);
+        Square::of(self.order, |row, column| inverse[row][column])
+    }
 }
 
 /// Scalar product over the shorter of both.
@@ -66,9 +89,9 @@ mod tests {
         let j = Complex64::I;
         let one = Complex64::ONE;
         let matrix = [[one * 0.0, one * 2.0, j], [one, j * 3.0, one * -1.0], [j, one, one * 5.0]];
-        let inverse = invert(matrix);
+        let inverse = Square::of(3, |row, column| matrix[row][column]).invert();
         for (row, column) in (0..3).flat_map(|row| (0..3).map(move |column| (row, column))) {
-            let product: Complex64 = (0..3).map(|k| matrix[row][k] * inverse[k][column]).sum();
+            let product: Complex64 = (0..3).map(|k| matrix[row][k] * inverse.at(k, column)).sum();
             assert!((product - f64::from(u8::from(row == column))).norm() < 1e-15);
         }
     }

@@ -21,9 +21,9 @@ use faer::sparse::{SparseColMat, Triplet};
 use faer::{Col, Mat};
 
 use super::Sheet;
-use super::linear::{dot, invert};
+use super::linear::{Square, dot};
+use super::nodes::Values;
 use super::spline::Axis;
-use crate::device::TERMINALS;
 
 /// e^(−γ)/4, γ being Euler's constant.
 const PEACEMAN: f64 = 0.140_364_870_891_724_5;
@@ -112,40 +112,41 @@ impl Mesh {
 /// A mesh whose matrix is factored, with its terminals.
 pub(crate) struct Network {
     pub mesh: Mesh,
-    terminals: [usize; TERMINALS],
+    terminals: Vec<usize>,
     factor: Llt<usize, f64>,
     /// A⁻¹ from each terminal to each node.
     fields: Mat<f64>,
     /// Extra currents s by the potentials φ⁰ that the dummies alone leave at the terminals.
-    extra: [[f64; TERMINALS]; TERMINALS],
+    extra: Square<f64>,
     /// Shares w by the same.
-    share: [[f64; TERMINALS]; TERMINALS],
+    share: Square<f64>,
 }
 
 impl Network {
     pub fn new(sheet: &Sheet, mesh: Mesh, correction: Correction) -> Self {
-        let places = sheet.terminals_m.map(|place| mesh.nearest(place));
-        let terminals = places.map(|[column, row]| mesh.node(column, row));
+        let places: Vec<_> = sheet.terminals_m.iter().map(|place| mesh.nearest(*place)).collect();
+        let terminals: Vec<_> = places.iter().map(|[column, row]| mesh.node(*column, *row)).collect();
         let dummy = 1.0 / sheet.film.ohm_per_square;
         let factor = factor(&mesh, &mesh.conductances(sheet), &terminals, dummy);
-        let mut fields = Mat::zeros(mesh.nodes(), TERMINALS);
+        let mut fields = Mat::zeros(mesh.nodes(), terminals.len());
         terminals.iter().enumerate().for_each(|(terminal, node)| fields[(*node, terminal)] = 1.0);
         factor.solve_in_place(&mut fields);
-        let series: [f64; TERMINALS] = std::array::from_fn(|n| {
-            let local = sheet.film.at(mesh.place_m(places[n][0], places[n][1]));
-            let peaceman = f64::from(1 << mesh.rims(places[n])) * local / (2.0 * PI)
+        let series = places.iter().zip(&sheet.terminal_ohm).map(|(place, ohm)| {
+            let local = sheet.film.at(mesh.place_m(place[0], place[1]));
+            let peaceman = f64::from(1 << mesh.rims(*place)) * local / (2.0 * PI)
                 * (mesh.node_radius_m() / sheet.terminal_radius_m).ln();
-            sheet.terminal_ohm[n] + if correction == Correction::Peaceman { peaceman } else { 0.0 }
+            ohm + if correction == Correction::Peaceman { peaceman } else { 0.0 }
         });
-        let between = terminals.map(|node| std::array::from_fn(|n| fields[(node, n)]));
+        let series: Vec<f64> = series.collect();
+        let between = Square::of(terminals.len(), |i, j| fields[(terminals[i], j)]);
         let (extra, share) = fold(&between, &series, dummy);
         Network { mesh, terminals, factor, fields, extra, share }
     }
 
     /// The share of each terminal in a current that is fed in at a node.
-    pub fn share(&self, node: usize) -> [f64; TERMINALS] {
+    pub fn share(&self, node: usize) -> Values {
         let alone = self.alone(node);
-        self.share.map(|row| dot(&row, &alone))
+        self.share.rows().map(|row| dot(row, &alone)).collect()
     }
 
     /// Potential of every node for a unit current into one.
@@ -167,24 +168,20 @@ impl Network {
         let mut potential = Col::zeros(self.mesh.nodes());
         currents.iter().for_each(|(node, current)| potential[*node] = *current);
         self.factor.solve_in_place(potential.as_mut().as_mat_mut());
-        let alone = self.terminals.map(|node| potential[node]);
-        let extra = Col::from_fn(TERMINALS, |n| dot(&self.extra[n], &alone));
+        let alone: Values = self.terminals.iter().map(|node| potential[*node]).collect();
+        let extra: Values = self.extra.rows().map(|row| dot(row, &alone)).collect();
+        let extra = Col::from_fn(extra.len(), |n| extra[n]);
         potential + &self.fields * extra
     }
 
     /// φ⁰ at the terminals for a unit current into a node; the matrix is symmetric.
-    fn alone(&self, node: usize) -> [f64; TERMINALS] {
-        std::array::from_fn(|terminal| self.fields[(node, terminal)])
+    fn alone(&self, node: usize) -> Values {
+        (0..self.terminals.len()).map(|terminal| self.fields[(node, terminal)]).collect()
     }
 }
 
-fn factor(
-    mesh: &Mesh,
-    conductances: &[(usize, usize, f64)],
-    terminals: &[usize; TERMINALS],
-    dummy: f64,
-) -> Llt<usize, f64> {
-    let mut entries = Vec::with_capacity(3 * conductances.len() + TERMINALS);
+fn factor(mesh: &Mesh, conductances: &[(usize, usize, f64)], terminals: &[usize], dummy: f64) -> Llt<usize, f64> {
+    let mut entries = Vec::with_capacity(3 * conductances.len() + terminals.len());
     for &(a, b, siemens) in conductances {
         entries.extend([Triplet::new(a, a, siemens), Triplet::new(b, b, siemens)]);
         entries.push(Triplet::new(a.max(b), a.min(b), -siemens));
@@ -195,17 +192,16 @@ fn factor(
     matrix.sp_cholesky(Side::Lower).expect("conductances and dummies are positive, and the mesh is connected")
 }
 
-type Matrix = [[f64; TERMINALS]; TERMINALS];
-
 /// s and w by φ⁰, as the module says.
-fn fold(between: &Matrix, series: &[f64; TERMINALS], dummy: f64) -> (Matrix, Matrix) {
+fn fold(between: &Square<f64>, series: &[f64], dummy: f64) -> (Square<f64>, Square<f64>) {
+    let count = series.len();
     // Both factors of a terminal's row, R and g·R − 1, or what is left of them where R is infinite.
-    let weights = series.map(|ohm| if ohm.is_finite() { [ohm, dummy * ohm - 1.0] } else { [1.0, dummy] });
+    let weight = |ohm: &f64| if ohm.is_finite() { [*ohm, dummy * ohm - 1.0] } else { [1.0, dummy] };
+    let weights: Vec<_> = series.iter().map(weight).collect();
     let delta = |i: usize, j: usize| f64::from(i == j);
-    let each =
-        |f: &dyn Fn(usize, usize) -> f64| -> Matrix { std::array::from_fn(|i| std::array::from_fn(|j| f(i, j))) };
-    let inverse = invert(each(&|i, j| weights[i][0] * delta(i, j) - weights[i][1] * between[i][j]));
-    let extra = each(&|i, j| inverse[i][j] * weights[j][1]);
-    let lifted = |i: usize, j: usize| delta(i, j) + (0..TERMINALS).map(|k| between[i][k] * extra[k][j]).sum::<f64>();
-    (extra, each(&|i, j| dummy * lifted(i, j) - extra[i][j]))
+    let inverse = Square::of(count, |i, j| weights[i][0] * delta(i, j) - weights[i][1] * between.at(i, j)).invert();
+    let extra = Square::of(count, |i, j| inverse.at(i, j) * weights[j][1]);
+    let lifted = |i: usize, j: usize| delta(i, j) + (0..count).map(|k| between.at(i, k) * extra.at(k, j)).sum::<f64>();
+    let share = Square::of(count, |i, j| dummy * lifted(i, j) - extra.at(i, j));
+    (extra, share)
 }

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `[sheet]`: how the resistive sheet splits a pad's current among the terminals, and its resistance R_p at the pad.
 //!
-//! Terminals 1 to 4 are the corners top left, bottom left, bottom right, top right (the signs of eqs. 2 and 3); 5 and 6 are
-//! the middles of the bottom and the top edge, of the left and the right one with `middles = "short"`, or where
-//! `terminal_5_mm` and `terminal_6_mm` say; `terminals = 4` leaves both away. Each is a patch of radius `terminal_radius_mm`
-//! behind `terminal_ohm`; those listed in `shorted` have no resistance, those in `open` no current. The radius is not the
-//! paper's: 1.7 mm gives the R_p of PHYSICS §1, 73 to 190 Ω, mean 143 Ω, for pads 20 mm off the edges.
+//! Three to sixteen terminals are where `terminals_mm` says. Without it terminals 1 to 4 are the corners top left, bottom left,
+//! bottom right, top right (the signs of eqs. 2 and 3); 5 and 6 are the middles of the bottom and the top edge, of the left and
+//! the right one with `middles = "short"`, or where `terminal_5_mm` and `terminal_6_mm` say; `terminals = 4` leaves both away.
+//! Each is a patch of radius `terminal_radius_mm` behind `terminal_ohm`, a number or a list of one for each; those listed in
+//! `shorted` have no resistance, those in `open` no current. The radius is not the paper's: 1.7 mm gives the R_p of PHYSICS §1,
+//! 73 to 190 Ω, mean 143 Ω, for pads 20 mm off the edges. On a mesh a terminal is the node nearest to its place.
 //!
 //! | rung | what | look-up | error of the split, rms / max | build |
 //! | --- | --- | --- | --- | --- |
@@ -33,33 +34,38 @@ mod grid;
 pub(super) mod linear;
 pub(super) mod mesh;
 pub(super) mod neumann;
+pub(super) mod nodes;
+mod places;
 pub(super) mod spline;
 mod table;
 
 pub(super) use geometry::Sheet;
+pub(crate) use places::terminals_mm;
 
+use nodes::Values;
 use num_complex::Complex64;
 
 use super::{Effect, Pad, PadEffect, Rung, Spec};
-use crate::device::{Device, TERMINALS};
+use crate::device::{Device, PerTerminal};
 use crate::error::SceneError;
+use crate::few::Few;
 use crate::format::Table;
 
 /// The sheet as a pad at one place sees it.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Split {
-    pub share: [f64; TERMINALS],
+    pub share: PerTerminal<f64>,
     pub ohm: f64,
 }
 
 impl Split {
-    fn node(self) -> [f64; TERMINALS + 1] {
-        let [a, b, c, d, e, f] = self.share;
-        [a, b, c, d, e, f, self.ohm]
+    fn node(&self) -> Values {
+        self.share.iter().copied().chain([self.ohm]).collect()
     }
 
-    fn of_node([a, b, c, d, e, f, ohm]: [f64; TERMINALS + 1]) -> Split {
-        Split { share: [a, b, c, d, e, f], ohm }
+    fn of_node(node: &Values) -> Split {
+        let terminals = node.len() - 1;
+        Split { share: Few::from_slice(&node[..terminals]), ohm: node[terminals] }
     }
 }
 
@@ -152,12 +158,18 @@ impl PadEffect for OnSheet {
 }
 
 /// The split of an ideal sheet: corner currents bilinear in the position, so that r_x and r_y are proportional to x and y.
-pub(crate) fn ideal_split(x_mm: f64, y_mm: f64, device: &Device) -> [Complex64; TERMINALS] {
+/// Only a device without `[sheet]` has it, and so the corners as its first terminals; where there is one, it says the split.
+pub(crate) fn ideal_split(x_mm: f64, y_mm: f64, device: &Device) -> PerTerminal<Complex64> {
     let (u, v) = (x_mm / device.width_mm + 0.5, y_mm / device.height_mm + 0.5);
-    [(1.0 - u) * v, (1.0 - u) * (1.0 - v), u * (1.0 - v), u * v, 0.0, 0.0].map(Complex64::from)
+    let corners = [(1.0 - u) * v, (1.0 - u) * (1.0 - v), u * (1.0 - v), u * v];
+    Few::of(device.terminals(), |shares| {
+        shares.iter_mut().zip(corners).take(device.terminals()).for_each(|(share, corner)| *share = corner.into());
+    })
 }
 
 #[cfg(test)]
 mod grid_tests;
+#[cfg(test)]
+mod terminal_tests;
 #[cfg(test)]
 pub(crate) mod tests;

@@ -8,6 +8,8 @@
 //! The weights sum to one, hence what sums to one at the nodes does so everywhere. The error falls with the fourth power of
 //! the spacing, a ninth of what four-point interpolation of the same nodes leaves.
 
+use super::nodes::{Lane, Nodes, Values};
+
 /// Evenly spaced nodes along an axis, mm.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Axis {
@@ -39,11 +41,11 @@ impl Axis {
     }
 
     /// A function as a spline takes it: its values at the nodes, and before and after those its slopes per spacing.
-    fn ask<const N: usize>(&self, index: usize, f: impl Fn(f64) -> [f64; N]) -> [f64; N] {
+    fn ask(&self, index: usize, f: impl Fn(f64) -> Values) -> Values {
         const STEP_MM: f64 = 0.02;
         let slope = |at: f64| {
-            let rise = add(f(at + STEP_MM), -1.0, f(at - STEP_MM));
-            rise.map(|value| value * self.spacing_mm() / (2.0 * STEP_MM))
+            let rise = f(at + STEP_MM).into_iter().zip(f(at - STEP_MM)).map(|(after, before)| after + -1.0 * before);
+            rise.map(|value| value * self.spacing_mm() / (2.0 * STEP_MM)).collect()
         };
         match index {
             0 => slope(self.first_mm),
@@ -62,36 +64,36 @@ impl Axis {
     }
 }
 
-/// A bicubic spline of `N` values.
-pub(crate) struct Spline<const N: usize> {
+/// A bicubic spline of several values.
+pub(crate) struct Spline {
     axes: [Axis; 2],
     /// Row by row, one coefficient beyond the nodes on every side.
-    coefficients: Vec<[f64; N]>,
+    coefficients: Nodes,
 }
 
-impl<const N: usize> Spline<N> {
-    /// Through a function at the nodes, with its slopes at the rim.
-    pub fn of(axes: [Axis; 2], f: impl Fn(f64, f64) -> [f64; N]) -> Self {
-        Spline::filtered(axes, |column, row| axes[0].ask(column, |x| axes[1].ask(row, |y| f(x, y))))
+impl Spline {
+    /// Through a function of so many values at the nodes, with its slopes at the rim.
+    pub fn of(axes: [Axis; 2], values: usize, f: impl Fn(f64, f64) -> Values) -> Self {
+        Spline::filtered(axes, values, |column, row| axes[0].ask(column, |x| axes[1].ask(row, |y| f(x, y))))
     }
 
     /// Through values at the nodes, level at the rim: what is insulated there.
-    pub fn level(axes: [Axis; 2], node: impl Fn(usize, usize) -> [f64; N]) -> Self {
+    pub fn level(axes: [Axis; 2], values: usize, node: impl Fn(usize, usize) -> Values) -> Self {
         let inside = |n: usize, axis: usize| (1..=axes[axis].nodes).contains(&n);
         let sample = |column, row| match inside(column, 0) && inside(row, 1) {
             true => node(column - 1, row - 1),
-            false => [0.0; N],
+            false => Values::default(),
         };
-        Spline::filtered(axes, sample)
+        Spline::filtered(axes, values, sample)
     }
 
     /// Through values at the nodes, with the slopes at the rim that a parabola through three of them has.
-    pub fn free(axes: [Axis; 2], node: impl Fn(usize, usize) -> [f64; N]) -> Self {
-        let along = |n: usize, axis: usize, f: &dyn Fn(usize) -> [f64; N]| {
+    pub fn free(axes: [Axis; 2], values: usize, node: impl Fn(usize, usize) -> Values) -> Self {
+        let along = |n: usize, axis: usize, f: &dyn Fn(usize) -> Values| {
             let last = axes[axis].nodes - 1;
             let slope = |a: usize, b: usize, c: usize, sign: f64| {
                 let [a, b, c] = [f(a), f(b), f(c)];
-                std::array::from_fn(|n| sign * (2.0 * b[n] - 1.5 * a[n] - 0.5 * c[n]))
+                (0..values).map(|n| sign * (2.0 * b[n] - 1.5 * a[n] - 0.5 * c[n])).collect()
             };
             match n {
                 0 => slope(0, 1, 2, 1.0),
@@ -99,42 +101,39 @@ impl<const N: usize> Spline<N> {
                 n => f(n - 1),
             }
         };
-        Spline::filtered(axes, |column, row| along(column, 0, &|x| along(row, 1, &|y| node(x, y))))
+        Spline::filtered(axes, values, |column, row| along(column, 0, &|x| along(row, 1, &|y| node(x, y))))
     }
 
-    fn filtered(axes: [Axis; 2], sample: impl Fn(usize, usize) -> [f64; N]) -> Self {
+    fn filtered(axes: [Axis; 2], values: usize, sample: impl Fn(usize, usize) -> Values) -> Self {
         let (columns, rows) = (axes[0].nodes + 2, axes[1].nodes + 2);
-        let mut coefficients: Vec<_> = (0..columns * rows).map(|n| sample(n % columns, n / columns)).collect();
-        (0..rows).for_each(|row| filter(&mut coefficients, row * columns, 1, columns));
-        (0..columns).for_each(|column| filter(&mut coefficients, column, columns, rows));
+        let samples = (0..columns * rows).map(|n| sample(n % columns, n / columns));
+        let mut coefficients = Nodes::new(values, samples);
+        let (lanes, list) = (coefficients.lanes, &mut coefficients.list);
+        for lane in 0..lanes {
+            (0..rows).for_each(|row| filter(list, row * columns * lanes + lane, lanes, columns));
+            (0..columns).for_each(|column| filter(list, column * lanes + lane, columns * lanes, rows));
+        }
         Spline { axes, coefficients }
     }
 
     /// The values at a place; beyond the rim those at the rim.
-    pub fn at(&self, x_mm: f64, y_mm: f64) -> [f64; N] {
+    pub fn at(&self, x_mm: f64, y_mm: f64) -> Values {
         let (column, across) = self.axes[0].weights(x_mm);
         let (row, up) = self.axes[1].weights(y_mm);
-        let mut sum = [0.0; N];
-        for (step, weight_y) in up.into_iter().enumerate() {
-            let first = (row + step) * (self.axes[0].nodes + 2) + column;
-            for (node, weight_x) in self.coefficients[first..first + 4].iter().zip(across) {
-                let weight = weight_x * weight_y;
-                sum.iter_mut().zip(node).for_each(|(sum, value)| *sum += weight * value);
-            }
-        }
-        sum
+        let first = [0, 1, 2, 3].map(|step| (row + step) * (self.axes[0].nodes + 2) + column);
+        self.coefficients.weighted(first, &up.map(|weight_y| across.map(|weight_x| weight_x * weight_y)))
     }
 }
 
 /// `a + factor·b`
-fn add<const N: usize>(a: [f64; N], factor: f64, b: [f64; N]) -> [f64; N] {
+fn add(a: Lane, factor: f64, b: Lane) -> Lane {
     std::array::from_fn(|n| a[n] + factor * b[n])
 }
 
-/// Turns values between two end slopes into B-spline coefficients, in place: `count` nodes from `first`, `stride` apart.
+/// Turns values between two end slopes into B-spline coefficients, in place: a lane of `count` nodes from `first`, `stride` apart.
 ///
 /// (c_(i−1) + 4c_i + c_(i+1))/6 = f_i inside, (c_1 − c_(−1))/2 = f′ at the ends: tridiagonal once the ends are folded in.
-fn filter<const N: usize>(values: &mut [[f64; N]], first: usize, stride: usize, count: usize) {
+fn filter(values: &mut [Lane], first: usize, stride: usize, count: usize) {
     let at = |n: usize| first + n * stride;
     let last = count - 2;
     let mut upper = vec![0.0; count];

@@ -5,12 +5,9 @@
 //! the bilinear table and with the fourth for the bicubic one.
 
 use super::analytic::Analytic;
+use super::nodes::Nodes;
 use super::spline::{Axis, Spline};
 use super::{Sheet, Solver, Split};
-use crate::device::TERMINALS;
-
-/// What a node holds: the shares and the resistance.
-type Node = [f64; TERMINALS + 1];
 
 fn axes(sheet: &Sheet, nodes: [usize; 2]) -> [Axis; 2] {
     let reach_mm = sheet.reach_mm();
@@ -18,25 +15,25 @@ fn axes(sheet: &Sheet, nodes: [usize; 2]) -> [Axis; 2] {
 }
 
 /// A bicubic spline with the exact slopes at its rim.
-pub(super) struct Bicubic(Spline<{ TERMINALS + 1 }>);
+pub(super) struct Bicubic(Spline);
 
 impl Bicubic {
     pub fn new(sheet: &Sheet, nodes: [usize; 2]) -> Self {
         let exact = Analytic::new(sheet);
-        Bicubic(Spline::of(axes(sheet, nodes), |x, y| exact.split(x, y).node()))
+        Bicubic(Spline::of(axes(sheet, nodes), sheet.terminals() + 1, |x, y| exact.split(x, y).node()))
     }
 }
 
 impl Solver for Bicubic {
     fn split(&self, x_mm: f64, y_mm: f64) -> Split {
-        Split::of_node(self.0.at(x_mm, y_mm))
+        Split::of_node(&self.0.at(x_mm, y_mm))
     }
 }
 
 /// Linear between four nodes.
 pub(super) struct Bilinear {
     axes: [Axis; 2],
-    nodes: Vec<Node>,
+    nodes: Nodes,
 }
 
 impl Bilinear {
@@ -44,7 +41,7 @@ impl Bilinear {
         let (exact, axes) = (Analytic::new(sheet), axes(sheet, nodes));
         let columns = axes[0].nodes;
         let node = |n: usize| exact.split(axes[0].node_mm(n % columns), axes[1].node_mm(n / columns)).node();
-        Bilinear { axes, nodes: (0..columns * axes[1].nodes).map(node).collect() }
+        Bilinear { axes, nodes: Nodes::new(sheet.terminals() + 1, (0..columns * axes[1].nodes).map(node)) }
     }
 }
 
@@ -53,9 +50,12 @@ impl Solver for Bilinear {
         let (column, x) = self.axes[0].locate(x_mm);
         let (row, y) = self.axes[1].locate(y_mm);
         let below = row * self.axes[0].nodes + column;
-        let [a, b] = [below, below + 1].map(|n| &self.nodes[n]);
-        let [c, d] = [below, below + 1].map(|n| &self.nodes[n + self.axes[0].nodes]);
-        let mix = |n: usize| (1.0 - y) * ((1.0 - x) * a[n] + x * b[n]) + y * ((1.0 - x) * c[n] + x * d[n]);
-        Split::of_node(std::array::from_fn(mix))
+        let above = below + self.axes[0].nodes;
+        let values = self.nodes.gather(|lane| {
+            let [a, b, c, d] = [below, below + 1, above, above + 1].map(|node| self.nodes.lane(node, lane));
+            let mix = |n: usize| (1.0 - y) * ((1.0 - x) * a[n] + x * b[n]) + y * ((1.0 - x) * c[n] + x * d[n]);
+            std::array::from_fn(mix)
+        });
+        Split::of_node(&values)
     }
 }

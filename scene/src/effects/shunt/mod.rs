@@ -25,18 +25,16 @@ use screen::Screens;
 pub(super) use screen::{Screened, Source};
 
 use super::sheet::analytic::Analytic;
+use super::sheet::nodes::Values;
 use super::sheet::spline::{Axis, Spline};
 use super::sheet::{Sheet, Solver, Split};
 use super::{Effect, Pad, PadEffect, Rung, Spec};
-use crate::device::{Device, TERMINALS};
+use crate::device::{Device, PerTerminal};
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
 
 /// Columns and rows of the table.
 const NODES: [usize; 2] = [32, 19];
-
-/// Real parts of the seven functions D, then imaginary ones.
-type Node = [f64; 2 * (TERMINALS + 1)];
 
 pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneError> {
     let Some(sheet) = screened(root, device)? else { return Ok(None) };
@@ -67,7 +65,7 @@ pub(super) fn screened(root: &Table, device: &Device) -> Result<Option<(Sheet, f
 struct Shunt {
     with: Screened,
     without: Analytic,
-    table: Option<Spline<{ 2 * (TERMINALS + 1) }>>,
+    table: Option<Spline>,
     reach_mm: [f64; 2],
 }
 
@@ -77,20 +75,21 @@ impl Shunt {
         let (with, reach_mm) = (Screened::new(sheet, *siemens_per_m2), sheet.reach_mm());
         let table = nodes.map(|nodes| {
             let axes = [0, 1].map(|axis| Axis::symmetric(reach_mm[axis], nodes[axis]));
-            Spline::of(axes, |x, y| node(&with.screens(x, y)))
+            Spline::of(axes, 2 * (sheet.terminals() + 1), |x, y| node(&with.screens(x, y)))
         });
         Shunt { with, without: Analytic::new(sheet), table, reach_mm }
     }
 
     /// What the shunt changes of the shares and of the impedance.
-    fn change(&self, x_mm: f64, y_mm: f64) -> ([Complex64; TERMINALS], Complex64) {
+    fn change(&self, x_mm: f64, y_mm: f64) -> (PerTerminal<Complex64>, Complex64) {
         let screens = match &self.table {
             Some(table) => screens(&table.at(x_mm, y_mm)),
             None => self.with.screens(x_mm, y_mm),
         };
         let source = self.with.source_of(x_mm, y_mm, &screens);
         let Split { share, ohm } = self.without.split(x_mm, y_mm);
-        (std::array::from_fn(|n| source.share[n] - share[n]), self.with.own(&source, &screens) - ohm)
+        let change = source.share.iter().zip(share).map(|(with, without)| with - without).collect();
+        (change, self.with.own(&source, &screens) - ohm)
     }
 }
 
@@ -103,11 +102,12 @@ impl PadEffect for Shunt {
     }
 }
 
-fn node(screens: &Screens) -> Node {
-    let of = |n: usize| if n <= TERMINALS { screens[n].re } else { screens[n - TERMINALS - 1].im };
-    std::array::from_fn(of)
+/// Real parts of the functions D, then imaginary ones.
+fn node(screens: &Screens) -> Values {
+    screens.iter().map(|screen| screen.re).chain(screens.iter().map(|screen| screen.im)).collect()
 }
 
-fn screens(node: &Node) -> Screens {
-    std::array::from_fn(|n| Complex64::new(node[n], node[n + TERMINALS + 1]))
+fn screens(node: &Values) -> Screens {
+    let (re, im) = node.split_at(node.len() / 2);
+    re.iter().zip(im).map(|(re, im)| Complex64::new(*re, *im)).collect()
 }

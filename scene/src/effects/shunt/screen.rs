@@ -11,11 +11,12 @@
 
 use std::f64::consts::PI;
 
+use crate::few::Few;
 use num_complex::Complex64;
 
-use crate::device::TERMINALS;
+use crate::device::{MOST_TERMINALS, PerTerminal};
 use crate::effects::sheet::Sheet;
-use crate::effects::sheet::linear::invert;
+use crate::effects::sheet::linear::Square;
 use crate::effects::sheet::neumann::Neumann;
 
 /// Modes along y; those left out are below 3e-7 of the sum at 22 nF/m².
@@ -30,17 +31,17 @@ pub(in super::super) struct Screened {
     neumann: Neumann,
     /// k_n with shunt.
     modes: Vec<Complex64>,
-    inverse: [[Complex64; TERMINALS]; TERMINALS],
+    inverse: Square<Complex64>,
 }
 
 /// D between a place and each terminal, then the place itself.
-pub(in super::super) type Screens = [Complex64; TERMINALS + 1];
+pub(in super::super) type Screens = Few<Complex64, { MOST_TERMINALS + 1 }>;
 
 /// A place on it: the split there, and what its potential is made of.
 pub(in super::super) struct Source {
     at: [f64; 2],
-    known: [Complex64; TERMINALS],
-    pub share: [Complex64; TERMINALS],
+    known: PerTerminal<Complex64>,
+    pub share: PerTerminal<Complex64>,
 }
 
 impl Screened {
@@ -50,27 +51,28 @@ impl Screened {
         let screening = Complex64::new(0.0, siemens_per_m2 * sheet.film.ohm_per_square);
         let mode = |n: usize| ((n as f64 * PI / sheet.size_m[1]).powi(2) + screening).sqrt();
         let modes = (0..MODES).map(mode).collect();
-        let mut screened = Screened { sheet: sheet.clone(), neumann, modes, inverse: [[Complex64::ZERO; 6]; 6] };
-        screened.inverse = invert(screened.tied());
+        let inverse = Square::of(0, |_, _| Complex64::ZERO);
+        let mut screened = Screened { sheet: sheet.clone(), neumann, modes, inverse };
+        screened.inverse = screened.tied().invert();
         screened
     }
 
     /// R_s·N between terminals, and what is in series with each.
-    fn tied(&self) -> [[Complex64; TERMINALS]; TERMINALS] {
-        let Sheet { terminals_m, terminal_ohm, terminal_radius_m, .. } = self.sheet;
-        std::array::from_fn(|i| match terminal_ohm[i].is_finite() {
-            true => std::array::from_fn(|j| {
+    fn tied(&self) -> Square<Complex64> {
+        let Sheet { terminals_m, terminal_ohm, terminal_radius_m, .. } = &self.sheet;
+        Square::of(terminals_m.len(), |i, j| match terminal_ohm[i].is_finite() {
+            true => {
                 let own = if i == j { terminal_ohm[i] } else { 0.0 };
-                self.ohm(terminals_m[i], terminals_m[j], terminal_radius_m) + own
-            }),
-            false => std::array::from_fn(|j| Complex64::from(f64::from(i == j))),
+                self.ohm(terminals_m[i], terminals_m[j], *terminal_radius_m) + own
+            }
+            false => Complex64::from(f64::from(u8::from(i == j))),
         })
     }
 
     /// D between a place and each terminal, and the place itself.
     pub fn screens(&self, x_mm: f64, y_mm: f64) -> Screens {
         let at = self.sheet.place_m(x_mm, y_mm);
-        std::array::from_fn(|n| self.screen(at, if n < TERMINALS { self.sheet.terminals_m[n] } else { at }))
+        self.sheet.terminals_m.iter().chain([&at]).map(|there| self.screen(at, *there)).collect()
     }
 
     pub fn source(&self, x_mm: f64, y_mm: f64) -> Source {
@@ -80,11 +82,13 @@ impl Screened {
     /// The same where D is known.
     pub fn source_of(&self, x_mm: f64, y_mm: f64, screens: &Screens) -> Source {
         let at = self.sheet.place_m(x_mm, y_mm);
-        let known = std::array::from_fn(|n| match self.sheet.terminal_ohm[n].is_finite() {
+        let known = (0..self.sheet.terminals()).map(|n| match self.sheet.terminal_ohm[n].is_finite() {
             true => self.scaled(self.sheet.terminals_m[n], at, self.sheet.terminal_radius_m, screens[n]),
             false => Complex64::ZERO,
         });
-        Source { at, known, share: self.inverse.map(|row| product(&row, &known)) }
+        let known: PerTerminal<Complex64> = known.collect();
+        let share = self.inverse.rows().map(|row| product(row, &known)).collect();
+        Source { at, known, share }
     }
 
     /// Potential at one place for a unit current into another.
@@ -94,7 +98,7 @@ impl Screened {
 
     /// The pad's own disc's, where D is known.
     pub fn own(&self, source: &Source, screens: &Screens) -> Complex64 {
-        let free = self.scaled(source.at, source.at, self.sheet.disc_m(), screens[TERMINALS]);
+        let free = self.scaled(source.at, source.at, self.sheet.disc_m(), screens[self.sheet.terminals()]);
         free - product(&source.known, &source.share)
     }
 
