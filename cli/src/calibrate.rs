@@ -5,6 +5,9 @@
 //!
 //! ```toml
 //! pads = 1
+//! [terminals]                     # signs in the ratios; those of eqs. 2 and 3 where the table is left out
+//! x = [-1, -1, 1, 1, 0, 0]
+//! y = [1, -1, -1, 1, -1, 1]
 //! [device]
 //! sample_rate_hz = 1000000.0      # of the ADC while the capture was taken
 //! carrier_hz = 100000.0
@@ -47,10 +50,30 @@ const HAPTIC_V_RMS: [f64; 8] = [0.0, 50.0, 100.0, 150.0, 200.0, 250.0, 300.0, 35
 pub struct DeviceCalibration {
     /// Pads served in turn.
     pub pads: u64,
+    /// The signs of the terminals' currents in the ratios of `map`.
+    #[serde(default)]
+    pub terminals: Signs,
     /// Full scales and the force law.
     pub device: Scales,
     /// Places and what is read there.
     pub map: Raster,
+}
+
+/// The signs of the terminals' currents in the numerators of both ratios.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Signs {
+    /// Of r_x.
+    pub x: Vec<i8>,
+    /// Of r_y.
+    pub y: Vec<i8>,
+}
+
+/// Those of eqs. 2 and 3, of which calibrations without signs are.
+impl Default for Signs {
+    fn default() -> Self {
+        Signs { x: vec![-1, -1, 1, 1, 0, 0], y: vec![1, -1, -1, 1, 0, 0] }
+    }
 }
 
 /// Full scales, frequencies and the force law.
@@ -130,13 +153,14 @@ fn force_k(plant: &Plant) -> f64 {
 
 impl DeviceCalibration {
     /// What the builder of the simulated device knows of it.
-    pub fn of_plant(plant: &Plant) -> Self {
+    pub fn of_plant(plant: &Plant, profile: &Profile) -> Self {
         let device = plant.device();
         let margin = device.pad_diameter_mm / 2.0 - BEYOND_MM;
         let map = plant.calibration_map(RASTER[0], RASTER[1], margin);
         let places = map.iter().map(|point| [point.x_mm, point.y_mm, point.r_x, point.r_y, point.sheet_ohm]);
         DeviceCalibration {
             pads: plant.pad_names().len() as u64,
+            terminals: Signs { x: profile.terminals.x.clone(), y: profile.terminals.y.clone() },
             map: Raster { columns: RASTER[0], places: places.collect() },
             device: Scales {
                 sample_rate_hz: device.sample_rate_hz,
@@ -150,11 +174,17 @@ impl DeviceCalibration {
     }
 
     /// The nominal device, served by a core of the profile.
-    pub fn nominal(profile: &Profile) -> Self {
+    ///
+    /// # Errors
+    /// A profile for another number of terminals than the paper's device has.
+    pub fn nominal(profile: &Profile) -> Result<Self> {
         const NOMINAL: &str = "title = \"nominal\"\n[[pad]]\nposition_mm = [0, 0]\n[sheet]\n";
         let scene = Scene::parse(NOMINAL, "nominal", &[]).expect("a valid scene");
-        let plant = Plant::new(&scene, 0, &inputs::timing(profile)).expect("one pad, which any profile serves");
-        DeviceCalibration { pads: profile.pads, ..DeviceCalibration::of_plant(&plant) }
+        let plant = Plant::new(&scene, 0, &inputs::timing(profile)).map_err(|_| {
+            let terminals = profile.terminals.x.len();
+            anyhow!("expected --calibration FILE: the paper's display has six terminals, the profile {terminals}")
+        })?;
+        Ok(DeviceCalibration { pads: profile.pads, ..DeviceCalibration::of_plant(&plant, profile) })
     }
 
     /// Reads a calibration file.
@@ -178,11 +208,13 @@ impl DeviceCalibration {
     pub fn text(&self) -> String {
         let device = &self.device;
         let mut text = format!(
-            "# A device's calibration for `hapticore replay`.\npads = {}\n\n[device]\n\
+            "# A device's calibration for `hapticore replay`.\npads = {}\n\n[terminals]\nx = {:?}\ny = {:?}\n\n[device]\n\
              sample_rate_hz = {:?}\ncarrier_hz = {:?}\ncurrent_full_scale_a = {:?}\nsense_full_scale_v = {:?}\n\
              haptic_full_scale_v = {:?}\nforce_k = {:?}\n\n[map]\ncolumns = {}\n\
              places = [ # x_mm, y_mm, r_x, r_y, sheet_ohm\n",
             self.pads,
+            self.terminals.x,
+            self.terminals.y,
             device.sample_rate_hz,
             device.carrier_hz,
             device.current_full_scale_a,

@@ -9,14 +9,14 @@ use std::thread;
 
 use anyhow::{Result, ensure};
 use hapticore_model::profile::Profile;
-use hapticore_scene::{Complex, EffectCost, Plant, RungError, Scene, Truth};
+use hapticore_scene::{Complex, EffectCost, Plant, RungError, Scene, Truth, signs_by_place};
 use indicatif::ProgressBar;
 
 use crate::args::Fidelity;
 use crate::calibrate::DeviceCalibration;
 use crate::capture::Recorder;
 use crate::engine::{Signals, Slot};
-use crate::inputs::{serving, timing};
+use crate::inputs::{for_terminals, serving, timing};
 use crate::interrupt;
 use crate::record::{self, Quantities, Row, SignalError};
 use crate::session::{Session, SlotClock};
@@ -76,13 +76,13 @@ impl<'a> Case<'a> {
     /// # Errors
     /// A case that the profile cannot serve.
     pub fn new(scene: &'a Scene, index: usize, number: usize, profile: &Profile, start_s: f64) -> Result<Self> {
-        let (signs, terminals) = (profile.terminals.x.len(), scene.cases[index].device.terminals());
-        let name = &profile.name;
-        ensure!(signs == terminals, "profile {name}: terminals.x: expected {terminals} signs, got {signs}");
-        let plant = Plant::new(scene, index, &timing(profile))?;
+        let device = &scene.cases[index].device;
+        let signs = signs_by_place(&device.terminals_mm, [device.width_mm, device.height_mm]);
+        let profile = for_terminals(profile, &signs)?;
+        let plant = Plant::new(scene, index, &timing(&profile))?;
         let pads = plant.pad_names().len();
-        let profile = Arc::new(serving(profile, pads));
-        let device = DeviceCalibration::of_plant(&plant);
+        let profile = Arc::new(serving(&profile, pads));
+        let device = DeviceCalibration::of_plant(&plant, &profile);
         let clock = SlotClock::new(&profile, device.device.sample_rate_hz, start_s);
         Ok(Case { scene, index, number, profile, device, slots: plant.slots(), clock })
     }

@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::Path;
 
-use anyhow::{Context, Result, anyhow};
+use anyhow::{Context, Result, anyhow, ensure};
 use hapticore_model::profile::{Profile, ProfileError};
 use hapticore_scene::{Scene, Timing, gallery};
 
@@ -65,6 +65,31 @@ pub fn with_key(text: &str, message: &str) -> String {
 /// It cannot be read, or is no text.
 pub fn read(path: &Path) -> Result<String> {
     fs::read_to_string(path).with_context(|| path.display().to_string())
+}
+
+/// The profile of a core for a device whose terminals have these signs in the ratios.
+///
+/// The bundled profiles are for the paper's six terminals and take any other device's; a profile of a user's own keeps its signs.
+/// More terminals than the profile's ADC can be read for in a sample take more clocks.
+///
+/// # Errors
+/// A profile of a user's own for another number of terminals; a core that cannot be.
+pub fn for_terminals(profile: &Profile, signs: &[Vec<i8>; 2]) -> Result<Profile> {
+    let [x, y] = signs;
+    let bundled = Profile::bundled(&profile.name).is_ok_and(|bundled| bundled.terminals == profile.terminals);
+    let (own, device) = (profile.terminals.x.len(), x.len());
+    ensure!(
+        bundled || own == device,
+        "profile {}: terminals.x: expected {device} signs, as many as the device has terminals, got {own}",
+        profile.name
+    );
+    let mut profile = profile.clone();
+    if bundled {
+        (profile.terminals.x, profile.terminals.y) = (x.clone(), y.clone());
+        profile.clocks_per_sample = profile.clocks_per_sample.max(profile.least_clocks_per_sample());
+        profile.check().with_context(|| format!("profile {} for {device} terminals", profile.name))?;
+    }
+    Ok(profile)
 }
 
 /// The profile of a core that serves just these pads.

@@ -54,7 +54,7 @@ fn device(args: &ReplayArgs, profile: &Profile) -> Result<DeviceCalibration> {
     match &args.calibration {
         Some(path) => DeviceCalibration::read(path),
         None if beside.exists() => DeviceCalibration::read(&beside),
-        None => Ok(DeviceCalibration::nominal(profile)),
+        None => DeviceCalibration::nominal(profile),
     }
 }
 

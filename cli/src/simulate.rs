@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use anyhow::{Result, ensure};
 use hapticore_model::profile::Profile;
-use hapticore_scene::{Figure, Record as Wanted, Scene};
+use hapticore_scene::{Figure, Record as Wanted, Scene, Timing};
 use hapticore_waveforms::wave::Kind;
 use rayon::prelude::*;
 
@@ -26,7 +26,7 @@ pub fn run(args: &SimulateArgs) -> Result<bool> {
     let scene = inputs::scene(&args.scene, &args.set)?;
     let profile = inputs::profile(args.core.profile.as_ref().unwrap_or(&scene.profile))?;
     let profile = inputs::windowed(profile, &scene)?;
-    let scene = scene.within_budget(&inputs::timing(&profile))?;
+    let scene = scene.within_budget(&Timing { signs: None, ..inputs::timing(&profile) })?;
     let folder = args.out.clone().unwrap_or_else(|| Path::new("out").join(&scene.name));
     let (record, files) = write(args, &scene, &profile, &folder)?;
     if args.core.json {

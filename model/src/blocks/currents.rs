@@ -302,11 +302,17 @@ impl Currents {
         chosen.map(|k| channel.is(k)).reduce(|a, b| a | b).unwrap_or(bit(false))
     }
 
+    /// Whether the least amplitude is below the share of the total that an open terminal is told by.
+    #[inline(always)]
+    fn below_share<V: Value>(&self, least: Signal<V>, total: Signal<V>) -> Signal<V> {
+        if self.lost_shift == 0 { bit(false) } else { least.scaled(self.lost_shift).less_than(total) }
+    }
+
     #[inline(always)]
     fn results<V: Value>(&self, r: &Registers<Signal<V>>, total: Signal<V>) -> Outputs<Signal<V>> {
         let Registers { done, x, y, corners, .. } = *r;
         if self.block == 0 {
-            let lost = r.least.scaled(self.lost_shift).less_than(total);
+            let lost = self.below_share(r.least, total);
             return Outputs { done, total, sense: r.sense, x, y, corners, lost, saturated: r.saturated };
         }
         let ((total, beyond), (sense, too)) = (self.rounded(r.whole), self.rounded(r.sense));
@@ -325,7 +331,7 @@ impl Currents {
         if self.block == 0 {
             return r.lost;
         }
-        r.least.scaled(self.lost_shift).less_than(amplitude.scaled(self.down()))
+        self.below_share(r.least, amplitude.scaled(self.down()))
     }
 }
 

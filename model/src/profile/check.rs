@@ -44,7 +44,7 @@ impl Profile {
 
     fn check_terminals(&self) -> Check {
         let (x, y) = (&self.terminals.x, &self.terminals.y);
-        within("terminals.x", x.len() as u64, 3, 62)?;
+        within("terminals.x", x.len() as u64, 3, 16)?;
         ensure(y.len() == x.len(), "terminals.y", format_args!("{} signs, as terminals.x has", x.len()), y.len())?;
         for (field, signs) in [("terminals.x", x), ("terminals.y", y)] {
             ensure(
@@ -55,7 +55,9 @@ impl Profile {
             )?;
             ensure(signs.contains(&1) && signs.contains(&-1), field, "both signs", format_args!("{signs:?}"))?;
         }
-        within("terminals.lost_shift", self.terminals.lost_shift.unsigned_abs().into(), 1, 20)
+        ensure(x != y, "terminals.y", "signs other than those of terminals.x", format_args!("{y:?}"))?;
+        let shift = self.terminals.lost_shift;
+        ensure((0..=20).contains(&shift), "terminals.lost_shift", "0 (never) to 20", shift)
     }
 
     fn check_slot(&self) -> Check {
@@ -122,8 +124,13 @@ impl Profile {
         Ok(())
     }
 
+    /// The fewest clocks from one sample to the next in which every channel can be read and demodulated.
+    pub fn least_clocks_per_sample(&self) -> u64 {
+        Demodulator::new(self).least_clocks_per_sample()
+    }
+
     fn check_clocks(&self) -> Check {
-        let least = Demodulator::new(self).least_clocks_per_sample();
+        let least = self.least_clocks_per_sample();
         within("clocks_per_sample", self.clocks_per_sample, least, 1 << 16)?;
         let estimate = Estimator::new(self).latency();
         let blanking = self.slot.blanking() * self.clocks_per_sample;

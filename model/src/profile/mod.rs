@@ -43,7 +43,7 @@ pub struct Terminals {
     pub x: Vec<i8>,
     /// The sign of each terminal's current in the numerator of r_y.
     pub y: Vec<i8>,
-    /// A terminal is lost when its current is below `2^-lost_shift` of the total.
+    /// A terminal counts as open when its current is below `2^-lost_shift` of the total; with 0 none ever does.
     pub lost_shift: i8,
 }
 

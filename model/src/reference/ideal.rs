@@ -65,7 +65,7 @@ impl Reference {
             channels: terminals.x.len() + 2,
             rails: [-half, half - 1],
             signs: terminals.x.iter().zip(&terminals.y).map(pair).collect(),
-            lost_share: 0.5f64.powi(terminals.lost_shift.into()),
+            lost_share: if terminals.lost_shift > 0 { 0.5f64.powi(terminals.lost_shift.into()) } else { 0.0 },
             sheet_correction: profile.capacitance.sheet_correction,
             square_gain: profile.square_gain(),
             calibration: calibration.clone(),

@@ -76,7 +76,7 @@ fn block_currents(profile: &Profile, sums: &[[Exact; 2]], shift: i8) -> Currents
     let total = terminals.iter().fold([Exact::ZERO; 2], |[i, q], word| [i + word[0], q + word[1]]);
     let total = amplitude(total.map(|part| round(part.scaled(-down), f.iq).value)).scaled(down);
     let amplitudes: Vec<Exact> = terminals.iter().map(|&word| amplitude(word)).collect();
-    let lost = amplitudes.iter().any(|a| a.scaled(profile.terminals.lost_shift) < total);
+    let lost = any_open(profile, &amplitudes, total);
     let given = Format { signed: false, width: f.total.width + 1, frac: f.total.frac };
     let mut back = |a: Exact, by: i8| {
         let step = Exact::new(a.scaled(f.iq.frac - by).floor(), -i32::from(f.iq.frac));
@@ -123,8 +123,13 @@ pub fn currents(profile: &Profile, sums: &[[Exact; 2]]) -> Currents {
     let amplitude = |[i, q]: [Exact; 2]| round_root(i * i + q * q, f.total.frac);
     let amplitudes: Vec<Exact> = terminals.iter().map(|&word| amplitude(word)).collect();
     let total = amplitude(total);
-    let missing = |a: &Exact| a.scaled(profile.terminals.lost_shift) < total;
     let [x, y, corners] = numerators(profile, &amplitudes);
-    let lost = amplitudes.iter().any(missing);
+    let lost = any_open(profile, &amplitudes, total);
     Currents { total, sense: amplitude(sense[0]), x, y, corners, lost, saturated }
+}
+
+/// Whether a terminal's current is too small a share of the total.
+fn any_open(profile: &Profile, amplitudes: &[Exact], total: Exact) -> bool {
+    let shift = profile.terminals.lost_shift;
+    shift > 0 && amplitudes.iter().any(|a| a.scaled(shift) < total)
 }
