@@ -29,6 +29,8 @@ pub enum Mode {
     Prove(u64),
     /// For so many clocks after reset.
     Bounded(u64),
+    /// Whether each `cover` can happen within so many clocks after reset.
+    Cover(u64),
 }
 
 /// A module and its checker.
@@ -67,6 +69,7 @@ impl Claim<'_> {
             match mode {
                 Mode::Prove(depth) => ("prove", depth),
                 Mode::Bounded(depth) => ("bmc", depth),
+                Mode::Cover(depth) => ("cover", depth),
             },
         );
         let defines: String = defines.iter().map(|name| format!("-D{name} ")).collect();

@@ -148,9 +148,12 @@ pub fn check(
     if expected != got || heartbeat.refused || !heartbeat.calibrated {
         return Err(StartupError::Commands { expected, got });
     }
+    let core = Core::new(profile).inputs();
     for (register, code) in registers(profile, calibration) {
         let Some((got, bits)) = heartbeat.register(register) else { continue };
-        let expected = code as u64 & ((1 << bits) - 1);
+        // A command may bring more bits than its register has.
+        let mask = (1 << bits.min(register.format(&core).width)) - 1;
+        let (expected, got) = (code as u64 & mask, got & mask);
         if expected != got {
             return Err(StartupError::Register { register, expected, got });
         }

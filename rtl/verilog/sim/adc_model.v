@@ -46,7 +46,8 @@ module adc_model #(
     initial begin
         $readmemh(FILE, codes);
         busy = 0;
-        dout = 8'hxx;
+        dout = 8'h00;
+        for (k = 0; k < 8; k = k + 1) shown[k] = 0;
         sample = 0;
         faults = 0;
         commands = 0;
@@ -67,7 +68,7 @@ module adc_model #(
             for (k = 3; k < 7; k = k + 1) registers[k] = 8'h33;
             registers[6'h2f] = ID;
             register_mode = 0;
-            answer = 16'hxxxx;
+            answer = 16'h0000;
             moved = 0;
             lines = 2;
         end
@@ -84,7 +85,7 @@ module adc_model #(
     task show;
         begin
             for (line = 0; line < 8; line = line + 1)
-                dout[line] = (register_mode || line >= lines || bits >= BITS) ? 1'bx : shown[line][BITS-1-bits];
+                dout[line] = (bits >= BITS || register_mode) ? 1'b0 : line >= lines ? 1'bx : shown[line][BITS-1-bits];
             if (register_mode && bits < 16) dout[0] = answer[15-bits];
         end
     endtask
@@ -105,12 +106,12 @@ module adc_model #(
     task word;
         if (register_mode || command != 0) begin
             commands = commands + 1;
-            answer = 16'hxxxx;
+            answer = 16'h0000;
             if (falls != 16 || command[15]) fault(7);
             else if (command[14]) begin
                 register_mode = 1;
                 if (command[13:8] == 0 || command[13:8] > 6'h2f) fault(8);
-                answer = {8'hxx, registers[command[13:8]]};
+                answer = {8'h00, registers[command[13:8]]};
             end else if (!register_mode) fault(9); // a write without a read before it
             else if (command[13:8] == 0) begin
                 register_mode = 0;
@@ -170,8 +171,9 @@ module adc_model #(
         falls = falls + 1;
     end
 
+    // Lines that are not driven are pulled low: a pin always reads as something.
     always @(posedge cs_n) if (!reset) begin
-        dout = 8'hxx;
+        dout = 8'h00;
         // A word of one bit only, over and over, is none: SDI rests.
         if (moved && !register_mode && command == 0) fault(15);
         word;
