@@ -37,6 +37,7 @@ fn record(figure: &str, rows: Vec<Row>) -> Record {
         simulated_seconds: rows.last().map_or(0.0, |r| r.time_s),
         wall_seconds: 1.23,
         rows,
+        ..Record::default()
     }
 }
 
@@ -51,6 +52,7 @@ fn criteria() -> Vec<Criterion> {
         measured,
         limit,
         pass: measured <= limit,
+        applicable: true,
         unit: unit.into(),
         beside: beside.map(|(what, value)| (what.into(), value)),
     };
@@ -141,7 +143,7 @@ fn truth(x_mm: f64, y_mm: f64, capacitance_pf: f64, volts: f64, load_g: f64, she
     let haptic_v_rms = volts;
     let quantities =
         Quantities { r_x, r_y, x_mm, y_mm, capacitance_pf, sheet_ohm, haptic_v_rms, force_n, direction: 0.0 };
-    Truth { quantities, load_g, point: 0, group }
+    Truth { quantities, load_g, group, ..Truth::default() }
 }
 
 fn slot(case: usize, seed: u32, truth: Truth) -> Row {

@@ -42,7 +42,13 @@ const SIMULATE: &str = "Examples:
 Exit status: 0 all criteria hold, 1 one fails, 2 bad input.";
 
 const REPLAY: &str = "A capture is CSV (a header naming columns among i1 … i6, v_sense, v_haptic, pad; one row of integer codes per ADC
-sample; lines \"# key = value\" may give sample_rate_hz and bits) or WAV (channels in that order). Slots begin at the first sample.
+sample; lines \"# key = value\" before it may give sample_rate_hz, bits and, for volts, full_scale_v), WAV (channels in that order;
+integers of 16 to 32 bits or floats; RIFF or RF64) or SigMF (real samples). Slots begin at the first sample.
+
+Examples:
+  hapticore replay hockey.wav
+  hapticore replay scope.csv --channels _,i1,i2,i3,i4,i5,i6,v_sense,v_haptic --full-scale-v 10
+  recorder | hapticore replay - --calibration mine.toml
 
 Exit status: 0 done, 2 bad input.";
 
@@ -117,7 +123,7 @@ pub struct SimulateArgs {
     /// Save the ADC samples of the case that is run, and a calibration beside them for `hapticore replay`
     #[arg(long, value_name = "FILE.csv|FILE.wav")]
     pub capture: Option<PathBuf>,
-    /// Where results go [default: out/SCENE]
+    /// Where results go [default: out/SCENE and what differs from the default, as out/fig6-pad.0.load_g=50]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 }
@@ -125,7 +131,7 @@ pub struct SimulateArgs {
 /// Arguments of `replay`.
 #[derive(Debug, Clone, clap::Args)]
 pub struct ReplayArgs {
-    /// A capture, CSV or WAV
+    /// A capture: NAME.csv, NAME.wav, NAME.sigmf-meta, or - for CSV or WAV from standard input
     pub capture: PathBuf,
     /// The core.
     #[command(flatten)]
@@ -136,7 +142,17 @@ pub struct ReplayArgs {
     /// How many pads are served in turn [default: as in the calibration, else in the profile]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=256))]
     pub pads: Option<u64>,
-    /// Where results go [default: out/CAPTURE]
+    /// What the columns or channels of the capture are, in their order; _ leaves one out [default: as its header says, else i1 … iN,
+    /// v_sense, v_haptic and perhaps pad]
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
+    pub channels: Option<Vec<String>>,
+    /// Bits of integer codes that are at the bottom of wider samples, or have no `# bits` in CSV
+    #[arg(long, value_name = "BITS", value_parser = clap::value_parser!(u8).range(2..=32))]
+    pub bits: Option<u8>,
+    /// The samples are volts at the ADC, this many at the end of its range (CSV, floats)
+    #[arg(long, value_name = "VOLTS", value_parser = above_zero)]
+    pub full_scale_v: Option<f64>,
+    /// Where results go [default: out/replay-CAPTURE and what differs from the default]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 }
@@ -177,6 +193,13 @@ pub enum Waves {
 fn key_value(text: &str) -> Result<(String, String), String> {
     let split = text.split_once('=').map(|(key, value)| (key.trim().into(), value.trim().into()));
     split.filter(|(key, _): &(String, String)| !key.is_empty()).ok_or_else(|| "expected KEY=VALUE".into())
+}
+
+fn above_zero(text: &str) -> Result<f64, String> {
+    text.parse()
+        .ok()
+        .filter(|number: &f64| number.is_finite() && *number > 0.0)
+        .ok_or_else(|| "expected a number above 0".into())
 }
 
 fn window(text: &str) -> Result<Range<f64>, String> {

@@ -195,7 +195,8 @@ pub fn known(truth: &Truth) -> record::Truth {
         force_n: truth.force_n,
         direction: truth.direction,
     };
-    record::Truth { quantities, load_g: truth.load_g, point: truth.point, group: truth.group }
+    let Truth { load_g, friction_n, set, point, group, .. } = *truth;
+    record::Truth { quantities, load_g, friction_n, set, point, group }
 }
 
 /// Makes slots.

@@ -13,6 +13,7 @@ use serde_json::json;
 use crate::args::HdlArgs;
 use crate::inputs;
 use crate::output::Output;
+use crate::say;
 
 /// The profile where neither it nor a board is named.
 const PROFILE: &str = "standard";
@@ -60,12 +61,12 @@ fn script(board: Target) -> &'static str {
 fn tell(args: &HdlArgs, profile: &Profile, top: &str, files: &[PathBuf]) -> Result<bool> {
     if args.json {
         let told = json!({ "profile": profile.name, "board": args.board, "top": top, "files": files });
-        println!("{}", serde_json::to_string_pretty(&told)?);
+        say!("{}", serde_json::to_string_pretty(&told)?);
         return Ok(true);
     }
-    println!("{}: top {top}, {} files in {}", profile.name, files.len(), args.out.display());
+    say!("{}: top {top}, {} files in {}", profile.name, files.len(), args.out.display());
     if args.board.is_some() {
-        println!("bitstream: {}", args.out.join("build.sh").display());
+        say!("bitstream: {}", args.out.join("build.sh").display());
     }
     Ok(true)
 }

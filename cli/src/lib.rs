@@ -14,23 +14,30 @@
 //! | [`criteria`] | what a scene claims, measured |
 //! | [`capture`] | ADC samples in CSV and WAV files |
 //! | [`uncoupling`] | readings of several pads freed of each other |
+//! | [`haptic`] | whether the core's window is long enough for the haptic voltage |
 //! | [`record`] | what a run leaves |
 //! | [`report`] | the page with the figures |
 //! | [`output`], [`print`](mod@print) | the same written into a folder and on the terminal |
+//! | [`folder`], [`partial`], [`console`] | which folder; what is not finished yet; standard output that may be closed |
 
 pub mod args;
 pub mod calibrate;
 pub mod capture;
 pub mod case;
+pub mod console;
 pub mod criteria;
 pub mod engine;
 pub mod errors;
+pub mod folder;
+pub mod haptic;
 pub mod hdl;
 pub mod inputs;
 pub mod interrupt;
 pub mod output;
+pub mod partial;
 pub mod print;
 pub mod progress;
+pub mod provenance;
 pub mod record;
 pub mod replay;
 pub mod report;
@@ -47,7 +54,7 @@ use args::{Args, Command};
 use clap::Parser;
 
 /// Runs the command line. The exit code is 0 where all criteria hold, 1 where one fails, 2 on bad input, and 130 where the
-/// run was interrupted.
+/// run was told to stop.
 pub fn main() -> ExitCode {
     let args = Args::parse();
     interrupt::listen();
@@ -57,15 +64,15 @@ pub fn main() -> ExitCode {
         Command::Replay(args) => replay::run(&args),
         Command::Hdl(args) => hdl::run(&args),
     };
-    match outcome {
+    match outcome.and_then(|holds| console::finish().map(|()| holds)) {
         Ok(true) => ExitCode::SUCCESS,
         Ok(false) => ExitCode::from(1),
-        Err(error) if error.is::<interrupt::Interrupted>() => {
-            eprintln!("{error}");
+        Err(_) if interrupt::check().is_err() => {
+            console::complain(format_args!("{}", interrupt::Interrupted));
             ExitCode::from(130)
         }
         Err(error) => {
-            eprintln!("error: {}", one_line(&error));
+            console::complain(format_args!("error: {}", one_line(&error)));
             ExitCode::from(2)
         }
     }

@@ -2,13 +2,14 @@
 //! The folder that a run writes: everything is written aside and gets its name when all of it is whole.
 
 use std::fs::{self, File};
-use std::io::{BufWriter, Write};
+use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 use tempfile::TempDir;
 
-use crate::record::{Quantities, Record, Row};
+use crate::partial;
+use crate::record::{Quantities, Record, Row, Truth};
 
 /// The columns of `frames.csv`.
 pub const COLUMNS: [&str; 12] = [
@@ -29,10 +30,17 @@ pub const COLUMNS: [&str; 12] = [
 /// How many of the columns, from `r_x` on, have a truth.
 const QUANTITIES: usize = 9;
 
+/// What a scene adds behind the truth: the case's name, the point of its sweep, and what no frame has.
+const OF_SCENE: [&str; 4] = ["case", "point", "true_load_g", "true_friction_n"];
+
+/// The file by which a folder is known for one of a run.
+const SUMMARY: &str = "summary.json";
+
 /// A folder in the making. Dropped before [`Output::keep`], it leaves nothing behind.
 pub struct Output {
     folder: PathBuf,
     aside: Option<TempDir>,
+    lock: Option<File>,
     created: Vec<PathBuf>,
 }
 
@@ -44,10 +52,12 @@ impl Output {
     pub fn new(folder: &Path) -> Result<Self> {
         let missing = |path: &&Path| !path.as_os_str().is_empty() && !path.exists();
         let created = folder.ancestors().take_while(missing).map(Path::to_owned).collect();
-        let mut output = Output { folder: folder.to_owned(), aside: None, created };
+        let mut output = Output { folder: folder.to_owned(), aside: None, lock: None, created };
         let within = || format!("--out {}", folder.display());
         fs::create_dir_all(folder).with_context(within)?;
-        output.aside = Some(tempfile::Builder::new().prefix(".partial-").tempdir_in(folder).with_context(within)?);
+        partial::clear(folder);
+        output.aside = Some(tempfile::Builder::new().prefix(partial::PREFIX).tempdir_in(folder).with_context(within)?);
+        output.lock = Some(partial::hold(output.aside()).with_context(within)?);
         Ok(output)
     }
 
@@ -83,7 +93,9 @@ impl Output {
         let aside = self.aside.take().expect("kept once");
         let entries = fs::read_dir(aside.path())?.collect::<Result<Vec<_>, _>>()?;
         let mut names: Vec<_> = entries.into_iter().map(|entry| entry.file_name()).collect();
+        names.retain(|name| name != partial::LOCK);
         names.sort();
+        self.clear_waves()?;
         let mut paths = Vec::new();
         for name in names {
             let path = self.folder.join(&name);
@@ -93,11 +105,35 @@ impl Output {
         self.created.clear();
         Ok(paths)
     }
+
+    /// Removes the waveforms of an earlier run in the folder: they are not of the run that is kept.
+    fn clear_waves(&self) -> Result<()> {
+        if !self.folder.join(SUMMARY).exists() {
+            return Ok(());
+        }
+        for entry in fs::read_dir(&self.folder)?.flatten() {
+            if is_of_waves(&entry.file_name().to_string_lossy()) {
+                fs::remove_file(entry.path()).with_context(|| entry.path().display().to_string())?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Whether a run writes a file of this name.
+pub fn is_of_a_run(name: &str) -> bool {
+    ["frames.csv", SUMMARY, "report.html"].contains(&name) || is_of_waves(name)
+}
+
+fn is_of_waves(name: &str) -> bool {
+    let texts = name.starts_with("waves.core.") && name.ends_with(".txt");
+    texts || ["waves.vcd", "waves.fst", "waves.gtkw"].contains(&name)
 }
 
 impl Drop for Output {
     fn drop(&mut self) {
         drop(self.aside.take());
+        drop(self.lock.take());
         for folder in &self.created {
             // Somebody else may have written there meanwhile: only empty folders go.
             let _ = fs::remove_dir(folder);
@@ -108,22 +144,40 @@ impl Drop for Output {
 /// `frames.csv`, row by row.
 pub struct Frames {
     file: BufWriter<File>,
-    truth: bool,
+    path: PathBuf,
+    scene: Option<OfScene>,
+}
+
+/// What only the frames of a scene have.
+#[derive(Debug, Clone, Default)]
+pub struct OfScene {
+    /// The names of the cases.
+    pub cases: Vec<String>,
+    /// The keys of the pads that are swept.
+    pub swept: Vec<&'static str>,
 }
 
 impl Frames {
-    /// Creates the file, with columns for the truth where there is one.
+    /// Creates the file, with columns for the truth and the settings where a scene is run.
     ///
     /// # Errors
     /// It cannot be written, as below.
-    pub fn create(path: &Path, truth: bool) -> Result<Self> {
-        let mut file = BufWriter::new(File::create(path)?);
-        write!(file, "{}", COLUMNS.join(","))?;
-        if truth {
-            COLUMNS[2..2 + QUANTITIES].iter().try_for_each(|name| write!(file, ",true_{name}"))?;
+    pub fn create(output: &Output, scene: Option<OfScene>) -> Result<Self> {
+        let path = output.folder.join("frames.csv");
+        let file = File::create(output.aside().join("frames.csv")).with_context(|| path.display().to_string())?;
+        let mut frames = Frames { file: BufWriter::new(file), path, scene };
+        frames.header().with_context(|| frames.path.display().to_string())?;
+        Ok(frames)
+    }
+
+    fn header(&mut self) -> io::Result<()> {
+        write!(self.file, "{}", COLUMNS.join(","))?;
+        if let Some(scene) = &self.scene {
+            COLUMNS[2..2 + QUANTITIES].iter().try_for_each(|name| write!(self.file, ",true_{name}"))?;
+            write!(self.file, ",{}", OF_SCENE.join(","))?;
+            scene.swept.iter().try_for_each(|name| write!(self.file, ",set_{name}"))?;
         }
-        writeln!(file)?;
-        Ok(Frames { file, truth })
+        writeln!(self.file)
     }
 
     /// Writes a row.
@@ -131,13 +185,17 @@ impl Frames {
     /// # Errors
     /// It cannot be written.
     pub fn row(&mut self, row: &Row) -> Result<()> {
+        self.write(row).with_context(|| self.path.display().to_string())
+    }
+
+    fn write(&mut self, row: &Row) -> io::Result<()> {
         write!(self.file, "{},{}", row.time_s, row.pad)?;
         numbers(&row.measured).iter().try_for_each(|number| write!(self.file, ",{number}"))?;
         write!(self.file, ",{}", row.flags)?;
-        if let Some(truth) = row.truth.filter(|_| self.truth) {
-            numbers(&truth.quantities).iter().try_for_each(|number| write!(self.file, ",{number}"))?;
+        if let (Some(scene), Some(truth)) = (&self.scene, &row.truth) {
+            scene.write(&mut self.file, row.case, truth)?;
         }
-        Ok(writeln!(self.file)?)
+        writeln!(self.file)
     }
 
     /// Completes the file.
@@ -145,7 +203,24 @@ impl Frames {
     /// # Errors
     /// It cannot be written.
     pub fn finish(mut self) -> Result<()> {
-        Ok(self.file.flush()?)
+        self.file.flush().with_context(|| self.path.display().to_string())
+    }
+}
+
+impl OfScene {
+    fn write(&self, file: &mut impl Write, case: usize, truth: &Truth) -> io::Result<()> {
+        numbers(&truth.quantities).iter().try_for_each(|number| write!(file, ",{number}"))?;
+        let case = self.cases.get(case).map_or("", String::as_str);
+        write!(file, ",{},{},{},{}", field(case), truth.point, truth.load_g, truth.friction_n)?;
+        self.swept.iter().try_for_each(|name| write!(file, ",{}", truth.set.get(name)))
+    }
+}
+
+/// A text as a field of CSV.
+fn field(text: &str) -> String {
+    match text.contains([',', '"', '\n', '\r']) {
+        true => format!("\"{}\"", text.replace('"', "\"\"")),
+        false => text.into(),
     }
 }
 

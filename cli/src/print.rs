@@ -3,7 +3,9 @@
 
 use std::path::PathBuf;
 
+use crate::console;
 use crate::record::{Criterion, Effect, Record, SignalError};
+use crate::say;
 
 /// A table as text: columns as wide as their widest cell, numbers to the right.
 pub fn table(head: &[&str], rows: &[Vec<String>]) -> String {
@@ -46,25 +48,30 @@ pub fn effects_line<'a>(effects: impl Iterator<Item = (&'static str, &'a str)>) 
     words.join(" · ")
 }
 
+/// What the user must know before using the results, on standard error.
+pub fn warnings(record: &Record) {
+    record.warnings.iter().for_each(|warning| console::warn(warning));
+}
+
 /// The tables at the end of a run.
 pub fn finish(record: &Record, files: &[PathBuf]) {
     if !record.effects.is_empty() {
-        print!("\n{}", effects(&record.effects, record.wall_seconds));
+        console::print(format_args!("\n{}", effects(&record.effects, record.wall_seconds)));
     }
     if !record.criteria.is_empty() {
-        print!("\n{}", criteria(&record.criteria));
+        console::print(format_args!("\n{}", criteria(&record.criteria)));
     }
     if !record.errors.is_empty() {
-        print!("\n{}", errors(&record.errors));
+        console::print(format_args!("\n{}", errors(&record.errors)));
     }
     let speed = record.wall_seconds / record.simulated_seconds;
-    println!(
+    say!(
         "\n{} s simulated in {} s ({} s a second)",
         number(record.simulated_seconds),
         number(record.wall_seconds),
         number(speed)
     );
-    files.iter().for_each(|file| println!("  {}", file.display()));
+    files.iter().for_each(|file| say!("  {}", file.display()));
 }
 
 fn effects(effects: &[Effect], wall_seconds: f64) -> String {
@@ -86,8 +93,12 @@ fn criteria(criteria: &[Criterion]) -> String {
         let with_unit = |value| format!("{} {}", number(value), criterion.unit);
         let beside =
             criterion.beside.as_ref().map_or(String::new(), |(name, value)| format!("{name}: {}", with_unit(*value)));
-        let verdict = if criterion.pass { "holds" } else { "FAILS" };
-        vec![criterion.name.clone(), with_unit(criterion.measured), with_unit(criterion.limit), verdict.into(), beside]
+        let (measured, limit) = (with_unit(criterion.measured), with_unit(criterion.limit));
+        match (criterion.applicable, criterion.pass) {
+            (false, _) => vec![criterion.name.clone(), String::new(), limit, "not applicable".into()],
+            (true, true) => vec![criterion.name.clone(), measured, limit, "holds".into(), beside],
+            (true, false) => vec![criterion.name.clone(), measured, limit, "FAILS".into(), beside],
+        }
     };
     table(&["criterion", "measured", "limit", "", "beside"], &criteria.iter().map(row).collect::<Vec<_>>())
 }

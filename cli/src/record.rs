@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What a run leaves: rows, criteria, effects. Everything written (CSV, JSON, HTML, the terminal's tables) is made from it.
 
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+use hapticore_scene::Setpoint;
 use serde::Serialize;
 
 /// The quantities of a slot, in physical units; the columns of `frames.csv` from `r_x` on.
@@ -46,12 +50,17 @@ pub struct Row {
 }
 
 /// What the plant knows of a slot.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 pub struct Truth {
     /// The quantities.
     pub quantities: Quantities,
     /// The load on the pad.
     pub load_g: f64,
+    /// Friction that acts on the pad; zero where no law of motion makes it.
+    pub friction_n: f64,
+    /// What the scene sets the pad to.
+    #[serde(skip)]
+    pub set: Setpoint,
     /// The point of the sweep, the same for all slots at one place and setting.
     pub point: usize,
     /// The group that the slot belongs to: all settings but the position.
@@ -78,12 +87,14 @@ pub struct Criterion {
     pub measured: f64,
     /// What it may be at most.
     pub limit: f64,
-    /// Whether it holds.
+    /// Whether it holds. One that is not applicable does, with `measured` no number.
     pub pass: bool,
     /// The unit of both.
     pub unit: String,
     /// Something to compare with: what it is (eq. 6 alone, an affine fit) and its value in `unit`.
     pub beside: Option<(String, f64)>,
+    /// Whether any slot meets the criterion's condition.
+    pub applicable: bool,
 }
 
 /// An effect of the scene and what it cost.
@@ -112,8 +123,27 @@ pub struct SignalError {
     pub max_codes: f64,
 }
 
+/// Where a run comes from: enough to repeat it.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct Provenance {
+    /// The version of this program.
+    pub version: String,
+    /// The commit that it was built from, with `-modified` where the sources were; none where that is not known.
+    pub commit: Option<String>,
+    /// The command line.
+    pub command: Vec<String>,
+    /// The seed of noise and mismatch.
+    pub seed: Option<u64>,
+    /// What `--set` set, in its order.
+    pub set: Vec<(String, String)>,
+    /// Each case as a scene of its own in TOML, with all that cases and `--set` set.
+    pub resolved_scene: BTreeMap<String, String>,
+    /// The calibration file of a replay; none where the nominal device's was taken, or a scene was run.
+    pub calibration: Option<PathBuf>,
+}
+
 /// A whole run.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Record {
     /// The scene's or capture's name.
     pub scene: String,
@@ -141,6 +171,15 @@ pub struct Record {
     pub simulated_seconds: f64,
     /// Wall time.
     pub wall_seconds: f64,
+    /// What its user must know before using the results.
+    pub warnings: Vec<String>,
+    /// Width and height of the sheet, where they are known.
+    pub sheet_mm: Option<[f64; 2]>,
+    /// The keys of the pads that are swept.
+    pub swept: Vec<&'static str>,
+    /// Where it comes from.
+    #[serde(flatten)]
+    pub provenance: Provenance,
     /// The slots.
     #[serde(skip)]
     pub rows: Vec<Row>,

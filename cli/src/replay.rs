@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `hapticore replay`: recorded ADC samples through the core, in constant memory.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
 
-use anyhow::{Result, anyhow, bail, ensure};
+use anyhow::{Context, Result, bail, ensure};
 use hapticore_model::profile::Profile;
 
 use crate::args::{Fidelity, ReplayArgs};
 use crate::calibrate::DeviceCalibration;
-use crate::capture::{self, Adc, Source};
+use crate::capture::{self, Adc, Described, Source};
 use crate::engine::{Signals, Slot};
+use crate::haptic::Meter;
 use crate::output::{Frames, Output, summary};
-use crate::record::{Record, Row};
+use crate::record::{Provenance, Record, Row};
 use crate::session::{Session, SlotClock};
-use crate::{inputs, interrupt, print, progress, report};
+use crate::{console, folder, haptic, inputs, interrupt, print, progress, report, say};
 
 /// The profile where none is named.
 const PROFILE: &str = "standard";
@@ -29,18 +30,28 @@ const MOST_ROWS: usize = 1 << 15;
 /// Bad input, files that cannot be written, an interruption; then nothing is written.
 pub fn run(args: &ReplayArgs) -> Result<bool> {
     let profile = inputs::profile(args.core.profile.as_deref().unwrap_or(PROFILE))?;
-    let mut source =
-        capture::open(&args.capture, Adc { terminals: profile.terminals.x.len(), format: profile.formats.adc })?;
-    let device = device(args, &profile)?;
+    let calibration = calibration(args);
+    let device = match &calibration {
+        Some(path) => DeviceCalibration::read(path)?,
+        None => DeviceCalibration::nominal(&profile)?,
+    };
+    let profile = inputs::for_terminals(&profile, &[device.terminals.x.clone(), device.terminals.y.clone()])?;
+    let adc = Adc { terminals: profile.terminals.x.len(), format: profile.formats.adc };
+    let described = Described { channels: args.channels.clone(), bits: args.bits, full_scale_v: args.full_scale_v };
+    let mut source = capture::open(&args.capture, adc, &described)?;
     let pads = args.pads.unwrap_or(device.pads);
     let profile = Arc::new(inputs::serving(&profile, pads as usize));
     check_rate(source.as_ref(), &device, &profile)?;
     let name = args.capture.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    let folder = args.out.clone().unwrap_or_else(|| Path::new("out").join(&name));
+    let folder = args.out.clone().unwrap_or_else(|| folder::of_capture(args));
     let output = Output::new(&folder)?;
-    let mut replay = Replay::new(args, &profile, &device, output.aside())?;
+    let named = || calibration.as_ref().map_or("the nominal calibration".into(), |path| path.display().to_string());
+    let mut replay = Replay::new(args, &profile, &device, &output).with_context(named)?;
     let left = replay.run(source.as_mut(), args.core.json)?;
-    let record = replay.finish(name, &profile, args)?;
+    let mut record = replay.finish(name, &profile, args)?;
+    record.warnings.extend(calibration.is_none().then(|| uncalibrated(args)));
+    record.warnings.extend(source.notes());
+    record.provenance.calibration = calibration;
     output.write("summary.json", &summary(&record))?;
     output.write("report.html", &report::html(&record))?;
     let files = output.keep()?;
@@ -48,14 +59,18 @@ pub fn run(args: &ReplayArgs) -> Result<bool> {
     Ok(true)
 }
 
-/// The calibration named, or that of the capture, or the nominal device's.
-fn device(args: &ReplayArgs, profile: &Profile) -> Result<DeviceCalibration> {
-    let beside = capture::calibration_path(&args.capture);
-    match &args.calibration {
-        Some(path) => DeviceCalibration::read(path),
-        None if beside.exists() => DeviceCalibration::read(&beside),
-        None => DeviceCalibration::nominal(profile),
-    }
+/// The calibration named, or that of the capture.
+fn calibration(args: &ReplayArgs) -> Option<PathBuf> {
+    let beside = Some(capture::calibration_path(&args.capture)).filter(|path| path.exists());
+    args.calibration.clone().or(beside)
+}
+
+fn uncalibrated(args: &ReplayArgs) -> String {
+    format!(
+        "{}: NO CALIBRATION. Every position, capacitance and force was computed for the paper's display (860 × 500 mm, six \
+         terminals), not for the device that was recorded; --calibration FILE names its own",
+        args.capture.display()
+    )
 }
 
 /// Checks that capture, calibration and profile are of one sample rate and one carrier.
@@ -63,7 +78,12 @@ fn check_rate(source: &dyn Source, device: &DeviceCalibration, profile: &Profile
     let (rate, carrier) = (device.device.sample_rate_hz, device.device.carrier_hz);
     let same = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-6;
     if let Some(got) = source.sample_rate_hz().filter(|got| !same(*got, rate)) {
-        bail!("{}: sample_rate_hz: expected {rate}, as in the calibration, got {got}", source.place());
+        bail!(
+            "{}: sample_rate_hz: expected {rate}, as in the calibration, got {got}: the core samples its carrier {} times a \
+             period, so resample the capture, or calibrate at its rate",
+            source.place(),
+            profile.samples_per_period()
+        );
     }
     let (samples, name) = (profile.samples_per_period(), &profile.name);
     ensure!(
@@ -83,23 +103,27 @@ struct Replay {
     slot_codes: usize,
     blanking_codes: usize,
     channels: usize,
+    meter: Meter,
+    sample_rate_hz: f64,
     pads: usize,
     slots: usize,
     start: Instant,
 }
 
 impl Replay {
-    fn new(args: &ReplayArgs, profile: &Arc<Profile>, device: &DeviceCalibration, aside: &Path) -> Result<Self> {
+    fn new(args: &ReplayArgs, profile: &Arc<Profile>, device: &DeviceCalibration, output: &Output) -> Result<Self> {
         let clock = SlotClock::new(profile, device.device.sample_rate_hz, 0.0);
         let channels = profile.channels();
         Ok(Replay {
             session: Session::new(profile, device, args.core.core, args.core.errors, (0, clock))?,
-            frames: Frames::create(&aside.join("frames.csv"), false)?,
+            frames: Frames::create(output, None)?,
             rows: Thinned::default(),
             clock,
             slot_codes: profile.slot.samples() as usize * channels,
             blanking_codes: profile.slot.blanking() as usize * channels,
             channels,
+            meter: Meter::default(),
+            sample_rate_hz: device.device.sample_rate_hz,
             pads: profile.pads as usize,
             slots: 0,
             start: Instant::now(),
@@ -125,7 +149,8 @@ impl Replay {
                 bar.inc(1);
             }
         }
-        ensure!(self.slots > 0 || !codes.is_empty(), anyhow!("{}: expected samples, got none", source.place()));
+        let (samples, got) = (self.slot_codes / self.channels, codes.len() / self.channels);
+        ensure!(self.slots > 0, "{}: expected samples of one slot at least, {samples}, got {got}", source.place());
         let last = self.session.finish();
         last.into_iter().try_for_each(|row| self.row(row))?;
         bar.finish_and_clear();
@@ -135,6 +160,7 @@ impl Replay {
     /// Takes a whole slot to the core; its buffer, emptied.
     fn slot(&mut self, pad: usize, codes: Vec<i32>) -> Result<Vec<i32>> {
         interrupt::check()?;
+        self.meter.take(&codes, self.channels);
         let slot = Slot { pad, signals: Signals::Samples { codes, blanking: self.blanking_codes } };
         let row = self.session.slot(&slot, None);
         row.into_iter().try_for_each(|row| self.row(row))?;
@@ -154,7 +180,15 @@ impl Replay {
         Ok(())
     }
 
+    /// Says where the core's window is too short for the haptic voltage that was recorded.
+    fn haptic_warning(&self, profile: &Profile) -> Option<String> {
+        let full_scale = 1.0 / profile.formats.adc.lsb();
+        let (Ok(frequency) | Err(frequency)) = self.meter.frequency(full_scale)?.map_err(|samples| 1.0 / samples);
+        haptic::warning(profile, frequency * self.sample_rate_hz, self.sample_rate_hz)
+    }
+
     fn finish(self, name: String, profile: &Profile, args: &ReplayArgs) -> Result<Record> {
+        let warnings = self.haptic_warning(profile).into_iter().collect();
         self.frames.finish()?;
         Ok(Record {
             title: format!("Replay of {}", args.capture.display()),
@@ -170,20 +204,25 @@ impl Replay {
             errors: self.session.errors(),
             simulated_seconds: self.clock.seconds(self.slots),
             wall_seconds: self.start.elapsed().as_secs_f64(),
+            warnings,
+            sheet_mm: None,
+            swept: Vec::new(),
+            provenance: Provenance::new(),
             rows: self.rows.kept,
         })
     }
 }
 
 fn tell(args: &ReplayArgs, record: &Record, left: usize, files: &[PathBuf]) {
+    print::warnings(record);
     if args.core.json {
-        print!("{}", summary(record));
+        console::print(format_args!("{}", summary(record)));
         return;
     }
     let core: Fidelity = args.core.core;
-    println!("{} · core {} · profile {}", record.title, core.name(), record.profile);
+    say!("{} · core {} · profile {}", record.title, core.name(), record.profile);
     if left > 0 {
-        println!("{left} samples at the end are no whole slot and were left out");
+        say!("{left} samples at the end are no whole slot and were left out");
     }
     print::finish(record, files);
 }

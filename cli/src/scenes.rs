@@ -6,7 +6,7 @@ use hapticore_scene::{Scene, gallery};
 use serde::Serialize;
 
 use crate::args::ScenesArgs;
-use crate::{inputs, print};
+use crate::{console, inputs, print, say};
 
 #[derive(Serialize)]
 struct Listed {
@@ -27,16 +27,16 @@ pub fn run(args: &ScenesArgs) -> Result<bool> {
     let listed =
         gallery::all().iter().map(|(name, _)| Ok(list(&inputs::scene(name, &[])?))).collect::<Result<Vec<_>>>()?;
     if args.json {
-        println!("{}", serde_json::to_string_pretty(&listed)?);
+        say!("{}", serde_json::to_string_pretty(&listed)?);
     } else {
         let row = |scene: &Listed| {
             let cases = if scene.cases.len() > 1 { scene.cases.join(", ") } else { String::new() };
             vec![scene.name.clone(), scene.title.clone(), cases, scene.effects.join(" · ")]
         };
-        print!(
+        console::print(format_args!(
             "{}",
             print::table(&["scene", "title", "cases", "effects"], &listed.iter().map(row).collect::<Vec<_>>())
-        );
+        ));
     }
     Ok(true)
 }

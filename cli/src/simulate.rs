@@ -14,9 +14,12 @@ use crate::args::{SimulateArgs, Waves};
 use crate::capture::{self, Adc, Recorder};
 use crate::case::{Case, Outcome, Settings};
 use crate::criteria::{self, CaseRows};
-use crate::output::{Frames, Output, summary};
-use crate::record::{Effect, Record};
-use crate::{errors, inputs, print, progress, report, waves};
+use crate::output::{Frames, OfScene, Output, is_of_a_run, summary};
+use crate::record::{Effect, Provenance, Record, Row};
+use crate::{console, errors, folder, haptic, inputs, print, progress, report, say, waves};
+
+/// Below this the haptic voltage is off, V rms.
+const HAPTIC_OFF_V: f64 = 1.0;
 
 /// Runs a scene; whether all criteria hold.
 ///
@@ -27,10 +30,11 @@ pub fn run(args: &SimulateArgs) -> Result<bool> {
     let profile = inputs::profile(args.core.profile.as_ref().unwrap_or(&scene.profile))?;
     let profile = inputs::windowed(profile, &scene)?;
     let scene = scene.within_budget(&Timing { signs: None, ..inputs::timing(&profile) })?;
-    let folder = args.out.clone().unwrap_or_else(|| Path::new("out").join(&scene.name));
+    let folder = args.out.clone().unwrap_or_else(|| folder::of_scene(args, &scene.name));
     let (record, files) = write(args, &scene, &profile, &folder)?;
+    print::warnings(&record);
     if args.core.json {
-        print!("{}", summary(&record));
+        console::print(format_args!("{}", summary(&record)));
     } else {
         print::finish(&record, &files);
     }
@@ -42,13 +46,15 @@ fn write(args: &SimulateArgs, scene: &Scene, profile: &Profile, folder: &Path) -
     let cases = cases(args, scene, profile)?;
     let output = Output::new(folder)?;
     let capture = capture_path(args, scene, folder);
+    capture.iter().try_for_each(|path| check_capture(path, folder))?;
     let recorder = capture.as_deref().map(|path| recorder(path, args, &cases)).transpose()?;
-    announce(args, scene, &cases);
+    announce(args, scene, &cases)?;
     let (record, recorder) = simulate(args, scene, &cases, recorder)?;
     if let Some(kind) = wave_kind(args, scene) {
-        waves::trace(&cases[0], kind, args.waves_window.as_ref(), output.aside())?;
+        waves::trace(&cases[0], kind, args.waves_window.as_ref(), output.aside(), args.core.json)?;
     }
-    let mut frames = Frames::create(&output.aside().join("frames.csv"), true)?;
+    let of_scene = OfScene { cases: record.cases.clone(), swept: record.swept.clone() };
+    let mut frames = Frames::create(&output, Some(of_scene))?;
     record.rows.iter().try_for_each(|row| frames.row(row))?;
     frames.finish()?;
     output.write("summary.json", &summary(&record))?;
@@ -86,6 +92,25 @@ fn capture_path(args: &SimulateArgs, scene: &Scene, folder: &Path) -> Option<Pat
     args.capture.clone().or(wanted)
 }
 
+/// Checks that neither a capture nor its calibration would be in the way of what the run writes itself.
+fn check_capture(path: &Path, folder: &Path) -> Result<()> {
+    let calibration = capture::calibration_path(path);
+    ensure!(
+        !calibration.is_dir(),
+        "{}: expected a file to write, there is a folder of this name",
+        calibration.display()
+    );
+    let of = path.parent().filter(|of| !of.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let same = of.canonicalize().ok().is_some_and(|of| folder.canonicalize().is_ok_and(|folder| folder == of));
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    ensure!(
+        !(same && is_of_a_run(&name)),
+        "--capture {}: expected a name of its own, the run writes its {name} there",
+        path.display()
+    );
+    Ok(())
+}
+
 fn recorder(path: &Path, args: &SimulateArgs, cases: &[Case]) -> Result<Box<dyn Recorder + Send>> {
     let names = cases.iter().map(Case::name).collect::<Vec<_>>().join(", ");
     ensure!(cases.len() == 1, "--capture: expected one case, got {names}; choose one with --case");
@@ -109,20 +134,25 @@ fn wave_kind(args: &SimulateArgs, scene: &Scene) -> Option<Kind> {
     }
 }
 
-fn announce(args: &SimulateArgs, scene: &Scene, cases: &[Case]) {
+fn announce(args: &SimulateArgs, scene: &Scene, cases: &[Case]) -> Result<()> {
+    let window = args.waves_window.as_ref();
+    let waves = wave_kind(args, scene).map(|kind| waves::extent(&cases[0], kind, window)).transpose()?;
+    waves.iter().filter(|waves| waves.is_large()).for_each(|waves| console::warn(&waves.to_string()));
     if args.core.json {
-        return;
+        return Ok(());
     }
     let (slots, seconds) = (cases.iter().map(|case| case.slots).sum::<usize>(), cases.iter().map(Case::seconds).sum());
-    println!("{}", scene.title);
-    println!(
+    say!("{}", scene.title);
+    say!(
         "core {} · profile {} · {} cases · {slots} slots · {} s",
         args.core.core.name(),
         cases[0].profile.name,
         cases.len(),
         print::number(seconds)
     );
-    println!("effects: {}", print::effects_line(cases.iter().flat_map(|case| scene.cases[case.index].effects())));
+    say!("effects: {}", print::effects_line(cases.iter().flat_map(|case| scene.cases[case.index].effects())));
+    waves.iter().filter(|waves| !waves.is_large()).for_each(|waves| say!("{waves}"));
+    Ok(())
 }
 
 type Capture = Option<Box<dyn Recorder + Send>>;
@@ -140,8 +170,24 @@ fn simulate(args: &SimulateArgs, scene: &Scene, cases: &[Case], mut recorder: Ca
     let mut record = gather(scene, cases, outcomes);
     record.fidelity = args.core.core.name().into();
     record.wall_seconds = start.elapsed().as_secs_f64();
+    record.provenance = Provenance::of_scene(scene, &args.set);
+    record.warnings.extend(haptic_warning(&record, cases));
     add_errors(&mut record.effects, cases)?;
     Ok((record, recorder))
+}
+
+/// Says where the core's window is too short for the haptic voltage, in the first case where it is.
+fn haptic_warning(record: &Record, cases: &[Case]) -> Option<String> {
+    let is_on = |case: &&Case| {
+        let volts = |row: &Row| row.truth.is_some_and(|truth| truth.quantities.haptic_v_rms > HAPTIC_OFF_V);
+        record.rows.iter().any(|row| row.case == case.number && volts(row))
+    };
+    let sampled = cases.iter().filter(|case| case.scene.cases[case.index].sampled()).filter(is_on);
+    let warning = |case: &Case| {
+        let rate = case.device.device.sample_rate_hz;
+        haptic::warning(&case.profile, case.scene.cases[case.index].device.haptic_hz, rate)
+    };
+    sampled.map(warning).find(Option::is_some).flatten()
 }
 
 fn gather(scene: &Scene, cases: &[Case], outcomes: Vec<Outcome>) -> Record {
@@ -160,6 +206,7 @@ fn gather(scene: &Scene, cases: &[Case], outcomes: Vec<Outcome>) -> Record {
         errors::merge(&mut signal_errors, outcome.errors);
         all.extend(outcome.rows);
     }
+    let device = &scene.cases[cases[0].index].device;
     Record {
         scene: scene.name.clone(),
         title: scene.title.clone(),
@@ -174,8 +221,23 @@ fn gather(scene: &Scene, cases: &[Case], outcomes: Vec<Outcome>) -> Record {
         errors: signal_errors,
         simulated_seconds: cases.iter().map(Case::seconds).sum(),
         wall_seconds: 0.0,
+        warnings: Vec::new(),
+        sheet_mm: Some([device.width_mm, device.height_mm]),
+        swept: swept(scene, cases),
+        provenance: Provenance::default(),
         rows: all,
     }
+}
+
+/// The keys that any of the cases sweeps.
+fn swept(scene: &Scene, cases: &[Case]) -> Vec<&'static str> {
+    let mut keys: Vec<&str> = Vec::new();
+    for key in cases.iter().flat_map(|case| scene.cases[case.index].swept()) {
+        if !keys.contains(&key) {
+            keys.push(key);
+        }
+    }
+    keys
 }
 
 /// Adds what the effects of a case cost to those of the same name and rung.

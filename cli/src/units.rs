@@ -22,6 +22,12 @@ impl Digitiser {
         Digitiser { scale: 1.0 / adc.lsb(), low: adc.min_code() as f64, high: adc.max_code() as f64 }
     }
 
+    /// The code of a fraction, and whether it is exactly that.
+    pub fn code(&self, fraction: f64) -> (i32, bool) {
+        let code = (fraction * self.scale).round_ties_even().clamp(self.low, self.high);
+        (code as i32, code == fraction * self.scale)
+    }
+
     /// Appends the codes of some fractions; the largest magnitude among them, as a fraction.
     pub fn codes(&self, fractions: &[f64], into: &mut Vec<i32>) -> f64 {
         let mut peak = 0;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Waveforms of a case: the core stepped clock by clock through a window, beside the plant's truth.
 //!
-//! The window is a run of its own: the core that makes the frames is never altered by being looked at. It begins with the slot
+//! The truth of a slot stands from the end of the slot to that of the next, beside the results of the slot; before the first slot
+//! has ended there is none. The window is a run of its own: the core that makes the frames is never altered by being looked at. It begins with the slot
 //! that the window begins in, or a rotation of the pads before it; what the core holds of earlier invalid slots is not there.
 
+use std::fmt;
 use std::ops::Range;
 use std::path::Path;
 
@@ -19,10 +21,18 @@ use hapticore_waveforms::wave::{Kind, Wave};
 
 use crate::case::{Case, Maker};
 use crate::engine::Signals;
-use crate::interrupt;
+use crate::print::number;
+use crate::{interrupt, progress};
 
 /// Slots traced where no window is named.
 const SLOTS: u64 = 2;
+
+/// What a clock takes in a file, about, as measured on `hockey` with profile `standard`.
+const VCD_BYTES_PER_CLOCK: f64 = 85.0;
+const FST_BYTES_PER_CLOCK: f64 = 8.0;
+
+/// A file of more bytes is worth a warning.
+const LARGE_BYTES: f64 = 2e8;
 
 /// The truth beside the core's signals: name, unit, value.
 type Known = (&'static str, &'static str, fn(&Truth) -> f64);
@@ -39,13 +49,59 @@ const TRUTH: [Known; 9] = [
     ("load_g", "g", |truth| truth.load_g),
 ];
 
+/// What is going to be traced, and how large the file will be, about.
+pub struct Extent {
+    seconds: Range<f64>,
+    clocks: u64,
+    bytes: f64,
+    kind: Kind,
+}
+
+impl Extent {
+    /// Whether the file will be worth a warning.
+    pub fn is_large(&self) -> bool {
+        self.bytes > LARGE_BYTES
+    }
+}
+
+impl fmt::Display for Extent {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (from, to) = (number(self.seconds.start), number(self.seconds.end));
+        let (clocks, megabytes, extension) = (self.clocks, number(self.bytes / 1e6), self.kind.extension());
+        write!(f, "waves: {from} to {to} s, {clocks} clocks, about {megabytes} MB of {extension}")?;
+        match self.kind {
+            Kind::Vcd if self.is_large() => write!(f, "; --waves fst takes a tenth of that, --waves-window says which"),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// What is going to be traced of a case.
+///
+/// # Errors
+/// A window in which the case has no slot.
+pub fn extent(case: &Case, kind: Kind, window: Option<&Range<f64>>) -> Result<Extent> {
+    let clock_hz = clock_hz(case);
+    let clocks = clocks(case, window, clock_hz);
+    let clocks = clocks.start..clocks.end.min(case.slots as u64 * case.profile.slot_clocks());
+    if clocks.is_empty() {
+        bail!("--waves-window: expected a window within the case's {} s", case.seconds());
+    }
+    let per_clock = if kind == Kind::Vcd { VCD_BYTES_PER_CLOCK } else { FST_BYTES_PER_CLOCK };
+    let (seconds, count) = (clocks.start as f64 / clock_hz..clocks.end as f64 / clock_hz, clocks.end - clocks.start);
+    Ok(Extent { seconds, clocks: count, bytes: per_clock * count as f64, kind })
+}
+
+fn clock_hz(case: &Case) -> f64 {
+    case.device.device.sample_rate_hz * case.profile.clocks_per_sample as f64
+}
+
 /// Writes `waves.vcd` or `waves.fst` and `waves.gtkw` into `folder`: the window in seconds, the first slots where none is named.
 ///
 /// # Errors
 /// A window in which the case has no slot, a file that cannot be written, an interruption.
-pub fn trace(case: &Case, kind: Kind, window: Option<&Range<f64>>, folder: &Path) -> Result<()> {
-    let profile = &case.profile;
-    let clock_hz = case.device.device.sample_rate_hz * profile.clocks_per_sample as f64;
+pub fn trace(case: &Case, kind: Kind, window: Option<&Range<f64>>, folder: &Path, quiet: bool) -> Result<()> {
+    let (profile, clock_hz) = (&case.profile, clock_hz(case));
     let clocks = clocks(case, window, clock_hz);
     let pads = profile.pads;
     let first = clocks.start / profile.slot_clocks() / pads * pads;
@@ -61,17 +117,25 @@ pub fn trace(case: &Case, kind: Kind, window: Option<&Range<f64>>, folder: &Path
     let name = format!("waves.{}", kind.extension());
     let mut tracer = Tracer::new(kind.create(&folder.join(&name))?, &core, &truth, &settings)?;
     tracer.skip(first * profile.slot_clocks());
+    let bar = progress::bar(Some(end), quiet);
+    let mut before: Option<Truth> = None;
     // Effects may have a state: slots are asked for in rising order.
     for slot in 0..end {
+        bar.inc(1);
         let truth = maker.plant().truth(slot as usize);
+        // The results of a slot come in the next one, and so does its truth.
+        let finished = before.replace(truth);
         if slot >= first {
             interrupt::check()?;
-            TRUTH.iter().enumerate().for_each(|(index, (_, _, of))| tracer.set_truth(index, of(&truth)));
+            if let Some(truth) = &finished {
+                TRUTH.iter().enumerate().for_each(|(index, (_, _, of))| tracer.set_truth(index, of(truth)));
+            }
             if let (Signals::Samples { codes, .. }, _) = maker.sample(slot as usize) {
                 step(&mut core, &mut tracer, &codes, profile.channels())?;
             }
         }
     }
+    bar.finish_and_clear();
     let trace = tracer.finish()?;
     Ok(gtkwave::save(&View::bundled("slot")?, &trace, &name, &folder.join("waves.gtkw"))?)
 }

@@ -18,6 +18,8 @@ const UNEVEN: [&str; 2] = ["slope_percent", "patch"];
 pub struct Case {
     /// The case's name, `main` for a scene without cases.
     pub name: String,
+    /// The case as a scene of its own, in TOML, with all that it and `--set` set.
+    pub document: String,
     /// The device in this case; its sample rate is not a number until a plant is built for a profile.
     pub device: Device,
     pub(crate) pads: Vec<PadPlan>,
@@ -48,6 +50,17 @@ impl Case {
     /// Names of the pads, in the order of their slots.
     pub fn pad_names(&self) -> Vec<&str> {
         self.pads.iter().map(|pad| pad.name.as_str()).collect()
+    }
+
+    /// The keys of the pads that are swept, as [`Setpoint::get`](crate::Setpoint::get) knows them.
+    pub fn swept(&self) -> Vec<&'static str> {
+        let mut keys: Vec<&str> = Vec::new();
+        for key in self.pads.iter().flat_map(PadPlan::swept) {
+            if !keys.contains(&key) {
+                keys.push(key);
+            }
+        }
+        keys
     }
 
     /// The effects that are on, with their rungs.
@@ -81,8 +94,42 @@ impl Case {
         }
         let nominal = if uncouple { Some(nominal(root, &device)?) } else { None };
         let length = Length::read(root, &pads)?;
-        Ok(Case { name: name.to_string(), length, device, pads, effects, budget_percent, nominal })
+        Ok(Case {
+            name: name.to_string(),
+            document: document(root, name),
+            length,
+            device,
+            pads,
+            effects,
+            budget_percent,
+            nominal,
+        })
     }
+}
+
+/// The text of a scene that is this case alone, with the criteria that cover it.
+fn document(root: &Table, name: &str) -> String {
+    let mut alone = root.clone();
+    alone.remove("case");
+    if let Some(Node { value: Value::List(criteria), .. }) = alone.find("criterion") {
+        criteria.retain_mut(|node| match &mut node.value {
+            Value::Table(criterion) => keep_covering(criterion, name),
+            _ => true,
+        });
+    }
+    alone.to_toml().to_string()
+}
+
+/// Whether a criterion covers the case; it then names cases no more.
+fn keep_covering(criterion: &mut Table, name: &str) -> bool {
+    let is_name = |node: &Node| matches!(&node.value, Value::Text(text) if text == name);
+    let covers = |node: &Node| match &node.value {
+        Value::List(names) => names.iter().any(is_name),
+        _ => is_name(node),
+    };
+    let all = ["case", "cases"].map(|key| criterion.find(key).is_none_or(|node| covers(node)));
+    ["case", "cases"].into_iter().for_each(|key| criterion.remove(key));
+    all == [true; 2]
 }
 
 /// Effects that split a current among the terminals, as they would be were the film even.

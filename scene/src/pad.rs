@@ -9,6 +9,7 @@ use crate::effects::sheet::ideal_split;
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
 use crate::path::{Path, SLACK_MM};
+use crate::truth::Setpoint;
 
 /// Capacitance of a pad that neither names one nor has a gap, pF: 5 kΩ at 100 kHz.
 const CAPACITANCE_PF: f64 = 318.0;
@@ -72,22 +73,44 @@ impl PadPlan {
         point % self.points() / self.path.points()
     }
 
-    /// The pad before any effect: an even gap on an ideal sheet.
-    pub fn at(&self, index: usize, point: usize, time_s: f64, device: &Device) -> Pad {
+    /// The keys that are swept, as [`Setpoint::get`] knows them.
+    pub fn swept(&self) -> Vec<&'static str> {
+        let courses = [
+            ("load_g", &self.load_g),
+            ("haptic_v_rms", &self.haptic_v_rms),
+            ("capacitance_pf", &self.capacitance_pf),
+            ("eccentricity_mm", &self.eccentricity_mm),
+        ];
+        let place = ["x_mm", "y_mm"].into_iter().filter(|_| self.path.points() > 1);
+        place.chain(courses.into_iter().filter(|(_, course)| course.points() > 1).map(|(key, _)| key)).collect()
+    }
+
+    /// What the pad is set to.
+    pub fn set(&self, point: usize, time_s: f64) -> Setpoint {
         let load = point / self.path.points();
         let haptic = load / self.load_g.points();
         let capacitance = haptic / self.haptic_v_rms.points();
-        let [x_mm, y_mm] = self.path.at(point, time_s);
-        let capacitance_f = 1e-12 * self.capacitance_pf.at(capacitance, time_s);
-        let haptic_v_rms = self.haptic_v_rms.at(haptic, time_s);
         let eccentricity = capacitance / self.capacitance_pf.points();
-        let eccentricity_mm = self.eccentricity_mm.at(eccentricity, time_s);
+        let [x_mm, y_mm] = self.path.at(point, time_s);
+        Setpoint {
+            x_mm,
+            y_mm,
+            load_g: self.load_g.at(load, time_s),
+            haptic_v_rms: self.haptic_v_rms.at(haptic, time_s),
+            capacitance_pf: self.capacitance_pf.at(capacitance, time_s),
+            eccentricity_mm: self.eccentricity_mm.at(eccentricity, time_s),
+        }
+    }
+
+    /// The pad before any effect: an even gap on an ideal sheet.
+    pub fn at(&self, index: usize, point: usize, time_s: f64, device: &Device) -> Pad {
+        let set = self.set(point, time_s);
         let push_n = [0, 1].map(|axis| self.push_n[axis].at(0, time_s));
-        let load_g = self.load_g.at(load, time_s);
+        let (place, capacitance_f) = ([set.x_mm, set.y_mm], 1e-12 * set.capacitance_pf);
         Pad {
-            eccentricity_mm,
+            eccentricity_mm: set.eccentricity_mm,
             push_n,
-            ..still(index, time_s, [x_mm, y_mm], load_g, haptic_v_rms, capacitance_f, device)
+            ..still(index, time_s, place, set.load_g, set.haptic_v_rms, capacitance_f, device)
         }
     }
 }

@@ -175,6 +175,7 @@ impl Plant {
             friction_n: pad.friction_n,
             direction: pad.direction,
             load_g: pad.load_g,
+            set: self.case.pads[pad.index].set(point, pad.time_s),
             over_edge: pad.over_edge,
             touching: pad.touching,
         }

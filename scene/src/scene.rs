@@ -41,7 +41,7 @@ use crate::case::Case;
 use crate::criterion::Criterion;
 use crate::error::SceneError;
 use crate::format::{self, Table};
-use crate::variant::variants;
+use crate::variant::{is_whole, variants};
 
 /// How a report draws the scene, after the paper's figures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -114,7 +114,9 @@ impl Scene {
             for (key, node) in variant.set {
                 format::apply(&mut tree, &key, node)?;
             }
-            override_all(&mut tree, overrides)?;
+            // What belongs to the whole scene has been read, and no case can have changed it.
+            let of_cases = overrides.iter().filter(|(key, _)| !is_whole(key)).cloned();
+            override_all(&mut tree, &of_cases.collect::<Vec<_>>())?;
             scene.cases.push(Case::read(&tree, &variant.name)?);
             tree.refuse_unknown()?;
         }

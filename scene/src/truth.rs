@@ -34,10 +34,44 @@ pub struct Truth {
     pub direction: f64,
     /// Load on the pad, g.
     pub load_g: f64,
+    /// What the scene sets the pad to, before any effect.
+    pub set: Setpoint,
     /// The pad reaches over the edge; what the plant says is for a pad at the edge.
     pub over_edge: bool,
     /// The pad lies on another one; what the plant says is for pads that touch. Known only where pads are coupled.
     pub touching: bool,
+}
+
+/// What a scene sets a pad to in a slot: what may be swept.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Setpoint {
+    /// Position, mm right of the sheet's centre.
+    pub x_mm: f64,
+    /// Position, mm above the sheet's centre.
+    pub y_mm: f64,
+    /// Load, g.
+    pub load_g: f64,
+    /// Haptic voltage of the source, V rms.
+    pub haptic_v_rms: f64,
+    /// Capacitance where no gap decides it, pF.
+    pub capacitance_pf: f64,
+    /// Eccentricity of the push, mm.
+    pub eccentricity_mm: f64,
+}
+
+impl Setpoint {
+    /// The value of a key: `load_g`; not a number for another key.
+    pub fn get(&self, key: &str) -> f64 {
+        match key {
+            "x_mm" => self.x_mm,
+            "y_mm" => self.y_mm,
+            "load_g" => self.load_g,
+            "haptic_v_rms" => self.haptic_v_rms,
+            "capacitance_pf" => self.capacitance_pf,
+            "eccentricity_mm" => self.eccentricity_mm,
+            _ => f64::NAN,
+        }
+    }
 }
 
 /// A place of the calibration map.

@@ -8,6 +8,11 @@ use crate::format::{Node, Table};
 const WHOLE: [&str; 9] =
     ["title", "summary", "profile", "window_samples", "seed", "figure", "record", "case", "criterion"];
 
+/// Whether a dotted key belongs to the scene as a whole.
+pub(crate) fn is_whole(key: &str) -> bool {
+    WHOLE.contains(&key.split('.').next().unwrap_or_default())
+}
+
 /// A case before it is read: its name and what it sets.
 pub(crate) struct Variant {
     pub name: String,
@@ -35,7 +40,7 @@ impl Variant {
         let name = table.require("name", "text", table.text("name")?)?;
         let mut set = Vec::new();
         for (key, node) in table.table("set")?.into_iter().flat_map(Table::all) {
-            if WHOLE.contains(&key.split('.').next().unwrap_or_default()) {
+            if is_whole(key) {
                 return Err(table.error("set", format!("{key} belongs to the whole scene, a case cannot set it")));
             }
             set.push((key.to_string(), node.moved_to(key)));

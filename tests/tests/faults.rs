@@ -45,7 +45,8 @@ fn alone<B: Block>(block: &B, operations: usize, words: i64, clocks: u32) -> Alo
 
 /// The blocks that compute, each alone.
 fn blocks(profile: &Profile) -> Vec<Alone> {
-    let (currents, position, words) = (Currents::new(profile), Position::new(profile), 2 * (profile.channels() as i64 - 1));
+    let (currents, position, words) =
+        (Currents::new(profile), Position::new(profile), 2 * (profile.channels() as i64 - 1));
     let amplitudes = currents.outputs();
     vec![
         alone(&Demodulator::new(profile), 2000, 0, 24),

@@ -8,71 +8,69 @@
 //! -12,4,55,3,0,-1,81920,17,0
 //! ```
 //!
-//! Columns may come in any order, `pad` may be missing. Every row ends with the end of a line, so that a file that was cut
-//! short is known for one.
+//! Columns may come in any order, `pad` may be missing. With `# full_scale_v = 10` samples are not codes but volts at the ADC, 10
+//! of them at the end of its range. Every row ends with the end of a line, so that a file that was cut short is known for one.
 
-use std::fs::File;
-use std::io::{BufRead, BufReader, Write};
-use std::path::{Path, PathBuf};
+use std::io::{BufRead, Write};
+use std::path::Path;
 
-use anyhow::{Context, Result, anyhow, bail, ensure};
+use anyhow::{Context, Result, anyhow, bail};
 
-use super::{Adc, Aside, Recorder, Sampled, Source};
+use super::columns::{self, Column, Columns, wanted};
+use super::input::Input;
+use super::{Adc, Aside, Described, Recorder, Sampled, Source};
+use crate::units::Digitiser;
 
-/// What a column holds.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Column {
-    Channel(usize),
-    Pad,
-}
+/// The most bits of a code.
+const MOST_BITS: u8 = 32;
 
 /// A CSV capture being read.
 pub struct Reader {
-    file: BufReader<File>,
-    path: PathBuf,
+    input: Input,
     adc: Adc,
-    names: Vec<String>,
-    columns: Vec<Column>,
+    digitiser: Digitiser,
+    columns: Option<Columns>,
+    fractions: Vec<f64>,
     line: String,
     number: usize,
+    /// The line is a row that is still to be read: a file without a header begins with it.
+    pending: bool,
     sample_rate_hz: Option<f64>,
     bits: u8,
-    /// Codes of the file are moved left by this.
-    shift: u8,
+    full_scale_v: Option<f64>,
+    rounded: bool,
+    clipped: bool,
 }
 
 impl Reader {
     /// Opens a capture and reads its head.
-    pub fn open(path: &Path, adc: Adc) -> Result<Self> {
-        let file = File::open(path).with_context(|| path.display().to_string())?;
-        let bits = adc.format.width;
+    pub fn open(input: Input, adc: Adc, described: &Described) -> Result<Self> {
         let mut reader = Reader {
-            file: BufReader::with_capacity(1 << 18, file),
-            path: path.to_owned(),
+            input,
             adc,
-            names: Vec::new(),
-            columns: Vec::new(),
+            digitiser: Digitiser::new(adc.format),
+            columns: None,
+            fractions: Vec::new(),
             line: String::new(),
             number: 0,
+            pending: false,
             sample_rate_hz: None,
-            bits,
-            shift: 0,
+            bits: adc.format.width,
+            full_scale_v: None,
+            rounded: false,
+            clipped: false,
         };
-        ensure!(
-            reader.advance()?,
-            "{}",
-            reader.error(format!("expected a header of {}, got an empty file", reader.wanted()))
-        );
-        reader.read_header()?;
+        if !reader.advance()? {
+            bail!(reader.error(format!("expected a header of {}, got an empty file", wanted(adc))));
+        }
+        reader.bits = described.bits.unwrap_or(reader.bits);
+        reader.full_scale_v = described.full_scale_v.or(reader.full_scale_v);
+        reader.read_header(described.channels.as_deref())?;
         Ok(reader)
     }
 
-    fn wanted(&self) -> String {
-        format!("columns {} (and perhaps pad)", self.adc.channels().join(", "))
-    }
-
     fn error(&self, message: impl std::fmt::Display) -> anyhow::Error {
-        anyhow!("{}:{}: {message}", self.path.display(), self.number.max(1))
+        anyhow!("{}:{}: {message}", self.input.name, self.number.max(1))
     }
 
     /// Goes to the next line that is neither empty nor a comment; whether there is one.
@@ -80,7 +78,7 @@ impl Reader {
         loop {
             self.line.clear();
             self.number += 1;
-            let read = self.file.read_line(&mut self.line).map_err(|error| self.error(error))?;
+            let read = self.input.bytes.read_line(&mut self.line).map_err(|error| self.error(error))?;
             if read == 0 {
                 return Ok(false);
             }
@@ -98,82 +96,100 @@ impl Reader {
 
     fn read_comment(&mut self, comment: &str) -> Result<()> {
         let Some((key, value)) = comment.split_once('=') else { return Ok(()) };
-        let value = value.trim();
-        match key.trim() {
-            "sample_rate_hz" => {
-                let rate = value.parse().ok().filter(|rate: &f64| rate.is_finite() && *rate > 0.0);
-                let expected = || self.error(format!("sample_rate_hz: expected a number above 0, got \"{value}\""));
-                self.sample_rate_hz = Some(rate.ok_or_else(expected)?);
+        let (key, value) = (key.trim(), value.trim());
+        if !["sample_rate_hz", "full_scale_v", "bits"].contains(&key) {
+            return Ok(());
+        }
+        if self.columns.is_some() {
+            bail!(self.error(format!("{key}: expected before the header, where it holds for all rows")));
+        }
+        let above_0 = || value.parse().ok().filter(|number: &f64| number.is_finite() && *number > 0.0);
+        let expected = |what: &str| self.error(format!("{key}: expected {what}, got \"{value}\""));
+        match key {
+            "sample_rate_hz" => self.sample_rate_hz = Some(above_0().ok_or_else(|| expected("a number above 0"))?),
+            "full_scale_v" => self.full_scale_v = Some(above_0().ok_or_else(|| expected("a number above 0"))?),
+            _ => {
+                let bits = value.parse().ok().filter(|bits| (2..=MOST_BITS).contains(bits));
+                self.bits = bits.ok_or_else(|| expected(&format!("2 to {MOST_BITS}")))?;
             }
-            "bits" => {
-                let adc = self.adc.format.width;
-                let bits = value.parse().ok().filter(|bits| (2..=adc).contains(bits));
-                let expected =
-                    || self.error(format!("bits: expected 2 to {adc}, as the profile's ADC has, got \"{value}\""));
-                self.bits = bits.ok_or_else(expected)?;
-                self.shift = adc - self.bits;
-            }
-            _ => (),
         }
         Ok(())
     }
 
-    fn read_header(&mut self) -> Result<()> {
-        let channels = self.adc.channels();
+    fn read_header(&mut self, described: Option<&[String]>) -> Result<()> {
         let line = self.line.trim_start_matches('\u{feff}').trim().to_string();
-        for name in line.split(',').map(|name| name.trim().trim_matches('"')) {
-            let known = channels.iter().position(|channel| channel == name).map(Column::Channel);
-            let column = known.or((name == "pad").then_some(Column::Pad));
-            let column = column.ok_or_else(|| self.error(format!("expected {}, got \"{name}\"", self.wanted())))?;
-            ensure!(!self.columns.contains(&column), "{}", self.error(format!("column {name} comes twice")));
-            self.columns.push(column);
-            self.names.push(name.to_string());
-        }
-        match (0..channels.len()).find(|channel| !self.columns.contains(&Column::Channel(*channel))) {
-            Some(missing) => {
-                Err(self.error(format!("column {} is missing: expected {}", channels[missing], self.wanted())))
-            }
-            None => Ok(()),
-        }
+        let fields: Vec<String> = line.split(',').map(|name| name.trim().trim_matches('"').to_string()).collect();
+        let columns = match described {
+            Some(_) => Columns::counted(fields.len(), described, self.adc),
+            None => Columns::named(&fields, self.adc),
+        };
+        self.columns = Some(columns.map_err(|error| self.error(format!("{error:#}")))?);
+        self.pending = described.is_some() && fields.iter().all(|field| field.parse::<f64>().is_ok());
+        Ok(())
     }
 
-    fn code(&self, column: usize, field: &str) -> Result<i32> {
-        let most = 1i32 << (self.bits - 1);
+    /// The fraction of full scale that a field is.
+    fn fraction(&self, name: &str, field: &str) -> Result<f64> {
+        if let Some(full_scale_v) = self.full_scale_v {
+            let volts = field.parse().ok().filter(|volts: &f64| volts.is_finite());
+            let message = || self.error(format!("{name}: expected volts, got \"{field}\""));
+            return Ok(volts.ok_or_else(message)? / full_scale_v);
+        }
+        let (bits, most) = (self.bits, 1i64 << (self.bits - 1));
         let code = field.parse().ok().filter(|code| (-most..most).contains(code));
-        let (name, last) = (&self.names[column], most - 1);
-        let message =
-            || format!("{name}: expected an integer code from -{most} to {last} ({} bits), got \"{field}\"", self.bits);
-        Ok(code.ok_or_else(|| self.error(message()))? << self.shift)
+        let message = || {
+            let volts = field.contains('.') && field.parse::<f64>().is_ok();
+            let cure = if volts { "; for volts say how many are full scale: --full-scale-v 10" } else { "" };
+            let last = most - 1;
+            self.error(format!(
+                "{name}: expected an integer code from -{most} to {last} ({bits} bits), got \"{field}\"{cure}"
+            ))
+        };
+        Ok(code.ok_or_else(message)? as f64 / most as f64)
     }
-}
 
-impl Source for Reader {
-    fn row(&mut self, codes: &mut Vec<i32>) -> Result<Option<Sampled>> {
-        if !self.advance()? {
-            return Ok(None);
-        }
-        let start = codes.len();
-        codes.resize(start + self.columns.len() - usize::from(self.columns.contains(&Column::Pad)), 0);
+    fn row_of(&self, columns: &Columns, fractions: &mut [f64]) -> Result<Option<usize>> {
         let (mut fields, mut pad) = (0, None);
         for field in self.line.trim().split(',').map(str::trim) {
-            match self.columns.get(fields) {
-                Some(Column::Channel(channel)) => codes[start + channel] = self.code(fields, field)?,
+            match columns.columns.get(fields) {
+                Some(Column::Channel(channel)) => fractions[*channel] = self.fraction(&columns.names[fields], field)?,
                 Some(Column::Pad) => {
                     let expected = || self.error(format!("pad: expected the number of a pad, got \"{field}\""));
-                    pad = Some(field.parse().map_err(|_| expected())?);
+                    pad = Some(field.parse().ok().and_then(columns::pad).with_context(expected)?);
                 }
-                None => (),
+                _ => (),
             }
             fields += 1;
         }
-        let expected = self.columns.len();
+        let expected = columns.columns.len();
         if fields != expected {
             bail!(self.error(format!("expected {expected} columns, got {fields}")));
         }
         if !self.line.ends_with('\n') {
             bail!(self.error("expected the end of the line, got the end of the file: it is cut short"));
         }
-        Ok(Some(Sampled { pad }))
+        Ok(pad)
+    }
+}
+
+impl Source for Reader {
+    fn row(&mut self, codes: &mut Vec<i32>) -> Result<Option<Sampled>> {
+        if !std::mem::take(&mut self.pending) && !self.advance()? {
+            return Ok(None);
+        }
+        let columns = self.columns.take().expect("the header has been read");
+        self.fractions.clear();
+        self.fractions.resize(columns.channels, 0.0);
+        let mut fractions = std::mem::take(&mut self.fractions);
+        let pad = self.row_of(&columns, &mut fractions);
+        for fraction in &fractions {
+            let (code, exact) = self.digitiser.code(*fraction);
+            self.rounded |= !exact;
+            self.clipped |= !(-1.0..=1.0).contains(fraction);
+            codes.push(code);
+        }
+        (self.columns, self.fractions) = (Some(columns), fractions);
+        Ok(Some(Sampled { pad: pad? }))
     }
 
     fn sample_rate_hz(&self) -> Option<f64> {
@@ -181,7 +197,17 @@ impl Source for Reader {
     }
 
     fn place(&self) -> String {
-        format!("{}:{}", self.path.display(), self.number)
+        format!("{}:{}", self.input.name, self.number)
+    }
+
+    fn notes(&self) -> Vec<String> {
+        let adc = self.adc.format.width;
+        let finer = if self.full_scale_v.is_some() { "volts".into() } else { format!("codes of {} bits", self.bits) };
+        let notes = [
+            (self.rounded, format!("{finer} were rounded to the {adc} bits of the profile's ADC")),
+            (self.clipped, "samples beyond full scale were clipped".to_string()),
+        ];
+        notes.into_iter().filter(|(is, _)| *is).map(|(_, note)| format!("{}: {note}", self.input.name)).collect()
     }
 }
 
@@ -196,14 +222,13 @@ impl Writer {
     pub fn create(path: &Path, adc: Adc, sample_rate_hz: f64) -> Result<Self> {
         let mut aside = Aside::create(path)?;
         let channels = adc.channels();
-        write!(aside.file, "# sample_rate_hz = {sample_rate_hz}\n# bits = {}\n", adc.format.width)?;
-        writeln!(aside.file, "{},pad", channels.join(","))?;
+        let header =
+            format!("# sample_rate_hz = {sample_rate_hz}\n# bits = {}\n{},pad\n", adc.format.width, channels.join(","));
+        aside.file.write_all(header.as_bytes()).with_context(|| path.display().to_string())?;
         Ok(Writer { aside, channels: channels.len() })
     }
-}
 
-impl Recorder for Writer {
-    fn slot(&mut self, pad: usize, codes: &[i32]) -> Result<()> {
+    fn write(&mut self, pad: usize, codes: &[i32]) -> std::io::Result<()> {
         let file = &mut self.aside.file;
         for row in codes.chunks_exact(self.channels) {
             row.iter().try_for_each(|code| write!(file, "{code},"))?;
@@ -211,9 +236,15 @@ impl Recorder for Writer {
         }
         Ok(())
     }
+}
+
+impl Recorder for Writer {
+    fn slot(&mut self, pad: usize, codes: &[i32]) -> Result<()> {
+        self.write(pad, codes).with_context(|| self.aside.path.display().to_string())
+    }
 
     fn keep(mut self: Box<Self>) -> Result<()> {
-        self.aside.file.flush()?;
+        self.aside.file.flush().with_context(|| self.aside.path.display().to_string())?;
         super::persist(self.aside.temporary, &self.aside.path)
     }
 }

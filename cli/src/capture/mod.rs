@@ -1,7 +1,17 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Captures: ADC samples in files, one row per sample instant, as CSV or WAV.
+//! Captures: ADC samples in files, one row per sample instant.
+//!
+//! | kind | read | written |
+//! | --- | --- | --- |
+//! | CSV: integer codes, or volts | yes, from standard input too | yes |
+//! | WAV: integers of 16 to 32 bits, floats; RIFF, RF64 | yes, from standard input too | yes, RF64 beyond 4 GiB |
+//! | SigMF: real integers and floats | yes | no |
 
+mod columns;
 mod csv;
+mod input;
+mod raw;
+mod sigmf;
 mod wav;
 
 use std::fs::File;
@@ -11,6 +21,8 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail};
 use hapticore_model::format::Format;
 use tempfile::NamedTempFile;
+
+use crate::partial;
 
 /// A capture being read, sample instant by sample instant.
 pub trait Source {
@@ -25,6 +37,11 @@ pub trait Source {
 
     /// Where the last row was, for messages.
     fn place(&self) -> String;
+
+    /// What was done to the samples that were read.
+    fn notes(&self) -> Vec<String> {
+        Vec::new()
+    }
 }
 
 /// What a row says beside its codes.
@@ -66,39 +83,69 @@ impl Adc {
     }
 }
 
+/// What a capture does not say of itself.
+#[derive(Debug, Clone, Default)]
+pub struct Described {
+    /// What each column or channel of the file is, in its order; as the file says where none.
+    pub channels: Option<Vec<String>>,
+    /// Bits of integer codes, which are then at the bottom of their samples.
+    pub bits: Option<u8>,
+    /// Samples are volts, and this many are the end of the ADC's range.
+    pub full_scale_v: Option<f64>,
+}
+
 #[derive(Clone, Copy)]
 enum Kind {
     Csv,
     Wav,
+    Sigmf,
 }
 
 fn kind(path: &Path) -> Result<Kind> {
     match path.extension().map(|extension| extension.to_string_lossy().to_lowercase()).as_deref() {
         Some("csv") => Ok(Kind::Csv),
-        Some("wav") => Ok(Kind::Wav),
-        _ => bail!("{}: expected a capture whose name ends in .csv or .wav", path.display()),
+        Some("wav" | "rf64") => Ok(Kind::Wav),
+        Some("sigmf-meta" | "sigmf-data") => Ok(Kind::Sigmf),
+        Some("sigmf") => {
+            bail!(
+                "{}: expected NAME.sigmf-meta and NAME.sigmf-data, got an archive: unpack it with tar",
+                path.display()
+            )
+        }
+        _ => bail!("{}: expected a capture whose name ends in .csv or .wav (or .sigmf-meta)", path.display()),
     }
 }
 
-/// Opens a capture.
+/// Opens a capture; `-` is standard input.
 ///
 /// # Errors
 /// It is not there, or its head is not that of a capture.
-pub fn open(path: &Path, adc: Adc) -> Result<Box<dyn Source>> {
-    Ok(match kind(path)? {
-        Kind::Csv => Box::new(csv::Reader::open(path, adc)?),
-        Kind::Wav => Box::new(wav::Reader::open(path, adc)?),
+pub fn open(path: &Path, adc: Adc, described: &Described) -> Result<Box<dyn Source>> {
+    let (kind, input) = if path == Path::new("-") {
+        let input = input::standard()?;
+        (if input.is_wav() { Kind::Wav } else { Kind::Csv }, input)
+    } else {
+        let kind = kind(path)?;
+        if let Kind::Sigmf = kind {
+            return Ok(Box::new(sigmf::open(path, adc, described)?));
+        }
+        (kind, input::file(path)?)
+    };
+    Ok(match kind {
+        Kind::Csv => Box::new(csv::Reader::open(input, adc, described)?),
+        _ => Box::new(wav::read::open(input, adc, described)?),
     })
 }
 
 /// Creates a capture, to be called `path`.
 ///
 /// # Errors
-/// The folder cannot be written to.
+/// The folder cannot be written to, or there is a folder of this name.
 pub fn create(path: &Path, adc: Adc, sample_rate_hz: f64) -> Result<Box<dyn Recorder + Send>> {
     Ok(match kind(path)? {
         Kind::Csv => Box::new(csv::Writer::create(path, adc, sample_rate_hz)?),
-        Kind::Wav => Box::new(wav::Writer::create(path, adc, sample_rate_hz)?),
+        Kind::Wav => Box::new(wav::write::Writer::create(path, adc, sample_rate_hz)?),
+        Kind::Sigmf => bail!("{}: expected a capture whose name ends in .csv or .wav", path.display()),
     })
 }
 
@@ -119,8 +166,13 @@ struct Aside {
 impl Aside {
     fn create(path: &Path) -> Result<Self> {
         let within = || path.display().to_string();
+        if path.is_dir() {
+            bail!("{}: expected a file to write, there is a folder of this name", path.display());
+        }
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        let temporary = tempfile::Builder::new().prefix(".partial-").tempfile_in(folder).with_context(within)?;
+        partial::clear(folder);
+        let temporary = tempfile::Builder::new().prefix(partial::PREFIX).tempfile_in(folder).with_context(within)?;
+        partial::lock_file(temporary.as_file());
         let file = BufWriter::with_capacity(1 << 18, temporary.reopen().with_context(within)?);
         Ok(Aside { file, temporary, path: path.to_owned() })
     }

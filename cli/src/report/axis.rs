@@ -62,6 +62,13 @@ impl Axis {
         }
     }
 
+    /// Whether a place lies within what is drawn.
+    pub fn shows(&self, place: f64) -> bool {
+        let (low, high) = self.range();
+        let rounding = 1e-9 * (high - low);
+        (low - rounding..=high + rounding).contains(&place)
+    }
+
     /// What is drawn, in the same coordinates.
     pub fn range(&self) -> (f64, f64) {
         let span = self.high - self.low;

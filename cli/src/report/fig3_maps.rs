@@ -43,7 +43,9 @@ fn deviation_map(setting: &Setting, reading: &str, get: fn(&Row) -> f64, most: u
     let values: Vec<_> = setting.rows.iter().map(|(row, _)| get(row)).collect();
     let what = format!("{reading}: {} %", number::short(spread_percent(&values)));
     let places = places(setting, &deviation_percent(&values));
-    titled(&setting.name, &what, |about| map(about, &places, most, |d| Paint::diverging(deviation_step(d))))
+    titled(&setting.name, &what, |about| {
+        map(about, setting.half_sheet_mm, &places, most, |d| Paint::diverging(deviation_step(d)))
+    })
 }
 
 fn deviation_step(percent: f64) -> i32 {
@@ -86,7 +88,7 @@ fn error_map(setting: &Setting, most: usize) -> String {
     let ideal = if ideal.is_finite() { format!(" ({})", number::short(ideal)) } else { String::new() };
     let what = format!("{} mm{ideal}", number::short(rms(errors.iter().copied())));
     let step = |error: f64| Paint::sequential(ERROR_STEPS.partition_point(|edge| *edge <= error));
-    titled(&setting.name, &what, |about| map(about, &places(setting, &errors), most, step))
+    titled(&setting.name, &what, |about| map(about, setting.half_sheet_mm, &places(setting, &errors), most, step))
 }
 
 fn error_legend() -> String {

@@ -78,7 +78,10 @@ pub fn voltage_axis(loads: &[Load]) -> Axis {
 
 /// All capacitances, true and measured.
 pub fn capacitance_axis(loads: &[Load]) -> Axis {
-    let values = rows(loads).flat_map(|(r, t)| [r.measured.capacitance_pf, t.quantities.capacitance_pf]);
+    let of = |(r, t): &(&Row, Truth)| {
+        [r.measured.capacitance_pf, reference(r, |q| q.capacitance_pf), t.quantities.capacitance_pf]
+    };
+    let values = rows(loads).flat_map(of);
     Axis::linear("C (pF)", values)
 }
 

@@ -55,7 +55,9 @@ pub fn key(name: &str, swatch: &str) -> String {
 fn swatch(series: &Series) -> String {
     match series.mark {
         Mark::Line(_) => line_swatch(&series.paint.stroke_class()),
-        Mark::Dots(_) => svg(&format!("<circle cx=\"14\" cy=\"7\" r=\"4\" class=\"{}\"/>", series.paint.fill_class())),
+        Mark::Dots(_) | Mark::Band => {
+            svg(&format!("<circle cx=\"14\" cy=\"7\" r=\"4\" class=\"{}\"/>", series.paint.fill_class()))
+        }
         Mark::Rings(_) => {
             let class = series.paint.stroke_class();
             svg(&format!("<circle cx=\"14\" cy=\"7\" r=\"5\" stroke-width=\"1.6\" class=\"{class}\"/>"))

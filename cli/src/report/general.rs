@@ -8,6 +8,7 @@ use super::paint::Paint;
 use super::plot::Plot;
 use super::select;
 use super::series::{Mark, Point, Series};
+use super::swept;
 use crate::record::{Quantities, Record, Row};
 
 /// How a quantity is got from a row's.
@@ -29,50 +30,96 @@ pub const VOLTAGE: Quantity = ("Haptic voltage", "V rms (V)", |q| q.haptic_v_rms
 /// Direction.
 pub const DIRECTION: Quantity = ("Direction of the push", "direction", |q| q.direction);
 
-/// Every quantity that is not zero throughout.
+/// Slots of a pad of which each has a dot of its own; more become a line of means and the band that they fill.
+const FEW: usize = 300;
+
+/// Means on the lines of a pad.
+const BINS: usize = 200;
+
+/// Every quantity that is measured: over what is swept where something is, else over time.
 pub fn figures(record: &Record) -> Vec<Figure> {
-    let all = [X, Y, CAPACITANCE, FORCE, VOLTAGE, DIRECTION];
-    all.into_iter().filter(|(_, _, get)| present(record, *get)).map(|q| over_time(record, q)).collect()
+    let truth = record.rows.iter().any(|row| row.truth.is_some());
+    if truth && !record.swept.is_empty() {
+        return swept::figures(record);
+    }
+    quantities(record).into_iter().map(|q| over_time(record, q)).collect()
 }
 
-fn present(record: &Record, get: Get) -> bool {
+/// The quantities that are not zero throughout; the direction where it is measured.
+pub fn quantities(record: &Record) -> Vec<Quantity> {
     let some = |value: f64| value.is_finite() && value != 0.0;
-    record.rows.iter().any(|r| some(get(&r.measured)) || r.truth.is_some_and(|t| some(get(&t.quantities))))
+    let measured = |get: Get| record.rows.iter().any(|r| some(get(&r.measured)));
+    let true_one = |get: Get| record.rows.iter().any(|r| r.truth.is_some_and(|t| some(get(&t.quantities))));
+    let present = |(title, _, get): &Quantity| measured(*get) || (*title != DIRECTION.0 && true_one(*get));
+    [X, Y, CAPACITANCE, FORCE, VOLTAGE, DIRECTION].into_iter().filter(present).collect()
 }
 
 /// One quantity of all pads over time.
 pub fn over_time(record: &Record, (title, axis, get): Quantity) -> Figure {
-    let values = record.rows.iter().flat_map(|r| [Some(get(&r.measured)), r.truth.map(|t| get(&t.quantities))]);
-    let y = Axis::linear(axis, values.flatten());
     let mut series = pads_series(record, get);
+    let y = Axis::linear(axis, series.iter().flat_map(|s| s.points.iter().map(|p| p.1)));
     series.extend(keys(record));
     let mut plot = Plot::new(&format!("{title} over time"), time_axis(record), y, series);
     plot.breaks = breaks(record);
-    let notes = [difference_note(record, get, axis), breaks_note(record)];
+    let bands = plot.series.iter().any(|s| s.mark == Mark::Band);
+    let notes = [difference_note(record, get, axis), band_note(bands), breaks_note(record)];
     let notes: Vec<_> = notes.into_iter().filter(|note| !note.is_empty()).collect();
     Figure::plot(title, &notes.join(" "), &plot)
 }
 
-/// What was measured as dots, a colour per pad; reference and truth as thin lines over them.
+/// What a band is.
+pub fn band_note(bands: bool) -> String {
+    if bands {
+        format!("Lines are means over 1/{BINS} of a pad's slots, bands from the least to the largest in it.")
+    } else {
+        String::new()
+    }
+}
+
+/// What was measured, a colour per pad; reference and truth as thin lines over it.
 fn pads_series(record: &Record, get: Get) -> Vec<Series> {
     let pads = select::pads(record);
     let measured = |pad: &usize| {
         let points = points(record, *pad, |r| get(&r.measured));
-        Series::dots(&select::pad_name(record, *pad), Paint::series(*pad), points).mark(Mark::Dots(6))
+        noisy(&select::pad_name(record, *pad), Paint::series(*pad), points)
     };
     let reference = |pad: &usize| {
         let points = points(record, *pad, |r| r.reference.map_or(f64::NAN, |q| get(&q.quantities)));
-        Series::line("", Paint::MUTED.dotted(), points)
+        (points.len() <= FEW).then(|| Series::line("", Paint::MUTED.dotted(), points))
     };
     let truth = |pad: &usize| {
         let points = points(record, *pad, |r| r.truth.map_or(f64::NAN, |t| get(&t.quantities)));
         Series::line("", Paint::INK, points).mark(Mark::Line(3))
     };
-    pads.iter().map(measured).chain(pads.iter().map(reference)).chain(pads.iter().map(truth)).collect()
+    pads.iter().flat_map(measured).chain(pads.iter().filter_map(reference)).chain(pads.iter().map(truth)).collect()
+}
+
+/// What was measured: dots, or where they are many their means and the band that they fill.
+pub fn noisy(name: &str, paint: Paint, points: Vec<Point>) -> Vec<Series> {
+    if points.len() <= FEW {
+        return vec![Series::dots(name, paint, points).mark(Mark::Dots(6))];
+    }
+    let (mut line, mut bands) = (Vec::new(), Vec::new());
+    for run in points.split(|point| !(point.0.is_finite() && point.1.is_finite())).filter(|run| !run.is_empty()) {
+        let bins = run.chunks(points.len().div_ceil(BINS));
+        let bins = bins.filter_map(|bin| {
+            Some((select::mean(bin.iter().map(|p| p.0)), bin, select::extent(bin.iter().map(|p| p.1))?))
+        });
+        let (mut high, mut low) = (Vec::new(), Vec::new());
+        for (x, bin, extent) in bins {
+            line.push((x, select::mean(bin.iter().map(|p| p.1))));
+            low.push((x, extent.0));
+            high.push((x, extent.1));
+        }
+        line.push((f64::NAN, f64::NAN));
+        bands.push(Series::band(paint, high.into_iter().chain(low.into_iter().rev()).collect()));
+    }
+    bands.push(Series::line(name, paint, line));
+    bands
 }
 
 /// How far core and reference are apart; their lines hardly show it.
-fn difference_note(record: &Record, get: Get, axis: &str) -> String {
+pub fn difference_note(record: &Record, get: Get, axis: &str) -> String {
     let unit = axis.split_once('(').map_or("", |(_, unit)| unit.trim_end_matches(')'));
     let difference = |r: &Row| r.reference.map(|q| (get(&r.measured) - get(&q.quantities)).abs());
     match select::extent(record.rows.iter().filter_map(difference)) {
@@ -87,7 +134,8 @@ fn difference_note(record: &Record, get: Get, axis: &str) -> String {
 /// What stands for truth and reference in the legend, where there are any.
 pub fn keys(record: &Record) -> Vec<Series> {
     let truth = record.rows.iter().any(|r| r.truth.is_some());
-    let reference = record.rows.iter().any(|r| r.reference.is_some());
+    let few = select::pads(record).iter().any(|pad| record.rows.iter().filter(|r| r.pad == *pad).count() < FEW);
+    let reference = few && record.rows.iter().any(|r| r.reference.is_some());
     let keys = [
         (truth, Series::line("truth", Paint::INK, Vec::new())),
         (reference, Series::line("floating-point reference", Paint::MUTED.dotted(), Vec::new())),

@@ -4,7 +4,7 @@
 use super::axis::Axis;
 use super::figure::Figure;
 use super::general::{self, CAPACITANCE, FORCE, VOLTAGE};
-use super::map::HALF_SHEET_MM;
+use super::map;
 use super::number;
 use super::paint::Paint;
 use super::plot::Plot;
@@ -30,25 +30,28 @@ fn paths(record: &Record) -> Figure {
         Series::dots(&name, Paint::series(*pad), path(record, *pad, place)).mark(Mark::Dots(8))
     };
     let truth = |pad: &usize| Series::line("", Paint::INK, path(record, *pad, true_place)).mark(Mark::Line(3));
-    let mut series = vec![frame()];
+    let half = map::half_sheet_mm(record);
+    let mut series = vec![frame(half)];
     series.extend(pads.iter().map(measured));
     series.extend(pads.iter().map(truth));
     series.push(Series::line("truth", Paint::INK, vec![]));
-    let half = HALF_SHEET_MM;
-    let mut plot =
-        Plot::new("Paths of the pads over the sheet", side("x (mm)", half.0), side("y (mm)", half.1), series);
-    plot.height = 777;
+    let points = || series.iter().flat_map(|s| s.points.iter());
+    let (x, y) = (side("x (mm)", half.0, points().map(|p| p.0)), side("y (mm)", half.1, points().map(|p| p.1)));
+    let ratio = y.1 / x.1;
+    let mut plot = Plot::new("Paths of the pads over the sheet", x.0, y.0, series);
+    plot.height = (120.0 + 1130.0 * ratio).clamp(400.0, 1400.0) as u32;
     Figure::plot("Paths over the sheet", "The frame is the sheet's edge.", &plot)
 }
 
 /// The sheet's edge.
-fn frame() -> Series {
-    let (x, y) = HALF_SHEET_MM;
+fn frame((x, y): (f64, f64)) -> Series {
     Series::line("", Paint::MUTED, vec![(-x, y), (x, y), (x, -y), (-x, -y), (-x, y)]).mark(Mark::Line(2))
 }
 
-fn side(title: &str, half: f64) -> Axis {
-    Axis::exact(title, -half, half)
+/// An axis over the sheet, and further where a path goes beyond its edge; half of what it shows.
+fn side(title: &str, half: f64, values: impl Iterator<Item = f64>) -> (Axis, f64) {
+    let reach = values.map(f64::abs).filter(|v| v.is_finite()).fold(half, f64::max);
+    (Axis::exact(title, -reach, reach), reach)
 }
 
 fn path(record: &Record, pad: usize, place: impl Fn(&Row) -> Point) -> Vec<Point> {
@@ -95,15 +98,16 @@ fn binned(points: &[Point], value: impl Fn(Vec<f64>) -> f64) -> Vec<Point> {
 pub fn force_error(record: &Record, word: &str) -> Figure {
     let error = |r: &Row| r.truth.map_or(f64::NAN, |t| r.measured.force_n - t.quantities.force_n);
     let values: Vec<_> = record.rows.iter().map(error).collect();
-    let note = format!("{} N rms over all pads.", number::short(select::rms(values.iter().copied())));
+    let note = format!("{} N rms over all pads. ", number::short(select::rms(values.iter().copied())));
     let line = |pad: usize| {
         let name = select::pad_name(record, pad);
-        Series::line(&name, Paint::series(pad), general::points(record, pad, error)).mark(Mark::Line(3))
+        general::noisy(&name, Paint::series(pad), general::points(record, pad, error))
     };
-    let series = select::pads(record).into_iter().map(line).collect();
+    let series: Vec<_> = select::pads(record).into_iter().flat_map(line).collect();
+    let bands = general::band_note(series.iter().any(|s| s.mark == Mark::Band));
     let y = Axis::with_zero("ΔF (N)", values);
     let mut plot = Plot::new("Measured less true force", general::time_axis(record), y, series);
     plot.breaks = general::breaks(record);
     plot.limits = select::limit(record, "N", word).map_or(Vec::new(), |limit| vec![-limit, limit]);
-    Figure::plot("Force error", &note, &plot)
+    Figure::plot("Force error", (note + &bands).trim(), &plot)
 }

@@ -9,9 +9,15 @@ use plotters::style::Color as _;
 
 use super::paint::Paint;
 use super::plot::{inline, stroke};
+use crate::record::Record;
 
-/// Half the sheet of the paper, mm; more is drawn where there is data beyond.
-pub const HALF_SHEET_MM: (f64, f64) = (430.0, 250.0);
+/// Half the sheet of the paper, mm, for a run that does not know its own.
+const HALF_SHEET_MM: (f64, f64) = (430.0, 250.0);
+
+/// Half the sheet of a run.
+pub fn half_sheet_mm(record: &Record) -> (f64, f64) {
+    record.sheet_mm.map_or(HALF_SHEET_MM, |[width, height]| (width / 2.0, height / 2.0))
+}
 
 /// Width of a map, in its own units.
 const WIDTH: f64 = 860.0;
@@ -25,9 +31,9 @@ type Cells = BTreeMap<(usize, usize), f64>;
 /// Boundaries of the cells along an axis, ascending.
 type Edges = Vec<f64>;
 
-/// A map; `most` bounds its tiles, `paint` gives a value's colour.
-pub fn map(about: &str, places: &[Place], most: usize, paint: impl Fn(f64) -> Paint) -> String {
-    let half = half_sheet(places);
+/// A map of a sheet, given half its size; `most` bounds its tiles, `paint` gives a value's colour.
+pub fn map(about: &str, half: (f64, f64), places: &[Place], most: usize, paint: impl Fn(f64) -> Paint) -> String {
+    let half = reach(half, places);
     let scale = WIDTH / (2.0 * half.0);
     let height = (2.0 * half.1 * scale) as u32;
     let (columns, rows) = edges(places, half, most);
@@ -48,11 +54,11 @@ pub fn map(about: &str, places: &[Place], most: usize, paint: impl Fn(f64) -> Pa
 }
 
 /// Half of what is drawn.
-fn half_sheet(places: &[Place]) -> (f64, f64) {
+fn reach(half: (f64, f64), places: &[Place]) -> (f64, f64) {
     let reach = |values: &mut dyn Iterator<Item = f64>| values.filter(|v| v.is_finite()).fold(0.0, f64::max);
     let x = reach(&mut places.iter().map(|p| p.0.abs()));
     let y = reach(&mut places.iter().map(|p| p.1.abs()));
-    (HALF_SHEET_MM.0.max(x), HALF_SHEET_MM.1.max(y))
+    (half.0.max(x), half.1.max(y))
 }
 
 /// Boundaries between the places where these form a raster of at most `most` tiles, else a raster of that many.
@@ -123,7 +129,7 @@ mod tests {
     fn neighbours_of_one_colour_are_one_tile() {
         let places: Vec<_> =
             (0..24).flat_map(|x| (0..14).map(move |y| (f64::from(x), f64::from(y), f64::from(x / 12)))).collect();
-        let svg = map("", &places, 1000, |v| Paint::diverging(v as i32));
+        let svg = map("", HALF_SHEET_MM, &places, 1000, |v| Paint::diverging(v as i32));
         assert_eq!(svg.matches("<rect").count(), 2 * 14 + 1);
     }
 

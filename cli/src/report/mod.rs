@@ -7,7 +7,8 @@
 //! | `figure`, `plot`, `frame`, `map` | a figure, a plot over two axes and what stands around it, a map of the sheet |
 //! | `axis`, `series`, `paint`, `number` | ticks, points, colours of both modes, numbers as text |
 //! | `select`, `sweep` | rows by case, setting and pad; settings by load and voltage |
-//! | `fig3`, `fig4`, `fig6`, `fig7`, `hockey`, `general` | the figures of a scene |
+//! | `fig3`, `fig4`, `fig6`, `fig7`, `hockey` | the figures of a scene |
+//! | `general`, `swept` | those of any other: over time, over what is swept |
 
 mod axis;
 #[cfg(test)]
@@ -29,6 +30,7 @@ mod plot;
 mod select;
 mod series;
 mod sweep;
+mod swept;
 mod tables;
 #[cfg(test)]
 mod tests;

@@ -39,7 +39,9 @@ pub fn heading(record: &Record) -> String {
     let facts = [("scene", &record.scene), ("profile", &record.profile), ("core", &record.fidelity)];
     let facts: String = facts.iter().map(|(name, value)| fact(name, value)).collect();
     let (title, summary) = (escape(&record.title), escape(record.summary.trim()));
-    format!("<header>\n<h1>{title}</h1>\n<ul class=\"facts\">{facts}</ul>\n<p>{summary}</p>\n</header>\n")
+    let warning = |text: &String| format!("<p class=\"warning\">⚠ {}</p>\n", escape(text));
+    let warnings: String = record.warnings.iter().map(warning).collect();
+    format!("<header>\n<h1>{title}</h1>\n<ul class=\"facts\">{facts}</ul>\n{warnings}<p>{summary}</p>\n</header>\n")
 }
 
 /// A section; nothing where it would be empty.

@@ -7,7 +7,7 @@
 use std::error::Error;
 
 use plotters::coord::types::RangedCoordf64;
-use plotters::element::{Circle, PathElement, Text};
+use plotters::element::{Circle, PathElement, Polygon, Text};
 use plotters::prelude::{Cartesian2d, ChartBuilder, ChartContext, IntoDrawingArea as _, IntoFont as _, SVGBackend};
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color as _, ShapeStyle, TextStyle};
@@ -29,6 +29,9 @@ const CHARACTER: usize = 21;
 
 /// Dots that all series of a plot share.
 const DOTS: usize = 2400;
+
+/// How much of its colour a band has.
+const BAND: f64 = 0.3;
 
 /// Columns that all lines of a plot share.
 const COLUMNS: usize = 2400;
@@ -125,6 +128,11 @@ impl Plot {
                     root.draw(&PathElement::new(thin_line(&run, self.column()), stroke(series.paint, width)))?;
                 }
             }
+            Mark::Band => {
+                for run in runs {
+                    root.draw(&Polygon::new(run, series.paint.sentinel().mix(BAND)))?;
+                }
+            }
             Mark::Dots(radius) | Mark::Rings(radius) => {
                 let rings = matches!(series.mark, Mark::Rings(_));
                 let style = if rings { stroke(series.paint, 3) } else { series.paint.sentinel().filled() };
@@ -144,15 +152,16 @@ impl Plot {
 
     /// Dots that each series may have.
     fn dots_each(&self) -> usize {
-        let series = self.series.iter().filter(|s| !matches!(s.mark, Mark::Line(_))).count();
+        let dotted = |s: &&Series| matches!(s.mark, Mark::Dots(_) | Mark::Rings(_));
+        let series = self.series.iter().filter(dotted).count();
         (DOTS / series.max(1)).min(900)
     }
 
-    /// The points in units of the drawing, in runs between those that have no place.
+    /// The points in units of the drawing, in runs between those that have no place within the axes.
     fn runs(&self, chart: &Chart, points: &[Point]) -> Vec<Vec<(i32, i32)>> {
         let places: Vec<_> = points.iter().map(|(x, y)| (self.x.place(*x), self.y.place(*y))).collect();
-        let finite = |(x, y): &(f64, f64)| x.is_finite() && y.is_finite();
-        let runs = places.split(|place| !finite(place)).filter(|run| !run.is_empty());
+        let within = |(x, y): &(f64, f64)| self.x.shows(*x) && self.y.shows(*y);
+        let runs = places.split(|place| !within(place)).filter(|run| !run.is_empty());
         runs.map(|run| run.iter().map(|place| chart.backend_coord(place)).collect()).collect()
     }
 

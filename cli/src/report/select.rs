@@ -3,6 +3,7 @@
 
 use std::collections::BTreeMap;
 
+use super::map::half_sheet_mm;
 use super::number;
 use crate::record::{Quantities, Record, Row, Truth};
 
@@ -11,6 +12,8 @@ use crate::record::{Quantities, Record, Row, Truth};
 pub struct Setting<'a> {
     /// The case, and what sets this one apart within it.
     pub name: String,
+    /// Half of the sheet.
+    pub half_sheet_mm: (f64, f64),
     /// Its slots, all with a truth.
     pub rows: Vec<(&'a Row, Truth)>,
 }
@@ -24,11 +27,12 @@ pub fn settings(record: &Record) -> Vec<Setting<'_>> {
         }
     }
     let several = |case: usize| groups.keys().filter(|key| key.0 == case).count() > 1;
+    let half_sheet_mm = half_sheet_mm(record);
     let named = groups.iter().map(|((case, _), rows)| {
         let setting = if several(*case) { setting_name(rows) } else { String::new() };
         let parts = [case_name(record, *case), setting];
         let parts: Vec<_> = parts.into_iter().filter(|part| !part.is_empty()).collect();
-        Setting { name: parts.join(", "), rows: rows.clone() }
+        Setting { name: parts.join(", "), half_sheet_mm, rows: rows.clone() }
     });
     named.collect()
 }

@@ -17,6 +17,8 @@ pub enum Mark {
     Dots(u32),
     /// Open circles of this radius.
     Rings(u32),
+    /// The area that the points enclose, lightly.
+    Band,
 }
 
 /// A series.
@@ -48,6 +50,11 @@ impl Series {
     /// Rings, which let a dot at the same place be seen.
     pub fn rings(name: &str, paint: Paint, points: Vec<Point>) -> Series {
         Series { name: name.into(), paint, mark: Mark::Rings(12), points, tag: None }
+    }
+
+    /// The area that the points enclose.
+    pub fn band(paint: Paint, points: Vec<Point>) -> Series {
+        Series { name: String::new(), paint, mark: Mark::Band, points, tag: None }
     }
 
     /// With another mark.

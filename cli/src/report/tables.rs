@@ -16,12 +16,16 @@ pub fn criteria(criteria: &[Criterion]) -> String {
 }
 
 fn verdict(criteria: &[Criterion]) -> String {
-    let holding = criteria.iter().filter(|c| c.pass).count();
-    let class = if holding == criteria.len() { "pass" } else { "fail" };
+    let holding = criteria.iter().filter(|c| c.pass && c.applicable).count();
+    let applicable = criteria.iter().filter(|c| c.applicable).count();
+    let class = if holding == applicable { "pass" } else { "fail" };
+    let others = match criteria.len() - applicable {
+        0 => String::new(),
+        others => format!(" {others} not applicable: no slot meets the condition."),
+    };
     format!(
-        "<p class=\"verdict {class}\">{} {holding} of {} criteria hold.</p>\n",
+        "<p class=\"verdict {class}\">{} {holding} of {applicable} criteria hold.{others}</p>\n",
         sign(class == "pass"),
-        criteria.len()
     )
 }
 
@@ -30,14 +34,18 @@ fn sign(pass: bool) -> &'static str {
 }
 
 fn criterion(criterion: &Criterion) -> String {
-    let (class, word) = if criterion.pass { ("pass", "holds") } else { ("fail", "fails") };
+    let (class, word) = match (criterion.applicable, criterion.pass) {
+        (false, _) => ("", "– not applicable"),
+        (true, true) => ("pass", "✓ holds"),
+        (true, false) => ("fail", "✗ fails"),
+    };
     let in_unit = |number: String| number::with_unit(&number, &criterion.unit);
     let beside = criterion.beside.as_ref().map_or_else(String::new, |(what, value)| {
         format!("{}: {}", escape(what), escape(&in_unit(number::short(*value))))
     });
     row(&[
         ("", &escape(&criterion.name)),
-        (class, &format!("{} {word}", sign(criterion.pass))),
+        (class, word),
         ("number", &escape(&in_unit(number::short(criterion.measured)))),
         ("number", &escape(&in_unit(number::chosen(criterion.limit)))),
         ("", &beside),

@@ -31,12 +31,21 @@ fn record(figure: Option<&str>, rows: Vec<Row>) -> Record {
         simulated_seconds: 1.0,
         wall_seconds: 0.0,
         rows,
+        ..Record::default()
     }
 }
 
 fn criterion(measured: f64) -> Criterion {
     let beside = Some(("<eq. 6>".into(), f64::INFINITY));
-    Criterion { name: "<force>".into(), measured, limit: 0.2, pass: measured < 0.2, unit: "N".into(), beside }
+    Criterion {
+        name: "<force>".into(),
+        measured,
+        limit: 0.2,
+        pass: measured < 0.2,
+        unit: "N".into(),
+        beside,
+        applicable: true,
+    }
 }
 
 /// Row `n` of a made-up run: a pad that wanders, a voltage that rises, three loads, two cases.
@@ -50,7 +59,8 @@ fn row(n: usize) -> Row {
         force_n: 0.1 + 0.01 * (t * 3.1).sin(),
         ..Quantities::default()
     };
-    let truth = Truth { quantities, load_g: 20.0 * (n % 3) as f64, point: n, group: n % 48 };
+    let (load_g, point, group) = (20.0 * (n % 3) as f64, n, n % 48);
+    let truth = Truth { quantities, load_g, point, group, ..Truth::default() };
     let reference = Reference { quantities, capacitance_eq6_pf: 317.0 - (t * 0.1).sin(), force_eq6_n: 0.09 };
     let measured = Quantities { x_mm: quantities.x_mm + (t * 5.3).sin(), ..quantities };
     let (truth, reference) = (Some(truth), Some(reference));
@@ -158,4 +168,76 @@ fn names_are_escaped() {
 fn a_criterion_that_fails_is_told_in_words() {
     let page = check(&record(None, rows(1)));
     assert!(page.contains("1 of 2 criteria hold") && page.contains("✗ fails") && page.contains("✓ holds"));
+}
+
+/// A reference far beyond what is measured, as it is where a core saturates.
+fn with_reference_far_off(row: Row) -> Row {
+    let far = |q: Quantities| Quantities { capacitance_pf: 9.0 * q.capacitance_pf, force_n: 9.0 * q.force_n, ..q };
+    Row { reference: row.reference.map(|r| Reference { quantities: far(r.quantities), ..r }), ..row }
+}
+
+/// Every point of every drawing, with the drawing's size.
+fn drawn(page: &str) -> Vec<([f64; 2], [f64; 2])> {
+    let options = roxmltree::ParsingOptions { allow_dtd: true, ..Default::default() };
+    let document = roxmltree::Document::parse_with_options(page, options).expect("well-formed");
+    let numbers = |text: &str| text.split([',', ' ']).filter_map(|n| n.parse().ok()).collect::<Vec<f64>>();
+    let mut points = Vec::new();
+    for svg in document.descendants().filter(|n| n.attribute("aria-label").is_some() && n.has_tag_name("svg")) {
+        let size = numbers(svg.attribute("viewBox").expect("a size"));
+        for node in svg.descendants() {
+            let circle = ["cx", "cy"].map(|at| node.attribute(at).map_or(Vec::new(), numbers)).concat();
+            let line = node.attribute("points").map_or(Vec::new(), numbers);
+            points.extend(circle.chunks(2).chain(line.chunks(2)).map(|p| ([p[0], p[1]], [size[2], size[3]])));
+        }
+    }
+    points
+}
+
+#[test]
+fn nothing_is_drawn_outside_of_its_plot() {
+    for figure in FIGURES {
+        let rows = rows(200).into_iter().map(with_reference_far_off).collect();
+        let points = drawn(&check(&record(figure, rows)));
+        assert!(points.len() > 100, "{figure:?}");
+        for (point, size) in points {
+            let within = |axis: usize| (0.0..=size[axis]).contains(&point[axis]);
+            assert!(within(0) && within(1), "{figure:?}: {point:?} of {size:?}");
+        }
+    }
+}
+
+#[test]
+fn a_sweep_is_drawn_over_what_is_swept() {
+    let swept = |keys: &[&'static str]| check(&Record { swept: keys.to_vec(), ..record(None, rows(90)) });
+    let page = swept(&["load_g", "haptic_v_rms"]);
+    assert!(page.contains("over haptic voltage (V rms)") && !page.contains("over time"));
+    let page = swept(&["x_mm", "y_mm"]);
+    assert!(page.contains("Position error over the sheet") && !page.contains("over time"));
+    assert!(swept(&[]).contains("over time"));
+}
+
+#[test]
+fn many_slots_are_a_line_and_a_band() {
+    let [few, many] = [200, 5000].map(|count| check(&record(Some("hockey"), rows(count))));
+    assert!(!few.contains("<polygon") && many.contains("<polygon") && many.contains("bands from the least"));
+}
+
+#[test]
+fn a_direction_that_nothing_measures_is_not_drawn() {
+    let pushed = |measured: f64| {
+        let mut rows = rows(50);
+        for row in &mut rows {
+            row.measured.direction = measured;
+            row.truth.as_mut().expect("a truth").quantities.direction = 0.5;
+        }
+        check(&record(None, rows)).contains("Direction of the push")
+    };
+    assert!(!pushed(0.0) && pushed(0.4));
+}
+
+#[test]
+fn a_map_has_the_size_of_the_sheet() {
+    let small = Record { sheet_mm: Some([1000.0, 1000.0]), ..record(Some("fig3"), rows(100)) };
+    assert!(check(&small).contains("viewBox=\"0 0 860 860\""));
+    assert!(check(&record(Some("fig3"), rows(100))).contains("viewBox=\"0 0 860 500\""));
 }

@@ -41,6 +41,20 @@ impl Node {
     }
 }
 
+impl Node {
+    /// The value as TOML.
+    pub fn to_toml(&self) -> toml::Value {
+        match &self.value {
+            Value::Text(text) => text.clone().into(),
+            Value::Integer(whole) => (*whole).into(),
+            Value::Number(number) => (*number).into(),
+            Value::Flag(flag) => (*flag).into(),
+            Value::List(list) => list.iter().map(Node::to_toml).collect::<Vec<_>>().into(),
+            Value::Table(table) => table.to_toml().into(),
+        }
+    }
+}
+
 impl Value {
     /// An integer is a number too: `500` and `500.0` mean the same.
     pub fn number(&self) -> Option<f64> {

@@ -53,6 +53,16 @@ impl Table {
         self.entries.remove(key);
     }
 
+    /// The value at `key`, read by nobody.
+    pub fn find(&mut self, key: &str) -> Option<&mut Node> {
+        self.entries.get_mut(key).map(|(node, _)| node)
+    }
+
+    /// The table as TOML.
+    pub fn to_toml(&self) -> toml::Table {
+        self.entries.iter().map(|(key, (node, _))| (key.clone(), node.to_toml())).collect()
+    }
+
     /// The entry at `key`, made by `missing` where there is none.
     pub fn entry(&mut self, key: &str, missing: impl FnOnce() -> Node) -> &mut Node {
         &mut self.entries.entry(key.to_string()).or_insert_with(|| (missing(), Cell::new(false))).0

@@ -18,7 +18,7 @@ fn csv(text: &str, words: &[&str]) {
 fn an_empty_file() {
     csv("", &["bad.csv:1", "header", "i1", "empty"]);
     csv("# bits = 18\n\n", &["bad.csv", "header"]);
-    csv(&format!("{HEADER}\n"), &["bad.csv", "expected samples"]);
+    csv(&format!("{HEADER}\n"), &["bad.csv", "expected samples of one slot"]);
 }
 
 #[test]
@@ -27,7 +27,7 @@ fn a_header_that_is_wrong() {
     csv("i1,i2,i3,i4,i5,i6,v_sense,v_haptic,volume\n", &["bad.csv:1", "\"volume\""]);
     csv("i1,i1,i3,i4,i5,i6,v_sense,v_haptic\n", &["bad.csv:1", "i1", "twice"]);
     csv(&format!("{ROW}\n"), &["bad.csv:1", "columns i1", "\"1\""]);
-    csv(&format!("# bits = 24\n{HEADER}\n"), &["bad.csv:1", "bits", "18", "\"24\""]);
+    csv(&format!("# bits = 33\n{HEADER}\n"), &["bad.csv:1", "bits", "2 to 32", "\"33\""]);
     csv(&format!("# sample_rate_hz = fast\n{HEADER}\n"), &["bad.csv:1", "sample_rate_hz", "\"fast\""]);
     csv(&format!("# sample_rate_hz = 500000\n{HEADER}\n{ROW}\n"), &["bad.csv", "sample_rate_hz", "1000000", "500000"]);
 }

@@ -53,7 +53,7 @@ fn samples_after_the_last_whole_slot_are_reported_and_left_out() {
     fs::write(folder.path().join("h.csv"), cut).unwrap();
     let said = String::from_utf8(expect(folder.path(), &["replay", "h.csv"], 0).stdout).unwrap();
     assert!(said.contains("77 samples at the end"), "{said}");
-    assert_eq!(Table::read(&folder.path().join("out/h/frames.csv")).rows.len(), 2);
+    assert_eq!(Table::read(&folder.path().join("out/replay-h.csv/frames.csv")).rows.len(), 2);
 }
 
 /// Amplitudes of the currents, the sensing and the haptic voltage, as fractions of full scale.

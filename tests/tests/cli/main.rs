@@ -5,6 +5,9 @@ mod bad_captures;
 mod captures;
 mod gallery;
 mod messages;
+mod recorders;
+mod runs;
+mod streams;
 mod waves;
 
 use std::fs;

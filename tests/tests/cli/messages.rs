@@ -25,8 +25,12 @@ fn a_criterion_that_fails_is_exit_code_1_and_the_results_are_there() {
     let folder = tempfile::tempdir().unwrap();
     let scene = gallery::find("fig6").unwrap().replace("limit = 0.1", "limit = 1e-9");
     fs::write(folder.path().join("strict.toml"), scene).unwrap();
-    let said =
-        expect(folder.path(), &["simulate", "strict.toml", "--set", "dwell_slots=1", "--waves", "none"], 1).stdout;
+    let said = expect(
+        folder.path(),
+        &["simulate", "strict.toml", "--set", "dwell_slots=1", "--waves", "none", "--out", "out/strict"],
+        1,
+    )
+    .stdout;
     assert!(String::from_utf8(said).unwrap().contains("FAILS"));
     for name in ["frames.csv", "summary.json", "report.html"] {
         assert!(folder.path().join("out/strict").join(name).exists(), "{name}");
@@ -115,7 +119,7 @@ fn an_interrupted_run_leaves_nothing() {
     let args = ["simulate", "hockey", "--core", "clock", "--set", "duration_s=600", "--capture", "big.csv"];
     let mut run = crate::command(folder.path(), &args).stdout(std::process::Stdio::null()).spawn().unwrap();
     std::thread::sleep(std::time::Duration::from_millis(700));
-    assert!(folder.path().join("out/hockey").exists(), "the run has begun");
+    assert!(folder.path().join("out").exists(), "the run has begun");
     std::process::Command::new("kill").args(["-INT", &run.id().to_string()]).status().unwrap();
     assert_eq!(run.wait().unwrap().code(), Some(130));
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0, "nothing stays behind");

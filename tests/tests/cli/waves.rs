@@ -66,6 +66,7 @@ fn check(kind: &str, args: &[&str], first: usize) {
     let frames = frames(&mut waves);
     assert!(frames.len() >= 2, "two frames at least");
     compare(&frames, &Table::read(&out.join("frames.csv")), first);
+    compare_truth(&mut waves, &Table::read(&out.join("frames.csv")), first);
     let forces = values(&mut waves, "core.estimator.force_estimator.haptic_force", false);
     let force = Profile::bundled("standard").unwrap().formats.force;
     let last = Table::read(&out.join("frames.csv")).numbers("force_n")[first + frames.len() - 1];
@@ -90,6 +91,40 @@ fn compare(frames: &[Vec<i64>], table: &Table, first: usize) {
             assert_eq!(value, column[first + slot], "{name} of slot {}", first + slot);
         }
     }
+}
+
+/// The truth beside a frame is that of the frame's slot.
+fn compare_truth(waves: &mut Waveform, table: &Table, first: usize) {
+    let valid = values(waves, "core.estimator.frames.valid", false);
+    let index = values(waves, "core.estimator.frames.index", false);
+    let end = waves.time_table().len() as u32;
+    let starts: Vec<u32> = (0..end).filter(|time| at(&valid, *time) == 1 && at(&index, *time) == 0).collect();
+    for (name, column) in [("x_mm", "true_x_mm"), ("capacitance_pf", "true_capacitance_pf")] {
+        let signal = signal(waves, &format!("truth.{name}"));
+        waves.load_signals(&[signal]);
+        let changes: Vec<_> = waves.get_signal(signal).expect("loaded").iter_changes().collect();
+        for (slot, time) in starts.iter().enumerate() {
+            let (_, value) = &changes[changes.partition_point(|(when, _)| when <= time) - 1];
+            let SignalValueRef::Real(value) = value else { panic!("truth.{name} is a real") };
+            assert_eq!(*value, table.numbers(column)[first + slot], "truth.{name} of slot {}", first + slot);
+        }
+    }
+}
+
+#[test]
+fn a_window_that_makes_a_large_file_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let args =
+        ["simulate", "hockey", "--waves", "vcd", "--waves-window", "0..99", "--set", "duration_s=0.12", "--out", "o"];
+    let output = finish(folder.path(), &args);
+    let said = String::from_utf8(output.stderr).unwrap();
+    let written = fs::metadata(folder.path().join("o/waves.vcd")).unwrap().len() as f64 / 1e6;
+    assert!(
+        said.contains("warning: waves: 0 to 0.1190 s, 2975000 clocks, about ") && said.contains("--waves fst"),
+        "{said}"
+    );
+    let told: f64 = said.split("about ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
+    assert!((told / written - 1.0).abs() < 0.3, "told {told} MB, written {written} MB");
 }
 
 fn check_save_file(out: &Path) {

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Standard output and standard error, which may be closed or full: a run is never lost to them.
+//!
+//! A reader that has gone (`hapticore simulate fig3 | head -1`) wants no more: what is left to say is dropped in silence. Any
+//! other failure, a full disk, is an error, told when everything else is done.
+
+use std::fmt::Arguments;
+use std::io::{self, ErrorKind, Write};
+use std::sync::Mutex;
+
+use anyhow::{Context, Result};
+
+/// Why standard output takes no more.
+static FAILED: Mutex<Option<io::Error>> = Mutex::new(None);
+
+/// Prints a line to standard output, as `println!` does.
+#[macro_export]
+macro_rules! say {
+    ($($text:tt)*) => { $crate::console::print(format_args!("{}\n", format_args!($($text)*))) };
+}
+
+/// Prints text to standard output, until that fails.
+pub fn print(text: Arguments) {
+    let mut failed = FAILED.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+    if failed.is_none() {
+        *failed = io::stdout().write_fmt(text).err();
+    }
+}
+
+/// Prints a line to standard error, or nothing where that fails: nobody is left to tell.
+pub fn complain(text: Arguments) {
+    let _ = writeln!(io::stderr(), "{text}");
+}
+
+/// Prints a warning to standard error.
+pub fn warn(text: &str) {
+    complain(format_args!("warning: {text}"));
+}
+
+/// Ends standard output.
+///
+/// # Errors
+/// It did not take everything, though somebody reads it.
+pub fn finish() -> Result<()> {
+    let mut failed = FAILED.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+    match failed.take().map_or_else(|| io::stdout().flush(), Err) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(error).context("standard output"),
+        _ => Ok(()),
+    }
+}
