@@ -166,7 +166,7 @@ impl Position {
         let formats = Formats::new(profile, &layout);
         let Formats { word, place, minor, .. } = formats;
         let operand = word.integer();
-        let table = Memory::new("table", layout.words(), word).never_colliding();
+        let table = Memory::new("words", layout.words(), word).never_colliding();
         let magnitude = magnitude(minor);
         let quotient = Format::unsigned(Position::STEP_BITS + place.frac as u8, place.frac);
         Position {
