@@ -67,7 +67,7 @@ import math, struct, wave
 currents, sense, haptic = [CURRENTS], SENSE, HAPTIC
 def rows(full):
     for n in range(3 * 1700):
-        turn = math.tau * (n % 1700) / 10
+        turn = math.tau * (n % 1700) * 101 / 1000 # the carrier of `standard`, which begins with each slot
         row = [-a * math.sin(turn) for a in currents] + [sense * math.cos(turn), haptic * math.sin(math.tau * n / 1000)]
         yield [round(full * x) for x in row]
 with open('sine.csv', 'w') as f:
@@ -111,5 +111,5 @@ fn check_sines(frames: &Table) {
     near("haptic_v_rms", 600.0 * HAPTIC / 2f64.sqrt(), 0.05);
     let (current, voltage, sheet) = (4e-3 * CURRENTS.iter().sum::<f64>(), 8.0 * SENSE, frames.numbers("sheet_ohm")[0]);
     let drop = current * sheet;
-    near("capacitance_pf", 1e12 * current / (TAU * 100e3 * (voltage * voltage - drop * drop).sqrt()), 0.1);
+    near("capacitance_pf", 1e12 * current / (TAU * 101e3 * (voltage * voltage - drop * drop).sqrt()), 0.1);
 }
