@@ -9,7 +9,7 @@
 
 use std::f64::consts::PI;
 
-use hapticore_model::profile::{Profile, Window};
+use hapticore_model::profile::{Method, Profile, Window};
 
 /// An error of the RMS that is worth a word.
 const WORTH_A_WORD: f64 = 0.01;
@@ -54,11 +54,13 @@ fn transform(window: Window, x: f64) -> f64 {
     }
 }
 
-/// Samples of one period, in whole periods of the carrier.
+/// Samples of about one period, as a window of the profile may have them.
 fn whole_period(profile: &Profile, haptic_hz: f64, sample_rate_hz: f64) -> u64 {
-    let carrier = profile.samples_per_period();
-    let periods = (sample_rate_hz / haptic_hz / carrier).round().max(1.0);
-    (periods * carrier).round() as u64
+    let step = match profile.carrier.method {
+        Method::Products => 4,
+        Method::Polyphase => 5,
+    };
+    step * (sample_rate_hz / haptic_hz / step as f64).round().max(1.0) as u64
 }
 
 /// Measures the frequency of the haptic channel of a capture, from its first samples.

@@ -139,8 +139,8 @@ pub fn operations<B: Block>(
             operands = formats.iter().map(|&(_, format)| shaped(&mut rng, format)).collect();
             next_to_half(&mut rng, &mut operands, &formats);
             if let Some(window) = at("window") {
-                // The oscillator gives no −1, and the demodulator relies on it.
-                operands[window] = operands[window].max(formats[window].1.min_code() as i64 + 1);
+                // The oscillator's window is not negative, and the demodulator relies on it.
+                operands[window] = operands[window].abs().min(formats[window].1.max_code() as i64);
             }
             let strobes = ["start", "valid", "write"].map(at);
             strobes.iter().flatten().for_each(|&strobe| operands[strobe] = 0);

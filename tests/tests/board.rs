@@ -227,7 +227,7 @@ fn heard(
     let told = told.expect("every packet is whole");
     let heartbeats =
         told.iter().filter_map(|told| if let Told::Heartbeat(heartbeat) = told { Some(heartbeat) } else { None });
-    let last = heartbeats.last().expect("the board told that it was there");
+    let last = heartbeats.next_back().expect("the board told that it was there");
     let before = (16 + last.commands - (prepared.len() % 16) as u8) % 16;
     assert_eq!(check(last, profile, calibration, (before, &prepared)), Ok(()), "{target:?}");
     let packets: Vec<_> = told.iter().filter_map(|told| told.frame()).collect();

@@ -89,5 +89,5 @@ pub fn wanted(adc: Adc) -> String {
 
 /// The pad that a number names.
 pub fn pad(value: f64) -> Option<usize> {
-    (value >= 0.0 && value <= 255.0 && value.fract() == 0.0).then_some(value as usize)
+    ((0.0..=255.0).contains(&value) && value.fract() == 0.0).then_some(value as usize)
 }

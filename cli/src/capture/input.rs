@@ -44,7 +44,7 @@ pub fn file(path: &Path) -> Result<Input> {
     let name = path.display().to_string();
     let file = File::open(path).with_context(|| name.clone())?;
     let data = file.metadata().with_context(|| name.clone())?;
-    let length = data.is_file().then(|| data.len());
+    let length = data.is_file().then_some(data.len());
     Ok(Input { bytes: BufReader::with_capacity(BLOCK, Box::new(file)), name, length })
 }
 

@@ -6,8 +6,7 @@ use std::fs;
 use crate::{Table, expect, finish, refuse};
 
 /// A sheet with this many terminals along its edges.
-const PLACES: [(usize, &str); 4] = [
-    (3, "sheet.terminals_mm=[[-430, -250], [430, -250], [0, 250]]"),
+const PLACES: [(usize, &str); 3] = [
     (4, "sheet.terminals=4"),
     (5, "sheet.terminals_mm=[[-430, 250], [-430, -250], [430, -250], [430, 250], [0, 250]]"),
     (

@@ -49,7 +49,7 @@ pub(super) fn growth(profile: &Profile, share: f64) -> f64 {
 fn moved(profile: &Profile, words: &[[Exact; 2]]) -> (i8, Vec<[Exact; 2]>) {
     let (iq, most) = (profile.formats.iq, profile.formats.block_shift as i8);
     let one = Exact::new(1, i32::from(iq.width) - 1 - i32::from(iq.frac));
-    let fits = |by: i8| words.iter().flatten().all(|word| word.scaled(by) < one && !(word.scaled(by) < -one));
+    let fits = |by: i8| words.iter().flatten().all(|word| word.scaled(by) < one && word.scaled(by) >= -one);
     let by = (0..=most).rev().find(|&by| fits(by)).expect("words are within full scale");
     (by, words.iter().map(|word| word.map(|part| round(part.scaled(by), iq).value)).collect())
 }

@@ -44,7 +44,7 @@ impl Axis {
     fn ask(&self, index: usize, f: impl Fn(f64) -> Values) -> Values {
         const STEP_MM: f64 = 0.02;
         let slope = |at: f64| {
-            let rise = f(at + STEP_MM).into_iter().zip(f(at - STEP_MM)).map(|(after, before)| after + -1.0 * before);
+            let rise = f(at + STEP_MM).into_iter().zip(f(at - STEP_MM)).map(|(after, before)| after - before);
             rise.map(|value| value * self.spacing_mm() / (2.0 * STEP_MM)).collect()
         };
         match index {
