@@ -20,6 +20,7 @@ use hapticore_model::blocks::demodulator::Demodulator;
 use hapticore_model::blocks::force::Force;
 use hapticore_model::blocks::haptic_voltage::HapticVoltage;
 use hapticore_model::blocks::map::Map;
+use hapticore_model::blocks::pace::Pace;
 use hapticore_model::blocks::ratio::Ratio;
 use hapticore_model::profile::Profile;
 use hapticore_rtl::verilog::Design;
@@ -43,6 +44,18 @@ fn alone<B: Block>(block: &B, operations: usize, words: i64, clocks: u32) -> Alo
     (modules.last().expect("a module").name.clone(), trace)
 }
 
+/// A block that counts clocks between strobes, which come too early, in time and late, and which forgets now and then.
+fn strobed(block: &Pace) -> Alone {
+    let Design { modules, ports } = Design::of(block, "a test");
+    let (mut rng, mut left, mut gap) = (fastrand::Rng::with_seed(1), 20_000, 0);
+    let trace = Trace::record(block, ports, move |_| {
+        left = i32::checked_sub(left, 1).filter(|left| *left > 0)?;
+        gap = if gap == 0 { rng.u32(1..60) } else { gap - 1 };
+        Some(vec![i64::from(gap == 0), i64::from(rng.u32(..200) == 0)])
+    });
+    (modules.last().expect("a module").name.clone(), trace)
+}
+
 /// The blocks that compute, each alone.
 fn blocks(profile: &Profile) -> Vec<Alone> {
     let (currents, map, words) = (Currents::new(profile), Map::new(profile), 2 * (profile.channels() as i64 - 1));
@@ -51,8 +64,9 @@ fn blocks(profile: &Profile) -> Vec<Alone> {
         // As long as polyphase sums take to be read out.
         alone(&Demodulator::new(profile), 500, 0, 640),
         alone(&map, 3000, map.words().words as i64, 3),
-        alone(&currents, 200, words, 3),
-        alone(&HapticVoltage::new(profile), 1000, words, 3),
+        alone(&currents, 1000, words, 3),
+        alone(&HapticVoltage::new(profile), 20_000, words, 3),
+        strobed(&Pace::new(profile)),
         alone(&Ratio::new(profile, (amplitudes.x, amplitudes.corners)), 800, 0, 3),
         alone(&Capacitance::new(profile, amplitudes.total), 30_000, 0, 3),
         alone(&Force::new(profile), 6000, 0, 3),

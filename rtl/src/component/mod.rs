@@ -15,7 +15,7 @@
 //! hapticore_rtl::component! {
 //!     /// Serves the pads in turn.
 //!     pub struct Turns of Multiplexer {
-//!         inputs { strobe: Bit }
+//!         inputs { strobe: Bit, clear: Bit }
 //!         outputs { sample: Bit, restart: Bit, integrate: Bit, first: Bit, last: Bit, pad: Bits<2>, closed: Bit }
 //!     }
 //! }

@@ -30,7 +30,7 @@ component! {
 component! {
     /// Serves the pads of the small profile.
     pub struct Turns of Multiplexer {
-        inputs { strobe: Bit }
+        inputs { strobe: Bit, clear: Bit }
         outputs { sample: Bit, restart: Bit, integrate: Bit, first: Bit, last: Bit, pad: Bits<2>, closed: Bit }
     }
 }
