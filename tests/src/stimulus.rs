@@ -131,6 +131,7 @@ pub fn operations<B: Block>(
     let mut operands = vec![0; formats.len()];
     let mut script: VecDeque<Vec<i64>> = VecDeque::new();
     let (mut left, mut first, mut waiting) = (operations, true, 0);
+    let mut alike = Rng::with_seed(!seed);
     move |outputs| {
         waiting = if done.is_some_and(|done| outputs[done] == 1) { 0_u32 } else { waiting.saturating_sub(1) };
         if script.is_empty() && waiting == 0 {
@@ -163,8 +164,11 @@ pub fn operations<B: Block>(
                 script.push_back(with(&[(strobes[0], 1)]));
             } else {
                 let (index, sum) = (at("index").expect("a port"), at("sum").expect("a port"));
+                // Now and then all of one sign and about one size: of words within their rails, the total is not.
+                let size = alike.bool().then(|| formats[sum].1.max_code() as i64 >> alike.u8(..12));
                 for word in 0..=words {
-                    let code = shaped(&mut rng, formats[sum].1);
+                    let code =
+                        size.map_or_else(|| shaped(&mut rng, formats[sum].1), |size| size - alike.i64(0..=size / 4));
                     script.push_back(with(&[(strobes[1], 1), (Some(index), word), (Some(sum), code)]));
                 }
             }
