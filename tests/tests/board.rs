@@ -225,7 +225,7 @@ fn heard(
     assert_eq!(said, [format!("faults 0, commands {}", setup.words().len())], "{target:?}");
     let told: Result<Vec<_>, _> = Decoder::new(profile).take_all(heard).collect();
     let told = told.expect("every packet is whole");
-    let heartbeats =
+    let mut heartbeats =
         told.iter().filter_map(|told| if let Told::Heartbeat(heartbeat) = told { Some(heartbeat) } else { None });
     let last = heartbeats.next_back().expect("the board told that it was there");
     let before = (16 + last.commands - (prepared.len() % 16) as u8) % 16;
