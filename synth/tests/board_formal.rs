@@ -41,7 +41,7 @@ fn the_adc_s_pins_keep_to_their_schedule_whatever_is_enabled_when() {
     let Some(tools) = Tools::or_skip() else { return };
     for target in Target::ALL {
         let (verilog, parameters) = reader(&target.profile(), &target.parameters());
-        let found = verdict(&tools, &verilog, "adc_reader", &parameters, Mode::Prove(3));
+        let found = verdict(&tools, &verilog, "adc_reader", &parameters, Mode::Prove(10));
         assert_eq!(found, Verdict::Holds, "{target:?} with {parameters:?}");
         let found = verdict(&tools, &verilog, "adc_reader", &parameters, Mode::Cover(60));
         assert_eq!(found, Verdict::Holds, "{target:?}: sets and words happen");

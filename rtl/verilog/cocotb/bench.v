@@ -24,7 +24,7 @@ module bench;
         .invalid(invalid), .lost(lost), .overrun(overrun)
     );
 
-    integer file, frames, found, value, step, words, wrong, letter;
+    integer file, frames, found, matched, value, step, words, wrong, letter;
     integer codes [0:7];
     integer want [0:6];
     reg [8*64-1:0] name;
@@ -39,8 +39,8 @@ module bench;
             #10 clock = 0;
             #1;
             if (valid) begin
-                found = $fscanf(frames, "%d,%d,%d,%d,%d,%d,%d\n", want[0], want[1], want[2], want[3], want[4], want[5], want[6]);
-                if (found != 7 || pad != want[0] || index != want[1] || frame != want[2] || clipped != want[3] ||
+                matched = $fscanf(frames, "%d,%d,%d,%d,%d,%d,%d\n", want[0], want[1], want[2], want[3], want[4], want[5], want[6]);
+                if (matched != 7 || pad != want[0] || index != want[1] || frame != want[2] || clipped != want[3] ||
                     saturated != want[4] || invalid != want[5] || lost != want[6]) begin
                     $display("word %0d: pad %0d index %0d word %0d flags %b%b%b%b, expected %0d %0d %0d %0d%0d%0d%0d", words, pad,
                         index, frame, clipped, saturated, invalid, lost, want[0], want[1], want[2], want[3], want[4], want[5], want[6]);
