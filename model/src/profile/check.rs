@@ -126,7 +126,8 @@ impl Profile {
     fn check_clocks(&self) -> Check {
         let least = self.least_clocks_per_sample();
         within("clocks_per_sample", self.clocks_per_sample, least, 1 << 16)?;
-        let estimate = Estimator::new(self).latency();
+        // The next window begins when the last one's sums have been read out and its frame is made.
+        let estimate = Demodulator::new(self).latency() + Estimator::new(self).latency();
         let blanking = self.slot.blanking() * self.clocks_per_sample;
         ensure(blanking > estimate, "slot.settle", format_args!("more than {estimate} clocks of blanking"), blanking)
     }
