@@ -125,6 +125,8 @@ fn bad_profiles_say_what_was_expected() {
         ("periods", "200", "carrier.periods: expected 2 to 166, got 200"),
         ("amplitude", "140000", "carrier.amplitude: expected 32767 to 65535, got 140000"),
         ("settle", "5", "slot.settle: expected more than"),
+        // Longer than the estimator alone, but not than the read-out of polyphase sums before it.
+        ("settle", "35", "slot.settle: expected more than"),
         ("settle", "346", "slot.settle: expected whole periods of five samples before the window, got 351"),
         ("iq", "\"u14.13\"", "formats.iq: expected a signed format, got u14.13"),
         ("iq", "\"14.13\"", "expected a format such as \"s18.17\""),
