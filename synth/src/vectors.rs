@@ -3,7 +3,7 @@
 //!
 //! `rtl/verilog/vectors/` holds them for the small profile; `synth/run vectors` makes them, a test holds them fresh. The
 //! calibration is that of a sheet whose ratios flatten towards its edges. Most slots are pads somewhere on it, a carrier of five
-//! samples a period with some noise; the last ones are what breaks a careless core (see [`Slot`]). No plant is behind them.
+//! samples a period with some noise; the last ones are what breaks a careless core. No plant is behind them.
 
 use crate::sources::File;
 use hapticore_model::block::{Block, Cell};
