@@ -16,7 +16,7 @@
 //! | amplitude       | total's | full scale     | cannot (range proof) |
 //! | x, y, corners   | exact   | full scale     | cannot (range proof) |
 //!
-//! Words may be moved up together, so that small currents keep their bits: [`block`]. x, y and corners then count what the
+//! Words may be moved up together, so that small currents keep their bits: see `currents/block.rs`. x, y and corners then count what the
 //! largest current makes of a word's step; total and sensing voltage are at one point again.
 //!
 //! Latency: (terminals + 2) · (6 products + root + 1) + 1 clocks from the last sum (the mean square's) to `done`. Source: paper,

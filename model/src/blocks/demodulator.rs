@@ -20,7 +20,7 @@
 //!
 //! What rounding leaves of w·cos and w·sin is carried to the next sample's, so that the sums of the words are those of the
 //! products to half a word, wherever one stops: rounding has no share at low frequencies. w·h is rounded half even.
-//! A carrier with five samples a period may have its sums by phase instead: [`polyphase`].
+//! A carrier with five samples a period may have its sums by phase instead: see `demodulator/polyphase.rs`.
 //!
 //! q is positive where the channel lags. The answer to `channel` is expected a clock later as `code`. Latency: products + 3
 //! clocks from `start` to the last sum. Source: paper, eqs. 1 and 5, detected synchronously; PHYSICS §5 for the window.
