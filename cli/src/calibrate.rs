@@ -7,7 +7,7 @@
 //! pads = 1
 //! [terminals]                     # signs in the ratios; those of eqs. 2 and 3 where the table is left out
 //! x = [-1, -1, 1, 1, 0, 0]
-//! y = [1, -1, -1, 1, 0, 0]
+//! y = [1, -1, -1, 1, -1, 1]
 //! [device]
 //! sample_rate_hz = 1000000.0      # of the ADC while the capture was taken
 //! carrier_hz = 100000.0
@@ -27,7 +27,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use anyhow::{Result, anyhow, ensure};
-use hapticore_model::calibration::{Calibration, Map, Point};
+use hapticore_model::calibration::{Calibration, Point, PositionTable};
 use hapticore_model::profile::Profile;
 use hapticore_scene::{ForcePoint, Plant, Scene};
 use serde::Deserialize;
@@ -234,8 +234,8 @@ impl DeviceCalibration {
     /// What is left of the calibration's own places, looked up in the table that was fitted to them.
     pub fn residual(&self, calibration: &Calibration) -> Residual {
         Residual::of(self.map.places.iter().map(|&[x, y, r_x, r_y, _]| {
-            let [x_mm, y_mm, _] = calibration.map.look_up(r_x, r_y);
-            ([x, y], [x_mm, y_mm])
+            let found = calibration.position.look_up(r_x, r_y);
+            ([x, y], [found.x, found.y])
         }))
     }
 
@@ -246,10 +246,10 @@ impl DeviceCalibration {
     pub fn of(&self, profile: &Profile) -> Result<Calibration> {
         let device = &self.device;
         let place = |&[x, y, r_x, r_y, sheet_ohm]: &[f64; 5]| Point { x, y, r_x, r_y, sheet: sheet_ohm / device.ohm() };
-        let (columns, places) = refine::refine(self.map.columns, &self.map.places);
+        let (_, places) = refine::refine(self.map.columns, &self.map.places);
         let points: Vec<_> = places.iter().map(place).collect();
         let calibration = Calibration {
-            map: Map::fit(profile, columns, &points).map_err(|error| anyhow!("calibration map: {error}"))?,
+            position: PositionTable::fit(profile, &points).map_err(|error| anyhow!("calibration map: {error}"))?,
             capacitance_gain: device.capacitance_gain(),
             force_gain: device.force_k * 1e-24 * device.haptic_full_scale_v.powi(2) / profile.square_gain(),
         };

@@ -69,8 +69,8 @@ pub fn read(path: &Path) -> Result<String> {
 
 /// The profile of a core for a device whose terminals have these signs in the ratios.
 ///
-/// The bundled profiles are for six terminals; for another number they take the device's signs. A profile of a user's own keeps
-/// its own. Where the channels of a sample take more clocks than the profile has, it gets as many as they take.
+/// The bundled profiles are for the paper's six terminals and take any other device's; a profile of a user's own keeps its signs.
+/// More terminals than the profile's ADC can be read for in a sample take more clocks.
 ///
 /// # Errors
 /// A profile of a user's own for another number of terminals; a core that cannot be.
@@ -84,7 +84,7 @@ pub fn for_terminals(profile: &Profile, signs: &[Vec<i8>; 2]) -> Result<Profile>
         profile.name
     );
     let mut profile = profile.clone();
-    if own != device {
+    if bundled {
         (profile.terminals.x, profile.terminals.y) = (x.clone(), y.clone());
         profile.clocks_per_sample = profile.clocks_per_sample.max(profile.least_clocks_per_sample());
         profile.check().with_context(|| format!("profile {} for {device} terminals", profile.name))?;

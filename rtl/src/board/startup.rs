@@ -2,7 +2,7 @@
 //! Start-up: the commands that make a sensor of a board and its AD7606C, and whether the board has taken them.
 //!
 //! ```text
-//! RESET_ADC, DISABLE ─ registers, map ─ ADC: read, write …, read the ID, end ─ heartbeat: check ─ ENABLE
+//! RESET_ADC, DISABLE ─ registers, table ─ ADC: read, write …, read the ID, end ─ heartbeat: check ─ ENABLE
 //! ```
 //!
 //! | word | what it does |
@@ -65,27 +65,21 @@ impl AdcSetup {
 }
 
 /// A calibration's registers: their codes.
-fn registers(profile: &Profile, calibration: &Calibration) -> [(Register, i64); 6] {
+fn registers(profile: &Profile, calibration: &Calibration) -> [(Register, i64); 2] {
     let inputs = calibration.inputs(Core::new(profile).inputs());
-    [
-        (Register::OriginX, inputs.origin_x),
-        (Register::ScaleX, inputs.scale_x),
-        (Register::OriginY, inputs.origin_y),
-        (Register::ScaleY, inputs.scale_y),
-        (Register::CapacitanceGain, inputs.capacitance_gain),
-        (Register::ForceGain, inputs.force_gain),
-    ]
+    [(Register::CapacitanceGain, inputs.capacitance_gain), (Register::ForceGain, inputs.force_gain)]
 }
 
 /// The commands that make a calibration's sensor of a board: all but the last, [`Command::ENABLE`], for which a heartbeat
 /// should have been [`check`]ed.
 pub fn prepare(profile: &Profile, calibration: &Calibration, adc: &AdcSetup) -> Vec<Command> {
-    let word = Core::new(profile).estimator().map().words().format;
-    let map = calibration.map.words.iter().enumerate();
-    let map = map.map(|(address, &real)| Command::Map { address: address as u16, code: word.code_saturating(real) });
+    let word = Core::new(profile).estimator().position().table().format;
+    let table = calibration.position.words.iter().enumerate();
+    let table =
+        table.map(|(address, &real)| Command::Table { address: address as u16, code: word.code_saturating(real) });
     let adc = adc.words().into_iter().map(|word| Command::Register(Register::Adc, word));
     let registers = registers(profile, calibration).map(|(register, code)| Command::Register(register, code));
-    [Command::RESET_ADC, Command::DISABLE].into_iter().chain(registers).chain(map).chain(adc).collect()
+    [Command::RESET_ADC, Command::DISABLE].into_iter().chain(registers).chain(table).chain(adc).collect()
 }
 
 /// As [`prepare`] with the ADC's ranges as after a reset, and on without looking.

@@ -18,12 +18,12 @@ const COMMANDS: usize = 10_000;
 fn harmless(profile: &Profile, core: &Core, commands: &[Command], random: &mut Random) -> Vec<u8> {
     let inputs = core.inputs();
     // Words that the map's address could name but that it does not have; bits above the address are ignored.
-    let (words, most) = (core.estimator().map().words().words as u64, 1 << inputs.address.width);
+    let (words, most) = (core.estimator().position().table().words as u64, 1 << inputs.address.width);
     let beyond = words + random.below(most - words) + most * random.below(0x8000 / most);
     let any = random.word(inputs.force_gain);
     let command = match random.below(5) {
         0 => commands[random.below(commands.len() as u64) as usize],
-        1 => Command::Map { address: beyond as u16, code: random.bits() as i64 },
+        1 => Command::Table { address: beyond as u16, code: random.bits() as i64 },
         2 => Command::Register(Register::Adc, random.below(1 << 16) as i64),
         3 => Command::ENABLE,
         _ => {

@@ -1,0 +1,373 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The position table: splines of what is read over the sheet, fitted to points of known place.
+
+use super::least_squares::Fit;
+use crate::blocks::position::{Axis, Layout, Position as Block, Surface};
+use crate::format::Format;
+use crate::profile::Profile;
+
+/// A place on the sheet and what is read there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Point {
+    /// Millimetres from the middle, along the long edges.
+    pub x: f64,
+    /// Millimetres from the middle, along the short edges.
+    pub y: f64,
+    /// Eq. 2.
+    pub r_x: f64,
+    /// Eq. 3.
+    pub r_y: f64,
+    /// The sheet's resistance at the place, in full scales of voltage per current.
+    pub sheet: f64,
+}
+
+/// From ratios to place: the words of [`crate::blocks::position`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct PositionTable {
+    /// The words in their order in the memory, as fractions.
+    pub words: Vec<f64>,
+    layout: Layout,
+}
+
+/// A place that was looked up.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Found {
+    /// Millimetres from the middle, along the long edges.
+    pub x: f64,
+    /// Millimetres from the middle, along the short edges.
+    pub y: f64,
+    /// The sheet's resistance, in full scales of voltage per current.
+    pub sheet: f64,
+    /// What the larger of the ratios differs by from that of the place.
+    pub residual: f64,
+}
+
+impl Found {
+    /// Whether the ratios are those of a place on the table.
+    pub fn is_valid(&self) -> bool {
+        self.residual <= 2f64.powi(-i32::from(Block::TOLERANCE_BITS))
+    }
+}
+
+/// Points that no position table can be made from.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum PositionError {
+    /// They do not span an area.
+    #[error("expected places that span an area, got {points} places over {width} × {height} mm")]
+    Area {
+        /// Places.
+        points: usize,
+        /// Their extent along the long edges, mm.
+        width: f64,
+        /// Their extent along the short edges, mm.
+        height: f64,
+    },
+    /// The area is larger than the table's words can say, or too far off.
+    #[error("expected places within ± {most} mm of the origin and cells of at most {cell} mm, got x or y = {got} mm")]
+    Range {
+        /// The largest coordinate.
+        most: f64,
+        /// The largest cell.
+        cell: f64,
+        /// The coordinate.
+        got: f64,
+    },
+    /// Ratios do not tell places apart.
+    #[error("expected ratios that tell the places apart: finite, and different wherever the places are")]
+    Ambiguous,
+    /// Two places of the table are read too differently.
+    #[error(
+        "expected ratios that change by less than 1/2 from cell to cell, got {step:.2}: choose a table with more rows or columns"
+    )]
+    Steep {
+        /// The largest difference of neighbouring coefficients.
+        step: f64,
+    },
+}
+
+/// How much smoothness counts against nearness: it settles coefficients that no point does.
+const SMOOTHNESS: f64 = 1e-7;
+/// Newton steps of a look-up in floating point.
+const STEPS: usize = 12;
+
+/// Either ratio and its slopes along u and v.
+type Slopes = [[f64; 3]; 2];
+
+impl PositionTable {
+    /// Fits points, which may lie anywhere; the table spans the rectangle about them.
+    ///
+    /// Ratios are fitted by least squares, a point counting as much as its place depends on them (the norm of J⁻¹, from a first
+    /// fit in which all count alike).
+    ///
+    /// # Errors
+    /// Where the points span no area or one beyond the words' range, or their ratios do not tell places apart.
+    pub fn fit(profile: &Profile, points: &[Point]) -> Result<PositionTable, PositionError> {
+        let finite =
+            |point: &Point| [point.x, point.y, point.r_x, point.r_y, point.sheet].iter().all(|x| x.is_finite());
+        if !points.iter().all(finite) {
+            return Err(PositionError::Ambiguous);
+        }
+        let layout = Layout::new(profile);
+        let mut table = PositionTable { words: vec![0.0; layout.words()], layout };
+        table.span(profile.formats.table, points)?;
+        let places: Vec<_> = points.iter().map(|point| table.place(point)).collect();
+        table.fit_ratios(&places, points, &vec![1.0; points.len()])?;
+        let importance = places.iter().map(|&place| table.sensitivity(place)).collect::<Option<Vec<_>>>();
+        let importance = importance.ok_or(PositionError::Ambiguous)?;
+        table.fit_ratios(&places, points, &importance)?;
+        table.fit_resistance(&places, points)?;
+        table.check()?;
+        Ok(table)
+    }
+
+    /// The table's rectangle, in numbers that its words hold.
+    fn span(&mut self, word: Format, points: &[Point]) -> Result<(), PositionError> {
+        let extents = [|point: &Point| point.x, |point: &Point| point.y].map(|of| extent(points.iter().map(of)));
+        let [width, height] = extents.map(|[low, high]| high - low);
+        let area = width > 0.0 && height > 0.0 && points.len() >= 4;
+        if !area {
+            return Err(PositionError::Area { points: points.len(), width, height });
+        }
+        for (axis, [low, high]) in [Axis::X, Axis::Y].into_iter().zip(extents) {
+            let cells = self.layout.cells(axis) as f64;
+            let (origin_unit, pitch_unit) = (unit(Block::ORIGIN_BITS), unit(Block::PITCH_BITS));
+            let origin = word.code((low + high) / 2.0 / origin_unit).map(|code| word.real(code));
+            let got = low.abs().max(high.abs());
+            let error = || PositionError::Range { most: origin_unit, cell: pitch_unit, got };
+            let origin = origin.filter(|_| got < origin_unit).ok_or_else(error)?;
+            let half = (high - origin * origin_unit).max(origin * origin_unit - low);
+            // The next code up, so that the rectangle holds every point.
+            let pitch = word.lsb() * (2.0 * half / cells / pitch_unit / word.lsb()).ceil();
+            if pitch > word.real(word.max_code() as i64) {
+                return Err(error());
+            }
+            let at = self.layout.geometry(axis);
+            self.words[at..at + 2].copy_from_slice(&[origin, pitch]);
+        }
+        Ok(())
+    }
+
+    /// A point's place, in cells.
+    fn place(&self, point: &Point) -> [f64; 2] {
+        let of = |axis: Axis, millimetres: f64| {
+            let ([origin, pitch], cells) = (self.geometry(axis), self.layout.cells(axis) as f64);
+            ((millimetres - origin) / pitch + cells / 2.0).clamp(0.0, cells)
+        };
+        [of(Axis::X, point.x), of(Axis::Y, point.y)]
+    }
+
+    /// The place of the table's middle, and the size of a cell, in mm.
+    fn geometry(&self, axis: Axis) -> [f64; 2] {
+        let at = self.layout.geometry(axis);
+        [self.words[at] * unit(Block::ORIGIN_BITS), self.words[at + 1] * unit(Block::PITCH_BITS)]
+    }
+
+    fn fit_ratios(&mut self, places: &[[f64; 2]], points: &[Point], importance: &[f64]) -> Result<(), PositionError> {
+        let surface = Surface::RatioX;
+        let size = self.size(surface);
+        let mut fit = Fit::new(size[0] * size[1], 2);
+        for ((&place, point), &importance) in places.iter().zip(points).zip(importance) {
+            let terms = self.terms(surface, place);
+            fit.ask(&terms.map(|term| (term.0, term.1)), &[point.r_x, point.r_y], importance);
+        }
+        let total: f64 = importance.iter().sum();
+        smooth(&mut fit, size, 2, SMOOTHNESS * total / (size[0] * size[1]) as f64);
+        let offset = self.layout.surface(surface);
+        let found = fit.solve().ok_or(PositionError::Ambiguous)?;
+        self.words[offset..offset + found.len()].copy_from_slice(found.as_slice());
+        Ok(())
+    }
+
+    fn fit_resistance(&mut self, places: &[[f64; 2]], points: &[Point]) -> Result<(), PositionError> {
+        let surface = Surface::Resistance;
+        let size = self.size(surface);
+        let mut fit = Fit::new(size[0] * size[1], 1);
+        for (&place, point) in places.iter().zip(points) {
+            let terms = self.terms(surface, place);
+            fit.ask(&terms.map(|term| (term.0, term.1)), &[point.sheet], 1.0);
+        }
+        smooth(&mut fit, size, 1, SMOOTHNESS * points.len() as f64 / (size[0] * size[1]) as f64);
+        let offset = self.layout.surface(surface);
+        let found = fit.solve().ok_or(PositionError::Ambiguous)?;
+        self.words[offset..].copy_from_slice(found.as_slice());
+        Ok(())
+    }
+
+    fn size(&self, surface: Surface) -> [usize; 2] {
+        [Axis::X, Axis::Y].map(|axis| self.layout.coefficients(surface, axis))
+    }
+
+    /// The nine coefficients about a place: each one's number, and its weight in the value and in the slopes along u and v.
+    fn terms(&self, surface: Surface, place: [f64; 2]) -> [(usize, f64, [f64; 2]); 9] {
+        let size = self.size(surface);
+        let scale = if surface == Surface::Resistance { 2f64.powi(-i32::from(self.layout.shift())) } else { 1.0 };
+        let [(column, across), (row, down)] = [0, 1].map(|axis| basis(scale * place[axis], size[axis] - 2));
+        std::array::from_fn(|k| {
+            let ([a, slope_a], [b, slope_b]) = (across[k % 3], down[k / 3]);
+            ((row + k / 3) * size[0] + column + k % 3, a * b, [slope_a * b, a * slope_b])
+        })
+    }
+
+    /// Both ratios at a place, with their slopes.
+    fn ratios(&self, place: [f64; 2]) -> Slopes {
+        let terms = self.terms(Surface::RatioX, place);
+        [Surface::RatioX, Surface::RatioY].map(|surface| {
+            let offset = self.layout.surface(surface);
+            let sum = |weight: fn(&(usize, f64, [f64; 2])) -> f64| {
+                terms.iter().map(|term| weight(term) * self.words[offset + term.0]).sum()
+            };
+            [sum(|term| term.1), sum(|term| term.2[0]), sum(|term| term.2[1])]
+        })
+    }
+
+    /// How many millimetres a place moves with its ratios: the norm of J⁻¹. None where it does not depend on them.
+    fn sensitivity(&self, place: [f64; 2]) -> Option<f64> {
+        let [[_, xu, xv], [_, yu, yv]] = self.ratios(place);
+        let [[_, along], [_, across]] = [Axis::X, Axis::Y].map(|axis| self.geometry(axis));
+        let determinant = xu * yv - xv * yu;
+        let norm = ((along * yv).hypot(along * xv).hypot(across * xu)).hypot(across * yu) / determinant.abs();
+        norm.is_finite().then_some(norm)
+    }
+
+    fn check(&self) -> Result<(), PositionError> {
+        let step = [Surface::RatioX, Surface::RatioY].map(|surface| self.steepest(surface));
+        let step = step[0].max(step[1]);
+        if !self.words.iter().all(|word| word.is_finite()) {
+            return Err(PositionError::Ambiguous);
+        }
+        if step >= 0.5 { Err(PositionError::Steep { step }) } else { Ok(()) }
+    }
+
+    /// The largest difference of neighbouring coefficients.
+    fn steepest(&self, surface: Surface) -> f64 {
+        let ([columns, rows], offset) = (self.size(surface), self.layout.surface(surface));
+        let words = &self.words[offset..offset + columns * rows];
+        let step = |a: &f64, b: &f64| (a - b).abs();
+        let along = words.chunks(columns).flat_map(|row| row.windows(2).map(|pair| step(&pair[0], &pair[1])));
+        let across = words.iter().zip(&words[columns..]).map(|(a, b)| step(a, b));
+        along.chain(across).fold(0.0, f64::max)
+    }
+
+    /// The place for a pair of ratios, in floating point.
+    pub fn look_up(&self, r_x: f64, r_y: f64) -> Found {
+        let mut place = self.nearest_cell([r_x, r_y]);
+        for _ in 0..STEPS {
+            place = self.step(place, [r_x, r_y]);
+        }
+        let [[x, ..], [y, ..]] = self.ratios(place);
+        let residual = (r_x - x).abs().max((r_y - y).abs());
+        let terms = self.terms(Surface::Resistance, place);
+        let offset = self.layout.surface(Surface::Resistance);
+        let sheet = terms.iter().map(|term| term.1 * self.words[offset + term.0]).sum();
+        let [x, y] = [(Axis::X, place[0]), (Axis::Y, place[1])].map(|(axis, place)| {
+            let [origin, pitch] = self.geometry(axis);
+            origin + (place - self.layout.cells(axis) as f64 / 2.0) * pitch
+        });
+        Found { x, y, sheet, residual }
+    }
+
+    /// The middle of the cell whose coefficients are nearest to the ratios, of those of the first guess.
+    fn nearest_cell(&self, ratios: [f64; 2]) -> [f64; 2] {
+        let [u, v] = [Axis::X, Axis::Y].map(|axis| self.layout.guesses(axis));
+        let columns = self.size(Surface::RatioX)[0];
+        let cells =
+            (0..u.count * v.count).map(|k| [u.first + (k % u.count) * u.stride, v.first + (k / u.count) * v.stride]);
+        let distance = |&[u, v]: &[usize; 2]| {
+            let at = (v + 1) * columns + u + 1;
+            let word = |surface| self.words[self.layout.surface(surface) + at];
+            (ratios[0] - word(Surface::RatioX)).abs() + (ratios[1] - word(Surface::RatioY)).abs()
+        };
+        let nearest = cells.min_by(|a, b| distance(a).total_cmp(&distance(b))).expect("a table has cells");
+        nearest.map(|cell| cell as f64 + 0.5)
+    }
+
+    fn step(&self, place: [f64; 2], ratios: [f64; 2]) -> [f64; 2] {
+        let [[x, xu, xv], [y, yu, yv]] = self.ratios(place);
+        let [e_x, e_y] = [ratios[0] - x, ratios[1] - y];
+        let determinant = xu * yv - xv * yu;
+        let by = [(yv * e_x - xv * e_y) / determinant, (xu * e_y - yu * e_x) / determinant];
+        let most = f64::from(1 << Block::STEP_BITS);
+        let held = |place: f64, by: f64, axis| {
+            let by = if by.is_finite() { by.clamp(-most, most) } else { 0.0 };
+            (place + by).clamp(0.0, self.layout.cells(axis) as f64)
+        };
+        [held(place[0], by[0], Axis::X), held(place[1], by[1], Axis::Y)]
+    }
+
+    /// Each point's distance from where the table finds it, in mm; infinite where it finds none.
+    pub fn errors<'a>(&'a self, points: &'a [Point]) -> impl Iterator<Item = f64> + 'a {
+        points.iter().map(|point| {
+            let found = self.look_up(point.r_x, point.r_y);
+            if found.is_valid() { (found.x - point.x).hypot(found.y - point.y) } else { f64::INFINITY }
+        })
+    }
+}
+
+/// 2 to the power of `bits`.
+fn unit(bits: i8) -> f64 {
+    2f64.powi(bits.into())
+}
+
+/// The least and the greatest.
+fn extent(values: impl Iterator<Item = f64>) -> [f64; 2] {
+    values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
+}
+
+/// The cell of a place, and of its three coefficients the weight in the value and in the slope.
+fn basis(place: f64, cells: usize) -> (usize, [[f64; 2]; 3]) {
+    let cell = place.floor().clamp(0.0, cells as f64 - 1.0);
+    let f = place - cell;
+    let weights = [[(1.0 - f) * (1.0 - f) / 2.0, f - 1.0], [0.5 + f * (1.0 - f), 1.0 - 2.0 * f], [f * f / 2.0, f]];
+    (cell as usize, weights)
+}
+
+/// Asks that second differences along rows and columns be small.
+fn smooth(fit: &mut Fit, [columns, rows]: [usize; 2], layers: usize, importance: f64) {
+    let mut bend = |at: usize, step: usize| {
+        fit.ask(&[(at - step, 1.0), (at, -2.0), (at + step, 1.0)], &[0.0, 0.0][..layers], importance);
+    };
+    for at in 0..columns * rows {
+        let (column, row) = (at % columns, at / columns);
+        if column > 0 && column + 1 < columns {
+            bend(at, 1);
+        }
+        if row > 0 && row + 1 < rows {
+            bend(at, columns);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn raster(columns: usize, rows: usize, r: f64) -> Vec<Point> {
+        let place = |k: usize| ((k % columns) as f64, (k / columns) as f64);
+        let point = |(x, y): (f64, f64)| Point { x, y, r_x: r * x, r_y: r * y, sheet: 0.0 };
+        (0..columns * rows).map(place).map(point).collect()
+    }
+
+    fn fit(points: &[Point]) -> Result<PositionTable, PositionError> {
+        PositionTable::fit(&Profile::bundled("small").expect("bundled"), points)
+    }
+
+    #[test]
+    fn points_that_make_no_table_are_refused() {
+        assert!(fit(&raster(9, 9, 0.1)).is_ok());
+        assert!(matches!(fit(&raster(9, 1, 0.1)), Err(PositionError::Area { .. })));
+        assert!(matches!(fit(&[]), Err(PositionError::Area { .. })));
+        let far: Vec<_> = raster(9, 9, 0.1).into_iter().map(|point| Point { x: point.x + 2000.0, ..point }).collect();
+        assert!(matches!(fit(&far), Err(PositionError::Range { .. })));
+        assert_eq!(fit(&raster(9, 9, 0.0)), Err(PositionError::Ambiguous), "the same ratios everywhere");
+        assert_eq!(fit(&raster(9, 9, f64::NAN)), Err(PositionError::Ambiguous));
+        assert!(matches!(fit(&raster(3, 3, 20.0)), Err(PositionError::Steep { .. })));
+    }
+
+    #[test]
+    fn a_linear_sheet_is_found_exactly() {
+        let points = raster(9, 9, 0.1);
+        let table = fit(&points).expect("a table");
+        let worst = table.errors(&points).fold(0.0, f64::max);
+        assert!(worst < 1e-5, "{worst} mm");
+    }
+}
