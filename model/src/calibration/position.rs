@@ -2,7 +2,7 @@
 //! The position table: splines of what is read over the sheet, fitted to points of known place.
 
 use super::least_squares::Fit;
-use crate::blocks::position::{Axis, Layout, Position as Block, Surface};
+use crate::blocks::position::{Axis, Layout, Position as Block, Scalar, Surface};
 use crate::format::Format;
 use crate::profile::Profile;
 
@@ -21,12 +21,22 @@ pub struct Point {
     pub sheet: f64,
 }
 
-/// From ratios to place: the words of [`crate::blocks::position`].
+/// From ratios to place: the words of [`crate::blocks::position`], and what they were made from.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PositionTable {
     /// The words in their order in the memory, as fractions.
     pub words: Vec<f64>,
     layout: Layout,
+    /// Coefficients of both ratios, as they were measured.
+    ratios: [Vec<f64>; 2],
+    /// Coefficients of the resistance.
+    resistance: Vec<f64>,
+    /// Of either axis: the place of the table's middle and the size of a cell, in mm.
+    geometry: [[f64; 2]; 2],
+    /// Of either ratio: what is normalised to zero, and the gain.
+    scales: [[f64; 2]; 2],
+    /// Of either axis: the first guess in cells, a constant and the rise with either ratio.
+    start: [[f64; 3]; 2],
 }
 
 /// A place that was looked up.
@@ -38,7 +48,7 @@ pub struct Found {
     pub y: f64,
     /// The sheet's resistance, in full scales of voltage per current.
     pub sheet: f64,
-    /// What the larger of the ratios differs by from that of the place.
+    /// What the larger of the normalised ratios differs by from that of the place.
     pub residual: f64,
 }
 
@@ -63,38 +73,32 @@ pub enum PositionError {
         height: f64,
     },
     /// The area is larger than the table's words can say, or too far off.
-    #[error("expected places within ± {most} mm of the origin and cells of at most {cell} mm, got x or y = {got} mm")]
+    #[error("expected places within ± {most} mm of the origin, got x or y = {got} mm")]
     Range {
         /// The largest coordinate.
         most: f64,
-        /// The largest cell.
-        cell: f64,
         /// The coordinate.
         got: f64,
     },
     /// Ratios do not tell places apart.
     #[error("expected ratios that tell the places apart: finite, and different wherever the places are")]
     Ambiguous,
-    /// Two places of the table are read too differently.
-    #[error(
-        "expected ratios that change by less than 1/2 from cell to cell, got {step:.2}: choose a table with more rows or columns"
-    )]
-    Steep {
-        /// The largest difference of neighbouring coefficients.
-        step: f64,
-    },
 }
 
 /// How much smoothness counts against nearness: it settles coefficients that no point does.
 const SMOOTHNESS: f64 = 1e-7;
 /// Newton steps of a look-up in floating point.
 const STEPS: usize = 12;
+/// By how much of a cell the table reaches beyond the points, so that noise at their edge does not end at the table's.
+const BEYOND: f64 = 0.25;
+/// The largest coefficient of a normalised ratio.
+const FULL: f64 = 0.97;
 
 /// Either ratio and its slopes along u and v.
 type Slopes = [[f64; 3]; 2];
 
 impl PositionTable {
-    /// Fits points, which may lie anywhere; the table spans the rectangle about them.
+    /// Fits points, which may lie anywhere; the table spans the rectangle about them and a little more.
     ///
     /// Ratios are fitted by least squares, a point counting as much as its place depends on them (the norm of J⁻¹, from a first
     /// fit in which all count alike).
@@ -108,58 +112,114 @@ impl PositionTable {
             return Err(PositionError::Ambiguous);
         }
         let layout = Layout::new(profile);
-        let mut table = PositionTable { words: vec![0.0; layout.words()], layout };
-        table.span(profile.formats.table, points)?;
+        let mut table = PositionTable {
+            words: vec![0.0; layout.words()],
+            layout,
+            ratios: [Vec::new(), Vec::new()],
+            resistance: Vec::new(),
+            geometry: [[0.0; 2]; 2],
+            scales: [[0.0, 1.0]; 2],
+            start: [[0.0; 3]; 2],
+        };
+        table.span(profile, points)?;
         let places: Vec<_> = points.iter().map(|point| table.place(point)).collect();
         table.fit_ratios(&places, points, &vec![1.0; points.len()])?;
         let importance = places.iter().map(|&place| table.sensitivity(place)).collect::<Option<Vec<_>>>();
         let importance = importance.ok_or(PositionError::Ambiguous)?;
         table.fit_ratios(&places, points, &importance)?;
         table.fit_resistance(&places, points)?;
-        table.check()?;
-        Ok(table)
+        table.scale(profile.formats.table);
+        table.fit_start(&places, points)?;
+        table.set_words(profile);
+        if table.words.iter().all(|word| word.is_finite()) { Ok(table) } else { Err(PositionError::Ambiguous) }
     }
 
     /// The table's rectangle, in numbers that its words hold.
-    fn span(&mut self, word: Format, points: &[Point]) -> Result<(), PositionError> {
+    fn span(&mut self, profile: &Profile, points: &[Point]) -> Result<(), PositionError> {
         let extents = [|point: &Point| point.x, |point: &Point| point.y].map(|of| extent(points.iter().map(of)));
         let [width, height] = extents.map(|[low, high]| high - low);
         let area = width > 0.0 && height > 0.0 && points.len() >= 4;
         if !area {
             return Err(PositionError::Area { points: points.len(), width, height });
         }
+        let (word, most) = (profile.formats.table, range(profile));
+        let unit = most * 2.0 / Layout::CELLS * word.lsb();
         for (axis, [low, high]) in [Axis::X, Axis::Y].into_iter().zip(extents) {
-            let cells = self.layout.cells(axis) as f64;
-            let (origin_unit, pitch_unit) = (unit(Block::ORIGIN_BITS), unit(Block::PITCH_BITS));
-            let origin = word.code((low + high) / 2.0 / origin_unit).map(|code| word.real(code));
-            let got = low.abs().max(high.abs());
-            let error = || PositionError::Range { most: origin_unit, cell: pitch_unit, got };
-            let origin = origin.filter(|_| got < origin_unit).ok_or_else(error)?;
-            let half = (high - origin * origin_unit).max(origin * origin_unit - low);
-            // The next code up, so that the rectangle holds every point.
-            let pitch = word.lsb() * (2.0 * half / cells / pitch_unit / word.lsb()).ceil();
-            if pitch > word.real(word.max_code() as i64) {
-                return Err(error());
+            let cells = self.layout.cells(Surface::RatioX, axis) as f64;
+            let (pitch, got) = ((high - low) / (cells - 2.0 * BEYOND), low.abs().max(high.abs()));
+            if got + BEYOND * pitch > most || pitch * Layout::CELLS / 2.0 >= most {
+                return Err(PositionError::Range { most, got });
             }
-            let at = self.layout.geometry(axis);
-            self.words[at..at + 2].copy_from_slice(&[origin, pitch]);
+            let origin = ((low + high) / 2.0 / (most * word.lsb())).round() * most * word.lsb();
+            self.geometry[axis as usize] = [origin, (pitch / unit).ceil() * unit];
         }
         Ok(())
     }
 
-    /// A point's place, in cells.
+    /// A point's place, in cells from the table's first edge.
     fn place(&self, point: &Point) -> [f64; 2] {
         let of = |axis: Axis, millimetres: f64| {
-            let ([origin, pitch], cells) = (self.geometry(axis), self.layout.cells(axis) as f64);
+            let ([origin, pitch], cells) = (self.geometry[axis as usize], self.cells(axis));
             ((millimetres - origin) / pitch + cells / 2.0).clamp(0.0, cells)
         };
         [of(Axis::X, point.x), of(Axis::Y, point.y)]
     }
 
-    /// The place of the table's middle, and the size of a cell, in mm.
-    fn geometry(&self, axis: Axis) -> [f64; 2] {
-        let at = self.layout.geometry(axis);
-        [self.words[at] * unit(Block::ORIGIN_BITS), self.words[at + 1] * unit(Block::PITCH_BITS)]
+    fn cells(&self, axis: Axis) -> f64 {
+        self.layout.cells(Surface::RatioX, axis) as f64
+    }
+
+    /// Centres and gains that take the coefficients into the words' range, as words of the table hold them.
+    fn scale(&mut self, word: Format) {
+        let rounded = |x: f64| word.real(word.code_saturating(x));
+        for (ratio, scale) in self.ratios.iter().zip(&mut self.scales) {
+            let [low, high] = extent(ratio.iter().copied());
+            let gain = (FULL / ((high - low) / 2.0)).min(Layout::GAIN) / Layout::GAIN;
+            *scale = [2.0 * rounded((low + high) / 4.0), Layout::GAIN * rounded(gain)];
+        }
+    }
+
+    /// The first guess, by least squares over all points.
+    fn fit_start(&mut self, places: &[[f64; 2]], points: &[Point]) -> Result<(), PositionError> {
+        let mut fit = Fit::new(3, 2);
+        for (place, point) in places.iter().zip(points) {
+            let [r_x, r_y] = self.normalised([point.r_x, point.r_y]);
+            let from_middle = [place[0] - self.cells(Axis::X) / 2.0, place[1] - self.cells(Axis::Y) / 2.0];
+            fit.ask(&[(0, 1.0), (1, r_x), (2, r_y)], &from_middle, 1.0);
+        }
+        let found = fit.solve().ok_or(PositionError::Ambiguous)?;
+        self.start = [0, 1].map(|axis| [0, 1, 2].map(|k| found[(k, axis)]));
+        Ok(())
+    }
+
+    fn normalised(&self, ratios: [f64; 2]) -> [f64; 2] {
+        [0, 1].map(|k| (ratios[k] - self.scales[k][0]) * self.scales[k][1])
+    }
+
+    /// The words, in their order in the memory.
+    fn set_words(&mut self, profile: &Profile) {
+        let range = range(profile);
+        for axis in [Axis::X, Axis::Y] {
+            let ([origin, pitch], [centre, gain]) = (self.geometry[axis as usize], self.scales[axis as usize]);
+            let [constant, of_x, of_y] = self.start[axis as usize].map(|guess| guess / Layout::CELLS / 4.0);
+            let scalars = [
+                (Scalar::Gain, gain / Layout::GAIN),
+                (Scalar::Centre, centre / 2.0),
+                (Scalar::StartConstant, -constant),
+                (Scalar::StartRatioX, of_x),
+                (Scalar::StartRatioY, of_y),
+                (Scalar::Pitch, pitch * Layout::CELLS / 2.0 / range),
+                (Scalar::Origin, -origin / range),
+            ];
+            scalars.into_iter().for_each(|(scalar, word)| self.words[self.layout.scalar(scalar, axis)] = word);
+        }
+        for (surface, k) in [(Surface::RatioX, 0), (Surface::RatioY, 1)] {
+            let [centre, gain] = self.scales[k];
+            let words = self.ratios[k].iter().map(|ratio| (ratio - centre) * gain);
+            self.words.splice(range_of(self.layout.surface(surface), self.ratios[k].len()), words.collect::<Vec<_>>());
+        }
+        let from = self.layout.surface(Surface::Resistance);
+        self.words[from..].copy_from_slice(&self.resistance);
     }
 
     fn fit_ratios(&mut self, places: &[[f64; 2]], points: &[Point], importance: &[f64]) -> Result<(), PositionError> {
@@ -172,9 +232,8 @@ impl PositionTable {
         }
         let total: f64 = importance.iter().sum();
         smooth(&mut fit, size, 2, SMOOTHNESS * total / (size[0] * size[1]) as f64);
-        let offset = self.layout.surface(surface);
         let found = fit.solve().ok_or(PositionError::Ambiguous)?;
-        self.words[offset..offset + found.len()].copy_from_slice(found.as_slice());
+        self.ratios = [0, 1].map(|k| found.column(k).iter().copied().collect());
         Ok(())
     }
 
@@ -187,9 +246,8 @@ impl PositionTable {
             fit.ask(&terms.map(|term| (term.0, term.1)), &[point.sheet], 1.0);
         }
         smooth(&mut fit, size, 1, SMOOTHNESS * points.len() as f64 / (size[0] * size[1]) as f64);
-        let offset = self.layout.surface(surface);
         let found = fit.solve().ok_or(PositionError::Ambiguous)?;
-        self.words[offset..].copy_from_slice(found.as_slice());
+        self.resistance = found.as_slice().to_vec();
         Ok(())
     }
 
@@ -201,7 +259,11 @@ impl PositionTable {
     fn terms(&self, surface: Surface, place: [f64; 2]) -> [(usize, f64, [f64; 2]); 9] {
         let size = self.size(surface);
         let scale = if surface == Surface::Resistance { 2f64.powi(-i32::from(self.layout.shift())) } else { 1.0 };
-        let [(column, across), (row, down)] = [0, 1].map(|axis| basis(scale * place[axis], size[axis] - 2));
+        let [(column, across), (row, down)] = [Axis::X, Axis::Y].map(|axis| {
+            let cells = self.layout.cells(surface, axis);
+            let from_middle = place[axis as usize] - self.cells(axis) / 2.0;
+            basis(scale * from_middle + cells as f64 / 2.0, cells)
+        });
         std::array::from_fn(|k| {
             let ([a, slope_a], [b, slope_b]) = (across[k % 3], down[k / 3]);
             ((row + k / 3) * size[0] + column + k % 3, a * b, [slope_a * b, a * slope_b])
@@ -209,87 +271,58 @@ impl PositionTable {
     }
 
     /// Both ratios at a place, with their slopes.
-    fn ratios(&self, place: [f64; 2]) -> Slopes {
+    fn at(&self, place: [f64; 2]) -> Slopes {
         let terms = self.terms(Surface::RatioX, place);
-        [Surface::RatioX, Surface::RatioY].map(|surface| {
-            let offset = self.layout.surface(surface);
-            let sum = |weight: fn(&(usize, f64, [f64; 2])) -> f64| {
-                terms.iter().map(|term| weight(term) * self.words[offset + term.0]).sum()
-            };
+        self.ratios.each_ref().map(|ratio| {
+            let sum =
+                |weight: fn(&(usize, f64, [f64; 2])) -> f64| terms.iter().map(|term| weight(term) * ratio[term.0]).sum();
             [sum(|term| term.1), sum(|term| term.2[0]), sum(|term| term.2[1])]
         })
     }
 
     /// How many millimetres a place moves with its ratios: the norm of J⁻¹. None where it does not depend on them.
     fn sensitivity(&self, place: [f64; 2]) -> Option<f64> {
-        let [[_, xu, xv], [_, yu, yv]] = self.ratios(place);
-        let [[_, along], [_, across]] = [Axis::X, Axis::Y].map(|axis| self.geometry(axis));
+        let [[_, xu, xv], [_, yu, yv]] = self.at(place);
+        let [[_, along], [_, across]] = self.geometry;
         let determinant = xu * yv - xv * yu;
         let norm = ((along * yv).hypot(along * xv).hypot(across * xu)).hypot(across * yu) / determinant.abs();
         norm.is_finite().then_some(norm)
     }
 
-    fn check(&self) -> Result<(), PositionError> {
-        let step = [Surface::RatioX, Surface::RatioY].map(|surface| self.steepest(surface));
-        let step = step[0].max(step[1]);
-        if !self.words.iter().all(|word| word.is_finite()) {
-            return Err(PositionError::Ambiguous);
-        }
-        if step >= 0.5 { Err(PositionError::Steep { step }) } else { Ok(()) }
-    }
-
-    /// The largest difference of neighbouring coefficients.
-    fn steepest(&self, surface: Surface) -> f64 {
-        let ([columns, rows], offset) = (self.size(surface), self.layout.surface(surface));
-        let words = &self.words[offset..offset + columns * rows];
-        let step = |a: &f64, b: &f64| (a - b).abs();
-        let along = words.chunks(columns).flat_map(|row| row.windows(2).map(|pair| step(&pair[0], &pair[1])));
-        let across = words.iter().zip(&words[columns..]).map(|(a, b)| step(a, b));
-        along.chain(across).fold(0.0, f64::max)
-    }
-
     /// The place for a pair of ratios, in floating point.
     pub fn look_up(&self, r_x: f64, r_y: f64) -> Found {
-        let mut place = self.nearest_cell([r_x, r_y]);
+        let mut place = self.first_guess([r_x, r_y]);
         for _ in 0..STEPS {
             place = self.step(place, [r_x, r_y]);
         }
-        let [[x, ..], [y, ..]] = self.ratios(place);
-        let residual = (r_x - x).abs().max((r_y - y).abs());
+        let [[x, ..], [y, ..]] = self.at(place);
+        let residual = ((r_x - x) * self.scales[0][1]).abs().max(((r_y - y) * self.scales[1][1]).abs());
         let terms = self.terms(Surface::Resistance, place);
-        let offset = self.layout.surface(Surface::Resistance);
-        let sheet = terms.iter().map(|term| term.1 * self.words[offset + term.0]).sum();
+        let sheet = terms.iter().map(|term| term.1 * self.resistance[term.0]).sum();
         let [x, y] = [(Axis::X, place[0]), (Axis::Y, place[1])].map(|(axis, place)| {
-            let [origin, pitch] = self.geometry(axis);
-            origin + (place - self.layout.cells(axis) as f64 / 2.0) * pitch
+            let [origin, pitch] = self.geometry[axis as usize];
+            origin + (place - self.cells(axis) / 2.0) * pitch
         });
         Found { x, y, sheet, residual }
     }
 
-    /// The middle of the cell whose coefficients are nearest to the ratios, of those of the first guess.
-    fn nearest_cell(&self, ratios: [f64; 2]) -> [f64; 2] {
-        let [u, v] = [Axis::X, Axis::Y].map(|axis| self.layout.guesses(axis));
-        let columns = self.size(Surface::RatioX)[0];
-        let cells =
-            (0..u.count * v.count).map(|k| [u.first + (k % u.count) * u.stride, v.first + (k / u.count) * v.stride]);
-        let distance = |&[u, v]: &[usize; 2]| {
-            let at = (v + 1) * columns + u + 1;
-            let word = |surface| self.words[self.layout.surface(surface) + at];
-            (ratios[0] - word(Surface::RatioX)).abs() + (ratios[1] - word(Surface::RatioY)).abs()
-        };
-        let nearest = cells.min_by(|a, b| distance(a).total_cmp(&distance(b))).expect("a table has cells");
-        nearest.map(|cell| cell as f64 + 0.5)
+    fn first_guess(&self, ratios: [f64; 2]) -> [f64; 2] {
+        let [r_x, r_y] = self.normalised(ratios);
+        [Axis::X, Axis::Y].map(|axis| {
+            let ([constant, of_x, of_y], cells) = (self.start[axis as usize], self.cells(axis));
+            (constant + of_x * r_x + of_y * r_y + cells / 2.0).clamp(0.0, cells)
+        })
     }
 
     fn step(&self, place: [f64; 2], ratios: [f64; 2]) -> [f64; 2] {
-        let [[x, xu, xv], [y, yu, yv]] = self.ratios(place);
+        let [[x, xu, xv], [y, yu, yv]] = self.at(place);
         let [e_x, e_y] = [ratios[0] - x, ratios[1] - y];
         let determinant = xu * yv - xv * yu;
         let by = [(yv * e_x - xv * e_y) / determinant, (xu * e_y - yu * e_x) / determinant];
-        let most = f64::from(1 << Block::STEP_BITS);
+        let most = Block::STEP_CELLS;
         let held = |place: f64, by: f64, axis| {
             let by = if by.is_finite() { by.clamp(-most, most) } else { 0.0 };
-            (place + by).clamp(0.0, self.layout.cells(axis) as f64)
+            (place + by).clamp(0.0, self.cells(axis))
         };
         [held(place[0], by[0], Axis::X), held(place[1], by[1], Axis::Y)]
     }
@@ -303,9 +336,14 @@ impl PositionTable {
     }
 }
 
-/// 2 to the power of `bits`.
-fn unit(bits: i8) -> f64 {
-    2f64.powi(bits.into())
+/// Positions are within plus and minus so many mm.
+fn range(profile: &Profile) -> f64 {
+    let position = profile.formats.position;
+    position.real(position.max_code() as i64 + 1)
+}
+
+fn range_of(from: usize, count: usize) -> std::ops::Range<usize> {
+    from..from + count
 }
 
 /// The least and the greatest.

@@ -93,14 +93,18 @@ impl Profile {
     fn check_position(&self) -> Check {
         let position = &self.position;
         for (field, side) in [("position.columns", position.columns), ("position.rows", position.rows)] {
-            within(field, side, 5, 129)?;
+            within(field, side, 5, 2 * Layout::CELLS as u64 + 1)?;
             ensure(!side.is_multiple_of(2), field, "an odd number", side)?;
         }
-        within("position.resistance_shift", position.resistance_shift.into(), 0, 4)?;
+        within("position.resistance_shift", position.resistance_shift.into(), 1, 4)?;
         within("position.steps", position.steps, 1, 15)?;
-        let fraction = Layout::new(self).place(self.formats.table).frac;
-        let expected = "enough bits for 4 or more below a cell";
-        ensure(fraction >= 4, "formats.table", expected, format_args!("{fraction} below a cell"))
+        let f = &self.formats;
+        ensure((12..=27).contains(&f.table.width), "formats.table", "12 to 27 bits", f.table)?;
+        let as_wide = f.position.width == f.table.width;
+        ensure(as_wide, "formats.position", "as many bits as formats.table", f.position)?;
+        let words = Layout::new(self).words();
+        let most = f.table.max_code().min(1 << 14) as usize;
+        ensure(words <= most, "position.columns", format!("a table of {most} words at most"), format_args!("{words}"))
     }
 
     /// What grows with counts, or with several formats at once, still fits a word of the model.
@@ -165,6 +169,8 @@ impl Profile {
         let moved = f.block_shift > 0 && f.total.frac <= f.iq.frac;
         let expected = format_args!("the point of iq, {}, and no fewer bits", f.iq);
         ensure(same_point || moved, "formats.total", expected, f.total)?;
+        let fine = f.ratio.frac >= f.table.frac;
+        ensure(fine, "formats.ratio", format_args!("at least the fractional bits of table, {}", f.table), f.ratio)?;
         ensure(f.ratio.integer_bits() == 1, "formats.ratio", "one integer bit, such as s20.18", f.ratio)?;
         ensure((4..=30).contains(&f.ratio.width), "formats.ratio", "4 to 30 bits", f.ratio)?;
         let sound = (8..=28).contains(&f.position.width) && f.position.frac >= 0;

@@ -2,11 +2,12 @@
 //! Where the words of the position table lie in its memory, and how its cells divide the sheet.
 //!
 //! ```text
-//! origin_x, pitch_x, origin_y, pitch_y │ r_x: rows of columns │ r_y: likewise │ R: fewer rows and columns
+//! scalars of x │ scalars of y │ r_x: rows of columns │ r_y: likewise │ R: fewer rows and columns
 //! ```
 //!
 //! A quadratic B-spline over n cells has n + 2 coefficients; those of cell k are k, k + 1 and k + 2, and coefficient k + 1 has
-//! its centre in the middle of cell k.
+//! its centre in the middle of cell k. The number of cells is odd along either axis, so that a coefficient lies in the
+//! middle of the table.
 
 use crate::format::Format;
 use crate::profile::Profile;
@@ -14,9 +15,9 @@ use crate::profile::Profile;
 /// A surface over the sheet: one spline.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Surface {
-    /// The x ratio.
+    /// The x ratio, normalised.
     RatioX,
-    /// The y ratio.
+    /// The y ratio, normalised.
     RatioY,
     /// The sheet's resistance.
     Resistance,
@@ -31,6 +32,25 @@ pub enum Axis {
     Y,
 }
 
+/// A number of the calibration that the table has once for either axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Scalar {
+    /// The gain of the axis' ratio, by [`Layout::GAIN`].
+    Gain,
+    /// Half of the ratio that is normalised to zero.
+    Centre,
+    /// The first guess: less its constant, by four.
+    StartConstant,
+    /// The first guess: its rise with the normalised r_x, by four.
+    StartRatioX,
+    /// The first guess: its rise with the normalised r_y, by four.
+    StartRatioY,
+    /// Half the size of 32 cells, by the range of a position.
+    Pitch,
+    /// Less the place of the table's middle, by the range of a position.
+    Origin,
+}
+
 /// The layout of a profile's position table.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Layout {
@@ -40,38 +60,32 @@ pub struct Layout {
     shift: u8,
 }
 
-/// The cells of the first guess along an axis: every `stride`-th from `first` on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Guesses {
-    /// The first cell.
-    pub first: usize,
-    /// Cells from one to the next.
-    pub stride: usize,
-    /// How many.
-    pub count: usize,
-}
-
-/// Words before the coefficients: the place of the table's middle and the size of its cells, x before y.
-const GEOMETRY: usize = 4;
-
 impl Layout {
+    /// Addresses from the scalars of x to those of y, and from there to the coefficients.
+    pub const SCALARS: usize = 8;
+    /// A ratio's gain is its scalar times this.
+    pub const GAIN: f64 = 16.0;
+    /// A place of one, as a fraction, is so many cells from the table's middle.
+    pub const CELLS: f64 = 32.0;
+
     /// The layout of a profile.
     pub fn new(profile: &Profile) -> Self {
         let position = &profile.position;
         Layout { ratios: [position.columns as usize, position.rows as usize], shift: position.resistance_shift }
     }
 
-    /// Cells of the ratios' splines along an axis.
-    pub fn cells(&self, axis: Axis) -> usize {
-        self.ratios[axis as usize] - 2
+    /// Cells of a surface along an axis: those of the resistance reach at least as far as the ratios'.
+    pub fn cells(&self, surface: Surface, axis: Axis) -> usize {
+        let cells = self.ratios[axis as usize] - 2;
+        match surface {
+            Surface::Resistance => cells.div_ceil(1 << self.shift) | 1,
+            _ => cells,
+        }
     }
 
     /// Coefficients of a surface along an axis.
     pub fn coefficients(&self, surface: Surface, axis: Axis) -> usize {
-        match surface {
-            Surface::Resistance => self.cells(axis).div_ceil(1 << self.shift) + 2,
-            _ => self.ratios[axis as usize],
-        }
+        self.cells(surface, axis) + 2
     }
 
     /// A cell of the resistance's spline is `2^shift` cells of the ratios' wide and high.
@@ -79,14 +93,20 @@ impl Layout {
         self.shift
     }
 
-    /// Where the place of the table's middle lies; the size of a cell follows it.
-    pub fn geometry(&self, axis: Axis) -> usize {
-        2 * axis as usize
+    /// Where a scalar lies.
+    pub fn scalar(&self, scalar: Scalar, axis: Axis) -> usize {
+        scalar as usize + axis as usize * Layout::SCALARS
     }
 
     /// Where the coefficients of a surface begin.
     pub fn surface(&self, surface: Surface) -> usize {
-        GEOMETRY + surface as usize * self.ratios[0] * self.ratios[1]
+        2 * Layout::SCALARS + surface as usize * self.ratios[0] * self.ratios[1]
+    }
+
+    /// Where the first coefficient of the middle cell lies.
+    pub fn middle(&self, surface: Surface) -> usize {
+        let [column, row] = [Axis::X, Axis::Y].map(|axis| (self.cells(surface, axis) - 1) / 2);
+        self.surface(surface) + row * self.coefficients(surface, Axis::X) + column
     }
 
     /// Words in all.
@@ -95,17 +115,8 @@ impl Layout {
         self.surface(Surface::Resistance) + columns * rows
     }
 
-    /// The cells of the first guess: about every eighth of the side, in the middle of the axis.
-    pub fn guesses(&self, axis: Axis) -> Guesses {
-        let cells = self.cells(axis);
-        let stride = ((cells + 4) / 8).max(1);
-        let count = (cells - 1) / stride + 1;
-        Guesses { first: (cells - 1 - (count - 1) * stride) / 2, stride, count }
-    }
-
-    /// The format of a place along an axis, in cells from the table's edge: as wide as a word of the table.
-    pub fn place(&self, word: Format) -> Format {
-        let cells = self.cells(Axis::X).max(self.cells(Axis::Y));
-        Format::unsigned(word.width, (word.width - Format::counter(cells as u64).width) as i8)
+    /// Fractional bits of a place in cells, of a word of the table's width.
+    pub fn place_bits(word: Format) -> u8 {
+        word.width - 6
     }
 }
