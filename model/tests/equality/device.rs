@@ -13,7 +13,7 @@ pub fn short_profiles() -> Vec<Profile> {
 
 fn shortened(mut profile: Profile) -> Profile {
     profile.slot.open = 2;
-    profile.slot.settle = 160;
+    profile.slot.settle = 298;
     let samples = 4 * profile.samples_per_period().round() as u64;
     let profile = profile.with_window(samples);
     profile.check().expect("the samples are longer than the estimator takes");
