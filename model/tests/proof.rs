@@ -132,7 +132,7 @@ fn bad_profiles_say_what_was_expected() {
         ("iq", "\"14.13\"", "expected a format such as \"s18.17\""),
         ("x", "[1, 1, 1, 1, 0, 0]", "terminals.x: expected both signs"),
         ("window", "\"hamming\"", "unknown variant `hamming`"),
-        ("columns", "131", "position.columns: expected 5 to 129, got 131"),
+        ("columns", "131", "position.columns: expected 5 to 65, got 131"),
         ("columns", "16", "position.columns: expected an odd number, got 16"),
     ] {
         let message = with("small", key, value).expect_err(key);

@@ -398,7 +398,22 @@ mod tests {
         assert!(matches!(fit(&far), Err(PositionError::Range { .. })));
         assert_eq!(fit(&raster(9, 9, 0.0)), Err(PositionError::Ambiguous), "the same ratios everywhere");
         assert_eq!(fit(&raster(9, 9, f64::NAN)), Err(PositionError::Ambiguous));
-        assert!(matches!(fit(&raster(3, 3, 20.0)), Err(PositionError::Steep { .. })));
+    }
+
+    /// Terminals with large resistances in series leave ratios that hardly differ, and others that do not have their middle at
+    /// zero.
+    #[test]
+    fn words_span_their_range_whatever_the_ratios_span() {
+        for (r, offset) in [(0.1, 0.0), (0.01, 0.3), (0.005, -0.6)] {
+            let shifted = |point: Point| Point { r_x: point.r_x + offset, r_y: point.r_y - offset, ..point };
+            let points: Vec<_> = raster(9, 9, r).into_iter().map(shifted).collect();
+            let table = fit(&points).expect("a table");
+            let coefficients = &table.words[table.layout.surface(Surface::RatioX)..][..table.ratios[0].len()];
+            let [low, high] = extent(coefficients.iter().copied());
+            assert!(low > -1.0 && high < 1.0 && high - low > 0.3, "{low} to {high} of ratios rising by {r}");
+            let worst = table.errors(&points).fold(0.0, f64::max);
+            assert!(worst < 1e-5, "{worst} mm");
+        }
     }
 
     #[test]

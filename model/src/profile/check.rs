@@ -112,7 +112,13 @@ impl Profile {
         let (f, terminals) = (&self.formats, self.terminals.x.len() as u64);
         let amplitude = i16::from(f.total.width) + 1;
         let sums = amplitude + i16::from(Format::counter(terminals).width);
+        let demodulator = Demodulator::new(self);
+        let sum = demodulator.sum();
+        // An I/Q word with all the bits that it may be moved up by, before it is narrowed.
+        let integer = sum.integer_bits() - i16::from(self.sum_shift() - demodulator.shift());
+        let moved = integer + 2 + i16::from(f.iq.frac) + i16::from(f.block_shift);
         for (field, width, of) in [
+            ("formats.iq", moved, ROUNDED),
             ("slot.integrate", i16::from(Demodulator::new(self).sum().width), "a sum over the window"),
             ("formats.ratio", sums + i16::from(f.ratio.frac), "the dividend of a ratio"),
             ("formats.admittance", amplitude + i16::from(f.admittance.frac), "the dividend of the admittance"),
@@ -169,6 +175,8 @@ impl Profile {
         let moved = f.block_shift > 0 && f.total.frac <= f.iq.frac;
         let expected = format_args!("the point of iq, {}, and no fewer bits", f.iq);
         ensure(same_point || moved, "formats.total", expected, f.total)?;
+        let squared = f.block_shift == 0 || f.total.width <= 28;
+        ensure(squared, "formats.total", "28 bits at most, with formats.block_shift", f.total)?;
         let fine = f.ratio.frac >= f.table.frac;
         ensure(fine, "formats.ratio", format_args!("at least the fractional bits of table, {}", f.table), f.ratio)?;
         ensure(f.ratio.integer_bits() == 1, "formats.ratio", "one integer bit, such as s20.18", f.ratio)?;

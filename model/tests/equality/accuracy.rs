@@ -54,11 +54,14 @@ fn position(profile: &Profile, calibration: &Calibration, ideal: &Reading, of_ra
     let x = |dx: f64, dy: f64| calibration.position.look_up(ideal.r_x + dx, ideal.r_y + dy).x;
     let step = 1e-3;
     let slopes = [x(step, 0.0) - x(-step, 0.0), x(0.0, step) - x(0.0, -step)].map(|rise| rise / (2.0 * step));
-    // Nine coefficients, each by its weight (0.3 in all); three rows' values likewise; the rounded product of the column.
-    let words = q(f.table) * norm(&[0.55, 0.55, 0.3]);
+    // The measured ratio and what is left of it; nine coefficients, each by its weight (0.3 in all); three rows' values
+    // likewise (0.55); the weights along u and along v, three of either, of coefficients of about a half.
+    let weights = 0.5 * 3f64.sqrt();
+    let words = q(f.table) * norm(&[1.0, 1.0, 0.3, 0.55, 0.55 * weights, weights]);
     let along = |axis: usize| slopes[axis] * norm(&[of_ratio[axis], words]);
     let cells = (profile.position.columns - 2) as f64;
-    let place = 2f64.powi(-(i32::from(f.table.width) - cells.log2().ceil() as i32)) / 12f64.sqrt();
+    // As fine as a place's word, or the last of sixteen digits of a step's quotient.
+    let place = 2f64.powi((6 - i32::from(f.table.width)).max(3 - 16)) / 12f64.sqrt();
     norm(&[along(0), along(1), place * 800.0 / cells, q(f.position)])
 }
 

@@ -365,7 +365,9 @@ impl Position {
         self.scratch.access(&mut cell.parts.scratch, now.slot, Write { enable, address: now.slot, data });
         self.program.read(&mut cell.parts.program, self.fetch(r, now));
         let left = r.tables.select(of_table, r.left).integer();
-        let inputs = multiplier::Inputs { enable: r.running, left, right: word.integer() };
+        // A product of two clocks goes on in the second.
+        let enable = if self.multiplier.latency() == 1 { r.multiplies } else { r.multiplies | r.pending.bits(0, 1) };
+        let inputs = multiplier::Inputs { enable, left, right: word.integer() };
         let product = self.multiplier.call("multiplier", &mut cell.parts.multiplier, inputs).product;
         Read { instruction, word, product: product.scaled(-2 * self.word.frac) }
     }
@@ -461,6 +463,9 @@ impl Position {
         let scalars = r.surface.bits(0, 1).concat(code(0, Format::counter(Layout::SCALARS as u64 - 1)));
         let sets = now.does(Operation::Set) & now.has(SCALARS);
         let from_sum = r.sum.bits(self.word.frac as u8, r.base.format.width);
+        // Halves of a wide product have wider ranges than the whole: what cannot be is ruled out once more.
+        let last = code(self.table.words as i64 - 3, r.base.format);
+        let from_sum = if self.multiplier.latency() == 1 { from_sum } else { from_sum.at_most(last) };
         let kept = now.does(Operation::Base).select(from_sum, r.base);
         sets.select(scalars.fit(r.base.format, Exact, Never), kept)
     }
@@ -504,7 +509,7 @@ impl Position {
             bubble: self.jumps(r, now),
             fetched: self.fetch(r, now),
             instruction: on.select(instruction, r.instruction),
-            waited: on.select(int(0), more),
+            waited: (on | !r.running).select(int(0), more),
             count: (set & now.has(COUNT)).select(value, counted),
             surface: (set & now.has(SURFACE)).select(int(0), surface),
             step: does(Operation::Pass).select((r.step + int(1)).fit(r.step.format, Exact, Wrap), r.step),
