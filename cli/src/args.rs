@@ -31,6 +31,9 @@ pub enum Command {
     /// Print the core as Verilog, alone or with all that a board needs for a bitstream
     #[command(after_help = HDL)]
     Hdl(HdlArgs),
+    /// Print what a core's registers and position table take: a device's calibration as codes
+    #[command(after_help = CODES)]
+    Codes(CodesArgs),
 }
 
 const SIMULATE: &str = "Examples:
@@ -55,8 +58,49 @@ Exit status: 0 done, 2 bad input.";
 const HDL: &str = "Examples:
   hapticore hdl --board ulx3s --out build && build/build.sh
   hapticore hdl --profile small --out verilog
+  hapticore hdl --calibration mine.toml --out verilog
 
 Exit status: 0 done, 2 bad input.";
+
+const CODES: &str = "csv: name, address, code, value, format; constants have no address. readmemh: two's complement in hexadecimal, a word a
+line, the position table from address 0 on and the constants behind it, in the order in which they stand there. c: a header.
+All begin with comments that say what they are of.
+
+Terminals and pads of a bundled profile become those of the calibration, as with `hapticore hdl --calibration FILE`.
+
+Examples:
+  hapticore codes --calibration mine.toml --format readmemh --out codes.hex
+  hapticore codes --profile small --calibration mine.toml --format c > codes.h
+
+Exit status: 0 done, 2 bad input.";
+
+/// Arguments of `codes`.
+#[derive(Debug, Clone, clap::Args)]
+pub struct CodesArgs {
+    /// The core's profile: a bundled name (small, standard, fine) or a TOML file [default: standard]
+    #[arg(long, value_name = "PROFILE")]
+    pub profile: Option<String>,
+    /// The device's calibration [default: the paper's display's]
+    #[arg(long, value_name = "FILE")]
+    pub calibration: Option<PathBuf>,
+    /// What is printed
+    #[arg(long, value_enum, default_value_t = CodesFormat::Csv)]
+    pub format: CodesFormat,
+    /// Where it goes [default: standard output]
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+}
+
+/// How codes are printed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum CodesFormat {
+    /// A table
+    Csv,
+    /// For Verilog's $readmemh
+    Readmemh,
+    /// A header
+    C,
+}
 
 /// Arguments of `hdl`.
 #[derive(Debug, Clone, clap::Args)]
@@ -67,6 +111,9 @@ pub struct HdlArgs {
     /// The core's profile: a bundled name (small, standard, fine) or a TOML file [default: the board's, else standard]
     #[arg(long, value_name = "PROFILE")]
     pub profile: Option<String>,
+    /// A device's calibration, whose terminals and pads a bundled profile takes
+    #[arg(long, value_name = "FILE")]
+    pub calibration: Option<PathBuf>,
     /// Where the files go
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,

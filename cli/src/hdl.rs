@@ -11,6 +11,7 @@ use hapticore_rtl::verilog::Design;
 use serde_json::json;
 
 use crate::args::HdlArgs;
+use crate::calibrate::DeviceCalibration;
 use crate::inputs;
 use crate::output::Output;
 use crate::say;
@@ -26,6 +27,8 @@ pub fn run(args: &HdlArgs) -> Result<bool> {
     let board = args.board.as_deref().map(str::parse::<Target>).transpose().context("--board")?;
     let name = board.map_or(PROFILE, Target::profile_name);
     let profile = inputs::profile(args.profile.as_deref().unwrap_or(name))?;
+    let device = args.calibration.as_deref().map(DeviceCalibration::read).transpose()?;
+    let profile = device.map_or(Ok(profile.clone()), |device| inputs::for_device(&profile, &device))?;
     let output = Output::new(&args.out)?;
     let top = match board {
         Some(board) => write_board(&output, board, &profile)?,

@@ -3,6 +3,7 @@
 
 mod bad_captures;
 mod captures;
+mod codes;
 mod gallery;
 mod messages;
 mod recorders;
