@@ -5,6 +5,7 @@ mod bad_captures;
 mod captures;
 mod codes;
 mod gallery;
+mod lab;
 mod messages;
 mod recorders;
 mod runs;
