@@ -7,7 +7,7 @@ use anyhow::{Context, Result};
 use hapticore_model::profile::Profile;
 use hapticore_rtl::board::Target;
 use hapticore_rtl::component;
-use hapticore_rtl::verilog::Design;
+use hapticore_rtl::verilog::{Design, header};
 use serde_json::json;
 
 use crate::args::HdlArgs;
@@ -37,10 +37,11 @@ pub fn run(args: &HdlArgs) -> Result<bool> {
     tell(args, &profile, &top, &output.keep()?)
 }
 
-/// The core: a file for each module.
+/// The core: a file for each module, and what a bench must know of it.
 fn write_core(output: &Output, profile: &Profile) -> Result<String> {
     let design = Design::of_core(profile);
     design.modules.iter().try_for_each(|file| output.write(&format!("{}.v", file.name), &file.text))?;
+    output.write(header::NAME, &header::of_core(profile, &design))?;
     Ok(design.top().to_owned())
 }
 

@@ -11,6 +11,7 @@ mod recorders;
 mod runs;
 mod streams;
 mod terminals;
+mod tutorial;
 mod waves;
 
 use std::fs;
