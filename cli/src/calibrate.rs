@@ -16,7 +16,7 @@
 //! haptic_full_scale_v = 600.0
 //! force_k = 9.6e12                # eq. 8, N/(F·V)²
 //! [map]
-//! columns = 121                   # places in a row; left out where they lie anywhere
+//! columns = 121                   # places in a row
 //! places = [[x_mm, y_mm, r_x, r_y, sheet_ohm], …]
 //! ```
 
@@ -57,7 +57,7 @@ pub struct DeviceCalibration {
     /// Full scales and the force law.
     pub device: Scales,
     /// Places and what is read there.
-    pub map: Map,
+    pub map: Raster,
 }
 
 /// The signs of the terminals' currents in the numerators of both ratios.
@@ -98,12 +98,12 @@ pub struct Scales {
     pub force_k: f64,
 }
 
-/// Places in whole rows or anywhere: `[x_mm, y_mm, r_x, r_y, sheet_ohm]`.
+/// Places in whole rows: `[x_mm, y_mm, r_x, r_y, sheet_ohm]`.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Map {
-    /// Places in a row; none where they lie anywhere.
-    pub columns: Option<usize>,
+pub struct Raster {
+    /// Places in a row.
+    pub columns: usize,
     /// The places.
     pub places: Vec<[f64; 5]>,
 }
@@ -133,19 +133,27 @@ impl Scales {
     }
 }
 
-impl Map {
+impl Raster {
     fn check(&self) -> Result<(), String> {
         let places = self.places.len();
-        let whole = |columns: usize| columns >= 2 && places.is_multiple_of(columns) && places / columns >= 2;
-        if let Some(columns) = self.columns.filter(|columns| !whole(*columns)) {
+        if self.columns < 2 || !places.is_multiple_of(self.columns) || places / self.columns < 2 {
             let expected = "expected two whole rows or more of two columns or more";
-            return Err(format!("map.columns: {expected}, got {places} places in rows of {columns}"));
+            return Err(format!("map.columns: {expected}, got {places} places in rows of {}", self.columns));
         }
         match self.places.iter().position(|place| place.iter().any(|number| !number.is_finite())) {
             Some(index) => Err(format!("map.places: expected finite numbers, got {:?}", self.places[index])),
             None => Ok(()),
         }
     }
+}
+
+/// Where the position table of a calibration finds places, `[x_mm, y_mm, r_x, r_y, sheet_ohm]`.
+pub fn found(places: &[[f64; 5]], calibration: &Calibration) -> Vec<Found> {
+    let found = |&[x, y, r_x, r_y, _]: &[f64; 5]| {
+        let found = calibration.position.look_up(r_x, r_y);
+        ([x, y], [found.x, found.y])
+    };
+    places.iter().map(found).collect()
 }
 
 /// k of eq. 8 that fits the device's friction best.
@@ -166,7 +174,7 @@ impl DeviceCalibration {
         DeviceCalibration {
             pads: plant.pad_names().len() as u64,
             terminals: Signs { x: profile.terminals.x.clone(), y: profile.terminals.y.clone() },
-            map: Map { columns: Some(RASTER[0]), places: places.collect() },
+            map: Raster { columns: RASTER[0], places: places.collect() },
             device: Scales {
                 sample_rate_hz: device.sample_rate_hz,
                 carrier_hz: device.carrier_hz,
@@ -215,7 +223,7 @@ impl DeviceCalibration {
         let mut text = format!(
             "# A device's calibration for `hapticore replay`.\npads = {}\n\n[terminals]\nx = {:?}\ny = {:?}\n\n[device]\n\
              sample_rate_hz = {:?}\ncarrier_hz = {:?}\ncurrent_full_scale_a = {:?}\nsense_full_scale_v = {:?}\n\
-             haptic_full_scale_v = {:?}\nforce_k = {:?}\n\n[map]\n{}\
+             haptic_full_scale_v = {:?}\nforce_k = {:?}\n\n[map]\ncolumns = {}\n\
              places = [ # x_mm, y_mm, r_x, r_y, sheet_ohm\n",
             self.pads,
             self.terminals.x,
@@ -226,7 +234,7 @@ impl DeviceCalibration {
             device.sense_full_scale_v,
             device.haptic_full_scale_v,
             device.force_k,
-            self.map.columns.map_or(String::new(), |columns| format!("columns = {columns}\n"))
+            self.map.columns
         );
         for place in &self.map.places {
             writeln!(text, "{place:?},").expect("a string takes all");
@@ -235,18 +243,9 @@ impl DeviceCalibration {
         text
     }
 
-    /// Where the position table of a calibration finds the places of this one.
-    pub fn found(&self, calibration: &Calibration) -> Vec<Found> {
-        let found = |&[x, y, r_x, r_y, _]: &[f64; 5]| {
-            let found = calibration.position.look_up(r_x, r_y);
-            ([x, y], [found.x, found.y])
-        };
-        self.map.places.iter().map(found).collect()
-    }
-
     /// What is left of the calibration's own places, looked up in the table that was fitted to them.
     pub fn residual(&self, calibration: &Calibration) -> Residual {
-        Residual::of(self.found(calibration).into_iter())
+        Residual::of(found(&self.map.places, calibration).into_iter())
     }
 
     /// The calibration for a core of the profile.
@@ -256,8 +255,8 @@ impl DeviceCalibration {
     pub fn of(&self, profile: &Profile) -> Result<Calibration> {
         let device = &self.device;
         let place = |&[x, y, r_x, r_y, sheet_ohm]: &[f64; 5]| Point { x, y, r_x, r_y, sheet: sheet_ohm / device.ohm() };
-        let refined = self.map.columns.map(|columns| refine::refine(columns, &self.map.places).1);
-        let points: Vec<_> = refined.as_ref().unwrap_or(&self.map.places).iter().map(place).collect();
+        let (_, places) = refine::refine(self.map.columns, &self.map.places);
+        let points: Vec<_> = places.iter().map(place).collect();
         let calibration = Calibration {
             position: PositionTable::fit(profile, &points).map_err(|error| anyhow!("calibration map: {error}"))?,
             capacitance_gain: device.capacitance_gain(),

@@ -23,6 +23,9 @@ pub struct Estimate {
     pub interval: [f64; 2],
 }
 
+/// What a reading depends on, and the reading.
+pub type Row<const P: usize> = ([f64; P], f64);
+
 /// A fit of `P` coefficients.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fit<const P: usize> {
@@ -50,7 +53,7 @@ impl<const P: usize> Fit<P> {
     ///
     /// # Errors
     /// Fewer than two rows more than coefficients, or columns that do not tell the coefficients.
-    pub fn of(rows: &[([f64; P], f64)]) -> Result<Fit<P>, Unfit> {
+    pub fn of(rows: &[Row<P>]) -> Result<Fit<P>, Unfit> {
         if rows.len() < P + 2 {
             return Err(Unfit::Few(P + 2));
         }
@@ -59,14 +62,14 @@ impl<const P: usize> Fit<P> {
         if let Some(zero) = lengths.iter().position(|length| *length == 0.0) {
             return Err(Unfit::Zero(zero));
         }
-        let sum = |f: &dyn Fn(&([f64; P], f64)) -> f64| rows.iter().map(f).sum::<f64>();
+        let sum = |f: &dyn Fn(&Row<P>) -> f64| rows.iter().map(f).sum::<f64>();
         let normal: [[f64; P]; P] =
             std::array::from_fn(|i| std::array::from_fn(|k| sum(&|(x, _)| x[i] / lengths[i] * x[k] / lengths[k])));
         let inverse = inverse(normal).ok_or(Unfit::Alike)?;
         let products: [f64; P] = std::array::from_fn(|k| sum(&|(x, y)| x[k] / lengths[k] * y));
         let solve = |i: usize| (0..P).map(|k| inverse[i][k] * products[k]).sum::<f64>() / lengths[i];
         let values: [f64; P] = std::array::from_fn(solve);
-        let residual = |(x, y): &([f64; P], f64)| y - x.iter().zip(values).map(|(x, value)| x * value).sum::<f64>();
+        let residual = |(x, y): &Row<P>| y - x.iter().zip(values).map(|(x, value)| x * value).sum::<f64>();
         let residuals: Vec<_> = rows.iter().map(residual).collect();
         let freedom = (rows.len() - P) as f64;
         let noise = (residuals.iter().map(|r| r * r).sum::<f64>() / freedom).sqrt();

@@ -12,6 +12,7 @@
 //! | --- | --- |
 //! | [`table`], [`setup`] | reads CSV, TOML |
 //! | [`places`] | what terminals read of a pad at known places |
+//! | [`scattered`] | places that are no raster, brought onto one |
 //! | [`loads`] | friction under known loads and voltages |
 //! | [`wiring`] | terminals that are swapped or reversed |
 //! | [`least_squares`] | coefficients with their intervals |
@@ -19,6 +20,7 @@
 pub mod least_squares;
 pub mod loads;
 pub mod places;
+pub mod scattered;
 pub mod setup;
 pub mod table;
 pub mod wiring;
@@ -27,17 +29,18 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use hapticore_model::profile::Profile;
-use hapticore_scene::PadReading;
+use hapticore_scene::{Complex, Plant};
 use serde::Serialize;
 
 use crate::args::CalibrateArgs;
-use crate::calibrate::{DeviceCalibration, Found, Map, Scales, Signs};
+use crate::calibrate::{DeviceCalibration, Found, Raster, Scales, Signs, found};
 use crate::record::Provenance;
 use crate::residual::{LIMIT_MM, Residual};
 use crate::{capture, console, inputs, print, report, say};
 use least_squares::Estimate;
 use loads::{Force, Loads};
 use places::{Place, Places};
+use scattered::{Row, Values};
 use setup::Setup;
 use table::Table;
 
@@ -141,11 +144,13 @@ impl Data {
 /// The calibration of a lab's data.
 fn calibrate(data: &Data, profile: &Profile) -> Result<(DeviceCalibration, Outcome)> {
     let setup = &data.setup;
-    let places = Places::of(&data.places, setup.current_full_scale_a)?;
+    let mut places = Places::of(&data.places, setup.current_full_scale_a)?;
+    let columns = places.raster();
     let signs = setup.signs(places.terminals())?;
-    let model = wiring::check(&places, setup, &signs)?;
+    let even = wiring::even_sheet(setup)?;
+    wiring::check(&places, setup, &signs, even.as_ref())?;
     let mut warnings = Vec::new();
-    let (sheet, from) = resistances(&places, setup, model.as_deref());
+    let (sheet, from) = resistances(&places, setup, even.as_ref());
     warnings.extend((from == Resistance::Unknown).then(|| no_resistance(&places.file)));
     let nearest = |at: [f64; 2]| nearest(&places.places, &sheet, at);
     let force = data.loads.as_ref().map(|table| Loads::of(table, setup, nearest)?.fit(setup)).transpose()?;
@@ -156,22 +161,25 @@ fn calibrate(data: &Data, profile: &Profile) -> Result<(DeviceCalibration, Outco
     let scale = force.as_ref().and_then(|force| force.current_scale).map_or(1.0, |scale| scale.value);
     warnings.extend((!(SCALES[0]..SCALES[1]).contains(&scale)).then(|| far_off(scale)));
     let sheet: Vec<_> = sheet.iter().map(|ohm| if from == Resistance::Currents { ohm / scale } else { *ohm }).collect();
-    let device = DeviceCalibration {
+    let measured = Measured { rows: rows(&places, &sheet, &signs), columns, even: even.as_ref(), signs: &signs };
+    let mut device = DeviceCalibration {
         pads: setup.pads,
-        map: map(&places, &sheet, &signs),
+        map: Raster { columns: 0, places: Vec::new() },
         device: scales(setup, scale, force_k),
-        terminals: signs,
+        terminals: signs.clone(),
     };
     let profile = inputs::for_device(profile, &device)?;
+    let (measured, held_out) = measured.best(&device, &profile).with_context(|| places.file.clone())?;
+    device.map = measured.raster().with_context(|| places.file.clone())?;
     let calibration = device.of(&profile).with_context(|| places.file.clone())?;
-    let found = [device.found(&calibration), hold_out(&device, &profile).with_context(|| places.file.clone())?];
+    let found = [found(&measured.rows, &calibration), held_out];
     let [own_places, held_out] = [0, 1].map(|k| Residual::of(found[k].iter().copied()));
     warnings.extend(own_places.warning(LIMIT_MM));
     warnings.extend(own_places.warning(LIMIT_MM).is_none().then(|| coarse(&held_out)).flatten());
     let outcome = Outcome {
         profile: profile.name.clone(),
         places: places.places.len(),
-        columns: device.map.columns,
+        columns,
         terminals: places.terminals(),
         own_places,
         held_out,
@@ -193,18 +201,21 @@ enum Resistance {
 }
 
 /// The sheet's resistance at each place: measured, from currents with their phases, or that of an even film.
-fn resistances(places: &Places, setup: &Setup, model: Option<&[PadReading]>) -> (Vec<f64>, Resistance) {
+fn resistances(places: &Places, setup: &Setup, even: Option<&Plant>) -> (Vec<f64>, Resistance) {
     let all = || places.places.iter();
     let film = setup.sheet.as_ref().and_then(|sheet| sheet.ohm_per_square);
     if let Some(measured) = all().map(|place| place.sheet_ohm).collect() {
         return (measured, Resistance::Measured);
     }
     if places.phases {
-        let ohm = |place: &Place| (1.0 / place.siemens.iter().sum::<hapticore_scene::Complex>()).re;
+        let ohm = |place: &Place| (1.0 / place.siemens.iter().sum::<Complex>()).re;
         return (all().map(ohm).collect(), Resistance::Currents);
     }
-    match model.filter(|_| film.is_some()) {
-        Some(model) => (model.iter().map(|reading| reading.sheet_ohm).collect(), Resistance::EvenSheet),
+    match even.filter(|_| film.is_some()) {
+        Some(even) => {
+            let at: Vec<_> = all().map(|place| place.at_mm).collect();
+            (even.readings(&at).iter().map(|reading| reading.sheet_ohm).collect(), Resistance::EvenSheet)
+        }
         None => (vec![0.0; places.places.len()], Resistance::Unknown),
     }
 }
@@ -240,16 +251,12 @@ fn nearest(places: &[Place], ohm: &[f64], at: [f64; 2]) -> f64 {
     nearest.map_or(0.0, |(_, ohm)| *ohm)
 }
 
-fn map(places: &Places, ohm: &[f64], signs: &Signs) -> Map {
-    let row = |place: &Place| {
-        let [r_x, r_y] = Places::ratios(place, [&signs.x, &signs.y]);
-        let ohm = places.places.iter().position(|known| known.at_mm == place.at_mm).map_or(0.0, |index| ohm[index]);
-        [place.at_mm[0], place.at_mm[1], r_x, r_y, ohm]
+fn rows(places: &Places, ohm: &[f64], signs: &Signs) -> Vec<Row> {
+    let row = |(place, ohm): (&Place, &f64)| {
+        let [r_x, r_y] = Places::ratios(&place.siemens, [&signs.x, &signs.y]);
+        [place.at_mm[0], place.at_mm[1], r_x, r_y, *ohm]
     };
-    match places.raster() {
-        Some((columns, raster)) => Map { columns: Some(columns), places: raster.into_iter().map(row).collect() },
-        None => Map { columns: None, places: places.places.iter().map(row).collect() },
-    }
+    places.places.iter().zip(ohm).map(row).collect()
 }
 
 fn scales(setup: &Setup, current_scale: f64, force_k: f64) -> Scales {
@@ -263,17 +270,60 @@ fn scales(setup: &Setup, current_scale: f64, force_k: f64) -> Scales {
     }
 }
 
-/// Every other place, looked up in a table that was made from the others: of a raster the black squares of its board.
-fn hold_out(device: &DeviceCalibration, profile: &Profile) -> Result<Vec<Found>> {
-    let columns = device.map.columns.unwrap_or(device.map.places.len());
-    let is_kept = |index: usize| (index / columns + index % columns).is_multiple_of(2);
-    let half = |kept: bool| {
-        let places = device.map.places.iter().enumerate().filter(|(index, _)| is_kept(*index) == kept);
-        Map { columns: None, places: places.map(|(_, place)| *place).collect() }
-    };
-    let from = DeviceCalibration { map: half(true), ..device.clone() };
-    let calibration = from.of(profile).context("with every other place held out")?;
-    Ok(DeviceCalibration { map: half(false), ..device.clone() }.found(&calibration))
+/// What was measured, as a position table is made from it.
+#[derive(Clone)]
+struct Measured<'a> {
+    rows: Vec<Row>,
+    columns: Option<usize>,
+    even: Option<&'a Plant>,
+    signs: &'a Signs,
+}
+
+impl Measured<'_> {
+    /// The places as a raster: as they are, or brought onto one.
+    fn raster(&self) -> Result<Raster> {
+        match self.columns {
+            Some(columns) => Ok(Raster { columns, places: self.rows.clone() }),
+            None => self.scattered(&self.rows),
+        }
+    }
+
+    fn scattered(&self, rows: &[Row]) -> Result<Raster> {
+        let (columns, places) = scattered::raster(rows, |places| self.even(places))?;
+        Ok(Raster { columns, places })
+    }
+
+    /// The ratios that an even sheet has at places; its resistance is not asked for.
+    fn even(&self, places: &[[f64; 2]]) -> Vec<Values> {
+        let Some(even) = self.even else { return vec![[0.0; 3]; places.len()] };
+        let values = |siemens: &[Complex]| {
+            let [r_x, r_y] = Places::ratios(siemens, [&self.signs.x, &self.signs.y]);
+            [r_x, r_y, 0.0]
+        };
+        even.readings(places).iter().map(|reading| values(&reading.siemens)).collect()
+    }
+
+    /// With the even sheet or without, whichever finds places better that are held out; and these.
+    fn best(self, device: &DeviceCalibration, profile: &Profile) -> Result<(Self, Vec<Found>)> {
+        let without = Measured { even: None, ..self.clone() };
+        let found = without.hold_out(device, profile);
+        let rms_mm = |found: &Vec<Found>| Residual::of(found.iter().copied()).rms_mm;
+        match self.even.and_then(|_| self.hold_out(device, profile).ok()) {
+            Some(with) if found.as_ref().map_or(true, |found| rms_mm(&with) < rms_mm(found)) => Ok((self, with)),
+            _ => Ok((without, found?)),
+        }
+    }
+
+    /// Every other place, looked up in a table that was made from the others: of a raster the white squares of its board.
+    fn hold_out(&self, device: &DeviceCalibration, profile: &Profile) -> Result<Vec<Found>> {
+        let columns = self.columns.unwrap_or(self.rows.len());
+        let is_kept = |index: &usize| (index / columns + index % columns).is_multiple_of(2);
+        let (kept, held): (Vec<_>, Vec<_>) = (0..self.rows.len()).partition(is_kept);
+        let [kept, held] = [kept, held].map(|half| half.into_iter().map(|index| self.rows[index]).collect::<Vec<_>>());
+        let from = DeviceCalibration { map: self.scattered(&kept)?, ..device.clone() };
+        let calibration = from.of(profile).context("with every other place held out")?;
+        Ok(found(&held, &calibration))
+    }
 }
 
 /// What stands at the head of a calibration file.

@@ -174,26 +174,24 @@ impl Places {
         Ok(())
     }
 
-    /// The ratios of a place, with these signs.
-    pub fn ratios(place: &Place, signs: [&[i8]; 2]) -> [f64; 2] {
-        let currents = || place.siemens.iter().map(|siemens| siemens.norm()).zip(signs[0].iter().zip(signs[1]));
+    /// The ratios of currents, with these signs.
+    pub fn ratios(siemens: &[Complex], signs: [&[i8]; 2]) -> [f64; 2] {
+        let currents = || siemens.iter().map(|siemens| siemens.norm()).zip(signs[0].iter().zip(signs[1]));
         let sum: f64 = currents().filter(|(_, (x, y))| (**x, **y) != (0, 0)).map(|(current, _)| current).sum();
         [0, 1].map(|axis| currents().map(|(current, (x, y))| current * f64::from([*x, *y][axis])).sum::<f64>() / sum)
     }
 
-    /// The places in whole rows, and the columns of a row; none where they are no raster.
-    pub fn raster(&self) -> Option<(usize, Vec<&Place>)> {
+    /// Brings the places into the order of a raster, row by row; places in a row, or none where they are no raster.
+    pub fn raster(&mut self) -> Option<usize> {
         let [xs, ys] = [0, 1].map(|axis| distinct(self.places.iter().map(|place| place.at_mm[axis])));
         if xs.len() * ys.len() != self.places.len() {
             return None;
         }
         let index = |values: &[f64], value: f64| values.iter().rposition(|first| *first <= value).unwrap_or(0);
-        let mut cells = vec![None; self.places.len()];
-        for place in &self.places {
-            let cell = index(&ys, place.at_mm[1]) * xs.len() + index(&xs, place.at_mm[0]);
-            cells[cell] = Some(place);
-        }
-        Some((xs.len(), cells.into_iter().collect::<Option<_>>()?))
+        let cell = |place: &Place| index(&ys, place.at_mm[1]) * xs.len() + index(&xs, place.at_mm[0]);
+        self.places.sort_by_key(cell);
+        let whole = self.places.iter().enumerate().all(|(number, place)| cell(place) == number);
+        whole.then_some(xs.len())
     }
 }
 

@@ -10,13 +10,13 @@
 use std::fmt::Write;
 
 use anyhow::{Result, anyhow, bail, ensure};
-use hapticore_scene::{PadReading, Plant, Scene};
+use hapticore_model::profile::Profile;
+use hapticore_scene::{PadReading, Plant, Scene, Timing};
 
 use super::places::{Place, Places, total};
 use super::setup::Setup;
 use crate::calibrate::Signs;
 use crate::inputs;
-use hapticore_model::profile::Profile;
 
 /// A current that is so much better correlated with another terminal's on the even sheet is not of its own.
 const BETTER: f64 = 0.05;
@@ -24,22 +24,24 @@ const BETTER: f64 = 0.05;
 /// A share counts as falling towards its terminal's side from this correlation on.
 const FALLS: f64 = -0.3;
 
-/// Checks the terminals of places; what an even sheet of the setup would read there, where it says enough.
+/// Checks the terminals of places, with an even sheet of the setup where it says enough.
 ///
 /// # Errors
 /// Terminals that are swapped or reversed, by name.
-pub fn check(places: &Places, setup: &Setup, signs: &Signs) -> Result<Option<Vec<PadReading>>> {
+pub fn check(places: &Places, setup: &Setup, signs: &Signs, even: Option<&Plant>) -> Result<()> {
     check_polarity(places)?;
-    let model = even_sheet(places, setup)?;
-    if let Some(model) = &model {
-        check_order(places, model, setup)?;
+    if let Some(even) = even {
+        let at: Vec<_> = places.places.iter().map(|place| place.at_mm).collect();
+        check_order(places, &even.readings(&at), setup)?;
     }
-    check_sides(places, signs)?;
-    Ok(model)
+    check_sides(places, signs)
 }
 
-/// What the terminals of an even sheet read at the places.
-fn even_sheet(places: &Places, setup: &Setup) -> Result<Option<Vec<PadReading>>> {
+/// An even sheet of the setup, where it says enough.
+///
+/// # Errors
+/// A sheet that cannot be.
+pub fn even_sheet(setup: &Setup) -> Result<Option<Plant>> {
     let (Some(sheet), Some(terminals)) = (&setup.sheet, &setup.terminals.places_mm) else { return Ok(None) };
     let mut scene = String::from("title = \"an even sheet\"\n[[pad]]\nposition_mm = [0, 0]\n");
     let _ = writeln!(
@@ -51,9 +53,8 @@ fn even_sheet(places: &Places, setup: &Setup) -> Result<Option<Vec<PadReading>>>
     let _ = sheet.ohm_per_square.map(|ohm| writeln!(scene, "ohm_per_square = {ohm:?}"));
     let fail = |error| anyhow!("the setup's sheet and terminals.places_mm: {error}");
     let scene = Scene::parse(&scene, "sheet", &[]).map_err(fail)?;
-    let timing = hapticore_scene::Timing { signs: None, ..inputs::timing(&Profile::bundled("standard")?) };
-    let plant = Plant::new(&scene, 0, &timing).map_err(fail)?;
-    Ok(Some(plant.readings(&places.places.iter().map(|place| place.at_mm).collect::<Vec<_>>())))
+    let timing = Timing { signs: None, ..inputs::timing(&Profile::bundled("standard")?) };
+    Ok(Some(Plant::new(&scene, 0, &timing).map_err(fail)?))
 }
 
 fn check_polarity(places: &Places) -> Result<()> {
