@@ -105,7 +105,9 @@ mod tests {
         for [x, y, a, b, c] in raster {
             let [plane, hill, constant] = of([x, y]);
             assert!((a - plane).abs() < 1e-8 && (c - constant).abs() < 1e-8, "{x} {y}");
-            assert!((b - hill).abs() < 0.01, "{x} {y}: {b} for {hill}");
+            // In the corners, beyond all places, splines go on as they may.
+            let most = if x.abs().max(y.abs()) < 85.0 { 0.005 } else { 0.05 };
+            assert!((b - hill).abs() < most, "{x} {y}: {b} for {hill}");
         }
     }
 

@@ -101,3 +101,45 @@ fn residuals(force: &Force, series: Vec<Series>) -> Figure {
     );
     Figure::plot("Residuals of the force", &note, &plot)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lab::least_squares::Estimate;
+    use crate::record::Provenance;
+
+    fn outcome(points: Vec<Point>, found: Vec<Found>) -> Outcome {
+        let estimate = |value: f64| Estimate { value, interval: [0.9 * value, 1.1 * value] };
+        let residual = Residual::of(found.iter().copied());
+        Outcome {
+            profile: "p&q".into(),
+            places: found.len(),
+            columns: None,
+            terminals: 4,
+            own_places: residual,
+            held_out: residual,
+            force: Some(Force {
+                force_k: estimate(9.6e12),
+                mu: Some(estimate(0.1)),
+                current_scale: None,
+                noise_n: 0.0,
+                points,
+            }),
+            warnings: vec!["<a> & b".into()],
+            found: [found, Vec::new()],
+            provenance: Provenance::default(),
+        }
+    }
+
+    #[test]
+    fn the_page_is_well_formed_whatever_was_found() {
+        let point = Point { square: 1e-14, force_n: 0.1, residual_n: 1e-3, haptic_v_rms: 300.0, load_g: None };
+        let lost = [([0.0, 0.0], [f64::NAN, 0.0]), ([9.0, 5.0], [9.1, 5.0])];
+        for (points, found) in [(Vec::new(), Vec::new()), (vec![point], lost.to_vec())] {
+            let page = of_calibration(&outcome(points, found));
+            let text = page.split_once('\n').expect("lines").1;
+            roxmltree::Document::parse(text).unwrap_or_else(|error| panic!("{error}"));
+            assert!(page.contains("&lt;a&gt; &amp; b"));
+        }
+    }
+}

@@ -161,6 +161,34 @@ fn verilog_reads_the_same_codes() {
     assert_eq!(constants, codes.constants.iter().map(|(_, code)| *code).collect::<Vec<_>>());
 }
 
+/// A host's program: every number of the header, as the header says them.
+const HOST: &str = "#include <stdio.h>
+#include \"codes.h\"
+int main(void) {
+    printf(\"%d\\n%d\\n\", HAPTICORE_CAPACITANCE_GAIN, HAPTICORE_FORCE_GAIN);
+    for (int k = 0; k < HAPTICORE_POSITION_TABLE_WORDS; k++) printf(\"%d\\n\", hapticore_position_table[k]);
+    return 0;
+}
+";
+
+#[test]
+fn a_host_in_c_has_the_same_codes() {
+    let folder = tempfile::tempdir().unwrap();
+    finish(folder.path(), &[&DEVICE[..], &["--capture", "c.csv"]].concat());
+    if !have(&["gcc"]) {
+        return;
+    }
+    fs::write(folder.path().join("codes.h"), text(folder.path(), "c")).unwrap();
+    fs::write(folder.path().join("host.c"), HOST).unwrap();
+    run(Command::new("gcc").args(["-std=c99", "-Wall", "-Wextra", "-Werror", "-o", "host", "host.c"]), folder.path());
+    let said = run(&mut Command::new(folder.path().join("host")), folder.path());
+    let numbers: Vec<i64> = said.lines().map(|line| line.parse().unwrap()).collect();
+    let codes = from_csv(&text(folder.path(), "csv"));
+    let constant = |name: &str| codes.constants.iter().find(|(known, _)| known == name).unwrap().1;
+    assert_eq!(numbers[..2], [constant("capacitance_gain"), constant("force_gain")]);
+    assert_eq!(numbers[2..], codes.table);
+}
+
 #[test]
 fn codes_say_what_they_are_of_and_are_refused_where_they_cannot_be() {
     let folder = tempfile::tempdir().unwrap();
