@@ -14,7 +14,7 @@
 //! current_full_scale_a = 0.004    # at the end of the ADC's range, as the next two
 //! sense_full_scale_v = 8.0
 //! haptic_full_scale_v = 600.0
-//! force_k = 9.6e15                # eq. 8, N/(F·V)²
+//! force_k = 9.6e12                # eq. 8, N/(F·V)²
 //! [map]
 //! columns = 121                   # places in a row
 //! places = [[x_mm, y_mm, r_x, r_y, sheet_ohm], …]
@@ -73,6 +73,9 @@ impl Default for Signs {
         Signs { x: vec![-1, -1, 1, 1, 0, 0], y: vec![1, -1, -1, 1, 0, 0] }
     }
 }
+
+/// A place, mm, and where it was found.
+pub type Found = ([f64; 2], [f64; 2]);
 
 /// Full scales, frequencies and the force law.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -139,6 +142,15 @@ impl Raster {
             None => Ok(()),
         }
     }
+}
+
+/// Where the position table of a calibration finds places, `[x_mm, y_mm, r_x, r_y, sheet_ohm]`.
+pub fn found(places: &[[f64; 5]], calibration: &Calibration) -> Vec<Found> {
+    let found = |&[x, y, r_x, r_y, _]: &[f64; 5]| {
+        let found = calibration.position.look_up(r_x, r_y);
+        ([x, y], [found.x, found.y])
+    };
+    places.iter().map(found).collect()
 }
 
 /// k of eq. 8 that fits the device's friction best.
@@ -230,10 +242,7 @@ impl DeviceCalibration {
 
     /// What is left of the calibration's own places, looked up in the table that was fitted to them.
     pub fn residual(&self, calibration: &Calibration) -> Residual {
-        Residual::of(self.map.places.iter().map(|&[x, y, r_x, r_y, _]| {
-            let found = calibration.position.look_up(r_x, r_y);
-            ([x, y], [found.x, found.y])
-        }))
+        Residual::of(found(&self.map.places, calibration).into_iter())
     }
 
     /// The calibration for a core of the profile.

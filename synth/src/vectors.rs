@@ -12,6 +12,7 @@ use hapticore_model::bundle::Bundle;
 use hapticore_model::calibration::{Calibration, Point, PositionTable};
 use hapticore_model::profile::Profile;
 use hapticore_model::signal::Signal;
+use hapticore_rtl::codes::{Codes, Constant};
 use std::fmt::Write as _;
 
 /// The profile that they are for.
@@ -142,16 +143,15 @@ pub fn files() -> Vec<File> {
     let profile = Profile::bundled(PROFILE).expect("a bundled profile");
     let core = Core::new(&profile);
     let calibration = calibration(&profile);
-    let constants = calibration.inputs(core.inputs());
-    let word = core.estimator().position().table().format;
+    let calibrated = Codes::new(&profile, &calibration);
+    let constants = calibrated.inputs;
     let frames = String::from("pad,index,word,clipped,saturated,invalid,lost\n");
     let mut bench = Bench { cell: core.cell(), core, asked: 0, frames };
     let mut words = String::from("what,code\n");
-    for (name, code) in [("capacitance_gain", constants.capacitance_gain), ("force_gain", constants.force_gain)] {
+    for Constant { name, code, .. } in calibrated.constants() {
         writeln!(words, "{name},{code}").expect("a string grows");
     }
-    for (address, &real) in (0..).zip(&calibration.position.words) {
-        let word = word.code_saturating(real);
+    for (address, &word) in (0..).zip(&calibrated.table) {
         writeln!(words, "{address},{word}").expect("a string grows");
         bench.clock(Inputs { write: 1, address, word, ..constants });
     }
