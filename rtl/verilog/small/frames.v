@@ -11,8 +11,8 @@ module frames (
     input wire invalid, // u1.0  The results are invalid: those held go out.
     input wire signed [17:0] r_x, // s18.16  As [`Field::RatioX`].
     input wire signed [17:0] r_y, // s18.16  As [`Field::RatioY`].
-    input wire signed [15:0] x, // s16.6  As [`Field::X`].
-    input wire signed [15:0] y, // s16.6  As [`Field::Y`].
+    input wire signed [15:0] x, // s16.5  As [`Field::X`].
+    input wire signed [15:0] y, // s16.5  As [`Field::Y`].
     input wire [14:0] sheet, // u15.15  As [`Field::Sheet`].
     input wire [14:0] capacitance, // u15.5  As [`Field::Capacitance`].
     input wire [14:0] haptic_force, // u15.12  As [`Field::Force`].

@@ -7,9 +7,9 @@ module ratio (
     input wire clock,
     input wire reset,
     input wire start, // u1.0  The sums are there, and hold.
-    input wire signed [19:0] x, // s20.13  The numerator of r_x.
-    input wire signed [19:0] y, // s20.13  The numerator of r_y.
-    input wire [18:0] corners, // u19.13  Their denominator.
+    input wire signed [20:0] x, // s21.15  The numerator of r_x.
+    input wire signed [20:0] y, // s21.15  The numerator of r_y.
+    input wire [19:0] corners, // u20.15  Their denominator.
     output reg done, // u1.0  Set for one clock when the ratios are there.
     output reg signed [17:0] r_x, // s18.16  The x ratio.
     output reg signed [17:0] r_y, // s18.16  The y ratio.
@@ -23,7 +23,7 @@ module ratio (
     wire divider_saturated; // u1.0
 
     wire step_is_x = step == 2'd1; // u1.0
-    wire signed [19:0] numerator = step_is_x ? x : y; // s20.13
+    wire signed [20:0] numerator = step_is_x ? x : y; // s21.15
     wire bit_22 = divider_done & step_is_x; // u1.0
     wire bit_25 = divider_done & (step == 2'd2); // u1.0
 
@@ -31,7 +31,7 @@ module ratio (
         .clock(clock),
         .reset(reset),
         .start(divide),
-        .numerator(numerator[19] ? 20'd0 - numerator : numerator),
+        .numerator(numerator[20] ? 21'd0 - numerator : numerator),
         .denominator(corners),
         .done(divider_done),
         .quotient(divider_quotient),
@@ -57,12 +57,12 @@ module ratio (
                 done <= bit_25;
                 if (divider_done) begin
                     r_y <=
-                        (numerator < $signed(20'd0)) ? (18'd0 - {1'd0, divider_quotient})
+                        (numerator < $signed(21'd0)) ? (18'd0 - {1'd0, divider_quotient})
                         : {1'd0, divider_quotient};
                 end
                 if (bit_25) begin
                     r_x <= r_y;
-                    invalid <= corners == 19'd0;
+                    invalid <= corners == 20'd0;
                 end
             end
         end

@@ -46,6 +46,31 @@ pub enum Operation {
     End,
 }
 
+impl Operation {
+    /// The name of the signal that says it is this one.
+    pub const fn name(self) -> &'static str {
+        use Operation::*;
+        match self {
+            Load => "is_load",
+            LoadCell => "is_load_cell",
+            LoadQuotient => "is_load_quotient",
+            Multiply => "is_multiply",
+            MultiplyTable => "is_multiply_table",
+            LoadDigit => "is_load_digit",
+            Store => "is_store",
+            Base => "is_base",
+            Input => "is_input",
+            Output => "is_output",
+            Set => "is_set",
+            Repeat => "is_repeat",
+            Surfaces => "is_surfaces",
+            Pass => "is_pass",
+            Found => "is_found",
+            End => "is_end",
+        }
+    }
+}
+
 /// Which word of a group of slots an instruction means.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Index {

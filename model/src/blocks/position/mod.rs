@@ -132,7 +132,13 @@ impl<V: Value> Decoded<V> {
     /// Whether it is this one, done in this clock.
     #[inline(always)]
     fn does(&self, operation: Operation) -> Signal<V> {
-        self.done & self.operation.is(operation as u64)
+        self.done & self.is(operation)
+    }
+
+    /// Whether it is this one.
+    #[inline(always)]
+    fn is(&self, operation: Operation) -> Signal<V> {
+        self.operation.is(operation as u64).named(operation.name())
     }
 
     #[inline(always)]
@@ -161,7 +167,7 @@ impl Position {
         Position {
             clocks: program.clocks(profile.position.steps, wait),
             registers: registers(profile, &table, &program, wait),
-            program: Memory::table("program", Format::unsigned(instruction::BITS, 0), codes),
+            program: Memory::table("instructions", Format::unsigned(instruction::BITS, 0), codes),
             // A slot whose table is written meanwhile gives a frame of neither calibration in any case.
             table,
             scratch: Memory { initial: constants.into(), ..scratch },
@@ -314,7 +320,7 @@ impl Position {
         let word = r.instruction;
         let operation = word.bits(instruction::BITS - instruction::OPERATION_BITS, instruction::OPERATION_BITS);
         let option = word.bits(0, instruction::OPTION_BITS);
-        let is = |other: Operation| operation.is(other as u64);
+        let is = |other: Operation| operation.is(other as u64).named(other.name());
         let waits = (is(Base) | is(LoadDigit) | is(LoadQuotient) | is(Output) | is(Store)).named("waits");
         let settled = r.waited.is(self.multiplier.latency() + 1);
         let done = (r.running & !r.bubble & (!waits | settled)).named("does");
@@ -356,7 +362,7 @@ impl Position {
         let of_table = self.table.data(&mut cell.parts.table);
         let word = self.scratch.data(&mut cell.parts.scratch);
         let instruction = self.program.data(&mut cell.parts.program);
-        let option = now.operation.is(Operation::MultiplyTable as u64).select(now.option, int(0));
+        let option = now.is(Operation::MultiplyTable).select(now.option, int(0));
         let address = (r.base + option).fit(r.base.format, Exact, Wrap);
         let write = Write { enable: i.write, address: i.address, data: i.word };
         self.table.access(&mut cell.parts.table, address, write);
@@ -394,7 +400,7 @@ impl Position {
         let low = ratio.bits(0, rest).scaled(-(rest as i8)).ideally(&[], |_| 0.0);
         let taken = now.has(LOW).select(low, high);
         let kept = now.has(WRAP).select(turned, result);
-        now.operation.is(Operation::Input as u64).select(taken, kept)
+        now.is(Operation::Input).select(taken, kept)
     }
 
     /// Where the next instruction but one lies.
