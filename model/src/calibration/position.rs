@@ -274,8 +274,9 @@ impl PositionTable {
     fn at(&self, place: [f64; 2]) -> Slopes {
         let terms = self.terms(Surface::RatioX, place);
         self.ratios.each_ref().map(|ratio| {
-            let sum =
-                |weight: fn(&(usize, f64, [f64; 2])) -> f64| terms.iter().map(|term| weight(term) * ratio[term.0]).sum();
+            let sum = |weight: fn(&(usize, f64, [f64; 2])) -> f64| {
+                terms.iter().map(|term| weight(term) * ratio[term.0]).sum()
+            };
             [sum(|term| term.1), sum(|term| term.2[0]), sum(|term| term.2[1])]
         })
     }

@@ -177,8 +177,8 @@ impl Profile {
         ensure(same_point || moved, "formats.total", expected, f.total)?;
         let squared = f.block_shift == 0 || f.total.width <= 28;
         ensure(squared, "formats.total", "28 bits at most, with formats.block_shift", f.total)?;
-        let fine = f.ratio.frac >= f.table.frac;
-        ensure(fine, "formats.ratio", format_args!("at least the fractional bits of table, {}", f.table), f.ratio)?;
+        let fine = f.ratio.frac + 1 >= f.table.frac;
+        ensure(fine, "formats.ratio", format_args!("half of which is as fine as table, {}", f.table), f.ratio)?;
         ensure(f.ratio.integer_bits() == 1, "formats.ratio", "one integer bit, such as s20.18", f.ratio)?;
         ensure((4..=30).contains(&f.ratio.width), "formats.ratio", "4 to 30 bits", f.ratio)?;
         let sound = (8..=28).contains(&f.position.width) && f.position.frac >= 0;

@@ -18,7 +18,7 @@ module estimator (
     input wire signed [15:0] word, // s16.15  Calibration: what.
     output wire valid_out, // u1.0  Set for a clock for each word of a frame.
     output wire [2:0] index_out, // u3.0  Which field the word is.
-    output wire signed [17:0] word_out, // s18.0  The word.
+    output wire signed [15:0] word_out, // s16.0  The word.
     output wire done, // u1.0  Set with the last word.
     output wire [1:0] pad_out, // u2.0  The pad of the frame.
     output wire clipped_out, // u1.0  A code was at a rail of the ADC.
@@ -40,8 +40,8 @@ module estimator (
     wire [14:0] haptic_voltage_mean_square; // u15.15
     wire haptic_voltage_saturated; // u1.0
     wire ratio_done; // u1.0
-    wire signed [17:0] ratio_r_x; // s18.16
-    wire signed [17:0] ratio_r_y; // s18.16
+    wire signed [15:0] ratio_r_x; // s16.14
+    wire signed [15:0] ratio_r_y; // s16.14
     wire ratio_invalid; // u1.0
     wire position_done; // u1.0
     wire signed [15:0] position_x; // s16.5
@@ -58,7 +58,7 @@ module estimator (
     wire force_estimator_saturated; // u1.0
     wire frames_valid; // u1.0
     wire [2:0] frames_index; // u3.0
-    wire signed [17:0] frames_word; // s18.0
+    wire signed [15:0] frames_word; // s16.0
     wire frames_done; // u1.0
 
     wire frames_invalid = (ratio_invalid | position_invalid) | capacitance_invalid; // u1.0
@@ -181,7 +181,7 @@ module estimator (
 
     assign valid_out = frames_valid;
     assign index_out = frames_valid ? frames_index : 3'd0;
-    assign word_out = frames_valid ? frames_word : 18'd0;
+    assign word_out = frames_valid ? frames_word : 16'd0;
     assign done = frames_done;
     assign pad_out = pad_q;
     assign clipped_out = clipped_q;

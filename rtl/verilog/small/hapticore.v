@@ -20,7 +20,7 @@ module hapticore (
     output wire signed [16:0] carrier, // s17.16  The carrier.
     output wire valid, // u1.0  Set for a clock for each word of a frame.
     output wire [2:0] index, // u3.0  Which field the word is.
-    output wire signed [17:0] frame, // s18.0  The word.
+    output wire signed [15:0] frame, // s16.0  The word.
     output wire done, // u1.0  Set with a frame's last word.
     output wire [1:0] pad, // u2.0  The pad of the frame.
     output wire clipped, // u1.0  A code was at a rail of the ADC.
@@ -51,7 +51,7 @@ module hapticore (
     wire demodulator_clipped; // u1.0
     wire estimator_valid; // u1.0
     wire [2:0] estimator_index; // u3.0
-    wire signed [17:0] estimator_word; // s18.0
+    wire signed [15:0] estimator_word; // s16.0
     wire estimator_done; // u1.0
     wire [1:0] estimator_pad; // u2.0
     wire estimator_clipped; // u1.0

@@ -11,15 +11,15 @@ module ratio (
     input wire signed [20:0] y, // s21.15  The numerator of r_y.
     input wire [19:0] corners, // u20.15  Their denominator.
     output reg done, // u1.0  Set for one clock when the ratios are there.
-    output reg signed [17:0] r_x, // s18.16  The x ratio.
-    output reg signed [17:0] r_y, // s18.16  The y ratio.
+    output reg signed [15:0] r_x, // s16.14  The x ratio.
+    output reg signed [15:0] r_y, // s16.14  The y ratio.
     output reg invalid // u1.0  Whether the denominator is zero.
 );
 
     reg [1:0] step; // u2.0  0 idle, 1 x, 2 y
     reg divide; // u1.0
     wire divider_done; // u1.0
-    wire [16:0] divider_quotient; // u17.16
+    wire [14:0] divider_quotient; // u15.14
     wire divider_saturated; // u1.0
 
     wire step_is_x = step == 2'd1; // u1.0
@@ -42,8 +42,8 @@ module ratio (
         if (reset) begin
             step <= 2'd0;
             divide <= 1'd0;
-            r_x <= 18'd0;
-            r_y <= 18'd0;
+            r_x <= 16'd0;
+            r_y <= 16'd0;
             invalid <= 1'd0;
             done <= 1'd0;
         end else begin
@@ -57,7 +57,7 @@ module ratio (
                 done <= bit_25;
                 if (divider_done) begin
                     r_y <=
-                        (numerator < $signed(21'd0)) ? (18'd0 - {1'd0, divider_quotient})
+                        (numerator < $signed(21'd0)) ? (16'd0 - {1'd0, divider_quotient})
                         : {1'd0, divider_quotient};
                 end
                 if (bit_25) begin

@@ -30,8 +30,10 @@ module position (
     reg digits; // u1.0
     reg multiplies; // u1.0
     reg tables; // u1.0
-    reg pending; // u1.0
+    reg [1:0] pending; // u2.0
     reg signed [17:0] left; // s18.17
+    reg signed [17:0] factor; // s18.17
+    reg signed [17:0] word_q; // s18.17
     reg signed [41:0] sum; // s42.34
     reg [14:0] quotient; // u15.0
     reg [11:0] base; // u12.0
@@ -55,73 +57,73 @@ module position (
     wire is_output = instruction[15:12] == 4'd9; // u1.0
     wire is_store = instruction[15:12] == 4'd6; // u1.0
     wire waits = (((is_base | is_load_digit) | is_load_quotient) | is_output) | is_store; // u1.0
-    wire does = (running & (~bubble)) & ((~waits) | (waited == 2'd2)); // u1.0
-    wire [1:0] bits_56 = instruction[11:10]; // u2.0
+    wire does = (running & (~bubble)) & ((~waits) | (waited == 2'd3)); // u1.0
+    wire [1:0] bits_59 = instruction[11:10]; // u2.0
     wire [3:0] of_group =
-        bits_56[1] ? (bits_56[0] ? {2'd0, {surface[0], 1'd0}}
+        bits_59[1] ? (bits_59[0] ? {2'd0, {surface[0], 1'd0}}
         : count)
-        : bits_56[0] ? {2'd0, surface}
+        : bits_59[0] ? {2'd0, surface}
         : is_load_digit ? {3'd0, sum[41]}
         : 4'd0; // u4.0
-    wire [6:0] bits_55 = instruction[9:3]; // u7.0
-    wire [3:0] bits_71 = bits_55[3:0]; // u4.0
-    wire [3:0] joined_86 = {{{bits_71[3] | of_group[3], bits_71[2] | of_group[2]}, bits_71[1] | of_group[1]}, bits_71[0] | of_group[0]}; // u4.0
-    wire [6:0] slot = {bits_55[6:4], joined_86}; // u7.0
+    wire [6:0] bits_58 = instruction[9:3]; // u7.0
+    wire [3:0] bits_74 = bits_58[3:0]; // u4.0
+    wire [3:0] joined_89 = {{{bits_74[3] | of_group[3], bits_74[2] | of_group[2]}, bits_74[1] | of_group[1]}, bits_74[0] | of_group[0]}; // u4.0
+    wire [6:0] slot = {bits_58[6:4], joined_89}; // u7.0
     wire signed [24:0] rounded = sum[41:17];
     wire signed [25:0] rounded_wide = {{1{rounded[24]}}, rounded};
-    wire signed [25:0] fit_89 = rounded_wide; // s26.17
+    wire signed [25:0] fit_92 = rounded_wide; // s26.17
     wire signed [17:0] result =
-        (fit_89[25:17] == {9{fit_89[25]}}) ? fit_89[17:0] : {fit_89[25], {17{~fit_89[25]}}}; // s18.17
-    wire held = ~((fit_89[25:17] == 9'd0) | (fit_89[25:17] == 9'd511)); // u1.0
+        (fit_92[25:17] == {9{fit_92[25]}}) ? fit_92[17:0] : {fit_92[25], {17{~fit_92[25]}}}; // s18.17
+    wire held = ~((fit_92[25:17] == 9'd0) | (fit_92[25:17] == 9'd511)); // u1.0
     wire is_multiply_table = instruction[15:12] == 4'd4; // u1.0
-    wire [12:0] sum_104 = {1'd0, base} + {10'd0, is_multiply_table ? instruction[2:0] : 3'd0}; // u13.0
-    wire bit_106 = does & is_store; // u1.0
+    wire [12:0] sum_107 = {1'd0, base} + {10'd0, is_multiply_table ? instruction[2:0] : 3'd0}; // u13.0
+    wire bit_109 = does & is_store; // u1.0
     wire is_input = instruction[15:12] == 4'd8; // u1.0
-    wire signed [21:0] choice_112 = surface[0] ? r_y : r_x; // s22.20
-    wire [2:0] bits_34 = instruction[2:0]; // u3.0
-    wire [8:0] sum_123 = {1'd0, fetched} + 9'd1; // u9.0
+    wire signed [21:0] choice_115 = surface[0] ? r_y : r_x; // s22.20
+    wire [2:0] bits_36 = instruction[2:0]; // u3.0
+    wire [8:0] sum_126 = {1'd0, fetched} + 9'd1; // u9.0
     wire is_repeat = instruction[15:12] == 4'd11; // u1.0
-    wire bit_130 = (does & is_repeat) & (~(count == 4'd0)); // u1.0
+    wire bit_133 = (does & is_repeat) & (~(count == 4'd0)); // u1.0
     wire is_surfaces = instruction[15:12] == 4'd12; // u1.0
-    wire bit_133 = does & is_surfaces; // u1.0
+    wire bit_136 = does & is_surfaces; // u1.0
     wire surface_is_r_x = surface == 2'd0; // u1.0
     wire is_pass = instruction[15:12] == 4'd13; // u1.0
-    wire bit_138 = does & is_pass; // u1.0
+    wire bit_141 = does & is_pass; // u1.0
     wire is_found = instruction[15:12] == 4'd14; // u1.0
     wire step_is_7 = step == 3'd7; // u1.0
-    wire jumps = ((bit_130 | (bit_133 & surface_is_r_x)) | (bit_138 & (~(step == 3'd6)))) | ((does & is_found) & step_is_7); // u1.0
-    wire bit_150 = does | bubble; // u1.0
+    wire jumps = ((bit_133 | (bit_136 & surface_is_r_x)) | (bit_141 & (~(step == 3'd6)))) | ((does & is_found) & step_is_7); // u1.0
+    wire bit_153 = does | bubble; // u1.0
     wire is_end = instruction[15:12] == 4'd15; // u1.0
     wire next_done = does & is_end; // u1.0
-    wire bit_157 = running & (~next_done); // u1.0
-    wire [7:0] fetch = bit_157 ? (jumps ? instruction[7:0] : bit_150 ? sum_123[7:0] : fetched) : 8'd0; // u8.0
-    wire bit_164 = does & is_load_digit; // u1.0
+    wire bit_160 = running & (~next_done); // u1.0
+    wire [7:0] fetch = bit_160 ? (jumps ? instruction[7:0] : bit_153 ? sum_126[7:0] : fetched) : 8'd0; // u8.0
+    wire bit_169 = does & is_load_digit; // u1.0
     wire next_digits = does & is_load_quotient; // u1.0
     wire is_load = instruction[15:12] == 4'd0; // u1.0
     wire is_load_cell = instruction[15:12] == 4'd1; // u1.0
     wire next_floors = does & is_load_cell; // u1.0
     wire next_tables = does & is_multiply_table; // u1.0
-    wire signed [42:0] sum_174 = {{1{sum[41]}}, sum} + {{7{multiplier_product[35]}}, multiplier_product}; // s43.34
-    wire bit_178 = does & is_output; // u1.0
-    wire signed [14:0] fit_188 = {~quotient[14], quotient[13:0]}; // s15.0
+    wire signed [42:0] sum_179 = {{1{sum[41]}}, sum} + {{7{multiplier_product[35]}}, multiplier_product}; // s43.34
+    wire bit_182 = does & is_output; // u1.0
+    wire signed [14:0] fit_192 = {~quotient[14], quotient[13:0]}; // s15.0
     wire is_multiply = instruction[15:12] == 4'd3; // u1.0
-    wire [1:0] joined_191 = {pending, multiplies}; // u2.0
-    wire [15:0] joined_200 = {quotient, ~sum[41]}; // u16.0
+    wire [2:0] joined_195 = {pending, multiplies}; // u3.0
+    wire [15:0] joined_205 = {quotient, ~sum[41]}; // u16.0
     wire is_set = instruction[15:12] == 4'd10; // u1.0
-    wire bit_207 = does & is_set; // u1.0
-    wire signed [4:0] difference_217 = {1'd0, count} - 5'd1; // s5.0
-    wire [2:0] sum_223 = {1'd0, waited} + 3'd1; // u3.0
-    wire [3:0] sum_234 = {1'd0, step} + 4'd1; // u4.0
-    wire bit_237 = bit_178 & surface_is_r_x; // u1.0
+    wire bit_212 = does & is_set; // u1.0
+    wire signed [4:0] difference_222 = {1'd0, count} - 5'd1; // s5.0
+    wire [2:0] sum_228 = {1'd0, waited} + 3'd1; // u3.0
+    wire [3:0] sum_239 = {1'd0, step} + 4'd1; // u4.0
+    wire bit_242 = bit_182 & surface_is_r_x; // u1.0
     wire surface_is_r_y = surface == 2'd1; // u1.0
-    wire bit_239 = bit_178 & surface_is_r_y; // u1.0
+    wire bit_244 = bit_182 & surface_is_r_y; // u1.0
 
     multiplier u_multiplier (
         .clock(clock),
         .reset(reset),
-        .enable(multiplies),
-        .left(tables ? words_word : left),
-        .right(scratch_word),
+        .enable(pending[0]),
+        .left(factor),
+        .right(word_q),
         .product(multiplier_product)
     );
 
@@ -132,7 +134,7 @@ module position (
 
     always @(posedge clock) begin
         if (write) words[address] <= word;
-        words_word <= words[sum_104[11:0]];
+        words_word <= words[sum_107[11:0]];
     end
 
     initial begin : initial_scratch
@@ -171,7 +173,7 @@ module position (
     end
 
     always @(posedge clock) begin
-        if (bit_106 | (does & is_input)) scratch[slot] <= is_input ? (bits_34[0] ? {1'd0, choice_112[3:0], 13'd0} : choice_112[21:4]) : bits_34[0] ? sum[34:17] : result;
+        if (bit_109 | (does & is_input)) scratch[slot] <= is_input ? (bits_36[0] ? {1'd0, choice_115[3:0], 13'd0} : choice_115[21:4]) : bits_36[0] ? sum[34:17] : result;
         scratch_word <= scratch[slot];
     end
 
@@ -251,8 +253,10 @@ module position (
             digits <= 1'd0;
             multiplies <= 1'd0;
             tables <= 1'd0;
-            pending <= 1'd0;
+            pending <= 2'd0;
             left <= 18'd0;
+            factor <= 18'd0;
+            word_q <= 18'd0;
             sum <= 42'd0;
             quotient <= 15'd0;
             base <= 12'd0;
@@ -267,42 +271,46 @@ module position (
             done <= 1'd0;
         end else begin
             fetched <= fetch;
-            waited <= (bit_150 | (~running)) ? 2'd0 : sum_223[1:0];
-            loads <= (((does & is_load) | next_floors) | bit_164) | next_digits;
+            waited <= (bit_153 | (~running)) ? 2'd0 : sum_228[1:0];
+            loads <= (((does & is_load) | next_floors) | bit_169) | next_digits;
             floors <= next_floors;
             digits <= next_digits;
             multiplies <= (does & is_multiply) | next_tables;
             tables <= next_tables;
-            pending <= joined_191[0];
+            pending <= joined_195[1:0];
             base <=
-                (bit_207 & bits_34[2]) ? {8'd0, {surface[0], 3'd0}}
+                (bit_212 & bits_36[2]) ? {8'd0, {surface[0], 3'd0}}
                 : (does & is_base) ? sum[28:17]
                 : base;
             count <=
-                (bit_207 & bits_34[0]) ? instruction[6:3]
-                : bit_130 ? difference_217[3:0]
+                (bit_212 & bits_36[0]) ? instruction[6:3]
+                : bit_133 ? difference_222[3:0]
                 : count;
             done <= next_done;
-            if (bit_178 & (surface == 2'd2)) begin
+            if (bit_182 & (surface == 2'd2)) begin
                 sheet <= result[17] ? 17'd0 : result[16:0];
             end
-            if (bit_239) begin
+            if (bit_244) begin
                 y <= result;
             end
-            if (bit_237) begin
+            if (bit_242) begin
                 x <= result;
             end
-            if (bit_164) begin
-                quotient <= joined_200[14:0];
+            if (bit_169) begin
+                quotient <= joined_205[14:0];
             end
             if (loads) begin
                 left <=
-                    digits ? {{3{fit_188[14]}}, fit_188}
+                    digits ? {{3{fit_192[14]}}, fit_192}
                     : floors ? {scratch_word[17:12], 12'd0}
                     : scratch_word;
             end
-            if (bit_150) begin
+            if (bit_153) begin
                 instruction <= instructions_word;
+            end
+            if (multiplies) begin
+                factor <= tables ? words_word : left;
+                word_q <= scratch_word;
             end
             if (start) begin
                 running <= 1'd1;
@@ -313,29 +321,29 @@ module position (
                 invalid <= 1'd0;
                 saturated <= 1'd0;
             end else begin
-                running <= bit_157;
+                running <= bit_160;
                 bubble <= jumps;
-                sum <= (bit_106 | bit_178) ? 42'd65536 : pending ? sum_174[41:0] : sum;
+                sum <= (bit_109 | bit_182) ? 42'd65536 : pending[1] ? sum_179[41:0] : sum;
                 surface <=
-                    (bit_207 & bits_34[1]) ? 2'd0
-                    : bit_133 ? (surface_is_r_x ? 2'd1
+                    (bit_212 & bits_36[1]) ? 2'd0
+                    : bit_136 ? (surface_is_r_x ? 2'd1
                     : step_is_7 ? 2'd2
                     : 2'd0)
                     : surface;
-                saturated <= saturated | ((bit_237 | bit_239) & held);
-                if (bit_106 & bits_34[1]) begin
+                saturated <= saturated | ((bit_242 | bit_244) & held);
+                if (bit_109 & bits_36[1]) begin
                     invalid <= (surface_is_r_y & invalid) | (~((result[17:8] == 10'd0) | (result[17:8] == 10'd1023)));
                 end
-                if (bit_138) begin
-                    step <= sum_234[2:0];
+                if (bit_141) begin
+                    step <= sum_239[2:0];
                 end
             end
         end
     end
 
     // What nothing needs.
-    wire unused = &{1'b0, sum_104[12], sum_123[8], sum_174[42], joined_191[1], joined_200[15], difference_217[4],
-        sum_223[2], sum_234[3]};
+    wire unused = &{1'b0, sum_107[12], sum_126[8], sum_179[42], joined_195[2], joined_205[15], difference_222[4],
+        sum_228[2], sum_239[3]};
 
 endmodule
 

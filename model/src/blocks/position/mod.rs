@@ -16,8 +16,8 @@
 //!
 //! ```text
 //! program ─[instruction]─┬─ base + option ─ table ───┐
-//!                        └─ slot ─ scratch ─┬─[left]─┴(×)─(+)─[sum]─(round half up, saturate)─ scratch, x, y, R, base
-//!                                           └─────────┘                         sign ─[quotient]─ left
+//!                        └─ slot ─ scratch ─┬─[left]─┴[factor]─(×)─(+)─[sum]─(round half up, saturate)─ scratch, x, y, R, base
+//!                                           └─────────[word]───┘                         sign ─[quotient]─ left
 //! ```
 //!
 //! | signal        | format          | unit                       | overflow                                             |
@@ -43,7 +43,7 @@ use crate::block::{Block, Cell};
 use crate::format::{BIT, Format};
 use crate::memory::{Memory, Write};
 use crate::profile::Profile;
-use crate::signal::{Exact, Floor, Never, Saturate, Signal, Value, Wrap, bit, code, int};
+use crate::signal::{Exact, Floor, Never, Saturate, Signal, Value, Wrap, bit, code, int, zero};
 use crate::{bundle, choose, parts};
 
 bundle! {
@@ -87,7 +87,7 @@ bundle! {
     pub struct Registers {
         running, bubble, fetched, instruction, waited,
         loads, floors, digits, multiplies, tables, pending,
-        left, sum, quotient, base,
+        left, factor, word, sum, quotient, base,
         surface: ["r_x", "r_y", "resistance"],
         count, step, x, y, sheet, invalid, saturated, done,
     }
@@ -163,7 +163,7 @@ impl Position {
         let table = Memory::new("words", layout.words(), word).never_colliding();
         let scratch = Memory::new("scratch", constants.len(), word).never_colliding().in_block();
         let multiplier = Multiplier::new(word.integer(), word.integer(), profile.multiplier);
-        let wait = multiplier.latency();
+        let wait = 1 + multiplier.latency();
         Position {
             clocks: program.clocks(profile.position.steps, wait),
             registers: registers(profile, &table, &program, wait),
@@ -205,6 +205,8 @@ fn registers(profile: &Profile, table: &Memory, program: &Program, wait: u64) ->
         tables: BIT,
         pending: Format::unsigned(wait as u8, 0),
         left: word,
+        factor: word,
+        word,
         sum: Format::signed(2 * word.width + 6, 2 * word.frac),
         quotient: Format::unsigned(program.digits(), 0),
         base: table.address(),
@@ -304,6 +306,8 @@ impl Block for Position {
 struct Read<V> {
     instruction: Signal<V>,
     word: Signal<V>,
+    /// What it is multiplied by.
+    factor: Signal<V>,
     product: Signal<V>,
 }
 
@@ -322,7 +326,7 @@ impl Position {
         let option = word.bits(0, instruction::OPTION_BITS);
         let is = |other: Operation| operation.is(other as u64).named(other.name());
         let waits = (is(Base) | is(LoadDigit) | is(LoadQuotient) | is(Output) | is(Store)).named("waits");
-        let settled = r.waited.is(self.multiplier.latency() + 1);
+        let settled = r.waited.is(self.multiplier.latency() + 2);
         let done = (r.running & !r.bubble & (!waits | settled)).named("does");
         let group = word.bits(instruction::OPTION_BITS, instruction::SLOT_BITS);
         let index = word.bits(instruction::OPTION_BITS + instruction::SLOT_BITS, 2);
@@ -370,12 +374,13 @@ impl Position {
         let data = self.stored(r, i, now, result);
         self.scratch.access(&mut cell.parts.scratch, now.slot, Write { enable, address: now.slot, data });
         self.program.read(&mut cell.parts.program, self.fetch(r, now));
-        let left = r.tables.select(of_table, r.left).integer();
+        let (now, next) = (r.pending.bits(0, 1), r.pending.bits(1, 1));
         // A product of two clocks goes on in the second.
-        let enable = if self.multiplier.latency() == 1 { r.multiplies } else { r.multiplies | r.pending.bits(0, 1) };
-        let inputs = multiplier::Inputs { enable, left, right: word.integer() };
+        let enable = if self.multiplier.latency() == 1 { now } else { now | next };
+        let inputs = multiplier::Inputs { enable, left: r.factor.integer(), right: r.word.integer() };
         let product = self.multiplier.call("multiplier", &mut cell.parts.multiplier, inputs).product;
-        Read { instruction, word, product: product.scaled(-2 * self.word.frac) }
+        let factor = r.tables.select(of_table, r.left);
+        Read { instruction, word, factor, product: product.scaled(-2 * self.word.frac) }
     }
 
     /// What goes into the scratch memory.
@@ -397,7 +402,10 @@ impl Position {
         let halved = ratio.scaled(-1);
         let high = halved.fit(self.word, Floor, Never).ideally(&[halved], |of| of[0]);
         let rest = (self.ratio.frac + 1 - self.word.frac) as u8;
-        let low = ratio.bits(0, rest).scaled(-(rest as i8)).ideally(&[], |_| 0.0);
+        let low = match rest {
+            0 => zero(self.word),
+            _ => ratio.bits(0, rest).scaled(-(rest as i8)).ideally(&[], |_| 0.0),
+        };
         let taken = now.has(LOW).select(low, high);
         let kept = now.has(WRAP).select(turned, result);
         now.is(Operation::Input).select(taken, kept)
@@ -430,12 +438,7 @@ impl Position {
 
     /// The registers that compute: what was read goes to the multiplier, and its products into the sum.
     #[inline(always)]
-    fn compute<V: Value>(
-        &self,
-        r: Registers<Signal<V>>,
-        read: &Read<V>,
-        now: &Decoded<V>,
-    ) -> Registers<Signal<V>> {
+    fn compute<V: Value>(&self, r: Registers<Signal<V>>, read: &Read<V>, now: &Decoded<V>) -> Registers<Signal<V>> {
         let does = |operation: Operation| now.does(operation);
         let (digit, quotient) = (does(Operation::LoadDigit), does(Operation::LoadQuotient));
         let loads = does(Operation::Load) | does(Operation::LoadCell) | digit | quotient;
@@ -457,6 +460,8 @@ impl Position {
             tables,
             pending: pending.bits(0, r.pending.format.width),
             left: r.loads.select(operand, r.left),
+            factor: r.multiplies.select(read.factor, r.factor),
+            word: r.multiplies.select(read.word, r.word),
             sum: choose!(V, clears, self.half(), added),
             quotient: digit.select(r.quotient.concat(!r.sum.msb()).bits(0, bits), r.quotient),
             base: self.next_base(&r, now),

@@ -8,8 +8,8 @@ use super::instruction::{CHECK, COUNT, Index, Instruction, LOW, Operation, SCALA
 use super::layout::{Axis, Layout, Scalar, Surface};
 use crate::format::Format;
 use Operation::{
-    Base, End, Found, Input, Load, LoadCell, LoadDigit, LoadQuotient, Multiply, MultiplyTable, Output, Pass, Repeat, Set,
-    Store, Surfaces,
+    Base, End, Found, Input, Load, LoadCell, LoadDigit, LoadQuotient, Multiply, MultiplyTable, Output, Pass, Repeat,
+    Set, Store, Surfaces,
 };
 
 /// The program of a profile.
@@ -204,14 +204,14 @@ impl Program {
         Program { instructions: w.instructions, digits }
     }
 
-    /// Clocks from the first instruction to the last, on a multiplier of this latency.
+    /// Clocks from the first instruction to the last, where a product takes so many from its operands' clock.
     ///
     /// Control does not depend on data, so that following it is enough.
-    pub fn clocks(&self, steps: u64, multiplier: u64) -> u64 {
+    pub fn clocks(&self, steps: u64, product: u64) -> u64 {
         let (mut clocks, mut at, mut count, mut surface, mut step) = (0, 0, 0, 0, 0);
         loop {
             let instruction = &self.instructions[at];
-            clocks += if instruction.waits() { 2 + multiplier } else { 1 };
+            clocks += if instruction.waits() { 2 + product } else { 1 };
             at += 1;
             let jumps = match instruction.operation {
                 Set => {
