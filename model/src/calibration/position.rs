@@ -80,6 +80,14 @@ pub enum PositionError {
         /// The coordinate.
         got: f64,
     },
+    /// The table's cells are larger than its words can say.
+    #[error("expected cells of less than {most} mm, got {got:.0} mm: choose a table with more columns or rows")]
+    Coarse {
+        /// The largest cell.
+        most: f64,
+        /// The cell.
+        got: f64,
+    },
     /// Ratios do not tell places apart.
     #[error("expected ratios that tell the places apart: finite, and different wherever the places are")]
     Ambiguous,
@@ -147,8 +155,12 @@ impl PositionTable {
         for (axis, [low, high]) in [Axis::X, Axis::Y].into_iter().zip(extents) {
             let cells = self.layout.cells(Surface::RatioX, axis) as f64;
             let (pitch, got) = ((high - low) / (cells - 2.0 * BEYOND), low.abs().max(high.abs()));
-            if got + BEYOND * pitch > most || pitch * Layout::CELLS / 2.0 >= most {
+            if got + BEYOND * pitch > most {
                 return Err(PositionError::Range { most, got });
+            }
+            let widest = 2.0 * most / Layout::CELLS;
+            if pitch >= widest {
+                return Err(PositionError::Coarse { most: widest, got: pitch });
             }
             let origin = ((low + high) / 2.0 / (most * word.lsb())).round() * most * word.lsb();
             self.geometry[axis as usize] = [origin, (pitch / unit).ceil() * unit];

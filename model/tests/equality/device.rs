@@ -13,7 +13,7 @@ pub fn short_profiles() -> Vec<Profile> {
 
 fn shortened(mut profile: Profile) -> Profile {
     // The program's loop is the same, however often it is run through.
-    profile.position.steps = 2;
+    profile.position.steps = 4;
     profile.slot.open = 2;
     let samples = 4 * profile.samples_per_period().round() as u64;
     let with_settle = |settle: u64| {

@@ -289,8 +289,8 @@ mod tests {
     #[test]
     fn a_command_is_its_bytes() {
         let bytes = Command::Table { address: 0x0102, code: -2 }.encode(&core());
-        assert_eq!(bytes[..5], [1, 2, 0xff, 0xff, 0xfe]);
-        assert_eq!(bytes.len(), 2 + 3 + 2 + 1);
+        assert_eq!(bytes[..4], [1, 2, 0xff, 0xfe]);
+        assert_eq!(bytes.len(), 2 + 2 + 2 + 1);
         assert_eq!(bytes.last(), Some(&END));
         let escaped = Command::Table { address: 0xc0db_u16 & 0x7fff, code: 0xdb }.encode(&core());
         assert!(escaped.windows(2).any(|pair| pair == [ESC, ESC_ESC]));
