@@ -58,7 +58,7 @@ fn ten_thousand_commands_while_enabled_reach_no_register_of_the_adc_and_harm_no_
         while !session.host.idle() {
             session.clock();
         }
-        session.run(random.below(250));
+        session.run(random.below(600));
     }
     let packets: Vec<_> = session.packets.iter().map(|packet| packet.expect("the line is clean")).collect();
     let expected = simulated(&profile, &calibration, &samples);

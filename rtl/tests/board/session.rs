@@ -196,7 +196,7 @@ fn a_line_too_slow_drops_whole_frames_and_says_so() {
     let profile = small();
     let samples = samples(&profile, 12);
     let calibration = calibration(&profile);
-    let mut session = Session::new(&profile, parameters(&profile, 20, 0), &samples);
+    let mut session = Session::new(&profile, parameters(&profile, 40, 0), &samples);
     session.send(&start(&profile, &calibration));
     let packets = session.packets(4);
     let expected = simulated(&profile, &calibration, &samples);
