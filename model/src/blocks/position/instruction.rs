@@ -47,6 +47,10 @@ pub enum Operation {
 }
 
 impl Operation {
+    /// Those that wait until all products are in the sum.
+    pub const WAITING: [Operation; 5] =
+        [Operation::Base, Operation::LoadDigit, Operation::LoadQuotient, Operation::Output, Operation::Store];
+
     /// The name of the signal that says it is this one.
     pub const fn name(self) -> &'static str {
         use Operation::*;
@@ -157,7 +161,6 @@ impl Instruction {
 
     /// Whether it waits until all products are in the sum.
     pub fn waits(&self) -> bool {
-        use Operation::{Base, LoadDigit, LoadQuotient, Output, Store};
-        matches!(self.operation, Base | LoadDigit | LoadQuotient | Output | Store)
+        Operation::WAITING.contains(&self.operation)
     }
 }

@@ -320,12 +320,12 @@ impl Position {
 
     #[inline(always)]
     fn decode<V: Value>(&self, r: &Registers<Signal<V>>) -> Decoded<V> {
-        use Operation::{Base, LoadDigit, LoadQuotient, Output, Store};
         let word = r.instruction;
         let operation = word.bits(instruction::BITS - instruction::OPERATION_BITS, instruction::OPERATION_BITS);
         let option = word.bits(0, instruction::OPTION_BITS);
         let is = |other: Operation| operation.is(other as u64).named(other.name());
-        let waits = (is(Base) | is(LoadDigit) | is(LoadQuotient) | is(Output) | is(Store)).named("waits");
+        let waiting = Operation::WAITING.map(is).into_iter().reduce(|a, b| a | b);
+        let waits = waiting.unwrap_or(bit(false)).named("waits");
         let settled = r.waited.is(self.multiplier.latency() + 2);
         let done = (r.running & !r.bubble & (!waits | settled)).named("does");
         let group = word.bits(instruction::OPTION_BITS, instruction::SLOT_BITS);
@@ -337,7 +337,7 @@ impl Position {
         let of_sign = by(r.sum.msb());
         let of_index = index.bits(1, 1).select(
             index.bits(0, 1).select(of_pair, by(r.count)),
-            index.bits(0, 1).select(of_surface, is(LoadDigit).select(of_sign, by(none))),
+            index.bits(0, 1).select(of_surface, is(Operation::LoadDigit).select(of_sign, by(none))),
         );
         // Groups are aligned: their words are told apart by the low bits alone.
         let low = bits_or(group.bits(0, 4), of_index.named("of_group"));
