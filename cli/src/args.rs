@@ -31,6 +31,12 @@ pub enum Command {
     /// Print the core as Verilog, alone or with all that a board needs for a bitstream
     #[command(after_help = HDL)]
     Hdl(HdlArgs),
+    /// Print what a core's registers and position table take: a device's calibration as codes
+    #[command(after_help = CODES)]
+    Codes(CodesArgs),
+    /// Make a device's calibration from what was measured of it: places, loads, full scales
+    #[command(after_help = CALIBRATE)]
+    Calibrate(CalibrateArgs),
 }
 
 const SIMULATE: &str = "Examples:
@@ -55,8 +61,78 @@ Exit status: 0 done, 2 bad input.";
 const HDL: &str = "Examples:
   hapticore hdl --board ulx3s --out build && build/build.sh
   hapticore hdl --profile small --out verilog
+  hapticore hdl --calibration mine.toml --out verilog
 
 Exit status: 0 done, 2 bad input.";
+
+const CALIBRATE: &str = "Each file is known by what is in it:
+  places  CSV: x_mm, y_mm, v_sense [V], and per terminal i1 … iN [A], or with phase i1, i1_deg … or i1_re, i1_im …; maybe sheet_ohm
+  loads   CSV: haptic_v_rms, force_n or friction_n and load_g, and capacitance_pf or i_total (or i1 …) and v_sense
+  setup   TOML: pads, sample_rate_hz, carrier_hz, current_full_scale_a, sense_full_scale_v, haptic_full_scale_v; maybe mu,
+          gravity_m_s2, force_k, [terminals] x, y, places_mm, [sheet] width_mm, height_mm, ohm_per_square, terminal_ohm
+Currents and v_sense are amplitudes (peak), places mm from the sheet's middle. docs/calibrate.md says more.
+
+Example:
+  hapticore calibrate places.csv loads.csv device.toml --out mine.toml
+
+Exit status: 0 done, 2 bad input, or data that do not tell what is asked of them.";
+
+/// Arguments of `calibrate`.
+#[derive(Debug, Clone, clap::Args)]
+pub struct CalibrateArgs {
+    /// What was measured: places and loads as CSV, full scales and rates as TOML
+    #[arg(required = true)]
+    pub data: Vec<PathBuf>,
+    /// The profile whose position table is tried on the places: a bundled name or a TOML file [default: standard]
+    #[arg(long, value_name = "PROFILE")]
+    pub profile: Option<String>,
+    /// Where the calibration goes, and FILE.report.html beside it
+    #[arg(long, value_name = "FILE")]
+    pub out: PathBuf,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+const CODES: &str = "csv: name, address, code, value, format; constants have no address. readmemh: two's complement in hexadecimal, a word a
+line, the position table from address 0 on and the constants behind it, in the order in which they stand there. c: a header.
+All begin with comments that say what they are of.
+
+Terminals and pads of a bundled profile become those of the calibration, as with `hapticore hdl --calibration FILE`.
+
+Examples:
+  hapticore codes --calibration mine.toml --format readmemh --out codes.hex
+  hapticore codes --profile small --calibration mine.toml --format c > codes.h
+
+Exit status: 0 done, 2 bad input.";
+
+/// Arguments of `codes`.
+#[derive(Debug, Clone, clap::Args)]
+pub struct CodesArgs {
+    /// The core's profile: a bundled name (small, standard, fine) or a TOML file [default: standard]
+    #[arg(long, value_name = "PROFILE")]
+    pub profile: Option<String>,
+    /// The device's calibration [default: the paper's display's]
+    #[arg(long, value_name = "FILE")]
+    pub calibration: Option<PathBuf>,
+    /// What is printed
+    #[arg(long, value_enum, default_value_t = CodesFormat::Csv)]
+    pub format: CodesFormat,
+    /// Where it goes [default: standard output]
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+}
+
+/// How codes are printed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum CodesFormat {
+    /// A table
+    Csv,
+    /// For Verilog's $readmemh
+    Readmemh,
+    /// A header
+    C,
+}
 
 /// Arguments of `hdl`.
 #[derive(Debug, Clone, clap::Args)]
@@ -67,6 +143,9 @@ pub struct HdlArgs {
     /// The core's profile: a bundled name (small, standard, fine) or a TOML file [default: the board's, else standard]
     #[arg(long, value_name = "PROFILE")]
     pub profile: Option<String>,
+    /// A device's calibration, whose terminals and pads a bundled profile takes
+    #[arg(long, value_name = "FILE")]
+    pub calibration: Option<PathBuf>,
     /// Where the files go
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,

@@ -7,14 +7,14 @@
 //! pads = 1
 //! [terminals]                     # signs in the ratios; those of eqs. 2 and 3 where the table is left out
 //! x = [-1, -1, 1, 1, 0, 0]
-//! y = [1, -1, -1, 1, 0, 0]
+//! y = [1, -1, -1, 1, -1, 1]
 //! [device]
 //! sample_rate_hz = 1000000.0      # of the ADC while the capture was taken
 //! carrier_hz = 100000.0
 //! current_full_scale_a = 0.004    # at the end of the ADC's range, as the next two
 //! sense_full_scale_v = 8.0
 //! haptic_full_scale_v = 600.0
-//! force_k = 9.6e15                # eq. 8, N/(F·V)²
+//! force_k = 9.6e12                # eq. 8, N/(F·V)²
 //! [map]
 //! columns = 121                   # places in a row
 //! places = [[x_mm, y_mm, r_x, r_y, sheet_ohm], …]
@@ -27,7 +27,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use anyhow::{Result, anyhow, ensure};
-use hapticore_model::calibration::{Calibration, Map, Point};
+use hapticore_model::calibration::{Calibration, Point, PositionTable};
 use hapticore_model::profile::Profile;
 use hapticore_scene::{ForcePoint, Plant, Scene};
 use serde::Deserialize;
@@ -37,9 +37,6 @@ use crate::residual::Residual;
 
 /// Places in a row and rows of the raster that a simulated device is calibrated with.
 const RASTER: [usize; 2] = [121, 71];
-
-/// How much further out than a pad's reach the raster goes, mm: a pad at the very edge then lies inside.
-const BEYOND_MM: f64 = 2.0;
 
 /// Loads, g, and haptic voltages, V rms, at which the friction of a simulated device is measured, as for the paper's Fig. 6.
 const LOADS_G: [f64; 2] = [20.0, 100.0];
@@ -76,6 +73,9 @@ impl Default for Signs {
         Signs { x: vec![-1, -1, 1, 1, 0, 0], y: vec![1, -1, -1, 1, 0, 0] }
     }
 }
+
+/// A place, mm, and where it was found.
+pub type Found = ([f64; 2], [f64; 2]);
 
 /// Full scales, frequencies and the force law.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -144,6 +144,15 @@ impl Raster {
     }
 }
 
+/// Where the position table of a calibration finds places, `[x_mm, y_mm, r_x, r_y, sheet_ohm]`.
+pub fn found(places: &[[f64; 5]], calibration: &Calibration) -> Vec<Found> {
+    let found = |&[x, y, r_x, r_y, _]: &[f64; 5]| {
+        let found = calibration.position.look_up(r_x, r_y);
+        ([x, y], [found.x, found.y])
+    };
+    places.iter().map(found).collect()
+}
+
 /// k of eq. 8 that fits the device's friction best.
 fn force_k(plant: &Plant) -> f64 {
     let points = plant.friction_calibration(&LOADS_G, &HAPTIC_V_RMS);
@@ -156,8 +165,8 @@ impl DeviceCalibration {
     /// What the builder of the simulated device knows of it.
     pub fn of_plant(plant: &Plant, profile: &Profile) -> Self {
         let device = plant.device();
-        let margin = device.pad_diameter_mm / 2.0 - BEYOND_MM;
-        let map = plant.calibration_map(RASTER[0], RASTER[1], margin);
+        // A pad goes no further: places beyond would be read as those at the edge.
+        let map = plant.calibration_map(RASTER[0], RASTER[1], device.pad_diameter_mm / 2.0);
         let places = map.iter().map(|point| [point.x_mm, point.y_mm, point.r_x, point.r_y, point.sheet_ohm]);
         DeviceCalibration {
             pads: plant.pad_names().len() as u64,
@@ -233,10 +242,7 @@ impl DeviceCalibration {
 
     /// What is left of the calibration's own places, looked up in the table that was fitted to them.
     pub fn residual(&self, calibration: &Calibration) -> Residual {
-        Residual::of(self.map.places.iter().map(|&[x, y, r_x, r_y, _]| {
-            let [x_mm, y_mm, _] = calibration.map.look_up(r_x, r_y);
-            ([x, y], [x_mm, y_mm])
-        }))
+        Residual::of(found(&self.map.places, calibration).into_iter())
     }
 
     /// The calibration for a core of the profile.
@@ -246,10 +252,10 @@ impl DeviceCalibration {
     pub fn of(&self, profile: &Profile) -> Result<Calibration> {
         let device = &self.device;
         let place = |&[x, y, r_x, r_y, sheet_ohm]: &[f64; 5]| Point { x, y, r_x, r_y, sheet: sheet_ohm / device.ohm() };
-        let (columns, places) = refine::refine(self.map.columns, &self.map.places);
+        let (_, places) = refine::refine(self.map.columns, &self.map.places);
         let points: Vec<_> = places.iter().map(place).collect();
         let calibration = Calibration {
-            map: Map::fit(profile, columns, &points).map_err(|error| anyhow!("calibration map: {error}"))?,
+            position: PositionTable::fit(profile, &points).map_err(|error| anyhow!("calibration map: {error}"))?,
             capacitance_gain: device.capacitance_gain(),
             force_gain: device.force_k * 1e-24 * device.haptic_full_scale_v.powi(2) / profile.square_gain(),
         };

@@ -7,10 +7,11 @@ use anyhow::{Context, Result};
 use hapticore_model::profile::Profile;
 use hapticore_rtl::board::Target;
 use hapticore_rtl::component;
-use hapticore_rtl::verilog::Design;
+use hapticore_rtl::verilog::{Design, header};
 use serde_json::json;
 
 use crate::args::HdlArgs;
+use crate::calibrate::DeviceCalibration;
 use crate::inputs;
 use crate::output::Output;
 use crate::say;
@@ -26,6 +27,8 @@ pub fn run(args: &HdlArgs) -> Result<bool> {
     let board = args.board.as_deref().map(str::parse::<Target>).transpose().context("--board")?;
     let name = board.map_or(PROFILE, Target::profile_name);
     let profile = inputs::profile(args.profile.as_deref().unwrap_or(name))?;
+    let device = args.calibration.as_deref().map(DeviceCalibration::read).transpose()?;
+    let profile = device.map_or(Ok(profile.clone()), |device| inputs::for_device(&profile, &device))?;
     let output = Output::new(&args.out)?;
     let top = match board {
         Some(board) => write_board(&output, board, &profile)?,
@@ -34,10 +37,11 @@ pub fn run(args: &HdlArgs) -> Result<bool> {
     tell(args, &profile, &top, &output.keep()?)
 }
 
-/// The core: a file for each module.
+/// The core: a file for each module, and what a bench must know of it.
 fn write_core(output: &Output, profile: &Profile) -> Result<String> {
     let design = Design::of_core(profile);
     design.modules.iter().try_for_each(|file| output.write(&format!("{}.v", file.name), &file.text))?;
+    output.write(header::NAME, &header::of_core(profile, &design))?;
     Ok(design.top().to_owned())
 }
 

@@ -8,6 +8,8 @@ use anyhow::{Context, Result, anyhow, ensure};
 use hapticore_model::profile::{Profile, ProfileError};
 use hapticore_scene::{Scene, Timing, gallery};
 
+use crate::calibrate::DeviceCalibration;
+
 /// The scene of a bundled name or a file, with keys set.
 ///
 /// # Errors
@@ -69,8 +71,8 @@ pub fn read(path: &Path) -> Result<String> {
 
 /// The profile of a core for a device whose terminals have these signs in the ratios.
 ///
-/// The bundled profiles are for six terminals; for another number they take the device's signs. A profile of a user's own keeps
-/// its own. Where the channels of a sample take more clocks than the profile has, it gets as many as they take.
+/// The bundled profiles are for the paper's six terminals and take any other device's; a profile of a user's own keeps its signs.
+/// More terminals than the profile's ADC can be read for in a sample take more clocks.
 ///
 /// # Errors
 /// A profile of a user's own for another number of terminals; a core that cannot be.
@@ -84,12 +86,21 @@ pub fn for_terminals(profile: &Profile, signs: &[Vec<i8>; 2]) -> Result<Profile>
         profile.name
     );
     let mut profile = profile.clone();
-    if own != device {
+    if bundled {
         (profile.terminals.x, profile.terminals.y) = (x.clone(), y.clone());
         profile.clocks_per_sample = profile.clocks_per_sample.max(profile.least_clocks_per_sample());
         profile.check().with_context(|| format!("profile {} for {device} terminals", profile.name))?;
     }
     Ok(profile)
+}
+
+/// The profile of a core for a device: with its terminals, and serving its pads.
+///
+/// # Errors
+/// As [`for_terminals`].
+pub fn for_device(profile: &Profile, device: &DeviceCalibration) -> Result<Profile> {
+    let signs = [device.terminals.x.clone(), device.terminals.y.clone()];
+    Ok(serving(&for_terminals(profile, &signs)?, device.pads as usize))
 }
 
 /// The profile of a core that serves just these pads.

@@ -4,7 +4,7 @@
 //! | module | does |
 //! | --- | --- |
 //! | [`args`] | the command line |
-//! | [`simulate`], [`replay`], [`hdl`], [`scenes`] | one command each |
+//! | [`simulate`], [`replay`], [`hdl`], [`codes`](mod@codes), [`lab`], [`scenes`] | one command each |
 //! | [`inputs`] | scenes and profiles from names and files |
 //! | [`units`] | the one place where volts and fractions meet codes |
 //! | [`calibrate`] | a device as a core is told of it |
@@ -24,6 +24,7 @@ pub mod args;
 pub mod calibrate;
 pub mod capture;
 pub mod case;
+pub mod codes;
 pub mod console;
 pub mod criteria;
 pub mod engine;
@@ -33,6 +34,7 @@ pub mod haptic;
 pub mod hdl;
 pub mod inputs;
 pub mod interrupt;
+pub mod lab;
 pub mod output;
 pub mod partial;
 pub mod print;
@@ -64,6 +66,8 @@ pub fn main() -> ExitCode {
         Command::Simulate(args) => simulate::run(&args),
         Command::Replay(args) => replay::run(&args),
         Command::Hdl(args) => hdl::run(&args),
+        Command::Codes(args) => codes::run(&args),
+        Command::Calibrate(args) => lab::run(&args),
     };
     match outcome.and_then(|holds| console::finish().map(|()| holds)) {
         Ok(true) => ExitCode::SUCCESS,

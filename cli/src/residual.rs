@@ -42,11 +42,17 @@ impl Residual {
 
     /// What it says to a reader.
     pub fn text(&self) -> String {
+        self.words(" over its own places")
+    }
+
+    /// The same of places that are not the table's own.
+    pub fn errors(&self) -> String {
+        self.words("")
+    }
+
+    fn words(&self, over: &str) -> String {
         let [x, y] = self.at_mm;
-        format!(
-            "{:.2} mm rms over its own places, {:.1} mm at most, at x = {x:.0}, y = {y:.0} mm",
-            self.rms_mm, self.worst_mm
-        )
+        format!("{:.2} mm rms{over}, {:.2} mm at most, at x = {x:.0}, y = {y:.0} mm", self.rms_mm, self.worst_mm)
     }
 
     /// What its user must know, where it is beyond a limit, mm.

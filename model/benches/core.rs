@@ -5,7 +5,7 @@
 //! time, for the machine is never quiet: quote the ratios.
 
 use dsp_process::SplitProcess;
-use hapticore_model::calibration::{Calibration, Map, Point};
+use hapticore_model::calibration::{Calibration, Point, PositionTable};
 use hapticore_model::fidelity::{clock::ClockSimulation, fixed::FixedSimulation};
 use hapticore_model::profile::Profile;
 use idsp::{Lockin, Lowpass, Lowpass2, LowpassState};
@@ -80,7 +80,8 @@ fn calibration(profile: &Profile) -> Calibration {
         .map(|k| (f64::from(k % 11) - 5.0, f64::from(k / 11) - 5.0))
         .map(|(i, j)| Point { x: i * 80.0, y: j * 40.0, r_x: i / 6.0, r_y: j / 6.0, sheet: 0.0 })
         .collect();
-    Calibration { map: Map::fit(profile, 11, &points).expect("a raster"), capacitance_gain: 796.0, force_gain: 1e-6 }
+    let position = PositionTable::fit(profile, &points).expect("a raster");
+    Calibration { position, capacitance_gain: 796.0, force_gain: 1e-6 }
 }
 
 /// The codes of a slot: currents a quarter turn ahead of the sensing voltage, a slow haptic voltage.

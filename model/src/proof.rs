@@ -78,7 +78,7 @@ impl Run<'_> {
     /// Every word that the format allows, at every address.
     fn any_tables(&mut self) {
         let maybe = Signal { value: Range { low: 0, high: 1 }, format: BIT };
-        let words = self.core.estimator().map().words().words as i128;
+        let words = self.core.estimator().position().table().words as i128;
         let address = Signal { value: Range { low: 0, high: words - 1 }, ..self.inputs.address };
         self.run(Inputs { write: maybe, address, ..self.inputs });
         self.run(self.inputs);

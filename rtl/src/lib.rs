@@ -4,9 +4,11 @@
 //! | module | does |
 //! | --- | --- |
 //! | [`board`] | the peripherals of a board and the board itself, as blocks like those of the core |
+//! | [`codes`] | what makes a calibration's sensor of a core |
 //! | [`mod@component`] | any block as a rust-hdl component |
 //! | [`verilog`] | prints any block of the model as Verilog-2005, a module for each block within |
 
 pub mod board;
+pub mod codes;
 pub mod component;
 pub mod verilog;

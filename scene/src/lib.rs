@@ -44,5 +44,5 @@ pub use plant::Plant;
 pub use ratios::signs_by_place;
 pub use scene::{Figure, Record, Scene};
 pub use timing::Timing;
-pub use truth::{ForcePoint, MapPoint, Setpoint, Truth};
+pub use truth::{ForcePoint, MapPoint, PadReading, Setpoint, Truth};
 pub use uncouple::{Lying, Uncoupler};

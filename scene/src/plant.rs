@@ -18,7 +18,7 @@ use crate::path::raster;
 use crate::ratios::Ratios;
 use crate::scene::Scene;
 use crate::timing::Timing;
-use crate::truth::{ForcePoint, MapPoint, Truth};
+use crate::truth::{ForcePoint, MapPoint, PadReading, Truth};
 use crate::uncouple::{RASTER, Uncoupler};
 
 /// One case of a scene at work.
@@ -218,6 +218,16 @@ impl Plant {
             MapPoint { x_mm: pad.x_mm, y_mm: pad.y_mm, r_x, r_y, sheet_ohm: pad.sheet_ohm.re }
         };
         self.settle(still).map(point).collect()
+    }
+
+    /// What the terminals of the nominal device read of a pad alone and at rest at each of these places, mm.
+    pub fn readings(&self, places_mm: &[[f64; 2]]) -> Vec<PadReading> {
+        let still = places_mm.iter().map(|place| resting(*place, 0.0, 0.0, &self.device));
+        let reading = |pad: Pad| PadReading {
+            siemens: pad.transfer(&self.device).iter().copied().collect(),
+            sheet_ohm: pad.sheet_ohm.re,
+        };
+        self.settle(still).map(reading).collect()
     }
 
     /// A friction calibration, as for the paper's Fig. 6: one pad alone in the middle of the sheet, under each load at each

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What the plant tells of itself: its state in a slot, and the map that a calibration starts from.
 
+use num_complex::Complex64;
+
 /// The plant in one slot, at the middle of its integration window.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Truth {
@@ -85,6 +87,15 @@ pub struct MapPoint {
     pub r_x: f64,
     /// Ratio of the currents along y.
     pub r_y: f64,
+    /// Resistance R_p of the sheet there, Ω.
+    pub sheet_ohm: f64,
+}
+
+/// What the terminals read of a pad at rest.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PadReading {
+    /// Current into each terminal per volt of sensing, S.
+    pub siemens: Vec<Complex64>,
     /// Resistance R_p of the sheet there, Ω.
     pub sheet_ohm: f64,
 }

@@ -9,9 +9,10 @@ use crate::sources::File;
 use hapticore_model::block::{Block, Cell};
 use hapticore_model::blocks::core::{Core, Inputs, Outputs};
 use hapticore_model::bundle::Bundle;
-use hapticore_model::calibration::{Calibration, Map, Point};
+use hapticore_model::calibration::{Calibration, Point, PositionTable};
 use hapticore_model::profile::Profile;
 use hapticore_model::signal::Signal;
+use hapticore_rtl::codes::{Codes, Constant};
 use std::fmt::Write as _;
 
 /// The profile that they are for.
@@ -111,8 +112,8 @@ fn calibration(profile: &Profile) -> Calibration {
         Point { x: 400.0 * u, y: 220.0 * v, r_x, r_y, sheet: 0.05 + 0.02 * u * u + 0.01 * v }
     };
     let points: Vec<Point> = (0..columns * rows).map(point).collect();
-    let map = Map::fit(profile, columns, &points).expect("a sheet");
-    Calibration { map, capacitance_gain: 800.0, force_gain: 2e-6 }
+    let position = PositionTable::fit(profile, &points).expect("a sheet");
+    Calibration { position, capacitance_gain: 800.0, force_gain: 2e-6 }
 }
 
 /// A core at work, and what it has said.
@@ -142,18 +143,15 @@ pub fn files() -> Vec<File> {
     let profile = Profile::bundled(PROFILE).expect("a bundled profile");
     let core = Core::new(&profile);
     let calibration = calibration(&profile);
-    let constants = calibration.inputs(core.inputs());
-    let word = core.estimator().map().words().format;
+    let calibrated = Codes::new(&profile, &calibration);
+    let constants = calibrated.inputs;
     let frames = String::from("pad,index,word,clipped,saturated,invalid,lost\n");
     let mut bench = Bench { cell: core.cell(), core, asked: 0, frames };
     let mut words = String::from("what,code\n");
-    Inputs::each(constants, |name, code| {
-        if name.starts_with("origin") || name.starts_with("scale") || name.ends_with("gain") {
-            writeln!(words, "{name},{code}").expect("a string grows");
-        }
-    });
-    for (address, &real) in (0..).zip(&calibration.map.words) {
-        let word = word.code_saturating(real);
+    for Constant { name, code, .. } in calibrated.constants() {
+        writeln!(words, "{name},{code}").expect("a string grows");
+    }
+    for (address, &word) in (0..).zip(&calibrated.table) {
         writeln!(words, "{address},{word}").expect("a string grows");
         bench.clock(Inputs { write: 1, address, word, ..constants });
     }

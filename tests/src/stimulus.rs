@@ -214,7 +214,7 @@ pub fn scene(profile: &Profile, name: &str, slots: usize) -> Stimulus {
         codes.chunks_exact(channels).map(|set| set.iter().map(|&code| code.into()).collect()).collect::<Vec<Vec<i64>>>()
     });
     let formats = Core::new(profile).inputs();
-    let words: Vec<_> = calibration.map.words.iter().map(|&word| formats.word.code_saturating(word)).collect();
+    let words: Vec<_> = calibration.position.words.iter().map(|&word| formats.word.code_saturating(word)).collect();
     Stimulus {
         constants: calibration.inputs(formats),
         formats,
@@ -265,7 +265,7 @@ pub fn tones(profile: &Profile, seed: u64, slots: u64) -> Stimulus {
 pub fn random(profile: &Profile, seed: u64, slots: u64) -> Stimulus {
     let mut rng = Rng::with_seed(seed);
     let core = Core::new(profile);
-    let memory = core.estimator().map().words().clone();
+    let memory = core.estimator().position().table().clone();
     let constants = Inputs::map(core.inputs(), |format| corner(&mut rng, format));
     let table: Vec<i64> = (0..memory.words).map(|_| corner(&mut rng, memory.format)).collect();
     let (channels, adc, disturb) = (profile.channels(), profile.formats.adc, (rng.fork(), memory));

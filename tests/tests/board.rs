@@ -44,7 +44,7 @@ fn shortened(target: Target) -> Profile {
     profile.slot.settle = 423;
     let samples = 4 * profile.samples_per_period().round() as u64;
     profile = profile.with_window(samples);
-    (profile.map.edge_address, profile.map.spacing_address, profile.map.table_address) = (4, 4, 2);
+    (profile.position.columns, profile.position.rows) = (17, 11);
     profile.check().expect("a profile");
     profile
 }

@@ -19,8 +19,8 @@ use hapticore_model::blocks::currents::Currents;
 use hapticore_model::blocks::demodulator::Demodulator;
 use hapticore_model::blocks::force::Force;
 use hapticore_model::blocks::haptic_voltage::HapticVoltage;
-use hapticore_model::blocks::map::Map;
 use hapticore_model::blocks::pace::Pace;
+use hapticore_model::blocks::position::Position;
 use hapticore_model::blocks::ratio::Ratio;
 use hapticore_model::profile::Profile;
 use hapticore_rtl::verilog::Design;
@@ -58,12 +58,13 @@ fn strobed(block: &Pace) -> Alone {
 
 /// The blocks that compute, each alone.
 fn blocks(profile: &Profile) -> Vec<Alone> {
-    let (currents, map, words) = (Currents::new(profile), Map::new(profile), 2 * (profile.channels() as i64 - 1));
+    let (currents, position, words) =
+        (Currents::new(profile), Position::new(profile), 2 * (profile.channels() as i64 - 1));
     let amplitudes = currents.outputs();
     vec![
         // As long as polyphase sums take to be read out.
         alone(&Demodulator::new(profile), 500, 0, 640),
-        alone(&map, 3000, map.words().words as i64, 3),
+        alone(&position, 600, position.table().words as i64, 3),
         alone(&currents, 1000, words, 3),
         alone(&HapticVoltage::new(profile), 20_000, words, 3),
         strobed(&Pace::new(profile)),

@@ -87,11 +87,18 @@ fn error_map(setting: &Setting, most: usize) -> String {
     let ideal = rms(setting.rows.iter().filter_map(|(r, t)| Some(position_error(&r.reference?.quantities, t))));
     let ideal = if ideal.is_finite() { format!(" ({})", number::short(ideal)) } else { String::new() };
     let what = format!("{} mm{ideal}", number::short(rms(errors.iter().copied())));
-    let step = |error: f64| Paint::sequential(ERROR_STEPS.partition_point(|edge| *edge <= error));
-    titled(&setting.name, &what, |about| map(about, setting.half_sheet_mm, &places(setting, &errors), most, step))
+    titled(&setting.name, &what, |about| {
+        map(about, setting.half_sheet_mm, &places(setting, &errors), most, error_paint)
+    })
 }
 
-fn error_legend() -> String {
+/// The colour of a position error, mm.
+pub fn error_paint(error_mm: f64) -> Paint {
+    Paint::sequential(ERROR_STEPS.partition_point(|edge| *edge <= error_mm))
+}
+
+/// What the colours of position errors are.
+pub fn error_legend() -> String {
     let edge = |n: usize| ERROR_STEPS.get(n).copied();
     let name = |n: usize| match (n.checked_sub(1).and_then(edge), edge(n)) {
         (None, to) => format!("below {} mm", to.unwrap_or_default()),
@@ -107,12 +114,13 @@ fn places(setting: &Setting, values: &[f64]) -> Vec<(f64, f64, f64)> {
 }
 
 /// A map under the name of its setting and a line on what it shows; `svg` draws it, told what it is about.
-fn titled(name: &str, what: &str, svg: impl Fn(&str) -> String) -> String {
+pub fn titled(name: &str, what: &str, svg: impl Fn(&str) -> String) -> String {
     let lines = [name, what].into_iter().filter(|line| !line.is_empty()).map(escape).collect::<Vec<_>>();
     let about = format!("{name} {what}");
     format!("<div>\n<p>{}</p>\n{}</div>\n", lines.join("<br />"), svg(about.trim()))
 }
 
-fn grid(maps: &str) -> String {
+/// Maps beside each other.
+pub fn grid(maps: &str) -> String {
     format!("<div class=\"maps\">\n{maps}</div>\n")
 }

@@ -8,9 +8,11 @@
 //! | `axis`, `series`, `paint`, `number` | ticks, points, colours of both modes, numbers as text |
 //! | `select`, `sweep` | rows by case, setting and pad; settings by load and voltage |
 //! | `fig3`, `fig4`, `fig6`, `fig7`, `hockey` | the figures of a scene |
+//! | `calibration` | the page of a device's calibration |
 //! | `general`, `swept` | those of any other: over time, over what is swept |
 
 mod axis;
+mod calibration;
 #[cfg(test)]
 mod contrast;
 mod fig3;
@@ -36,6 +38,7 @@ mod tables;
 mod tests;
 
 use crate::record::Record;
+pub use calibration::of_calibration;
 use figure::Figure;
 
 /// The report of a run as a self-contained HTML page.
@@ -50,7 +53,7 @@ pub fn html(record: &Record) -> String {
         page::section("Rounding errors by signal", &tables::errors(&record.errors)),
         page::section("The run", &tables::run(record)),
     ];
-    page::document(record, &body.concat())
+    page::document(&record.title, &body.concat())
 }
 
 fn figures(record: &Record) -> String {

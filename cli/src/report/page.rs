@@ -22,9 +22,9 @@ pub fn escape(text: &str) -> String {
     escaped
 }
 
-/// The document with these contents.
-pub fn document(record: &Record, main: &str) -> String {
-    let title = escape(&record.title);
+/// The document of a title with these contents.
+pub fn document(title: &str, main: &str) -> String {
+    let title = escape(title);
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\" />\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\" />\n\
@@ -39,9 +39,13 @@ pub fn heading(record: &Record) -> String {
     let facts = [("scene", &record.scene), ("profile", &record.profile), ("core", &record.fidelity)];
     let facts: String = facts.iter().map(|(name, value)| fact(name, value)).collect();
     let (title, summary) = (escape(&record.title), escape(record.summary.trim()));
-    let warning = |text: &String| format!("<p class=\"warning\">⚠ {}</p>\n", escape(text));
-    let warnings: String = record.warnings.iter().map(warning).collect();
+    let warnings = warnings(&record.warnings);
     format!("<header>\n<h1>{title}</h1>\n<ul class=\"facts\">{facts}</ul>\n{warnings}<p>{summary}</p>\n</header>\n")
+}
+
+/// What its reader must know first.
+pub fn warnings(warnings: &[String]) -> String {
+    warnings.iter().map(|text| format!("<p class=\"warning\">⚠ {}</p>\n", escape(text))).collect()
 }
 
 /// A section; nothing where it would be empty.

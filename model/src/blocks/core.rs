@@ -29,19 +29,11 @@ bundle! {
         clear,
         /// The code of the channel asked for in the clock before.
         code,
-        /// Calibration: the x ratio in the middle of the box.
-        origin_x,
-        /// Calibration: one over half the box's width.
-        scale_x,
-        /// Calibration: the y ratio in the middle of the box.
-        origin_y,
-        /// Calibration: one over half the box's height.
-        scale_y,
         /// Calibration: picofarads at an admittance of one.
         capacitance_gain,
         /// Calibration: newtons per square picofarad at full haptic mean square.
         force_gain,
-        /// Calibration: writes a word of the map's tables.
+        /// Calibration: writes a word of the position table.
         write,
         /// Calibration: where.
         address,
@@ -152,24 +144,9 @@ impl Block for Core {
 
     #[inline]
     fn inputs(&self) -> Inputs<Format> {
-        let estimator::Inputs {
-            origin_x, scale_x, origin_y, scale_y, capacitance_gain, force_gain, address, word, ..
-        } = self.estimator.inputs();
+        let estimator::Inputs { capacitance_gain, force_gain, address, word, .. } = self.estimator.inputs();
         let code = self.demodulator.inputs().code;
-        Inputs {
-            strobe: BIT,
-            clear: BIT,
-            code,
-            origin_x,
-            scale_x,
-            origin_y,
-            scale_y,
-            capacitance_gain,
-            force_gain,
-            write: BIT,
-            address,
-            word,
-        }
+        Inputs { strobe: BIT, clear: BIT, code, capacitance_gain, force_gain, write: BIT, address, word }
     }
 
     #[inline]
@@ -228,10 +205,6 @@ impl Block for Core {
             sum: demodulator.sum,
             pad: demodulator.pad,
             clipped: demodulator.clipped,
-            origin_x: i.origin_x,
-            scale_x: i.scale_x,
-            origin_y: i.origin_y,
-            scale_y: i.scale_y,
             capacitance_gain: i.capacitance_gain,
             force_gain: i.force_gain,
             write: i.write,

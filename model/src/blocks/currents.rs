@@ -16,8 +16,8 @@
 //! | amplitude       | total's | full scale     | cannot (range proof) |
 //! | x, y, corners   | exact   | full scale     | cannot (range proof) |
 //!
-//! Words may be moved up together, so that small currents keep their bits: see `currents/block.rs`. x, y and corners then
-//! count what the largest current makes of a word's step; total and sensing voltage are at one point again.
+//! Words may be moved up together, so that small currents keep their bits: see `currents/block.rs`. x, y and corners then count what the
+//! largest current makes of a word's step; total and sensing voltage are at one point again.
 //!
 //! Latency: (terminals + 2) · (6 products + root + 1) + 1 clocks from the last sum (the mean square's) to `done`. Source: paper,
 //! eqs. 2–5; the sum is that of all terminals' complex currents, for the corners alone carry only a part (PHYSICS §1).

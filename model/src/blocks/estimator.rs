@@ -2,8 +2,8 @@
 //! Estimator: from a window's sums to a frame, each stage starting the next.
 //!
 //! ```text
-//! sums ─ currents ─ ratio ─ map ─ capacitance ─ force ─ frames ─ words
-//!      └ haptic voltage ──────────────────────────┘
+//! sums ─ currents ─ ratio ─ position ─ capacitance ─ force ─ frames ─ words
+//!      └ haptic voltage ───────────────────────────────┘
 //! ```
 //!
 //! One slot is in flight at a time, so that nothing of one pad can meet anything of another; the profile's blanking is longer
@@ -14,7 +14,7 @@ use super::currents::{self, Currents};
 use super::force::{self, Force};
 use super::frames::{self, Frames};
 use super::haptic_voltage::{self, HapticVoltage};
-use super::map::{self, Map};
+use super::position::{self, Position};
 use super::ratio::{self, Ratio};
 use crate::block::{Block, Cell};
 use crate::bundle::Bundle;
@@ -36,19 +36,11 @@ bundle! {
         pad,
         /// Whether a code of the window was at a rail.
         clipped,
-        /// Calibration: the x ratio in the middle of the box.
-        origin_x,
-        /// Calibration: one over half the box's width.
-        scale_x,
-        /// Calibration: the y ratio in the middle of the box.
-        origin_y,
-        /// Calibration: one over half the box's height.
-        scale_y,
         /// Calibration: picofarads at an admittance of one.
         capacitance_gain,
         /// Calibration: newtons per square picofarad at full haptic mean square.
         force_gain,
-        /// Calibration: writes a word of the map's tables.
+        /// Calibration: writes a word of the position table.
         write,
         /// Calibration: where.
         address,
@@ -93,7 +85,7 @@ parts! {
     pub struct Parts of Estimator {
         currents: Currents,
         ratio: Ratio,
-        map: Map,
+        position: Position,
         haptic_voltage: HapticVoltage,
         capacitance: Capacitance,
         force_estimator: Force,
@@ -106,7 +98,7 @@ parts! {
 pub struct Estimator {
     currents: Currents,
     ratio: Ratio,
-    map: Map,
+    position: Position,
     haptic_voltage: HapticVoltage,
     capacitance: Capacitance,
     force_estimator: Force,
@@ -120,7 +112,7 @@ impl Estimator {
         let currents = Currents::new(profile);
         Estimator {
             ratio: Ratio::new(profile, currents.sums()),
-            map: Map::new(profile),
+            position: Position::new(profile),
             haptic_voltage: HapticVoltage::new(profile),
             capacitance: Capacitance::new(profile, currents.amplitude()),
             force_estimator: Force::new(profile),
@@ -135,7 +127,7 @@ impl Estimator {
         let stages = [
             self.currents.latency(),
             self.ratio.latency(),
-            self.map.latency(),
+            self.position.latency(),
             self.capacitance.latency(),
             self.force_estimator.latency(),
             self.frames.latency(),
@@ -143,9 +135,9 @@ impl Estimator {
         stages.into_iter().sum()
     }
 
-    /// The map.
-    pub fn map(&self) -> &Map {
-        &self.map
+    /// The position.
+    pub fn position(&self) -> &Position {
+        &self.position
     }
 
     /// The currents.
@@ -164,22 +156,18 @@ impl Block for Estimator {
     #[inline]
     fn inputs(&self) -> Inputs<Format> {
         let haptic = self.haptic_voltage.inputs();
-        let map = self.map.inputs();
+        let position = self.position.inputs();
         Inputs {
             valid: BIT,
             index: haptic.index,
             sum: haptic.sum,
             pad: self.registers.pad,
             clipped: BIT,
-            origin_x: map.origin_x,
-            scale_x: map.scale_x,
-            origin_y: map.origin_y,
-            scale_y: map.scale_y,
             capacitance_gain: self.capacitance.inputs().gain,
             force_gain: self.force_estimator.inputs().gain,
             write: BIT,
-            address: map.address,
-            word: map.word,
+            address: position.address,
+            word: position.word,
         }
     }
 
@@ -210,24 +198,20 @@ impl Block for Estimator {
         let haptic = self.haptic_voltage.call("haptic_voltage", &mut parts.haptic_voltage, inputs);
         let inputs = ratio::Inputs { start: currents.done, x: currents.x, y: currents.y, corners: currents.corners };
         let ratio = self.ratio.call("ratio", &mut parts.ratio, inputs);
-        let inputs = map::Inputs {
+        let inputs = position::Inputs {
             start: ratio.done,
             r_x: ratio.r_x,
             r_y: ratio.r_y,
-            origin_x: i.origin_x,
-            scale_x: i.scale_x,
-            origin_y: i.origin_y,
-            scale_y: i.scale_y,
             write: i.write,
             address: i.address,
             word: i.word,
         };
-        let map = self.map.call("map", &mut parts.map, inputs);
+        let position = self.position.call("position", &mut parts.position, inputs);
         let inputs = capacitance::Inputs {
-            start: map.done,
+            start: position.done,
             total: currents.total,
             sense: currents.sense,
-            sheet: map.sheet,
+            sheet: position.sheet,
             gain: i.capacitance_gain,
         };
         let capacitance = self.capacitance.call("capacitance", &mut parts.capacitance, inputs);
@@ -238,22 +222,22 @@ impl Block for Estimator {
             gain: i.force_gain,
         };
         let force = self.force_estimator.call("force_estimator", &mut parts.force_estimator, inputs);
-        let invalid = ratio.invalid | capacitance.invalid;
+        let invalid = ratio.invalid | position.invalid | capacitance.invalid;
         let inputs = frames::Inputs {
             start: force.done,
             pad: r.pad,
             invalid,
             r_x: ratio.r_x,
             r_y: ratio.r_y,
-            x: map.x,
-            y: map.y,
-            sheet: map.sheet,
+            x: position.x,
+            y: position.y,
+            sheet: position.sheet,
             capacitance: capacitance.capacitance,
             haptic_force: force.haptic_force,
             mean_square: haptic.mean_square,
         };
         let frames = self.frames.call("frames", &mut parts.frames, inputs);
-        let held = currents.saturated | haptic.saturated | map.saturated | capacitance.saturated | force.saturated;
+        let held = currents.saturated | haptic.saturated | position.saturated | capacitance.saturated | force.saturated;
         let held = held.named("any_saturated");
         let pad = valid.select(i.pad, r.pad);
         let busy = valid | (r.busy & !frames.done);

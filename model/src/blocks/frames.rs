@@ -55,7 +55,7 @@ impl Field {
         let f = &profile.formats;
         match self {
             Field::RatioX | Field::RatioY => f.ratio,
-            Field::X | Field::Y => profile.position(),
+            Field::X | Field::Y => f.position,
             Field::Sheet => profile.sheet(),
             Field::Capacitance => f.capacitance,
             Field::Force => f.force,

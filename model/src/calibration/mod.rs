@@ -5,9 +5,9 @@
 //! are in the core's own units: fractions of full scale, millimetres, picofarads, newtons.
 
 mod least_squares;
-mod map;
+mod position;
 
-pub use map::{Map, MapError, Point};
+pub use position::{Found, Point, PositionError, PositionTable};
 
 use crate::blocks::core::Inputs;
 use crate::format::Format;
@@ -17,7 +17,7 @@ use crate::profile::Profile;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Calibration {
     /// Position and sheet resistance from ratios.
-    pub map: Map,
+    pub position: PositionTable,
     /// Picofarads at an admittance of one.
     pub capacitance_gain: f64,
     /// Newtons per square picofarad at a haptic mean-square word of one.
@@ -43,8 +43,6 @@ impl Calibration {
         for (name, format, value) in [
             ("capacitance gain", f.capacitance_gain, self.capacitance_gain),
             ("force gain", f.force_gain, self.force_gain),
-            ("map scale x", f.map_scale, self.map.scale[0]),
-            ("map scale y", f.map_scale, self.map.scale[1]),
         ] {
             if format.code(value).is_none_or(|code| code == 0) {
                 return Err(CalibrationError { name, format, value });
@@ -59,10 +57,6 @@ impl Calibration {
             strobe: 0,
             clear: 0,
             code: 0,
-            origin_x: formats.origin_x.code_saturating(self.map.origin[0]),
-            scale_x: formats.scale_x.code_saturating(self.map.scale[0]),
-            origin_y: formats.origin_y.code_saturating(self.map.origin[1]),
-            scale_y: formats.scale_y.code_saturating(self.map.scale[1]),
             capacitance_gain: formats.capacitance_gain.code_saturating(self.capacitance_gain),
             force_gain: formats.force_gain.code_saturating(self.force_gain),
             write: 0,

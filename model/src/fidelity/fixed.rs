@@ -254,15 +254,7 @@ fn frame<V: Value>(gathered: Gathered, outputs: &Outputs<Signal<V>>) -> Frame {
 /// The estimator's inputs between sums.
 fn quiet<V: Value>(core: &Core, constants: CoreInputs<Signal<V>>) -> Inputs<Signal<V>> {
     let zeros = Inputs::map(core.estimator().inputs(), zero);
-    Inputs {
-        origin_x: constants.origin_x,
-        scale_x: constants.scale_x,
-        origin_y: constants.origin_y,
-        scale_y: constants.scale_y,
-        capacitance_gain: constants.capacitance_gain,
-        force_gain: constants.force_gain,
-        ..zeros
-    }
+    Inputs { capacitance_gain: constants.capacitance_gain, force_gain: constants.force_gain, ..zeros }
 }
 
 /// What the window makes of tones, with the oscillator's own words.

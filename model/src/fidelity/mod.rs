@@ -43,8 +43,8 @@ fn calibrated<V: Value>(core: &Core, calibration: &Calibration) -> Cell<Core, V>
     let mut cell = core.cell();
     let formats = core.inputs();
     let constants = calibration.inputs(formats);
-    let memory = core.estimator().map().words();
-    for (address, &word) in calibration.map.words.iter().enumerate() {
+    let memory = core.estimator().position().table();
+    for (address, &word) in calibration.position.words.iter().enumerate() {
         let codes = Inputs { write: 1, address: address as i64, ..constants };
         let mut inputs = signals::<Inputs, V>(codes, formats);
         inputs.word = constant(word, memory.format);

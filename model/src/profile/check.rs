@@ -4,6 +4,7 @@
 use super::{Method, Profile, ProfileError};
 use crate::blocks::demodulator::Demodulator;
 use crate::blocks::estimator::Estimator;
+use crate::blocks::position::Layout;
 use crate::format::{Format, MAX_WIDTH};
 use std::fmt::Display;
 
@@ -35,7 +36,7 @@ impl Profile {
         within("multiplier", self.multiplier.into(), 8, 64)?;
         self.check_terminals()?;
         self.check_formats()?;
-        self.check_map()?;
+        self.check_position()?;
         self.check_slot()?;
         self.check_widths()?;
         self.check_clocks()
@@ -89,11 +90,21 @@ impl Profile {
         ensure(f.oscillator == waves, "formats.oscillator", "s17.16, with carrier.method polyphase", f.oscillator)
     }
 
-    fn check_map(&self) -> Check {
-        let most = u64::from(self.formats.map.width - 2).min(7);
-        within("map.edge_address", self.map.edge_address.into(), 1, most)?;
-        within("map.spacing_address", self.map.spacing_address.into(), 1, most)?;
-        within("map.table_address", self.map.table_address.into(), 1, most)
+    fn check_position(&self) -> Check {
+        let position = &self.position;
+        for (field, side) in [("position.columns", position.columns), ("position.rows", position.rows)] {
+            within(field, side, 5, 2 * Layout::CELLS as u64 + 1)?;
+            ensure(!side.is_multiple_of(2), field, "an odd number", side)?;
+        }
+        within("position.resistance_shift", position.resistance_shift.into(), 1, 4)?;
+        within("position.steps", position.steps, 1, 15)?;
+        let f = &self.formats;
+        ensure((12..=27).contains(&f.table.width), "formats.table", "12 to 27 bits", f.table)?;
+        let as_wide = f.position.width == f.table.width;
+        ensure(as_wide, "formats.position", "as many bits as formats.table", f.position)?;
+        let words = Layout::new(self).words();
+        let most = f.table.max_code().min(1 << 14) as usize;
+        ensure(words <= most, "position.columns", format!("a table of {most} words at most"), format_args!("{words}"))
     }
 
     /// What grows with counts, or with several formats at once, still fits a word of the model.
@@ -101,7 +112,13 @@ impl Profile {
         let (f, terminals) = (&self.formats, self.terminals.x.len() as u64);
         let amplitude = i16::from(f.total.width) + 1;
         let sums = amplitude + i16::from(Format::counter(terminals).width);
+        let demodulator = Demodulator::new(self);
+        let sum = demodulator.sum();
+        // An I/Q word with all the bits that it may be moved up by, before it is narrowed.
+        let integer = sum.integer_bits() - i16::from(self.sum_shift() - demodulator.shift());
+        let moved = integer + 2 + i16::from(f.iq.frac) + i16::from(f.block_shift);
         for (field, width, of) in [
+            ("formats.iq", moved, ROUNDED),
             ("slot.integrate", i16::from(Demodulator::new(self).sum().width), "a sum over the window"),
             ("formats.ratio", sums + i16::from(f.ratio.frac), "the dividend of a ratio"),
             ("formats.admittance", amplitude + i16::from(f.admittance.frac), "the dividend of the admittance"),
@@ -110,7 +127,6 @@ impl Profile {
             ("formats.square", before(f.square.product(f.mean_square), f.square), ROUNDED),
             ("formats.force", before(f.square.product(f.force_gain), f.force), ROUNDED),
             ("formats.mean_square", before(Demodulator::new(self).sum(), f.mean_square), ROUNDED),
-            ("formats.map_scale", before(f.ratio.difference(f.ratio).product(f.map_scale), f.map), ROUNDED),
         ] {
             let most = i16::from(MAX_WIDTH);
             ensure(width <= most, field, format_args!("{of} of at most {most} bits"), format_args!("{width}"))?;
@@ -140,11 +156,12 @@ impl Profile {
             ("iq", f.iq),
             ("total", f.total),
             ("ratio", f.ratio),
-            ("map", f.map),
+            ("table", f.table),
+            ("position", f.position),
         ] {
             ensure(format.signed, &format!("formats.{name}"), "a signed format", format)?;
         }
-        for (name, format) in [("adc", f.adc), ("oscillator", f.oscillator), ("map", f.map)] {
+        for (name, format) in [("adc", f.adc), ("oscillator", f.oscillator), ("table", f.table)] {
             let fraction = format.integer_bits() == 0 && (4..=24).contains(&format.width);
             ensure(fraction, &format!("formats.{name}"), "a fraction of 4 to 24 bits, such as s18.17", format)?;
         }
@@ -158,8 +175,14 @@ impl Profile {
         let moved = f.block_shift > 0 && f.total.frac <= f.iq.frac;
         let expected = format_args!("the point of iq, {}, and no fewer bits", f.iq);
         ensure(same_point || moved, "formats.total", expected, f.total)?;
+        let squared = f.block_shift == 0 || f.total.width <= 28;
+        ensure(squared, "formats.total", "28 bits at most, with formats.block_shift", f.total)?;
+        let fine = f.ratio.frac + 1 >= f.table.frac;
+        ensure(fine, "formats.ratio", format_args!("half of which is as fine as table, {}", f.table), f.ratio)?;
         ensure(f.ratio.integer_bits() == 1, "formats.ratio", "one integer bit, such as s20.18", f.ratio)?;
         ensure((4..=30).contains(&f.ratio.width), "formats.ratio", "4 to 30 bits", f.ratio)?;
+        let sound = (8..=28).contains(&f.position.width) && f.position.frac >= 0;
+        ensure(sound, "formats.position", "8 to 28 bits with a point among them", f.position)?;
         ensure(f.admittance.frac >= 0, "formats.admittance", "fractional bits", f.admittance)?;
         self.check_unsigned(f.admittance, "admittance")?;
         self.check_unsigned(f.capacitance, "capacitance")?;
@@ -167,8 +190,7 @@ impl Profile {
         self.check_unsigned(f.square, "square")?;
         self.check_unsigned(f.force, "force")?;
         self.check_unsigned(f.capacitance_gain, "capacitance_gain")?;
-        self.check_unsigned(f.force_gain, "force_gain")?;
-        self.check_unsigned(f.map_scale, "map_scale")
+        self.check_unsigned(f.force_gain, "force_gain")
     }
 
     fn check_unsigned(&self, format: Format, name: &str) -> Check {

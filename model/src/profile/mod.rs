@@ -28,7 +28,7 @@ pub struct Profile {
     /// The sensing carrier.
     pub carrier: Carrier,
     /// Position from ratios.
-    pub map: Map,
+    pub position: Position,
     /// Capacitance from currents.
     pub capacitance: Capacitance,
     /// Word formats.
@@ -95,16 +95,18 @@ pub enum Window {
     Rectangular,
 }
 
-/// The tables from ratios to millimetres and sheet resistance.
+/// The position table and its inversion.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Map {
-    /// Address bits of the curves that straighten the edges; a curve has one entry more than `2^edge_address`.
-    pub edge_address: u8,
-    /// Address bits of the curves that even out the spacing.
-    pub spacing_address: u8,
-    /// Address bits of either side of the two-dimensional table.
-    pub table_address: u8,
+pub struct Position {
+    /// Coefficients of a ratio's spline along the long edges; an odd number, so that one lies in the middle.
+    pub columns: u64,
+    /// Coefficients along the short edges, likewise.
+    pub rows: u64,
+    /// The resistance's cells are `2^resistance_shift` of the ratios' wide and high.
+    pub resistance_shift: u8,
+    /// Newton steps.
+    pub steps: u64,
 }
 
 /// Capacitance from currents.
@@ -132,8 +134,10 @@ pub struct Formats {
     pub block_shift: u8,
     /// The ratios of eqs. 2 and 3.
     pub ratio: Format,
-    /// Words of the map's tables; all are fractions.
-    pub map: Format,
+    /// Words of the position table; all are fractions.
+    pub table: Format,
+    /// Millimetres.
+    pub position: Format,
     /// Total current over sensing voltage, the sheet's resistance taken out.
     pub admittance: Format,
     /// Picofarads.
@@ -148,8 +152,6 @@ pub struct Formats {
     pub capacitance_gain: Format,
     /// Calibration: newtons per square picofarad at the full haptic mean square.
     pub force_gain: Format,
-    /// Calibration: table width per ratio.
-    pub map_scale: Format,
 }
 
 /// A profile that cannot be.
@@ -277,10 +279,10 @@ impl Profile {
         self.carrier.window.mean() * self.amplitude()
     }
 
-    /// The format of the sheet's resistance: a word of the map that is never negative.
+    /// The format of the sheet's resistance: a word of the position table that is never negative.
     pub fn sheet(&self) -> Format {
-        let map = self.formats.map;
-        Format::unsigned(map.width - 1, map.frac)
+        let word = self.formats.table;
+        Format::unsigned(word.width - 1, word.frac)
     }
 
     /// The format of the amplitudes of total current and sensing voltage: of the root of two squares of a total's word, one
@@ -288,15 +290,6 @@ impl Profile {
     pub fn amplitude_format(&self) -> Format {
         Format::unsigned(self.formats.total.width + 1, self.formats.total.frac)
     }
-
-    /// The format of a position, in millimetres: a word of the map.
-    pub fn position(&self) -> Format {
-        let map = self.formats.map;
-        Format { frac: map.frac - Profile::POSITION_BITS, ..map }
-    }
-
-    /// The full scale of a position is `2^POSITION_BITS` mm.
-    pub const POSITION_BITS: i8 = 9;
 
     /// Bits by which the demodulator's sums are scaled down, so that a full-scale tone is a little below one.
     pub fn sum_shift(&self) -> i8 {

@@ -3,7 +3,7 @@
 //!
 //! ```text
 //! i_k = 2/Σw · Σ w·x_k·cos φ,   q_k = 2/Σw · Σ w·x_k·sin φ,   a_k = √(i_k² + q_k²)          (a full-scale tone gives one)
-//! r_x = Σ ±a_k / Σ a_k,   r_y likewise (eqs. 2, 3);   x, y, R = tables(r_x, r_y)
+//! r_x = Σ ±a_k / Σ a_k,   r_y likewise (eqs. 2, 3);   x, y, R: where the table has these ratios
 //! a = |Σ (i_k + j q_k)|,   C = gain · a / √(v² − (a·R)²)    or    gain · a / v (eq. 6)
 //! m = 1/Σw · Σ w·h²,   F = gain · C² · m · square_gain (eq. 8)
 //! ```
@@ -155,8 +155,8 @@ impl Reference {
         let sum = |part: usize| terminals.iter().map(|phasor| phasor[part]).sum();
         let (total, sense) = (magnitude(&[sum(0), sum(1)]), magnitude(&sense[0]));
         let (r_x, r_y) = (x / corners, y / corners);
-        let [x_mm, y_mm, sheet] = self.calibration.map.look_up(r_x, r_y);
-        let sheet = sheet.max(0.0);
+        let place = self.calibration.position.look_up(r_x, r_y);
+        let (x_mm, y_mm, sheet) = (place.x, place.y, place.sheet.max(0.0));
         let drop = if self.sheet_correction { total * sheet } else { 0.0 };
         let left = sense * sense - drop * drop;
         let capacitance_pf = self.calibration.capacitance_gain * total / left.sqrt();
@@ -167,7 +167,7 @@ impl Reference {
                 reading: Reading { pad, r_x, r_y, x_mm, y_mm, sheet, capacitance_pf, force_n, mean_square, flags },
                 eq6: self.calibration.capacitance_gain * total / sense,
             },
-            valid: corners > 0.0 && left > 0.0,
+            valid: corners > 0.0 && place.is_valid() && left > 0.0,
             lost: least < self.lost_share * total,
         }
     }

@@ -108,6 +108,12 @@ pub trait Value: Copy + std::fmt::Debug + 'static {
     /// `a` where the bit is set, else `b`.
     fn select(bit: Self, a: Signal<Self>, b: Signal<Self>, to: Format) -> Self;
 
+    /// The lesser of two signals of one format; a reading of intervals knows that it is at most either.
+    #[inline(always)]
+    fn at_most(a: Signal<Self>, most: Signal<Self>) -> Self {
+        Self::select(Self::less(most, a), most, a, a.format)
+    }
+
     /// In readings without rounding: what `ideal` makes of the operands. In all others: `a` itself. With it a block that
     /// approximates (a table) or works digit by digit (a division) says what it approximates.
     #[inline(always)]
@@ -318,6 +324,13 @@ impl<V: Value> Signal<V> {
     #[inline(always)]
     pub fn is(self, other: u64) -> Self {
         self.equals(int(other))
+    }
+
+    /// The lesser of this and `most`, which has the same format.
+    #[inline(always)]
+    pub fn at_most(self, most: Self) -> Self {
+        debug_assert!(self.format == most.format);
+        Signal { value: V::at_most(self, most), ..self }
     }
 
     /// `a` where this bit is set, else `b`.

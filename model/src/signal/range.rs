@@ -176,6 +176,11 @@ impl Value for Range {
         Range { low: (high.value.low << shift) | low.value.low, high: (high.value.high << shift) | low.value.high }
     }
 
+    fn at_most(a: Signal<Self>, most: Signal<Self>) -> Self {
+        let (a, most) = (a.value, most.value);
+        Range { low: a.low.min(most.low), high: a.high.min(most.high) }
+    }
+
     fn less(a: Signal<Self>, b: Signal<Self>) -> Self {
         let to = a.format.join(b.format);
         let (a, b) = (align(a, to), align(b, to));

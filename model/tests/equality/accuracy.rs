@@ -47,17 +47,22 @@ fn carrier(profile: &Profile) -> f64 {
     q(profile.formats.oscillator) * 2.0 / (profile.slot.integrate as f64).sqrt()
 }
 
-/// The deviation of a position: of its ratios, by the table's slope, and of the map's own words.
+/// The deviation of a position: of its ratios and of the table's words, by the slope of the place over the ratios, and of the
+/// words of the place itself.
 fn position(profile: &Profile, calibration: &Calibration, ideal: &Reading, of_ratio: [f64; 2]) -> f64 {
-    let map = &calibration.map;
-    let word = q(profile.formats.map);
-    let x = |dx: f64, dy: f64| map.look_up(ideal.r_x + dx, ideal.r_y + dy)[0];
+    let f = &profile.formats;
+    let x = |dx: f64, dy: f64| calibration.position.look_up(ideal.r_x + dx, ideal.r_y + dy).x;
     let step = 1e-3;
     let slopes = [x(step, 0.0) - x(-step, 0.0), x(0.0, step) - x(0.0, -step)].map(|rise| rise / (2.0 * step));
-    // In the box: p, middle and its interpolation, the straightened word; a stretch's words count 2^5 times half a box.
-    let in_box = word * norm(&[1.0, 1.0, 1.0, 1.0, 16.0, 16.0]);
-    let along = |axis: usize| norm(&[slopes[axis] * of_ratio[axis], slopes[axis] / map.scale[axis] * in_box]);
-    norm(&[along(0), along(1), 512.0 * word * 2.0])
+    // The measured ratio and what is left of it; nine coefficients, each by its weight (0.3 in all); three rows' values
+    // likewise (0.55); the weights along u and along v, three of either, of coefficients of about a half.
+    let weights = 0.5 * 3f64.sqrt();
+    let words = q(f.table) * norm(&[1.0, 1.0, 0.3, 0.55, 0.55 * weights, weights]);
+    let along = |axis: usize| slopes[axis] * norm(&[of_ratio[axis], words]);
+    let cells = (profile.position.columns - 2) as f64;
+    // As fine as a place's word, or the last of sixteen digits of a step's quotient.
+    let place = 2f64.powi((6 - i32::from(f.table.width)).max(3 - 16)) / 12f64.sqrt();
+    norm(&[along(0), along(1), place * 800.0 / cells, q(f.position)])
 }
 
 /// The deviations of [`NAMES`] that the word lengths predict.

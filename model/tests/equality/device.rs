@@ -2,7 +2,7 @@
 //! A device to calibrate with, and what its ADC could see.
 
 use crate::random::Random;
-use hapticore_model::calibration::{Calibration, Map, Point};
+use hapticore_model::calibration::{Calibration, Point, PositionTable};
 use hapticore_model::profile::Profile;
 use std::f64::consts::TAU;
 
@@ -12,12 +12,17 @@ pub fn short_profiles() -> Vec<Profile> {
 }
 
 fn shortened(mut profile: Profile) -> Profile {
+    // The program's loop is the same, however often it is run through.
+    profile.position.steps = 4;
     profile.slot.open = 2;
-    profile.slot.settle = 98;
     let samples = 4 * profile.samples_per_period().round() as u64;
-    let profile = profile.with_window(samples);
-    profile.check().expect("a hundred samples are longer than the estimator takes");
-    profile
+    let with_settle = |settle: u64| {
+        let mut profile = profile.clone();
+        profile.slot.settle = settle;
+        let profile = profile.with_window(samples);
+        profile.check().is_ok().then_some(profile)
+    };
+    (0..1000).find_map(|periods| with_settle(98 + 5 * periods)).expect("a slot longer than the estimator takes")
 }
 
 /// A calibration such as a sheet has: ratios that saturate towards its edges.
@@ -31,7 +36,7 @@ pub fn calibration(profile: &Profile) -> Calibration {
     };
     let points: Vec<Point> = (0..columns * rows).map(point).collect();
     let calibration = Calibration {
-        map: Map::fit(profile, columns, &points).expect("a raster"),
+        position: PositionTable::fit(profile, &points).expect("a raster"),
         capacitance_gain: 800.0,
         force_gain: 2e-6,
     };

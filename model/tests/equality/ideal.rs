@@ -27,9 +27,9 @@ fn the_root_form_gives_the_capacitance_back() {
         let sum: f64 = terminals.iter().sum();
         let signed =
             |signs: &[i8]| -> f64 { signs.iter().zip(terminals).map(|(&s, share)| f64::from(s) * share).sum() };
-        let corners: f64 = terminals[..4].iter().sum();
+        let corners: f64 = terminals.iter().sum();
         let (r_x, r_y) = (signed(&profile.terminals.x) / corners, signed(&profile.terminals.y) / corners);
-        let sheet = calibration.map.look_up(r_x, r_y)[2];
+        let sheet = calibration.position.look_up(r_x, r_y).sheet;
         let admittance = random.between(0.1, 2.0);
         let behind = (1.0 + (admittance * sheet).powi(2)).sqrt();
         let current = admittance * voltage / behind;

@@ -61,8 +61,8 @@ pub fn drive_core(profile: &Profile, slots: u64, mut clock: impl FnMut(core::Inp
     let core = Core::new(profile);
     let calibration = calibration(profile);
     let constants = calibration.inputs(core.inputs());
-    for (address, &word) in (0..).zip(&calibration.map.words) {
-        let word = profile.formats.map.code_saturating(word);
+    for (address, &word) in (0..).zip(&calibration.position.words) {
+        let word = profile.formats.table.code_saturating(word);
         clock(core::Inputs { write: 1, address, word, ..constants });
     }
     let mut random = Random::new(slots);

@@ -11,8 +11,8 @@ use hapticore_model::blocks::divider::Divider;
 use hapticore_model::blocks::estimator::{self, Estimator};
 use hapticore_model::blocks::force::Force;
 use hapticore_model::blocks::frames::Frames;
-use hapticore_model::blocks::map::Map;
 use hapticore_model::blocks::oscillator::{self, Oscillator};
+use hapticore_model::blocks::position::{self, Position};
 use hapticore_model::blocks::ratio::Ratio;
 use hapticore_model::blocks::root::Root;
 use hapticore_model::bundle::Bundle;
@@ -61,10 +61,10 @@ fn ratio() {
 }
 
 #[test]
-fn map() {
+fn position() {
     for profile in Profile::all() {
-        let block = Map::new(&profile);
-        check_latency_of(block.clone(), block.latency(), |i| hapticore_model::blocks::map::Inputs { write: 0, ..i });
+        let block = Position::new(&profile);
+        check_latency_of(block.clone(), block.latency(), |i| position::Inputs { write: 0, ..i });
     }
 }
 

@@ -58,13 +58,13 @@ fn frames_by_eq_6_alone_are_the_reference() {
 
 #[test]
 fn frames_of_any_sums_are_the_reference() {
-    for (seed, profile) in (0..).zip(Profile::all()) {
+    for (seed, profile) in (0..).zip(short_profiles()) {
         let calibration = calibration(&profile);
         let mut reference = Slots::new(&profile, &calibration);
         let mut bench = Bench::new(Estimator::new(&profile));
         let constants = calibrate(&mut bench, &profile, &calibration);
         let mut random = Random::new(seed);
-        for _ in 0..operations(100_000) {
+        for _ in 0..operations(40_000) {
             check_sums(&mut bench, &mut reference, constants, &profile, &mut random);
         }
     }
@@ -73,14 +73,10 @@ fn frames_of_any_sums_are_the_reference() {
 fn calibrate(bench: &mut Bench<Estimator>, profile: &Profile, calibration: &Calibration) -> estimator::Inputs<i64> {
     let f = &profile.formats;
     let zero = estimator::Inputs::map(bench.block.inputs(), |_| 0);
-    for (address, &word) in (0..).zip(&calibration.map.words) {
-        bench.clock(estimator::Inputs { write: 1, address, word: f.map.code_saturating(word), ..zero });
+    for (address, &word) in (0..).zip(&calibration.position.words) {
+        bench.clock(estimator::Inputs { write: 1, address, word: f.table.code_saturating(word), ..zero });
     }
     estimator::Inputs {
-        origin_x: f.ratio.code_saturating(calibration.map.origin[0]),
-        origin_y: f.ratio.code_saturating(calibration.map.origin[1]),
-        scale_x: f.map_scale.code_saturating(calibration.map.scale[0]),
-        scale_y: f.map_scale.code_saturating(calibration.map.scale[1]),
         capacitance_gain: f.capacitance_gain.code_saturating(calibration.capacitance_gain),
         force_gain: f.force_gain.code_saturating(calibration.force_gain),
         ..zero

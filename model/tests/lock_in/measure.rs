@@ -9,7 +9,7 @@
 //! relative to a tone on the carrier f_c. Reserve: how many times larger than the carrier's a tone may be that moves the
 //! force by 1 %, its amplitude by half of that.
 
-use hapticore_model::calibration::{Calibration, Map, Point};
+use hapticore_model::calibration::{Calibration, Point, PositionTable};
 use hapticore_model::fidelity::fixed::FixedSimulation;
 use hapticore_model::profile::Profile;
 use std::f64::consts::{PI, TAU};
@@ -163,7 +163,11 @@ fn calibration(profile: &Profile) -> Calibration {
         .map(|k| (f64::from(k % 11) - 5.0, f64::from(k / 11) - 5.0))
         .map(|(i, j)| Point { x: i * 80.0, y: j * 40.0, r_x: i / 6.0, r_y: j / 6.0, sheet: 0.0 })
         .collect();
-    Calibration { map: Map::fit(profile, 11, &points).expect("a raster"), capacitance_gain: 796.0, force_gain: 1e-6 }
+    Calibration {
+        position: PositionTable::fit(profile, &points).expect("a raster"),
+        capacitance_gain: 796.0,
+        force_gain: 1e-6,
+    }
 }
 
 /// The document.

@@ -6,7 +6,7 @@
 //! frame:   sequence │ commands taken (4 bits), pad (4 bits) │ flags │ 8 words of B bytes, most significant first
 //! heartbeat: the same with the flag of that name; the words are those of [`Register::ALL`] as they were written last, but for
 //!          the profile's digest in place of the control register, and for the ADC's answer to the last word that it was sent
-//! command: where, 2 bytes │ data, D bytes               where: 8000 (hex) + register, or a word of the map; other bits are ignored
+//! command: where, 2 bytes │ data, D bytes               where: 8000 (hex) + register, or a word of the position table; other bits are ignored
 //! ```
 //!
 //! SLIP rather than COBS or a length: END is nowhere but at the end, so that a reader who has lost its place has it again after
@@ -75,14 +75,6 @@ pub fn word_bytes(profile: &Profile) -> u64 {
 /// The registers that commands write.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Register {
-    /// The x ratio in the middle of the box.
-    OriginX,
-    /// One over half the box's width.
-    ScaleX,
-    /// The y ratio in the middle of the box.
-    OriginY,
-    /// One over half the box's height.
-    ScaleY,
     /// Picofarads at an admittance of one.
     CapacitanceGain,
     /// Newtons per square picofarad.
@@ -95,18 +87,9 @@ pub enum Register {
 
 impl Register {
     /// All registers, in the order of their numbers.
-    pub const ALL: [Register; 8] = [
-        Register::OriginX,
-        Register::ScaleX,
-        Register::OriginY,
-        Register::ScaleY,
-        Register::CapacitanceGain,
-        Register::ForceGain,
-        Register::Control,
-        Register::Adc,
-    ];
+    pub const ALL: [Register; 4] = [Register::CapacitanceGain, Register::ForceGain, Register::Control, Register::Adc];
 
-    /// Set in `where` of a register, clear in that of a word of the map.
+    /// Set in `where` of a register, clear in that of a word of the position table.
     pub const SELECT: u16 = 0x8000;
 
     /// What commands call it.
@@ -117,10 +100,6 @@ impl Register {
     /// The format of its code, of a core with these inputs.
     pub fn format(self, core: &core::Inputs<Format>) -> Format {
         match self {
-            Register::OriginX => core.origin_x,
-            Register::ScaleX => core.scale_x,
-            Register::OriginY => core.origin_y,
-            Register::ScaleY => core.scale_y,
             Register::CapacitanceGain => core.capacitance_gain,
             Register::ForceGain => core.force_gain,
             Register::Control => Control::FORMAT,

@@ -232,8 +232,8 @@ fn signed(bytes: &[u8]) -> i64 {
 pub enum Command {
     /// A register's code.
     Register(Register, i64),
-    /// A word of the map's tables.
-    Map {
+    /// A word of the position table.
+    Table {
         /// Where.
         address: u16,
         /// Its code.
@@ -253,7 +253,7 @@ impl Command {
     pub fn encode(self, core: &Inputs<Format>) -> Vec<u8> {
         let (place, code) = match self {
             Command::Register(register, code) => (register.place(), code),
-            Command::Map { address, code } => (address, code),
+            Command::Table { address, code } => (address, code),
         };
         let data = &code.to_be_bytes()[8 - data_bytes(core) as usize..];
         let payload = [&place.to_be_bytes(), data].concat();
@@ -288,11 +288,11 @@ mod tests {
 
     #[test]
     fn a_command_is_its_bytes() {
-        let bytes = Command::Map { address: 0x0102, code: -2 }.encode(&core());
-        assert_eq!(bytes[..5], [1, 2, 0xff, 0xff, 0xfe]);
-        assert_eq!(bytes.len(), 2 + 3 + 2 + 1);
+        let bytes = Command::Table { address: 0x0102, code: -2 }.encode(&core());
+        assert_eq!(bytes[..4], [1, 2, 0xff, 0xfe]);
+        assert_eq!(bytes.len(), 2 + 2 + 2 + 1);
         assert_eq!(bytes.last(), Some(&END));
-        let escaped = Command::Map { address: 0xc0db_u16 & 0x7fff, code: 0xdb }.encode(&core());
+        let escaped = Command::Table { address: 0xc0db_u16 & 0x7fff, code: 0xdb }.encode(&core());
         assert!(escaped.windows(2).any(|pair| pair == [ESC, ESC_ESC]));
         assert_eq!(escaped.iter().filter(|&&byte| byte == END).count(), 1);
     }

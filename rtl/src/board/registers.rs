@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Registers: commands in, over the serial line: calibration, the map's words, the ADC's registers, on and off.
+//! Registers: commands in, over the serial line: calibration, the position table's words, the ADC's registers, on and off.
 //!
 //! ```text
 //! bytes ─(unescape)─┬─[place, data: as they come]─┬─ registers
-//!                   └─[CRC]── zero at END? ───────┴─ a word of the map, or of the ADC
+//!                   └─[CRC]── zero at END? ───────┴─ a word of the position table, or of the ADC
 //! ```
 //!
 //! | signal   | format                   | overflow                                  |
@@ -46,14 +46,6 @@ bundle! {
     /// The outputs.
     pub struct Outputs {
         /// The register of the same name.
-        origin_x,
-        /// The register of the same name.
-        scale_x,
-        /// The register of the same name.
-        origin_y,
-        /// The register of the same name.
-        scale_y,
-        /// The register of the same name.
         capacitance_gain,
         /// The register of the same name.
         force_gain,
@@ -61,7 +53,7 @@ bundle! {
         enable,
         /// Whether the ADC is in reset.
         adc_reset,
-        /// Writes a word of the map.
+        /// Writes a word of the position table.
         write,
         /// Where.
         address,
@@ -90,7 +82,7 @@ bundle! {
     /// The registers.
     pub struct Registers {
         escaped, count, crc, place, data, act, refused, commands,
-        origin_x, scale_x, origin_y, scale_y, capacitance_gain, force_gain, control, calibrated,
+        capacitance_gain, force_gain, control, calibrated,
     }
 }
 
@@ -112,7 +104,7 @@ pub const PLACE: Format = Format::unsigned(3, 0);
 const AROUND: u64 = 4;
 
 impl CommandRegisters {
-    /// The registers of a core with these inputs, whose map has so many words.
+    /// The registers of a core with these inputs, whose position table has so many words.
     pub fn new(core: core::Inputs<Format>, words: u64) -> Self {
         let bytes = data_bytes(&core);
         CommandRegisters { core, words, data: Format::unsigned(8 * bytes as u8, 0), length: bytes + AROUND }
@@ -165,10 +157,6 @@ impl CommandRegisters {
             here.select(read_as(r.data, before.format), before)
         };
         Registers {
-            origin_x: write(Register::OriginX, r.origin_x),
-            scale_x: write(Register::ScaleX, r.scale_x),
-            origin_y: write(Register::OriginY, r.origin_y),
-            scale_y: write(Register::ScaleY, r.scale_y),
             capacitance_gain: write(Register::CapacitanceGain, r.capacitance_gain),
             force_gain: write(Register::ForceGain, r.force_gain),
             control: write(Register::Control, r.control),
@@ -196,13 +184,8 @@ impl Block for CommandRegisters {
     }
 
     fn outputs(&self) -> Outputs<Format> {
-        let core::Inputs { origin_x, scale_x, origin_y, scale_y, capacitance_gain, force_gain, address, word, .. } =
-            self.core;
+        let core::Inputs { capacitance_gain, force_gain, address, word, .. } = self.core;
         Outputs {
-            origin_x,
-            scale_x,
-            origin_y,
-            scale_y,
             capacitance_gain,
             force_gain,
             enable: BIT,
@@ -232,10 +215,6 @@ impl Block for CommandRegisters {
             act: BIT,
             refused: BIT,
             commands: NIBBLE,
-            origin_x: of.origin_x,
-            scale_x: of.scale_x,
-            origin_y: of.origin_y,
-            scale_y: of.scale_y,
             capacitance_gain: of.capacitance_gain,
             force_gain: of.force_gain,
             control: Control::FORMAT,
@@ -256,17 +235,13 @@ impl Block for CommandRegisters {
         let next = when!(V, Registers, i.valid, got, quiet);
         cell.store(self, next);
         let address = r.place.bits(0, of.address.width);
-        let of_map = !r.place.msb() & address.less_than(int(self.words));
+        let of_table = !r.place.msb() & address.less_than(int(self.words));
         Outputs {
-            origin_x: r.origin_x,
-            scale_x: r.scale_x,
-            origin_y: r.origin_y,
-            scale_y: r.scale_y,
             capacitance_gain: r.capacitance_gain,
             force_gain: r.force_gain,
             enable: r.control.bits(Control::ENABLE, 1),
             adc_reset: r.control.bits(Control::ADC_RESET, 1),
-            write: r.act & of_map,
+            write: r.act & of_table,
             address,
             word: read_as(r.data, of.word),
             adc_write: r.act & self.is(&r, Register::Adc),

@@ -2,7 +2,7 @@
 //! Start-up: the commands that make a sensor of a board and its AD7606C, and whether the board has taken them.
 //!
 //! ```text
-//! RESET_ADC, DISABLE ─ registers, map ─ ADC: read, write …, read the ID, end ─ heartbeat: check ─ ENABLE
+//! RESET_ADC, DISABLE ─ registers, table ─ ADC: read, write …, read the ID, end ─ heartbeat: check ─ ENABLE
 //! ```
 //!
 //! | word | what it does |
@@ -22,8 +22,7 @@
 
 use super::framing::{Register, VERSION, digest};
 use super::packet::{Command, Heartbeat};
-use hapticore_model::block::Block;
-use hapticore_model::blocks::core::Core;
+use crate::codes::Codes;
 use hapticore_model::calibration::Calibration;
 use hapticore_model::profile::Profile;
 
@@ -65,27 +64,20 @@ impl AdcSetup {
 }
 
 /// A calibration's registers: their codes.
-fn registers(profile: &Profile, calibration: &Calibration) -> [(Register, i64); 6] {
-    let inputs = calibration.inputs(Core::new(profile).inputs());
-    [
-        (Register::OriginX, inputs.origin_x),
-        (Register::ScaleX, inputs.scale_x),
-        (Register::OriginY, inputs.origin_y),
-        (Register::ScaleY, inputs.scale_y),
-        (Register::CapacitanceGain, inputs.capacitance_gain),
-        (Register::ForceGain, inputs.force_gain),
-    ]
+fn registers(codes: &Codes) -> [(Register, i64); 2] {
+    let Codes { inputs, .. } = codes;
+    [(Register::CapacitanceGain, inputs.capacitance_gain), (Register::ForceGain, inputs.force_gain)]
 }
 
 /// The commands that make a calibration's sensor of a board: all but the last, [`Command::ENABLE`], for which a heartbeat
 /// should have been [`check`]ed.
 pub fn prepare(profile: &Profile, calibration: &Calibration, adc: &AdcSetup) -> Vec<Command> {
-    let word = Core::new(profile).estimator().map().words().format;
-    let map = calibration.map.words.iter().enumerate();
-    let map = map.map(|(address, &real)| Command::Map { address: address as u16, code: word.code_saturating(real) });
+    let codes = Codes::new(profile, calibration);
+    let table = codes.table.iter().enumerate();
+    let table = table.map(|(address, &code)| Command::Table { address: address as u16, code });
     let adc = adc.words().into_iter().map(|word| Command::Register(Register::Adc, word));
-    let registers = registers(profile, calibration).map(|(register, code)| Command::Register(register, code));
-    [Command::RESET_ADC, Command::DISABLE].into_iter().chain(registers).chain(map).chain(adc).collect()
+    let registers = registers(&codes).map(|(register, code)| Command::Register(register, code));
+    [Command::RESET_ADC, Command::DISABLE].into_iter().chain(registers).chain(table).chain(adc).collect()
 }
 
 /// As [`prepare`] with the ADC's ranges as after a reset, and on without looking.
@@ -154,11 +146,11 @@ pub fn check(
     if expected != got || heartbeat.refused || !heartbeat.calibrated {
         return Err(StartupError::Commands { expected, got });
     }
-    let core = Core::new(profile).inputs();
-    for (register, code) in registers(profile, calibration) {
+    let codes = Codes::new(profile, calibration);
+    for (register, code) in registers(&codes) {
         let Some((got, bits)) = heartbeat.register(register) else { continue };
         // A command may bring more bits than its register has.
-        let mask = (1 << bits.min(register.format(&core).width)) - 1;
+        let mask = (1 << bits.min(register.format(&codes.formats).width)) - 1;
         let (expected, got) = (code as u64 & mask, got & mask);
         if expected != got {
             return Err(StartupError::Register { register, expected, got });

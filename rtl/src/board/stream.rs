@@ -132,12 +132,18 @@ fn version<V: Value>(at: u8) -> Signal<V> {
     bit(VERSION >> at & 1 != 0)
 }
 
+/// The word whose low bits these are: a word of sixteen bits has them with a sign.
+fn as_word(bits: u16, word: Format) -> i32 {
+    let bits = i32::from(bits);
+    if word.width <= 16 && bits > word.max_code() as i32 { bits - (1 << 16) } else { bits }
+}
+
 impl Stream {
     /// The stream of a profile's frames, with so many clocks a bit, and of a board whose commands bring so much data.
     pub fn new(profile: &Profile, divisor: u64, data: Format) -> Self {
         let format = Field::word(profile);
         let mut initial = vec![0.0; 2 * WORDS as usize];
-        initial[WORDS as usize + Register::Control as usize] = f64::from(digest(profile));
+        initial[WORDS as usize + Register::Control as usize] = f64::from(as_word(digest(profile), format));
         let words = Memory { initial: initial.into(), ..Memory::new("words", 2 * WORDS as usize, format) };
         Stream {
             words: words.never_colliding(),

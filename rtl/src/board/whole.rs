@@ -109,7 +109,7 @@ impl Board {
         parameters.check(profile)?;
         let core = Core::new(profile);
         let reader = AdcReader::new(profile, parameters);
-        let words = core.estimator().map().words().words as u64;
+        let words = core.estimator().position().table().words as u64;
         let registers = CommandRegisters::new(core.inputs(), words);
         let sets = 1usize << reader.outputs().address.width;
         Ok(Board {
@@ -146,10 +146,6 @@ fn core_inputs<V: Value>(
         strobe,
         clear: !registers.enable,
         code,
-        origin_x: registers.origin_x,
-        scale_x: registers.scale_x,
-        origin_y: registers.origin_y,
-        scale_y: registers.scale_y,
         capacitance_gain: registers.capacitance_gain,
         force_gain: registers.force_gain,
         write: registers.write,

@@ -20,6 +20,7 @@
 mod clock;
 mod expression;
 mod fit;
+pub mod header;
 mod live;
 mod module;
 mod names;

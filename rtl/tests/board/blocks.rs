@@ -174,7 +174,7 @@ fn every_command_is_taken_escaped_or_not() {
     for count in 1..2_000 {
         let (address, code) = (random.below(100) as u16, random.word(core.word));
         let mut written = None;
-        let bytes = Command::Map { address, code }.encode(&core);
+        let bytes = Command::Table { address, code }.encode(&core);
         for byte in bytes.iter().map(|&byte| Some(byte)).chain([None]) {
             let (valid, octet) = (byte.is_some().into(), byte.unwrap_or(0).into());
             let outputs = bench.clock(registers::Inputs { valid, octet, shift: 0, answer: 0 });

@@ -18,12 +18,12 @@ const COMMANDS: usize = 10_000;
 fn harmless(profile: &Profile, core: &Core, commands: &[Command], random: &mut Random) -> Vec<u8> {
     let inputs = core.inputs();
     // Words that the map's address could name but that it does not have; bits above the address are ignored.
-    let (words, most) = (core.estimator().map().words().words as u64, 1 << inputs.address.width);
+    let (words, most) = (core.estimator().position().table().words as u64, 1 << inputs.address.width);
     let beyond = words + random.below(most - words) + most * random.below(0x8000 / most);
     let any = random.word(inputs.force_gain);
     let command = match random.below(5) {
         0 => commands[random.below(commands.len() as u64) as usize],
-        1 => Command::Map { address: beyond as u16, code: random.bits() as i64 },
+        1 => Command::Table { address: beyond as u16, code: random.bits() as i64 },
         2 => Command::Register(Register::Adc, random.below(1 << 16) as i64),
         3 => Command::ENABLE,
         _ => {
@@ -58,7 +58,7 @@ fn ten_thousand_commands_while_enabled_reach_no_register_of_the_adc_and_harm_no_
         while !session.host.idle() {
             session.clock();
         }
-        session.run(random.below(100));
+        session.run(random.below(600));
     }
     let packets: Vec<_> = session.packets.iter().map(|packet| packet.expect("the line is clean")).collect();
     let expected = simulated(&profile, &calibration, &samples);

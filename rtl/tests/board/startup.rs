@@ -66,11 +66,11 @@ fn a_board_that_is_not_as_it_should_be_is_not_enabled() {
     assert!(matches!(error, StartupError::Profile { .. }), "{error}");
     let error = check(&told, &profile, &calibration, (0, &commands[1..])).expect_err("a command more");
     assert!(matches!(error, StartupError::Commands { .. }), "{error}");
-    let wrong = Command::Register(Register::ScaleY, 5);
+    let wrong = Command::Register(Register::ForceGain, 5);
     session.send(&[wrong]);
     commands.push(wrong);
     let error = check(&heartbeat(&mut session), &profile, &calibration, (0, &commands)).expect_err("another scale");
-    assert!(matches!(error, StartupError::Register { register: Register::ScaleY, got: 5, .. }), "{error}");
+    assert!(matches!(error, StartupError::Register { register: Register::ForceGain, got: 5, .. }), "{error}");
 }
 
 #[test]

@@ -186,7 +186,7 @@ fn any_block_has_a_component() {
         component::declaration(core.estimator(), "Estimator", "Estimate"),
         component::declaration(core.demodulator(), "Demodulator", "LockIn"),
         component::declaration(core.oscillator(), "Oscillator", "Nco"),
-        component::declaration(core.estimator().map(), "Map", "Place"),
+        component::declaration(core.estimator().position(), "Position", "Place"),
     ] {
         assert!(!text.contains(" force:") && !text.contains(" config:"), "{text}");
     }

@@ -9,16 +9,15 @@ module bench;
     reg clock = 0, reset = 1, strobe = 0, write = 0;
     reg signed [15:0] code = 0, word = 0;
     reg [10:0] address = 0;
-    reg signed [17:0] origin_x = 0, origin_y = 0;
-    reg [14:0] scale_x = 0, scale_y = 0, capacitance_gain = 0, force_gain = 0;
+    reg [14:0] capacitance_gain = 0, force_gain = 0;
     wire [2:0] channel, index;
     wire [1:0] pad;
     wire signed [17:0] frame;
     wire valid, clipped, saturated, invalid, lost, overrun;
 
     hapticore core (
-        .clock(clock), .reset(reset), .strobe(strobe), .clear(1'b0), .code(code), .origin_x(origin_x), .scale_x(scale_x),
-        .origin_y(origin_y), .scale_y(scale_y), .capacitance_gain(capacitance_gain), .force_gain(force_gain),
+        .clock(clock), .reset(reset), .strobe(strobe), .clear(1'b0), .code(code),
+        .capacitance_gain(capacitance_gain), .force_gain(force_gain),
         .write(write), .address(address), .word(word), .channel(channel), .serve(), .closed(), .carrier(),
         .valid(valid), .index(index), .frame(frame), .done(), .pad(pad), .clipped(clipped), .saturated(saturated),
         .invalid(invalid), .lost(lost), .overrun(overrun)
@@ -69,10 +68,6 @@ module bench;
             end
             found = $fscanf(file, "%d\n", value);
             case (name)
-                "origin_x": origin_x = value;
-                "scale_x": scale_x = value;
-                "origin_y": origin_y = value;
-                "scale_y": scale_y = value;
                 "capacitance_gain": capacitance_gain = value;
                 "force_gain": force_gain = value;
                 default: begin
@@ -97,7 +92,7 @@ module bench;
                 tick;
             end
         end
-        repeat (2000) tick;
+        repeat (6000) tick;
         if (words != 128 || wrong != 0) begin
             $display("FAILED: %0d words, %0d wrong", words, wrong);
             $fatal(1);

@@ -16,7 +16,7 @@ CLOCKS_PER_SAMPLE = 24  # model/src/profile/small.toml
 CHANNELS = ["i1", "i2", "i3", "i4", "i5", "i6", "v_sense", "v_haptic"]
 FLAGS = ["clipped", "saturated", "invalid", "lost"]
 INPUTS = ["strobe", "clear", "code", "write", "address", "word"]
-CONSTANTS = ["origin_x", "origin_y", "scale_x", "scale_y", "capacitance_gain", "force_gain"]
+CONSTANTS = ["capacitance_gain", "force_gain"]
 
 
 def rows(name):
@@ -74,7 +74,7 @@ async def slots_give_the_frames_of_the_model(dut):
     for row in rows("samples.csv"):
         await core.sample([int(row[name]) for name in CHANNELS])
     dut.strobe.value = 0
-    for _ in range(2000):
+    for _ in range(6000):
         await core.tick()
     expected = [[int(code) for code in row.values()] for row in rows("frames.csv")]
     assert len(core.words) == len(expected), f"got {len(core.words)} words, expected {len(expected)}"

@@ -11,73 +11,117 @@ module currents (
     input wire signed [41:0] sum, // s42.31  The sum.
     output reg done, // u1.0  Set for one clock when all others are there.
     output wire [15:0] total, // u16.13  The amplitude of the total current.
-    output reg [15:0] sense, // u16.13  The amplitude of the sensing voltage.
-    output reg signed [19:0] x, // s20.13  The numerator of r_x.
-    output reg signed [19:0] y, // s20.13  The numerator of r_y.
-    output reg [18:0] corners, // u19.13  Their denominator.
-    output wire lost, // u1.0  Whether a terminal's current is missing.
-    output reg saturated // u1.0  Whether a word is held at a rail.
+    output wire [15:0] sense, // u16.13  The amplitude of the sensing voltage.
+    output reg signed [20:0] x, // s21.15  The numerator of r_x.
+    output reg signed [20:0] y, // s21.15  The numerator of r_y.
+    output reg [19:0] corners, // u20.15  Their denominator.
+    output reg lost, // u1.0  Whether a terminal's current is missing.
+    output wire saturated // u1.0  Whether a word is held at a rail.
 );
 
-    reg [2:0] step; // u3.0  0 idle, 1 read, 2 in_phase, 3 read_quadrature, 4 quadrature, 5 square, 6 power, 7 root, 8 align_read, 9 align_load, 10 align_move, 11 align_keep, 12 restore
+    reg [3:0] step; // u4.0  0 idle, 1 read, 2 in_phase, 3 read_quadrature, 4 quadrature, 5 square, 6 power, 7 root, 8 align_read, 9 align_load, 10 align_move, 11 align_keep, 12 restore
     reg arrived; // u1.0
     reg [3:0] place; // u4.0
-    reg signed [13:0] word; // s14.13
+    reg signed [27:0] word; // s28.27
     reg [2:0] channel; // u3.0
-    reg signed [14:0] total_i; // s15.13
-    reg signed [14:0] total_q; // s15.13
-    reg signed [14:0] part; // s15.13
-    reg [29:0] power; // u30.26
+    reg signed [18:0] total_i; // s19.15
+    reg signed [18:0] total_q; // s19.15
+    reg signed [15:0] part; // s16.15
+    reg [31:0] power; // u32.30
     reg root_start; // u1.0
-    reg [15:0] least; // u16.13
+    reg [16:0] sense_q; // u17.15
+    reg [16:0] least; // u17.15
+    reg saturated_q; // u1.0
+    reg signed [27:0] long; // s28.27
+    reg [3:0] count; // u4.0
+    reg [3:0] limit; // u4.0
+    reg [3:0] other; // u4.0
+    reg quadrature; // u1.0
+    reg aligning; // u1.0
+    reg [19:0] whole; // u20.15
     (* no_rw_check *) // nobody uses a word that was read while it was being written
-    reg signed [13:0] words [0:15]; // 16 words s14.13
-    reg signed [13:0] words_word; // its read register
+    reg signed [27:0] words [0:15]; // 16 words s28.27
+    reg signed [27:0] words_word; // its read register
     wire root_done; // u1.0
-    wire [15:0] root_root; // u16.13
-    wire signed [29:0] multiplier_product; // s30.0
+    wire [16:0] root_root; // u17.15
+    wire signed [31:0] multiplier_product; // s32.0
 
-    wire multiplier_enable = ~(step == 3'd0); // u1.0
-    wire signed [23:0] fit_40 = {sum[41], sum[41:19]} + {23'd0, sum[18] & (sum[19] | (|sum[17:0]))}; // s24.13
+    wire [18:0] fit_31 = {1'b0, whole[19:2]} + {18'd0, whole[1] & (whole[2] | whole[0])}; // u19.13
+    wire multiplier_enable = ~(step == 4'd0); // u1.0
+    wire signed [36:0] rounded = sum[41:5];
+    wire signed [37:0] rounded_wide = {{1{rounded[36]}}, rounded};
+    wire signed [37:0] fit_45 = rounded_wide; // s38.27
     wire among = index < 4'd14; // u1.0
-    wire [3:0] joined_56 = {channel, ~(step < 3'd3)}; // u4.0
-    wire step_is_root = step == 3'd7; // u1.0
+    wire less_62 = step < 4'd8; // u1.0
+    wire [3:0] joined_64 = {channel, less_62 ? (~(step < 4'd3)) : quadrature}; // u4.0
+    wire step_is_root = step == 4'd7; // u1.0
+    wire bit_72 = (~less_62) & (step < 4'd12); // u1.0
+    wire step_is_restore = step == 4'd12; // u1.0
     wire channel_is_7 = channel == 3'd7; // u1.0
-    wire less_63 = channel < 3'd6; // u1.0
-    wire step_is_power = step == 3'd6; // u1.0
-    wire [30:0] choice_68 =
+    wire less_78 = channel < 3'd6; // u1.0
+    wire step_is_power = step == 4'd6; // u1.0
+    wire [32:0] choice_83 =
         step_is_power ? ({1'd0, power} + {1'd0, multiplier_product})
-        : {1'd0, multiplier_product}; // u31.26
-    wire adds = ((step == 3'd3) | (step == 3'd5)) & less_63; // u1.0
-    wire signed [15:0] more = {{1{total_i[14]}}, total_i} + {{1{part[14]}}, part}; // s16.13
-    wire signed [16:0] fit_76 = {{1{more[15]}}, more}; // s17.13
+        : {1'd0, multiplier_product}; // u33.30
+    wire adds = ((step == 4'd3) | (step == 4'd5)) & less_78; // u1.0
+    wire signed [19:0] more = {{1{total_i[18]}}, total_i} + {{4{part[15]}}, part}; // s20.15
+    wire signed [20:0] fit_91 = {{1{more[19]}}, more}; // s21.15
     wire rooted = step_is_root & root_done; // u1.0
     wire channel_is_0 = channel == 3'd0; // u1.0
-    wire signed [16:0] negative = 17'd0 - {1'd0, root_root}; // s17.13
-    wire [3:0] sum_90 = {1'd0, channel} + 4'd1; // u4.0
+    wire signed [17:0] negative = 18'd0 - {1'd0, root_root}; // s18.15
+    wire [3:0] sum_105 = {1'd0, channel} + 4'd1; // u4.0
+    wire channel_is_6 = channel == 3'd6; // u1.0
     wire channel_is_2 = channel == 3'd2; // u1.0
     wire channel_is_3 = channel == 3'd3; // u1.0
     wire channel_is_1 = channel == 3'd1; // u1.0
-    wire bit_101 = channel_is_0 | channel_is_1; // u1.0
-    wire signed [19:0] choice_104 = channel_is_0 ? 20'd0 : x; // s20.13
-    wire signed [16:0] choice_102 = bit_101 ? negative : {1'd0, (channel_is_2 | channel_is_3) ? root_root : 16'd0}; // s17.13
-    wire signed [20:0] sum_105 = {{1{choice_104[19]}}, choice_104} + {{4{choice_102[16]}}, choice_102}; // s21.13
-    wire signed [19:0] choice_111 = channel_is_0 ? 20'd0 : y; // s20.13
-    wire signed [16:0] choice_110 =
-        (channel_is_1 | channel_is_2) ? negative
-        : {1'd0, (channel_is_0 | channel_is_3) ? root_root
-        : 16'd0}; // s17.13
-    wire signed [20:0] sum_112 = {{1{choice_111[19]}}, choice_111} + {{4{choice_110[16]}}, choice_110}; // s21.13
-    wire signed [16:0] fit_117 = {1'd0, ((bit_101 | channel_is_2) | channel_is_3) ? root_root : 16'd0}; // s17.13
-    wire signed [20:0] sum_120 = {2'd0, channel_is_0 ? 19'd0 : corners} + {{4{fit_117[16]}}, fit_117}; // s21.13
-    wire step_is_quadrature = step == 3'd4; // u1.0
-    wire [3:0] choice_139 =
-        rooted ? {3'd0, channel_is_7 ? 1'd0
-        : 1'd1}
+    wire bit_120 = channel_is_0 | channel_is_1; // u1.0
+    wire signed [20:0] choice_123 = channel_is_0 ? 21'd0 : x; // s21.15
+    wire signed [17:0] choice_121 = bit_120 ? negative : {1'd0, (channel_is_2 | channel_is_3) ? root_root : 17'd0}; // s18.15
+    wire signed [21:0] sum_124 = {{1{choice_123[20]}}, choice_123} + {{4{choice_121[17]}}, choice_121}; // s22.15
+    wire channel_is_5 = channel == 3'd5; // u1.0
+    wire channel_is_4 = channel == 3'd4; // u1.0
+    wire signed [20:0] choice_135 = channel_is_0 ? 21'd0 : y; // s21.15
+    wire signed [17:0] choice_134 =
+        ((channel_is_1 | channel_is_2) | channel_is_4) ? negative
+        : {1'd0, ((channel_is_0 | channel_is_3) | channel_is_5) ? root_root
+        : 17'd0}; // s18.15
+    wire signed [21:0] sum_136 = {{1{choice_135[20]}}, choice_135} + {{4{choice_134[17]}}, choice_134}; // s22.15
+    wire signed [17:0] fit_143 = {1'd0, ((((bit_120 | channel_is_2) | channel_is_3) | channel_is_4) | channel_is_5) ? root_root : 17'd0}; // s18.15
+    wire signed [21:0] sum_146 = {2'd0, channel_is_0 ? 20'd0 : corners} + {{4{fit_143[17]}}, fit_143}; // s22.15
+    wire step_is_quadrature = step == 4'd4; // u1.0
+    wire [4:0] sum_167 = {1'd0, step} + 5'd1; // u5.0
+    wire [4:0] choice_170 =
+        rooted ? {1'd0, channel_is_7 ? 4'd12
+        : 4'd1}
         : step_is_root ? {1'd0, step}
-        : ({1'd0, step} + 4'd1); // u4.0
-    wire bit_170 = ((~(index == 4'd0)) & saturated) | (among & (~((fit_40[23:13] == 11'd0) | (fit_40[23:13] == 11'd2047)))); // u1.0
-    wire next_arrived = valid & among; // u1.0
+        : sum_167; // u5.0
+    wire count_is_11 = count == 4'd11; // u1.0
+    wire [4:0] sum_181 = {1'd0, count} + 5'd1; // u5.0
+    wire [18:0] rounded_2 = whole[19:1];
+    wire [19:0] rounded_2_wide = {{1{1'b0}}, rounded_2};
+    wire less_185 = count < limit; // u1.0
+    wire [15:0] rounded_3 = sense_q[16:1];
+    wire [16:0] rounded_3_wide = {{1{1'b0}}, rounded_3};
+    wire step_is_align_move = step == 4'd10; // u1.0
+    wire bit_211 = ~aligning; // u1.0
+    wire bit_221 = ((step_is_align_move & bit_211) & ((long[27] & (~long[26])) | (long[26] & (~long[27])))) & less_185; // u1.0
+    wire step_is_align_keep = step == 4'd11; // u1.0
+    wire bit_227 = step_is_align_keep & quadrature; // u1.0
+    wire bit_229 = bit_227 & (channel_is_5 | channel_is_6); // u1.0
+    wire [4:0] choice_241 =
+        step_is_align_move ? {1'd0, count_is_11 ? 4'd11
+        : 4'd10}
+        : step_is_align_keep ? {1'd0, ((quadrature & channel_is_6) & aligning) ? 4'd1
+        : 4'd8}
+        : sum_167; // u5.0
+    wire [4:0] choice_242 = step_is_align_move ? sum_181 : 5'd0; // u5.0
+    wire bit_311 = ((~(index == 4'd0)) & saturated_q) | (among & (~((fit_45[37:27] == 11'd0) | (fit_45[37:27] == 11'd2047)))); // u1.0
+    wire bit_335 = valid & among; // u1.0
+    wire signed [16:0] rounded_4 = {long[27], long[27:12]} + {16'd0, long[11] & (long[12] | (|long[10:0]))};
+    wire bit_341 = step_is_align_keep & aligning; // u1.0
+    wire [3:0] joined_342 = {channel, quadrature}; // u4.0
+    wire signed [15:0] fit_339 =
+        (rounded_4[16:15] == {2{rounded_4[16]}}) ? rounded_4[15:0] : {rounded_4[16], {15{~rounded_4[16]}}}; // s16.15
 
     root u_root (
         .clock(clock),
@@ -99,79 +143,131 @@ module currents (
 
     initial begin : initial_words
         integer i;
-        for (i = 0; i < 16; i = i + 1) words[i] = 14'd0;
+        for (i = 0; i < 16; i = i + 1) words[i] = 28'd0;
     end
 
     always @(posedge clock) begin
         if (arrived) words[place] <= word;
-        words_word <= words[joined_56];
+        words_word <= words[joined_64];
     end
 
     always @(posedge clock) begin
         if (reset) begin
-            step <= 3'd0;
+            step <= 4'd0;
             arrived <= 1'd0;
             place <= 4'd0;
-            word <= 14'd0;
+            word <= 28'd0;
             channel <= 3'd0;
-            total_i <= 15'd0;
-            total_q <= 15'd0;
-            part <= 15'd0;
-            power <= 30'd0;
+            total_i <= 19'd0;
+            total_q <= 19'd0;
+            part <= 16'd0;
+            power <= 32'd0;
             root_start <= 1'd0;
-            sense <= 16'd0;
-            x <= 20'd0;
-            y <= 20'd0;
-            corners <= 19'd0;
-            least <= 16'd0;
-            saturated <= 1'd0;
+            sense_q <= 17'd0;
+            x <= 21'd0;
+            y <= 21'd0;
+            corners <= 20'd0;
+            least <= 17'd0;
+            saturated_q <= 1'd0;
             done <= 1'd0;
+            long <= 28'd0;
+            count <= 4'd0;
+            limit <= 4'd0;
+            other <= 4'd0;
+            quadrature <= 1'd0;
+            aligning <= 1'd0;
+            whole <= 20'd0;
+            lost <= 1'd0;
         end else begin
-            arrived <= next_arrived;
-            if (next_arrived) begin
+            arrived <= bit_335 | bit_341;
+            if (bit_341) begin
+                place <= joined_342;
+                word <= {{12{fit_339[15]}}, fit_339};
+            end else if (bit_335) begin
                 place <= index;
                 word <=
-                    (fit_40[23:13] == {11{fit_40[23]}}) ? fit_40[13:0] : {fit_40[23], {13{~fit_40[23]}}};
+                    (fit_45[37:27] == {11{fit_45[37]}}) ? fit_45[27:0] : {fit_45[37], {27{~fit_45[37]}}};
             end
             if (valid) begin
                 channel <= 3'd0;
-                total_i <= 15'd0;
-                total_q <= 15'd0;
+                total_i <= 19'd0;
+                total_q <= 19'd0;
                 root_start <= 1'd0;
-                saturated <= bit_170;
+                saturated_q <= bit_311;
                 done <= 1'd0;
+                count <= 4'd0;
+                limit <= 4'd12;
+                quadrature <= 1'd0;
+                aligning <= 1'd0;
                 if (index == 4'd14) begin
-                    step <= 3'd1;
+                    step <= 4'd8;
                 end
             end else if (multiplier_enable) begin
-                step <= choice_139[2:0];
-                part <=
-                    (step == 3'd2) ? (channel_is_7 ? total_i
-                    : {{1{words_word[13]}}, words_word})
-                    : step_is_quadrature ? (channel_is_7 ? total_q
-                    : {{1{words_word[13]}}, words_word})
-                    : part;
-                root_start <= step_is_power;
-                saturated <= saturated | (adds & (~((fit_76[16:14] == 3'd0) | (fit_76[16:14] == 3'd7))));
-                done <= rooted & channel_is_7;
-                if (step_is_quadrature | step_is_power) begin
-                    power <= choice_68[29:0];
-                end
-                if (adds) begin
-                    total_i <= total_q;
-                    total_q <=
-                        (fit_76[16:14] == {3{fit_76[16]}}) ? fit_76[14:0] : {fit_76[16], {14{~fit_76[16]}}};
-                end
-                if (rooted) begin
-                    channel <= sum_90[2:0];
-                    x <= sum_105[19:0];
-                    y <= sum_112[19:0];
-                    corners <= sum_120[18:0];
-                    if (channel_is_0 | (less_63 & (root_root < least))) begin
-                        least <= root_root;
+                if (bit_72) begin
+                    step <= choice_241[3:0];
+                    root_start <= 1'd0;
+                    done <= 1'd0;
+                    long <=
+                        (step == 4'd9) ? words_word
+                        : (step_is_align_move & (less_185 | bit_211)) ? {long[26:0], 1'd0}
+                        : long;
+                    count <= choice_242[3:0];
+                    quadrature <= (step_is_align_keep & (~quadrature)) | (quadrature & (~step_is_align_keep));
+                    aligning <= aligning | (bit_227 & channel_is_6);
+                    if (bit_227) begin
+                        channel <= channel_is_6 ? 3'd0 : sum_105[2:0];
                     end
-                    if (channel == 3'd6) begin
-                        sense <= root_root;
+                    if (bit_229) begin
+                        limit <= ((bit_229 & channel_is_5) & bit_211) ? 4'd12 : other;
+                        other <= limit;
+                    end else if (bit_221) begin
+                        limit <= count;
+                    end
+                end else if (step_is_restore) begin
+                    root_start <= 1'd0;
+                    done <= count_is_11;
+                    count <= sum_181[3:0];
+                    if (less_185) begin
+                        whole <= rounded_2_wide;
+                    end
+                    if (count < other) begin
+                        sense_q <= rounded_3_wide;
+                    end
+                    if (count_is_11) begin
+                        step <= 4'd0;
+                    end
+                end else begin
+                    step <= choice_170[3:0];
+                    part <=
+                        (step == 4'd2) ? (channel_is_7 ? (total_i[18:3] + {15'd0, total_i[2] & (total_i[3] | (|total_i[1:0]))})
+                        : words_word[15:0])
+                        : step_is_quadrature ? (channel_is_7 ? (total_q[18:3] + {15'd0, total_q[2] & (total_q[3] | (|total_q[1:0]))})
+                        : words_word[15:0])
+                        : part;
+                    root_start <= step_is_power;
+                    saturated_q <= saturated_q | (adds & (~((fit_91[20:18] == 3'd0) | (fit_91[20:18] == 3'd7))));
+                    done <= 1'd0;
+                    if (step_is_quadrature | step_is_power) begin
+                        power <= choice_83[31:0];
+                    end
+                    if (adds) begin
+                        total_i <= total_q;
+                        total_q <=
+                            (fit_91[20:18] == {3{fit_91[20]}}) ? fit_91[18:0] : {fit_91[20], {18{~fit_91[20]}}};
+                    end
+                    if (rooted) begin
+                        channel <= sum_105[2:0];
+                        x <= sum_124[20:0];
+                        y <= sum_136[20:0];
+                        corners <= sum_146[19:0];
+                        whole <= {root_root, 3'd0};
+                        lost <= {least, 6'd0} < {6'd0, root_root};
+                        if (channel_is_0 | (less_78 & (root_root < least))) begin
+                            least <= root_root;
+                        end
+                        if (channel_is_6) begin
+                            sense_q <= root_root;
+                        end
                     end
                 end
             end else begin
@@ -181,11 +277,13 @@ module currents (
         end
     end
 
-    assign total = root_root;
-    assign lost = {least, 9'd0} < {9'd0, root_root};
+    assign total = (|fit_31[18:16]) ? {16{1'b1}} : fit_31[15:0];
+    assign sense = {1'b0, sense_q[16:2]} + {15'd0, sense_q[1] & (sense_q[2] | sense_q[0])};
+    assign saturated = saturated_q | (~(fit_31[18:16] == 3'd0));
 
     // What nothing needs.
-    wire unused = &{1'b0, choice_68[30], sum_90[3], sum_105[20], sum_112[20], sum_120[20:19], choice_139[3]};
+    wire unused = &{1'b0, sum[4:0], choice_83[32], sum_105[3], sum_124[21], sum_136[21], sum_146[21:20],
+        choice_170[4], choice_241[4], choice_242[4]};
 
 endmodule
 

@@ -11,18 +11,14 @@ module estimator (
     input wire signed [41:0] sum, // s42.31  The sum.
     input wire [1:0] pad, // u2.0  The pad of the window.
     input wire clipped, // u1.0  Whether a code of the window was at a rail.
-    input wire signed [17:0] origin_x, // s18.16  Calibration: the x ratio in the middle of the box.
-    input wire [14:0] scale_x, // u15.10  Calibration: one over half the box's width.
-    input wire signed [17:0] origin_y, // s18.16  Calibration: the y ratio in the middle of the box.
-    input wire [14:0] scale_y, // u15.10  Calibration: one over half the box's height.
     input wire [14:0] capacitance_gain, // u15.5  Calibration: picofarads at an admittance of one.
     input wire [14:0] force_gain, // u15.31  Calibration: newtons per square picofarad at full haptic mean square.
-    input wire write, // u1.0  Calibration: writes a word of the map's tables.
+    input wire write, // u1.0  Calibration: writes a word of the position table.
     input wire [10:0] address, // u11.0  Calibration: where.
     input wire signed [15:0] word, // s16.15  Calibration: what.
     output wire valid_out, // u1.0  Set for a clock for each word of a frame.
     output wire [2:0] index_out, // u3.0  Which field the word is.
-    output wire signed [17:0] word_out, // s18.0  The word.
+    output wire signed [15:0] word_out, // s16.0  The word.
     output wire done, // u1.0  Set with the last word.
     output wire [1:0] pad_out, // u2.0  The pad of the frame.
     output wire clipped_out, // u1.0  A code was at a rail of the ADC.
@@ -36,22 +32,23 @@ module estimator (
     wire currents_done; // u1.0
     wire [15:0] currents_total; // u16.13
     wire [15:0] currents_sense; // u16.13
-    wire signed [19:0] currents_x; // s20.13
-    wire signed [19:0] currents_y; // s20.13
-    wire [18:0] currents_corners; // u19.13
+    wire signed [20:0] currents_x; // s21.15
+    wire signed [20:0] currents_y; // s21.15
+    wire [19:0] currents_corners; // u20.15
     wire currents_lost; // u1.0
     wire currents_saturated; // u1.0
     wire [14:0] haptic_voltage_mean_square; // u15.15
     wire haptic_voltage_saturated; // u1.0
     wire ratio_done; // u1.0
-    wire signed [17:0] ratio_r_x; // s18.16
-    wire signed [17:0] ratio_r_y; // s18.16
+    wire signed [15:0] ratio_r_x; // s16.14
+    wire signed [15:0] ratio_r_y; // s16.14
     wire ratio_invalid; // u1.0
-    wire map_done; // u1.0
-    wire signed [15:0] map_x; // s16.6
-    wire signed [15:0] map_y; // s16.6
-    wire [14:0] map_sheet; // u15.15
-    wire map_saturated; // u1.0
+    wire position_done; // u1.0
+    wire signed [15:0] position_x; // s16.5
+    wire signed [15:0] position_y; // s16.5
+    wire [14:0] position_sheet; // u15.15
+    wire position_invalid; // u1.0
+    wire position_saturated; // u1.0
     wire capacitance_done; // u1.0
     wire [14:0] capacitance_capacitance; // u15.5
     wire capacitance_invalid; // u1.0
@@ -61,11 +58,12 @@ module estimator (
     wire force_estimator_saturated; // u1.0
     wire frames_valid; // u1.0
     wire [2:0] frames_index; // u3.0
-    wire signed [17:0] frames_word; // s18.0
+    wire signed [15:0] frames_word; // s16.0
     wire frames_done; // u1.0
 
-    wire frames_invalid = ratio_invalid | capacitance_invalid; // u1.0
-    wire any_saturated = (((currents_saturated | haptic_voltage_saturated) | map_saturated) | capacitance_saturated) | force_estimator_saturated; // u1.0
+    wire frames_invalid = (ratio_invalid | position_invalid) | capacitance_invalid; // u1.0
+    wire bit_50 = ((currents_saturated | haptic_voltage_saturated) | position_saturated) | capacitance_saturated; // u1.0
+    wire any_saturated = bit_50 | force_estimator_saturated; // u1.0
 
     currents u_currents (
         .clock(clock),
@@ -106,33 +104,30 @@ module estimator (
         .invalid(ratio_invalid)
     );
 
-    map u_map (
+    position u_position (
         .clock(clock),
         .reset(reset),
         .start(ratio_done),
         .r_x(ratio_r_x),
         .r_y(ratio_r_y),
-        .origin_x(origin_x),
-        .scale_x(scale_x),
-        .origin_y(origin_y),
-        .scale_y(scale_y),
         .write(write),
         .address(address),
         .word(word),
-        .done(map_done),
-        .x(map_x),
-        .y(map_y),
-        .sheet(map_sheet),
-        .saturated(map_saturated)
+        .done(position_done),
+        .x(position_x),
+        .y(position_y),
+        .sheet(position_sheet),
+        .invalid(position_invalid),
+        .saturated(position_saturated)
     );
 
     capacitance u_capacitance (
         .clock(clock),
         .reset(reset),
-        .start(map_done),
+        .start(position_done),
         .total(currents_total),
         .sense(currents_sense),
-        .sheet(map_sheet),
+        .sheet(position_sheet),
         .gain(capacitance_gain),
         .done(capacitance_done),
         .capacitance(capacitance_capacitance),
@@ -160,9 +155,9 @@ module estimator (
         .invalid(frames_invalid),
         .r_x(ratio_r_x),
         .r_y(ratio_r_y),
-        .x(map_x),
-        .y(map_y),
-        .sheet(map_sheet),
+        .x(position_x),
+        .y(position_y),
+        .sheet(position_sheet),
         .capacitance(capacitance_capacitance),
         .haptic_force(force_estimator_haptic_force),
         .mean_square(haptic_voltage_mean_square),
@@ -186,7 +181,7 @@ module estimator (
 
     assign valid_out = frames_valid;
     assign index_out = frames_valid ? frames_index : 3'd0;
-    assign word_out = frames_valid ? frames_word : 18'd0;
+    assign word_out = frames_valid ? frames_word : 16'd0;
     assign done = frames_done;
     assign pad_out = pad_q;
     assign clipped_out = clipped_q;

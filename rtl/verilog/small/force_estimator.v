@@ -32,7 +32,7 @@ module force_estimator (
     wire [4:0] choice_46 = step_is_finish ? 5'd0 : ({1'd0, step} + 5'd1); // u5.0
     wire step_is_load = step == 4'd1; // u1.0
 
-    multiplier_4 u_multiplier (
+    multiplier_3 u_multiplier (
         .clock(clock),
         .reset(reset),
         .enable(~step_is_idle),

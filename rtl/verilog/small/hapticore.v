@@ -9,13 +9,9 @@ module hapticore (
     input wire strobe, // u1.0  A set of ADC codes is there.
     input wire clear, // u1.0  Abandons the slot under way: the next strobe is the first of the first pad's slot.
     input wire signed [15:0] code, // s16.15  The code of the channel asked for in the clock before.
-    input wire signed [17:0] origin_x, // s18.16  Calibration: the x ratio in the middle of the box.
-    input wire [14:0] scale_x, // u15.10  Calibration: one over half the box's width.
-    input wire signed [17:0] origin_y, // s18.16  Calibration: the y ratio in the middle of the box.
-    input wire [14:0] scale_y, // u15.10  Calibration: one over half the box's height.
     input wire [14:0] capacitance_gain, // u15.5  Calibration: picofarads at an admittance of one.
     input wire [14:0] force_gain, // u15.31  Calibration: newtons per square picofarad at full haptic mean square.
-    input wire write, // u1.0  Calibration: writes a word of the map's tables.
+    input wire write, // u1.0  Calibration: writes a word of the position table.
     input wire [10:0] address, // u11.0  Calibration: where.
     input wire signed [15:0] word, // s16.15  Calibration: what.
     output wire [2:0] channel, // u3.0  The channel whose code is wanted.
@@ -24,7 +20,7 @@ module hapticore (
     output wire signed [16:0] carrier, // s17.16  The carrier.
     output wire valid, // u1.0  Set for a clock for each word of a frame.
     output wire [2:0] index, // u3.0  Which field the word is.
-    output wire signed [17:0] frame, // s18.0  The word.
+    output wire signed [15:0] frame, // s16.0  The word.
     output wire done, // u1.0  Set with a frame's last word.
     output wire [1:0] pad, // u2.0  The pad of the frame.
     output wire clipped, // u1.0  A code was at a rail of the ADC.
@@ -55,7 +51,7 @@ module hapticore (
     wire demodulator_clipped; // u1.0
     wire estimator_valid; // u1.0
     wire [2:0] estimator_index; // u3.0
-    wire signed [17:0] estimator_word; // s18.0
+    wire signed [15:0] estimator_word; // s16.0
     wire estimator_done; // u1.0
     wire [1:0] estimator_pad; // u2.0
     wire estimator_clipped; // u1.0
@@ -126,10 +122,6 @@ module hapticore (
         .sum(demodulator_sum),
         .pad(demodulator_pad),
         .clipped(demodulator_clipped),
-        .origin_x(origin_x),
-        .scale_x(scale_x),
-        .origin_y(origin_y),
-        .scale_y(scale_y),
         .capacitance_gain(capacitance_gain),
         .force_gain(force_gain),
         .write(write),

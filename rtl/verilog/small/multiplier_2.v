@@ -7,12 +7,12 @@ module multiplier_2 (
     input wire clock,
     input wire reset,
     input wire enable, // u1.0  Set while somebody waits for a product.
-    input wire signed [14:0] left, // s15.0  A code as an integer.
-    input wire signed [14:0] right, // s15.0  A code as an integer.
-    output reg signed [29:0] product // s30.0  The product.
+    input wire signed [15:0] left, // s16.0  A code as an integer.
+    input wire signed [15:0] right, // s16.0  A code as an integer.
+    output reg signed [31:0] product // s32.0  The product.
 );
 
-    wire signed [29:0] product_8 = left * right; // s30.0
+    wire signed [31:0] product_8 = left * right; // s32.0
 
     always @(posedge clock) begin
         if (enable) begin

@@ -53,7 +53,7 @@ module capacitance (
         : step_is_finish ? 5'd0
         : ({1'd0, step} + 5'd1); // u5.0
 
-    multiplier_4 u_multiplier (
+    multiplier_3 u_multiplier (
         .clock(clock),
         .reset(reset),
         .enable(~step_is_idle),

@@ -64,21 +64,23 @@ module currents (
     wire signed [30:0] choice_105 = channel_is_0 ? 31'd0 : x; // s31.23
     wire signed [27:0] choice_103 = bit_102 ? negative : {1'd0, (channel_is_2 | channel_is_3) ? root_root : 27'd0}; // s28.23
     wire signed [31:0] sum_106 = {{1{choice_105[30]}}, choice_105} + {{4{choice_103[27]}}, choice_103}; // s32.23
-    wire signed [30:0] choice_112 = channel_is_0 ? 31'd0 : y; // s31.23
-    wire signed [27:0] choice_111 =
-        (channel_is_1 | channel_is_2) ? negative
-        : {1'd0, (channel_is_0 | channel_is_3) ? root_root
+    wire channel_is_5 = channel == 3'd5; // u1.0
+    wire channel_is_4 = channel == 3'd4; // u1.0
+    wire signed [30:0] choice_117 = channel_is_0 ? 31'd0 : y; // s31.23
+    wire signed [27:0] choice_116 =
+        ((channel_is_1 | channel_is_2) | channel_is_4) ? negative
+        : {1'd0, ((channel_is_0 | channel_is_3) | channel_is_5) ? root_root
         : 27'd0}; // s28.23
-    wire signed [31:0] sum_113 = {{1{choice_112[30]}}, choice_112} + {{4{choice_111[27]}}, choice_111}; // s32.23
-    wire signed [27:0] fit_118 = {1'd0, ((bit_102 | channel_is_2) | channel_is_3) ? root_root : 27'd0}; // s28.23
-    wire signed [31:0] sum_121 = {2'd0, channel_is_0 ? 30'd0 : corners} + {{4{fit_118[27]}}, fit_118}; // s32.23
+    wire signed [31:0] sum_118 = {{1{choice_117[30]}}, choice_117} + {{4{choice_116[27]}}, choice_116}; // s32.23
+    wire signed [27:0] fit_125 = {1'd0, ((((bit_102 | channel_is_2) | channel_is_3) | channel_is_4) | channel_is_5) ? root_root : 27'd0}; // s28.23
+    wire signed [31:0] sum_128 = {2'd0, channel_is_0 ? 30'd0 : corners} + {{4{fit_125[27]}}, fit_125}; // s32.23
     wire step_is_quadrature = step == 3'd4; // u1.0
-    wire [3:0] choice_140 =
+    wire [3:0] choice_146 =
         rooted ? {3'd0, channel_is_7 ? 1'd0
         : 1'd1}
         : step_is_root ? {1'd0, step}
         : ({1'd0, step} + 4'd1); // u4.0
-    wire bit_186 = ((~(index == 4'd0)) & saturated) | (among & (~((fit_40[26:23] == 4'd0) | (fit_40[26:23] == 4'd15)))); // u1.0
+    wire bit_192 = ((~(index == 4'd0)) & saturated) | (among & (~((fit_40[26:23] == 4'd0) | (fit_40[26:23] == 4'd15)))); // u1.0
     wire next_arrived = valid & among; // u1.0
 
     root u_root (
@@ -142,14 +144,14 @@ module currents (
                 total_i <= 26'd0;
                 total_q <= 26'd0;
                 root_start <= 1'd0;
-                saturated <= bit_186;
+                saturated <= bit_192;
                 done <= 1'd0;
                 if (index == 4'd14) begin
                     step <= 3'd1;
                 end
             end else if (multiplier_enable) begin
                 if (bit_61) begin
-                    step <= choice_140[2:0];
+                    step <= choice_146[2:0];
                     waited <= 1'd0;
                     part <=
                         (step == 3'd2) ? (channel_is_7 ? total_i
@@ -171,8 +173,8 @@ module currents (
                     if (rooted) begin
                         channel <= sum_91[2:0];
                         x <= sum_106[30:0];
-                        y <= sum_113[30:0];
-                        corners <= sum_121[29:0];
+                        y <= sum_118[30:0];
+                        corners <= sum_128[29:0];
                         if (channel_is_0 | (less_64 & (root_root < least))) begin
                             least <= root_root;
                         end
@@ -196,7 +198,7 @@ module currents (
     assign lost = {least, 9'd0} < {9'd0, root_root};
 
     // What nothing needs.
-    wire unused = &{1'b0, choice_69[52], sum_91[3], sum_106[31], sum_113[31], sum_121[31:30], choice_140[3]};
+    wire unused = &{1'b0, choice_69[52], sum_91[3], sum_106[31], sum_118[31], sum_128[31:30], choice_146[3]};
 
 endmodule
 

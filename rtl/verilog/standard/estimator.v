@@ -11,13 +11,9 @@ module estimator (
     input wire signed [44:0] sum, // s45.34  The sum.
     input wire [1:0] pad, // u2.0  The pad of the window.
     input wire clipped, // u1.0  Whether a code of the window was at a rail.
-    input wire signed [21:0] origin_x, // s22.20  Calibration: the x ratio in the middle of the box.
-    input wire [17:0] scale_x, // u18.13  Calibration: one over half the box's width.
-    input wire signed [21:0] origin_y, // s22.20  Calibration: the y ratio in the middle of the box.
-    input wire [17:0] scale_y, // u18.13  Calibration: one over half the box's height.
     input wire [17:0] capacitance_gain, // u18.7  Calibration: picofarads at an admittance of one.
     input wire [17:0] force_gain, // u18.34  Calibration: newtons per square picofarad at full haptic mean square.
-    input wire write, // u1.0  Calibration: writes a word of the map's tables.
+    input wire write, // u1.0  Calibration: writes a word of the position table.
     input wire [11:0] address, // u12.0  Calibration: where.
     input wire signed [17:0] word, // s18.17  Calibration: what.
     output wire valid_out, // u1.0  Set for a clock for each word of a frame.
@@ -47,11 +43,12 @@ module estimator (
     wire signed [21:0] ratio_r_x; // s22.20
     wire signed [21:0] ratio_r_y; // s22.20
     wire ratio_invalid; // u1.0
-    wire map_done; // u1.0
-    wire signed [17:0] map_x; // s18.8
-    wire signed [17:0] map_y; // s18.8
-    wire [16:0] map_sheet; // u17.17
-    wire map_saturated; // u1.0
+    wire position_done; // u1.0
+    wire signed [17:0] position_x; // s18.7
+    wire signed [17:0] position_y; // s18.7
+    wire [16:0] position_sheet; // u17.17
+    wire position_invalid; // u1.0
+    wire position_saturated; // u1.0
     wire capacitance_done; // u1.0
     wire [23:0] capacitance_capacitance; // u24.13
     wire capacitance_invalid; // u1.0
@@ -64,8 +61,9 @@ module estimator (
     wire signed [24:0] frames_word; // s25.0
     wire frames_done; // u1.0
 
-    wire frames_invalid = ratio_invalid | capacitance_invalid; // u1.0
-    wire any_saturated = (((currents_saturated | haptic_voltage_saturated) | map_saturated) | capacitance_saturated) | force_estimator_saturated; // u1.0
+    wire frames_invalid = (ratio_invalid | position_invalid) | capacitance_invalid; // u1.0
+    wire bit_50 = ((currents_saturated | haptic_voltage_saturated) | position_saturated) | capacitance_saturated; // u1.0
+    wire any_saturated = bit_50 | force_estimator_saturated; // u1.0
 
     currents u_currents (
         .clock(clock),
@@ -106,33 +104,30 @@ module estimator (
         .invalid(ratio_invalid)
     );
 
-    map u_map (
+    position u_position (
         .clock(clock),
         .reset(reset),
         .start(ratio_done),
         .r_x(ratio_r_x),
         .r_y(ratio_r_y),
-        .origin_x(origin_x),
-        .scale_x(scale_x),
-        .origin_y(origin_y),
-        .scale_y(scale_y),
         .write(write),
         .address(address),
         .word(word),
-        .done(map_done),
-        .x(map_x),
-        .y(map_y),
-        .sheet(map_sheet),
-        .saturated(map_saturated)
+        .done(position_done),
+        .x(position_x),
+        .y(position_y),
+        .sheet(position_sheet),
+        .invalid(position_invalid),
+        .saturated(position_saturated)
     );
 
     capacitance u_capacitance (
         .clock(clock),
         .reset(reset),
-        .start(map_done),
+        .start(position_done),
         .total(currents_total),
         .sense(currents_sense),
-        .sheet(map_sheet),
+        .sheet(position_sheet),
         .gain(capacitance_gain),
         .done(capacitance_done),
         .capacitance(capacitance_capacitance),
@@ -160,9 +155,9 @@ module estimator (
         .invalid(frames_invalid),
         .r_x(ratio_r_x),
         .r_y(ratio_r_y),
-        .x(map_x),
-        .y(map_y),
-        .sheet(map_sheet),
+        .x(position_x),
+        .y(position_y),
+        .sheet(position_sheet),
         .capacitance(capacitance_capacitance),
         .haptic_force(force_estimator_haptic_force),
         .mean_square(haptic_voltage_mean_square),

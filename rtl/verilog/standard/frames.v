@@ -11,8 +11,8 @@ module frames (
     input wire invalid, // u1.0  The results are invalid: those held go out.
     input wire signed [21:0] r_x, // s22.20  As [`Field::RatioX`].
     input wire signed [21:0] r_y, // s22.20  As [`Field::RatioY`].
-    input wire signed [17:0] x, // s18.8  As [`Field::X`].
-    input wire signed [17:0] y, // s18.8  As [`Field::Y`].
+    input wire signed [17:0] x, // s18.7  As [`Field::X`].
+    input wire signed [17:0] y, // s18.7  As [`Field::Y`].
     input wire [16:0] sheet, // u17.17  As [`Field::Sheet`].
     input wire [23:0] capacitance, // u24.13  As [`Field::Capacitance`].
     input wire [19:0] haptic_force, // u20.17  As [`Field::Force`].

@@ -9,13 +9,9 @@ module hapticore (
     input wire strobe, // u1.0  A set of ADC codes is there.
     input wire clear, // u1.0  Abandons the slot under way: the next strobe is the first of the first pad's slot.
     input wire signed [17:0] code, // s18.17  The code of the channel asked for in the clock before.
-    input wire signed [21:0] origin_x, // s22.20  Calibration: the x ratio in the middle of the box.
-    input wire [17:0] scale_x, // u18.13  Calibration: one over half the box's width.
-    input wire signed [21:0] origin_y, // s22.20  Calibration: the y ratio in the middle of the box.
-    input wire [17:0] scale_y, // u18.13  Calibration: one over half the box's height.
     input wire [17:0] capacitance_gain, // u18.7  Calibration: picofarads at an admittance of one.
     input wire [17:0] force_gain, // u18.34  Calibration: newtons per square picofarad at full haptic mean square.
-    input wire write, // u1.0  Calibration: writes a word of the map's tables.
+    input wire write, // u1.0  Calibration: writes a word of the position table.
     input wire [11:0] address, // u12.0  Calibration: where.
     input wire signed [17:0] word, // s18.17  Calibration: what.
     output wire [2:0] channel, // u3.0  The channel whose code is wanted.
@@ -126,10 +122,6 @@ module hapticore (
         .sum(demodulator_sum),
         .pad(demodulator_pad),
         .clipped(demodulator_clipped),
-        .origin_x(origin_x),
-        .scale_x(scale_x),
-        .origin_y(origin_y),
-        .scale_y(scale_y),
         .capacitance_gain(capacitance_gain),
         .force_gain(force_gain),
         .write(write),

@@ -3,12 +3,15 @@
 
 mod bad_captures;
 mod captures;
+mod codes;
 mod gallery;
+mod lab;
 mod messages;
 mod recorders;
 mod runs;
 mod streams;
 mod terminals;
+mod tutorial;
 mod waves;
 
 use std::fs;

@@ -57,13 +57,23 @@ fn a_profile_of_ones_own_keeps_its_number_of_terminals() {
 #[test]
 fn a_position_table_that_does_not_fit_its_sheet_is_told() {
     let folder = tempfile::tempdir().unwrap();
-    let said = |set: &[&str]| {
-        let args = [&["simulate", "minimal-sheet", "--waves", "none", "--out", "o"], set].concat();
-        String::from_utf8(finish(folder.path(), &args).stderr).unwrap()
-    };
-    let other = ["--set", "device.width_mm=300", "--set", "device.height_mm=200"];
-    assert!(said(&other).contains("the position table does not fit this device"), "300 × 200 mm");
-    assert!(!said(&[]).contains("the position table"), "860 × 500 mm");
+    let said = |args: &[&str]| String::from_utf8(finish(folder.path(), args).stderr).unwrap();
+    let fits = said(&["simulate", "minimal-sheet", "--waves", "none", "--out", "o", "--capture", "c.wav"]);
+    assert!(!fits.contains("the position table"), "860 × 500 mm: {fits}");
+    // Places that were written down 4 mm too far to either side, in turn: no table fits these.
+    let text = fs::read_to_string(folder.path().join("c.wav.calibration.toml")).unwrap();
+    let (head, places) = text.split_once("places = [").unwrap();
+    let mut by = 4.0;
+    let moved = places.lines().map(|line| match line.strip_prefix('[').and_then(|place| place.split_once(',')) {
+        Some((x, rest)) => {
+            by = -by;
+            format!("[{},{rest}\n", x.parse::<f64>().unwrap() + by)
+        }
+        None => format!("{line}\n"),
+    });
+    fs::write(folder.path().join("off.toml"), format!("{head}places = [{}", moved.collect::<String>())).unwrap();
+    let off = said(&["replay", "c.wav", "--calibration", "off.toml", "--out", "r"]);
+    assert!(off.contains("the position table does not fit this device: "), "{off}");
     let summary = fs::read_to_string(folder.path().join("o/summary.json")).unwrap();
     let summary: serde_json::Value = serde_json::from_str(&summary).unwrap();
     assert!(summary["position_table"]["rms_mm"].as_f64().is_some_and(|rms| rms > 0.0 && rms < 1.0));

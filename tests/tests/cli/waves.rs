@@ -130,7 +130,7 @@ fn a_window_that_makes_a_large_file_is_told() {
 fn check_save_file(out: &Path) {
     let save = fs::read_to_string(out.join("waves.gtkw")).unwrap();
     for shown in
-        ["core.estimator.force_estimator.haptic_force[19:0]", "truth.force_n", "waves.core.estimator.map.operation.txt"]
+        ["core.estimator.force_estimator.haptic_force[19:0]", "truth.force_n", "waves.core.estimator.position.task.txt"]
     {
         assert!(save.contains(shown), "{shown}");
     }

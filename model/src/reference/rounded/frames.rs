@@ -7,8 +7,6 @@ use crate::profile::Profile;
 
 /// Words of a frame: r_x, r_y, x, y, R, C, F, mean square.
 const WORDS: usize = 8;
-/// The full scale of a position is `2^POSITION` mm.
-const POSITION: i8 = 9;
 
 /// What every pad last was.
 #[derive(Debug, Clone)]
@@ -21,8 +19,8 @@ impl Frames {
     /// Frames of a profile, of pads that never were.
     pub fn new(profile: &Profile) -> Self {
         let f = &profile.formats;
-        let position = Format { frac: f.map.frac - POSITION, ..f.map };
-        let sheet = Format { signed: false, width: f.map.width - 1, ..f.map };
+        let position = f.position;
+        let sheet = Format { signed: false, width: f.table.width - 1, ..f.table };
         let formats = [f.ratio, f.ratio, position, position, sheet, f.capacitance, f.force, f.mean_square];
         Frames { formats, held: vec![[0; WORDS]; profile.pads as usize] }
     }

@@ -8,9 +8,9 @@ mod currents;
 mod demodulator;
 mod force;
 mod frames;
-mod map;
 mod number;
 mod oscillator;
+mod position;
 mod ratio;
 
 pub use capacitance::{Capacitance, capacitance};
@@ -18,9 +18,9 @@ pub use currents::{Currents, currents};
 pub use demodulator::{Sums, demodulate};
 pub use force::{Force, force, mean_square};
 pub use frames::Frames;
-pub use map::{Map, Place};
-pub use number::{Exact, Rounded, round, round_quotient, round_real, round_root};
+pub use number::{Exact, Rounded, floor_quotient, round, round_quotient, round_real, round_root};
 pub use oscillator::{Oscillator, Sample, weighted};
+pub use position::{Place, Position};
 pub use ratio::{Ratio, ratio};
 
 use crate::calibration::Calibration;
@@ -31,9 +31,7 @@ use crate::profile::Profile;
 pub struct Slots {
     profile: Profile,
     carrier: Vec<Sample>,
-    map: Map,
-    origin: [Exact; 2],
-    scale: [Exact; 2],
+    position: Position,
     capacitance_gain: Exact,
     force_gain: Exact,
     frames: Frames,
@@ -42,15 +40,13 @@ pub struct Slots {
 impl Slots {
     /// A core of a profile, calibrated, just before its first slot.
     pub fn new(profile: &Profile, calibration: &Calibration) -> Self {
-        let (f, map) = (&profile.formats, &calibration.map);
+        let f = &profile.formats;
         let oscillator = Oscillator::new(profile);
         let blanking = profile.slot.blanking();
-        let words: Vec<Exact> = map.words.iter().map(|&word| round_real(word, f.map)).collect();
+        let words: Vec<Exact> = calibration.position.words.iter().map(|&word| round_real(word, f.table)).collect();
         Slots {
             carrier: (0..profile.slot.integrate).map(|m| oscillator.sample(blanking + m, m)).collect(),
-            map: Map::new(profile, &words),
-            origin: map.origin.map(|ratio| round_real(ratio, f.ratio)),
-            scale: map.scale.map(|scale| round_real(scale, f.map_scale)),
+            position: Position::new(profile, &words),
             capacitance_gain: round_real(calibration.capacitance_gain, f.capacitance_gain),
             force_gain: round_real(calibration.force_gain, f.force_gain),
             frames: Frames::new(profile),
@@ -69,14 +65,14 @@ impl Slots {
         let p = &self.profile;
         let currents = currents(p, &sums.phases);
         let ratio = ratio(p, &currents);
-        let place = self.map.place([ratio.r_x, ratio.r_y], self.origin, self.scale);
+        let place = self.position.place([ratio.r_x, ratio.r_y]);
         let sheet = place.sheet;
         let capacitance = capacitance(p, currents.total, currents.sense, sheet, self.capacitance_gain);
         let mean_square = mean_square(p, sums.square);
         let force = force(p, capacitance.capacitance, mean_square.value, self.force_gain);
         let saturated =
             currents.saturated | place.saturated | capacitance.saturated | mean_square.held | force.saturated;
-        let invalid = ratio.invalid | capacitance.invalid;
+        let invalid = ratio.invalid | place.invalid | capacitance.invalid;
         let values =
             [ratio.r_x, ratio.r_y, place.x, place.y, sheet, capacitance.capacitance, force.force, mean_square.value];
         let codes = self.frames.words(pad, values, invalid);

@@ -146,6 +146,12 @@ pub fn round(x: Exact, to: Format) -> Rounded {
     hold(if scaled >= 0 { x.mantissa << scaled } else { nearest(x.mantissa, 1 << -scaled) }, to)
 }
 
+/// The largest integer that is no more than `n / d`, of a positive `d`.
+pub fn floor_quotient(n: Exact, d: Exact) -> i128 {
+    let (n, d, _) = n.both(d);
+    n.div_euclid(d)
+}
+
 /// `n / d` in a format, `n` and `d` not negative; by zero it is held at the upper rail.
 pub fn round_quotient(n: Exact, d: Exact, to: Format) -> Rounded {
     let (n, d, _) = n.scaled(to.frac).both(d);

@@ -1,0 +1,566 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Position and sheet resistance from the ratios: the measured forward map, inverted by Newton steps.
+//!
+//! ```text
+//! r_x = X(u, v),  r_y = Y(u, v)                 splines of what was read at known places; u, v in cells of the table
+//! (u, v) += J⁻¹ · (r − (X, Y)(u, v))            `steps` times, from a first guess that is linear in the ratios
+//! x = origin_x + u · pitch_x,  y likewise,  R = R(u, v)
+//! ```
+//!
+//! The forward map is smooth; its inverse is not (at an insulated edge the ratios stand still while the pad moves on), so that
+//! the former is tabulated, as quadratic B-splines. Ratios are normalised to the table's, by a centre and a gain: those of a
+//! sheet whose terminals have large resistances in series span a hundredth of the range.
+//!
+//! A slot has tens of thousands of clocks for a thousand products, so that one multiplier and one adder do them all, by a
+//! program ([`program`]) of instructions ([`instruction`]) in a memory:
+//!
+//! ```text
+//! program ─[instruction]─┬─ base + option ─ table ───┐
+//!                        └─ slot ─ scratch ─┬─[left]─┴[factor]─(×)─(+)─[sum]─(round half up, saturate)─ scratch, x, y, R, base
+//!                                           └─────────[word]───┘                         sign ─[quotient]─ left
+//! ```
+//!
+//! | signal        | format          | unit                       | overflow                                             |
+//! | words, left   | profile: table  | –                          | saturate: a step gets shorter, a place stays inside    |
+//! | sum           | two words, 6 bits | –                        | cannot (range proof)                                  |
+//! | u, v          | a word          | 32 cells                   | held within the table                                  |
+//! | x, y          | profile         | mm                         | saturate, flagged                                      |
+//! | R             | a word's, unsigned | full scales, voltage / current | saturates at zero and at the top               |
+//!
+//! `invalid` where the last step began at a place that does not have the normalised ratios, to `2^-TOLERANCE_BITS`. Control
+//! does not depend on data. Latency: [`Position::latency`]. Source: Nakamura & Yamamoto 2016, eqs. 2 and 3, for the ratios.
+
+mod instruction;
+mod layout;
+mod program;
+
+pub use layout::{Axis, Layout, Scalar, Surface};
+
+use self::instruction::{COUNT, LOW, Operation, SCALARS, SURFACE, WRAP};
+use self::program::Program;
+use super::multiplier::{self, Multiplier};
+use crate::block::{Block, Cell};
+use crate::format::{BIT, Format};
+use crate::memory::{Memory, Write};
+use crate::profile::Profile;
+use crate::signal::{Exact, Floor, Never, Saturate, Signal, Value, Wrap, bit, code, int, zero};
+use crate::{bundle, choose, parts};
+
+bundle! {
+    /// The inputs.
+    pub struct Inputs {
+        /// Begins; the ratios are valid and stable until `done`.
+        start,
+        /// The x ratio.
+        r_x,
+        /// The y ratio.
+        r_y,
+        /// Calibration: writes a word of the position table.
+        write,
+        /// Calibration: the word's address.
+        address,
+        /// Calibration: the word.
+        word,
+    }
+}
+
+bundle! {
+    /// The outputs: registers.
+    pub struct Outputs {
+        /// Asserted for one cycle when the others are valid.
+        done,
+        /// The position along the long edges, in mm.
+        x,
+        /// The position along the short edges, in mm.
+        y,
+        /// The sheet's resistance at the pad, in full scales of voltage per current.
+        sheet,
+        /// No place of the table has the measured ratios.
+        invalid,
+        /// A position is saturated.
+        saturated,
+    }
+}
+
+bundle! {
+    /// The registers. `loads`, `floors`, `digits`, `multiplies` and `tables` say what becomes of the word that was read.
+    pub struct Registers {
+        running, bubble, fetched, instruction, waited,
+        loads, floors, digits, multiplies, tables, pending,
+        left, factor, word, sum, quotient, base,
+        surface: ["r_x", "r_y", "resistance"],
+        count, step, x, y, sheet, invalid, saturated, done,
+    }
+}
+
+parts! {
+    /// The blocks and memories within.
+    pub struct Parts of Position {
+        table: Memory,
+        scratch: Memory,
+        program: Memory,
+        multiplier: Multiplier,
+    }
+}
+
+/// The configuration.
+#[derive(Debug, Clone)]
+pub struct Position {
+    table: Memory,
+    scratch: Memory,
+    program: Memory,
+    multiplier: Multiplier,
+    /// Clocks from the program's first instruction to its last.
+    clocks: u64,
+    steps: u64,
+    ratio: Format,
+    word: Format,
+    registers: Registers<Format>,
+}
+
+/// An instruction that is carried out in this clock, if it need not wait.
+struct Decoded<V> {
+    operation: Signal<V>,
+    option: Signal<V>,
+    /// Whether it is done in this clock.
+    done: Signal<V>,
+    /// The word that it means.
+    slot: Signal<V>,
+}
+
+impl<V: Value> Decoded<V> {
+    /// Whether it is this one, done in this clock.
+    #[inline(always)]
+    fn does(&self, operation: Operation) -> Signal<V> {
+        self.done & self.is(operation)
+    }
+
+    /// Whether it is this one.
+    #[inline(always)]
+    fn is(&self, operation: Operation) -> Signal<V> {
+        self.operation.is(operation as u64).named(operation.name())
+    }
+
+    #[inline(always)]
+    fn has(&self, option: u8) -> Signal<V> {
+        self.option.bits(option.trailing_zeros() as u8, 1)
+    }
+}
+
+impl Position {
+    /// Normalised ratios at the place found and measured ones agree within `2^-TOLERANCE_BITS`.
+    pub const TOLERANCE_BITS: u8 = 9;
+    /// A step moves by less than so many cells along either axis.
+    pub const STEP_CELLS: f64 = program::STEP as f64;
+
+    /// The position of a profile, with nothing in its table yet.
+    pub fn new(profile: &Profile) -> Self {
+        let layout = Layout::new(profile);
+        let word = profile.formats.table;
+        let program = Program::new(word);
+        let codes = program.instructions.iter().map(|instruction| instruction.code().into()).collect();
+        let constants = program::constants(&layout, word);
+        let table = Memory::new("words", layout.words(), word).never_colliding();
+        let scratch = Memory::new("scratch", constants.len(), word).never_colliding().in_block();
+        let multiplier = Multiplier::new(word.integer(), word.integer(), profile.multiplier);
+        let wait = 1 + multiplier.latency();
+        Position {
+            clocks: program.clocks(profile.position.steps, wait),
+            registers: registers(profile, &table, &program, wait),
+            program: Memory::table("instructions", Format::unsigned(instruction::BITS, 0), codes),
+            // A slot whose table is written meanwhile gives a frame of neither calibration in any case.
+            table,
+            scratch: Memory { initial: constants.into(), ..scratch },
+            multiplier,
+            steps: profile.position.steps,
+            ratio: profile.formats.ratio,
+            word,
+        }
+    }
+
+    /// Clocks from `start` to `done`.
+    pub fn latency(&self) -> u64 {
+        self.clocks + 2
+    }
+
+    /// The memory of the position table.
+    pub fn table(&self) -> &Memory {
+        &self.table
+    }
+}
+
+/// The formats of the registers.
+fn registers(profile: &Profile, table: &Memory, program: &Program, wait: u64) -> Registers<Format> {
+    let word = profile.formats.table;
+    Registers {
+        running: BIT,
+        bubble: BIT,
+        fetched: Format::counter(program.instructions.len() as u64 - 1),
+        instruction: Format::unsigned(instruction::BITS, 0),
+        waited: Format::counter(wait + 1),
+        loads: BIT,
+        floors: BIT,
+        digits: BIT,
+        multiplies: BIT,
+        tables: BIT,
+        pending: Format::unsigned(wait as u8, 0),
+        left: word,
+        factor: word,
+        word,
+        sum: Format::signed(2 * word.width + 6, 2 * word.frac),
+        quotient: Format::unsigned(program.digits(), 0),
+        base: table.address(),
+        surface: Format::counter(Surface::Resistance as u64),
+        count: Format::unsigned(4, 0),
+        step: Format::counter(profile.position.steps),
+        x: profile.formats.position,
+        y: profile.formats.position,
+        sheet: profile.sheet(),
+        invalid: BIT,
+        saturated: BIT,
+        done: BIT,
+    }
+}
+
+impl Block for Position {
+    const NAME: &'static str = "position";
+    type Inputs = Inputs;
+    type Outputs = Outputs;
+    type Registers = Registers;
+    type Parts<V: Value> = Parts<V>;
+
+    #[inline]
+    fn inputs(&self) -> Inputs<Format> {
+        Inputs {
+            start: BIT,
+            r_x: self.ratio,
+            r_y: self.ratio,
+            write: BIT,
+            address: self.table.address(),
+            word: self.word,
+        }
+    }
+
+    #[inline]
+    fn outputs(&self) -> Outputs<Format> {
+        let Registers { done, x, y, sheet, invalid, saturated, .. } = self.registers;
+        Outputs { done, x, y, sheet, invalid, saturated }
+    }
+
+    #[inline(always)]
+    fn registers(&self) -> Registers<Format> {
+        let r = self.registers;
+        Registers {
+            running: BIT,
+            bubble: BIT,
+            fetched: r.fetched.counting(),
+            instruction: r.instruction.counting(),
+            waited: r.waited.counting(),
+            loads: BIT,
+            floors: BIT,
+            digits: BIT,
+            multiplies: BIT,
+            tables: BIT,
+            pending: r.pending.counting(),
+            quotient: r.quotient.counting(),
+            base: r.base.counting(),
+            surface: r.surface.counting(),
+            count: r.count.counting(),
+            step: r.step.counting(),
+            invalid: BIT,
+            saturated: BIT,
+            done: BIT,
+            ..r
+        }
+    }
+
+    #[inline(always)]
+    fn clock<V: Value>(&self, cell: &mut Cell<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+        let r = cell.load(self);
+        let Registers { done, x, y, sheet, invalid, saturated, .. } = r;
+        let outputs = Outputs { done, x, y, sheet, invalid, saturated };
+        if (i.start | r.running | r.done | i.write).idle() {
+            return outputs;
+        }
+        let now = self.decode(&r);
+        let (result, held) = self.result(&r);
+        let read = self.read(cell, &r, &i, &now, result);
+        let next = self.follow(self.compute(r, &read, &now), &r, &now, read.instruction);
+        let next = self.give_out(next, &r, &now, result, held);
+        let begun = Registers {
+            running: bit(true),
+            bubble: bit(true),
+            sum: self.half(),
+            surface: int(0),
+            step: int(0),
+            invalid: bit(false),
+            saturated: bit(false),
+            ..next
+        };
+        cell.store(self, crate::when!(V, Registers, i.start => begun, else next));
+        outputs
+    }
+}
+
+/// What the memories and the multiplier have ready in a clock.
+struct Read<V> {
+    instruction: Signal<V>,
+    word: Signal<V>,
+    /// What it is multiplied by.
+    factor: Signal<V>,
+    product: Signal<V>,
+}
+
+impl Position {
+    /// Half of a word's least step: what rounding adds.
+    #[inline(always)]
+    fn half<V: Value>(&self) -> Signal<V> {
+        code(1 << (self.word.frac - 1), Format::signed(self.word.width + 1, 2 * self.word.frac))
+    }
+
+    #[inline(always)]
+    fn decode<V: Value>(&self, r: &Registers<Signal<V>>) -> Decoded<V> {
+        let word = r.instruction;
+        let operation = word.bits(instruction::BITS - instruction::OPERATION_BITS, instruction::OPERATION_BITS);
+        let option = word.bits(0, instruction::OPTION_BITS);
+        let is = |other: Operation| operation.is(other as u64).named(other.name());
+        let waiting = Operation::WAITING.map(is).into_iter().reduce(|a, b| a | b);
+        let waits = waiting.unwrap_or(bit(false)).named("waits");
+        let settled = r.waited.is(self.multiplier.latency() + 2);
+        let done = (r.running & !r.bubble & (!waits | settled)).named("does");
+        let group = word.bits(instruction::OPTION_BITS, instruction::SLOT_BITS);
+        let index = word.bits(instruction::OPTION_BITS + instruction::SLOT_BITS, 2);
+        let by = |index: Signal<V>| index.fit(Format::unsigned(4, 0), Exact, Never);
+        let none = int(0);
+        let of_surface = by(r.surface);
+        let of_pair = by(r.surface.bits(0, 1).concat(bit(false)));
+        let of_sign = by(r.sum.msb());
+        let of_index = index.bits(1, 1).select(
+            index.bits(0, 1).select(of_pair, by(r.count)),
+            index.bits(0, 1).select(of_surface, is(Operation::LoadDigit).select(of_sign, by(none))),
+        );
+        // Groups are aligned: their words are told apart by the low bits alone.
+        let low = bits_or(group.bits(0, 4), of_index.named("of_group"));
+        let slot = group.bits(4, instruction::SLOT_BITS - 4).concat(low);
+        Decoded { operation, option, done, slot: slot.named("slot") }
+    }
+
+    /// The sum as a word, and whether it was saturated.
+    #[inline(always)]
+    fn result<V: Value>(&self, r: &Registers<Signal<V>>) -> (Signal<V>, Signal<V>) {
+        let (word, held) = r.sum.saturate(self.word, Floor);
+        let rounded = word.ideally(&[r.sum, self.half()], |of| (of[0] - of[1]).clamp(-1.0, 1.0));
+        (rounded.named("result"), held.named("held"))
+    }
+
+    /// One clock of the memories and of the multiplier.
+    #[inline(always)]
+    fn read<V: Value>(
+        &self,
+        cell: &mut Cell<Self, V>,
+        r: &Registers<Signal<V>>,
+        i: &Inputs<Signal<V>>,
+        now: &Decoded<V>,
+        result: Signal<V>,
+    ) -> Read<V> {
+        let of_table = self.table.data(&mut cell.parts.table);
+        let word = self.scratch.data(&mut cell.parts.scratch);
+        let instruction = self.program.data(&mut cell.parts.program);
+        let option = now.is(Operation::MultiplyTable).select(now.option, int(0));
+        let address = (r.base + option).fit(r.base.format, Exact, Wrap);
+        let write = Write { enable: i.write, address: i.address, data: i.word };
+        self.table.access(&mut cell.parts.table, address, write);
+        let enable = now.does(Operation::Store) | now.does(Operation::Input);
+        let data = self.stored(r, i, now, result);
+        self.scratch.access(&mut cell.parts.scratch, now.slot, Write { enable, address: now.slot, data });
+        self.program.read(&mut cell.parts.program, self.fetch(r, now));
+        let (now, next) = (r.pending.bits(0, 1), r.pending.bits(1, 1));
+        // A product of two clocks goes on in the second.
+        let enable = if self.multiplier.latency() == 1 { now } else { now | next };
+        let inputs = multiplier::Inputs { enable, left: r.factor.integer(), right: r.word.integer() };
+        let product = self.multiplier.call("multiplier", &mut cell.parts.multiplier, inputs).product;
+        let factor = r.tables.select(of_table, r.left);
+        Read { instruction, word, factor, product: product.scaled(-2 * self.word.frac) }
+    }
+
+    /// What goes into the scratch memory.
+    #[inline(always)]
+    fn stored<V: Value>(
+        &self,
+        r: &Registers<Signal<V>>,
+        i: &Inputs<Signal<V>>,
+        now: &Decoded<V>,
+        result: Signal<V>,
+    ) -> Signal<V> {
+        let turned = r.sum.fit(self.word, Floor, Wrap);
+        // The whole turn that is nearest to the code's.
+        let turned = turned.ideally(&[r.sum, self.half(), turned], |of| {
+            let number = of[0] - of[1];
+            number - 2.0 * ((number - of[2]) / 2.0).round()
+        });
+        let ratio = r.surface.bits(0, 1).select(i.r_y, i.r_x);
+        let halved = ratio.scaled(-1);
+        let high = halved.fit(self.word, Floor, Never).ideally(&[halved], |of| of[0]);
+        let rest = (self.ratio.frac + 1 - self.word.frac) as u8;
+        let low = match rest {
+            0 => zero(self.word),
+            _ => ratio.bits(0, rest).scaled(-(rest as i8)).ideally(&[], |_| 0.0),
+        };
+        let taken = now.has(LOW).select(low, high);
+        let kept = now.has(WRAP).select(turned, result);
+        now.is(Operation::Input).select(taken, kept)
+    }
+
+    /// Where the next instruction but one lies.
+    #[inline(always)]
+    fn fetch<V: Value>(&self, r: &Registers<Signal<V>>, now: &Decoded<V>) -> Signal<V> {
+        let target = r.instruction.bits(0, instruction::TARGET_BITS);
+        let target = target.fit(r.fetched.format, Exact, Wrap);
+        let following = (r.fetched + int(1)).fit(r.fetched.format, Exact, Wrap);
+        let on = self.jumps(r, now).select(target, (now.done | r.bubble).select(following, r.fetched));
+        let ends = now.does(Operation::End);
+        (r.running & !ends).select(on, int(0)).named("fetch")
+    }
+
+    #[inline(always)]
+    fn found<V: Value>(&self, r: &Registers<Signal<V>>) -> Signal<V> {
+        r.step.is(self.steps)
+    }
+
+    #[inline(always)]
+    fn jumps<V: Value>(&self, r: &Registers<Signal<V>>, now: &Decoded<V>) -> Signal<V> {
+        let repeats = now.does(Operation::Repeat) & !r.count.is(0);
+        let other = now.does(Operation::Surfaces) & r.surface.is(0);
+        let again = now.does(Operation::Pass) & !r.step.is(self.steps - 1);
+        let found = now.does(Operation::Found) & self.found(r);
+        (repeats | other | again | found).named("jumps")
+    }
+
+    /// The registers that compute: what was read goes to the multiplier, and its products into the sum.
+    #[inline(always)]
+    fn compute<V: Value>(&self, r: Registers<Signal<V>>, read: &Read<V>, now: &Decoded<V>) -> Registers<Signal<V>> {
+        let does = |operation: Operation| now.does(operation);
+        let (digit, quotient) = (does(Operation::LoadDigit), does(Operation::LoadQuotient));
+        let loads = does(Operation::Load) | does(Operation::LoadCell) | digit | quotient;
+        let tables = does(Operation::MultiplyTable);
+        let sum = (r.sum + read.product).fit(r.sum.format, Exact, Never);
+        let added = choose!(V, r.pending.msb(), sum, r.sum);
+        let clears = does(Operation::Store) | does(Operation::Output);
+        let cell = Format::signed(6, 5);
+        let whole = read.word.fit(cell, Floor, Never);
+        let word = r.floors.select(whole, read.word);
+        let operand = r.digits.select(self.of_digits(&r), word);
+        let pending = r.pending.concat(r.multiplies);
+        let bits = r.quotient.format.width;
+        Registers {
+            loads,
+            floors: does(Operation::LoadCell),
+            digits: quotient,
+            multiplies: does(Operation::Multiply) | tables,
+            tables,
+            pending: pending.bits(0, r.pending.format.width),
+            left: r.loads.select(operand, r.left),
+            factor: r.multiplies.select(read.factor, r.factor),
+            word: r.multiplies.select(read.word, r.word),
+            sum: choose!(V, clears, self.half(), added),
+            quotient: digit.select(r.quotient.concat(!r.sum.msb()).bits(0, bits), r.quotient),
+            base: self.next_base(&r, now),
+            ..r
+        }
+    }
+
+    #[inline(always)]
+    fn next_base<V: Value>(&self, r: &Registers<Signal<V>>, now: &Decoded<V>) -> Signal<V> {
+        let scalars = r.surface.bits(0, 1).concat(code(0, Format::counter(Layout::SCALARS as u64 - 1)));
+        let sets = now.does(Operation::Set) & now.has(SCALARS);
+        let from_sum = r.sum.bits(self.word.frac as u8, r.base.format.width);
+        // Halves of a wide product have wider ranges than the whole: what cannot be is ruled out once more.
+        let last = code(self.table.words as i64 - 3, r.base.format);
+        let from_sum = if self.multiplier.latency() == 1 { from_sum } else { from_sum.at_most(last) };
+        let kept = now.does(Operation::Base).select(from_sum, r.base);
+        sets.select(scalars.fit(r.base.format, Exact, Never), kept)
+    }
+
+    /// The quotient of its digits, of which a set bit is +1 and another −1, as a place.
+    #[inline(always)]
+    fn of_digits<V: Value>(&self, r: &Registers<Signal<V>>) -> Signal<V> {
+        let bits = r.quotient.format.width;
+        let coded = (!r.quotient.msb()).concat(r.quotient.bits(0, bits - 1));
+        let quotient = Format::signed(bits, i8::try_from(bits + 2).expect("sixteen digits at most"));
+        let step = code(1, Format::unsigned(1, i8::try_from(bits).expect("sixteen digits at most")));
+        let rest = r.sum - self.half();
+        // What the remainder, over the determinant in `left`, leaves; nothing where the quotient is at a rail.
+        coded.as_code(quotient).ideally(&[coded.as_code(quotient), rest, r.left, step], |of| {
+            let rest = of[1] / of[2].abs();
+            if rest.abs() < 4.0 * of[3] { of[0] + rest / 8.0 } else { of[0] }
+        })
+    }
+
+    /// The registers that say where the program is.
+    #[inline(always)]
+    fn follow<V: Value>(
+        &self,
+        next: Registers<Signal<V>>,
+        r: &Registers<Signal<V>>,
+        now: &Decoded<V>,
+        instruction: Signal<V>,
+    ) -> Registers<Signal<V>> {
+        let does = |operation: Operation| now.does(operation);
+        let set = does(Operation::Set);
+        let value = r.instruction.bits(instruction::OPTION_BITS, 4);
+        let less = (r.count - int(1)).fit(r.count.format, Exact, Wrap);
+        let counted = (does(Operation::Repeat) & !r.count.is(0)).select(less, r.count);
+        let following = r.surface.is(0).select(int(1), self.found(r).select(int(2), int(0)));
+        let surface = does(Operation::Surfaces).select(following, r.surface);
+        let on = now.done | r.bubble;
+        let more = (r.waited + int(1)).fit(r.waited.format, Exact, Wrap);
+        let ends = does(Operation::End);
+        Registers {
+            running: r.running & !ends,
+            bubble: self.jumps(r, now),
+            fetched: self.fetch(r, now),
+            instruction: on.select(instruction, r.instruction),
+            waited: (on | !r.running).select(int(0), more),
+            count: (set & now.has(COUNT)).select(value, counted),
+            surface: (set & now.has(SURFACE)).select(int(0), surface),
+            step: does(Operation::Pass).select((r.step + int(1)).fit(r.step.format, Exact, Wrap), r.step),
+            done: ends,
+            ..next
+        }
+    }
+
+    /// The registers that are given out.
+    #[inline(always)]
+    fn give_out<V: Value>(
+        &self,
+        next: Registers<Signal<V>>,
+        r: &Registers<Signal<V>>,
+        now: &Decoded<V>,
+        result: Signal<V>,
+        held: Signal<V>,
+    ) -> Registers<Signal<V>> {
+        let output = now.does(Operation::Output);
+        let (of_x, of_y) = (output & r.surface.is(0), output & r.surface.is(1));
+        let position = result.integer().as_code(r.x.format);
+        let tolerance = self.word.frac as u8 - Position::TOLERANCE_BITS;
+        let above = result.integer().bits(tolerance, Position::TOLERANCE_BITS + 1);
+        let beyond = !(above.is(0) | above.is((1 << (Position::TOLERANCE_BITS + 1)) - 1));
+        let checks = now.does(Operation::Store) & now.has(instruction::CHECK);
+        let before = r.surface.is(1) & r.invalid;
+        Registers {
+            x: of_x.select(position, r.x),
+            y: of_y.select(position, r.y),
+            sheet: choose!(V, output & r.surface.is(2), result.fit(r.sheet.format, Exact, Saturate), r.sheet),
+            invalid: checks.select(before | beyond, r.invalid),
+            saturated: r.saturated | ((of_x | of_y) & held),
+            ..next
+        }
+    }
+}
+
+/// Either integer's bits, of four each.
+#[inline(always)]
+fn bits_or<V: Value>(a: Signal<V>, b: Signal<V>) -> Signal<V> {
+    let bit = |k: u8| a.bits(k, 1) | b.bits(k, 1);
+    bit(3).concat(bit(2)).concat(bit(1)).concat(bit(0))
+}
