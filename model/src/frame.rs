@@ -13,7 +13,7 @@ pub struct Flags {
     pub saturated: bool,
     /// There is no such position or capacitance: the pad's last valid results stand.
     pub invalid: bool,
-    /// A terminal's current is missing.
+    /// A terminal's current is that of an open one.
     pub lost: bool,
 }
 

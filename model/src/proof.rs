@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The proof that no signal of a core overflows where its format says that it cannot.
 //!
-//! The range reading runs the core through whole rounds of all pads, with every ADC code, every calibration and every table
+//! The range reading runs the core through whole rounds of all pads, as many as there are windows in a mean, with every ADC code, every calibration and every table
 //! word anywhere in its format. Control is data-independent, so it is known exactly; data are intervals. Once the state
 //! after a round lies within the state before it, no further round can leave what has been seen, and the proof holds for
 //! all time. What relates several signals is beyond intervals: those places name a lemma, and tests hold the lemmas.
@@ -50,7 +50,7 @@ pub fn prove(profile: &Profile) -> Proof {
     run.any_tables();
     let (mut before, mut closed, mut rounds) = (run.state(), false, 0);
     while !closed && rounds < MOST_ROUNDS {
-        run.round();
+        (0..profile.haptic.windows).for_each(|_| run.round());
         rounds += 1;
         let after = run.state();
         closed = rounds > 1 && before.holds(&after);

@@ -37,6 +37,12 @@ fn no_signal_of_a_bundled_profile_can_overflow() {
 }
 
 #[test]
+fn a_mean_over_windows_cannot_overflow() {
+    let proof = prove(&with("small", "windows", "2").expect("a profile"));
+    assert!(proof.holds(), "{:?}", proof.violations.first());
+}
+
+#[test]
 fn every_register_stays_within_its_format() {
     for (name, format, range) in prove(&Profile::bundled("small").unwrap()).registers {
         assert!(whole(format).holds(range), "{name} {format}: {range:?}");
@@ -135,6 +141,8 @@ fn bad_profiles_say_what_was_expected() {
         ("x", "[1, 1, 1, 1, 0, 0]", "terminals.x: expected both signs"),
         ("window", "\"hamming\"", "unknown variant `hamming`"),
         ("columns", "131", "position.columns: expected 5 to 65, got 131"),
+        ("windows", "3", "haptic.windows: expected a power of two, 64 at most, got 3"),
+        ("windows", "0", "haptic.windows: expected a power of two, 64 at most, got 0"),
         ("columns", "16", "position.columns: expected an odd number, got 16"),
     ] {
         let message = with("small", key, value).expect_err(key);

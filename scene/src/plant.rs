@@ -214,8 +214,9 @@ impl Plant {
         let still =
             raster(nx, ny, margin_mm, &self.device).into_iter().map(|place| resting(place, 0.0, 0.0, &self.device));
         let point = |pad: Pad| {
-            let [r_x, r_y] = self.ratios.of(&pad.amplitudes());
-            MapPoint { x_mm: pad.x_mm, y_mm: pad.y_mm, r_x, r_y, sheet_ohm: pad.sheet_ohm.re }
+            let amplitudes = pad.amplitudes();
+            let ([r_x, r_y], shares) = (self.ratios.of(&amplitudes), self.ratios.shares(&amplitudes));
+            MapPoint { x_mm: pad.x_mm, y_mm: pad.y_mm, r_x, r_y, shares, sheet_ohm: pad.sheet_ohm.re }
         };
         self.settle(still).map(point).collect()
     }

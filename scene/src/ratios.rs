@@ -31,15 +31,26 @@ impl Ratios {
 
     /// r_x and r_y of amplitudes.
     pub fn of(&self, amplitudes: &[f64]) -> [f64; 2] {
-        let [x, y] = &self.signs;
-        let counts = amplitudes.iter().zip(x.iter().zip(y)).filter(|(_, (x, y))| (**x, **y) != (0, 0));
-        let sum: f64 = counts.map(|(amplitude, _)| amplitude).sum();
+        let sum = self.denominator(amplitudes);
         self.signs.each_ref().map(|signs| {
             let of = |sign: i8| {
                 amplitudes.iter().zip(signs).filter(move |(_, s)| **s == sign).map(|(amplitude, _)| amplitude)
             };
             of(-1).fold(of(1).sum::<f64>(), |sum, amplitude| sum - amplitude) / sum
         })
+    }
+
+    /// The amplitudes, as shares of the denominator.
+    pub fn shares(&self, amplitudes: &[f64]) -> Vec<f64> {
+        let denominator = self.denominator(amplitudes);
+        amplitudes.iter().map(|amplitude| amplitude / denominator).collect()
+    }
+
+    /// The sum of the amplitudes that have a sign.
+    fn denominator(&self, amplitudes: &[f64]) -> f64 {
+        let [x, y] = &self.signs;
+        let counts = amplitudes.iter().zip(x.iter().zip(y)).filter(|(_, (x, y))| (**x, **y) != (0, 0));
+        counts.map(|(amplitude, _)| amplitude).sum()
     }
 }
 

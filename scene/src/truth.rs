@@ -77,7 +77,7 @@ impl Setpoint {
 }
 
 /// A place of the calibration map.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct MapPoint {
     /// Position, mm right of the sheet's centre.
     pub x_mm: f64,
@@ -87,6 +87,8 @@ pub struct MapPoint {
     pub r_x: f64,
     /// Ratio of the currents along y.
     pub r_y: f64,
+    /// Each terminal's current, as a share of the ratios' denominator.
+    pub shares: Vec<f64>,
     /// Resistance R_p of the sheet there, Ω.
     pub sheet_ohm: f64,
 }

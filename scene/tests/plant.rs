@@ -217,7 +217,7 @@ fn the_calibration_map_is_the_truth_without_mismatch_and_costs_the_run_nothing()
     let mut plant = Plant::new(&scene, 0, &timing()).unwrap().metered();
     let map = plant.calibration_map(3, 5, 50.0);
     assert_eq!((map.len(), map[0].x_mm, map[0].y_mm, map[5].y_mm), (15, -380.0, -200.0, -100.0));
-    let (truth, here) = (plant.truth(0), map[7]);
+    let (truth, here) = (plant.truth(0), &map[7]);
     assert_eq!((here.x_mm, here.r_x, here.r_y, here.sheet_ohm), (0.0, truth.r_x, truth.r_y, truth.sheet_ohm));
     assert_eq!(evaluations(&plant)[1], ("sheet", 1));
 }

@@ -69,7 +69,7 @@ bundle! {
         saturated,
         /// The last valid results stand.
         invalid,
-        /// A terminal's current is missing.
+        /// A terminal's current is that of an open one.
         lost,
         /// Strobes have come closer than the profile's clocks a sample since reset or `clear`: frames are wrong.
         overrun,
@@ -127,6 +127,11 @@ impl Core {
     /// The estimator.
     pub fn estimator(&self) -> &Estimator {
         &self.estimator
+    }
+
+    /// From now on readings of codes have positions at once, without their clocks, from a position table of these codes.
+    pub(crate) fn place_at_once(&mut self, table: Vec<i64>) {
+        self.estimator.place_at_once(table);
     }
 
     /// Clocks from the strobe of a window's last sample to the last word of its frame.
@@ -200,6 +205,7 @@ impl Block for Core {
         };
         let demodulator = self.demodulator.call("demodulator", &mut parts.demodulator, inputs);
         let inputs = estimator::Inputs {
+            clear: i.clear,
             valid: demodulator.valid,
             index: demodulator.index,
             sum: demodulator.sum,

@@ -60,8 +60,8 @@ bundle! {
         y,
         /// Their denominator.
         corners,
-        /// Whether a terminal's current is missing.
-        lost,
+        /// The least amplitude of the terminals, in the unit of the numerators.
+        least,
         /// Whether a word is held at a rail.
         saturated,
     }
@@ -76,7 +76,7 @@ bundle! {
         ],
         arrived, place, word, waited, channel, total_i, total_q, part, power, root_start,
         sense, x, y, corners, least, saturated, done,
-        long, count, limit, other, quadrature, aligning, whole, lost,
+        long, count, limit, other, quadrature, aligning, whole,
     }
 }
 
@@ -97,7 +97,6 @@ pub struct Currents {
     root: Root,
     terminals: u64,
     signs: [Vec<i8>; 2],
-    lost_shift: i8,
     /// Bits by which a sum over the window is scaled down to full scale.
     shift: i8,
     sum: Format,
@@ -158,7 +157,6 @@ impl Currents {
             quadrature: BIT,
             aligning: BIT,
             whole: Format::unsigned(amplitude.width + Format::counter(terminals).width, amplitude.frac),
-            lost: BIT,
         };
         Currents {
             words,
@@ -166,7 +164,6 @@ impl Currents {
             root,
             terminals,
             signs: [profile.terminals.x.clone(), profile.terminals.y.clone()],
-            lost_shift: profile.terminals.lost_shift,
             shift: profile.sum_shift() - demodulator.shift(),
             sum: demodulator.sum(),
             iq,
@@ -186,6 +183,11 @@ impl Currents {
     /// The formats of the numerators and of the denominator of eqs. 2 and 3.
     pub fn sums(&self) -> (Format, Format) {
         (self.registers.x, self.registers.corners)
+    }
+
+    /// The format of the least amplitude.
+    pub fn least(&self) -> Format {
+        self.registers.least
     }
 
     /// Clocks from the last sum to `done`.
@@ -286,7 +288,6 @@ impl Currents {
         Registers {
             channel: (r.channel + int(1)).fit(r.channel.format, Exact, Wrap),
             whole: self.whole(&r, amplitude),
-            lost: self.lost(&r, amplitude),
             sense: r.channel.is(self.terminals).select(amplitude, r.sense),
             x: with(r.x, &|k| x[k]),
             y: with(r.y, &|k| y[k]),
@@ -302,36 +303,20 @@ impl Currents {
         chosen.map(|k| channel.is(k)).reduce(|a, b| a | b).unwrap_or(bit(false))
     }
 
-    /// Whether the least amplitude is below the share of the total that an open terminal is told by.
-    #[inline(always)]
-    fn below_share<V: Value>(&self, least: Signal<V>, total: Signal<V>) -> Signal<V> {
-        if self.lost_shift == 0 { bit(false) } else { least.scaled(self.lost_shift).less_than(total) }
-    }
-
     #[inline(always)]
     fn results<V: Value>(&self, r: &Registers<Signal<V>>, total: Signal<V>) -> Outputs<Signal<V>> {
-        let Registers { done, x, y, corners, .. } = *r;
+        let Registers { done, x, y, corners, least, .. } = *r;
         if self.block == 0 {
-            let lost = self.below_share(r.least, total);
-            return Outputs { done, total, sense: r.sense, x, y, corners, lost, saturated: r.saturated };
+            return Outputs { done, total, sense: r.sense, x, y, corners, least, saturated: r.saturated };
         }
         let ((total, beyond), (sense, too)) = (self.rounded(r.whole), self.rounded(r.sense));
-        Outputs { done, total, sense, x, y, corners, lost: r.lost, saturated: r.saturated | beyond | too }
+        Outputs { done, total, sense, x, y, corners, least, saturated: r.saturated | beyond | too }
     }
 
     /// The total's amplitude, to be moved back.
     #[inline(always)]
     fn whole<V: Value>(&self, r: &Registers<Signal<V>>, amplitude: Signal<V>) -> Signal<V> {
         if self.block == 0 { r.whole } else { amplitude.scaled(self.down()).fit(r.whole.format, Exact, Never) }
-    }
-
-    /// Whether a terminal's amplitude is too small for this total's, before that is moved back.
-    #[inline(always)]
-    fn lost<V: Value>(&self, r: &Registers<Signal<V>>, amplitude: Signal<V>) -> Signal<V> {
-        if self.block == 0 {
-            return r.lost;
-        }
-        self.below_share(r.least, amplitude.scaled(self.down()))
     }
 }
 
@@ -382,8 +367,8 @@ impl Block for Currents {
 
     #[inline]
     fn outputs(&self) -> Outputs<Format> {
-        let Registers { done, x, y, corners, saturated, .. } = self.registers;
-        Outputs { done, total: self.given, sense: self.given, x, y, corners, lost: BIT, saturated }
+        let Registers { done, x, y, corners, least, saturated, .. } = self.registers;
+        Outputs { done, total: self.given, sense: self.given, x, y, corners, least, saturated }
     }
 
     #[inline(always)]
@@ -416,7 +401,6 @@ impl Block for Currents {
             quadrature: BIT,
             aligning: BIT,
             whole: amplitude(r.whole),
-            lost: BIT,
         }
     }
 

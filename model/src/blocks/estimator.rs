@@ -26,6 +26,8 @@ use crate::{bundle, choose, parts};
 bundle! {
     /// The inputs: the demodulator's sums and the calibration.
     pub struct Inputs {
+        /// Mean squares of windows before count no more.
+        clear,
         /// A sum is there.
         valid,
         /// Which.
@@ -68,7 +70,7 @@ bundle! {
         saturated,
         /// There is no such position or capacitance; the last valid results stand.
         invalid,
-        /// A terminal's current is missing.
+        /// A terminal's current is that of an open one.
         lost,
     }
 }
@@ -111,7 +113,7 @@ impl Estimator {
     pub fn new(profile: &Profile) -> Self {
         let currents = Currents::new(profile);
         Estimator {
-            ratio: Ratio::new(profile, currents.sums()),
+            ratio: Ratio::new(profile, currents.sums(), currents.least()),
             position: Position::new(profile),
             haptic_voltage: HapticVoltage::new(profile),
             capacitance: Capacitance::new(profile, currents.amplitude()),
@@ -133,6 +135,11 @@ impl Estimator {
             self.frames.latency(),
         ];
         stages.into_iter().sum()
+    }
+
+    /// As [`Position::place_at_once`].
+    pub(crate) fn place_at_once(&mut self, table: Vec<i64>) {
+        self.position.place_at_once(table);
     }
 
     /// The position.
@@ -158,6 +165,7 @@ impl Block for Estimator {
         let haptic = self.haptic_voltage.inputs();
         let position = self.position.inputs();
         Inputs {
+            clear: BIT,
             valid: BIT,
             index: haptic.index,
             sum: haptic.sum,
@@ -187,21 +195,28 @@ impl Block for Estimator {
     #[inline(always)]
     fn clock<V: Value>(&self, cell: &mut Cell<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
         let r = cell.load(self);
-        if (i.valid | r.busy | i.write).idle() {
+        if (i.valid | r.busy | i.write | i.clear).idle() {
             return self.quiet(r);
         }
         let Inputs { valid, index, sum, .. } = i;
         let parts = &mut cell.parts;
+        if V::DECIDES && (valid | i.write | i.clear | !self.position.running(&parts.position)).idle() {
+            self.locate(parts);
+            return self.quiet(r);
+        }
         let inputs = currents::Inputs { valid, index, sum };
         let currents = self.currents.call("currents", &mut parts.currents, inputs);
-        let inputs = haptic_voltage::Inputs { valid, index, sum };
+        let pad = valid.select(i.pad, r.pad);
+        let inputs = haptic_voltage::Inputs { clear: i.clear, pad, valid, index, sum };
         let haptic = self.haptic_voltage.call("haptic_voltage", &mut parts.haptic_voltage, inputs);
-        let inputs = ratio::Inputs { start: currents.done, x: currents.x, y: currents.y, corners: currents.corners };
+        let currents::Outputs { x, y, corners, least, .. } = currents;
+        let inputs = ratio::Inputs { start: currents.done, x, y, corners, least };
         let ratio = self.ratio.call("ratio", &mut parts.ratio, inputs);
         let inputs = position::Inputs {
             start: ratio.done,
             r_x: ratio.r_x,
             r_y: ratio.r_y,
+            share: ratio.share,
             write: i.write,
             address: i.address,
             word: i.word,
@@ -227,8 +242,8 @@ impl Block for Estimator {
             start: force.done,
             pad: r.pad,
             invalid,
-            r_x: ratio.r_x,
-            r_y: ratio.r_y,
+            r_x: self.frames.ratio(ratio.r_x),
+            r_y: self.frames.ratio(ratio.r_y),
             x: position.x,
             y: position.y,
             sheet: position.sheet,
@@ -239,7 +254,6 @@ impl Block for Estimator {
         let frames = self.frames.call("frames", &mut parts.frames, inputs);
         let held = currents.saturated | haptic.saturated | position.saturated | capacitance.saturated | force.saturated;
         let held = held.named("any_saturated");
-        let pad = valid.select(i.pad, r.pad);
         let busy = valid | (r.busy & !frames.done);
         cell.store(self, Registers { busy, pad, clipped: valid.select(i.clipped, r.clipped) });
         let gate = |a: Signal<V>| choose!(V, frames.valid, a, zero(a.format));
@@ -252,12 +266,22 @@ impl Block for Estimator {
             clipped: r.clipped,
             saturated: gate(held),
             invalid: gate(invalid),
-            lost: gate(currents.lost),
+            lost: gate(position.lost),
         }
     }
 }
 
 impl Estimator {
+    /// A clock of the position's program, while nothing else is under way, for readings that may skip.
+    #[inline(always)]
+    fn locate<V: Value>(&self, parts: &mut Parts<V>) {
+        let inputs = ratio::Inputs::map(self.ratio.inputs(), zero);
+        let ratio = self.ratio.call("ratio", &mut parts.ratio, inputs);
+        let inputs = position::Inputs::map(self.position.inputs(), zero);
+        let inputs = position::Inputs { r_x: ratio.r_x, r_y: ratio.r_y, share: ratio.share, ..inputs };
+        self.position.call("position", &mut parts.position, inputs);
+    }
+
     /// The outputs while nothing is under way: no frame, and so nothing about one.
     #[inline(always)]
     fn quiet<V: Value>(&self, r: Registers<Signal<V>>) -> Outputs<Signal<V>> {

@@ -13,7 +13,7 @@ use crate::block::{Block, Cell};
 use crate::format::{BIT, Format};
 use crate::memory::{Memory, Write};
 use crate::profile::Profile;
-use crate::signal::{Exact, Never, Signal, Value, bit, int};
+use crate::signal::{Exact, HalfEven, Never, Saturate, Signal, Value, bit, int};
 use crate::{bundle, next, parts};
 
 /// A word of a frame.
@@ -50,11 +50,14 @@ impl Field {
         Field::MeanSquare,
     ];
 
-    /// The format of the field.
+    /// The format of the field. Ratios are rounded to the width of the widest other word: frames are no wider for them.
     pub fn format(self, profile: &Profile) -> Format {
         let f = &profile.formats;
         match self {
-            Field::RatioX | Field::RatioY => f.ratio,
+            Field::RatioX | Field::RatioY => {
+                let cut = f.ratio.width.saturating_sub(widest(&Field::ALL[2..], profile));
+                Format::signed(f.ratio.width - cut, f.ratio.frac - cut as i8)
+            }
             Field::X | Field::Y => f.position,
             Field::Sheet => profile.sheet(),
             Field::Capacitance => f.capacitance,
@@ -65,12 +68,17 @@ impl Field {
 
     /// The signed integer format that holds the code of every field.
     pub fn word(profile: &Profile) -> Format {
-        let width = Field::ALL.map(|field| {
-            let format = field.format(profile);
-            format.width + u8::from(!format.signed)
-        });
-        Format::signed(width.into_iter().max().expect("there are fields"), 0)
+        Format::signed(widest(&Field::ALL, profile), 0)
     }
+}
+
+/// Bits of a signed word that holds the code of each of the fields.
+fn widest(fields: &[Field], profile: &Profile) -> u8 {
+    let bits = |field: &Field| {
+        let format = field.format(profile);
+        format.width + u8::from(!format.signed)
+    };
+    fields.iter().map(bits).max().expect("there are fields")
 }
 
 bundle! {
@@ -174,6 +182,13 @@ impl Frames {
     /// Clocks from `start` to the last word.
     pub fn latency(&self) -> u64 {
         FIELDS + 2
+    }
+
+    /// A ratio as frames carry it.
+    #[inline(always)]
+    pub fn ratio<V: Value>(&self, ratio: Signal<V>) -> Signal<V> {
+        let format = self.inputs.r_x;
+        if ratio.format == format { ratio } else { ratio.fit(format, HalfEven, Saturate) }
     }
 
     /// The result that is the field `index`, as an integer.

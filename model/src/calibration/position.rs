@@ -37,6 +37,7 @@ pub struct PositionTable {
     scales: [[f64; 2]; 2],
     /// Of either axis: the first guess in cells, a constant and the rise with either ratio.
     start: [[f64; 3]; 2],
+    open_share: f64,
 }
 
 /// A place that was looked up.
@@ -128,6 +129,7 @@ impl PositionTable {
             geometry: [[0.0; 2]; 2],
             scales: [[0.0, 1.0]; 2],
             start: [[0.0; 3]; 2],
+            open_share: 0.0,
         };
         table.span(profile, points)?;
         let places: Vec<_> = points.iter().map(|point| table.place(point)).collect();
@@ -140,6 +142,20 @@ impl PositionTable {
         table.fit_start(&places, points)?;
         table.set_words(profile);
         if table.words.iter().all(|word| word.is_finite()) { Ok(table) } else { Err(PositionError::Ambiguous) }
+    }
+
+    /// The table, with the share of the ratios' denominator below which a terminal's current counts as that of an open one; of
+    /// a table as it is fitted none does.
+    #[must_use]
+    pub fn with_open_share(mut self, share: f64) -> Self {
+        self.open_share = share;
+        self.words[self.layout.scalar(Scalar::Open, Axis::X)] = share / 2.0;
+        self
+    }
+
+    /// The share of the ratios' denominator below which a terminal's current counts as that of an open one.
+    pub fn open_share(&self) -> f64 {
+        self.open_share
     }
 
     /// The table's rectangle, in numbers that its words hold.

@@ -2,8 +2,9 @@
 //! Fidelity `fixed`: the frames that `clock` gives, to the bit, without stepping the clocks of every sample.
 //!
 //! A window's sums are made sample by sample with the demodulator's own arithmetic; the local oscillator is the same for
-//! every slot, and so is asked once. The estimator then runs through its clocks, a few hundred a slot. As it is generic over
-//! the reading, the same run gives the rounding error of every signal ([`Shadow`](crate::signal::shadow::Shadow)).
+//! every slot, and so is asked once. The estimator then runs through its clocks, a few hundred a slot: of codes the position's
+//! program has its results at once. As it is generic over the reading, the same run, with the program's clocks, gives the rounding
+//! error of every signal ([`Shadow`](crate::signal::shadow::Shadow)).
 
 use super::tone::Response;
 use super::{Gathered, calibrated, signals};
@@ -42,7 +43,11 @@ pub struct FixedSimulation<V: Value = i64> {
 impl<V: Value> FixedSimulation<V> {
     /// A core of a profile, calibrated, just before its first slot.
     pub fn new(profile: &Profile, calibration: &Calibration) -> Self {
-        let core = Core::new(profile);
+        let mut core = Core::new(profile);
+        if V::DECIDES {
+            let words = calibration.position.words.iter();
+            core.place_at_once(words.map(|&word| profile.formats.table.code_saturating(word)).collect());
+        }
         let constants = signals::<CoreInputs, V>(calibration.inputs(core.inputs()), core.inputs());
         let sums = vec![zero(core.demodulator().sum()); core.demodulator().sums() as usize];
         let local = local(&core, profile);

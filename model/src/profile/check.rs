@@ -55,13 +55,12 @@ impl Profile {
             )?;
             ensure(signs.contains(&1) && signs.contains(&-1), field, "both signs", format_args!("{signs:?}"))?;
         }
-        ensure(x != y, "terminals.y", "signs other than those of terminals.x", format_args!("{y:?}"))?;
-        let shift = self.terminals.lost_shift;
-        ensure((0..=20).contains(&shift), "terminals.lost_shift", "0 (never) to 20", shift)
+        ensure(x != y, "terminals.y", "signs other than those of terminals.x", format_args!("{y:?}"))
     }
 
     fn check_slot(&self) -> Check {
-        let (samples, periods) = (self.slot.integrate, self.carrier.periods);
+        let (samples, periods, windows) = (self.slot.integrate, self.carrier.periods, self.haptic.windows);
+        ensure(windows.is_power_of_two() && windows <= 64, "haptic.windows", "a power of two, 64 at most", windows)?;
         within("slot.open", self.slot.open, 1, 1 << 20)?;
         within("slot.settle", self.slot.settle, 0, 1 << 20)?;
         within("slot.integrate", samples, 8, 1 << 16)?;

@@ -31,6 +31,9 @@ pub struct Profile {
     pub position: Position,
     /// Capacitance from currents.
     pub capacitance: Capacitance,
+    /// The haptic voltage.
+    #[serde(default)]
+    pub haptic: Haptic,
     /// Word formats.
     pub formats: Formats,
 }
@@ -43,8 +46,6 @@ pub struct Terminals {
     pub x: Vec<i8>,
     /// The sign of each terminal's current in the numerator of r_y.
     pub y: Vec<i8>,
-    /// A terminal counts as open when its current is below `2^-lost_shift` of the total; with 0 none ever does.
-    pub lost_shift: i8,
 }
 
 /// How a pad's slot is spent, in ADC samples.
@@ -115,6 +116,21 @@ pub struct Position {
 pub struct Capacitance {
     /// Takes the sheet's resistance out (PHYSICS §2); without it, eq. 6 alone.
     pub sheet_correction: bool,
+}
+
+/// The haptic voltage.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Haptic {
+    /// The mean square is that of so many of a pad's windows: a power of two.
+    pub windows: u64,
+}
+
+/// The last window alone.
+impl Default for Haptic {
+    fn default() -> Self {
+        Haptic { windows: 1 }
+    }
 }
 
 /// Word formats. Every other width of the core derives from these.

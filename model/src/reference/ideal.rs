@@ -3,9 +3,9 @@
 //!
 //! ```text
 //! i_k = 2/Σw · Σ w·x_k·cos φ,   q_k = 2/Σw · Σ w·x_k·sin φ,   a_k = √(i_k² + q_k²)          (a full-scale tone gives one)
-//! r_x = Σ ±a_k / Σ a_k,   r_y likewise (eqs. 2, 3);   x, y, R: where the table has these ratios
+//! r_x = Σ ±a_k / Σ a_k,   r_y likewise (eqs. 2, 3);   x, y, R: where the table has these ratios;   lost: min a_k < open · Σ a_k
 //! a = |Σ (i_k + j q_k)|,   C = gain · a / √(v² − (a·R)²)    or    gain · a / v (eq. 6)
-//! m = 1/Σw · Σ w·h²,   F = gain · C² · m · square_gain (eq. 8)
+//! m = 1/Σw · Σ w·h², the mean of the pad's last N once there are as many,   F = gain · C² · m · square_gain (eq. 8)
 //! ```
 //!
 //! Amplitudes enter results as quotients only, so that the core's tone gain cancels; its square gain does not, and a reading's
@@ -45,11 +45,13 @@ pub struct Reference {
     channels: usize,
     rails: [i32; 2],
     signs: Vec<[f64; 2]>,
-    lost_share: f64,
     sheet_correction: bool,
     square_gain: f64,
     calibration: Calibration,
     held: Vec<Held>,
+    /// Windows over which squares are averaged, and the last squares of every pad.
+    windows: usize,
+    squares: Vec<Vec<f64>>,
     sums: Vec<[f64; 2]>,
     last: usize,
 }
@@ -65,11 +67,12 @@ impl Reference {
             channels: terminals.x.len() + 2,
             rails: [-half, half - 1],
             signs: terminals.x.iter().zip(&terminals.y).map(pair).collect(),
-            lost_share: if terminals.lost_shift > 0 { 0.5f64.powi(terminals.lost_shift.into()) } else { 0.0 },
             sheet_correction: profile.capacitance.sheet_correction,
             square_gain: profile.square_gain(),
             calibration: calibration.clone(),
             held: (0..profile.pads as usize).map(nothing).collect(),
+            windows: profile.haptic.windows as usize,
+            squares: vec![Vec::new(); profile.pads as usize],
             sums: vec![[0.0; 2]; terminals.x.len() + 1],
             last: 0,
         }
@@ -131,7 +134,7 @@ impl Reference {
     }
 
     fn estimate(&mut self, pad: usize, phasors: &[[f64; 2]], mean_square: f64, clipped: bool) -> Reading {
-        let mean_square = mean_square * self.square_gain;
+        let mean_square = self.mean_square(pad, mean_square * self.square_gain);
         let solution = self.solve(pad, phasors, mean_square);
         self.last = pad;
         if solution.valid {
@@ -139,6 +142,16 @@ impl Reference {
         }
         let flags = Flags { clipped, saturated: false, invalid: !solution.valid, lost: solution.lost };
         Reading { mean_square, flags, ..self.held[pad].reading }
+    }
+
+    /// The mean of the pad's last squares, or the newest while they are too few.
+    fn mean_square(&mut self, pad: usize, newest: f64) -> f64 {
+        let last = &mut self.squares[pad];
+        if last.len() == self.windows {
+            last.remove(0);
+        }
+        last.push(newest);
+        if last.len() == self.windows { last.iter().sum::<f64>() / self.windows as f64 } else { newest }
     }
 
     /// Eqs. 2, 3, 6 and 8 and the sheet's resistance.
@@ -168,7 +181,7 @@ impl Reference {
                 eq6: self.calibration.capacitance_gain * total / sense,
             },
             valid: corners > 0.0 && place.is_valid() && left > 0.0,
-            lost: least < self.lost_share * total,
+            lost: least < self.calibration.position.open_share() * corners,
         }
     }
 }

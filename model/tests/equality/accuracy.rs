@@ -11,6 +11,7 @@
 
 use crate::device::{Tones, calibration, tone_codes};
 use crate::random::Random;
+use hapticore_model::blocks::frames::Field;
 use hapticore_model::calibration::Calibration;
 use hapticore_model::fidelity::fixed::FixedSimulation;
 use hapticore_model::format::Format;
@@ -55,9 +56,8 @@ fn position(profile: &Profile, calibration: &Calibration, ideal: &Reading, of_ra
     let step = 1e-3;
     let slopes = [x(step, 0.0) - x(-step, 0.0), x(0.0, step) - x(0.0, -step)].map(|rise| rise / (2.0 * step));
     // The measured ratio and what is left of it; nine coefficients, each by its weight (0.3 in all); three rows' values
-    // likewise (0.55); the weights along u and along v, three of either, of coefficients of about a half.
-    let weights = 0.5 * 3f64.sqrt();
-    let words = q(f.table) * norm(&[1.0, 1.0, 0.3, 0.55, 0.55 * weights, weights]);
+    // likewise (0.55). Errors of the weights, whose sum is one, count by how much neighbours differ: next to nothing.
+    let words = q(f.table) * norm(&[1.0, 1.0, 0.3, 0.55]);
     let along = |axis: usize| slopes[axis] * norm(&[of_ratio[axis], words]);
     let cells = (profile.position.columns - 2) as f64;
     // As fine as a place's word, or the last of sixteen digits of a step's quotient.
@@ -117,7 +117,8 @@ fn predict(profile: &Profile, calibration: &Calibration, tones: &Tones, ideal: &
         gain,
         q(f.force) / ideal.force_n,
     ]);
-    [of_ratio[0], position(profile, calibration, ideal, of_ratio), capacitance, force, mean_square]
+    let in_frame = norm(&[of_ratio[0], q(Field::RatioX.format(profile))]);
+    [in_frame, position(profile, calibration, ideal, of_ratio), capacitance, force, mean_square]
 }
 
 fn deviate(ideal: &Reading, fixed: &Reading) -> [f64; 5] {

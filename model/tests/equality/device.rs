@@ -36,7 +36,7 @@ pub fn calibration(profile: &Profile) -> Calibration {
     };
     let points: Vec<Point> = (0..columns * rows).map(point).collect();
     let calibration = Calibration {
-        position: PositionTable::fit(profile, &points).expect("a raster"),
+        position: PositionTable::fit(profile, &points).expect("a raster").with_open_share(0.01),
         capacitance_gain: 800.0,
         force_gain: 2e-6,
     };

@@ -19,14 +19,17 @@ use hapticore_model::bundle::Bundle;
 use hapticore_model::format::Format;
 use hapticore_model::profile::Profile;
 
+/// Clocks that a block is given in all, about.
+const CLOCKS: u64 = 2_000_000;
+
 /// Holds that a block which starts and finishes takes as many clocks as it says, whatever its operands.
 fn check_latency<B: Block>(block: B, latency: u64) {
     check_latency_of(block, latency, |inputs| inputs);
 }
 
 fn check_latency_of<B: Block>(block: B, latency: u64, legal: impl Fn(Inputs<B, i64>) -> Inputs<B, i64>) {
-    let mut bench = Bench::new(block);
-    for inputs in cases(&bench.block, 4000, 1).map(legal) {
+    let (mut bench, operations) = (Bench::new(block), (CLOCKS / latency).clamp(100, 4000));
+    for inputs in cases(&bench.block, operations, 1).map(legal) {
         let (_, clocks) = bench.operate(inputs);
         assert_eq!(clocks, latency, "{}: clocks measured, latency()", B::NAME);
     }
@@ -52,10 +55,11 @@ fn root() {
 #[test]
 fn ratio() {
     for profile in Profile::all() {
-        let block = Ratio::new(&profile, Currents::new(&profile).sums());
+        let currents = Currents::new(&profile);
+        let block = Ratio::new(&profile, currents.sums(), currents.least());
         check_latency_of(block.clone(), block.latency(), |i| {
             let bound = |x: i64| if i.corners == 0 { 0 } else { x % (i.corners + 1) };
-            hapticore_model::blocks::ratio::Inputs { x: bound(i.x), y: bound(i.y), ..i }
+            hapticore_model::blocks::ratio::Inputs { x: bound(i.x), y: bound(i.y), least: bound(i.least), ..i }
         });
     }
 }

@@ -4,6 +4,7 @@
 use crate::device::calibration;
 use crate::harness::{Bench, cases, check};
 use crate::random::Random;
+use hapticore_model::block::Block;
 use hapticore_model::blocks::capacitance::{self, Capacitance};
 use hapticore_model::blocks::currents::Currents;
 use hapticore_model::blocks::divider::Divider;
@@ -54,24 +55,25 @@ fn roots_are_the_nearest_codes() {
 #[test]
 fn ratios_are_those_of_eqs_2_and_3() {
     for (seed, profile) in (0..).zip(Profile::all()) {
-        let (sums, corners) = Currents::new(&profile).sums();
+        let currents = Currents::new(&profile);
+        let ((sums, corners), least) = (currents.sums(), currents.least());
         let ratio = profile.formats.ratio;
-        let mut bench = Bench::new(Ratio::new(&profile, (sums, corners)));
+        let mut bench = Bench::new(Ratio::new(&profile, (sums, corners), least));
         // A numerator is at most its denominator: each term of the one is a term of the other.
         let bounded = |i: ratio::Inputs<i64>| {
             let bound = |x: i64| if i.corners == 0 { 0 } else { x % (i.corners + 1) };
-            ratio::Inputs { x: bound(i.x), y: bound(i.y), ..i }
+            ratio::Inputs { x: bound(i.x), y: bound(i.y), least: bound(i.least), ..i }
         };
         let cases = cases(&bench.block, MILLION / 3, seed).map(bounded);
         check(&mut bench, cases, |i| {
             let of = |code| Exact::of(code, sums);
             let [total, sense] = [Exact::ZERO; 2];
             let corners = Exact::of(i.corners, corners);
-            let (x, y) = (of(i.x), of(i.y));
-            let currents = rounded::Currents { total, sense, x, y, corners, lost: false, saturated: false };
+            let (x, y, least) = (of(i.x), of(i.y), Exact::of(i.least, least));
+            let currents = rounded::Currents { total, sense, x, y, corners, least, saturated: false };
             let expected = rounded::ratio(&profile, &currents);
-            let [r_x, r_y] = [expected.r_x, expected.r_y].map(|r| r.code(ratio));
-            [("r_x", r_x), ("r_y", r_y), ("invalid", expected.invalid.into())]
+            let [r_x, r_y, share] = [expected.r_x, expected.r_y, expected.share].map(|r| r.code(ratio));
+            [("r_x", r_x), ("r_y", r_y), ("share", share), ("invalid", expected.invalid.into())]
         });
     }
 }
@@ -82,7 +84,7 @@ fn places_are_those_of_the_rounded_newton_steps() {
     for (seed, profile) in (0..).zip(Profile::all().into_iter().chain(Profile::all())) {
         let f = &profile.formats;
         let block = Position::new(&profile);
-        let mut random = Random::new(seed);
+        let (mut random, share) = (Random::new(seed), block.inputs().share);
         let any = (0..block.table().words).map(|_| random.word(f.table)).collect();
         let of_device = calibration(&profile).position.words.into_iter().map(|word| f.table.code_saturating(word));
         let words: Vec<i64> = if seed < 3 { of_device.collect() } else { any };
@@ -92,20 +94,21 @@ fn places_are_those_of_the_rounded_newton_steps() {
         }
         let words: Vec<Exact> = words.into_iter().map(|word| Exact::of(word, f.table)).collect();
         let quiet = |i| position::Inputs { write: 0, ..i };
-        let cases = cases(&bench.block, MILLION / 300, seed).map(quiet);
+        let cases = cases(&bench.block, MILLION / 1000, seed).map(quiet);
         let reference = rounded::Position::new(&profile, &words);
         check(&mut bench, cases, |i| {
             let place = reference.place([i.r_x, i.r_y].map(|code| Exact::of(code, f.ratio)));
             let [x, y] = [place.x, place.y].map(|mm| mm.code(f.position));
             let sheet = place.sheet.code(profile.sheet());
             let (invalid, saturated) = (place.invalid.into(), place.saturated.into());
-            [("x", x), ("y", y), ("sheet", sheet), ("invalid", invalid), ("saturated", saturated)]
+            let lost = reference.any_open(Exact::of(i.share, share)).into();
+            [("x", x), ("y", y), ("sheet", sheet), ("invalid", invalid), ("lost", lost), ("saturated", saturated)]
         });
     }
 }
 
 fn no_place() -> position::Inputs<i64> {
-    position::Inputs { start: 0, r_x: 0, r_y: 0, write: 0, address: 0, word: 0 }
+    position::Inputs { start: 0, r_x: 0, r_y: 0, share: 0, write: 0, address: 0, word: 0 }
 }
 
 #[test]

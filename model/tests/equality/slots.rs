@@ -64,7 +64,7 @@ fn frames_of_any_sums_are_the_reference() {
         let mut bench = Bench::new(Estimator::new(&profile));
         let constants = calibrate(&mut bench, &profile, &calibration);
         let mut random = Random::new(seed);
-        for _ in 0..operations(40_000) {
+        for _ in 0..operations(6_000) {
             check_sums(&mut bench, &mut reference, constants, &profile, &mut random);
         }
     }

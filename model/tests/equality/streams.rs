@@ -155,7 +155,7 @@ fn check_currents(bench: &mut Bench<Currents>, profile: &Profile, random: &mut R
         x: expected.x.code(sums.0),
         y: expected.y.code(sums.0),
         corners: expected.corners.code(sums.1),
-        lost: expected.lost.into(),
+        least: expected.least.code(bench.block.least()),
         saturated: expected.saturated.into(),
     };
     assert_eq!(out, reference, "clock {}: got, reference of sums {codes:?}", bench.clock);
@@ -170,12 +170,44 @@ fn mean_squares_are_the_last_sum() {
         for _ in 0..operations(MILLION / 3) {
             let (valid, index) = (random.below(2) as i64, last - random.below(2) as i64);
             let sum = random.word(format) >> random.below(20);
-            let out = bench.clock(haptic_voltage::Inputs { valid, index, sum });
+            let out = bench.clock(haptic_voltage::Inputs { clear: 0, pad: 0, valid, index, sum });
             assert_eq!(out, reference, "clock {}", bench.clock);
             if valid == 1 && index == last {
                 let expected = rounded::mean_square(&profile, Exact::of(sum, format));
                 let mean_square = expected.value.code(profile.formats.mean_square);
                 reference = haptic_voltage::Outputs { mean_square, saturated: expected.held.into() };
+            }
+        }
+    }
+}
+
+#[test]
+fn mean_squares_of_several_windows_are_the_mean_of_the_pads_last() {
+    for (seed, windows) in (0..).zip([2, 4, 64]) {
+        let mut profile = Profile::bundled("small").expect("bundled");
+        profile.haptic.windows = windows;
+        let block = HapticVoltage::new(&profile);
+        let (format, last, latency) = (block.inputs().sum, 2 * profile.demodulated() as i64, block.latency());
+        let (mut bench, mut random) = (Bench::new(block), Random::new(seed));
+        let mut reference = rounded::Squares::new(&profile);
+        for round in 0..20 * windows {
+            let clear = i64::from(round > 0 && random.below(4 * windows) == 0);
+            if clear == 1 {
+                bench.clock(haptic_voltage::Inputs { clear, pad: 0, valid: 0, index: 0, sum: 0 });
+                reference = rounded::Squares::new(&profile);
+            }
+            for pad in 0..profile.pads as i64 {
+                let sum = (random.word(format) >> random.below(20)).abs();
+                let mut inputs = haptic_voltage::Inputs { clear: 0, pad, valid: 1, index: last, sum };
+                (0..latency).for_each(|_| {
+                    bench.clock(inputs);
+                    inputs.valid = 0;
+                });
+                let newest = rounded::mean_square(&profile, Exact::of(sum, format));
+                let expected = reference.mean(&profile, pad as usize, newest);
+                let mean_square = expected.value.code(profile.formats.mean_square);
+                let expected = haptic_voltage::Outputs { mean_square, saturated: expected.held.into() };
+                assert_eq!(bench.clock(inputs), expected, "{windows} windows, round {round}, pad {pad}");
             }
         }
     }

@@ -15,7 +15,7 @@ module currents (
     output reg signed [20:0] x, // s21.15  The numerator of r_x.
     output reg signed [20:0] y, // s21.15  The numerator of r_y.
     output reg [19:0] corners, // u20.15  Their denominator.
-    output reg lost, // u1.0  Whether a terminal's current is missing.
+    output reg [16:0] least, // u17.15  The least amplitude of the terminals, in the unit of the numerators.
     output wire saturated // u1.0  Whether a word is held at a rail.
 );
 
@@ -30,7 +30,6 @@ module currents (
     reg [31:0] power; // u32.30
     reg root_start; // u1.0
     reg [16:0] sense_q; // u17.15
-    reg [16:0] least; // u17.15
     reg saturated_q; // u1.0
     reg signed [27:0] long; // s28.27
     reg [3:0] count; // u4.0
@@ -46,81 +45,81 @@ module currents (
     wire [16:0] root_root; // u17.15
     wire signed [31:0] multiplier_product; // s32.0
 
-    wire [18:0] fit_31 = {1'b0, whole[19:2]} + {18'd0, whole[1] & (whole[2] | whole[0])}; // u19.13
+    wire [18:0] fit_30 = {1'b0, whole[19:2]} + {18'd0, whole[1] & (whole[2] | whole[0])}; // u19.13
     wire multiplier_enable = ~(step == 4'd0); // u1.0
     wire signed [36:0] rounded = sum[41:5];
     wire signed [37:0] rounded_wide = {{1{rounded[36]}}, rounded};
-    wire signed [37:0] fit_45 = rounded_wide; // s38.27
+    wire signed [37:0] fit_44 = rounded_wide; // s38.27
     wire among = index < 4'd14; // u1.0
-    wire less_62 = step < 4'd8; // u1.0
-    wire [3:0] joined_64 = {channel, less_62 ? (~(step < 4'd3)) : quadrature}; // u4.0
+    wire less_61 = step < 4'd8; // u1.0
+    wire [3:0] joined_63 = {channel, less_61 ? (~(step < 4'd3)) : quadrature}; // u4.0
     wire step_is_root = step == 4'd7; // u1.0
-    wire bit_72 = (~less_62) & (step < 4'd12); // u1.0
+    wire bit_71 = (~less_61) & (step < 4'd12); // u1.0
     wire step_is_restore = step == 4'd12; // u1.0
     wire channel_is_7 = channel == 3'd7; // u1.0
-    wire less_78 = channel < 3'd6; // u1.0
+    wire less_77 = channel < 3'd6; // u1.0
     wire step_is_power = step == 4'd6; // u1.0
-    wire [32:0] choice_83 =
+    wire [32:0] choice_82 =
         step_is_power ? ({1'd0, power} + {1'd0, multiplier_product})
         : {1'd0, multiplier_product}; // u33.30
-    wire adds = ((step == 4'd3) | (step == 4'd5)) & less_78; // u1.0
+    wire adds = ((step == 4'd3) | (step == 4'd5)) & less_77; // u1.0
     wire signed [19:0] more = {{1{total_i[18]}}, total_i} + {{4{part[15]}}, part}; // s20.15
-    wire signed [20:0] fit_91 = {{1{more[19]}}, more}; // s21.15
+    wire signed [20:0] fit_90 = {{1{more[19]}}, more}; // s21.15
     wire rooted = step_is_root & root_done; // u1.0
     wire channel_is_0 = channel == 3'd0; // u1.0
     wire signed [17:0] negative = 18'd0 - {1'd0, root_root}; // s18.15
-    wire [3:0] sum_105 = {1'd0, channel} + 4'd1; // u4.0
+    wire [3:0] sum_104 = {1'd0, channel} + 4'd1; // u4.0
     wire channel_is_6 = channel == 3'd6; // u1.0
     wire channel_is_2 = channel == 3'd2; // u1.0
     wire channel_is_3 = channel == 3'd3; // u1.0
     wire channel_is_1 = channel == 3'd1; // u1.0
-    wire bit_120 = channel_is_0 | channel_is_1; // u1.0
-    wire signed [20:0] choice_123 = channel_is_0 ? 21'd0 : x; // s21.15
-    wire signed [17:0] choice_121 = bit_120 ? negative : {1'd0, (channel_is_2 | channel_is_3) ? root_root : 17'd0}; // s18.15
-    wire signed [21:0] sum_124 = {{1{choice_123[20]}}, choice_123} + {{4{choice_121[17]}}, choice_121}; // s22.15
+    wire bit_117 = channel_is_0 | channel_is_1; // u1.0
+    wire signed [20:0] choice_120 = channel_is_0 ? 21'd0 : x; // s21.15
+    wire signed [17:0] choice_118 = bit_117 ? negative : {1'd0, (channel_is_2 | channel_is_3) ? root_root : 17'd0}; // s18.15
+    wire signed [21:0] sum_121 = {{1{choice_120[20]}}, choice_120} + {{4{choice_118[17]}}, choice_118}; // s22.15
     wire channel_is_5 = channel == 3'd5; // u1.0
     wire channel_is_4 = channel == 3'd4; // u1.0
-    wire signed [20:0] choice_135 = channel_is_0 ? 21'd0 : y; // s21.15
-    wire signed [17:0] choice_134 =
+    wire signed [20:0] choice_132 = channel_is_0 ? 21'd0 : y; // s21.15
+    wire signed [17:0] choice_131 =
         ((channel_is_1 | channel_is_2) | channel_is_4) ? negative
         : {1'd0, ((channel_is_0 | channel_is_3) | channel_is_5) ? root_root
         : 17'd0}; // s18.15
-    wire signed [21:0] sum_136 = {{1{choice_135[20]}}, choice_135} + {{4{choice_134[17]}}, choice_134}; // s22.15
-    wire signed [17:0] fit_143 = {1'd0, ((((bit_120 | channel_is_2) | channel_is_3) | channel_is_4) | channel_is_5) ? root_root : 17'd0}; // s18.15
-    wire signed [21:0] sum_146 = {2'd0, channel_is_0 ? 20'd0 : corners} + {{4{fit_143[17]}}, fit_143}; // s22.15
+    wire signed [21:0] sum_133 = {{1{choice_132[20]}}, choice_132} + {{4{choice_131[17]}}, choice_131}; // s22.15
+    wire signed [17:0] fit_140 = {1'd0, ((((bit_117 | channel_is_2) | channel_is_3) | channel_is_4) | channel_is_5) ? root_root : 17'd0}; // s18.15
+    wire signed [21:0] sum_143 = {2'd0, channel_is_0 ? 20'd0 : corners} + {{4{fit_140[17]}}, fit_140}; // s22.15
     wire step_is_quadrature = step == 4'd4; // u1.0
-    wire [4:0] sum_167 = {1'd0, step} + 5'd1; // u5.0
-    wire [4:0] choice_170 =
+    wire [4:0] sum_163 = {1'd0, step} + 5'd1; // u5.0
+    wire [4:0] choice_166 =
         rooted ? {1'd0, channel_is_7 ? 4'd12
         : 4'd1}
         : step_is_root ? {1'd0, step}
-        : sum_167; // u5.0
+        : sum_163; // u5.0
     wire count_is_11 = count == 4'd11; // u1.0
-    wire [4:0] sum_181 = {1'd0, count} + 5'd1; // u5.0
+    wire [4:0] sum_177 = {1'd0, count} + 5'd1; // u5.0
     wire [18:0] rounded_2 = whole[19:1];
     wire [19:0] rounded_2_wide = {{1{1'b0}}, rounded_2};
-    wire less_185 = count < limit; // u1.0
+    wire less_181 = count < limit; // u1.0
     wire [15:0] rounded_3 = sense_q[16:1];
     wire [16:0] rounded_3_wide = {{1{1'b0}}, rounded_3};
     wire step_is_align_move = step == 4'd10; // u1.0
-    wire bit_211 = ~aligning; // u1.0
-    wire bit_221 = ((step_is_align_move & bit_211) & ((long[27] & (~long[26])) | (long[26] & (~long[27])))) & less_185; // u1.0
+    wire bit_206 = ~aligning; // u1.0
+    wire bit_216 = ((step_is_align_move & bit_206) & ((long[27] & (~long[26])) | (long[26] & (~long[27])))) & less_181; // u1.0
     wire step_is_align_keep = step == 4'd11; // u1.0
-    wire bit_227 = step_is_align_keep & quadrature; // u1.0
-    wire bit_229 = bit_227 & (channel_is_5 | channel_is_6); // u1.0
-    wire [4:0] choice_241 =
+    wire bit_222 = step_is_align_keep & quadrature; // u1.0
+    wire bit_224 = bit_222 & (channel_is_5 | channel_is_6); // u1.0
+    wire [4:0] choice_236 =
         step_is_align_move ? {1'd0, count_is_11 ? 4'd11
         : 4'd10}
         : step_is_align_keep ? {1'd0, ((quadrature & channel_is_6) & aligning) ? 4'd1
         : 4'd8}
-        : sum_167; // u5.0
-    wire [4:0] choice_242 = step_is_align_move ? sum_181 : 5'd0; // u5.0
-    wire bit_311 = ((~(index == 4'd0)) & saturated_q) | (among & (~((fit_45[37:27] == 11'd0) | (fit_45[37:27] == 11'd2047)))); // u1.0
-    wire bit_335 = valid & among; // u1.0
+        : sum_163; // u5.0
+    wire [4:0] choice_237 = step_is_align_move ? sum_177 : 5'd0; // u5.0
+    wire bit_304 = ((~(index == 4'd0)) & saturated_q) | (among & (~((fit_44[37:27] == 11'd0) | (fit_44[37:27] == 11'd2047)))); // u1.0
+    wire bit_327 = valid & among; // u1.0
     wire signed [16:0] rounded_4 = {long[27], long[27:12]} + {16'd0, long[11] & (long[12] | (|long[10:0]))};
-    wire bit_341 = step_is_align_keep & aligning; // u1.0
-    wire [3:0] joined_342 = {channel, quadrature}; // u4.0
-    wire signed [15:0] fit_339 =
+    wire bit_333 = step_is_align_keep & aligning; // u1.0
+    wire [3:0] joined_334 = {channel, quadrature}; // u4.0
+    wire signed [15:0] fit_331 =
         (rounded_4[16:15] == {2{rounded_4[16]}}) ? rounded_4[15:0] : {rounded_4[16], {15{~rounded_4[16]}}}; // s16.15
 
     root u_root (
@@ -148,7 +147,7 @@ module currents (
 
     always @(posedge clock) begin
         if (arrived) words[place] <= word;
-        words_word <= words[joined_64];
+        words_word <= words[joined_63];
     end
 
     always @(posedge clock) begin
@@ -177,23 +176,22 @@ module currents (
             quadrature <= 1'd0;
             aligning <= 1'd0;
             whole <= 20'd0;
-            lost <= 1'd0;
         end else begin
-            arrived <= bit_335 | bit_341;
-            if (bit_341) begin
-                place <= joined_342;
-                word <= {{12{fit_339[15]}}, fit_339};
-            end else if (bit_335) begin
+            arrived <= bit_327 | bit_333;
+            if (bit_333) begin
+                place <= joined_334;
+                word <= {{12{fit_331[15]}}, fit_331};
+            end else if (bit_327) begin
                 place <= index;
                 word <=
-                    (fit_45[37:27] == {11{fit_45[37]}}) ? fit_45[27:0] : {fit_45[37], {27{~fit_45[37]}}};
+                    (fit_44[37:27] == {11{fit_44[37]}}) ? fit_44[27:0] : {fit_44[37], {27{~fit_44[37]}}};
             end
             if (valid) begin
                 channel <= 3'd0;
                 total_i <= 19'd0;
                 total_q <= 19'd0;
                 root_start <= 1'd0;
-                saturated_q <= bit_311;
+                saturated_q <= bit_304;
                 done <= 1'd0;
                 count <= 4'd0;
                 limit <= 4'd12;
@@ -203,31 +201,31 @@ module currents (
                     step <= 4'd8;
                 end
             end else if (multiplier_enable) begin
-                if (bit_72) begin
-                    step <= choice_241[3:0];
+                if (bit_71) begin
+                    step <= choice_236[3:0];
                     root_start <= 1'd0;
                     done <= 1'd0;
                     long <=
                         (step == 4'd9) ? words_word
-                        : (step_is_align_move & (less_185 | bit_211)) ? {long[26:0], 1'd0}
+                        : (step_is_align_move & (less_181 | bit_206)) ? {long[26:0], 1'd0}
                         : long;
-                    count <= choice_242[3:0];
+                    count <= choice_237[3:0];
                     quadrature <= (step_is_align_keep & (~quadrature)) | (quadrature & (~step_is_align_keep));
-                    aligning <= aligning | (bit_227 & channel_is_6);
-                    if (bit_227) begin
-                        channel <= channel_is_6 ? 3'd0 : sum_105[2:0];
+                    aligning <= aligning | (bit_222 & channel_is_6);
+                    if (bit_222) begin
+                        channel <= channel_is_6 ? 3'd0 : sum_104[2:0];
                     end
-                    if (bit_229) begin
-                        limit <= ((bit_229 & channel_is_5) & bit_211) ? 4'd12 : other;
+                    if (bit_224) begin
+                        limit <= ((bit_224 & channel_is_5) & bit_206) ? 4'd12 : other;
                         other <= limit;
-                    end else if (bit_221) begin
+                    end else if (bit_216) begin
                         limit <= count;
                     end
                 end else if (step_is_restore) begin
                     root_start <= 1'd0;
                     done <= count_is_11;
-                    count <= sum_181[3:0];
-                    if (less_185) begin
+                    count <= sum_177[3:0];
+                    if (less_181) begin
                         whole <= rounded_2_wide;
                     end
                     if (count < other) begin
@@ -237,7 +235,7 @@ module currents (
                         step <= 4'd0;
                     end
                 end else begin
-                    step <= choice_170[3:0];
+                    step <= choice_166[3:0];
                     part <=
                         (step == 4'd2) ? (channel_is_7 ? (total_i[18:3] + {15'd0, total_i[2] & (total_i[3] | (|total_i[1:0]))})
                         : words_word[15:0])
@@ -245,24 +243,23 @@ module currents (
                         : words_word[15:0])
                         : part;
                     root_start <= step_is_power;
-                    saturated_q <= saturated_q | (adds & (~((fit_91[20:18] == 3'd0) | (fit_91[20:18] == 3'd7))));
+                    saturated_q <= saturated_q | (adds & (~((fit_90[20:18] == 3'd0) | (fit_90[20:18] == 3'd7))));
                     done <= 1'd0;
                     if (step_is_quadrature | step_is_power) begin
-                        power <= choice_83[31:0];
+                        power <= choice_82[31:0];
                     end
                     if (adds) begin
                         total_i <= total_q;
                         total_q <=
-                            (fit_91[20:18] == {3{fit_91[20]}}) ? fit_91[18:0] : {fit_91[20], {18{~fit_91[20]}}};
+                            (fit_90[20:18] == {3{fit_90[20]}}) ? fit_90[18:0] : {fit_90[20], {18{~fit_90[20]}}};
                     end
                     if (rooted) begin
-                        channel <= sum_105[2:0];
-                        x <= sum_124[20:0];
-                        y <= sum_136[20:0];
-                        corners <= sum_146[19:0];
+                        channel <= sum_104[2:0];
+                        x <= sum_121[20:0];
+                        y <= sum_133[20:0];
+                        corners <= sum_143[19:0];
                         whole <= {root_root, 3'd0};
-                        lost <= {least, 6'd0} < {6'd0, root_root};
-                        if (channel_is_0 | (less_78 & (root_root < least))) begin
+                        if (channel_is_0 | (less_77 & (root_root < least))) begin
                             least <= root_root;
                         end
                         if (channel_is_6) begin
@@ -277,13 +274,13 @@ module currents (
         end
     end
 
-    assign total = (|fit_31[18:16]) ? {16{1'b1}} : fit_31[15:0];
+    assign total = (|fit_30[18:16]) ? {16{1'b1}} : fit_30[15:0];
     assign sense = {1'b0, sense_q[16:2]} + {15'd0, sense_q[1] & (sense_q[2] | sense_q[0])};
-    assign saturated = saturated_q | (~(fit_31[18:16] == 3'd0));
+    assign saturated = saturated_q | (~(fit_30[18:16] == 3'd0));
 
     // What nothing needs.
-    wire unused = &{1'b0, sum[4:0], choice_83[32], sum_105[3], sum_124[21], sum_136[21], sum_146[21:20],
-        choice_170[4], choice_241[4], choice_242[4]};
+    wire unused = &{1'b0, sum[4:0], choice_82[32], sum_104[3], sum_121[21], sum_133[21], sum_143[21:20],
+        choice_166[4], choice_236[4], choice_237[4]};
 
 endmodule
 

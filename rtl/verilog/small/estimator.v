@@ -6,6 +6,7 @@
 module estimator (
     input wire clock,
     input wire reset,
+    input wire clear, // u1.0  Mean squares of windows before count no more.
     input wire valid, // u1.0  A sum is there.
     input wire [3:0] index, // u4.0  Which.
     input wire signed [41:0] sum, // s42.31  The sum.
@@ -24,7 +25,7 @@ module estimator (
     output wire clipped_out, // u1.0  A code was at a rail of the ADC.
     output wire saturated, // u1.0  A word was held at a rail.
     output wire invalid, // u1.0  There is no such position or capacitance; the last valid results stand.
-    output wire lost // u1.0  A terminal's current is missing.
+    output wire lost // u1.0  A terminal's current is that of an open one.
 );
 
     reg [1:0] pad_q; // u2.0
@@ -35,19 +36,21 @@ module estimator (
     wire signed [20:0] currents_x; // s21.15
     wire signed [20:0] currents_y; // s21.15
     wire [19:0] currents_corners; // u20.15
-    wire currents_lost; // u1.0
+    wire [16:0] currents_least; // u17.15
     wire currents_saturated; // u1.0
     wire [14:0] haptic_voltage_mean_square; // u15.15
     wire haptic_voltage_saturated; // u1.0
     wire ratio_done; // u1.0
-    wire signed [15:0] ratio_r_x; // s16.14
-    wire signed [15:0] ratio_r_y; // s16.14
+    wire signed [17:0] ratio_r_x; // s18.16
+    wire signed [17:0] ratio_r_y; // s18.16
+    wire [16:0] ratio_share; // u17.16
     wire ratio_invalid; // u1.0
     wire position_done; // u1.0
     wire signed [15:0] position_x; // s16.5
     wire signed [15:0] position_y; // s16.5
     wire [14:0] position_sheet; // u15.15
     wire position_invalid; // u1.0
+    wire position_lost; // u1.0
     wire position_saturated; // u1.0
     wire capacitance_done; // u1.0
     wire [14:0] capacitance_capacitance; // u15.5
@@ -61,9 +64,12 @@ module estimator (
     wire signed [15:0] frames_word; // s16.0
     wire frames_done; // u1.0
 
+    wire [1:0] next_pad_q = valid ? pad : pad_q; // u2.0
     wire frames_invalid = (ratio_invalid | position_invalid) | capacitance_invalid; // u1.0
-    wire bit_50 = ((currents_saturated | haptic_voltage_saturated) | position_saturated) | capacitance_saturated; // u1.0
-    wire any_saturated = bit_50 | force_estimator_saturated; // u1.0
+    wire signed [16:0] rounded = {ratio_r_x[17], ratio_r_x[17:2]} + {16'd0, ratio_r_x[1] & (ratio_r_x[2] | ratio_r_x[0])};
+    wire signed [16:0] rounded_2 = {ratio_r_y[17], ratio_r_y[17:2]} + {16'd0, ratio_r_y[1] & (ratio_r_y[2] | ratio_r_y[0])};
+    wire bit_57 = ((currents_saturated | haptic_voltage_saturated) | position_saturated) | capacitance_saturated; // u1.0
+    wire any_saturated = bit_57 | force_estimator_saturated; // u1.0
 
     currents u_currents (
         .clock(clock),
@@ -77,13 +83,15 @@ module estimator (
         .x(currents_x),
         .y(currents_y),
         .corners(currents_corners),
-        .lost(currents_lost),
+        .least(currents_least),
         .saturated(currents_saturated)
     );
 
     haptic_voltage u_haptic_voltage (
         .clock(clock),
         .reset(reset),
+        .clear(clear),
+        .pad(next_pad_q),
         .valid(valid),
         .index(index),
         .sum(sum),
@@ -98,9 +106,11 @@ module estimator (
         .x(currents_x),
         .y(currents_y),
         .corners(currents_corners),
+        .least(currents_least),
         .done(ratio_done),
         .r_x(ratio_r_x),
         .r_y(ratio_r_y),
+        .share(ratio_share),
         .invalid(ratio_invalid)
     );
 
@@ -110,6 +120,7 @@ module estimator (
         .start(ratio_done),
         .r_x(ratio_r_x),
         .r_y(ratio_r_y),
+        .share(ratio_share),
         .write(write),
         .address(address),
         .word(word),
@@ -118,6 +129,7 @@ module estimator (
         .y(position_y),
         .sheet(position_sheet),
         .invalid(position_invalid),
+        .lost(position_lost),
         .saturated(position_saturated)
     );
 
@@ -153,8 +165,8 @@ module estimator (
         .start(force_estimator_done),
         .pad(pad_q),
         .invalid(frames_invalid),
-        .r_x(ratio_r_x),
-        .r_y(ratio_r_y),
+        .r_x((rounded[16:15] == {2{rounded[16]}}) ? rounded[15:0] : {rounded[16], {15{~rounded[16]}}}),
+        .r_y((rounded_2[16:15] == {2{rounded_2[16]}}) ? rounded_2[15:0] : {rounded_2[16], {15{~rounded_2[16]}}}),
         .x(position_x),
         .y(position_y),
         .sheet(position_sheet),
@@ -172,8 +184,8 @@ module estimator (
             pad_q <= 2'd0;
             clipped_q <= 1'd0;
         end else begin
+            pad_q <= next_pad_q;
             if (valid) begin
-                pad_q <= pad;
                 clipped_q <= clipped;
             end
         end
@@ -187,7 +199,7 @@ module estimator (
     assign clipped_out = clipped_q;
     assign saturated = frames_valid ? any_saturated : 1'd0;
     assign invalid = frames_valid ? frames_invalid : 1'd0;
-    assign lost = frames_valid ? currents_lost : 1'd0;
+    assign lost = frames_valid ? position_lost : 1'd0;
 
 endmodule
 

@@ -26,7 +26,7 @@ module hapticore (
     output wire clipped, // u1.0  A code was at a rail of the ADC.
     output wire saturated, // u1.0  A word was held at a rail.
     output wire invalid, // u1.0  The last valid results stand.
-    output wire lost, // u1.0  A terminal's current is missing.
+    output wire lost, // u1.0  A terminal's current is that of an open one.
     output wire overrun // u1.0  Strobes have come closer than the profile's clocks a sample since reset or `clear`: frames are wrong.
 );
 
@@ -117,6 +117,7 @@ module hapticore (
     estimator u_estimator (
         .clock(clock),
         .reset(reset),
+        .clear(clear),
         .valid(demodulator_valid),
         .index(demodulator_index),
         .sum(demodulator_sum),

@@ -10,28 +10,33 @@ module ratio (
     input wire signed [20:0] x, // s21.15  The numerator of r_x.
     input wire signed [20:0] y, // s21.15  The numerator of r_y.
     input wire [19:0] corners, // u20.15  Their denominator.
+    input wire [16:0] least, // u17.15  The least amplitude of the terminals.
     output reg done, // u1.0  Set for one clock when the ratios are there.
-    output reg signed [15:0] r_x, // s16.14  The x ratio.
-    output reg signed [15:0] r_y, // s16.14  The y ratio.
+    output reg signed [17:0] r_x, // s18.16  The x ratio.
+    output reg signed [17:0] r_y, // s18.16  The y ratio.
+    output wire [16:0] share, // u17.16  The least of the terminals' currents, as a share of the denominator; until the next slot's `start`.
     output reg invalid // u1.0  Whether the denominator is zero.
 );
 
-    reg [1:0] step; // u2.0  0 idle, 1 x, 2 y
+    reg [1:0] step; // u2.0  0 idle, 1 x, 2 y, 3 share
     reg divide; // u1.0
     wire divider_done; // u1.0
-    wire [14:0] divider_quotient; // u15.14
+    wire [16:0] divider_quotient; // u17.16
     wire divider_saturated; // u1.0
 
     wire step_is_x = step == 2'd1; // u1.0
     wire signed [20:0] numerator = step_is_x ? x : y; // s21.15
-    wire bit_22 = divider_done & step_is_x; // u1.0
-    wire bit_25 = divider_done & (step == 2'd2); // u1.0
+    wire step_is_share = step == 2'd3; // u1.0
+    wire bit_27 = divider_done & step_is_x; // u1.0
+    wire bit_30 = divider_done & (step == 2'd2); // u1.0
+    wire bit_31 = divider_done & step_is_share; // u1.0
+    wire bit_39 = bit_27 | bit_30; // u1.0
 
     divider u_divider (
         .clock(clock),
         .reset(reset),
         .start(divide),
-        .numerator(numerator[20] ? 21'd0 - numerator : numerator),
+        .numerator(step_is_share ? {4'd0, least} : numerator[20] ? 21'd0 - numerator : numerator),
         .denominator(corners),
         .done(divider_done),
         .quotient(divider_quotient),
@@ -42,8 +47,8 @@ module ratio (
         if (reset) begin
             step <= 2'd0;
             divide <= 1'd0;
-            r_x <= 16'd0;
-            r_y <= 16'd0;
+            r_x <= 18'd0;
+            r_y <= 18'd0;
             invalid <= 1'd0;
             done <= 1'd0;
         end else begin
@@ -52,21 +57,23 @@ module ratio (
                 divide <= 1'd1;
                 done <= 1'd0;
             end else begin
-                step <= bit_22 ? 2'd2 : bit_25 ? 2'd0 : step;
-                divide <= bit_22;
-                done <= bit_25;
-                if (divider_done) begin
+                step <= bit_27 ? 2'd2 : bit_30 ? 2'd3 : bit_31 ? 2'd0 : step;
+                divide <= bit_39;
+                done <= bit_31;
+                if (bit_39) begin
                     r_y <=
-                        (numerator < $signed(21'd0)) ? (16'd0 - {1'd0, divider_quotient})
+                        (numerator < $signed(21'd0)) ? (18'd0 - {1'd0, divider_quotient})
                         : {1'd0, divider_quotient};
                 end
-                if (bit_25) begin
+                if (bit_30) begin
                     r_x <= r_y;
                     invalid <= corners == 20'd0;
                 end
             end
         end
     end
+
+    assign share = divider_quotient;
 
     // What nothing needs.
     wire unused = &{1'b0, divider_saturated};

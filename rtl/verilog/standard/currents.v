@@ -15,7 +15,7 @@ module currents (
     output reg signed [30:0] x, // s31.23  The numerator of r_x.
     output reg signed [30:0] y, // s31.23  The numerator of r_y.
     output reg [29:0] corners, // u30.23  Their denominator.
-    output wire lost, // u1.0  Whether a terminal's current is missing.
+    output reg [26:0] least, // u27.23  The least amplitude of the terminals, in the unit of the numerators.
     output reg saturated // u1.0  Whether a word is held at a rail.
 );
 
@@ -30,7 +30,6 @@ module currents (
     reg signed [25:0] part; // s26.23
     reg [51:0] power; // u52.46
     reg root_start; // u1.0
-    reg [26:0] least; // u27.23
     (* no_rw_check *) // nobody uses a word that was read while it was being written
     reg signed [23:0] words [0:15]; // 16 words s24.23
     reg signed [23:0] words_word; // its read register
@@ -39,48 +38,48 @@ module currents (
     wire signed [51:0] multiplier_product; // s52.0
 
     wire multiplier_enable = ~(step == 3'd0); // u1.0
-    wire signed [26:0] fit_40 = {sum[44], sum[44:19]} + {26'd0, sum[18] & (sum[19] | (|sum[17:0]))}; // s27.23
+    wire signed [26:0] fit_37 = {sum[44], sum[44:19]} + {26'd0, sum[18] & (sum[19] | (|sum[17:0]))}; // s27.23
     wire among = index < 4'd14; // u1.0
-    wire [3:0] joined_56 = {channel, ~(step < 3'd3)}; // u4.0
+    wire [3:0] joined_53 = {channel, ~(step < 3'd3)}; // u4.0
     wire step_is_root = step == 3'd7; // u1.0
-    wire bit_61 = waited | step_is_root; // u1.0
+    wire bit_58 = waited | step_is_root; // u1.0
     wire channel_is_7 = channel == 3'd7; // u1.0
-    wire less_64 = channel < 3'd6; // u1.0
+    wire less_61 = channel < 3'd6; // u1.0
     wire step_is_power = step == 3'd6; // u1.0
-    wire [52:0] choice_69 =
+    wire [52:0] choice_66 =
         step_is_power ? ({1'd0, power} + {1'd0, multiplier_product})
         : {1'd0, multiplier_product}; // u53.46
-    wire adds = ((step == 3'd3) | (step == 3'd5)) & less_64; // u1.0
+    wire adds = ((step == 3'd3) | (step == 3'd5)) & less_61; // u1.0
     wire signed [26:0] more = {{1{total_i[25]}}, total_i} + {{1{part[25]}}, part}; // s27.23
-    wire signed [27:0] fit_77 = {{1{more[26]}}, more}; // s28.23
+    wire signed [27:0] fit_74 = {{1{more[26]}}, more}; // s28.23
     wire rooted = step_is_root & root_done; // u1.0
     wire channel_is_0 = channel == 3'd0; // u1.0
     wire signed [27:0] negative = 28'd0 - {1'd0, root_root}; // s28.23
-    wire [3:0] sum_91 = {1'd0, channel} + 4'd1; // u4.0
+    wire [3:0] sum_88 = {1'd0, channel} + 4'd1; // u4.0
     wire channel_is_2 = channel == 3'd2; // u1.0
     wire channel_is_3 = channel == 3'd3; // u1.0
     wire channel_is_1 = channel == 3'd1; // u1.0
-    wire bit_102 = channel_is_0 | channel_is_1; // u1.0
-    wire signed [30:0] choice_105 = channel_is_0 ? 31'd0 : x; // s31.23
-    wire signed [27:0] choice_103 = bit_102 ? negative : {1'd0, (channel_is_2 | channel_is_3) ? root_root : 27'd0}; // s28.23
-    wire signed [31:0] sum_106 = {{1{choice_105[30]}}, choice_105} + {{4{choice_103[27]}}, choice_103}; // s32.23
+    wire bit_99 = channel_is_0 | channel_is_1; // u1.0
+    wire signed [30:0] choice_102 = channel_is_0 ? 31'd0 : x; // s31.23
+    wire signed [27:0] choice_100 = bit_99 ? negative : {1'd0, (channel_is_2 | channel_is_3) ? root_root : 27'd0}; // s28.23
+    wire signed [31:0] sum_103 = {{1{choice_102[30]}}, choice_102} + {{4{choice_100[27]}}, choice_100}; // s32.23
     wire channel_is_5 = channel == 3'd5; // u1.0
     wire channel_is_4 = channel == 3'd4; // u1.0
-    wire signed [30:0] choice_117 = channel_is_0 ? 31'd0 : y; // s31.23
-    wire signed [27:0] choice_116 =
+    wire signed [30:0] choice_114 = channel_is_0 ? 31'd0 : y; // s31.23
+    wire signed [27:0] choice_113 =
         ((channel_is_1 | channel_is_2) | channel_is_4) ? negative
         : {1'd0, ((channel_is_0 | channel_is_3) | channel_is_5) ? root_root
         : 27'd0}; // s28.23
-    wire signed [31:0] sum_118 = {{1{choice_117[30]}}, choice_117} + {{4{choice_116[27]}}, choice_116}; // s32.23
-    wire signed [27:0] fit_125 = {1'd0, ((((bit_102 | channel_is_2) | channel_is_3) | channel_is_4) | channel_is_5) ? root_root : 27'd0}; // s28.23
-    wire signed [31:0] sum_128 = {2'd0, channel_is_0 ? 30'd0 : corners} + {{4{fit_125[27]}}, fit_125}; // s32.23
+    wire signed [31:0] sum_115 = {{1{choice_114[30]}}, choice_114} + {{4{choice_113[27]}}, choice_113}; // s32.23
+    wire signed [27:0] fit_122 = {1'd0, ((((bit_99 | channel_is_2) | channel_is_3) | channel_is_4) | channel_is_5) ? root_root : 27'd0}; // s28.23
+    wire signed [31:0] sum_125 = {2'd0, channel_is_0 ? 30'd0 : corners} + {{4{fit_122[27]}}, fit_122}; // s32.23
     wire step_is_quadrature = step == 3'd4; // u1.0
-    wire [3:0] choice_146 =
+    wire [3:0] choice_143 =
         rooted ? {3'd0, channel_is_7 ? 1'd0
         : 1'd1}
         : step_is_root ? {1'd0, step}
         : ({1'd0, step} + 4'd1); // u4.0
-    wire bit_192 = ((~(index == 4'd0)) & saturated) | (among & (~((fit_40[26:23] == 4'd0) | (fit_40[26:23] == 4'd15)))); // u1.0
+    wire bit_189 = ((~(index == 4'd0)) & saturated) | (among & (~((fit_37[26:23] == 4'd0) | (fit_37[26:23] == 4'd15)))); // u1.0
     wire next_arrived = valid & among; // u1.0
 
     root u_root (
@@ -108,7 +107,7 @@ module currents (
 
     always @(posedge clock) begin
         if (arrived) words[place] <= word;
-        words_word <= words[joined_56];
+        words_word <= words[joined_53];
     end
 
     always @(posedge clock) begin
@@ -136,7 +135,7 @@ module currents (
             if (next_arrived) begin
                 place <= index;
                 word <=
-                    (fit_40[26:23] == {4{fit_40[26]}}) ? fit_40[23:0] : {fit_40[26], {23{~fit_40[26]}}};
+                    (fit_37[26:23] == {4{fit_37[26]}}) ? fit_37[23:0] : {fit_37[26], {23{~fit_37[26]}}};
             end
             if (valid) begin
                 waited <= 1'd0;
@@ -144,14 +143,14 @@ module currents (
                 total_i <= 26'd0;
                 total_q <= 26'd0;
                 root_start <= 1'd0;
-                saturated <= bit_192;
+                saturated <= bit_189;
                 done <= 1'd0;
                 if (index == 4'd14) begin
                     step <= 3'd1;
                 end
             end else if (multiplier_enable) begin
-                if (bit_61) begin
-                    step <= choice_146[2:0];
+                if (bit_58) begin
+                    step <= choice_143[2:0];
                     waited <= 1'd0;
                     part <=
                         (step == 3'd2) ? (channel_is_7 ? total_i
@@ -160,22 +159,22 @@ module currents (
                         : {{2{words_word[23]}}, words_word})
                         : part;
                     root_start <= step_is_power;
-                    saturated <= saturated | (adds & (~((fit_77[27:25] == 3'd0) | (fit_77[27:25] == 3'd7))));
+                    saturated <= saturated | (adds & (~((fit_74[27:25] == 3'd0) | (fit_74[27:25] == 3'd7))));
                     done <= rooted & channel_is_7;
                     if (step_is_quadrature | step_is_power) begin
-                        power <= choice_69[51:0];
+                        power <= choice_66[51:0];
                     end
                     if (adds) begin
                         total_i <= total_q;
                         total_q <=
-                            (fit_77[27:25] == {3{fit_77[27]}}) ? fit_77[25:0] : {fit_77[27], {25{~fit_77[27]}}};
+                            (fit_74[27:25] == {3{fit_74[27]}}) ? fit_74[25:0] : {fit_74[27], {25{~fit_74[27]}}};
                     end
                     if (rooted) begin
-                        channel <= sum_91[2:0];
-                        x <= sum_106[30:0];
-                        y <= sum_118[30:0];
-                        corners <= sum_128[29:0];
-                        if (channel_is_0 | (less_64 & (root_root < least))) begin
+                        channel <= sum_88[2:0];
+                        x <= sum_103[30:0];
+                        y <= sum_115[30:0];
+                        corners <= sum_125[29:0];
+                        if (channel_is_0 | (less_61 & (root_root < least))) begin
                             least <= root_root;
                         end
                         if (channel == 3'd6) begin
@@ -195,10 +194,9 @@ module currents (
     end
 
     assign total = root_root;
-    assign lost = {least, 9'd0} < {9'd0, root_root};
 
     // What nothing needs.
-    wire unused = &{1'b0, choice_69[52], sum_91[3], sum_106[31], sum_118[31], sum_128[31:30], choice_146[3]};
+    wire unused = &{1'b0, choice_66[52], sum_88[3], sum_103[31], sum_115[31], sum_125[31:30], choice_143[3]};
 
 endmodule
 

@@ -6,6 +6,7 @@
 module estimator (
     input wire clock,
     input wire reset,
+    input wire clear, // u1.0  Mean squares of windows before count no more.
     input wire valid, // u1.0  A sum is there.
     input wire [3:0] index, // u4.0  Which.
     input wire signed [44:0] sum, // s45.34  The sum.
@@ -14,7 +15,7 @@ module estimator (
     input wire [17:0] capacitance_gain, // u18.7  Calibration: picofarads at an admittance of one.
     input wire [17:0] force_gain, // u18.34  Calibration: newtons per square picofarad at full haptic mean square.
     input wire write, // u1.0  Calibration: writes a word of the position table.
-    input wire [11:0] address, // u12.0  Calibration: where.
+    input wire [12:0] address, // u13.0  Calibration: where.
     input wire signed [17:0] word, // s18.17  Calibration: what.
     output wire valid_out, // u1.0  Set for a clock for each word of a frame.
     output wire [2:0] index_out, // u3.0  Which field the word is.
@@ -24,7 +25,7 @@ module estimator (
     output wire clipped_out, // u1.0  A code was at a rail of the ADC.
     output wire saturated, // u1.0  A word was held at a rail.
     output wire invalid, // u1.0  There is no such position or capacitance; the last valid results stand.
-    output wire lost // u1.0  A terminal's current is missing.
+    output wire lost // u1.0  A terminal's current is that of an open one.
 );
 
     reg [1:0] pad_q; // u2.0
@@ -35,19 +36,21 @@ module estimator (
     wire signed [30:0] currents_x; // s31.23
     wire signed [30:0] currents_y; // s31.23
     wire [29:0] currents_corners; // u30.23
-    wire currents_lost; // u1.0
+    wire [26:0] currents_least; // u27.23
     wire currents_saturated; // u1.0
     wire [21:0] haptic_voltage_mean_square; // u22.22
     wire haptic_voltage_saturated; // u1.0
     wire ratio_done; // u1.0
     wire signed [21:0] ratio_r_x; // s22.20
     wire signed [21:0] ratio_r_y; // s22.20
+    wire [20:0] ratio_share; // u21.20
     wire ratio_invalid; // u1.0
     wire position_done; // u1.0
     wire signed [17:0] position_x; // s18.7
     wire signed [17:0] position_y; // s18.7
     wire [16:0] position_sheet; // u17.17
     wire position_invalid; // u1.0
+    wire position_lost; // u1.0
     wire position_saturated; // u1.0
     wire capacitance_done; // u1.0
     wire [23:0] capacitance_capacitance; // u24.13
@@ -61,9 +64,10 @@ module estimator (
     wire signed [24:0] frames_word; // s25.0
     wire frames_done; // u1.0
 
+    wire [1:0] next_pad_q = valid ? pad : pad_q; // u2.0
     wire frames_invalid = (ratio_invalid | position_invalid) | capacitance_invalid; // u1.0
-    wire bit_50 = ((currents_saturated | haptic_voltage_saturated) | position_saturated) | capacitance_saturated; // u1.0
-    wire any_saturated = bit_50 | force_estimator_saturated; // u1.0
+    wire bit_55 = ((currents_saturated | haptic_voltage_saturated) | position_saturated) | capacitance_saturated; // u1.0
+    wire any_saturated = bit_55 | force_estimator_saturated; // u1.0
 
     currents u_currents (
         .clock(clock),
@@ -77,13 +81,15 @@ module estimator (
         .x(currents_x),
         .y(currents_y),
         .corners(currents_corners),
-        .lost(currents_lost),
+        .least(currents_least),
         .saturated(currents_saturated)
     );
 
     haptic_voltage u_haptic_voltage (
         .clock(clock),
         .reset(reset),
+        .clear(clear),
+        .pad(next_pad_q),
         .valid(valid),
         .index(index),
         .sum(sum),
@@ -98,9 +104,11 @@ module estimator (
         .x(currents_x),
         .y(currents_y),
         .corners(currents_corners),
+        .least(currents_least),
         .done(ratio_done),
         .r_x(ratio_r_x),
         .r_y(ratio_r_y),
+        .share(ratio_share),
         .invalid(ratio_invalid)
     );
 
@@ -110,6 +118,7 @@ module estimator (
         .start(ratio_done),
         .r_x(ratio_r_x),
         .r_y(ratio_r_y),
+        .share(ratio_share),
         .write(write),
         .address(address),
         .word(word),
@@ -118,6 +127,7 @@ module estimator (
         .y(position_y),
         .sheet(position_sheet),
         .invalid(position_invalid),
+        .lost(position_lost),
         .saturated(position_saturated)
     );
 
@@ -172,8 +182,8 @@ module estimator (
             pad_q <= 2'd0;
             clipped_q <= 1'd0;
         end else begin
+            pad_q <= next_pad_q;
             if (valid) begin
-                pad_q <= pad;
                 clipped_q <= clipped;
             end
         end
@@ -187,7 +197,7 @@ module estimator (
     assign clipped_out = clipped_q;
     assign saturated = frames_valid ? any_saturated : 1'd0;
     assign invalid = frames_valid ? frames_invalid : 1'd0;
-    assign lost = frames_valid ? currents_lost : 1'd0;
+    assign lost = frames_valid ? position_lost : 1'd0;
 
 endmodule
 

@@ -12,7 +12,7 @@ module hapticore (
     input wire [17:0] capacitance_gain, // u18.7  Calibration: picofarads at an admittance of one.
     input wire [17:0] force_gain, // u18.34  Calibration: newtons per square picofarad at full haptic mean square.
     input wire write, // u1.0  Calibration: writes a word of the position table.
-    input wire [11:0] address, // u12.0  Calibration: where.
+    input wire [12:0] address, // u13.0  Calibration: where.
     input wire signed [17:0] word, // s18.17  Calibration: what.
     output wire [2:0] channel, // u3.0  The channel whose code is wanted.
     output wire [1:0] serve, // u2.0  The pad that is served.
@@ -26,7 +26,7 @@ module hapticore (
     output wire clipped, // u1.0  A code was at a rail of the ADC.
     output wire saturated, // u1.0  A word was held at a rail.
     output wire invalid, // u1.0  The last valid results stand.
-    output wire lost, // u1.0  A terminal's current is missing.
+    output wire lost, // u1.0  A terminal's current is that of an open one.
     output wire overrun // u1.0  Strobes have come closer than the profile's clocks a sample since reset or `clear`: frames are wrong.
 );
 
@@ -117,6 +117,7 @@ module hapticore (
     estimator u_estimator (
         .clock(clock),
         .reset(reset),
+        .clear(clear),
         .valid(demodulator_valid),
         .index(demodulator_index),
         .sum(demodulator_sum),

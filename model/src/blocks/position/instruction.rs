@@ -23,11 +23,12 @@ pub enum Operation {
     MultiplyTable,
     /// A digit of the quotient is set where sum ≥ 0; left ← slot, or the one after it where sum < 0
     LoadDigit,
-    /// slot ← sum, rounded and saturated, or with [`WRAP`] not saturated; [`CHECK`] compares it with the tolerance; sum ← 0
+    /// slot ← sum, rounded and saturated, or with [`WRAP`] not saturated; [`CHECK`] compares it with the tolerance, [`OPEN`]
+    /// with zero; sum ← 0
     Store,
     /// base ← sum, as an integer
     Base,
-    /// slot ← half of the surface's ratio; with [`LOW`] what its rounding left
+    /// slot ← half of the surface's ratio, or with [`SHARE`] of the least current's share; with [`LOW`] what rounding left
     Input,
     /// x, y or R, by the surface ← sum; sum ← 0
     Output,
@@ -92,8 +93,12 @@ pub enum Index {
 pub const WRAP: u8 = 1;
 /// See [`Operation::Store`].
 pub const CHECK: u8 = 2;
-/// Option of [`Operation::Input`].
+/// See [`Operation::Store`].
+pub const OPEN: u8 = 4;
+/// Options of [`Operation::Input`].
 pub const LOW: u8 = 1;
+/// See [`Operation::Input`].
+pub const SHARE: u8 = 2;
 /// Options of [`Operation::Set`].
 pub const COUNT: u8 = 1;
 /// See [`Operation::Set`].

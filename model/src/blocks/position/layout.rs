@@ -49,6 +49,8 @@ pub enum Scalar {
     Pitch,
     /// Less the place of the table's middle, by the range of a position.
     Origin,
+    /// Of x alone: half the share of the ratios' denominator below which a terminal's current is that of an open one.
+    Open,
 }
 
 /// The layout of a profile's position table.

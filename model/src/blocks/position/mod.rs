@@ -12,7 +12,7 @@
 //! sheet whose terminals have large resistances in series span a hundredth of the range.
 //!
 //! A slot has tens of thousands of clocks for a thousand products, so that one multiplier and one adder do them all, by a
-//! program ([`program`]) of instructions ([`instruction`]) in a memory:
+//! program (`program.rs`) of instructions (`instruction.rs`) in a memory:
 //!
 //! ```text
 //! program ─[instruction]─┬─ base + option ─ table ───┐
@@ -30,20 +30,22 @@
 //! `invalid` where the last step began at a place that does not have the normalised ratios, to `2^-TOLERANCE_BITS`. Control
 //! does not depend on data. Latency: [`Position::latency`]. Source: Nakamura & Yamamoto 2016, eqs. 2 and 3, for the ratios.
 
+mod at_once;
 mod instruction;
 mod layout;
 mod program;
 
 pub use layout::{Axis, Layout, Scalar, Surface};
 
-use self::instruction::{COUNT, LOW, Operation, SCALARS, SURFACE, WRAP};
+use self::at_once::AtOnce;
+use self::instruction::{COUNT, LOW, OPEN, Operation, SCALARS, SHARE, SURFACE, WRAP};
 use self::program::Program;
 use super::multiplier::{self, Multiplier};
 use crate::block::{Block, Cell};
 use crate::format::{BIT, Format};
 use crate::memory::{Memory, Write};
 use crate::profile::Profile;
-use crate::signal::{Exact, Floor, Never, Saturate, Signal, Value, Wrap, bit, code, int, zero};
+use crate::signal::{Exact, Floor, Never, Saturate, Signal, Value, Wrap, bit, code, int, is_set, zero};
 use crate::{bundle, choose, parts};
 
 bundle! {
@@ -55,6 +57,8 @@ bundle! {
         r_x,
         /// The y ratio.
         r_y,
+        /// The least current's share of the ratios' denominator.
+        share,
         /// Calibration: writes a word of the position table.
         write,
         /// Calibration: the word's address.
@@ -77,6 +81,8 @@ bundle! {
         sheet,
         /// No place of the table has the measured ratios.
         invalid,
+        /// A terminal's current is that of an open one.
+        lost,
         /// A position is saturated.
         saturated,
     }
@@ -89,7 +95,7 @@ bundle! {
         loads, floors, digits, multiplies, tables, pending,
         left, factor, word, sum, quotient, base,
         surface: ["r_x", "r_y", "resistance"],
-        count, step, x, y, sheet, invalid, saturated, done,
+        count, step, x, y, sheet, invalid, lost, saturated, done,
     }
 }
 
@@ -116,6 +122,8 @@ pub struct Position {
     ratio: Format,
     word: Format,
     registers: Registers<Format>,
+    /// For readings of codes that need not step the program's clocks.
+    at_once: Option<AtOnce>,
 }
 
 /// An instruction that is carried out in this clock, if it need not wait.
@@ -175,12 +183,51 @@ impl Position {
             steps: profile.position.steps,
             ratio: profile.formats.ratio,
             word,
+            at_once: None,
         }
     }
 
     /// Clocks from `start` to `done`.
     pub fn latency(&self) -> u64 {
         self.clocks + 2
+    }
+
+    /// From now on readings of codes have their results in the clock after `start`, with a table of these codes.
+    pub(crate) fn place_at_once(&mut self, table: Vec<i64>) {
+        self.at_once = Some(AtOnce::new(self, table));
+    }
+
+    /// The registers in the clock after `start`, without the program's clocks.
+    fn placed<V: Value>(
+        &self,
+        at_once: &AtOnce,
+        r: Registers<Signal<V>>,
+        i: &Inputs<Signal<V>>,
+    ) -> Registers<Signal<V>> {
+        let placed = at_once.run([i.r_x, i.r_y, i.share].map(V::code));
+        let [x, y, sheet] = placed.outputs;
+        let flag = |set: bool| bit(set);
+        Registers {
+            x: code(x, r.x.format),
+            y: code(y, r.y.format),
+            sheet: code(sheet, r.sheet.format),
+            invalid: flag(placed.invalid),
+            lost: flag(placed.lost),
+            saturated: flag(placed.saturated),
+            done: bit(true),
+            ..r
+        }
+    }
+
+    /// Whether the program runs: nothing else of an estimator does then.
+    #[inline(always)]
+    pub fn running<V: Value>(&self, cell: &Cell<Self, V>) -> Signal<V> {
+        cell.load(self).running
+    }
+
+    /// The format of a share: that of a ratio's magnitude.
+    fn share(&self) -> Format {
+        Format::unsigned(self.ratio.width - 1, self.ratio.frac)
     }
 
     /// The memory of the position table.
@@ -217,6 +264,7 @@ fn registers(profile: &Profile, table: &Memory, program: &Program, wait: u64) ->
         y: profile.formats.position,
         sheet: profile.sheet(),
         invalid: BIT,
+        lost: BIT,
         saturated: BIT,
         done: BIT,
     }
@@ -235,6 +283,7 @@ impl Block for Position {
             start: BIT,
             r_x: self.ratio,
             r_y: self.ratio,
+            share: self.share(),
             write: BIT,
             address: self.table.address(),
             word: self.word,
@@ -243,8 +292,8 @@ impl Block for Position {
 
     #[inline]
     fn outputs(&self) -> Outputs<Format> {
-        let Registers { done, x, y, sheet, invalid, saturated, .. } = self.registers;
-        Outputs { done, x, y, sheet, invalid, saturated }
+        let Registers { done, x, y, sheet, invalid, lost, saturated, .. } = self.registers;
+        Outputs { done, x, y, sheet, invalid, lost, saturated }
     }
 
     #[inline(always)]
@@ -268,6 +317,7 @@ impl Block for Position {
             count: r.count.counting(),
             step: r.step.counting(),
             invalid: BIT,
+            lost: BIT,
             saturated: BIT,
             done: BIT,
             ..r
@@ -277,20 +327,31 @@ impl Block for Position {
     #[inline(always)]
     fn clock<V: Value>(&self, cell: &mut Cell<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
         let r = cell.load(self);
-        let Registers { done, x, y, sheet, invalid, saturated, .. } = r;
-        let outputs = Outputs { done, x, y, sheet, invalid, saturated };
+        let Registers { done, x, y, sheet, invalid, lost, saturated, .. } = r;
+        let outputs = Outputs { done, x, y, sheet, invalid, lost, saturated };
         if (i.start | r.running | r.done | i.write).idle() {
+            return outputs;
+        }
+        if let Some(at_once) = self.at_once.as_ref().filter(|_| V::DECIDES && is_set(i.start)) {
+            cell.store(self, self.placed(at_once, r, &i));
             return outputs;
         }
         let now = self.decode(&r);
         let (result, held) = self.result(&r);
         let read = self.read(cell, &r, &i, &now, result);
+        if V::DECIDES && (i.start | now.done | r.bubble | !r.running).idle() {
+            let next = self.compute(r, &read, &now);
+            cell.store(self, Registers { waited: more(r.waited), done: bit(false), ..next });
+            return outputs;
+        }
         let next = self.follow(self.compute(r, &read, &now), &r, &now, read.instruction);
         let next = self.give_out(next, &r, &now, result, held);
         let begun = Registers {
             running: bit(true),
             bubble: bit(true),
             sum: self.half(),
+            // Of the slot before, another pad's, nothing is left.
+            quotient: int(0),
             surface: int(0),
             step: int(0),
             invalid: bit(false),
@@ -371,7 +432,8 @@ impl Position {
         let write = Write { enable: i.write, address: i.address, data: i.word };
         self.table.access(&mut cell.parts.table, address, write);
         let enable = now.does(Operation::Store) | now.does(Operation::Input);
-        let data = self.stored(r, i, now, result);
+        let skips = V::DECIDES && enable.idle();
+        let data = if skips { zero(self.word) } else { self.stored(r, i, now, result) };
         self.scratch.access(&mut cell.parts.scratch, now.slot, Write { enable, address: now.slot, data });
         self.program.read(&mut cell.parts.program, self.fetch(r, now));
         let (now, next) = (r.pending.bits(0, 1), r.pending.bits(1, 1));
@@ -399,6 +461,7 @@ impl Position {
             number - 2.0 * ((number - of[2]) / 2.0).round()
         });
         let ratio = r.surface.bits(0, 1).select(i.r_y, i.r_x);
+        let ratio = now.has(SHARE).select(i.share.fit(self.ratio, Exact, Never), ratio);
         let halved = ratio.scaled(-1);
         let high = halved.fit(self.word, Floor, Never).ideally(&[halved], |of| of[0]);
         let rest = (self.ratio.frac + 1 - self.word.frac) as u8;
@@ -513,14 +576,14 @@ impl Position {
         let following = r.surface.is(0).select(int(1), self.found(r).select(int(2), int(0)));
         let surface = does(Operation::Surfaces).select(following, r.surface);
         let on = now.done | r.bubble;
-        let more = (r.waited + int(1)).fit(r.waited.format, Exact, Wrap);
+        let waited = more(r.waited);
         let ends = does(Operation::End);
         Registers {
             running: r.running & !ends,
             bubble: self.jumps(r, now),
             fetched: self.fetch(r, now),
             instruction: on.select(instruction, r.instruction),
-            waited: (on | !r.running).select(int(0), more),
+            waited: (on | !r.running).select(int(0), waited),
             count: (set & now.has(COUNT)).select(value, counted),
             surface: (set & now.has(SURFACE)).select(int(0), surface),
             step: does(Operation::Pass).select((r.step + int(1)).fit(r.step.format, Exact, Wrap), r.step),
@@ -545,17 +608,26 @@ impl Position {
         let tolerance = self.word.frac as u8 - Position::TOLERANCE_BITS;
         let above = result.integer().bits(tolerance, Position::TOLERANCE_BITS + 1);
         let beyond = !(above.is(0) | above.is((1 << (Position::TOLERANCE_BITS + 1)) - 1));
-        let checks = now.does(Operation::Store) & now.has(instruction::CHECK);
+        let stores = now.does(Operation::Store);
+        let checks = stores & now.has(instruction::CHECK);
+        let opens = stores & now.has(OPEN);
         let before = r.surface.is(1) & r.invalid;
         Registers {
             x: of_x.select(position, r.x),
             y: of_y.select(position, r.y),
             sheet: choose!(V, output & r.surface.is(2), result.fit(r.sheet.format, Exact, Saturate), r.sheet),
             invalid: checks.select(before | beyond, r.invalid),
+            lost: opens.select(result.integer().less_than(int(0)), r.lost),
             saturated: r.saturated | ((of_x | of_y) & held),
             ..next
         }
     }
+}
+
+/// One more of a count.
+#[inline(always)]
+fn more<V: Value>(count: Signal<V>) -> Signal<V> {
+    (count + int(1)).fit(count.format, Exact, Wrap)
 }
 
 /// Either integer's bits, of four each.

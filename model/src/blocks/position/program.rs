@@ -4,7 +4,7 @@
 //! All words are fractions; `[·]` is a stored word, rounded to the nearest (halves upwards) and saturated. A place u is in
 //! cells from the table's middle, by 32. The marks at the right say what a line has made.
 
-use super::instruction::{CHECK, COUNT, Index, Instruction, LOW, Operation, SCALARS, SURFACE, Slot, WRAP};
+use super::instruction::{CHECK, COUNT, Index, Instruction, LOW, OPEN, Operation, SCALARS, SHARE, SURFACE, Slot, WRAP};
 use super::layout::{Axis, Layout, Scalar, Surface};
 use crate::format::Format;
 use Operation::{
@@ -30,9 +30,7 @@ const HALF: Slot = at(16);
 const LESS_HALF: Slot = at(17);
 const LESS_ONE: Slot = at(18);
 const QUARTER: Slot = at(19);
-const LESS_QUARTER: Slot = at(20);
 const EIGHTH: Slot = at(21);
-const LESS_THREE_QUARTERS: Slot = at(22);
 /// A cell.
 const CELL: Slot = at(23);
 /// What a cell times this is, is one as a word's code.
@@ -94,9 +92,7 @@ pub(super) fn constants(layout: &Layout, word: Format) -> Vec<f64> {
         (LESS_HALF, -0.5),
         (LESS_ONE, -1.0),
         (QUARTER, 0.25),
-        (LESS_QUARTER, -0.25),
         (EIGHTH, 0.125),
-        (LESS_THREE_QUARTERS, -0.75),
         (CELL, 1.0 / Layout::CELLS),
         (PER_CELL, code(Layout::CELLS as usize)),
         (LESS_STEP, -code(1)),
@@ -181,6 +177,7 @@ impl Program {
     pub fn new(word: Format) -> Self {
         let digits = digits(word);
         let mut w = Writer::default();
+        open_terminal(&mut w);
         w.surfaces(normalise);
         w.surfaces(start);
         let step = w.here();
@@ -250,6 +247,15 @@ impl Program {
     }
 }
 
+/// Whether the least current is that of an open terminal: [share/2 − limit/2] is negative.
+fn open_terminal(w: &mut Writer) {
+    w.add(Set, at(0), SCALARS);
+    w.add(Input, SPARE, SHARE);
+    w.products(HALF, &[SPARE, SPARE]);
+    w.scalar(Scalar::Open, LESS_ONE);
+    w.add(Store, SPARE, OPEN);
+}
+
 /// r ← [32·gain·([r/2 − centre] + what the rounding of r/2 left)]
 fn normalise(w: &mut Writer) {
     w.add(Set, at(0), SCALARS);
@@ -295,6 +301,8 @@ fn clamp(w: &mut Writer) {
 /// The B-spline's weights, and those of its slope per cell, from t: twice the place from the middle of its cell.
 ///
 ///   ⅛(1 − t)², ¾ − ¼t², ⅛(1 + t)²  and  ½(t − 1), −t, ½(t + 1)
+///
+/// The middle one is what the rounded others leave of one, so that their errors count by how much neighbours differ.
 fn weights(w: &mut Writer) {
     let place = PLACE.of_surface();
     let ([before, middle, after], [fall, turn, rise]) = (WEIGHTS, SLOPE_WEIGHTS);
@@ -308,14 +316,13 @@ fn weights(w: &mut Writer) {
     w.store(turn.of_surface()); //                                                   −t
     w.products(OFFSET, &[OFFSET]);
     w.store(SQUARE); //                                                              t²
-    w.products(LESS_ONE, &[LESS_THREE_QUARTERS]);
-    w.products(LESS_QUARTER, &[SQUARE]);
-    w.store(middle.of_surface());
     for (weight, offset) in [(before, turn.of_surface()), (after, OFFSET)] {
         w.products(QUARTER, &[HALF, offset]);
         w.products(EIGHTH, &[SQUARE]);
         w.store(weight.of_surface());
     }
+    w.products(LESS_ONE, &[LESS_ONE, before.of_surface(), after.of_surface()]);
+    w.store(middle.of_surface()); //                                                 exact
     w.products(HALF, &[OFFSET, LESS_ONE]);
     w.store(fall.of_surface());
     w.more(&[OFFSET]);

@@ -4,7 +4,7 @@
 //! ```text
 //! i_k = [sum / 2^s],   i = [..[[i_1 + i_2] + i_3]..] over the terminals,   q likewise      ([·]: held at the rails, too)
 //! a_k = [√(i_k² + q_k²)],   a = [√(i² + q²)]
-//! x = Σ ±a_k,   y = Σ ±a_k,   corners = Σ a_k of those in x or y,   lost where 2^shift · min a_k < a
+//! x = Σ ±a_k,   y = Σ ±a_k,   corners = Σ a_k of those in x or y,   least = min a_k
 //! ```
 
 use super::{Exact, round, round_root};
@@ -24,8 +24,8 @@ pub struct Currents {
     pub y: Exact,
     /// Their denominator.
     pub corners: Exact,
-    /// Whether a terminal's current is missing.
-    pub lost: bool,
+    /// The least of the terminals' amplitudes.
+    pub least: Exact,
     /// Whether a word is held at a rail.
     pub saturated: bool,
 }
@@ -76,7 +76,6 @@ fn block_currents(profile: &Profile, sums: &[[Exact; 2]], shift: i8) -> Currents
     let total = terminals.iter().fold([Exact::ZERO; 2], |[i, q], word| [i + word[0], q + word[1]]);
     let total = amplitude(total.map(|part| round(part.scaled(-down), f.iq).value)).scaled(down);
     let amplitudes: Vec<Exact> = terminals.iter().map(|&word| amplitude(word)).collect();
-    let lost = any_open(profile, &amplitudes, total);
     let given = Format { signed: false, width: f.total.width + 1, frac: f.total.frac };
     let mut back = |a: Exact, by: i8| {
         let step = Exact::new(a.scaled(f.iq.frac - by).floor(), -i32::from(f.iq.frac));
@@ -86,7 +85,7 @@ fn block_currents(profile: &Profile, sums: &[[Exact; 2]], shift: i8) -> Currents
     };
     let (total, sense) = (back(total, by), back(amplitude(sense[0]), by_sense));
     let [x, y, corners] = numerators(profile, &amplitudes);
-    Currents { total, sense, x, y, corners, lost, saturated }
+    Currents { total, sense, x, y, corners, least: least(&amplitudes), saturated }
 }
 
 /// x, y and corners.
@@ -124,12 +123,11 @@ pub fn currents(profile: &Profile, sums: &[[Exact; 2]]) -> Currents {
     let amplitudes: Vec<Exact> = terminals.iter().map(|&word| amplitude(word)).collect();
     let total = amplitude(total);
     let [x, y, corners] = numerators(profile, &amplitudes);
-    let lost = any_open(profile, &amplitudes, total);
-    Currents { total, sense: amplitude(sense[0]), x, y, corners, lost, saturated }
+    Currents { total, sense: amplitude(sense[0]), x, y, corners, least: least(&amplitudes), saturated }
 }
 
-/// Whether a terminal's current is too small a share of the total.
-fn any_open(profile: &Profile, amplitudes: &[Exact], total: Exact) -> bool {
-    let shift = profile.terminals.lost_shift;
-    shift > 0 && amplitudes.iter().any(|a| a.scaled(shift) < total)
+/// The least of the terminals' amplitudes.
+fn least(amplitudes: &[Exact]) -> Exact {
+    let smaller = |least: Exact, &amplitude: &Exact| if amplitude < least { amplitude } else { least };
+    amplitudes.iter().skip(1).fold(amplitudes[0], smaller)
 }

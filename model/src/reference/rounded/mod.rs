@@ -16,7 +16,7 @@ mod ratio;
 pub use capacitance::{Capacitance, capacitance};
 pub use currents::{Currents, currents};
 pub use demodulator::{Sums, demodulate};
-pub use force::{Force, force, mean_square};
+pub use force::{Force, Squares, force, mean_square};
 pub use frames::Frames;
 pub use number::{Exact, Rounded, floor_quotient, round, round_quotient, round_real, round_root};
 pub use oscillator::{Oscillator, Sample, weighted};
@@ -34,6 +34,7 @@ pub struct Slots {
     position: Position,
     capacitance_gain: Exact,
     force_gain: Exact,
+    squares: Squares,
     frames: Frames,
 }
 
@@ -49,6 +50,7 @@ impl Slots {
             position: Position::new(profile, &words),
             capacitance_gain: round_real(calibration.capacitance_gain, f.capacitance_gain),
             force_gain: round_real(calibration.force_gain, f.force_gain),
+            squares: Squares::new(profile),
             frames: Frames::new(profile),
             profile: profile.clone(),
         }
@@ -66,9 +68,10 @@ impl Slots {
         let currents = currents(p, &sums.phases);
         let ratio = ratio(p, &currents);
         let place = self.position.place([ratio.r_x, ratio.r_y]);
+        let lost = self.position.any_open(ratio.share);
         let sheet = place.sheet;
         let capacitance = capacitance(p, currents.total, currents.sense, sheet, self.capacitance_gain);
-        let mean_square = mean_square(p, sums.square);
+        let mean_square = self.squares.mean(p, pad, mean_square(p, sums.square));
         let force = force(p, capacitance.capacitance, mean_square.value, self.force_gain);
         let saturated =
             currents.saturated | place.saturated | capacitance.saturated | mean_square.held | force.saturated;
@@ -76,6 +79,6 @@ impl Slots {
         let values =
             [ratio.r_x, ratio.r_y, place.x, place.y, sheet, capacitance.capacitance, force.force, mean_square.value];
         let codes = self.frames.words(pad, values, invalid);
-        Frame { pad, codes, flags: Flags { clipped: sums.clipped, saturated, invalid, lost: currents.lost } }
+        Frame { pad, codes, flags: Flags { clipped: sums.clipped, saturated, invalid, lost } }
     }
 }

@@ -5,10 +5,10 @@
 //! [·]: to a word's W − 1 fractional bits, halves upwards, held at the rails
 //! r = [32·gain·[⌊r/2⌋ − centre] + 32·[gain·rest]],       ⌊·⌋ to a word, rest·2^(1 − W) what it cuts
 //! u = [4·(constant + rise_x·r_x + rise_y·r_y)]            a place: 32 cells are one
-//! t = 64·u, modulo 2:  weights [⅛(1 − t)²], [¾ − ¼t²], [⅛(1 + t)²] and [½(t − 1)], [−t], [½(t + 1)] of [t²]
+//! t = 64·u, modulo 2:  weights a = [⅛(1 − t)²], 1 − a − b, b = [⅛(1 + t)²] and [½(t − 1)], [−t], [½(t + 1)] of [t²]
 //! surface: [three rows along u], of their words the value, [the slope along u], [the slope along v]
 //! det = [4·(X_u·Y_v − X_v·Y_u)],  u += ⌊(Y_v·e_x − X_v·e_y)/det + ½⌋ to so many digits,  v likewise,  e = −[value − r]
-//! x = [2·pitch·u + origin]
+//! x = [2·pitch·u + origin],  open where ⌊share/2⌋ < open/2
 //! ```
 
 use super::{Exact, floor_quotient, round};
@@ -60,6 +60,8 @@ pub struct Position {
     steps: u64,
     word: Format,
     position: Format,
+    /// Half the share below which a terminal counts as open.
+    open: Exact,
 }
 
 /// Along one axis: the cell, counted from the middle one, and three weights of the value and of the slope.
@@ -76,6 +78,8 @@ fn power(exponent: i32) -> Exact {
 
 /// Words of an axis before those of the next.
 const SCALARS: usize = 8;
+/// Where the share of an open terminal lies.
+const OPEN: usize = 7;
 /// Ratios agree to within 2^-TOLERANCE.
 const TOLERANCE: i32 = 9;
 
@@ -103,6 +107,7 @@ impl Position {
             steps: position.steps,
             word: profile.formats.table,
             position: profile.formats.position,
+            open: words[OPEN],
         }
     }
 
@@ -133,9 +138,18 @@ impl Position {
         Place { x: x.value, y: y.value, sheet, invalid, saturated: x.held | y.held }
     }
 
+    /// Whether the least current, as a share, is that of an open terminal.
+    pub fn any_open(&self, share: Exact) -> bool {
+        self.halved(share) < self.open
+    }
+
+    /// Half of a ratio, as a word.
+    fn halved(&self, ratio: Exact) -> Exact {
+        Exact::new(ratio.scaled(self.word.frac - 1).floor(), -self.bits())
+    }
+
     fn normalise(&self, axis: &Axis, ratio: Exact) -> Exact {
-        let half = ratio.scaled(-1);
-        let floor = Exact::new(half.scaled(self.word.frac).floor(), -self.bits());
+        let (half, floor) = (ratio.scaled(-1), self.halved(ratio));
         let rest = self.word((half - floor).scaled(self.word.frac) * axis.gain);
         let from_centre = self.word(floor - axis.centre);
         self.word((axis.gain * from_centre).scaled(5) + rest.scaled(5 - self.word.frac))
@@ -166,12 +180,12 @@ impl Position {
         let t = place.scaled(6) - Exact::new(2 * cell, 0);
         let (square, turn) = (word(t * t), word(-t));
         let eighth = power(-3);
-        let value = [
-            word(eighth + turn.scaled(-2) + square.scaled(-3)),
-            word(Exact::new(3, -2) - square.scaled(-2)),
-            word(eighth + t.scaled(-2) + square.scaled(-3)),
-        ];
-        Along { cell, value, slope: [word((t - one).scaled(-1)), turn, word((t + one).scaled(-1))] }
+        let [before, after] = [turn, t].map(|t| word(eighth + t.scaled(-2) + square.scaled(-3)));
+        Along {
+            cell,
+            value: [before, one - before - after, after],
+            slope: [word((t - one).scaled(-1)), turn, word((t + one).scaled(-1))],
+        }
     }
 
     /// Of a surface the value, not rounded, and the rounded slopes along u and v.

@@ -2,7 +2,7 @@
 //! Eqs. 2 and 3.
 //!
 //! ```text
-//! r_x = [x / corners],   r_y = [y / corners]        (by zero: the rail on the numerator's side, and invalid)
+//! r_x = [x / corners],   r_y = [y / corners],   share = [least / corners]        (by zero: the rail on the numerator's side, and invalid)
 //! ```
 
 use super::{Currents, Exact, round_quotient};
@@ -16,6 +16,8 @@ pub struct Ratio {
     pub r_x: Exact,
     /// Eq. 3.
     pub r_y: Exact,
+    /// The least current's share of the denominator.
+    pub share: Exact,
     /// Whether the denominator is zero.
     pub invalid: bool,
 }
@@ -28,5 +30,6 @@ pub fn ratio(profile: &Profile, currents: &Currents) -> Ratio {
         let quotient = round_quotient(numerator.magnitude(), currents.corners, magnitude).value;
         if numerator < Exact::ZERO { -quotient } else { quotient }
     };
-    Ratio { r_x: of(currents.x), r_y: of(currents.y), invalid: currents.corners == Exact::ZERO }
+    let [r_x, r_y, share] = [currents.x, currents.y, currents.least].map(of);
+    Ratio { r_x, r_y, share, invalid: currents.corners == Exact::ZERO }
 }

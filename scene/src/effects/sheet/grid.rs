@@ -2,8 +2,8 @@
 //! Finite differences: a table of the split over a mesh from rim to rim, for sheets that are not even.
 //!
 //! By reciprocity the share of a terminal is a field over the pad's place, solved once for all places. It is level at the
-//! insulated rim, and so is its spline. R_p needs a solution for each place: it comes from a mesh of 10 mm or coarser, at
-//! every fourth node along either axis, with the pad's radius put in place of the node's as for terminals. What varies
+//! insulated rim, and so is its spline. R_p needs a solution for each place: it comes from a mesh of 10 mm or coarser (finer on
+//! sheets that would have less than fourteen cells across), at every fourth node along either axis, with the pad's radius put in place of the node's as for terminals. What varies
 //! quickly, near terminals and corners, an even sheet has too: what is solved for is the ratio to its exact R_p.
 
 use std::f64::consts::PI;
@@ -17,6 +17,9 @@ use crate::few::Few;
 
 /// Finest spacing that R_p is solved with, m.
 const OWN_SPACING_M: f64 = 0.01;
+
+/// Cells of R_p's mesh across the sheet, at least: a spline needs three of its places.
+const OWN_CELLS: f64 = 14.0;
 
 /// Nodes from one place of R_p to the next.
 const OWN_STEP: usize = 4;
@@ -39,9 +42,9 @@ impl Grid {
         let mesh = network.mesh;
         let node = |column, row| network.share(mesh.node(column, row));
         let share = Spline::level(axes(&mesh, 0, 1), sheet.terminals(), node);
-        let coarse = (spacing_m < OWN_SPACING_M)
-            .then(|| Network::new(sheet, Mesh::new(sheet.size_m, OWN_SPACING_M), correction));
-        Grid { share, ohm: own(sheet, &coarse.unwrap_or(network)) }
+        let own_m = own_spacing_m(sheet, spacing_m);
+        let other = (own_m != spacing_m).then(|| Network::new(sheet, Mesh::new(sheet.size_m, own_m), correction));
+        Grid { share, ohm: own(sheet, &other.unwrap_or(network)) }
     }
 }
 
@@ -50,6 +53,12 @@ impl Solver for Grid {
         let share = Few::from_slice(&self.share.at(x_mm, y_mm));
         Split { share, ohm: self.ohm.at(x_mm, y_mm)[0] }
     }
+}
+
+/// Spacing of the mesh that R_p is solved with, beside one of the shares.
+fn own_spacing_m(sheet: &Sheet, spacing_m: f64) -> f64 {
+    let across = f64::min(sheet.size_m[0], sheet.size_m[1]);
+    spacing_m.max(OWN_SPACING_M).min(across / OWN_CELLS)
 }
 
 /// A single value.

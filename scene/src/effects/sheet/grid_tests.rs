@@ -6,7 +6,7 @@ use super::film::Film;
 use super::geometry::OPEN;
 use super::grid::Grid;
 use super::mesh::Correction;
-use super::tests::{MARGIN_MM, assert_near, difference, places, sheet, split_error};
+use super::tests::{MARGIN_MM, TERMINALS_M, assert_near, difference, places, sheet, split_error};
 use super::*;
 use crate::format::parse;
 
@@ -93,4 +93,26 @@ fn a_sloping_film_shifts_the_split_and_converges_at_second_order() {
     assert!(errors.windows(2).all(|pair| (3.2..5.5).contains(&(pair[0] / pair[1]))), "{errors:?}");
     let [left, right] = [-200.0, 200.0].map(|x| fine.split(x, 0.0).share);
     assert!(left[0] + left[1] > right[2] + right[3] + 0.01, "{left:?} {right:?}");
+}
+
+/// On a sheet as small as a telephone's, 10 mm are few cells: R_p's mesh is finer then.
+#[test]
+fn resistance_at_the_pad_is_right_on_small_sheets_too() {
+    for size_m in [[0.13, 0.06], [0.1, 0.04], [0.05, 0.05]] {
+        let to_corner = |place: [f64; 2]| [0, 1].map(|axis| place[axis] / sheet(0.0).size_m[axis] * size_m[axis]);
+        let small = Sheet { size_m, terminals_m: TERMINALS_M.map(to_corner).to_vec(), ..sheet(0.0) };
+        let exact = Analytic::new(&small);
+        for spacing in GRIDS.map(|rung| rung.1 * 1e-3) {
+            let grid = Grid::new(&small, spacing);
+            let reach = small.reach_mm();
+            let places = (0..35).map(|n| [(n % 7) as f64 / 3.0 - 1.0, (n / 7) as f64 / 2.0 - 1.0]);
+            let off = places.map(|[u, v]| {
+                let (x, y) = (u * reach[0], v * reach[1]);
+                (grid.split(x, y).ohm / exact.split(x, y).ohm - 1.0).abs()
+            });
+            let [_, mean, most] = super::tests::range(off);
+            println!("{size_m:?} {spacing}: {mean:.4} {most:.4}");
+            assert!(mean < 0.01 && most < 0.05, "{size_m:?} m, {spacing} m: {mean} {most}");
+        }
+    }
 }
