@@ -2,11 +2,19 @@
 //! Proofs of a board's blocks, at the parameters of the boards that one can buy; that what they speak of can happen; and that
 //! they can fail.
 
+use hapticore_model::block::Block;
+use hapticore_model::blocks::core::Core;
+use hapticore_model::blocks::frames::Field;
 use hapticore_model::profile::Profile;
-use hapticore_model::signal::netlist::{Module, Netlist};
+use hapticore_model::signal::netlist::{Module, Named, Netlist};
 use hapticore_rtl::board::adc_reader::AdcReader;
+use hapticore_rtl::board::framing::{data_bytes, word_bytes};
 use hapticore_rtl::board::pads::Pads;
-use hapticore_rtl::board::{Parameters, Target};
+use hapticore_rtl::board::registers::CommandRegisters;
+use hapticore_rtl::board::stream::Stream;
+use hapticore_rtl::board::uart::transmitter::Transmitter;
+use hapticore_rtl::board::{Board, Parameters, Target};
+use hapticore_rtl::verilog::Design;
 use hapticore_synth::formal::{Claim, Mode, Verdict, print};
 use hapticore_synth::tools::Tools;
 
@@ -78,4 +86,113 @@ fn no_two_pads_of_a_board_are_closed() {
         let parameters = [("PADS", pads), ("DEAD", dead)];
         assert_eq!(verdict(&tools, &verilog, "pads", &parameters, Mode::Prove(4)), Verdict::Holds, "{target:?}");
     }
+}
+
+/// What a checker is to know.
+type Known = Vec<(&'static str, u64)>;
+
+/// The registers of a board.
+fn registers(target: Target) -> (String, Known) {
+    let core = Core::new(&target.profile());
+    let words = core.estimator().position().table().words as u64;
+    let address = u64::from(core.inputs().address.width);
+    let verilog = print(Netlist::of(&CommandRegisters::new(core.inputs(), words)).top());
+    (verilog, vec![("DATA", data_bytes(&core.inputs())), ("WORDS", words), ("ADDRESS", address)])
+}
+
+/// The stream of a board with its transmitter, and what goes into that, as `line`.
+fn stream(target: Target) -> (String, Known) {
+    let (profile, core) = (target.profile(), Core::new(&target.profile()));
+    let data = CommandRegisters::new(core.inputs(), 1).outputs().data;
+    let text = Design::of(&Stream::new(&profile, target.parameters().divisor(), data), "a formal check").text();
+    let line = text.split_once(".octet(").and_then(|(_, rest)| rest.split_once("),\n")).expect("a transmitter").0;
+    let line = format!("    wire [7:0] line = {line};\nendmodule");
+    let (module, rest) = text.rsplit_once("endmodule").expect("a module");
+    let width = Field::word(&profile).width;
+    (format!("{module}{line}{rest}"), vec![("BYTES", word_bytes(&profile)), ("WIDTH", width.into())])
+}
+
+fn transmitter(target: Target) -> (String, Known) {
+    let divisor = target.parameters().divisor();
+    (print(Netlist::of(&Transmitter::new(divisor)).top()), vec![("DIVISOR", divisor)])
+}
+
+/// The board, the blocks within it free to do anything: only their ports are left of them.
+fn board(target: Target) -> (String, Known) {
+    let board = Board::new(&target.profile(), &target.parameters()).expect("a board");
+    let design = Design::of(&board, "a formal check");
+    let (top, _) = design.modules.split_last().expect("modules");
+    let within = Netlist::of(&board);
+    let blocks = within.modules.iter().filter(|module| top.text.contains(&format!("\n    {} u_", module.name)));
+    let hollow = |module: &Module| {
+        let of = |ports: &[Named], with: &dyn Fn(u8, &str) -> String| -> String {
+            ports.iter().map(|port| with(port.format.width - 1, port.name)).collect()
+        };
+        let inputs = of(&module.inputs, &|high, name| format!(", input wire [{high}:0] {name}"));
+        let outputs = of(&module.outputs, &|high, name| format!(", output wire [{high}:0] {name}"));
+        let any = |high, name: &str| {
+            format!("    (* anyseq *) wire [{high}:0] any_{name};\n    assign {name} = any_{name};\n")
+        };
+        let anything = of(&module.outputs, &any);
+        format!("module {} (input wire clock, input wire reset{inputs}{outputs});\n{anything}endmodule\n", module.name)
+    };
+    (blocks.map(hollow).collect::<String>() + &top.text, Known::new())
+}
+
+/// The claims of a block of every board hold for ever, and what they speak of happens within so many clocks.
+fn proves(name: &'static str, block: fn(Target) -> (String, Known), cover: u64) {
+    let Some(tools) = Tools::or_skip() else { return };
+    for target in Target::ALL {
+        let (verilog, known) = block(target);
+        assert_eq!(verdict(&tools, &verilog, name, &known, Mode::Prove(4)), Verdict::Holds, "{target:?}, {known:?}");
+    }
+    let (verilog, known) = block(Target::Icebreaker);
+    assert_eq!(verdict(&tools, &verilog, name, &known, Mode::Cover(cover)), Verdict::Holds, "{name}: it happens");
+}
+
+#[test]
+fn a_command_writes_what_it_names_and_a_damaged_one_nothing() {
+    proves("registers", registers, 12);
+}
+
+#[test]
+fn packets_are_whole_with_end_at_their_ends_only() {
+    proves("stream", stream, 13);
+}
+
+#[test]
+fn a_byte_that_is_taken_is_on_the_line() {
+    proves("transmitter", transmitter, 16);
+}
+
+#[test]
+fn sdi_rests_while_the_adc_is_read() {
+    proves("board", board, 4);
+}
+
+/// Each change of a printed text, and what the checker says within so many clocks.
+fn broken(name: &'static str, (verilog, known): (String, Known), mode: Mode, changes: &[(&str, &str)]) {
+    let Some(tools) = Tools::or_skip() else { return };
+    for (printed, instead) in changes {
+        let changed = verilog.replace(printed, instead);
+        assert_ne!(changed, verilog, "{printed} is printed");
+        assert_ne!(verdict(&tools, &changed, name, &known, mode), Verdict::Holds, "{name}: {instead}");
+    }
+}
+
+#[test]
+fn changed_blocks_are_noticed() {
+    let ice = Target::Icebreaker;
+    let changes = [("crc == 16'd0", "crc[15:1] == 15'd0"), ("place_q[2:0] == 3'd1", "place_q[1:0] == 2'd1")];
+    broken("registers", registers(ice), Mode::Prove(4), &changes);
+    let changes = [("8'd220", "8'd221"), ("next_taking = (valid", "next_taking = valid | (valid")];
+    broken("stream", stream(ice), Mode::Prove(4), &changes);
+    broken("transmitter", transmitter(ice), Mode::Prove(4), &[("position == 4'd9", "position == 4'd8")]);
+    broken("board", board(ice), Mode::Prove(4), &[("registers_sdi & adc_reader_shift", "registers_sdi & shift")]);
+}
+
+#[test]
+fn assumptions_that_contradict_each_other_are_noticed() {
+    let contradiction = "    always @(*) assume (octet == 8'd1 && octet == 8'd2);\n    assign enable =";
+    broken("registers", registers(Target::Icebreaker), Mode::Cover(12), &[("    assign enable =", contradiction)]);
 }

@@ -37,7 +37,7 @@ pub mod flags {
     pub const SATURATED: u8 = 1;
     /// The last valid results stand.
     pub const INVALID: u8 = 2;
-    /// A terminal's current is missing.
+    /// A terminal's current is that of an open one.
     pub const LOST: u8 = 3;
     /// The ADC was late since the packet before.
     pub const LATE: u8 = 4;
@@ -107,6 +107,11 @@ impl Register {
         }
     }
 }
+
+/// The format of a register's number.
+pub const PLACE: Format = Format::unsigned(3, 0);
+/// The format of a count of commands, and of a pad.
+pub const NIBBLE: Format = Format::unsigned(4, 0);
 
 /// The bits of the control register.
 #[derive(Debug, Clone, Copy)]

@@ -19,8 +19,7 @@
 
 use super::bits::{next, read_as};
 use super::crc16;
-use super::framing::{Control, END, ESC, ESC_END, ESC_ESC, Register, data_bytes};
-use super::stream::NIBBLE;
+use super::framing::{Control, END, ESC, ESC_END, ESC_ESC, NIBBLE, PLACE, Register, data_bytes};
 use super::uart::BYTE;
 use hapticore_model::block::{Block, Cell};
 use hapticore_model::blocks::core;
@@ -98,8 +97,6 @@ pub struct CommandRegisters {
 
 /// Bits of a register of the ADC.
 const ADC_WORD: u8 = 16;
-/// The format of a register's number.
-pub const PLACE: Format = Format::unsigned(3, 0);
 /// Bytes of a command's place and of its CRC.
 const AROUND: u64 = 4;
 

@@ -27,8 +27,7 @@
 
 use super::bits::{flag, next, previous, word as bits_side_by_side};
 use super::crc16;
-use super::framing::{END, ESC, ESC_END, ESC_ESC, Register, STATUS_BYTES, VERSION, digest, word_bytes};
-use super::registers::PLACE;
+use super::framing::{END, ESC, ESC_END, ESC_ESC, NIBBLE, PLACE, Register, STATUS_BYTES, VERSION, digest, word_bytes};
 use super::uart::BYTE;
 use super::uart::transmitter::{self, Transmitter};
 use hapticore_model::block::{Block, Cell};
@@ -58,7 +57,7 @@ bundle! {
         saturated,
         /// The last valid results stand.
         invalid,
-        /// A terminal's current is missing.
+        /// A terminal's current is that of an open one.
         lost,
         /// The ADC was late.
         late,
@@ -112,9 +111,6 @@ pub struct Stream {
     data: Format,
     bytes: u64,
 }
-
-/// The format of a count of commands, and of a pad.
-pub const NIBBLE: Format = Format::unsigned(4, 0);
 
 /// Words of a frame.
 const WORDS: u64 = Field::ALL.len() as u64;

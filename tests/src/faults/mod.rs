@@ -10,7 +10,9 @@
 //! | `word` | which faults of a wire are none |
 //! | `statements` | finds the statements of a module |
 //! | `plant` | writes the faults in |
+//! | [`campaign`] | which change nothing, and two processors |
 
+pub mod campaign;
 pub mod kinds;
 mod plant;
 mod statements;

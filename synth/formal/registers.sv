@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// Registers: a command acts only if all its bytes have come, escaped rightly and with their CRC, and then on nothing but the
+// register or the word that it names. Commands are taken apart here once more, the CRC a bit at a time.
+//
+// Stands at the end of the printed module, after DATA (bytes of a command's data), WORDS (of the table) and ADDRESS (its bits).
+
+    localparam LENGTH = DATA + 4;
+    localparam WHOLE = 8 * (DATA + 2);
+    localparam TABLE = 4, NONE = 5;
+
+    function [15:0] check_of(input [15:0] before, input [7:0] next);
+        integer k;
+        begin
+            check_of = before;
+            for (k = 7; k >= 0; k = k - 1)
+                check_of = {check_of[14:0], 1'b0} ^ ((check_of[15] ^ next[k]) ? 16'h1021 : 16'h0000);
+        end
+    endfunction
+
+    reg was_reset = 0;
+    always @(posedge clock) was_reset <= 1;
+    always @(*) if (!was_reset) assume (reset);
+
+    // The command as it comes: how many bytes, and what they are.
+    reg behind_esc = 0, wrong = 0;
+    reg [3:0] length = 0;
+    reg [15:0] check = 0;
+    reg [WHOLE-1:0] whole = 0;
+    wire end_byte = octet == 8'hc0;
+    wire esc_byte = octet == 8'hdb && !behind_esc;
+    wire [7:0] plain = !behind_esc ? octet : octet == 8'hdc ? 8'hc0 : 8'hdb;
+    wire taken = valid && !end_byte && !esc_byte;
+    always @(posedge clock) begin
+        if (reset || (valid && end_byte)) begin
+            behind_esc <= 0;
+            wrong <= 0;
+            length <= 0;
+        end else if (valid && esc_byte) begin
+            behind_esc <= 1;
+        end else if (taken) begin
+            behind_esc <= 0;
+            wrong <= wrong || (behind_esc && octet != 8'hdc && octet != 8'hdd);
+            if (length != 15) length <= length + 1;
+            check <= check_of(length == 0 ? 16'hffff : check, plain);
+            if (length < LENGTH - 2) whole <= {whole[WHOLE-9:0], plain};
+        end
+    end
+
+    // At its END: whether it counts, and what it writes.
+    reg counts = 0, refuses = 0;
+    reg [15:0] where = 0;
+    reg [8*DATA-1:0] what = 0;
+    wire whole_and_right = length == LENGTH && check == 0 && !wrong && !behind_esc;
+    wire for_adc = whole[WHOLE-1] && whole[WHOLE-14:WHOLE-16] == 3;
+    // The command before may still be enabling the board.
+    wire enabled = counts && where[15] && where[2:0] == 2 ? what[0] : enable;
+    always @(posedge clock) begin
+        counts <= !reset && valid && end_byte && whole_and_right && !(for_adc && enabled);
+        refuses <= !reset && valid && end_byte && !(length == 0 && !behind_esc)
+            && !(whole_and_right && !(for_adc && enabled));
+        {where, what} <= whole;
+    end
+    wire [ADDRESS-1:0] at = where[ADDRESS-1:0];
+    wire [2:0] target = !counts ? NONE : where[15] ? (where[2:0] < 4 ? where[1:0] : NONE) : at < WORDS ? TABLE : NONE;
+
+    // The ADC reader moves data on between commands only: its word is shorter than the bytes of the next.
+    wire packet = length != 0 || behind_esc;
+    always @(*) if (was_reset) assume (!(shift && (packet || valid)));
+
+    reg past_valid = 0;
+    reg [2:0] past_target = NONE;
+    reg [8*DATA-1:0] past_what = 0;
+    reg [$bits(capacitance_gain)-1:0] before_capacitance = 0;
+    reg [$bits(force_gain)-1:0] before_force = 0;
+    reg [1:0] before_control = 0;
+    reg [3:0] before_commands = 0;
+    wire [1:0] control_now = {adc_reset, enable};
+    always @(posedge clock) begin
+        past_valid <= was_reset && !reset;
+        past_target <= target;
+        past_what <= what;
+        before_capacitance <= capacitance_gain;
+        before_force <= force_gain;
+        before_control <= control_now;
+        before_commands <= commands;
+    end
+
+    // Bits of place and data that this command's bytes have filled.
+    wire [3:0] kept = length < LENGTH - 2 ? length : LENGTH - 2;
+    wire [WHOLE-1:0] open = {WHOLE{1'b1}} << (8 * kept);
+
+    always @(posedge clock) if (was_reset) begin
+        // What holds all along.
+        assert (escaped == behind_esc);
+        assert (count == (wrong || length > LENGTH ? LENGTH + 1 : length));
+        if (length == 0) assert (!wrong);
+        if (!wrong && length != 0 && length <= LENGTH) assert (crc == check);
+        if (!wrong) assert ((({place_q, data} ^ whole) & ~open) == 0);
+        if (counts) assert ({place_q, data} == {where, what});
+        // What is claimed. A command acts if it counts, and in the clock after its END.
+        assert (act == counts);
+        assert (refused == refuses);
+        assert (write == (target == TABLE));
+        if (write) assert (address == at && word == $signed(what[$bits(word)-1:0]));
+        assert (adc_write == (target == 3));
+        assert (!(adc_write && enable));
+        assert (written == (counts && where[15] && where[2:0] != 2));
+        // Each register has what was written into it, and nothing else changes it.
+        if (past_valid) begin
+            assert (capacitance_gain == (past_target == 0 ? past_what[$bits(capacitance_gain)-1:0] : before_capacitance));
+            assert (force_gain == (past_target == 1 ? past_what[$bits(force_gain)-1:0] : before_force));
+            assert (control_now == (past_target == 2 ? past_what[1:0] : before_control));
+            assert (commands == before_commands + counts);
+        end
+    end
+
+    // That there is something to hold.
+    always @(posedge clock) if (was_reset) begin
+        cover (target == 0);
+        cover (target == 1 && what != 0);
+        cover (target == 2 && what[1:0] == 1);
+        cover (adc_write);
+        cover (write && address == WORDS - 1);
+        cover (counts && target == NONE);
+        cover (refused);
+    end

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Calibrations: that of a sheet, and words that break a careless core.
+
+use super::Noise;
+use hapticore_model::calibration::{Calibration, Point, PositionTable};
+use hapticore_model::format::Format;
+use hapticore_model::profile::Profile;
+use hapticore_rtl::codes::Codes;
+
+/// What is written before a slot's frame is computed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Set {
+    /// As a sheet has them, its ratios flattening towards its edges.
+    Sheet,
+    /// That of another sheet, seen from behind, whose resistance is negative in places.
+    Behind,
+    /// The table stays, the constants are any.
+    Constants,
+    /// Powers of two: what is rounded then often lies halfway.
+    Powers,
+    /// At the rails, next to them or to zero, or any.
+    Corners,
+}
+
+/// Constants by name, and words of the table by address.
+pub type Written = Vec<(String, i64)>;
+
+impl Set {
+    /// What is written.
+    pub fn written(self, profile: &Profile, noise: &mut Noise) -> Written {
+        let sheet = Codes::new(profile, &sheet(profile, self == Set::Behind));
+        let code = |before: i64, format: Format, noise: &mut Noise| match self {
+            Set::Sheet | Set::Behind => before,
+            Set::Constants => noise.any(format),
+            Set::Powers => power(format, noise),
+            Set::Corners => corner(format, noise),
+        };
+        let mut written = Written::new();
+        for constant in sheet.constants() {
+            written.push((constant.name.into(), code(constant.code, constant.format, noise)));
+        }
+        if self != Set::Constants {
+            let words = (0..).zip(&sheet.table);
+            let word = |(address, &word): (u64, &i64)| (address.to_string(), code(word, sheet.formats.word, noise));
+            written.extend(words.map(word));
+        }
+        written
+    }
+}
+
+fn power(format: Format, noise: &mut Noise) -> i64 {
+    let code = 1 << noise.below(u32::from(format.width));
+    let code = if format.min_code() < 0 && noise.below(2) == 0 { -code } else { code };
+    code.clamp(format.min_code() as i64, format.max_code() as i64)
+}
+
+fn corner(format: Format, noise: &mut Noise) -> i64 {
+    let (low, high) = (format.min_code() as i64, format.max_code() as i64);
+    match noise.below(8) {
+        0 => low,
+        1 => high,
+        2 => low + 1,
+        3 => 0,
+        4 => 1,
+        5 => (-1).max(low),
+        _ => noise.any(format),
+    }
+}
+
+/// A calibration such as a sheet has.
+fn sheet(profile: &Profile, behind: bool) -> Calibration {
+    let (columns, rows) = (41, 25);
+    let point = |k: usize| {
+        let (u, v) = ((k % columns) as f64 / 20.0 - 1.0, (k / columns) as f64 / 12.0 - 1.0);
+        let r_x = u * (0.95 - 0.2 * u * u) * (1.0 - 0.15 * v * v);
+        let r_y = v * (0.9 - 0.2 * v * v) * (1.0 - 0.3 * u * u);
+        match behind {
+            false => Point { x: 400.0 * u, y: 220.0 * v, r_x, r_y, sheet: 0.05 + 0.02 * u * u + 0.01 * v },
+            true => Point { x: 80.0 - 500.0 * u, y: 300.0 * v, r_x, r_y, sheet: 0.2 - 0.9 * u * v },
+        }
+    };
+    let points: Vec<Point> = (0..columns * rows).map(point).collect();
+    let position = PositionTable::fit(profile, &points).expect("a sheet").with_open_share(0.01);
+    Calibration { position, capacitance_gain: 800.0, force_gain: 2e-6 }
+}

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The blocks of a board, each alone with a trace: directed input, as its surroundings give it, and what no surroundings should.
+
+use fastrand::Rng;
+use hapticore_model::block::Block;
+use hapticore_model::blocks::core::Core;
+use hapticore_model::bundle::Bundle;
+use hapticore_model::format::Format;
+use hapticore_rtl::board::adc_reader::AdcReader;
+use hapticore_rtl::board::framing::{END, ESC, ESC_END, ESC_ESC, Register};
+use hapticore_rtl::board::packet::Command;
+use hapticore_rtl::board::pads::Pads;
+use hapticore_rtl::board::registers::CommandRegisters;
+use hapticore_rtl::board::sigma_delta::SigmaDelta;
+use hapticore_rtl::board::stream::Stream;
+use hapticore_rtl::board::uart::receiver::Receiver;
+use hapticore_rtl::board::uart::transmitter::Transmitter;
+use hapticore_rtl::board::{Parameters, Target};
+use hapticore_rtl::verilog::Design;
+
+use crate::lockstep::Trace;
+use crate::stimulus::corner;
+
+/// A block alone: what is printed of it, and what its model did.
+pub struct Alone {
+    /// Its Verilog.
+    pub design: Design,
+    /// Its trace.
+    pub trace: Trace,
+}
+
+/// A stimulus: the inputs of a clock by their names, the others zero.
+type Given = Vec<(&'static str, i64)>;
+
+fn alone<B: Block>(block: &B, clocks: usize, mut given: impl FnMut(&mut Rng) -> Given) -> Alone {
+    let (design, mut rng, mut left) = (Design::of(block, "a test"), Rng::with_seed(1), clocks);
+    let trace = Trace::record(block, design.ports.clone(), |_| {
+        left = left.checked_sub(1)?;
+        let given = given(&mut rng);
+        let code = |name: &&str| given.iter().find(|(of, _)| of == name).map_or(0, |(_, code)| *code);
+        Some(B::Inputs::NAMES.iter().map(code).collect())
+    });
+    Alone { design, trace }
+}
+
+/// A bit that stays for a while, of so many clocks at most.
+#[derive(Default)]
+struct Level {
+    value: i64,
+    left: u32,
+}
+
+impl Level {
+    fn next(&mut self, rng: &mut Rng, most: u32) -> i64 {
+        if self.left == 0 {
+            (self.value, self.left) = (1 - self.value, rng.u32(1..=most));
+        }
+        self.left -= 1;
+        self.value
+    }
+}
+
+/// Whether something happens that does every so many clocks.
+fn now(rng: &mut Rng, clocks: u32) -> i64 {
+    i64::from(rng.u32(..clocks) == 0)
+}
+
+fn any(rng: &mut Rng, format: Format) -> i64 {
+    rng.i64(format.min_code() as i64..=format.max_code() as i64)
+}
+
+/// A byte: often one of the framing's own.
+fn octet(rng: &mut Rng) -> u8 {
+    let special = [END, ESC, ESC_END, ESC_ESC];
+    if rng.u8(..3) == 0 { special[rng.usize(..4)] } else { rng.u8(..) }
+}
+
+/// Bits that are too long or too short, bytes without a stop bit, glitches, breaks.
+fn receiver(divisor: u64) -> Alone {
+    let (mut levels, mut at) = (Vec::new(), 0);
+    alone(&Receiver::new(divisor), 60_000, move |rng| {
+        if at == levels.len() {
+            (levels, at) = (Vec::new(), 0);
+            let bit = divisor as usize + rng.usize(..3) - 1;
+            let byte = rng.u8(..);
+            let bits = (0..8).map(|k| i64::from(byte >> k & 1));
+            let frame: Vec<i64> = [0].into_iter().chain(bits).chain([i64::from(rng.u8(..8) != 0)]).collect();
+            frame.iter().for_each(|&level| levels.extend(std::iter::repeat_n(level, bit)));
+            levels.extend(std::iter::repeat_n(1, rng.usize(..3 * bit)));
+            levels.extend(std::iter::repeat_n(0, rng.usize(..8) / 7 * rng.usize(..bit)));
+            levels.extend(std::iter::repeat_n(1, 1 + rng.usize(..2) * bit));
+        }
+        at += 1;
+        vec![("rx", levels[at - 1])]
+    })
+}
+
+fn transmitter(divisor: u64) -> Alone {
+    let mut valid = Level::default();
+    alone(&Transmitter::new(divisor), 40_000, move |rng| {
+        vec![("valid", valid.next(rng, 30 * divisor as u32)), ("octet", octet(rng).into())]
+    })
+}
+
+fn pads(count: u64, dead: u64) -> Alone {
+    let (mut serve, mut closed) = (0, Level::default());
+    alone(&Pads::new(count, dead), 40_000, move |rng| {
+        if rng.u64(..2 * dead) == 0 {
+            serve = rng.i64(0..count as i64);
+        }
+        vec![("serve", serve), ("closed", closed.next(rng, 4 * dead as u32))]
+    })
+}
+
+fn sigma_delta(carrier: Format) -> Alone {
+    alone(&SigmaDelta::new(carrier), 20_000, move |rng| vec![("carrier", corner(rng, carrier))])
+}
+
+/// Enabled now and then; the ADC is done in time, late, or absent; words at any time.
+fn adc_reader(block: &AdcReader, parameters: &Parameters) -> Alone {
+    let (mut enable, mut busy) = (Level::default(), Level::default());
+    let conversion = parameters.conversion() as u32;
+    alone(block, 120_000, move |rng| {
+        let most = if enable.value == 0 { 1200 } else { 90 };
+        let enable = enable.next(rng, most);
+        let write = if enable == 1 { now(rng, 50) } else { now(rng, 20) };
+        let busy = busy.next(rng, 2 * conversion);
+        vec![("enable", enable), ("busy", busy), ("dout", rng.u8(..).into()), ("write", write)]
+    })
+}
+
+/// The bytes of a command that may be damaged: too long, too short, escaped wrongly, or changed.
+fn command(block: &CommandRegisters, core: &hapticore_model::blocks::core::Inputs<Format>, rng: &mut Rng) -> Vec<u8> {
+    let data = block.outputs().data;
+    let code = if rng.bool() { any(rng, data) } else { i64::from(octet(rng)) << (8 * rng.u8(..data.width / 8)) };
+    let command = match rng.u8(..8) {
+        0..3 => Command::Table { address: rng.u16(..0x8000) & if rng.bool() { 0x7ff } else { 0xffff }, code },
+        3 => [Command::ENABLE, Command::DISABLE, Command::RESET_ADC][rng.usize(..3)],
+        _ => Command::Register(Register::ALL[rng.usize(..4)], code),
+    };
+    let mut bytes = command.encode(core);
+    let at = rng.usize(..bytes.len());
+    match rng.u8(..24) {
+        0 => bytes[at] ^= 1 << rng.u8(..8),
+        1 => drop(bytes.remove(at)),
+        2 => bytes.insert(at, octet(rng)),
+        3 => bytes.insert(at, END),
+        4 => bytes.splice(at..at, (0..24).map(|_| 0)).for_each(drop),
+        _ => (),
+    }
+    bytes
+}
+
+/// Commands, and the moves that the ADC reader makes of their data.
+fn registers(block: &CommandRegisters, core: hapticore_model::blocks::core::Inputs<Format>) -> Alone {
+    let (mut bytes, mut shift) = (Vec::new(), Level::default());
+    alone(block, 150_000, move |rng| {
+        let valid = now(rng, 2) == 1;
+        if valid && bytes.is_empty() {
+            bytes = command(block, &core, rng);
+        }
+        let octet = if valid { bytes.remove(0) } else { octet(rng) };
+        let shift = i64::from(shift.next(rng, 200) == 1 && rng.u8(..16) == 0);
+        vec![("valid", valid.into()), ("octet", octet.into()), ("shift", shift), ("answer", now(rng, 2))]
+    })
+}
+
+/// Frames, now and then too early, words for heartbeats, and times without frames in which these come.
+fn stream(block: &Stream, divisor: u64) -> Alone {
+    let of = block.inputs();
+    let packet = block.packet_clocks(divisor) as u32;
+    let (mut enable, mut wait, mut index) = (Level::default(), 0, 8);
+    let (mut place, mut data, mut pad) = (0, 0, 0);
+    // Clocks until something is to be told just when the flags are sent, two bytes behind a frame.
+    let (flags, mut told) = (20 * divisor as u32 - 2, u32::MAX);
+    alone(block, 400_000, move |rng| {
+        let enabled = enable.next(rng, 20 * packet);
+        if index == 8 {
+            // In any clock of the packet before, as soon as it is gone, or later: while disabled, after some heartbeats.
+            wait = match rng.u8(..4) {
+                0 => rng.u32(..packet),
+                1 => 0,
+                _ => packet + rng.u32(..packet) + (1 - enabled as u32) * 12 * packet,
+            };
+            (index, pad) = (0, any(rng, of.pad));
+        }
+        wait = wait.saturating_sub(1);
+        let valid = wait == 0 && rng.u8(..3) != 0;
+        let keep = now(rng, packet / 2);
+        if keep == 1 {
+            (place, data) = (any(rng, of.place), any(rng, of.data));
+        }
+        let frame = match rng.u8(..4) {
+            0 => any(rng, of.frame),
+            _ => i64::from(octet(rng)) << (8 * rng.u8(..2)) & of.frame.max_code() as i64,
+        };
+        let mut given = vec![
+            ("valid", valid.into()),
+            ("index", index % 8),
+            ("frame", frame),
+            ("done", i64::from(valid && index == 7)),
+            ("pad", pad),
+            ("commands", rng.i64(0..16)),
+            ("enable", enabled),
+            ("keep", keep),
+            ("place", place),
+            ("data", data),
+        ];
+        told = if valid && index == 7 { flags + rng.u32(..12) } else { told.saturating_sub(1) };
+        for name in ["late", "refused"] {
+            given.push((name, if told == 0 { now(rng, 2) } else { now(rng, 4 * packet) }));
+        }
+        told = if told == 0 { u32::MAX } else { told };
+        for name in ["clipped", "saturated", "invalid", "lost", "calibrated"] {
+            given.push((name, now(rng, 2)));
+        }
+        index += i64::from(valid);
+        given
+    })
+}
+
+/// The blocks of a board, with its own parameters.
+pub fn blocks(target: Target) -> Vec<Alone> {
+    let (profile, parameters) = (target.profile(), target.parameters());
+    let (core, divisor) = (Core::new(&profile), parameters.divisor());
+    let block = CommandRegisters::new(core.inputs(), core.estimator().position().table().words as u64);
+    vec![
+        stream(&Stream::new(&profile, divisor, block.outputs().data), divisor),
+        registers(&block, core.inputs()),
+        adc_reader(&AdcReader::new(&profile, &parameters), &parameters),
+        receiver(divisor),
+        transmitter(divisor),
+        pads(profile.pads, parameters.dead()),
+        sigma_delta(core.outputs().carrier),
+    ]
+}

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The blocks of a board in lock-step with what is printed of them, and every fault that is planted in their text noticed.
+//!
+//! Faults are those of `tests/tests/faults.rs`, at every place of every block; `board_faults.txt` lists those that change nothing.
+//! The iCEBreaker's blocks are tried always, those of all boards with `FAULTS=all`.
+
+use std::collections::BTreeSet;
+
+use hapticore_rtl::board::Target;
+use hapticore_tests::faults::Planted;
+use hapticore_tests::faults::campaign::{self, two_at_a_time};
+use hapticore_tests::lockstep::verilator::{Start, Verilated};
+use hapticore_tests::peripherals::{Alone, blocks};
+use hapticore_tests::tools;
+
+/// Faults that change nothing, each under its reason (`#`).
+const NONE: &str = include_str!("board_faults.txt");
+
+/// Which faults of a block nobody notices, and how many there are.
+fn survivors(target: Target, Alone { design, trace }: &Alone) -> (Vec<String>, usize) {
+    let planted = Planted::new(design);
+    let compiled = Verilated::new("alone", &design.ports, &planted.alone(design.top()), Start::Zero);
+    let given = compiled.given(trace.clone());
+    assert_eq!(given.check(0), Ok(()), "{target:?}, {}", design.top());
+    // Those of a block within are tried with that block.
+    let own = (1..).zip(&planted.faults).filter(|(_, fault)| fault.module == design.top());
+    let (mut missed, mut tried) = (Vec::new(), 0);
+    for (number, fault) in own {
+        tried += 1;
+        missed.extend(given.check(number).is_ok().then(|| fault.to_string()));
+    }
+    println!("{target:?}, {}: {} of {tried} faults noticed", design.top(), tried - missed.len());
+    (missed, tried)
+}
+
+#[test]
+fn faults_in_the_blocks_of_a_board_are_noticed() {
+    if !tools::have(&["verilator", "make", "g++"]) {
+        return;
+    }
+    let targets: &[Target] = if campaign::all() { &Target::ALL } else { &[Target::Icebreaker] };
+    for &target in targets {
+        let found = two_at_a_time(&blocks(target), |block| survivors(target, block));
+        let tried: usize = found.iter().map(|(_, tried)| tried).sum();
+        let missed: BTreeSet<&str> = found.iter().flat_map(|(missed, _)| missed).map(String::as_str).collect();
+        println!("{target:?}: {} of {tried} faults noticed", tried - missed.len());
+        missed.iter().for_each(|fault| println!("not noticed: {fault}"));
+        let none = campaign::equivalent(NONE);
+        let survivors: Vec<_> = missed.difference(&none).collect();
+        assert!(survivors.is_empty(), "{target:?}, not noticed: {survivors:#?}");
+        let stale: Vec<_> = none.difference(&missed).collect();
+        assert!(stale.is_empty() || target != Target::Icebreaker, "noticed after all, or not tried: {stale:#?}");
+    }
+}
