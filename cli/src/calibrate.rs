@@ -15,8 +15,10 @@
 //! sense_full_scale_v = 8.0
 //! haptic_full_scale_v = 600.0
 //! force_k = 9.6e12                # eq. 8, N/(F·V)²
+//! pad_diameter_mm = 30.0          # pads that are nearer to each other touch; never told where it is left out
 //! [map]
 //! columns = 121                   # places in a row
+//! open_share = 0.01               # of the ratios' denominator: a terminal with less current is open; none ever where it is left out
 //! places = [[x_mm, y_mm, r_x, r_y, sheet_ohm], …]
 //! ```
 
@@ -93,6 +95,8 @@ pub struct Scales {
     pub haptic_full_scale_v: f64,
     /// k of eq. 8, N/(F·V)².
     pub force_k: f64,
+    /// Of a pad, where it is known.
+    pub pad_diameter_mm: Option<f64>,
 }
 
 /// Places in whole rows: `[x_mm, y_mm, r_x, r_y, sheet_ohm]`.
@@ -101,6 +105,9 @@ pub struct Scales {
 pub struct Raster {
     /// Places in a row.
     pub columns: usize,
+    /// A terminal whose current is a smaller share of the ratios' denominator counts as open.
+    #[serde(default)]
+    pub open_share: f64,
     /// The places.
     pub places: Vec<[f64; 5]>,
 }
@@ -124,14 +131,30 @@ impl Scales {
             ("sense_full_scale_v", self.sense_full_scale_v),
             ("haptic_full_scale_v", self.haptic_full_scale_v),
             ("force_k", self.force_k),
+            ("pad_diameter_mm", self.pad_diameter_mm.unwrap_or(1.0)),
         ];
         let bad = values.into_iter().find(|(_, value)| !(value.is_finite() && *value > 0.0));
         bad.map_or(Ok(()), |(key, value)| Err(format!("device.{key}: expected a number above 0, got {value}")))
     }
 }
 
+/// A terminal whose share of the current is below this at every place is open.
+pub const OPEN: f64 = 1e-4;
+
+/// The share of the ratios' denominator below which a terminal counts as open: half of the least that any has anywhere that is
+/// not open already. `shares` are those of each terminal, place by place.
+pub fn open_share(shares: &[Vec<f64>]) -> f64 {
+    let of = |terminal: usize| shares.iter().map(move |place| place[terminal]);
+    let terminals = 0..shares.first().map_or(0, Vec::len);
+    let connected = terminals.filter(|&terminal| of(terminal).fold(0.0, f64::max) >= OPEN);
+    connected.flat_map(of).fold(1.0, f64::min) / 2.0
+}
+
 impl Raster {
     fn check(&self) -> Result<(), String> {
+        if !(0.0..1.0).contains(&self.open_share) {
+            return Err(format!("map.open_share: expected 0 to 1, got {}", self.open_share));
+        }
         let places = self.places.len();
         if self.columns < 2 || !places.is_multiple_of(self.columns) || places / self.columns < 2 {
             let expected = "expected two whole rows or more of two columns or more";
@@ -167,11 +190,12 @@ impl DeviceCalibration {
         let device = plant.device();
         // A pad goes no further: places beyond would be read as those at the edge.
         let map = plant.calibration_map(RASTER[0], RASTER[1], device.pad_diameter_mm / 2.0);
+        let open_share = open_share(&map.iter().map(|point| point.shares.clone()).collect::<Vec<_>>());
         let places = map.iter().map(|point| [point.x_mm, point.y_mm, point.r_x, point.r_y, point.sheet_ohm]);
         DeviceCalibration {
             pads: plant.pad_names().len() as u64,
             terminals: Signs { x: profile.terminals.x.clone(), y: profile.terminals.y.clone() },
-            map: Raster { columns: RASTER[0], places: places.collect() },
+            map: Raster { columns: RASTER[0], places: places.collect(), open_share },
             device: Scales {
                 sample_rate_hz: device.sample_rate_hz,
                 carrier_hz: device.carrier_hz,
@@ -179,6 +203,7 @@ impl DeviceCalibration {
                 sense_full_scale_v: device.sense_full_scale_v,
                 haptic_full_scale_v: device.haptic_full_scale_v,
                 force_k: force_k(plant),
+                pad_diameter_mm: Some(device.pad_diameter_mm),
             },
         }
     }
@@ -220,7 +245,7 @@ impl DeviceCalibration {
         let mut text = format!(
             "# A device's calibration for `hapticore replay`.\npads = {}\n\n[terminals]\nx = {:?}\ny = {:?}\n\n[device]\n\
              sample_rate_hz = {:?}\ncarrier_hz = {:?}\ncurrent_full_scale_a = {:?}\nsense_full_scale_v = {:?}\n\
-             haptic_full_scale_v = {:?}\nforce_k = {:?}\n\n[map]\ncolumns = {}\n\
+             haptic_full_scale_v = {:?}\nforce_k = {:?}\n{}\n[map]\ncolumns = {}\nopen_share = {:?}\n\
              places = [ # x_mm, y_mm, r_x, r_y, sheet_ohm\n",
             self.pads,
             self.terminals.x,
@@ -231,7 +256,9 @@ impl DeviceCalibration {
             device.sense_full_scale_v,
             device.haptic_full_scale_v,
             device.force_k,
-            self.map.columns
+            device.pad_diameter_mm.map(|mm| format!("pad_diameter_mm = {mm:?}\n")).unwrap_or_default(),
+            self.map.columns,
+            self.map.open_share
         );
         for place in &self.map.places {
             writeln!(text, "{place:?},").expect("a string takes all");
@@ -245,6 +272,15 @@ impl DeviceCalibration {
         Residual::of(found(&self.map.places, calibration).into_iter())
     }
 
+    /// The profile of a core for the device: with its terminals, and serving its pads.
+    ///
+    /// # Errors
+    /// As [`inputs::for_terminals`].
+    pub fn profile(&self, profile: &Profile) -> Result<Profile> {
+        let signs = [self.terminals.x.clone(), self.terminals.y.clone()];
+        Ok(inputs::serving(&inputs::for_terminals(profile, &signs)?, self.pads as usize))
+    }
+
     /// The calibration for a core of the profile.
     ///
     /// # Errors
@@ -254,8 +290,9 @@ impl DeviceCalibration {
         let place = |&[x, y, r_x, r_y, sheet_ohm]: &[f64; 5]| Point { x, y, r_x, r_y, sheet: sheet_ohm / device.ohm() };
         let (_, places) = refine::refine(self.map.columns, &self.map.places);
         let points: Vec<_> = places.iter().map(place).collect();
+        let table = PositionTable::fit(profile, &points).map_err(|error| anyhow!("calibration map: {error}"))?;
         let calibration = Calibration {
-            position: PositionTable::fit(profile, &points).map_err(|error| anyhow!("calibration map: {error}"))?,
+            position: table.with_open_share(self.map.open_share),
             capacitance_gain: device.capacitance_gain(),
             force_gain: device.force_k * 1e-24 * device.haptic_full_scale_v.powi(2) / profile.square_gain(),
         };

@@ -145,12 +145,12 @@ impl<'a> Case<'a> {
         progress: &ProgressBar,
     ) -> Result<Outcome> {
         let at = (self.number, self.clock);
-        let uncouplers = self.plant()?.uncoupler().zip(self.plant()?.uncoupler());
+        let plant = self.plant()?;
+        let uncouplers = plant.uncoupler().zip(plant.uncoupler());
         let session = Session::new(&self.profile, &self.device, settings.fidelity, settings.errors, at)?
             .uncoupling(uncouplers.map(<[_; 2]>::from));
         let whole = settings.fidelity == Fidelity::Clock || recorder.is_some();
-        let mut maker =
-            Maker::new(self.plant()?.metered(), &self.profile, self.scene.cases[self.index].sampled(), whole);
+        let mut maker = Maker::new(plant.metered(), &self.profile, self.scene.cases[self.index].sampled(), whole);
         let (sender, receiver) = sync_channel(AHEAD);
         thread::scope(|scope| {
             let maker = scope.spawn(move || {
@@ -198,8 +198,8 @@ pub fn known(truth: &Truth) -> record::Truth {
         force_n: truth.force_n,
         direction: truth.direction,
     };
-    let Truth { load_g, friction_n, set, point, group, .. } = *truth;
-    record::Truth { quantities, load_g, friction_n, set, point, group }
+    let Truth { load_g, friction_n, set, point, group, over_edge, touching, .. } = *truth;
+    record::Truth { quantities, load_g, friction_n, set, point, group, over_edge, touching }
 }
 
 /// Makes slots.
@@ -224,12 +224,17 @@ impl Maker {
     fn make(&mut self, slots: usize, to: &SyncSender<Made>) {
         for slot in 0..slots {
             let truth = self.plant.truth(slot);
-            let (signals, peak) = if self.sampled { self.sample(slot) } else { self.phasors(slot) };
+            let (signals, peak) = self.signals(slot);
             let slot = Slot { pad: truth.pad, signals };
             if to.send(Made { slot, truth, peak }).is_err() {
                 return; // The core has stopped: it tells why.
             }
         }
+    }
+
+    /// What the core is given of a slot, and the largest sample.
+    pub fn signals(&mut self, slot: usize) -> (Signals, f64) {
+        if self.sampled { self.sample(slot) } else { self.phasors(slot) }
     }
 
     /// The samples of a slot, and the largest.

@@ -41,7 +41,7 @@ pub fn run(args: &CodesArgs) -> Result<bool> {
         Some(path) => DeviceCalibration::read(path)?,
         None => DeviceCalibration::nominal(&profile)?,
     };
-    let profile = inputs::for_device(&profile, &device)?;
+    let profile = device.profile(&profile)?;
     let calibration = device.of(&profile).with_context(|| name(args.calibration.as_deref()))?;
     device.residual(&calibration).warning(LIMIT_MM).iter().for_each(|text| console::warn(text));
     let codes = Codes::new(&profile, &calibration);

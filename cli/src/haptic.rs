@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Whether the core's window is long enough for the haptic voltage.
+//! Whether the core's window, or its last few, is long enough for the haptic voltage.
 //!
 //! ```text
 //!   mean square over the window = V²·(1 + Re(W(2f)·e^{2jφ}))         of √2·V·cos(2πft + φ), W the window's transform, W(0) = 1
-//!   the RMS is off by up to |W(2f)|/2
 //!   rectangular: |W| = |sinc x|     Hann: |W| = |sinc x / (1 − x²)|     x = 2f·T, T the window
+//!   over N of a pad's windows:      |D| = |sin πNy / (N sin πy)|         y = 2f·P, P from one to the next
+//!   the RMS is off by up to |W·D|/2
 //! ```
 
 use std::f64::consts::PI;
@@ -13,6 +14,9 @@ use hapticore_model::profile::{Method, Profile, Window};
 
 /// An error of the RMS that is worth a word.
 const WORTH_A_WORD: f64 = 0.01;
+
+/// Windows that a profile averages are two to this power at most.
+const LONGEST_MEAN: u32 = 6;
 
 /// How exactly a frequency is known.
 const TOLERANCE: f64 = 0.01;
@@ -25,23 +29,38 @@ const LEAST: f64 = 0.005;
 
 /// A warning, with its cure, where the window is too short for a haptic voltage of this frequency.
 pub fn warning(profile: &Profile, haptic_hz: f64, sample_rate_hz: f64) -> Option<String> {
-    let window_s = profile.slot.integrate as f64 / sample_rate_hz;
-    let around = [1.0 - TOLERANCE, 1.0, 1.0 + TOLERANCE].map(|part| part * haptic_hz);
-    let off =
-        around.map(|hz| transform(profile.carrier.window, 2.0 * hz * window_s) / 2.0).into_iter().fold(0.0, f64::max);
-    (off > WORTH_A_WORD).then(|| {
+    let off = |windows| error(profile, windows, haptic_hz, sample_rate_hz);
+    let now = off(profile.haptic.windows);
+    let several = (1..=LONGEST_MEAN).map(|power| 1 << power).find(|&windows| off(windows) <= WORTH_A_WORD);
+    let several = several.map_or(String::new(), |windows| {
+        format!(", or the mean over {windows} windows of each pad (haptic.windows = {windows} in a profile)")
+    });
+    (now > WORTH_A_WORD).then(|| {
         format!(
             "haptic_v_rms: the core's window of {} samples, {:.3} ms, is too short for a haptic voltage of {} Hz: by \
              its phase the voltage is read up to {:.0} % off, the force twice that. Cure: a window of one of its periods, {} \
-             samples (window_samples in a scene, slot.integrate in a profile), or the mean of haptic_v_rms² over slots that \
-             span whole periods",
+             samples (window_samples in a scene, slot.integrate in a profile){several}",
             profile.slot.integrate,
-            1e3 * window_s,
+            1e3 * profile.slot.integrate as f64 / sample_rate_hz,
             (100.0 * haptic_hz).round() / 100.0,
-            100.0 * off,
+            100.0 * now,
             whole_period(profile, haptic_hz, sample_rate_hz)
         )
     })
+}
+
+/// The largest error of the RMS over all phases, and frequencies so near, of the mean over so many of a pad's windows.
+fn error(profile: &Profile, windows: u64, haptic_hz: f64, sample_rate_hz: f64) -> f64 {
+    let window_s = profile.slot.integrate as f64 / sample_rate_hz;
+    let frame_s = (profile.pads * profile.slot.samples()) as f64 / sample_rate_hz;
+    let at = |hz: f64| transform(profile.carrier.window, 2.0 * hz * window_s) * comb(windows, 2.0 * hz * frame_s) / 2.0;
+    [1.0 - TOLERANCE, 1.0, 1.0 + TOLERANCE].map(|part| at(part * haptic_hz)).into_iter().fold(0.0, f64::max)
+}
+
+/// The magnitude of the mean of so many unit phasors, each so many turns from the one before.
+fn comb(count: u64, turns: f64) -> f64 {
+    let (count, sine) = (count as f64, (PI * turns).sin());
+    if sine.abs() < 1e-9 { 1.0 } else { ((PI * count * turns).sin() / (count * sine)).abs() }
 }
 
 /// The magnitude of a window's transform at so many periods of the window.
@@ -156,6 +175,41 @@ mod tests {
                 assert!(text.contains(&format!("{cure} samples")), "{text}");
                 assert_eq!(warning(&profile(window, cure), hz, 1e6), None);
             }
+        }
+    }
+
+    #[test]
+    fn the_error_over_several_windows_is_what_a_sum_gives() {
+        let (mut profile, hz) = (profile(Window::Hann, 1000), 130.0);
+        for (pads, windows) in [(1, 4), (4, 8), (3, 64)] {
+            profile.pads = pads;
+            let frame = (pads * profile.slot.samples()) as f64;
+            let mean_square = |phase: f64| {
+                let (mut sum, mut weights) = (0.0, 0.0);
+                for (window, n) in (0..windows).flat_map(|window| (0..1000).map(move |n| (window, n))) {
+                    let w = 1.0 - (2.0 * PI * (f64::from(n) + 0.5) / 1000.0).cos();
+                    let t = (window as f64 * frame + f64::from(n)) * 1e-6;
+                    sum += w * 2.0 * (2.0 * PI * (hz * t + phase)).cos().powi(2);
+                    weights += w;
+                }
+                sum / weights
+            };
+            let by_sum = (0..100).map(|k| (mean_square(f64::from(k) / 100.0) - 1.0).abs() / 2.0).fold(0.0, f64::max);
+            let at = transform(Window::Hann, 2.0 * hz * 1e-3) * comb(windows, 2.0 * hz * frame * 1e-6) / 2.0;
+            assert!((at - by_sum).abs() < 1e-3, "{pads} pads, {windows} windows: {at} {by_sum}");
+        }
+    }
+
+    #[test]
+    fn as_many_windows_as_are_named_are_enough() {
+        for hz in [37.0, 200.0, 400.0] {
+            let mut profile = profile(Window::Hann, 1000);
+            let text = warning(&profile, hz, 1e6).expect("too short");
+            let named = text.split("haptic.windows = ").nth(1).expect("a number of windows");
+            profile.haptic.windows = named.split(' ').next().and_then(|number| number.parse().ok()).expect("a number");
+            assert_eq!(warning(&profile, hz, 1e6), None, "{hz} Hz");
+            profile.haptic.windows /= 2;
+            assert!(profile.haptic.windows == 1 || warning(&profile, hz, 1e6).is_some(), "{hz} Hz");
         }
     }
 

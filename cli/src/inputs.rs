@@ -8,8 +8,6 @@ use anyhow::{Context, Result, anyhow, ensure};
 use hapticore_model::profile::{Profile, ProfileError};
 use hapticore_scene::{Scene, Timing, gallery};
 
-use crate::calibrate::DeviceCalibration;
-
 /// The scene of a bundled name or a file, with keys set.
 ///
 /// # Errors
@@ -92,15 +90,6 @@ pub fn for_terminals(profile: &Profile, signs: &[Vec<i8>; 2]) -> Result<Profile>
         profile.check().with_context(|| format!("profile {} for {device} terminals", profile.name))?;
     }
     Ok(profile)
-}
-
-/// The profile of a core for a device: with its terminals, and serving its pads.
-///
-/// # Errors
-/// As [`for_terminals`].
-pub fn for_device(profile: &Profile, device: &DeviceCalibration) -> Result<Profile> {
-    let signs = [device.terminals.x.clone(), device.terminals.y.clone()];
-    Ok(serving(&for_terminals(profile, &signs)?, device.pads as usize))
 }
 
 /// The profile of a core that serves just these pads.

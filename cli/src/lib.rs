@@ -37,6 +37,7 @@ pub mod interrupt;
 pub mod lab;
 pub mod output;
 pub mod partial;
+pub mod placement;
 pub mod print;
 pub mod progress;
 pub mod provenance;

@@ -33,6 +33,9 @@ const QUANTITIES: usize = 9;
 /// What a scene adds behind the truth: the case's name, the point of its sweep, and what no frame has.
 const OF_SCENE: [&str; 4] = ["case", "point", "true_load_g", "true_friction_n"];
 
+/// The last columns of a scene: one or zero.
+const TRUE_FLAGS: [&str; 2] = ["true_over_edge", "true_touching"];
+
 /// The file by which a folder is known for one of a run.
 const SUMMARY: &str = "summary.json";
 
@@ -176,6 +179,7 @@ impl Frames {
             COLUMNS[2..2 + QUANTITIES].iter().try_for_each(|name| write!(self.file, ",true_{name}"))?;
             write!(self.file, ",{}", OF_SCENE.join(","))?;
             scene.swept.iter().try_for_each(|name| write!(self.file, ",set_{name}"))?;
+            write!(self.file, ",{}", TRUE_FLAGS.join(","))?;
         }
         writeln!(self.file)
     }
@@ -212,7 +216,8 @@ impl OfScene {
         numbers(&truth.quantities).iter().try_for_each(|number| write!(file, ",{number}"))?;
         let case = self.cases.get(case).map_or("", String::as_str);
         write!(file, ",{},{},{},{}", field(case), truth.point, truth.load_g, truth.friction_n)?;
-        self.swept.iter().try_for_each(|name| write!(file, ",{}", truth.set.get(name)))
+        self.swept.iter().try_for_each(|name| write!(file, ",{}", truth.set.get(name)))?;
+        write!(file, ",{},{}", u8::from(truth.over_edge), u8::from(truth.touching))
     }
 }
 

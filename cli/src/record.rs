@@ -67,6 +67,10 @@ pub struct Truth {
     pub point: usize,
     /// The group that the slot belongs to: all settings but the position.
     pub group: usize,
+    /// The pad reaches over the edge.
+    pub over_edge: bool,
+    /// The pad lies on another one; known where pads are coupled.
+    pub touching: bool,
 }
 
 /// What the floating-point reference says of a slot.

@@ -14,6 +14,7 @@ use crate::args::Fidelity;
 use crate::calibrate::DeviceCalibration;
 use crate::engine::{Engine, Slot, engine};
 use crate::errors::Errors;
+use crate::placement::Placement;
 use crate::record::{Reference, Row, SignalError, Truth};
 use crate::residual::Residual;
 use crate::uncoupling::Uncoupling;
@@ -31,6 +32,7 @@ pub struct Session {
     waiting: VecDeque<Row>,
     /// Of the core and of the reference.
     uncoupling: Option<[Uncoupling; 2]>,
+    placement: Placement,
 }
 
 /// When slots are.
@@ -91,6 +93,7 @@ impl Session {
             case,
             waiting: VecDeque::new(),
             uncoupling: None,
+            placement: Placement::new(device),
         })
     }
 
@@ -157,13 +160,15 @@ impl Session {
         if let Some([core, _]) = self.uncoupling.as_mut().filter(|_| !reading.flags.invalid) {
             core.apply(row.pad, &mut measured);
         }
-        Some(Row { measured, flags: names(reading.flags), ..row })
+        let at_mm = (!reading.flags.invalid).then_some([measured.x_mm, measured.y_mm]);
+        let flags: Vec<_> = names(reading.flags).chain(self.placement.flags(row.pad, at_mm)).collect();
+        Some(Row { measured, flags: flags.join("+"), ..row })
     }
 }
 
-/// The names of the flags that are set.
-fn names(flags: Flags) -> String {
+/// The names of the core's flags that are set.
+fn names(flags: Flags) -> impl Iterator<Item = &'static str> {
     let named =
         [(flags.clipped, "clipped"), (flags.saturated, "saturated"), (flags.invalid, "invalid"), (flags.lost, "lost")];
-    named.iter().filter(|(set, _)| *set).map(|(_, name)| *name).collect::<Vec<_>>().join("+")
+    named.into_iter().filter(|(set, _)| *set).map(|(_, name)| name)
 }

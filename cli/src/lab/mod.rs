@@ -33,7 +33,7 @@ use hapticore_scene::{Complex, Plant};
 use serde::Serialize;
 
 use crate::args::CalibrateArgs;
-use crate::calibrate::{DeviceCalibration, Found, Raster, Scales, Signs, found};
+use crate::calibrate::{DeviceCalibration, Found, Raster, Scales, Signs, found, open_share};
 use crate::record::Provenance;
 use crate::residual::{LIMIT_MM, Residual};
 use crate::{capture, console, inputs, print, report, say};
@@ -161,14 +161,17 @@ fn calibrate(data: &Data, profile: &Profile) -> Result<(DeviceCalibration, Outco
     let scale = force.as_ref().and_then(|force| force.current_scale).map_or(1.0, |scale| scale.value);
     warnings.extend((!(SCALES[0]..SCALES[1]).contains(&scale)).then(|| far_off(scale)));
     let sheet: Vec<_> = sheet.iter().map(|ohm| if from == Resistance::Currents { ohm / scale } else { *ohm }).collect();
-    let measured = Measured { rows: rows(&places, &sheet, &signs), columns, even: even.as_ref(), signs: &signs };
+    let shares = |place: &Place| Places::shares(&place.siemens, [&signs.x, &signs.y]);
+    let open_share = open_share(&places.places.iter().map(shares).collect::<Vec<_>>());
+    let measured =
+        Measured { rows: rows(&places, &sheet, &signs), columns, open_share, even: even.as_ref(), signs: &signs };
     let mut device = DeviceCalibration {
         pads: setup.pads,
-        map: Raster { columns: 0, places: Vec::new() },
+        map: Raster { columns: 0, places: Vec::new(), open_share: 0.0 },
         device: scales(setup, scale, force_k),
         terminals: signs.clone(),
     };
-    let profile = inputs::for_device(profile, &device)?;
+    let profile = device.profile(profile)?;
     let (measured, held_out) = measured.best(&device, &profile).with_context(|| places.file.clone())?;
     device.map = measured.raster().with_context(|| places.file.clone())?;
     let calibration = device.of(&profile).with_context(|| places.file.clone())?;
@@ -267,6 +270,7 @@ fn scales(setup: &Setup, current_scale: f64, force_k: f64) -> Scales {
         sense_full_scale_v: setup.sense_full_scale_v,
         haptic_full_scale_v: setup.haptic_full_scale_v,
         force_k,
+        pad_diameter_mm: setup.sheet.as_ref().map(|sheet| sheet.pad_diameter_mm),
     }
 }
 
@@ -275,6 +279,7 @@ fn scales(setup: &Setup, current_scale: f64, force_k: f64) -> Scales {
 struct Measured<'a> {
     rows: Vec<Row>,
     columns: Option<usize>,
+    open_share: f64,
     even: Option<&'a Plant>,
     signs: &'a Signs,
 }
@@ -283,14 +288,14 @@ impl Measured<'_> {
     /// The places as a raster: as they are, or brought onto one.
     fn raster(&self) -> Result<Raster> {
         match self.columns {
-            Some(columns) => Ok(Raster { columns, places: self.rows.clone() }),
+            Some(columns) => Ok(Raster { columns, places: self.rows.clone(), open_share: self.open_share }),
             None => self.scattered(&self.rows),
         }
     }
 
     fn scattered(&self, rows: &[Row]) -> Result<Raster> {
         let (columns, places) = scattered::raster(rows, |places| self.even(places))?;
-        Ok(Raster { columns, places })
+        Ok(Raster { columns, places, open_share: self.open_share })
     }
 
     /// The ratios that an even sheet has at places; its resistance is not asked for.

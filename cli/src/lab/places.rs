@@ -13,15 +13,13 @@ use anyhow::{Result, bail, ensure};
 use hapticore_scene::{Complex, LEAST_TERMINALS, MOST_TERMINALS};
 
 use super::table::{Row, Table};
+use crate::calibrate::OPEN;
 
 /// Places at least: fewer leave no word of the position table between edges to tell.
 const LEAST: usize = 16;
 
 /// Different x and y of places at least.
 const LEAST_ALONG: usize = 4;
-
-/// A current below this share of the total everywhere is none.
-const OPEN: f64 = 1e-4;
 
 /// What the terminals read of a pad at a known place.
 #[derive(Debug, Clone, PartialEq)]
@@ -177,8 +175,20 @@ impl Places {
     /// The ratios of currents, with these signs.
     pub fn ratios(siemens: &[Complex], signs: [&[i8]; 2]) -> [f64; 2] {
         let currents = || siemens.iter().map(|siemens| siemens.norm()).zip(signs[0].iter().zip(signs[1]));
-        let sum: f64 = currents().filter(|(_, (x, y))| (**x, **y) != (0, 0)).map(|(current, _)| current).sum();
+        let sum = Places::denominator(siemens, signs);
         [0, 1].map(|axis| currents().map(|(current, (x, y))| current * f64::from([*x, *y][axis])).sum::<f64>() / sum)
+    }
+
+    /// The currents, as shares of the ratios' denominator.
+    pub fn shares(siemens: &[Complex], signs: [&[i8]; 2]) -> Vec<f64> {
+        let denominator = Places::denominator(siemens, signs);
+        siemens.iter().map(|siemens| siemens.norm() / denominator).collect()
+    }
+
+    /// The sum of the currents that have a sign.
+    fn denominator(siemens: &[Complex], signs: [&[i8]; 2]) -> f64 {
+        let currents = siemens.iter().map(|siemens| siemens.norm()).zip(signs[0].iter().zip(signs[1]));
+        currents.filter(|(_, (x, y))| (**x, **y) != (0, 0)).map(|(current, _)| current).sum()
     }
 
     /// Brings the places into the order of a raster, row by row; places in a row, or none where they are no raster.

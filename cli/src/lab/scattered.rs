@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Places that lie anywhere, brought onto a raster: polyharmonic splines of what they differ by from an even sheet.
 //!
-//!   f(p) = e(p) + Σ a_i·|p − p_i|³ + b·p + c,   f(p_i) = f_i,   Σ a_i = Σ a_i·p_i = 0
+//!   f(p) = e(p) + Σ a_i·|p − p_i|³ + b·p + c,   f(p_i) + λ·a_i = f_i,   Σ a_i = Σ a_i·p_i = 0
 //!
-//! e is what an even sheet has there, where the setup says enough, else 0. Source: Duchon, "Splines minimizing
-//! rotation-invariant semi-norms in Sobolev spaces", 1977 (kernel r³ in the plane).
+//! e is what an even sheet has there, where the setup says enough, else 0. Readings have noise, which a spline through all of
+//! them would follow: λ is the one that leaves least of each reading that is left out. Sources: Duchon, "Splines minimizing
+//! rotation-invariant semi-norms in Sobolev spaces", 1977 (kernel r³ in the plane); Wahba, "Spline models for observational
+//! data", 1990, ch. 4 (leaving one out).
 
 use anyhow::{Result, anyhow};
 use nalgebra::{DMatrix, DVector};
@@ -20,6 +22,12 @@ const RASTER: [usize; 2] = [121, 71];
 
 /// 1, x and y.
 const LINEAR: usize = 3;
+
+/// The λ that are tried.
+const LAMBDAS: [f64; 9] = [0.0, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2];
+
+/// So many places, at most, are left out one by one: the best λ depends on the noise, not on their number.
+const LEFT_OUT: usize = 400;
 
 /// The raster about the places: its columns and its places. `even` is what an even sheet has at places, mm.
 ///
@@ -55,17 +63,20 @@ struct Spline {
 impl Spline {
     fn of(centres: &[[f64; 2]], value: impl Fn(usize, usize) -> f64) -> Result<Spline> {
         let (count, unit_mm) = (centres.len(), centres.iter().map(|at| at[0].hypot(at[1])).fold(1.0, f64::max));
-        let entry = |row: usize, column: usize| match (row < count, column < count) {
-            (true, true) => kernel(centres[row], centres[column], unit_mm),
-            (true, false) => linear(centres[row], unit_mm)[column - count],
-            (false, true) => linear(centres[column], unit_mm)[row - count],
-            (false, false) => 0.0,
-        };
-        let matrix = DMatrix::from_fn(count + LINEAR, count + LINEAR, entry);
-        let known = |row: usize, k: usize| if row < count { value(row, k) } else { 0.0 };
-        let known = DMatrix::from_fn(count + LINEAR, 3, known);
-        let weights = matrix.lu().solve(&known).filter(|weights| weights.iter().all(|weight| weight.is_finite()));
-        let weights = weights.ok_or_else(|| anyhow!("expected places that span an area, each of them once"))?;
+        let every = count.div_ceil(LEFT_OUT);
+        let some: Vec<_> = centres.iter().copied().step_by(every).collect();
+        let mut weights = DMatrix::zeros(count + LINEAR, 3);
+        for k in 0..3 {
+            let known = DVector::from_fn(count + LINEAR, |row, _| if row < count { value(row, k) } else { 0.0 });
+            let of_some =
+                DVector::from_fn(some.len() + LINEAR, |row, _| if row < some.len() { known[row * every] } else { 0.0 });
+            let left = LAMBDAS.map(|lambda| left_out(system(&some, unit_mm, lambda), &of_some));
+            let best = (0..LAMBDAS.len()).min_by(|a, b| left[*a].total_cmp(&left[*b])).expect("some are tried");
+            let solved = system(centres, unit_mm, LAMBDAS[best]).lu().solve(&known);
+            let solved = solved.filter(|weights| weights.iter().all(|weight| weight.is_finite()));
+            let solved = solved.ok_or_else(|| anyhow!("expected places that span an area, each of them once"))?;
+            weights.set_column(k, &solved);
+        }
         Ok(Spline { centres: centres.to_vec(), weights, unit_mm })
     }
 
@@ -76,6 +87,26 @@ impl Spline {
         let values = self.weights.tr_mul(&terms);
         [values[0], values[1], values[2]]
     }
+}
+
+/// The equations of the weights a, b and c.
+fn system(centres: &[[f64; 2]], unit_mm: f64, lambda: f64) -> DMatrix<f64> {
+    let count = centres.len();
+    let entry = |row: usize, column: usize| match (row < count, column < count) {
+        (true, true) => kernel(centres[row], centres[column], unit_mm) + if row == column { lambda } else { 0.0 },
+        (true, false) => linear(centres[row], unit_mm)[column - count],
+        (false, true) => linear(centres[column], unit_mm)[row - count],
+        (false, false) => 0.0,
+    };
+    DMatrix::from_fn(count + LINEAR, count + LINEAR, entry)
+}
+
+/// The sum of the squares of what a spline through all other values leaves of each; infinite where there is none.
+fn left_out(system: DMatrix<f64>, known: &DVector<f64>) -> f64 {
+    let Some(inverse) = system.try_inverse() else { return f64::INFINITY };
+    let weights = &inverse * known;
+    let squares = (0..known.len() - LINEAR).map(|k| (weights[k] / inverse[(k, k)]).powi(2));
+    Some(squares.sum()).filter(|sum: &f64| sum.is_finite()).unwrap_or(f64::INFINITY)
 }
 
 fn kernel(a: [f64; 2], b: [f64; 2], unit_mm: f64) -> f64 {
@@ -109,6 +140,20 @@ mod tests {
             let most = if x.abs().max(y.abs()) < 85.0 { 0.005 } else { 0.05 };
             assert!((b - hill).abs() < most, "{x} {y}: {b} for {hill}");
         }
+    }
+
+    /// With readings that are noise in part, what is between the places is nearer to the truth than the readings are.
+    #[test]
+    fn noise_is_smoothed_away() {
+        let noise = |k: usize| 0.1 * ((1e4 * (k as f64 * 5f64.sqrt()).sin()).rem_euclid(1.0) - 0.5);
+        let hill = |[x, y]: [f64; 2]| (-(x * x + y * y) / 1e4).exp();
+        let mut read = places(400, |at| [hill(at), hill(at), hill(at)]);
+        read.iter_mut().enumerate().for_each(|(k, place)| place[2] += noise(k));
+        let (_, raster) = raster(&read, |places| vec![[0.0; 3]; places.len()]).unwrap();
+        let off = |[x, y, a, _, _]: &Row| (x.abs().max(y.abs()) < 85.0).then(|| (a - hill([*x, *y])).powi(2));
+        let squares: Vec<f64> = raster.iter().filter_map(off).collect();
+        let rms = (squares.iter().sum::<f64>() / squares.len() as f64).sqrt();
+        assert!(rms < 0.1 / 12f64.sqrt() / 2.5, "{rms}");
     }
 
     #[test]

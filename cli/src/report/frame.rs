@@ -4,14 +4,29 @@
 use plotters::element::{PathElement, Text};
 use plotters::style::text_anchor::{HPos, VPos};
 
+use super::axis::Axis;
+use super::canvas::{Area, Chart, Drawn, WIDTH, stroke, text};
 use super::paint::Paint;
-use super::plot::{Area, Chart, Drawn, Plot, WIDTH, stroke, text};
 
 /// Between an axis and its labels.
 const GAP: i32 = 10;
 
+/// What is drawn around series.
+pub struct Frame<'a> {
+    /// The horizontal axis.
+    pub x: &'a Axis,
+    /// The vertical axis.
+    pub y: &'a Axis,
+    /// Values of y with a line of their own.
+    pub limits: &'a [f64],
+    /// Values of x with a line of their own.
+    pub breaks: &'a [f64],
+    /// Height where the width is [`WIDTH`].
+    pub height: u32,
+}
+
 /// Draws all of it.
-pub fn draw(root: &Area, chart: &Chart, plot: &Plot) -> Drawn {
+pub fn draw(root: &Area, chart: &Chart, plot: &Frame) -> Drawn {
     let (x, y) = (plot.x.range(), plot.y.range());
     let (left, bottom) = chart.backend_coord(&(x.0, y.0));
     let (right, top) = chart.backend_coord(&(x.1, y.1));
@@ -37,7 +52,7 @@ pub fn draw(root: &Area, chart: &Chart, plot: &Plot) -> Drawn {
     titles(root, plot)
 }
 
-fn titles(root: &Area, plot: &Plot) -> Drawn {
+fn titles(root: &Area, plot: &Frame) -> Drawn {
     let end = (i32::try_from(WIDTH)? - 2, i32::try_from(plot.height)? - 4);
     root.draw(&Text::new(plot.y.title.clone(), (2, 2), text(Paint::INK, HPos::Left, VPos::Top)))?;
     root.draw(&Text::new(plot.x.title.clone(), end, text(Paint::INK, HPos::Right, VPos::Bottom)))?;

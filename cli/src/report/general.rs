@@ -8,7 +8,6 @@ use super::paint::Paint;
 use super::plot::Plot;
 use super::select;
 use super::series::{Mark, Point, Series};
-use super::swept;
 use crate::record::{Quantities, Record, Row};
 
 /// How a quantity is got from a row's.
@@ -36,12 +35,8 @@ const FEW: usize = 300;
 /// Means on the lines of a pad.
 const BINS: usize = 200;
 
-/// Every quantity that is measured: over what is swept where something is, else over time.
+/// Every quantity that is measured, over time.
 pub fn figures(record: &Record) -> Vec<Figure> {
-    let truth = record.rows.iter().any(|row| row.truth.is_some());
-    if truth && !record.swept.is_empty() {
-        return swept::figures(record);
-    }
     quantities(record).into_iter().map(|q| over_time(record, q)).collect()
 }
 

@@ -7,8 +7,8 @@ use std::error::Error;
 use plotters::prelude::{IntoDrawingArea as _, Rectangle, SVGBackend};
 use plotters::style::Color as _;
 
+use super::canvas::{inline, stroke};
 use super::paint::Paint;
-use super::plot::{inline, stroke};
 use crate::record::Record;
 
 /// Half the sheet of the paper, mm, for a run that does not know its own.

@@ -13,6 +13,7 @@
 
 mod axis;
 mod calibration;
+mod canvas;
 #[cfg(test)]
 mod contrast;
 mod fig3;
@@ -64,7 +65,8 @@ fn figures(record: &Record) -> String {
     format!("<div class=\"figures\">\n{figures}</div>\n")
 }
 
-/// The figures of the scene; the general ones where it names none, or where a capture left no truth to compare with.
+/// The figures of the scene; where it names none, or a capture left no truth to compare with, every quantity over what is swept or
+/// over time.
 fn chosen(record: &Record) -> Vec<Figure> {
     let truth = record.rows.iter().any(|row| row.truth.is_some());
     match record.figure.as_deref().filter(|_| truth) {
@@ -73,6 +75,7 @@ fn chosen(record: &Record) -> Vec<Figure> {
         Some("fig6") => fig6::figures(record),
         Some("fig7") => fig7::figures(record),
         Some("hockey") => hockey::figures(record),
+        _ if truth && !record.swept.is_empty() => swept::figures(record),
         _ => general::figures(record),
     }
 }

@@ -6,23 +6,16 @@
 
 use std::error::Error;
 
-use plotters::coord::types::RangedCoordf64;
 use plotters::element::{Circle, PathElement, Polygon, Text};
-use plotters::prelude::{Cartesian2d, ChartBuilder, ChartContext, IntoDrawingArea as _, IntoFont as _, SVGBackend};
-use plotters::style::text_anchor::{HPos, Pos, VPos};
-use plotters::style::{Color as _, ShapeStyle, TextStyle};
+use plotters::prelude::{ChartBuilder, IntoDrawingArea as _, SVGBackend};
+use plotters::style::Color as _;
+use plotters::style::text_anchor::{HPos, VPos};
 
 use super::axis::Axis;
-use super::frame;
+use super::canvas::{Area, Chart, Drawn, WIDTH, inline, stroke, text};
+use super::frame::{self, Frame};
 use super::page::escape;
-use super::paint::{self, Paint};
 use super::series::{Mark, Point, Series, thin_dots, thin_line};
-
-/// Width of every plot, in its own units.
-pub const WIDTH: u32 = 1200;
-
-/// Size of text; `plotters` divides by 1.24.
-const TEXT: u32 = 46;
 
 /// Width to reserve for a character.
 const CHARACTER: usize = 21;
@@ -35,15 +28,6 @@ const BAND: f64 = 0.3;
 
 /// Columns that all lines of a plot share.
 const COLUMNS: usize = 2400;
-
-/// What a plot is drawn on.
-pub type Area<'a> = plotters::drawing::DrawingArea<SVGBackend<'a>, plotters::coord::Shift>;
-
-/// A drawing area within a plot.
-pub type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
-
-/// Whether something was drawn.
-pub type Drawn = Result<(), Box<dyn Error>>;
 
 /// A plot.
 #[derive(Clone, Debug)]
@@ -88,13 +72,18 @@ impl Plot {
     fn draw(&self, drawing: &mut String) -> Drawn {
         let root = SVGBackend::with_string(drawing, (WIDTH, self.height)).into_drawing_area();
         let chart = self.chart(&root)?;
-        frame::draw(&root, &chart, self)?;
+        frame::draw(&root, &chart, &self.frame())?;
         for series in &self.series {
             self.series(&root, &chart, series)?;
         }
         self.tags(&root, &chart)?;
         root.present()?;
         Ok(())
+    }
+
+    fn frame(&self) -> Frame<'_> {
+        let Plot { x, y, limits, breaks, height, .. } = self;
+        Frame { x, y, limits, breaks, height: *height }
     }
 
     fn chart<'a, 'b>(&self, root: &'a Area<'b>) -> Result<Chart<'a, 'b>, Box<dyn Error>> {
@@ -196,24 +185,6 @@ fn apart(heights: &[i32], bottom: i32) -> Vec<i32> {
         floor = *height - LINE;
     }
     placed
-}
-
-/// A line's style.
-pub fn stroke(paint: Paint, width: u32) -> ShapeStyle {
-    paint.sentinel().stroke_width(width)
-}
-
-/// A text's style.
-pub fn text(paint: Paint, horizontal: HPos, vertical: VPos) -> TextStyle<'static> {
-    let font = ("sans-serif", TEXT).into_font();
-    font.color(&paint.sentinel()).pos(Pos::new(horizontal, vertical))
-}
-
-/// A drawing as it stands in the page: classes instead of colours, its size left to the page.
-pub fn inline(drawing: &str, about: &str, width: u32, height: u32) -> String {
-    let inner = drawing.split_once('\n').map_or("", |(_, rest)| rest);
-    let open = format!("<svg viewBox=\"0 0 {width} {height}\" role=\"img\" aria-label=\"{}\">\n", escape(about));
-    open + &paint::to_classes(inner)
 }
 
 #[cfg(test)]
