@@ -3,14 +3,18 @@
 //!
 //! | module | does |
 //! | --- | --- |
+//! | [`devices`] | devices drawn at random, and how well a pad is found on them |
 //! | [`faults`] | deliberate faults in printed Verilog |
 //! | [`lockstep`] | the model and its Verilog, every output at every clock |
+//! | [`peripherals`] | the blocks of a board, each with a trace |
 //! | [`speed`] | how fast the model is, and Verilator |
 //! | [`stimulus`] | what a core is given: random and directed input, whole scenes |
 //! | [`tools`] | the HDL tools, and what is said where one is missing |
 
+pub mod devices;
 pub mod faults;
 pub mod lockstep;
+pub mod peripherals;
 pub mod speed;
 pub mod stimulus;
 pub mod tools;

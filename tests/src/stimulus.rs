@@ -236,7 +236,7 @@ pub fn tones(profile: &Profile, seed: u64, slots: u64) -> Stimulus {
     let (samples, turns_per_sample) = (profile.slot.samples(), profile.turns_per_sample());
     let tone = |rng: &mut Rng| (rng.f64(), [0.0, 0.01, 0.1, 0.5, 0.9, 1.0, 3.0][rng.usize(..7)]);
     let mut onsets = Rng::with_seed(seed ^ 1 << 32);
-    let left: Vec<bool> = profile.terminals.x.iter().map(|&sign| sign < 0).collect();
+    let others: Vec<bool> = profile.terminals.x.iter().map(|&sign| sign <= 0).collect();
     let slot = move |slot| {
         let onset = if onsets.bool() { 0 } else { onsets.u64(..samples) };
         let mut tones: Vec<(f64, f64)> = (0..channels).map(|_| tone(&mut rng)).collect();
@@ -245,8 +245,8 @@ pub fn tones(profile: &Profile, seed: u64, slots: u64) -> Stimulus {
             tones.iter_mut().for_each(|(phase, _)| *phase = one);
         }
         if slot % 4 == 3 {
-            // All current on the right: a ratio of one, the largest word there is.
-            tones.iter_mut().zip(&left).filter(|(_, left)| **left).for_each(|((_, level), _)| *level = 0.0);
+            // All current at the terminals on the right: a ratio of one, the largest word there is.
+            tones.iter_mut().zip(&others).filter(|(_, other)| **other).for_each(|((_, level), _)| *level = 0.0);
         }
         (0..samples).map(move |sample| {
             let turns = sample as f64 * turns_per_sample;

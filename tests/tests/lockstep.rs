@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Clocked model = printed Verilog, every output at every clock: random input and whole scenes, in two simulators.
 
+use hapticore_model::block::Block;
+use hapticore_model::blocks::haptic_voltage::HapticVoltage;
+use hapticore_model::profile::Profile;
+use hapticore_rtl::verilog::Design;
 use hapticore_tests::lockstep::verilator::{Start, Verilated};
-use hapticore_tests::lockstep::{Bench, icarus};
+use hapticore_tests::lockstep::{Bench, Trace, icarus};
 use hapticore_tests::{stimulus, tools};
 
 /// Clocks that Verilator runs at least, of each profile.
@@ -53,5 +57,29 @@ fn icarus_runs_what_the_model_runs() {
                 panic!("{name}: {mismatch}");
             }
         }
+    }
+}
+
+/// Squares of every pad in turn, and now and then `clear`: bundled profiles have one window, and print nothing of this.
+#[test]
+fn icarus_runs_a_mean_over_windows_as_the_model_does() {
+    if !tools::have(&["iverilog", "vvp"]) {
+        return;
+    }
+    let mut profile = Profile::bundled("small").expect("bundled");
+    profile.haptic.windows = 4;
+    let block = HapticVoltage::new(&profile);
+    let (last, sum, latency) = (2 * profile.demodulated() as i64, block.inputs().sum, block.latency() as usize);
+    let (mut rng, mut clocks, pads) = (fastrand::Rng::with_seed(6), 0.., profile.pads as usize);
+    let design = Design::of(&block, "a test");
+    let trace = Trace::record(&block, design.ports.clone(), move |_| {
+        let clock: usize = clocks.next()?;
+        let (slot, within) = (clock / (latency + 2), clock % (latency + 2));
+        let code = rng.i64(sum.min_code() as i64..=sum.max_code() as i64) >> rng.u32(..20);
+        let [clear, valid] = [rng.u32(..40) == 0 && within > latency, within == 0].map(i64::from);
+        (slot < 800).then(|| vec![clear, (slot % pads) as i64, valid, last, code.abs()])
+    });
+    if let Err(mismatch) = icarus::check(design.top(), &design.text(), &trace) {
+        panic!("{mismatch}");
     }
 }

@@ -6,8 +6,10 @@
 //! | --- | --- |
 //! | [`verilator`] | Verilator: millions of clocks |
 //! | [`icarus`] | Icarus Verilog: an event-driven simulator with unknown values, written by other people |
+//! | [`external`] | either, where others have written the Verilog |
 
 mod bench;
+pub mod external;
 pub mod icarus;
 mod trace;
 pub mod verilator;

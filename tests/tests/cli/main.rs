@@ -4,6 +4,7 @@
 mod bad_captures;
 mod captures;
 mod codes;
+mod flags;
 mod gallery;
 mod lab;
 mod messages;

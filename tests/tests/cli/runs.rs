@@ -132,7 +132,16 @@ fn frames_name_case_and_settings() {
     let table = Table::read(&folder.path().join("o/frames.csv"));
     assert_eq!(
         table.names[21..],
-        ["case", "point", "true_load_g", "true_friction_n", "set_load_g", "set_haptic_v_rms"]
+        [
+            "case",
+            "point",
+            "true_load_g",
+            "true_friction_n",
+            "set_load_g",
+            "set_haptic_v_rms",
+            "true_over_edge",
+            "true_touching"
+        ]
     );
     let (load, volts) = (table.numbers("set_load_g"), table.numbers("set_haptic_v_rms"));
     assert_eq!((load[0], volts[0], load[143], volts[143]), (20.0, 0.0, 100.0, 350.0));

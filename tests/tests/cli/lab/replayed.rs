@@ -62,7 +62,7 @@ fn measured(places: &[[f64; 2]], seed: u64) -> (Vec<Reading>, String) {
 #[test]
 fn a_raster_with_phases_gives_positions_and_forces_within_limits() {
     let folder = tempfile::tempdir().unwrap();
-    let (readings, loads) = measured(&raster([29, 19], [142.0, 92.0]), 3);
+    let (readings, loads) = measured(&raster([29, 19], [140.0, 90.0]), 3);
     let setup = format!("{SETUP}{TERMINALS}");
     let errors = replay(&Files { places: places_csv(&readings, true), loads, setup, folder: folder.path() });
     assert!(errors.rms_mm < 0.2 && errors.worst_mm < 0.5, "{} {} mm", errors.rms_mm, errors.worst_mm);
@@ -72,7 +72,7 @@ fn a_raster_with_phases_gives_positions_and_forces_within_limits() {
 #[test]
 fn amplitudes_alone_do_with_the_resistance_of_the_film() {
     let folder = tempfile::tempdir().unwrap();
-    let (readings, loads) = measured(&raster([29, 19], [142.0, 92.0]), 4);
+    let (readings, loads) = measured(&raster([29, 19], [140.0, 90.0]), 4);
     let setup = format!("{SETUP}{TERMINALS}ohm_per_square = 150\n");
     let errors = replay(&Files { places: places_csv(&readings, false), loads, setup, folder: folder.path() });
     assert!(errors.rms_mm < 0.2 && errors.capacitance < 1e-3, "{} mm {}", errors.rms_mm, errors.capacitance);
@@ -82,9 +82,9 @@ fn amplitudes_alone_do_with_the_resistance_of_the_film() {
 fn places_that_lie_anywhere_do_as_well() {
     let folder = tempfile::tempdir().unwrap();
     let mut random = fastrand::Rng::with_seed(5);
-    let mut places: Vec<_> = (0..500).map(|_| [284.0 * (random.f64() - 0.5), 184.0 * (random.f64() - 0.5)]).collect();
-    places.extend(raster([15, 2], [142.0, 92.0]));
-    places.extend(raster([2, 11], [142.0, 92.0]).into_iter().filter(|place| place[1].abs() < 92.0));
+    let mut places: Vec<_> = (0..500).map(|_| [280.0 * (random.f64() - 0.5), 180.0 * (random.f64() - 0.5)]).collect();
+    places.extend(raster([15, 2], [140.0, 90.0]));
+    places.extend(raster([2, 11], [140.0, 90.0]).into_iter().filter(|place| place[1].abs() < 90.0));
     let (readings, loads) = measured(&places, 5);
     let setup = format!("{SETUP}{TERMINALS}");
     let errors = replay(&Files { places: places_csv(&readings, true), loads, setup, folder: folder.path() });
@@ -96,7 +96,7 @@ fn places_that_lie_anywhere_do_as_well() {
 #[test]
 fn a_full_scale_that_is_wrong_comes_out_of_loads_with_both_capacitances() {
     let folder = tempfile::tempdir().unwrap();
-    let (mut readings, _) = measured(&raster([29, 19], [142.0, 92.0]), 6);
+    let (mut readings, _) = measured(&raster([29, 19], [140.0, 90.0]), 6);
     let device = plant("minimal-sheet", &SHEET).device();
     // The lab's ammeter reads 5 % low, and so does the core's channel, whose full scale it was found with.
     readings.iter_mut().for_each(|reading| reading.currents_a.iter_mut().for_each(|current| *current /= 1.05));
