@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // Stream: what goes to the transmitter is whole packets, each with its CRC; END is at their ends and nowhere else, ESC only
-// before what it may stand before; a frame is sent with the words that came with it, or dropped whole and told.
+// before what it may stand before; a frame is sent with the words that came with it, or dropped whole and told; a heartbeat
+// whose words are written meanwhile ends early, and one that does not has each of its words whole.
 //
 // Stands at the end of the printed module, after BYTES (of a word), WIDTH (its bits) and
 // `line`, what goes into the transmitter.
@@ -64,8 +65,10 @@
     reg before_busy = 0, before_end = 0, before_done = 0, before_idle = 0, past_valid = 0;
     reg [7:0] before_number = 0;
     reg before_sent = 0;
-    // A word for heartbeats was written while one is being sent.
-    reg disturbed = 0;
+    // A word for heartbeats was written while one is being sent, which ends early.
+    reg cut = 0;
+    // The word of a heartbeat as it was when its first byte went.
+    reg signed [WIDTH-1:0] begun = 0;
     always @(posedge clock) begin
         past_valid <= was_reset && !reset;
         before_busy <= busy;
@@ -74,7 +77,8 @@
         before_idle <= accepting || (valid && index == 0 && !busy);
         before_number <= number;
         before_sent <= sent;
-        disturbed <= !reset && busy && heartbeat && (disturbed || keep || keep_q);
+        cut <= !reset && busy && heartbeat && (cut ? !sent : keep_q && !valid && group < 8);
+        if (sent && group == which && left == BYTES - 1) begun <= words[{1'b1, which}];
         if (reset) begin
             accepting <= 0;
             accepted <= 0;
@@ -102,32 +106,38 @@
     wire [8*BYTES-1:0] wide = {{8 * BYTES - WIDTH + 1{word[WIDTH-1]}}, word[WIDTH-2:0]};
     wire [8*BYTES-1:0] moved = wide >> (8 * left);
 
+    wire [8*BYTES-1:0] begun_wide = {{8 * BYTES - WIDTH + 1{begun[WIDTH-1]}}, begun[WIDTH-2:0]};
+    wire [8*BYTES-1:0] begun_moved = begun_wide >> (8 * left);
+
     always @(posedge clock) if (was_reset) begin
         // What holds all along.
-        if (busy) assert (at == place_of && group != 9 && group != 10 && group != 11 && group != 12 && group != 13 && group != 14);
+        if (cut) assert (busy && heartbeat && group == 8 && left == 0 && at < LENGTH - 2);
+        if (busy && !cut) assert (at == place_of && group != 9 && group != 10 && group != 11 && group != 12 && group != 13 && group != 14);
         if (busy) assert (left < (group == 15 || group == 8 ? 3 : BYTES));
         if (!busy) assert (at == 0 && check == 16'hffff && !behind_esc);
         assert (escaped == behind_esc);
         assert (accepting == (due != 0 && taking));
         assert (!(accepting && busy));
         assert (accepted == (busy && !heartbeat));
-        if (busy && !disturbed) assert (crc == check);
+        if (busy) assert (crc == check);
         if (busy && heartbeat) assert (saturated_q && !invalid_q && !lost_q);
         if (busy && group < 8 && !before_sent && !wrote) assert (words_word == stored);
-        if (behind_esc && group < 8 && !disturbed) assert (stored_special);
-        if (behind_esc && group == 8) assert (left != 0 && (crc[15:8] == 8'hc0 || crc[15:8] == 8'hdb));
+        if (behind_esc && group < 8) assert (stored_special);
+        if (behind_esc && group == 8 && !cut) assert (left != 0 && (crc[15:8] == 8'hc0 || crc[15:8] == 8'hdb));
         if (behind_esc && group == 15) assert (left == 2 ? number_special : left == 1 && (second == 8'hc0 || second == 8'hdb));
         if (busy && at == LENGTH - 2) assert (crc[7:0] == 0);
-        if (busy && last && !disturbed) assert (check == 0);
+        if (busy && last) assert (check == 0);
+        if (busy && heartbeat && group == which && left < BYTES - 1) assert (words[{1'b1, which}] == begun);
         if ((accepting && which < due) || accepted) assert (words[which] == word);
         // What is claimed.
         if (sent) begin
             assert (busy);
-            assert (end_byte == last);
-            if (behind_esc && !disturbed) assert (line == 8'hdc || line == 8'hdd);
+            assert (end_byte == (last || cut));
+            if (behind_esc && !cut) assert (line == 8'hdc || line == 8'hdd);
             // The two bytes before END are the CRC: with them it is zero.
-            if (last && !disturbed) assert (check == 0);
+            if (last) assert (check == 0);
             if (accepted && group == which && !esc_byte) assert (plain == moved[7:0]);
+            if (heartbeat && group == which && left < BYTES - 1 && !esc_byte) assert (plain == begun_moved[7:0]);
         end
         if (past_valid) begin
             // A packet that has begun ends with its END.

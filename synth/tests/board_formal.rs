@@ -185,7 +185,11 @@ fn changed_blocks_are_noticed() {
     let ice = Target::Icebreaker;
     let changes = [("crc == 16'd0", "crc[15:1] == 15'd0"), ("place_q[2:0] == 3'd1", "place_q[1:0] == 2'd1")];
     broken("registers", registers(ice), Mode::Prove(4), &changes);
-    let changes = [("8'd220", "8'd221"), ("next_taking = (valid", "next_taking = valid | (valid")];
+    let changes = [
+        ("8'd220", "8'd221"),
+        ("next_taking = (valid", "next_taking = valid | (valid"),
+        ("& heartbeat) & (~group[3])", "& heartbeat) & group[3]"),
+    ];
     broken("stream", stream(ice), Mode::Prove(4), &changes);
     broken("transmitter", transmitter(ice), Mode::Prove(4), &[("position == 4'd9", "position == 4'd8")]);
     broken("board", board(ice), Mode::Prove(4), &[("registers_sdi & adc_reader_shift", "registers_sdi & shift")]);

@@ -7,6 +7,7 @@
 
 use std::env;
 
+use hapticore::record::Row;
 use hapticore_model::profile::Profile;
 use hapticore_tests::devices::{Device, Found, Raster, error_mm, find, rms, rows};
 use rayon::prelude::*;
@@ -80,7 +81,13 @@ fn positions_are_right_on_the_papers_display() {
         let most = errors.iter().copied().fold(0.0, f64::max);
         println!("{name}: {:.4} mm rms, {most:.3} mm at most over {} places", rms(&errors), errors.len());
         assert!(rms(&errors) <= rms_mm && most <= most_mm, "{name}");
-        assert!(rows.iter().all(|row| row.flags.is_empty()), "{name}");
+        // The outermost places are at the pad's reach, which is where it may begin to lie over the edge.
+        let at_reach = |row: &Row| {
+            let at = row.truth.expect("the plant knows").quantities;
+            at.x_mm.abs() > 413.0 || at.y_mm.abs() > 233.0
+        };
+        let unflagged = |row: &&Row| row.flags.is_empty() || row.flags == "at_edge" && at_reach(row);
+        assert_eq!(rows.iter().filter(unflagged).count(), rows.len(), "{name}");
     }
 }
 
@@ -92,7 +99,7 @@ fn noise_mm(profile: &Profile) -> f64 {
          [carrier]\nrung = \"phasor\"\n[sensor]\nnoise_ppm_rms = 18\n"
     );
     let (rows, _) = rows(profile, &format!("dwell_slots = {SLOTS}\n{scene}"));
-    let spread = |of: fn(&hapticore::record::Row) -> f64| {
+    let spread = |of: fn(&Row) -> f64| {
         let places = rows.chunks(SLOTS).flat_map(move |place| {
             let mean = place.iter().map(of).sum::<f64>() / SLOTS as f64;
             place.iter().map(move |row| of(row) - mean)

@@ -200,10 +200,6 @@ impl Block for Estimator {
         }
         let Inputs { valid, index, sum, .. } = i;
         let parts = &mut cell.parts;
-        if V::DECIDES && (valid | i.write | i.clear | !self.position.running(&parts.position)).idle() {
-            self.locate(parts);
-            return self.quiet(r);
-        }
         let inputs = currents::Inputs { valid, index, sum };
         let currents = self.currents.call("currents", &mut parts.currents, inputs);
         let pad = valid.select(i.pad, r.pad);
@@ -272,16 +268,6 @@ impl Block for Estimator {
 }
 
 impl Estimator {
-    /// A clock of the position's program, while nothing else is under way, for readings that may skip.
-    #[inline(always)]
-    fn locate<V: Value>(&self, parts: &mut Parts<V>) {
-        let inputs = ratio::Inputs::map(self.ratio.inputs(), zero);
-        let ratio = self.ratio.call("ratio", &mut parts.ratio, inputs);
-        let inputs = position::Inputs::map(self.position.inputs(), zero);
-        let inputs = position::Inputs { r_x: ratio.r_x, r_y: ratio.r_y, share: ratio.share, ..inputs };
-        self.position.call("position", &mut parts.position, inputs);
-    }
-
     /// The outputs while nothing is under way: no frame, and so nothing about one.
     #[inline(always)]
     fn quiet<V: Value>(&self, r: Registers<Signal<V>>) -> Outputs<Signal<V>> {

@@ -129,7 +129,7 @@ fn check_window(bench: &mut Bench<Demodulator>, profile: &Profile, samples: u64,
 fn currents_are_amplitudes_and_their_sums() {
     for (seed, profile) in (0..).zip(Profile::all()) {
         let (mut bench, mut random) = (Bench::new(Currents::new(&profile)), Random::new(seed));
-        for _ in 0..operations(MILLION / 3) {
+        for _ in 0..operations(MILLION / 20) {
             check_currents(&mut bench, &profile, &mut random);
         }
     }

@@ -18,7 +18,9 @@
 //! | pause  | u BEAT + 1  | held at zero while anything is sent or the board is enabled; its top bit ends the pause |
 //!
 //! A heartbeat is a packet whose words are those that have been written into registers. A word that is to be kept for it waits
-//! for the words of a frame to be through, and while one is written none is read: the line rests for a clock.
+//! for the words of a frame to be through, and while one is written none is read: the line rests for a clock. A heartbeat
+//! whose words are being sent then ends at once, too short for a packet: bytes of the word before and of this one would
+//! otherwise stand side by side, under a CRC that is right.
 //!
 //! A frame that comes while one is being sent is dropped whole, takes its number along, and sets a flag in the next packet. A
 //! packet's own number is its first byte, gone long before another frame can come.
@@ -279,6 +281,7 @@ impl Block for Stream {
         let heartbeat = r.pause.msb() & !r.busy & !i.enable & !i.valid;
         let begin = frame | heartbeat;
         let (group, left) = self.advance(&r);
+        let cut = (write.enable & !i.valid & r.busy & r.heartbeat & !r.group.msb()).named("cuts");
         let take = |now: Signal<V>, held: Signal<V>| begin.select(now, held);
         cell.store(
             self,
@@ -286,8 +289,10 @@ impl Block for Stream {
                 taking,
                 busy: flag(r.busy, begin, sent & at_end),
                 heartbeat: take(heartbeat, r.heartbeat),
-                group: take(int(STATUS), sent.select(group, r.group)).fit(r.group.format, Exact, Wrap),
-                left: take(int(STATUS_BYTES - 1), sent.select(left, r.left)).fit(r.left.format, Exact, Wrap),
+                group: take(int(STATUS), cut.select(int(TRAILER), sent.select(group, r.group)))
+                    .fit(r.group.format, Exact, Wrap),
+                left: take(int(STATUS_BYTES - 1), cut.select(int(0), sent.select(left, r.left)))
+                    .fit(r.left.format, Exact, Wrap),
                 escaped: transmitter.taken.select(escape, r.escaped),
                 crc: take(crc16::begin(), sent.select(crc16::with(r.crc, byte), r.crc)),
                 number: i.done.select(next(r.number), r.number),

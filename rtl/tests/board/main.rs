@@ -11,6 +11,7 @@ mod random;
 mod bench;
 mod blocks;
 mod commands;
+mod heartbeats;
 mod part;
 mod pins;
 mod ranges;

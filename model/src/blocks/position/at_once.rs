@@ -4,16 +4,21 @@
 //!
 //! Instructions are as `instruction.rs` says, on raw codes. `fixed` and `clock` are held to be equal to the bit.
 
-use super::instruction::{CHECK, COUNT, Index, Instruction, LOW, OPEN, Operation, SCALARS, SHARE, SURFACE, WRAP};
+use super::instruction::{
+    CHECK, COUNT, Index, Instruction, LOW, OPEN, Operation, SCALARS, SHARE, SLOT_BITS, SURFACE, WRAP,
+};
 use super::layout::Layout;
 use super::{Position, Program, Surface};
 use crate::format::Format;
+
+/// The scratch memory, as many words as an instruction can name: a run has a copy of its own, without an allocation.
+type Scratch = [i64; 1 << SLOT_BITS];
 
 /// A program, its constants and a calibration's words.
 #[derive(Debug, Clone)]
 pub struct AtOnce {
     program: Program,
-    scratch: Vec<i64>,
+    scratch: Scratch,
     table: Vec<i64>,
     word: Format,
     /// Bits of half a ratio that a word does not have.
@@ -38,7 +43,7 @@ pub struct Placed {
 struct Run<'a> {
     of: &'a AtOnce,
     ratios: [i64; 3],
-    scratch: Vec<i64>,
+    scratch: Scratch,
     sum: i64,
     left: i64,
     quotient: i64,
@@ -53,9 +58,12 @@ impl AtOnce {
     /// The program of a position block over a table of these codes.
     pub(super) fn new(position: &Position, table: Vec<i64>) -> Self {
         let (word, ratio) = (position.word, position.ratio);
+        let constants = position.scratch.codes();
+        let mut scratch = [0; 1 << SLOT_BITS];
+        scratch[..constants.len()].copy_from_slice(&constants);
         AtOnce {
             program: Program::new(word),
-            scratch: position.scratch.codes(),
+            scratch,
             table,
             word,
             rest: (ratio.frac + 1 - word.frac) as u32,
@@ -68,7 +76,7 @@ impl AtOnce {
         let mut run = Run {
             of: self,
             ratios,
-            scratch: self.scratch.clone(),
+            scratch: self.scratch,
             sum: self.half(),
             left: 0,
             quotient: 0,

@@ -219,12 +219,6 @@ impl Position {
         }
     }
 
-    /// Whether the program runs: nothing else of an estimator does then.
-    #[inline(always)]
-    pub fn running<V: Value>(&self, cell: &Cell<Self, V>) -> Signal<V> {
-        cell.load(self).running
-    }
-
     /// The format of a share: that of a ratio's magnitude.
     fn share(&self) -> Format {
         Format::unsigned(self.ratio.width - 1, self.ratio.frac)
@@ -339,11 +333,6 @@ impl Block for Position {
         let now = self.decode(&r);
         let (result, held) = self.result(&r);
         let read = self.read(cell, &r, &i, &now, result);
-        if V::DECIDES && (i.start | now.done | r.bubble | !r.running).idle() {
-            let next = self.compute(r, &read, &now);
-            cell.store(self, Registers { waited: more(r.waited), done: bit(false), ..next });
-            return outputs;
-        }
         let next = self.follow(self.compute(r, &read, &now), &r, &now, read.instruction);
         let next = self.give_out(next, &r, &now, result, held);
         let begun = Registers {
@@ -432,8 +421,7 @@ impl Position {
         let write = Write { enable: i.write, address: i.address, data: i.word };
         self.table.access(&mut cell.parts.table, address, write);
         let enable = now.does(Operation::Store) | now.does(Operation::Input);
-        let skips = V::DECIDES && enable.idle();
-        let data = if skips { zero(self.word) } else { self.stored(r, i, now, result) };
+        let data = self.stored(r, i, now, result);
         self.scratch.access(&mut cell.parts.scratch, now.slot, Write { enable, address: now.slot, data });
         self.program.read(&mut cell.parts.program, self.fetch(r, now));
         let (now, next) = (r.pending.bits(0, 1), r.pending.bits(1, 1));
@@ -576,14 +564,14 @@ impl Position {
         let following = r.surface.is(0).select(int(1), self.found(r).select(int(2), int(0)));
         let surface = does(Operation::Surfaces).select(following, r.surface);
         let on = now.done | r.bubble;
-        let waited = more(r.waited);
+        let more = (r.waited + int(1)).fit(r.waited.format, Exact, Wrap);
         let ends = does(Operation::End);
         Registers {
             running: r.running & !ends,
             bubble: self.jumps(r, now),
             fetched: self.fetch(r, now),
             instruction: on.select(instruction, r.instruction),
-            waited: (on | !r.running).select(int(0), waited),
+            waited: (on | !r.running).select(int(0), more),
             count: (set & now.has(COUNT)).select(value, counted),
             surface: (set & now.has(SURFACE)).select(int(0), surface),
             step: does(Operation::Pass).select((r.step + int(1)).fit(r.step.format, Exact, Wrap), r.step),
@@ -622,12 +610,6 @@ impl Position {
             ..next
         }
     }
-}
-
-/// One more of a count.
-#[inline(always)]
-fn more<V: Value>(count: Signal<V>) -> Signal<V> {
-    (count + int(1)).fit(count.format, Exact, Wrap)
 }
 
 /// Either integer's bits, of four each.
