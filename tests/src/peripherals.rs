@@ -130,11 +130,21 @@ fn adc_reader(block: &AdcReader, parameters: &Parameters) -> Alone {
 }
 
 /// The bytes of a command that may be damaged: too long, too short, escaped wrongly, or changed.
-fn command(block: &CommandRegisters, core: &hapticore_model::blocks::core::Inputs<Format>, rng: &mut Rng) -> Vec<u8> {
+fn command(
+    block: &CommandRegisters,
+    core: &hapticore_model::blocks::core::Inputs<Format>,
+    words: u16,
+    rng: &mut Rng,
+) -> Vec<u8> {
     let data = block.outputs().data;
+    let address = match rng.u8(..8) {
+        0 => words - 1 + rng.u16(..3),
+        1..4 => rng.u16(..0x800),
+        _ => rng.u16(..0x8000),
+    };
     let code = if rng.bool() { any(rng, data) } else { i64::from(octet(rng)) << (8 * rng.u8(..data.width / 8)) };
     let command = match rng.u8(..8) {
-        0..3 => Command::Table { address: rng.u16(..0x8000) & if rng.bool() { 0x7ff } else { 0xffff }, code },
+        0..3 => Command::Table { address, code },
         3 => [Command::ENABLE, Command::DISABLE, Command::RESET_ADC][rng.usize(..3)],
         _ => Command::Register(Register::ALL[rng.usize(..4)], code),
     };
@@ -152,12 +162,12 @@ fn command(block: &CommandRegisters, core: &hapticore_model::blocks::core::Input
 }
 
 /// Commands, and the moves that the ADC reader makes of their data.
-fn registers(block: &CommandRegisters, core: hapticore_model::blocks::core::Inputs<Format>) -> Alone {
+fn registers(block: &CommandRegisters, core: hapticore_model::blocks::core::Inputs<Format>, words: u64) -> Alone {
     let (mut bytes, mut shift) = (Vec::new(), Level::default());
     alone(block, 150_000, move |rng| {
         let valid = now(rng, 2) == 1;
         if valid && bytes.is_empty() {
-            bytes = command(block, &core, rng);
+            bytes = command(block, &core, words as u16, rng);
         }
         let octet = if valid { bytes.remove(0) } else { octet(rng) };
         let shift = i64::from(shift.next(rng, 200) == 1 && rng.u8(..16) == 0);
@@ -169,24 +179,31 @@ fn registers(block: &CommandRegisters, core: hapticore_model::blocks::core::Inpu
 fn stream(block: &Stream, divisor: u64) -> Alone {
     let of = block.inputs();
     let packet = block.packet_clocks(divisor) as u32;
-    let (mut enable, mut wait, mut index) = (Level::default(), 0, 8);
+    // The first packet is a heartbeat, which comes after 2^14 clocks.
+    let first = 20_000 + packet;
+    let (mut enable, mut wait, mut index) = (Level { value: 0, left: first }, first, 0);
+    // Frames come without a pause until the next one's number is to be escaped, so that heartbeats with that number follow.
+    let (mut number, mut hurries) = (0u8, false);
     let (mut place, mut data, mut pad) = (0, 0, 0);
     // Clocks until something is to be told just when the flags are sent, two bytes behind a frame.
-    let (flags, mut told) = (20 * divisor as u32 - 2, u32::MAX);
-    alone(block, 400_000, move |rng| {
+    let (flags, mut told) = (20 * divisor as u32 + 1, u32::MAX);
+    alone(block, 100_000 * divisor as usize, move |rng| {
         let enabled = enable.next(rng, 20 * packet);
         if index == 8 {
             // In any clock of the packet before, as soon as it is gone, or later: while disabled, after some heartbeats.
+            let escapes = [END, ESC].contains(&number);
+            hurries = !escapes && (hurries || enabled == 0 && rng.u8(..3) == 0);
             wait = match rng.u8(..4) {
-                0 => rng.u32(..packet),
-                1 => 0,
+                _ if hurries => 0,
+                0 if !escapes => rng.u32(..packet),
+                1 if !escapes => 0,
                 _ => packet + rng.u32(..packet) + (1 - enabled as u32) * 12 * packet,
             };
             (index, pad) = (0, any(rng, of.pad));
         }
         wait = wait.saturating_sub(1);
         let valid = wait == 0 && rng.u8(..3) != 0;
-        let keep = now(rng, packet / 2);
+        let keep = now(rng, 6 * packet);
         if keep == 1 {
             (place, data) = (any(rng, of.place), any(rng, of.data));
         }
@@ -206,15 +223,16 @@ fn stream(block: &Stream, divisor: u64) -> Alone {
             ("place", place),
             ("data", data),
         ];
-        told = if valid && index == 7 { flags + rng.u32(..12) } else { told.saturating_sub(1) };
+        told = if valid && index == 7 { flags + rng.u32(..6) } else { told.saturating_sub(1) };
         for name in ["late", "refused"] {
-            given.push((name, if told == 0 { now(rng, 2) } else { now(rng, 4 * packet) }));
+            given.push((name, if told == 0 { 1 } else { now(rng, 12 * packet) }));
         }
         told = if told == 0 { u32::MAX } else { told };
         for name in ["clipped", "saturated", "invalid", "lost", "calibrated"] {
             given.push((name, now(rng, 2)));
         }
         index += i64::from(valid);
+        number = number.wrapping_add((valid && index == 8).into());
         given
     })
 }
@@ -223,10 +241,11 @@ fn stream(block: &Stream, divisor: u64) -> Alone {
 pub fn blocks(target: Target) -> Vec<Alone> {
     let (profile, parameters) = (target.profile(), target.parameters());
     let (core, divisor) = (Core::new(&profile), parameters.divisor());
-    let block = CommandRegisters::new(core.inputs(), core.estimator().position().table().words as u64);
+    let words = core.estimator().position().table().words as u64;
+    let block = CommandRegisters::new(core.inputs(), words);
     vec![
         stream(&Stream::new(&profile, divisor, block.outputs().data), divisor),
-        registers(&block, core.inputs()),
+        registers(&block, core.inputs(), words),
         adc_reader(&AdcReader::new(&profile, &parameters), &parameters),
         receiver(divisor),
         transmitter(divisor),

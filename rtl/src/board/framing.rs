@@ -6,7 +6,7 @@
 //! frame:   sequence │ commands taken (4 bits), pad (4 bits) │ flags │ 8 words of B bytes, most significant first
 //! heartbeat: the same with the flag of that name; the words are those of [`Register::ALL`] as they were written last, but for
 //!          the profile's digest in place of the control register, and for the ADC's answer to the last word that it was sent;
-//!          where one of them is written meanwhile, END comes early, and what has come is no packet
+//!          where one of them is written meanwhile, END comes early, behind the flags or later, and that heartbeat does not count
 //! command: where, 2 bytes │ data, D bytes               where: 8000 (hex) + register, or a word of the position table; other bits are ignored
 //! ```
 //!

@@ -179,9 +179,15 @@ impl Decoder {
         let (bytes, damage) = (std::mem::take(&mut self.bytes), self.damage.take());
         match damage {
             Some(damage) => Some(Err(damage)),
-            None if bytes.is_empty() => None,
+            None if bytes.is_empty() || self.is_cut_heartbeat(&bytes) => None,
             None => Some(self.packet(&bytes)),
         }
+    }
+
+    /// Whether it is what a heartbeat leaves that ended early, for one of its words was written.
+    fn is_cut_heartbeat(&self, bytes: &[u8]) -> bool {
+        let is_heartbeat = bytes.get(STATUS_BYTES as usize - 1).is_some_and(|flags| flags >> flags::HEARTBEAT & 1 != 0);
+        is_heartbeat && bytes.len() < self.length()
     }
 
     fn packet(&self, bytes: &[u8]) -> Result<Told, Damage> {

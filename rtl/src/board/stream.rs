@@ -289,10 +289,16 @@ impl Block for Stream {
                 taking,
                 busy: flag(r.busy, begin, sent & at_end),
                 heartbeat: take(heartbeat, r.heartbeat),
-                group: take(int(STATUS), cut.select(int(TRAILER), sent.select(group, r.group)))
-                    .fit(r.group.format, Exact, Wrap),
-                left: take(int(STATUS_BYTES - 1), cut.select(int(0), sent.select(left, r.left)))
-                    .fit(r.left.format, Exact, Wrap),
+                group: take(int(STATUS), cut.select(int(TRAILER), sent.select(group, r.group))).fit(
+                    r.group.format,
+                    Exact,
+                    Wrap,
+                ),
+                left: take(int(STATUS_BYTES - 1), cut.select(int(0), sent.select(left, r.left))).fit(
+                    r.left.format,
+                    Exact,
+                    Wrap,
+                ),
                 escaped: transmitter.taken.select(escape, r.escaped),
                 crc: take(crc16::begin(), sent.select(crc16::with(r.crc, byte), r.crc)),
                 number: i.done.select(next(r.number), r.number),

@@ -16,6 +16,8 @@ pub enum Set {
     Behind,
     /// The table stays, the constants are any.
     Constants,
+    /// The constants are any, the sheet's resistance is everywhere this code.
+    Flat(i64),
     /// Powers of two: what is rounded then often lies halfway.
     Powers,
     /// At the rails, next to them or to zero, or any.
@@ -28,10 +30,10 @@ pub type Written = Vec<(String, i64)>;
 impl Set {
     /// What is written.
     pub fn written(self, profile: &Profile, noise: &mut Noise) -> Written {
-        let sheet = Codes::new(profile, &sheet(profile, self == Set::Behind));
+        let sheet = Codes::new(profile, &sheet(profile, self));
         let code = |before: i64, format: Format, noise: &mut Noise| match self {
             Set::Sheet | Set::Behind => before,
-            Set::Constants => noise.any(format),
+            Set::Constants | Set::Flat(_) => noise.any(format),
             Set::Powers => power(format, noise),
             Set::Corners => corner(format, noise),
         };
@@ -41,8 +43,9 @@ impl Set {
         }
         if self != Set::Constants {
             let words = (0..).zip(&sheet.table);
-            let word = |(address, &word): (u64, &i64)| (address.to_string(), code(word, sheet.formats.word, noise));
-            written.extend(words.map(word));
+            let is_flat = matches!(self, Set::Flat(_));
+            let mut code = |word: i64| if is_flat { word } else { code(word, sheet.formats.word, noise) };
+            written.extend(words.map(|(address, &word)| (address.to_string(), code(word))));
         }
         written
     }
@@ -68,15 +71,17 @@ fn corner(format: Format, noise: &mut Noise) -> i64 {
 }
 
 /// A calibration such as a sheet has.
-fn sheet(profile: &Profile, behind: bool) -> Calibration {
+fn sheet(profile: &Profile, set: Set) -> Calibration {
     let (columns, rows) = (41, 25);
     let point = |k: usize| {
         let (u, v) = ((k % columns) as f64 / 20.0 - 1.0, (k / columns) as f64 / 12.0 - 1.0);
         let r_x = u * (0.95 - 0.2 * u * u) * (1.0 - 0.15 * v * v);
         let r_y = v * (0.9 - 0.2 * v * v) * (1.0 - 0.3 * u * u);
-        match behind {
-            false => Point { x: 400.0 * u, y: 220.0 * v, r_x, r_y, sheet: 0.05 + 0.02 * u * u + 0.01 * v },
-            true => Point { x: 80.0 - 500.0 * u, y: 300.0 * v, r_x, r_y, sheet: 0.2 - 0.9 * u * v },
+        let before = Point { x: 400.0 * u, y: 220.0 * v, r_x, r_y, sheet: 0.05 + 0.02 * u * u + 0.01 * v };
+        match set {
+            Set::Behind => Point { x: 80.0 - 500.0 * u, y: 300.0 * v, r_x, r_y, sheet: 0.2 - 0.9 * u * v },
+            Set::Flat(code) => Point { sheet: code as f64 / 32_768.0, ..before },
+            _ => before,
         }
     };
     let points: Vec<Point> = (0..columns * rows).map(point).collect();

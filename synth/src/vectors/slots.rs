@@ -9,6 +9,9 @@ pub const CHANNELS: usize = 8;
 /// A full scale of sine over five samples, in codes of 16 bits.
 const CARRIER: [i64; 5] = [0, 31_163, 19_260, -19_260, -31_163];
 
+/// A full scale's part that amplitudes are often given in, in codes.
+const SHARE: i64 = 32_768 / 64;
+
 /// What the ADC sees in a slot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Slot {
@@ -38,6 +41,14 @@ pub enum Slot {
     Silence,
     /// Codes at either rail.
     Rails,
+    /// Currents of a few codes.
+    Whisper,
+    /// Currents of which three have the sign that the others do not: next to nothing is their total.
+    Cancelling,
+    /// Currents whose amplitudes have a power of two for a sum: ratios lie halfway.
+    PowerSum,
+    /// A pad with haptic codes whose products with the window lie halfway.
+    Halfway,
     /// A pad, but a strobe comes a clock too early, some come late, and the slot is abandoned before its end.
     Abandoned,
 }
@@ -45,8 +56,8 @@ pub enum Slot {
 /// What a channel sees.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Tone {
-    /// 64ths of full scale.
-    share: i64,
+    /// Amplitude, codes.
+    size: i64,
     /// Samples.
     lag: i64,
     /// Codes.
@@ -63,14 +74,15 @@ fn any(noise: &mut Noise) -> [Tone; CHANNELS] {
     std::array::from_fn(|channel| {
         let share = if channel < 6 { size + noise.below(2 + size as u32 / 3) } else { noise.below(200) };
         let lag = turn + i64::from(channel < 6) + if apart { noise.below(5) } else { 0 };
-        Tone { share, lag: lag % 5, offset, onset: late as u64 }
+        Tone { size: SHARE * share, lag: lag % 5, offset, onset: late as u64 }
     })
 }
 
 impl Slot {
     /// Of each channel, what it sees.
     pub fn tones(self, noise: &mut Noise) -> [Tone; CHANNELS] {
-        let of = |share: i64, lag: i64| Tone { share, lag, ..Tone::default() };
+        let of = |share: i64, lag: i64| Tone { size: SHARE * share, lag, ..Tone::default() };
+        let small = |size: i64| Tone { size, lag: 1, ..Tone::default() };
         let pad: [Tone; CHANNELS] = std::array::from_fn(|channel| match channel {
             6 => of(40 + noise.below(16), 0),
             7 => of(4 + noise.below(50), 0),
@@ -79,7 +91,7 @@ impl Slot {
         let with =
             |change: &mut dyn FnMut(usize, Tone) -> Tone| std::array::from_fn(|channel| change(channel, pad[channel]));
         match self {
-            Slot::Faint => with(&mut |k, tone| if k < 6 { of(1 + tone.share / 8, tone.lag) } else { tone }),
+            Slot::Faint => with(&mut |k, tone| if k < 6 { of(1 + tone.size / SHARE / 8, tone.lag) } else { tone }),
             Slot::OpenTerminal => with(&mut |k, tone| if k == 2 { of(0, 0) } else { tone }),
             Slot::NoVoltage => with(&mut |k, tone| if k == 6 { of(0, 0) } else { tone }),
             // Of `small`: 3 and 4 are on the right, 1 and 2 on the left.
@@ -96,21 +108,39 @@ impl Slot {
                 with(&mut |_, _| Tone { onset: noise.below(400) as u64, ..of(1 + noise.below(70), noise.below(5)) })
             }
             Slot::Offset => with(&mut |_, tone| Tone { offset: 4 * noise.below(6000) - 12_000, ..tone }),
+            Slot::Whisper => with(&mut |k, tone| if k < 6 { small(3 + noise.below(5)) } else { tone }),
+            Slot::Cancelling => with(&mut |k, tone| match k {
+                0..6 if k % 2 == 0 => small(10_240 + noise.below(300)),
+                0..6 => small(-10_240),
+                _ => tone,
+            }),
+            Slot::PowerSum => {
+                let mut last = 0;
+                with(&mut |k, tone| match k {
+                    0..6 if k % 2 == 0 => {
+                        last = noise.below(8000);
+                        small(26_254 + last)
+                    }
+                    0..6 => small(26_254 - last + noise.below(4)),
+                    _ => tone,
+                })
+            }
             Slot::Noise | Slot::Silence => [Tone::default(); CHANNELS],
-            Slot::Pad | Slot::Rails | Slot::Abandoned => pad,
+            Slot::Pad | Slot::Rails | Slot::Halfway | Slot::Abandoned => pad,
         }
     }
 
     /// The codes of the channels at a sample of the window.
     pub fn codes(self, tones: &[Tone; CHANNELS], sample: u64, noise: &mut Noise) -> [i64; CHANNELS] {
         std::array::from_fn(|channel| {
-            let Tone { share, lag, offset, onset } = tones[channel];
+            let Tone { size, lag, offset, onset } = tones[channel];
             let code = match self {
                 Slot::Silence => 0,
                 Slot::Rails if (sample as usize + channel).is_multiple_of(3) => i64::from(i16::MIN),
                 Slot::Rails => i64::from(i16::MAX),
+                Slot::Halfway if channel == CHANNELS - 1 => (noise.below(7) - 3) << 13,
                 _ if sample < onset => 0,
-                _ => CARRIER[(sample as usize + 5 - lag as usize) % 5] * share / 64 + offset + noise.below(8) - 4,
+                _ => CARRIER[(sample as usize + 5 - lag as usize) % 5] * size / 32_768 + offset + noise.below(8) - 4,
             };
             code.clamp(i16::MIN.into(), i16::MAX.into())
         })

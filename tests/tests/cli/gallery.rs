@@ -7,6 +7,7 @@ use std::fs;
 use std::path::Path;
 
 use hapticore_scene::gallery;
+use rayon::prelude::*;
 use serde_json::Value;
 
 use crate::{Table, expect, finish};
@@ -43,7 +44,8 @@ fn unexpected_flags(table: &Table, summary: &Value) -> Vec<String> {
         let touching = others
             .map(|(_, other)| (at[0] - other[0]).hypot(at[1] - other[1]))
             .any(|distance| distance < 2.0 * REACH_MM + NEAR_MM);
-        let expected = |flag: &str| matches!(flag, "") || flag == "at_edge" && at_edge || flag == "touching" && touching;
+        let expected =
+            |flag: &str| matches!(flag, "") || flag == "at_edge" && at_edge || flag == "touching" && touching;
         if !flags[k].split('+').all(expected) {
             unexpected.push(format!("frame {k}, pad {} at {at:?}: {}", pads[k], flags[k]));
         }
@@ -82,7 +84,7 @@ fn check(scene: &str) {
 #[test]
 #[cfg_attr(not(optimised), ignore = "whole scenes, clock by clock: run with --release")]
 fn the_criteria_of_every_scene_hold_and_fixed_is_clock() {
-    gallery::all().iter().for_each(|(name, _)| check(name));
+    gallery::all().par_iter().for_each(|(name, _)| check(name));
 }
 
 #[test]
@@ -124,11 +126,11 @@ fn force_error(folder: &Path, scene: &str, profile: &str) -> f64 {
 #[test]
 fn rounding_moves_the_force_by_little() {
     let folder = tempfile::tempdir().unwrap();
-    for (scene, _) in gallery::all() {
+    gallery::all().par_iter().for_each(|(scene, _)| {
         for (profile, percent) in [("small", 0.5), ("standard", 0.05)] {
             let measured = force_error(folder.path(), scene, profile) / FORCE_FULL_SCALE_N * 100.0;
             println!("{scene} {profile}: {measured:.4} % of {FORCE_FULL_SCALE_N} N");
             assert!(measured <= percent, "{scene} {profile}: {measured} % of full scale, at most {percent}");
         }
-    }
+    });
 }
