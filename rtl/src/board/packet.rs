@@ -5,7 +5,9 @@
 //! right. [`Command::encode`] makes the bytes of a command, [`super::startup`] knows those that make a sensor of a board.
 //! Framing and CRC are [`super::framing`]'s and [`super::crc16`]'s, here by the crate `crc`, so that neither side checks itself.
 
-use super::framing::{Control, END, ESC, ESC_END, ESC_ESC, Register, STATUS_BYTES, data_bytes, flags, word_bytes};
+use super::framing::{
+    Control, END, ESC, ESC_END, ESC_ESC, Register, STATUS_BYTES, VERSION, data_bytes, flags, word_bytes,
+};
 use bitvec::prelude::{BitArray, Lsb0};
 use crc::{CRC_16_IBM_3740, Crc};
 use hapticore_model::block::Block;
@@ -184,10 +186,10 @@ impl Decoder {
         }
     }
 
-    /// Whether it is what a heartbeat leaves that ended early, for one of its words was written.
+    /// Whether these are the first bytes of a heartbeat that ended early because one of its words was written.
     fn is_cut_heartbeat(&self, bytes: &[u8]) -> bool {
-        let is_heartbeat = bytes.get(STATUS_BYTES as usize - 1).is_some_and(|flags| flags >> flags::HEARTBEAT & 1 != 0);
-        is_heartbeat && bytes.len() < self.length()
+        let is_heartbeat = |flags: &u8| flags >> flags::HEARTBEAT & 1 != 0 && flags >> flags::VERSION & 7 == VERSION;
+        bytes.len() < self.length() && bytes.get(STATUS_BYTES as usize - 1).is_some_and(is_heartbeat)
     }
 
     fn packet(&self, bytes: &[u8]) -> Result<Told, Damage> {

@@ -282,6 +282,7 @@ impl Block for Stream {
         let begin = frame | heartbeat;
         let (group, left) = self.advance(&r);
         let cut = (write.enable & !i.valid & r.busy & r.heartbeat & !r.group.msb()).named("cuts");
+        let onward = |end, next: Signal<V>, now: Signal<V>| cut.select(int(end), sent.select(next, now));
         let take = |now: Signal<V>, held: Signal<V>| begin.select(now, held);
         cell.store(
             self,
@@ -289,16 +290,8 @@ impl Block for Stream {
                 taking,
                 busy: flag(r.busy, begin, sent & at_end),
                 heartbeat: take(heartbeat, r.heartbeat),
-                group: take(int(STATUS), cut.select(int(TRAILER), sent.select(group, r.group))).fit(
-                    r.group.format,
-                    Exact,
-                    Wrap,
-                ),
-                left: take(int(STATUS_BYTES - 1), cut.select(int(0), sent.select(left, r.left))).fit(
-                    r.left.format,
-                    Exact,
-                    Wrap,
-                ),
+                group: take(int(STATUS), onward(TRAILER, group, r.group)).fit(r.group.format, Exact, Wrap),
+                left: take(int(STATUS_BYTES - 1), onward(0, left, r.left)).fit(r.left.format, Exact, Wrap),
                 escaped: transmitter.taken.select(escape, r.escaped),
                 crc: take(crc16::begin(), sent.select(crc16::with(r.crc, byte), r.crc)),
                 number: i.done.select(next(r.number), r.number),

@@ -23,14 +23,15 @@ module board_bench #(
     wire tx, adc_reset, convst, busy, cs_n, sclk, sdi, carrier, enabled, late;
     wire [7:0] dout;
     wire [3:0] pads;
-    wire convst_pin, cs_n_pin, sdi_pin;
-    wire [7:0] dout_in;
+    reg convst_pin, cs_n_pin, sdi_pin;
+    reg [7:0] dout_in;
     reg [7:0] bytes [0:BYTES-1];
     reg [7:0] heard;
     integer file, packets, k, bit_number;
 
-    assign #(T_OUT) {convst_pin, cs_n_pin, sdi_pin} = {convst, cs_n, sdi};
-    assign #(T_IN) dout_in = dout;
+    // Not continuous assignments with delays, which Verilator takes up at every edge of the clock.
+    always @(convst, cs_n, sdi) #(T_OUT) {convst_pin, cs_n_pin, sdi_pin} = {convst, cs_n, sdi};
+    always @(dout) dout_in <= #(T_IN) dout;
 
     top uut (
         .clock(clock), .button(ACTIVE_LOW != 0), .rx(rx), .tx(tx), .adc_reset(adc_reset), .convst(convst), .busy(busy),

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // The output cells of the boards' tops, for simulation, as the vendor's own models behave: ODDRX1F puts D0 out in the first
 // half of a clock and D1 in the second, three clocks after they were given; SB_IO (here only with a DDR output) takes D_OUT_0
-// at the rising edge and D_OUT_1 at the falling edge.
+// at the rising edge and D_OUT_1 at the falling edge. Pins follow two nanoseconds later. (Not as continuous assignments with
+// delays, which Verilator takes up at every edge of the clock.)
 
 `timescale 1ns / 1ps
 `default_nettype none
@@ -16,7 +17,11 @@ module ODDRX1F (
     reg [1:0] first, second, third;
     initial {first, second, third} = 6'h3f;
     always @(posedge SCLK) {first, second, third} <= RST ? 6'h00 : {D0, D1, first, second};
-    assign #2 Q = SCLK ? third[1] : third[0];
+    wire half = SCLK ? third[1] : third[0];
+    reg pin;
+    initial pin = 1;
+    always @(half) #2 pin = half;
+    assign Q = pin;
 endmodule
 
 module SB_IO #(
@@ -31,7 +36,11 @@ module SB_IO #(
     initial {rise, fall} = 2'b11;
     always @(posedge OUTPUT_CLK) rise <= D_OUT_0;
     always @(negedge OUTPUT_CLK) fall <= D_OUT_1;
-    assign #2 PACKAGE_PIN = OUTPUT_CLK ? rise : fall;
+    wire half = OUTPUT_CLK ? rise : fall;
+    reg pin;
+    initial pin = 1;
+    always @(half) #2 pin = half;
+    assign PACKAGE_PIN = pin;
     initial if (PIN_TYPE != 6'b0100_00) $display("SB_IO: only a DDR output is modelled");
 endmodule
 
