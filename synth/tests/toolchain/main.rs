@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What the tools make of the printed Verilog: proofs, cells, bitstreams, and the checks that users run.
+//!
+//! One program, so that tests of many tools share two processors from the first to the last.
+
+mod board_formal;
+mod cells;
+mod downstream;
+mod equivalence;
+mod flow;
+mod formal;
+mod fresh;
+mod isolation;
