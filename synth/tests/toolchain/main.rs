@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What the tools make of the printed Verilog: proofs, cells, bitstreams, and the checks that users run.
 //!
-//! One program, so that tests of many tools share two processors from the first to the last.
+//! One program: one to link instead of eight.
 
 mod board_formal;
 mod cells;
