@@ -92,13 +92,13 @@ fn csv(codes: &Codes, head: &[String]) -> String {
     };
     codes.constants().iter().for_each(|constant| row(constant.name, "", constant.code, constant.format));
     for (address, &code) in codes.table.iter().enumerate() {
-        row(TABLE, &address.to_string(), code, codes.formats.word);
+        row(TABLE, &address.to_string(), code, codes.formats.calibration.table.word);
     }
     text
 }
 
 fn readmemh(codes: &Codes, head: &[String]) -> String {
-    let (constants, table, word) = (codes.constants(), &codes.table, codes.formats.word);
+    let (constants, table, word) = (codes.constants(), &codes.table, codes.formats.calibration.table.word);
     let width = constants.iter().map(|constant| constant.format.width).chain([word.width]).max().expect("a word");
     let (digits, mask) = (usize::from(width).div_ceil(4), u64::MAX >> (64 - u32::from(width)));
     let mut text = comments(head, "//");
@@ -126,7 +126,7 @@ fn header(codes: &Codes, head: &[String], profile: &Profile) -> String {
         let name = name.to_uppercase();
         line(format!("#define HAPTICORE_{name} {code} // {format} = {}  {about}", format.real(code)));
     }
-    let (words, word) = (codes.table.len(), codes.formats.word);
+    let (words, word) = (codes.table.len(), codes.formats.calibration.table.word);
     line(format!("#define HAPTICORE_{}_WORDS {words}", TABLE.to_uppercase()));
     line(format!("\n// {word}, by address.\nstatic const int32_t hapticore_{TABLE}[{words}] = {{"));
     for words in codes.table.chunks(LINE) {

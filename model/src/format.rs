@@ -57,9 +57,9 @@ impl Format {
         if self.signed { -(1i128 << (self.width - 1)) } else { 0 }
     }
 
-    /// This unsigned integer format: [`Format::with_point`] for a counter.
+    /// This unsigned integer format: [`Format::assume_frac`] for a counter.
     #[inline(always)]
-    pub const fn counting(self) -> Self {
+    pub const fn as_uint(self) -> Self {
         debug_assert!(!self.signed && self.frac == 0);
         Format::unsigned(self.width, 0)
     }
@@ -67,7 +67,7 @@ impl Format {
     /// This format, whose point is known to be there: said where it is asked for at every clock, for the compiler then knows
     /// which formats have theirs at the same place, and need no aligning.
     #[inline(always)]
-    pub const fn with_point(self, frac: i8) -> Self {
+    pub const fn assume_frac(self, frac: i8) -> Self {
         debug_assert!(self.frac == frac);
         Format { frac, ..self }
     }

@@ -6,11 +6,11 @@ use std::thread;
 use hapticore_model::blocks::core::Core;
 use hapticore_model::blocks::demodulator::Demodulator;
 use hapticore_model::format::Format;
+use hapticore_model::interpretations::netlist::Netlist;
+use hapticore_model::interpretations::range::{Range, take_violations, whole};
 use hapticore_model::profile::Profile;
 use hapticore_model::proof::prove;
-use hapticore_model::signal::netlist::Netlist;
-use hapticore_model::signal::range::{Range, take_violations, whole};
-use hapticore_model::signal::{Exact, Never, Signal, bit, int, zero};
+use hapticore_model::signal::{Proved, Signal, bit, int, zero};
 
 /// What relates several signals, and where it is held: `tests/equality` runs the divider and the root over all codes of
 /// small widths, and every test build checks each of these narrowings at each clock.
@@ -78,7 +78,7 @@ fn one_sample_too_many_is_noticed() {
 fn a_register_one_bit_short_is_noticed() {
     take_violations();
     let byte: Signal<Range> = Signal { value: whole(Format::unsigned(8, 0)), format: Format::unsigned(8, 0) };
-    (byte + int(1)).fit(Format::unsigned(8, 0), Exact, Never);
+    (byte + int(1)).resize(Format::unsigned(8, 0), Proved);
     assert_eq!(take_violations().len(), 1);
 }
 

@@ -3,9 +3,8 @@
 //!
 //! The one list of them: start-up of a board, vectors for users of the Verilog and `hapticore codes` all take it.
 
-use hapticore_model::block::Block;
 use hapticore_model::blocks::core::{Core, Inputs};
-use hapticore_model::bundle::Bundle;
+use hapticore_model::bundle::{Bundle, Field};
 use hapticore_model::calibration::Calibration;
 use hapticore_model::format::Format;
 use hapticore_model::profile::Profile;
@@ -40,17 +39,18 @@ pub struct Constant {
 impl Codes {
     /// The codes of a calibration for a core of a profile.
     pub fn new(profile: &Profile, calibration: &Calibration) -> Self {
-        let formats = Core::new(profile).inputs();
-        let table = calibration.position.words.iter().map(|&real| formats.word.code_saturating(real)).collect();
-        Codes { inputs: calibration.inputs(formats), formats, table }
+        let core = Core::new(profile);
+        let (inputs, formats) = (core.idle_inputs(calibration), core.inputs());
+        let word = formats.calibration.table.word;
+        let table = calibration.position.words.iter().map(|&real| word.code_saturating(real)).collect();
+        Codes { inputs, formats, table }
     }
 
     /// The constants, in the order of the core's ports.
     pub fn constants(&self) -> Vec<Constant> {
-        let (mut constants, mut docs) = (Vec::new(), Inputs::DOCS.iter());
-        Inputs::each(Inputs::zip(self.inputs, self.formats), |name, (code, format)| {
-            let about = docs.next().expect("a text for each input").trim();
-            constants.push(Constant { name, about, code, format });
+        let mut constants = Vec::new();
+        Inputs::each(Inputs::zip(self.inputs, self.formats), |&Field { name, doc, .. }, (code, format)| {
+            constants.push(Constant { name, about: doc.trim(), code, format });
         });
         constants.retain(|constant| !MOVING.contains(&constant.name));
         constants
@@ -67,11 +67,11 @@ mod tests {
         let formats = Core::new(&profile).inputs();
         let codes = Codes { inputs: Inputs::map(formats, |_| 1), formats, table: Vec::new() };
         let constants = codes.constants();
-        assert_eq!(constants.len() + MOVING.len(), Inputs::NAMES.len());
+        assert_eq!(constants.len() + MOVING.len(), Inputs::FIELDS.len());
         let gain = constants.iter().find(|constant| constant.name == "capacitance_gain").expect("a constant");
         assert_eq!(
             (gain.format, gain.about),
-            (formats.capacitance_gain, "Calibration: picofarads at an admittance of one.")
+            (formats.calibration.capacitance_gain, "Calibration: picofarads at an admittance of one.")
         );
     }
 }

@@ -14,7 +14,6 @@ use hapticore::args::Fidelity;
 use hapticore::case::{Case, Maker};
 use hapticore::engine::{Slot, engine};
 use hapticore::inputs;
-use hapticore_model::block::Block;
 use hapticore_model::blocks::core::Core;
 use hapticore_model::calibration::Calibration;
 use hapticore_model::fidelity::clock::ClockSimulation;
@@ -191,8 +190,8 @@ fn ulx3s_returns_over_its_line_the_frames_that_simulate_gives() {
 /// Commands that change nothing, to be taken while frames come: a register's own code, with any bits in the bytes that the
 /// register has not, and words beyond the map.
 fn storm(profile: &Profile, calibration: &Calibration) -> Vec<BoardCommand> {
-    let (mut random, gain) = (Random::new(SEED), Register::ForceGain.format(&Core::new(profile).inputs()));
-    let own = calibration.inputs(Core::new(profile).inputs()).force_gain;
+    let (mut random, gain) = (Random::new(SEED), Register::ForceGain.format(&Core::new(profile).inputs().calibration));
+    let own = Core::new(profile).idle_inputs(calibration).calibration.force_gain;
     let any = |random: &mut Random| random.bits() as i64;
     let of_gain = |random: &mut Random| own | any(random) & 0xffff << gain.width;
     let adc = |random: &mut Random| BoardCommand::Register(Register::Adc, any(random) & 0xffff);

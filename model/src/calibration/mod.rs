@@ -9,7 +9,6 @@ mod position;
 
 pub use position::{Found, Point, PositionError, PositionTable};
 
-use crate::blocks::core::Inputs;
 use crate::format::Format;
 use crate::profile::Profile;
 
@@ -49,19 +48,5 @@ impl Calibration {
             }
         }
         Ok(())
-    }
-
-    /// The core's inputs that never change, as codes; the others are zero.
-    pub fn inputs(&self, formats: Inputs<Format>) -> Inputs<i64> {
-        Inputs {
-            strobe: 0,
-            clear: 0,
-            code: 0,
-            capacitance_gain: formats.capacitance_gain.code_saturating(self.capacitance_gain),
-            force_gain: formats.force_gain.code_saturating(self.force_gain),
-            write: 0,
-            address: 0,
-            word: 0,
-        }
     }
 }

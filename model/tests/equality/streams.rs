@@ -3,7 +3,6 @@
 
 use crate::harness::{Bench, operations};
 use crate::random::Random;
-use hapticore_model::block::Block;
 use hapticore_model::blocks::currents::{self, Currents};
 use hapticore_model::blocks::demodulator::{self, Demodulator};
 use hapticore_model::blocks::frames::{self, Field, Frames};

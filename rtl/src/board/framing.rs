@@ -13,7 +13,7 @@
 //! SLIP rather than COBS or a length: END is nowhere but at the end, so that a reader who has lost its place has it again after
 //! one END, for certain; and the sender needs no look ahead, so that no packet is buffered. Escapes cost on average 0.8 %.
 
-use hapticore_model::blocks::core;
+use hapticore_model::blocks::estimator::Calibration;
 use hapticore_model::blocks::frames::Field;
 use hapticore_model::format::Format;
 use hapticore_model::profile::Profile;
@@ -99,10 +99,10 @@ impl Register {
     }
 
     /// The format of its code, of a core with these inputs.
-    pub fn format(self, core: &core::Inputs<Format>) -> Format {
+    pub fn format(self, calibration: &Calibration<Format>) -> Format {
         match self {
-            Register::CapacitanceGain => core.capacitance_gain,
-            Register::ForceGain => core.force_gain,
+            Register::CapacitanceGain => calibration.capacitance_gain,
+            Register::ForceGain => calibration.force_gain,
             Register::Control => Control::FORMAT,
             Register::Adc => Format::unsigned(16, 0),
         }
@@ -127,8 +127,8 @@ impl Control {
     pub const FORMAT: Format = Format::unsigned(2, 0);
 }
 
-/// Bytes of a command's data, for a core with these inputs.
-pub fn data_bytes(core: &core::Inputs<Format>) -> u64 {
-    let registers = Register::ALL.into_iter().map(|register| register.format(core).width);
-    u64::from(registers.chain([core.word.width]).max().expect("there are registers").div_ceil(8))
+/// Bytes of a command's data, for a core with this calibration.
+pub fn data_bytes(calibration: &Calibration<Format>) -> u64 {
+    let registers = Register::ALL.into_iter().map(|register| register.format(calibration).width);
+    u64::from(registers.chain([calibration.table.word.width]).max().expect("there are registers").div_ceil(8))
 }

@@ -10,7 +10,6 @@ use super::framing::{
 };
 use bitvec::prelude::{BitArray, Lsb0};
 use crc::{CRC_16_IBM_3740, Crc};
-use hapticore_model::block::Block;
 use hapticore_model::blocks::core::{Core, Inputs};
 use hapticore_model::blocks::frames::Field;
 use hapticore_model::format::Format;
@@ -139,7 +138,7 @@ impl Decoder {
     /// For the frames of a profile's board.
     pub fn new(profile: &Profile) -> Self {
         let word_bytes = word_bytes(profile) as usize;
-        let data = 8 * data_bytes(&Core::new(profile).inputs()) as u8;
+        let data = 8 * data_bytes(&Core::new(profile).inputs().calibration) as u8;
         let register_bits = Field::word(profile).width.min(data);
         Decoder { word_bytes, register_bits, pads: profile.pads, bytes: Vec::new(), escaped: false, damage: None }
     }
@@ -263,7 +262,7 @@ impl Command {
             Command::Register(register, code) => (register.place(), code),
             Command::Table { address, code } => (address, code),
         };
-        let data = &code.to_be_bytes()[8 - data_bytes(core) as usize..];
+        let data = &code.to_be_bytes()[8 - data_bytes(&core.calibration) as usize..];
         let payload = [&place.to_be_bytes(), data].concat();
         let check = CHECK.checksum(&payload).to_be_bytes();
         let escaped = [payload.as_slice(), &check].concat().into_iter().flat_map(escape);

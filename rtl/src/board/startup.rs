@@ -66,7 +66,10 @@ impl AdcSetup {
 /// A calibration's registers: their codes.
 fn registers(codes: &Codes) -> [(Register, i64); 2] {
     let Codes { inputs, .. } = codes;
-    [(Register::CapacitanceGain, inputs.capacitance_gain), (Register::ForceGain, inputs.force_gain)]
+    [
+        (Register::CapacitanceGain, inputs.calibration.capacitance_gain),
+        (Register::ForceGain, inputs.calibration.force_gain),
+    ]
 }
 
 /// The commands that make a calibration's sensor of a board: all but the last, [`Command::ENABLE`], for which a heartbeat
@@ -150,7 +153,7 @@ pub fn check(
     for (register, code) in registers(&codes) {
         let Some((got, bits)) = heartbeat.register(register) else { continue };
         // A command may bring more bits than its register has.
-        let mask = (1 << bits.min(register.format(&codes.formats).width)) - 1;
+        let mask = (1 << bits.min(register.format(&codes.formats.calibration).width)) - 1;
         let (expected, got) = (code as u64 & mask, got & mask);
         if expected != got {
             return Err(StartupError::Register { register, expected, got });

@@ -44,7 +44,8 @@ impl Set {
         if self != Set::Constants {
             let words = (0..).zip(&sheet.table);
             let is_flat = matches!(self, Set::Flat(_));
-            let mut code = |word: i64| if is_flat { word } else { code(word, sheet.formats.word, noise) };
+            let mut code =
+                |word: i64| if is_flat { word } else { code(word, sheet.formats.calibration.table.word, noise) };
             written.extend(words.map(|(address, &word)| (address.to_string(), code(word))));
         }
         written

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The shadow reading: the clocked and the real value of every signal side by side. Control follows the clocked one, so
+//! The shadow interpretation: the clocked and the real value of every signal side by side. Control follows the clocked one, so
 //! that both run through the same clocks, and their difference is the rounding error of the signal.
 
 use super::real::{Real, Reals};
-use super::{Overflow, Rounding, Signal, Value};
+use crate::block::Interpretation;
 use crate::format::Format;
-use crate::memory::{Memory, Write};
+use crate::memory::{Memory, Storage, Write};
+use crate::signal::{Overflow, Rounding, Signal, Value};
 
-/// The value of the shadow reading.
+/// The value of the shadow interpretation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Shadow {
     /// The raw code.
@@ -16,10 +17,10 @@ pub struct Shadow {
     pub real: f64,
 }
 
-/// A memory of the shadow reading.
+/// A memory of the shadow interpretation.
 #[derive(Debug, Clone)]
 pub struct Shadows {
-    codes: <i64 as Value>::Words,
+    codes: <i64 as Storage>::Words,
     reals: Reals,
 }
 
@@ -41,7 +42,6 @@ fn control(code: i64) -> Shadow {
 }
 
 impl Value for Shadow {
-    type Words = Shadows;
     const DECIDES: bool = true;
 
     fn literal(real: f64, format: Format) -> Self {
@@ -64,13 +64,13 @@ impl Value for Shadow {
         both(i64::abs(a.value.code), Real::abs(real(a), to))
     }
 
-    fn fit(a: Signal<Self>, to: Format, rounding: Rounding, overflow: Overflow) -> Self {
-        let fitted = i64::fit(code(a), to, rounding, overflow);
+    fn quantize(a: Signal<Self>, to: Format, rounding: Rounding, overflow: Overflow) -> Self {
+        let fitted = i64::quantize(code(a), to, rounding, overflow);
         match (rounding, overflow) {
             // A floor is a decision: the fraction that it leaves stays with the code's side of a cell's edge.
             (Rounding::Floor, _) => Shadow { code: fitted, real: to.real(fitted) },
             (_, Overflow::Wrap) => both(fitted, nearest_turn(a.value.real, to.real(fitted), to)),
-            _ => both(fitted, Real::fit(real(a), to, rounding, overflow)),
+            _ => both(fitted, Real::quantize(real(a), to, rounding, overflow)),
         }
     }
 
@@ -111,7 +111,7 @@ impl Value for Shadow {
         both(i64::select(bit.code, code(a), code(b), to), Real(chosen.value.real))
     }
 
-    fn ideally(a: Self, operands: &[Signal<Self>], ideal: fn(&[f64]) -> f64) -> Self {
+    fn golden(a: Self, operands: &[Signal<Self>], ideal: fn(&[f64]) -> f64) -> Self {
         let mut reals = [0.0; 4];
         for (real, operand) in reals.iter_mut().zip(operands) {
             *real = operand.value.real;
@@ -126,10 +126,10 @@ impl Value for Shadow {
     fn known(bit: Self) -> Option<bool> {
         Some(bit.code != 0)
     }
+}
 
-    fn idle(busy: Self) -> bool {
-        busy.code == 0
-    }
+impl Storage for Shadow {
+    type Words = Shadows;
 
     fn words(memory: &Memory) -> Shadows {
         Shadows { codes: i64::words(memory), reals: Real::words(memory) }
@@ -144,6 +144,12 @@ impl Value for Shadow {
         let index = Signal { value: Real(address.value.code as f64), format: address.format };
         let write = write.map(|w| Write { address: follow(w.address), ..of(w, real) });
         Real::access(memory, &mut words.reals, index, write);
+    }
+}
+
+impl Interpretation for Shadow {
+    fn can_skip(busy: Self) -> bool {
+        busy.code == 0
     }
 }
 

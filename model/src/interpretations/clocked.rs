@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The clocked reading: a value is a raw code in an `i64`.
+//! The clocked interpretation: a value is a raw code in an `i64`.
 
-use super::{Overflow, Rounding, Signal, Value};
+use crate::block::Interpretation;
 use crate::format::{Format, MAX_WIDTH};
-use crate::memory::{Memory, Write};
+use crate::memory::{Collision, Memory, Storage, Write};
+use crate::signal::{Overflow, Rounding, Signal, Value};
 
-/// A memory of the clocked reading.
+/// A memory of the clocked interpretation.
 #[derive(Debug, Clone)]
 pub struct Codes {
     words: Vec<i64>,
@@ -42,7 +43,7 @@ fn limit(code: i64, to: Format, overflow: Overflow) -> i64 {
     match overflow {
         Overflow::Saturate => code.clamp(min(to), max(to)),
         Overflow::Wrap => wrap(code, to),
-        Overflow::Never | Overflow::Lemma(_) => {
+        Overflow::Proved | Overflow::Assumed(_) => {
             debug_assert!(
                 code >= min(to) && code <= max(to),
                 "{code} does not fit {to}, which was said never to happen"
@@ -63,7 +64,6 @@ fn min(format: Format) -> i64 {
 }
 
 impl Value for i64 {
-    type Words = Codes;
     const DECIDES: bool = true;
 
     #[inline(always)]
@@ -95,7 +95,7 @@ impl Value for i64 {
     }
 
     #[inline(always)]
-    fn fit(a: Signal<i64>, to: Format, rounding: Rounding, overflow: Overflow) -> i64 {
+    fn quantize(a: Signal<i64>, to: Format, rounding: Rounding, overflow: Overflow) -> i64 {
         let drop = a.format.frac - to.frac;
         let exact = rounding == Rounding::Exact || drop <= 0;
         let code = if exact { align(a, to) } else { round(a.value, drop as u32, rounding) };
@@ -163,11 +163,10 @@ impl Value for i64 {
     fn known(bit: i64) -> Option<bool> {
         Some(bit != 0)
     }
+}
 
-    #[inline(always)]
-    fn idle(busy: i64) -> bool {
-        busy == 0
-    }
+impl Storage for i64 {
+    type Words = Codes;
 
     fn words(memory: &Memory) -> Codes {
         Codes { words: memory.codes(), data: 0 }
@@ -184,12 +183,20 @@ impl Value for i64 {
         if let Some(write) = write
             && write.enable.value != 0
         {
-            if cfg!(debug_assertions) && !memory.collides && write.address.value == address.value {
-                // Nobody is to use this word: test builds bring another, so that somebody who does is noticed.
+            if cfg!(debug_assertions) && memory.collision == Collision::DontCare && write.address.value == address.value
+            {
+                // No block is to use this word: test builds read another, so that using it is noticed.
                 words.data = mirrored(words.data, memory.format);
             }
             words.words[write.address.value as usize] = align(write.data, memory.format);
         }
+    }
+}
+
+impl Interpretation for i64 {
+    #[inline(always)]
+    fn can_skip(busy: i64) -> bool {
+        busy == 0
     }
 }
 
@@ -201,7 +208,7 @@ fn mirrored(code: i64, format: Format) -> i64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::signal::{Exact, Floor, HalfEven, Saturate, Wrap};
+    use crate::signal::{Floor, HalfEven, Saturate, Wrap};
 
     fn signal(value: i64, format: Format) -> Signal<i64> {
         Signal { value, format }
@@ -210,16 +217,16 @@ mod tests {
     #[test]
     fn ties_go_to_even_on_both_sides_of_zero() {
         let quarter = Format::signed(8, 2);
-        let rounded = |code| signal(code, quarter).fit(Format::signed(8, 0), HalfEven, Saturate).value;
+        let rounded = |code| signal(code, quarter).quantize(Format::signed(8, 0), HalfEven, Saturate).value;
         assert_eq!([-10, -6, -5, -2, -1, 2, 3, 6, 10].map(rounded), [-2, -2, -1, 0, 0, 0, 1, 2, 2]);
     }
 
     #[test]
     fn narrowings_do_what_they_are_named_for() {
         let (wide, narrow) = (Format::signed(8, 0), Format::signed(4, 0));
-        assert_eq!([-128, -9, 7, 100].map(|c| signal(c, wide).fit(narrow, Exact, Saturate).value), [-8, -8, 7, 7]);
-        assert_eq!([-9, 8, 23].map(|c| signal(c, wide).fit(narrow, Exact, Wrap).value), [7, -8, 7]);
-        assert_eq!(signal(-1, Format::signed(8, 1)).fit(wide, Floor, Wrap).value, -1);
+        assert_eq!([-128, -9, 7, 100].map(|c| signal(c, wide).resize(narrow, Saturate).value), [-8, -8, 7, 7]);
+        assert_eq!([-9, 8, 23].map(|c| signal(c, wide).resize(narrow, Wrap).value), [7, -8, 7]);
+        assert_eq!(signal(-1, Format::signed(8, 1)).quantize(wide, Floor, Wrap).value, -1);
         assert_eq!(signal(-128, wide).abs().value, 128);
         let (held, saturated) = signal(127, Format::signed(8, 4)).saturate(narrow, HalfEven);
         assert_eq!((held.value, saturated.value), (7, 1), "7.94 rounds to 8, which the rail holds");

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The real reading: a value is an `f64` that is never rounded to a word length.
+//! The real interpretation: a value is an `f64` that is never rounded to a word length.
 //!
 //! What is meant stays: a phase wraps, a table address is a floor, a comparison decides. What word length costs goes: no
 //! rounding, no saturation, tables as their ideal functions.
 
-use super::{Overflow, Rounding, Signal, Value};
+use crate::block::Interpretation;
 use crate::format::Format;
-use crate::memory::{Memory, Write};
+use crate::memory::{Memory, Storage, Write};
+use crate::signal::{Overflow, Rounding, Signal, Value};
 
-/// The value of the real reading.
+/// The value of the real interpretation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Real(pub f64);
 
-/// A memory of the real reading.
+/// A memory of the real interpretation.
 #[derive(Debug, Clone)]
 pub struct Reals {
     pub(super) words: Vec<f64>,
@@ -31,7 +32,6 @@ pub(super) fn wrap(real: f64, to: Format) -> f64 {
 }
 
 impl Value for Real {
-    type Words = Reals;
     const DECIDES: bool = true;
 
     fn literal(real: f64, _format: Format) -> Self {
@@ -54,7 +54,7 @@ impl Value for Real {
         Real(a.value.0.abs())
     }
 
-    fn fit(a: Signal<Self>, to: Format, rounding: Rounding, overflow: Overflow) -> Self {
+    fn quantize(a: Signal<Self>, to: Format, rounding: Rounding, overflow: Overflow) -> Self {
         let lsb = to.lsb();
         let real = if rounding == Rounding::Floor { (a.value.0 / lsb).floor() * lsb } else { a.value.0 };
         // Saturation of an unsigned word to zero from below is a decision that the circuit needs, not a word length's.
@@ -111,13 +111,17 @@ impl Value for Real {
         Some(bit.0 != 0.0)
     }
 
-    fn ideally(_a: Self, operands: &[Signal<Self>], ideal: fn(&[f64]) -> f64) -> Self {
+    fn golden(_a: Self, operands: &[Signal<Self>], ideal: fn(&[f64]) -> f64) -> Self {
         let mut reals = [0.0; 4];
         for (real, operand) in reals.iter_mut().zip(operands) {
             *real = operand.value.0;
         }
         Real(ideal(&reals[..operands.len()]))
     }
+}
+
+impl Storage for Real {
+    type Words = Reals;
 
     fn words(memory: &Memory) -> Reals {
         Reals { words: memory.reals(), data: 0.0 }
@@ -136,3 +140,5 @@ impl Value for Real {
         }
     }
 }
+
+impl Interpretation for Real {}

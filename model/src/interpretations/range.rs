@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The range reading: a value is the interval of codes that a signal may take.
+//! The range interpretation: a value is the interval of codes that a signal may take.
 //!
-//! Control (counters, steps, addresses) is known exactly, so its intervals are points and the reading follows the one
+//! Control (counters, steps, addresses) is known exactly, so its intervals are points and the interpretation follows the one
 //! schedule that the core has; data spread over every input in their stated ranges. A narrowing that says it cannot
 //! overflow is checked at every clock; what does not hold is kept as a [`Violation`].
 
-use super::{Overflow, Rounding, Signal, Value};
+use crate::block::Interpretation;
 use crate::format::Format;
-use crate::memory::{Memory, Write};
+use crate::memory::{Memory, Storage, Write};
+use crate::signal::{Overflow, Rounding, Signal, Value};
 use std::cell::RefCell;
 
-/// The value of the range reading: `low ..= high`, in codes.
+/// The value of the range interpretation: `low ..= high`, in codes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Range {
     /// The least code.
@@ -119,7 +120,6 @@ fn clamp(range: Range, to: Format) -> Range {
 }
 
 impl Value for Range {
-    type Words = (Vec<Range>, Range);
     const ELABORATES: bool = true;
 
     fn literal(real: f64, format: Format) -> Self {
@@ -153,13 +153,13 @@ impl Value for Range {
         Range { low, high: a.low.abs().max(a.high.abs()) }
     }
 
-    fn fit(a: Signal<Self>, to: Format, rounding: Rounding, overflow: Overflow) -> Self {
+    fn quantize(a: Signal<Self>, to: Format, rounding: Rounding, overflow: Overflow) -> Self {
         let range = a.value.map(|code| round(code, a.format.frac - to.frac, rounding));
         match overflow {
             Overflow::Saturate => clamp(range, to),
             Overflow::Wrap => wrap(range, to),
-            Overflow::Never => never(range, to),
-            Overflow::Lemma(name) => lemma(range, to, name),
+            Overflow::Proved => never(range, to),
+            Overflow::Assumed(name) => lemma(range, to, name),
         }
     }
 
@@ -220,11 +220,10 @@ impl Value for Range {
     fn known(bit: Self) -> Option<bool> {
         bit.is_point().then_some(bit.low != 0)
     }
+}
 
-    /// Surely not busy: that skipping changes no bit is tested on the clocked reading.
-    fn idle(busy: Self) -> bool {
-        busy == Range::point(0)
-    }
+impl Storage for Range {
+    type Words = (Vec<Range>, Range);
 
     fn words(memory: &Memory) -> Self::Words {
         (memory.codes().into_iter().map(|code| Range::point(code.into())).collect(), Range::point(0))
@@ -251,6 +250,13 @@ impl Value for Range {
         for word in &mut words.0[place.low as usize..=place.high as usize] {
             *word = if surely { data } else { word.join(data) };
         }
+    }
+}
+
+impl Interpretation for Range {
+    /// Surely not busy: that skipping changes no bit is tested on the clocked interpretation.
+    fn can_skip(busy: Self) -> bool {
+        busy == Range::point(0)
     }
 }
 

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The netlist reading: a value is a node of a graph, and a block within a block is an instance of a module.
+//! The netlist interpretation: a value is a node of a graph, and a block within a block is an instance of a module.
 //!
 //! [`Netlist::of`] elaborates a block once, checking every format on the way, and gives its modules, instances before
 //! the modules that hold them. Blocks of the same configuration share one module.
 
-use super::{Overflow, Rounding, Signal, Value};
-use crate::block::{Block, Cell, Inputs, Outputs, widen};
-use crate::bundle::Bundle;
+use crate::block::{Block, Inputs, Interpretation, Outputs, State, widen};
+use crate::bundle::{Bundle, Field};
 use crate::format::{BIT, Format, MAX_WIDTH};
-use crate::memory::{Memory, Write};
+use crate::memory::{Collision, Memory, Storage, Write};
+use crate::signal::{Overflow, Rounding, Signal, Value};
 use std::cell::RefCell;
 use std::collections::HashMap;
 
-/// The value of the netlist reading: a wire of the module being read.
+/// The value of the netlist interpretation: a wire of the module being read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Node(pub u32);
 
@@ -92,8 +92,8 @@ pub struct Ram {
     pub name: &'static str,
     /// The format of a word.
     pub format: Format,
-    /// Whether somebody may use a word that was read while it was being written.
-    pub collides: bool,
+    /// What a word reads as that is written in the same cycle.
+    pub collision: Collision,
     /// Whether it shall be a block RAM however small.
     pub block: bool,
     /// The words at reset.
@@ -196,21 +196,20 @@ fn ports<S: Bundle>(formats: S::Of<Format>, op: impl Fn(usize) -> Op) -> (S::Of<
 
 fn named<S: Bundle>(nodes: S::Of<Node>, formats: S::Of<Format>) -> Vec<Named> {
     let mut all = Vec::new();
-    S::each(S::zip(nodes, formats), |name, (node, format)| {
-        let (states, about) = (S::STATES[all.len()], S::DOCS[all.len()].trim());
-        all.push(Named { name, format, states, about, node });
+    S::each(S::zip(nodes, formats), |&Field { name, states, doc }, (node, format)| {
+        all.push(Named { name, format, states, about: doc.trim(), node });
     });
     all
 }
 
 /// Reads a block into a module, and gives its index.
-fn read<B: Block>(block: &B, cell: &mut Cell<B, Node>) -> usize {
+fn read<B: Block>(block: &B, state: &mut State<B, Node>) -> usize {
     READER.with_borrow_mut(|reader| reader.open.push(Open::default()));
     let (inputs, input_ports) = ports::<B::Inputs>(block.inputs(), Op::Input);
     let (registers, _) = ports::<B::Registers>(block.registers(), Op::Register);
-    cell.registers = registers;
+    state.registers = registers;
     let signals = B::Inputs::map(B::Inputs::zip(inputs, block.inputs()), |(value, format)| Signal { value, format });
-    let outputs = widen::<B::Outputs, Node>(B::NAME, block.clock(cell, signals), block.outputs());
+    let outputs = widen::<B::Outputs, Node>(B::NAME, block.clock(state, signals), block.outputs());
     READER.with_borrow_mut(|reader| {
         let mut module = reader.open.pop().expect("opened above").module;
         module.name = B::NAME;
@@ -218,7 +217,7 @@ fn read<B: Block>(block: &B, cell: &mut Cell<B, Node>) -> usize {
         module.path = std::any::type_name::<B>();
         module.inputs = input_ports;
         module.outputs = named::<B::Outputs>(outputs, block.outputs());
-        module.registers = named::<B::Registers>(cell.registers, block.registers());
+        module.registers = named::<B::Registers>(state.registers, block.registers());
         let known = reader.done.iter().position(|done| *done == module);
         known.unwrap_or_else(|| {
             reader.done.push(module);
@@ -234,9 +233,9 @@ impl Netlist {
     /// Where a width is beyond [`MAX_WIDTH`], or a register, port or memory is given what its format does not hold.
     pub fn of<B: Block>(block: &B) -> Netlist {
         READER.with_borrow_mut(|reader| *reader = Reader::default());
-        // The cell's own constants need a module to lie in; they are replaced by registers as each block is read.
+        // The state's own constants need a module to lie in; they are replaced by registers as each block is read.
         READER.with_borrow_mut(|reader| reader.open.push(Open::default()));
-        read(block, &mut block.cell());
+        read(block, &mut block.reset());
         READER.with_borrow_mut(|reader| Netlist { modules: std::mem::take(reader).done })
     }
 
@@ -247,7 +246,6 @@ impl Netlist {
 }
 
 impl Value for Node {
-    type Words = Option<usize>;
     const ELABORATES: bool = true;
 
     fn literal(real: f64, format: Format) -> Self {
@@ -270,7 +268,7 @@ impl Value for Node {
         wire(Op::Abs(a.value), to)
     }
 
-    fn fit(a: Signal<Self>, to: Format, rounding: Rounding, overflow: Overflow) -> Self {
+    fn quantize(a: Signal<Self>, to: Format, rounding: Rounding, overflow: Overflow) -> Self {
         if a.format == to { a.value } else { wire(Op::Fit(a.value, rounding, overflow), to) }
     }
 
@@ -317,10 +315,10 @@ impl Value for Node {
 
     fn select(bit: Self, a: Signal<Self>, b: Signal<Self>, to: Format) -> Self {
         if let Some(code) = settled(bit) {
-            return Self::fit(if code == 1 { a } else { b }, to, Rounding::Exact, Overflow::Never);
+            return Self::quantize(if code == 1 { a } else { b }, to, Rounding::Exact, Overflow::Proved);
         }
         if a.value == b.value && a.format == b.format {
-            return Self::fit(a, to, Rounding::Exact, Overflow::Never);
+            return Self::quantize(a, to, Rounding::Exact, Overflow::Proved);
         }
         wire(Op::Select(bit, a.value, b.value), to)
     }
@@ -332,6 +330,10 @@ impl Value for Node {
     fn known(_bit: Self) -> Option<bool> {
         None
     }
+}
+
+impl Storage for Node {
+    type Words = Option<usize>;
 
     fn words(_memory: &Memory) -> Option<usize> {
         None
@@ -344,7 +346,7 @@ impl Value for Node {
     fn access(memory: &Memory, words: &mut Option<usize>, address: Signal<Self>, write: Option<Write<Self>>) {
         let index = ram(memory, words);
         let write = write.map(|write| {
-            let data = write.data.fit(memory.format, Rounding::Exact, Overflow::Never);
+            let data = write.data.resize(memory.format, Overflow::Proved);
             (write.enable.value, write.address.value, data.value)
         });
         with_module(|open| {
@@ -354,17 +356,19 @@ impl Value for Node {
             ram.write = write;
         });
     }
+}
 
+impl Interpretation for Node {
     fn instance<B: Block>(
         block: &B,
         name: &'static str,
-        cell: &mut Cell<B, Self>,
+        state: &mut State<B, Self>,
         inputs: Inputs<B, Signal<Self>>,
     ) -> Outputs<B, Signal<Self>> {
         let driven = widen::<B::Inputs, Node>(B::NAME, inputs, block.inputs());
         let mut inputs = Vec::new();
         B::Inputs::each(driven, |_, node| inputs.push(node));
-        let module = read(block, cell);
+        let module = read(block, state);
         let index = with_module(|open| {
             open.module.instances.push(Instance { name, module, inputs });
             open.module.instances.len() - 1
@@ -385,9 +389,9 @@ impl Value for Node {
 fn ram(memory: &Memory, index: &mut Option<usize>) -> usize {
     *index.get_or_insert_with(|| {
         with_module(|open| {
-            let &Memory { name, format, collides, block, .. } = memory;
+            let &Memory { name, format, collision, block, .. } = memory;
             let initial = memory.codes();
-            open.module.memories.push(Ram { name, format, collides, block, initial, address: None, write: None });
+            open.module.memories.push(Ram { name, format, collision, block, initial, address: None, write: None });
             open.module.memories.len() - 1
         })
     })
