@@ -7,6 +7,7 @@ use hapticore_model::block::Block;
 use hapticore_model::blocks::core::{Core, Inputs};
 use hapticore_model::bundle::Bundle;
 use hapticore_model::calibration::Calibration;
+use hapticore_model::fidelity::constants;
 use hapticore_model::format::Format;
 use hapticore_model::profile::Profile;
 
@@ -42,7 +43,7 @@ impl Codes {
     pub fn new(profile: &Profile, calibration: &Calibration) -> Self {
         let formats = Core::new(profile).inputs();
         let table = calibration.position.words.iter().map(|&real| formats.word.code_saturating(real)).collect();
-        Codes { inputs: calibration.inputs(formats), formats, table }
+        Codes { inputs: constants(calibration, formats), formats, table }
     }
 
     /// The constants, in the order of the core's ports.

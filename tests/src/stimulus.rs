@@ -12,6 +12,7 @@ use hapticore::inputs;
 use hapticore_model::block::Block;
 use hapticore_model::blocks::core::{Core, Inputs, Outputs};
 use hapticore_model::bundle::Bundle;
+use hapticore_model::fidelity;
 use hapticore_model::format::Format;
 use hapticore_model::memory::Memory;
 use hapticore_model::profile::Profile;
@@ -216,7 +217,7 @@ pub fn scene(profile: &Profile, name: &str, slots: usize) -> Stimulus {
     let formats = Core::new(profile).inputs();
     let words: Vec<_> = calibration.position.words.iter().map(|&word| formats.word.code_saturating(word)).collect();
     Stimulus {
-        constants: calibration.inputs(formats),
+        constants: fidelity::constants(&calibration, formats),
         formats,
         table: Box::new(words.into_iter().enumerate().map(|(address, word)| (address as i64, word))),
         samples: Box::new(samples),

@@ -18,6 +18,7 @@ use hapticore_model::block::Block;
 use hapticore_model::blocks::core::Core;
 use hapticore_model::calibration::Calibration;
 use hapticore_model::fidelity::clock::ClockSimulation;
+use hapticore_model::fidelity::constants;
 use hapticore_model::frame::Frame;
 use hapticore_model::profile::Profile;
 use hapticore_rtl::board::framing::Register;
@@ -45,7 +46,7 @@ fn shortened(target: Target) -> Profile {
     let samples = 4 * profile.samples_per_period().round() as u64;
     profile = profile.with_window(samples);
     (profile.position.columns, profile.position.rows) = (17, 11);
-    profile.check().expect("a profile");
+    hapticore_model::check(&profile).expect("a profile");
     profile
 }
 
@@ -192,7 +193,7 @@ fn ulx3s_returns_over_its_line_the_frames_that_simulate_gives() {
 /// register has not, and words beyond the map.
 fn storm(profile: &Profile, calibration: &Calibration) -> Vec<BoardCommand> {
     let (mut random, gain) = (Random::new(SEED), Register::ForceGain.format(&Core::new(profile).inputs()));
-    let own = calibration.inputs(Core::new(profile).inputs()).force_gain;
+    let own = constants(calibration, Core::new(profile).inputs()).force_gain;
     let any = |random: &mut Random| random.bits() as i64;
     let of_gain = |random: &mut Random| own | any(random) & 0xffff << gain.width;
     let adc = |random: &mut Random| BoardCommand::Register(Register::Adc, any(random) & 0xffff);

@@ -37,7 +37,7 @@ impl ClockSimulation {
         let formats = core.inputs();
         let cell = calibrated(&core, calibration);
         ClockSimulation {
-            inputs: signals::<Inputs, i64>(calibration.inputs(formats), formats),
+            inputs: signals::<Inputs, i64>(super::constants(calibration, formats), formats),
             core,
             clocks_per_sample: profile.clocks_per_sample,
             channels: profile.channels(),

@@ -48,7 +48,7 @@ impl<V: Value> FixedSimulation<V> {
             let words = calibration.position.words.iter();
             core.place_at_once(words.map(|&word| profile.formats.table.code_saturating(word)).collect());
         }
-        let constants = signals::<CoreInputs, V>(calibration.inputs(core.inputs()), core.inputs());
+        let constants = signals::<CoreInputs, V>(super::constants(calibration, core.inputs()), core.inputs());
         let sums = vec![zero(core.demodulator().sum()); core.demodulator().sums() as usize];
         let local = local(&core, profile);
         FixedSimulation {

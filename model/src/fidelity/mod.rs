@@ -18,6 +18,20 @@ pub(crate) fn signals<S: Bundle, V: Value>(codes: S::Of<i64>, formats: S::Of<For
     S::map(S::zip(codes, formats), |(code, format)| signal::code(code, format))
 }
 
+/// The core's inputs that never change while it runs, as codes; the others are zero.
+pub fn constants(calibration: &Calibration, formats: Inputs<Format>) -> Inputs<i64> {
+    Inputs {
+        strobe: 0,
+        clear: 0,
+        code: 0,
+        capacitance_gain: formats.capacitance_gain.code_saturating(calibration.capacitance_gain),
+        force_gain: formats.force_gain.code_saturating(calibration.force_gain),
+        write: 0,
+        address: 0,
+        word: 0,
+    }
+}
+
 /// Gathers the words of a frame as the core gives them out.
 #[derive(Debug, Clone, Copy, Default)]
 struct Gathered {
@@ -42,7 +56,7 @@ impl Gathered {
 fn calibrated<V: Value>(core: &Core, calibration: &Calibration) -> Cell<Core, V> {
     let mut cell = core.cell();
     let formats = core.inputs();
-    let constants = calibration.inputs(formats);
+    let constants = constants(calibration, formats);
     let memory = core.estimator().position().table();
     for (address, &word) in calibration.position.words.iter().enumerate() {
         let codes = Inputs { write: 1, address: address as i64, ..constants };

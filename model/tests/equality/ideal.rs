@@ -4,7 +4,7 @@
 use crate::device::{self, Sight, calibration, tone_codes, tones};
 use crate::random::Random;
 use hapticore_model::profile::Profile;
-use hapticore_model::reference::Reference;
+use hapticore_reference::Reference;
 use std::f64::consts::TAU;
 
 fn close(a: f64, b: f64, relative: f64) -> bool {

@@ -8,6 +8,7 @@ use crate::random::Random;
 use hapticore_model::block::{Block, Inputs, Outputs, sample};
 use hapticore_model::blocks::core::{self, Core};
 use hapticore_model::bundle::Bundle;
+use hapticore_model::fidelity::constants;
 use hapticore_model::profile::Profile;
 
 /// Slots of each profile.
@@ -60,7 +61,7 @@ pub fn assert_same_outputs<B: Block>(
 pub fn drive_core(profile: &Profile, slots: u64, mut clock: impl FnMut(core::Inputs<i64>) -> core::Outputs<i64>) {
     let core = Core::new(profile);
     let calibration = calibration(profile);
-    let constants = calibration.inputs(core.inputs());
+    let constants = constants(&calibration, core.inputs());
     for (address, &word) in (0..).zip(&calibration.position.words) {
         let word = profile.formats.table.code_saturating(word);
         clock(core::Inputs { write: 1, address, word, ..constants });

@@ -3,10 +3,10 @@
 //! itself; the range reading holds whatever happens within its operands' ranges.
 
 use hapticore_model::format::Format;
-use hapticore_model::reference::rounded::{Exact, round};
 use hapticore_model::signal::range::{Range, take_violations, whole};
 use hapticore_model::signal::real::Real;
 use hapticore_model::signal::{Exact as NoRounding, Floor, HalfEven, Never, Saturate, Signal, Value, Wrap};
+use hapticore_reference::rounded::{Exact, round};
 use proptest::prelude::*;
 
 /// What a format reads from a code.

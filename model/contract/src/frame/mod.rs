@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Frames: what the core says of a pad after its slot.
 
-use crate::blocks::frames::Field;
+mod field;
+
+pub use field::Field;
+
 use crate::profile::Profile;
 
 /// What to think of a frame.

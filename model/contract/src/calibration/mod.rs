@@ -4,14 +4,15 @@
 //! It is made from points at which ratios and place are both known: a simulation of the device, or a measurement. Numbers
 //! are in the core's own units: fractions of full scale, millimetres, picofarads, newtons.
 
+mod layout;
 mod least_squares;
 mod position;
 
+pub use layout::{Axis, Layout, Scalar, Surface};
 pub use position::{Found, Point, PositionError, PositionTable};
 
-use crate::blocks::core::Inputs;
-use crate::format::Format;
 use crate::profile::Profile;
+use hapticore_hdl::format::Format;
 
 /// The calibration of a device.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,19 +50,5 @@ impl Calibration {
             }
         }
         Ok(())
-    }
-
-    /// The core's inputs that never change, as codes; the others are zero.
-    pub fn inputs(&self, formats: Inputs<Format>) -> Inputs<i64> {
-        Inputs {
-            strobe: 0,
-            clear: 0,
-            code: 0,
-            capacitance_gain: formats.capacitance_gain.code_saturating(self.capacitance_gain),
-            force_gain: formats.force_gain.code_saturating(self.force_gain),
-            write: 0,
-            address: 0,
-            word: 0,
-        }
     }
 }

@@ -11,9 +11,9 @@
 //! Amplitudes enter results as quotients only, so that the core's tone gain cancels; its square gain does not, and a reading's
 //! mean square holds it, as a frame's does. Nothing saturates.
 
-use crate::calibration::Calibration;
-use crate::frame::{Flags, Reading};
-use crate::profile::{Profile, Window};
+use hapticore_contract::calibration::Calibration;
+use hapticore_contract::frame::{Flags, Reading};
+use hapticore_contract::profile::{Profile, Window};
 use std::f64::consts::{PI, TAU};
 
 /// What a sample of the window is weighed with.

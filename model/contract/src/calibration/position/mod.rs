@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The position table: splines of what is read over the sheet, fitted to points of known place.
 
+use super::layout::{Axis, Layout, Scalar, Surface};
 use super::least_squares::Fit;
-use crate::blocks::position::{Axis, Layout, Position as Block, Scalar, Surface};
-use crate::format::Format;
 use crate::profile::Profile;
+use hapticore_hdl::format::Format;
 
 /// A place on the sheet and what is read there.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,7 +21,7 @@ pub struct Point {
     pub sheet: f64,
 }
 
-/// From ratios to place: the words of [`crate::blocks::position`], and what they were made from.
+/// From ratios to place: the words of the core's table ([`Layout`]), and what they were made from.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PositionTable {
     /// The words in their order in the memory, as fractions.
@@ -56,7 +56,7 @@ pub struct Found {
 impl Found {
     /// Whether the ratios are those of a place on the table.
     pub fn is_valid(&self) -> bool {
-        self.residual <= 2f64.powi(-i32::from(Block::TOLERANCE_BITS))
+        self.residual <= 2f64.powi(-i32::from(Layout::TOLERANCE_BITS))
     }
 }
 
@@ -348,7 +348,7 @@ impl PositionTable {
         let [e_x, e_y] = [ratios[0] - x, ratios[1] - y];
         let determinant = xu * yv - xv * yu;
         let by = [(yv * e_x - xv * e_y) / determinant, (xu * e_y - yu * e_x) / determinant];
-        let most = Block::STEP_CELLS;
+        let most = Layout::STEP_CELLS;
         let held = |place: f64, by: f64, axis| {
             let by = if by.is_finite() { by.clamp(-most, most) } else { 0.0 };
             (place + by).clamp(0.0, self.cells(axis))
