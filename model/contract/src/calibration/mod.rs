@@ -9,7 +9,7 @@ mod least_squares;
 mod position;
 
 pub use layout::{Axis, Layout, Scalar, Surface};
-pub use position::{Found, Point, PositionError, PositionTable};
+pub use position::{Condition, Found, Point, PositionError, PositionTable, Real};
 
 use crate::profile::Profile;
 use hapticore_hdl::format::Format;

@@ -1,25 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The position table: splines of what is read over the sheet, fitted to points of known place.
+//! The position table: splines of what is read over the sheet, and the place for a pair of ratios, by Newton steps.
+
+mod fit;
+
+pub use fit::{Point, PositionError};
 
 use super::layout::{Axis, Layout, Scalar, Surface};
-use super::least_squares::Fit;
-use crate::profile::Profile;
-use hapticore_hdl::format::Format;
-
-/// A place on the sheet and what is read there.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Point {
-    /// Millimetres from the middle, along the long edges.
-    pub x: f64,
-    /// Millimetres from the middle, along the short edges.
-    pub y: f64,
-    /// Eq. 2.
-    pub r_x: f64,
-    /// Eq. 3.
-    pub r_y: f64,
-    /// The sheet's resistance at the place, in full scales of voltage per current.
-    pub sheet: f64,
-}
+use num_traits::{Float, FromPrimitive};
 
 /// From ratios to place: the words of the core's table ([`Layout`]), and what they were made from.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,108 +29,48 @@ pub struct PositionTable {
 
 /// A place that was looked up.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Found {
+pub struct Found<T = f64> {
     /// Millimetres from the middle, along the long edges.
-    pub x: f64,
+    pub x: T,
     /// Millimetres from the middle, along the short edges.
-    pub y: f64,
+    pub y: T,
     /// The sheet's resistance, in full scales of voltage per current.
-    pub sheet: f64,
+    pub sheet: T,
     /// What the larger of the normalised ratios differs by from that of the place.
-    pub residual: f64,
+    pub residual: T,
 }
 
-impl Found {
+impl<T: Real> Found<T> {
     /// Whether the ratios are those of a place on the table.
     pub fn is_valid(&self) -> bool {
-        self.residual <= 2f64.powi(-i32::from(Layout::TOLERANCE_BITS))
+        self.residual <= real(2f64.powi(-i32::from(Layout::TOLERANCE_BITS)))
     }
 }
 
-/// Points that no position table can be made from.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum PositionError {
-    /// They do not span an area.
-    #[error("expected places that span an area, got {points} places over {width} × {height} mm")]
-    Area {
-        /// Places.
-        points: usize,
-        /// Their extent along the long edges, mm.
-        width: f64,
-        /// Their extent along the short edges, mm.
-        height: f64,
-    },
-    /// The area is larger than the table's words can say, or too far off.
-    #[error("expected places within ± {most} mm of the origin, got x or y = {got} mm")]
-    Range {
-        /// The largest coordinate.
-        most: f64,
-        /// The coordinate.
-        got: f64,
-    },
-    /// The table's cells are larger than its words can say.
-    #[error("expected cells of less than {most} mm, got {got:.0} mm: choose a table with more columns or rows")]
-    Coarse {
-        /// The largest cell.
-        most: f64,
-        /// The cell.
-        got: f64,
-    },
-    /// Ratios do not tell places apart.
-    #[error("expected ratios that tell the places apart: finite, and different wherever the places are")]
-    Ambiguous,
+/// How what is looked up depends on the ratios, to first order: what an error of a ratio makes of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Condition {
+    /// Millimetres per unit of r_x and of r_y: those of x, then those of y.
+    pub place: [[f64; 2]; 2],
+    /// Full scales of voltage per current, per unit of r_x and of r_y.
+    pub sheet: [f64; 2],
 }
 
-/// How much smoothness counts against nearness: it settles coefficients that no point does.
-const SMOOTHNESS: f64 = 1e-7;
+/// What a look-up can be done in: `f32`, `f64`, or a type with more bits.
+pub trait Real: Float + FromPrimitive {}
+
+impl<T: Float + FromPrimitive> Real for T {}
+
 /// Newton steps of a look-up in floating point.
 const STEPS: usize = 12;
-/// By how much of a cell the table reaches beyond the points, so that noise at their edge does not end at the table's.
-const BEYOND: f64 = 0.25;
-/// The largest coefficient of a normalised ratio.
-const FULL: f64 = 0.97;
 
 /// Either ratio and its slopes along u and v.
-type Slopes = [[f64; 3]; 2];
+type Slopes<T> = [[T; 3]; 2];
+
+/// A coefficient's number, its weight in the value, and in the slopes along u and v.
+type Term<T> = (usize, T, [T; 2]);
 
 impl PositionTable {
-    /// Fits points, which may lie anywhere; the table spans the rectangle about them and a little more.
-    ///
-    /// Ratios are fitted by least squares, a point counting as much as its place depends on them (the norm of J⁻¹, from a first
-    /// fit in which all count alike).
-    ///
-    /// # Errors
-    /// Where the points span no area or one beyond the words' range, or their ratios do not tell places apart.
-    pub fn fit(profile: &Profile, points: &[Point]) -> Result<PositionTable, PositionError> {
-        let finite =
-            |point: &Point| [point.x, point.y, point.r_x, point.r_y, point.sheet].iter().all(|x| x.is_finite());
-        if !points.iter().all(finite) {
-            return Err(PositionError::Ambiguous);
-        }
-        let layout = Layout::new(profile);
-        let mut table = PositionTable {
-            words: vec![0.0; layout.words()],
-            layout,
-            ratios: [Vec::new(), Vec::new()],
-            resistance: Vec::new(),
-            geometry: [[0.0; 2]; 2],
-            scales: [[0.0, 1.0]; 2],
-            start: [[0.0; 3]; 2],
-            open_share: 0.0,
-        };
-        table.span(profile, points)?;
-        let places: Vec<_> = points.iter().map(|point| table.place(point)).collect();
-        table.fit_ratios(&places, points, &vec![1.0; points.len()])?;
-        let importance = places.iter().map(|&place| table.sensitivity(place)).collect::<Option<Vec<_>>>();
-        let importance = importance.ok_or(PositionError::Ambiguous)?;
-        table.fit_ratios(&places, points, &importance)?;
-        table.fit_resistance(&places, points)?;
-        table.scale(profile.formats.table);
-        table.fit_start(&places, points)?;
-        table.set_words(profile);
-        if table.words.iter().all(|word| word.is_finite()) { Ok(table) } else { Err(PositionError::Ambiguous) }
-    }
-
     /// The table, with the share of the ratios' denominator below which a terminal's current counts as that of an open one; of
     /// a table as it is fitted none does.
     #[must_use]
@@ -158,139 +85,31 @@ impl PositionTable {
         self.open_share
     }
 
-    /// The table's rectangle, in numbers that its words hold.
-    fn span(&mut self, profile: &Profile, points: &[Point]) -> Result<(), PositionError> {
-        let extents = [|point: &Point| point.x, |point: &Point| point.y].map(|of| extent(points.iter().map(of)));
-        let [width, height] = extents.map(|[low, high]| high - low);
-        let area = width > 0.0 && height > 0.0 && points.len() >= 4;
-        if !area {
-            return Err(PositionError::Area { points: points.len(), width, height });
-        }
-        let (word, most) = (profile.formats.table, range(profile));
-        let unit = most * 2.0 / Layout::CELLS * word.lsb();
-        for (axis, [low, high]) in [Axis::X, Axis::Y].into_iter().zip(extents) {
-            let cells = self.layout.cells(Surface::RatioX, axis) as f64;
-            let (pitch, got) = ((high - low) / (cells - 2.0 * BEYOND), low.abs().max(high.abs()));
-            if got + BEYOND * pitch > most {
-                return Err(PositionError::Range { most, got });
-            }
-            let widest = 2.0 * most / Layout::CELLS;
-            if pitch >= widest {
-                return Err(PositionError::Coarse { most: widest, got: pitch });
-            }
-            let origin = ((low + high) / 2.0 / (most * word.lsb())).round() * most * word.lsb();
-            self.geometry[axis as usize] = [origin, (pitch / unit).ceil() * unit];
-        }
-        Ok(())
-    }
-
-    /// A point's place, in cells from the table's first edge.
-    fn place(&self, point: &Point) -> [f64; 2] {
-        let of = |axis: Axis, millimetres: f64| {
-            let ([origin, pitch], cells) = (self.geometry[axis as usize], self.cells(axis));
-            ((millimetres - origin) / pitch + cells / 2.0).clamp(0.0, cells)
-        };
-        [of(Axis::X, point.x), of(Axis::Y, point.y)]
-    }
-
     fn cells(&self, axis: Axis) -> f64 {
         self.layout.cells(Surface::RatioX, axis) as f64
     }
 
-    /// Centres and gains that take the coefficients into the words' range, as words of the table hold them.
-    fn scale(&mut self, word: Format) {
-        let rounded = |x: f64| word.real(word.code_saturating(x));
-        for (ratio, scale) in self.ratios.iter().zip(&mut self.scales) {
-            let [low, high] = extent(ratio.iter().copied());
-            let gain = (FULL / ((high - low) / 2.0)).min(Layout::GAIN) / Layout::GAIN;
-            *scale = [2.0 * rounded((low + high) / 4.0), Layout::GAIN * rounded(gain)];
-        }
-    }
-
-    /// The first guess, by least squares over all points.
-    fn fit_start(&mut self, places: &[[f64; 2]], points: &[Point]) -> Result<(), PositionError> {
-        let mut fit = Fit::new(3, 2);
-        for (place, point) in places.iter().zip(points) {
-            let [r_x, r_y] = self.normalised([point.r_x, point.r_y]);
-            let from_middle = [place[0] - self.cells(Axis::X) / 2.0, place[1] - self.cells(Axis::Y) / 2.0];
-            fit.ask(&[(0, 1.0), (1, r_x), (2, r_y)], &from_middle, 1.0);
-        }
-        let found = fit.solve().ok_or(PositionError::Ambiguous)?;
-        self.start = [0, 1].map(|axis| [0, 1, 2].map(|k| found[(k, axis)]));
-        Ok(())
-    }
-
-    fn normalised(&self, ratios: [f64; 2]) -> [f64; 2] {
-        [0, 1].map(|k| (ratios[k] - self.scales[k][0]) * self.scales[k][1])
-    }
-
-    /// The words, in their order in the memory.
-    fn set_words(&mut self, profile: &Profile) {
-        let range = range(profile);
-        for axis in [Axis::X, Axis::Y] {
-            let ([origin, pitch], [centre, gain]) = (self.geometry[axis as usize], self.scales[axis as usize]);
-            let [constant, of_x, of_y] = self.start[axis as usize].map(|guess| guess / Layout::CELLS / 4.0);
-            let scalars = [
-                (Scalar::Gain, gain / Layout::GAIN),
-                (Scalar::Centre, centre / 2.0),
-                (Scalar::StartConstant, -constant),
-                (Scalar::StartRatioX, of_x),
-                (Scalar::StartRatioY, of_y),
-                (Scalar::Pitch, pitch * Layout::CELLS / 2.0 / range),
-                (Scalar::Origin, -origin / range),
-            ];
-            scalars.into_iter().for_each(|(scalar, word)| self.words[self.layout.scalar(scalar, axis)] = word);
-        }
-        for (surface, k) in [(Surface::RatioX, 0), (Surface::RatioY, 1)] {
-            let [centre, gain] = self.scales[k];
-            let words = self.ratios[k].iter().map(|ratio| (ratio - centre) * gain);
-            self.words.splice(range_of(self.layout.surface(surface), self.ratios[k].len()), words.collect::<Vec<_>>());
-        }
-        let from = self.layout.surface(Surface::Resistance);
-        self.words[from..].copy_from_slice(&self.resistance);
-    }
-
-    fn fit_ratios(&mut self, places: &[[f64; 2]], points: &[Point], importance: &[f64]) -> Result<(), PositionError> {
-        let surface = Surface::RatioX;
-        let size = self.size(surface);
-        let mut fit = Fit::new(size[0] * size[1], 2);
-        for ((&place, point), &importance) in places.iter().zip(points).zip(importance) {
-            let terms = self.terms(surface, place);
-            fit.ask(&terms.map(|term| (term.0, term.1)), &[point.r_x, point.r_y], importance);
-        }
-        let total: f64 = importance.iter().sum();
-        smooth(&mut fit, size, 2, SMOOTHNESS * total / (size[0] * size[1]) as f64);
-        let found = fit.solve().ok_or(PositionError::Ambiguous)?;
-        self.ratios = [0, 1].map(|k| found.column(k).iter().copied().collect());
-        Ok(())
-    }
-
-    fn fit_resistance(&mut self, places: &[[f64; 2]], points: &[Point]) -> Result<(), PositionError> {
-        let surface = Surface::Resistance;
-        let size = self.size(surface);
-        let mut fit = Fit::new(size[0] * size[1], 1);
-        for (&place, point) in places.iter().zip(points) {
-            let terms = self.terms(surface, place);
-            fit.ask(&terms.map(|term| (term.0, term.1)), &[point.sheet], 1.0);
-        }
-        smooth(&mut fit, size, 1, SMOOTHNESS * points.len() as f64 / (size[0] * size[1]) as f64);
-        let found = fit.solve().ok_or(PositionError::Ambiguous)?;
-        self.resistance = found.as_slice().to_vec();
-        Ok(())
+    fn normalised<T: Real>(&self, ratios: [T; 2]) -> [T; 2] {
+        [0, 1].map(|k| (ratios[k] - real(self.scales[k][0])) * real(self.scales[k][1]))
     }
 
     fn size(&self, surface: Surface) -> [usize; 2] {
         [Axis::X, Axis::Y].map(|axis| self.layout.coefficients(surface, axis))
     }
 
-    /// The nine coefficients about a place: each one's number, and its weight in the value and in the slopes along u and v.
-    fn terms(&self, surface: Surface, place: [f64; 2]) -> [(usize, f64, [f64; 2]); 9] {
+    /// What a cell of the ratios' splines is of one of the surface's.
+    fn cell(&self, surface: Surface) -> f64 {
+        if surface == Surface::Resistance { 2f64.powi(-i32::from(self.layout.shift())) } else { 1.0 }
+    }
+
+    /// The nine coefficients about a place: each one's number, and its weight in the value and in the slopes along u and v, in
+    /// cells of the surface.
+    fn terms<T: Real>(&self, surface: Surface, place: [T; 2]) -> [Term<T>; 9] {
         let size = self.size(surface);
-        let scale = if surface == Surface::Resistance { 2f64.powi(-i32::from(self.layout.shift())) } else { 1.0 };
         let [(column, across), (row, down)] = [Axis::X, Axis::Y].map(|axis| {
             let cells = self.layout.cells(surface, axis);
-            let from_middle = place[axis as usize] - self.cells(axis) / 2.0;
-            basis(scale * from_middle + cells as f64 / 2.0, cells)
+            let from_middle = place[axis as usize] - real(self.cells(axis) / 2.0);
+            basis(real::<T>(self.cell(surface)) * from_middle + real(cells as f64 / 2.0), cells)
         });
         std::array::from_fn(|k| {
             let ([a, slope_a], [b, slope_b]) = (across[k % 3], down[k / 3]);
@@ -299,157 +118,157 @@ impl PositionTable {
     }
 
     /// Both ratios at a place, with their slopes.
-    fn at(&self, place: [f64; 2]) -> Slopes {
+    fn at<T: Real>(&self, place: [T; 2]) -> Slopes<T> {
         let terms = self.terms(Surface::RatioX, place);
-        self.ratios.each_ref().map(|ratio| {
-            let sum = |weight: fn(&(usize, f64, [f64; 2])) -> f64| {
-                terms.iter().map(|term| weight(term) * ratio[term.0]).sum()
-            };
-            [sum(|term| term.1), sum(|term| term.2[0]), sum(|term| term.2[1])]
-        })
+        self.ratios.each_ref().map(|ratio| slopes(&terms, ratio))
     }
 
-    /// How many millimetres a place moves with its ratios: the norm of J⁻¹. None where it does not depend on them.
-    fn sensitivity(&self, place: [f64; 2]) -> Option<f64> {
-        let [[_, xu, xv], [_, yu, yv]] = self.at(place);
-        let [[_, along], [_, across]] = self.geometry;
-        let determinant = xu * yv - xv * yu;
-        let norm = ((along * yv).hypot(along * xv).hypot(across * xu)).hypot(across * yu) / determinant.abs();
-        norm.is_finite().then_some(norm)
-    }
-
-    /// The place for a pair of ratios, in floating point.
-    pub fn look_up(&self, r_x: f64, r_y: f64) -> Found {
+    /// The place for a pair of ratios: r_x and r_y as eqs. 2 and 3 give them.
+    ///
+    /// ```
+    /// # use hapticore_contract::{calibration::{Point, PositionTable}, profile::Profile};
+    /// let profile = Profile::bundled("standard")?;
+    /// // A sheet of 200 × 100 mm on which each ratio rises by 0.006 a millimetre.
+    /// let at = |k: i32| (f64::from(k % 11 - 5) * 20.0, f64::from(k / 11 - 5) * 10.0);
+    /// let point = |(x, y)| Point { x, y, r_x: 0.006 * x, r_y: 0.006 * y, sheet: 0.04 };
+    /// let table = PositionTable::fit(&profile, &(0..121).map(at).map(point).collect::<Vec<_>>())?;
+    ///
+    /// let found = table.look_up(0.3, -0.12);
+    /// assert!(found.is_valid() && (found.x - 50.0).abs() < 1e-5 && (found.y + 20.0).abs() < 1e-5);
+    /// assert!(!table.look_up(0.9, 0.0).is_valid(), "150 mm is beyond the sheet's edge");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn look_up<T: Real>(&self, r_x: T, r_y: T) -> Found<T> {
         let mut place = self.first_guess([r_x, r_y]);
         for _ in 0..STEPS {
             place = self.step(place, [r_x, r_y]);
         }
         let [[x, ..], [y, ..]] = self.at(place);
-        let residual = ((r_x - x) * self.scales[0][1]).abs().max(((r_y - y) * self.scales[1][1]).abs());
-        let terms = self.terms(Surface::Resistance, place);
-        let sheet = terms.iter().map(|term| term.1 * self.resistance[term.0]).sum();
-        let [x, y] = [(Axis::X, place[0]), (Axis::Y, place[1])].map(|(axis, place)| {
-            let [origin, pitch] = self.geometry[axis as usize];
-            origin + (place - self.cells(axis) / 2.0) * pitch
+        let scale = |k: usize| real::<T>(self.scales[k][1]);
+        let residual = ((r_x - x) * scale(0)).abs().max(((r_y - y) * scale(1)).abs());
+        let [sheet, ..] = slopes(&self.terms(Surface::Resistance, place), &self.resistance);
+        let [x, y] = [Axis::X, Axis::Y].map(|axis| {
+            let [origin, pitch] = self.geometry[axis as usize].map(real::<T>);
+            origin + (place[axis as usize] - real(self.cells(axis) / 2.0)) * pitch
         });
         Found { x, y, sheet, residual }
     }
 
-    fn first_guess(&self, ratios: [f64; 2]) -> [f64; 2] {
-        let [r_x, r_y] = self.normalised(ratios);
+    /// How what is found at a place depends on the ratios; None where the ratios do not tell places apart.
+    pub fn condition(&self, x_mm: f64, y_mm: f64) -> Option<Condition> {
+        let place = self.place([x_mm, y_mm]);
+        let [[_, xu, xv], [_, yu, yv]] = self.at(place);
+        let determinant = xu * yv - xv * yu;
+        let cells = [[yv, -xv], [-yu, xu]].map(|row| row.map(|slope| slope / determinant));
+        let scale = self.cell(Surface::Resistance);
+        let [_, along, across] = slopes(&self.terms(Surface::Resistance, place), &self.resistance);
+        let sheet = [0, 1].map(|k| scale * (along * cells[0][k] + across * cells[1][k]));
+        let place = [0, 1].map(|axis| cells[axis].map(|cells| cells * self.geometry[axis][1]));
+        let finite = place.as_flattened().iter().chain(&sheet).all(|x| x.is_finite());
+        finite.then_some(Condition { place, sheet })
+    }
+
+    /// A place in millimetres, in cells from the table's first edge.
+    fn place(&self, millimetres: [f64; 2]) -> [f64; 2] {
         [Axis::X, Axis::Y].map(|axis| {
-            let ([constant, of_x, of_y], cells) = (self.start[axis as usize], self.cells(axis));
-            (constant + of_x * r_x + of_y * r_y + cells / 2.0).clamp(0.0, cells)
+            let ([origin, pitch], cells) = (self.geometry[axis as usize], self.cells(axis));
+            ((millimetres[axis as usize] - origin) / pitch + cells / 2.0).clamp(0.0, cells)
         })
     }
 
-    fn step(&self, place: [f64; 2], ratios: [f64; 2]) -> [f64; 2] {
+    fn first_guess<T: Real>(&self, ratios: [T; 2]) -> [T; 2] {
+        let [r_x, r_y] = self.normalised(ratios);
+        [Axis::X, Axis::Y].map(|axis| {
+            let ([constant, of_x, of_y], cells) = (self.start[axis as usize].map(real::<T>), self.cells(axis));
+            clamp(constant + of_x * r_x + of_y * r_y + real(cells / 2.0), 0.0, cells)
+        })
+    }
+
+    fn step<T: Real>(&self, place: [T; 2], ratios: [T; 2]) -> [T; 2] {
         let [[x, xu, xv], [y, yu, yv]] = self.at(place);
         let [e_x, e_y] = [ratios[0] - x, ratios[1] - y];
         let determinant = xu * yv - xv * yu;
         let by = [(yv * e_x - xv * e_y) / determinant, (xu * e_y - yu * e_x) / determinant];
         let most = Layout::STEP_CELLS;
-        let held = |place: f64, by: f64, axis| {
-            let by = if by.is_finite() { by.clamp(-most, most) } else { 0.0 };
-            (place + by).clamp(0.0, self.cells(axis))
+        let held = |place: T, by: T, axis| {
+            let by = if by.is_finite() { clamp(by, -most, most) } else { T::zero() };
+            clamp(place + by, 0.0, self.cells(axis))
         };
         [held(place[0], by[0], Axis::X), held(place[1], by[1], Axis::Y)]
     }
+}
 
-    /// Each point's distance from where the table finds it, in mm; infinite where it finds none.
-    pub fn errors<'a>(&'a self, points: &'a [Point]) -> impl Iterator<Item = f64> + 'a {
-        points.iter().map(|point| {
-            let found = self.look_up(point.r_x, point.r_y);
-            if found.is_valid() { (found.x - point.x).hypot(found.y - point.y) } else { f64::INFINITY }
-        })
+/// A number of the calibration, as it is.
+#[inline(always)]
+fn real<T: Real>(x: f64) -> T {
+    T::from_f64(x).expect("a floating-point type takes every f64")
+}
+
+/// As [`f64::clamp`]: what is not a number stays so.
+#[inline(always)]
+fn clamp<T: Real>(x: T, low: f64, high: f64) -> T {
+    let (low, high) = (real(low), real(high));
+    if x < low {
+        low
+    } else if x > high {
+        high
+    } else {
+        x
     }
 }
 
-/// Positions are within plus and minus so many mm.
-fn range(profile: &Profile) -> f64 {
-    let position = profile.formats.position;
-    position.real(position.max_code() as i64 + 1)
-}
-
-fn range_of(from: usize, count: usize) -> std::ops::Range<usize> {
-    from..from + count
-}
-
-/// The least and the greatest.
-fn extent(values: impl Iterator<Item = f64>) -> [f64; 2] {
-    values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
+/// The value and both slopes of a surface with these coefficients.
+#[inline(always)]
+fn slopes<T: Real>(terms: &[Term<T>; 9], coefficients: &[f64]) -> [T; 3] {
+    let sum = |weight: fn(&Term<T>) -> T| {
+        terms.iter().fold(T::zero(), |sum, term| sum + weight(term) * real(coefficients[term.0]))
+    };
+    [sum(|term| term.1), sum(|term| term.2[0]), sum(|term| term.2[1])]
 }
 
 /// The cell of a place, and of its three coefficients the weight in the value and in the slope.
-fn basis(place: f64, cells: usize) -> (usize, [[f64; 2]; 3]) {
-    let cell = place.floor().clamp(0.0, cells as f64 - 1.0);
-    let f = place - cell;
-    let weights = [[(1.0 - f) * (1.0 - f) / 2.0, f - 1.0], [0.5 + f * (1.0 - f), 1.0 - 2.0 * f], [f * f / 2.0, f]];
-    (cell as usize, weights)
-}
-
-/// Asks that second differences along rows and columns be small.
-fn smooth(fit: &mut Fit, [columns, rows]: [usize; 2], layers: usize, importance: f64) {
-    let mut bend = |at: usize, step: usize| {
-        fit.ask(&[(at - step, 1.0), (at, -2.0), (at + step, 1.0)], &[0.0, 0.0][..layers], importance);
-    };
-    for at in 0..columns * rows {
-        let (column, row) = (at % columns, at / columns);
-        if column > 0 && column + 1 < columns {
-            bend(at, 1);
-        }
-        if row > 0 && row + 1 < rows {
-            bend(at, columns);
-        }
-    }
+fn basis<T: Real>(place: T, cells: usize) -> (usize, [[T; 2]; 3]) {
+    let cell = clamp(place.floor(), 0.0, cells as f64 - 1.0);
+    let (f, one, two, half) = (place - cell, T::one(), real::<T>(2.0), real::<T>(0.5));
+    let weights = [[(one - f) * (one - f) / two, f - one], [half + f * (one - f), one - two * f], [f * f / two, f]];
+    (cell.to_usize().unwrap_or(0), weights)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::profile::Profile;
 
-    fn raster(columns: usize, rows: usize, r: f64) -> Vec<Point> {
-        let place = |k: usize| ((k % columns) as f64, (k / columns) as f64);
-        let point = |(x, y): (f64, f64)| Point { x, y, r_x: r * x, r_y: r * y, sheet: 0.0 };
-        (0..columns * rows).map(place).map(point).collect()
-    }
-
-    fn fit(points: &[Point]) -> Result<PositionTable, PositionError> {
-        PositionTable::fit(&Profile::bundled("small").expect("bundled"), points)
+    /// A sheet whose ratios rise less towards its edges, and whose resistance is not the same everywhere.
+    fn table() -> PositionTable {
+        let profile = Profile::bundled("standard").expect("bundled");
+        let point = |k: usize| {
+            let (u, v) = ((k % 41) as f64 / 20.0 - 1.0, (k / 41) as f64 / 12.0 - 1.0);
+            let (r_x, r_y) = ((1.2 * u).sin() * (1.0 - 0.1 * v * v), 0.8 * v.sin());
+            Point { x: 400.0 * u, y: 220.0 * v, r_x, r_y, sheet: 0.05 + 0.02 * u * u + 0.01 * v }
+        };
+        PositionTable::fit(&profile, &(0..41 * 25).map(point).collect::<Vec<_>>()).expect("a raster")
     }
 
     #[test]
-    fn points_that_make_no_table_are_refused() {
-        assert!(fit(&raster(9, 9, 0.1)).is_ok());
-        assert!(matches!(fit(&raster(9, 1, 0.1)), Err(PositionError::Area { .. })));
-        assert!(matches!(fit(&[]), Err(PositionError::Area { .. })));
-        let far: Vec<_> = raster(9, 9, 0.1).into_iter().map(|point| Point { x: point.x + 2000.0, ..point }).collect();
-        assert!(matches!(fit(&far), Err(PositionError::Range { .. })));
-        assert_eq!(fit(&raster(9, 9, 0.0)), Err(PositionError::Ambiguous), "the same ratios everywhere");
-        assert_eq!(fit(&raster(9, 9, f64::NAN)), Err(PositionError::Ambiguous));
-    }
-
-    /// Terminals with large resistances in series leave ratios that hardly differ, and others that do not have their middle at
-    /// zero.
-    #[test]
-    fn words_span_their_range_whatever_the_ratios_span() {
-        for (r, offset) in [(0.1, 0.0), (0.01, 0.3), (0.005, -0.6)] {
-            let shifted = |point: Point| Point { r_x: point.r_x + offset, r_y: point.r_y - offset, ..point };
-            let points: Vec<_> = raster(9, 9, r).into_iter().map(shifted).collect();
-            let table = fit(&points).expect("a table");
-            let coefficients = &table.words[table.layout.surface(Surface::RatioX)..][..table.ratios[0].len()];
-            let [low, high] = extent(coefficients.iter().copied());
-            assert!(low > -1.0 && high < 1.0 && high - low > 0.3, "{low} to {high} of ratios rising by {r}");
-            let worst = table.errors(&points).fold(0.0, f64::max);
-            assert!(worst < 1e-5, "{worst} mm");
+    fn conditions_are_the_slopes_of_a_look_up() {
+        let (table, h) = (table(), 1e-6);
+        for [r_x, r_y] in [[0.1, 0.2], [-0.6, 0.3], [0.7, -0.5]] {
+            let at = table.look_up(r_x, r_y);
+            let moved = [table.look_up(r_x + h, r_y), table.look_up(r_x, r_y + h)];
+            let condition = table.condition(at.x, at.y).expect("a place");
+            let near = |got: f64, expected: f64| (got - expected).abs() < 1e-4 * got.abs().max(1.0);
+            for (k, moved) in moved.iter().enumerate() {
+                assert!(near(condition.place[0][k], (moved.x - at.x) / h), "{condition:?}, {moved:?}");
+                assert!(near(condition.place[1][k], (moved.y - at.y) / h), "{condition:?}, {moved:?}");
+                assert!(near(condition.sheet[k], (moved.sheet - at.sheet) / h), "{condition:?}, {moved:?}");
+            }
         }
     }
 
     #[test]
-    fn a_linear_sheet_is_found_exactly() {
-        let points = raster(9, 9, 0.1);
-        let table = fit(&points).expect("a table");
-        let worst = table.errors(&points).fold(0.0, f64::max);
-        assert!(worst < 1e-5, "{worst} mm");
+    fn what_is_no_number_is_no_place() {
+        assert!(!table().look_up(f64::NAN, f64::NAN).is_valid());
+        assert!(!table().look_up(5.0, 5.0).is_valid());
     }
 }
