@@ -9,7 +9,7 @@ use hapticore_model::fidelity::clock::ClockSimulation;
 use hapticore_model::fidelity::fixed::FixedSimulation;
 use hapticore_model::frame::{Frame, Reading};
 use hapticore_model::profile::Profile;
-use hapticore_model::reference::Reference;
+use hapticore_reference::Reference;
 
 use crate::args::Fidelity;
 

@@ -36,7 +36,7 @@ pub fn profile(name: &str) -> Result<Profile> {
     match Profile::bundled(name) {
         Err(ProfileError::Unknown { .. }) if looks_like_a_file(name) => {
             let text = read(Path::new(name))?;
-            Profile::parse(&text).map_err(|error| match error {
+            hapticore_model::parse_profile(&text).map_err(|error| match error {
                 ProfileError::Syntax(message) => anyhow!("{name}:{}", with_key(&text, &message)),
                 other => anyhow!("{name}: {other}"),
             })
@@ -86,8 +86,8 @@ pub fn for_terminals(profile: &Profile, signs: &[Vec<i8>; 2]) -> Result<Profile>
     let mut profile = profile.clone();
     if bundled {
         (profile.terminals.x, profile.terminals.y) = (x.clone(), y.clone());
-        profile.clocks_per_sample = profile.clocks_per_sample.max(profile.least_clocks_per_sample());
-        profile.check().with_context(|| format!("profile {} for {device} terminals", profile.name))?;
+        profile.clocks_per_sample = profile.clocks_per_sample.max(hapticore_model::least_clocks_per_sample(&profile));
+        hapticore_model::check(&profile).with_context(|| format!("profile {} for {device} terminals", profile.name))?;
     }
     Ok(profile)
 }
@@ -104,7 +104,7 @@ pub fn serving(profile: &Profile, pads: usize) -> Profile {
 pub fn windowed(mut profile: Profile, scene: &Scene) -> Result<Profile> {
     if let Some(samples) = scene.window_samples {
         profile = profile.with_window(samples);
-        profile.check().with_context(|| format!("{}: window_samples", scene.name))?;
+        hapticore_model::check(&profile).with_context(|| format!("{}: window_samples", scene.name))?;
     }
     Ok(profile)
 }

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use anyhow::Result;
 use hapticore_model::frame::{Flags, Reading};
 use hapticore_model::profile::Profile;
-use hapticore_model::reference::Reference as FloatCore;
+use hapticore_reference::Reference as FloatCore;
 use hapticore_scene::Uncoupler;
 
 use crate::args::Fidelity;

@@ -8,6 +8,7 @@ use hapticore_model::blocks::demodulator::Demodulator;
 use hapticore_model::format::Format;
 use hapticore_model::interpretations::netlist::Netlist;
 use hapticore_model::interpretations::range::{Range, take_violations, whole};
+use hapticore_model::parse_profile;
 use hapticore_model::profile::Profile;
 use hapticore_model::proof::prove;
 use hapticore_model::signal::{Proved, Signal, bit, int, zero};
@@ -87,7 +88,7 @@ fn with(profile: &str, key: &str, value: &str) -> Result<Profile, String> {
     let text = hapticore_model::profile::BUNDLED.iter().find(|(name, _)| *name == profile).expect("bundled").1;
     let is_key = |line: &&str| line.split('=').next().is_some_and(|word| word.trim() == key);
     let line = text.lines().find(is_key).unwrap_or_else(|| panic!("{profile} has {key}"));
-    Profile::parse(&text.replace(line, &format!("{key} = {value}"))).map_err(|error| error.to_string())
+    parse_profile(&text.replace(line, &format!("{key} = {value}"))).map_err(|error| error.to_string())
 }
 
 const FORMATS: [&str; 14] = [
@@ -165,6 +166,6 @@ fn bad_profiles_say_what_was_expected() {
         let message = with("small", key, value).expect_err(key);
         assert!(message.contains(words), "{key} = {value}: {message}");
     }
-    let message = Profile::parse("name = \"x\"\nwidth = 3").unwrap_err().to_string();
+    let message = parse_profile("name = \"x\"\nwidth = 3").unwrap_err().to_string();
     assert!(message.starts_with("2: "), "the line is named: {message}");
 }

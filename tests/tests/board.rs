@@ -44,7 +44,7 @@ fn shortened(target: Target) -> Profile {
     let samples = 4 * profile.samples_per_period().round() as u64;
     profile = profile.with_window(samples);
     (profile.position.columns, profile.position.rows) = (17, 11);
-    profile.check().expect("a profile");
+    hapticore_model::check(&profile).expect("a profile");
     profile
 }
 

@@ -5,7 +5,7 @@ use crate::harness::{Bench, within};
 use hapticore_model::blocks::divider::{self, Divider};
 use hapticore_model::blocks::root::{self, Root};
 use hapticore_model::format::Format;
-use hapticore_model::reference::rounded::{Exact, round_quotient, round_root};
+use hapticore_reference::rounded::{Exact, round_quotient, round_root};
 
 fn check_divider(numerator: &str, denominator: &str, quotient: &str) {
     let [n, d, q] = [numerator, denominator, quotient].map(|text| text.parse::<Format>().expect("a format"));

@@ -14,7 +14,7 @@ use hapticore_model::blocks::ratio::{self, Ratio};
 use hapticore_model::blocks::root::Root;
 use hapticore_model::format::Format;
 use hapticore_model::profile::Profile;
-use hapticore_model::reference::rounded::{self, Exact, round_quotient, round_root};
+use hapticore_reference::rounded::{self, Exact, round_quotient, round_root};
 
 /// Operations of each block over all profiles.
 const MILLION: u64 = 1_000_000;

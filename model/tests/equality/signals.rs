@@ -5,8 +5,8 @@
 use hapticore_model::format::Format;
 use hapticore_model::interpretations::range::{Range, take_violations, whole};
 use hapticore_model::interpretations::real::Real;
-use hapticore_model::reference::rounded::{Exact, round};
 use hapticore_model::signal::{Floor, HalfEven, Proved, Saturate, Signal, Value, Wrap};
+use hapticore_reference::rounded::{Exact, round};
 use proptest::prelude::*;
 
 /// What a format reads from a code.

@@ -13,7 +13,7 @@ use hapticore_model::fidelity::clock::ClockSimulation;
 use hapticore_model::fidelity::fixed::FixedSimulation;
 use hapticore_model::frame::{Flags, Frame};
 use hapticore_model::profile::Profile;
-use hapticore_model::reference::rounded::{Exact, Slots, Sums};
+use hapticore_reference::rounded::{Exact, Slots, Sums};
 
 fn check_slots(profile: &Profile, slots: usize, seed: u64) {
     let calibration = calibration(profile);

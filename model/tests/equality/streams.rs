@@ -12,7 +12,7 @@ use hapticore_model::blocks::oscillator::{self, Oscillator};
 use hapticore_model::bundle::Bundle;
 use hapticore_model::format::Format;
 use hapticore_model::profile::{Method, Profile, Window};
-use hapticore_model::reference::rounded::{self, Exact, Sample};
+use hapticore_reference::rounded::{self, Exact, Sample};
 
 const MILLION: u64 = 1_000_000;
 

@@ -12,9 +12,9 @@ fn short(mut profile: Profile) -> Profile {
     profile = profile.with_window(samples);
     profile.slot.open = 2;
     profile.slot.settle = 0;
-    while profile.check().is_err() {
+    while hapticore_model::check(&profile).is_err() {
         profile.slot.settle += 1;
-        assert!(profile.slot.settle < 10_000, "{}: {:?}", profile.name, profile.check());
+        assert!(profile.slot.settle < 10_000, "{}: {:?}", profile.name, hapticore_model::check(&profile));
     }
     profile
 }

@@ -32,10 +32,9 @@
 
 mod at_once;
 mod instruction;
-mod layout;
 mod program;
 
-pub use layout::{Axis, Layout, Scalar, Surface};
+pub use hapticore_contract::calibration::{Axis, Layout, Scalar, Surface};
 
 use self::at_once::AtOnce;
 use self::instruction::{COUNT, LOW, OPEN, Operation, SCALARS, SHARE, SURFACE, WRAP};

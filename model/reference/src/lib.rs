@@ -12,4 +12,4 @@
 mod ideal;
 pub mod rounded;
 
-pub use ideal::Reference;
+pub use ideal::{Real, Reference};

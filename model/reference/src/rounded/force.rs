@@ -7,7 +7,7 @@
 
 use super::currents::{growth, power_above};
 use super::{Exact, Rounded, round};
-use crate::profile::Profile;
+use hapticore_contract::profile::Profile;
 
 /// The force.
 #[derive(Debug, Clone, Copy, PartialEq)]

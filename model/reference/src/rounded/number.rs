@@ -4,7 +4,7 @@
 //! An `f64` would do up to 2^53; squares of the widest words have 62 bits. So numbers are `mantissa · 2^exponent` with an
 //! `i128`, which holds every sum and product of the core exactly.
 
-use crate::format::Format;
+use hapticore_hdl::format::Format;
 use std::cmp::Ordering;
 use std::ops::{Add, Mul, Neg, Sub};
 

@@ -1,45 +1,37 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a profile must hold for a core to be built from it.
+//! The ranges of a profile's values, by themselves and against each other.
+//!
+//! Absent: whether a core's signals and clocks suffice, which only its blocks know (`hapticore_model::check`).
 
 use super::{Method, Profile, ProfileError};
-use crate::blocks::demodulator::Demodulator;
-use crate::blocks::estimator::Estimator;
-use crate::blocks::position::Layout;
-use crate::format::{Format, MAX_WIDTH};
+use crate::calibration::Layout;
+use hapticore_hdl::format::Format;
 use std::fmt::Display;
 
 type Check = Result<(), ProfileError>;
 
 fn ensure(holds: bool, field: &str, expected: impl Display, got: impl Display) -> Check {
-    let (field, expected, got) = (field.into(), expected.to_string(), got.to_string());
-    if holds { Ok(()) } else { Err(ProfileError::Value { field, expected, got }) }
+    if holds { Ok(()) } else { Err(ProfileError::value(field, expected, got)) }
 }
 
 fn within(field: &str, value: u64, low: u64, high: u64) -> Check {
     ensure((low..=high).contains(&value), field, format_args!("{low} to {high}"), value)
 }
 
-const ROUNDED: &str = "what is rounded to it";
-
-/// Bits of a signal with the point of the format to which it is rounded, before that saturates.
-fn before(signal: Format, to: Format) -> i16 {
-    signal.integer_bits() + 2 + i16::from(to.frac).max(i16::from(signal.frac))
-}
-
 impl Profile {
-    /// Checks every value against its range, and values against each other.
+    /// Checks every value against its range, and values against each other; [`Profile::parse`] has done so.
+    ///
+    /// Whether a core can be built is asked of the core: `hapticore_model::check`, which begins with this.
     ///
     /// # Errors
-    /// The first that does not hold, with its key.
-    pub fn check(&self) -> Check {
+    /// The first value that is out of its range, with its key.
+    pub fn check_values(&self) -> Check {
         within("pads", self.pads, 1, 256)?;
         within("multiplier", self.multiplier.into(), 8, 64)?;
         self.check_terminals()?;
         self.check_formats()?;
         self.check_position()?;
-        self.check_slot()?;
-        self.check_widths()?;
-        self.check_clocks()
+        self.check_slot()
     }
 
     fn check_terminals(&self) -> Check {
@@ -104,47 +96,6 @@ impl Profile {
         let words = Layout::new(self).words();
         let most = f.table.max_code().min(1 << 14) as usize;
         ensure(words <= most, "position.columns", format!("a table of {most} words at most"), format_args!("{words}"))
-    }
-
-    /// What grows with counts, or with several formats at once, still fits a word of the model.
-    fn check_widths(&self) -> Check {
-        let (f, terminals) = (&self.formats, self.terminals.x.len() as u64);
-        let amplitude = i16::from(f.total.width) + 1;
-        let sums = amplitude + i16::from(Format::counter(terminals).width);
-        let demodulator = Demodulator::new(self);
-        let sum = demodulator.sum();
-        // An I/Q word with all the bits that it may be moved up by, before it is narrowed.
-        let integer = sum.integer_bits() - i16::from(self.sum_shift() - demodulator.shift());
-        let moved = integer + 2 + i16::from(f.iq.frac) + i16::from(f.block_shift);
-        for (field, width, of) in [
-            ("formats.iq", moved, ROUNDED),
-            ("slot.integrate", i16::from(Demodulator::new(self).sum().width), "a sum over the window"),
-            ("formats.ratio", sums + i16::from(f.ratio.frac), "the dividend of a ratio"),
-            ("formats.admittance", amplitude + i16::from(f.admittance.frac), "the dividend of the admittance"),
-            ("formats.capacitance", before(f.admittance.product(f.capacitance_gain), f.capacitance), ROUNDED),
-            ("formats.square", before(f.capacitance.product(f.capacitance), f.square), ROUNDED),
-            ("formats.square", before(f.square.product(f.mean_square), f.square), ROUNDED),
-            ("formats.force", before(f.square.product(f.force_gain), f.force), ROUNDED),
-            ("formats.mean_square", before(Demodulator::new(self).sum(), f.mean_square), ROUNDED),
-        ] {
-            let most = i16::from(MAX_WIDTH);
-            ensure(width <= most, field, format_args!("{of} of at most {most} bits"), format_args!("{width}"))?;
-        }
-        Ok(())
-    }
-
-    /// The fewest clocks from one sample to the next in which every channel can be read and demodulated.
-    pub fn least_clocks_per_sample(&self) -> u64 {
-        Demodulator::new(self).least_clocks_per_sample()
-    }
-
-    fn check_clocks(&self) -> Check {
-        let least = self.least_clocks_per_sample();
-        within("clocks_per_sample", self.clocks_per_sample, least, 1 << 16)?;
-        // The next window begins when the last one's sums have been read out and its frame is made.
-        let estimate = Demodulator::new(self).latency() + Estimator::new(self).latency();
-        let blanking = self.slot.blanking() * self.clocks_per_sample;
-        ensure(blanking > estimate, "slot.settle", format_args!("more than {estimate} clocks of blanking"), blanking)
     }
 
     fn check_formats(&self) -> Check {

@@ -23,9 +23,9 @@ pub use oscillator::{Oscillator, Sample, weighted};
 pub use position::{Place, Position};
 pub use ratio::{Ratio, ratio};
 
-use crate::calibration::Calibration;
-use crate::frame::{Flags, Frame};
-use crate::profile::Profile;
+use hapticore_contract::calibration::Calibration;
+use hapticore_contract::frame::{Flags, Frame};
+use hapticore_contract::profile::Profile;
 
 /// A core, slot by slot, rounded as the blocks round.
 pub struct Slots {

@@ -8,8 +8,8 @@
 //! ```
 
 use super::{Exact, round, round_root};
-use crate::format::Format;
-use crate::profile::{Method, Profile, Window};
+use hapticore_contract::profile::{Method, Profile, Window};
+use hapticore_hdl::format::Format;
 
 /// Amplitudes and sums.
 #[derive(Debug, Clone, Copy, PartialEq)]

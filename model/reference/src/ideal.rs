@@ -11,55 +11,66 @@
 //! Amplitudes enter results as quotients only, so that the core's tone gain cancels; its square gain does not, and a reading's
 //! mean square holds it, as a frame's does. Nothing saturates.
 
-use crate::calibration::Calibration;
-use crate::frame::{Flags, Reading};
-use crate::profile::{Profile, Window};
-use std::f64::consts::{PI, TAU};
+use hapticore_contract::calibration::Calibration;
+use hapticore_contract::frame::{Flags, Reading};
+use hapticore_contract::profile::{Profile, Window};
+use num_traits::{Float, FloatConst, FromPrimitive};
+
+/// What the equations can be evaluated in: `f32`, `f64`, or a type with more bits.
+pub trait Real: Float + FloatConst + FromPrimitive {}
+
+impl<T: Float + FloatConst + FromPrimitive> Real for T {}
+
+/// A number of the profile or the calibration, as it is.
+#[inline(always)]
+fn real<T: Real>(x: f64) -> T {
+    T::from_f64(x).expect("a floating-point type takes every f64")
+}
 
 /// What a sample of the window is weighed with.
 #[derive(Debug, Clone, Copy)]
-struct Weights {
+struct Weights<T> {
     /// 2 w cos φ / Σw and 2 w sin φ / Σw, per full scale of a code.
-    carrier: [f64; 2],
+    carrier: [T; 2],
     /// w / Σw, per full scale² of a code.
-    square: f64,
+    square: T,
 }
 
 /// The results of a pad that stand while there are none.
 #[derive(Debug, Clone, Copy)]
-struct Held {
-    reading: Reading,
-    eq6: f64,
+struct Held<T> {
+    reading: Reading<T>,
+    eq6: T,
 }
 
 /// A slot's equations.
-struct Solution {
-    values: Held,
+struct Solution<T> {
+    values: Held<T>,
     valid: bool,
     lost: bool,
 }
 
 /// A core in floating point, slot by slot.
-pub struct Reference {
-    window: Vec<Weights>,
+pub struct Reference<T = f64> {
+    window: Vec<Weights<T>>,
     channels: usize,
     rails: [i32; 2],
-    signs: Vec<[f64; 2]>,
+    signs: Vec<[T; 2]>,
     sheet_correction: bool,
-    square_gain: f64,
+    square_gain: T,
     calibration: Calibration,
-    held: Vec<Held>,
+    held: Vec<Held<T>>,
     /// Windows over which squares are averaged, and the last squares of every pad.
     windows: usize,
-    squares: Vec<Vec<f64>>,
-    sums: Vec<[f64; 2]>,
+    squares: Vec<Vec<T>>,
+    sums: Vec<[T; 2]>,
     last: usize,
 }
 
-impl Reference {
+impl<T: Real> Reference<T> {
     /// A core of a profile, calibrated, just before its first slot.
     pub fn new(profile: &Profile, calibration: &Calibration) -> Self {
-        let pair = |(&x, &y): (&i8, &i8)| [f64::from(x), f64::from(y)];
+        let pair = |(&x, &y): (&i8, &i8)| [x, y].map(|sign| real(sign.into()));
         let terminals = &profile.terminals;
         let half = 1i32 << (profile.formats.adc.width - 1);
         Reference {
@@ -68,12 +79,12 @@ impl Reference {
             rails: [-half, half - 1],
             signs: terminals.x.iter().zip(&terminals.y).map(pair).collect(),
             sheet_correction: profile.capacitance.sheet_correction,
-            square_gain: profile.square_gain(),
+            square_gain: real(profile.square_gain()),
             calibration: calibration.clone(),
             held: (0..profile.pads as usize).map(nothing).collect(),
             windows: profile.haptic.windows as usize,
             squares: vec![Vec::new(); profile.pads as usize],
-            sums: vec![[0.0; 2]; terminals.x.len() + 1],
+            sums: vec![[T::zero(); 2]; terminals.x.len() + 1],
             last: 0,
         }
     }
@@ -83,7 +94,7 @@ impl Reference {
     ///
     /// # Panics
     /// Where `codes` is not one code a channel and sample, or there is no such pad.
-    pub fn slot(&mut self, pad: usize, codes: &[i32]) -> Reading {
+    pub fn slot(&mut self, pad: usize, codes: &[i32]) -> Reading<T> {
         assert_eq!(codes.len(), self.window.len() * self.channels, "one code a channel and sample of the window");
         let mean_square = match self.channels {
             8 => self.demodulate::<8>(codes),
@@ -102,38 +113,38 @@ impl Reference {
     ///
     /// # Panics
     /// Where `phasors` is not one a terminal and one more, or there is no such pad.
-    pub fn phasors(&mut self, pad: usize, phasors: &[(f64, f64)], mean_square: f64) -> Reading {
+    pub fn phasors(&mut self, pad: usize, phasors: &[(f64, f64)], mean_square: f64) -> Reading<T> {
         assert_eq!(phasors.len(), self.signs.len() + 1, "a phasor a terminal, and the sensing voltage's");
-        let phasors: Vec<_> = phasors.iter().map(|&(i, q)| [i, q]).collect();
-        self.estimate(pad, &phasors, mean_square, false)
+        let phasors: Vec<_> = phasors.iter().map(|&(i, q)| [i, q].map(real)).collect();
+        self.estimate(pad, &phasors, real(mean_square), false)
     }
 
     /// The capacitance of the last slot by eq. 6 alone, in picofarads: what it is without the sheet's resistance.
-    pub fn capacitance_eq6(&self) -> f64 {
+    pub fn capacitance_eq6(&self) -> T {
         self.held[self.last].eq6
     }
 
     /// Phasors into `sums`; gives the mean square. `N` is the number of channels where that is known as this is compiled.
     #[inline(always)]
-    fn demodulate<const N: usize>(&mut self, codes: &[i32]) -> f64 {
+    fn demodulate<const N: usize>(&mut self, codes: &[i32]) -> T {
         let channels = if N == 0 { self.channels } else { N };
-        let mut sums = [[0.0; 2]; 64];
+        let mut sums = [[T::zero(); 2]; 64];
         let sums = &mut sums[..channels - 1];
-        let mut mean_square = 0.0;
+        let mut mean_square = T::zero();
         for (codes, weights) in codes.chunks_exact(channels).zip(&self.window) {
             let [cosine, sine] = weights.carrier;
             for (sum, &code) in sums.iter_mut().zip(codes) {
-                let x = f64::from(code);
+                let x = of_code::<T>(code);
                 *sum = [sum[0] + x * cosine, sum[1] + x * sine];
             }
-            let haptic = f64::from(codes[channels - 1]);
-            mean_square += haptic * haptic * weights.square;
+            let haptic = of_code::<T>(codes[channels - 1]);
+            mean_square = mean_square + haptic * haptic * weights.square;
         }
         self.sums.copy_from_slice(sums);
         mean_square
     }
 
-    fn estimate(&mut self, pad: usize, phasors: &[[f64; 2]], mean_square: f64, clipped: bool) -> Reading {
+    fn estimate(&mut self, pad: usize, phasors: &[[T; 2]], mean_square: T, clipped: bool) -> Reading<T> {
         let mean_square = self.mean_square(pad, mean_square * self.square_gain);
         let solution = self.solve(pad, phasors, mean_square);
         self.last = pad;
@@ -145,73 +156,83 @@ impl Reference {
     }
 
     /// The mean of the pad's last squares, or the newest while they are too few.
-    fn mean_square(&mut self, pad: usize, newest: f64) -> f64 {
+    fn mean_square(&mut self, pad: usize, newest: T) -> T {
         let last = &mut self.squares[pad];
         if last.len() == self.windows {
             last.remove(0);
         }
         last.push(newest);
-        if last.len() == self.windows { last.iter().sum::<f64>() / self.windows as f64 } else { newest }
+        if last.len() == self.windows { sum(last.iter().copied()) / real(self.windows as f64) } else { newest }
     }
 
     /// Eqs. 2, 3, 6 and 8 and the sheet's resistance.
-    fn solve(&self, pad: usize, phasors: &[[f64; 2]], mean_square: f64) -> Solution {
+    fn solve(&self, pad: usize, phasors: &[[T; 2]], mean_square: T) -> Solution<T> {
         let (terminals, sense) = phasors.split_at(self.signs.len());
         let amplitudes = terminals.iter().map(magnitude);
-        let (mut x, mut y, mut corners, mut least) = (0.0, 0.0, 0.0, f64::INFINITY);
+        let (mut x, mut y, mut corners, mut least) = (T::zero(), T::zero(), T::zero(), T::infinity());
         for (amplitude, &[sign_x, sign_y]) in amplitudes.zip(&self.signs) {
-            x += sign_x * amplitude;
-            y += sign_y * amplitude;
-            corners += if sign_x != 0.0 || sign_y != 0.0 { amplitude } else { 0.0 };
+            x = x + sign_x * amplitude;
+            y = y + sign_y * amplitude;
+            corners = corners + if sign_x.is_zero() && sign_y.is_zero() { T::zero() } else { amplitude };
             least = amplitude.min(least);
         }
-        let sum = |part: usize| terminals.iter().map(|phasor| phasor[part]).sum();
-        let (total, sense) = (magnitude(&[sum(0), sum(1)]), magnitude(&sense[0]));
+        let of_all = |part: usize| sum(terminals.iter().map(|phasor| phasor[part]));
+        let (total, sense) = (magnitude(&[of_all(0), of_all(1)]), magnitude(&sense[0]));
         let (r_x, r_y) = (x / corners, y / corners);
         let place = self.calibration.position.look_up(r_x, r_y);
-        let (x_mm, y_mm, sheet) = (place.x, place.y, place.sheet.max(0.0));
-        let drop = if self.sheet_correction { total * sheet } else { 0.0 };
+        let (x_mm, y_mm, sheet) = (place.x, place.y, place.sheet.max(T::zero()));
+        let drop = if self.sheet_correction { total * sheet } else { T::zero() };
         let left = sense * sense - drop * drop;
-        let capacitance_pf = self.calibration.capacitance_gain * total / left.sqrt();
-        let force_n = self.calibration.force_gain * capacitance_pf * capacitance_pf * mean_square;
+        let capacitance_pf = real::<T>(self.calibration.capacitance_gain) * total / left.sqrt();
+        let force_n = real::<T>(self.calibration.force_gain) * capacitance_pf * capacitance_pf * mean_square;
         let flags = Flags::default();
         Solution {
             values: Held {
                 reading: Reading { pad, r_x, r_y, x_mm, y_mm, sheet, capacitance_pf, force_n, mean_square, flags },
-                eq6: self.calibration.capacitance_gain * total / sense,
+                eq6: real::<T>(self.calibration.capacitance_gain) * total / sense,
             },
-            valid: corners > 0.0 && place.is_valid() && left > 0.0,
-            lost: least < self.calibration.position.open_share() * corners,
+            valid: corners > T::zero() && place.is_valid() && left > T::zero(),
+            lost: least < real::<T>(self.calibration.position.open_share()) * corners,
         }
     }
 }
 
-fn magnitude(phasor: &[f64; 2]) -> f64 {
+#[inline(always)]
+fn of_code<T: Real>(code: i32) -> T {
+    T::from_i32(code).expect("a floating-point type takes every code")
+}
+
+fn sum<T: Real>(numbers: impl Iterator<Item = T>) -> T {
+    numbers.fold(T::zero(), |sum, x| sum + x)
+}
+
+fn magnitude<T: Real>(phasor: &[T; 2]) -> T {
     (phasor[0] * phasor[0] + phasor[1] * phasor[1]).sqrt()
 }
 
 /// The weights of a window. The carrier's phase is zero at the first sample of the slot.
-fn window(profile: &Profile) -> Vec<Weights> {
+fn window<T: Real>(profile: &Profile) -> Vec<Weights<T>> {
     let samples = profile.slot.integrate;
+    let count = |n: u64| real::<T>(n as f64);
     let weight = |m: u64| match profile.carrier.window {
-        Window::Hann => (PI * m as f64 / samples as f64).sin().powi(2),
-        Window::Rectangular => 1.0,
+        Window::Hann => (T::PI() * count(m) / count(samples)).sin().powi(2),
+        Window::Rectangular => T::one(),
     };
-    let sum: f64 = (0..samples).map(weight).sum();
-    let full = 2f64.powi(profile.formats.adc.frac.into());
+    let total = sum((0..samples).map(weight));
+    let full = real::<T>(2f64.powi(profile.formats.adc.frac.into()));
     let weights = |m: u64| {
         let step = (profile.slot.blanking() + m) * profile.carrier.periods % samples;
-        let (sine, cosine) = (TAU * step as f64 / samples as f64).sin_cos();
-        let scale = 2.0 * weight(m) / sum / full;
-        Weights { carrier: [cosine, sine].map(|wave| scale * wave), square: weight(m) / sum / full / full }
+        let (sine, cosine) = (T::TAU() * count(step) / count(samples)).sin_cos();
+        let scale = count(2) * weight(m) / total / full;
+        Weights { carrier: [cosine, sine].map(|wave| scale * wave), square: weight(m) / total / full / full }
     };
     (0..samples).map(weights).collect()
 }
 
 /// A pad of which nothing is known yet.
-fn nothing(pad: usize) -> Held {
-    let [r_x, r_y, x_mm, y_mm, sheet, capacitance_pf, force_n, mean_square] = [0.0; 8];
+fn nothing<T: Real>(pad: usize) -> Held<T> {
+    let [r_x, r_y, x_mm, y_mm, sheet, capacitance_pf, force_n, mean_square] = [T::zero(); 8];
     let flags = Flags::default();
     let reading = Reading { pad, r_x, r_y, x_mm, y_mm, sheet, capacitance_pf, force_n, mean_square, flags };
-    Held { reading, eq6: 0.0 }
+    Held { reading, eq6: T::zero() }
 }

@@ -4,13 +4,15 @@
 //! It is made from points at which ratios and place are both known: a simulation of the device, or a measurement. Numbers
 //! are in the core's own units: fractions of full scale, millimetres, picofarads, newtons.
 
+mod layout;
 mod least_squares;
 mod position;
 
-pub use position::{Found, Point, PositionError, PositionTable};
+pub use layout::{Axis, Layout, Scalar, Surface};
+pub use position::{Condition, Found, Point, PositionError, PositionTable, Real};
 
-use crate::format::Format;
 use crate::profile::Profile;
+use hapticore_hdl::format::Format;
 
 /// The calibration of a device.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The position table: splines of what is read over the sheet, fitted to points of known place.
+//! Fitting a position table to points of known place.
+//!
+//! Splines by least squares with a little smoothness, which settles coefficients that no point does.
 
-use super::least_squares::Fit;
-use crate::blocks::position::{Axis, Layout, Position as Block, Scalar, Surface};
-use crate::format::Format;
+use super::PositionTable;
+use crate::calibration::layout::{Axis, Layout, Scalar, Surface};
+use crate::calibration::least_squares::Fit;
 use crate::profile::Profile;
+use hapticore_hdl::format::Format;
 
 /// A place on the sheet and what is read there.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,45 +22,6 @@ pub struct Point {
     pub r_y: f64,
     /// The sheet's resistance at the place, in full scales of voltage per current.
     pub sheet: f64,
-}
-
-/// From ratios to place: the words of [`crate::blocks::position`], and what they were made from.
-#[derive(Debug, Clone, PartialEq)]
-pub struct PositionTable {
-    /// The words in their order in the memory, as fractions.
-    pub words: Vec<f64>,
-    layout: Layout,
-    /// Coefficients of both ratios, as they were measured.
-    ratios: [Vec<f64>; 2],
-    /// Coefficients of the resistance.
-    resistance: Vec<f64>,
-    /// Of either axis: the place of the table's middle and the size of a cell, in mm.
-    geometry: [[f64; 2]; 2],
-    /// Of either ratio: what is normalised to zero, and the gain.
-    scales: [[f64; 2]; 2],
-    /// Of either axis: the first guess in cells, a constant and the rise with either ratio.
-    start: [[f64; 3]; 2],
-    open_share: f64,
-}
-
-/// A place that was looked up.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Found {
-    /// Millimetres from the middle, along the long edges.
-    pub x: f64,
-    /// Millimetres from the middle, along the short edges.
-    pub y: f64,
-    /// The sheet's resistance, in full scales of voltage per current.
-    pub sheet: f64,
-    /// What the larger of the normalised ratios differs by from that of the place.
-    pub residual: f64,
-}
-
-impl Found {
-    /// Whether the ratios are those of a place on the table.
-    pub fn is_valid(&self) -> bool {
-        self.residual <= 2f64.powi(-i32::from(Block::TOLERANCE_BITS))
-    }
 }
 
 /// Points that no position table can be made from.
@@ -96,15 +60,10 @@ pub enum PositionError {
 
 /// How much smoothness counts against nearness: it settles coefficients that no point does.
 const SMOOTHNESS: f64 = 1e-7;
-/// Newton steps of a look-up in floating point.
-const STEPS: usize = 12;
 /// By how much of a cell the table reaches beyond the points, so that noise at their edge does not end at the table's.
 const BEYOND: f64 = 0.25;
 /// The largest coefficient of a normalised ratio.
 const FULL: f64 = 0.97;
-
-/// Either ratio and its slopes along u and v.
-type Slopes = [[f64; 3]; 2];
 
 impl PositionTable {
     /// Fits points, which may lie anywhere; the table spans the rectangle about them and a little more.
@@ -132,7 +91,7 @@ impl PositionTable {
             open_share: 0.0,
         };
         table.span(profile, points)?;
-        let places: Vec<_> = points.iter().map(|point| table.place(point)).collect();
+        let places: Vec<_> = points.iter().map(|point| table.place([point.x, point.y])).collect();
         table.fit_ratios(&places, points, &vec![1.0; points.len()])?;
         let importance = places.iter().map(|&place| table.sensitivity(place)).collect::<Option<Vec<_>>>();
         let importance = importance.ok_or(PositionError::Ambiguous)?;
@@ -142,20 +101,6 @@ impl PositionTable {
         table.fit_start(&places, points)?;
         table.set_words(profile);
         if table.words.iter().all(|word| word.is_finite()) { Ok(table) } else { Err(PositionError::Ambiguous) }
-    }
-
-    /// The table, with the share of the ratios' denominator below which a terminal's current counts as that of an open one; of
-    /// a table as it is fitted none does.
-    #[must_use]
-    pub fn with_open_share(mut self, share: f64) -> Self {
-        self.open_share = share;
-        self.words[self.layout.scalar(Scalar::Open, Axis::X)] = share / 2.0;
-        self
-    }
-
-    /// The share of the ratios' denominator below which a terminal's current counts as that of an open one.
-    pub fn open_share(&self) -> f64 {
-        self.open_share
     }
 
     /// The table's rectangle, in numbers that its words hold.
@@ -184,19 +129,6 @@ impl PositionTable {
         Ok(())
     }
 
-    /// A point's place, in cells from the table's first edge.
-    fn place(&self, point: &Point) -> [f64; 2] {
-        let of = |axis: Axis, millimetres: f64| {
-            let ([origin, pitch], cells) = (self.geometry[axis as usize], self.cells(axis));
-            ((millimetres - origin) / pitch + cells / 2.0).clamp(0.0, cells)
-        };
-        [of(Axis::X, point.x), of(Axis::Y, point.y)]
-    }
-
-    fn cells(&self, axis: Axis) -> f64 {
-        self.layout.cells(Surface::RatioX, axis) as f64
-    }
-
     /// Centres and gains that take the coefficients into the words' range, as words of the table hold them.
     fn scale(&mut self, word: Format) {
         let rounded = |x: f64| word.real(word.code_saturating(x));
@@ -218,10 +150,6 @@ impl PositionTable {
         let found = fit.solve().ok_or(PositionError::Ambiguous)?;
         self.start = [0, 1].map(|axis| [0, 1, 2].map(|k| found[(k, axis)]));
         Ok(())
-    }
-
-    fn normalised(&self, ratios: [f64; 2]) -> [f64; 2] {
-        [0, 1].map(|k| (ratios[k] - self.scales[k][0]) * self.scales[k][1])
     }
 
     /// The words, in their order in the memory.
@@ -279,36 +207,6 @@ impl PositionTable {
         Ok(())
     }
 
-    fn size(&self, surface: Surface) -> [usize; 2] {
-        [Axis::X, Axis::Y].map(|axis| self.layout.coefficients(surface, axis))
-    }
-
-    /// The nine coefficients about a place: each one's number, and its weight in the value and in the slopes along u and v.
-    fn terms(&self, surface: Surface, place: [f64; 2]) -> [(usize, f64, [f64; 2]); 9] {
-        let size = self.size(surface);
-        let scale = if surface == Surface::Resistance { 2f64.powi(-i32::from(self.layout.shift())) } else { 1.0 };
-        let [(column, across), (row, down)] = [Axis::X, Axis::Y].map(|axis| {
-            let cells = self.layout.cells(surface, axis);
-            let from_middle = place[axis as usize] - self.cells(axis) / 2.0;
-            basis(scale * from_middle + cells as f64 / 2.0, cells)
-        });
-        std::array::from_fn(|k| {
-            let ([a, slope_a], [b, slope_b]) = (across[k % 3], down[k / 3]);
-            ((row + k / 3) * size[0] + column + k % 3, a * b, [slope_a * b, a * slope_b])
-        })
-    }
-
-    /// Both ratios at a place, with their slopes.
-    fn at(&self, place: [f64; 2]) -> Slopes {
-        let terms = self.terms(Surface::RatioX, place);
-        self.ratios.each_ref().map(|ratio| {
-            let sum = |weight: fn(&(usize, f64, [f64; 2])) -> f64| {
-                terms.iter().map(|term| weight(term) * ratio[term.0]).sum()
-            };
-            [sum(|term| term.1), sum(|term| term.2[0]), sum(|term| term.2[1])]
-        })
-    }
-
     /// How many millimetres a place moves with its ratios: the norm of J⁻¹. None where it does not depend on them.
     fn sensitivity(&self, place: [f64; 2]) -> Option<f64> {
         let [[_, xu, xv], [_, yu, yv]] = self.at(place);
@@ -316,44 +214,6 @@ impl PositionTable {
         let determinant = xu * yv - xv * yu;
         let norm = ((along * yv).hypot(along * xv).hypot(across * xu)).hypot(across * yu) / determinant.abs();
         norm.is_finite().then_some(norm)
-    }
-
-    /// The place for a pair of ratios, in floating point.
-    pub fn look_up(&self, r_x: f64, r_y: f64) -> Found {
-        let mut place = self.first_guess([r_x, r_y]);
-        for _ in 0..STEPS {
-            place = self.step(place, [r_x, r_y]);
-        }
-        let [[x, ..], [y, ..]] = self.at(place);
-        let residual = ((r_x - x) * self.scales[0][1]).abs().max(((r_y - y) * self.scales[1][1]).abs());
-        let terms = self.terms(Surface::Resistance, place);
-        let sheet = terms.iter().map(|term| term.1 * self.resistance[term.0]).sum();
-        let [x, y] = [(Axis::X, place[0]), (Axis::Y, place[1])].map(|(axis, place)| {
-            let [origin, pitch] = self.geometry[axis as usize];
-            origin + (place - self.cells(axis) / 2.0) * pitch
-        });
-        Found { x, y, sheet, residual }
-    }
-
-    fn first_guess(&self, ratios: [f64; 2]) -> [f64; 2] {
-        let [r_x, r_y] = self.normalised(ratios);
-        [Axis::X, Axis::Y].map(|axis| {
-            let ([constant, of_x, of_y], cells) = (self.start[axis as usize], self.cells(axis));
-            (constant + of_x * r_x + of_y * r_y + cells / 2.0).clamp(0.0, cells)
-        })
-    }
-
-    fn step(&self, place: [f64; 2], ratios: [f64; 2]) -> [f64; 2] {
-        let [[x, xu, xv], [y, yu, yv]] = self.at(place);
-        let [e_x, e_y] = [ratios[0] - x, ratios[1] - y];
-        let determinant = xu * yv - xv * yu;
-        let by = [(yv * e_x - xv * e_y) / determinant, (xu * e_y - yu * e_x) / determinant];
-        let most = Block::STEP_CELLS;
-        let held = |place: f64, by: f64, axis| {
-            let by = if by.is_finite() { by.clamp(-most, most) } else { 0.0 };
-            (place + by).clamp(0.0, self.cells(axis))
-        };
-        [held(place[0], by[0], Axis::X), held(place[1], by[1], Axis::Y)]
     }
 
     /// Each point's distance from where the table finds it, in mm; infinite where it finds none.
@@ -378,14 +238,6 @@ fn range_of(from: usize, count: usize) -> std::ops::Range<usize> {
 /// The least and the greatest.
 fn extent(values: impl Iterator<Item = f64>) -> [f64; 2] {
     values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
-}
-
-/// The cell of a place, and of its three coefficients the weight in the value and in the slope.
-fn basis(place: f64, cells: usize) -> (usize, [[f64; 2]; 3]) {
-    let cell = place.floor().clamp(0.0, cells as f64 - 1.0);
-    let f = place - cell;
-    let weights = [[(1.0 - f) * (1.0 - f) / 2.0, f - 1.0], [0.5 + f * (1.0 - f), 1.0 - 2.0 * f], [f * f / 2.0, f]];
-    (cell as usize, weights)
 }
 
 /// Asks that second differences along rows and columns be small.

@@ -9,8 +9,8 @@
 //! its centre in the middle of cell k. The number of cells is odd along either axis, so that a coefficient lies in the
 //! middle of the table.
 
-use crate::format::Format;
 use crate::profile::Profile;
+use hapticore_hdl::format::Format;
 
 /// A surface over the sheet: one spline.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -69,6 +69,10 @@ impl Layout {
     pub const GAIN: f64 = 16.0;
     /// A place of one, as a fraction, is so many cells from the table's middle.
     pub const CELLS: f64 = 32.0;
+    /// Normalised ratios at the place found and measured ones agree within `2^-TOLERANCE_BITS`, or there is no such place.
+    pub const TOLERANCE_BITS: u8 = 9;
+    /// The longest Newton step of a look-up, in cells.
+    pub const STEP_CELLS: f64 = 4.0;
 
     /// The layout of a profile.
     pub fn new(profile: &Profile) -> Self {

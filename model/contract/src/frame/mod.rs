@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Frames: what the core says of a pad after its slot.
 
-use crate::blocks::frames::Field;
+mod field;
+
+pub use field::Field;
+
 use crate::profile::Profile;
 
 /// What to think of a frame.
@@ -30,28 +33,46 @@ pub struct Frame {
 
 /// The numbers of a frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Reading {
+pub struct Reading<T = f64> {
     /// The pad.
     pub pad: usize,
     /// Eq. 2.
-    pub r_x: f64,
+    pub r_x: T,
     /// Eq. 3.
-    pub r_y: f64,
+    pub r_y: T,
     /// Millimetres from the middle, along the long edges.
-    pub x_mm: f64,
+    pub x_mm: T,
     /// Millimetres from the middle, along the short edges.
-    pub y_mm: f64,
+    pub y_mm: T,
     /// The sheet's resistance, in full scales of voltage per current.
-    pub sheet: f64,
+    pub sheet: T,
     /// Picofarads.
-    pub capacitance_pf: f64,
+    pub capacitance_pf: T,
     /// Newtons.
-    pub force_n: f64,
+    pub force_n: T,
     /// The mean square of the haptic voltage, in full scales squared (a constant at full scale gives
     /// [`Profile::square_gain`]).
-    pub mean_square: f64,
+    pub mean_square: T,
     /// What to think of it.
     pub flags: Flags,
+}
+
+impl<T> Reading<T> {
+    /// The reading with each of its numbers converted.
+    pub fn map<U>(self, mut of: impl FnMut(T) -> U) -> Reading<U> {
+        Reading {
+            pad: self.pad,
+            r_x: of(self.r_x),
+            r_y: of(self.r_y),
+            x_mm: of(self.x_mm),
+            y_mm: of(self.y_mm),
+            sheet: of(self.sheet),
+            capacitance_pf: of(self.capacitance_pf),
+            force_n: of(self.force_n),
+            mean_square: of(self.mean_square),
+            flags: self.flags,
+        }
+    }
 }
 
 impl Frame {

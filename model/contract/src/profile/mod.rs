@@ -6,8 +6,9 @@
 
 mod check;
 
-use crate::format::Format;
+use hapticore_hdl::format::Format;
 use serde::{Deserialize, Serialize};
+use std::fmt::Display;
 
 /// A profile.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -194,6 +195,17 @@ pub enum ProfileError {
     },
 }
 
+impl ProfileError {
+    /// A value of `field` other than what is expected.
+    pub fn value(field: &str, expected: impl Display, got: impl Display) -> Self {
+        ProfileError::Value { field: field.into(), expected: expected.to_string(), got: got.to_string() }
+    }
+}
+
+/// What an in-phase wave has for one under [`Method::Polyphase`]: its five values are integers over 2^16, and this is the
+/// first of them.
+pub const POLYPHASE_GAIN: f64 = 57230.0 / 65536.0;
+
 /// The bundled profiles: their names and texts.
 pub const BUNDLED: [(&str, &str); 3] = [
     ("small", include_str!("small.toml")),
@@ -211,7 +223,7 @@ impl Profile {
             let line = error.span().map_or(1, |span| text[..span.start.min(text.len())].matches('\n').count() + 1);
             ProfileError::Syntax(format!("{line}: {}", error.message().replace('\n', " ")))
         })?;
-        profile.check()?;
+        profile.check_values()?;
         Ok(profile)
     }
 
@@ -321,7 +333,7 @@ impl Profile {
     pub fn tone_gain(&self) -> f64 {
         let wave = match self.carrier.method {
             Method::Products => self.amplitude(),
-            Method::Polyphase => crate::blocks::demodulator::POLYPHASE_GAIN,
+            Method::Polyphase => POLYPHASE_GAIN,
         };
         self.slot.integrate as f64 * self.mean_weight() * wave / 2.0 * 2f64.powi(-i32::from(self.sum_shift()))
     }
