@@ -29,8 +29,8 @@ use std::fmt::Write;
 use std::path::Path;
 
 use anyhow::{Result, anyhow, ensure};
-use hapticore_model::calibration::{Calibration, Point, PositionTable};
-use hapticore_model::profile::Profile;
+use hapticore_contract::calibration::{Calibration, Point, PositionTable};
+use hapticore_contract::profile::Profile;
 use hapticore_scene::{ForcePoint, Plant, Scene};
 use serde::Deserialize;
 

@@ -8,7 +8,7 @@ use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread;
 
 use anyhow::{Result, ensure};
-use hapticore_model::profile::Profile;
+use hapticore_contract::profile::Profile;
 use hapticore_scene::{Complex, EffectCost, Plant, RungError, Scene, Truth, signs_by_place};
 use indicatif::ProgressBar;
 

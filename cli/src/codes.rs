@@ -11,8 +11,8 @@ use std::fmt::Write;
 use std::path::Path;
 
 use anyhow::{Context, Result};
-use hapticore_model::format::Format;
-use hapticore_model::profile::Profile;
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::format::Format;
 use hapticore_rtl::board::framing::digest;
 use hapticore_rtl::codes::{Codes, Constant};
 

@@ -3,12 +3,12 @@
 
 use std::sync::Arc;
 
-use hapticore_model::block::Interpretation;
-use hapticore_model::calibration::Calibration;
+use hapticore_contract::calibration::Calibration;
+use hapticore_contract::frame::{Frame, Reading};
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::block::Interpretation;
 use hapticore_model::fidelity::clock::ClockSimulation;
 use hapticore_model::fidelity::fixed::FixedSimulation;
-use hapticore_model::frame::{Frame, Reading};
-use hapticore_model::profile::Profile;
 use hapticore_reference::Reference;
 
 use crate::args::Fidelity;

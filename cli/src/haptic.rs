@@ -10,7 +10,7 @@
 
 use std::f64::consts::PI;
 
-use hapticore_model::profile::{Method, Profile, Window};
+use hapticore_contract::profile::{Method, Profile, Window};
 
 /// An error of the RMS that is worth a word.
 const WORTH_A_WORD: f64 = 0.01;

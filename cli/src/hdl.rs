@@ -4,10 +4,10 @@
 use std::path::PathBuf;
 
 use anyhow::{Context, Result};
-use hapticore_model::profile::Profile;
+use hapticore_contract::profile::Profile;
 use hapticore_rtl::board::Target;
 use hapticore_rtl::component;
-use hapticore_rtl::verilog::{Design, header};
+use hapticore_rtl::header;
 use serde_json::json;
 
 use crate::args::HdlArgs;
@@ -39,7 +39,7 @@ pub fn run(args: &HdlArgs) -> Result<bool> {
 
 /// The core: a file for each module, and what a bench must know of it.
 fn write_core(output: &Output, profile: &Profile) -> Result<String> {
-    let design = Design::of_core(profile);
+    let design = header::design(profile);
     design.modules.iter().try_for_each(|file| output.write(&format!("{}.v", file.name), &file.text))?;
     output.write(header::NAME, &header::of_core(profile, &design))?;
     Ok(design.top().to_owned())

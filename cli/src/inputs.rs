@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use anyhow::{Context, Result, anyhow, ensure};
-use hapticore_model::profile::{Profile, ProfileError};
+use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_scene::{Scene, Timing, gallery};
 
 /// The scene of a bundled name or a file, with keys set.

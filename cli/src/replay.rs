@@ -6,7 +6,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use anyhow::{Context, Result, bail, ensure};
-use hapticore_model::profile::Profile;
+use hapticore_contract::profile::Profile;
 
 use crate::args::{Fidelity, ReplayArgs};
 use crate::calibrate::DeviceCalibration;

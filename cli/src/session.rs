@@ -5,8 +5,8 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 
 use anyhow::Result;
-use hapticore_model::frame::{Flags, Reading};
-use hapticore_model::profile::Profile;
+use hapticore_contract::frame::{Flags, Reading};
+use hapticore_contract::profile::Profile;
 use hapticore_reference::Reference as FloatCore;
 use hapticore_scene::Uncoupler;
 

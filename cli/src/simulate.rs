@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::{Result, ensure};
-use hapticore_model::profile::Profile;
+use hapticore_contract::profile::Profile;
 use hapticore_scene::{Figure, Quantity, Record as Wanted, Scene, Timing};
 use hapticore_waveforms::wave::Kind;
 use rayon::prelude::*;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The one place where volts and fractions of full scale meet codes.
 
-use hapticore_model::format::Format;
-use hapticore_model::frame::Reading;
-use hapticore_model::profile::Profile;
+use hapticore_contract::frame::Reading;
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::format::Format;
 
 use crate::calibrate::Scales;
 use crate::record::Quantities;

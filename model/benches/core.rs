@@ -5,9 +5,9 @@
 //! time, for the machine is never quiet: quote the ratios.
 
 use dsp_process::SplitProcess;
-use hapticore_model::calibration::{Calibration, Point, PositionTable};
+use hapticore_contract::calibration::{Calibration, Point, PositionTable};
+use hapticore_contract::profile::Profile;
 use hapticore_model::fidelity::{clock::ClockSimulation, fixed::FixedSimulation};
-use hapticore_model::profile::Profile;
 use idsp::{Lockin, Lowpass, Lowpass2, LowpassState};
 use std::f64::consts::{SQRT_2, TAU};
 use std::num::Wrapping;

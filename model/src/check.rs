@@ -44,14 +44,14 @@ pub fn parse_profile(text: &str) -> Result<Profile, ProfileError> {
 /// suffice.
 ///
 /// ```
-/// use hapticore_model::profile::Profile;
+/// use hapticore_contract::profile::Profile;
 ///
 /// let mut profile = Profile::bundled("small")?;
 /// hapticore_model::check(&profile)?;
 /// profile.clocks_per_sample = 12;
 /// let error = hapticore_model::check(&profile).unwrap_err();
 /// assert_eq!(error.to_string(), "clocks_per_sample: expected 13 to 65536, got 12");
-/// # Ok::<(), hapticore_model::profile::ProfileError>(())
+/// # Ok::<(), hapticore_contract::profile::ProfileError>(())
 /// ```
 ///
 /// # Errors

@@ -1,19 +1,36 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The sensing core, written once and read many ways.
+//! The sensing core, written once in the hardware language of [`hapticore_hdl`].
+//!
+//! ADC codes of the terminals' currents, of the sensing voltage and of the haptic voltage come in; for each pad in turn a frame
+//! goes out: current ratios, position, sheet resistance, capacitance, haptic force, and flags.
+//!
+//! | module | holds |
+//! | --- | --- |
+//! | [`blocks`] | the blocks, one file each: multiplexer, oscillator, demodulator, estimator and what it is made of |
+//! | [`fidelity`] | the core at work: every clock ([`fidelity::clock`]), or slot by slot to the same bits ([`fidelity::fixed`]) |
+//! | [`proof`] | the proof that no signal of a profile's core overflows |
+//!
+//! Widths, counts and timings are those of a [`Profile`]; [`check()`] says whether a core can be built of one.
+//!
+//! ```
+//! use hapticore_contract::profile::Profile;
+//! use hapticore_model::blocks::core::Core;
+//!
+//! let profile = Profile::bundled("small")?;
+//! let core = Core::try_new(&profile)?;
+//! let slot = profile.slot.samples() * profile.clocks_per_sample;
+//! assert!(core.latency() < slot, "a frame is out before the next slot ends");
+//! # Ok::<(), hapticore_contract::profile::ProfileError>(())
+//! ```
+//!
+//! [`Profile`]: hapticore_contract::profile::Profile
 
-pub mod block;
 pub mod blocks;
-pub mod bundle;
 mod check;
-mod declaration;
 pub mod fidelity;
-pub mod interpretations;
-pub mod memory;
-pub mod probe;
 pub mod proof;
-pub mod signal;
-pub mod states;
 
 pub use check::{check, least_clocks_per_sample, parse_profile};
+// Paths of before the language and the contract had crates of their own.
 pub use hapticore_contract::{calibration, frame, profile};
-pub use hapticore_hdl::format;
+pub use hapticore_hdl::{block, bundle, format, interpretations, memory, probe, signal, states};

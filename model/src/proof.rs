@@ -6,13 +6,13 @@
 //! after a round lies within the state before it, no further round can leave what has been seen, and the proof holds for
 //! all time. What relates several signals is beyond intervals: those places name a lemma, and tests hold the lemmas.
 
-use crate::block::{self, Block, Submodule, Visitor};
 use crate::blocks::core::{Core, Inputs};
-use crate::bundle::{Bundle, Field};
-use crate::format::{BIT, Format};
-use crate::interpretations::range::{Range, Violation, take_lemmas, take_violations, whole};
-use crate::profile::Profile;
-use crate::signal::{Signal, bit, zero};
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::block::{self, Block, Submodule, Visitor};
+use hapticore_hdl::bundle::{Bundle, Field};
+use hapticore_hdl::format::{BIT, Format};
+use hapticore_hdl::interpretations::range::{Range, Violation, take_lemmas, take_violations, whole};
+use hapticore_hdl::signal::{Signal, bit, zero};
 
 /// What was proved, or what stands in the way.
 #[derive(Debug, Clone, PartialEq)]
@@ -140,7 +140,7 @@ impl Visitor<Range> for Snapshot {
         self.registers.push((format!("{}.{}", self.scope.join("."), field.name), format, value));
     }
 
-    fn memory(&mut self, _memory: &crate::memory::Memory, words: &(Vec<Range>, Range)) {
+    fn memory(&mut self, _memory: &hapticore_hdl::memory::Memory, words: &(Vec<Range>, Range)) {
         self.words.extend(&words.0);
         self.words.push(words.1);
     }

@@ -3,15 +3,15 @@
 
 use std::thread;
 
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::format::Format;
+use hapticore_hdl::interpretations::netlist::Netlist;
+use hapticore_hdl::interpretations::range::{Range, take_violations, whole};
+use hapticore_hdl::signal::{Proved, Signal, bit, int, zero};
 use hapticore_model::blocks::core::Core;
 use hapticore_model::blocks::demodulator::Demodulator;
-use hapticore_model::format::Format;
-use hapticore_model::interpretations::netlist::Netlist;
-use hapticore_model::interpretations::range::{Range, take_violations, whole};
 use hapticore_model::parse_profile;
-use hapticore_model::profile::Profile;
 use hapticore_model::proof::prove;
-use hapticore_model::signal::{Proved, Signal, bit, int, zero};
 
 /// What relates several signals, and where it is held: `tests/equality` runs the divider and the root over all codes of
 /// small widths, and every test build checks each of these narrowings at each clock.
@@ -85,7 +85,7 @@ fn a_register_one_bit_short_is_noticed() {
 
 /// A profile with one entry of its text replaced.
 fn with(profile: &str, key: &str, value: &str) -> Result<Profile, String> {
-    let text = hapticore_model::profile::BUNDLED.iter().find(|(name, _)| *name == profile).expect("bundled").1;
+    let text = hapticore_contract::profile::BUNDLED.iter().find(|(name, _)| *name == profile).expect("bundled").1;
     let is_key = |line: &&str| line.split('=').next().is_some_and(|word| word.trim() == key);
     let line = text.lines().find(is_key).unwrap_or_else(|| panic!("{profile} has {key}"));
     parse_profile(&text.replace(line, &format!("{key} = {value}"))).map_err(|error| error.to_string())

@@ -3,8 +3,8 @@
 //! counts those whose quotient is below a half. The division is the core's divider, correctly rounded; the counting is
 //! rust-hdl's, with its widgets. Simulated here, and printed as Verilog with `--verilog`.
 
+use hapticore_hdl::format::Format;
 use hapticore_model::blocks::divider::Divider;
-use hapticore_model::format::Format;
 use hapticore_rtl::component;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::DFF;

@@ -3,11 +3,11 @@
 //!
 //! The one list of them: start-up of a board, vectors for users of the Verilog and `hapticore codes` all take it.
 
+use hapticore_contract::calibration::Calibration;
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::bundle::{Bundle, Field};
+use hapticore_hdl::format::Format;
 use hapticore_model::blocks::core::{Core, Inputs};
-use hapticore_model::bundle::{Bundle, Field};
-use hapticore_model::calibration::Calibration;
-use hapticore_model::format::Format;
-use hapticore_model::profile::Profile;
 
 /// The core's inputs that are no constants: samples, and the port of the position table.
 const MOVING: [&str; 6] = ["strobe", "clear", "code", "write", "address", "word"];

@@ -6,9 +6,9 @@
 //! | [`board`] | the peripherals of a board and the board itself, as blocks like those of the core |
 //! | [`codes`] | what makes a calibration's sensor of a core |
 //! | [`mod@component`] | any block as a rust-hdl component |
-//! | [`verilog`] | prints any block of the model as Verilog-2005, a module for each block within |
+//! | [`header`] | prints the core of a profile, and what a bench of it must know |
 
 pub mod board;
 pub mod codes;
 pub mod component;
-pub mod verilog;
+pub mod header;

@@ -5,8 +5,8 @@
 
 use crate::tools::{Tools, root};
 use anyhow::{Context, Result, bail};
-use hapticore_model::interpretations::netlist::{Module, Netlist, Node, Op};
-use hapticore_rtl::verilog::Design;
+use hapticore_hdl::interpretations::netlist::{Module, Netlist, Node, Op};
+use hapticore_hdl::verilog::Design;
 use std::collections::HashSet;
 use std::fs;
 use std::path::Path;

@@ -4,7 +4,7 @@
 //! A core has more ports than a package has pins, and paths to pins would say nothing of it. Here every input comes out of a
 //! register and every output goes into one, so that what limits the clock lies within.
 
-use hapticore_rtl::verilog::{Design, Direction, Port};
+use hapticore_hdl::verilog::{Design, Direction, Port};
 use std::fmt::Write as _;
 
 /// The name of the harness's module.

@@ -13,9 +13,9 @@
 //! and no flag of a pad's frame is ever `Other`, no other pad can change it. Once a round leaves the same knowledge as the round
 //! before, this holds for all rounds to come. Widths play no part: a run takes one pass over the clocks, not one over the codes.
 
-use hapticore_model::format::Format;
-use hapticore_model::interpretations::netlist::{Module, Netlist, Node, Op};
-use hapticore_model::signal::{Overflow, Rounding};
+use hapticore_hdl::format::Format;
+use hapticore_hdl::interpretations::netlist::{Module, Netlist, Node, Op};
+use hapticore_hdl::signal::{Overflow, Rounding};
 
 /// What is known of a signal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

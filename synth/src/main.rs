@@ -3,8 +3,7 @@
 
 use anyhow::{Context, Result};
 use clap::{Parser, Subcommand};
-use hapticore_model::profile::Profile;
-use hapticore_rtl::verilog::Design;
+use hapticore_contract::profile::Profile;
 use hapticore_synth::flow::Flow;
 use hapticore_synth::report::{BoardReport, CoreRow, CoresReport, limits, median};
 use hapticore_synth::sources::{self, File};
@@ -129,7 +128,7 @@ fn cores(args: &Args, seeds: u64) -> Result<bool> {
 }
 
 fn core(args: &Args, tools: &Tools, profile: &Profile, family: Family, seeds: u64) -> Result<CoreRow> {
-    let design = Design::of_core(profile);
+    let design = hapticore_rtl::header::design(profile);
     let files = sources::files(&design);
     let folder = args.work.join(format!("{}-{family:?}", profile.name));
     let cells = Flow::new(tools, family, design.top(), &files, &folder.join("bare"))?.synthesise()?;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The Verilog that a report is about.
 
+use hapticore_hdl::verilog::Design;
 use hapticore_rtl::board::target::Target;
-use hapticore_rtl::verilog::Design;
 
 /// A file by name.
 #[derive(Debug, Clone, PartialEq, Eq)]

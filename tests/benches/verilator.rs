@@ -4,9 +4,9 @@
 //! `cargo bench -p hapticore-tests --bench verilator`. Rounds alternate, figures are medians; the outputs of all clocks must
 //! have the same sum. Nothing here asserts a time, for the machine is never quiet: quote the ratio.
 
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::verilog::Design;
 use hapticore_model::blocks::core::Core;
-use hapticore_model::profile::Profile;
-use hapticore_rtl::verilog::Design;
 use hapticore_tests::speed::verilator::Verilated;
 use hapticore_tests::speed::{Course, Lap, model};
 use hapticore_tests::{stimulus, tools};

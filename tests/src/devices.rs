@@ -10,7 +10,7 @@ use hapticore::engine::{Signals, Slot};
 use hapticore::record::{Quantities, Row};
 use hapticore::residual::Residual;
 use hapticore::session::Session;
-use hapticore_model::profile::Profile;
+use hapticore_contract::profile::Profile;
 use hapticore_scene::Scene;
 
 /// A sheet with terminals.

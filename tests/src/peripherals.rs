@@ -2,10 +2,11 @@
 //! The blocks of a board, each alone with a trace: directed input, as its surroundings give it, and what no surroundings should.
 
 use fastrand::Rng;
-use hapticore_model::block::Block;
+use hapticore_hdl::block::Block;
+use hapticore_hdl::bundle::Bundle;
+use hapticore_hdl::format::Format;
+use hapticore_hdl::verilog::Design;
 use hapticore_model::blocks::core::Core;
-use hapticore_model::bundle::Bundle;
-use hapticore_model::format::Format;
 use hapticore_rtl::board::adc_reader::AdcReader;
 use hapticore_rtl::board::framing::{END, ESC, ESC_END, ESC_ESC, Register};
 use hapticore_rtl::board::packet::Command;
@@ -16,7 +17,6 @@ use hapticore_rtl::board::stream::Stream;
 use hapticore_rtl::board::uart::receiver::Receiver;
 use hapticore_rtl::board::uart::transmitter::Transmitter;
 use hapticore_rtl::board::{Parameters, Target};
-use hapticore_rtl::verilog::Design;
 
 use crate::lockstep::Trace;
 use crate::stimulus::corner;

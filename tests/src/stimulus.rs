@@ -9,13 +9,13 @@ use fastrand::Rng;
 use hapticore::case::{Case, Maker};
 use hapticore::engine::Signals;
 use hapticore::inputs;
-use hapticore_model::block::Block;
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::block::Block;
+use hapticore_hdl::bundle::Bundle;
+use hapticore_hdl::format::Format;
+use hapticore_hdl::memory::Memory;
 use hapticore_model::blocks::core::{Core, Inputs, Outputs};
 use hapticore_model::blocks::position::TablePort;
-use hapticore_model::bundle::Bundle;
-use hapticore_model::format::Format;
-use hapticore_model::memory::Memory;
-use hapticore_model::profile::Profile;
 
 /// What the core is given of the plant: sets of codes, one for each strobe.
 pub type Samples = Box<dyn Iterator<Item = Vec<i64>>>;

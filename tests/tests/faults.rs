@@ -12,7 +12,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use hapticore_model::block::Block;
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::block::Block;
+use hapticore_hdl::verilog::Design;
 use hapticore_model::blocks::capacitance::Capacitance;
 use hapticore_model::blocks::currents::Currents;
 use hapticore_model::blocks::demodulator::Demodulator;
@@ -21,8 +23,6 @@ use hapticore_model::blocks::haptic_voltage::HapticVoltage;
 use hapticore_model::blocks::pace::Pace;
 use hapticore_model::blocks::position::Position;
 use hapticore_model::blocks::ratio::Ratio;
-use hapticore_model::profile::Profile;
-use hapticore_rtl::verilog::Design;
 use hapticore_tests::faults::campaign::{self, two_at_a_time};
 use hapticore_tests::faults::{Fault, Kind, Planted};
 use hapticore_tests::lockstep::verilator::{Given, Start, Verilated};

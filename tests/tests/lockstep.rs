@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Clocked model = printed Verilog, every output at every clock: random input and whole scenes, in two simulators.
 
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::verilog::Design;
 use hapticore_model::blocks::haptic_voltage::HapticVoltage;
-use hapticore_model::profile::Profile;
-use hapticore_rtl::verilog::Design;
 use hapticore_tests::lockstep::verilator::{Start, Verilated};
 use hapticore_tests::lockstep::{Bench, Trace, icarus};
 use hapticore_tests::{stimulus, tools};

@@ -5,12 +5,12 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use hapticore_model::block::{Block, Interpretation, State};
-use hapticore_model::format::Format;
-use hapticore_model::memory::Memory;
-use hapticore_model::profile::Profile;
-use hapticore_model::signal::Signal;
-use hapticore_rtl::verilog::Design;
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::block::{Block, Interpretation, State};
+use hapticore_hdl::format::Format;
+use hapticore_hdl::memory::Memory;
+use hapticore_hdl::signal::Signal;
+use hapticore_hdl::verilog::Design;
 
 fn committed(folder: &Path) -> BTreeMap<String, String> {
     let files = fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display())).flatten();
@@ -20,7 +20,7 @@ fn committed(folder: &Path) -> BTreeMap<String, String> {
 }
 
 fn printed(profile: &str) -> BTreeMap<String, String> {
-    let design = Design::of_core(&Profile::bundled(profile).expect("bundled"));
+    let design = hapticore_rtl::header::design(&Profile::bundled(profile).expect("bundled"));
     design.modules.into_iter().map(|file| (format!("{}.v", file.name), file.text)).collect()
 }
 
@@ -40,7 +40,7 @@ fn the_committed_verilog_is_fresh() {
     }
 }
 
-hapticore_model::block! {
+hapticore_hdl::block! {
     /// A block whose memory has a name that is a word of Verilog.
     struct Keeper("keeper") {}
     submodules {

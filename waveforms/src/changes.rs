@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What has changed since the last clock, and only that, into a waveform file.
 
-use hapticore_model::probe::Probe;
+use hapticore_hdl::probe::Probe;
 
 use crate::Error;
 use crate::bits::masked;

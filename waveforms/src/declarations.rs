@@ -3,8 +3,8 @@
 
 use std::collections::HashSet;
 
-use hapticore_model::format::{BIT, Format, MAX_WIDTH};
-use hapticore_model::probe::Variable;
+use hapticore_hdl::format::{BIT, Format, MAX_WIDTH};
+use hapticore_hdl::probe::Variable;
 
 use crate::Error;
 use crate::timebase::Timebase;

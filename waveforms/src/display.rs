@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! How GTKWave is told to show a signal: flags, bit ranges, fixed points.
 
-use hapticore_model::format::Format;
+use hapticore_hdl::format::Format;
 
 use crate::declarations::{Reading, Signal};
 use crate::view::Style;

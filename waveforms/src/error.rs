@@ -36,7 +36,7 @@ pub enum Error {
     #[error("signal \"{0}\" is declared twice")]
     Duplicate(String),
     /// A width that an `i64` code cannot have.
-    #[error("signal \"{path}\": expected a width of 1 to {most} bits, got {width}", most = hapticore_model::format::MAX_WIDTH)]
+    #[error("signal \"{path}\": expected a width of 1 to {most} bits, got {width}", most = hapticore_hdl::format::MAX_WIDTH)]
     Width {
         /// The whole path.
         path: String,

@@ -3,7 +3,7 @@
 //!
 //! | module | holds |
 //! | --- | --- |
-//! | [`tracer`] | follows a [`Probe`](hapticore_model::probe::Probe) clock by clock and writes what changed |
+//! | [`tracer`] | follows a [`Probe`](hapticore_hdl::probe::Probe) clock by clock and writes what changed |
 //! | [`wave`] | what a waveform file can do: the one trait behind both formats |
 //! | [`vcd_file`], [`fst_file`] | the two formats |
 //! | [`declarations`] | the signals of a trace: paths, formats, scopes |

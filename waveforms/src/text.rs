@@ -13,8 +13,8 @@
 
 use std::ops::Range;
 
-use hapticore_model::format::Format;
-use hapticore_model::probe::Probe;
+use hapticore_hdl::format::Format;
+use hapticore_hdl::probe::Probe;
 
 use crate::declarations::{Reading, Signal};
 use crate::pattern::fits;

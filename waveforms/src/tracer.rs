@@ -12,7 +12,7 @@
 
 use std::ops::Range;
 
-use hapticore_model::probe::Probe;
+use hapticore_hdl::probe::Probe;
 
 use crate::Error;
 use crate::changes::{Codes, Timed, Truth};

@@ -8,8 +8,8 @@ mod common;
 use std::time::Instant;
 
 use common::{folder, settings};
-use hapticore_model::format::Format;
-use hapticore_model::probe::{Probe, Variable};
+use hapticore_hdl::format::Format;
+use hapticore_hdl::probe::{Probe, Variable};
 use hapticore_waveforms::tracer::{Settings, Tracer};
 use hapticore_waveforms::wave::Kind;
 

@@ -19,7 +19,7 @@ use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
-use hapticore_model::format::Format;
+use hapticore_hdl::format::Format;
 use tempfile::NamedTempFile;
 
 use crate::partial;

@@ -28,7 +28,7 @@ pub mod wiring;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
-use hapticore_model::profile::Profile;
+use hapticore_contract::profile::Profile;
 use hapticore_scene::{Complex, Plant};
 use serde::Serialize;
 

@@ -26,7 +26,7 @@
 use std::path::Path;
 
 use anyhow::{Context, Result, anyhow, ensure};
-use hapticore_model::profile::Profile;
+use hapticore_contract::profile::Profile;
 use hapticore_scene::signs_by_place;
 use serde::Deserialize;
 

@@ -10,7 +10,7 @@
 use std::fmt::Write;
 
 use anyhow::{Result, anyhow, bail, ensure};
-use hapticore_model::profile::Profile;
+use hapticore_contract::profile::Profile;
 use hapticore_scene::{PadReading, Plant, Scene, Timing};
 
 use super::places::{Place, Places, total};

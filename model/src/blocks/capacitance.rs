@@ -23,12 +23,12 @@
 use super::divider::{self, Divider};
 use super::multiplier::{self, Multiplier};
 use super::root::{self, Root};
-use crate::block::{Block, Interpretation, State};
-use crate::format::{BIT, Format};
-use crate::profile::Profile;
-use crate::signal::{HalfEven, Saturate, Signal, Wrap, bit, int, zero};
-use crate::states::States;
-use crate::{block, call, next, states};
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::block::{Block, Interpretation, State};
+use hapticore_hdl::format::{BIT, Format};
+use hapticore_hdl::signal::{HalfEven, Saturate, Signal, Wrap, bit, int, zero};
+use hapticore_hdl::states::States;
+use hapticore_hdl::{block, call, next, states};
 
 states! {
     /// The steps of a capacitance. `Root` and `Divide` wait for their blocks, all others last as long as a product.

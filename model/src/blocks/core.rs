@@ -14,12 +14,12 @@ use super::multiplexer::{self, Multiplexer};
 use super::oscillator::{self, Oscillator};
 use super::pace::{self, Pace};
 use super::position::TablePort;
-use crate::block::{Block, Interpretation, State};
-use crate::bundle::Bundle;
-use crate::format::BIT;
-use crate::profile::Profile;
-use crate::signal::Signal;
-use crate::{block, call};
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::block::{Block, Interpretation, State};
+use hapticore_hdl::bundle::Bundle;
+use hapticore_hdl::format::BIT;
+use hapticore_hdl::signal::Signal;
+use hapticore_hdl::{block, call};
 
 block! {
     /// The core.
@@ -76,7 +76,7 @@ impl Core {
     }
 
     /// The inputs of a core with a calibration, as codes, while nothing happens.
-    pub fn idle_inputs(&self, calibration: &crate::calibration::Calibration) -> Inputs<i64> {
+    pub fn idle_inputs(&self, calibration: &hapticore_contract::calibration::Calibration) -> Inputs<i64> {
         let formats = self.inputs();
         let mut inputs = Inputs::map(formats, |_| 0);
         let (gains, formats) = (&mut inputs.calibration, formats.calibration);

@@ -26,13 +26,13 @@ mod block_floating;
 
 use super::multiplier::{self, Multiplier};
 use super::root::{self, Root};
-use crate::block::{Block, Interpretation, State};
-use crate::format::{BIT, Format};
-use crate::memory::{Memory, Write};
-use crate::profile::Profile;
-use crate::signal::{Assumed, Exact, Floor, HalfEven, Proved, Signal, Wrap, bit, int, zero};
-use crate::states::States;
-use crate::{block, call, states, when};
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::block::{Block, Interpretation, State};
+use hapticore_hdl::format::{BIT, Format};
+use hapticore_hdl::memory::{Memory, Write};
+use hapticore_hdl::signal::{Assumed, Exact, Floor, HalfEven, Proved, Signal, Wrap, bit, int, zero};
+use hapticore_hdl::states::States;
+use hapticore_hdl::{block, call, states, when};
 
 states! {
     /// The steps from words to results; those of alignment and the last are of block-floating words (`currents/block_floating.rs`).

@@ -29,12 +29,12 @@ mod polyphase;
 
 pub(crate) use self::polyphase::{GAIN as POLYPHASE_GAIN, Polyphase};
 use super::multiplier::{self, Multiplier};
-use crate::block::{Block, Interpretation, State};
-use crate::format::{BIT, Format, MAX_WIDTH};
-use crate::memory::{Memory, Write};
-use crate::profile::{Method, Profile};
-use crate::signal::{Floor, HalfEven, Proved, Signal, bit, code, int, zero};
-use crate::{block, call, next, when};
+use hapticore_contract::profile::{Method, Profile};
+use hapticore_hdl::block::{Block, Interpretation, State};
+use hapticore_hdl::format::{BIT, Format, MAX_WIDTH};
+use hapticore_hdl::memory::{Memory, Write};
+use hapticore_hdl::signal::{Floor, HalfEven, Proved, Signal, bit, code, int, zero};
+use hapticore_hdl::{block, call, next, when};
 
 block! {
     /// The lock-in demodulator.
@@ -249,7 +249,8 @@ impl Demodulator {
     #[inline(always)]
     pub fn at_rail<V: Interpretation>(&self, code: Signal<V>) -> Signal<V> {
         let [most, least] = self.rails;
-        code.equals(crate::signal::code(most, code.format)) | code.equals(crate::signal::code(least, code.format))
+        code.equals(hapticore_hdl::signal::code(most, code.format))
+            | code.equals(hapticore_hdl::signal::code(least, code.format))
     }
 
     /// The channel whose code the next clock's operand needs.

@@ -16,10 +16,10 @@
 //! A zero denominator gives a saturated quotient; the caller says what that means. Latency: quotient width + 4 clocks from
 //! `start` to `done`. Source: restoring division, Parhami, Computer Arithmetic, §13.
 
-use crate::block::{Block, Interpretation, State};
-use crate::format::{BIT, Format};
-use crate::signal::{Assumed, Exact, Proved, Signal, bit, code, int};
-use crate::{block, next, when};
+use hapticore_hdl::block::{Block, Interpretation, State};
+use hapticore_hdl::format::{BIT, Format};
+use hapticore_hdl::signal::{Assumed, Exact, Proved, Signal, bit, code, int};
+use hapticore_hdl::{block, next, when};
 
 block! {
     /// A divider.

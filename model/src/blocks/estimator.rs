@@ -16,12 +16,12 @@ use super::frames::{self, Frames};
 use super::haptic_voltage::{self, HapticVoltage};
 use super::position::{self, Position, TablePort};
 use super::ratio::{self, Ratio};
-use crate::block::{Block, Interpretation, State};
-use crate::bundle::Bundle;
-use crate::format::{BIT, Format};
-use crate::profile::Profile;
-use crate::signal::{Signal, zero};
-use crate::{block, bundle, call, when};
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::block::{Block, Interpretation, State};
+use hapticore_hdl::bundle::Bundle;
+use hapticore_hdl::format::{BIT, Format};
+use hapticore_hdl::signal::{Signal, zero};
+use hapticore_hdl::{block, bundle, call, when};
 
 bundle! {
     /// What a calibration sets. The words of the position table are written while no slot is under way.

@@ -17,12 +17,12 @@
 //! clock from `start` to `done`.
 
 use super::multiplier::{self, Multiplier};
-use crate::block::{Block, Interpretation, State};
-use crate::format::{BIT, Format};
-use crate::profile::Profile;
-use crate::signal::{HalfEven, Signal, Wrap, bit, int};
-use crate::states::States;
-use crate::{block, call, next, states};
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::block::{Block, Interpretation, State};
+use hapticore_hdl::format::{BIT, Format};
+use hapticore_hdl::signal::{HalfEven, Signal, Wrap, bit, int};
+use hapticore_hdl::states::States;
+use hapticore_hdl::{block, call, next, states};
 
 states! {
     /// The steps of an estimate. Each lasts as long as a product.

@@ -9,13 +9,13 @@
 //! Words are codes as integers, in the formats of [`Field::format`]. The haptic mean square is always valid and never held.
 //! Latency: fields + 2 clocks from `start` to the last word. Source: DESIGN §3 (invalid: last value held).
 
-use crate::block::{Block, Interpretation, State};
-use crate::format::{BIT, Format};
-pub use crate::frame::Field;
-use crate::memory::{Memory, Write};
-use crate::profile::Profile;
-use crate::signal::{HalfEven, Proved, Saturate, Signal, Wrap, bit, int};
-use crate::{block, next};
+pub use hapticore_contract::frame::Field;
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::block::{Block, Interpretation, State};
+use hapticore_hdl::format::{BIT, Format};
+use hapticore_hdl::memory::{Memory, Write};
+use hapticore_hdl::signal::{HalfEven, Proved, Saturate, Signal, Wrap, bit, int};
+use hapticore_hdl::{block, next};
 
 block! {
     /// The frames of all pads.

@@ -22,12 +22,12 @@
 //! PHYSICS §3 (the gap follows the RMS).
 
 use super::demodulator::Demodulator;
-use crate::block::{Block, Interpretation, State};
-use crate::format::{BIT, Format};
-use crate::memory::{Memory, Write};
-use crate::profile::Profile;
-use crate::signal::{HalfEven, Proved, Signal, Wrap, bit, code, int, zero};
-use crate::{block, when};
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::block::{Block, Interpretation, State};
+use hapticore_hdl::format::{BIT, Format};
+use hapticore_hdl::memory::{Memory, Write};
+use hapticore_hdl::signal::{HalfEven, Proved, Signal, Wrap, bit, code, int, zero};
+use hapticore_hdl::{block, when};
 
 block! {
     /// The mean square of the haptic voltage.

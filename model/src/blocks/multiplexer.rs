@@ -14,12 +14,12 @@
 //!
 //! Latency: one clock from a strobe to its `sample`; the flags then hold until the next strobe.
 
-use crate::block::{Block, Interpretation, State};
-use crate::bundle::Bundle;
-use crate::format::{BIT, Format};
-use crate::profile::Profile;
-use crate::signal::{Proved, Signal, bit, int, zero};
-use crate::{block, when};
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::block::{Block, Interpretation, State};
+use hapticore_hdl::bundle::Bundle;
+use hapticore_hdl::format::{BIT, Format};
+use hapticore_hdl::signal::{Proved, Signal, bit, int, zero};
+use hapticore_hdl::{block, when};
 
 block! {
     /// The pad multiplexer.

@@ -16,10 +16,10 @@
 //!
 //! Latency: 1 clock, or 2 where an operand is halved.
 
-use crate::block::{Block, Interpretation, State};
-use crate::format::{BIT, Format};
-use crate::signal::{Floor, Proved, Signal, bit, int};
-use crate::{block, next};
+use hapticore_hdl::block::{Block, Interpretation, State};
+use hapticore_hdl::format::{BIT, Format};
+use hapticore_hdl::signal::{Floor, Proved, Signal, bit, int};
+use hapticore_hdl::{block, next};
 
 block! {
     /// A multiplier.

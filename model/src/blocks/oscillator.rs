@@ -23,13 +23,13 @@
 //!
 //! Latency: 4 clocks from `sample` to `ready`, polyphase 2. Source: paper, eq. 5; Harris, Proc. IEEE 66 (1978) 51, for the window.
 
-use crate::block::{Block, Interpretation, State};
-use crate::format::{BIT, Format};
-use crate::memory::Memory;
-use crate::profile::{Method, Profile, Window};
-use crate::signal::{Floor, Proved, Signal, Wrap, bit, code, int, zero};
-use crate::states::States;
-use crate::{block, next, states};
+use hapticore_contract::profile::{Method, Profile, Window};
+use hapticore_hdl::block::{Block, Interpretation, State};
+use hapticore_hdl::format::{BIT, Format};
+use hapticore_hdl::memory::Memory;
+use hapticore_hdl::signal::{Floor, Proved, Signal, Wrap, bit, code, int, zero};
+use hapticore_hdl::states::States;
+use hapticore_hdl::{block, next, states};
 use std::f64::consts::TAU;
 
 states! {

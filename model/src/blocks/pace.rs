@@ -12,11 +12,11 @@
 //! P is `clocks_per_sample`: the demodulator serves all channels in them, and a sample that comes earlier breaks into the one
 //! before. `overrun` stays from the strobe that was too early until `clear` or a reset. Latency: one clock.
 
-use crate::block;
-use crate::block::{Block, Interpretation, State};
-use crate::format::{BIT, Format};
-use crate::profile::Profile;
-use crate::signal::{Signal, int};
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::block;
+use hapticore_hdl::block::{Block, Interpretation, State};
+use hapticore_hdl::format::{BIT, Format};
+use hapticore_hdl::signal::{Signal, int};
 
 block! {
     /// The check of the samples' distance.

@@ -16,12 +16,12 @@
 //! A zero denominator gives `invalid`. Latency: 3 · (divider + 1) + 1 clocks from `start` to `done`.
 
 use super::divider::{self, Divider};
-use crate::block::{Block, Interpretation, State};
-use crate::format::{BIT, Format};
-use crate::profile::Profile;
-use crate::signal::{Proved, Signal, bit, int};
-use crate::states::States;
-use crate::{block, call, next, states};
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::block::{Block, Interpretation, State};
+use hapticore_hdl::format::{BIT, Format};
+use hapticore_hdl::signal::{Proved, Signal, bit, int};
+use hapticore_hdl::states::States;
+use hapticore_hdl::{block, call, next, states};
 
 states! {
     /// Which ratio is being divided.

@@ -16,10 +16,10 @@
 //! Latency: half the radicand's width + 2 clocks from `start` to `done`. Source: digit-by-digit root, Parhami, Computer
 //! Arithmetic, §21.
 
-use crate::block::{Block, Interpretation, State};
-use crate::format::{BIT, Format};
-use crate::signal::{Assumed, Proved, Signal, bit, int};
-use crate::{block, next, when};
+use hapticore_hdl::block::{Block, Interpretation, State};
+use hapticore_hdl::format::{BIT, Format};
+use hapticore_hdl::signal::{Assumed, Proved, Signal, bit, int};
+use hapticore_hdl::{block, next, when};
 
 block! {
     /// A square root.

@@ -2,13 +2,13 @@
 //! Fidelity `clock`: every clock of the core, as the board runs it.
 
 use super::{Gathered, calibrated, clock, signals};
-use crate::block::{self, Block};
 use crate::blocks::core::{Core, Inputs, Outputs};
-use crate::calibration::Calibration;
-use crate::frame::Frame;
-use crate::probe::{Probe, Variable, sample, variables};
-use crate::profile::Profile;
-use crate::signal::{Signal, bit};
+use hapticore_contract::calibration::Calibration;
+use hapticore_contract::frame::Frame;
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::block::{self, Block};
+use hapticore_hdl::probe::{Probe, Variable, sample, variables};
+use hapticore_hdl::signal::{Signal, bit};
 use std::slice::ChunksExact;
 
 /// A core at work, clock by clock. Its memory does not grow with time.

@@ -4,20 +4,20 @@
 //! A window's sums are made sample by sample with the demodulator's own arithmetic; the local oscillator is the same for
 //! every slot, and so is asked once. The estimator then runs through its clocks, a few hundred a slot: of codes the position's
 //! program has its results at once. As it is generic over the interpretation, the same run, with the program's clocks, gives the rounding
-//! error of every signal ([`Shadow`](crate::interpretations::shadow::Shadow)).
+//! error of every signal ([`Shadow`](hapticore_hdl::interpretations::shadow::Shadow)).
 
 use super::tone::Response;
 use super::{Gathered, calibrated, signals};
-use crate::block::{Block, Interpretation, State};
 use crate::blocks::core::{Core, Inputs as CoreInputs};
 use crate::blocks::estimator::{Estimator, Inputs};
 use crate::blocks::oscillator::Inputs as Sample;
-use crate::bundle::Bundle;
-use crate::calibration::Calibration;
-use crate::format::Format;
-use crate::frame::Frame;
-use crate::profile::Profile;
-use crate::signal::{Proved, Signal, bit, code, constant, zero};
+use hapticore_contract::calibration::Calibration;
+use hapticore_contract::frame::Frame;
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::block::{Block, Interpretation, State};
+use hapticore_hdl::bundle::Bundle;
+use hapticore_hdl::format::Format;
+use hapticore_hdl::signal::{Proved, Signal, bit, code, constant, zero};
 
 /// The weighted carrier at a sample of the window, and the window itself.
 #[derive(Debug, Clone, Copy)]

@@ -5,15 +5,15 @@ pub mod clock;
 pub mod fixed;
 mod tone;
 
-use crate::block::{Block, Interpretation, State};
 use crate::blocks::core::{Core, Inputs, Outputs};
 use crate::blocks::estimator;
 use crate::blocks::position::TablePort;
-use crate::bundle::Bundle;
-use crate::calibration::Calibration;
-use crate::format::Format;
-use crate::frame::{Flags, Frame};
-use crate::signal::{self, Signal, Value, constant};
+use hapticore_contract::calibration::Calibration;
+use hapticore_contract::frame::{Flags, Frame};
+use hapticore_hdl::block::{Block, Interpretation, State};
+use hapticore_hdl::bundle::Bundle;
+use hapticore_hdl::format::Format;
+use hapticore_hdl::signal::{self, Signal, Value, constant};
 
 /// The signals of a bundle of constants.
 pub(crate) fn signals<S: Bundle, V: Value>(codes: S::Of<i64>, formats: S::Of<Format>) -> S::Of<Signal<V>> {

@@ -11,12 +11,12 @@
 
 use crate::device::{Tones, calibration, tone_codes};
 use crate::random::Random;
+use hapticore_contract::calibration::Calibration;
+use hapticore_contract::frame::Reading;
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::format::Format;
 use hapticore_model::blocks::frames::Field;
-use hapticore_model::calibration::Calibration;
 use hapticore_model::fidelity::fixed::FixedSimulation;
-use hapticore_model::format::Format;
-use hapticore_model::frame::Reading;
-use hapticore_model::profile::Profile;
 use hapticore_reference::Reference;
 
 const SLOTS: usize = if cfg!(optimised) { 300 } else { 20 };

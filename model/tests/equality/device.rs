@@ -2,8 +2,8 @@
 //! A device to calibrate with, and what its ADC could see.
 
 use crate::random::Random;
-use hapticore_model::calibration::{Calibration, Point, PositionTable};
-use hapticore_model::profile::Profile;
+use hapticore_contract::calibration::{Calibration, Point, PositionTable};
+use hapticore_contract::profile::Profile;
 use std::f64::consts::TAU;
 
 /// The bundled profiles, their slots cut to a few samples so that slots pass quickly.

@@ -2,9 +2,9 @@
 //! Small dividers and roots, over all operands: results, and the lemmas on their remainders, on every clock.
 
 use crate::harness::{Bench, within};
+use hapticore_hdl::format::Format;
 use hapticore_model::blocks::divider::{self, Divider};
 use hapticore_model::blocks::root::{self, Root};
-use hapticore_model::format::Format;
 use hapticore_reference::rounded::{Exact, round_quotient, round_root};
 
 fn check_divider(numerator: &str, denominator: &str, quotient: &str) {

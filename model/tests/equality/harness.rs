@@ -2,11 +2,11 @@
 //! The bench on which a block is clocked, and the comparison that tells all when it fails.
 
 use crate::random::Random;
-use hapticore_model::block::{Block, Inputs, Interpretation, Outputs, State};
-use hapticore_model::bundle::Bundle;
-use hapticore_model::format::Format;
-use hapticore_model::probe::{Variable, sample, variables};
-use hapticore_model::signal::Signal;
+use hapticore_hdl::block::{Block, Inputs, Interpretation, Outputs, State};
+use hapticore_hdl::bundle::Bundle;
+use hapticore_hdl::format::Format;
+use hapticore_hdl::probe::{Variable, sample, variables};
+use hapticore_hdl::signal::Signal;
 
 /// Operations of a test: all of them where code is optimised, a few where it is not.
 pub fn operations(all: u64) -> u64 {

@@ -3,7 +3,7 @@
 
 use crate::device::{self, Sight, calibration, tone_codes, tones};
 use crate::random::Random;
-use hapticore_model::profile::Profile;
+use hapticore_contract::profile::Profile;
 use hapticore_reference::Reference;
 use std::f64::consts::TAU;
 

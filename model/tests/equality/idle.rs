@@ -5,12 +5,12 @@ use crate::device::{self, Sight, calibration, short_profiles};
 use crate::harness::{Bench, show};
 use crate::never_idle::NeverIdle;
 use crate::random::Random;
-use hapticore_model::block::{Block, Inputs, Outputs};
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::block::{Block, Inputs, Outputs};
+use hapticore_hdl::bundle::Bundle;
+use hapticore_hdl::probe::sample;
 use hapticore_model::blocks::core::{self, Core};
 use hapticore_model::blocks::position::TablePort;
-use hapticore_model::bundle::Bundle;
-use hapticore_model::probe::sample;
-use hapticore_model::profile::Profile;
 
 /// Slots of each profile.
 const SLOTS: u64 = if cfg!(optimised) { 60 } else { 8 };
@@ -32,7 +32,7 @@ fn skipping_changes_no_bit_on_any_clock() {
                 let pairs = skips.registers().zip(never.registers());
                 let differs = |((variable, a), (_, b)): &_| -> Option<String> {
                     let (a, b): (&i64, &NeverIdle) = (a, b);
-                    let variable: &hapticore_model::probe::Variable = variable;
+                    let variable: &hapticore_hdl::probe::Variable = variable;
                     (*a != b.0)
                         .then(|| format!("{}.{}: {a} skipping, {} never", variable.scope.join("."), variable.name, b.0))
                 };

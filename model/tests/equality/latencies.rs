@@ -2,7 +2,10 @@
 //! `latency()` is what the clocks say: from `start` (or the event that the block's doc names) to `done`.
 
 use crate::harness::{Bench, cases};
-use hapticore_model::block::{Block, Inputs};
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::block::{Block, Inputs};
+use hapticore_hdl::bundle::Bundle;
+use hapticore_hdl::format::Format;
 use hapticore_model::blocks::capacitance::Capacitance;
 use hapticore_model::blocks::core::{self, Core};
 use hapticore_model::blocks::currents::{self, Currents};
@@ -16,9 +19,6 @@ use hapticore_model::blocks::position::TablePort;
 use hapticore_model::blocks::position::{self, Position};
 use hapticore_model::blocks::ratio::Ratio;
 use hapticore_model::blocks::root::Root;
-use hapticore_model::bundle::Bundle;
-use hapticore_model::format::Format;
-use hapticore_model::profile::Profile;
 
 /// Clocks that a block is given in all, about.
 const CLOCKS: u64 = 2_000_000;

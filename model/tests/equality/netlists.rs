@@ -5,10 +5,10 @@ use crate::device::short_profiles;
 use crate::harness::Bench;
 use crate::idle::{assert_same_outputs, drive_core, flat};
 use crate::interpreter::State;
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::bundle::Bundle;
+use hapticore_hdl::interpretations::netlist::Netlist;
 use hapticore_model::blocks::core::{self, Core};
-use hapticore_model::bundle::Bundle;
-use hapticore_model::interpretations::netlist::Netlist;
-use hapticore_model::profile::Profile;
 
 /// Slots of each profile.
 const SLOTS: u64 = if cfg!(optimised) { 8 } else { 1 };
@@ -56,7 +56,7 @@ fn compare_registers(
     let place = |name: &String| interpreted.iter().position(|(other, _)| other == name).expect("the same registers");
     let order = order.get_or_insert_with(|| names.iter().map(place).collect());
     let mut codes = Vec::new();
-    hapticore_model::probe::sample(&bench.block, &bench.state, &mut codes);
+    hapticore_hdl::probe::sample(&bench.block, &bench.state, &mut codes);
     for ((name, code), &at) in names.iter().zip(codes).zip(order.iter()) {
         let reference = interpreted[at].1;
         assert_eq!(i128::from(code), reference, "clock {}: {name}: clocked, netlist", bench.clock);

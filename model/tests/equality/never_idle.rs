@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The clocked interpretation, except that no block may ever leave a clock out.
 
-use hapticore_model::block::Interpretation;
-use hapticore_model::format::Format;
-use hapticore_model::memory::{Memory, Storage, Write};
-use hapticore_model::signal::{Overflow, Rounding, Signal, Value};
+use hapticore_hdl::block::Interpretation;
+use hapticore_hdl::format::Format;
+use hapticore_hdl::memory::{Memory, Storage, Write};
+use hapticore_hdl::signal::{Overflow, Rounding, Signal, Value};
 
 /// A raw code.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

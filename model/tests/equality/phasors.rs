@@ -3,8 +3,8 @@
 
 use crate::device::{Tones, calibration, tone_codes, tones};
 use crate::random::Random;
+use hapticore_contract::profile::Profile;
 use hapticore_model::fidelity::fixed::FixedSimulation;
-use hapticore_model::profile::Profile;
 use std::f64::consts::TAU;
 
 /// Samples in a period of the haptic voltage, so that its ripple falls between the lobes of every window.

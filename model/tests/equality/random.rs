@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Random words that know where circuits break: at rails, around zero, at powers of two, in short words.
 
-use hapticore_model::format::Format;
+use hapticore_hdl::format::Format;
 
 /// SplitMix64: a few lines, any seed, the same numbers everywhere.
 #[derive(Debug, Clone)]

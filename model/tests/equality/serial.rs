@@ -4,6 +4,8 @@
 use crate::device::calibration;
 use crate::harness::{Bench, cases, check};
 use crate::random::Random;
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::format::Format;
 use hapticore_model::blocks::capacitance::{self, Capacitance};
 use hapticore_model::blocks::currents::Currents;
 use hapticore_model::blocks::divider::Divider;
@@ -12,8 +14,6 @@ use hapticore_model::blocks::position::TablePort;
 use hapticore_model::blocks::position::{self, Position};
 use hapticore_model::blocks::ratio::{self, Ratio};
 use hapticore_model::blocks::root::Root;
-use hapticore_model::format::Format;
-use hapticore_model::profile::Profile;
 use hapticore_reference::rounded::{self, Exact, round_quotient, round_root};
 
 /// Operations of each block over all profiles.

@@ -2,10 +2,10 @@
 //! Operations on small formats: the clocked reading is the exact rational, rounded as named; the real reading is the number
 //! itself; the range reading holds whatever happens within its operands' ranges.
 
-use hapticore_model::format::Format;
-use hapticore_model::interpretations::range::{Range, take_violations, whole};
-use hapticore_model::interpretations::real::Real;
-use hapticore_model::signal::{Floor, HalfEven, Proved, Saturate, Signal, Value, Wrap};
+use hapticore_hdl::format::Format;
+use hapticore_hdl::interpretations::range::{Range, take_violations, whole};
+use hapticore_hdl::interpretations::real::Real;
+use hapticore_hdl::signal::{Floor, HalfEven, Proved, Saturate, Signal, Value, Wrap};
 use hapticore_reference::rounded::{Exact, round};
 use proptest::prelude::*;
 

@@ -4,15 +4,15 @@
 use crate::device::{self, Sight, calibration, short_profiles};
 use crate::harness::{Bench, operations, show};
 use crate::random::Random;
+use hapticore_contract::calibration::Calibration;
+use hapticore_contract::frame::{Flags, Frame};
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::bundle::Bundle;
 use hapticore_model::blocks::core::Core;
 use hapticore_model::blocks::estimator::{self, Estimator};
 use hapticore_model::blocks::position::TablePort;
-use hapticore_model::bundle::Bundle;
-use hapticore_model::calibration::Calibration;
 use hapticore_model::fidelity::clock::ClockSimulation;
 use hapticore_model::fidelity::fixed::FixedSimulation;
-use hapticore_model::frame::{Flags, Frame};
-use hapticore_model::profile::Profile;
 use hapticore_reference::rounded::{Exact, Slots, Sums};
 
 fn check_slots(profile: &Profile, slots: usize, seed: u64) {

@@ -3,15 +3,15 @@
 
 use crate::harness::{Bench, operations};
 use crate::random::Random;
+use hapticore_contract::profile::{Method, Profile, Window};
+use hapticore_hdl::bundle::Bundle;
+use hapticore_hdl::format::Format;
 use hapticore_model::blocks::currents::{self, Currents};
 use hapticore_model::blocks::demodulator::{self, Demodulator};
 use hapticore_model::blocks::frames::{self, Field, Frames};
 use hapticore_model::blocks::haptic_voltage::{self, HapticVoltage};
 use hapticore_model::blocks::multiplexer::{self, Multiplexer};
 use hapticore_model::blocks::oscillator::{self, Oscillator};
-use hapticore_model::bundle::Bundle;
-use hapticore_model::format::Format;
-use hapticore_model::profile::{Method, Profile, Window};
 use hapticore_reference::rounded::{self, Exact, Sample};
 
 const MILLION: u64 = 1_000_000;

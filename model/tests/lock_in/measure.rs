@@ -9,9 +9,9 @@
 //! relative to a tone on the carrier f_c. Reserve: how many times larger than the carrier's a tone may be that moves the
 //! force by 1 %, its amplitude by half of that.
 
-use hapticore_model::calibration::{Calibration, Point, PositionTable};
+use hapticore_contract::calibration::{Calibration, Point, PositionTable};
+use hapticore_contract::profile::Profile;
 use hapticore_model::fidelity::fixed::FixedSimulation;
-use hapticore_model::profile::Profile;
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write as _;
 

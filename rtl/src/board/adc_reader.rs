@@ -37,11 +37,11 @@
 
 use super::bits::{flag, next, read_as, word};
 use super::parameters::Parameters;
-use hapticore_model::block::{Block, Interpretation, State};
-use hapticore_model::format::{BIT, Format};
-use hapticore_model::profile::Profile;
-use hapticore_model::signal::{Signal, bit, int, zero};
-use hapticore_model::{block, when};
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::block::{Block, Interpretation, State};
+use hapticore_hdl::format::{BIT, Format};
+use hapticore_hdl::signal::{Signal, bit, int, zero};
+use hapticore_hdl::{block, when};
 
 block! {
     /// The reader of an ADC.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Small things that every peripheral does with bits.
 
-use hapticore_model::format::Format;
-use hapticore_model::signal::{Signal, Value, Wrap, int};
+use hapticore_hdl::format::Format;
+use hapticore_hdl::signal::{Signal, Value, Wrap, int};
 
 /// One more, wrapping.
 #[inline(always)]

@@ -10,8 +10,8 @@
 //! block: the state lies with whoever sends or receives. Source: ITU-T V.41; the catalogue's check value is 29b1 (hex).
 
 use super::bits::{word, xor};
-use hapticore_model::format::Format;
-use hapticore_model::signal::{Signal, Value, code};
+use hapticore_hdl::format::Format;
+use hapticore_hdl::signal::{Signal, Value, code};
 
 /// The format of a CRC.
 pub const CRC: Format = Format::unsigned(16, 0);
@@ -38,7 +38,7 @@ pub fn with<V: Value>(crc: Signal<V>, byte: Signal<V>) -> Signal<V> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use hapticore_model::signal::int;
+    use hapticore_hdl::signal::int;
 
     #[test]
     fn it_is_the_catalogue_s() {

@@ -13,10 +13,10 @@
 //! SLIP rather than COBS or a length: END is nowhere but at the end, so that a reader who has lost its place has it again after
 //! one END, for certain; and the sender needs no look ahead, so that no packet is buffered. Escapes cost on average 0.8 %.
 
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::format::Format;
 use hapticore_model::blocks::estimator::Calibration;
 use hapticore_model::blocks::frames::Field;
-use hapticore_model::format::Format;
-use hapticore_model::profile::Profile;
 
 /// Ends a packet.
 pub const END: u8 = 0xc0;

@@ -10,11 +10,11 @@ use super::framing::{
 };
 use bitvec::prelude::{BitArray, Lsb0};
 use crc::{CRC_16_IBM_3740, Crc};
+use hapticore_contract::frame::{Flags, Frame};
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::format::Format;
 use hapticore_model::blocks::core::{Core, Inputs};
 use hapticore_model::blocks::frames::Field;
-use hapticore_model::format::Format;
-use hapticore_model::frame::{Flags, Frame};
-use hapticore_model::profile::Profile;
 
 const CHECK: Crc<u16> = Crc::<u16>::new(&CRC_16_IBM_3740);
 

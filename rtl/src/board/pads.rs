@@ -14,10 +14,10 @@
 //! no line glitches. Source: DESIGN §3.
 
 use super::bits::{previous, word};
-use hapticore_model::block;
-use hapticore_model::block::{Block, Interpretation, State};
-use hapticore_model::format::{BIT, Format};
-use hapticore_model::signal::{Signal, int};
+use hapticore_hdl::block;
+use hapticore_hdl::block::{Block, Interpretation, State};
+use hapticore_hdl::format::{BIT, Format};
+use hapticore_hdl::signal::{Signal, int};
 
 block! {
     /// The switches of the pads.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What a board adds to a profile: its clock, its serial port, its ADC's pins.
 
-use hapticore_model::profile::Profile;
+use hapticore_contract::profile::Profile;
 
 /// A board's own numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -21,12 +21,12 @@ use super::bits::{next, read_as};
 use super::crc16;
 use super::framing::{Control, END, ESC, ESC_END, ESC_ESC, NIBBLE, PLACE, Register, data_bytes};
 use super::uart::BYTE;
-use hapticore_model::block::{Block, Interpretation, State};
+use hapticore_hdl::block::{Block, Interpretation, State};
+use hapticore_hdl::format::{BIT, Format};
+use hapticore_hdl::signal::{Signal, Wrap, bit, code, int};
+use hapticore_hdl::{block, when};
 use hapticore_model::blocks::estimator::Calibration;
 use hapticore_model::blocks::position::TablePort;
-use hapticore_model::format::{BIT, Format};
-use hapticore_model::signal::{Signal, Wrap, bit, code, int};
-use hapticore_model::{block, when};
 
 block! {
     /// The registers that commands write.

@@ -16,10 +16,10 @@
 //! Latency: one clock. Source: Schreier and Temes, Understanding Delta-Sigma Data Converters, §2.
 
 use super::bits::read_as;
-use hapticore_model::block;
-use hapticore_model::block::{Block, Interpretation, State};
-use hapticore_model::format::{BIT, Format};
-use hapticore_model::signal::{Signal, code};
+use hapticore_hdl::block;
+use hapticore_hdl::block::{Block, Interpretation, State};
+use hapticore_hdl::format::{BIT, Format};
+use hapticore_hdl::signal::{Signal, code};
 
 block! {
     /// The sigma-delta modulator of the carrier.

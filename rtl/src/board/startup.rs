@@ -23,8 +23,8 @@
 use super::framing::{Register, VERSION, digest};
 use super::packet::{Command, Heartbeat};
 use crate::codes::Codes;
-use hapticore_model::calibration::Calibration;
-use hapticore_model::profile::Profile;
+use hapticore_contract::calibration::Calibration;
+use hapticore_contract::profile::Profile;
 
 /// What a channel of the ADC spans, to either side of zero.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]

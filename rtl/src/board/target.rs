@@ -12,7 +12,7 @@ use super::parameters::{Parameters, ParametersError};
 use super::top::{Primitive, Top};
 use super::whole::Board;
 use crate::component;
-use hapticore_model::profile::Profile;
+use hapticore_contract::profile::Profile;
 use rust_hdl_core::prelude::{Atom, Block, Constraint, PinConstraint, Probe};
 use std::fmt::Write;
 use std::str::FromStr;

@@ -13,10 +13,10 @@
 //! line passes two registers first. Latency: 10·D clocks a byte. Source: the usual asynchronous serial line (EIA-232 character).
 
 use super::bits::{next, previous};
-use hapticore_model::block::{Block, Interpretation, State};
-use hapticore_model::format::{BIT, Format};
-use hapticore_model::signal::{Signal, bit, int};
-use hapticore_model::{block, when};
+use hapticore_hdl::block::{Block, Interpretation, State};
+use hapticore_hdl::format::{BIT, Format};
+use hapticore_hdl::signal::{Signal, bit, int};
+use hapticore_hdl::{block, when};
 
 /// The format of a byte.
 pub const BYTE: Format = Format::unsigned(8, 0);

@@ -20,14 +20,14 @@ use super::registers::{self, CommandRegisters};
 use super::sigma_delta::{self, SigmaDelta};
 use super::stream::{self, Stream};
 use super::uart::receiver::{self, Receiver};
-use hapticore_model::block::{Block, Interpretation, State};
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::block::{Block, Interpretation, State};
+use hapticore_hdl::format::BIT;
+use hapticore_hdl::memory::{Memory, Write};
+use hapticore_hdl::signal::Signal;
+use hapticore_hdl::{block, call};
 use hapticore_model::blocks::core::{self, Core};
 use hapticore_model::blocks::estimator::Calibration;
-use hapticore_model::format::BIT;
-use hapticore_model::memory::{Memory, Write};
-use hapticore_model::profile::Profile;
-use hapticore_model::signal::Signal;
-use hapticore_model::{block, call};
 
 block! {
     /// The board.

@@ -9,7 +9,7 @@
 //!
 //! ```
 //! use hapticore_model::blocks::multiplexer::Multiplexer;
-//! use hapticore_model::profile::Profile;
+//! use hapticore_contract::profile::Profile;
 //! use rust_hdl_core::prelude::*;
 //!
 //! hapticore_rtl::component! {
@@ -22,7 +22,7 @@
 //!
 //! let mut turns = Turns::new(Multiplexer::new(&Profile::bundled("small")?));
 //! turns.connect_all();
-//! # Ok::<(), hapticore_model::profile::ProfileError>(())
+//! # Ok::<(), hapticore_contract::profile::ProfileError>(())
 //! ```
 //!
 //! Words are `Bits`, those of signed formats in two's complement: rust-hdl's `Signed` overflows the stack at its most negative
@@ -30,7 +30,7 @@
 
 mod simulated;
 
-use crate::verilog::{Design, Direction, Port};
+use hapticore_hdl::verilog::{Design, Direction, Port};
 use rust_hdl_core::prelude::{Bits, Block, Synth, generate_verilog};
 use std::collections::BTreeMap;
 
@@ -90,7 +90,7 @@ pub fn verilog<U: Block>(design: &U) -> String {
 
 /// The declaration of a block's component, to be put into a design: [`component!`](crate::component!) with the names and the
 /// widths that this block has. `path` is where its type is, `name` what the component is to be called.
-pub fn declaration<B: hapticore_model::block::Block>(block: &B, path: &str, name: &str) -> String {
+pub fn declaration<B: hapticore_hdl::block::Block>(block: &B, path: &str, name: &str) -> String {
     let design = Design::of(block, "a rust-hdl component");
     let ports = |direction: Direction| {
         let ports = design.ports.iter().filter(|port| port.direction == direction);

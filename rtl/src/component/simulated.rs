@@ -2,11 +2,11 @@
 //! The inside of a component: a block's clocked model, and the Verilog printed from it.
 
 use super::PortWidth;
-use crate::verilog::{Design, Direction};
-use hapticore_model::block::{Block, State};
-use hapticore_model::bundle::Bundle;
-use hapticore_model::format::Format;
-use hapticore_model::signal::Signal;
+use hapticore_hdl::block::{Block, State};
+use hapticore_hdl::bundle::Bundle;
+use hapticore_hdl::format::Format;
+use hapticore_hdl::signal::Signal;
+use hapticore_hdl::verilog::{Design, Direction};
 use rust_hdl_core::ast::{Verilog, Wrapper};
 
 /// A block that rust-hdl's simulator clocks.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A block, clocked by codes.
 
-use hapticore_model::block::{Block, Inputs, Outputs, State};
-use hapticore_model::bundle::Bundle;
-use hapticore_model::signal::Signal;
+use hapticore_hdl::block::{Block, Inputs, Outputs, State};
+use hapticore_hdl::bundle::Bundle;
+use hapticore_hdl::signal::Signal;
 
 /// A block and its registers.
 pub struct Bench<B: Block> {
@@ -27,7 +27,7 @@ impl<B: Block> Bench<B> {
 
 impl<B: Block> Bench<B> {
     /// What the registers hold.
-    pub fn registers(&self) -> hapticore_model::block::Registers<B, i64> {
+    pub fn registers(&self) -> hapticore_hdl::block::Registers<B, i64> {
         self.state.registers
     }
 }

@@ -4,10 +4,10 @@
 use crate::bench::Bench;
 use crate::pins::Host;
 use crate::random::Random;
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::bundle::Bundle;
+use hapticore_hdl::format::Format;
 use hapticore_model::blocks::core::{self, Core};
-use hapticore_model::bundle::Bundle;
-use hapticore_model::format::Format;
-use hapticore_model::profile::Profile;
 use hapticore_rtl::board::packet::Command;
 use hapticore_rtl::board::pads::{self, Pads};
 use hapticore_rtl::board::registers::{self, CommandRegisters};

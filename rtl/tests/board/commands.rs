@@ -4,8 +4,8 @@
 use crate::device::calibration;
 use crate::random::Random;
 use crate::session::{Session, parameters, samples, simulated, small};
+use hapticore_contract::profile::Profile;
 use hapticore_model::blocks::core::Core;
-use hapticore_model::profile::Profile;
 use hapticore_rtl::board::framing::Register;
 use hapticore_rtl::board::packet::{Command, encode};
 use hapticore_rtl::board::startup::start;

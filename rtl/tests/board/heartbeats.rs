@@ -4,9 +4,9 @@
 use crate::bench::Bench;
 use crate::pins::Host;
 use crate::random::Random;
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::bundle::Bundle;
 use hapticore_model::blocks::core::Core;
-use hapticore_model::bundle::Bundle;
-use hapticore_model::profile::Profile;
 use hapticore_rtl::board::framing::{END, Register};
 use hapticore_rtl::board::packet::{Decoder, Told};
 use hapticore_rtl::board::registers::CommandRegisters;

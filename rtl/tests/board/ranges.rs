@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! No signal of a peripheral can overflow, whatever comes in.
 
-use hapticore_model::block::Block;
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::block::Block;
+use hapticore_hdl::bundle::Bundle;
+use hapticore_hdl::format::Format;
+use hapticore_hdl::interpretations::netlist::Netlist;
+use hapticore_hdl::interpretations::range::{Range, take_lemmas, take_violations, whole};
+use hapticore_hdl::probe::sample;
+use hapticore_hdl::signal::Signal;
 use hapticore_model::blocks::core::Core;
-use hapticore_model::bundle::Bundle;
-use hapticore_model::format::Format;
-use hapticore_model::interpretations::netlist::Netlist;
-use hapticore_model::interpretations::range::{Range, take_lemmas, take_violations, whole};
-use hapticore_model::probe::sample;
-use hapticore_model::profile::Profile;
-use hapticore_model::signal::Signal;
 use hapticore_rtl::board::adc_reader::AdcReader;
 use hapticore_rtl::board::pads::Pads;
 use hapticore_rtl::board::registers::CommandRegisters;

@@ -2,11 +2,11 @@
 //! Components: the model in rust-hdl's simulator, and the printed modules in rust-hdl's Verilog, alike at every clock.
 
 use crate::harness::{Design, Ports, have_icarus, mismatch, simulated};
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::format::Format;
 use hapticore_model::blocks::core::Core;
 use hapticore_model::blocks::divider::Divider;
 use hapticore_model::blocks::multiplexer::Multiplexer;
-use hapticore_model::format::Format;
-use hapticore_model::profile::Profile;
 use hapticore_rtl::board::sigma_delta::SigmaDelta;
 use hapticore_rtl::component;
 use rust_hdl_core::prelude::*;

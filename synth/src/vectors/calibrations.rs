@@ -2,9 +2,9 @@
 //! Calibrations: that of a sheet, and words that break a careless core.
 
 use super::Noise;
-use hapticore_model::calibration::{Calibration, Point, PositionTable};
-use hapticore_model::format::Format;
-use hapticore_model::profile::Profile;
+use hapticore_contract::calibration::{Calibration, Point, PositionTable};
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::format::Format;
 use hapticore_rtl::codes::Codes;
 
 /// What is written before a slot's frame is computed.

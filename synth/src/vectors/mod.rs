@@ -17,13 +17,13 @@ mod slots;
 
 use crate::sources::File;
 use calibrations::Set;
-use hapticore_model::block::{Block, State};
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::block::{Block, State};
+use hapticore_hdl::bundle::Bundle;
+use hapticore_hdl::format::Format;
+use hapticore_hdl::signal::Signal;
 use hapticore_model::blocks::core::{Core, Inputs, Outputs};
 use hapticore_model::blocks::position::TablePort;
-use hapticore_model::bundle::Bundle;
-use hapticore_model::format::Format;
-use hapticore_model::profile::Profile;
-use hapticore_model::signal::Signal;
 use slots::{CHANNELS, Slot};
 use std::fmt::Write as _;
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Proofs for all inputs: division and root are right, no two pads are closed. And that the proofs can fail.
 
-use hapticore_model::block::Block;
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::block::Block;
+use hapticore_hdl::format::Format;
+use hapticore_hdl::interpretations::netlist::{Module, Named, Netlist};
 use hapticore_model::blocks::core::Core;
 use hapticore_model::blocks::divider::Divider;
 use hapticore_model::blocks::multiplexer::Multiplexer;
 use hapticore_model::blocks::root::Root;
-use hapticore_model::format::Format;
-use hapticore_model::interpretations::netlist::{Module, Named, Netlist};
-use hapticore_model::profile::Profile;
 use hapticore_rtl::board::pads::Pads;
 use hapticore_synth::formal::{Claim, Mode, Verdict, mutants, print};
 use hapticore_synth::tools::Tools;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What is committed about the Verilog is about the Verilog as it is. Needs no tools.
 
-use hapticore_model::profile::Profile;
-use hapticore_rtl::verilog::Design;
+use hapticore_contract::profile::Profile;
 use hapticore_synth::report::{BoardReport, CoresReport, limits, median};
 use hapticore_synth::sources;
 use hapticore_synth::target::{BOARDS, Family, TOP};
@@ -21,7 +20,7 @@ fn the_table_of_cores_is_of_the_cores_that_are_printed() {
     assert_eq!(read("synth/reports/cores.md"), report.markdown(), "synth/run cores");
     let mut rows = report.rows.iter();
     for profile in Profile::all() {
-        let hash = sources::hash_of(&sources::files(&Design::of_core(&profile)));
+        let hash = sources::hash_of(&sources::files(&hapticore_rtl::header::design(&profile)));
         for family in Family::ALL {
             let row = rows.next().expect("a row for each profile and family");
             let (found, expected) = ((&row.profile, row.part.as_str()), (&profile.name, family.part()));

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Nothing of one pad's slot can change another's frame, whatever the inputs; and what would let it is found.
 
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::interpretations::netlist::{Module, Named, Netlist, Op};
 use hapticore_model::blocks::core::Core;
-use hapticore_model::interpretations::netlist::{Module, Named, Netlist, Op};
-use hapticore_model::profile::Profile;
 use hapticore_synth::isolation::{Seen, State};
 
 /// A profile with slots as short as they may be: what happens within does not depend on their length.

@@ -3,7 +3,7 @@
 
 use std::process::ExitCode;
 
-use hapticore_model::profile::Profile;
+use hapticore_contract::profile::Profile;
 use hapticore_tests::lockstep::Bench;
 use hapticore_tests::lockstep::external::{Simulator, check};
 

@@ -4,7 +4,7 @@
 use std::collections::{HashMap, HashSet};
 use std::fmt::Write;
 
-use hapticore_rtl::verilog::{Design, File};
+use hapticore_hdl::verilog::{Design, File};
 use regex::Regex;
 
 use super::kinds::{Variant, variants};

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The core of a profile on the bench: the model beside its Verilog.
 
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::verilog::Design;
 use hapticore_model::blocks::core::Core;
-use hapticore_model::profile::Profile;
-use hapticore_rtl::verilog::Design;
 
 use super::Trace;
 use crate::stimulus::Stimulus;

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use std::fs;
 use std::process::Command;
 
-use hapticore_rtl::verilog::{Direction, Port};
+use hapticore_hdl::verilog::{Direction, Port};
 
 use super::trace::bits;
 use super::{Mismatch, Trace, verdict};

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What a block was given and gave, clock by clock.
 
-use hapticore_model::block::Block;
-use hapticore_model::bundle::Bundle;
-use hapticore_model::signal::Signal;
-use hapticore_rtl::verilog::{Direction, Port};
+use hapticore_hdl::block::Block;
+use hapticore_hdl::bundle::Bundle;
+use hapticore_hdl::signal::Signal;
+use hapticore_hdl::verilog::{Direction, Port};
 
 /// Codes of all ports at every clock after reset: inputs, then outputs, in the order of the ports.
 #[derive(Debug, Clone)]

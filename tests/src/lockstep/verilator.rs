@@ -8,7 +8,7 @@ use std::fs;
 use std::path::PathBuf;
 use std::process::Command;
 
-use hapticore_rtl::verilog::{Direction, Port};
+use hapticore_hdl::verilog::{Direction, Port};
 
 use super::{Mismatch, Trace, verdict};
 use crate::tools::run;

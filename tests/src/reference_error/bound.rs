@@ -19,9 +19,9 @@
 //! well within its bound. What is bounded tightly is all that follows the sums.
 
 use hapticore::engine::Signals;
-use hapticore_model::calibration::Calibration;
-use hapticore_model::frame::Reading;
-use hapticore_model::profile::{Profile, Window};
+use hapticore_contract::calibration::Calibration;
+use hapticore_contract::frame::Reading;
+use hapticore_contract::profile::{Profile, Window};
 use std::f64::consts::{PI, SQRT_2, TAU};
 
 /// One rounding of an `f64`, of its result.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A stimulus at rest: all its codes in memory, small enough to stay near the processor.
 
+use hapticore_contract::profile::Profile;
 use hapticore_model::blocks::core::Inputs;
-use hapticore_model::profile::Profile;
 
 use crate::stimulus::Stimulus;
 

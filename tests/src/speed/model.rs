@@ -3,11 +3,11 @@
 
 use std::time::Instant;
 
-use hapticore_model::block::{Block, State};
+use hapticore_hdl::block::{Block, State};
+use hapticore_hdl::bundle::Bundle;
+use hapticore_hdl::signal::Signal;
 use hapticore_model::blocks::core::{Core, Inputs, Outputs};
 use hapticore_model::blocks::position::TablePort;
-use hapticore_model::bundle::Bundle;
-use hapticore_model::signal::Signal;
 
 use super::{Course, Lap, ROTATED, moved};
 

@@ -5,9 +5,9 @@ use std::fmt::Write;
 use std::fs;
 use std::process::Command;
 
+use hapticore_hdl::bundle::{Bundle, Field};
+use hapticore_hdl::verilog::{Design, Direction, Port};
 use hapticore_model::blocks::core::Inputs;
-use hapticore_model::bundle::{Bundle, Field};
-use hapticore_rtl::verilog::{Design, Direction, Port};
 
 use super::{Course, Lap, ROTATED, moved};
 use crate::lockstep::bits;

@@ -5,13 +5,13 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use hapticore_model::block::Block;
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::block::Block;
+use hapticore_hdl::bundle::Bundle;
+use hapticore_hdl::signal::Signal;
 use hapticore_model::blocks::core::{Core, Inputs, Outputs};
 use hapticore_model::blocks::frames::Field;
 use hapticore_model::blocks::position::TablePort;
-use hapticore_model::bundle::Bundle;
-use hapticore_model::profile::Profile;
-use hapticore_model::signal::Signal;
 use hapticore_tests::tools::{have, run};
 
 use crate::{Table, expect, finish, refuse};
@@ -38,7 +38,7 @@ fn from_csv(text: &str) -> Codes {
     let rows = text.lines().filter(|line| !line.starts_with('#')).skip(1);
     for row in rows.map(|line| line.split(',').collect::<Vec<_>>()) {
         let [name, address, code, value, format] = row[..] else { panic!("{row:?}") };
-        let (code, format): (i64, hapticore_model::format::Format) = (code.parse().unwrap(), format.parse().unwrap());
+        let (code, format): (i64, hapticore_hdl::format::Format) = (code.parse().unwrap(), format.parse().unwrap());
         assert_eq!(value.parse::<f64>().unwrap(), format.real(code), "{row:?}");
         match address {
             "" => codes.constants.push((name.into(), code)),

@@ -72,7 +72,7 @@ fn pads_that_touch_are_told() {
 #[test]
 fn a_mean_over_windows_reads_a_slow_haptic_voltage() {
     let folder = tempfile::tempdir().unwrap();
-    let text = hapticore_model::profile::BUNDLED.iter().find(|(name, _)| *name == "standard").unwrap().1;
+    let text = hapticore_contract::profile::BUNDLED.iter().find(|(name, _)| *name == "standard").unwrap().1;
     for windows in [1, 16] {
         let own = text
             .replace("name = \"standard\"", "name = \"mine\"")

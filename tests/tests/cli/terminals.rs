@@ -47,7 +47,7 @@ fn a_capture_of_four_terminals_is_replayed_as_it_was_simulated() {
 #[test]
 fn a_profile_of_ones_own_keeps_its_number_of_terminals() {
     let folder = tempfile::tempdir().unwrap();
-    let text = hapticore_model::profile::BUNDLED.iter().find(|(name, _)| *name == "standard").unwrap().1;
+    let text = hapticore_contract::profile::BUNDLED.iter().find(|(name, _)| *name == "standard").unwrap().1;
     fs::write(folder.path().join("mine.toml"), text.replace("name = \"standard\"", "name = \"mine\"")).unwrap();
     let set = ["--set", "sheet.terminals=4", "--profile", "mine.toml"];
     let words = ["profile mine", "terminals.x", "expected 4 signs", "got 6"];

@@ -121,7 +121,7 @@ impl Format {
 
 #[cfg(test)]
 mod tests {
-    use hapticore_model::format::Format as Codes;
+    use hapticore_hdl::format::Format as Codes;
 
     use super::super::super::{Described, open};
     use super::*;

@@ -12,10 +12,10 @@
 //! Latency: B + 3 clocks a word, of 2 · terminals + 2 words, twice; B clocks of moving back; B the profile's `block_shift`.
 
 use super::{Currents, Registers, Step};
-use crate::block::Interpretation;
-use crate::format::Format;
-use crate::signal::{Floor, HalfEven, Proved, Saturate, Signal, Wrap, bit, int};
-use crate::states::States;
+use hapticore_hdl::block::Interpretation;
+use hapticore_hdl::format::Format;
+use hapticore_hdl::signal::{Floor, HalfEven, Proved, Saturate, Signal, Wrap, bit, int};
+use hapticore_hdl::states::States;
 
 impl Currents {
     /// Clocks that words of one point do without: alignment, and moving back.

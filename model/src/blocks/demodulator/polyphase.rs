@@ -21,14 +21,14 @@
 //! | i, q    | 2^-dropped S_p  | full scale · samples | cannot (range proof) |
 
 use super::{Demodulator, Inputs, Outputs, PIPELINE, Registers};
-use crate::block::{Interpretation, State};
 use crate::blocks::multiplier;
 use crate::blocks::oscillator::PHASES;
-use crate::format::Format;
-use crate::memory::Write;
-use crate::profile::Profile;
-use crate::signal::{Floor, HalfEven, Proved, Signal, Wrap, bit, code, int, zero};
-use crate::{call, next, when};
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::block::{Interpretation, State};
+use hapticore_hdl::format::Format;
+use hapticore_hdl::memory::Write;
+use hapticore_hdl::signal::{Floor, HalfEven, Proved, Signal, Wrap, bit, code, int, zero};
+use hapticore_hdl::{call, next, when};
 
 /// The multiplier's operands: unsigned integers.
 pub(super) const OPERAND: Format = Format::unsigned(LIMB, 0);

@@ -9,7 +9,7 @@ use super::instruction::{
     CHECK, COUNT, Index, Instruction, LOW, OPEN, Operation, SCALARS, SHARE, SLOT_BITS, SURFACE, WRAP,
 };
 use super::{Position, Program, Surface};
-use crate::format::Format;
+use hapticore_hdl::format::Format;
 
 /// The scratch memory, as many words as an instruction can name: a run has a copy of its own, without an allocation.
 type Scratch = [i64; 1 << SLOT_BITS];
@@ -232,7 +232,7 @@ impl Run<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::profile::Profile;
+    use hapticore_contract::profile::Profile;
     use hapticore_reference::rounded::{Exact, Position as Reference};
 
     /// Numbers without a pattern.

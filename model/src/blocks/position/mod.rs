@@ -40,13 +40,13 @@ use self::at_once::AtOnce;
 use self::instruction::{COUNT, LOW, OPEN, Operation, SCALARS, SHARE, SURFACE, WRAP};
 use self::program::Program;
 use super::multiplier::{self, Multiplier};
-use crate::block::{Block, Interpretation, State};
-use crate::format::{BIT, Format};
-use crate::memory::{Memory, Write};
-use crate::profile::Profile;
-use crate::signal::{Floor, Proved, Saturate, Signal, Wrap, bit, code, int, is_set, zero};
-use crate::states::States;
-use crate::{block, bundle, call, states, when};
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::block::{Block, Interpretation, State};
+use hapticore_hdl::format::{BIT, Format};
+use hapticore_hdl::memory::{Memory, Write};
+use hapticore_hdl::signal::{Floor, Proved, Saturate, Signal, Wrap, bit, code, int, is_set, zero};
+use hapticore_hdl::states::States;
+use hapticore_hdl::{block, bundle, call, states, when};
 
 bundle! {
     /// The port through which a calibration writes the position table.

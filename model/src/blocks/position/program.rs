@@ -6,11 +6,11 @@
 
 use super::instruction::{CHECK, COUNT, Index, Instruction, LOW, OPEN, Operation, SCALARS, SHARE, SURFACE, Slot, WRAP};
 use super::{Axis, Layout, Scalar, Surface};
-use crate::format::Format;
 use Operation::{
     Base, End, Found, Input, Load, LoadCell, LoadDigit, LoadQuotient, Multiply, MultiplyTable, Output, Pass, Repeat,
     Set, Store, Surfaces,
 };
+use hapticore_hdl::format::Format;
 
 /// The program of a profile.
 #[derive(Debug, Clone)]

@@ -63,7 +63,7 @@ pub fn plant(scene: &str, set: &[&str]) -> Plant {
     let set: Vec<_> = set.iter().map(|key| key.split_once('=').unwrap()).map(|(a, b)| (a.into(), b.into())).collect();
     let text = hapticore_scene::gallery::find(scene).unwrap();
     let scene = Scene::parse(text, scene, &set).unwrap();
-    let profile = hapticore_model::profile::Profile::bundled("standard").unwrap();
+    let profile = hapticore_contract::profile::Profile::bundled("standard").unwrap();
     let timing = Timing { signs: None, ..hapticore::inputs::timing(&profile) };
     Plant::new(&scene.within_budget(&timing).unwrap(), 0, &timing).unwrap()
 }

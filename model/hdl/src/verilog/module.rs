@@ -6,8 +6,8 @@ use super::expression::{BREAK, bits, literal};
 use super::names::{Names, ports};
 use super::scope::{Scope, range};
 use super::{Direction, Port};
-use hapticore_model::interpretations::netlist::{Module, Named, Netlist, Node, Op, Ram};
-use hapticore_model::memory::Collision;
+use crate::interpretations::netlist::{Module, Named, Netlist, Node, Op, Ram};
+use crate::memory::Collision;
 use std::fmt::Write;
 
 /// The text of a module.

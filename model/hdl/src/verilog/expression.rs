@@ -2,8 +2,8 @@
 //! Operations as Verilog expressions, every operand at the width and sign of its operation.
 
 use super::scope::{Id, Kind, Scope, Text};
-use hapticore_model::format::Format;
-use hapticore_model::interpretations::netlist::{Node, Op};
+use crate::format::Format;
+use crate::interpretations::netlist::{Node, Op};
 
 /// A sized constant: negative codes as the bits they are.
 pub fn literal(code: i64, width: u8) -> String {

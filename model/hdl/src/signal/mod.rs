@@ -14,8 +14,8 @@
 //! rounding and their overflow.
 //!
 //! ```
-//! use hapticore_model::format::Format;
-//! use hapticore_model::signal::{Clocked, HalfEven, Saturate, Signal, code};
+//! use hapticore_hdl::format::Format;
+//! use hapticore_hdl::signal::{Clocked, HalfEven, Saturate, Signal, code};
 //!
 //! let adc = Format::signed(16, 15);
 //! let (x, gain): (Signal<Clocked>, _) = (code(-32768, adc), code(3, Format::unsigned(2, 0)));

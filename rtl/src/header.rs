@@ -4,17 +4,22 @@
 
 use std::fmt::Write;
 
+use hapticore_contract::profile::Profile;
 use hapticore_model::blocks::core::Core;
 use hapticore_model::blocks::frames::Field;
-use hapticore_model::profile::Profile;
 
-use super::Design;
+use hapticore_hdl::verilog::Design;
 
 /// The file's name.
 pub const NAME: &str = "hapticore.vh";
 
 /// The words of a frame, in the order of [`Field::ALL`].
 const FIELDS: [&str; Field::ALL.len()] = ["R_X", "R_Y", "X", "Y", "SHEET", "CAPACITANCE", "FORCE", "MEAN_SQUARE"];
+
+/// Prints the core of a profile, as `hapticore hdl --profile` does.
+pub fn design(profile: &Profile) -> Design {
+    Design::of(&Core::new(profile), &format!("hapticore hdl --profile {}", profile.name))
+}
 
 /// The text of [`NAME`] for a core.
 pub fn of_core(profile: &Profile, design: &Design) -> String {
@@ -55,7 +60,7 @@ mod tests {
     #[test]
     fn names_are_there_once() {
         let profile = Profile::bundled("small").expect("bundled");
-        let text = of_core(&profile, &Design::of_core(&profile));
+        let text = of_core(&profile, &design(&profile));
         let names = text.lines().filter_map(|line| line.strip_prefix("localparam ")?.split(' ').next());
         let names: Vec<_> = names.collect();
         let mut distinct = names.clone();

@@ -2,9 +2,9 @@
 //! Changes of format: rounding, then overflow.
 
 use super::scope::{Id, Kind, Scope, Text};
-use hapticore_model::format::Format;
-use hapticore_model::interpretations::netlist::Node;
-use hapticore_model::signal::{Overflow, Rounding};
+use crate::format::Format;
+use crate::interpretations::netlist::Node;
+use crate::signal::{Overflow, Rounding};
 
 impl Scope<'_> {
     /// The text of a wire in another format.

@@ -4,11 +4,11 @@
 /// Declares a block: configuration, submodules, ports and registers, each once, with the format beside the name.
 ///
 /// ```
-/// use hapticore_model::block::{Block, Interface, Interpretation, State};
-/// use hapticore_model::format::{BIT, Format};
-/// use hapticore_model::signal::{Proved, Signal, bit, code};
+/// use hapticore_hdl::block::{Block, Interface, Interpretation, State};
+/// use hapticore_hdl::format::{BIT, Format};
+/// use hapticore_hdl::signal::{Proved, Signal, bit, code};
 ///
-/// hapticore_model::block! {
+/// hapticore_hdl::block! {
 ///     /// Adds up what comes in.
 ///     pub struct Accumulator("accumulator") {
 ///         /// The format of the sum.
@@ -31,7 +31,7 @@
 /// impl Block for Accumulator {
 ///     fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
 ///         let r = state.load(self);
-///         let sum = (r.sum + i.sample).resize(self.sum, hapticore_model::signal::Wrap);
+///         let sum = (r.sum + i.sample).resize(self.sum, hapticore_hdl::signal::Wrap);
 ///         state.store(self, Registers { sum: i.enable.select(sum, r.sum) });
 ///         Outputs { sum: r.sum }
 ///     }

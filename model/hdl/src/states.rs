@@ -2,9 +2,9 @@
 //! States of a state machine: an `enum` whose names reach the Verilog's legend and the waveform viewer.
 //!
 //! ```
-//! use hapticore_model::states::States;
+//! use hapticore_hdl::states::States;
 //!
-//! hapticore_model::states! {
+//! hapticore_hdl::states! {
 //!     /// The steps of a division.
 //!     pub enum Step {
 //!         Idle,

@@ -20,17 +20,14 @@
 mod clock;
 mod expression;
 mod fit;
-pub mod header;
 mod live;
 mod module;
 mod names;
 mod scope;
 
-use hapticore_model::block::Block;
-use hapticore_model::blocks::core::Core;
-use hapticore_model::format::Format;
-use hapticore_model::interpretations::netlist::{Module, Netlist};
-use hapticore_model::profile::Profile;
+use crate::block::Block;
+use crate::format::Format;
+use crate::interpretations::netlist::{Module, Netlist};
 
 /// A file of a design: one module.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -75,11 +72,6 @@ pub struct Design {
 }
 
 impl Design {
-    /// Prints the core of a profile, as `hapticore hdl --profile` does.
-    pub fn of_core(profile: &Profile) -> Design {
-        Design::of(&Core::new(profile), &format!("hapticore hdl --profile {}", profile.name))
-    }
-
     /// Prints a block and all within it. `made_by` goes into the head of each file: the command, and the profile.
     ///
     /// # Panics

@@ -6,14 +6,14 @@
 //! its fields are then listed in the place of that field, under their own names, and a parent hands the whole group on.
 //!
 //! ```
-//! use hapticore_model::bundle::Bundle;
-//! use hapticore_model::format::{BIT, Format};
+//! use hapticore_hdl::bundle::Bundle;
+//! use hapticore_hdl::format::{BIT, Format};
 //!
-//! hapticore_model::bundle! {
+//! hapticore_hdl::bundle! {
 //!     /// A write port.
 //!     pub struct Write { enable, address, word }
 //! }
-//! hapticore_model::bundle! {
+//! hapticore_hdl::bundle! {
 //!     pub struct Inputs {
 //!         /// Begins a slot.
 //!         start,

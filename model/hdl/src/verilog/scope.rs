@@ -3,8 +3,8 @@
 
 use super::live::Live;
 use super::names::Names;
-use hapticore_model::format::Format;
-use hapticore_model::interpretations::netlist::{Module, Named, Node, Op};
+use crate::format::Format;
+use crate::interpretations::netlist::{Module, Named, Node, Op};
 
 /// An expression in Verilog; its width and sign are those of the wire it stands for.
 #[derive(Debug, Clone)]

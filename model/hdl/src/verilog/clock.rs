@@ -4,8 +4,8 @@
 
 use super::expression::broken;
 use super::scope::Scope;
-use hapticore_model::format::Format;
-use hapticore_model::interpretations::netlist::{Node, Op};
+use crate::format::Format;
+use crate::interpretations::netlist::{Node, Op};
 use std::fmt::Write;
 
 /// What a register takes next.
