@@ -18,7 +18,7 @@ use hapticore_model::proof::prove;
 const LEMMAS: [&str; 3] = [
     "a square is not negative",
     "the remainder of a division stays below its denominator",
-    "the remainder of a root is at most twice the root so far",
+    "the remainder of a square root is at most twice the root so far",
 ];
 
 #[test]

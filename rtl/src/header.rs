@@ -8,7 +8,9 @@ use hapticore_contract::profile::Profile;
 use hapticore_model::blocks::core::Core;
 use hapticore_model::blocks::frames::Field;
 
-use hapticore_hdl::verilog::Design;
+use hapticore_hdl::verilog::{Design, Heading};
+
+use crate::board::framing::digest;
 
 /// The file's name.
 pub const NAME: &str = "hapticore.vh";
@@ -18,7 +20,41 @@ const FIELDS: [&str; Field::ALL.len()] = ["R_X", "R_Y", "X", "Y", "SHEET", "CAPA
 
 /// Prints the core of a profile, as `hapticore hdl --profile` does.
 pub fn design(profile: &Profile) -> Design {
-    Design::of(&Core::new(profile), &format!("hapticore hdl --profile {}", profile.name))
+    let core = Core::new(profile);
+    let heading = Heading {
+        command: format!("hapticore hdl --profile {}", profile.name),
+        source: source(profile),
+        interface: interface(&core, profile),
+    };
+    Design::of(&core, heading)
+}
+
+/// The versions of what a design is made from.
+pub fn source(profile: &Profile) -> String {
+    format!("hapticore {}, profile {}, digest {:04x}", env!("CARGO_PKG_VERSION"), profile.name, digest(profile))
+}
+
+/// What a user of the core must know besides its ports.
+fn interface(core: &Core, profile: &Profile) -> Vec<String> {
+    let (clocks, codes) = (profile.clocks_per_sample, core.demodulator().least_clocks_per_sample());
+    let mut lines: Vec<String> = vec![
+        String::new(),
+        "Interface".into(),
+        format!("- strobe: one cycle for each set of ADC codes; at least {clocks} cycles from one to the next, else overrun."),
+        "- code: the code of the channel that `channel` named one cycle earlier, of the set announced by the last strobe;".into(),
+        format!("  a set is read from the strobe's cycle on, and is stable for {codes} cycles."),
+        format!("- channels 0 to {}: terminals, sensing voltage, haptic voltage.", profile.channels() - 1),
+        format!("- slots of {} samples, pad after pad; a frame follows its slot's last strobe by at most {} cycles.", profile.slot.samples(), core.latency()),
+        "- capacitance_gain, force_gain: stable from a slot's last strobe to its frame's `done`.".into(),
+        "- write, address, word: a word of the position table per cycle; a slot that is estimated meanwhile gives a frame of".into(),
+        "  neither table. Reset does not clear the table.".into(),
+        "- frame words, in the order of `index`, as two's complement integers whose least significant bit is 2^-fraction:".into(),
+    ];
+    for (index, (field, name)) in (0..).zip(Field::ALL.into_iter().zip(FIELDS)) {
+        let format = field.format(profile);
+        lines.push(format!("  {index} {name:<12} {format} (fraction {})", format.frac));
+    }
+    lines
 }
 
 /// The text of [`NAME`] for a core.

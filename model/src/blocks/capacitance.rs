@@ -7,7 +7,7 @@
 //! ```
 //!
 //! ```text
-//! a ─(×)─[drop]─(²)─(v² −)─[clamp at 0]─[root]─ a ÷ ─[admittance]─(× gain)─[round half even, saturate]─ capacitance
+//! a ─(×)─[drop]─(²)─(v² −)─[clamp at 0]─[sqrt]─ a ÷ ─[admittance]─(× gain)─[round half even, saturate]─ capacitance
 //! R ─┘
 //! ```
 //!
@@ -18,11 +18,11 @@
 //! | capacitance | profile     | pF          | saturates, flagged                       |
 //!
 //! One multiplier serves all four products; it works on codes as integers, so that their points need not agree, and a step
-//! takes as long as it does. Latency: 7 products + root + divider + 3 clocks from `start` to `done`.
+//! takes as long as it does. Latency: 7 products + square root + divider + 3 clocks from `start` to `done`.
 
 use super::divider::{self, Divider};
 use super::multiplier::{self, Multiplier};
-use super::root::{self, Root};
+use super::sqrt::{self, SquareRoot};
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format};
@@ -31,9 +31,9 @@ use hapticore_hdl::states::States;
 use hapticore_hdl::{block, call, next, states};
 
 states! {
-    /// The steps of a capacitance. `Root` and `Divide` wait for their blocks, all others last as long as a product.
+    /// The steps of a capacitance. `SquareRoot` and `Divide` wait for their blocks, all others last as long as a product.
     pub enum Step {
-        Idle, Load, Sense, Drop, Square, DropSquare, Radicand, Root, Divide, GainProduct, Finish,
+        Idle, Load, Sense, Drop, Square, DropSquare, Radicand, SquareRoot, Divide, GainProduct, Finish,
     }
 }
 
@@ -53,7 +53,7 @@ block! {
     }
     submodules {
         multiplier: Multiplier,
-        root: Root,
+        sqrt: SquareRoot,
         divider: Divider,
     }
     inputs(block) {
@@ -80,13 +80,13 @@ block! {
     }
     registers(block) {
         step in Step,
-        waited: BIT,
+        multiplier_busy: BIT,
         /// Operands of the multiplier: codes as integers.
         left: block.left.as_uint(),
         right: block.right.as_uint(),
         drop: block.amplitude,
         square: block.square(),
-        root_start: BIT,
+        sqrt_start: BIT,
         divide: BIT,
         capacitance: block.capacitance,
         invalid: BIT,
@@ -106,21 +106,21 @@ impl Capacitance {
     pub fn new(profile: &Profile, amplitude: Format) -> Self {
         let f = &profile.formats;
         let (sheet, admittance, gain) = (profile.sheet(), f.admittance, f.capacitance_gain);
-        let root = Root::new(square(amplitude), amplitude.frac);
-        let divider = Divider::new(amplitude, root.root(), admittance);
+        let sqrt = SquareRoot::new(square(amplitude), amplitude.frac);
+        let divider = Divider::new(amplitude, sqrt.sqrt(), admittance);
         let left = Format::unsigned(amplitude.width.max(admittance.width), 0);
         let right = Format::unsigned(amplitude.width.max(sheet.width).max(gain.width), 0);
         let correct = profile.capacitance.sheet_correction;
         let multiplier = Multiplier::new(left, right, profile.multiplier);
         let capacitance = f.capacitance;
-        Capacitance { multiplier, root, divider, correct, amplitude, sheet, admittance, gain, capacitance, left, right }
+        Capacitance { multiplier, sqrt, divider, correct, amplitude, sheet, admittance, gain, capacitance, left, right }
     }
 
     /// Clocks from `start` to `done`.
     pub fn latency(&self) -> u64 {
         let clocks = |step: &Step| match step {
             Step::Idle => 1,
-            Step::Root => self.root.latency() + 1,
+            Step::SquareRoot => self.sqrt.latency() + 1,
             Step::Divide => self.divider.latency() + 1,
             _ => self.multiplier.latency(),
         };
@@ -163,7 +163,7 @@ impl Capacitance {
         &self,
         r: Registers<Signal<V>>,
         i: Inputs<Signal<V>>,
-        (product, nothing_left, rooted, divided): (Signal<V>, Signal<V>, Signal<V>, divider::Outputs<Signal<V>>),
+        (product, nothing_left, sqrt_done, divided): (Signal<V>, Signal<V>, Signal<V>, divider::Outputs<Signal<V>>),
     ) -> Registers<Signal<V>> {
         use Step::*;
         let at = |step: Step| r.step.at(step);
@@ -172,18 +172,18 @@ impl Capacitance {
         let (result, held) =
             product.as_code(self.admittance.product(self.gain)).saturate(r.capacitance.format, HalfEven);
         let (left, right) = self.operands(&r, &i, divided.quotient);
-        let waits = (at(Root) & !rooted) | (at(Divide) & !divided.done);
+        let waits = (at(SquareRoot) & !sqrt_done) | (at(Divide) & !divided.done);
         let onward = at(Finish).select(Idle.signal(), r.step + int(1));
         let saturated = (at(Drop) & drop_held) | (at(Divide) & divided.done & divided.saturated) | (at(Finish) & held);
         Registers {
             step: waits.select(r.step, onward).resize(r.step.format, Wrap),
-            waited: bit(false),
+            multiplier_busy: bit(false),
             left,
             right,
             drop: at(Drop).select(drop, r.drop),
             square: at(Square).select(square, r.square),
-            root_start: at(DropSquare),
-            divide: at(Root) & rooted,
+            sqrt_start: at(DropSquare),
+            divide: at(SquareRoot) & sqrt_done,
             capacitance: at(Finish).select(result, r.capacitance),
             invalid: at(Radicand).select(nothing_left, r.invalid),
             saturated: r.saturated | saturated,
@@ -204,19 +204,19 @@ impl Block for Capacitance {
         let inputs = multiplier::Inputs { enable: !r.step.at(Step::Idle), left: r.left, right: r.right };
         let product = call!(self.multiplier, state, inputs).product;
         let (radicand, nothing_left) = self.radicand(&r, product);
-        let inputs = root::Inputs { start: r.root_start, radicand };
-        let root = call!(self.root, state, inputs);
-        let inputs = divider::Inputs { start: r.divide, numerator: i.total, denominator: root.root };
+        let inputs = sqrt::Inputs { start: r.sqrt_start, radicand };
+        let sqrt = call!(self.sqrt, state, inputs);
+        let inputs = divider::Inputs { start: r.divide, numerator: i.total, denominator: sqrt.sqrt };
         let divided = call!(self.divider, state, inputs);
-        let idle = Registers { root_start: bit(false), divide: bit(false), done: bit(false), ..r };
-        let begin = Registers { step: Step::Load.signal(), waited: bit(false), saturated: bit(false), ..idle };
-        let waits = Registers { waited: bit(true), ..idle };
-        let acts = self.multiplier.paces(r.waited) | r.step.at(Step::Root) | r.step.at(Step::Divide);
-        let results = (product, nothing_left, root.done, divided);
+        let idle = Registers { sqrt_start: bit(false), divide: bit(false), done: bit(false), ..r };
+        let begin = Registers { step: Step::Load.signal(), multiplier_busy: bit(false), saturated: bit(false), ..idle };
+        let waits = Registers { multiplier_busy: bit(true), ..idle };
+        let advance = self.multiplier.ready(r.multiplier_busy) | r.step.at(Step::SquareRoot) | r.step.at(Step::Divide);
+        let results = (product, nothing_left, sqrt.done, divided);
         next!(self, state,
             i.start => begin,
             r.step.at(Step::Idle) => idle,
-            acts => self.step(idle, i, results),
+            advance => self.step(idle, i, results),
             else waits
         );
         outputs

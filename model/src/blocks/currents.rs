@@ -6,7 +6,7 @@
 //! ```
 //!
 //! ```text
-//! sum ─(round half even, saturate)─[iq]─[words]─(²)─(+)─[root]─ amplitude ─(±)─ x, y, corners
+//! sum ─(round half even, saturate)─[iq]─[words]─(²)─(+)─[sqrt]─ amplitude ─(±)─ x, y, corners
 //!                                            └─(+ over terminals)─[saturate]─ total
 //! ```
 //!
@@ -19,13 +19,13 @@
 //! Words may be moved up together, so that small currents keep their bits: see `currents/block_floating.rs`. x, y and corners then count what the
 //! largest current makes of a word's step; total and sensing voltage are at one point again.
 //!
-//! Latency: (terminals + 2) · (6 products + root + 1) + 1 clocks from the last sum (the mean square's) to `done`. Source: paper,
+//! Latency: (terminals + 2) · (6 products + square root + 1) + 1 clocks from the last sum (the mean square's) to `done`. Source: paper,
 //! eqs. 2–5; the sum is that of all terminals' complex currents, for the corners alone carry only a part (PHYSICS §1).
 
 mod block_floating;
 
 use super::multiplier::{self, Multiplier};
-use super::root::{self, Root};
+use super::sqrt::{self, SquareRoot};
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format};
@@ -36,9 +36,9 @@ use hapticore_hdl::{block, call, states, when};
 
 states! {
     /// The steps from words to results; those of alignment and the last are of block-floating words (`currents/block_floating.rs`).
-    /// `Root` waits for the square root.
+    /// `SquareRoot` waits for the square root.
     pub enum Step {
-        Idle, Read, InPhase, ReadQuadrature, Quadrature, Square, Power, Root,
+        Idle, Read, InPhase, ReadQuadrature, Quadrature, Square, Power, SquareRoot,
         AlignRead, AlignLoad, AlignMove, AlignKeep, Restore,
     }
 }
@@ -66,7 +66,7 @@ block! {
     submodules {
         words: Memory,
         multiplier: Multiplier,
-        root: Root,
+        sqrt: SquareRoot,
     }
     inputs(currents) {
         /// Asserted for one cycle with each of the demodulator's sums.
@@ -89,27 +89,27 @@ block! {
         /// Their denominator.
         corners: currents.denominator(),
         /// The least amplitude of the terminals, in the unit of the numerators.
-        least: currents.root(),
+        least: currents.root_format(),
         /// A word is saturated.
         saturated: BIT,
     }
     registers(currents) {
-        step in Step: if currents.block == 0 { Format::counter(Step::Root.code()) } else { Step::FORMAT },
+        step in Step: if currents.block == 0 { Format::counter(Step::SquareRoot.code()) } else { Step::FORMAT },
         arrived: BIT,
         place: currents.words.address(),
         word: currents.wide(),
-        waited: BIT,
+        multiplier_busy: BIT,
         channel: Format::counter(currents.terminals + 1),
         total_i: currents.total,
         total_q: currents.total,
         part: currents.part,
         power: Format::unsigned(2 * currents.part.width, 2 * currents.part.frac),
-        root_start: BIT,
-        sense: currents.root(),
+        sqrt_start: BIT,
+        sense: currents.root_format(),
         x: currents.numerator(),
         y: currents.numerator(),
         corners: currents.denominator(),
-        least: currents.root(),
+        least: currents.root_format(),
         saturated: BIT,
         done: BIT,
         long: currents.wide(),
@@ -135,15 +135,15 @@ impl Currents {
         };
         let wide = Format::signed(iq.width + block, iq.frac + block as i8);
         let power = Format::unsigned(2 * part.width, 2 * part.frac);
-        let root = Root::new(power, part.frac);
-        let amplitude = root.root();
+        let sqrt = SquareRoot::new(power, part.frac);
+        let amplitude = sqrt.sqrt();
         let demodulator = super::demodulator::Demodulator::new(profile);
         let words =
             Memory::new("words", (2 * terminals + 4).next_power_of_two() as usize, wide).dont_care_on_collision();
         Currents {
             words,
             multiplier: Multiplier::new(part.integer(), part.integer(), profile.multiplier),
-            root,
+            sqrt,
             terminals,
             signs: [profile.terminals.x.clone(), profile.terminals.y.clone()],
             shift: profile.sum_shift() - demodulator.shift(),
@@ -159,7 +159,7 @@ impl Currents {
 
     /// The format of an amplitude as the square root gives it.
     #[inline(always)]
-    fn root(&self) -> Format {
+    fn root_format(&self) -> Format {
         Format::unsigned(self.amplitude, self.part.frac)
     }
 
@@ -187,12 +187,12 @@ impl Currents {
 
     /// The format of the least amplitude.
     pub fn least(&self) -> Format {
-        self.root()
+        self.root_format()
     }
 
     /// Clocks from the last sum to `done`.
     pub fn latency(&self) -> u64 {
-        (self.terminals + 2) * (6 * self.multiplier.latency() + self.root.latency() + 1) + 1 + self.block_latency()
+        (self.terminals + 2) * (6 * self.multiplier.latency() + self.sqrt.latency() + 1) + 1 + self.block_latency()
     }
 
     /// The in-phase or quadrature word of a sum, and whether it is held at a rail.
@@ -204,30 +204,30 @@ impl Currents {
 
     /// A sum arrives: its word goes into the memory, and with the last the loop over channels begins.
     #[inline(always)]
-    fn take<V: Interpretation>(
+    fn accept_sum<V: Interpretation>(
         &self,
         r: Registers<Signal<V>>,
         i: Inputs<Signal<V>>,
         held: Signal<V>,
     ) -> Registers<Signal<V>> {
-        let among = i.index.less_than(int(2 * (self.terminals + 1)));
+        let of_channel = i.index.less_than(int(2 * (self.terminals + 1)));
         let begin = if self.block == 0 { Step::Read } else { Step::AlignRead }.signal();
         let r = if self.block == 0 { r } else { self.unaligned(r) };
         Registers {
             step: i.index.is(2 * self.terminals + 2).select(begin, r.step),
-            waited: bit(false),
+            multiplier_busy: bit(false),
             channel: int(0),
             total_i: zero(self.total),
             total_q: zero(self.total),
-            saturated: (!i.index.is(0) & r.saturated) | (among & held),
+            saturated: (!i.index.is(0) & r.saturated) | (of_channel & held),
             ..r
         }
     }
 
     /// A total with a terminal's word more, and whether it is held at a rail.
     #[inline(always)]
-    fn more<V: Interpretation>(&self, r: &Registers<Signal<V>>) -> (Signal<V>, Signal<V>) {
-        (r.total_i + r.part).named("more").saturate(self.total, Exact)
+    fn add_terminal<V: Interpretation>(&self, r: &Registers<Signal<V>>) -> (Signal<V>, Signal<V>) {
+        (r.total_i + r.part).named("with_terminal").saturate(self.total, Exact)
     }
 
     /// A step of the loop over channels: words, squares, root, sums.
@@ -237,7 +237,7 @@ impl Currents {
         r: Registers<Signal<V>>,
         word: Signal<V>,
         product: Signal<V>,
-        root: root::Outputs<Signal<V>>,
+        sqrt: sqrt::Outputs<Signal<V>>,
     ) -> Registers<Signal<V>> {
         use Step::*;
         let at = |step: Step| r.step.at(step);
@@ -246,17 +246,17 @@ impl Currents {
         let square = product.resize(self.square(), Assumed(SQUARE)).scaled(-2 * self.part.frac);
         let power = at(Power).select(r.power + square, square).resize(r.power.format, Proved);
         let adds = ((at(ReadQuadrature) | at(Square)) & terminal).named("adds");
-        let (more, held) = self.more(&r);
-        let rooted = (at(Root) & root.done).named("rooted");
-        let r = when!(rooted => self.sum_up(r, root.root), else r);
+        let (more, held) = self.add_terminal(&r);
+        let sqrt_done = (at(SquareRoot) & sqrt.done).named("sqrt_done");
+        let r = when!(sqrt_done => self.sum_up(r, sqrt.sqrt), else r);
         let total = |total: Signal<V>| if self.block == 0 { total } else { self.narrow_total(total) };
         let (in_phase, quadrature) = (all.select(total(r.total_i), word), all.select(total(r.total_q), word));
         let part = at(InPhase).select(in_phase, at(Quadrature).select(quadrature, r.part));
         let after = if self.block == 0 { Idle } else { Restore }.signal();
-        let following = at(Root).select(r.step, r.step + int(1));
+        let following = at(SquareRoot).select(r.step, r.step + int(1));
         Registers {
-            step: rooted.select(all.select(after, Read.signal()), following).resize(r.step.format, Wrap),
-            waited: bit(false),
+            step: sqrt_done.select(all.select(after, Read.signal()), following).resize(r.step.format, Wrap),
+            multiplier_busy: bit(false),
             // The totals change places with every addition: one adder, one register that takes its result.
             total_i: adds.select(r.total_q, r.total_i),
             total_q: when!(adds => more, else r.total_q),
@@ -265,9 +265,9 @@ impl Currents {
                 let squared = at(Quadrature) | at(Power);
                 when!(squared => power, else r.power)
             },
-            root_start: at(Power),
+            sqrt_start: at(Power),
             saturated: r.saturated | (adds & held),
-            done: if self.block == 0 { rooted & all } else { bit(false) },
+            done: if self.block == 0 { sqrt_done & all } else { bit(false) },
             ..r
         }
     }
@@ -286,8 +286,8 @@ impl Currents {
         let smaller = opening | (terminal & amplitude.less_than(r.least));
         let negative = (-amplitude).named("negative");
         let with = |sum: Signal<V>, sign: &dyn Fn(usize) -> i8| {
-            let plus = self.among(r.channel, |k| sign(k) > 0).select(amplitude, zero(amplitude.format));
-            let more = self.among(r.channel, |k| sign(k) < 0).select(negative, plus);
+            let plus = self.is_selected(r.channel, |k| sign(k) > 0).select(amplitude, zero(amplitude.format));
+            let more = self.is_selected(r.channel, |k| sign(k) < 0).select(negative, plus);
             (opening.select(zero(sum.format), sum) + more).resize(sum.format, Proved)
         };
         let [x, y] = &self.signs;
@@ -304,7 +304,7 @@ impl Currents {
     }
 
     /// Whether the channel is one of the terminals that `choose` names.
-    fn among<V: Interpretation>(&self, channel: Signal<V>, choose: impl Fn(usize) -> bool) -> Signal<V> {
+    fn is_selected<V: Interpretation>(&self, channel: Signal<V>, choose: impl Fn(usize) -> bool) -> Signal<V> {
         let chosen = (0..self.terminals).filter(|&k| choose(k as usize));
         chosen.map(|k| channel.is(k)).reduce(|a, b| a | b).unwrap_or(bit(false))
     }
@@ -332,16 +332,16 @@ impl Currents {
         r: Registers<Signal<V>>,
         data: Signal<V>,
         product: Signal<V>,
-        root: root::Outputs<Signal<V>>,
+        sqrt: sqrt::Outputs<Signal<V>>,
     ) -> Registers<Signal<V>> {
-        let waits = Registers { waited: bit(true), ..r };
-        let acts = self.multiplier.paces(r.waited) | r.step.at(Step::Root);
+        let waits = Registers { multiplier_busy: bit(true), ..r };
+        let advance = self.multiplier.ready(r.multiplier_busy) | r.step.at(Step::SquareRoot);
         if self.block == 0 {
-            return when!(acts => self.step(r, data.align_point(r.part.format), product, root), else waits);
+            return when!(advance => self.step(r, data.align_point(r.part.format), product, sqrt), else waits);
         }
         let aligns = r.step.at_least(Step::AlignRead.signal()) & r.step.less_than(Step::Restore.signal());
         let restores = r.step.at(Step::Restore);
-        when!(aligns => self.align(r, data), else when!(restores => self.restore(r), else when!(acts => self.step(r, self.narrow(data), product, root), else waits)))
+        when!(aligns => self.align(r, data), else when!(restores => self.restore(r), else when!(advance => self.step(r, self.narrow(data), product, sqrt), else waits)))
     }
 }
 
@@ -350,10 +350,10 @@ impl Block for Currents {
     fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
         let r = state.load(self);
         // The last root, the total's, stays until the next slot's first.
-        let inputs = root::Inputs { start: r.root_start, radicand: r.power };
-        let root::Outputs { done, root } = call!(self.root, state, inputs);
-        let root = root::Outputs { done, root: root.align_point(r.sense.format) };
-        let outputs = self.results(&r, root.root);
+        let inputs = sqrt::Inputs { start: r.sqrt_start, radicand: r.power };
+        let sqrt::Outputs { done, sqrt } = call!(self.sqrt, state, inputs);
+        let sqrt = sqrt::Outputs { done, sqrt: sqrt.align_point(r.sense.format) };
+        let outputs = self.results(&r, sqrt.sqrt);
         let busy = !r.step.at(Step::Idle);
         if (i.valid | r.arrived | busy | r.done).can_skip() {
             return outputs;
@@ -361,7 +361,7 @@ impl Block for Currents {
         let (word, held) = self.word(i.sum);
         let inputs = multiplier::Inputs { enable: busy, left: r.part.integer(), right: r.part.integer() };
         let product = call!(self.multiplier, state, inputs).product;
-        let among = i.index.less_than(int(2 * (self.terminals + 1))).named("among");
+        let of_channel = i.index.less_than(int(2 * (self.terminals + 1))).named("of_channel");
         let data = self.words.data(&mut state.submodules.words);
         let second = !r.step.less_than(Step::ReadQuadrature.signal());
         let second = if self.block == 0 {
@@ -373,9 +373,9 @@ impl Block for Currents {
         let address = address.bits(0, self.words.address().width);
         let write = Write { enable: r.arrived, address: r.place, data: r.word };
         self.words.access(&mut state.submodules.words, address, write);
-        let idle = Registers { done: bit(false), root_start: bit(false), ..r };
-        let next = when!(i.valid => self.take(idle, i, held), else when!(busy => self.busy(idle, data, product, root), else idle));
-        let arrived = i.valid & among;
+        let idle = Registers { done: bit(false), sqrt_start: bit(false), ..r };
+        let next = when!(i.valid => self.accept_sum(idle, i, held), else when!(busy => self.busy(idle, data, product, sqrt), else idle));
+        let arrived = i.valid & of_channel;
         let place = i.index.bits(0, self.words.address().width);
         let (place, word) = (arrived.select(place, r.place), when!(arrived => word, else r.word));
         let (arrived, place, word) = if self.block == 0 {

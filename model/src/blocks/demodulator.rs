@@ -7,15 +7,15 @@
 //!
 //! ```text
 //! window, codes ──┐
-//! local oscillator ─(×)─[product]─┬─[weighted: rounded]─[weights: w·cos, w·sin, w·h]
+//! local oscillator ─(×)─[product]─┬─[windowed: rounded]─[windowed_lo: w·cos, w·sin, w·h]
 //!                                 └─(+)─[sum]─[sums: one word a channel and phase]
 //! ```
 //!
-//! One multiplier serves all: three products weigh (w·cos, w·sin, w·h), two for each channel and one for h follow. What has
-//! been made in a clock is stored in the next; the first channel takes its weights on their way to their memory.
+//! One multiplier serves all: three products apply the window (w·cos, w·sin, w·h), two for each channel and one for h follow. What has
+//! been made in a clock is stored in the next; the first channel takes its windowed_lo on their way to their memory.
 //!
 //! | signal   | format               | unit               | overflow            |
-//! | weighted | ADC's and oscillator's, joined | full scale | cannot (range proof) |
+//! | windowed | ADC's and oscillator's, joined | full scale | cannot (range proof) |
 //! | sum      | exact                | full scale · samples | cannot (range proof) |
 //!
 //! What rounding leaves of w·cos and w·sin is carried to the next sample's, so that the sums of the words are those of the
@@ -58,7 +58,7 @@ block! {
     }
     submodules {
         pub(super) multiplier: Multiplier,
-        weights: Memory,
+        windowed_lo: Memory,
         pub(super) sums: Memory,
     }
     inputs(demodulator) {
@@ -102,7 +102,7 @@ block! {
         pad: demodulator.pad.as_uint(),
         left: demodulator.operand,
         right: demodulator.operand,
-        weighted: demodulator.operand,
+        windowed: demodulator.operand,
         residue: demodulator.residue(),
         other_residue: demodulator.residue(),
         valid: BIT,
@@ -122,7 +122,7 @@ block! {
 }
 
 /// Products before those of the channels: window times cosine, sine and haptic code.
-const WEIGHING: u64 = 3;
+const WINDOWING: u64 = 3;
 /// Clocks from a product's operands to its use.
 const PIPELINE: u64 = 2;
 
@@ -141,11 +141,11 @@ impl Demodulator {
             Format::signed(product.width - u8::from(product.signed) + growth + u8::from(!product.signed), product.frac);
         let sums = 2 * channels + 1;
         let words = polyphase.as_ref().map_or(sums, |polyphase| polyphase.words());
-        let steps = if polyphase.is_some() { channels + 2 } else { WEIGHING + sums } + PIPELINE;
+        let steps = if polyphase.is_some() { channels + 2 } else { WINDOWING + sums } + PIPELINE;
         Demodulator {
             // In one clock whatever its width: products keep pace with the channels.
             multiplier: Multiplier::new(operand.integer(), operand.integer(), MAX_WIDTH),
-            weights: Memory::new("weights", WEIGHING.next_power_of_two() as usize, operand)
+            windowed_lo: Memory::new("windowed_lo", WINDOWING.next_power_of_two() as usize, operand)
                 .dont_care_on_collision()
                 .in_block(),
             sums: Memory::new("sums", words.next_power_of_two() as usize, sum).dont_care_on_collision(),
@@ -196,12 +196,12 @@ impl Demodulator {
     }
 
     pub(super) fn steps(&self) -> u64 {
-        PIPELINE + if self.polyphase.is_some() { self.channels + 2 } else { WEIGHING + self.sums() }
+        PIPELINE + if self.polyphase.is_some() { self.channels + 2 } else { WINDOWING + self.sums() }
     }
 
     /// The haptic code's share of the window: its product with the window.
     #[inline(always)]
-    pub fn weigh<V: Interpretation>(&self, product: Signal<V>) -> Signal<V> {
+    pub fn window_product<V: Interpretation>(&self, product: Signal<V>) -> Signal<V> {
         product.quantize(self.adc, HalfEven, Proved)
     }
 
@@ -257,8 +257,9 @@ impl Demodulator {
     #[inline(always)]
     fn channel<V: Interpretation>(&self, r: &Registers<Signal<V>>) -> Signal<V> {
         let format = self.channel.as_uint();
-        let ahead = (r.step - int(WEIGHING - 1)).bits(1, format.width);
-        let of_channels = r.step.at_least(int(WEIGHING - 1)) & r.step.less_than(int(WEIGHING - 1 + 2 * self.channels));
+        let ahead = (r.step - int(WINDOWING - 1)).bits(1, format.width);
+        let of_channels =
+            r.step.at_least(int(WINDOWING - 1)) & r.step.less_than(int(WINDOWING - 1 + 2 * self.channels));
         of_channels.select(ahead, code(self.channels as i64, format))
     }
 
@@ -268,40 +269,40 @@ impl Demodulator {
         &self,
         r: &Registers<Signal<V>>,
         i: &Inputs<Signal<V>>,
-        weight: Signal<V>,
+        window_word: Signal<V>,
     ) -> (Signal<V>, Signal<V>) {
-        let weighing = r.step.less_than(int(WEIGHING)).named("weighing");
+        let windowing = r.step.less_than(int(WINDOWING)).named("windowing");
         let [code, window, cosine, sine] = [i.code, i.window, i.cosine, i.sine].map(|a| a.align_point(r.left.format));
         let wave = r.step.is(0).select(cosine, r.step.is(1).select(sine, code));
-        let weighted = r.step.less_than(int(WEIGHING + PIPELINE)).select(r.weighted, weight);
-        (weighing.select(window, code), weighing.select(wave, weighted))
+        let windowed = r.step.less_than(int(WINDOWING + PIPELINE)).select(r.windowed, window_word);
+        (windowing.select(window, code), windowing.select(wave, windowed))
     }
 
-    /// Stores the weight that the clock before has made, and asks for that of the next step.
+    /// Stores the windowed local oscillator of the cycle before, and asks for that of the next step.
     #[inline(always)]
-    fn weights<V: Interpretation>(&self, r: &Registers<Signal<V>>, words: &mut V::Words) -> Signal<V> {
-        let format = self.weights.format.assume_frac(self.operand.frac);
-        let weight = Signal { format, ..self.weights.data(words) };
-        let place = (r.step - int(WEIGHING)).bits(0, Format::counter(WEIGHING - 1).width);
-        let enable = r.busy & r.step.at_least(int(WEIGHING)) & r.step.less_than(int(2 * WEIGHING));
-        let haptic = r.step.is(WEIGHING - 1 + 2 * self.channels);
-        let sine = (r.step - int(WEIGHING - 1)).bits(0, 1);
+    fn windowed_lo<V: Interpretation>(&self, r: &Registers<Signal<V>>, words: &mut V::Words) -> Signal<V> {
+        let format = self.windowed_lo.format.assume_frac(self.operand.frac);
+        let window_word = Signal { format, ..self.windowed_lo.data(words) };
+        let place = (r.step - int(WINDOWING)).bits(0, Format::counter(WINDOWING - 1).width);
+        let enable = r.busy & r.step.at_least(int(WINDOWING)) & r.step.less_than(int(2 * WINDOWING));
+        let haptic = r.step.is(WINDOWING - 1 + 2 * self.channels);
+        let sine = (r.step - int(WINDOWING - 1)).bits(0, 1);
         let wanted = haptic.concat(sine & !haptic);
-        self.weights.access(words, wanted, Write { enable, address: place, data: r.weighted });
-        weight
+        self.windowed_lo.access(words, wanted, Write { enable, address: place, data: r.windowed });
+        window_word
     }
 
-    /// While there are weights to be made, the one that the product is: of cosine, sine, and the haptic code. The residues of
+    /// While there are windowed_lo to be made, the one that the product is: of cosine, sine, and the haptic code. The residues of
     /// cosine and sine change places with each.
     #[inline(always)]
-    fn weighted<V: Interpretation>(&self, r: Registers<Signal<V>>, product: Signal<V>) -> Registers<Signal<V>> {
+    fn windowed<V: Interpretation>(&self, r: Registers<Signal<V>>, product: Signal<V>) -> Registers<Signal<V>> {
         let of_wave = (r.step.is(PIPELINE) | r.step.is(PIPELINE + 1)).named("of_wave");
-        let of_haptic = r.step.is(PIPELINE + WEIGHING - 1);
+        let of_haptic = r.step.is(PIPELINE + WINDOWING - 1);
         let residue = r.first.select(self.fresh_residue(), r.residue);
         let (wave, rest) = self.carry(product, residue);
-        let word = |word: Signal<V>| word.resize(r.weighted.format, Proved);
+        let word = |word: Signal<V>| word.resize(r.windowed.format, Proved);
         Registers {
-            weighted: when!(of_haptic => word(self.weigh(product)), else word(wave)),
+            windowed: when!(of_haptic => word(self.window_product(product)), else word(wave)),
             residue: of_wave.select(r.other_residue, r.residue),
             other_residue: of_wave.select(rest, r.other_residue),
             ..r
@@ -333,14 +334,14 @@ impl Demodulator {
         r: Registers<Signal<V>>,
         i: Inputs<Signal<V>>,
         index: Signal<V>,
-        (product, weight): (Signal<V>, Signal<V>),
+        (product, window_word): (Signal<V>, Signal<V>),
         (sum, summed): (Signal<V>, Signal<V>),
     ) -> Registers<Signal<V>> {
-        let (left, right) = self.operands(&r, &i, weight);
-        let uses_code = r.step.at_least(int(WEIGHING - 1)) & r.step.less_than(int(WEIGHING + self.sums()));
+        let (left, right) = self.operands(&r, &i, window_word);
+        let uses_code = r.step.at_least(int(WINDOWING - 1)) & r.step.less_than(int(WINDOWING + self.sums()));
         let end = r.step.is(self.steps() - 1);
-        let weighing = r.step.at_least(int(PIPELINE)) & r.step.less_than(int(PIPELINE + WEIGHING));
-        let r = when!(weighing => self.weighted(r, product), else r);
+        let windowing = r.step.at_least(int(PIPELINE)) & r.step.less_than(int(PIPELINE + WINDOWING));
+        let r = when!(windowing => self.windowed(r, product), else r);
         Registers {
             busy: !end,
             step: end.select(int(0), r.step + int(1)).resize(r.step.format, Proved),
@@ -369,8 +370,8 @@ impl Block for Demodulator {
             return outputs;
         }
         let place = |ahead: u64| {
-            let from_end = r.step - int(WEIGHING + PIPELINE - ahead);
-            let in_range = r.step.at_least(int(WEIGHING + PIPELINE - ahead));
+            let from_end = r.step - int(WINDOWING + PIPELINE - ahead);
+            let in_range = r.step.at_least(int(WINDOWING + PIPELINE - ahead));
             (in_range & r.busy, from_end.bits(0, self.index.width))
         };
         let ((summed, index), (_, next_index)) = (place(0), place(1));
@@ -381,11 +382,11 @@ impl Block for Demodulator {
         let sum = self.accumulate(r.first, so_far, product);
         let write = Write { enable: r.summed, address: r.index, data: r.sum };
         self.sums.access(&mut state.submodules.sums, next_index, write);
-        let weight = self.weights(&r, &mut state.submodules.weights);
+        let window_word = self.windowed_lo(&r, &mut state.submodules.windowed_lo);
         let r = Registers { valid: bit(false), summed: bit(false), ..r };
         next!(self, state,
             i.start => self.begin(r, i),
-            r.busy => self.step(r, i, index, (product, weight), (sum, summed)),
+            r.busy => self.step(r, i, index, (product, window_word), (sum, summed)),
             else r
         );
         outputs

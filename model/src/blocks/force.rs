@@ -27,7 +27,7 @@ use hapticore_hdl::{block, call, next, states};
 states! {
     /// The steps of an estimate. Each lasts as long as a product.
     pub enum Step {
-        Idle, Load, Square, NarrowSquare, Weigh, Energy, NarrowEnergy, Scale, GainProduct, Finish,
+        Idle, Load, Square, NarrowSquare, MeanSquare, Energy, NarrowEnergy, Scale, GainProduct, Finish,
     }
 }
 
@@ -67,7 +67,7 @@ block! {
     }
     registers(force) {
         step in Step,
-        waited: BIT,
+        multiplier_busy: BIT,
         /// Operands of the multiplier: codes as integers.
         left: force.left.as_uint(),
         right: force.right.as_uint(),
@@ -122,9 +122,9 @@ impl Force {
         let saturated = (at(NarrowSquare) & square_held) | (at(NarrowEnergy) & energy_held) | (at(Finish) & force_held);
         Registers {
             step: at(Finish).select(Idle.signal(), r.step + int(1)).resize(r.step.format, Wrap),
-            waited: bit(false),
+            multiplier_busy: bit(false),
             left: at(Load).select(capacitance, r.factor.integer()),
-            right: at(Load).select(capacitance, at(Weigh).select(mean_square, gain)),
+            right: at(Load).select(capacitance, at(MeanSquare).select(mean_square, gain)),
             factor: (at(NarrowSquare) | at(NarrowEnergy)).select(factor, r.factor),
             haptic_force: at(Finish).select(force, r.haptic_force),
             saturated: r.saturated | saturated,
@@ -143,14 +143,14 @@ impl Block for Force {
         }
         let inputs = multiplier::Inputs { enable: !r.step.at(Step::Idle), left: r.left, right: r.right };
         let product = call!(self.multiplier, state, inputs).product;
-        let acts = self.multiplier.paces(r.waited);
+        let advance = self.multiplier.ready(r.multiplier_busy);
         let idle = Registers { done: bit(false), ..r };
-        let waits = Registers { waited: bit(true), ..idle };
-        let begin = Registers { step: Step::Load.signal(), waited: bit(false), saturated: bit(false), ..idle };
+        let waits = Registers { multiplier_busy: bit(true), ..idle };
+        let begin = Registers { step: Step::Load.signal(), multiplier_busy: bit(false), saturated: bit(false), ..idle };
         next!(self, state,
             i.start => begin,
             r.step.at(Step::Idle) => idle,
-            acts => self.step(idle, i, product),
+            advance => self.step(idle, i, product),
             else waits
         );
         outputs

@@ -16,4 +16,4 @@ pub mod oscillator;
 pub mod pace;
 pub mod position;
 pub mod ratio;
-pub mod root;
+pub mod sqrt;

@@ -31,7 +31,7 @@ block! {
     }
     submodules {}
     inputs(multiplier) {
-        /// Asserted while a product is waited for.
+        /// Asserted while a product is multiplier_busy for.
         enable: BIT,
         /// A code as an integer.
         left: multiplier.left,
@@ -84,10 +84,10 @@ impl Multiplier {
         if self.low == [0, 0] { 1 } else { 2 }
     }
 
-    /// Whether a step that lasts as long as a product ends with this clock; `waited` says that one has gone by.
+    /// Whether a step that lasts as long as a product ends with this clock; `multiplier_busy` says that one has gone by.
     #[inline(always)]
-    pub fn paces<V: Interpretation>(&self, waited: Signal<V>) -> Signal<V> {
-        if self.latency() == 1 { bit(true) } else { waited }
+    pub fn ready<V: Interpretation>(&self, multiplier_busy: Signal<V>) -> Signal<V> {
+        if self.latency() == 1 { bit(true) } else { multiplier_busy }
     }
 
     /// The format of the product.

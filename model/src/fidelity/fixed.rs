@@ -141,7 +141,7 @@ impl<V: Interpretation> FixedSimulation<V> {
         for (samples, local) in samples.zip(local) {
             for ((sum, codes), local) in sums.iter_mut().zip(samples.chunks_exact(self.channels)).zip(local) {
                 let code = demodulator.raised(raw(codes[channel], adc));
-                *sum = demodulator.add(*sum, code * demodulator.weight(self.wave(local.window)));
+                *sum = demodulator.add(*sum, code * demodulator.window_word(self.wave(local.window)));
             }
         }
         sums
@@ -168,15 +168,15 @@ impl<V: Interpretation> FixedSimulation<V> {
         if demodulator.polyphase().is_some() {
             for (codes, local) in codes.chunks_exact(self.channels).zip(&self.local) {
                 let code = demodulator.magnitude(raw(codes[channel], adc));
-                let share = demodulator.share(demodulator.weight(self.wave(local.window)) * code);
+                let share = demodulator.share(demodulator.window_word(self.wave(local.window)) * code);
                 sum = demodulator.add(sum, code * share);
             }
             return sum;
         }
         for (codes, local) in codes.chunks_exact(self.channels).zip(&self.local) {
             let code = raw(codes[channel], adc);
-            let weighted = demodulator.weigh(self.wave(local.window) * code);
-            sum = demodulator.accumulate(begun, sum, code * weighted);
+            let windowed = demodulator.window_product(self.wave(local.window) * code);
+            sum = demodulator.accumulate(begun, sum, code * windowed);
         }
         sum
     }

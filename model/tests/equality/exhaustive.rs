@@ -4,7 +4,7 @@
 use crate::harness::{Bench, within};
 use hapticore_hdl::format::Format;
 use hapticore_model::blocks::divider::{self, Divider};
-use hapticore_model::blocks::root::{self, Root};
+use hapticore_model::blocks::sqrt::{self, SquareRoot};
 use hapticore_reference::rounded::{Exact, round_quotient, round_root};
 
 fn check_divider(numerator: &str, denominator: &str, quotient: &str) {
@@ -61,19 +61,19 @@ fn every_quotient_of_4_by_8_bits() {
 
 fn check_root(radicand: &str, frac: i8) {
     let format: Format = radicand.parse().expect("a format");
-    let mut bench = Bench::new(Root::new(format, frac));
+    let mut bench = Bench::new(SquareRoot::new(format, frac));
     for radicand in 0..1 << format.width {
         let out = take_root(&mut bench, radicand);
-        let reference = round_root(Exact::of(radicand, format), frac).code(bench.block.root());
-        assert_eq!(out.root, reference, "√{radicand} of {format}: got, reference");
+        let reference = round_root(Exact::of(radicand, format), frac).code(bench.block.sqrt());
+        assert_eq!(out.sqrt, reference, "√{radicand} of {format}: got, reference");
     }
 }
 
 /// Takes a root, and looks at every register on every clock.
-fn take_root(bench: &mut Bench<Root>, radicand: i64) -> root::Outputs<i64> {
+fn take_root(bench: &mut Bench<SquareRoot>, radicand: i64) -> sqrt::Outputs<i64> {
     let mut start = 1;
     loop {
-        let out = bench.clock(root::Inputs { start, radicand });
+        let out = bench.clock(sqrt::Inputs { start, radicand });
         if out.done == 1 && start == 0 {
             return out;
         }

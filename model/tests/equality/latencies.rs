@@ -18,7 +18,7 @@ use hapticore_model::blocks::oscillator::{self, Oscillator};
 use hapticore_model::blocks::position::TablePort;
 use hapticore_model::blocks::position::{self, Position};
 use hapticore_model::blocks::ratio::Ratio;
-use hapticore_model::blocks::root::Root;
+use hapticore_model::blocks::sqrt::SquareRoot;
 
 /// Clocks that a block is given in all, about.
 const CLOCKS: u64 = 2_000_000;
@@ -48,7 +48,7 @@ fn divider() {
 #[test]
 fn root() {
     for width in [7, 8, 20] {
-        let block = Root::new(Format::unsigned(width, 4), 5);
+        let block = SquareRoot::new(Format::unsigned(width, 4), 5);
         check_latency(block.clone(), block.latency());
     }
 }

@@ -13,7 +13,7 @@ use hapticore_model::blocks::force::Force;
 use hapticore_model::blocks::position::TablePort;
 use hapticore_model::blocks::position::{self, Position};
 use hapticore_model::blocks::ratio::{self, Ratio};
-use hapticore_model::blocks::root::Root;
+use hapticore_model::blocks::sqrt::SquareRoot;
 use hapticore_reference::rounded::{self, Exact, round_quotient, round_root};
 
 /// Operations of each block over all profiles.
@@ -46,9 +46,9 @@ fn quotients_are_the_nearest_codes() {
 fn roots_are_the_nearest_codes() {
     for (seed, (radicand, frac)) in (0..).zip([("u52.46", 23), ("u60.52", 26), ("u11.4", 5), ("u13.-2", 3)]) {
         let radicand = format(radicand);
-        let mut bench = Bench::new(Root::new(radicand, frac));
-        let (cases, root) = (cases(&bench.block, MILLION / 4, seed), bench.block.root());
-        check(&mut bench, cases, |i| [("root", round_root(Exact::of(i.radicand, radicand), frac).code(root))]);
+        let mut bench = Bench::new(SquareRoot::new(radicand, frac));
+        let (cases, root) = (cases(&bench.block, MILLION / 4, seed), bench.block.sqrt());
+        check(&mut bench, cases, |i| [("sqrt", round_root(Exact::of(i.radicand, radicand), frac).code(root))]);
     }
 }
 

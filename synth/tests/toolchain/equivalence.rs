@@ -3,7 +3,7 @@
 //!
 //! | block | iCE40 | ECP5 | otherwise |
 //! | --- | --- | --- | --- |
-//! | divider, root, multiplexer, haptic voltage, pads | proved | proved | |
+//! | divider, square root, multiplexer, haptic voltage, pads | proved | proved | |
 //! | ratio, estimator, core | – | – | optimised across registers¹ |
 //! | oscillator, frames, map, demodulator, currents | – | – | memories, which `equiv_opt` does not take |
 //! | capacitance, force | – | – | multipliers: beyond the solver, and cells without a description |
@@ -51,7 +51,7 @@ fn block(name: &str) -> String {
 #[test]
 fn synthesised_blocks_are_their_verilog() {
     let Some(tools) = Tools::or_skip() else { return };
-    for name in ["divider", "root", "multiplexer", "haptic_voltage"] {
+    for name in ["divider", "sqrt", "multiplexer", "haptic_voltage"] {
         for family in [ICE40, ECP5] {
             assert!(equivalent(&tools, name, &block(name), family, ""), "{name}, {family:?}");
         }

@@ -8,7 +8,7 @@ use hapticore_hdl::interpretations::netlist::{Module, Named, Netlist};
 use hapticore_model::blocks::core::Core;
 use hapticore_model::blocks::divider::Divider;
 use hapticore_model::blocks::multiplexer::Multiplexer;
-use hapticore_model::blocks::root::Root;
+use hapticore_model::blocks::sqrt::SquareRoot;
 use hapticore_rtl::board::pads::Pads;
 use hapticore_synth::formal::{Claim, Mode, Verdict, mutants, print};
 use hapticore_synth::tools::Tools;
@@ -33,9 +33,9 @@ fn of_divider(module: &Module) -> Parameters {
 }
 
 fn of_root(module: &Module) -> Parameters {
-    let (radicand, root) = (format_of(&module.inputs, "radicand"), format_of(&module.outputs, "root"));
+    let (radicand, root) = (format_of(&module.inputs, "radicand"), format_of(&module.outputs, "sqrt"));
     let zeros = 2 * root.frac - radicand.frac;
-    let latency = Root::new(radicand, root.frac).latency();
+    let latency = SquareRoot::new(radicand, root.frac).latency();
     vec![("R", widths(radicand)), ("DIGITS", widths(root) - 1), ("PAD", zeros as u64), ("LATENCY", latency)]
 }
 
@@ -91,7 +91,7 @@ fn narrow_divider() -> Module {
 }
 
 fn narrow_root() -> Module {
-    module(&Root::new(Format::unsigned(6, 3), 2))
+    module(&SquareRoot::new(Format::unsigned(6, 3), 2))
 }
 
 #[test]
@@ -116,7 +116,7 @@ fn roots_are_right_for_all_radicands() {
     let Some(tools) = Tools::or_skip() else { return };
     let narrow = narrow_root();
     holds(&tools, &narrow, &of_root(&narrow), true);
-    for module in of_profiles("root") {
+    for module in of_profiles("sqrt") {
         holds(&tools, &module, &of_root(&module), false);
     }
 }

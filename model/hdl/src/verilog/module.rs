@@ -5,19 +5,19 @@ use super::clock::Next;
 use super::expression::{BREAK, bits, literal};
 use super::names::{Names, ports};
 use super::scope::{Scope, range};
-use super::{Direction, Port};
+use super::{Direction, Heading, Port};
 use crate::interpretations::netlist::{Module, Named, Netlist, Node, Op, Ram};
 use crate::memory::Collision;
 use std::fmt::Write;
 
 /// The text of a module.
-pub fn print(netlist: &Netlist, modules: &[String], module: &Module, name: &str, made_by: &str) -> String {
+pub fn print(netlist: &Netlist, modules: &[String], module: &Module, name: &str, heading: &Heading) -> String {
     let ports = ports(module);
     let mut names = Names::default();
     ports.iter().for_each(|port| names.take(&port.name));
     let mut printer =
         Printer { scope: Scope::new(module, names), netlist, modules, ports, registers: vec![], memories: vec![] };
-    let mut text = printer.head(name, made_by);
+    let mut text = printer.head(name, heading);
     text += &printer.declarations();
     printer.wires();
     // These may declare wires yet, which stand before them.
@@ -32,7 +32,7 @@ pub fn print(netlist: &Netlist, modules: &[String], module: &Module, name: &str,
         unused.push("reset".into());
     }
     if !unused.is_empty() {
-        let _ = write!(text, "\n    // What nothing needs.\n    wire unused = &{{1'b0, {}}};\n", folded(&unused));
+        let _ = write!(text, "\n    // Unused bits.\n    wire unused = &{{1'b0, {}}};\n", folded(&unused));
     }
     text.replace(BREAK, " ") + "\nendmodule\n\n`default_nettype wire\n"
 }
@@ -67,10 +67,10 @@ struct Printer<'a> {
 }
 
 impl Printer<'_> {
-    fn head(&mut self, name: &str, made_by: &str) -> String {
+    fn head(&mut self, name: &str, heading: &Heading) -> String {
         self.name_registers();
         let Module { path, .. } = self.scope.module;
-        let mut text = format!("// {name}: {path}\n// Printed from the model by `{made_by}`; not to be edited.\n\n");
+        let mut text = heading.text(name, path, std::ptr::eq(self.scope.module, self.netlist.top()));
         text += "`default_nettype none\n\n";
         let _ = write!(text, "module {name} (\n    input wire clock,\n    input wire reset");
         let mut comment = String::new();

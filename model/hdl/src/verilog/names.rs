@@ -22,10 +22,17 @@ const SYSTEM_VERILOG: &str = "\
 /// ... and what every module has.
 const OWN: [&str; 3] = ["clock", "reset", "unused"];
 
-/// The names of a netlist's modules: the blocks', with a number where several differ.
+/// The names of a netlist's modules: the blocks' behind a prefix, with a number where several differ.
 pub fn of_modules(netlist: &Netlist) -> Vec<String> {
     let mut names = Names { taken: HashSet::new() };
-    netlist.modules.iter().map(|module| names.unique(module.name)).collect()
+    netlist.modules.iter().map(|module| names.unique(&prefixed(module.name))).collect()
+}
+
+/// The prefix of all modules: a design may have others.
+const PREFIX: &str = "hapticore";
+
+fn prefixed(block: &str) -> String {
+    if block.starts_with(PREFIX) { block.into() } else { format!("{PREFIX}_{block}") }
 }
 
 /// The ports of a module: inputs, then outputs.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A module while it is printed: which wires have a declaration, which text stands for the others, which bits are needed.
 
+use super::describe;
 use super::live::Live;
 use super::names::Names;
 use crate::format::Format;
@@ -63,6 +64,7 @@ pub struct Scope<'a> {
     ids: Vec<Option<Id>>,
     texts: Vec<Option<Text>>,
     hints: Vec<Option<String>>,
+    hashes: Vec<u64>,
     /// The declarations, in their order.
     pub body: Vec<String>,
 }
@@ -81,6 +83,7 @@ impl<'a> Scope<'a> {
             ids: vec![None; count],
             texts: vec![None; count],
             hints: vec![None; count],
+            hashes: describe::hashes(module),
             body: Vec::new(),
         }
     }
@@ -147,7 +150,7 @@ impl<'a> Scope<'a> {
         let format = self.format(node);
         let name = self.module.wires[index].name.map(str::to_owned);
         let name = name.or_else(|| self.hints[index].clone()).or_else(|| self.state(node));
-        let name = name.unwrap_or_else(|| format!("{}_{index}", self.kind(node)));
+        let name = name.unwrap_or_else(|| describe::name(self.module, &self.hashes, node));
         let id = self.declare(&name, format.width, format.signed, &text, &format.to_string());
         self.ids[index] = Some(id);
         id
@@ -165,24 +168,6 @@ impl<'a> Scope<'a> {
         let Named { name, states, .. } = self.module.registers[index];
         let code = self.constant(b)?;
         Some(states.get(code as usize).map_or(format!("{name}_is_{code}"), |state| format!("{name}_is_{state}")))
-    }
-
-    /// What to call a wire that nobody has named.
-    fn kind(&self, node: Node) -> &'static str {
-        match self.module.wires[node.0 as usize].op {
-            Op::Add(..) => "sum",
-            Op::Sub(..) => "difference",
-            Op::Mul(..) => "product",
-            Op::Abs(_) => "magnitude",
-            Op::Fit(..) => "fit",
-            Op::Bits(..) => "bits",
-            Op::Concat(..) => "joined",
-            Op::Less(..) => "less",
-            Op::Equal(..) => "equal",
-            Op::Select(..) => "choice",
-            Op::And(..) | Op::Or(..) | Op::Not(_) => "bit",
-            _ => "constant",
-        }
     }
 
     /// Declares a wire.

@@ -11,7 +11,7 @@
 //! ```
 //!
 //! Both factors of a product are unsigned, as one hardware multiplier of 16 × 16 bits takes them. Codes are moved up by one
-//! full scale for that, which leaves nothing in i and q: the window weighs all phases alike, and the c_p, as the s_p, have no
+//! full scale for that, which leaves nothing in i and q: the window windows all phases alike, and the c_p, as the s_p, have no
 //! sum. A sum is multiplied 16 bits after 16 bits; a negative c_p takes what is missing to 16 ones instead, and what that adds
 //! is known. Where i and q are formed costs no time that anybody waits for: the next pad has yet to settle.
 //!
@@ -39,7 +39,7 @@ pub(super) const BEAT: Format = Format::counter(BEATS - 1);
 /// A code of the ADC, moved up by its full scale, and its magnitude.
 const UNSIGNED: Format = Format::unsigned(LIMB, 15);
 /// A window's word.
-const WEIGHT: Format = Format::unsigned(LIMB, 16);
+const WINDOW: Format = Format::unsigned(LIMB, 16);
 const LIMB: u8 = 16;
 /// Clocks of a product of the read-out: address, operands, product, sum.
 const BEATS: u64 = 4;
@@ -113,14 +113,14 @@ impl Demodulator {
 
     /// A window's word.
     #[inline(always)]
-    pub(crate) fn weight<V: Interpretation>(&self, window: Signal<V>) -> Signal<V> {
-        window.resize(WEIGHT, Proved)
+    pub(crate) fn window_word<V: Interpretation>(&self, window: Signal<V>) -> Signal<V> {
+        window.resize(WINDOW, Proved)
     }
 
     /// The haptic code's share of the window.
     #[inline(always)]
     pub(crate) fn share<V: Interpretation>(&self, product: Signal<V>) -> Signal<V> {
-        product.quantize(WEIGHT, HalfEven, Proved)
+        product.quantize(WINDOW, HalfEven, Proved)
     }
 
     /// In-phase and quadrature sums from those of the phases.
@@ -193,7 +193,7 @@ impl Demodulator {
     ) -> (Signal<V>, Signal<V>) {
         let haptic = r.step.is(0) | r.step.is(self.channels + 1);
         let left = haptic.select(self.magnitude(i.code), self.raised(i.code));
-        let right = r.step.is(self.channels + 1).select(r.weighted.scaled(-WEIGHT.frac), self.weight(i.window));
+        let right = r.step.is(self.channels + 1).select(r.windowed.scaled(-WINDOW.frac), self.window_word(i.window));
         (left.integer(), right.integer())
     }
 
@@ -209,7 +209,7 @@ impl Demodulator {
     ) -> Registers<Signal<V>> {
         let (left, right) = self.sample_operands(&r, &i);
         let end = r.step.is(self.steps() - 1);
-        let weighs = r.step.is(PIPELINE);
+        let windows = r.step.is(PIPELINE);
         let uses_code = r.step.less_than(int(self.channels + 2));
         Registers {
             busy: !end,
@@ -217,8 +217,8 @@ impl Demodulator {
             step: end.select(int(0), r.step + int(1)).resize(r.step.format, Proved),
             left,
             right,
-            weighted: when!(weighs => self.share(product).integer(), else r.weighted),
-            summed: !(weighs | r.step.less_than(int(PIPELINE))),
+            windowed: when!(windows => self.share(product).integer(), else r.windowed),
+            summed: !(windows | r.step.less_than(int(PIPELINE))),
             index,
             sum,
             clipped: r.clipped | when!(uses_code => self.at_rail(i.code), else bit(false)),
