@@ -97,16 +97,20 @@ fn every_cited_section_exists() {
             cited.insert((document, section, path.clone()));
         }
     }
-    for (document, section, path) in &cited {
-        let exists = root().join(document).exists() && Document::new(&read(document)).sections.contains(section);
-        assert!(exists, "{} cites {document} §{section}", path.display());
-    }
+    let exists = |document: &String, section: &u32| {
+        root().join(document).exists() && Document::new(&read(document)).sections.contains(section)
+    };
+    let missing = cited.iter().filter(|(document, section, _)| !exists(document, section));
+    let errors: Vec<_> =
+        missing.map(|(document, section, path)| format!("{} cites {document} §{section}", path.display())).collect();
+    assert!(errors.is_empty(), "{}", errors.join("\n"));
     assert!(!cited.is_empty(), "citations are found");
 }
 
 #[test]
 fn documents_name_files_that_exist() {
     let mut named = 0;
+    let mut errors = Vec::new();
     for (path, document) in documents() {
         let folder = path.parent().expect("a folder").to_owned();
         for name in &document.paths {
@@ -117,9 +121,12 @@ fn documents_name_files_that_exist() {
             };
             named += 1;
             let generated = ["out/", "target/"].iter().any(|folder| name.starts_with(folder));
-            assert!(generated || root().join(base).join(name).exists(), "{} names {name}", path.display());
+            if !generated && !root().join(base).join(name).exists() {
+                errors.push(format!("{} names {name}", path.display()));
+            }
         }
     }
+    assert!(errors.is_empty(), "{}", errors.join("\n"));
     assert!(named > 50, "names of files are found");
 }
 
