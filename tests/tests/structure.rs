@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Invariants of ARCHITECTURE.md that a compiler does not hold.
 
-#[path = "structure/documents.rs"]
-mod documents;
-
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -84,3 +81,6 @@ fn every_source_names_its_licence() {
         }
     }
 }
+
+#[path = "structure/documents.rs"]
+mod documents;
