@@ -3,7 +3,7 @@
 // exactly its pulses, SDI may move only in words (`shift` changes with CS alone), sets are stored whole, and while it is
 // enabled conversions are PERIOD clocks apart.
 //
-// Stands at the end of the printed module, after PERIOD, CONVERSION, BITS, LATENCY (of SCLK's output) and CHANNELS.
+// Appended to the printed module; parameters: PERIOD, CONVERSION, BITS, LATENCY (of SCLK's output) and CHANNELS.
 
     localparam COMMAND = 16;
     reg was_reset = 0;
@@ -62,7 +62,7 @@
     always @(*) if (!was_reset) assume (reset);
 
     always @(posedge clock) if (was_reset) begin
-        // What holds all along.
+        // Invariants.
         assert (phase < PERIOD);
         assert (low == (low_for != 0) && sclk_run == (run_for != 0));
         assert (low_for <= length + 1 && run_for <= length);
@@ -79,7 +79,7 @@
         if (!unload) assert (index == 0);
         if (unload) assert (!configuring && phase == store_phase);
         assert (index < CHANNELS);
-        // What is claimed: CS is low for a whole read or word.
+        // Properties: CS is low for a whole read or word.
         if (past_valid && before_low && !low) assert (past_length == past_low - 1);
         // SCLK runs while CS is low, after its first clock, for as many pulses as there are bits.
         if (past_valid && pulse) assert (low && before_low);
@@ -105,7 +105,7 @@
         since_before <= since;
     end
 
-    // That there is something to hold: a set that strobes, and a word that is sent.
+    // Cover: a set that strobes, and a word that is sent.
     always @(posedge clock) if (was_reset) begin
         cover (strobe);
         cover (before_low && !low && before_shift);

@@ -2,7 +2,7 @@
 // Board: while the ADC is being selected, SDI rests, but for the words that are meant for it. Of the ADC reader the proof takes
 // what its own claims (`shift` changes with CS alone), of all other blocks nothing: they may do anything.
 //
-// Stands at the end of the printed module.
+// Appended to the printed module.
 
     reg was_reset = 0, low_before = 0, shift_before = 0, sdi_before = 0;
     always @(posedge clock) begin

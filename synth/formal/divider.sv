@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Divider: the quotient is the correctly rounded one, for all operands; it comes when it should.
+// Divider: the quotient is correctly rounded for all operands, with the stated latency.
 //
-// Stands at the end of the printed module, after the widths N, D, Q of numerator, denominator and quotient, PAD (the zeros
+// Appended to the printed module; parameters: the widths N, D, Q of numerator, denominator and quotient, PAD (the zeros
 // behind the numerator) and LATENCY. The product of partial quotient and denominator is kept by shifting and adding, as the
 // solver cannot multiply words of this length; with SMALL, where it can, the product itself is looked at too.
 
@@ -14,7 +14,7 @@
     reg [7:0] age;
     reg was_reset = 0;
     reg pending = 0;
-    // Count 0 looks whether the quotient fits, each of the next Q finds a digit, then come rounding and the answer.
+    // Count 0 checks that the quotient fits, each of the next Q finds a digit, then come rounding and the result.
     wire finds = count != 0 && count <= Q;
     wire [7:0] found = count == 0 ? 0 : count > Q ? Q : count - 1;
     // The digit that this clock finds: the reference's own comparison.
@@ -41,12 +41,12 @@
     wire overflows = (dividend >> Q) >= given_denominator;
     wire [D+1:0] twice = 2 * remainder;
 
-    // The contract of the caller.
+    // Assumptions about the caller.
     always @(*) if (busy) assume (numerator == given_numerator && denominator == given_denominator);
     always @(*) if (!was_reset) assume (reset); else assume (!reset);
 
     always @(posedge clock) if (was_reset) begin
-        // What holds all along.
+        // Invariants.
         assert (count <= Q + 2 || !busy);
         assert (!(busy && done));
         if (busy) assert (age == count + 1);
@@ -65,15 +65,15 @@
 `endif
             end
         end
-        // An answer is under way for what was asked, and for nothing else.
+        // A result is in progress if and only if one was requested.
         assert (pending == (busy || done));
-        // What is claimed.
+        // Properties.
         if (done) begin
             assert (age == LATENCY);
             if (overflows) begin
                 assert (saturated && &quotient);
             end else if (saturated) begin
-                // Rounded up past the rail.
+                // Rounded up beyond full scale.
                 assert (&quotient && &partial && 2 * (dividend - product) >= given_denominator);
             end else begin
                 assert (quotient == partial || (quotient == partial + 1'b1 && !(&partial)));

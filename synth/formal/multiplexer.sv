@@ -3,7 +3,7 @@
 // turn in order; for all times at which samples may come and slots be abandoned. Abandoning one is a reset but for the pads:
 // whoever drives them after it must keep a break of its own, as the boards' pad selection does.
 //
-// Stands at the end of the printed module, after OPEN, BEGIN, SLOT (samples) and PADS.
+// Appended to the printed module; parameters: OPEN, BEGIN, SLOT (samples) and PADS.
 
     reg was_reset = 0;
     reg past_strobe;
@@ -31,7 +31,7 @@
     always @(*) if (!was_reset) assume (reset);
 
     always @(posedge clock) if (was_reset) begin
-        // What holds all along: where the next sample stands.
+        // Invariants: the position of the next sample.
         assert (count < SLOT && next < PADS && pad < PADS);
         assert (!closed || count == 0 || count > OPEN);
         assert (!closed || count == 0 || pad == next);
@@ -42,7 +42,7 @@
         assert (closed || driven == 0 || count == 0 || open_for + sample == count);
         assert (closed || driven == 0 || count != 0);
         assert (open_for <= OPEN);
-        // What is claimed.
+        // Properties.
         assert ((select & (select - 1'b1)) == 0);
         if (before != 0) assert (select == before || select == 0);
         if (before == 0 && select != 0) assert (driven == 0 || open_for == OPEN);

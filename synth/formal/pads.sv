@@ -2,7 +2,7 @@
 // Pad selection: at most one line is ever set, and between two of them none is for DEAD clocks at least; whatever the core
 // says, at every clock.
 //
-// Stands at the end of the printed module, after PADS and DEAD.
+// Appended to the printed module; parameters: PADS and DEAD.
 
     reg was_reset = 0;
     reg [PADS-1:0] before;
@@ -32,13 +32,13 @@
     always @(*) if (!was_reset) assume (reset);
 
     always @(posedge clock) if (was_reset) begin
-        // What holds all along.
+        // Invariants.
         assert (open_for <= DEAD && dead <= DEAD);
         if (select == 0 && driven != 0 && open_for != 0) assert (dead + open_for >= DEAD);
         if (select == 0 && driven != 0 && open_for == 0) assert (dead == DEAD || dead == DEAD - 1 || before != 0);
         assert (wanted_for <= DEAD + 2);
         if (wanted_for != 0) assert (wanted_before != 0 && (select == wanted_before || (select == 0 && dead + wanted_for <= DEAD + 1)));
-        // What is claimed.
+        // Properties.
         assert ((select & (select - 1'b1)) == 0);
         if (before != 0) assert (select == before || select == 0);
         if (select != 0 && driven != 0 && driven != select) assert (open_for >= DEAD);

@@ -2,7 +2,7 @@
 // Registers: a command acts only if all its bytes have come, escaped rightly and with their CRC, and then on nothing but the
 // register or the word that it names. Commands are taken apart here once more, the CRC a bit at a time.
 //
-// Stands at the end of the printed module, after DATA (bytes of a command's data), WORDS (of the table) and ADDRESS (its bits).
+// Appended to the printed module; parameters: DATA (bytes of a command's data), WORDS (of the table) and ADDRESS (its bits).
 
     localparam LENGTH = DATA + 4;
     localparam WHOLE = 8 * (DATA + 2);
@@ -90,14 +90,14 @@
     wire [WHOLE-1:0] open = {WHOLE{1'b1}} << (8 * kept);
 
     always @(posedge clock) if (was_reset) begin
-        // What holds all along.
+        // Invariants.
         assert (escaped == behind_esc);
         assert (count == (wrong || length > LENGTH ? LENGTH + 1 : length));
         if (length == 0) assert (!wrong);
         if (!wrong && length != 0 && length <= LENGTH) assert (crc == check);
         if (!wrong) assert ((({place_q, data} ^ whole) & ~open) == 0);
         if (counts) assert ({place_q, data} == {where, what});
-        // What is claimed. A command acts if it counts, and in the clock after its END.
+        // Properties. A command acts if it counts, and in the clock after its END.
         assert (act == counts);
         assert (refused == refuses);
         assert (write == (target == TABLE));
@@ -114,7 +114,7 @@
         end
     end
 
-    // That there is something to hold.
+    // Cover: the properties are not vacuous.
     always @(posedge clock) if (was_reset) begin
         cover (target == 0);
         cover (target == 1 && what != 0);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Square root: the correctly rounded one, for all radicands; it comes when it should.
+// Square root: correctly rounded for all radicands, with the stated latency.
 //
-// Stands at the end of the printed module, after R (the radicand's width), DIGITS, PAD (the zeros behind the radicand) and
-// LATENCY. The square of the partial root is kept by shifting and adding: (2p + b)² = 4p² + b(4p + 1).
+// Appended to the printed module; parameters: R (the radicand's width), DIGITS, PAD (the zeros behind the radicand) and
+// LATENCY. The square of the partial root is maintained by shifting and adding: (2p + b)² = 4p² + b(4p + 1).
 
     localparam W = 2 * DIGITS;
 
@@ -32,7 +32,7 @@
     always @(*) if (!was_reset) assume (reset); else assume (!reset);
 
     always @(posedge clock) if (was_reset) begin
-        // What holds all along.
+        // Invariants.
         assert (count <= DIGITS || !busy);
         assert (!(busy && done));
         if (busy) assert (age == count + 1);
@@ -46,9 +46,9 @@
             assert (square == partial * partial);
 `endif
         end
-        // An answer is under way for what was asked, and for nothing else.
+        // A result is in progress if and only if one was requested.
         assert (pending == (busy || done));
-        // What is claimed: root − ½ < √whole < root + ½, that is root² − root < whole ≤ root² + root.
+        // Properties: root − ½ < √whole < root + ½, that is root² − root < whole ≤ root² + root.
         if (done) begin
             assert (age == LATENCY);
             assert (sqrt == partial || sqrt == partial + 1'b1);

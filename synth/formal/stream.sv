@@ -3,7 +3,7 @@
 // before what it may stand before; a frame is sent with the words that came with it, or dropped whole and told; a heartbeat
 // whose words are written meanwhile ends early, and one that does not has each of its words whole.
 //
-// Stands at the end of the printed module, after BYTES (of a word), WIDTH (its bits) and
+// Appended to the printed module; parameters: BYTES (of a word), WIDTH (its bits) and
 // `line`, what goes into the transmitter.
 
     localparam LENGTH = 3 + 8 * BYTES + 3;
@@ -110,7 +110,7 @@
     wire [8*BYTES-1:0] begun_moved = begun_wide >> (8 * left);
 
     always @(posedge clock) if (was_reset) begin
-        // What holds all along.
+        // Invariants.
         if (cut) assert (busy && heartbeat && group == 8 && left == 0 && at < LENGTH - 2);
         if (busy && !cut) assert (at == place_of && group != 9 && group != 10 && group != 11 && group != 12 && group != 13 && group != 14);
         if (busy) assert (left < (group == 15 || group == 8 ? 3 : BYTES));
@@ -129,7 +129,7 @@
         if (busy && last) assert (check == 0);
         if (busy && heartbeat && group == which && left < BYTES - 1) assert (words[{1'b1, which}] == begun);
         if ((accepting && which < due) || accepted) assert (words[which] == word);
-        // What is claimed.
+        // Properties.
         if (sent) begin
             assert (busy);
             assert (end_byte == (last || cut));
@@ -149,7 +149,7 @@
         end
     end
 
-    // That there is something to hold. (Whole packets of either kind, escapes, and frames that are dropped take thousands of
+    // Cover: the properties are not vacuous. (Whole packets of either kind, escapes, and frames that are dropped take thousands of
     // clocks: they happen in the lock-step of `tests/tests/board_faults.rs`.)
     always @(posedge clock) if (was_reset) begin
         cover (sent && accepted && word != 0);

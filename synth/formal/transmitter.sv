@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // Transmitter: a byte that is taken is on the line as ten bits of DIVISOR clocks each, and no other is taken before.
 //
-// Stands at the end of the printed module, after DIVISOR.
+// Appended to the printed module; parameters: DIVISOR.
 
     reg was_reset = 0;
     always @(posedge clock) was_reset <= 1;
@@ -27,12 +27,12 @@
     end
 
     always @(posedge clock) if (was_reset) begin
-        // What holds all along.
+        // Invariants.
         assert (bits <= 10 && gone < DIVISOR);
         assert (busy == (bits != 10));
         if (busy) assert (position == bits && count == DIVISOR - 1 - gone);
         if (busy) assert (octet_q == shifted[7:0]);
-        // What is claimed.
+        // Properties.
         assert (tx == (bits == 10 || line[bits]));
         assert (taken == (valid && bits == 10));
         cover (bits == 1 && sent == 8'b10100101);

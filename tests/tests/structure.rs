@@ -149,17 +149,5 @@ fn every_source_names_its_licence() {
     }
 }
 
-#[test]
-fn the_readme_names_files_that_are_there() {
-    for document in ["README.md", "ARCHITECTURE.md"] {
-        let text = read(document);
-        for path in text
-            .split(['(', ')', '`'])
-            .filter(|word| word.contains('/') && !word.contains(char::is_whitespace) && !word.contains(['*', '…', ':']))
-        {
-            let path = path.split('#').next().unwrap_or(path);
-            let generated = ["out/", "target/", "./", "rtl/", "synth/"].iter().any(|folder| path.starts_with(folder));
-            assert!(generated || root().join(path).exists(), "{document} names {path}");
-        }
-    }
-}
+#[path = "structure/documents.rs"]
+mod documents;

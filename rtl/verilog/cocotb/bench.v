@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The core of the small profile with slots of samples: it must send the frames that the model sent, and its other outputs must
-// be the model's at every clock. Reads calibration.csv, samples.csv, frames.csv and pins.csv (rtl/verilog/vectors) from the
+// Bench of the small profile's core: from the vectors' samples it must send the model's frames, and its other outputs must
+// equal the model's at every clock. Reads calibration.csv, samples.csv, frames.csv and pins.csv (rtl/verilog/vectors) from the
 // folder it runs in. For simulators without cocotb: Icarus, or Verilator with --binary --timing.
 
 `timescale 1ns / 1ps

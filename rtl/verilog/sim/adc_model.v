@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// An AD7606C-class ADC at its serial pins, for tests: eight channels sampled at the rising edge of CONVST, the codes taken
-// from a file, eight a sample. Delays in nanoseconds; between the end of its hold time and its access time a data line is
-// unknown, so that a bit captured at the wrong moment is seen. What the data sheet forbids counts in `faults`.
+// Model of an AD7606C-class ADC at its serial pins, for tests: eight channels are sampled at the rising edge of CONVST, with
+// codes from a file, eight per sample. Delays are in nanoseconds. Between hold time and access time a data line is unknown, so
+// that a bit captured at the wrong moment is detected. Violations of the data sheet are counted in `faults`.
 //
-// After a reset two data lines are in use; 18 (hex) in register 2 makes it eight (DOUT_FORMAT). A read of a register puts
-// the part into register mode, where no codes come out; a write to address 0 ends it. Outside of it a write is refused. The
-// register that was read comes out on the first line during the next word. SDI may move while CS is low only for such words,
-// and what is no reading of codes counts in `commands`.
+// After a reset two data lines are in use; 18 (hex) in register 2 selects eight (DOUT_FORMAT). A read of a register enters
+// register mode, in which no codes are output; a write to address 0 ends it. Outside of it a write is refused. The register
+// that was read is output on the first line during the next word. SDI may change while CS is low only for such words; they
+// are counted in `commands`.
 
 `timescale 1ns / 1ps
 `default_nettype none

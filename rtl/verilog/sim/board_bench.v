@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// A board's top with an ADC at its pins and a host at its serial line: sends the bytes of a file, writes what it hears to
-// another, one byte a line, and ends after so many frames (heartbeats do not count). Output pins follow their clock by T_OUT ns; data lines need
-// T_IN ns to the core.
+// Bench of a board's top with an ADC model at its pins and a host at its serial line: sends the bytes of one file, writes the
+// received bytes to another, one per line, and ends after PACKETS frames (heartbeats do not count). Output pins change T_OUT ns
+// after their clock; data lines take T_IN ns to the core.
 
 `timescale 1ns / 1ps
 `default_nettype none
@@ -29,7 +29,7 @@ module board_bench #(
     reg [7:0] heard;
     integer file, packets, k, bit_number;
 
-    // Not continuous assignments with delays, which Verilator takes up at every edge of the clock.
+    // No continuous assignments with delays: Verilator evaluates them at every edge of the clock.
     always @(convst, cs_n, sdi) #(T_OUT) {convst_pin, cs_n_pin, sdi_pin} = {convst, cs_n, sdi};
     always @(dout) dout_in <= #(T_IN) dout;
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The output cells of the boards' tops, for simulation, as the vendor's own models behave: ODDRX1F puts D0 out in the first
-// half of a clock and D1 in the second, three clocks after they were given; SB_IO (here only with a DDR output) takes D_OUT_0
-// at the rising edge and D_OUT_1 at the falling edge. Pins follow two nanoseconds later. (Not as continuous assignments with
-// delays, which Verilator takes up at every edge of the clock.)
+// Models of the output cells of the boards' tops, which behave as the vendor's own: ODDRX1F outputs D0 in the first half of a
+// clock and D1 in the second, three clocks after its inputs; SB_IO (here only with a DDR output) takes D_OUT_0 at the rising
+// edge and D_OUT_1 at the falling edge. Pins change two nanoseconds later. (No continuous assignments with delays: Verilator
+// evaluates them at every edge of the clock.)
 
 `timescale 1ns / 1ps
 `default_nettype none
