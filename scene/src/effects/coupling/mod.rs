@@ -21,15 +21,18 @@ pub(crate) mod tests;
 
 use num_complex::Complex64;
 
+use super::effect::{Effect, PadsEffect};
+use super::pad::Pad;
 use super::sheet::Sheet;
 use super::sheet::analytic::{self, Analytic};
 use super::sheet::linear::solve;
 use super::sheet::mesh::{Correction, Mesh, Network};
 use super::shunt::{self, Screened};
-use super::{Effect, Pad, PadsEffect, Rung, Spec};
-use crate::device::{Device, PerTerminal};
+use super::spec::{Rung, Spec};
+use crate::device::Device;
 use crate::error::SceneError;
 use crate::format::Table;
+use crate::terminals::PerTerminal;
 
 /// Spacing of the mesh that an uneven film's G comes from, m.
 const SPACING_M: f64 = 0.01;

@@ -35,44 +35,23 @@ pub(super) mod linear;
 pub(super) mod mesh;
 pub(super) mod neumann;
 pub(super) mod nodes;
-mod places;
 pub(super) mod spline;
+mod split;
 mod table;
 
 pub(super) use geometry::Sheet;
-pub(crate) use places::terminals_mm;
+pub(crate) use split::{Solver, Split};
 
-use nodes::Values;
 use num_complex::Complex64;
 
-use super::{Effect, Pad, PadEffect, Rung, Spec};
-use crate::device::{Device, PerTerminal};
+use super::effect::{Effect, PadEffect};
+use super::pad::Pad;
+use super::spec::{Rung, Spec};
+use crate::device::Device;
 use crate::error::SceneError;
 use crate::few::Few;
 use crate::format::Table;
-
-/// The sheet as a pad at one place sees it.
-#[derive(Clone, Debug)]
-pub(crate) struct Split {
-    pub share: PerTerminal<f64>,
-    pub ohm: f64,
-}
-
-impl Split {
-    fn node(&self) -> Values {
-        self.share.iter().copied().chain([self.ohm]).collect()
-    }
-
-    fn of_node(node: &Values) -> Split {
-        let terminals = node.len() - 1;
-        Split { share: Few::from_slice(&node[..terminals]), ohm: node[terminals] }
-    }
-}
-
-/// One way to get the split at a place, x and y in mm from the centre.
-pub(crate) trait Solver: Send {
-    fn split(&self, x_mm: f64, y_mm: f64) -> Split;
-}
+use crate::terminals::PerTerminal;
 
 /// Rungs of an even sheet, and what a look-up costs, ns.
 const EVEN: [(&str, f64); 5] =

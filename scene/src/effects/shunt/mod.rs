@@ -24,14 +24,17 @@ use num_complex::Complex64;
 use screen::Screens;
 pub(super) use screen::{Screened, Source};
 
+use super::effect::{Effect, PadEffect};
+use super::pad::Pad;
 use super::sheet::analytic::Analytic;
 use super::sheet::nodes::Values;
 use super::sheet::spline::{Axis, Spline};
 use super::sheet::{Sheet, Solver, Split};
-use super::{Effect, Pad, PadEffect, Rung, Spec};
-use crate::device::{Device, PerTerminal};
+use super::spec::{Rung, Spec};
+use crate::device::Device;
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
+use crate::terminals::PerTerminal;
 
 /// Columns and rows of the table.
 const NODES: [usize; 2] = [32, 19];
