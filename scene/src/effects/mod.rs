@@ -23,7 +23,7 @@ mod supply;
 mod switching;
 
 pub(crate) use effect::{Phasors, Run};
-pub(crate) use pad::Pad;
+pub(crate) use pad::{FilmChange, Pad};
 pub use running::EffectCost;
 pub(crate) use running::Effects;
 pub(crate) use sensor::noise::NOISE;

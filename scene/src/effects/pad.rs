@@ -37,6 +37,8 @@ pub(crate) struct Pad {
     pub hand: Option<Hand>,
     /// Friction that acts on the pad, N, where an effect says it.
     pub friction_n: f64,
+    /// What has become of the sheet's film since the device was calibrated.
+    pub film: FilmChange,
     /// Share of the current through each terminal; real where the sheet is all there is.
     pub split: PerTerminal<Complex64>,
     /// What the pad sees of the sheet, Ω: the combined resistance R_p, or an impedance where an effect makes it one.
@@ -47,6 +49,21 @@ pub(crate) struct Pad {
     pub over_edge: bool,
     /// The pad lies on another one: both are taken as touching.
     pub touching: bool,
+}
+
+/// What has become of a film: R_s(x, y)·(1 + rise + slope_x·x/width + slope_y·y/height), x and y from the sheet's middle.
+/// What several effects do to it adds up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct FilmChange {
+    /// In the middle, as a fraction.
+    pub rise: f64,
+    /// From the left edge to the right one, and from the bottom to the top.
+    pub slope: [f64; 2],
+}
+
+impl FilmChange {
+    /// The film that the scene describes.
+    pub const NONE: FilmChange = FilmChange { rise: 0.0, slope: [0.0; 2] };
 }
 
 impl Pad {

@@ -29,6 +29,7 @@
 pub(crate) mod analytic;
 mod distance;
 mod film;
+mod following;
 pub(super) mod geometry;
 mod grid;
 pub(super) mod linear;
@@ -39,6 +40,7 @@ pub(super) mod spline;
 mod split;
 mod table;
 
+pub(super) use following::{Following, OfSheet};
 pub(super) use geometry::Sheet;
 pub(crate) use split::{Solver, Split};
 
@@ -85,7 +87,7 @@ fn rung(
     sheet: &Sheet,
     word: &'static str,
     cost_ns: f64,
-    build: impl Fn(&Sheet) -> Box<dyn Solver> + Send + Sync + 'static,
+    build: impl Fn(&Sheet) -> AnySolver + Send + Sync + 'static,
 ) -> Rung {
     let sheet = sheet.clone();
     let label = match table_of(word) {
@@ -95,7 +97,8 @@ fn rung(
         None => word.to_string(),
     };
     let reach_mm = sheet.reach_mm();
-    Rung::new(word, cost_ns, move |_| Effect::Pad(Box::new(OnSheet { solver: build(&sheet), reach_mm })))
+    let solver = OfSheet::new(sheet, build);
+    Rung::new(word, cost_ns, move |_| Effect::Pad(Box::new(OnSheet { solver: Following::new(&solver), reach_mm })))
         .labelled(label)
 }
 
@@ -109,7 +112,7 @@ fn table_of(word: &str) -> Option<[usize; 2]> {
     }
 }
 
-fn exact_or_table(word: &str, sheet: &Sheet) -> Box<dyn Solver> {
+fn exact_or_table(word: &str, sheet: &Sheet) -> AnySolver {
     match (word, table_of(word)) {
         ("bilinear", Some(nodes)) => Box::new(table::Bilinear::new(sheet, nodes)),
         (_, Some(nodes)) => Box::new(table::Bicubic::new(sheet, nodes)),
@@ -118,19 +121,22 @@ fn exact_or_table(word: &str, sheet: &Sheet) -> Box<dyn Solver> {
     }
 }
 
-fn grid(sheet: &Sheet, spacing_mm: f64) -> Box<dyn Solver> {
+fn grid(sheet: &Sheet, spacing_mm: f64) -> AnySolver {
     Box::new(grid::Grid::new(sheet, spacing_mm * 1e-3))
 }
 
+/// A solver at one of the rungs, as plants share it.
+type AnySolver = Box<dyn Solver + Sync>;
+
 struct OnSheet {
-    solver: Box<dyn Solver>,
+    solver: Following<AnySolver>,
     reach_mm: [f64; 2],
 }
 
 impl PadEffect for OnSheet {
     fn act(&mut self, pad: &mut Pad) {
         let [x, y] = self.reach_mm;
-        let split = self.solver.split(pad.x_mm.clamp(-x, x), pad.y_mm.clamp(-y, y));
+        let split = self.solver.at(pad.film).split(pad.x_mm.clamp(-x, x), pad.y_mm.clamp(-y, y));
         pad.split = split.share.map(Complex64::from);
         pad.sheet_ohm = split.ohm.into();
     }
