@@ -21,6 +21,7 @@ mod shunt;
 mod spec;
 mod supply;
 mod switching;
+mod temperature;
 
 pub(crate) use effect::{Phasors, Run};
 pub(crate) use pad::{FilmChange, Pad};
@@ -40,6 +41,7 @@ pub(crate) const EFFECTS: &[Reader] = &[
     halves::read,
     hand::read,
     friction::read,
+    temperature::read,
     sheet::read,
     shunt::read,
     coupling::read,
