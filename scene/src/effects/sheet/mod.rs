@@ -153,6 +153,8 @@ pub(crate) fn ideal_split(x_mm: f64, y_mm: f64, device: &Device) -> PerTerminal<
 }
 
 #[cfg(test)]
+mod device_tests;
+#[cfg(test)]
 mod grid_tests;
 #[cfg(test)]
 mod terminal_tests;
