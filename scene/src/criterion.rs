@@ -68,6 +68,14 @@ impl Measure {
     }
 
     /// Unit of the measured value.
+    ///
+    /// ```
+    /// use hapticore_scene::{Measure, Quantity};
+    ///
+    /// assert_eq!(Measure::RmsError.unit(Quantity::ForceN), "N");
+    /// assert_eq!(Measure::SpreadPercent.unit(Quantity::ForceN), "%");
+    /// assert_eq!(Measure::JumpOff.unit(Quantity::ForceN), "s");
+    /// ```
     pub fn unit(self, of: Quantity) -> &'static str {
         match self {
             Measure::MaxAbsError | Measure::RmsError | Measure::MeanError | Measure::MaxOff => of.unit(),
@@ -100,6 +108,27 @@ pub struct Where {
 }
 
 /// One claim of a scene: the measure, over the slots it covers, is at most the limit.
+///
+/// ```
+/// use hapticore_scene::{Measure, Quantity, Scene};
+///
+/// let text = r#"
+///     title = "t"
+///     [[pad]]
+///     position_mm = [0, 0]
+///     [[criterion]]
+///     name = "position"
+///     measure = "rms_error"
+///     of = "position_mm"
+///     limit = 1.0
+///     where = { haptic_v_rms = [50, 300] }
+/// "#;
+/// let criterion = &Scene::parse(text, "t.toml", &[])?.criteria[0];
+/// assert_eq!((criterion.measure, criterion.of, criterion.unit.as_str()), (Measure::RmsError, Quantity::PositionMm, "mm"));
+/// assert_eq!((criterion.filters[0].of, criterion.filters[0].high), (Quantity::HapticVRms, 300.0));
+/// assert!(criterion.covers("main"));
+/// # Ok::<(), hapticore_scene::SceneError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Criterion {
     /// What it says, for people.

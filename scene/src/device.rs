@@ -18,6 +18,18 @@ pub const EPSILON_0: f64 = 8.854_187_812_8e-12;
 const GRAVITY_M_S2: f64 = 10.0;
 
 /// Sizes, full scales, frequencies and the nominal force law of the display.
+///
+/// ```
+/// use hapticore_scene::Scene;
+///
+/// let scene = Scene::parse("title = \"t\"\n[[pad]]\nposition_mm = [0, 0]\n[sheet]\nterminals = 4\n", "t.toml", &[])?;
+/// let device = &scene.cases[0].device;
+/// assert_eq!((device.terminals(), device.channels(), device.haptic()), (4, 6, 5));
+/// assert_eq!(device.reach_mm(), [415.0, 235.0]); // 860 × 500 mm, a pad of 30 mm
+/// // Eq. 8: 318 pF at 300 V rms.
+/// assert!((device.force_k * (318e-12 * 300f64).powi(2) - 0.0873).abs() < 1e-4);
+/// # Ok::<(), hapticore_scene::SceneError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Device {
     /// Where the current sensors are, mm from the sheet's centre, in the order of their channels: 3 to 16 of them.

@@ -4,6 +4,22 @@
 use num_complex::Complex64;
 
 /// The plant in one slot, at the middle of its integration window.
+///
+/// ```
+/// use hapticore_scene::{Plant, Quantity, Scene, Timing};
+///
+/// let text = "title = \"t\"\n[[pad]]\nposition_mm = [0, 0]\nhaptic_v_rms = { sweep = [0, 300] }\n";
+/// let scene = Scene::parse(text, "t.toml", &[])?;
+/// # let timing = Timing {
+/// #     pads: 4, slot_samples: 1700, window_start: 700, window_samples: 1000, samples_per_period: 10.0, signs: None,
+/// # };
+/// let mut plant = Plant::new(&scene, 0, &timing)?;
+/// let (off, on) = (plant.truth(0), plant.truth(1));
+/// assert_eq!((off.force_n, on.set.haptic_v_rms), (0.0, 300.0));
+/// assert_eq!(Quantity::ForceN.of(&on), on.force_n);
+/// assert!((on.time_s - off.time_s - 1.7e-3).abs() < 1e-12); // slots of 1.7 ms
+/// # Ok::<(), hapticore_scene::SceneError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Truth {
     /// Time since the start of the case, s.
