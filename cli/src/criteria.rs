@@ -188,6 +188,7 @@ fn truth(row: &Row, of: Quantity, start_s: f64) -> f64 {
     match (of, row.truth) {
         (Quantity::TimeS, _) => row.time_s - start_s,
         (Quantity::LoadG, Some(truth)) => truth.load_g,
+        (Quantity::FrictionN, Some(truth)) => truth.friction_n,
         (_, Some(truth)) => quantity(&truth.quantities, of),
         (_, None) => f64::NAN,
     }
@@ -195,6 +196,8 @@ fn truth(row: &Row, of: Quantity, start_s: f64) -> f64 {
 
 fn quantity(quantities: &Quantities, of: Quantity) -> f64 {
     match of {
+        Quantity::RX => quantities.r_x,
+        Quantity::RY => quantities.r_y,
         Quantity::XMm => quantities.x_mm,
         Quantity::YMm => quantities.y_mm,
         Quantity::CapacitancePf => quantities.capacitance_pf,
@@ -202,6 +205,6 @@ fn quantity(quantities: &Quantities, of: Quantity) -> f64 {
         Quantity::HapticVRms => quantities.haptic_v_rms,
         Quantity::ForceN => quantities.force_n,
         Quantity::Direction => quantities.direction,
-        Quantity::TimeS | Quantity::LoadG | Quantity::PositionMm => f64::NAN,
+        Quantity::TimeS | Quantity::LoadG | Quantity::FrictionN | Quantity::PositionMm => f64::NAN,
     }
 }

@@ -14,6 +14,16 @@ const MOST_PADS: usize = 16;
 const UNEVEN: [&str; 2] = ["slope_percent", "patch"];
 
 /// One variant of a scene.
+///
+/// ```
+/// use hapticore_scene::Scene;
+///
+/// let text = "title = \"t\"\n[[pad]]\nname = \"puck\"\nposition_mm = [0, 0]\nload_g = { sweep = [20, 50] }\n[gap]\n";
+/// let case = &Scene::parse(text, "t.toml", &[])?.cases[0];
+/// assert_eq!((case.name.as_str(), case.pad_names(), case.swept()), ("main", vec!["puck"], vec!["load_g"]));
+/// assert_eq!(case.effects(), [("gap", "static"), ("carrier", "phasor")]);
+/// # Ok::<(), hapticore_scene::SceneError>(())
+/// ```
 #[derive(Clone)]
 pub struct Case {
     /// The case's name, `main` for a scene without cases.

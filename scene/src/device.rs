@@ -3,25 +3,9 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crate::effects::sheet;
 use crate::error::SceneError;
-use crate::few::Few;
 use crate::format::{Limits, Table};
-
-/// The fewest terminals of a sheet: two ratios need three currents.
-pub const LEAST_TERMINALS: usize = 3;
-
-/// The most terminals of a sheet.
-pub const MOST_TERMINALS: usize = 16;
-
-/// ADC channels beside the terminals' currents: the sensing voltage, then the haptic voltage.
-pub(crate) const VOLTAGES: usize = 2;
-
-/// The most ADC channels.
-pub(crate) const MOST_CHANNELS: usize = MOST_TERMINALS + VOLTAGES;
-
-/// One value per terminal, held in place: no slot or sample allocates.
-pub(crate) type PerTerminal<T> = Few<T, MOST_TERMINALS>;
+use crate::terminals::{VOLTAGES, terminals_mm};
 
 /// Permittivity of free space, F/m.
 pub const EPSILON_0: f64 = 8.854_187_812_8e-12;
@@ -34,6 +18,18 @@ pub const EPSILON_0: f64 = 8.854_187_812_8e-12;
 const GRAVITY_M_S2: f64 = 10.0;
 
 /// Sizes, full scales, frequencies and the nominal force law of the display.
+///
+/// ```
+/// use hapticore_scene::Scene;
+///
+/// let scene = Scene::parse("title = \"t\"\n[[pad]]\nposition_mm = [0, 0]\n[sheet]\nterminals = 4\n", "t.toml", &[])?;
+/// let device = &scene.cases[0].device;
+/// assert_eq!((device.terminals(), device.channels(), device.haptic()), (4, 6, 5));
+/// assert_eq!(device.reach_mm(), [415.0, 235.0]); // 860 × 500 mm, a pad of 30 mm
+/// // Eq. 8: 318 pF at 300 V rms.
+/// assert!((device.force_k * (318e-12 * 300f64).powi(2) - 0.0873).abs() < 1e-4);
+/// # Ok::<(), hapticore_scene::SceneError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Device {
     /// Where the current sensors are, mm from the sheet's centre, in the order of their channels: 3 to 16 of them.
@@ -108,7 +104,7 @@ impl Device {
             gravity_m_s2: number("device", "gravity_m_s2", Limits::POSITIVE, GRAVITY_M_S2)?,
             force_k: mu / (2.0 * EPSILON_0 * pad_area_m2),
         };
-        device.terminals_mm = sheet::terminals_mm(root, &device)?;
+        device.terminals_mm = terminals_mm(root, [device.width_mm, device.height_mm])?;
         Ok(device)
     }
 

@@ -15,6 +15,14 @@ pub enum Place {
 }
 
 /// A scene that cannot be run, and why.
+///
+/// ```
+/// use hapticore_scene::Scene;
+///
+/// let text = "title = \"typo\"\n[[pad]]\nposition_mm = [0, 0]\nload = 50\n";
+/// let error = Scene::parse(text, "typo.toml", &[]).unwrap_err();
+/// assert_eq!(error.to_string(), "typo.toml:4: pad.0.load: expected load_g, since a key names its unit");
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub struct SceneError {
     /// The scene's file, or the name of a bundled scene.

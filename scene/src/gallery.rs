@@ -29,6 +29,15 @@ pub fn all() -> &'static [(&'static str, &'static str)] {
 }
 
 /// The text of the scene of this name.
+///
+/// ```
+/// use hapticore_scene::{Scene, gallery};
+///
+/// let scene = Scene::parse(gallery::find("hockey").unwrap(), "hockey.toml", &[])?;
+/// assert_eq!(scene.cases[0].pad_names().len(), 4);
+/// assert!(gallery::find("cricket").is_none());
+/// # Ok::<(), hapticore_scene::SceneError>(())
+/// ```
 pub fn find(name: &str) -> Option<&'static str> {
     SCENES.iter().find(|(known, _)| *known == name).map(|(_, text)| *text)
 }

@@ -1,13 +1,64 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The plant in SI units and `f64`: sheet, gap, friction, carrier and sensor chain, each an opt-in effect, and the scenes
-//! that say what is done with it.
+//! The plant of an electrostatic visuo-haptic display, simulated in SI units and `f64`: sheet, gap, friction, carrier and sensor
+//! chain, each an opt-in effect, and the scenes that say what is done with it. It gives what an ADC at the display would see, and
+//! beside it the truth that a sensing core has to find.
 //!
-//! | module | what it is |
+//! A scene is TOML. Whatever effect has no table in it is not there: no state, no cost. [`Scene::parse`] reads and checks it,
+//! [`Plant::new`] sets one of its cases up for a core's [`Timing`], and from then on slots are asked for one after the other:
+//!
+//! ```
+//! use hapticore_scene::{Complex, Plant, Scene, Timing};
+//!
+//! let text = r#"
+//!     title = "A pad of 318 pF on a sheet with six terminals"
+//!     [[pad]]
+//!     position_mm = [120, -60]
+//!     haptic_v_rms = 150
+//!     [sheet]
+//!     ohm_per_square = 150
+//! "#;
+//! let scene = Scene::parse(text, "my.toml", &[])?;
+//! let timing = Timing {
+//!     pads: 4, slot_samples: 1700, window_start: 700, window_samples: 1000, samples_per_period: 10.0, signs: None,
+//! };
+//! let mut plant = Plant::new(&scene, 0, &timing)?;
+//!
+//! // The truth of the first slot …
+//! let truth = plant.truth(0);
+//! assert_eq!((truth.x_mm, truth.y_mm), (120.0, -60.0));
+//! assert!(truth.r_x > 0.0 && truth.r_y < 0.0 && (72.0..190.0).contains(&truth.sheet_ohm));
+//! // … what a demodulator finds of it: six terminals, then the sensing voltage, in fractions of full scale …
+//! let mut phasors = [Complex::default(); 7];
+//! plant.phasors(0, &mut phasors);
+//! let total: Complex = phasors[..6].iter().sum();
+//! assert!((total.norm() * 4e-3 - 1e-3).abs() < 1e-5); // 1 mA of a full scale of 4 mA: 5 V through 5 kΩ
+//! // … and its samples, eight channels at each instant.
+//! let mut samples = Vec::new();
+//! plant.samples(0, 700..1700, &mut samples);
+//! assert_eq!(samples.len(), 8 * 1000);
+//! # Ok::<(), hapticore_scene::SceneError>(())
+//! ```
+//!
+//! | to | see |
 //! | --- | --- |
-//! | [`Scene`] | a scene file, read and checked: cases, pads, criteria |
-//! | [`Plant`] | one case at work: truth, phasors and ADC samples, slot by slot |
-//! | [`Device`] | what the builder of the device knows of it |
-//! | [`gallery`] | the bundled scenes |
+//! | read a scene, choose its fidelity by an error budget | [`Scene`], [`Case`], [`SceneError`] |
+//! | run a case: truth, phasors, ADC samples, calibrations | [`Plant`], [`Truth`], [`Timing`], [`EffectCost`] |
+//! | know the display that a scene describes | [`Device`], [`signs_by_place`] |
+//! | name a quantity, its unit and its truth | [`Quantity`] |
+//! | know what a scene claims | [`Criterion`], [`Measure`] |
+//! | take crosstalk between pads out of measurements | [`Uncoupler`] |
+//! | start from a bundled scene | [`gallery`] |
+//!
+//! Inside, from the bottom up:
+//!
+//! | modules | what they hold |
+//! | --- | --- |
+//! | `error`, `format` | messages with file, line and key; TOML as a tree that knows which keys were read |
+//! | `terminals`, `device`, `ratios` | where the terminals are, sizes and full scales, signs of the ratios |
+//! | `course`, `path`, `pad` | what a pad does over a sweep or over time |
+//! | `effects` | one file or folder for each effect; `effects::EFFECTS` is the list of all |
+//! | `case`, `scene`, `criterion`, `quantity` | a scene as it is read |
+//! | `plant`, `budget`, `uncouple` | a case at work; errors of the fidelity levels; crosstalk cancellation |
 //!
 //! The plant knows no bit widths of the core and writes no file.
 
@@ -24,10 +75,12 @@ pub mod gallery;
 mod pad;
 mod path;
 mod plant;
+mod quantity;
 mod random;
 mod ratios;
 mod rotor;
 mod scene;
+mod terminals;
 mod timing;
 mod truth;
 mod uncouple;
@@ -35,14 +88,16 @@ mod variant;
 
 pub use budget::RungError;
 pub use case::Case;
-pub use criterion::{Criterion, Measure, Per, Quantity, Where};
-pub use device::{Device, LEAST_TERMINALS, MOST_TERMINALS};
+pub use criterion::{Criterion, Measure, Per, Where};
+pub use device::Device;
 pub use effects::EffectCost;
 pub use error::{Place, SceneError};
 pub use num_complex::Complex64 as Complex;
 pub use plant::Plant;
+pub use quantity::Quantity;
 pub use ratios::signs_by_place;
 pub use scene::{Figure, Record, Scene};
+pub use terminals::{LEAST_TERMINALS, MOST_TERMINALS};
 pub use timing::Timing;
 pub use truth::{ForcePoint, MapPoint, PadReading, Setpoint, Truth};
 pub use uncouple::{Lying, Uncoupler};

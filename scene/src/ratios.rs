@@ -63,6 +63,14 @@ impl Ratios {
 /// The ratios then tell all places apart: over 3000 random devices of 4, 5, 6 and 8 terminals, corners and others anywhere, the
 /// determinant of their slopes never changes its sign. It does on 1310 of them where all terminals are in the denominator but
 /// the corners alone have signs.
+///
+/// ```
+/// use hapticore_scene::signs_by_place;
+///
+/// let corners = [[-430.0, 250.0], [-430.0, -250.0], [430.0, -250.0], [430.0, 250.0]];
+/// let [x, y] = signs_by_place(&corners, [860.0, 500.0]);
+/// assert_eq!((x, y), (vec![-1, -1, 1, 1], vec![1, -1, -1, 1])); // eqs. 2 and 3
+/// ```
 pub fn signs_by_place(terminals_mm: &[[f64; 2]], size_mm: [f64; 2]) -> [Vec<i8>; 2] {
     [0, 1].map(|axis| {
         let along = || terminals_mm.iter().map(|place| place[axis]);

@@ -72,6 +72,19 @@ pub enum Record {
 }
 
 /// A scene of one or more cases.
+///
+/// ```
+/// use hapticore_scene::Scene;
+///
+/// let text = "title = \"two loads\"\n[[pad]]\nposition_mm = [0, 0]\n\
+///             [[case]]\nname = \"light\"\nset = { \"pad.0.load_g\" = 20 }\n\
+///             [[case]]\nname = \"heavy\"\nset = { \"pad.0.load_g\" = 100 }\n";
+/// let overrides = [("seed".to_string(), "7".to_string())]; // as --set seed=7
+/// let scene = Scene::parse(text, "loads.toml", &overrides)?;
+/// assert_eq!((scene.name.as_str(), scene.profile.as_str(), scene.seed), ("loads", "standard", 7));
+/// assert_eq!(scene.cases[1].name, "heavy");
+/// # Ok::<(), hapticore_scene::SceneError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Scene {
     /// The file's name without folder and `.toml`.
@@ -99,6 +112,9 @@ pub struct Scene {
 impl Scene {
     /// Reads a scene. `file` is its name in messages; `overrides` are keys and values as in `--set KEY=VALUE` and win over
     /// the file and its cases.
+    ///
+    /// # Errors
+    /// A text that is no scene: the message names file, line and key, what was expected and what was found.
     pub fn parse(text: &str, file: &str, overrides: &[(String, String)]) -> Result<Scene, SceneError> {
         Scene::read(text, file, overrides).map_err(|error| error.in_file(file))
     }

@@ -4,6 +4,22 @@
 use num_complex::Complex64;
 
 /// The plant in one slot, at the middle of its integration window.
+///
+/// ```
+/// use hapticore_scene::{Plant, Quantity, Scene, Timing};
+///
+/// let text = "title = \"t\"\n[[pad]]\nposition_mm = [0, 0]\nhaptic_v_rms = { sweep = [0, 300] }\n";
+/// let scene = Scene::parse(text, "t.toml", &[])?;
+/// # let timing = Timing {
+/// #     pads: 4, slot_samples: 1700, window_start: 700, window_samples: 1000, samples_per_period: 10.0, signs: None,
+/// # };
+/// let mut plant = Plant::new(&scene, 0, &timing)?;
+/// let (off, on) = (plant.truth(0), plant.truth(1));
+/// assert_eq!((off.force_n, on.set.haptic_v_rms), (0.0, 300.0));
+/// assert_eq!(Quantity::ForceN.of(&on), on.force_n);
+/// assert!((on.time_s - off.time_s - 1.7e-3).abs() < 1e-12); // slots of 1.7 ms
+/// # Ok::<(), hapticore_scene::SceneError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Truth {
     /// Time since the start of the case, s.
@@ -61,18 +77,31 @@ pub struct Setpoint {
     pub eccentricity_mm: f64,
 }
 
+/// Takes a value of a setpoint.
+type Taken = fn(&Setpoint) -> f64;
+
 impl Setpoint {
+    /// Keys and values, in the order in which a sweep varies them, the fastest first.
+    const KEYS: [(&str, Taken); 6] = [
+        ("x_mm", |set| set.x_mm),
+        ("y_mm", |set| set.y_mm),
+        ("load_g", |set| set.load_g),
+        ("haptic_v_rms", |set| set.haptic_v_rms),
+        ("capacitance_pf", |set| set.capacitance_pf),
+        ("eccentricity_mm", |set| set.eccentricity_mm),
+    ];
+
     /// The value of a key: `load_g`; not a number for another key.
+    ///
+    /// ```
+    /// use hapticore_scene::Setpoint;
+    ///
+    /// let set = Setpoint { load_g: 50.0, ..Setpoint::default() };
+    /// assert_eq!(set.get("load_g"), 50.0);
+    /// assert!(set.get("load").is_nan());
+    /// ```
     pub fn get(&self, key: &str) -> f64 {
-        match key {
-            "x_mm" => self.x_mm,
-            "y_mm" => self.y_mm,
-            "load_g" => self.load_g,
-            "haptic_v_rms" => self.haptic_v_rms,
-            "capacitance_pf" => self.capacitance_pf,
-            "eccentricity_mm" => self.eccentricity_mm,
-            _ => f64::NAN,
-        }
+        Setpoint::KEYS.iter().find(|(known, _)| *known == key).map_or(f64::NAN, |(_, of)| of(self))
     }
 }
 

@@ -10,11 +10,12 @@
 //! An open terminal's row says w_i = 0. The matrix is inverted once. A disc of even current has the split of its centre;
 //! only N(p, p) sees its size, through R_eff = R·e^(−1/4).
 
+use super::geometry::Sheet;
 use super::linear::{Square, dot};
 use super::neumann::Neumann;
-use super::{Sheet, Solver, Split};
-use crate::device::MOST_TERMINALS;
+use super::split::{Solver, Split};
 use crate::few::Few;
+use crate::terminals::MOST_TERMINALS;
 
 /// Of the bordered system: a number for each terminal, then the border's.
 type Bordered = Few<f64, { MOST_TERMINALS + 1 }>;
