@@ -69,6 +69,36 @@ fn positions_are_right_on_random_devices() {
     }
 }
 
+/// The same with every number of terminals that a sheet may have: the corners, as many as there are, and others anywhere.
+#[test]
+fn positions_are_right_with_three_to_sixteen_terminals() {
+    let profile = profile("standard");
+    let found = (3..=16).into_par_iter().map(|terminals| {
+        let mut device = Device::draw(2 * terminals); // an even film
+        let [width, height] = device.size_mm;
+        let mut extra = (0..).map(|n| {
+            let along = 0.9 * ((0.618 * f64::from(n)).fract() - 0.5);
+            [
+                [along * width, 0.5 * height],
+                [0.5 * width, along * height],
+                [along * width, -0.5 * height],
+                [-0.5 * width, along * height],
+            ][n as usize % 4]
+        });
+        device.terminals_mm.truncate(4.min(terminals));
+        device.terminals_mm.extend(extra.by_ref().take(terminals.saturating_sub(4)));
+        device.terminal_ohm = vec![device.terminal_ohm[0]; terminals];
+        let places = Raster { every: 7, ..PLACES };
+        (terminals, find(&profile, device, &places))
+    });
+    for (terminals, found) in found.collect::<Vec<_>>() {
+        println!("{}", line(&found));
+        assert!(rms(&found.reference_mm) < 0.1, "{}", line(&found));
+        // Three corners tell so little about a pad near the fourth that the words of `standard` do not hold it.
+        assert!(terminals == 3 || !is_silently_wrong(&found), "{}", line(&found));
+    }
+}
+
 /// A pad at many places of the paper's display, from its exact currents. A 16-bit ADC without noise of its own, which would be
 /// its dither, adds to that: with `carrier.rung = "samples"` `small` is at 0.2 mm rms, integers or not.
 #[test]

@@ -54,6 +54,36 @@ fn a_profile_of_ones_own_keeps_its_number_of_terminals() {
     refuse(folder.path(), &[&["simulate", "minimal-sheet"], &set[..]].concat(), &words);
 }
 
+/// A scene and a profile are all that a device of eight terminals needs: no line of the program names them.
+#[test]
+fn eight_terminals_need_a_profile_and_a_scene_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = hapticore_model::profile::BUNDLED.iter().find(|(name, _)| *name == "standard").unwrap().1;
+    let own = |line: &str| match line.split_once('=').map_or("", |(key, _)| key.trim()) {
+        "name" => "name = \"mine\"\n".to_string(),
+        "clocks_per_sample" => "clocks_per_sample = 42\n".to_string(),
+        "x" => "x = [-1, -1, 1, 1, 0, 0, 1, -1]\n".to_string(),
+        "y" => "y = [1, -1, -1, 1, 1, -1, 0, 0]\n".to_string(),
+        _ => format!("{line}\n"),
+    };
+    fs::write(folder.path().join("mine.toml"), text.lines().map(own).collect::<String>()).unwrap();
+    let scene = "title = \"eight\"\n[[pad]]\nposition_mm = { raster = { nx = 5, ny = 4, margin_mm = 20 } }\nhaptic_v_rms = 150\n\
+                 [[pad]]\nposition_mm = [100, 60]\n[sheet]\nterminal_ohm = 100\nterminals_mm = [[-430, 250], [-430, -250], \
+                 [430, -250], [430, 250], [0, 250], [0, -250], [430, 0], [-430, 0]]\n[carrier]\nrung = \"samples\"\n\
+                 [sensor]\nquantisation_bits = 18\nnoise_ppm_rms = 10\n[[criterion]]\nname = \"position\"\n\
+                 measure = \"rms_error\"\nof = \"position_mm\"\nlimit = 0.1\n";
+    fs::write(folder.path().join("eight.toml"), scene).unwrap();
+    let run = |core: &str| {
+        let args =
+            ["simulate", "eight.toml", "--profile", "mine.toml", "--waves", "none", "--core", core, "--out", core];
+        expect(folder.path(), &args, 0);
+        fs::read(folder.path().join(core).join("frames.csv")).unwrap()
+    };
+    assert_eq!(run("fixed"), run("clock"));
+    run("float");
+    assert_eq!(Table::read(&folder.path().join("fixed/frames.csv")).numbers("x_mm").len(), 40);
+}
+
 #[test]
 fn a_position_table_that_does_not_fit_its_sheet_is_told() {
     let folder = tempfile::tempdir().unwrap();
