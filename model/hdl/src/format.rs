@@ -12,6 +12,16 @@ use std::str::FromStr;
 pub const MAX_WIDTH: u8 = 63;
 
 /// The format of one signal: `value = code · 2^-frac`.
+///
+/// ```
+/// use hapticore_hdl::format::Format;
+///
+/// let volts: Format = "s18.8".parse()?;
+/// assert_eq!(volts, Format::signed(18, 8));
+/// assert_eq!((volts.min_code(), volts.max_code(), volts.lsb()), (-131072, 131071, 1.0 / 256.0));
+/// assert_eq!(volts.real(-384), -1.5);
+/// # Ok::<(), hapticore_hdl::format::FormatError>(())
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Format {
     /// Whether codes are two's complement.
@@ -90,7 +100,15 @@ impl Format {
         code as f64 * self.lsb()
     }
 
-    /// The code nearest to `real`, ties to even; `None` where the format cannot hold it.
+    /// The code nearest to `real`, ties to even; `None` where the format cannot represent it.
+    ///
+    /// ```
+    /// # use hapticore_hdl::format::Format;
+    /// let halves = Format::signed(4, 1); // -4 to 3.5 in steps of a half
+    /// assert_eq!([0.25, 0.75, 3.5].map(|real| halves.code(real)), [Some(0), Some(2), Some(7)]);
+    /// assert_eq!(halves.code(3.75), None, "it rounds to 4");
+    /// assert_eq!([3.75, -9.0, f64::NAN].map(|real| halves.code_saturating(real)), [7, -8, 0]);
+    /// ```
     #[inline(always)]
     pub fn code(self, real: f64) -> Option<i64> {
         let code = (real / self.lsb()).round_ties_even();
@@ -112,6 +130,13 @@ impl Format {
     }
 
     /// Whether every number of `other` is a number of this format.
+    ///
+    /// ```
+    /// # use hapticore_hdl::format::Format;
+    /// let word = Format::signed(18, 17);
+    /// assert!(word.holds(Format::unsigned(17, 17)) && !word.holds(Format::unsigned(18, 17)));
+    /// assert_eq!(word.join(Format::unsigned(18, 17)), Format::signed(19, 17));
+    /// ```
     #[inline(always)]
     pub const fn holds(self, other: Format) -> bool {
         let sign = self.signed || !other.signed;
@@ -142,6 +167,14 @@ impl Format {
     }
 
     /// The exact format of a product.
+    ///
+    /// ```
+    /// # use hapticore_hdl::format::Format;
+    /// let (x, w) = (Format::signed(16, 15), Format::unsigned(16, 16));
+    /// assert_eq!(x.product(w), Format::signed(32, 31));
+    /// assert_eq!(x.sum(x), Format::signed(17, 15));
+    /// assert_eq!(w.difference(w), Format::signed(17, 16));
+    /// ```
     #[inline(always)]
     pub fn product(self, other: Format) -> Format {
         Format {
@@ -171,6 +204,12 @@ impl fmt::Debug for Format {
 }
 
 /// A text that is not a format.
+///
+/// ```
+/// # use hapticore_hdl::format::Format;
+/// let message = "s64.0".parse::<Format>().unwrap_err().to_string();
+/// assert_eq!(message, r#"expected a format such as "s18.17" or "u32.32" (at most 63 bits), got "s64.0""#);
+/// ```
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("expected a format such as \"s18.17\" or \"u32.32\" (at most {MAX_WIDTH} bits), got \"{0}\"")]
 pub struct FormatError(String);

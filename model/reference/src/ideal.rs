@@ -67,9 +67,35 @@ pub struct Reference<T = f64> {
     last: usize,
 }
 
-impl<T: Real> Reference<T> {
-    /// A core of a profile, calibrated, just before its first slot.
+impl Reference {
+    /// A core of a profile in `f64`, calibrated, just before its first slot.
     pub fn new(profile: &Profile, calibration: &Calibration) -> Self {
+        Reference::with_precision(profile, calibration)
+    }
+}
+
+impl<T: Real> Reference<T> {
+    /// A core in the precision of `T`, calibrated, just before its first slot.
+    ///
+    /// ```
+    /// # use hapticore_contract::calibration::{Calibration, Point, PositionTable};
+    /// # use hapticore_contract::profile::Profile;
+    /// use hapticore_reference::Reference;
+    ///
+    /// # let profile = Profile::bundled("standard")?;
+    /// # let place = |k: i32| (f64::from(k % 9 - 4) * 20.0, f64::from(k / 9 - 4) * 10.0);
+    /// # let point = |(x, y)| Point { x, y, r_x: x / 100.0, r_y: y / 50.0, sheet: 0.0 };
+    /// # let position = PositionTable::fit(&profile, &(0..81).map(place).map(point).collect::<Vec<_>>())?;
+    /// # let calibration = Calibration { position, capacitance_gain: 800.0, force_gain: 2e-6 };
+    /// let mut double = Reference::new(&profile, &calibration);
+    /// let mut single = Reference::<f32>::with_precision(&profile, &calibration);
+    /// let phasors = [(0.11, 0.0), (0.12, 0.0), (0.1, 0.0), (0.09, 0.0), (0.1, 0.0), (0.1, 0.0), (0.3, 0.4)];
+    /// let (double, single) = (double.phasors(0, &phasors, 0.1), single.phasors(0, &phasors, 0.1));
+    /// let error = (f64::from(single.capacitance_pf) / double.capacitance_pf - 1.0).abs();
+    /// assert!(error > 0.0 && error < 1e-6, "24 bits: {error}");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn with_precision(profile: &Profile, calibration: &Calibration) -> Self {
         let pair = |(&x, &y): (&i8, &i8)| [x, y].map(|sign| real(sign.into()));
         let terminals = &profile.terminals;
         let half = 1i32 << (profile.formats.adc.width - 1);

@@ -83,9 +83,9 @@ struct Cores {
 impl Cores {
     fn new(profile: &Profile, calibration: &Calibration) -> Self {
         Cores {
-            single: Reference::new(profile, calibration),
-            double: Reference::new(profile, calibration),
-            exact: Reference::new(profile, calibration),
+            single: Reference::with_precision(profile, calibration),
+            double: Reference::with_precision(profile, calibration),
+            exact: Reference::with_precision(profile, calibration),
         }
     }
 

@@ -54,6 +54,18 @@ pub enum Scalar {
 }
 
 /// The layout of a profile's position table.
+///
+/// ```
+/// use hapticore_contract::calibration::{Axis, Layout, Scalar, Surface};
+/// use hapticore_contract::profile::Profile;
+///
+/// let layout = Layout::new(&Profile::bundled("small")?);
+/// assert_eq!([Axis::X, Axis::Y].map(|axis| layout.coefficients(Surface::RatioX, axis)), [37, 19]);
+/// assert_eq!(layout.scalar(Scalar::Centre, Axis::Y), Layout::SCALARS + 1);
+/// assert_eq!(layout.surface(Surface::RatioY), 2 * Layout::SCALARS + 37 * 19);
+/// assert!(layout.words() > layout.surface(Surface::Resistance));
+/// # Ok::<(), hapticore_contract::profile::ProfileError>(())
+/// ```
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Layout {
     /// Coefficients of the ratios along either axis: columns and rows.

@@ -15,6 +15,26 @@ use crate::profile::Profile;
 use hapticore_hdl::format::Format;
 
 /// The calibration of a device.
+///
+/// ```
+/// use hapticore_contract::calibration::{Calibration, Point, PositionTable};
+/// use hapticore_contract::profile::Profile;
+///
+/// let profile = Profile::bundled("small")?;
+/// // Ratios as they were read at 9 × 9 places of a sheet of 160 × 80 mm.
+/// let place = |k: i32| (f64::from(k % 9 - 4) * 20.0, f64::from(k / 9 - 4) * 10.0);
+/// let point = |(x, y)| Point { x, y, r_x: x / 100.0, r_y: y / 50.0, sheet: 0.05 };
+/// let position = PositionTable::fit(&profile, &(0..81).map(place).map(point).collect::<Vec<_>>())?;
+/// let calibration = Calibration { position, capacitance_gain: 800.0, force_gain: 2e-6 };
+/// calibration.check(&profile)?;
+///
+/// let found = calibration.position.look_up(0.25f64, -0.4);
+/// assert!((found.x - 25.0).abs() < 1e-5 && (found.y + 20.0).abs() < 1e-5 && (found.sheet - 0.05).abs() < 1e-9);
+///
+/// let too_large = Calibration { capacitance_gain: 1e9, ..calibration };
+/// assert!(too_large.check(&profile).unwrap_err().to_string().starts_with("calibration capacitance gain: expected a number"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Calibration {
     /// Position and sheet resistance from ratios.

@@ -5,6 +5,16 @@ use crate::profile::Profile;
 use hapticore_hdl::format::Format;
 
 /// A word of a frame.
+///
+/// ```
+/// use hapticore_contract::{frame::Field, profile::Profile};
+///
+/// let profile = Profile::bundled("standard")?;
+/// assert_eq!(Field::ALL[Field::Capacitance as usize], Field::Capacitance);
+/// let word = Field::word(&profile);
+/// assert!(Field::ALL.iter().all(|field| word.holds(field.format(&profile).integer())), "codes are integers of one width");
+/// # Ok::<(), hapticore_contract::profile::ProfileError>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Field {
     /// The x ratio.

@@ -59,6 +59,16 @@ pub struct Reading<T = f64> {
 
 impl<T> Reading<T> {
     /// The reading with each of its numbers converted.
+    ///
+    /// ```
+    /// use hapticore_contract::{frame::{Flags, Frame, Reading}, profile::Profile};
+    ///
+    /// let profile = Profile::bundled("standard")?;
+    /// let frame = Frame { pad: 0, codes: [0, 0, 96, 0, 0, 0, 0, 0], flags: Flags::default() };
+    /// let single: Reading<f32> = frame.reading(&profile).map(|number| number as f32);
+    /// assert_eq!(f64::from(single.x_mm), frame.reading(&profile).x_mm);
+    /// # Ok::<(), hapticore_contract::profile::ProfileError>(())
+    /// ```
     pub fn map<U>(self, mut of: impl FnMut(T) -> U) -> Reading<U> {
         Reading {
             pad: self.pad,
@@ -77,6 +87,18 @@ impl<T> Reading<T> {
 
 impl Frame {
     /// The numbers that the codes stand for.
+    ///
+    /// ```
+    /// use hapticore_contract::{frame::{Field, Flags, Frame}, profile::Profile};
+    ///
+    /// let profile = Profile::bundled("standard")?;
+    /// let mut codes = [0; Field::ALL.len()];
+    /// codes[Field::Force as usize] = Field::Force.format(&profile).code(0.25).expect("a quarter of a newton");
+    /// let flags = Flags { saturated: true, ..Flags::default() };
+    /// let reading = Frame { pad: 3, codes, flags }.reading(&profile);
+    /// assert_eq!((reading.pad, reading.force_n, reading.flags.saturated), (3, 0.25, true));
+    /// # Ok::<(), hapticore_contract::profile::ProfileError>(())
+    /// ```
     pub fn reading(&self, profile: &Profile) -> Reading {
         let of = |field: Field| field.format(profile).real(self.codes[field as usize]);
         Reading {

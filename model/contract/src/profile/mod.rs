@@ -10,7 +10,17 @@ use hapticore_hdl::format::Format;
 use serde::{Deserialize, Serialize};
 use std::fmt::Display;
 
-/// A profile.
+/// A profile: every width, count and time of a core.
+///
+/// ```
+/// use hapticore_contract::profile::Profile;
+///
+/// let profile = Profile::bundled("standard")?;
+/// assert_eq!(profile.channels(), 8, "six terminals, the sensing and the haptic voltage");
+/// assert_eq!(profile.slot_clocks(), profile.slot.samples() * profile.clocks_per_sample);
+/// assert_eq!(profile.formats.adc.to_string(), "s18.17");
+/// # Ok::<(), hapticore_contract::profile::ProfileError>(())
+/// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Profile {
@@ -214,7 +224,20 @@ pub const BUNDLED: [(&str, &str); 3] = [
 ];
 
 impl Profile {
-    /// Reads a profile.
+    /// Reads a profile, and checks the ranges of its values.
+    ///
+    /// ```
+    /// use hapticore_contract::profile::{BUNDLED, Profile};
+    ///
+    /// let (_, text) = BUNDLED[0];
+    /// let wider = Profile::parse(&text.replace("pads = 4", "pads = 16"))?;
+    /// assert_eq!(wider.pads, 16);
+    ///
+    /// let message = |text: &str| Profile::parse(text).unwrap_err().to_string();
+    /// assert_eq!(message(&text.replace("pads = 4", "pads = 300")), "pads: expected 1 to 256, got 300");
+    /// assert!(message(&text.replace("pads = 4", "pads = four")).starts_with("4: "), "the line is named");
+    /// # Ok::<(), hapticore_contract::profile::ProfileError>(())
+    /// ```
     ///
     /// # Errors
     /// Where the text is no profile, or a value is out of its range; the message names line or key.
@@ -228,6 +251,15 @@ impl Profile {
     }
 
     /// A bundled profile.
+    ///
+    /// ```
+    /// use hapticore_contract::profile::Profile;
+    ///
+    /// assert_eq!(Profile::bundled("small")?.pads, 4);
+    /// let message = Profile::bundled("tiny").unwrap_err().to_string();
+    /// assert_eq!(message, "expected a file or a profile among small, standard, fine, got \"tiny\"");
+    /// # Ok::<(), hapticore_contract::profile::ProfileError>(())
+    /// ```
     ///
     /// # Errors
     /// Where none has the name.
@@ -291,6 +323,15 @@ impl Profile {
     }
 
     /// The profile with a window of another length, its carrier as near to what it was as whole periods are.
+    ///
+    /// ```
+    /// use hapticore_contract::profile::Profile;
+    ///
+    /// let profile = Profile::bundled("small")?.with_window(250);
+    /// assert_eq!((profile.slot.integrate, profile.carrier.periods, profile.samples_per_period()), (250, 50, 5.0));
+    /// profile.check_values()?;
+    /// # Ok::<(), hapticore_contract::profile::ProfileError>(())
+    /// ```
     pub fn with_window(mut self, samples: u64) -> Self {
         self.carrier.periods = (self.turns_per_sample() * samples as f64).round() as u64;
         self.slot.integrate = samples;

@@ -7,8 +7,8 @@
 //! ```
 
 use super::{Exact, round, round_quotient, round_root};
+use hapticore_contract::format::Format;
 use hapticore_contract::profile::Profile;
-use hapticore_hdl::format::Format;
 
 /// The capacitance.
 #[derive(Debug, Clone, Copy, PartialEq)]

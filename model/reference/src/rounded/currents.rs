@@ -8,8 +8,8 @@
 //! ```
 
 use super::{Exact, round, round_root};
+use hapticore_contract::format::Format;
 use hapticore_contract::profile::{Method, Profile, Window};
-use hapticore_hdl::format::Format;
 
 /// Amplitudes and sums.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -10,8 +10,8 @@
 //! d leaves 32 bits of the largest sum that the window lets be.
 
 use super::{Exact, Sample, round, round_real, weighted};
+use hapticore_contract::format::Format;
 use hapticore_contract::profile::{Method, Profile, Window};
-use hapticore_hdl::format::Format;
 use std::f64::consts::TAU;
 
 /// The sums of a window.

@@ -2,8 +2,8 @@
 //! The words of frames, of which ratios are rounded to the width of the widest other one: what is invalid is the pad's last valid; the mean square, the last word, is always its own.
 
 use super::{Exact, round};
+use hapticore_contract::format::Format;
 use hapticore_contract::profile::Profile;
-use hapticore_hdl::format::Format;
 
 /// Words of a frame: r_x, r_y, x, y, R, C, F, mean square.
 const WORDS: usize = 8;

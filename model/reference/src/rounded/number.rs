@@ -4,11 +4,25 @@
 //! An `f64` would do up to 2^53; squares of the widest words have 62 bits. So numbers are `mantissa · 2^exponent` with an
 //! `i128`, which holds every sum and product of the core exactly.
 
-use hapticore_hdl::format::Format;
+use hapticore_contract::format::Format;
 use std::cmp::Ordering;
 use std::ops::{Add, Mul, Neg, Sub};
 
 /// An exact number: `mantissa · 2^exponent`.
+///
+/// ```
+/// use hapticore_contract::format::Format;
+/// use hapticore_reference::rounded::{Exact, round};
+///
+/// let (x, word) = (Format::signed(16, 15), Format::signed(18, 17));
+/// let product = Exact::of(-32768, x) * Exact::of(98303, word);
+/// assert_eq!(product.real(), -98303.0 / 131072.0);
+/// assert_eq!(product.code(word), -98303, "-1 times it is a number of the format still");
+///
+/// let narrow = Format::signed(4, 1);
+/// assert_eq!(round(Exact::new(3, -2), narrow).value.code(narrow), 2, "0.75 lies half way, and goes to the even code");
+/// assert!(round(Exact::new(4, 0), narrow).held, "3.5 is the largest");
+/// ```
 #[derive(Debug, Clone, Copy)]
 pub struct Exact {
     mantissa: i128,
@@ -160,6 +174,12 @@ pub fn round_quotient(n: Exact, d: Exact, to: Format) -> Rounded {
 
 /// `√x` with `frac` fractional bits, `x` having at most twice as many. `f64::sqrt` would round twice; here the
 /// integers decide: `√x` is past `n + ½` where `x` is past `n² + n`.
+///
+/// ```
+/// use hapticore_reference::rounded::{Exact, round_root};
+///
+/// assert_eq!(round_root(Exact::new(2, 0), 10).real(), 1448.0 / 1024.0);
+/// ```
 pub fn round_root(x: Exact, frac: i8) -> Exact {
     let x = x.over(-2 * i32::from(frac));
     let n = x.isqrt();

@@ -10,8 +10,8 @@
 //! Polyphase: window = [A sin² π m/N], the cosine that of five samples a period, no sine.
 
 use super::{Exact, round_real};
+use hapticore_contract::format::Format;
 use hapticore_contract::profile::{Method, Profile, Window};
-use hapticore_hdl::format::Format;
 use std::f64::consts::{PI, TAU};
 
 /// A sample of the carrier.

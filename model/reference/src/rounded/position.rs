@@ -12,8 +12,8 @@
 //! ```
 
 use super::{Exact, floor_quotient, round};
+use hapticore_contract::format::Format;
 use hapticore_contract::profile::Profile;
-use hapticore_hdl::format::Format;
 
 /// A place on the sheet.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -6,8 +6,8 @@
 //! ```
 
 use super::{Currents, Exact, round_quotient};
+use hapticore_contract::format::Format;
 use hapticore_contract::profile::Profile;
-use hapticore_hdl::format::Format;
 
 /// The ratios.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -71,6 +71,18 @@ impl PositionTable {
     /// Ratios are fitted by least squares, a point counting as much as its place depends on them (the norm of J⁻¹, from a first
     /// fit in which all count alike).
     ///
+    /// ```
+    /// use hapticore_contract::calibration::{Point, PositionError, PositionTable};
+    /// use hapticore_contract::profile::Profile;
+    ///
+    /// // All places on one line.
+    /// let point = |k: i32| Point { x: f64::from(k), y: 0.0, r_x: f64::from(k) / 10.0, r_y: 0.0, sheet: 0.0 };
+    /// let line: Vec<_> = (-5..=5).map(point).collect();
+    /// let error = PositionTable::fit(&Profile::bundled("small")?, &line).unwrap_err();
+    /// assert_eq!(error, PositionError::Area { points: 11, width: 10.0, height: 0.0 });
+    /// # Ok::<(), hapticore_contract::profile::ProfileError>(())
+    /// ```
+    ///
     /// # Errors
     /// Where the points span no area or one beyond the words' range, or their ratios do not tell places apart.
     pub fn fit(profile: &Profile, points: &[Point]) -> Result<PositionTable, PositionError> {

@@ -133,9 +133,9 @@ impl PositionTable {
     /// let point = |(x, y)| Point { x, y, r_x: 0.006 * x, r_y: 0.006 * y, sheet: 0.04 };
     /// let table = PositionTable::fit(&profile, &(0..121).map(at).map(point).collect::<Vec<_>>())?;
     ///
-    /// let found = table.look_up(0.3, -0.12);
+    /// let found = table.look_up(0.3f64, -0.12);
     /// assert!(found.is_valid() && (found.x - 50.0).abs() < 1e-5 && (found.y + 20.0).abs() < 1e-5);
-    /// assert!(!table.look_up(0.9, 0.0).is_valid(), "150 mm is beyond the sheet's edge");
+    /// assert!(!table.look_up(0.9f64, 0.0).is_valid(), "150 mm is beyond the sheet's edge");
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn look_up<T: Real>(&self, r_x: T, r_y: T) -> Found<T> {
