@@ -7,7 +7,7 @@ use fixed::traits::Fixed;
 use fixed::types::extra::U40;
 use fixed::types::{I1F7, I2F14, I5F11, I8F0, I8F24, I16F0, I16F16, I24F8, U0F8, U0F32, U1F15, U8F8, U16F16, U32F0};
 use hapticore_hdl::format::Format;
-use hapticore_model::signal::{HalfEven, Saturate, Signal, Wrap};
+use hapticore_hdl::signal::{HalfEven, Saturate, Signal, Wrap};
 use hapticore_reference::rounded::{Exact, round, round_real};
 use proptest::prelude::*;
 

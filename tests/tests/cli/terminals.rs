@@ -58,7 +58,7 @@ fn a_profile_of_ones_own_keeps_its_number_of_terminals() {
 #[test]
 fn eight_terminals_need_a_profile_and_a_scene_alone() {
     let folder = tempfile::tempdir().unwrap();
-    let text = hapticore_model::profile::BUNDLED.iter().find(|(name, _)| *name == "standard").unwrap().1;
+    let text = hapticore_contract::profile::BUNDLED.iter().find(|(name, _)| *name == "standard").unwrap().1;
     let own = |line: &str| match line.split_once('=').map_or("", |(key, _)| key.trim()) {
         "name" => "name = \"mine\"\n".to_string(),
         "clocks_per_sample" => "clocks_per_sample = 42\n".to_string(),
