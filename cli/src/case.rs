@@ -8,20 +8,21 @@ use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread;
 
 use anyhow::{Result, ensure};
+use hapticore_host::profile::{for_terminals, serving};
+use hapticore_host::{CrosstalkCanceller, DeviceCalibration, Residual, SlotClock, quantities_of};
 use hapticore_model::profile::Profile;
 use hapticore_scene::{Complex, EffectCost, Plant, RungError, Scene, Truth, signs_by_place};
 use indicatif::ProgressBar;
 
 use crate::args::Fidelity;
-use crate::calibrate::DeviceCalibration;
+use crate::calibrate;
 use crate::capture::Recorder;
+use crate::digitiser::Digitiser;
 use crate::engine::{Signals, Slot};
-use crate::inputs::{for_terminals, serving, timing};
+use crate::inputs::timing;
 use crate::interrupt;
-use crate::record::{self, Quantities, Row, SignalError};
-use crate::residual::Residual;
-use crate::session::{Session, SlotClock};
-use crate::units::Digitiser;
+use crate::record::{self, Row, SignalError};
+use crate::session::Session;
 
 /// Slots made ahead of the core.
 const AHEAD: usize = 8;
@@ -85,7 +86,7 @@ impl<'a> Case<'a> {
         let plant = Plant::new(scene, index, &timing(&profile))?;
         let pads = plant.pad_names().len();
         let profile = Arc::new(serving(&profile, pads));
-        let device = DeviceCalibration::of_plant(&plant, &profile);
+        let device = calibrate::of_plant(&plant, &profile);
         let clock = SlotClock::new(&profile, device.device.sample_rate_hz, start_s);
         Ok(Case { scene, index, number, profile, device, slots: plant.slots(), clock })
     }
@@ -146,9 +147,10 @@ impl<'a> Case<'a> {
     ) -> Result<Outcome> {
         let at = (self.number, self.clock);
         let plant = self.plant()?;
-        let uncouplers = plant.uncoupler().zip(plant.uncoupler());
+        let canceller = || Some(CrosstalkCanceller::calibrated(plant.nominal_sheet()?, &self.device));
+        let cancellers = canceller().zip(canceller()).map(<[_; 2]>::from);
         let session = Session::new(&self.profile, &self.device, settings.fidelity, settings.errors, at)?
-            .uncoupling(uncouplers.map(<[_; 2]>::from));
+            .with_cancellers(cancellers);
         let whole = settings.fidelity == Fidelity::Clock || recorder.is_some();
         let mut maker = Maker::new(plant.metered(), &self.profile, self.scene.cases[self.index].sampled(), whole);
         let (sender, receiver) = sync_channel(AHEAD);
@@ -187,17 +189,7 @@ fn consume(
 
 /// What the record keeps of the plant's truth.
 pub fn known(truth: &Truth) -> record::Truth {
-    let quantities = Quantities {
-        r_x: truth.r_x,
-        r_y: truth.r_y,
-        x_mm: truth.x_mm,
-        y_mm: truth.y_mm,
-        capacitance_pf: truth.capacitance_pf,
-        sheet_ohm: truth.sheet_ohm,
-        haptic_v_rms: truth.haptic_v_rms,
-        force_n: truth.force_n,
-        direction: truth.direction,
-    };
+    let quantities = quantities_of!(truth);
     let Truth { load_g, friction_n, set, point, group, over_edge, touching, .. } = *truth;
     record::Truth { quantities, load_g, friction_n, set, point, group, over_edge, touching }
 }

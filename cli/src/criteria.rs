@@ -194,14 +194,5 @@ fn truth(row: &Row, of: Quantity, start_s: f64) -> f64 {
 }
 
 fn quantity(quantities: &Quantities, of: Quantity) -> f64 {
-    match of {
-        Quantity::XMm => quantities.x_mm,
-        Quantity::YMm => quantities.y_mm,
-        Quantity::CapacitancePf => quantities.capacitance_pf,
-        Quantity::SheetOhm => quantities.sheet_ohm,
-        Quantity::HapticVRms => quantities.haptic_v_rms,
-        Quantity::ForceN => quantities.force_n,
-        Quantity::Direction => quantities.direction,
-        Quantity::TimeS | Quantity::LoadG | Quantity::PositionMm => f64::NAN,
-    }
+    hapticore_host::quantity(of.name()).map_or(f64::NAN, |quantity| quantity.of(quantities))
 }

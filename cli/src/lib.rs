@@ -6,19 +6,18 @@
 //! | [`args`] | the command line |
 //! | [`simulate`], [`replay`], [`hdl`], [`codes`](mod@codes), [`lab`], [`scenes`] | one command each |
 //! | [`inputs`] | scenes and profiles from names and files |
-//! | [`units`] | the one place where volts and fractions meet codes |
-//! | [`calibrate`] | a device as a core is told of it |
+//! | [`digitiser`] | the one place where fractions of full scale meet codes |
+//! | [`calibrate`] | the calibration of a simulated device |
 //! | [`engine`] | the core at its three fidelities behind one trait |
 //! | [`session`] | slots in, rows out: the core, the reference beside it, rounding errors |
 //! | [`case`] | a case of a scene, its samples made while the core works |
 //! | [`criteria`] | what a scene claims, measured |
 //! | [`capture`] | ADC samples in CSV and WAV files |
-//! | [`uncoupling`] | readings of several pads freed of each other |
 //! | [`haptic`] | whether the core's window is long enough for the haptic voltage |
 //! | [`record`] | what a run leaves |
 //! | [`report`] | the page with the figures |
 //! | [`output`], [`print`](mod@print) | the same written into a folder and on the terminal |
-//! | [`folder`], [`partial`], [`console`] | which folder; what is not finished yet; standard output that may be closed |
+//! | [`folder`], [`console`] | which folder; standard output that may be closed |
 
 pub mod args;
 pub mod calibrate;
@@ -27,6 +26,7 @@ pub mod case;
 pub mod codes;
 pub mod console;
 pub mod criteria;
+pub mod digitiser;
 pub mod engine;
 pub mod errors;
 pub mod folder;
@@ -36,20 +36,15 @@ pub mod inputs;
 pub mod interrupt;
 pub mod lab;
 pub mod output;
-pub mod partial;
-pub mod placement;
 pub mod print;
 pub mod progress;
 pub mod provenance;
 pub mod record;
 pub mod replay;
 pub mod report;
-pub mod residual;
 pub mod scenes;
 pub mod session;
 pub mod simulate;
-pub mod uncoupling;
-pub mod units;
 pub mod waves;
 
 use std::process::ExitCode;

@@ -4,33 +4,10 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
+pub use hapticore_host::Quantities;
+use hapticore_host::Residual;
 use hapticore_scene::Setpoint;
 use serde::Serialize;
-
-use crate::residual::Residual;
-
-/// The quantities of a slot, in physical units; the columns of `frames.csv` from `r_x` on.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
-pub struct Quantities {
-    /// Eq. 2.
-    pub r_x: f64,
-    /// Eq. 3.
-    pub r_y: f64,
-    /// From the sheet's middle, along the long edges.
-    pub x_mm: f64,
-    /// From the sheet's middle, along the short edges.
-    pub y_mm: f64,
-    /// The pad's capacitance.
-    pub capacitance_pf: f64,
-    /// The sheet's resistance at the pad.
-    pub sheet_ohm: f64,
-    /// The haptic voltage.
-    pub haptic_v_rms: f64,
-    /// The haptic force.
-    pub force_n: f64,
-    /// The direction of the user's push; zero where nothing measures it.
-    pub direction: f64,
-}
 
 /// A finished slot.
 #[derive(Debug, Clone, PartialEq, Serialize)]

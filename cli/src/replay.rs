@@ -6,18 +6,18 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use anyhow::{Context, Result, bail, ensure};
+use hapticore_host::profile::serving;
+use hapticore_host::{DeviceCalibration, SlotClock, residual};
 use hapticore_model::profile::Profile;
 
 use crate::args::{Fidelity, ReplayArgs};
-use crate::calibrate::DeviceCalibration;
 use crate::capture::{self, Adc, Described, Source};
 use crate::engine::{Signals, Slot};
 use crate::haptic::Meter;
 use crate::output::{Frames, Output, summary};
 use crate::record::{Provenance, Record, Row};
-use crate::residual;
-use crate::session::{Session, SlotClock};
-use crate::{console, folder, haptic, inputs, interrupt, print, progress, report, say};
+use crate::session::Session;
+use crate::{calibrate, console, folder, haptic, inputs, interrupt, print, progress, report, say};
 
 /// The profile where none is named.
 const PROFILE: &str = "standard";
@@ -34,14 +34,14 @@ pub fn run(args: &ReplayArgs) -> Result<bool> {
     let calibration = calibration(args);
     let device = match &calibration {
         Some(path) => DeviceCalibration::read(path)?,
-        None => DeviceCalibration::nominal(&profile)?,
+        None => calibrate::nominal(&profile)?,
     };
     let profile = device.profile(&profile)?;
     let adc = Adc { terminals: profile.terminals.x.len(), format: profile.formats.adc };
     let described = Described { channels: args.channels.clone(), bits: args.bits, full_scale_v: args.full_scale_v };
     let mut source = capture::open(&args.capture, adc, &described)?;
     let pads = args.pads.unwrap_or(device.pads);
-    let profile = Arc::new(inputs::serving(&profile, pads as usize));
+    let profile = Arc::new(serving(&profile, pads as usize));
     check_rate(source.as_ref(), &device, &profile)?;
     let name = args.capture.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let folder = args.out.clone().unwrap_or_else(|| folder::of_capture(args));

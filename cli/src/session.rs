@@ -5,20 +5,15 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 
 use anyhow::Result;
-use hapticore_model::frame::{Flags, Reading};
+use hapticore_host::{CrosstalkCanceller, DeviceCalibration, Readout, Residual, SlotClock};
+use hapticore_model::frame::Reading;
 use hapticore_model::profile::Profile;
 use hapticore_model::reference::Reference as FloatCore;
-use hapticore_scene::Uncoupler;
 
 use crate::args::Fidelity;
-use crate::calibrate::DeviceCalibration;
 use crate::engine::{Engine, Slot, engine};
 use crate::errors::Errors;
-use crate::placement::Placement;
 use crate::record::{Reference, Row, SignalError, Truth};
-use crate::residual::Residual;
-use crate::uncoupling::Uncoupling;
-use crate::units::Units;
 
 /// A core at work on one stream of slots.
 pub struct Session {
@@ -26,48 +21,11 @@ pub struct Session {
     engine: Box<dyn Engine>,
     reference: FloatCore,
     errors: Option<Errors>,
-    units: Units,
+    /// Of the core and of the reference.
+    readouts: [Readout; 2],
     clock: SlotClock,
     case: usize,
     waiting: VecDeque<Row>,
-    /// Of the core and of the reference.
-    uncoupling: Option<[Uncoupling; 2]>,
-    placement: Placement,
-}
-
-/// When slots are.
-#[derive(Debug, Clone, Copy)]
-pub struct SlotClock {
-    start_s: f64,
-    slot_samples: f64,
-    middle: f64,
-    sample_rate_hz: f64,
-    slots: u64,
-}
-
-impl SlotClock {
-    /// Slots of the profile from `start_s` on.
-    pub fn new(profile: &Profile, sample_rate_hz: f64, start_s: f64) -> Self {
-        let middle = profile.slot.blanking() as f64 + profile.slot.integrate as f64 / 2.0;
-        SlotClock { start_s, slot_samples: profile.slot.samples() as f64, middle, sample_rate_hz, slots: 0 }
-    }
-
-    /// The middle of the next slot's window.
-    fn tick(&mut self) -> f64 {
-        let samples = self.slots as f64 * self.slot_samples + self.middle;
-        self.slots += 1;
-        self.start_s + samples / self.sample_rate_hz
-    }
-
-    /// When the first slot begins.
-    pub fn start_s(&self) -> f64 {
-        self.start_s
-    }
-
-    /// How long `slots` take.
-    pub fn seconds(&self, slots: usize) -> f64 {
-        slots as f64 * self.slot_samples / self.sample_rate_hz
-    }
 }
 
 impl Session {
@@ -88,18 +46,19 @@ impl Session {
             engine: engine(fidelity, profile, &calibration),
             reference: FloatCore::new(profile, &calibration),
             errors: errors.then(|| Errors::new(profile, &calibration)),
-            units: Units::new(profile, &device.device),
+            readouts: [0, 1].map(|_| Readout::new(profile, device)),
             clock,
             case,
             waiting: VecDeque::new(),
-            uncoupling: None,
-            placement: Placement::new(device),
         })
     }
 
-    /// The same session, which takes out of its readings, the core's and the reference's, what other pads did to them.
-    pub fn uncoupling(mut self, uncouplers: Option<[Uncoupler; 2]>) -> Self {
-        self.uncoupling = uncouplers.map(|both| both.map(Uncoupling::new));
+    /// The same session, which takes out of its measurements, the core's and the reference's, what other pads did to them.
+    pub fn with_cancellers(mut self, cancellers: Option<[CrosstalkCanceller; 2]>) -> Self {
+        let cancellers = cancellers.map_or([None, None], |both| both.map(Some));
+        let [core, reference] = self.readouts;
+        let [of_core, of_reference] = cancellers;
+        self.readouts = [core.with_canceller(of_core), reference.with_canceller(of_reference)];
         self
     }
 
@@ -142,10 +101,7 @@ impl Session {
         let reading = slot.refer(&mut self.reference);
         let capacitance_pf = self.reference.capacitance_eq6();
         let ratio = capacitance_pf / reading.capacitance_pf;
-        let mut quantities = self.units.quantities(&reading);
-        if let Some([_, reference]) = self.uncoupling.as_mut().filter(|_| !reading.flags.invalid) {
-            reference.apply(slot.pad, &mut quantities);
-        }
+        let (quantities, _) = self.readouts[1].convert(&reading);
         Reference {
             quantities,
             capacitance_eq6_pf: capacitance_pf,
@@ -156,19 +112,7 @@ impl Session {
     fn finished(&mut self, reading: &Reading) -> Option<Row> {
         let row = self.waiting.pop_front()?;
         assert_eq!(row.pad, reading.pad, "readings come in the order of their slots");
-        let mut measured = self.units.quantities(reading);
-        if let Some([core, _]) = self.uncoupling.as_mut().filter(|_| !reading.flags.invalid) {
-            core.apply(row.pad, &mut measured);
-        }
-        let at_mm = (!reading.flags.invalid).then_some([measured.x_mm, measured.y_mm]);
-        let flags: Vec<_> = names(reading.flags).chain(self.placement.flags(row.pad, at_mm)).collect();
-        Some(Row { measured, flags: flags.join("+"), ..row })
+        let (measured, flags) = self.readouts[0].convert(reading);
+        Some(Row { measured, flags, ..row })
     }
-}
-
-/// The names of the core's flags that are set.
-fn names(flags: Flags) -> impl Iterator<Item = &'static str> {
-    let named =
-        [(flags.clipped, "clipped"), (flags.saturated, "saturated"), (flags.invalid, "invalid"), (flags.lost, "lost")];
-    named.into_iter().filter(|(set, _)| *set).map(|(_, name)| name)
 }

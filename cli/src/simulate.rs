@@ -16,8 +16,8 @@ use crate::case::{Case, Outcome, Settings};
 use crate::criteria::{self, CaseRows};
 use crate::output::{Frames, OfScene, Output, is_of_a_run, summary};
 use crate::record::{Effect, Provenance, Record, Row};
-use crate::residual::{self, Residual};
 use crate::{console, errors, folder, haptic, inputs, print, progress, report, say, waves};
+use hapticore_host::residual::{self, Residual};
 
 /// Below this the haptic voltage is off, V rms.
 const HAPTIC_OFF_V: f64 = 1.0;

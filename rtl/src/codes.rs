@@ -1,77 +1,45 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Codes: what makes a calibration's sensor of a core: the constants at its ports, and the words of its position table.
-//!
-//! The one list of them: start-up of a board, vectors for users of the Verilog and `hapticore codes` all take it.
+//! The core's ports and the words of a calibration: which port takes which word of [`hapticore_protocol`].
 
-use hapticore_model::block::Block;
-use hapticore_model::blocks::core::{Core, Inputs};
+use hapticore_model::blocks::core::Inputs;
 use hapticore_model::bundle::Bundle;
-use hapticore_model::calibration::Calibration;
 use hapticore_model::format::Format;
-use hapticore_model::profile::Profile;
+use hapticore_protocol::{Constant, WordFormats};
 
-/// The core's inputs that are no constants: samples, and the port of the position table.
-const MOVING: [&str; 6] = ["strobe", "clear", "code", "write", "address", "word"];
+pub use hapticore_protocol::{CalibrationWords, ConstantWord};
 
-/// The codes of a calibration for a core.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Codes {
-    /// The core's inputs: constants as they are to be, all others zero.
-    pub inputs: Inputs<i64>,
-    /// Their formats.
-    pub formats: Inputs<Format>,
-    /// The words of the position table, by address, in the format of [`Inputs::word`].
-    pub table: Vec<i64>,
+/// The formats of a calibration's words, of a core with these inputs.
+///
+/// # Panics
+/// If the core has no port for a constant.
+pub fn word_formats(core: &Inputs<Format>) -> WordFormats {
+    WordFormats { constants: Constant::ALL.map(|constant| port(core, constant)), table: core.word }
 }
 
-/// A constant at a port of the core.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Constant {
-    /// The name of the port, and of a board's register.
-    pub name: &'static str,
-    /// What the model says of it.
-    pub about: &'static str,
-    /// The code.
-    pub code: i64,
-    /// Its format.
-    pub format: Format,
-}
-
-impl Codes {
-    /// The codes of a calibration for a core of a profile.
-    pub fn new(profile: &Profile, calibration: &Calibration) -> Self {
-        let formats = Core::new(profile).inputs();
-        let table = calibration.position.words.iter().map(|&real| formats.word.code_saturating(real)).collect();
-        Codes { inputs: calibration.inputs(formats), formats, table }
-    }
-
-    /// The constants, in the order of the core's ports.
-    pub fn constants(&self) -> Vec<Constant> {
-        let (mut constants, mut docs) = (Vec::new(), Inputs::DOCS.iter());
-        Inputs::each(Inputs::zip(self.inputs, self.formats), |name, (code, format)| {
-            let about = docs.next().expect("a text for each input").trim();
-            constants.push(Constant { name, about, code, format });
-        });
-        constants.retain(|constant| !MOVING.contains(&constant.name));
-        constants
-    }
+fn port(core: &Inputs<Format>, constant: Constant) -> Format {
+    let mut found = None;
+    Inputs::each(*core, |name, format| found = found.or((name == constant.name()).then_some(format)));
+    found.expect("a port for each constant")
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use hapticore_model::block::Block;
+    use hapticore_model::blocks::core::Core;
+    use hapticore_model::profile::Profile;
+
+    /// The core's inputs that are no constants: samples, and the port of the position table.
+    const MOVING: [&str; 6] = ["strobe", "clear", "code", "write", "address", "word"];
 
     #[test]
-    fn every_input_of_the_core_is_a_constant_or_moves() {
-        let profile = Profile::bundled("small").expect("bundled");
-        let formats = Core::new(&profile).inputs();
-        let codes = Codes { inputs: Inputs::map(formats, |_| 1), formats, table: Vec::new() };
-        let constants = codes.constants();
-        assert_eq!(constants.len() + MOVING.len(), Inputs::NAMES.len());
-        let gain = constants.iter().find(|constant| constant.name == "capacitance_gain").expect("a constant");
-        assert_eq!(
-            (gain.format, gain.about),
-            (formats.capacitance_gain, "Calibration: picofarads at an admittance of one.")
-        );
+    fn the_words_of_a_calibration_are_the_ports_of_the_core() {
+        for profile in Profile::all() {
+            let core = Core::new(&profile).inputs();
+            assert_eq!(word_formats(&core), WordFormats::new(&profile), "{}", profile.name);
+        }
+        let mut ports: Vec<_> = Inputs::NAMES.to_vec();
+        ports.retain(|name| !MOVING.contains(name));
+        assert_eq!(ports, Constant::ALL.map(Constant::name), "in their order");
     }
 }

@@ -8,8 +8,8 @@ use hapticore::args::Fidelity;
 use hapticore::case::{Case, Maker, known};
 use hapticore::engine::{Signals, Slot};
 use hapticore::record::{Quantities, Row};
-use hapticore::residual::Residual;
 use hapticore::session::Session;
+use hapticore_host::Residual;
 use hapticore_model::profile::Profile;
 use hapticore_scene::Scene;
 

@@ -19,7 +19,7 @@ use anyhow::{Context, Result, anyhow, bail};
 use super::columns::{self, Column, Columns, wanted};
 use super::input::Input;
 use super::{Adc, Aside, Described, Recorder, Sampled, Source};
-use crate::units::Digitiser;
+use crate::digitiser::Digitiser;
 
 /// The most bits of a code.
 const MOST_BITS: u8 = 32;
@@ -240,11 +240,10 @@ impl Writer {
 
 impl Recorder for Writer {
     fn slot(&mut self, pad: usize, codes: &[i32]) -> Result<()> {
-        self.write(pad, codes).with_context(|| self.aside.path.display().to_string())
+        self.write(pad, codes).with_context(|| self.aside.path().display().to_string())
     }
 
-    fn keep(mut self: Box<Self>) -> Result<()> {
-        self.aside.file.flush().with_context(|| self.aside.path.display().to_string())?;
-        super::persist(self.aside.temporary, &self.aside.path)
+    fn keep(self: Box<Self>) -> Result<()> {
+        self.aside.keep()
     }
 }

@@ -15,14 +15,12 @@ mod sigmf;
 mod wav;
 
 use std::fs::File;
-use std::io::BufWriter;
+use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
+use hapticore_files::AtomicFile;
 use hapticore_model::format::Format;
-use tempfile::NamedTempFile;
-
-use crate::partial;
 
 /// A capture being read, sample instant by sample instant.
 pub trait Source {
@@ -156,51 +154,35 @@ pub fn calibration_path(capture: &Path) -> PathBuf {
     name.into()
 }
 
-/// A file that grows beside the one it will be.
+/// A file in the making, and what writes into it.
 struct Aside {
     file: BufWriter<File>,
-    temporary: NamedTempFile,
-    path: PathBuf,
+    atomic: AtomicFile,
 }
 
 impl Aside {
     fn create(path: &Path) -> Result<Self> {
         let within = || path.display().to_string();
-        if path.is_dir() {
-            bail!("{}: expected a file to write, there is a folder of this name", path.display());
-        }
-        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        partial::clear(folder);
-        let temporary = tempfile::Builder::new().prefix(partial::PREFIX).tempfile_in(folder).with_context(within)?;
-        partial::lock_file(temporary.as_file());
-        let file = BufWriter::with_capacity(1 << 18, temporary.reopen().with_context(within)?);
-        Ok(Aside { file, temporary, path: path.to_owned() })
+        let atomic = AtomicFile::create(path).with_context(within)?;
+        let file = BufWriter::with_capacity(1 << 18, atomic.reopen().with_context(within)?);
+        Ok(Aside { file, atomic })
+    }
+
+    fn path(&self) -> &Path {
+        self.atomic.path()
+    }
+
+    /// Completes the file and gives it its name.
+    fn keep(mut self) -> Result<()> {
+        let path = self.path().display().to_string();
+        self.file.flush().and_then(|()| self.atomic.persist()).context(path)
     }
 }
 
-/// Gives a finished file its name, readable as any other.
-fn persist(temporary: NamedTempFile, path: &Path) -> Result<()> {
-    let within = || path.display().to_string();
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        let readable = std::fs::Permissions::from_mode(0o644);
-        temporary.as_file().set_permissions(readable).with_context(within)?;
-    }
-    temporary.persist(path).map(|_| ()).with_context(within)
-}
-
-/// Writes a small text file aside and gives it its name.
+/// Writes a small text file atomically.
 ///
 /// # Errors
 /// It cannot be written.
 pub fn write_text(path: &Path, text: &str) -> Result<()> {
-    use std::io::Write;
-    let mut aside = Aside::create(path)?;
-    aside
-        .file
-        .write_all(text.as_bytes())
-        .and_then(|()| aside.file.flush())
-        .with_context(|| path.display().to_string())?;
-    persist(aside.temporary, path)
+    hapticore_files::write(path, text).with_context(|| path.display().to_string())
 }

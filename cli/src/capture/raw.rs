@@ -10,7 +10,7 @@ use anyhow::{Context, Result, bail, ensure};
 use super::columns::{self, Column, Columns};
 use super::input::Input;
 use super::{Adc, Sampled, Source};
-use crate::units::Digitiser;
+use crate::digitiser::Digitiser;
 
 /// How a sample stands in its bytes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -12,14 +12,14 @@ use super::columns::Columns;
 use super::input;
 use super::raw::{Layout, Reader};
 use super::{Adc, Described};
-use crate::inputs;
+use hapticore_host::text::read;
 
 /// Opens a capture by the name of either of its files.
 pub fn open(path: &Path, adc: Adc, described: &Described) -> Result<Reader> {
     let (meta, data) = (path.with_extension("sigmf-meta"), path.with_extension("sigmf-data"));
     let file = meta.display().to_string();
     let value: Value =
-        serde_json::from_str(&inputs::read(&meta)?).map_err(|error| anyhow!("{file}: expected JSON: {error}"))?;
+        serde_json::from_str(&read(&meta)?).map_err(|error| anyhow!("{file}: expected JSON: {error}"))?;
     let head = Head::read(&value).with_context(|| file.clone())?;
     let layout = layout(&head.datatype, described).with_context(|| format!("{file}: core:datatype"))?;
     let columns = Columns::counted(head.channels, described.channels.as_deref(), adc)

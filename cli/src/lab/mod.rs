@@ -33,10 +33,10 @@ use hapticore_scene::{Complex, Plant};
 use serde::Serialize;
 
 use crate::args::CalibrateArgs;
-use crate::calibrate::{DeviceCalibration, Found, Raster, Scales, Signs, found, open_share};
 use crate::record::Provenance;
-use crate::residual::{LIMIT_MM, Residual};
 use crate::{capture, console, inputs, print, report, say};
+use hapticore_host::residual::LIMIT_MM;
+use hapticore_host::{DeviceCalibration, Found, Raster, Residual, Scales, Signs, found, open_share};
 use least_squares::Estimate;
 use loads::{Force, Loads};
 use places::{Place, Places};

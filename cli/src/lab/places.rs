@@ -13,7 +13,7 @@ use anyhow::{Result, bail, ensure};
 use hapticore_scene::{Complex, LEAST_TERMINALS, MOST_TERMINALS};
 
 use super::table::{Row, Table};
-use crate::calibrate::OPEN;
+use hapticore_host::device::OPEN;
 
 /// Places at least: fewer leave no word of the position table between edges to tell.
 const LEAST: usize = 16;

@@ -30,8 +30,8 @@ use hapticore_model::profile::Profile;
 use hapticore_scene::signs_by_place;
 use serde::Deserialize;
 
-use crate::calibrate::Signs;
-use crate::inputs;
+use hapticore_host::Signs;
+use hapticore_host::text::{read, with_key};
 
 /// What is known of a device before anything is measured.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -107,11 +107,11 @@ impl Setup {
     /// # Errors
     /// It is not there or is none; the message names file, line and key.
     pub fn read(path: &Path) -> Result<Setup> {
-        let text = inputs::read(path)?;
+        let text = read(path)?;
         let file = path.display();
         let setup: Setup = toml::from_str(&text).map_err(|error| {
             let line = error.span().map_or(1, |span| text[..span.start].matches('\n').count() + 1);
-            anyhow!("{file}:{}", inputs::with_key(&text, &format!("{line}: {}", error.message())))
+            anyhow!("{file}:{}", with_key(&text, &format!("{line}: {}", error.message())))
         })?;
         setup.check().with_context(|| file.to_string())?;
         Ok(setup)

@@ -15,8 +15,8 @@ use hapticore_scene::{PadReading, Plant, Scene, Timing};
 
 use super::places::{Place, Places, total};
 use super::setup::Setup;
-use crate::calibrate::Signs;
 use crate::inputs;
+use hapticore_host::Signs;
 
 /// A current that is so much better correlated with another terminal's on the even sheet is not of its own.
 const BETTER: f64 = 0.05;

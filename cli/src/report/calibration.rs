@@ -10,10 +10,10 @@ use super::page::{self, escape};
 use super::paint::Paint;
 use super::plot::Plot;
 use super::series::Series;
-use crate::calibrate::Found;
 use crate::lab::loads::{Force, Point};
 use crate::lab::{self, Outcome};
-use crate::residual::Residual;
+use hapticore_host::Found;
+use hapticore_host::Residual;
 
 /// Tiles of a map.
 const TILES: usize = 7000;

@@ -26,6 +26,7 @@ use hapticore_model::blocks::core;
 use hapticore_model::format::{BIT, Format};
 use hapticore_model::signal::{Exact, Signal, Value, Wrap, bit, code, int};
 use hapticore_model::{bundle, when};
+use hapticore_protocol::Constant;
 
 bundle! {
     /// The inputs.
@@ -154,10 +155,10 @@ impl CommandRegisters {
             here.select(read_as(r.data, before.format), before)
         };
         Registers {
-            capacitance_gain: write(Register::CapacitanceGain, r.capacitance_gain),
-            force_gain: write(Register::ForceGain, r.force_gain),
+            capacitance_gain: write(Register::Constant(Constant::CapacitanceGain), r.capacitance_gain),
+            force_gain: write(Register::Constant(Constant::ForceGain), r.force_gain),
             control: write(Register::Control, r.control),
-            calibrated: r.calibrated | (r.act & self.is(&r, Register::ForceGain)),
+            calibrated: r.calibrated | (r.act & self.is(&r, Register::LAST_CONSTANT)),
             ..r
         }
     }
@@ -165,7 +166,7 @@ impl CommandRegisters {
     /// Whether the place is this register.
     #[inline(always)]
     fn is<V: Value>(&self, r: &Registers<Signal<V>>, register: Register) -> Signal<V> {
-        r.place.msb() & r.place.bits(0, PLACE.width).is(register as u64)
+        r.place.msb() & r.place.bits(0, PLACE.width).is(register.number() as u64)
     }
 }
 

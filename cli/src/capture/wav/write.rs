@@ -6,12 +6,10 @@
 //!   RF64 −1   WAVE | ds64 28 … | fmt 40 … | data −1   | samples          otherwise (EBU Tech 3306, §3)
 //! ```
 
-use std::fs::File;
-use std::io::{self, BufWriter, Seek, SeekFrom, Write};
-use std::path::{Path, PathBuf};
+use std::io::{self, Seek, SeekFrom, Write};
+use std::path::Path;
 
 use anyhow::{Context, Result, ensure};
-use tempfile::NamedTempFile;
 
 use super::super::{Adc, Aside, Recorder};
 use super::{ELSEWHERE, EXTENSIBLE, GUID, PCM};
@@ -24,9 +22,7 @@ const MOST_BYTES: u64 = ELSEWHERE as u64 - HEAD_BYTES - 1;
 
 /// A WAV capture being written.
 pub struct Writer {
-    file: BufWriter<File>,
-    temporary: NamedTempFile,
-    path: PathBuf,
+    aside: Aside,
     format: Format,
     shift: u32,
     written: u64,
@@ -51,16 +47,16 @@ impl Writer {
             path.display()
         );
         let format = Format { channels: adc.channels().len() as u16, rate, bytes: u16::from(bits / 8) };
-        let Aside { mut file, temporary, path } = Aside::create(path)?;
-        file.write_all(&format.head(0, MOST_BYTES)).with_context(|| path.display().to_string())?;
+        let mut aside = Aside::create(path)?;
+        aside.file.write_all(&format.head(0, MOST_BYTES)).with_context(|| path.display().to_string())?;
         let shift = u32::from(bits - adc.format.width);
-        Ok(Writer { file, temporary, path, format, shift, written: 0, most: MOST_BYTES })
+        Ok(Writer { aside, format, shift, written: 0, most: MOST_BYTES })
     }
 
     fn write(&mut self, codes: &[i32]) -> io::Result<()> {
         let bytes = usize::from(self.format.bytes);
         for code in codes {
-            self.file.write_all(&(code << self.shift).to_le_bytes()[..bytes])?;
+            self.aside.file.write_all(&(code << self.shift).to_le_bytes()[..bytes])?;
         }
         self.written += (bytes * codes.len()) as u64;
         Ok(())
@@ -69,22 +65,21 @@ impl Writer {
     /// Makes the number of bytes even and puts the head right.
     fn complete(&mut self) -> io::Result<()> {
         if !self.written.is_multiple_of(2) {
-            self.file.write_all(&[0])?;
+            self.aside.file.write_all(&[0])?;
         }
-        self.file.seek(SeekFrom::Start(0))?;
-        self.file.write_all(&self.format.head(self.written, self.most))?;
-        self.file.flush()
+        self.aside.file.seek(SeekFrom::Start(0))?;
+        self.aside.file.write_all(&self.format.head(self.written, self.most))
     }
 }
 
 impl Recorder for Writer {
     fn slot(&mut self, _pad: usize, codes: &[i32]) -> Result<()> {
-        self.write(codes).with_context(|| self.path.display().to_string())
+        self.write(codes).with_context(|| self.aside.path().display().to_string())
     }
 
     fn keep(mut self: Box<Self>) -> Result<()> {
-        self.complete().with_context(|| self.path.display().to_string())?;
-        super::super::persist(self.temporary, &self.path)
+        self.complete().with_context(|| self.aside.path().display().to_string())?;
+        self.aside.keep()
     }
 }
 

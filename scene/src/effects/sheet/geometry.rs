@@ -6,8 +6,7 @@ use crate::device::Device;
 use crate::error::SceneError;
 use crate::format::{Limits, Node, Table, Value};
 
-/// Resistance in series with a terminal that is not connected, Ω.
-pub(crate) const OPEN: f64 = f64::INFINITY;
+pub(crate) use hapticore_sheet::uniform::OPEN;
 
 /// What `[sheet]` says.
 #[derive(Clone, Debug)]

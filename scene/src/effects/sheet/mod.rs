@@ -31,15 +31,14 @@ mod distance;
 mod film;
 pub(super) mod geometry;
 mod grid;
-pub(super) mod linear;
 pub(super) mod mesh;
-pub(super) mod neumann;
 pub(super) mod nodes;
 mod places;
 pub(super) mod spline;
 mod table;
 
 pub(super) use geometry::Sheet;
+pub(super) use hapticore_sheet::{linear, neumann};
 pub(crate) use places::terminals_mm;
 
 use nodes::Values;

@@ -15,7 +15,7 @@ const CUT_OFF: f64 = 1e-9;
 
 /// Rectangle `[0, a] × [0, b]`, metres.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Neumann {
+pub struct Neumann {
     a: f64,
     b: f64,
     images: i32,
@@ -30,6 +30,7 @@ impl Neumann {
         Neumann::new([a, b], images as i32)
     }
 
+    /// With so many images.
     pub fn new([a, b]: [f64; 2], images: i32) -> Self {
         Neumann { a, b, images, next: (-2.0 * PI * a / b).exp() }
     }
@@ -45,7 +46,7 @@ impl Neumann {
         self.slope(p[0], q[0]) / self.b - self.product(decay, angles, near).ln() / (4.0 * PI)
     }
 
-    /// g₀
+    /// g₀: the part that is linear in the slower direction.
     pub fn slope(&self, x: f64, x1: f64) -> f64 {
         (x.powi(2) + x1.powi(2)) / (2.0 * self.a) - x.max(x1) + self.a / 3.0
     }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Four pads of 760 pF, read by an ideal core that is calibrated on its device, and freed of each other by a host that knows
-//! the nominal sheet and that calibration.
+//! Four pads of 760 pF, measured by an ideal core that is calibrated on its device, their crosstalk cancelled by a host that
+//! knows the nominal sheet and that calibration.
 
 use std::cell::RefCell;
+
+use hapticore_host::CrosstalkCanceller;
 
 use super::*;
 use crate::effects::coupling::tests::{place_of, placements};
@@ -17,6 +19,10 @@ fn timing() -> Timing {
     Timing { pads: 4, slot_samples: 200, window_start: 0, window_samples: 200, samples_per_period: 10.0, signs }
 }
 
+/// The raster of the calibration.
+const COLUMNS: usize = 121;
+const ROWS: usize = 71;
+
 const NOMINAL: &str = "[sheet]\nrung = \"analytic\"\n";
 
 /// The pads' capacitance.
@@ -29,8 +35,8 @@ fn plant(places: &[[f64; 2]], sheet: &str) -> Plant {
     Plant::new(&Scene::parse(&text, "s.toml", &[]).unwrap(), 0, &timing()).unwrap()
 }
 
-fn at([x_mm, y_mm]: [f64; 2]) -> Lying {
-    Lying { x_mm, y_mm, capacitance_pf: PICOFARAD }
+fn at([x_mm, y_mm]: [f64; 2]) -> PadEstimate {
+    PadEstimate { x_mm, y_mm, capacitance_pf: PICOFARAD }
 }
 
 fn without<T: Copy>(all: &[T], one: usize) -> Vec<T> {
@@ -38,28 +44,23 @@ fn without<T: Copy>(all: &[T], one: usize) -> Vec<T> {
 }
 
 /// The device as it is, which only its calibration knows.
-struct Exact(RefCell<Uncoupler>);
+struct Exact(RefCell<NominalSheet>);
 
 impl Exact {
     fn of(plant: &Plant) -> Exact {
-        let device = plant.device();
-        Exact(RefCell::new(Uncoupler {
-            effects: plant.fresh_effects(),
-            ratios: plant.ratios(),
-            beyond: Beyond::none(device.reach_mm()),
-            device,
-        }))
+        let (effects, device, ratios) = (plant.fresh_effects(), plant.device(), plant.ratios());
+        Exact(RefCell::new(NominalSheet { effects, device, ratios }))
     }
 
     /// What the core reads of each pad: where a lone one has its ratios, and the capacitance by the sum's amplitude.
-    fn read(&self, plant: &mut Plant, places: &[[f64; 2]]) -> Vec<(Lying, [f64; 2])> {
+    fn read(&self, plant: &mut Plant, places: &[[f64; 2]]) -> Vec<(PadEstimate, [f64; 2])> {
         let pads: Vec<_> = places.iter().map(|place| at(*place)).collect();
         let one = |slot: usize| {
             let truth = plant.truth(slot);
             let place = place_of(self, &plant.ratios(), [truth.r_x, truth.r_y], places[slot]);
             let mut exact = self.0.borrow_mut();
-            let share = exact.see(pads[slot], &without(&pads, slot)).1 / exact.see(pads[slot], &[]).1;
-            (Lying { capacitance_pf: PICOFARAD * share, ..at(place) }, [truth.r_x, truth.r_y])
+            let share = exact.among(&pads[slot], &without(&pads, slot)).1 / exact.among(&pads[slot], &[]).1;
+            (PadEstimate { capacitance_pf: PICOFARAD * share, ..at(place) }, [truth.r_x, truth.r_y])
         };
         (0..places.len()).map(one).collect()
     }
@@ -78,18 +79,19 @@ impl Solver for Exact {
 fn off(sheet: &str, count: usize) -> [f64; 3] {
     let lone = plant(&[[0.0, 0.0]], sheet);
     let exact = Exact::of(&lone);
-    let nominal = plant(&[[0.0, 0.0]], NOMINAL).uncoupler().unwrap();
-    let calibration = lone.calibration_map(RASTER[0], RASTER[1], 15.0);
-    let mut host = Uncoupler::new(nominal.effects, nominal.device, nominal.ratios, &calibration);
+    let nominal = plant(&[[0.0, 0.0]], NOMINAL).nominal_sheet().unwrap();
+    let calibration = lone.calibration_map(COLUMNS, ROWS, 15.0);
+    let places = calibration.iter().map(|point| [point.x_mm, point.y_mm, point.r_x, point.r_y, point.sheet_ohm]);
+    let mut host = CrosstalkCanceller::with_map(nominal, COLUMNS, &places.collect::<Vec<_>>());
     let mut worst = [0.0f64; 3];
     for places in placements(count, 20.0) {
         let read = exact.read(&mut plant(&places, sheet), &places);
         let mut known: Vec<_> = read.iter().map(|(pad, _)| *pad).collect();
         for pad in (0..12).map(|slot| slot % 4) {
-            known[pad] = host.uncouple(read[pad].0, read[pad].1, &without(&known, pad));
+            known[pad] = host.cancel(read[pad].0, read[pad].1, &without(&known, pad));
         }
         for (((read, _), known), [x, y]) in read.iter().zip(&known).zip(places) {
-            let far = |pad: &Lying| (pad.x_mm - x).hypot(pad.y_mm - y);
+            let far = |pad: &PadEstimate| (pad.x_mm - x).hypot(pad.y_mm - y);
             let now = [far(read), far(known), (known.capacitance_pf / PICOFARAD - 1.0).abs()];
             worst = [0, 1, 2].map(|n| worst[n].max(now[n]));
         }
@@ -122,9 +124,34 @@ fn a_sheet_that_is_not_the_nominal_one_leaves_less_than_a_millimetre_too() {
 
 #[test]
 fn a_pad_alone_stays_as_it_is_read() {
-    let read = Lying { x_mm: 120.0, y_mm: -60.0, capacitance_pf: 318.0 };
-    let mut uncoupler = plant(&[[0.0, 0.0]], NOMINAL).uncoupler().unwrap();
-    let ratios = uncoupler.lone(read);
-    let freed = uncoupler.uncouple(read, ratios, &[]);
+    let read = PadEstimate { x_mm: 120.0, y_mm: -60.0, capacitance_pf: 318.0 };
+    let mut nominal = plant(&[[0.0, 0.0]], NOMINAL).nominal_sheet().unwrap();
+    let (ratios, _) = nominal.among(&read, &[]);
+    let freed = CrosstalkCanceller::nominal(nominal).cancel(read, ratios, &[]);
     assert!((freed.x_mm - 120.0).abs() < 1e-9 && (freed.capacitance_pf - 318.0).abs() < 1e-9, "{freed:?}");
+}
+
+/// What a host of a real board has of the sheet is what the simulation's `analytic` and `full` rungs compute.
+#[test]
+fn the_hosts_own_nominal_sheet_is_the_simulated_one() {
+    let mut simulated = plant(&[[0.0, 0.0]], NOMINAL).nominal_sheet().unwrap();
+    let device = simulated.device.clone();
+    let sheet = hapticore_sheet::UniformSheet {
+        size_m: [0.86, 0.5],
+        ohm_per_square: 150.0,
+        pad_radius_m: 0.015,
+        terminals_m: device.terminals_mm.iter().map(|[x, y]| [0.43 + 1e-3 * x, 0.25 + 1e-3 * y]).collect(),
+        terminal_ohm: vec![0.0; 6],
+        terminal_radius_m: 1.7e-3,
+    };
+    let mut own = hapticore_sheet::NominalSheet::new(sheet, device.carrier_hz, simulated.ratios.clone());
+    for places in placements(40, 20.0) {
+        let pads = places.map(at);
+        let ([r_x, r_y], amplitude) = simulated.among(&pads[0], &pads[1..]);
+        let (ratios, sum) = own.among(&pads[0], &pads[1..]);
+        let off = [ratios[0] - r_x, ratios[1] - r_y, sum / amplitude - 1.0];
+        assert!(off.iter().all(|off| off.abs() < 1e-9), "{off:?}");
+        let (a, b) = (simulated.isolated(&pads[0]), own.isolated(&pads[0]));
+        assert!((a.1 - b.1).abs() < 1e-6 && (a.0[0] - b.0[0]).abs() < 1e-9, "{a:?} {b:?}");
+    }
 }

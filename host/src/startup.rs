@@ -20,11 +20,12 @@
 //! Sources: data sheets AD7606C-16 and -18 (register map, serial interface); `drivers/adc/ad7606` of Analog Devices' no-OS
 //! (`ad7606_spi_reg_write`: a dummy read before the first write; `ad7606_init`: 253 µs, ID) and of Linux.
 
-use super::framing::{Register, VERSION, digest};
-use super::packet::{Command, Heartbeat};
-use crate::codes::Codes;
+use crate::command::Command;
+use crate::packet::Heartbeat;
 use hapticore_model::calibration::Calibration;
 use hapticore_model::profile::Profile;
+use hapticore_protocol::framing::{VERSION, digest};
+use hapticore_protocol::{CalibrationWords, Register};
 
 /// What a channel of the ADC spans, to either side of zero.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -43,6 +44,14 @@ pub enum Range {
 }
 
 /// How the ADC is set up.
+///
+/// ```
+/// use hapticore_host::startup::{AdcSetup, Range};
+///
+/// let mut setup = AdcSetup::default();
+/// setup.ranges[0] = Range::V5;
+/// assert_eq!(setup.words()[2], 0x0331, "register 3: channel 2 as after a reset, channel 1 to 5 V");
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct AdcSetup {
     /// The range of each channel.
@@ -63,20 +72,14 @@ impl AdcSetup {
     }
 }
 
-/// A calibration's registers: their codes.
-fn registers(codes: &Codes) -> [(Register, i64); 2] {
-    let Codes { inputs, .. } = codes;
-    [(Register::CapacitanceGain, inputs.capacitance_gain), (Register::ForceGain, inputs.force_gain)]
-}
-
-/// The commands that make a calibration's sensor of a board: all but the last, [`Command::ENABLE`], for which a heartbeat
-/// should have been [`check`]ed.
+/// The commands that make a calibrated sensor of a board: all but the last, [`Command::ENABLE`], before which a heartbeat
+/// should be [`check`]ed.
 pub fn prepare(profile: &Profile, calibration: &Calibration, adc: &AdcSetup) -> Vec<Command> {
-    let codes = Codes::new(profile, calibration);
-    let table = codes.table.iter().enumerate();
+    let words = CalibrationWords::new(profile, calibration);
+    let table = words.table.iter().enumerate();
     let table = table.map(|(address, &code)| Command::Table { address: address as u16, code });
     let adc = adc.words().into_iter().map(|word| Command::Register(Register::Adc, word));
-    let registers = registers(&codes).map(|(register, code)| Command::Register(register, code));
+    let registers = words.constants.map(|word| Command::Register(Register::Constant(word.constant), word.code));
     [Command::RESET_ADC, Command::DISABLE].into_iter().chain(registers).chain(table).chain(adc).collect()
 }
 
@@ -102,15 +105,15 @@ pub enum StartupError {
         got: u16,
     },
     /// A command was lost or refused.
-    #[error("the board has taken commands up to {got} modulo 16, expected {expected}, or has refused one")]
+    #[error("the board has accepted commands up to {got} modulo 16, expected {expected}, or has refused one")]
     Commands {
         /// As sent, modulo 16.
         expected: u8,
-        /// As taken, modulo 16.
+        /// As accepted, modulo 16.
         got: u8,
     },
     /// A register is not as it was written.
-    #[error("{register:?} reads back {got:x} (hex), expected {expected:x}")]
+    #[error("{register} reads back {got:x} (hex), expected {expected:x}")]
     Register {
         /// Which.
         register: Register,
@@ -124,7 +127,7 @@ pub enum StartupError {
     Adc(u8),
 }
 
-/// Whether a board that has been sent [`prepare`]'s commands may be enabled, `before` which it had taken so many commands
+/// Whether a board that has been sent [`prepare`]'s commands may be enabled, `before` which it had accepted so many commands
 /// modulo 16 (none after its own reset).
 ///
 /// # Errors
@@ -142,16 +145,16 @@ pub fn check(
     if expected != got {
         return Err(StartupError::Profile { expected, got });
     }
-    let (expected, got) = (((usize::from(before) + commands.len()) % 16) as u8, heartbeat.commands);
-    if expected != got || heartbeat.refused || !heartbeat.calibrated {
+    let (expected, got) = (((usize::from(before) + commands.len()) % 16) as u8, heartbeat.status.commands);
+    if expected != got || heartbeat.status.refused || !heartbeat.calibrated {
         return Err(StartupError::Commands { expected, got });
     }
-    let codes = Codes::new(profile, calibration);
-    for (register, code) in registers(&codes) {
+    for word in CalibrationWords::new(profile, calibration).constants {
+        let register = Register::Constant(word.constant);
         let Some((got, bits)) = heartbeat.register(register) else { continue };
         // A command may bring more bits than its register has.
-        let mask = (1 << bits.min(register.format(&codes.formats).width)) - 1;
-        let (expected, got) = (code as u64 & mask, got & mask);
+        let mask = (1 << bits.min(word.format.width)) - 1;
+        let (expected, got) = (word.code as u64 & mask, got & mask);
         if expected != got {
             return Err(StartupError::Register { register, expected, got });
         }

@@ -13,7 +13,7 @@ use std::time::Duration;
 pub const PREFIX: &str = ".partial-";
 
 /// The file within an unfinished folder that is locked.
-pub const LOCK: &str = ".running";
+pub(crate) const LOCK: &str = ".running";
 
 /// A run locks what it creates within this time.
 const GRACE: Duration = Duration::from_secs(1);
@@ -22,20 +22,20 @@ const GRACE: Duration = Duration::from_secs(1);
 ///
 /// # Errors
 /// The folder cannot be written to.
-pub fn hold(folder: &Path) -> io::Result<File> {
+pub(crate) fn hold(folder: &Path) -> io::Result<File> {
     let lock = File::create(folder.join(LOCK))?;
     lock_file(&lock);
     Ok(lock)
 }
 
 /// Locks an unfinished file, as long as it is open.
-pub fn lock_file(file: &File) {
+pub(crate) fn lock_file(file: &File) {
     // Where the file system has no locks, nothing is ever cleared.
     let _ = file.try_lock();
 }
 
 /// Removes what runs that are no more have left unfinished in a folder. What cannot be removed stays.
-pub fn clear(folder: &Path) {
+pub(crate) fn clear(folder: &Path) {
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     let partial = entries.filter(|entry| entry.file_name().to_string_lossy().starts_with(PREFIX));
     for path in partial.map(|entry| entry.path()).filter(|path| is_abandoned(path)) {

@@ -8,7 +8,7 @@
 //!
 //! A pad whose frame is invalid has no position: it is at no edge and touches none.
 
-use crate::calibrate::DeviceCalibration;
+use crate::device::DeviceCalibration;
 
 /// A position this near to the end of the calibrated places is at the edge.
 pub const NEAR_MM: f64 = 1.0;

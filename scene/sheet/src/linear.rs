@@ -7,9 +7,7 @@ use std::ops::{Div, Mul, Sub};
 use num_complex::Complex64;
 
 /// A number that a system can be of.
-pub(crate) trait Scalar:
-    Copy + From<f64> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
-{
+pub trait Scalar: Copy + From<f64> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> {
     /// Its magnitude: the largest of a column is the pivot.
     fn size(self) -> f64;
 }
@@ -27,7 +25,7 @@ impl Scalar for Complex64 {
 }
 
 /// X of A·X = B by Gauss and Jordan, A not singular; B by its rows.
-pub(crate) fn solve<T: Scalar>(mut a: Vec<Vec<T>>, mut b: Vec<Vec<T>>) -> Vec<Vec<T>> {
+pub fn solve<T: Scalar>(mut a: Vec<Vec<T>>, mut b: Vec<Vec<T>>) -> Vec<Vec<T>> {
     for pivot in 0..a.len() {
         let rows = pivot..a.len();
         let largest = rows.max_by(|i, j| a[*i][pivot].size().total_cmp(&a[*j][pivot].size())).unwrap_or(pivot);
@@ -47,7 +45,7 @@ pub(crate) fn solve<T: Scalar>(mut a: Vec<Vec<T>>, mut b: Vec<Vec<T>>) -> Vec<Ve
 
 /// A square matrix in one allocation, row by row.
 #[derive(Clone, Debug)]
-pub(crate) struct Square<T> {
+pub struct Square<T> {
     order: usize,
     values: Vec<T>,
 }
@@ -58,10 +56,12 @@ impl<T: Scalar> Square<T> {
         Square { order, values: (0..order * order).map(|n| value(n / order, n % order)).collect() }
     }
 
+    /// Row by row.
     pub fn rows(&self) -> impl Iterator<Item = &[T]> {
         self.values.chunks_exact(self.order)
     }
 
+    /// The value of a row and a column.
     pub fn at(&self, row: usize, column: usize) -> T {
         self.values[row * self.order + column]
     }
@@ -76,7 +76,7 @@ impl<T: Scalar> Square<T> {
 }
 
 /// Scalar product over the shorter of both.
-pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
+pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 

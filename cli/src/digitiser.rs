@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The one place where volts and fractions of full scale meet codes.
+//! The one place where fractions of full scale meet codes.
 
 use hapticore_model::format::Format;
-use hapticore_model::frame::Reading;
-use hapticore_model::profile::Profile;
-
-use crate::calibrate::Scales;
-use crate::record::Quantities;
 
 /// An ADC: fractions of full scale to codes, rounded to nearest even, held at its rails.
 #[derive(Debug, Clone, Copy)]
@@ -37,35 +32,5 @@ impl Digitiser {
             code
         }));
         f64::from(peak) / self.scale
-    }
-}
-
-/// From a core's numbers to physical units.
-#[derive(Debug, Clone, Copy)]
-pub struct Units {
-    ohm: f64,
-    haptic_v: f64,
-    square_gain: f64,
-}
-
-impl Units {
-    /// The units of a core of the profile on a device.
-    pub fn new(profile: &Profile, scales: &Scales) -> Self {
-        Units { ohm: scales.ohm(), haptic_v: scales.haptic_full_scale_v, square_gain: profile.square_gain() }
-    }
-
-    /// A slot's reading in physical units.
-    pub fn quantities(&self, reading: &Reading) -> Quantities {
-        Quantities {
-            r_x: reading.r_x,
-            r_y: reading.r_y,
-            x_mm: reading.x_mm,
-            y_mm: reading.y_mm,
-            capacitance_pf: reading.capacitance_pf,
-            sheet_ohm: reading.sheet * self.ohm,
-            haptic_v_rms: self.haptic_v * (reading.mean_square / self.square_gain).sqrt(),
-            force_n: reading.force_n,
-            direction: 0.0,
-        }
     }
 }
