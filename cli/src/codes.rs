@@ -17,8 +17,9 @@ use hapticore_model::format::Format;
 use hapticore_model::profile::Profile;
 
 use crate::args::{CodesArgs, CodesFormat};
-use crate::record::Provenance;
-use crate::{calibrate, capture, console, inputs};
+use crate::console;
+use hapticore_run::record::Provenance;
+use hapticore_run::{calibrate, capture, inputs};
 
 /// The profile where none is named.
 const PROFILE: &str = "standard";

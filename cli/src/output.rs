@@ -9,7 +9,7 @@ use anyhow::{Context, Result};
 use hapticore_files::AtomicFolder;
 use hapticore_host::{COLUMNS, QUANTITIES};
 
-use crate::record::{Record, Row, Truth};
+use hapticore_run::record::{Record, Row, Truth};
 
 /// What a scene adds behind the truth: the case's name, the point of its sweep, and what no frame has.
 const OF_SCENE: [&str; 4] = ["case", "point", "true_load_g", "true_friction_n"];

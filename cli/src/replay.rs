@@ -9,15 +9,16 @@ use anyhow::{Context, Result, bail, ensure};
 use hapticore_host::profile::serving;
 use hapticore_host::{DeviceCalibration, SlotClock, residual};
 use hapticore_model::profile::Profile;
+use hapticore_run::capture::{self, Adc, Described, Source};
+use hapticore_run::engine::{Signals, Slot};
+use hapticore_run::haptic::{self, Meter};
+use hapticore_run::record::{Provenance, Record, Row};
+use hapticore_run::session::Session;
+use hapticore_run::{calibrate, inputs, interrupt};
 
-use crate::args::{Fidelity, ReplayArgs};
-use crate::capture::{self, Adc, Described, Source};
-use crate::engine::{Signals, Slot};
-use crate::haptic::Meter;
+use crate::args::ReplayArgs;
 use crate::output::{Frames, Output, summary};
-use crate::record::{Provenance, Record, Row};
-use crate::session::Session;
-use crate::{calibrate, console, folder, haptic, inputs, interrupt, print, progress, report, say};
+use crate::{console, folder, print, progress, report, say};
 
 /// The profile where none is named.
 const PROFILE: &str = "standard";
@@ -116,7 +117,7 @@ impl Replay {
         let clock = SlotClock::new(profile, device.device.sample_rate_hz, 0.0);
         let channels = profile.channels();
         Ok(Replay {
-            session: Session::new(profile, device, args.core.core, args.core.errors, (0, clock))?,
+            session: Session::new(profile, device, args.core.fidelity(), args.core.errors, (0, clock))?,
             frames: Frames::create(output, None)?,
             rows: Thinned::default(),
             clock,
@@ -198,7 +199,7 @@ impl Replay {
             summary: "Recorded ADC samples, replayed.".into(),
             figure: None,
             profile: profile.name.clone(),
-            fidelity: args.core.core.name().into(),
+            fidelity: args.core.fidelity().name().into(),
             cases: vec!["main".into()],
             pads: (0..self.pads).map(|pad| format!("pad {pad}")).collect(),
             effects: Vec::new(),
@@ -222,7 +223,7 @@ fn tell(args: &ReplayArgs, record: &Record, left: usize, files: &[PathBuf]) {
         console::print(format_args!("{}", summary(record)));
         return;
     }
-    let core: Fidelity = args.core.core;
+    let core = args.core.fidelity();
     say!("{} · core {} · profile {}", record.title, core.name(), record.profile);
     if left > 0 {
         say!("{left} samples at the end are no whole slot and were left out");

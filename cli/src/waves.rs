@@ -20,10 +20,11 @@ use hapticore_waveforms::tracer::{Settings, Tracer};
 use hapticore_waveforms::view::View;
 use hapticore_waveforms::wave::{Kind, Wave};
 
-use crate::case::{Case, Maker};
-use crate::engine::Signals;
 use crate::print::number;
-use crate::{interrupt, progress};
+use crate::progress;
+use hapticore_run::case::{Case, Maker};
+use hapticore_run::engine::Signals;
+use hapticore_run::interrupt;
 
 /// Slots traced where no window is named.
 const SLOTS: u64 = 2;

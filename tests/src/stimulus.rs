@@ -6,15 +6,15 @@ use std::collections::VecDeque;
 use std::f64::consts::TAU;
 
 use fastrand::Rng;
-use hapticore::case::{Case, Maker};
-use hapticore::engine::Signals;
-use hapticore::inputs;
 use hapticore_model::block::Block;
 use hapticore_model::blocks::core::{Core, Inputs, Outputs};
 use hapticore_model::bundle::Bundle;
 use hapticore_model::format::Format;
 use hapticore_model::memory::Memory;
 use hapticore_model::profile::Profile;
+use hapticore_run::case::{Case, Maker};
+use hapticore_run::engine::Signals;
+use hapticore_run::inputs;
 
 /// What the core is given of the plant: sets of codes, one for each strobe.
 pub type Samples = Box<dyn Iterator<Item = Vec<i64>>>;

@@ -4,7 +4,7 @@
 use super::figure::Figure;
 use super::general::{self, CAPACITANCE, FORCE, Quantity};
 use super::hockey::force_error;
-use crate::record::Record;
+use hapticore_run::record::Record;
 
 /// Below this the haptic voltage is off, V rms.
 const OFF_V: f64 = 1.0;

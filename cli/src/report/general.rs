@@ -8,7 +8,7 @@ use super::paint::Paint;
 use super::plot::Plot;
 use super::select;
 use super::series::{Mark, Point, Series};
-use crate::record::{Quantities, Record, Row};
+use hapticore_run::record::{Quantities, Record, Row};
 
 /// How a quantity is got from a row's.
 pub type Get = fn(&Quantities) -> f64;

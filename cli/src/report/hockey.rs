@@ -10,7 +10,7 @@ use super::paint::Paint;
 use super::plot::Plot;
 use super::select;
 use super::series::{Mark, Point, Series};
-use crate::record::{Record, Row};
+use hapticore_run::record::{Record, Row};
 
 /// Bins of time for what is too dense to draw.
 const BINS: u32 = 50;

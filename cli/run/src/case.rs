@@ -12,13 +12,11 @@ use hapticore_host::profile::{for_terminals, serving};
 use hapticore_host::{CrosstalkCanceller, DeviceCalibration, Residual, SlotClock, quantities_of};
 use hapticore_model::profile::Profile;
 use hapticore_scene::{Complex, EffectCost, Plant, RungError, Scene, Truth, signs_by_place};
-use indicatif::ProgressBar;
 
-use crate::args::Fidelity;
 use crate::calibrate;
 use crate::capture::Recorder;
 use crate::digitiser::Digitiser;
-use crate::engine::{Signals, Slot};
+use crate::engine::{Fidelity, Signals, Slot};
 use crate::inputs::timing;
 use crate::interrupt;
 use crate::record::{self, Row, SignalError};
@@ -135,7 +133,7 @@ impl<'a> Case<'a> {
         Ok(self.scene.rung_errors(self.index, &timing(&self.profile))?)
     }
 
-    /// Runs the case.
+    /// Runs the case; `progress` is called at each slot.
     ///
     /// # Errors
     /// A calibration that the profile does not hold, a capture that cannot be written, an interruption.
@@ -143,7 +141,7 @@ impl<'a> Case<'a> {
         &self,
         settings: &Settings,
         recorder: Option<&mut (dyn Recorder + Send)>,
-        progress: &ProgressBar,
+        progress: &(dyn Fn() + Sync),
     ) -> Result<Outcome> {
         let at = (self.number, self.clock);
         let plant = self.plant()?;
@@ -171,7 +169,7 @@ fn consume(
     mut session: Session,
     slots: Receiver<Made>,
     mut recorder: Option<&mut (dyn Recorder + Send)>,
-    progress: &ProgressBar,
+    progress: &(dyn Fn() + Sync),
 ) -> Result<Outcome> {
     let (mut rows, mut peak) = (Vec::new(), 0f64);
     for Made { slot, truth, peak: of_slot } in slots {
@@ -181,7 +179,7 @@ fn consume(
         }
         peak = peak.max(of_slot);
         rows.extend(session.slot(&slot, Some(known(&truth))));
-        progress.inc(1);
+        progress();
     }
     rows.extend(session.finish());
     Ok(Outcome { rows, effects: Vec::new(), peak, errors: session.errors(), residual: session.residual() })

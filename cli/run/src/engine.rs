@@ -11,7 +11,27 @@ use hapticore_model::profile::Profile;
 use hapticore_model::reference::Reference;
 use hapticore_model::signal::Value;
 
-use crate::args::Fidelity;
+/// How exactly the core is run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Fidelity {
+    /// The equations in floating point.
+    Float,
+    /// The core's results to the bit, slot by slot.
+    Fixed,
+    /// Every clock of the core.
+    Clock,
+}
+
+impl Fidelity {
+    /// Its name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Fidelity::Float => "float",
+            Fidelity::Fixed => "fixed",
+            Fidelity::Clock => "clock",
+        }
+    }
+}
 
 /// What the core is given of a slot.
 #[derive(Debug, Clone)]

@@ -4,8 +4,17 @@
 use std::process::Command;
 
 /// The crates that the command is made of, beside this one.
-const SOURCES: [&str; 6] =
-    ["src", "../model/src", "../rtl/src", "../scene/src", "../scene/gallery", "../waveforms/src"];
+const SOURCES: [&str; 9] = [
+    "src",
+    "../src",
+    "../files/src",
+    "../../host",
+    "../../model/src",
+    "../../rtl/src",
+    "../../scene/src",
+    "../../scene/gallery",
+    "../../waveforms/src",
+];
 
 fn main() {
     let commit = git(&["describe", "--always", "--exclude=*", "--abbrev=40", "--dirty=-modified"]);

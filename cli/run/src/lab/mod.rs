@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `hapticore calibrate`: from what a lab measures to a device's calibration.
+//! Calibration: from what a lab measures to a device's calibration.
 //!
 //! ```text
 //! places.csv ─ wiring ─ ratios ─┬─ position table ─ residual at its own places, at places held out
@@ -25,27 +25,21 @@ pub mod setup;
 pub mod table;
 pub mod wiring;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use hapticore_model::profile::Profile;
 use hapticore_scene::{Complex, Plant};
 use serde::Serialize;
 
-use crate::args::CalibrateArgs;
 use crate::record::Provenance;
-use crate::{capture, console, inputs, print, report, say};
 use hapticore_host::residual::LIMIT_MM;
 use hapticore_host::{DeviceCalibration, Found, Raster, Residual, Scales, Signs, found, open_share};
-use least_squares::Estimate;
 use loads::{Force, Loads};
 use places::{Place, Places};
 use scattered::{Row, Values};
 use setup::Setup;
 use table::Table;
-
-/// The profile where none is named.
-const PROFILE: &str = "standard";
 
 /// Beyond these the currents' scale is no calibration's but a fault's.
 const SCALES: [f64; 2] = [0.8, 1.25];
@@ -78,42 +72,18 @@ pub struct Outcome {
 }
 
 /// The files of a lab.
-struct Data {
+pub struct Data {
     setup: Setup,
     places: Table,
     loads: Option<Table>,
 }
 
-/// Makes a calibration.
-///
-/// # Errors
-/// Data that make none, with what is missing; files that cannot be read or written.
-pub fn run(args: &CalibrateArgs) -> Result<bool> {
-    let profile = inputs::profile(args.profile.as_deref().unwrap_or(PROFILE))?;
-    let (device, outcome) = calibrate(&Data::read(&args.data)?, &profile)?;
-    let report = report_path(&args.out);
-    capture::write_text(&args.out, &(comments(&outcome) + &device.text()))?;
-    capture::write_text(&report, &report::of_calibration(&outcome))?;
-    outcome.warnings.iter().for_each(|warning| console::warn(warning));
-    if args.json {
-        say!("{}", serde_json::to_string_pretty(&outcome)?);
-        return Ok(true);
-    }
-    lines(&outcome).iter().for_each(|line| say!("{line}"));
-    [&args.out, &report].iter().for_each(|path| say!("  {}", path.display()));
-    Ok(true)
-}
-
-/// Where the report goes: `mine.toml.report.html`.
-fn report_path(out: &Path) -> PathBuf {
-    let mut name = out.as_os_str().to_owned();
-    name.push(".report.html");
-    name.into()
-}
-
 impl Data {
     /// Reads files, each known by what is in it.
-    fn read(paths: &[PathBuf]) -> Result<Data> {
+    ///
+    /// # Errors
+    /// A file that cannot be read, or is of no kind; a kind that is missing or comes twice.
+    pub fn read(paths: &[PathBuf]) -> Result<Data> {
         let (mut setup, mut places, mut loads) = (None, None, None);
         for path in paths {
             let file = path.display();
@@ -142,7 +112,10 @@ impl Data {
 }
 
 /// The calibration of a lab's data.
-fn calibrate(data: &Data, profile: &Profile) -> Result<(DeviceCalibration, Outcome)> {
+///
+/// # Errors
+/// Data that make none, with what is missing.
+pub fn calibrate(data: &Data, profile: &Profile) -> Result<(DeviceCalibration, Outcome)> {
     let setup = &data.setup;
     let mut places = Places::of(&data.places, setup.current_full_scale_a)?;
     let columns = places.raster();
@@ -329,40 +302,4 @@ impl Measured<'_> {
         let calibration = from.of(profile).context("with every other place held out")?;
         Ok(found(&held, &calibration))
     }
-}
-
-/// What stands at the head of a calibration file.
-fn comments(outcome: &Outcome) -> String {
-    let Provenance { version, command, .. } = &outcome.provenance;
-    let files: Vec<_> = command.iter().skip(1).map(|word| word.replace(char::is_control, " ")).collect();
-    let head = format!("Made by hapticore {version}: hapticore {}", files.join(" "));
-    [head].iter().chain(&lines(outcome)).map(|line| format!("# {line}\n")).collect()
-}
-
-/// What is told of a calibration.
-pub fn lines(outcome: &Outcome) -> Vec<String> {
-    let raster =
-        outcome.columns.map_or("lying anywhere".into(), |columns| format!("{columns} × {}", outcome.places / columns));
-    let mut lines = vec![
-        format!("{} places ({raster}), {} terminals, profile {}", outcome.places, outcome.terminals, outcome.profile),
-        format!("position table: {}", outcome.own_places.text()),
-        format!("every other place held out: {}", outcome.held_out.errors()),
-    ];
-    if let Some(force) = &outcome.force {
-        let readings = force.points.len();
-        lines.push(format!(
-            "force_k = {} N/(F·V)², {readings} readings with {} mN of noise",
-            estimate(force.force_k),
-            print::number(1e3 * force.noise_n)
-        ));
-        lines.extend(force.mu.map(|mu| format!("mu = {}", estimate(mu))));
-        lines.extend(force.current_scale.map(|scale| format!("current_full_scale_a times {}", estimate(scale))));
-    }
-    lines
-}
-
-/// A number and its interval.
-pub fn estimate(estimate: Estimate) -> String {
-    let [low, high] = estimate.interval.map(print::number);
-    format!("{} (95 %: {low} to {high})", print::number(estimate.value))
 }

@@ -10,8 +10,7 @@ use hapticore_model::frame::Reading;
 use hapticore_model::profile::Profile;
 use hapticore_model::reference::Reference as FloatCore;
 
-use crate::args::Fidelity;
-use crate::engine::{Engine, Slot, engine};
+use crate::engine::{Engine, Fidelity, Slot, engine};
 use crate::errors::Errors;
 use crate::record::{Reference, Row, SignalError, Truth};
 
