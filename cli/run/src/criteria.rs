@@ -5,10 +5,12 @@ use std::collections::BTreeMap;
 
 use hapticore_scene::{Criterion, Measure, Per, Quantity};
 
-use crate::record::{self, Quantities, Row};
+use crate::record::{self, Row};
+use estimate::{Estimate, said, truth};
 
 mod affine;
 mod departure;
+mod estimate;
 mod jumps;
 
 /// A case that was run, as criteria see it.
@@ -21,14 +23,6 @@ pub struct CaseRows<'a> {
     pub peak: f64,
     /// Its slots.
     pub rows: &'a [Row],
-}
-
-/// Who says what a quantity is.
-#[derive(Clone, Copy)]
-enum Estimate {
-    Core,
-    Reference,
-    Eq6,
 }
 
 /// Measures each criterion that covers a case that was run.
@@ -172,27 +166,4 @@ fn distance(row: &Row, of: Quantity, estimate: Estimate) -> f64 {
         }
         _ => (said(row, of, estimate) - truth(row, of, 0.0)).abs(),
     }
-}
-
-fn said(row: &Row, of: Quantity, estimate: Estimate) -> f64 {
-    match (estimate, row.reference) {
-        (Estimate::Core, _) => quantity(&row.measured, of),
-        (Estimate::Reference, Some(reference)) => quantity(&reference.quantities, of),
-        (Estimate::Eq6, Some(reference)) if of == Quantity::ForceN => reference.force_eq6_n,
-        (Estimate::Eq6, Some(reference)) if of == Quantity::CapacitancePf => reference.capacitance_eq6_pf,
-        _ => f64::NAN,
-    }
-}
-
-fn truth(row: &Row, of: Quantity, start_s: f64) -> f64 {
-    match (of, row.truth) {
-        (Quantity::TimeS, _) => row.time_s - start_s,
-        (Quantity::LoadG, Some(truth)) => truth.load_g,
-        (_, Some(truth)) => quantity(&truth.quantities, of),
-        (_, None) => f64::NAN,
-    }
-}
-
-fn quantity(quantities: &Quantities, of: Quantity) -> f64 {
-    hapticore_host::quantity(of.name()).map_or(f64::NAN, |quantity| quantity.of(quantities))
 }

@@ -3,7 +3,7 @@
 
 use super::axis::Axis;
 use super::figure::Figure;
-use super::general::{self, CAPACITANCE, FORCE, VOLTAGE};
+use super::general;
 use super::map;
 use super::number;
 use super::paint::Paint;
@@ -17,7 +17,8 @@ const BINS: u32 = 50;
 
 /// Paths, force, both errors, capacitance, voltage.
 pub fn figures(record: &Record) -> Vec<Figure> {
-    let [force, capacitance, voltage] = [FORCE, CAPACITANCE, VOLTAGE].map(|q| general::over_time(record, q));
+    let [force, capacitance, voltage] =
+        ["force_n", "capacitance_pf", "haptic_v_rms"].map(|name| general::over_time(record, general::of(name)));
     vec![paths(record), force, position_error(record), force_error(record, "force"), capacitance, voltage]
 }
 

@@ -3,7 +3,7 @@
 
 use anyhow::{Result, bail, ensure};
 
-use super::Adc;
+use super::stream::Adc;
 
 /// The name of a column that is left out.
 const LEFT_OUT: &str = "_";

@@ -16,9 +16,10 @@ use std::path::Path;
 
 use anyhow::{Context, Result, anyhow, bail};
 
+use super::aside::Aside;
 use super::columns::{self, Column, Columns, wanted};
 use super::input::Input;
-use super::{Adc, Aside, Described, Recorder, Sampled, Source};
+use super::stream::{Adc, Described, Recorder, Sampled, Source};
 use crate::digitiser::Digitiser;
 
 /// The most bits of a code.

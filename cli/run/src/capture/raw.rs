@@ -9,7 +9,7 @@ use anyhow::{Context, Result, bail, ensure};
 
 use super::columns::{self, Column, Columns};
 use super::input::Input;
-use super::{Adc, Sampled, Source};
+use super::stream::{Adc, Sampled, Source};
 use crate::digitiser::Digitiser;
 
 /// How a sample stands in its bytes.

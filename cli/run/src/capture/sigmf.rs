@@ -11,7 +11,7 @@ use serde_json::Value;
 use super::columns::Columns;
 use super::input;
 use super::raw::{Layout, Reader};
-use super::{Adc, Described};
+use super::stream::{Adc, Described};
 use hapticore_host::text::read;
 
 /// Opens a capture by the name of either of its files.

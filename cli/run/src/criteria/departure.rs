@@ -3,7 +3,7 @@
 
 use hapticore_scene::{Criterion, Quantity};
 
-use super::{Estimate, said};
+use super::estimate::{Estimate, said};
 use crate::record::Row;
 
 /// Up to here the square law holds, V rms.

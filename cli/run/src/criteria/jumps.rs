@@ -3,7 +3,7 @@
 
 use hapticore_scene::Criterion;
 
-use super::{Estimate, said};
+use super::estimate::{Estimate, said};
 use crate::record::Row;
 
 /// A jump is at least so many times the mean change from slot to slot.

@@ -7,20 +7,6 @@
 //!
 //! The reader is our own: it takes samples from a pipe, valid bits, and RF64, of which `hound` takes none.
 
+mod format;
 pub mod read;
 pub mod write;
-
-/// `wFormatTag`: integers.
-const PCM: u16 = 1;
-
-/// `wFormatTag`: IEEE floats.
-const FLOAT: u16 = 3;
-
-/// `wFormatTag`: the format stands in the extension's GUID.
-const EXTENSIBLE: u16 = 0xfffe;
-
-/// What follows the format tag in a GUID of the extension.
-const GUID: [u8; 14] = [0, 0, 0, 0, 0x10, 0, 0x80, 0, 0, 0xaa, 0, 0x38, 0x9b, 0x71];
-
-/// A size of 32 bits that stands for one that is elsewhere, or unknown.
-const ELSEWHERE: u32 = u32::MAX;

@@ -8,8 +8,8 @@ use anyhow::{Context, Result, anyhow, bail, ensure};
 use super::super::columns::Columns;
 use super::super::input::Input;
 use super::super::raw::{Layout, Reader};
-use super::super::{Adc, Described};
-use super::{ELSEWHERE, EXTENSIBLE, FLOAT, GUID, PCM};
+use super::super::stream::{Adc, Described};
+use super::format::{ELSEWHERE, EXTENSIBLE, FLOAT, GUID, PCM};
 
 /// Chunks beyond this size have no place in a head.
 const MOST_BYTES: u64 = 1 << 16;

@@ -11,8 +11,9 @@ use std::path::Path;
 
 use anyhow::{Context, Result, ensure};
 
-use super::super::{Adc, Aside, Recorder};
-use super::{ELSEWHERE, EXTENSIBLE, GUID, PCM};
+use super::super::aside::Aside;
+use super::super::stream::{Adc, Recorder};
+use super::format::{ELSEWHERE, EXTENSIBLE, GUID, PCM};
 
 /// Bytes before the samples.
 const HEAD_BYTES: u64 = 12 + 8 + 28 + 8 + 40 + 8;
@@ -118,8 +119,8 @@ impl Format {
 mod tests {
     use hapticore_model::format::Format as Codes;
 
-    use super::super::super::{Described, open};
     use super::*;
+    use crate::capture::{Described, open};
 
     const ADC: Adc = Adc { terminals: 6, format: Codes { width: 18, frac: 17, signed: true } };
 
