@@ -4,15 +4,14 @@
 use std::process::Command;
 
 /// The crates that the command is made of, beside this one.
-const SOURCES: [&str; 9] = [
+const SOURCES: [&str; 8] = [
     "src",
     "../src",
     "../files/src",
     "../../host",
-    "../../model/src",
+    "../../model",
     "../../rtl/src",
-    "../../scene/src",
-    "../../scene/gallery",
+    "../../scene",
     "../../waveforms/src",
 ];
 

@@ -7,7 +7,7 @@
 
 use bitvec::prelude::{BitArray, Lsb0};
 use bitvec::view::BitView;
-use hapticore_model::blocks::frames::Field;
+use hapticore_model::frame::Field;
 use hapticore_model::frame::{Flags, Frame};
 use hapticore_model::profile::Profile;
 use hapticore_protocol::framing::{STATUS_BYTES, VERSION, data_bytes, flags, word_bytes};

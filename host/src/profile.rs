@@ -34,7 +34,7 @@ pub fn load(name: &str) -> Result<Profile, LoadProfileError> {
     match Profile::bundled(name) {
         Err(ProfileError::Unknown { .. }) if looks_like_a_file(name) => {
             let text = read(Path::new(name))?;
-            Profile::parse(&text).map_err(|error| {
+            hapticore_model::parse_profile(&text).map_err(|error| {
                 LoadProfileError::Invalid(match error {
                     ProfileError::Syntax(message) => format!("{name}:{}", with_key(&text, &message)),
                     other => format!("{name}: {other}"),
@@ -100,9 +100,9 @@ pub fn for_terminals(profile: &Profile, signs: &[Vec<i8>; 2]) -> Result<Profile,
     let mut profile = profile.clone();
     if bundled {
         (profile.terminals.x, profile.terminals.y) = (x.clone(), y.clone());
-        profile.clocks_per_sample = profile.clocks_per_sample.max(profile.least_clocks_per_sample());
+        profile.clocks_per_sample = profile.clocks_per_sample.max(hapticore_model::least_clocks_per_sample(&profile));
         let name = profile.name.clone();
-        profile.check().map_err(|source| TerminalsError::Profile { profile: name, device, source })?;
+        hapticore_model::check(&profile).map_err(|source| TerminalsError::Profile { profile: name, device, source })?;
     }
     Ok(profile)
 }

@@ -1,28 +1,69 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Blocks: pure functions from (registers, inputs) to (next registers, outputs), and the cells that hold their registers.
+//! Blocks: pure functions from (registers, inputs) to (next registers, outputs), and the state of their instances.
 //!
-//! A block is configuration: formats, counts, tables. What changes from clock to clock lies in its [`Cell`], one per
-//! instance and reading. A block calls another by [`Block::call`]; the netlist reading turns that into an instance.
+//! A block is configuration: formats, counts, tables. What changes from cycle to cycle lies in its [`State`], one per
+//! instance and interpretation. [`block!`](crate::block!) declares ports, registers and submodules in one place; the
+//! behaviour is [`Block::clock`]. A block uses another by [`call!`](crate::call!), which the netlist turns into an instance.
 
-use crate::bundle::Bundle;
+use crate::bundle::{Bundle, Field};
 use crate::format::Format;
-use crate::memory::Memory;
-use crate::probe::Variable;
-use crate::signal::{Signal, Value};
+use crate::memory::{Memory, Storage};
+use crate::signal::{Proved, Signal, Value};
+use std::marker::PhantomData;
 
 /// The inputs of a block, each field a `T`.
-pub type Inputs<B, T> = <<B as Block>::Inputs as Bundle>::Of<T>;
+pub type Inputs<B, T> = <<B as Interface>::Inputs as Bundle>::Of<T>;
 /// The outputs of a block, each field a `T`.
-pub type Outputs<B, T> = <<B as Block>::Outputs as Bundle>::Of<T>;
+pub type Outputs<B, T> = <<B as Interface>::Outputs as Bundle>::Of<T>;
 /// The registers of a block, each field a `T`.
-pub type Registers<B, T> = <<B as Block>::Registers as Bundle>::Of<T>;
+pub type Registers<B, T> = <<B as Interface>::Registers as Bundle>::Of<T>;
 
-/// A block of the core.
-pub trait Block: Sized + 'static {
+/// One way to interpret a block: values, memories, instances, names, and when a block may be skipped.
+pub trait Interpretation: Storage {
+    /// One cycle of a block within another; the netlist makes it an instance of a module.
+    #[inline(always)]
+    fn instance<B: Block>(
+        block: &B,
+        _name: &'static str,
+        state: &mut State<B, Self>,
+        inputs: Inputs<B, Signal<Self>>,
+    ) -> Outputs<B, Signal<Self>> {
+        block.clock(state, inputs)
+    }
+
+    /// A name for a signal within a block, which the netlist prints.
+    #[inline(always)]
+    fn name(a: Signal<Self>, _name: &'static str) -> Signal<Self> {
+        a
+    }
+
+    /// Whether a block may leave this cycle out because `busy` is not set.
+    #[inline(always)]
+    fn can_skip(_busy: Self) -> bool {
+        false
+    }
+}
+
+impl<V: Interpretation> Signal<V> {
+    /// Names the signal in the netlist.
+    #[inline(always)]
+    pub fn named(self, name: &'static str) -> Self {
+        V::name(self, name)
+    }
+
+    /// Whether a block may leave this cycle out, this bit (started or busy) not being set.
+    #[inline(always)]
+    pub fn can_skip(self) -> bool {
+        V::can_skip(self.value)
+    }
+}
+
+/// The declaration of a block: its name, ports, registers and submodules. Made by [`block!`](crate::block!).
+pub trait Interface: Sized + 'static {
     /// Its name: of the Verilog module, too.
     const NAME: &'static str;
-    /// Whether its registers take zero at reset in hardware. Where they do not, what they hold before their first operands
-    /// matters to nobody.
+    /// Whether its registers take zero at reset in hardware. Where they do not, no output depends on what they hold before
+    /// their first operands.
     const RESETS: bool = true;
     /// Its input ports.
     type Inputs: Bundle;
@@ -30,8 +71,8 @@ pub trait Block: Sized + 'static {
     type Outputs: Bundle;
     /// Its registers, zero at reset.
     type Registers: Bundle;
-    /// The blocks and memories within it.
-    type Parts<V: Value>: Parts<Self, V>;
+    /// The states of the blocks and memories within it.
+    type Submodules<V: Interpretation>: Submodules<Self, V>;
 
     /// The formats of the input ports.
     fn inputs(&self) -> Inputs<Self, Format>;
@@ -39,43 +80,50 @@ pub trait Block: Sized + 'static {
     fn outputs(&self) -> Outputs<Self, Format>;
     /// The formats of the registers.
     fn registers(&self) -> Registers<Self, Format>;
+}
 
-    /// One clock: reads the cell's registers and the inputs, gives the outputs, and replaces the registers.
-    fn clock<V: Value>(&self, cell: &mut Cell<Self, V>, inputs: Inputs<Self, Signal<V>>) -> Outputs<Self, Signal<V>>;
+/// A block of hardware.
+pub trait Block: Interface {
+    /// One cycle: reads the registers and the inputs, gives the outputs, and replaces the registers.
+    fn clock<V: Interpretation>(
+        &self,
+        state: &mut State<Self, V>,
+        inputs: Inputs<Self, Signal<V>>,
+    ) -> Outputs<Self, Signal<V>>;
 
-    /// A cell in its state at reset.
-    fn cell<V: Value>(&self) -> Cell<Self, V> {
+    /// The state at reset.
+    fn reset<V: Interpretation>(&self) -> State<Self, V> {
         let registers = Self::Registers::map(self.registers(), |format| V::literal(0.0, format));
-        Cell { registers, parts: Self::Parts::fresh(self) }
+        State { registers, submodules: Self::Submodules::reset(self) }
     }
 
-    /// One clock of the instance `name` within another block.
+    /// One cycle of the instance `name` within another block. See [`call!`](crate::call!).
     #[inline(always)]
-    fn call<V: Value>(
+    fn call<V: Interpretation>(
         &self,
         name: &'static str,
-        cell: &mut Cell<Self, V>,
+        state: &mut State<Self, V>,
         inputs: Inputs<Self, Signal<V>>,
     ) -> Outputs<Self, Signal<V>> {
-        V::instance(self, name, cell, inputs)
+        V::instance(self, name, state, inputs)
     }
 }
 
-/// The state of one instance of a block in one reading.
-pub struct Cell<B: Block, V: Value> {
+/// The state of one instance of a block in one interpretation.
+pub struct State<B: Interface, V: Interpretation> {
     /// What the registers hold.
     pub registers: Registers<B, V>,
     /// The states of the blocks and memories within.
-    pub parts: B::Parts<V>,
+    pub submodules: B::Submodules<V>,
 }
 
-impl<B: Block, V: Value> Clone for Cell<B, V> {
+impl<B: Interface, V: Interpretation> Clone for State<B, V> {
     fn clone(&self) -> Self {
-        Cell { registers: self.registers, parts: self.parts.clone() }
+        State { registers: self.registers, submodules: self.submodules.clone() }
     }
 }
 
-impl<B: Block, V: Value> Cell<B, V> {
+impl<B: Interface, V: Interpretation> State<B, V> {
     /// The registers as signals.
     #[inline(always)]
     pub fn load(&self, block: &B) -> Registers<B, Signal<V>> {
@@ -86,14 +134,14 @@ impl<B: Block, V: Value> Cell<B, V> {
     /// Replaces the registers.
     ///
     /// # Panics
-    /// In debug builds and elaborating readings, where a register's format does not hold that of its signal.
+    /// In debug builds and where blocks are elaborated, where a register's format cannot represent its signal's.
     #[inline(always)]
     pub fn store(&mut self, block: &B, next: Registers<B, Signal<V>>) {
         self.registers = widen::<B::Registers, V>(B::NAME, next, block.registers());
     }
 }
 
-/// The values of signals in the formats declared for them, which must hold theirs.
+/// The values of signals in the formats declared for them, which must be able to represent theirs.
 #[inline(always)]
 pub fn widen<S: Bundle, V: Value>(block: &str, signals: S::Of<Signal<V>>, formats: S::Of<Format>) -> S::Of<V> {
     if V::ELABORATES || cfg!(debug_assertions) {
@@ -103,139 +151,83 @@ pub fn widen<S: Bundle, V: Value>(block: &str, signals: S::Of<Signal<V>>, format
         if signal.format.frac == format.frac && !V::ELABORATES {
             signal.value
         } else {
-            V::fit(signal, format, crate::signal::Exact, crate::signal::Never)
+            signal.resize(format, Proved).value
         }
     })
 }
 
 fn check_formats<S: Bundle, V: Value>(block: &str, signals: S::Of<Signal<V>>, formats: S::Of<Format>) {
-    S::each(S::zip(signals, formats), |name, (signal, format)| {
-        let given = signal.format;
-        assert!(format.holds(given), "{block}.{name} is declared {format}, which does not hold every {given}");
+    S::each(S::zip(signals, formats), |field, (signal, format)| {
+        let (name, given) = (field.name, signal.format);
+        assert!(format.holds(given), "{block}.{name} is declared {format}, which cannot represent every {given}");
     });
 }
 
-/// The states of the blocks and memories within a block. Made by [`parts!`](crate::parts!).
-pub trait Parts<B, V: Value>: Clone {
+/// The states of the blocks and memories within a block.
+pub trait Submodules<B, V: Interpretation>: Clone {
     /// The states at reset.
-    fn fresh(block: &B) -> Self;
+    fn reset(block: &B) -> Self;
     /// Shows a visitor each block within.
     fn visit(&self, block: &B, visitor: &mut impl Visitor<V>);
 }
 
-/// Someone who looks at every register of a hierarchy.
-pub trait Visitor<V: Value> {
-    /// An instance begins.
-    fn enter(&mut self, name: &'static str);
-    /// A register of it.
-    fn register(&mut self, name: &'static str, states: &'static [&'static str], format: Format, value: V);
-    /// A memory of it.
-    fn memory(&mut self, _memory: &Memory, _words: &V::Words) {}
-    /// The instance ends.
-    fn leave(&mut self);
+/// The states within a block that has no other block or memory.
+#[derive(Clone)]
+pub struct NoSubmodules<V>(PhantomData<V>);
+
+impl<B, V: Interpretation> Submodules<B, V> for NoSubmodules<V> {
+    fn reset(_block: &B) -> Self {
+        NoSubmodules(PhantomData)
+    }
+    fn visit(&self, _block: &B, _visitor: &mut impl Visitor<V>) {}
 }
 
-/// What a block is made of: other blocks, and memories.
-pub trait Element {
-    /// Its state in a reading.
-    type State<V: Value>: Clone;
+/// What may be within a block: another block, or a memory.
+pub trait Submodule {
+    /// Its state in an interpretation.
+    type State<V: Interpretation>: Clone;
     /// Its state at reset.
-    fn fresh<V: Value>(&self) -> Self::State<V>;
+    fn reset_state<V: Interpretation>(&self) -> Self::State<V>;
     /// Shows a visitor what is in it.
-    fn visit<V: Value>(&self, name: &'static str, state: &Self::State<V>, visitor: &mut impl Visitor<V>);
+    fn visit<V: Interpretation>(&self, name: &'static str, state: &Self::State<V>, visitor: &mut impl Visitor<V>);
 }
 
-impl<B: Block> Element for B {
-    type State<V: Value> = Cell<B, V>;
+impl<B: Block> Submodule for B {
+    type State<V: Interpretation> = State<B, V>;
 
-    fn fresh<V: Value>(&self) -> Cell<B, V> {
-        self.cell()
+    fn reset_state<V: Interpretation>(&self) -> State<B, V> {
+        self.reset()
     }
 
-    fn visit<V: Value>(&self, name: &'static str, cell: &Cell<B, V>, visitor: &mut impl Visitor<V>) {
+    fn visit<V: Interpretation>(&self, name: &'static str, state: &State<B, V>, visitor: &mut impl Visitor<V>) {
         visitor.enter(name);
-        let mut states = B::Registers::STATES.iter();
-        B::Registers::each(B::Registers::zip(self.registers(), cell.registers), |name, (format, value)| {
-            visitor.register(name, states.next().expect("as many as fields"), format, value);
-        });
-        cell.parts.visit(self, visitor);
+        let registers = B::Registers::zip(self.registers(), state.registers);
+        B::Registers::each(registers, |field, (format, value)| visitor.register(field, format, value));
+        state.submodules.visit(self, visitor);
         visitor.leave();
     }
 }
 
-impl Element for Memory {
-    type State<V: Value> = V::Words;
+impl Submodule for Memory {
+    type State<V: Interpretation> = V::Words;
 
-    fn fresh<V: Value>(&self) -> V::Words {
+    fn reset_state<V: Interpretation>(&self) -> V::Words {
         V::words(self)
     }
 
-    fn visit<V: Value>(&self, _name: &'static str, words: &V::Words, visitor: &mut impl Visitor<V>) {
+    fn visit<V: Interpretation>(&self, _name: &'static str, words: &V::Words, visitor: &mut impl Visitor<V>) {
         visitor.memory(self, words);
     }
 }
 
-/// A block with no block or memory within.
-impl<B, V: Value> Parts<B, V> for () {
-    fn fresh(_block: &B) -> Self {}
-    fn visit(&self, _block: &B, _visitor: &mut impl Visitor<V>) {}
-}
-
-/// Declares the [`Parts`] of a block: for each a field of the same name in the block's configuration.
-#[macro_export]
-macro_rules! parts {
-    ($(#[$meta:meta])* $vis:vis struct $name:ident of $block:ty {
-        $($(#[$part_meta:meta])* $part:ident: $element:ty),* $(,)?
-    }) => {
-        $(#[$meta])*
-        #[derive(Clone)]
-        $vis struct $name<V: $crate::signal::Value> {
-            $($(#[$part_meta])* #[allow(missing_docs)] pub $part: <$element as $crate::block::Element>::State<V>,)*
-        }
-
-        impl<V: $crate::signal::Value> $crate::block::Parts<$block, V> for $name<V> {
-            fn fresh(block: &$block) -> Self {
-                $name { $($part: <$element as $crate::block::Element>::fresh::<V>(&block.$part)),* }
-            }
-
-            fn visit(&self, block: &$block, visitor: &mut impl $crate::block::Visitor<V>) {
-                $(<$element as $crate::block::Element>::visit::<V>(&block.$part, stringify!($part), &self.$part, visitor);)*
-            }
-        }
-    };
-}
-
-/// The variables of a block and all within it, the block itself being the scope `name`.
-pub fn variables<B: Block>(block: &B, name: &'static str) -> Vec<Variable> {
-    struct Names {
-        scope: Vec<String>,
-        found: Vec<Variable>,
-    }
-    impl Visitor<i64> for Names {
-        fn enter(&mut self, name: &'static str) {
-            self.scope.push(name.into());
-        }
-        fn register(&mut self, name: &'static str, states: &'static [&'static str], format: Format, _value: i64) {
-            self.found.push(Variable { scope: self.scope.clone(), name: name.into(), format, states });
-        }
-        fn leave(&mut self) {
-            self.scope.pop();
-        }
-    }
-    let mut names = Names { scope: Vec::new(), found: Vec::new() };
-    block.visit(name, &block.cell(), &mut names);
-    names.found
-}
-
-/// Appends what the registers of a block and of all within it hold, in the order of [`variables`].
-pub fn sample<B: Block, V: Value>(block: &B, cell: &Cell<B, V>, into: &mut Vec<V>) {
-    struct Codes<'a, V>(&'a mut Vec<V>);
-    impl<V: Value> Visitor<V> for Codes<'_, V> {
-        fn enter(&mut self, _name: &'static str) {}
-        fn register(&mut self, _: &'static str, _: &'static [&'static str], _: Format, value: V) {
-            self.0.push(value);
-        }
-        fn leave(&mut self) {}
-    }
-    block.visit("", cell, &mut Codes(into));
+/// Looks at every register of a hierarchy.
+pub trait Visitor<V: Interpretation> {
+    /// An instance begins.
+    fn enter(&mut self, name: &'static str);
+    /// A register of it.
+    fn register(&mut self, field: &'static Field, format: Format, value: V);
+    /// A memory of it.
+    fn memory(&mut self, _memory: &Memory, _words: &V::Words) {}
+    /// The instance ends.
+    fn leave(&mut self);
 }

@@ -4,13 +4,16 @@
 pub mod block;
 pub mod blocks;
 pub mod bundle;
-pub mod calibration;
+mod check;
+mod declaration;
 pub mod fidelity;
-pub mod format;
-pub mod frame;
+pub mod interpretations;
 pub mod memory;
 pub mod probe;
-pub mod profile;
 pub mod proof;
-pub mod reference;
 pub mod signal;
+pub mod states;
+
+pub use check::{check, least_clocks_per_sample, parse_profile};
+pub use hapticore_contract::{calibration, frame, profile};
+pub use hapticore_hdl::format;

@@ -8,18 +8,39 @@ use crate::format::Format;
 use crate::signal::{Signal, Value};
 use std::sync::Arc;
 
+/// An interpretation's memories.
+pub trait Storage: Value {
+    /// What a memory holds.
+    type Words: Clone + std::fmt::Debug;
+
+    /// The words of a memory at reset, and its read register.
+    fn words(memory: &Memory) -> Self::Words;
+    /// What the read register of a memory holds.
+    fn data(memory: &Memory, words: &mut Self::Words) -> Self;
+    /// One clock of a memory: reads the old word at `address` into the read register, and writes.
+    fn access(memory: &Memory, words: &mut Self::Words, address: Signal<Self>, write: Option<Write<Self>>);
+}
+
+/// What a read of a word gives that is written in the same cycle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Collision {
+    /// The word as it was. A block RAM may need additional logic for that.
+    OldWord,
+    /// Don't care: no block uses such a word. Test builds read a wrong one, so that using it is noticed.
+    DontCare,
+}
+
 /// The configuration of a memory.
 #[derive(Debug, Clone)]
 pub struct Memory {
-    /// Its name among the parts of its block.
+    /// Its name among the submodules of its block.
     pub name: &'static str,
     /// How many words it has.
     pub words: usize,
     /// The format of a word.
     pub format: Format,
-    /// Whether somebody may use a word that was read while it was being written. Where nobody does, a block RAM needs no
-    /// logic that sees to it that the word is the old one. Test builds then read a wrong word.
-    pub collides: bool,
+    /// What a word reads as that is written in the same cycle.
+    pub collision: Collision,
     /// Whether it shall be a block RAM although it is so small that synthesis would rather take registers.
     pub block: bool,
     /// What it holds at reset, before rounding to its format; zero where there is nothing.
@@ -40,12 +61,12 @@ pub struct Write<V> {
 impl Memory {
     /// A memory of zeros.
     pub fn new(name: &'static str, words: usize, format: Format) -> Self {
-        Memory { name, words, format, collides: true, block: false, initial: Arc::new([]) }
+        Memory { name, words, format, collision: Collision::OldWord, block: false, initial: Arc::new([]) }
     }
 
-    /// The memory, of which nobody uses a word that was read while it was being written.
-    pub fn never_colliding(self) -> Self {
-        Memory { collides: false, ..self }
+    /// The memory, with read-during-write as "don't care": no block uses a word that was read while it was written.
+    pub fn dont_care_on_collision(self) -> Self {
+        Memory { collision: Collision::DontCare, ..self }
     }
 
     /// The memory as a block RAM, however small it is.
@@ -55,7 +76,14 @@ impl Memory {
 
     /// A table that nobody writes. Entries past a rail of the format are held there.
     pub fn table(name: &'static str, format: Format, initial: Vec<f64>) -> Self {
-        Memory { name, words: initial.len(), format, collides: false, block: false, initial: initial.into() }
+        Memory {
+            name,
+            words: initial.len(),
+            format,
+            collision: Collision::DontCare,
+            block: false,
+            initial: initial.into(),
+        }
     }
 
     /// The words at reset, as numbers.
@@ -78,22 +106,27 @@ impl Memory {
 
     /// What was asked for in the clock before.
     #[inline(always)]
-    pub fn data<V: Value>(&self, words: &mut V::Words) -> Signal<V> {
+    pub fn data<V: Storage>(&self, words: &mut V::Words) -> Signal<V> {
         Signal { value: V::data(self, words), format: self.format }
     }
 
     /// Asks for a word.
     #[inline(always)]
-    pub fn read<V: Value>(&self, words: &mut V::Words, address: Signal<V>) {
+    pub fn read<V: Storage>(&self, words: &mut V::Words, address: Signal<V>) {
         V::access(self, words, address, None);
     }
 
     /// Asks for a word, and writes one.
     #[inline(always)]
-    pub fn access<V: Value>(&self, words: &mut V::Words, address: Signal<V>, write: Write<V>) {
+    pub fn access<V: Storage>(&self, words: &mut V::Words, address: Signal<V>, write: Write<V>) {
         if V::ELABORATES {
             let given = write.data.format;
-            assert!(self.format.holds(given), "{} holds {}, which does not hold every {given}", self.name, self.format);
+            assert!(
+                self.format.holds(given),
+                "{} holds {}, which cannot represent every {given}",
+                self.name,
+                self.format
+            );
         }
         V::access(self, words, address, Some(write));
     }

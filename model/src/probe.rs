@@ -4,6 +4,8 @@
 //! Names, formats, units and state names come from the bundles that declare registers and ports. A probe only looks: it
 //! takes no part in the simulation, and costs nothing where nobody asks.
 
+use crate::block::{Block, Interpretation, State, Submodule, Visitor};
+use crate::bundle::Field;
 use crate::format::Format;
 
 /// One named variable of a simulation.
@@ -26,4 +28,40 @@ pub trait Probe {
 
     /// Appends the present code of each variable.
     fn sample(&self, codes: &mut Vec<i64>);
+}
+
+/// The variables of a block and all within it, the block itself being the scope `name`.
+pub fn variables<B: Block>(block: &B, name: &'static str) -> Vec<Variable> {
+    struct Names {
+        scope: Vec<String>,
+        found: Vec<Variable>,
+    }
+    impl Visitor<i64> for Names {
+        fn enter(&mut self, name: &'static str) {
+            self.scope.push(name.into());
+        }
+        fn register(&mut self, field: &'static Field, format: Format, _value: i64) {
+            let &Field { name, states, .. } = field;
+            self.found.push(Variable { scope: self.scope.clone(), name: name.into(), format, states });
+        }
+        fn leave(&mut self) {
+            self.scope.pop();
+        }
+    }
+    let mut names = Names { scope: Vec::new(), found: Vec::new() };
+    block.visit(name, &block.reset(), &mut names);
+    names.found
+}
+
+/// Appends what the registers of a block and of all within it hold, in the order of [`variables`].
+pub fn sample<B: Block, V: Interpretation>(block: &B, state: &State<B, V>, into: &mut Vec<V>) {
+    struct Codes<'a, V>(&'a mut Vec<V>);
+    impl<V: Interpretation> Visitor<V> for Codes<'_, V> {
+        fn enter(&mut self, _name: &'static str) {}
+        fn register(&mut self, _: &'static Field, _: Format, value: V) {
+            self.0.push(value);
+        }
+        fn leave(&mut self) {}
+    }
+    block.visit("", state, &mut Codes(into));
 }

@@ -6,12 +6,12 @@
 //! after a round lies within the state before it, no further round can leave what has been seen, and the proof holds for
 //! all time. What relates several signals is beyond intervals: those places name a lemma, and tests hold the lemmas.
 
-use crate::block::{Block, Cell, Element, Visitor};
+use crate::block::{self, Block, Submodule, Visitor};
 use crate::blocks::core::{Core, Inputs};
-use crate::bundle::Bundle;
+use crate::bundle::{Bundle, Field};
 use crate::format::{BIT, Format};
+use crate::interpretations::range::{Range, Violation, take_lemmas, take_violations, whole};
 use crate::profile::Profile;
-use crate::signal::range::{Range, Violation, take_lemmas, take_violations, whole};
 use crate::signal::{Signal, bit, zero};
 
 /// What was proved, or what stands in the way.
@@ -44,7 +44,7 @@ const MOST_ROUNDS: u64 = 6;
 /// Tries to prove a profile's core.
 pub fn prove(profile: &Profile) -> Proof {
     let core = Core::new(profile);
-    let mut run = Run { profile, inputs: any_inputs(&core), cell: core.cell(), core, clocks: 0 };
+    let mut run = Run { profile, inputs: any_inputs(&core), state: core.reset(), core, clocks: 0 };
     take_violations();
     take_lemmas();
     run.any_tables();
@@ -63,7 +63,7 @@ pub fn prove(profile: &Profile) -> Proof {
 struct Run<'a> {
     profile: &'a Profile,
     core: Core,
-    cell: Cell<Core, Range>,
+    state: block::State<Core, Range>,
     inputs: Inputs<Signal<Range>>,
     clocks: u64,
 }
@@ -71,7 +71,10 @@ struct Run<'a> {
 /// Every code and calibration that the formats allow, and no writing.
 fn any_inputs(core: &Core) -> Inputs<Signal<Range>> {
     let any = Inputs::map(core.inputs(), |format| Signal { value: whole(format), format });
-    Inputs { strobe: bit(false), clear: bit(false), write: bit(false), address: zero(any.address.format), ..any }
+    let mut quiet = Inputs { strobe: bit(false), clear: bit(false), ..any };
+    let table = &mut quiet.calibration.table;
+    (table.write, table.address) = (bit(false), zero(table.address.format));
+    quiet
 }
 
 impl Run<'_> {
@@ -79,8 +82,10 @@ impl Run<'_> {
     fn any_tables(&mut self) {
         let maybe = Signal { value: Range { low: 0, high: 1 }, format: BIT };
         let words = self.core.estimator().position().table().words as i128;
-        let address = Signal { value: Range { low: 0, high: words - 1 }, ..self.inputs.address };
-        self.run(Inputs { write: maybe, address, ..self.inputs });
+        let mut inputs = self.inputs;
+        let table = &mut inputs.calibration.table;
+        (table.write, table.address.value) = (maybe, Range { low: 0, high: words - 1 });
+        self.run(inputs);
         self.run(self.inputs);
     }
 
@@ -101,38 +106,38 @@ impl Run<'_> {
     /// The core in intervals is some megabytes of instructions: once is enough.
     #[inline(never)]
     fn run(&mut self, inputs: Inputs<Signal<Range>>) {
-        self.core.clock(&mut self.cell, inputs);
+        self.core.clock(&mut self.state, inputs);
     }
 
-    fn state(&self) -> State {
-        let mut state = State::default();
-        self.core.visit("core", &self.cell, &mut state);
+    fn state(&self) -> Snapshot {
+        let mut state = Snapshot::default();
+        self.core.visit("core", &self.state, &mut state);
         state
     }
 }
 
 /// Everything that a core keeps from clock to clock.
 #[derive(Default)]
-struct State {
+struct Snapshot {
     scope: Vec<&'static str>,
     registers: Vec<(String, Format, Range)>,
     words: Vec<Range>,
 }
 
-impl State {
-    fn holds(&self, other: &State) -> bool {
+impl Snapshot {
+    fn holds(&self, other: &Snapshot) -> bool {
         let registers = self.registers.iter().zip(&other.registers).all(|(a, b)| a.2.holds(b.2));
         registers && self.words.iter().zip(&other.words).all(|(a, b)| a.holds(*b))
     }
 }
 
-impl Visitor<Range> for State {
+impl Visitor<Range> for Snapshot {
     fn enter(&mut self, name: &'static str) {
         self.scope.push(name);
     }
 
-    fn register(&mut self, name: &'static str, _: &'static [&'static str], format: Format, value: Range) {
-        self.registers.push((format!("{}.{name}", self.scope.join(".")), format, value));
+    fn register(&mut self, field: &'static Field, format: Format, value: Range) {
+        self.registers.push((format!("{}.{}", self.scope.join("."), field.name), format, value));
     }
 
     fn memory(&mut self, _memory: &crate::memory::Memory, words: &(Vec<Range>, Range)) {

@@ -6,11 +6,12 @@ use std::thread;
 use hapticore_model::blocks::core::Core;
 use hapticore_model::blocks::demodulator::Demodulator;
 use hapticore_model::format::Format;
+use hapticore_model::interpretations::netlist::Netlist;
+use hapticore_model::interpretations::range::{Range, take_violations, whole};
+use hapticore_model::parse_profile;
 use hapticore_model::profile::Profile;
 use hapticore_model::proof::prove;
-use hapticore_model::signal::netlist::Netlist;
-use hapticore_model::signal::range::{Range, take_violations, whole};
-use hapticore_model::signal::{Exact, Never, Signal, bit, int, zero};
+use hapticore_model::signal::{Proved, Signal, bit, int, zero};
 
 /// What relates several signals, and where it is held: `tests/equality` runs the divider and the root over all codes of
 /// small widths, and every test build checks each of these narrowings at each clock.
@@ -78,7 +79,7 @@ fn one_sample_too_many_is_noticed() {
 fn a_register_one_bit_short_is_noticed() {
     take_violations();
     let byte: Signal<Range> = Signal { value: whole(Format::unsigned(8, 0)), format: Format::unsigned(8, 0) };
-    (byte + int(1)).fit(Format::unsigned(8, 0), Exact, Never);
+    (byte + int(1)).resize(Format::unsigned(8, 0), Proved);
     assert_eq!(take_violations().len(), 1);
 }
 
@@ -87,7 +88,7 @@ fn with(profile: &str, key: &str, value: &str) -> Result<Profile, String> {
     let text = hapticore_model::profile::BUNDLED.iter().find(|(name, _)| *name == profile).expect("bundled").1;
     let is_key = |line: &&str| line.split('=').next().is_some_and(|word| word.trim() == key);
     let line = text.lines().find(is_key).unwrap_or_else(|| panic!("{profile} has {key}"));
-    Profile::parse(&text.replace(line, &format!("{key} = {value}"))).map_err(|error| error.to_string())
+    parse_profile(&text.replace(line, &format!("{key} = {value}"))).map_err(|error| error.to_string())
 }
 
 const FORMATS: [&str; 14] = [
@@ -165,6 +166,6 @@ fn bad_profiles_say_what_was_expected() {
         let message = with("small", key, value).expect_err(key);
         assert!(message.contains(words), "{key} = {value}: {message}");
     }
-    let message = Profile::parse("name = \"x\"\nwidth = 3").unwrap_err().to_string();
+    let message = parse_profile("name = \"x\"\nwidth = 3").unwrap_err().to_string();
     assert!(message.starts_with("2: "), "the line is named: {message}");
 }

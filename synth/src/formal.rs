@@ -5,7 +5,7 @@
 
 use crate::tools::{Tools, root};
 use anyhow::{Context, Result, bail};
-use hapticore_model::signal::netlist::{Module, Netlist, Node, Op};
+use hapticore_model::interpretations::netlist::{Module, Netlist, Node, Op};
 use hapticore_rtl::verilog::Design;
 use std::collections::HashSet;
 use std::fs;

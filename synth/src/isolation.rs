@@ -14,7 +14,7 @@
 //! before, this holds for all rounds to come. Widths play no part: a run takes one pass over the clocks, not one over the codes.
 
 use hapticore_model::format::Format;
-use hapticore_model::signal::netlist::{Module, Netlist, Node, Op};
+use hapticore_model::interpretations::netlist::{Module, Netlist, Node, Op};
 use hapticore_model::signal::{Overflow, Rounding};
 
 /// What is known of a signal.

@@ -7,6 +7,7 @@
 //! | [`faults`] | deliberate faults in printed Verilog |
 //! | [`lockstep`] | the model and its Verilog, every output at every clock |
 //! | [`peripherals`] | the blocks of a board, each with a trace |
+//! | [`reference_error`] | how far the reference's `f64` is from the equations |
 //! | [`speed`] | how fast the model is, and Verilator |
 //! | [`stimulus`] | what a core is given: random and directed input, whole scenes |
 //! | [`tools`] | the HDL tools, and what is said where one is missing |
@@ -15,6 +16,7 @@ pub mod devices;
 pub mod faults;
 pub mod lockstep;
 pub mod peripherals;
+pub mod reference_error;
 pub mod speed;
 pub mod stimulus;
 pub mod tools;

@@ -39,7 +39,7 @@ fn alone<B: Block>(block: &B, clocks: usize, mut given: impl FnMut(&mut Rng) -> 
         left = left.checked_sub(1)?;
         let given = given(&mut rng);
         let code = |name: &&str| given.iter().find(|(of, _)| of == name).map_or(0, |(_, code)| *code);
-        Some(B::Inputs::NAMES.iter().map(code).collect())
+        Some(B::Inputs::FIELDS.iter().map(|field| code(&field.name)).collect())
     });
     Alone { design, trace }
 }
@@ -195,7 +195,7 @@ fn stream(block: &Stream, divisor: u64) -> Alone {
                 1 if !escapes => 0,
                 _ => packet + rng.u32(..packet) + (1 - enabled as u32) * 12 * packet,
             };
-            (index, pad) = (0, any(rng, of.pad));
+            (index, pad) = (0, any(rng, of.frames.pad));
         }
         wait = wait.saturating_sub(1);
         let valid = wait == 0 && rng.u8(..3) != 0;
@@ -204,8 +204,8 @@ fn stream(block: &Stream, divisor: u64) -> Alone {
             (place, data) = (any(rng, of.place), any(rng, of.data));
         }
         let frame = match rng.u8(..4) {
-            0 => any(rng, of.frame),
-            _ => i64::from(octet(rng)) << (8 * rng.u8(..2)) & of.frame.max_code() as i64,
+            0 => any(rng, of.frames.frame),
+            _ => i64::from(octet(rng)) << (8 * rng.u8(..2)) & of.frames.frame.max_code() as i64,
         };
         let mut given = vec![
             ("valid", valid.into()),
@@ -238,7 +238,7 @@ pub fn blocks(target: Target) -> Vec<Alone> {
     let (profile, parameters) = (target.profile(), target.parameters());
     let (core, divisor) = (Core::new(&profile), parameters.divisor());
     let words = core.estimator().position().table().words as u64;
-    let block = CommandRegisters::new(core.inputs(), words);
+    let block = CommandRegisters::new(core.inputs().calibration, words);
     vec![
         stream(&Stream::new(&profile, divisor, block.outputs().data), divisor),
         registers(&block, profile.clone(), words),

@@ -8,6 +8,7 @@ use std::f64::consts::TAU;
 use fastrand::Rng;
 use hapticore_model::block::Block;
 use hapticore_model::blocks::core::{Core, Inputs, Outputs};
+use hapticore_model::blocks::position::TablePort;
 use hapticore_model::bundle::Bundle;
 use hapticore_model::format::Format;
 use hapticore_model::memory::Memory;
@@ -39,10 +40,10 @@ impl Stimulus {
     /// The inputs of the next clock.
     pub fn next(&mut self, outputs: &[i64]) -> Option<Vec<i64>> {
         let inputs = match self.table.next() {
-            Some((address, word)) => Inputs { write: 1, address, word, ..self.constants },
+            Some((address, word)) => self.constants.with_table(TablePort { write: 1, address, word }),
             None => self.sample(outputs)?,
         };
-        let mut codes = Vec::with_capacity(Inputs::NAMES.len());
+        let mut codes = Vec::with_capacity(Inputs::FIELDS.len());
         Inputs::each(inputs, |_, code| codes.push(code));
         Some(codes)
     }
@@ -61,9 +62,9 @@ impl Stimulus {
             self.constants = Inputs::map(self.formats, |format| anything(rng, format));
         }
         self.clock += 1;
-        let channel = Outputs::NAMES.iter().position(|name| *name == "channel").expect("a port");
+        let channel = Outputs::FIELDS.iter().position(|field| field.name == "channel").expect("a port");
         let code = self.codes[outputs[channel] as usize];
-        let inputs = Inputs { strobe: i64::from(strobe), code, write: 0, ..self.constants };
+        let inputs = Inputs { strobe: i64::from(strobe), code, ..self.constants };
         Some(match &mut self.disturb {
             Some((rng, table)) => disturbed(inputs, rng, table),
             None => inputs,
@@ -125,9 +126,9 @@ pub fn operations<B: Block>(
     clocks: u32,
 ) -> impl FnMut(&[i64]) -> Option<Vec<i64>> + use<B> {
     let (mut rng, mut formats) = (Rng::with_seed(seed), Vec::new());
-    B::Inputs::each(block.inputs(), |name, format| formats.push((name, format)));
-    let at = move |wanted: &str| B::Inputs::NAMES.iter().position(|name| *name == wanted);
-    let done = B::Outputs::NAMES.iter().position(|name| *name == "done");
+    B::Inputs::each(block.inputs(), |field, format| formats.push((field.name, format)));
+    let at = move |wanted: &str| B::Inputs::FIELDS.iter().position(|field| field.name == wanted);
+    let done = B::Outputs::FIELDS.iter().position(|field| field.name == "done");
     let mut operands = vec![0; formats.len()];
     let mut script: VecDeque<Vec<i64>> = VecDeque::new();
     let (mut left, mut first, mut waiting) = (operations, true, 0);
@@ -194,7 +195,7 @@ fn next_to_half(rng: &mut Rng, operands: &mut [i64], formats: &[(&str, Format)])
 /// Writes into the table while it is read, now and then.
 fn disturbed(inputs: Inputs<i64>, rng: &mut Rng, table: &Memory) -> Inputs<i64> {
     let write = i64::from(rng.u8(..16) == 0);
-    Inputs { write, address: rng.i64(0..table.words as i64), word: corner(rng, table.format), ..inputs }
+    inputs.with_table(TablePort { write, address: rng.i64(0..table.words as i64), word: corner(rng, table.format) })
 }
 
 /// Slots of a scene's first case, each served to every pad of the profile in turn where the scene has fewer.
@@ -213,10 +214,12 @@ pub fn scene(profile: &Profile, name: &str, slots: usize) -> Stimulus {
         };
         codes.chunks_exact(channels).map(|set| set.iter().map(|&code| code.into()).collect()).collect::<Vec<Vec<i64>>>()
     });
-    let formats = Core::new(profile).inputs();
-    let words: Vec<_> = calibration.position.words.iter().map(|&word| formats.word.code_saturating(word)).collect();
+    let core = Core::new(profile);
+    let formats = core.inputs();
+    let words: Vec<_> =
+        calibration.position.words.iter().map(|&word| formats.calibration.table.word.code_saturating(word)).collect();
     Stimulus {
-        constants: calibration.inputs(formats),
+        constants: core.idle_inputs(&calibration),
         formats,
         table: Box::new(words.into_iter().enumerate().map(|(address, word)| (address as i64, word))),
         samples: Box::new(samples),
@@ -272,7 +275,7 @@ pub fn random(profile: &Profile, seed: u64, slots: u64) -> Stimulus {
     let samples =
         (0..slots * profile.slot.samples()).map(move |_| (0..channels).map(|_| corner(&mut rng, adc)).collect());
     Stimulus {
-        constants: Inputs { strobe: 0, clear: 0, code: 0, write: 0, address: 0, word: 0, ..constants },
+        constants: Inputs { strobe: 0, clear: 0, code: 0, ..constants }.with_table(TablePort::of(0)),
         formats: core.inputs(),
         table: Box::new(table.into_iter().enumerate().map(|(address, word)| (address as i64, word))),
         samples: Box::new(samples),

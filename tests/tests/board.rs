@@ -15,7 +15,6 @@ use device::{Sight, calibration, codes};
 use hapticore_host::startup::{AdcSetup, check, prepare};
 use hapticore_host::{Command as BoardCommand, Decoder, Message, encode};
 use hapticore_host::{Constant, WordFormats};
-use hapticore_model::block::Block;
 use hapticore_model::blocks::core::Core;
 use hapticore_model::calibration::Calibration;
 use hapticore_model::fidelity::clock::ClockSimulation;
@@ -48,7 +47,7 @@ fn shortened(target: Target) -> Profile {
     let samples = 4 * profile.samples_per_period().round() as u64;
     profile = profile.with_window(samples);
     (profile.position.columns, profile.position.rows) = (17, 11);
-    profile.check().expect("a profile");
+    hapticore_model::check(&profile).expect("a profile");
     profile
 }
 
@@ -199,7 +198,7 @@ fn ulx3s_returns_over_its_line_the_frames_that_simulate_gives() {
 fn storm(profile: &Profile, calibration: &Calibration) -> Vec<BoardCommand> {
     let (mut random, gain) =
         (Random::new(SEED), Register::Constant(Constant::ForceGain).format(&WordFormats::new(profile)));
-    let own = calibration.inputs(Core::new(profile).inputs()).force_gain;
+    let own = Core::new(profile).idle_inputs(calibration).calibration.force_gain;
     let any = |random: &mut Random| random.bits() as i64;
     let of_gain = |random: &mut Random| own | any(random) & 0xffff << gain.width;
     let adc = |random: &mut Random| BoardCommand::Register(Register::Adc, any(random) & 0xffff);

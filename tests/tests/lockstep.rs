@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Clocked model = printed Verilog, every output at every clock: random input and whole scenes, in two simulators.
 
-use hapticore_model::block::Block;
 use hapticore_model::blocks::haptic_voltage::HapticVoltage;
 use hapticore_model::profile::Profile;
 use hapticore_rtl::verilog::Design;

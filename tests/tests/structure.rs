@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Invariants of ARCHITECTURE.md that a compiler does not hold.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Which crates of the workspace a crate may use.
-const IMPORTS: [(&str, &[&str]); 10] = [
-    ("model", &[]),
-    ("host/protocol", &["hapticore-model"]),
+use toml::{Table, Value};
+
+/// Which crates of the workspace a crate may use; tests may use more ([`DEVELOPMENT`]).
+const IMPORTS: [(&str, &[&str]); 14] = [
+    ("model/hdl", &[]),
+    ("model/contract", &["hapticore-hdl"]),
+    ("model/reference", &["hapticore-contract", "hapticore-hdl"]),
+    ("model", &["hapticore-contract", "hapticore-hdl"]),
+    ("host/protocol", &["hapticore-contract", "hapticore-hdl"]),
     ("host", &["hapticore-model", "hapticore-protocol", "hapticore-sheet"]),
     ("rtl", &["hapticore-model", "hapticore-protocol"]),
     ("synth", &["hapticore-files", "hapticore-model", "hapticore-rtl"]),
@@ -16,7 +21,34 @@ const IMPORTS: [(&str, &[&str]); 10] = [
     ("scene", &["hapticore-sheet"]),
     ("cli/files", &[]),
     ("waveforms", &["hapticore-files", "hapticore-model"]),
-    ("cli/run", &["hapticore-files", "hapticore-host", "hapticore-model", "hapticore-scene"]),
+    ("cli/run", &["hapticore-files", "hapticore-host", "hapticore-model", "hapticore-reference", "hapticore-scene"]),
+    (
+        "cli",
+        &[
+            "hapticore-files",
+            "hapticore-host",
+            "hapticore-model",
+            "hapticore-rtl",
+            "hapticore-run",
+            "hapticore-scene",
+            "hapticore-waveforms",
+        ],
+    ),
+];
+
+/// What the tests of a crate use besides.
+///
+/// Tests of boards take the host's side of the line, those of scenes its crosstalk cancellation.
+const DEVELOPMENT: [(&str, &[&str]); 3] =
+    [("model", &["hapticore-reference"]), ("rtl", &["hapticore-host"]), ("scene", &["hapticore-host"])];
+
+/// What a crate must not reach by any path of dependencies, tests included: the reference, and what it is made of, cannot see
+/// the core, and the core is built without the reference.
+const UNREACHABLE: [(&str, bool, &str); 4] = [
+    ("hapticore-reference", true, "hapticore-model"),
+    ("hapticore-contract", true, "hapticore-model"),
+    ("hapticore-hdl", true, "hapticore-model"),
+    ("hapticore-model", false, "hapticore-reference"),
 ];
 
 fn root() -> PathBuf {
@@ -43,35 +75,83 @@ fn sources(folder: &str) -> Vec<PathBuf> {
     found
 }
 
+/// The manifests of the workspace's crates, by folder.
+fn manifests() -> BTreeMap<String, Table> {
+    let workspace: Table = read("Cargo.toml").parse().expect("TOML");
+    let members = workspace["workspace"]["members"].as_array().expect("a list of folders");
+    let folders = members.iter().map(|folder| folder.as_str().expect("a folder").to_string());
+    folders.map(|folder| (folder.clone(), read(format!("{folder}/Cargo.toml")).parse().expect("TOML"))).collect()
+}
+
+fn name(manifest: &Table) -> &str {
+    manifest["package"]["name"].as_str().expect("a name")
+}
+
+/// The workspace's crates in a table of a manifest: `dependencies`, `dev-dependencies`, `build-dependencies`, also those of one
+/// target alone.
+fn uses(manifest: &Table, kind: &str) -> BTreeSet<String> {
+    let targets = manifest.get("target").and_then(Value::as_table).into_iter().flat_map(Table::values);
+    let tables = targets.filter_map(Value::as_table).chain([manifest]);
+    let dependencies = tables.filter_map(|table| table.get(kind)?.as_table()).flatten();
+    let real = |(name, value): (&String, &Value)| {
+        let renamed = value.get("package").and_then(Value::as_str).map(str::to_string);
+        renamed.unwrap_or_else(|| name.clone())
+    };
+    dependencies.map(real).filter(|name| name.starts_with("hapticore")).collect()
+}
+
+/// All that a crate is built from, by any path; with its own tests' dependencies, too.
+fn reached(manifests: &BTreeMap<String, Table>, from: &str, tests: bool) -> BTreeSet<String> {
+    let of = |crate_name: &str, tests: bool| -> BTreeSet<String> {
+        let manifest = manifests.values().find(|manifest| name(manifest) == crate_name);
+        let manifest = manifest.unwrap_or_else(|| panic!("no crate {crate_name}"));
+        let kinds = ["dependencies", "build-dependencies"].into_iter().chain(tests.then_some("dev-dependencies"));
+        kinds.flat_map(|kind| uses(manifest, kind)).collect()
+    };
+    let (mut found, mut left) = (BTreeSet::new(), of(from, tests));
+    while let Some(next) = left.pop_first() {
+        if found.insert(next.clone()) {
+            left.extend(of(&next, false));
+        }
+    }
+    found
+}
+
 #[test]
 fn imports_run_one_way() {
-    for (name, may_use) in IMPORTS {
-        let manifest = read(format!("{name}/Cargo.toml"));
-        // Tests of boards take the host's side of the line, those of scenes its crosstalk cancellation.
-        let manifest = manifest.split("[dev-dependencies]").next().expect("a first part");
-        let uses = manifest.lines().filter_map(|line| line.split(['=', '.']).next()).map(str::trim);
-        let uses: BTreeSet<_> = uses.filter(|line| line.starts_with("hapticore-")).collect();
-        assert_eq!(uses, may_use.iter().copied().collect(), "{name}/Cargo.toml");
+    let manifests = manifests();
+    for (folder, may_use) in IMPORTS {
+        let manifest = &manifests[folder];
+        let expected = |list: &[&str]| list.iter().map(|name| name.to_string()).collect::<BTreeSet<_>>();
+        assert_eq!(uses(manifest, "dependencies"), expected(may_use), "{folder}/Cargo.toml");
+        let own = DEVELOPMENT.iter().find(|(tested, _)| *tested == folder).map_or(&[][..], |(_, uses)| uses);
+        let besides = &uses(manifest, "dev-dependencies") - &expected(may_use);
+        assert_eq!(besides, expected(own), "{folder}/Cargo.toml, dev-dependencies");
     }
 }
 
 #[test]
-fn the_reference_shares_no_code_with_the_blocks() {
-    for path in sources("model/src/reference") {
-        let text = fs::read_to_string(&path).expect("a source");
-        for module in
-            ["crate::signal", "crate::blocks", "crate::block", "crate::memory", "crate::fidelity", "crate::proof"]
-        {
-            // Names of a frame's words are declarations, not behaviour.
-            let text = text.replace("crate::blocks::frames::Field", "");
-            assert!(!text.contains(module), "{} uses {module}", path.display());
-        }
+fn the_reference_cannot_see_the_core() {
+    let manifests = manifests();
+    for (from, tests, unreachable) in UNREACHABLE {
+        let reached = reached(&manifests, from, tests);
+        assert!(!reached.contains(unreachable), "{from} reaches {unreachable}, by way of {reached:?}");
     }
+}
+
+#[test]
+fn a_path_through_other_crates_is_found() {
+    let mut manifests = manifests();
+    let contract = manifests.get_mut("model/contract").expect("the contract");
+    let (waveforms, any) = ("hapticore-waveforms".to_string(), Value::String("*".into()));
+    contract["dependencies"].as_table_mut().expect("dependencies").insert(waveforms, any);
+    assert!(reached(&manifests, "hapticore-reference", false).contains("hapticore-model"));
 }
 
 #[test]
 fn the_model_knows_no_files_and_no_time() {
-    for path in sources("model/src") {
+    let folders = ["model/src", "model/hdl/src", "model/contract/src", "model/reference/src"];
+    for path in folders.into_iter().flat_map(sources) {
         let text = fs::read_to_string(&path).expect("a source");
         for absent in ["std::fs", "std::io", "std::time", "std::path"] {
             assert!(!text.contains(absent), "{} uses {absent}", path.display());

@@ -5,13 +5,11 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use hapticore_model::block::{Block, Cell};
-use hapticore_model::bundle::Nothing;
+use hapticore_model::block::{Block, Interpretation, State};
 use hapticore_model::format::Format;
 use hapticore_model::memory::Memory;
 use hapticore_model::profile::Profile;
-use hapticore_model::signal::{Signal, Value};
-use hapticore_model::{bundle, parts};
+use hapticore_model::signal::Signal;
 use hapticore_rtl::verilog::Design;
 
 fn committed(folder: &Path) -> BTreeMap<String, String> {
@@ -42,50 +40,26 @@ fn the_committed_verilog_is_fresh() {
     }
 }
 
-/// A block whose memory has a name that is a word of Verilog.
-#[derive(Debug, Clone)]
-struct Keeper {
-    table: Memory,
-}
-
-bundle! {
-    /// The input.
-    pub struct Asked { address }
-}
-
-bundle! {
-    /// The output.
-    pub struct Given { word }
-}
-
-parts! {
-    /// The memory within.
-    pub struct Within of Keeper { table: Memory }
+hapticore_model::block! {
+    /// A block whose memory has a name that is a word of Verilog.
+    struct Keeper("keeper") {}
+    submodules {
+        table: Memory,
+    }
+    inputs(keeper) {
+        address: keeper.table.address(),
+    }
+    outputs(keeper) {
+        word: keeper.table.format,
+    }
+    registers(keeper) {}
 }
 
 impl Block for Keeper {
-    const NAME: &'static str = "keeper";
-    type Inputs = Asked;
-    type Outputs = Given;
-    type Registers = Nothing;
-    type Parts<V: Value> = Within<V>;
-
-    fn inputs(&self) -> Asked<Format> {
-        Asked { address: self.table.address() }
-    }
-
-    fn outputs(&self) -> Given<Format> {
-        Given { word: self.table.format }
-    }
-
-    fn registers(&self) -> Nothing<Format> {
-        Nothing::default()
-    }
-
-    fn clock<V: Value>(&self, cell: &mut Cell<Self, V>, i: Asked<Signal<V>>) -> Given<Signal<V>> {
-        let word = self.table.data(&mut cell.parts.table);
-        self.table.read(&mut cell.parts.table, i.address);
-        Given { word }
+    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+        let word = self.table.data(&mut state.submodules.table);
+        self.table.read(&mut state.submodules.table, i.address);
+        Outputs { word }
     }
 }
 

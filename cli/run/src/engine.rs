@@ -3,13 +3,13 @@
 
 use std::sync::Arc;
 
+use hapticore_model::block::Interpretation;
 use hapticore_model::calibration::Calibration;
 use hapticore_model::fidelity::clock::ClockSimulation;
 use hapticore_model::fidelity::fixed::FixedSimulation;
 use hapticore_model::frame::{Frame, Reading};
 use hapticore_model::profile::Profile;
-use hapticore_model::reference::Reference;
-use hapticore_model::signal::Value;
+use hapticore_reference::Reference;
 
 /// How exactly the core is run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -82,7 +82,7 @@ impl Slot {
     }
 
     /// The frame of the slot, without its clocks.
-    pub fn frame<V: Value>(&self, core: &mut FixedSimulation<V>) -> Frame {
+    pub fn frame<V: Interpretation>(&self, core: &mut FixedSimulation<V>) -> Frame {
         match &self.signals {
             Signals::Samples { .. } => core.slot(self.pad, self.window()),
             Signals::Phasors { amplitudes, mean_square } => core.phasors(self.pad, amplitudes, *mean_square),

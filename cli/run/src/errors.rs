@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The rounding error of every signal of the estimator: a core beside the core that keeps each value unrounded, too.
 
-use hapticore_model::block::{sample, variables};
 use hapticore_model::calibration::Calibration;
 use hapticore_model::fidelity::fixed::FixedSimulation;
+use hapticore_model::interpretations::shadow::Shadow;
 use hapticore_model::probe::Variable;
+use hapticore_model::probe::{sample, variables};
 use hapticore_model::profile::Profile;
-use hapticore_model::signal::shadow::Shadow;
 
 use crate::engine::Slot;
 use crate::record::SignalError;

@@ -37,7 +37,7 @@ fn scene_file(name: &str) -> Result<String> {
 pub fn windowed(mut profile: Profile, scene: &Scene) -> Result<Profile> {
     if let Some(samples) = scene.window_samples {
         profile = profile.with_window(samples);
-        profile.check().with_context(|| format!("{}: window_samples", scene.name))?;
+        hapticore_model::check(&profile).with_context(|| format!("{}: window_samples", scene.name))?;
     }
     Ok(profile)
 }

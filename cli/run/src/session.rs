@@ -8,7 +8,7 @@ use anyhow::Result;
 use hapticore_host::{CrosstalkCanceller, DeviceCalibration, Readout, Residual, SlotClock};
 use hapticore_model::frame::Reading;
 use hapticore_model::profile::Profile;
-use hapticore_model::reference::Reference as FloatCore;
+use hapticore_reference::Reference as FloatCore;
 
 use crate::engine::{Engine, Fidelity, Slot, engine};
 use crate::errors::Errors;

@@ -4,9 +4,9 @@
 //! The one list of the constants: a board's registers, its start-up, `hapticore codes` and the vectors for users of the Verilog
 //! all follow it. A test of `hapticore-rtl` holds it equal to the core's ports.
 
-use hapticore_model::calibration::Calibration;
-use hapticore_model::format::Format;
-use hapticore_model::profile::Profile;
+use hapticore_contract::calibration::Calibration;
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::format::Format;
 
 /// A constant of the calibration: a port of the core and a register of a board.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -84,8 +84,8 @@ pub struct ConstantWord {
 /// A calibration as codes for a core: what its ports and its position table are given.
 ///
 /// ```
-/// # use hapticore_model::calibration::{Calibration, Point, PositionTable};
-/// # use hapticore_model::profile::Profile;
+/// # use hapticore_contract::calibration::{Calibration, Point, PositionTable};
+/// # use hapticore_contract::profile::Profile;
 /// use hapticore_protocol::{CalibrationWords, Constant};
 ///
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {

@@ -20,9 +20,9 @@
 
 use crate::calibration::WordFormats;
 use crate::register::Register;
-use hapticore_model::blocks::frames::Field;
-use hapticore_model::format::Format;
-use hapticore_model::profile::Profile;
+use hapticore_contract::frame::Field;
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::format::Format;
 
 /// Ends a packet.
 pub const END: u8 = 0xc0;
@@ -76,12 +76,12 @@ pub const NIBBLE: Format = Format::unsigned(4, 0);
 /// FNV-1a of the profile as JSON-like text, folded to sixteen bits.
 ///
 /// ```
-/// # use hapticore_model::profile::Profile;
+/// # use hapticore_contract::profile::Profile;
 /// # use hapticore_protocol::framing::digest;
 /// let small = Profile::bundled("small")?;
 /// assert_eq!(digest(&small), digest(&Profile { name: "mine".into(), ..small.clone() }));
 /// assert_ne!(digest(&small), digest(&Profile { pads: 3, ..small.clone() }));
-/// # Ok::<(), hapticore_model::profile::ProfileError>(())
+/// # Ok::<(), hapticore_contract::profile::ProfileError>(())
 /// ```
 pub fn digest(profile: &Profile) -> u16 {
     let text = format!("{:?}", Profile { name: String::new(), ..profile.clone() });

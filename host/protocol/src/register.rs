@@ -2,7 +2,7 @@
 //! Registers: what commands write, beside the words of the position table.
 
 use crate::calibration::{Constant, WordFormats};
-use hapticore_model::format::Format;
+use hapticore_hdl::format::Format;
 use std::fmt;
 
 /// A register that commands write: the constants of the calibration, in their order, then control and the ADC.

@@ -23,74 +23,82 @@
 use super::divider::{self, Divider};
 use super::multiplier::{self, Multiplier};
 use super::root::{self, Root};
-use crate::block::{Block, Cell};
+use crate::block::{Block, Interpretation, State};
 use crate::format::{BIT, Format};
 use crate::profile::Profile;
-use crate::signal::{Exact, HalfEven, Saturate, Signal, Value, Wrap, bit, int, zero};
-use crate::{bundle, next, parts};
+use crate::signal::{HalfEven, Saturate, Signal, Wrap, bit, int, zero};
+use crate::states::States;
+use crate::{block, call, next, states};
 
-bundle! {
-    /// The inputs.
-    pub struct Inputs {
-        /// All others are there, and hold.
-        start,
-        /// The amplitude of the total current.
-        total,
-        /// The amplitude of the sensing voltage.
-        sense,
-        /// The sheet's resistance at the pad, in full scales of voltage per current.
-        sheet,
-        /// Picofarads at an admittance of one.
-        gain,
+states! {
+    /// The steps of a capacitance. `Root` and `Divide` wait for their blocks, all others last as long as a product.
+    pub enum Step {
+        Idle, Load, Sense, Drop, Square, DropSquare, Radicand, Root, Divide, GainProduct, Finish,
     }
 }
 
-bundle! {
-    /// The outputs: registers.
-    pub struct Outputs {
-        /// Set for one clock when the capacitance is there.
-        done,
-        /// The capacitance.
-        capacitance,
-        /// Whether there is no such capacitance.
-        invalid,
-        /// Whether a word is held at a rail.
-        saturated,
+block! {
+    /// The capacitance from the amplitudes.
+    pub struct Capacitance("capacitance") {
+        /// Whether the sheet's resistance is taken out.
+        correct: bool,
+        amplitude: Format,
+        sheet: Format,
+        admittance: Format,
+        gain: Format,
+        capacitance: Format,
+        /// Of the multiplier's operands.
+        left: Format,
+        right: Format,
     }
-}
-
-bundle! {
-    /// The registers. `left` and `right` are codes as integers.
-    pub struct Registers {
-        step: [
-            "idle", "load", "sense", "drop", "square", "drop_square", "radicand", "root", "divide", "gain_product",
-            "finish",
-        ],
-        waited, left, right, drop, square, root_start, divide, capacitance, invalid, saturated, done,
-    }
-}
-
-parts! {
-    /// The blocks within.
-    pub struct Parts of Capacitance {
+    submodules {
         multiplier: Multiplier,
         root: Root,
         divider: Divider,
     }
+    inputs(block) {
+        /// Begins; all others are valid and stable until `done`.
+        start: BIT,
+        /// The amplitude of the total current.
+        total: block.amplitude,
+        /// The amplitude of the sensing voltage.
+        sense: block.amplitude,
+        /// The sheet's resistance at the pad, in full scales of voltage per current.
+        sheet: block.sheet,
+        /// Picofarads at an admittance of one.
+        gain: block.gain,
+    }
+    outputs(block) {
+        /// Asserted for one cycle when the capacitance is valid.
+        done: BIT,
+        /// The capacitance, in pF.
+        capacitance: block.capacitance,
+        /// No capacitance has these amplitudes.
+        invalid: BIT,
+        /// A word is saturated.
+        saturated: BIT,
+    }
+    registers(block) {
+        step in Step,
+        waited: BIT,
+        /// Operands of the multiplier: codes as integers.
+        left: block.left.as_uint(),
+        right: block.right.as_uint(),
+        drop: block.amplitude,
+        square: block.square(),
+        root_start: BIT,
+        divide: BIT,
+        capacitance: block.capacitance,
+        invalid: BIT,
+        saturated: BIT,
+        done: BIT,
+    }
 }
 
-/// The configuration.
-#[derive(Debug, Clone)]
-pub struct Capacitance {
-    multiplier: Multiplier,
-    root: Root,
-    divider: Divider,
-    correct: bool,
-    amplitude: Format,
-    sheet: Format,
-    admittance: Format,
-    gain: Format,
-    registers: Registers<Format>,
+/// The format of an amplitude's square.
+#[inline(always)]
+const fn square(amplitude: Format) -> Format {
+    Format::unsigned(2 * amplitude.width, 2 * amplitude.frac)
 }
 
 impl Capacitance {
@@ -98,38 +106,36 @@ impl Capacitance {
     pub fn new(profile: &Profile, amplitude: Format) -> Self {
         let f = &profile.formats;
         let (sheet, admittance, gain) = (profile.sheet(), f.admittance, f.capacitance_gain);
-        let square = Format::unsigned(2 * amplitude.width, 2 * amplitude.frac);
-        let root = Root::new(square, amplitude.frac);
+        let root = Root::new(square(amplitude), amplitude.frac);
         let divider = Divider::new(amplitude, root.root(), admittance);
         let left = Format::unsigned(amplitude.width.max(admittance.width), 0);
         let right = Format::unsigned(amplitude.width.max(sheet.width).max(gain.width), 0);
-        let registers = Registers {
-            step: Format::unsigned(4, 0),
-            waited: BIT,
-            left,
-            right,
-            drop: amplitude,
-            square,
-            root_start: BIT,
-            divide: BIT,
-            capacitance: f.capacitance,
-            invalid: BIT,
-            saturated: BIT,
-            done: BIT,
-        };
         let correct = profile.capacitance.sheet_correction;
         let multiplier = Multiplier::new(left, right, profile.multiplier);
-        Capacitance { multiplier, root, divider, correct, amplitude, sheet, admittance, gain, registers }
+        let capacitance = f.capacitance;
+        Capacitance { multiplier, root, divider, correct, amplitude, sheet, admittance, gain, capacitance, left, right }
     }
 
     /// Clocks from `start` to `done`.
     pub fn latency(&self) -> u64 {
-        7 * self.multiplier.latency() + self.root.latency() + self.divider.latency() + 3
+        let clocks = |step: &Step| match step {
+            Step::Idle => 1,
+            Step::Root => self.root.latency() + 1,
+            Step::Divide => self.divider.latency() + 1,
+            _ => self.multiplier.latency(),
+        };
+        Step::ALL.iter().map(clocks).sum()
+    }
+
+    /// The format of the radicand.
+    #[inline(always)]
+    fn square(&self) -> Format {
+        square(self.amplitude)
     }
 
     /// The multiplier's operands of this step, as integers.
     #[inline(always)]
-    fn operands<V: Value>(
+    fn operands<V: Interpretation>(
         &self,
         r: &Registers<Signal<V>>,
         i: &Inputs<Signal<V>>,
@@ -137,118 +143,79 @@ impl Capacitance {
     ) -> (Signal<V>, Signal<V>) {
         let [total, sense, drop, admittance] = [i.total, i.sense, r.drop, admittance].map(Signal::integer);
         let sheet = if self.correct { i.sheet } else { zero(self.sheet) }.integer();
-        let at = |step: u64| r.step.is(step);
-        let left = at(1).select(total, at(2).select(sense, at(4).select(drop, admittance)));
-        let right = at(1).select(sheet, at(2).select(sense, at(4).select(drop, i.gain.integer())));
+        use Step::*;
+        let at = |step: Step| r.step.at(step);
+        let left = at(Load).select(total, at(Sense).select(sense, at(Square).select(drop, admittance)));
+        let right = at(Load).select(sheet, at(Sense).select(sense, at(Square).select(drop, i.gain.integer())));
         (left, right)
     }
 
     /// v² − (a·R)², held at zero from below, and whether nothing is left.
     #[inline(always)]
-    fn radicand<V: Value>(&self, r: &Registers<Signal<V>>, product: Signal<V>) -> (Signal<V>, Signal<V>) {
+    fn radicand<V: Interpretation>(&self, r: &Registers<Signal<V>>, product: Signal<V>) -> (Signal<V>, Signal<V>) {
         let drop = product.as_code(self.amplitude.product(self.amplitude));
-        let left = (r.square - drop).named("left_over").fit(r.square.format, Exact, Saturate);
+        let left = (r.square - drop).named("left_over").resize(r.square.format, Saturate);
         (left, left.equals(zero(left.format)))
     }
 
     #[inline(always)]
-    fn step<V: Value>(
+    fn step<V: Interpretation>(
         &self,
         r: Registers<Signal<V>>,
         i: Inputs<Signal<V>>,
         (product, nothing_left, rooted, divided): (Signal<V>, Signal<V>, Signal<V>, divider::Outputs<Signal<V>>),
     ) -> Registers<Signal<V>> {
-        let at = |step: u64| r.step.is(step);
+        use Step::*;
+        let at = |step: Step| r.step.at(step);
         let (drop, drop_held) = product.as_code(self.amplitude.product(self.sheet)).saturate(self.amplitude, HalfEven);
         let square = product.as_code(self.amplitude.product(self.amplitude));
         let (result, held) =
             product.as_code(self.admittance.product(self.gain)).saturate(r.capacitance.format, HalfEven);
         let (left, right) = self.operands(&r, &i, divided.quotient);
-        let waits = (at(7) & !rooted) | (at(8) & !divided.done);
-        let onward = at(10).select(int(0), r.step + int(1));
-        let saturated = (at(3) & drop_held) | (at(8) & divided.done & divided.saturated) | (at(10) & held);
+        let waits = (at(Root) & !rooted) | (at(Divide) & !divided.done);
+        let onward = at(Finish).select(Idle.signal(), r.step + int(1));
+        let saturated = (at(Drop) & drop_held) | (at(Divide) & divided.done & divided.saturated) | (at(Finish) & held);
         Registers {
-            step: waits.select(r.step, onward).fit(r.step.format, Exact, Wrap),
+            step: waits.select(r.step, onward).resize(r.step.format, Wrap),
             waited: bit(false),
             left,
             right,
-            drop: at(3).select(drop, r.drop),
-            square: at(4).select(square, r.square),
-            root_start: at(5),
-            divide: at(7) & rooted,
-            capacitance: at(10).select(result, r.capacitance),
-            invalid: at(6).select(nothing_left, r.invalid),
+            drop: at(Drop).select(drop, r.drop),
+            square: at(Square).select(square, r.square),
+            root_start: at(DropSquare),
+            divide: at(Root) & rooted,
+            capacitance: at(Finish).select(result, r.capacitance),
+            invalid: at(Radicand).select(nothing_left, r.invalid),
             saturated: r.saturated | saturated,
-            done: at(10),
+            done: at(Finish),
         }
     }
 }
 
 impl Block for Capacitance {
-    const NAME: &'static str = "capacitance";
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    type Registers = Registers;
-    type Parts<V: Value> = Parts<V>;
-
-    #[inline]
-    fn inputs(&self) -> Inputs<Format> {
-        let (total, sheet, gain) = (self.amplitude, self.sheet, self.gain);
-        Inputs { start: BIT, total, sense: total, sheet, gain }
-    }
-
-    #[inline]
-    fn outputs(&self) -> Outputs<Format> {
-        let Registers { done, capacitance, invalid, saturated, .. } = self.registers;
-        Outputs { done, capacitance, invalid, saturated }
-    }
-
     #[inline(always)]
-    fn registers(&self) -> Registers<Format> {
-        let r = self.registers;
-        Registers {
-            done: BIT,
-            root_start: BIT,
-            divide: BIT,
-            invalid: BIT,
-            saturated: BIT,
-            waited: BIT,
-            step: r.step.counting(),
-            left: r.left.counting(),
-            right: r.right.counting(),
-            drop: self.amplitude,
-            square: r.square.with_point(2 * self.amplitude.frac),
-            capacitance: r.capacitance,
-        }
-    }
-
-    #[inline(always)]
-    fn clock<V: Value>(&self, cell: &mut Cell<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
-        let r = cell.load(self);
+    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+        let r = state.load(self);
         let Registers { done, capacitance, invalid, saturated, .. } = r;
         let outputs = Outputs { done, capacitance, invalid, saturated };
-        if (i.start | !r.step.is(0) | r.done).idle() {
+        if (i.start | !r.step.at(Step::Idle) | r.done).can_skip() {
             return outputs;
         }
-        let inputs = multiplier::Inputs { enable: !r.step.is(0), left: r.left, right: r.right };
-        let product = self.multiplier.call("multiplier", &mut cell.parts.multiplier, inputs).product;
+        let inputs = multiplier::Inputs { enable: !r.step.at(Step::Idle), left: r.left, right: r.right };
+        let product = call!(self.multiplier, state, inputs).product;
         let (radicand, nothing_left) = self.radicand(&r, product);
         let inputs = root::Inputs { start: r.root_start, radicand };
-        let root = self.root.call("root", &mut cell.parts.root, inputs);
+        let root = call!(self.root, state, inputs);
         let inputs = divider::Inputs { start: r.divide, numerator: i.total, denominator: root.root };
-        let divided = self.divider.call("divider", &mut cell.parts.divider, inputs);
+        let divided = call!(self.divider, state, inputs);
         let idle = Registers { root_start: bit(false), divide: bit(false), done: bit(false), ..r };
-        let begin = Registers { step: int(1), waited: bit(false), saturated: bit(false), ..idle };
+        let begin = Registers { step: Step::Load.signal(), waited: bit(false), saturated: bit(false), ..idle };
         let waits = Registers { waited: bit(true), ..idle };
-        let acts = self.multiplier.paces(r.waited) | r.step.is(7) | r.step.is(8);
+        let acts = self.multiplier.paces(r.waited) | r.step.at(Step::Root) | r.step.at(Step::Divide);
         let results = (product, nothing_left, root.done, divided);
-        next!(
-            V,
-            Registers,
-            self,
-            cell,
+        next!(self, state,
             i.start => begin,
-            r.step.is(0) => idle,
+            r.step.at(Step::Idle) => idle,
             acts => self.step(idle, i, results),
             else waits
         );

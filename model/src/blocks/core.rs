@@ -9,92 +9,58 @@
 //! The answer to `channel` is expected as `code` one clock later. Pads are selected by `pad` and `closed`, break before make.
 
 use super::demodulator::{self, Demodulator};
-use super::estimator::{self, Estimator};
+use super::estimator::{self, Calibration, Estimator, FramePort};
 use super::multiplexer::{self, Multiplexer};
 use super::oscillator::{self, Oscillator};
 use super::pace::{self, Pace};
-use crate::block::{Block, Cell};
-use crate::bundle::Nothing;
-use crate::format::{BIT, Format};
+use super::position::TablePort;
+use crate::block::{Block, Interpretation, State};
+use crate::bundle::Bundle;
+use crate::format::BIT;
 use crate::profile::Profile;
-use crate::signal::{Signal, Value};
-use crate::{bundle, parts};
+use crate::signal::Signal;
+use crate::{block, call};
 
-bundle! {
-    /// The inputs.
-    pub struct Inputs {
-        /// A set of ADC codes is there.
-        strobe,
-        /// Abandons the slot under way: the next strobe is the first of the first pad's slot.
-        clear,
-        /// The code of the channel asked for in the clock before.
-        code,
-        /// Calibration: picofarads at an admittance of one.
-        capacitance_gain,
-        /// Calibration: newtons per square picofarad at full haptic mean square.
-        force_gain,
-        /// Calibration: writes a word of the position table.
-        write,
-        /// Calibration: where.
-        address,
-        /// Calibration: what.
-        word,
-    }
-}
-
-bundle! {
-    /// The outputs.
-    pub struct Outputs {
-        /// The channel whose code is wanted.
-        channel,
-        /// The pad that is served.
-        serve,
-        /// Whether its switch is made.
-        closed,
-        /// The carrier.
-        carrier,
-        /// Set for a clock for each word of a frame.
-        valid,
-        /// Which field the word is.
-        index,
-        /// The word.
-        frame,
-        /// Set with a frame's last word.
-        done,
-        /// The pad of the frame.
-        pad,
-        /// A code was at a rail of the ADC.
-        clipped,
-        /// A word was held at a rail.
-        saturated,
-        /// The last valid results stand.
-        invalid,
-        /// A terminal's current is that of an open one.
-        lost,
-        /// Strobes have come closer than the profile's clocks a sample since reset or `clear`: frames are wrong.
-        overrun,
-    }
-}
-
-parts! {
-    /// The blocks within.
-    pub struct Parts of Core {
+block! {
+    /// The core.
+    pub struct Core("hapticore") {}
+    submodules {
         multiplexer: Multiplexer,
         pace: Pace,
         oscillator: Oscillator,
         demodulator: Demodulator,
         estimator: Estimator,
     }
+    inputs(core) {
+        /// A set of ADC codes is valid.
+        strobe: BIT,
+        /// Abandons the slot under way: the next strobe is the first of the first pad's slot.
+        clear: BIT,
+        /// The code of the channel that `channel` asked for one cycle earlier.
+        code: core.demodulator.inputs().code,
+        calibration as Calibration: core.estimator.inputs().calibration,
+    }
+    outputs(core) {
+        /// The channel whose code is needed in the next cycle.
+        channel: core.demodulator.outputs().channel,
+        /// The selected pad.
+        serve: core.multiplexer.outputs().pad,
+        /// Its switch is closed.
+        closed: BIT,
+        carrier: core.oscillator.outputs().cosine,
+        frames as FramePort: core.estimator.outputs().frames,
+        /// Strobes have come closer than the profile's clocks per sample since reset or `clear`: frames are wrong.
+        overrun: BIT,
+    }
+    registers(core) {}
 }
 
-/// The configuration.
-#[derive(Debug, Clone)]
-pub struct Core {
-    multiplexer: Multiplexer,
-    pace: Pace,
-    oscillator: Oscillator,
-    demodulator: Demodulator,
-    estimator: Estimator,
+impl<T: Copy> Inputs<T> {
+    /// These inputs, with others at the port of the position table.
+    pub fn with_table(mut self, table: TablePort<T>) -> Self {
+        self.calibration.table = table;
+        self
+    }
 }
 
 impl Core {
@@ -107,6 +73,16 @@ impl Core {
             demodulator: Demodulator::new(profile),
             estimator: Estimator::new(profile),
         }
+    }
+
+    /// The inputs of a core with a calibration, as codes, while nothing happens.
+    pub fn idle_inputs(&self, calibration: &crate::calibration::Calibration) -> Inputs<i64> {
+        let formats = self.inputs();
+        let mut inputs = Inputs::map(formats, |_| 0);
+        let (gains, formats) = (&mut inputs.calibration, formats.calibration);
+        gains.capacitance_gain = formats.capacitance_gain.code_saturating(calibration.capacitance_gain);
+        gains.force_gain = formats.force_gain.code_saturating(calibration.force_gain);
+        inputs
     }
 
     /// The multiplexer.
@@ -141,57 +117,14 @@ impl Core {
 }
 
 impl Block for Core {
-    const NAME: &'static str = "hapticore";
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    type Registers = Nothing;
-    type Parts<V: Value> = Parts<V>;
-
-    #[inline]
-    fn inputs(&self) -> Inputs<Format> {
-        let estimator::Inputs { capacitance_gain, force_gain, address, word, .. } = self.estimator.inputs();
-        let code = self.demodulator.inputs().code;
-        Inputs { strobe: BIT, clear: BIT, code, capacitance_gain, force_gain, write: BIT, address, word }
-    }
-
-    #[inline]
-    fn outputs(&self) -> Outputs<Format> {
-        let estimator::Outputs { valid, index, word: frame, done, pad, clipped, saturated, invalid, lost } =
-            self.estimator.outputs();
-        let channel = self.demodulator.outputs().channel;
-        let carrier = self.oscillator.outputs().cosine;
-        Outputs {
-            channel,
-            serve: pad,
-            closed: BIT,
-            carrier,
-            valid,
-            index,
-            frame,
-            done,
-            pad,
-            clipped,
-            saturated,
-            invalid,
-            lost,
-            overrun: BIT,
-        }
-    }
-
     #[inline(always)]
-    fn registers(&self) -> Nothing<Format> {
-        Nothing::default()
-    }
-
-    #[inline(always)]
-    fn clock<V: Value>(&self, cell: &mut Cell<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
-        let parts = &mut cell.parts;
+    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
         let inputs = multiplexer::Inputs { strobe: i.strobe, clear: i.clear };
-        let slot = self.multiplexer.call("multiplexer", &mut parts.multiplexer, inputs);
+        let slot = call!(self.multiplexer, state, inputs);
         let inputs = pace::Inputs { strobe: i.strobe, clear: i.clear };
-        let pace = self.pace.call("pace", &mut parts.pace, inputs);
+        let pace = call!(self.pace, state, inputs);
         let inputs = oscillator::Inputs { sample: slot.sample, restart: slot.restart, first: slot.first };
-        let oscillator = self.oscillator.call("oscillator", &mut parts.oscillator, inputs);
+        let oscillator = call!(self.oscillator, state, inputs);
         let inputs = demodulator::Inputs {
             start: oscillator.ready & slot.integrate,
             first: slot.first,
@@ -203,7 +136,7 @@ impl Block for Core {
             window: oscillator.window,
             phase: oscillator.phase,
         };
-        let demodulator = self.demodulator.call("demodulator", &mut parts.demodulator, inputs);
+        let demodulator = call!(self.demodulator, state, inputs);
         let inputs = estimator::Inputs {
             clear: i.clear,
             valid: demodulator.valid,
@@ -211,27 +144,15 @@ impl Block for Core {
             sum: demodulator.sum,
             pad: demodulator.pad,
             clipped: demodulator.clipped,
-            capacitance_gain: i.capacitance_gain,
-            force_gain: i.force_gain,
-            write: i.write,
-            address: i.address,
-            word: i.word,
+            calibration: i.calibration,
         };
-        let frame = self.estimator.call("estimator", &mut parts.estimator, inputs);
+        let estimator::Outputs { frames } = call!(self.estimator, state, inputs);
         Outputs {
             channel: demodulator.channel,
             serve: slot.pad,
             closed: slot.closed,
             carrier: oscillator.cosine,
-            valid: frame.valid,
-            index: frame.index,
-            frame: frame.word,
-            done: frame.done,
-            pad: frame.pad,
-            clipped: frame.clipped,
-            saturated: frame.saturated,
-            invalid: frame.invalid,
-            lost: frame.lost,
+            frames,
             overrun: pace.overrun,
         }
     }

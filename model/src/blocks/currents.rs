@@ -16,100 +16,110 @@
 //! | amplitude       | total's | full scale     | cannot (range proof) |
 //! | x, y, corners   | exact   | full scale     | cannot (range proof) |
 //!
-//! Words may be moved up together, so that small currents keep their bits: see `currents/block.rs`. x, y and corners then count what the
+//! Words may be moved up together, so that small currents keep their bits: see `currents/block_floating.rs`. x, y and corners then count what the
 //! largest current makes of a word's step; total and sensing voltage are at one point again.
 //!
 //! Latency: (terminals + 2) · (6 products + root + 1) + 1 clocks from the last sum (the mean square's) to `done`. Source: paper,
 //! eqs. 2–5; the sum is that of all terminals' complex currents, for the corners alone carry only a part (PHYSICS §1).
 
-mod block;
+mod block_floating;
 
 use super::multiplier::{self, Multiplier};
 use super::root::{self, Root};
-use crate::block::{Block, Cell};
+use crate::block::{Block, Interpretation, State};
 use crate::format::{BIT, Format};
 use crate::memory::{Memory, Write};
 use crate::profile::Profile;
-use crate::signal::{Exact, Floor, HalfEven, Lemma, Never, Signal, Value, Wrap, bit, int, zero};
-use crate::{bundle, choose, parts, when};
+use crate::signal::{Assumed, Exact, Floor, HalfEven, Proved, Signal, Wrap, bit, int, zero};
+use crate::states::States;
+use crate::{block, call, states, when};
 
-bundle! {
-    /// The inputs: the demodulator's sums.
-    pub struct Inputs {
-        /// A sum is there.
-        valid,
-        /// Which.
-        index,
-        /// The sum.
-        sum,
+states! {
+    /// The steps from words to results; those of alignment and the last are of block-floating words (`currents/block_floating.rs`).
+    /// `Root` waits for the square root.
+    pub enum Step {
+        Idle, Read, InPhase, ReadQuadrature, Quadrature, Square, Power, Root,
+        AlignRead, AlignLoad, AlignMove, AlignKeep, Restore,
     }
 }
 
-bundle! {
-    /// The outputs: registers, that hold until the next are there.
-    pub struct Outputs {
-        /// Set for one clock when all others are there.
-        done,
-        /// The amplitude of the total current.
-        total,
-        /// The amplitude of the sensing voltage.
-        sense,
-        /// The numerator of r_x.
-        x,
-        /// The numerator of r_y.
-        y,
-        /// Their denominator.
-        corners,
-        /// The least amplitude of the terminals, in the unit of the numerators.
-        least,
-        /// Whether a word is held at a rail.
-        saturated,
+block! {
+    /// The amplitudes of the currents, and their sums.
+    pub struct Currents("currents") {
+        terminals: u64,
+        signs: [Vec<i8>; 2],
+        /// Bits by which a sum over the window is scaled down to full scale.
+        shift: i8,
+        sum: Format,
+        iq: Format,
+        /// Of the sums over all terminals.
+        total: Format,
+        /// Of what is squared.
+        part: Format,
+        /// Bits by which words may be moved up, together; none where they all have one point.
+        block: u8,
+        /// The amplitudes that are given out.
+        given: Format,
+        /// An amplitude's bits, as the square root gives it.
+        amplitude: u8,
     }
-}
-
-bundle! {
-    /// The registers.
-    pub struct Registers {
-        step: [
-            "idle", "read", "in_phase", "read_quadrature", "quadrature", "square", "power", "root",
-            "align_read", "align_load", "align_move", "align_keep", "restore",
-        ],
-        arrived, place, word, waited, channel, total_i, total_q, part, power, root_start,
-        sense, x, y, corners, least, saturated, done,
-        long, count, limit, other, quadrature, aligning, whole,
-    }
-}
-
-parts! {
-    /// The blocks within.
-    pub struct Parts of Currents {
+    submodules {
         words: Memory,
         multiplier: Multiplier,
         root: Root,
     }
-}
-
-/// The configuration.
-#[derive(Debug, Clone)]
-pub struct Currents {
-    words: Memory,
-    multiplier: Multiplier,
-    root: Root,
-    terminals: u64,
-    signs: [Vec<i8>; 2],
-    /// Bits by which a sum over the window is scaled down to full scale.
-    shift: i8,
-    sum: Format,
-    iq: Format,
-    /// Of the sums over all terminals.
-    total: Format,
-    /// Of what is squared.
-    part: Format,
-    /// Bits by which words may be moved up, together; none where they all have one point.
-    block: u8,
-    /// The amplitudes that are given out.
-    given: Format,
-    registers: Registers<Format>,
+    inputs(currents) {
+        /// Asserted for one cycle with each of the demodulator's sums.
+        valid: BIT,
+        /// The number of the sum.
+        index: Format::counter(2 * (currents.terminals + 1)),
+        sum: currents.sum,
+    }
+    outputs(currents) {
+        /// Asserted for one cycle when all others are valid; they are stable until the next results.
+        done: BIT,
+        /// The amplitude of the total current.
+        total: currents.given,
+        /// The amplitude of the sensing voltage.
+        sense: currents.given,
+        /// The numerator of r_x.
+        x: currents.numerator(),
+        /// The numerator of r_y.
+        y: currents.numerator(),
+        /// Their denominator.
+        corners: currents.denominator(),
+        /// The least amplitude of the terminals, in the unit of the numerators.
+        least: currents.root(),
+        /// A word is saturated.
+        saturated: BIT,
+    }
+    registers(currents) {
+        step in Step: if currents.block == 0 { Format::counter(Step::Root.code()) } else { Step::FORMAT },
+        arrived: BIT,
+        place: currents.words.address(),
+        word: currents.wide(),
+        waited: BIT,
+        channel: Format::counter(currents.terminals + 1),
+        total_i: currents.total,
+        total_q: currents.total,
+        part: currents.part,
+        power: Format::unsigned(2 * currents.part.width, 2 * currents.part.frac),
+        root_start: BIT,
+        sense: currents.root(),
+        x: currents.numerator(),
+        y: currents.numerator(),
+        corners: currents.denominator(),
+        least: currents.root(),
+        saturated: BIT,
+        done: BIT,
+        long: currents.wide(),
+        count: Format::counter(currents.block.into()),
+        limit: Format::counter(currents.block.into()),
+        other: Format::counter(currents.block.into()),
+        quadrature: BIT,
+        aligning: BIT,
+        whole: Format::unsigned(currents.amplitude + currents.down() as u8, currents.part.frac),
+    }
 }
 
 const SQUARE: &str = "a square is not negative";
@@ -127,37 +137,9 @@ impl Currents {
         let power = Format::unsigned(2 * part.width, 2 * part.frac);
         let root = Root::new(power, part.frac);
         let amplitude = root.root();
-        let sums = Format::signed(amplitude.width + 1 + Format::counter(terminals).width, amplitude.frac);
-        let channels = terminals + 1;
         let demodulator = super::demodulator::Demodulator::new(profile);
-        let words = Memory::new("words", (2 * channels + 2).next_power_of_two() as usize, wide).never_colliding();
-        let registers = Registers {
-            step: Format::unsigned(if block == 0 { 3 } else { 4 }, 0),
-            arrived: BIT,
-            place: words.address(),
-            word: wide,
-            waited: BIT,
-            channel: Format::counter(channels),
-            total_i: total,
-            total_q: total,
-            part,
-            power,
-            root_start: BIT,
-            sense: amplitude,
-            x: sums,
-            y: sums,
-            corners: Format { signed: false, width: sums.width - 1, ..sums },
-            least: amplitude,
-            saturated: BIT,
-            done: BIT,
-            long: wide,
-            count: Format::counter(block.into()),
-            limit: Format::counter(block.into()),
-            other: Format::counter(block.into()),
-            quadrature: BIT,
-            aligning: BIT,
-            whole: Format::unsigned(amplitude.width + Format::counter(terminals).width, amplitude.frac),
-        };
+        let words =
+            Memory::new("words", (2 * terminals + 4).next_power_of_two() as usize, wide).dont_care_on_collision();
         Currents {
             words,
             multiplier: Multiplier::new(part.integer(), part.integer(), profile.multiplier),
@@ -171,8 +153,26 @@ impl Currents {
             part,
             block,
             given: if block == 0 { amplitude } else { profile.amplitude_format() },
-            registers,
+            amplitude: amplitude.width,
         }
+    }
+
+    /// The format of an amplitude as the square root gives it.
+    #[inline(always)]
+    fn root(&self) -> Format {
+        Format::unsigned(self.amplitude, self.part.frac)
+    }
+
+    /// The format of the sums of eqs. 2 and 3.
+    #[inline(always)]
+    fn numerator(&self) -> Format {
+        Format::signed(self.amplitude + 1 + self.down() as u8, self.part.frac)
+    }
+
+    /// The format of their denominator.
+    #[inline(always)]
+    fn denominator(&self) -> Format {
+        Format::unsigned(self.amplitude + self.down() as u8, self.part.frac)
     }
 
     /// The format of an amplitude.
@@ -182,12 +182,12 @@ impl Currents {
 
     /// The formats of the numerators and of the denominator of eqs. 2 and 3.
     pub fn sums(&self) -> (Format, Format) {
-        (self.registers.x, self.registers.corners)
+        (self.numerator(), self.denominator())
     }
 
     /// The format of the least amplitude.
     pub fn least(&self) -> Format {
-        self.registers.least
+        self.root()
     }
 
     /// Clocks from the last sum to `done`.
@@ -197,16 +197,21 @@ impl Currents {
 
     /// The in-phase or quadrature word of a sum, and whether it is held at a rail.
     #[inline(always)]
-    fn word<V: Value>(&self, sum: Signal<V>) -> (Signal<V>, Signal<V>) {
+    fn word<V: Interpretation>(&self, sum: Signal<V>) -> (Signal<V>, Signal<V>) {
         let rounding = if self.block == 0 { HalfEven } else { Floor };
         sum.scaled(-self.shift).saturate(self.wide(), rounding)
     }
 
     /// A sum arrives: its word goes into the memory, and with the last the loop over channels begins.
     #[inline(always)]
-    fn take<V: Value>(&self, r: Registers<Signal<V>>, i: Inputs<Signal<V>>, held: Signal<V>) -> Registers<Signal<V>> {
+    fn take<V: Interpretation>(
+        &self,
+        r: Registers<Signal<V>>,
+        i: Inputs<Signal<V>>,
+        held: Signal<V>,
+    ) -> Registers<Signal<V>> {
         let among = i.index.less_than(int(2 * (self.terminals + 1)));
-        let begin = if self.block == 0 { int(1) } else { int(block::READ) };
+        let begin = if self.block == 0 { Step::Read } else { Step::AlignRead }.signal();
         let r = if self.block == 0 { r } else { self.unaligned(r) };
         Registers {
             step: i.index.is(2 * self.terminals + 2).select(begin, r.step),
@@ -221,45 +226,46 @@ impl Currents {
 
     /// A total with a terminal's word more, and whether it is held at a rail.
     #[inline(always)]
-    fn more<V: Value>(&self, r: &Registers<Signal<V>>) -> (Signal<V>, Signal<V>) {
+    fn more<V: Interpretation>(&self, r: &Registers<Signal<V>>) -> (Signal<V>, Signal<V>) {
         (r.total_i + r.part).named("more").saturate(self.total, Exact)
     }
 
     /// A step of the loop over channels: words, squares, root, sums.
     #[inline(always)]
-    fn step<V: Value>(
+    fn step<V: Interpretation>(
         &self,
         r: Registers<Signal<V>>,
         word: Signal<V>,
         product: Signal<V>,
         root: root::Outputs<Signal<V>>,
     ) -> Registers<Signal<V>> {
-        let at = |step: u64| r.step.is(step);
+        use Step::*;
+        let at = |step: Step| r.step.at(step);
         let all = r.channel.is(self.terminals + 1);
         let terminal = r.channel.less_than(int(self.terminals));
-        let square = product.fit(self.square(), Exact, Lemma(SQUARE)).scaled(-2 * self.part.frac);
-        let power = at(6).select(r.power + square, square).fit(r.power.format, Exact, Never);
-        let adds = ((at(3) | at(5)) & terminal).named("adds");
+        let square = product.resize(self.square(), Assumed(SQUARE)).scaled(-2 * self.part.frac);
+        let power = at(Power).select(r.power + square, square).resize(r.power.format, Proved);
+        let adds = ((at(ReadQuadrature) | at(Square)) & terminal).named("adds");
         let (more, held) = self.more(&r);
-        let rooted = (at(7) & root.done).named("rooted");
-        let r = when!(V, Registers, rooted, self.sum_up(r, root.root), r);
+        let rooted = (at(Root) & root.done).named("rooted");
+        let r = when!(rooted => self.sum_up(r, root.root), else r);
         let total = |total: Signal<V>| if self.block == 0 { total } else { self.narrow_total(total) };
         let (in_phase, quadrature) = (all.select(total(r.total_i), word), all.select(total(r.total_q), word));
-        let part = at(2).select(in_phase, at(4).select(quadrature, r.part));
-        let after = if self.block == 0 { int(0) } else { int(block::RESTORE) };
-        let following = at(7).select(r.step, r.step + int(1));
+        let part = at(InPhase).select(in_phase, at(Quadrature).select(quadrature, r.part));
+        let after = if self.block == 0 { Idle } else { Restore }.signal();
+        let following = at(Root).select(r.step, r.step + int(1));
         Registers {
-            step: rooted.select(all.select(after, int(1)), following).fit(r.step.format, Exact, Wrap),
+            step: rooted.select(all.select(after, Read.signal()), following).resize(r.step.format, Wrap),
             waited: bit(false),
             // The totals change places with every addition: one adder, one register that takes its result.
             total_i: adds.select(r.total_q, r.total_i),
-            total_q: choose!(V, adds, more, r.total_q),
+            total_q: when!(adds => more, else r.total_q),
             part,
             power: {
-                let squared = at(4) | at(6);
-                choose!(V, squared, power, r.power)
+                let squared = at(Quadrature) | at(Power);
+                when!(squared => power, else r.power)
             },
-            root_start: at(6),
+            root_start: at(Power),
             saturated: r.saturated | (adds & held),
             done: if self.block == 0 { rooted & all } else { bit(false) },
             ..r
@@ -269,12 +275,12 @@ impl Currents {
     /// The format of a square as an integer.
     #[inline(always)]
     fn square(&self) -> Format {
-        self.registers.power.integer()
+        self.registers().power.integer()
     }
 
     /// An amplitude is there: of a terminal, of the sensing voltage, and last of the total.
     #[inline(always)]
-    fn sum_up<V: Value>(&self, r: Registers<Signal<V>>, amplitude: Signal<V>) -> Registers<Signal<V>> {
+    fn sum_up<V: Interpretation>(&self, r: Registers<Signal<V>>, amplitude: Signal<V>) -> Registers<Signal<V>> {
         let opening = r.channel.is(0);
         let terminal = r.channel.less_than(int(self.terminals));
         let smaller = opening | (terminal & amplitude.less_than(r.least));
@@ -282,11 +288,11 @@ impl Currents {
         let with = |sum: Signal<V>, sign: &dyn Fn(usize) -> i8| {
             let plus = self.among(r.channel, |k| sign(k) > 0).select(amplitude, zero(amplitude.format));
             let more = self.among(r.channel, |k| sign(k) < 0).select(negative, plus);
-            (opening.select(zero(sum.format), sum) + more).fit(sum.format, Exact, Never)
+            (opening.select(zero(sum.format), sum) + more).resize(sum.format, Proved)
         };
         let [x, y] = &self.signs;
         Registers {
-            channel: (r.channel + int(1)).fit(r.channel.format, Exact, Wrap),
+            channel: (r.channel + int(1)).resize(r.channel.format, Wrap),
             whole: self.whole(&r, amplitude),
             sense: r.channel.is(self.terminals).select(amplitude, r.sense),
             x: with(r.x, &|k| x[k]),
@@ -298,13 +304,13 @@ impl Currents {
     }
 
     /// Whether the channel is one of the terminals that `choose` names.
-    fn among<V: Value>(&self, channel: Signal<V>, choose: impl Fn(usize) -> bool) -> Signal<V> {
+    fn among<V: Interpretation>(&self, channel: Signal<V>, choose: impl Fn(usize) -> bool) -> Signal<V> {
         let chosen = (0..self.terminals).filter(|&k| choose(k as usize));
         chosen.map(|k| channel.is(k)).reduce(|a, b| a | b).unwrap_or(bit(false))
     }
 
     #[inline(always)]
-    fn results<V: Value>(&self, r: &Registers<Signal<V>>, total: Signal<V>) -> Outputs<Signal<V>> {
+    fn results<V: Interpretation>(&self, r: &Registers<Signal<V>>, total: Signal<V>) -> Outputs<Signal<V>> {
         let Registers { done, x, y, corners, least, .. } = *r;
         if self.block == 0 {
             return Outputs { done, total, sense: r.sense, x, y, corners, least, saturated: r.saturated };
@@ -315,15 +321,13 @@ impl Currents {
 
     /// The total's amplitude, to be moved back.
     #[inline(always)]
-    fn whole<V: Value>(&self, r: &Registers<Signal<V>>, amplitude: Signal<V>) -> Signal<V> {
-        if self.block == 0 { r.whole } else { amplitude.scaled(self.down()).fit(r.whole.format, Exact, Never) }
+    fn whole<V: Interpretation>(&self, r: &Registers<Signal<V>>, amplitude: Signal<V>) -> Signal<V> {
+        if self.block == 0 { r.whole } else { amplitude.scaled(self.down()).resize(r.whole.format, Proved) }
     }
-}
 
-impl Currents {
-    /// A clock on the way from words to results.
+    /// A cycle on the way from words to results.
     #[inline(always)]
-    fn busy<V: Value>(
+    fn busy<V: Interpretation>(
         &self,
         r: Registers<Signal<V>>,
         data: Signal<V>,
@@ -331,121 +335,57 @@ impl Currents {
         root: root::Outputs<Signal<V>>,
     ) -> Registers<Signal<V>> {
         let waits = Registers { waited: bit(true), ..r };
-        let acts = self.multiplier.paces(r.waited) | r.step.is(7);
+        let acts = self.multiplier.paces(r.waited) | r.step.at(Step::Root);
         if self.block == 0 {
-            return when!(V, Registers, acts, self.step(r, data.aligned(r.part.format), product, root), waits);
+            return when!(acts => self.step(r, data.align_point(r.part.format), product, root), else waits);
         }
-        let aligns = r.step.at_least(int(block::READ)) & r.step.less_than(int(block::RESTORE));
-        let restores = r.step.is(block::RESTORE);
-        when!(
-            V,
-            Registers,
-            aligns,
-            self.align(r, data),
-            when!(
-                V,
-                Registers,
-                restores,
-                self.restore(r),
-                when!(V, Registers, acts, self.step(r, self.narrow(data), product, root), waits)
-            )
-        )
+        let aligns = r.step.at_least(Step::AlignRead.signal()) & r.step.less_than(Step::Restore.signal());
+        let restores = r.step.at(Step::Restore);
+        when!(aligns => self.align(r, data), else when!(restores => self.restore(r), else when!(acts => self.step(r, self.narrow(data), product, root), else waits)))
     }
 }
 
 impl Block for Currents {
-    const NAME: &'static str = "currents";
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    type Registers = Registers;
-    type Parts<V: Value> = Parts<V>;
-
-    #[inline]
-    fn inputs(&self) -> Inputs<Format> {
-        Inputs { valid: BIT, index: Format::counter(2 * (self.terminals + 1)), sum: self.sum }
-    }
-
-    #[inline]
-    fn outputs(&self) -> Outputs<Format> {
-        let Registers { done, x, y, corners, least, saturated, .. } = self.registers;
-        Outputs { done, total: self.given, sense: self.given, x, y, corners, least, saturated }
-    }
-
     #[inline(always)]
-    fn registers(&self) -> Registers<Format> {
-        let (r, total, part) = (self.registers, self.total, self.part);
-        let amplitude = |format: Format| format.with_point(part.frac);
-        Registers {
-            done: BIT,
-            root_start: BIT,
-            saturated: BIT,
-            arrived: BIT,
-            place: r.place.counting(),
-            waited: BIT,
-            step: r.step.counting(),
-            channel: r.channel.counting(),
-            word: self.wide(),
-            total_i: total,
-            total_q: total,
-            part,
-            power: r.power.with_point(2 * part.frac),
-            sense: amplitude(r.sense),
-            x: amplitude(r.x),
-            y: amplitude(r.y),
-            corners: amplitude(r.corners),
-            least: amplitude(r.least),
-            long: self.wide(),
-            count: r.count.counting(),
-            limit: r.limit.counting(),
-            other: r.other.counting(),
-            quadrature: BIT,
-            aligning: BIT,
-            whole: amplitude(r.whole),
-        }
-    }
-
-    #[inline(always)]
-    fn clock<V: Value>(&self, cell: &mut Cell<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
-        let r = cell.load(self);
+    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+        let r = state.load(self);
         // The last root, the total's, stays until the next slot's first.
         let inputs = root::Inputs { start: r.root_start, radicand: r.power };
-        let root::Outputs { done, root } = self.root.call("root", &mut cell.parts.root, inputs);
-        let root = root::Outputs { done, root: root.aligned(r.sense.format) };
+        let root::Outputs { done, root } = call!(self.root, state, inputs);
+        let root = root::Outputs { done, root: root.align_point(r.sense.format) };
         let outputs = self.results(&r, root.root);
-        let busy = !r.step.is(0);
-        if (i.valid | r.arrived | busy | r.done).idle() {
+        let busy = !r.step.at(Step::Idle);
+        if (i.valid | r.arrived | busy | r.done).can_skip() {
             return outputs;
         }
         let (word, held) = self.word(i.sum);
         let inputs = multiplier::Inputs { enable: busy, left: r.part.integer(), right: r.part.integer() };
-        let product = self.multiplier.call("multiplier", &mut cell.parts.multiplier, inputs).product;
+        let product = call!(self.multiplier, state, inputs).product;
         let among = i.index.less_than(int(2 * (self.terminals + 1))).named("among");
-        let data = self.words.data(&mut cell.parts.words);
-        let second = !r.step.less_than(int(3));
-        let second = if self.block == 0 { second } else { r.step.less_than(int(8)).select(second, r.quadrature) };
+        let data = self.words.data(&mut state.submodules.words);
+        let second = !r.step.less_than(Step::ReadQuadrature.signal());
+        let second = if self.block == 0 {
+            second
+        } else {
+            r.step.less_than(Step::AlignRead.signal()).select(second, r.quadrature)
+        };
         let address = r.channel.concat(second);
         let address = address.bits(0, self.words.address().width);
         let write = Write { enable: r.arrived, address: r.place, data: r.word };
-        self.words.access(&mut cell.parts.words, address, write);
+        self.words.access(&mut state.submodules.words, address, write);
         let idle = Registers { done: bit(false), root_start: bit(false), ..r };
-        let next = when!(
-            V,
-            Registers,
-            i.valid,
-            self.take(idle, i, held),
-            when!(V, Registers, busy, self.busy(idle, data, product, root), idle)
-        );
+        let next = when!(i.valid => self.take(idle, i, held), else when!(busy => self.busy(idle, data, product, root), else idle));
         let arrived = i.valid & among;
         let place = i.index.bits(0, self.words.address().width);
-        let (place, word) = (arrived.select(place, r.place), choose!(V, arrived, word, r.word));
+        let (place, word) = (arrived.select(place, r.place), when!(arrived => word, else r.word));
         let (arrived, place, word) = if self.block == 0 {
             (arrived, place, word)
         } else {
             let (moved, keeps) = self.moved(&r);
             let here = r.channel.concat(r.quadrature).bits(0, self.words.address().width);
-            (arrived | keeps, keeps.select(here, place), choose!(V, keeps, moved.fit(word.format, Exact, Never), word))
+            (arrived | keeps, keeps.select(here, place), when!(keeps => moved.resize(word.format, Proved), else word))
         };
-        cell.store(self, Registers { arrived, place, word, ..next });
+        state.store(self, Registers { arrived, place, word, ..next });
         outputs
     }
 }

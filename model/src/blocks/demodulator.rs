@@ -29,96 +29,96 @@ mod polyphase;
 
 pub(crate) use self::polyphase::{GAIN as POLYPHASE_GAIN, Polyphase};
 use super::multiplier::{self, Multiplier};
-use crate::block::{Block, Cell};
+use crate::block::{Block, Interpretation, State};
 use crate::format::{BIT, Format, MAX_WIDTH};
 use crate::memory::{Memory, Write};
 use crate::profile::{Method, Profile};
-use crate::signal::{Exact, Floor, HalfEven, Never, Signal, Value, bit, code, int, zero};
-use crate::{bundle, choose, next, parts, when};
+use crate::signal::{Floor, HalfEven, Proved, Signal, bit, code, int, zero};
+use crate::{block, call, next, when};
 
-bundle! {
-    /// The inputs.
-    pub struct Inputs {
-        /// The oscillator's outputs are those of a sample to be integrated.
-        start,
-        /// The sample is the first of its window.
-        first,
-        /// The sample is the last of its window.
-        last,
-        /// The pad that is served.
-        pad,
-        /// The code of the channel asked for in the clock before.
-        code,
-        /// The oscillator's.
-        cosine,
-        /// The oscillator's.
-        sine,
-        /// The oscillator's.
-        window,
-        /// The oscillator's.
-        phase,
+block! {
+    /// The lock-in demodulator.
+    pub struct Demodulator("demodulator") {
+        /// Channels with two sums each: the terminals and the sensing voltage. The haptic voltage is the one after.
+        pub(super) channels: u64,
+        pub(super) adc: Format,
+        pub(super) oscillator: Format,
+        /// The ADC's largest and smallest codes.
+        rails: [i64; 2],
+        /// Operands of the multiplier, and their product: the point of both is known here.
+        pub(super) operand: Format,
+        /// Where the sums' point is.
+        point: i8,
+        channel: Format,
+        step: Format,
+        index: Format,
+        pad: Format,
+        /// Where sums are kept by phase: what is particular to that.
+        pub(super) polyphase: Option<Polyphase>,
     }
-}
-
-bundle! {
-    /// The outputs.
-    pub struct Outputs {
-        /// The channel whose code is wanted in the next clock.
-        channel,
-        /// Set for a clock for each finished sum of a window.
-        valid,
-        /// Which sum: 2k the in-phase and 2k + 1 the quadrature of channel k, the last the mean square.
-        index,
-        /// The sum.
-        sum,
-        /// The pad of the window.
-        pad,
-        /// Whether a code of the window was at a rail.
-        clipped,
-    }
-}
-
-bundle! {
-    /// The registers.
-    pub struct Registers {
-        busy, step, first, last, pad,
-        left, right, weighted, residue, other_residue,
-        valid, summed, index, sum, clipped,
-        fresh, phase, reading, beat, tap, high, part, channel,
-    }
-}
-
-parts! {
-    /// The blocks and memories within.
-    pub struct Parts of Demodulator {
-        multiplier: Multiplier,
+    submodules {
+        pub(super) multiplier: Multiplier,
         weights: Memory,
-        sums: Memory,
+        pub(super) sums: Memory,
     }
-}
-
-/// The configuration.
-#[derive(Debug, Clone)]
-pub struct Demodulator {
-    pub(super) multiplier: Multiplier,
-    weights: Memory,
-    pub(super) sums: Memory,
-    /// Channels with two sums each: the terminals and the sensing voltage. The haptic voltage is the one after.
-    pub(super) channels: u64,
-    pub(super) adc: Format,
-    pub(super) oscillator: Format,
-    /// The ADC's largest and smallest codes.
-    rails: [i64; 2],
-    /// Operands of the multiplier, and their product: the point of both is known here.
-    pub(super) operand: Format,
-    /// Where the sums' point is.
-    point: i8,
-    channel: Format,
-    step: Format,
-    index: Format,
-    pad: Format,
-    /// Where sums are kept by phase: what is particular to that.
-    pub(super) polyphase: Option<Polyphase>,
+    inputs(demodulator) {
+        /// The oscillator's outputs are those of a sample to be integrated.
+        start: BIT,
+        /// The sample is the first of its window.
+        first: BIT,
+        /// The sample is the last of its window.
+        last: BIT,
+        /// The selected pad.
+        pad: demodulator.pad,
+        /// The code of the channel that `channel` asked for one cycle earlier.
+        code: demodulator.adc,
+        /// The oscillator's cosine.
+        cosine: demodulator.oscillator,
+        /// The oscillator's sine.
+        sine: demodulator.oscillator,
+        /// The oscillator's window.
+        window: demodulator.oscillator,
+        /// Polyphase: the number of the carrier's phase.
+        phase: demodulator.phase(),
+    }
+    outputs(demodulator) {
+        /// The channel whose code is needed in the next cycle.
+        channel: demodulator.channel,
+        /// Asserted for one cycle for each finished sum of a window.
+        valid: BIT,
+        /// The number of the sum: 2k the in-phase and 2k + 1 the quadrature of channel k, the last the mean square.
+        index: Format::counter(demodulator.sums() - 1),
+        sum: demodulator.sum(),
+        /// The pad of the window.
+        pad: demodulator.pad,
+        /// A code of the window was at full scale.
+        clipped: BIT,
+    }
+    registers(demodulator) {
+        busy: BIT,
+        step: demodulator.step.as_uint(),
+        first: BIT,
+        last: BIT,
+        pad: demodulator.pad.as_uint(),
+        left: demodulator.operand,
+        right: demodulator.operand,
+        weighted: demodulator.operand,
+        residue: demodulator.residue(),
+        other_residue: demodulator.residue(),
+        valid: BIT,
+        summed: BIT,
+        index: demodulator.index.as_uint(),
+        sum: demodulator.sum(),
+        clipped: BIT,
+        fresh: BIT,
+        phase: demodulator.phase(),
+        reading: BIT,
+        beat: polyphase::BEAT,
+        tap: polyphase::PHASE,
+        high: BIT,
+        part: BIT,
+        channel: demodulator.channel.as_uint(),
+    }
 }
 
 /// Products before those of the channels: window times cosine, sine and haptic code.
@@ -146,9 +146,9 @@ impl Demodulator {
             // In one clock whatever its width: products keep pace with the channels.
             multiplier: Multiplier::new(operand.integer(), operand.integer(), MAX_WIDTH),
             weights: Memory::new("weights", WEIGHING.next_power_of_two() as usize, operand)
-                .never_colliding()
+                .dont_care_on_collision()
                 .in_block(),
-            sums: Memory::new("sums", words.next_power_of_two() as usize, sum).never_colliding(),
+            sums: Memory::new("sums", words.next_power_of_two() as usize, sum).dont_care_on_collision(),
             channels,
             adc,
             oscillator,
@@ -166,7 +166,7 @@ impl Demodulator {
     /// The format of a sum.
     #[inline(always)]
     pub fn sum(&self) -> Format {
-        self.sums.format.with_point(self.point)
+        self.sums.format.assume_frac(self.point)
     }
 
     /// The sums of a window.
@@ -201,25 +201,31 @@ impl Demodulator {
 
     /// The haptic code's share of the window: its product with the window.
     #[inline(always)]
-    pub fn weigh<V: Value>(&self, product: Signal<V>) -> Signal<V> {
-        product.fit(self.adc, HalfEven, Never)
+    pub fn weigh<V: Interpretation>(&self, product: Signal<V>) -> Signal<V> {
+        product.quantize(self.adc, HalfEven, Proved)
     }
 
     /// The local oscillator at a sample, windowed: the product to the nearest word, with what the samples before have left
     /// over; and what it leaves to the next. So rounding has no share at low frequencies.
     #[inline(always)]
-    pub fn carry<V: Value>(&self, product: Signal<V>, residue: Signal<V>) -> (Signal<V>, Signal<V>) {
+    pub fn carry<V: Interpretation>(&self, product: Signal<V>, residue: Signal<V>) -> (Signal<V>, Signal<V>) {
         let sum = (product + residue).named("carried");
-        let word = sum.fit(self.oscillator, Floor, Never).ideally(&[product], |of| of[0]);
+        let word = sum.quantize(self.oscillator, Floor, Proved).golden(&[product], |of| of[0]);
         let rest = sum.bits(0, residue.format.width).scaled(-residue.format.frac);
-        (word, rest.ideally(&[], |_| 0.0))
+        (word, rest.golden(&[], |_| 0.0))
     }
 
     /// What is left over before a window's first sample: half a word, so that words are the nearest.
     #[inline(always)]
-    pub fn fresh_residue<V: Value>(&self) -> Signal<V> {
+    pub fn fresh_residue<V: Interpretation>(&self) -> Signal<V> {
         let format = self.residue();
         code(1 << (format.width - 1), format)
+    }
+
+    /// The format of the number of the carrier's phase.
+    #[inline(always)]
+    fn phase(&self) -> Format {
+        if self.polyphase.is_some() { polyphase::PHASE } else { BIT }
     }
 
     /// The format of what rounding leaves over.
@@ -234,22 +240,22 @@ impl Demodulator {
 
     /// A sum with one more product; a window's first product begins it.
     #[inline(always)]
-    pub fn accumulate<V: Value>(&self, first: Signal<V>, sum: Signal<V>, product: Signal<V>) -> Signal<V> {
+    pub fn accumulate<V: Interpretation>(&self, first: Signal<V>, sum: Signal<V>, product: Signal<V>) -> Signal<V> {
         let before = first.select(zero(sum.format), sum).named("so_far");
-        (before + product).named("accumulated").fit(sum.format, Exact, Never)
+        (before + product).named("accumulated").resize(sum.format, Proved)
     }
 
     /// Whether a code is at a rail of the ADC.
     #[inline(always)]
-    pub fn at_rail<V: Value>(&self, code: Signal<V>) -> Signal<V> {
+    pub fn at_rail<V: Interpretation>(&self, code: Signal<V>) -> Signal<V> {
         let [most, least] = self.rails;
         code.equals(crate::signal::code(most, code.format)) | code.equals(crate::signal::code(least, code.format))
     }
 
     /// The channel whose code the next clock's operand needs.
     #[inline(always)]
-    fn channel<V: Value>(&self, r: &Registers<Signal<V>>) -> Signal<V> {
-        let format = self.channel.counting();
+    fn channel<V: Interpretation>(&self, r: &Registers<Signal<V>>) -> Signal<V> {
+        let format = self.channel.as_uint();
         let ahead = (r.step - int(WEIGHING - 1)).bits(1, format.width);
         let of_channels = r.step.at_least(int(WEIGHING - 1)) & r.step.less_than(int(WEIGHING - 1 + 2 * self.channels));
         of_channels.select(ahead, code(self.channels as i64, format))
@@ -257,14 +263,14 @@ impl Demodulator {
 
     /// The multiplier's operands of this step.
     #[inline(always)]
-    fn operands<V: Value>(
+    fn operands<V: Interpretation>(
         &self,
         r: &Registers<Signal<V>>,
         i: &Inputs<Signal<V>>,
         weight: Signal<V>,
     ) -> (Signal<V>, Signal<V>) {
         let weighing = r.step.less_than(int(WEIGHING)).named("weighing");
-        let [code, window, cosine, sine] = [i.code, i.window, i.cosine, i.sine].map(|a| a.aligned(r.left.format));
+        let [code, window, cosine, sine] = [i.code, i.window, i.cosine, i.sine].map(|a| a.align_point(r.left.format));
         let wave = r.step.is(0).select(cosine, r.step.is(1).select(sine, code));
         let weighted = r.step.less_than(int(WEIGHING + PIPELINE)).select(r.weighted, weight);
         (weighing.select(window, code), weighing.select(wave, weighted))
@@ -272,8 +278,8 @@ impl Demodulator {
 
     /// Stores the weight that the clock before has made, and asks for that of the next step.
     #[inline(always)]
-    fn weights<V: Value>(&self, r: &Registers<Signal<V>>, words: &mut V::Words) -> Signal<V> {
-        let format = self.weights.format.with_point(self.operand.frac);
+    fn weights<V: Interpretation>(&self, r: &Registers<Signal<V>>, words: &mut V::Words) -> Signal<V> {
+        let format = self.weights.format.assume_frac(self.operand.frac);
         let weight = Signal { format, ..self.weights.data(words) };
         let place = (r.step - int(WEIGHING)).bits(0, Format::counter(WEIGHING - 1).width);
         let enable = r.busy & r.step.at_least(int(WEIGHING)) & r.step.less_than(int(2 * WEIGHING));
@@ -287,14 +293,14 @@ impl Demodulator {
     /// While there are weights to be made, the one that the product is: of cosine, sine, and the haptic code. The residues of
     /// cosine and sine change places with each.
     #[inline(always)]
-    fn weighted<V: Value>(&self, r: Registers<Signal<V>>, product: Signal<V>) -> Registers<Signal<V>> {
+    fn weighted<V: Interpretation>(&self, r: Registers<Signal<V>>, product: Signal<V>) -> Registers<Signal<V>> {
         let of_wave = (r.step.is(PIPELINE) | r.step.is(PIPELINE + 1)).named("of_wave");
         let of_haptic = r.step.is(PIPELINE + WEIGHING - 1);
         let residue = r.first.select(self.fresh_residue(), r.residue);
         let (wave, rest) = self.carry(product, residue);
-        let word = |word: Signal<V>| word.fit(r.weighted.format, Exact, Never);
+        let word = |word: Signal<V>| word.resize(r.weighted.format, Proved);
         Registers {
-            weighted: choose!(V, of_haptic, word(self.weigh(product)), word(wave)),
+            weighted: when!(of_haptic => word(self.weigh(product)), else word(wave)),
             residue: of_wave.select(r.other_residue, r.residue),
             other_residue: of_wave.select(rest, r.other_residue),
             ..r
@@ -302,7 +308,7 @@ impl Demodulator {
     }
 
     #[inline(always)]
-    fn begin<V: Value>(&self, r: Registers<Signal<V>>, i: Inputs<Signal<V>>) -> Registers<Signal<V>> {
+    fn begin<V: Interpretation>(&self, r: Registers<Signal<V>>, i: Inputs<Signal<V>>) -> Registers<Signal<V>> {
         let clipped = i.first.select(bit(false), r.clipped);
         // Polyphase: a window's first five samples begin the sums of their phases.
         let fresh = i.first | (r.fresh & !i.phase.is(0));
@@ -321,7 +327,7 @@ impl Demodulator {
     }
 
     #[inline(always)]
-    fn step<V: Value>(
+    fn step<V: Interpretation>(
         &self,
         r: Registers<Signal<V>>,
         i: Inputs<Signal<V>>,
@@ -333,83 +339,32 @@ impl Demodulator {
         let uses_code = r.step.at_least(int(WEIGHING - 1)) & r.step.less_than(int(WEIGHING + self.sums()));
         let end = r.step.is(self.steps() - 1);
         let weighing = r.step.at_least(int(PIPELINE)) & r.step.less_than(int(PIPELINE + WEIGHING));
-        let r = when!(V, Registers, weighing, self.weighted(r, product), r);
+        let r = when!(weighing => self.weighted(r, product), else r);
         Registers {
             busy: !end,
-            step: end.select(int(0), r.step + int(1)).fit(r.step.format, Exact, Never),
+            step: end.select(int(0), r.step + int(1)).resize(r.step.format, Proved),
             left,
             right,
             valid: summed & r.last,
             summed,
             index,
             sum,
-            clipped: r.clipped | choose!(V, uses_code, self.at_rail(i.code), bit(false)),
+            clipped: r.clipped | when!(uses_code => self.at_rail(i.code), else bit(false)),
             ..r
         }
     }
 }
 
 impl Block for Demodulator {
-    const NAME: &'static str = "demodulator";
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    type Registers = Registers;
-    type Parts<V: Value> = Parts<V>;
-
-    #[inline]
-    fn inputs(&self) -> Inputs<Format> {
-        let (pad, code, wave) = (self.pad, self.adc, self.oscillator);
-        let phase = self.registers().phase;
-        Inputs { start: BIT, first: BIT, last: BIT, pad, code, cosine: wave, sine: wave, window: wave, phase }
-    }
-
-    #[inline]
-    fn outputs(&self) -> Outputs<Format> {
-        let Registers { valid, sum, pad, clipped, .. } = self.registers();
-        let index = Format::counter(self.sums() - 1);
-        Outputs { channel: self.channel, valid, index, sum, pad, clipped }
-    }
-
     #[inline(always)]
-    fn registers(&self) -> Registers<Format> {
-        let [step, index, pad] = [self.step, self.index, self.pad].map(Format::counting);
-        let operand = self.operand;
-        Registers {
-            busy: BIT,
-            step,
-            first: BIT,
-            last: BIT,
-            pad,
-            left: operand,
-            right: operand,
-            weighted: operand,
-            residue: self.residue(),
-            other_residue: self.residue(),
-            valid: BIT,
-            summed: BIT,
-            index,
-            sum: self.sum(),
-            clipped: BIT,
-            fresh: BIT,
-            phase: if self.polyphase.is_some() { polyphase::PHASE } else { BIT },
-            reading: BIT,
-            beat: polyphase::BEAT,
-            tap: polyphase::PHASE,
-            high: BIT,
-            part: BIT,
-            channel: self.channel.counting(),
-        }
-    }
-
-    #[inline(always)]
-    fn clock<V: Value>(&self, cell: &mut Cell<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
         if let Some(polyphase) = &self.polyphase {
-            return self.clock_polyphase(polyphase, cell, i);
+            return self.clock_polyphase(polyphase, state, i);
         }
-        let r = cell.load(self);
+        let r = state.load(self);
         let channel = self.channel(&r);
         let outputs = Outputs { channel, valid: r.valid, index: r.index, sum: r.sum, pad: r.pad, clipped: r.clipped };
-        if (i.start | r.busy | r.summed).idle() {
+        if (i.start | r.busy | r.summed).can_skip() {
             return outputs;
         }
         let place = |ahead: u64| {
@@ -419,19 +374,15 @@ impl Block for Demodulator {
         };
         let ((summed, index), (_, next_index)) = (place(0), place(1));
         let inputs = multiplier::Inputs { enable: r.busy, left: r.left.integer(), right: r.right.integer() };
-        let product = self.multiplier.call("multiplier", &mut cell.parts.multiplier, inputs).product;
+        let product = call!(self.multiplier, state, inputs).product;
         let product = product.scaled(-2 * r.left.format.frac);
-        let so_far = Signal { format: self.sum(), ..self.sums.data(&mut cell.parts.sums) };
+        let so_far = Signal { format: self.sum(), ..self.sums.data(&mut state.submodules.sums) };
         let sum = self.accumulate(r.first, so_far, product);
         let write = Write { enable: r.summed, address: r.index, data: r.sum };
-        self.sums.access(&mut cell.parts.sums, next_index, write);
-        let weight = self.weights(&r, &mut cell.parts.weights);
+        self.sums.access(&mut state.submodules.sums, next_index, write);
+        let weight = self.weights(&r, &mut state.submodules.weights);
         let r = Registers { valid: bit(false), summed: bit(false), ..r };
-        next!(
-            V,
-            Registers,
-            self,
-            cell,
+        next!(self, state,
             i.start => self.begin(r, i),
             r.busy => self.step(r, i, index, (product, weight), (sum, summed)),
             else r

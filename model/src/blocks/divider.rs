@@ -16,51 +16,50 @@
 //! A zero denominator gives a saturated quotient; the caller says what that means. Latency: quotient width + 4 clocks from
 //! `start` to `done`. Source: restoring division, Parhami, Computer Arithmetic, §13.
 
-use crate::block::{Block, Cell};
+use crate::block::{Block, Interpretation, State};
 use crate::format::{BIT, Format};
-use crate::signal::{Exact, Lemma, Never, Signal, Value, Wrap, bit, code, int};
-use crate::{bundle, next, when};
+use crate::signal::{Assumed, Exact, Proved, Signal, bit, code, int};
+use crate::{block, next, when};
 
-bundle! {
-    /// The inputs.
-    pub struct Inputs {
-        /// Takes the operands and begins.
-        start,
-        /// What is divided; holds until the quotient is there.
-        numerator,
-        /// By what; holds likewise.
-        denominator,
+block! {
+    /// A divider.
+    pub struct Divider("divider") {
+        numerator: Format,
+        denominator: Format,
+        quotient: Format,
+        /// The numerator with zeros behind it, so that the integer quotient has the quotient's point.
+        dividend: Format,
+        /// Bits of the remainder.
+        head: u8,
     }
-}
-
-bundle! {
-    /// The outputs.
-    pub struct Outputs {
-        /// Set for one clock when the quotient is there.
-        done,
-        /// The quotient, held until the next is there.
-        quotient,
-        /// Whether the quotient is held at its rail.
-        saturated,
+    submodules {}
+    inputs(divider) {
+        /// Begins; the operands are valid and stable until `done`.
+        start: BIT,
+        /// The dividend.
+        numerator: divider.numerator,
+        /// The divisor.
+        denominator: divider.denominator,
     }
-}
-
-bundle! {
-    /// The registers.
-    pub struct Registers {
-        busy, count, remainder, tail, over, up, done, quotient, saturated,
+    outputs(divider) {
+        /// Asserted for one cycle when the quotient is valid.
+        done: BIT,
+        /// The quotient, stable until the next `done`.
+        quotient: divider.quotient,
+        /// The quotient is saturated.
+        saturated: BIT,
     }
-}
-
-/// The configuration.
-#[derive(Debug, Clone)]
-pub struct Divider {
-    numerator: Format,
-    denominator: Format,
-    quotient: Format,
-    registers: Registers<Format>,
-    /// The numerator with zeros behind it, so that the integer quotient has the quotient's point.
-    dividend: Format,
+    registers(divider) {
+        busy: BIT,
+        count: Format::counter(u64::from(divider.quotient.width) + 2),
+        remainder: Format::unsigned(divider.head, 0),
+        tail: Format::unsigned(divider.quotient.width, 0),
+        over: BIT,
+        up: BIT,
+        done: BIT,
+        quotient: divider.quotient,
+        saturated: BIT,
+    }
 }
 
 const BELOW: &str = "the remainder of a division stays below its denominator";
@@ -77,18 +76,7 @@ impl Divider {
         let width = (numerator.width + pad as u8).max(quotient.width + 1);
         let dividend = Format::unsigned(width, numerator.frac + pad);
         let head = (width - quotient.width).max(denominator.width);
-        let registers = Registers {
-            busy: BIT,
-            count: Format::counter(u64::from(quotient.width) + 2),
-            remainder: Format::unsigned(head, 0),
-            tail: Format::unsigned(quotient.width, 0),
-            over: BIT,
-            up: BIT,
-            done: BIT,
-            quotient,
-            saturated: BIT,
-        };
-        Divider { numerator, denominator, quotient, registers, dividend }
+        Divider { numerator, denominator, quotient, dividend, head }
     }
 
     /// Clocks from `start` to `done`.
@@ -98,35 +86,34 @@ impl Divider {
 
     /// The registers when a division begins: the dividend's high bits are the first remainder.
     #[inline(always)]
-    fn begin<V: Value>(&self, r: Registers<Signal<V>>, i: Inputs<Signal<V>>) -> Registers<Signal<V>> {
-        let numerator = i.numerator.fit(self.dividend, Exact, Never);
+    fn begin<V: Interpretation>(&self, r: Registers<Signal<V>>, i: Inputs<Signal<V>>) -> Registers<Signal<V>> {
+        let numerator = i.numerator.resize(self.dividend, Proved);
         let width = self.quotient.width;
         let (remainder, tail) = (numerator.bits(width, self.dividend.width - width), numerator.bits(0, width));
         Registers { busy: bit(true), count: int(0), remainder, tail, ..r }
     }
 
-    /// The count goes on.
-    #[inline(always)]
-    fn count<V: Value>(&self, r: &Registers<Signal<V>>) -> Signal<V> {
-        (r.count + int(1)).fit(r.count.format, Exact, Wrap)
-    }
-
     /// If the high bits already reach the denominator, the quotient does not fit: it is known already, and zeros keep the
     /// remainder below even so.
     #[inline(always)]
-    fn check<V: Value>(&self, r: Registers<Signal<V>>, i: Inputs<Signal<V>>) -> Registers<Signal<V>> {
+    fn check<V: Interpretation>(&self, r: Registers<Signal<V>>, i: Inputs<Signal<V>>) -> Registers<Signal<V>> {
         let over = r.remainder.at_least(i.denominator.integer()).named("too_large");
         let (remainder, tail) = (over.select(int(0), r.remainder), over.select(int(0), r.tail));
-        Registers { count: self.count(&r), remainder, tail, over, ..r }
+        Registers { count: r.count.increment(), remainder, tail, over, ..r }
     }
 
     /// One more bit of the quotient, which follows what is left of the numerator's.
     #[inline(always)]
-    fn step<V: Value>(&self, r: Registers<Signal<V>>, rest: Signal<V>, shifted: Signal<V>) -> Registers<Signal<V>> {
+    fn step<V: Interpretation>(
+        &self,
+        r: Registers<Signal<V>>,
+        rest: Signal<V>,
+        shifted: Signal<V>,
+    ) -> Registers<Signal<V>> {
         let fits = (!rest.msb()).named("fits");
         Registers {
-            count: self.count(&r),
-            remainder: fits.select(rest, shifted).fit(r.remainder.format, Exact, Lemma(BELOW)),
+            count: r.count.increment(),
+            remainder: fits.select(rest, shifted).resize(r.remainder.format, Assumed(BELOW)),
             tail: r.tail.concat(fits).bits(0, self.quotient.width),
             ..r
         }
@@ -134,27 +121,25 @@ impl Divider {
 
     /// Whether the quotient is rounded up: twice the remainder is past the denominator, or just there and the quotient odd.
     #[inline(always)]
-    fn round<V: Value>(&self, r: Registers<Signal<V>>, rest: Signal<V>) -> Registers<Signal<V>> {
+    fn round<V: Interpretation>(&self, r: Registers<Signal<V>>, rest: Signal<V>) -> Registers<Signal<V>> {
         let up = !rest.msb() & (!rest.is(0) | r.tail.bits(0, 1));
-        Registers { count: self.count(&r), up, ..r }
+        Registers { count: r.count.increment(), up, ..r }
     }
 
     /// The rounded quotient.
     #[inline(always)]
-    fn finish<V: Value>(&self, r: Registers<Signal<V>>, i: Inputs<Signal<V>>) -> Registers<Signal<V>> {
+    fn finish<V: Interpretation>(&self, r: Registers<Signal<V>>, i: Inputs<Signal<V>>) -> Registers<Signal<V>> {
         let (rounded, over) = (r.tail + r.up).saturate(self.quotient.integer(), Exact);
         let most = code(self.quotient.max_code() as i64, self.quotient.integer());
         let saturated = over | r.over;
         let quotient = r.over.select(most, rounded).scaled(-self.quotient.frac);
-        let quotient = quotient.ideally(&[i.numerator, i.denominator], |of| of[0] / of[1]);
+        let quotient = quotient.golden(&[i.numerator, i.denominator], |of| of[0] / of[1]);
         Registers { busy: bit(false), done: bit(true), quotient, saturated, ..r }
     }
-}
 
-impl Divider {
-    /// A clock of a division.
+    /// A cycle of a division.
     #[inline(always)]
-    fn work<V: Value>(
+    fn work<V: Interpretation>(
         &self,
         r: Registers<Signal<V>>,
         i: Inputs<Signal<V>>,
@@ -163,10 +148,7 @@ impl Divider {
     ) -> Registers<Signal<V>> {
         let at = |count: u64| r.count.is(count);
         let width = u64::from(self.quotient.width);
-        when!(
-            V,
-            Registers,
-            at(0) => self.check(r, i),
+        when!(at(0) => self.check(r, i),
             at(width + 1) => self.round(r, rest),
             at(width + 2) => self.finish(r, i),
             else self.step(r, rest, shifted)
@@ -175,43 +157,11 @@ impl Divider {
 }
 
 impl Block for Divider {
-    const NAME: &'static str = "divider";
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    type Registers = Registers;
-    type Parts<V: Value> = ();
-
-    #[inline]
-    fn inputs(&self) -> Inputs<Format> {
-        Inputs { start: BIT, numerator: self.numerator, denominator: self.denominator }
-    }
-
-    #[inline]
-    fn outputs(&self) -> Outputs<Format> {
-        Outputs { done: BIT, quotient: self.quotient, saturated: BIT }
-    }
-
     #[inline(always)]
-    fn registers(&self) -> Registers<Format> {
-        let r = self.registers;
-        Registers {
-            busy: BIT,
-            done: BIT,
-            saturated: BIT,
-            over: BIT,
-            up: BIT,
-            count: r.count.counting(),
-            tail: r.tail.counting(),
-            remainder: r.remainder.counting(),
-            ..r
-        }
-    }
-
-    #[inline(always)]
-    fn clock<V: Value>(&self, cell: &mut Cell<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
-        let r = cell.load(self);
+    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+        let r = state.load(self);
         let outputs = Outputs { done: r.done, quotient: r.quotient, saturated: r.saturated };
-        if (i.start | r.busy | r.done).idle() {
+        if (i.start | r.busy | r.done).can_skip() {
             return outputs;
         }
         let width = u64::from(self.quotient.width);
@@ -219,11 +169,7 @@ impl Block for Divider {
         // One subtractor serves every step; the last looks at twice the remainder.
         let shifted = r.remainder.concat(r.tail.msb() & !r.count.is(width + 1)).named("shifted");
         let rest = (shifted - i.denominator.integer()).named("rest");
-        next!(
-            V,
-            Registers,
-            self,
-            cell,
+        next!(self, state,
             i.start => self.begin(idle, i),
             r.busy => self.work(idle, i, rest, shifted),
             else idle

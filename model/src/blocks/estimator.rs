@@ -14,77 +14,56 @@ use super::currents::{self, Currents};
 use super::force::{self, Force};
 use super::frames::{self, Frames};
 use super::haptic_voltage::{self, HapticVoltage};
-use super::position::{self, Position};
+use super::position::{self, Position, TablePort};
 use super::ratio::{self, Ratio};
-use crate::block::{Block, Cell};
+use crate::block::{Block, Interpretation, State};
 use crate::bundle::Bundle;
 use crate::format::{BIT, Format};
 use crate::profile::Profile;
-use crate::signal::{Signal, Value, zero};
-use crate::{bundle, choose, parts};
+use crate::signal::{Signal, zero};
+use crate::{block, bundle, call, when};
 
 bundle! {
-    /// The inputs: the demodulator's sums and the calibration.
-    pub struct Inputs {
-        /// Mean squares of windows before count no more.
-        clear,
-        /// A sum is there.
-        valid,
-        /// Which.
-        index,
-        /// The sum.
-        sum,
-        /// The pad of the window.
-        pad,
-        /// Whether a code of the window was at a rail.
-        clipped,
+    /// What a calibration sets. The words of the position table are written while no slot is under way.
+    pub struct Calibration {
         /// Calibration: picofarads at an admittance of one.
         capacitance_gain,
         /// Calibration: newtons per square picofarad at full haptic mean square.
         force_gain,
-        /// Calibration: writes a word of the position table.
-        write,
-        /// Calibration: where.
-        address,
-        /// Calibration: what.
-        word,
+        table as TablePort,
     }
 }
 
 bundle! {
-    /// The outputs: a frame's words, and what holds for the whole of it.
-    pub struct Outputs {
-        /// Set for a clock for each word of a frame.
+    /// A frame: its words one after the other, and what holds for the whole of it.
+    pub struct FramePort {
+        /// Asserted for one cycle for each word of a frame.
         valid,
-        /// Which field the word is.
+        /// The number of the word's field.
         index,
         /// The word.
-        word,
-        /// Set with the last word.
+        frame,
+        /// Asserted with the last word.
         done,
         /// The pad of the frame.
         pad,
-        /// A code was at a rail of the ADC.
+        /// A code was at full scale of the ADC.
         clipped,
-        /// A word was held at a rail.
+        /// A word is saturated.
         saturated,
-        /// There is no such position or capacitance; the last valid results stand.
+        /// No position or capacitance has these currents; the last valid results are given out.
         invalid,
-        /// A terminal's current is that of an open one.
+        /// A terminal is open.
         lost,
     }
 }
 
-bundle! {
-    /// The registers.
-    pub struct Registers {
-        busy, pad, clipped,
+block! {
+    /// The estimator.
+    pub struct Estimator("estimator") {
+        pads: u64,
     }
-}
-
-parts! {
-    /// The blocks within.
-    pub struct Parts of Estimator {
+    submodules {
         currents: Currents,
         ratio: Ratio,
         position: Position,
@@ -93,19 +72,28 @@ parts! {
         force_estimator: Force,
         frames: Frames,
     }
-}
-
-/// The configuration.
-#[derive(Debug, Clone)]
-pub struct Estimator {
-    currents: Currents,
-    ratio: Ratio,
-    position: Position,
-    haptic_voltage: HapticVoltage,
-    capacitance: Capacitance,
-    force_estimator: Force,
-    frames: Frames,
-    registers: Registers<Format>,
+    inputs(estimator) {
+        /// Mean squares of earlier windows no longer count.
+        clear: BIT,
+        /// Asserted for one cycle with each of the demodulator's sums.
+        valid: BIT,
+        /// The number of the sum.
+        index: estimator.haptic_voltage.inputs().index,
+        sum: estimator.haptic_voltage.inputs().sum,
+        /// The pad of the window.
+        pad: estimator.pad(),
+        /// A code of the window was at full scale.
+        clipped: BIT,
+        calibration as Calibration: estimator.calibration(),
+    }
+    outputs(estimator) {
+        frames as FramePort: estimator.frame(),
+    }
+    registers(estimator) {
+        busy: BIT,
+        pad: estimator.pad(),
+        clipped: BIT,
+    }
 }
 
 impl Estimator {
@@ -119,9 +107,28 @@ impl Estimator {
             capacitance: Capacitance::new(profile, currents.amplitude()),
             force_estimator: Force::new(profile),
             frames: Frames::new(profile),
-            registers: Registers { busy: BIT, pad: Format::counter(profile.pads - 1), clipped: BIT },
+            pads: profile.pads,
             currents,
         }
+    }
+
+    #[inline(always)]
+    fn pad(&self) -> Format {
+        Format::counter(self.pads - 1)
+    }
+
+    /// The formats of the calibration.
+    fn calibration(&self) -> Calibration<Format> {
+        let (capacitance_gain, force_gain) = (self.capacitance.inputs().gain, self.force_estimator.inputs().gain);
+        Calibration { capacitance_gain, force_gain, table: self.position.inputs().table }
+    }
+
+    /// The formats of a frame.
+    #[inline(always)]
+    fn frame(&self) -> FramePort<Format> {
+        let frames::Outputs { valid, index, word, done } = self.frames.outputs();
+        let (pad, clipped) = (self.pad(), BIT);
+        FramePort { valid, index, frame: word, done, pad, clipped, saturated: BIT, invalid: BIT, lost: BIT }
     }
 
     /// Clocks from the last sum to the last word.
@@ -154,85 +161,44 @@ impl Estimator {
 }
 
 impl Block for Estimator {
-    const NAME: &'static str = "estimator";
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    type Registers = Registers;
-    type Parts<V: Value> = Parts<V>;
-
-    #[inline]
-    fn inputs(&self) -> Inputs<Format> {
-        let haptic = self.haptic_voltage.inputs();
-        let position = self.position.inputs();
-        Inputs {
-            clear: BIT,
-            valid: BIT,
-            index: haptic.index,
-            sum: haptic.sum,
-            pad: self.registers.pad,
-            clipped: BIT,
-            capacitance_gain: self.capacitance.inputs().gain,
-            force_gain: self.force_estimator.inputs().gain,
-            write: BIT,
-            address: position.address,
-            word: position.word,
-        }
-    }
-
-    #[inline]
-    fn outputs(&self) -> Outputs<Format> {
-        let frames::Outputs { index, word, .. } = self.frames.outputs();
-        let pad = self.registers.pad;
-        Outputs { valid: BIT, index, word, done: BIT, pad, clipped: BIT, saturated: BIT, invalid: BIT, lost: BIT }
-    }
-
     #[inline(always)]
-    fn registers(&self) -> Registers<Format> {
-        let r = self.registers;
-        Registers { busy: BIT, pad: r.pad.counting(), clipped: BIT }
-    }
-
-    #[inline(always)]
-    fn clock<V: Value>(&self, cell: &mut Cell<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
-        let r = cell.load(self);
-        if (i.valid | r.busy | i.write | i.clear).idle() {
+    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+        let r = state.load(self);
+        if (i.valid | r.busy | i.calibration.table.write | i.clear).can_skip() {
             return self.quiet(r);
         }
         let Inputs { valid, index, sum, .. } = i;
-        let parts = &mut cell.parts;
         let inputs = currents::Inputs { valid, index, sum };
-        let currents = self.currents.call("currents", &mut parts.currents, inputs);
+        let currents = call!(self.currents, state, inputs);
         let pad = valid.select(i.pad, r.pad);
         let inputs = haptic_voltage::Inputs { clear: i.clear, pad, valid, index, sum };
-        let haptic = self.haptic_voltage.call("haptic_voltage", &mut parts.haptic_voltage, inputs);
+        let haptic = call!(self.haptic_voltage, state, inputs);
         let currents::Outputs { x, y, corners, least, .. } = currents;
         let inputs = ratio::Inputs { start: currents.done, x, y, corners, least };
-        let ratio = self.ratio.call("ratio", &mut parts.ratio, inputs);
+        let ratio = call!(self.ratio, state, inputs);
         let inputs = position::Inputs {
             start: ratio.done,
             r_x: ratio.r_x,
             r_y: ratio.r_y,
             share: ratio.share,
-            write: i.write,
-            address: i.address,
-            word: i.word,
+            table: i.calibration.table,
         };
-        let position = self.position.call("position", &mut parts.position, inputs);
+        let position = call!(self.position, state, inputs);
         let inputs = capacitance::Inputs {
             start: position.done,
             total: currents.total,
             sense: currents.sense,
             sheet: position.sheet,
-            gain: i.capacitance_gain,
+            gain: i.calibration.capacitance_gain,
         };
-        let capacitance = self.capacitance.call("capacitance", &mut parts.capacitance, inputs);
+        let capacitance = call!(self.capacitance, state, inputs);
         let inputs = force::Inputs {
             start: capacitance.done,
             capacitance: capacitance.capacitance,
             mean_square: haptic.mean_square,
-            gain: i.force_gain,
+            gain: i.calibration.force_gain,
         };
-        let force = self.force_estimator.call("force_estimator", &mut parts.force_estimator, inputs);
+        let force = call!(self.force_estimator, state, inputs);
         let invalid = ratio.invalid | position.invalid | capacitance.invalid;
         let inputs = frames::Inputs {
             start: force.done,
@@ -247,31 +213,32 @@ impl Block for Estimator {
             haptic_force: force.haptic_force,
             mean_square: haptic.mean_square,
         };
-        let frames = self.frames.call("frames", &mut parts.frames, inputs);
+        let frames = call!(self.frames, state, inputs);
         let held = currents.saturated | haptic.saturated | position.saturated | capacitance.saturated | force.saturated;
         let held = held.named("any_saturated");
         let busy = valid | (r.busy & !frames.done);
-        cell.store(self, Registers { busy, pad, clipped: valid.select(i.clipped, r.clipped) });
-        let gate = |a: Signal<V>| choose!(V, frames.valid, a, zero(a.format));
-        Outputs {
+        state.store(self, Registers { busy, pad, clipped: valid.select(i.clipped, r.clipped) });
+        let gate = |a: Signal<V>| when!(frames.valid => a, else zero(a.format));
+        let frames = FramePort {
             valid: frames.valid,
             index: gate(frames.index),
-            word: gate(frames.word),
+            frame: gate(frames.word),
             done: frames.done,
             pad: r.pad,
             clipped: r.clipped,
             saturated: gate(held),
             invalid: gate(invalid),
             lost: gate(position.lost),
-        }
+        };
+        Outputs { frames }
     }
 }
 
 impl Estimator {
     /// The outputs while nothing is under way: no frame, and so nothing about one.
     #[inline(always)]
-    fn quiet<V: Value>(&self, r: Registers<Signal<V>>) -> Outputs<Signal<V>> {
-        let zero = Outputs::map(self.outputs(), |format| zero(format));
-        Outputs { pad: r.pad, clipped: r.clipped, ..zero }
+    fn quiet<V: Interpretation>(&self, r: Registers<Signal<V>>) -> Outputs<Signal<V>> {
+        let nothing = FramePort::map(self.frame(), zero);
+        Outputs { frames: FramePort { pad: r.pad, clipped: r.clipped, ..nothing } }
     }
 }

@@ -17,64 +17,65 @@
 //! clock from `start` to `done`.
 
 use super::multiplier::{self, Multiplier};
-use crate::block::{Block, Cell};
+use crate::block::{Block, Interpretation, State};
 use crate::format::{BIT, Format};
 use crate::profile::Profile;
-use crate::signal::{Exact, HalfEven, Signal, Value, Wrap, bit, int};
-use crate::{bundle, next, parts};
+use crate::signal::{HalfEven, Signal, Wrap, bit, int};
+use crate::states::States;
+use crate::{block, call, next, states};
 
-bundle! {
-    /// The inputs.
-    pub struct Inputs {
-        /// All others are there, and hold.
-        start,
-        /// The capacitance.
-        capacitance,
-        /// The mean square of the haptic voltage.
-        mean_square,
-        /// Newtons per square picofarad at full mean square.
-        gain,
+states! {
+    /// The steps of an estimate. Each lasts as long as a product.
+    pub enum Step {
+        Idle, Load, Square, NarrowSquare, Weigh, Energy, NarrowEnergy, Scale, GainProduct, Finish,
     }
 }
 
-bundle! {
-    /// The outputs: registers.
-    pub struct Outputs {
-        /// Set for one clock when the force is there.
-        done,
-        /// The haptic force.
-        haptic_force,
-        /// Whether a word is held at a rail.
-        saturated,
+block! {
+    /// The force estimator.
+    pub struct Force("force_estimator") {
+        capacitance: Format,
+        mean_square: Format,
+        /// Of the squares of capacitance and of drive.
+        square: Format,
+        gain: Format,
+        force: Format,
+        /// Of the multiplier's operands.
+        left: Format,
+        right: Format,
     }
-}
-
-bundle! {
-    /// The registers. `left` and `right` are codes as integers.
-    pub struct Registers {
-        step: [
-            "idle", "load", "square", "narrow_square", "weigh", "energy", "narrow_energy", "scale", "gain_product", "finish",
-        ],
-        waited, left, right, factor, haptic_force, saturated, done,
-    }
-}
-
-parts! {
-    /// The block within.
-    pub struct Parts of Force {
+    submodules {
         multiplier: Multiplier,
     }
-}
-
-/// The configuration.
-#[derive(Debug, Clone)]
-pub struct Force {
-    multiplier: Multiplier,
-    capacitance: Format,
-    mean_square: Format,
-    square: Format,
-    gain: Format,
-    registers: Registers<Format>,
+    inputs(force) {
+        /// Begins; all others are valid and stable until `done`.
+        start: BIT,
+        /// The capacitance, in pF.
+        capacitance: force.capacitance,
+        /// The mean square of the haptic voltage, in full scales squared.
+        mean_square: force.mean_square,
+        /// Newtons per square picofarad at full mean square.
+        gain: force.gain,
+    }
+    outputs(force) {
+        /// Asserted for one cycle when the force is valid.
+        done: BIT,
+        /// The haptic force, in N.
+        haptic_force: force.force,
+        /// A word is saturated.
+        saturated: BIT,
+    }
+    registers(force) {
+        step in Step,
+        waited: BIT,
+        /// Operands of the multiplier: codes as integers.
+        left: force.left.as_uint(),
+        right: force.right.as_uint(),
+        factor: force.square,
+        haptic_force: force.force,
+        saturated: BIT,
+        done: BIT,
+    }
 }
 
 impl Force {
@@ -84,29 +85,18 @@ impl Force {
         let (capacitance, mean_square, square, gain) = (f.capacitance, f.mean_square, f.square, f.force_gain);
         let left = Format::unsigned(capacitance.width.max(square.width), 0);
         let right = Format::unsigned(capacitance.width.max(mean_square.width).max(gain.width), 0);
-        let step = Format::unsigned(4, 0);
         let multiplier = Multiplier::new(left, right, profile.multiplier);
-        let registers = Registers {
-            step,
-            waited: BIT,
-            left,
-            right,
-            factor: square,
-            haptic_force: f.force,
-            saturated: BIT,
-            done: BIT,
-        };
-        Force { multiplier, capacitance, mean_square, square, gain, registers }
+        Force { multiplier, capacitance, mean_square, square, gain, force: f.force, left, right }
     }
 
     /// Clocks from `start` to `done`.
     pub fn latency(&self) -> u64 {
-        9 * self.multiplier.latency() + 1
+        (Step::ALL.len() as u64 - 1) * self.multiplier.latency() + 1
     }
 
     /// The product of two codes in the format `to`, and whether it is held at a rail.
     #[inline(always)]
-    fn narrow<V: Value>(
+    fn narrow<V: Interpretation>(
         &self,
         product: Signal<V>,
         (left, right): (Format, Format),
@@ -116,85 +106,50 @@ impl Force {
     }
 
     #[inline(always)]
-    fn step<V: Value>(
+    fn step<V: Interpretation>(
         &self,
         r: Registers<Signal<V>>,
         i: Inputs<Signal<V>>,
         product: Signal<V>,
     ) -> Registers<Signal<V>> {
-        let at = |step: u64| r.step.is(step);
+        use Step::*;
+        let at = |step: Step| r.step.at(step);
         let (square, square_held) = self.narrow(product, (self.capacitance, self.capacitance), self.square);
         let (energy, energy_held) = self.narrow(product, (self.square, self.mean_square), self.square);
         let (force, force_held) = self.narrow(product, (self.square, self.gain), r.haptic_force.format);
         let [capacitance, mean_square, gain] = [i.capacitance, i.mean_square, i.gain].map(Signal::integer);
-        let factor = at(3).select(square, energy);
-        let saturated = (at(3) & square_held) | (at(6) & energy_held) | (at(9) & force_held);
+        let factor = at(NarrowSquare).select(square, energy);
+        let saturated = (at(NarrowSquare) & square_held) | (at(NarrowEnergy) & energy_held) | (at(Finish) & force_held);
         Registers {
-            step: at(9).select(int(0), r.step + int(1)).fit(r.step.format, Exact, Wrap),
+            step: at(Finish).select(Idle.signal(), r.step + int(1)).resize(r.step.format, Wrap),
             waited: bit(false),
-            left: at(1).select(capacitance, r.factor.integer()),
-            right: at(1).select(capacitance, at(4).select(mean_square, gain)),
-            factor: (at(3) | at(6)).select(factor, r.factor),
-            haptic_force: at(9).select(force, r.haptic_force),
+            left: at(Load).select(capacitance, r.factor.integer()),
+            right: at(Load).select(capacitance, at(Weigh).select(mean_square, gain)),
+            factor: (at(NarrowSquare) | at(NarrowEnergy)).select(factor, r.factor),
+            haptic_force: at(Finish).select(force, r.haptic_force),
             saturated: r.saturated | saturated,
-            done: at(9),
+            done: at(Finish),
         }
     }
 }
 
 impl Block for Force {
-    const NAME: &'static str = "force_estimator";
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    type Registers = Registers;
-    type Parts<V: Value> = Parts<V>;
-
-    #[inline]
-    fn inputs(&self) -> Inputs<Format> {
-        let (capacitance, mean_square, gain) = (self.capacitance, self.mean_square, self.gain);
-        Inputs { start: BIT, capacitance, mean_square, gain }
-    }
-
-    #[inline]
-    fn outputs(&self) -> Outputs<Format> {
-        Outputs { done: BIT, haptic_force: self.registers.haptic_force, saturated: BIT }
-    }
-
     #[inline(always)]
-    fn registers(&self) -> Registers<Format> {
-        let r = self.registers;
-        Registers {
-            done: BIT,
-            saturated: BIT,
-            step: r.step.counting(),
-            left: r.left.counting(),
-            right: r.right.counting(),
-            waited: BIT,
-            factor: self.square,
-            haptic_force: r.haptic_force,
-        }
-    }
-
-    #[inline(always)]
-    fn clock<V: Value>(&self, cell: &mut Cell<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
-        let r = cell.load(self);
+    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+        let r = state.load(self);
         let outputs = Outputs { done: r.done, haptic_force: r.haptic_force, saturated: r.saturated };
-        if (i.start | !r.step.is(0) | r.done).idle() {
+        if (i.start | !r.step.at(Step::Idle) | r.done).can_skip() {
             return outputs;
         }
-        let inputs = multiplier::Inputs { enable: !r.step.is(0), left: r.left, right: r.right };
-        let product = self.multiplier.call("multiplier", &mut cell.parts.multiplier, inputs).product;
+        let inputs = multiplier::Inputs { enable: !r.step.at(Step::Idle), left: r.left, right: r.right };
+        let product = call!(self.multiplier, state, inputs).product;
         let acts = self.multiplier.paces(r.waited);
         let idle = Registers { done: bit(false), ..r };
         let waits = Registers { waited: bit(true), ..idle };
-        let begin = Registers { step: int(1), waited: bit(false), saturated: bit(false), ..idle };
-        next!(
-            V,
-            Registers,
-            self,
-            cell,
+        let begin = Registers { step: Step::Load.signal(), waited: bit(false), saturated: bit(false), ..idle };
+        next!(self, state,
             i.start => begin,
-            r.step.is(0) => idle,
+            r.step.at(Step::Idle) => idle,
             acts => self.step(idle, i, product),
             else waits
         );

@@ -9,174 +9,84 @@
 //! Words are codes as integers, in the formats of [`Field::format`]. The haptic mean square is always valid and never held.
 //! Latency: fields + 2 clocks from `start` to the last word. Source: DESIGN §3 (invalid: last value held).
 
-use crate::block::{Block, Cell};
+use crate::block::{Block, Interpretation, State};
 use crate::format::{BIT, Format};
+pub use crate::frame::Field;
 use crate::memory::{Memory, Write};
 use crate::profile::Profile;
-use crate::signal::{Exact, HalfEven, Never, Saturate, Signal, Value, bit, int};
-use crate::{bundle, next, parts};
+use crate::signal::{HalfEven, Proved, Saturate, Signal, Wrap, bit, int};
+use crate::{block, next};
 
-/// A word of a frame.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Field {
-    /// The x ratio.
-    RatioX,
-    /// The y ratio.
-    RatioY,
-    /// The position along the long edges, in mm.
-    X,
-    /// The position along the short edges, in mm.
-    Y,
-    /// The sheet's resistance, in full scales of voltage per current.
-    Sheet,
-    /// The capacitance, in pF.
-    Capacitance,
-    /// The haptic force, in N.
-    Force,
-    /// The mean square of the haptic voltage, in full scales squared.
-    MeanSquare,
-}
-
-impl Field {
-    /// All fields, in the order of a frame's words.
-    pub const ALL: [Field; 8] = [
-        Field::RatioX,
-        Field::RatioY,
-        Field::X,
-        Field::Y,
-        Field::Sheet,
-        Field::Capacitance,
-        Field::Force,
-        Field::MeanSquare,
-    ];
-
-    /// The format of the field. Ratios are rounded to the width of the widest other word: frames are no wider for them.
-    pub fn format(self, profile: &Profile) -> Format {
-        let f = &profile.formats;
-        match self {
-            Field::RatioX | Field::RatioY => {
-                let cut = f.ratio.width.saturating_sub(widest(&Field::ALL[2..], profile));
-                Format::signed(f.ratio.width - cut, f.ratio.frac - cut as i8)
-            }
-            Field::X | Field::Y => f.position,
-            Field::Sheet => profile.sheet(),
-            Field::Capacitance => f.capacitance,
-            Field::Force => f.force,
-            Field::MeanSquare => f.mean_square,
-        }
+block! {
+    /// The frames of all pads.
+    pub struct Frames("frames") {
+        pad: Format,
+        word: Format,
+        /// The format of each field.
+        fields: [Format; Field::ALL.len()],
     }
-
-    /// The signed integer format that holds the code of every field.
-    pub fn word(profile: &Profile) -> Format {
-        Format::signed(widest(&Field::ALL, profile), 0)
-    }
-}
-
-/// Bits of a signed word that holds the code of each of the fields.
-fn widest(fields: &[Field], profile: &Profile) -> u8 {
-    let bits = |field: &Field| {
-        let format = field.format(profile);
-        format.width + u8::from(!format.signed)
-    };
-    fields.iter().map(bits).max().expect("there are fields")
-}
-
-bundle! {
-    /// The inputs.
-    pub struct Inputs {
-        /// All others are there, and hold.
-        start,
-        /// The pad.
-        pad,
-        /// The results are invalid: those held go out.
-        invalid,
-        /// As [`Field::RatioX`].
-        r_x,
-        /// As [`Field::RatioY`].
-        r_y,
-        /// As [`Field::X`].
-        x,
-        /// As [`Field::Y`].
-        y,
-        /// As [`Field::Sheet`].
-        sheet,
-        /// As [`Field::Capacitance`].
-        capacitance,
-        /// As [`Field::Force`].
-        haptic_force,
-        /// As [`Field::MeanSquare`].
-        mean_square,
-    }
-}
-
-bundle! {
-    /// The outputs: registers.
-    pub struct Outputs {
-        /// Set for a clock for each word.
-        valid,
-        /// Which field the word is.
-        index,
-        /// The word.
-        word,
-        /// Set with the last word.
-        done,
-    }
-}
-
-bundle! {
-    /// The registers.
-    pub struct Registers {
-        busy, count, index, valid, word, done,
-    }
-}
-
-parts! {
-    /// The memory within.
-    pub struct Parts of Frames {
+    submodules {
         held: Memory,
     }
-}
-
-/// The configuration.
-#[derive(Debug, Clone)]
-pub struct Frames {
-    held: Memory,
-    inputs: Inputs<Format>,
-    registers: Registers<Format>,
+    inputs(frames) {
+        /// Begins; all others are valid and stable until `done`.
+        start: BIT,
+        pad: frames.pad,
+        /// The results are invalid: the pad's last valid ones are given out instead.
+        invalid: BIT,
+        /// As [`Field::RatioX`].
+        r_x: frames.fields[0],
+        /// As [`Field::RatioY`].
+        r_y: frames.fields[1],
+        /// As [`Field::X`].
+        x: frames.fields[2],
+        /// As [`Field::Y`].
+        y: frames.fields[3],
+        /// As [`Field::Sheet`].
+        sheet: frames.fields[4],
+        /// As [`Field::Capacitance`].
+        capacitance: frames.fields[5],
+        /// As [`Field::Force`].
+        haptic_force: frames.fields[6],
+        /// As [`Field::MeanSquare`].
+        mean_square: frames.fields[7],
+    }
+    outputs(frames) {
+        /// Asserted for one cycle for each word.
+        valid: BIT,
+        /// The number of the word's field.
+        index: INDEX,
+        word: frames.word(),
+        /// Asserted with the last word.
+        done: BIT,
+    }
+    registers(frames) {
+        busy: BIT,
+        count: Format::counter(FIELDS),
+        index: INDEX,
+        valid: BIT,
+        word: frames.word(),
+        done: BIT,
+    }
 }
 
 /// Fields in a frame.
 const FIELDS: u64 = Field::ALL.len() as u64;
+const INDEX: Format = Format::counter(FIELDS - 1);
 
 impl Frames {
     /// The frames of a profile.
     pub fn new(profile: &Profile) -> Self {
-        let of = |field: Field| field.format(profile);
-        let word = Field::word(profile);
-        let pad = Format::counter(profile.pads - 1);
-        let inputs = Inputs {
-            start: BIT,
-            pad,
-            invalid: BIT,
-            r_x: of(Field::RatioX),
-            r_y: of(Field::RatioY),
-            x: of(Field::X),
-            y: of(Field::Y),
-            sheet: of(Field::Sheet),
-            capacitance: of(Field::Capacitance),
-            haptic_force: of(Field::Force),
-            mean_square: of(Field::MeanSquare),
-        };
-        let registers = Registers {
-            busy: BIT,
-            count: Format::counter(FIELDS),
-            index: Format::counter(FIELDS - 1),
-            valid: BIT,
-            word,
-            done: BIT,
-        };
-        let words = (1usize << pad.width) * Field::ALL.len();
-        Frames { held: Memory::new("held", words, word).never_colliding(), inputs, registers }
+        let (pad, word) = (Format::counter(profile.pads - 1), Field::word(profile));
+        let words = (FIELDS as usize) << pad.width;
+        let held = Memory::new("held", words, word).dont_care_on_collision();
+        Frames { pad, word, fields: Field::ALL.map(|field| field.format(profile)), held }
+    }
+
+    /// The format of a frame's word.
+    #[inline(always)]
+    fn word(&self) -> Format {
+        self.word.assume_frac(0)
     }
 
     /// Clocks from `start` to the last word.
@@ -186,16 +96,16 @@ impl Frames {
 
     /// A ratio as frames carry it.
     #[inline(always)]
-    pub fn ratio<V: Value>(&self, ratio: Signal<V>) -> Signal<V> {
-        let format = self.inputs.r_x;
-        if ratio.format == format { ratio } else { ratio.fit(format, HalfEven, Saturate) }
+    pub fn ratio<V: Interpretation>(&self, ratio: Signal<V>) -> Signal<V> {
+        let format = self.fields[0];
+        if ratio.format == format { ratio } else { ratio.quantize(format, HalfEven, Saturate) }
     }
 
     /// The result that is the field `index`, as an integer.
     #[inline(always)]
-    fn result<V: Value>(&self, i: &Inputs<Signal<V>>, index: Signal<V>) -> Signal<V> {
+    fn result<V: Interpretation>(&self, i: &Inputs<Signal<V>>, index: Signal<V>) -> Signal<V> {
         let fields = [i.r_x, i.r_y, i.x, i.y, i.sheet, i.capacitance, i.haptic_force, i.mean_square];
-        let word = |k: usize| fields[k].integer().fit(self.registers.word.with_point(0), Exact, Never);
+        let word = |k: usize| fields[k].integer().resize(self.word(), Proved);
         // A tree of multiplexers, a level for each bit of the index.
         let pair = |k: usize| index.bits(0, 1).select(word(2 * k + 1), word(2 * k));
         let four = |k: usize| index.bits(1, 1).select(pair(2 * k + 1), pair(2 * k));
@@ -204,63 +114,33 @@ impl Frames {
 }
 
 impl Block for Frames {
-    const NAME: &'static str = "frames";
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    type Registers = Registers;
-    type Parts<V: Value> = Parts<V>;
-
-    #[inline]
-    fn inputs(&self) -> Inputs<Format> {
-        self.inputs
-    }
-
-    #[inline]
-    fn outputs(&self) -> Outputs<Format> {
-        let Registers { valid, index, word, done, .. } = self.registers;
-        Outputs { valid, index, word, done }
-    }
-
     #[inline(always)]
-    fn registers(&self) -> Registers<Format> {
-        let r = self.registers;
-        Registers {
-            busy: BIT,
-            done: BIT,
-            valid: BIT,
-            count: r.count.counting(),
-            index: r.index.counting(),
-            word: r.word.with_point(0),
-        }
-    }
-
-    #[inline(always)]
-    fn clock<V: Value>(&self, cell: &mut Cell<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
-        let r = cell.load(self);
+    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+        let r = state.load(self);
         let outputs = Outputs { valid: r.valid, index: r.index, word: r.word, done: r.done };
-        if (i.start | r.busy | r.valid).idle() {
+        if (i.start | r.busy | r.valid).can_skip() {
             return outputs;
         }
         // While the word of `count − 1` goes out, that of `count` is asked for.
-        let before = (r.count - int(1)).bits(0, self.registers.index.width);
+        let before = (r.count - int(1)).bits(0, INDEX.width);
         let emits = (r.busy & !r.count.is(0)).named("emits");
-        let held = self.held.data(&mut cell.parts.held);
+        let held = self.held.data(&mut state.submodules.held);
         let never_held = before.is(FIELDS - 1);
         let word = (i.invalid & !never_held).select(held, self.result(&i, before));
-        let place = |index: Signal<V>| i.pad.concat(index.bits(0, self.registers.index.width));
+        let place = |index: Signal<V>| i.pad.concat(index.bits(0, INDEX.width));
         let write = Write { enable: r.valid, address: place(r.index), data: r.word };
-        self.held.access(&mut cell.parts.held, place(r.count), write);
+        self.held.access(&mut state.submodules.held, place(r.count), write);
         let end = r.count.is(FIELDS);
         let working = Registers {
             busy: r.busy & !end,
-            count: r.busy.select(r.count + int(1), r.count).fit(r.count.format, Exact, crate::signal::Wrap),
+            count: r.busy.select(r.count + int(1), r.count).resize(r.count.format, Wrap),
             index: emits.select(before, r.index),
             valid: emits,
             word: emits.select(word, r.word),
             done: emits & end,
         };
         let begin = Registers { busy: bit(true), count: int(0), valid: bit(false), done: bit(false), ..r };
-        next!(V, Registers, self, cell, i.start => begin, else working);
+        next!(self, state, i.start => begin, else working);
         outputs
     }
 }

@@ -22,65 +22,58 @@
 //! PHYSICS §3 (the gap follows the RMS).
 
 use super::demodulator::Demodulator;
-use crate::block::{Block, Cell};
+use crate::block::{Block, Interpretation, State};
 use crate::format::{BIT, Format};
 use crate::memory::{Memory, Write};
 use crate::profile::Profile;
-use crate::signal::{Exact, HalfEven, Never, Signal, Value, Wrap, bit, code, int, zero};
-use crate::{bundle, parts, when};
+use crate::signal::{HalfEven, Proved, Signal, Wrap, bit, code, int, zero};
+use crate::{block, when};
 
-bundle! {
-    /// The inputs: the demodulator's sums.
-    pub struct Inputs {
-        /// Windows of before count no more.
-        clear,
-        /// The pad of the window; stable until the next window's sums.
-        pad,
-        /// Asserted for one cycle with each sum.
-        valid,
-        /// The number of the sum; the last is that of the squares.
-        index,
-        /// The sum.
-        sum,
+block! {
+    /// The mean square of the haptic voltage.
+    pub struct HapticVoltage("haptic_voltage") {
+        /// Windows that are averaged.
+        windows: u64,
+        shift: i8,
+        sums: u64,
+        sum: Format,
+        pad: Format,
+        square: Format,
     }
-}
-
-bundle! {
-    /// The outputs: registers.
-    pub struct Outputs {
-        /// The mean square.
-        mean_square,
-        /// A window's mean square is saturated.
-        saturated,
-    }
-}
-
-bundle! {
-    /// The registers. `newest` is that of the last window, `round` its number among the pad's last, `filled` whether all of
-    /// them are of windows since reset or `clear`.
-    pub struct Registers {
-        busy, count, newest, round, filled, total, mean_square, saturated,
-    }
-}
-
-parts! {
-    /// The memory within.
-    pub struct Parts of HapticVoltage {
+    submodules {
         squares: Memory,
     }
-}
-
-/// The configuration.
-#[derive(Debug, Clone)]
-pub struct HapticVoltage {
-    squares: Memory,
-    /// Windows that are averaged.
-    windows: u64,
-    shift: i8,
-    sums: u64,
-    sum: Format,
-    pad: Format,
-    registers: Registers<Format>,
+    inputs(haptic) {
+        /// Windows before this cycle no longer count.
+        clear: BIT,
+        /// The pad of the window; stable until the next window's sums.
+        pad: haptic.pad,
+        /// Asserted for one cycle with each sum.
+        valid: BIT,
+        /// The number of the sum; the last is that of the squares.
+        index: Format::counter(haptic.sums - 1),
+        /// The sum.
+        sum: haptic.sum,
+    }
+    outputs(haptic) {
+        /// The mean square.
+        mean_square: haptic.square,
+        /// A window's mean square is saturated.
+        saturated: BIT,
+    }
+    registers(haptic) {
+        busy: BIT,
+        count: Format::counter(haptic.windows + 1),
+        /// That of the last window.
+        newest: haptic.square,
+        /// The number of the last window among the pad's last.
+        round: Format::counter((haptic.windows - 1).max(1)),
+        /// All of them are of windows since reset or `clear`.
+        filled: BIT,
+        total: Format { width: haptic.square.width + haptic.windows.ilog2() as u8, ..haptic.square },
+        mean_square: haptic.square,
+        saturated: BIT,
+    }
 }
 
 impl HapticVoltage {
@@ -89,24 +82,14 @@ impl HapticVoltage {
         let demodulator = Demodulator::new(profile);
         let (windows, square) = (profile.haptic.windows, profile.formats.mean_square);
         let pad = Format::counter(profile.pads - 1);
-        let registers = Registers {
-            busy: BIT,
-            count: Format::counter(windows + 1),
-            newest: square,
-            round: Format::counter((windows - 1).max(1)),
-            filled: BIT,
-            total: Format { width: square.width + windows.ilog2() as u8, ..square },
-            mean_square: square,
-            saturated: BIT,
-        };
         HapticVoltage {
-            squares: Memory::new("squares", (windows as usize) << pad.width, square).never_colliding(),
+            squares: Memory::new("squares", (windows as usize) << pad.width, square).dont_care_on_collision(),
             windows,
             shift: profile.square_shift(),
             sums: demodulator.sums(),
             sum: demodulator.sum(),
             pad,
-            registers,
+            square,
         }
     }
 
@@ -117,13 +100,13 @@ impl HapticVoltage {
 
     /// The window's squares are there: with one window these are the result.
     #[inline(always)]
-    fn accept<V: Value>(&self, r: Registers<Signal<V>>, i: Inputs<Signal<V>>) -> Registers<Signal<V>> {
+    fn accept<V: Interpretation>(&self, r: Registers<Signal<V>>, i: Inputs<Signal<V>>) -> Registers<Signal<V>> {
         let (newest, saturated) = i.sum.scaled(-self.shift).saturate(r.newest.format, HalfEven);
         if self.windows == 1 {
             return Registers { mean_square: newest, saturated, ..r };
         }
         // Pads are served in turn: with the first one all begin another round.
-        let round = (r.round + int(1)).fit(r.round.format, Exact, Wrap);
+        let round = r.round.increment();
         let begins = i.pad.is(0);
         Registers {
             busy: bit(true),
@@ -138,16 +121,16 @@ impl HapticVoltage {
 
     /// A clock of the sum over the pad's windows: the newest is written, then all are read.
     #[inline(always)]
-    fn add<V: Value>(&self, r: Registers<Signal<V>>, data: Signal<V>) -> Registers<Signal<V>> {
+    fn add<V: Interpretation>(&self, r: Registers<Signal<V>>, data: Signal<V>) -> Registers<Signal<V>> {
         let most = code(self.squares.format.max_code() as i64, self.squares.format);
         let adds = r.count.at_least(int(2));
-        let total = (r.total + data).fit(r.total.format, Exact, Wrap);
+        let total = (r.total + data).resize(r.total.format, Wrap);
         let ends = r.count.is(self.windows + 1);
-        let mean = total.scaled(-(self.windows.ilog2() as i8)).fit(r.mean_square.format, HalfEven, Never);
+        let mean = total.scaled(-(self.windows.ilog2() as i8)).quantize(r.mean_square.format, HalfEven, Proved);
         let held = r.filled.select(data, r.newest).at_least(most);
         Registers {
             busy: !ends,
-            count: (r.count + int(1)).fit(r.count.format, Exact, Wrap),
+            count: r.count.increment(),
             total: adds.select(total, r.total),
             mean_square: ends.select(r.filled.select(mean, r.newest), r.mean_square),
             saturated: (adds & held) | (r.count.at_least(int(1)) & r.saturated),
@@ -157,55 +140,32 @@ impl HapticVoltage {
 
     /// One clock of the memory: the newest square goes in, and then all of the pad's come out.
     #[inline(always)]
-    fn access<V: Value>(&self, cell: &mut Cell<Self, V>, r: &Registers<Signal<V>>, pad: Signal<V>) {
+    fn access<V: Interpretation>(&self, state: &mut State<Self, V>, r: &Registers<Signal<V>>, pad: Signal<V>) {
         let writes = r.busy & r.count.is(0);
         let read = (r.count - int(1)).bits(0, r.round.format.width);
         let write = Write { enable: writes, address: pad.concat(r.round), data: r.newest };
-        self.squares.access(&mut cell.parts.squares, pad.concat(read), write);
+        self.squares.access(&mut state.submodules.squares, pad.concat(read), write);
     }
 }
 
 impl Block for HapticVoltage {
-    const NAME: &'static str = "haptic_voltage";
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    type Registers = Registers;
-    type Parts<V: Value> = Parts<V>;
-
-    #[inline]
-    fn inputs(&self) -> Inputs<Format> {
-        Inputs { clear: BIT, pad: self.pad, valid: BIT, index: Format::counter(self.sums - 1), sum: self.sum }
-    }
-
-    #[inline]
-    fn outputs(&self) -> Outputs<Format> {
-        let Registers { mean_square, saturated, .. } = self.registers;
-        Outputs { mean_square, saturated }
-    }
-
     #[inline(always)]
-    fn registers(&self) -> Registers<Format> {
-        let r = self.registers;
-        Registers { busy: BIT, count: r.count.counting(), round: r.round.counting(), filled: BIT, saturated: BIT, ..r }
-    }
-
-    #[inline(always)]
-    fn clock<V: Value>(&self, cell: &mut Cell<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
-        let r = cell.load(self);
+    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+        let r = state.load(self);
         let outputs = Outputs { mean_square: r.mean_square, saturated: r.saturated };
-        if (i.valid | r.busy | i.clear).idle() {
+        if (i.valid | r.busy | i.clear).can_skip() {
             return outputs;
         }
         let squares = (i.valid & i.index.is(self.sums - 1)).named("squares_valid");
         if self.windows == 1 {
-            cell.store(self, when!(V, Registers, squares, self.accept(r, i), r));
+            state.store(self, when!(squares => self.accept(r, i), else r));
             return outputs;
         }
-        let data = self.squares.data(&mut cell.parts.squares);
-        self.access(cell, &r, i.pad);
-        let next = when!(V, Registers, squares, self.accept(r, i), when!(V, Registers, r.busy, self.add(r, data), r));
+        let data = self.squares.data(&mut state.submodules.squares);
+        self.access(state, &r, i.pad);
+        let next = when!(squares => self.accept(r, i), else when!(r.busy => self.add(r, data), else r));
         let cleared = Registers { round: int(0), filled: bit(false), ..next };
-        cell.store(self, when!(V, Registers, i.clear, cleared, next));
+        state.store(self, when!(i.clear => cleared, else next));
         outputs
     }
 }

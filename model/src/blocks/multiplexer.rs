@@ -14,57 +14,56 @@
 //!
 //! Latency: one clock from a strobe to its `sample`; the flags then hold until the next strobe.
 
-use crate::block::{Block, Cell};
+use crate::block::{Block, Interpretation, State};
+use crate::bundle::Bundle;
 use crate::format::{BIT, Format};
 use crate::profile::Profile;
-use crate::signal::{Exact, Never, Signal, Value, bit, int, zero};
-use crate::{bundle, when};
+use crate::signal::{Proved, Signal, bit, int, zero};
+use crate::{block, when};
 
-bundle! {
-    /// The inputs.
-    pub struct Inputs {
-        /// A set of ADC codes is there.
-        strobe,
+block! {
+    /// The pad multiplexer.
+    pub struct Multiplexer("multiplexer") {
+        /// Samples of a slot before a switch closes, before the window begins, and until it ends.
+        open: u64,
+        begin: u64,
+        end: u64,
+        pads: u64,
+    }
+    submodules {}
+    inputs(multiplexer) {
+        /// A set of ADC codes is valid.
+        strobe: BIT,
         /// Abandons the slot under way; wins over `strobe`.
-        clear,
+        clear: BIT,
     }
-}
-
-bundle! {
-    /// The outputs: all registers.
-    pub struct Outputs {
-        /// Set for one clock for each sample; the flags below are about this sample.
-        sample,
-        /// The first of a slot: the carrier begins anew.
-        restart,
+    outputs(multiplexer) {
+        /// Asserted for one cycle for each sample; the flags below are about this sample.
+        sample: BIT,
+        /// The first of a slot: the carrier's phase restarts.
+        restart: BIT,
         /// Within the integration window.
-        integrate,
+        integrate: BIT,
         /// The first of the window.
-        first,
+        first: BIT,
         /// The last of the window.
-        last,
-        /// The pad that is served.
-        pad,
-        /// Whether the pad's switch is made.
-        closed,
+        last: BIT,
+        /// The selected pad.
+        pad: multiplexer.pad(),
+        /// The pad's switch is closed.
+        closed: BIT,
     }
-}
-
-bundle! {
-    /// The registers.
-    pub struct Registers {
-        count, next, sample, restart, integrate, first, last, pad, closed,
+    registers(multiplexer) {
+        count: Format::counter(multiplexer.end - 1),
+        next: multiplexer.pad(),
+        sample: BIT,
+        restart: BIT,
+        integrate: BIT,
+        first: BIT,
+        last: BIT,
+        pad: multiplexer.pad(),
+        closed: BIT,
     }
-}
-
-/// The configuration.
-#[derive(Debug, Clone)]
-pub struct Multiplexer {
-    open: u64,
-    begin: u64,
-    end: u64,
-    pads: u64,
-    registers: Registers<Format>,
 }
 
 impl Multiplexer {
@@ -72,27 +71,21 @@ impl Multiplexer {
     pub fn new(profile: &Profile) -> Self {
         let slot = &profile.slot;
         let (begin, end) = (slot.open + slot.settle, slot.samples());
-        let pad = Format::counter(profile.pads - 1);
-        let registers = Registers {
-            count: Format::counter(end - 1),
-            next: pad,
-            sample: BIT,
-            restart: BIT,
-            integrate: BIT,
-            first: BIT,
-            last: BIT,
-            pad,
-            closed: BIT,
-        };
-        Multiplexer { open: slot.open, begin, end, pads: profile.pads, registers }
+        Multiplexer { open: slot.open, begin, end, pads: profile.pads }
+    }
+
+    /// The format of a pad's number.
+    #[inline(always)]
+    fn pad(&self) -> Format {
+        Format::counter(self.pads - 1)
     }
 
     /// What a strobe makes of the registers.
     #[inline(always)]
-    fn advance<V: Value>(&self, r: Registers<Signal<V>>) -> Registers<Signal<V>> {
+    fn advance<V: Interpretation>(&self, r: Registers<Signal<V>>) -> Registers<Signal<V>> {
         let end = r.count.is(self.end - 1);
         let step =
-            |at_end: Signal<V>, from: Signal<V>| at_end.select(int(0), from + int(1)).fit(from.format, Exact, Never);
+            |at_end: Signal<V>, from: Signal<V>| at_end.select(int(0), from + int(1)).resize(from.format, Proved);
         let count = step(end, r.count);
         let following = step(r.next.is(self.pads - 1), r.next);
         Registers {
@@ -109,63 +102,19 @@ impl Multiplexer {
     }
 }
 
-impl Multiplexer {
-    /// As at reset.
-    #[inline(always)]
-    fn cleared<V: Value>(&self) -> Registers<Signal<V>> {
-        let Registers { count, next, pad, .. } = self.registers();
-        let no = bit(false);
-        Registers {
-            count: zero(count),
-            next: zero(next),
-            pad: zero(pad),
-            sample: no,
-            restart: no,
-            integrate: no,
-            first: no,
-            last: no,
-            closed: no,
-        }
-    }
-}
-
 impl Block for Multiplexer {
-    const NAME: &'static str = "multiplexer";
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    type Registers = Registers;
-    type Parts<V: Value> = ();
-
-    #[inline]
-    fn inputs(&self) -> Inputs<Format> {
-        Inputs { strobe: BIT, clear: BIT }
-    }
-
-    #[inline]
-    fn outputs(&self) -> Outputs<Format> {
-        let Registers { sample, restart, integrate, first, last, pad, closed, .. } = self.registers;
-        Outputs { sample, restart, integrate, first, last, pad, closed }
-    }
-
     #[inline(always)]
-    fn registers(&self) -> Registers<Format> {
-        let Registers { count, next, pad, .. } = self.registers;
-        let (count, next, pad) = (count.counting(), next.counting(), pad.counting());
-        Registers { count, next, sample: BIT, restart: BIT, integrate: BIT, first: BIT, last: BIT, pad, closed: BIT }
-    }
-
-    #[inline(always)]
-    fn clock<V: Value>(&self, cell: &mut Cell<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
-        let r = cell.load(self);
+    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+        let r = state.load(self);
         let Registers { sample, restart, integrate, first, last, pad, closed, .. } = r;
         let outputs = Outputs { sample, restart, integrate, first, last, pad, closed };
-        if (i.strobe | r.sample | i.clear).idle() {
+        if (i.strobe | r.sample | i.clear).can_skip() {
             return outputs;
         }
-        let next = when!(V, Registers, i.strobe, self.advance(r), r);
+        let next = when!(i.strobe => self.advance(r), else r);
         let next = Registers { sample: i.strobe, ..next };
-        let next = when!(V, Registers, i.clear, self.cleared(), next);
-        cell.store(self, next);
+        let next = when!(i.clear => Registers::map(self.registers(), zero), else next);
+        state.store(self, next);
         outputs
     }
 }

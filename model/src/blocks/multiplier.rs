@@ -16,46 +16,38 @@
 //!
 //! Latency: 1 clock, or 2 where an operand is halved.
 
-use crate::block::{Block, Cell};
+use crate::block::{Block, Interpretation, State};
 use crate::format::{BIT, Format};
-use crate::signal::{Exact, Floor, Never, Signal, Value, bit, int};
-use crate::{bundle, next};
+use crate::signal::{Floor, Proved, Signal, bit, int};
+use crate::{block, next};
 
-bundle! {
-    /// The inputs.
-    pub struct Inputs {
-        /// Set while somebody waits for a product.
-        enable,
+block! {
+    /// A multiplier.
+    pub struct Multiplier("multiplier", reset: false) {
+        left: Format,
+        right: Format,
+        /// Of each operand: its low bits, which are multiplied apart; none where it fits.
+        low: [u8; 2],
+    }
+    submodules {}
+    inputs(multiplier) {
+        /// Asserted while a product is waited for.
+        enable: BIT,
         /// A code as an integer.
-        left,
+        left: multiplier.left,
         /// A code as an integer.
-        right,
+        right: multiplier.right,
     }
-}
-
-bundle! {
-    /// The output: a register.
-    pub struct Outputs {
-        /// The product.
-        product,
+    outputs(multiplier) {
+        product: multiplier.product(),
     }
-}
-
-bundle! {
-    /// The registers.
-    pub struct Registers {
-        high_high, high_low, low_high, low_low, product,
+    registers(multiplier) {
+        high_high: multiplier.high(0).product(multiplier.high(1)),
+        high_low: multiplier.high(0).product(multiplier.low(1)),
+        low_high: multiplier.low(0).product(multiplier.high(1)),
+        low_low: multiplier.low(0).product(multiplier.low(1)),
+        product: multiplier.product(),
     }
-}
-
-/// The configuration.
-#[derive(Debug, Clone)]
-pub struct Multiplier {
-    left: Format,
-    right: Format,
-    /// Of each operand: its low bits, which are multiplied apart; none where it fits.
-    low: [u8; 2],
-    registers: Registers<Format>,
 }
 
 impl Multiplier {
@@ -71,17 +63,20 @@ impl Multiplier {
             let width = operand.width + u8::from(any_signed && !operand.signed);
             if width > hardware { operand.width / 2 } else { 0 }
         });
-        let high = |operand: Format, low: u8| Format { width: operand.width - low, frac: -(low as i8), ..operand };
-        let (left_high, right_high) = (high(left, low[0]), high(right, low[1]));
-        let [left_low, right_low] = low.map(|bits| Format::unsigned(bits.max(1), 0));
-        let registers = Registers {
-            high_high: left_high.product(right_high),
-            high_low: left_high.product(right_low),
-            low_high: left_low.product(right_high),
-            low_low: left_low.product(right_low),
-            product: left.product(right),
-        };
-        Multiplier { left, right, low, registers }
+        Multiplier { left, right, low }
+    }
+
+    /// The format of the upper part of an operand: a multiple of `2^low`.
+    #[inline(always)]
+    fn high(&self, operand: usize) -> Format {
+        let (format, low) = ([self.left, self.right][operand], self.low[operand]);
+        Format { width: format.width - low, frac: -(low as i8), ..format }
+    }
+
+    /// The format of the low bits of an operand.
+    #[inline(always)]
+    fn low(&self, operand: usize) -> Format {
+        Format::unsigned(self.low[operand].max(1), 0)
     }
 
     /// Clocks from operands to their product.
@@ -91,27 +86,28 @@ impl Multiplier {
 
     /// Whether a step that lasts as long as a product ends with this clock; `waited` says that one has gone by.
     #[inline(always)]
-    pub fn paces<V: Value>(&self, waited: Signal<V>) -> Signal<V> {
+    pub fn paces<V: Interpretation>(&self, waited: Signal<V>) -> Signal<V> {
         if self.latency() == 1 { bit(true) } else { waited }
     }
 
     /// The format of the product.
+    #[inline(always)]
     pub fn product(&self) -> Format {
-        self.registers.product
+        self.left.product(self.right).assume_frac(0)
     }
 
     /// An operand as a multiple of `2^low` and the rest: where numbers are not rounded, what the multiple leaves of it.
     #[inline(always)]
-    fn halves<V: Value>(operand: Signal<V>, low: u8) -> (Signal<V>, Signal<V>) {
+    fn halves<V: Interpretation>(operand: Signal<V>, low: u8) -> (Signal<V>, Signal<V>) {
         let Format { signed, width, .. } = operand.format;
-        let high = operand.fit(Format { signed, width: width - low, frac: -(low as i8) }, Floor, Never);
-        let rest = operand.bits(0, low).ideally(&[operand, high, int(1 << low)], |of| of[0] - of[1] / of[2] * of[2]);
+        let high = operand.quantize(Format { signed, width: width - low, frac: -(low as i8) }, Floor, Proved);
+        let rest = operand.bits(0, low).golden(&[operand, high, int(1 << low)], |of| of[0] - of[1] / of[2] * of[2]);
         (high, rest)
     }
 
     /// The partial products of the operands.
     #[inline(always)]
-    fn partials<V: Value>(&self, i: Inputs<Signal<V>>, r: Registers<Signal<V>>) -> Registers<Signal<V>> {
+    fn partials<V: Interpretation>(&self, i: Inputs<Signal<V>>, r: Registers<Signal<V>>) -> Registers<Signal<V>> {
         let split = |operand: Signal<V>, low: u8| match low {
             0 => (operand, None),
             _ => {
@@ -131,8 +127,8 @@ impl Multiplier {
 
     /// Their sum.
     #[inline(always)]
-    fn sum<V: Value>(&self, r: &Registers<Signal<V>>) -> Signal<V> {
-        let whole = |sum: Signal<V>| sum.fit(self.registers.product, Exact, Never);
+    fn sum<V: Interpretation>(&self, r: &Registers<Signal<V>>) -> Signal<V> {
+        let whole = |sum: Signal<V>| sum.resize(self.product(), Proved);
         match self.low {
             [0, _] => whole(r.high_high + r.high_low),
             [_, 0] => whole(r.high_high + r.low_high),
@@ -142,48 +138,18 @@ impl Multiplier {
 }
 
 impl Block for Multiplier {
-    const NAME: &'static str = "multiplier";
-    const RESETS: bool = false;
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    type Registers = Registers;
-    type Parts<V: Value> = ();
-
-    #[inline]
-    fn inputs(&self) -> Inputs<Format> {
-        Inputs { enable: BIT, left: self.left, right: self.right }
-    }
-
-    #[inline]
-    fn outputs(&self) -> Outputs<Format> {
-        Outputs { product: self.registers.product }
-    }
-
     #[inline(always)]
-    fn registers(&self) -> Registers<Format> {
-        let Registers { high_high, high_low, low_high, low_low, product } = self.registers;
-        let [left, right] = self.low.map(|bits| bits as i8);
-        Registers {
-            high_high: high_high.with_point(-left - right),
-            high_low: high_low.with_point(-left),
-            low_high: low_high.with_point(-right),
-            low_low: low_low.with_point(0),
-            product: product.with_point(0),
-        }
-    }
-
-    #[inline(always)]
-    fn clock<V: Value>(&self, cell: &mut Cell<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
-        let r = cell.load(self);
+    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+        let r = state.load(self);
         let outputs = Outputs { product: r.product };
-        if i.enable.idle() {
+        if i.enable.can_skip() {
             return outputs;
         }
         if self.latency() == 1 {
-            next!(V, Registers, self, cell, i.enable => Registers { product: i.left * i.right, ..r }, else r);
+            next!(self, state, i.enable => Registers { product: i.left * i.right, ..r }, else r);
         } else {
             let next = Registers { product: self.sum(&r), ..self.partials(i, r) };
-            next!(V, Registers, self, cell, i.enable => next, else r);
+            next!(self, state, i.enable => next, else r);
         }
         outputs
     }

@@ -23,73 +23,79 @@
 //!
 //! Latency: 4 clocks from `sample` to `ready`, polyphase 2. Source: paper, eq. 5; Harris, Proc. IEEE 66 (1978) 51, for the window.
 
-use crate::block::{Block, Cell};
+use crate::block::{Block, Interpretation, State};
 use crate::format::{BIT, Format};
 use crate::memory::Memory;
 use crate::profile::{Method, Profile, Window};
-use crate::signal::{Exact, Floor, Never, Signal, Value, Wrap, bit, code, int, zero};
-use crate::{bundle, next, parts};
+use crate::signal::{Floor, Proved, Signal, Wrap, bit, code, int, zero};
+use crate::states::States;
+use crate::{block, next, states};
 use std::f64::consts::TAU;
 
-bundle! {
-    /// The inputs.
-    pub struct Inputs {
-        /// A sample is there.
-        sample,
-        /// It is the first of its slot.
-        restart,
-        /// It is the first of its window.
-        first,
+states! {
+    /// The steps of a sample; polyphase, the first two.
+    pub enum Step {
+        Idle, LookUp, Wave, Cosine, Sine,
     }
 }
 
-bundle! {
-    /// The outputs.
-    pub struct Outputs {
-        /// Set for one clock before the other outputs are those of the sample.
-        ready,
-        /// The cosine of the carrier.
-        cosine,
-        /// The sine of the carrier.
-        sine,
-        /// The window.
-        window,
-        /// Polyphase: which of the carrier's five phases the sample has.
-        phase,
+block! {
+    /// The numerically controlled oscillator, and the window.
+    pub struct Oscillator("oscillator") {
+        /// The carrier's step from sample to sample: quadrants, and steps of a window's part.
+        step: [u64; 2],
+        window: Window,
+        /// Samples of the window.
+        samples: u64,
+        polyphase: bool,
+        /// Polyphase: the carrier's codes at its phases 0, 1 and 2; phases 4 and 3 are as 1 and 2.
+        carrier: [i64; 3],
+        amplitude: i64,
+        /// Of the cosine, the sine and the window.
+        wave: Format,
     }
-}
-
-bundle! {
-    /// The registers.
-    pub struct Registers {
-        step: ["idle", "look_up", "wave", "cosine", "sine"],
-        quadrant, phase, window_quadrant, window_phase, negative, wave, sign, cosine, sine, window, residue, ready,
-    }
-}
-
-parts! {
-    /// The memory within.
-    pub struct Parts of Oscillator {
+    submodules {
         quarter: Memory,
     }
+    inputs(oscillator) {
+        /// A sample is valid.
+        sample: BIT,
+        /// It is the first of its slot.
+        restart: BIT,
+        /// It is the first of its window.
+        first: BIT,
+    }
+    outputs(oscillator) {
+        /// Asserted for one cycle before the other outputs are those of the sample.
+        ready: BIT,
+        /// The cosine of the carrier.
+        cosine: oscillator.wave,
+        /// The sine of the carrier.
+        sine: oscillator.wave,
+        /// The window.
+        window: oscillator.wave,
+        /// Polyphase: which of the carrier's five phases the sample has.
+        phase: if oscillator.polyphase { POLYPHASE } else { BIT },
+    }
+    registers(oscillator) {
+        step in Step,
+        quadrant: QUADRANT,
+        phase: if oscillator.polyphase { POLYPHASE } else { oscillator.quarter_phase() },
+        window_quadrant: QUADRANT,
+        window_phase: oscillator.window_phase(),
+        negative: BIT,
+        wave: magnitude(oscillator.wave),
+        sign: BIT,
+        cosine: oscillator.wave,
+        sine: oscillator.wave,
+        window: oscillator.wave,
+        residue: BIT,
+        ready: BIT,
+    }
 }
 
-/// The configuration.
-#[derive(Debug, Clone)]
-pub struct Oscillator {
-    quarter: Memory,
-    /// The carrier's step from sample to sample: quadrants, and steps of a window's part.
-    step: [u64; 2],
-    window: Window,
-    /// Samples of the window.
-    samples: u64,
-    polyphase: bool,
-    /// Polyphase: the carrier's codes at its phases 0, 1 and 2; phases 4 and 3 are as 1 and 2.
-    carrier: [i64; 3],
-    amplitude: i64,
-    /// Of the cosine, the sine and the window.
-    wave: Format,
-}
+const QUADRANT: Format = Format::unsigned(2, 0);
+const POLYPHASE: Format = Format::counter(PHASES - 1);
 
 /// Phases of a polyphase demodulator's carrier.
 pub const PHASES: u64 = 5;
@@ -122,7 +128,8 @@ const fn magnitude(wave: Format) -> Format {
 impl Oscillator {
     /// Clocks from `sample` to `ready`.
     pub fn latency(&self) -> u64 {
-        if self.polyphase { 2 } else { 4 }
+        let last = if self.polyphase { Step::LookUp } else { Step::Cosine };
+        last.code() + 1
     }
 
     /// The oscillator of a profile.
@@ -154,33 +161,39 @@ impl Oscillator {
         Format::counter(self.steps() - 1)
     }
 
+    /// The format of the register that counts through the window.
+    #[inline(always)]
+    fn window_phase(&self) -> Format {
+        if self.polyphase { Format::counter(self.samples - 1) } else { self.quarter_phase() }
+    }
+
     /// Where in the table the sine of a phase lies, and whether it is negative.
     #[inline(always)]
-    fn look_up<V: Value>(&self, [quadrant, phase]: Phase<V>) -> (Signal<V>, Signal<V>) {
-        let mirrored = (int(self.steps()) - phase).fit(self.quarter.address(), Exact, Never);
+    fn look_up<V: Interpretation>(&self, [quadrant, phase]: Phase<V>) -> (Signal<V>, Signal<V>) {
+        let mirrored = (int(self.steps()) - phase).resize(self.quarter.address(), Proved);
         (quadrant.bits(0, 1).select(mirrored, phase), quadrant.msb())
     }
 
     /// A phase further on by a step.
     #[inline(always)]
-    fn advance<V: Value>(&self, [quadrant, phase]: Phase<V>, [quadrants, steps]: [u64; 2]) -> Phase<V> {
+    fn advance<V: Interpretation>(&self, [quadrant, phase]: Phase<V>, [quadrants, steps]: [u64; 2]) -> Phase<V> {
         let sum = phase + int(steps);
         let over = sum.at_least(int(self.steps()));
-        let rest = (sum - int(self.steps())).fit(phase.format, Exact, Wrap);
+        let rest = (sum - int(self.steps())).resize(phase.format, Wrap);
         let carried = over.select(int(quadrants + 1), int(quadrants));
-        let quadrant = (quadrant + carried).fit(quadrant.format, Exact, Wrap);
-        [quadrant, over.select(rest, sum.fit(phase.format, Exact, Wrap))]
+        let quadrant = (quadrant + carried).resize(quadrant.format, Wrap);
+        [quadrant, over.select(rest, sum.resize(phase.format, Wrap))]
     }
 
     /// (1 − cos) / 2 and what the halving drops, or one throughout.
     #[inline(always)]
-    fn weight<V: Value>(&self, cosine: Signal<V>, residue: Signal<V>) -> (Signal<V>, Signal<V>) {
+    fn weight<V: Interpretation>(&self, cosine: Signal<V>, residue: Signal<V>) -> (Signal<V>, Signal<V>) {
         let one = code(self.amplitude, magnitude(self.wave));
         let twice = (one - cosine).named("twice");
         let sum = twice + residue.scaled(-self.wave.frac);
         match self.window {
             Window::Hann => {
-                let half = sum.scaled(-1).fit(cosine.format, Floor, Never).ideally(&[twice], |of| of[0] / 2.0);
+                let half = sum.scaled(-1).quantize(cosine.format, Floor, Proved).golden(&[twice], |of| of[0] / 2.0);
                 (half, sum.bits(0, 1))
             }
             Window::Rectangular => (one, residue),
@@ -189,26 +202,28 @@ impl Oscillator {
 
     /// The phase of the clock's look-up: the sine of (φ + ¼) is the cosine.
     #[inline(always)]
-    fn address_phase<V: Value>(&self, r: &Registers<Signal<V>>, i: &Inputs<Signal<V>>) -> Phase<V> {
+    fn address_phase<V: Interpretation>(&self, r: &Registers<Signal<V>>, i: &Inputs<Signal<V>>) -> Phase<V> {
         let begins = i.sample & i.first;
         let of = |carrier: Signal<V>, window: Signal<V>| {
             let begun = begins.select(int(0), window);
-            (r.step.is(1) | r.step.is(2)).select(carrier, begun)
+            (r.step.at(Step::LookUp) | r.step.at(Step::Wave)).select(carrier, begun)
         };
         let quadrant = of(r.quadrant, r.window_quadrant);
-        let turned = (quadrant + int(1)).fit(quadrant.format, Exact, Wrap);
-        [r.step.is(2).select(quadrant, turned), of(r.phase, r.window_phase)]
+        let turned = quadrant.increment();
+        [r.step.at(Step::Wave).select(quadrant, turned), of(r.phase, r.window_phase)]
     }
 
     /// Polyphase: a sample begins, with the next phase and the next place in the window.
     #[inline(always)]
-    fn begin_polyphase<V: Value>(&self, r: Registers<Signal<V>>, i: Inputs<Signal<V>>) -> Registers<Signal<V>> {
-        let next = |anew: Signal<V>, count: Signal<V>, last: u64| {
-            let further = (count + int(1)).fit(count.format, Exact, Wrap);
-            (anew | count.is(last)).select(int(0), further)
-        };
+    fn begin_polyphase<V: Interpretation>(
+        &self,
+        r: Registers<Signal<V>>,
+        i: Inputs<Signal<V>>,
+    ) -> Registers<Signal<V>> {
+        let next =
+            |anew: Signal<V>, count: Signal<V>, last: u64| (anew | count.is(last)).select(int(0), count.increment());
         Registers {
-            step: int(1),
+            step: Step::LookUp.signal(),
             phase: next(i.restart, r.phase, PHASES - 1),
             window_phase: next(i.first, r.window_phase, self.samples - 1),
             ..r
@@ -217,37 +232,41 @@ impl Oscillator {
 
     /// Polyphase: the word of the window's place, or of its mirror image, is looked up; a clock later it is there.
     #[inline(always)]
-    fn clock_polyphase<V: Value>(&self, cell: &mut Cell<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
-        let r = cell.load(self);
-        let window = self.quarter.data(&mut cell.parts.quarter).fit(self.wave, Exact, Never);
+    fn clock_polyphase<V: Interpretation>(
+        &self,
+        state: &mut State<Self, V>,
+        i: Inputs<Signal<V>>,
+    ) -> Outputs<Signal<V>> {
+        let r = state.load(self);
+        let window = self.quarter.data(&mut state.submodules.quarter).resize(self.wave, Proved);
         let outputs =
             Outputs { ready: r.ready, cosine: self.carrier(r.phase), sine: zero(self.wave), window, phase: r.phase };
-        let busy = !r.step.is(0);
-        if (i.sample | busy | r.ready).idle() {
+        let busy = !r.step.at(Step::Idle);
+        if (i.sample | busy | r.ready).can_skip() {
             return outputs;
         }
-        let mirrored = (int(self.samples) - r.window_phase).fit(self.quarter.address(), Exact, Wrap);
+        let mirrored = (int(self.samples) - r.window_phase).resize(self.quarter.address(), Wrap);
         let first_half = r.window_phase.less_than(int(self.quarter.words as u64));
-        let place = r.window_phase.fit(self.quarter.address(), Exact, Wrap);
-        self.quarter.read(&mut cell.parts.quarter, first_half.select(place, mirrored));
-        let r = Registers { step: int(0), ready: busy, ..r };
-        next!(V, Registers, self, cell, i.sample => self.begin_polyphase(r, i), else r);
+        let place = r.window_phase.resize(self.quarter.address(), Wrap);
+        self.quarter.read(&mut state.submodules.quarter, first_half.select(place, mirrored));
+        let r = Registers { step: Step::Idle.signal(), ready: busy, ..r };
+        next!(self, state, i.sample => self.begin_polyphase(r, i), else r);
         outputs
     }
 
     /// Polyphase: the carrier at a phase.
     #[inline(always)]
-    fn carrier<V: Value>(&self, phase: Signal<V>) -> Signal<V> {
+    fn carrier<V: Interpretation>(&self, phase: Signal<V>) -> Signal<V> {
         let [first, second, third] = self.carrier.map(|wave| code(wave, self.wave));
         phase.is(0).select(first, (phase.is(1) | phase.is(4)).select(second, third))
     }
 
     /// A sample begins: phases start anew where they should.
     #[inline(always)]
-    fn begin<V: Value>(&self, r: Registers<Signal<V>>, i: Inputs<Signal<V>>) -> Registers<Signal<V>> {
+    fn begin<V: Interpretation>(&self, r: Registers<Signal<V>>, i: Inputs<Signal<V>>) -> Registers<Signal<V>> {
         let anew = |bit: Signal<V>, phase: Signal<V>| bit.select(int(0), phase);
         Registers {
-            step: int(1),
+            step: Step::LookUp.signal(),
             quadrant: anew(i.restart, r.quadrant),
             phase: anew(i.restart, r.phase),
             window_quadrant: anew(i.first, r.window_quadrant),
@@ -259,101 +278,61 @@ impl Oscillator {
 
     /// The word of the look-up before is there, and that of the one before it gets its sign.
     #[inline(always)]
-    fn step<V: Value>(
+    fn step<V: Interpretation>(
         &self,
         r: Registers<Signal<V>>,
         magnitude: Signal<V>,
         negative: Signal<V>,
     ) -> Registers<Signal<V>> {
-        let at = |step: u64| r.step.is(step);
-        let end = at(4);
+        use Step::*;
+        let at = |step: Step| r.step.at(step);
+        let end = at(Sine);
         let advanced = |phase: Phase<V>, step: [u64; 2]| {
             let [quadrant, rest] = self.advance(phase, step);
             [end.select(quadrant, phase[0]), end.select(rest, phase[1])]
         };
         let [quadrant, phase] = advanced([r.quadrant, r.phase], self.step);
         let [window_quadrant, window_phase] = advanced([r.window_quadrant, r.window_phase], [0, 1]);
-        let wave = r.sign.select(-r.wave, r.wave).fit(r.sine.format, Exact, Wrap).named("signed_wave");
+        let wave = r.sign.select(-r.wave, r.wave).resize(r.sine.format, Wrap).named("signed_wave");
         let (weight, residue) = self.weight(r.window, r.residue);
         Registers {
-            step: end.select(int(0), r.step + int(1)).fit(r.step.format, Exact, Wrap),
+            step: end.select(Idle.signal(), r.step + int(1)).resize(r.step.format, Wrap),
             quadrant,
             phase,
             window_quadrant,
             window_phase,
             wave: magnitude,
             sign: negative,
-            window: at(2).select(wave, at(3).select(weight, r.window)),
-            residue: at(3).select(residue, r.residue),
+            window: at(Wave).select(wave, at(Cosine).select(weight, r.window)),
+            residue: at(Cosine).select(residue, r.residue),
             // The cosine comes first, and moves on: one value, one register that takes it.
             cosine: end.select(r.sine, r.cosine),
-            sine: (at(3) | end).select(wave, r.sine),
-            ready: at(3),
+            sine: (at(Cosine) | end).select(wave, r.sine),
+            ready: at(Cosine),
             ..r
         }
     }
 }
 
 impl Block for Oscillator {
-    const NAME: &'static str = "oscillator";
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    type Registers = Registers;
-    type Parts<V: Value> = Parts<V>;
-
-    #[inline]
-    fn inputs(&self) -> Inputs<Format> {
-        Inputs { sample: BIT, restart: BIT, first: BIT }
-    }
-
-    #[inline]
-    fn outputs(&self) -> Outputs<Format> {
-        let phase = if self.polyphase { self.registers().phase } else { BIT };
-        Outputs { ready: BIT, cosine: self.wave, sine: self.wave, window: self.wave, phase }
-    }
-
     #[inline(always)]
-    fn registers(&self) -> Registers<Format> {
-        let full = self.wave;
-        Registers {
-            step: Format::unsigned(3, 0),
-            quadrant: Format::unsigned(2, 0),
-            phase: if self.polyphase { Format::counter(PHASES - 1) } else { self.quarter_phase() },
-            window_quadrant: Format::unsigned(2, 0),
-            window_phase: if self.polyphase { Format::counter(self.samples - 1) } else { self.quarter_phase() },
-            negative: BIT,
-            wave: magnitude(full),
-            sign: BIT,
-            cosine: full,
-            sine: full,
-            window: full,
-            residue: BIT,
-            ready: BIT,
-        }
-    }
-
-    #[inline(always)]
-    fn clock<V: Value>(&self, cell: &mut Cell<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
         if self.polyphase {
-            return self.clock_polyphase(cell, i);
+            return self.clock_polyphase(state, i);
         }
-        let r = cell.load(self);
+        let r = state.load(self);
         let outputs = Outputs { ready: r.ready, cosine: r.cosine, sine: r.sine, window: r.window, phase: bit(false) };
-        let busy = !r.step.is(0);
-        if (i.sample | busy | r.ready).idle() {
+        let busy = !r.step.at(Step::Idle);
+        if (i.sample | busy | r.ready).can_skip() {
             return outputs;
         }
-        let magnitude = self.quarter.data(&mut cell.parts.quarter);
+        let magnitude = self.quarter.data(&mut state.submodules.quarter);
         let (address, negative) = self.look_up(self.address_phase(&r, &i));
-        self.quarter.read(&mut cell.parts.quarter, address);
+        self.quarter.read(&mut state.submodules.quarter, address);
         let quiet = Registers { ready: bit(false), ..r };
         let before = r.negative;
         let r = Registers { negative, ..quiet };
-        next!(
-            V,
-            Registers,
-            self,
-            cell,
+        next!(self, state,
             i.sample => self.begin(r, i),
             busy => self.step(r, magnitude, before),
             else quiet

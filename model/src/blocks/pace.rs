@@ -12,41 +12,32 @@
 //! P is `clocks_per_sample`: the demodulator serves all channels in them, and a sample that comes earlier breaks into the one
 //! before. `overrun` stays from the strobe that was too early until `clear` or a reset. Latency: one clock.
 
-use crate::block::{Block, Cell};
-use crate::bundle;
+use crate::block;
+use crate::block::{Block, Interpretation, State};
 use crate::format::{BIT, Format};
 use crate::profile::Profile;
-use crate::signal::{Signal, Value, int};
+use crate::signal::{Signal, int};
 
-bundle! {
-    /// The inputs.
-    pub struct Inputs {
-        /// A set of ADC codes is there.
-        strobe,
-        /// Forgets.
-        clear,
+block! {
+    /// The check of the samples' distance.
+    pub struct Pace("pace") {
+        clocks: u64,
     }
-}
-
-bundle! {
-    /// The output: a register.
-    pub struct Outputs {
+    submodules {}
+    inputs(pace) {
+        /// A set of ADC codes is valid.
+        strobe: BIT,
+        /// Clears `overrun`.
+        clear: BIT,
+    }
+    outputs(pace) {
         /// A strobe was too early.
-        overrun,
+        overrun: BIT,
     }
-}
-
-bundle! {
-    /// The registers.
-    pub struct Registers {
-        left, overrun,
+    registers(pace) {
+        left: Format::counter(pace.clocks - 1),
+        overrun: BIT,
     }
-}
-
-/// The configuration.
-#[derive(Debug, Clone)]
-pub struct Pace {
-    clocks: u64,
 }
 
 impl Pace {
@@ -57,40 +48,19 @@ impl Pace {
 }
 
 impl Block for Pace {
-    const NAME: &'static str = "pace";
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    type Registers = Registers;
-    type Parts<V: Value> = ();
-
-    #[inline]
-    fn inputs(&self) -> Inputs<Format> {
-        Inputs { strobe: BIT, clear: BIT }
-    }
-
-    #[inline]
-    fn outputs(&self) -> Outputs<Format> {
-        Outputs { overrun: BIT }
-    }
-
     #[inline(always)]
-    fn registers(&self) -> Registers<Format> {
-        Registers { left: Format::counter(self.clocks - 1), overrun: BIT }
-    }
-
-    #[inline(always)]
-    fn clock<V: Value>(&self, cell: &mut Cell<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
-        let r = cell.load(self);
+    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+        let r = state.load(self);
         let none = r.left.is(0);
         let outputs = Outputs { overrun: r.overrun };
-        if (i.strobe | i.clear | !none).idle() {
+        if (i.strobe | i.clear | !none).can_skip() {
             return outputs;
         }
         let fewer = (r.left - int(1)).bits(0, r.left.format.width);
         let left = none.select(int(0), fewer);
         let left = (i.strobe & !i.clear).select(int(self.clocks - 1), left);
         let overrun = (r.overrun | (i.strobe & !none)) & !i.clear;
-        cell.store(self, Registers { left, overrun });
+        state.store(self, Registers { left, overrun });
         outputs
     }
 }

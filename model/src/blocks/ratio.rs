@@ -16,146 +16,128 @@
 //! A zero denominator gives `invalid`. Latency: 3 · (divider + 1) + 1 clocks from `start` to `done`.
 
 use super::divider::{self, Divider};
-use crate::block::{Block, Cell};
+use crate::block::{Block, Interpretation, State};
 use crate::format::{BIT, Format};
 use crate::profile::Profile;
-use crate::signal::{Exact, Never, Signal, Value, bit, int};
-use crate::{bundle, next, parts};
+use crate::signal::{Proved, Signal, bit, int};
+use crate::states::States;
+use crate::{block, call, next, states};
 
-bundle! {
-    /// The inputs.
-    pub struct Inputs {
-        /// The sums are there, and hold.
-        start,
-        /// The numerator of r_x.
-        x,
-        /// The numerator of r_y.
-        y,
-        /// Their denominator.
-        corners,
-        /// The least amplitude of the terminals.
-        least,
+states! {
+    /// Which ratio is being divided.
+    pub enum Step {
+        Idle, X, Y, Share,
     }
 }
 
-bundle! {
-    /// The outputs: registers.
-    pub struct Outputs {
-        /// Set for one clock when the ratios are there.
-        done,
-        /// The x ratio.
-        r_x,
-        /// The y ratio.
-        r_y,
-        /// The least of the terminals' currents, as a share of the denominator; until the next slot's `start`.
-        share,
-        /// Whether the denominator is zero.
-        invalid,
+block! {
+    /// The ratios from the sums of the currents.
+    pub struct Ratio("ratio") {
+        sums: Format,
+        corners: Format,
+        least: Format,
+        ratio: Format,
     }
-}
-
-bundle! {
-    /// The registers.
-    pub struct Registers {
-        step: ["idle", "x", "y", "share"],
-        divide, r_x, r_y, invalid, done,
-    }
-}
-
-parts! {
-    /// The block within.
-    pub struct Parts of Ratio {
+    submodules {
         divider: Divider,
     }
+    inputs(block) {
+        /// Begins; all others are valid and stable until `done`.
+        start: BIT,
+        /// The numerator of r_x.
+        x: block.sums,
+        /// The numerator of r_y.
+        y: block.sums,
+        /// Their denominator.
+        corners: block.corners,
+        /// The least amplitude of the terminals.
+        least: block.least,
+    }
+    outputs(block) {
+        /// Asserted for one cycle when the ratios are valid.
+        done: BIT,
+        /// The x ratio.
+        r_x: block.ratio,
+        /// The y ratio.
+        r_y: block.ratio,
+        /// The least of the terminals' currents, as a share of the denominator; until the next slot's `start`.
+        share: block.quotient(),
+        /// The denominator is zero.
+        invalid: BIT,
+    }
+    registers(block) {
+        step in Step,
+        divide: BIT,
+        r_x: block.ratio,
+        r_y: block.ratio,
+        invalid: BIT,
+        done: BIT,
+    }
 }
 
-/// The configuration.
-#[derive(Debug, Clone)]
-pub struct Ratio {
-    divider: Divider,
-    sums: Format,
-    corners: Format,
-    least: Format,
-    registers: Registers<Format>,
+/// The format of a ratio without its sign.
+#[inline(always)]
+const fn magnitude(ratio: Format) -> Format {
+    Format::unsigned(ratio.width - 1, ratio.frac)
 }
 
 impl Ratio {
     /// The ratios of a profile; `sums` are the formats of the numerators and of the denominator, `least` that of an amplitude.
     pub fn new(profile: &Profile, (sums, corners): (Format, Format), least: Format) -> Self {
         let ratio = profile.formats.ratio;
-        let quotient = Format::unsigned(ratio.width - 1, ratio.frac);
-        let divider = Divider::new(Format { signed: false, ..sums }, corners, quotient);
-        let step = Format::unsigned(2, 0);
-        let registers = Registers { step, divide: BIT, r_x: ratio, r_y: ratio, invalid: BIT, done: BIT };
-        Ratio { divider, sums, corners, least, registers }
+        let divider = Divider::new(Format { signed: false, ..sums }, corners, magnitude(ratio));
+        Ratio { divider, sums, corners, least, ratio }
+    }
+
+    /// The format of a quotient.
+    #[inline(always)]
+    fn quotient(&self) -> Format {
+        magnitude(self.ratio)
     }
 
     /// Clocks from `start` to `done`.
     pub fn latency(&self) -> u64 {
-        3 * (self.divider.latency() + 1) + 1
+        (Step::ALL.len() as u64 - 1) * (self.divider.latency() + 1) + 1
     }
 
     #[inline(always)]
-    fn step<V: Value>(
+    fn step<V: Interpretation>(
         &self,
         r: Registers<Signal<V>>,
         i: Inputs<Signal<V>>,
         divided: divider::Outputs<Signal<V>>,
     ) -> Registers<Signal<V>> {
-        let [first, second, third] = [1, 2, 3].map(|step| divided.done & r.step.is(step));
-        let numerator = r.step.is(1).select(i.x, i.y).named("numerator");
+        let [x, y, share] = [Step::X, Step::Y, Step::Share].map(|step| divided.done & r.step.at(step));
+        let numerator = r.step.at(Step::X).select(i.x, i.y).named("numerator");
         let negative = numerator.less_than(int(0));
-        let ratio = negative.select(-divided.quotient, divided.quotient).fit(r.r_x.format, Exact, Never);
+        let ratio = negative.select(-divided.quotient, divided.quotient).resize(r.r_x.format, Proved);
         Registers {
-            step: first.select(int(2), second.select(int(3), third.select(int(0), r.step))),
-            divide: first | second,
+            step: x.select(Step::Y.signal(), y.select(Step::Share.signal(), share.select(Step::Idle.signal(), r.step))),
+            divide: x | y,
             // That of x comes first, and moves on: one value, one register that takes it.
-            r_x: second.select(r.r_y, r.r_x),
-            r_y: (first | second).select(ratio, r.r_y),
-            invalid: second.select(i.corners.is(0), r.invalid),
-            done: third,
+            r_x: y.select(r.r_y, r.r_x),
+            r_y: (x | y).select(ratio, r.r_y),
+            invalid: y.select(i.corners.is(0), r.invalid),
+            done: share,
         }
     }
 }
 
 impl Block for Ratio {
-    const NAME: &'static str = "ratio";
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    type Registers = Registers;
-    type Parts<V: Value> = Parts<V>;
-
-    #[inline]
-    fn inputs(&self) -> Inputs<Format> {
-        Inputs { start: BIT, x: self.sums, y: self.sums, corners: self.corners, least: self.least }
-    }
-
-    #[inline]
-    fn outputs(&self) -> Outputs<Format> {
-        let Registers { r_x, r_y, .. } = self.registers;
-        Outputs { done: BIT, r_x, r_y, share: self.divider.outputs().quotient, invalid: BIT }
-    }
-
     #[inline(always)]
-    fn registers(&self) -> Registers<Format> {
-        let r = self.registers;
-        Registers { done: BIT, divide: BIT, invalid: BIT, step: r.step.counting(), ..r }
-    }
-
-    #[inline(always)]
-    fn clock<V: Value>(&self, cell: &mut Cell<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
-        let r = cell.load(self);
-        let numerator = r.step.is(1).select(i.x, i.y).abs();
-        let numerator = r.step.is(3).select(i.least.fit(numerator.format, Exact, Never), numerator);
+    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+        let r = state.load(self);
+        let numerator = r.step.at(Step::X).select(i.x, i.y).abs();
+        let numerator = r.step.at(Step::Share).select(i.least.resize(numerator.format, Proved), numerator);
         let inputs = divider::Inputs { start: r.divide, numerator, denominator: i.corners };
         // The last quotient, the share, stays until the next slot's first.
-        let divided = self.divider.call("divider", &mut cell.parts.divider, inputs);
+        let divided = call!(self.divider, state, inputs);
         let outputs = Outputs { done: r.done, r_x: r.r_x, r_y: r.r_y, share: divided.quotient, invalid: r.invalid };
-        if (i.start | !r.step.is(0) | r.done).idle() {
+        if (i.start | !r.step.at(Step::Idle) | r.done).can_skip() {
             return outputs;
         }
-        let begin = Registers { step: int(1), divide: bit(true), done: bit(false), ..r };
-        next!(V, Registers, self, cell, i.start => begin, else self.step(r, i, divided));
+        let begin = Registers { step: Step::X.signal(), divide: bit(true), done: bit(false), ..r };
+        next!(self, state, i.start => begin, else self.step(r, i, divided));
         outputs
     }
 }

@@ -16,47 +16,42 @@
 //! Latency: half the radicand's width + 2 clocks from `start` to `done`. Source: digit-by-digit root, Parhami, Computer
 //! Arithmetic, §21.
 
-use crate::block::{Block, Cell};
+use crate::block::{Block, Interpretation, State};
 use crate::format::{BIT, Format};
-use crate::signal::{Exact, Lemma, Never, Signal, Value, Wrap, bit, int};
-use crate::{bundle, next, when};
+use crate::signal::{Assumed, Proved, Signal, bit, int};
+use crate::{block, next, when};
 
-bundle! {
-    /// The inputs.
-    pub struct Inputs {
+block! {
+    /// A square root.
+    pub struct Root("root") {
+        radicand: Format,
+        /// Bits of the square root before rounding.
+        digits: u8,
+        /// Fractional bits of the square root.
+        frac: i8,
+    }
+    submodules {}
+    inputs(block) {
         /// Takes the radicand and begins.
-        start,
-        /// The number whose root is taken.
-        radicand,
+        start: BIT,
+        radicand: block.radicand,
     }
-}
-
-bundle! {
-    /// The outputs.
-    pub struct Outputs {
-        /// Set for one clock when the root is there.
-        done,
-        /// The root, held until the next is there.
-        root,
+    outputs(block) {
+        /// Asserted for one cycle when the square root is valid.
+        done: BIT,
+        /// The square root, stable until the next `done`.
+        root: block.root(),
     }
-}
-
-bundle! {
-    /// The registers.
-    pub struct Registers {
-        busy, count, radicand, tail, remainder, partial, done, root,
+    registers(block) {
+        busy: BIT,
+        count: Format::counter(block.digits.into()),
+        radicand: block.padded(),
+        tail: Format::unsigned(2 * block.digits, 0),
+        remainder: Format::unsigned(block.digits + 1, 0),
+        partial: Format::unsigned(block.digits, 0),
+        done: BIT,
+        root: block.root(),
     }
-}
-
-/// The configuration.
-#[derive(Debug, Clone)]
-pub struct Root {
-    radicand: Format,
-    /// Bits of the root before rounding.
-    digits: u8,
-    /// The radicand, widened to two bits a digit.
-    padded: Format,
-    registers: Registers<Format>,
 }
 
 const BELOW: &str = "the remainder of a root is at most twice the root so far";
@@ -69,24 +64,19 @@ impl Root {
     pub fn new(radicand: Format, frac: i8) -> Self {
         assert!(!radicand.signed && radicand.frac <= 2 * frac, "√{radicand} has more fractional bits than {frac}");
         let digits = ((radicand.integer_bits() + 1) / 2 + i16::from(frac)) as u8;
-        let padded = Format::unsigned(2 * digits, 2 * frac);
-        let registers = Registers {
-            busy: BIT,
-            count: Format::counter(digits.into()),
-            radicand: padded,
-            tail: Format::unsigned(2 * digits, 0),
-            remainder: Format::unsigned(digits + 1, 0),
-            partial: Format::unsigned(digits, 0),
-            done: BIT,
-            root: Format::unsigned(digits + 1, frac),
-        };
-        Root { radicand, digits, padded, registers }
+        Root { radicand, digits, frac }
     }
 
-    /// The format of the root.
-    #[inline]
+    /// The format of the square root.
+    #[inline(always)]
     pub fn root(&self) -> Format {
-        self.registers.root
+        Format::unsigned(self.digits + 1, self.frac)
+    }
+
+    /// The radicand, widened to two bits a digit.
+    #[inline(always)]
+    fn padded(&self) -> Format {
+        Format::unsigned(2 * self.digits, 2 * self.frac)
     }
 
     /// Clocks from `start` to `done`.
@@ -95,24 +85,24 @@ impl Root {
     }
 
     #[inline(always)]
-    fn begin<V: Value>(&self, r: Registers<Signal<V>>, i: Inputs<Signal<V>>) -> Registers<Signal<V>> {
-        let radicand = i.radicand.fit(self.padded, Exact, Never);
-        let tail = radicand.bits(0, self.padded.width);
+    fn begin<V: Interpretation>(&self, r: Registers<Signal<V>>, i: Inputs<Signal<V>>) -> Registers<Signal<V>> {
+        let radicand = i.radicand.resize(self.padded(), Proved);
+        let tail = radicand.bits(0, self.padded().width);
         Registers { busy: bit(true), count: int(0), radicand, tail, remainder: int(0), partial: int(0), ..r }
     }
 
     /// One more digit: with root n so far, the next is set where 4n + 1 still goes into the remainder.
     #[inline(always)]
-    fn step<V: Value>(&self, r: Registers<Signal<V>>) -> Registers<Signal<V>> {
-        let width = self.padded.width;
+    fn step<V: Interpretation>(&self, r: Registers<Signal<V>>) -> Registers<Signal<V>> {
+        let width = self.padded().width;
         let shifted = r.remainder.concat(r.tail.bits(width - 2, 2)).named("shifted");
         let trial = r.partial.concat(bit(false)).concat(bit(true));
         let rest = (shifted - trial).named("rest");
         let fits = (!rest.msb()).named("fits");
         Registers {
-            count: (r.count + int(1)).fit(r.count.format, Exact, Wrap),
+            count: r.count.increment(),
             tail: r.tail.concat(int::<V>(0)).concat(int(0)).bits(0, width),
-            remainder: fits.select(rest, shifted).fit(r.remainder.format, Exact, Lemma(BELOW)),
+            remainder: fits.select(rest, shifted).resize(r.remainder.format, Assumed(BELOW)),
             partial: r.partial.concat(fits).bits(0, self.digits),
             ..r
         }
@@ -120,61 +110,26 @@ impl Root {
 
     /// The rounded root: up where the remainder is past n, for (n + ½)² = n² + n + ¼.
     #[inline(always)]
-    fn finish<V: Value>(&self, r: Registers<Signal<V>>) -> Registers<Signal<V>> {
+    fn finish<V: Interpretation>(&self, r: Registers<Signal<V>>) -> Registers<Signal<V>> {
         let rounded = r.partial + r.partial.less_than(r.remainder);
-        let root = rounded.scaled(-self.root().frac).ideally(&[r.radicand], |of| of[0].sqrt());
+        let root = rounded.scaled(-self.root().frac).golden(&[r.radicand], |of| of[0].sqrt());
         Registers { busy: bit(false), done: bit(true), root, ..r }
     }
 }
 
 impl Block for Root {
-    const NAME: &'static str = "root";
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    type Registers = Registers;
-    type Parts<V: Value> = ();
-
-    #[inline]
-    fn inputs(&self) -> Inputs<Format> {
-        Inputs { start: BIT, radicand: self.radicand }
-    }
-
-    #[inline]
-    fn outputs(&self) -> Outputs<Format> {
-        Outputs { done: BIT, root: self.root() }
-    }
-
     #[inline(always)]
-    fn registers(&self) -> Registers<Format> {
-        let r = self.registers;
-        Registers {
-            busy: BIT,
-            done: BIT,
-            count: r.count.counting(),
-            tail: r.tail.counting(),
-            partial: r.partial.counting(),
-            remainder: r.remainder.counting(),
-            radicand: self.padded,
-            root: r.root,
-        }
-    }
-
-    #[inline(always)]
-    fn clock<V: Value>(&self, cell: &mut Cell<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
-        let r = cell.load(self);
+    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+        let r = state.load(self);
         let outputs = Outputs { done: r.done, root: r.root };
-        if (i.start | r.busy | r.done).idle() {
+        if (i.start | r.busy | r.done).can_skip() {
             return outputs;
         }
         let last = r.count.is(self.digits.into());
         let idle = Registers { done: bit(false), ..r };
-        next!(
-            V,
-            Registers,
-            self,
-            cell,
+        next!(self, state,
             i.start => self.begin(idle, i),
-            r.busy => when!(V, Registers, last, self.finish(idle), self.step(idle)),
+            r.busy => when!(last => self.finish(idle), else self.step(idle)),
             else idle
         );
         outputs

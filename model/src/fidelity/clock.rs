@@ -2,11 +2,11 @@
 //! Fidelity `clock`: every clock of the core, as the board runs it.
 
 use super::{Gathered, calibrated, clock, signals};
-use crate::block::{Block, Cell, sample, variables};
+use crate::block::{self, Block};
 use crate::blocks::core::{Core, Inputs, Outputs};
 use crate::calibration::Calibration;
 use crate::frame::Frame;
-use crate::probe::{Probe, Variable};
+use crate::probe::{Probe, Variable, sample, variables};
 use crate::profile::Profile;
 use crate::signal::{Signal, bit};
 use std::slice::ChunksExact;
@@ -23,7 +23,7 @@ pub struct ClockSimulation {
 /// What changes from clock to clock: apart from what does not, so that the compiler need not look at formats again after
 /// every word that is written.
 struct State {
-    cell: Cell<Core, i64>,
+    core: block::State<Core, i64>,
     channel: usize,
     gathered: Gathered,
     frame: Option<Frame>,
@@ -35,13 +35,13 @@ impl ClockSimulation {
     pub fn new(profile: &Profile, calibration: &Calibration) -> Self {
         let core = Core::new(profile);
         let formats = core.inputs();
-        let cell = calibrated(&core, calibration);
+        let state = calibrated(&core, calibration);
         ClockSimulation {
-            inputs: signals::<Inputs, i64>(calibration.inputs(formats), formats),
+            inputs: signals::<Inputs, i64>(core.idle_inputs(calibration), formats),
             core,
             clocks_per_sample: profile.clocks_per_sample,
             channels: profile.channels(),
-            state: State { cell, channel: 0, gathered: Gathered::default(), frame: None, clocks: 0 },
+            state: State { core: state, channel: 0, gathered: Gathered::default(), frame: None, clocks: 0 },
         }
     }
 
@@ -49,9 +49,9 @@ impl ClockSimulation {
     /// voltage, haptic voltage. Of the frames that are finished meanwhile, the last is kept.
     ///
     /// # Panics
-    /// Where `codes` has not one code a channel and sample.
+    /// Where `codes` has not one code per channel per sample.
     pub fn samples(&mut self, codes: &[i32]) {
-        assert_eq!(codes.len() % self.channels, 0, "one code a channel and sample");
+        assert_eq!(codes.len() % self.channels, 0, "one code per channel per sample");
         let samples = codes.chunks_exact(self.channels);
         self.state.samples(&self.core, &self.inputs, self.clocks_per_sample, samples);
     }
@@ -61,7 +61,7 @@ impl ClockSimulation {
     /// # Panics
     /// Where `codes` has not one code a channel.
     pub fn sample_with(&mut self, codes: &[i32], mut look: impl FnMut(&Self)) {
-        assert_eq!(codes.len(), self.channels, "one code a channel");
+        assert_eq!(codes.len(), self.channels, "one code per channel");
         for count in 0..self.clocks_per_sample {
             self.state.clock(&self.core, &self.inputs, count == 0, codes);
             look(self);
@@ -97,7 +97,7 @@ impl State {
         for codes in samples {
             for count in 0..clocks {
                 let inputs = self.given(inputs, count == 0, codes);
-                let outputs = core.clock(&mut self.cell, inputs);
+                let outputs = core.clock(&mut self.core, inputs);
                 self.take(outputs);
             }
         }
@@ -105,7 +105,7 @@ impl State {
 
     fn clock(&mut self, core: &Core, inputs: &Inputs<Signal<i64>>, strobe: bool, codes: &[i32]) {
         let inputs = self.given(inputs, strobe, codes);
-        let outputs = clock(core, &mut self.cell, inputs);
+        let outputs = clock(core, &mut self.core, inputs);
         self.take(outputs);
     }
 
@@ -120,10 +120,10 @@ impl State {
     fn take(&mut self, outputs: Outputs<Signal<i64>>) {
         self.clocks += 1;
         self.channel = outputs.channel.value as usize;
-        self.gathered.take(outputs.valid.value, outputs.index.value, outputs.frame.value);
-        if outputs.done.value != 0 {
-            let flags = [outputs.clipped, outputs.saturated, outputs.invalid, outputs.lost].map(|flag| flag.value);
-            self.frame = Some(self.gathered.frame(outputs.pad.value, flags[0], flags[1], flags[2], flags[3]));
+        let frame = outputs.frames;
+        self.gathered.take(frame.valid.value, frame.index.value, frame.frame.value);
+        if frame.done.value != 0 {
+            self.frame = Some(self.gathered.frame(frame));
         }
     }
 }
@@ -134,6 +134,6 @@ impl Probe for ClockSimulation {
     }
 
     fn sample(&self, codes: &mut Vec<i64>) {
-        sample(&self.core, &self.state.cell, codes);
+        sample(&self.core, &self.state.core, codes);
     }
 }

@@ -3,21 +3,21 @@
 //!
 //! A window's sums are made sample by sample with the demodulator's own arithmetic; the local oscillator is the same for
 //! every slot, and so is asked once. The estimator then runs through its clocks, a few hundred a slot: of codes the position's
-//! program has its results at once. As it is generic over the reading, the same run, with the program's clocks, gives the rounding
-//! error of every signal ([`Shadow`](crate::signal::shadow::Shadow)).
+//! program has its results at once. As it is generic over the interpretation, the same run, with the program's clocks, gives the rounding
+//! error of every signal ([`Shadow`](crate::interpretations::shadow::Shadow)).
 
 use super::tone::Response;
 use super::{Gathered, calibrated, signals};
-use crate::block::{Block, Cell};
+use crate::block::{Block, Interpretation, State};
 use crate::blocks::core::{Core, Inputs as CoreInputs};
-use crate::blocks::estimator::{Estimator, Inputs, Outputs};
+use crate::blocks::estimator::{Estimator, Inputs};
 use crate::blocks::oscillator::Inputs as Sample;
 use crate::bundle::Bundle;
 use crate::calibration::Calibration;
 use crate::format::Format;
 use crate::frame::Frame;
 use crate::profile::Profile;
-use crate::signal::{Exact, Never, Signal, Value, bit, code, constant, zero};
+use crate::signal::{Proved, Signal, bit, code, constant, zero};
 
 /// The weighted carrier at a sample of the window, and the window itself.
 #[derive(Debug, Clone, Copy)]
@@ -28,9 +28,9 @@ struct Local<V> {
 }
 
 /// A core at work, slot by slot.
-pub struct FixedSimulation<V: Value = i64> {
+pub struct FixedSimulation<V: Interpretation = i64> {
     core: Core,
-    cell: Cell<Core, V>,
+    state: State<Core, V>,
     adc: Format,
     oscillator: Format,
     channels: usize,
@@ -40,7 +40,7 @@ pub struct FixedSimulation<V: Value = i64> {
     sums: Vec<Signal<V>>,
 }
 
-impl<V: Value> FixedSimulation<V> {
+impl<V: Interpretation> FixedSimulation<V> {
     /// A core of a profile, calibrated, just before its first slot.
     pub fn new(profile: &Profile, calibration: &Calibration) -> Self {
         let mut core = Core::new(profile);
@@ -48,11 +48,11 @@ impl<V: Value> FixedSimulation<V> {
             let words = calibration.position.words.iter();
             core.place_at_once(words.map(|&word| profile.formats.table.code_saturating(word)).collect());
         }
-        let constants = signals::<CoreInputs, V>(calibration.inputs(core.inputs()), core.inputs());
+        let constants = signals::<CoreInputs, V>(core.idle_inputs(calibration), core.inputs());
         let sums = vec![zero(core.demodulator().sum()); core.demodulator().sums() as usize];
         let local = local(&core, profile);
         FixedSimulation {
-            cell: calibrated(&core, calibration),
+            state: calibrated(&core, calibration),
             response: response(&core, &local, profile),
             local,
             quiet: quiet(&core, constants),
@@ -157,7 +157,7 @@ impl<V: Value> FixedSimulation<V> {
             sums[0] = demodulator.accumulate(begun, sums[0], code * self.wave(local.cosine));
             sums[1] = demodulator.accumulate(begun, sums[1], code * self.wave(local.sine));
         }
-        sums.map(|sum| sum.fit(demodulator.sum(), Exact, Never))
+        sums.map(|sum| sum.resize(demodulator.sum(), Proved))
     }
 
     /// The weighted sum of squares of a channel.
@@ -201,12 +201,12 @@ impl<V: Value> FixedSimulation<V> {
     fn estimate(&mut self, pad: usize, clipped: bool) -> Frame {
         let (pad, clipped) = (code(pad as i64, self.quiet.pad.format), bit(clipped));
         let quiet = Inputs { pad, clipped, ..self.quiet };
-        run(self.core.estimator(), &mut self.cell.parts.estimator, &quiet, &self.sums)
+        run(self.core.estimator(), &mut self.state.submodules.estimator, &quiet, &self.sums)
     }
 
     /// The core, and the state of its estimator.
-    pub fn state(&self) -> (&Core, &Cell<Core, V>) {
-        (&self.core, &self.cell)
+    pub fn state(&self) -> (&Core, &State<Core, V>) {
+        (&self.core, &self.state)
     }
 }
 
@@ -216,9 +216,9 @@ impl<V: Value> FixedSimulation<V> {
 /// # Panics
 /// Where it does not finish within its latency.
 #[inline(never)]
-fn run<V: Value>(
+fn run<V: Interpretation>(
     estimator: &Estimator,
-    cell: &mut Cell<Estimator, V>,
+    state: &mut State<Estimator, V>,
     quiet: &Inputs<Signal<V>>,
     sums: &[Signal<V>],
 ) -> Frame {
@@ -228,12 +228,12 @@ fn run<V: Value>(
             Some(&sum) => Inputs { valid: bit(true), index: code(clock as i64, quiet.index.format), sum, ..*quiet },
             None => *quiet,
         };
-        let outputs = estimator.clock(cell, inputs);
-        if V::known(outputs.valid.value) == Some(true) {
-            gathered.take(1, V::code(outputs.index), V::code(outputs.word));
+        let frame = estimator.clock(state, inputs).frames;
+        if V::known(frame.valid.value) == Some(true) {
+            gathered.take(1, V::code(frame.index), V::code(frame.frame));
         }
-        if V::known(outputs.done.value) == Some(true) {
-            return frame(gathered, &outputs);
+        if V::known(frame.done.value) == Some(true) {
+            return gathered.frame(frame);
         }
     }
     unreachable!("the estimator finishes within its latency")
@@ -241,29 +241,18 @@ fn run<V: Value>(
 
 /// A code of the ADC.
 #[inline(always)]
-fn raw<V: Value>(code: i32, adc: Format) -> Signal<V> {
+fn raw<V: Interpretation>(code: i32, adc: Format) -> Signal<V> {
     Signal { value: V::raw(code.into(), adc), format: adc }
 }
 
-fn frame<V: Value>(gathered: Gathered, outputs: &Outputs<Signal<V>>) -> Frame {
-    let code_of = V::code;
-    gathered.frame(
-        code_of(outputs.pad),
-        code_of(outputs.clipped),
-        code_of(outputs.saturated),
-        code_of(outputs.invalid),
-        code_of(outputs.lost),
-    )
-}
-
 /// The estimator's inputs between sums.
-fn quiet<V: Value>(core: &Core, constants: CoreInputs<Signal<V>>) -> Inputs<Signal<V>> {
+fn quiet<V: Interpretation>(core: &Core, constants: CoreInputs<Signal<V>>) -> Inputs<Signal<V>> {
     let zeros = Inputs::map(core.estimator().inputs(), zero);
-    Inputs { capacitance_gain: constants.capacitance_gain, force_gain: constants.force_gain, ..zeros }
+    Inputs { calibration: constants.calibration, ..zeros }
 }
 
 /// What the window makes of tones, with the oscillator's own words.
-fn response<V: Value>(core: &Core, local: &[Local<V>], profile: &Profile) -> Response {
+fn response<V: Interpretation>(core: &Core, local: &[Local<V>], profile: &Profile) -> Response {
     let format = profile.formats.oscillator;
     let real = |value: V| format.real(V::code(Signal { value, format }));
     let polyphase = core.demodulator().polyphase();
@@ -282,18 +271,18 @@ fn response<V: Value>(core: &Core, local: &[Local<V>], profile: &Profile) -> Res
 }
 
 /// The local oscillator over the window of a slot: the oscillator's own, asked once.
-fn local<V: Value>(core: &Core, profile: &Profile) -> Vec<Local<V>> {
+fn local<V: Interpretation>(core: &Core, profile: &Profile) -> Vec<Local<V>> {
     let (oscillator, demodulator) = (core.oscillator(), core.demodulator());
-    let mut cell = oscillator.cell();
+    let mut state = oscillator.reset();
     let (mut local, mut residues) = (Vec::new(), [demodulator.fresh_residue(); 2]);
     for sample in 0..profile.slot.samples() {
         let [restart, first] = [sample == 0, sample == profile.slot.blanking()].map(bit);
         let quiet = Sample { sample: bit(false), restart: bit(false), first: bit(false) };
-        let mut out = oscillator.clock(&mut cell, Sample { sample: bit(true), restart, first });
+        let mut out = oscillator.clock(&mut state, Sample { sample: bit(true), restart, first });
         while V::known(out.ready.value) != Some(true) {
-            out = oscillator.clock(&mut cell, quiet);
+            out = oscillator.clock(&mut state, quiet);
         }
-        let out = oscillator.clock(&mut cell, quiet);
+        let out = oscillator.clock(&mut state, quiet);
         if sample >= profile.slot.blanking() {
             if demodulator.polyphase().is_some() {
                 local.push(Local { cosine: out.cosine.value, sine: out.sine.value, window: out.window.value });

@@ -5,8 +5,10 @@ pub mod clock;
 pub mod fixed;
 mod tone;
 
-use crate::block::{Block, Cell};
+use crate::block::{Block, Interpretation, State};
 use crate::blocks::core::{Core, Inputs, Outputs};
+use crate::blocks::estimator;
+use crate::blocks::position::TablePort;
 use crate::bundle::Bundle;
 use crate::calibration::Calibration;
 use crate::format::Format;
@@ -32,29 +34,32 @@ impl Gathered {
         }
     }
 
-    fn frame(self, pad: i64, clipped: i64, saturated: i64, invalid: i64, lost: i64) -> Frame {
-        let [clipped, saturated, invalid, lost] = [clipped, saturated, invalid, lost].map(|flag| flag != 0);
-        Frame { pad: pad as usize, codes: self.codes, flags: Flags { clipped, saturated, invalid, lost } }
+    /// The frame, with the last word's flags.
+    #[inline(always)]
+    fn frame<V: Value>(self, last: estimator::FramePort<Signal<V>>) -> Frame {
+        let set = |flag: Signal<V>| V::code(flag) != 0;
+        let [clipped, saturated, invalid, lost] = [last.clipped, last.saturated, last.invalid, last.lost].map(set);
+        Frame { pad: V::code(last.pad) as usize, codes: self.codes, flags: Flags { clipped, saturated, invalid, lost } }
     }
 }
 
-/// A cell of a core with the calibration's tables written into it, through its port.
-fn calibrated<V: Value>(core: &Core, calibration: &Calibration) -> Cell<Core, V> {
-    let mut cell = core.cell();
+/// The state of a core with the calibration's tables written into it, through its port.
+fn calibrated<V: Interpretation>(core: &Core, calibration: &Calibration) -> State<Core, V> {
+    let mut state = core.reset();
     let formats = core.inputs();
-    let constants = calibration.inputs(formats);
+    let constants = core.idle_inputs(calibration);
     let memory = core.estimator().position().table();
     for (address, &word) in calibration.position.words.iter().enumerate() {
-        let codes = Inputs { write: 1, address: address as i64, ..constants };
+        let codes = constants.with_table(TablePort { write: 1, address: address as i64, word: 0 });
         let mut inputs = signals::<Inputs, V>(codes, formats);
-        inputs.word = constant(word, memory.format);
-        clock(core, &mut cell, inputs);
+        inputs.calibration.table.word = constant(word, memory.format);
+        clock(core, &mut state, inputs);
     }
-    cell
+    state
 }
 
 /// A clock of a core where nobody waits for it: out of line, so that all who call it share what is large.
 #[inline(never)]
-fn clock<V: Value>(core: &Core, cell: &mut Cell<Core, V>, inputs: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
-    core.clock(cell, inputs)
+fn clock<V: Interpretation>(core: &Core, state: &mut State<Core, V>, inputs: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+    core.clock(state, inputs)
 }

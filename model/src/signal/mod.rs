@@ -1,28 +1,34 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Signals: what blocks compute with. A signal has a format and a value, and what a value *is* depends on the reading.
+//! Signals: what blocks compute with. A signal has a format and a value, and what a value *is* depends on the
+//! interpretation.
 //!
-//! | reading | a value is | gives |
+//! | interpretation | a value is | gives |
 //! | --- | --- | --- |
 //! | [`Clocked`] | a raw code | the cycle-accurate model, at native speed |
-//! | [`Real`](real::Real) | an `f64`, never rounded | what a signal would be with unlimited word length |
-//! | [`Shadow`](shadow::Shadow) | both, control following the code | the rounding error of every signal |
-//! | [`Range`](range::Range) | an interval of codes | a proof that nothing overflows |
-//! | [`Node`](netlist::Node) | a node of a graph | the netlist that is printed as Verilog |
+//! | [`Real`](crate::interpretations::real::Real) | an `f64`, never rounded | what a signal would be with unlimited word length |
+//! | [`Shadow`](crate::interpretations::shadow::Shadow) | both, control following the code | the rounding error of every signal |
+//! | [`Range`](crate::interpretations::range::Range) | an interval of codes | a proof that nothing overflows |
+//! | [`Node`](crate::interpretations::netlist::Node) | a node of a graph | the netlist that is printed as Verilog |
 //!
-//! Operators are exact and infer their format. Only [`Signal::fit`] narrows, and it names its rounding and its overflow.
+//! Operators are exact and infer their format. Only [`Signal::quantize`] and [`Signal::resize`] narrow, and they name their
+//! rounding and their overflow.
+//!
+//! ```
+//! use hapticore_model::format::Format;
+//! use hapticore_model::signal::{Clocked, HalfEven, Saturate, Signal, code};
+//!
+//! let adc = Format::signed(16, 15);
+//! let (x, gain): (Signal<Clocked>, _) = (code(-32768, adc), code(3, Format::unsigned(2, 0)));
+//! let product = x * gain;
+//! assert_eq!((product.value, product.format), (-98304, Format::signed(18, 15)));
+//! assert_eq!(product.quantize(adc, HalfEven, Saturate).value, -32768);
+//! ```
 
-mod clocked;
-pub mod netlist;
 mod operators;
-pub mod range;
-pub mod real;
-pub mod shadow;
 
-use crate::block::{Block, Cell, Inputs, Outputs};
 use crate::format::{BIT, Format};
-use crate::memory::{Memory, Write};
 
-/// The value of the clocked reading: a raw code.
+/// The value of the clocked interpretation: a raw code.
 pub type Clocked = i64;
 
 /// What a narrowing does with the bits below the new least significant one.
@@ -30,7 +36,7 @@ pub type Clocked = i64;
 pub enum Rounding {
     /// To the nearest code, ties to the even one.
     HalfEven,
-    /// Towards minus infinity. Meant, as in a table address: readings without rounding follow it too.
+    /// Towards minus infinity. Meant, as in a table address: interpretations without rounding follow it too.
     Floor,
     /// There are none: the new format has as many fractional bits.
     Exact,
@@ -39,40 +45,38 @@ pub enum Rounding {
 /// What a narrowing does with a number beyond the new format.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Overflow {
-    /// Holds it at the rail.
+    /// Saturates: the nearest code of the format.
     Saturate,
     /// Keeps the low bits, as a phase does.
     Wrap,
-    /// It cannot happen; the range reading proves it.
-    Never,
+    /// It cannot happen; the interpretation as ranges proves it.
+    Proved,
     /// It cannot happen for the reason named, which relates several signals and so is beyond intervals. Test builds check it
-    /// at each clock; those of the divider and the root are held over all codes of small widths, too.
-    Lemma(&'static str),
+    /// at each clock; those of the divider and the square root are verified for all codes of small widths, too.
+    Assumed(&'static str),
 }
 
-pub use Overflow::{Lemma, Never, Saturate, Wrap};
+pub use Overflow::{Assumed, Proved, Saturate, Wrap};
 pub use Rounding::{Exact, Floor, HalfEven};
 
 /// A signal: a value, and the format in which it is read.
 #[derive(Debug, Clone, Copy)]
 pub struct Signal<V> {
-    /// What the reading makes of it.
+    /// What the interpretation makes of it.
     pub value: V,
     /// How its code is read as a number.
     pub format: Format,
 }
 
-/// One way to read a block. Every operation is told the exact format of its result.
+/// What a signal's value may be: the arithmetic of an interpretation. Every operation is told the exact format of its result.
 pub trait Value: Copy + std::fmt::Debug + 'static {
-    /// What a memory holds.
-    type Words: Clone + std::fmt::Debug;
     /// Whether formats are checked at every register and port as it runs (elsewhere only in debug builds).
     const ELABORATES: bool = false;
 
     /// Whether every bit is known as it runs.
     const DECIDES: bool = false;
 
-    /// A constant: the number `real`, to the nearest code where the reading has codes.
+    /// A constant: the number `real`, to the nearest code where the interpretation has codes.
     fn literal(real: f64, format: Format) -> Self;
     /// The sum of two signals.
     fn add(a: Signal<Self>, b: Signal<Self>, to: Format) -> Self;
@@ -80,7 +84,7 @@ pub trait Value: Copy + std::fmt::Debug + 'static {
     fn sub(a: Signal<Self>, b: Signal<Self>, to: Format) -> Self;
     /// The product of two signals.
     fn mul(a: Signal<Self>, b: Signal<Self>, to: Format) -> Self;
-    /// The square of a signal, which a reading may know to be positive.
+    /// The square of a signal, which an interpretation may know to be positive.
     #[inline(always)]
     fn square(a: Signal<Self>, to: Format) -> Self {
         Self::mul(a, a, to)
@@ -88,7 +92,7 @@ pub trait Value: Copy + std::fmt::Debug + 'static {
     /// The magnitude of a signal.
     fn abs(a: Signal<Self>, to: Format) -> Self;
     /// The signal in a narrower or wider format.
-    fn fit(a: Signal<Self>, to: Format, rounding: Rounding, overflow: Overflow) -> Self;
+    fn quantize(a: Signal<Self>, to: Format, rounding: Rounding, overflow: Overflow) -> Self;
     /// The same code with its point moved: the number times `2^by`.
     fn scale(a: Self, by: i8) -> Self;
     /// The `to.width` bits of the code from bit `low` up, as an unsigned integer.
@@ -108,16 +112,16 @@ pub trait Value: Copy + std::fmt::Debug + 'static {
     /// `a` where the bit is set, else `b`.
     fn select(bit: Self, a: Signal<Self>, b: Signal<Self>, to: Format) -> Self;
 
-    /// The lesser of two signals of one format; a reading of intervals knows that it is at most either.
+    /// The lesser of two signals of one format; as an interval it is known to be at most either.
     #[inline(always)]
     fn at_most(a: Signal<Self>, most: Signal<Self>) -> Self {
         Self::select(Self::less(most, a), most, a, a.format)
     }
 
-    /// In readings without rounding: what `ideal` makes of the operands. In all others: `a` itself. With it a block that
-    /// approximates (a table) or works digit by digit (a division) says what it approximates.
+    /// In interpretations without rounding: the golden model `ideal` of the operands. In all others: `a` itself. With it a
+    /// block that approximates (a table) or works digit by digit (a division) says what it approximates.
     #[inline(always)]
-    fn ideally(a: Self, _operands: &[Signal<Self>], _ideal: fn(&[f64]) -> f64) -> Self {
+    fn golden(a: Self, _operands: &[Signal<Self>], _ideal: fn(&[f64]) -> f64) -> Self {
         a
     }
 
@@ -127,40 +131,11 @@ pub trait Value: Copy + std::fmt::Debug + 'static {
         Self::literal(format.real(code), format)
     }
 
-    /// The code that a signal has, in readings that have one; the nearest in others.
+    /// The code that a signal has, in interpretations that have one; the nearest in others.
     fn code(a: Signal<Self>) -> i64;
 
-    /// What a bit is, where the reading knows.
+    /// What a bit is, where the interpretation knows.
     fn known(bit: Self) -> Option<bool>;
-
-    /// Whether a block may leave this clock out because `busy` is not set.
-    fn idle(_busy: Self) -> bool {
-        false
-    }
-
-    /// The words of a memory at reset, and its read register.
-    fn words(memory: &Memory) -> Self::Words;
-    /// What the read register of a memory holds.
-    fn data(memory: &Memory, words: &mut Self::Words) -> Self;
-    /// One clock of a memory: reads the old word at `address` into the read register, and writes.
-    fn access(memory: &Memory, words: &mut Self::Words, address: Signal<Self>, write: Option<Write<Self>>);
-
-    /// One clock of a block within another; the netlist reading makes it an instance of a module.
-    #[inline(always)]
-    fn instance<B: Block>(
-        block: &B,
-        _name: &'static str,
-        cell: &mut Cell<B, Self>,
-        inputs: Inputs<B, Signal<Self>>,
-    ) -> Outputs<B, Signal<Self>> {
-        block.clock(cell, inputs)
-    }
-
-    /// A name for a signal within a block, which the netlist reading prints.
-    #[inline(always)]
-    fn name(a: Signal<Self>, _name: &'static str) -> Signal<Self> {
-        a
-    }
 }
 
 /// A constant by its code.
@@ -181,7 +156,7 @@ pub fn int<V: Value>(value: u64) -> Signal<V> {
     code(value as i64, Format::counter(value))
 }
 
-/// A constant by its number, which need not be known exactly: readings without rounding have it as it is. Not for a block's
+/// A constant by its number, which need not be a code: interpretations without rounding have it as it is. Not for a block's
 /// clock, where [`code`] is quicker.
 #[inline(always)]
 pub fn constant<V: Value>(real: f64, format: Format) -> Signal<V> {
@@ -194,43 +169,66 @@ pub fn bit<V: Value>(set: bool) -> Signal<V> {
     code(i64::from(set), BIT)
 }
 
-/// Whether a bit is set, in readings that know.
+/// Whether a bit is set, in interpretations that know.
 #[inline(always)]
 pub fn is_set<V: Value>(bit: Signal<V>) -> bool {
     V::known(bit.value) == Some(true)
 }
 
+/// Whether the interpretation knows a bit.
+#[inline(always)]
+pub fn is_known<V: Value>(bit: &Signal<V>) -> bool {
+    V::known(bit.value).is_some()
+}
+
+/// Whether the interpretation of a signal knows every bit.
+#[inline(always)]
+pub fn decides<V: Value>(_signal: &Signal<V>) -> bool {
+    V::DECIDES
+}
+
 impl<V: Value> Signal<V> {
-    /// The signal in the format `to`; what is lost on the way is named.
-    ///
-    /// # Panics
-    /// Where `rounding` is [`Exact`] and `to` has fewer fractional bits.
+    /// The signal narrowed to the format `to`: what is lost below its least significant bit and beyond its range is named.
     #[inline(always)]
-    pub fn fit(self, to: Format, rounding: Rounding, overflow: Overflow) -> Self {
-        debug_assert!(rounding != Exact || to.frac >= self.format.frac, "{} → {to} is not exact", self.format);
-        if V::ELABORATES {
+    pub fn quantize(self, to: Format, rounding: Rounding, overflow: Overflow) -> Self {
+        if V::ELABORATES || cfg!(debug_assertions) {
             assert!(rounding != Exact || to.frac >= self.format.frac, "{} → {to} is not exact", self.format);
         }
-        Signal { value: V::fit(self, to, rounding, overflow), format: to }
+        Signal { value: V::quantize(self, to, rounding, overflow), format: to }
     }
 
-    /// The same number in a format that holds its own: a reading that computes with codes aligns it once, here, and not at
+    /// The same number in the format `to`, which has no fewer fractional bits; what is lost beyond its range is named.
+    ///
+    /// # Panics
+    /// In debug builds and where blocks are elaborated, where `to` has fewer fractional bits.
+    #[inline(always)]
+    pub fn resize(self, to: Format, overflow: Overflow) -> Self {
+        self.quantize(to, Exact, overflow)
+    }
+
+    /// The count after this one, of as many bits: the last code is followed by zero.
+    #[inline(always)]
+    pub fn increment(self) -> Self {
+        (self + int(1)).resize(self.format, Wrap)
+    }
+
+    /// The same number in a format that can represent its own: an interpretation as codes aligns it once, here, and not at
     /// every operation that it meets others in. To all others it is the signal as it was.
     #[inline(always)]
-    pub fn aligned(self, to: Format) -> Self {
-        if V::DECIDES { self.fit(to, Exact, Never) } else { self }
+    pub fn align_point(self, to: Format) -> Self {
+        if V::DECIDES { self.resize(to, Proved) } else { self }
     }
 
-    /// As [`Signal::fit`] with saturation, and a bit that says whether it held the number at a rail.
+    /// As [`Signal::quantize`] with saturation, and a bit that says whether the number saturated.
     #[inline(always)]
     pub fn saturate(self, to: Format, rounding: Rounding) -> (Self, Self) {
         let integer = self.format.integer_bits() + 1;
         let signed = self.format.signed;
         let width = (integer + i16::from(to.frac) + i16::from(signed)).max(i16::from(to.width)) as u8;
-        let rounded = self.fit(Format { signed, width, frac: to.frac }, rounding, Never);
-        let held = rounded.fit(to, Exact, Saturate);
-        let beyond = rounded.beyond(to).ideally(&[held, rounded], |of| f64::from(u8::from(of[0] != of[1])));
-        (held, beyond)
+        let rounded = self.quantize(Format { signed, width, frac: to.frac }, rounding, Proved);
+        let limited = rounded.resize(to, Saturate);
+        let saturated = rounded.beyond(to).golden(&[limited, rounded], |of| f64::from(u8::from(of[0] != of[1])));
+        (limited, saturated)
     }
 
     /// Whether the code, read as one of `to`, is not this number: bits from its sign up are not all alike.
@@ -264,7 +262,7 @@ impl<V: Value> Signal<V> {
     /// The number whose code in the format `to` this integer is: the low bits of it, where it has more.
     #[inline(always)]
     pub fn as_code(self, to: Format) -> Self {
-        self.fit(to.integer(), Exact, Wrap).scaled(-to.frac)
+        self.resize(to.integer(), Wrap).scaled(-to.frac)
     }
 
     /// The magnitude; that of the most negative code too.
@@ -341,21 +339,9 @@ impl<V: Value> Signal<V> {
         Signal { value: V::select(self.value, a, b, to), format: to }
     }
 
-    /// See [`Value::ideally`].
+    /// See [`Value::golden`].
     #[inline(always)]
-    pub fn ideally(self, operands: &[Self], ideal: fn(&[f64]) -> f64) -> Self {
-        Signal { value: V::ideally(self.value, operands, ideal), ..self }
-    }
-
-    /// Whether a block may leave this clock out, this bit (started or busy) not being set.
-    #[inline(always)]
-    pub fn idle(self) -> bool {
-        V::idle(self.value)
-    }
-
-    /// Names the signal, for those who read the netlist.
-    #[inline(always)]
-    pub fn named(self, name: &'static str) -> Self {
-        V::name(self, name)
+    pub fn golden(self, operands: &[Self], ideal: fn(&[f64]) -> f64) -> Self {
+        Signal { value: V::golden(self.value, operands, ideal), ..self }
     }
 }

@@ -17,7 +17,7 @@ use hapticore_model::fidelity::fixed::FixedSimulation;
 use hapticore_model::format::Format;
 use hapticore_model::frame::Reading;
 use hapticore_model::profile::Profile;
-use hapticore_model::reference::Reference;
+use hapticore_reference::Reference;
 
 const SLOTS: usize = if cfg!(optimised) { 300 } else { 20 };
 const NAMES: [&str; 5] = ["r_x", "x_mm", "capacitance", "force", "mean_square"];

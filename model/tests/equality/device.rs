@@ -20,7 +20,7 @@ fn shortened(mut profile: Profile) -> Profile {
         let mut profile = profile.clone();
         profile.slot.settle = settle;
         let profile = profile.with_window(samples);
-        profile.check().is_ok().then_some(profile)
+        hapticore_model::check(&profile).is_ok().then_some(profile)
     };
     (0..1000).find_map(|periods| with_settle(98 + 5 * periods)).expect("a slot longer than the estimator takes")
 }

@@ -5,7 +5,7 @@ use crate::harness::{Bench, within};
 use hapticore_model::blocks::divider::{self, Divider};
 use hapticore_model::blocks::root::{self, Root};
 use hapticore_model::format::Format;
-use hapticore_model::reference::rounded::{Exact, round_quotient, round_root};
+use hapticore_reference::rounded::{Exact, round_quotient, round_root};
 
 fn check_divider(numerator: &str, denominator: &str, quotient: &str) {
     let [n, d, q] = [numerator, denominator, quotient].map(|text| text.parse::<Format>().expect("a format"));
@@ -30,7 +30,7 @@ fn divide(bench: &mut Bench<Divider>, numerator: i64, denominator: i64, case: &s
         }
         start = 0;
         bench.check_registers();
-        let r = &bench.cell.registers;
+        let r = &bench.state.registers;
         // In the clock after the start it is looked at whether the quotient fits.
         let below = r.count == 0 || r.remainder < denominator || r.over == 1;
         assert!(below, "clock {}, {case}: the remainder {} is below the denominator", bench.clock, r.remainder);
@@ -79,7 +79,7 @@ fn take_root(bench: &mut Bench<Root>, radicand: i64) -> root::Outputs<i64> {
         }
         start = 0;
         bench.check_registers();
-        let r = &bench.cell.registers;
+        let r = &bench.state.registers;
         assert!(within(r.remainder, Format::unsigned(62, 0)) && r.remainder <= 2 * r.partial, "√{radicand}");
     }
 }

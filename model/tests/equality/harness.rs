@@ -2,11 +2,11 @@
 //! The bench on which a block is clocked, and the comparison that tells all when it fails.
 
 use crate::random::Random;
-use hapticore_model::block::{Block, Cell, Inputs, Outputs, sample, variables};
+use hapticore_model::block::{Block, Inputs, Interpretation, Outputs, State};
 use hapticore_model::bundle::Bundle;
 use hapticore_model::format::Format;
-use hapticore_model::probe::Variable;
-use hapticore_model::signal::{Signal, Value};
+use hapticore_model::probe::{Variable, sample, variables};
+use hapticore_model::signal::Signal;
 
 /// Operations of a test: all of them where code is optimised, a few where it is not.
 pub fn operations(all: u64) -> u64 {
@@ -17,16 +17,16 @@ pub fn operations(all: u64) -> u64 {
 pub type Port = (&'static str, i64);
 
 /// A block under test.
-pub struct Bench<B: Block, V: Value = i64> {
+pub struct Bench<B: Block, V: Interpretation = i64> {
     pub block: B,
-    pub cell: Cell<B, V>,
+    pub state: State<B, V>,
     pub clock: u64,
 }
 
-impl<B: Block, V: Value> Bench<B, V> {
+impl<B: Block, V: Interpretation> Bench<B, V> {
     /// The block at reset, in some reading.
     pub fn read(block: B) -> Self {
-        Bench { cell: block.cell(), block, clock: 0 }
+        Bench { state: block.reset(), block, clock: 0 }
     }
 
     /// One clock.
@@ -34,7 +34,7 @@ impl<B: Block, V: Value> Bench<B, V> {
         let with_formats = B::Inputs::zip(inputs, self.block.inputs());
         let signals = B::Inputs::map(with_formats, |(code, format)| Signal { value: V::raw(code, format), format });
         self.clock += 1;
-        let outputs = self.block.clock(&mut self.cell, signals);
+        let outputs = self.block.clock(&mut self.state, signals);
         B::Outputs::map(outputs, V::code)
     }
 
@@ -53,7 +53,7 @@ impl<B: Block, V: Value> Bench<B, V> {
     /// Every register, and what it holds.
     pub fn registers(&self) -> impl Iterator<Item = (Variable, V)> + use<B, V> {
         let mut values = Vec::new();
-        sample(&self.block, &self.cell, &mut values);
+        sample(&self.block, &self.state, &mut values);
         variables(&self.block, B::NAME).into_iter().zip(values)
     }
 }
@@ -111,7 +111,7 @@ pub fn cases<B: Block>(block: &B, count: u64, seed: u64) -> impl Iterator<Item =
 
 /// The code of the field of a name.
 pub fn field<S: Bundle>(bundle: S::Of<i64>, name: &str) -> i64 {
-    let wanted = S::NAMES.iter().position(|&field| field == name);
+    let wanted = S::FIELDS.iter().position(|field| field.name == name);
     let (mut found, mut index) = (None, 0);
     S::map(bundle, |code| {
         if Some(index) == wanted {
@@ -119,12 +119,12 @@ pub fn field<S: Bundle>(bundle: S::Of<i64>, name: &str) -> i64 {
         }
         index += 1;
     });
-    found.unwrap_or_else(|| panic!("there is no {name} among {:?}", S::NAMES))
+    found.unwrap_or_else(|| panic!("there is no {name} among {:?}", S::FIELDS))
 }
 
 /// The bundle with another code in the field of a name.
 fn with<S: Bundle>(bundle: S::Of<i64>, name: &str, code: i64) -> S::Of<i64> {
-    let wanted = S::NAMES.iter().position(|&field| field == name);
+    let wanted = S::FIELDS.iter().position(|field| field.name == name);
     let mut index = 0;
     S::map(bundle, |before| {
         index += 1;
@@ -135,6 +135,6 @@ fn with<S: Bundle>(bundle: S::Of<i64>, name: &str, code: i64) -> S::Of<i64> {
 /// Every field by name.
 pub fn show<S: Bundle>(bundle: S::Of<i64>) -> String {
     let mut text = Vec::new();
-    S::each(bundle, |name, code| text.push(format!("{name} {code}")));
+    S::each(bundle, |field, code| text.push(format!("{} {code}", field.name)));
     text.join(", ")
 }

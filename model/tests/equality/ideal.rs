@@ -4,7 +4,7 @@
 use crate::device::{self, Sight, calibration, tone_codes, tones};
 use crate::random::Random;
 use hapticore_model::profile::Profile;
-use hapticore_model::reference::Reference;
+use hapticore_reference::Reference;
 use std::f64::consts::TAU;
 
 fn close(a: f64, b: f64, relative: f64) -> bool {
@@ -20,7 +20,7 @@ fn phasor((amplitude, turns): (f64, f64)) -> (f64, f64) {
 fn the_root_form_gives_the_capacitance_back() {
     let profile = Profile::bundled("standard").expect("bundled");
     let calibration = calibration(&profile);
-    let (mut reference, mut random) = (Reference::new(&profile, &calibration), Random::new(1));
+    let (mut reference, mut random) = (Reference::<f64>::new(&profile, &calibration), Random::new(1));
     for _ in 0..1000 {
         let shares: Vec<f64> = tones(&profile, &mut random).phasors.iter().map(|&(share, _)| share).collect();
         let (voltage, terminals) = shares.split_last().expect("there are channels");
@@ -50,7 +50,7 @@ fn the_root_form_gives_the_capacitance_back() {
 fn a_window_of_codes_reads_as_its_phasors() {
     for (seed, profile) in (0..).zip(Profile::all()) {
         let calibration = calibration(&profile);
-        let (mut reference, mut random) = (Reference::new(&profile, &calibration), Random::new(seed));
+        let (mut reference, mut random) = (Reference::<f64>::new(&profile, &calibration), Random::new(seed));
         for _ in 0..20 {
             let tones = tones(&profile, &mut random);
             let window = profile.slot.blanking()..profile.slot.samples();
@@ -68,7 +68,7 @@ fn a_window_of_codes_reads_as_its_phasors() {
 #[test]
 fn what_is_invalid_holds_the_last_of_its_pad() {
     let profile = Profile::bundled("small").expect("bundled");
-    let (mut reference, mut random) = (Reference::new(&profile, &calibration(&profile)), Random::new(7));
+    let (mut reference, mut random) = (Reference::<f64>::new(&profile, &calibration(&profile)), Random::new(7));
     let mut slot = |pad: usize, sight: Sight| {
         let codes = device::codes(&profile, sight, &mut random);
         let reading = reference.slot(pad, &codes[profile.slot.blanking() as usize * profile.channels()..]);

@@ -5,9 +5,11 @@ use crate::device::{self, Sight, calibration, short_profiles};
 use crate::harness::{Bench, show};
 use crate::never_idle::NeverIdle;
 use crate::random::Random;
-use hapticore_model::block::{Block, Inputs, Outputs, sample};
+use hapticore_model::block::{Block, Inputs, Outputs};
 use hapticore_model::blocks::core::{self, Core};
+use hapticore_model::blocks::position::TablePort;
 use hapticore_model::bundle::Bundle;
+use hapticore_model::probe::sample;
 use hapticore_model::profile::Profile;
 
 /// Slots of each profile.
@@ -24,8 +26,8 @@ fn skipping_changes_no_bit_on_any_clock() {
             assert_same_outputs::<Core>(skips.clock, inputs, got, expected);
             registers.clear();
             of_never.clear();
-            sample(&skips.block, &skips.cell, &mut registers);
-            sample(&never.block, &never.cell, &mut of_never);
+            sample(&skips.block, &skips.state, &mut registers);
+            sample(&never.block, &never.state, &mut of_never);
             if !registers.iter().zip(&of_never).all(|(a, b)| *a == b.0) {
                 let pairs = skips.registers().zip(never.registers());
                 let differs = |((variable, a), (_, b)): &_| -> Option<String> {
@@ -60,10 +62,10 @@ pub fn assert_same_outputs<B: Block>(
 pub fn drive_core(profile: &Profile, slots: u64, mut clock: impl FnMut(core::Inputs<i64>) -> core::Outputs<i64>) {
     let core = Core::new(profile);
     let calibration = calibration(profile);
-    let constants = calibration.inputs(core.inputs());
+    let constants = core.idle_inputs(&calibration);
     for (address, &word) in (0..).zip(&calibration.position.words) {
         let word = profile.formats.table.code_saturating(word);
-        clock(core::Inputs { write: 1, address, word, ..constants });
+        clock(constants.with_table(TablePort { write: 1, address, word }));
     }
     let mut random = Random::new(slots);
     let mut channel = 0;

@@ -4,7 +4,7 @@
 //! Codes are `i128`, so that no word is short of bits; a wire that leaves its format is a failure at once.
 
 use hapticore_model::format::Format;
-use hapticore_model::signal::netlist::{Module, Named, Netlist, Node, Op, Ram};
+use hapticore_model::interpretations::netlist::{Module, Named, Netlist, Node, Op, Ram};
 use hapticore_model::signal::{Overflow, Rounding};
 
 /// What a module holds.

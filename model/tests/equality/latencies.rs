@@ -12,6 +12,7 @@ use hapticore_model::blocks::estimator::{self, Estimator};
 use hapticore_model::blocks::force::Force;
 use hapticore_model::blocks::frames::Frames;
 use hapticore_model::blocks::oscillator::{self, Oscillator};
+use hapticore_model::blocks::position::TablePort;
 use hapticore_model::blocks::position::{self, Position};
 use hapticore_model::blocks::ratio::Ratio;
 use hapticore_model::blocks::root::Root;
@@ -68,7 +69,10 @@ fn ratio() {
 fn position() {
     for profile in Profile::all() {
         let block = Position::new(&profile);
-        check_latency_of(block.clone(), block.latency(), |i| position::Inputs { write: 0, ..i });
+        check_latency_of(block.clone(), block.latency(), |i: position::Inputs<i64>| position::Inputs {
+            table: TablePort { write: 0, ..i.table },
+            ..i
+        });
     }
 }
 
@@ -143,7 +147,7 @@ fn estimator() {
         for index in 0..=sums {
             bench.clock(estimator::Inputs { valid: 1, index, sum: 1 << 20, ..quiet });
         }
-        let measured = (1..10_000).find(|_| bench.clock(quiet).done == 1);
+        let measured = (1..10_000).find(|_| bench.clock(quiet).frames.done == 1);
         assert_eq!(measured, Some(bench.block.latency()), "clocks from the last sum to the last word");
     }
 }
@@ -158,7 +162,7 @@ fn core() {
             bench.clock(core::Inputs { strobe: (clock % clocks == 0).into(), code: 100, ..quiet });
         }
         bench.clock(core::Inputs { strobe: 1, ..quiet });
-        let measured = (1..10_000).find(|_| bench.clock(quiet).done == 1);
+        let measured = (1..10_000).find(|_| bench.clock(quiet).frames.done == 1);
         let latency = bench.block.latency();
         assert_eq!(measured, Some(latency), "{}: clocks from the last strobe to the last word", profile.name);
     }

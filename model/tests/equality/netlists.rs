@@ -7,8 +7,8 @@ use crate::idle::{assert_same_outputs, drive_core, flat};
 use crate::interpreter::State;
 use hapticore_model::blocks::core::{self, Core};
 use hapticore_model::bundle::Bundle;
+use hapticore_model::interpretations::netlist::Netlist;
 use hapticore_model::profile::Profile;
-use hapticore_model::signal::netlist::Netlist;
 
 /// Slots of each profile.
 const SLOTS: u64 = if cfg!(optimised) { 8 } else { 1 };
@@ -56,7 +56,7 @@ fn compare_registers(
     let place = |name: &String| interpreted.iter().position(|(other, _)| other == name).expect("the same registers");
     let order = order.get_or_insert_with(|| names.iter().map(place).collect());
     let mut codes = Vec::new();
-    hapticore_model::block::sample(&bench.block, &bench.cell, &mut codes);
+    hapticore_model::probe::sample(&bench.block, &bench.state, &mut codes);
     for ((name, code), &at) in names.iter().zip(codes).zip(order.iter()) {
         let reference = interpreted[at].1;
         assert_eq!(i128::from(code), reference, "clock {}: {name}: clocked, netlist", bench.clock);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The clocked reading, except that no block may ever leave a clock out.
+//! The clocked interpretation, except that no block may ever leave a clock out.
 
+use hapticore_model::block::Interpretation;
 use hapticore_model::format::Format;
-use hapticore_model::memory::{Memory, Write};
+use hapticore_model::memory::{Memory, Storage, Write};
 use hapticore_model::signal::{Overflow, Rounding, Signal, Value};
 
 /// A raw code.
@@ -14,8 +15,6 @@ fn of(a: Signal<NeverIdle>) -> Signal<i64> {
 }
 
 impl Value for NeverIdle {
-    type Words = <i64 as Value>::Words;
-
     fn literal(real: f64, format: Format) -> Self {
         NeverIdle(i64::literal(real, format))
     }
@@ -34,8 +33,8 @@ impl Value for NeverIdle {
     fn abs(a: Signal<Self>, to: Format) -> Self {
         NeverIdle(<i64 as Value>::abs(of(a), to))
     }
-    fn fit(a: Signal<Self>, to: Format, rounding: Rounding, overflow: Overflow) -> Self {
-        NeverIdle(i64::fit(of(a), to, rounding, overflow))
+    fn quantize(a: Signal<Self>, to: Format, rounding: Rounding, overflow: Overflow) -> Self {
+        NeverIdle(i64::quantize(of(a), to, rounding, overflow))
     }
     fn scale(a: Self, by: i8) -> Self {
         NeverIdle(i64::scale(a.0, by))
@@ -73,6 +72,11 @@ impl Value for NeverIdle {
     fn known(bit: Self) -> Option<bool> {
         Some(bit.0 != 0)
     }
+}
+
+impl Storage for NeverIdle {
+    type Words = <i64 as Storage>::Words;
+
     fn words(memory: &Memory) -> Self::Words {
         i64::words(memory)
     }
@@ -84,3 +88,5 @@ impl Value for NeverIdle {
         i64::access(memory, words, of(address), write);
     }
 }
+
+impl Interpretation for NeverIdle {}

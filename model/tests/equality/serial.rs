@@ -4,17 +4,17 @@
 use crate::device::calibration;
 use crate::harness::{Bench, cases, check};
 use crate::random::Random;
-use hapticore_model::block::Block;
 use hapticore_model::blocks::capacitance::{self, Capacitance};
 use hapticore_model::blocks::currents::Currents;
 use hapticore_model::blocks::divider::Divider;
 use hapticore_model::blocks::force::Force;
+use hapticore_model::blocks::position::TablePort;
 use hapticore_model::blocks::position::{self, Position};
 use hapticore_model::blocks::ratio::{self, Ratio};
 use hapticore_model::blocks::root::Root;
 use hapticore_model::format::Format;
 use hapticore_model::profile::Profile;
-use hapticore_model::reference::rounded::{self, Exact, round_quotient, round_root};
+use hapticore_reference::rounded::{self, Exact, round_quotient, round_root};
 
 /// Operations of each block over all profiles.
 const MILLION: u64 = 1_000_000;
@@ -90,10 +90,11 @@ fn places_are_those_of_the_rounded_newton_steps() {
         let words: Vec<i64> = if seed < 3 { of_device.collect() } else { any };
         let mut bench = Bench::new(block);
         for (address, &word) in words.iter().enumerate() {
-            bench.clock(position::Inputs { write: 1, address: address as i64, word, ..no_place() });
+            bench
+                .clock(position::Inputs { table: TablePort { write: 1, address: address as i64, word }, ..no_place() });
         }
         let words: Vec<Exact> = words.into_iter().map(|word| Exact::of(word, f.table)).collect();
-        let quiet = |i| position::Inputs { write: 0, ..i };
+        let quiet = |i: position::Inputs<i64>| position::Inputs { table: TablePort { write: 0, ..i.table }, ..i };
         let cases = cases(&bench.block, MILLION / 1000, seed).map(quiet);
         let reference = rounded::Position::new(&profile, &words);
         check(&mut bench, cases, |i| {
@@ -108,7 +109,7 @@ fn places_are_those_of_the_rounded_newton_steps() {
 }
 
 fn no_place() -> position::Inputs<i64> {
-    position::Inputs { start: 0, r_x: 0, r_y: 0, share: 0, write: 0, address: 0, word: 0 }
+    position::Inputs::of(0)
 }
 
 #[test]

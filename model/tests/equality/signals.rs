@@ -3,10 +3,10 @@
 //! itself; the range reading holds whatever happens within its operands' ranges.
 
 use hapticore_model::format::Format;
-use hapticore_model::reference::rounded::{Exact, round};
-use hapticore_model::signal::range::{Range, take_violations, whole};
-use hapticore_model::signal::real::Real;
-use hapticore_model::signal::{Exact as NoRounding, Floor, HalfEven, Never, Saturate, Signal, Value, Wrap};
+use hapticore_model::interpretations::range::{Range, take_violations, whole};
+use hapticore_model::interpretations::real::Real;
+use hapticore_model::signal::{Floor, HalfEven, Proved, Saturate, Signal, Value, Wrap};
+use hapticore_reference::rounded::{Exact, round};
 use proptest::prelude::*;
 
 /// What a format reads from a code.
@@ -94,10 +94,10 @@ fn read<V: Value>(expression: &Expression, operands: [Signal<V>; 2]) -> Signal<V
             if *frac >= a.format.frac || width < 2 {
                 return a;
             }
-            a.fit(Format { width: width as u8, frac: *frac, ..a.format }, HalfEven, Never)
+            a.quantize(Format { width: width as u8, frac: *frac, ..a.format }, HalfEven, Proved)
         }
-        Held(a, to) => of(a).fit(*to, HalfEven, Saturate),
-        Wrapped(a, to) => of(a).fit(*to, Floor, Wrap),
+        Held(a, to) => of(a).quantize(*to, HalfEven, Saturate),
+        Wrapped(a, to) => of(a).quantize(*to, Floor, Wrap),
     }
 }
 
@@ -125,18 +125,18 @@ proptest! {
 
     #[test]
     fn narrowings_round_and_hold_as_named(a in signals(), to in formats()) {
-        let held = a.fit(to, HalfEven, Saturate);
+        let held = a.quantize(to, HalfEven, Saturate);
         let expected = round(exact(a), to);
         prop_assert_eq!(exact(held), expected.value);
         let (value, flag) = a.saturate(to, HalfEven);
         prop_assert_eq!((exact(value), flag.value != 0), (expected.value, expected.held));
         let span = 1i128 << to.width;
         let floor = exact(a).scaled(to.frac).floor();
-        let wrapped = a.fit(to, Floor, Wrap).value;
+        let wrapped = a.quantize(to, Floor, Wrap).value;
         prop_assert_eq!((i128::from(wrapped) - floor).rem_euclid(span), 0);
         prop_assert!(whole(to).holds(Range::point(wrapped.into())));
         let wide = a.format.join(to);
-        prop_assert_eq!(exact(a.fit(wide, NoRounding, Never)), exact(a));
+        prop_assert_eq!(exact(a.resize(wide, Proved)), exact(a));
     }
 
     #[test]
@@ -162,8 +162,8 @@ proptest! {
     #[test]
     fn rounding_moves_a_number_by_half_a_step_at_most(a in signals(), to in formats()) {
         let wide = Format { signed: true, width: 30, frac: to.frac };
-        let rounded = exact(a.fit(wide, HalfEven, Never)).real();
-        prop_assert!((rounded - real(a).fit(wide, HalfEven, Never).value.0).abs() <= to.lsb() / 2.0);
+        let rounded = exact(a.quantize(wide, HalfEven, Proved)).real();
+        prop_assert!((rounded - real(a).quantize(wide, HalfEven, Proved).value.0).abs() <= to.lsb() / 2.0);
     }
 
     #[test]

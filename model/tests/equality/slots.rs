@@ -4,15 +4,16 @@
 use crate::device::{self, Sight, calibration, short_profiles};
 use crate::harness::{Bench, operations, show};
 use crate::random::Random;
-use hapticore_model::block::Block;
+use hapticore_model::blocks::core::Core;
 use hapticore_model::blocks::estimator::{self, Estimator};
+use hapticore_model::blocks::position::TablePort;
 use hapticore_model::bundle::Bundle;
 use hapticore_model::calibration::Calibration;
 use hapticore_model::fidelity::clock::ClockSimulation;
 use hapticore_model::fidelity::fixed::FixedSimulation;
 use hapticore_model::frame::{Flags, Frame};
 use hapticore_model::profile::Profile;
-use hapticore_model::reference::rounded::{Exact, Slots, Sums};
+use hapticore_reference::rounded::{Exact, Slots, Sums};
 
 fn check_slots(profile: &Profile, slots: usize, seed: u64) {
     let calibration = calibration(profile);
@@ -74,13 +75,10 @@ fn calibrate(bench: &mut Bench<Estimator>, profile: &Profile, calibration: &Cali
     let f = &profile.formats;
     let zero = estimator::Inputs::map(bench.block.inputs(), |_| 0);
     for (address, &word) in (0..).zip(&calibration.position.words) {
-        bench.clock(estimator::Inputs { write: 1, address, word: f.table.code_saturating(word), ..zero });
+        let table = TablePort { write: 1, address, word: f.table.code_saturating(word) };
+        bench.clock(estimator::Inputs { calibration: estimator::Calibration { table, ..zero.calibration }, ..zero });
     }
-    estimator::Inputs {
-        capacitance_gain: f.capacitance_gain.code_saturating(calibration.capacitance_gain),
-        force_gain: f.force_gain.code_saturating(calibration.force_gain),
-        ..zero
-    }
+    estimator::Inputs { calibration: Core::new(profile).idle_inputs(calibration).calibration, ..zero }
 }
 
 fn check_sums(
@@ -99,9 +97,9 @@ fn check_sums(
     }
     let mut codes = [0; 8];
     let done = (0..10_000).find_map(|_| {
-        let out = bench.clock(constants);
+        let out = bench.clock(constants).frames;
         if out.valid == 1 {
-            codes[out.index as usize] = out.word;
+            codes[out.index as usize] = out.frame;
         }
         (out.done == 1).then_some(out)
     });

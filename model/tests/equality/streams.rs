@@ -3,7 +3,6 @@
 
 use crate::harness::{Bench, operations};
 use crate::random::Random;
-use hapticore_model::block::Block;
 use hapticore_model::blocks::currents::{self, Currents};
 use hapticore_model::blocks::demodulator::{self, Demodulator};
 use hapticore_model::blocks::frames::{self, Field, Frames};
@@ -13,7 +12,7 @@ use hapticore_model::blocks::oscillator::{self, Oscillator};
 use hapticore_model::bundle::Bundle;
 use hapticore_model::format::Format;
 use hapticore_model::profile::{Method, Profile, Window};
-use hapticore_model::reference::rounded::{self, Exact, Sample};
+use hapticore_reference::rounded::{self, Exact, Sample};
 
 const MILLION: u64 = 1_000_000;
 

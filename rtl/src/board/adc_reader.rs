@@ -37,68 +37,83 @@
 
 use super::bits::{flag, next, read_as, word};
 use super::parameters::Parameters;
-use hapticore_model::block::{Block, Cell};
+use hapticore_model::block::{Block, Interpretation, State};
 use hapticore_model::format::{BIT, Format};
 use hapticore_model::profile::Profile;
-use hapticore_model::signal::{Signal, Value, bit, int, zero};
-use hapticore_model::{bundle, when};
+use hapticore_model::signal::{Signal, bit, int, zero};
+use hapticore_model::{block, when};
 
-bundle! {
-    /// The inputs.
-    pub struct Inputs {
+block! {
+    /// The reader of an ADC.
+    pub struct AdcReader("adc_reader") {
+        /// Cycles per sample.
+        period: u64,
+        /// Cycles of a conversion.
+        conversion: u64,
+        /// Cycles by which the pin of SCLK follows.
+        latency: u64,
+        channels: u64,
+        code: Format,
+    }
+    submodules {}
+    inputs(reader) {
         /// Converts and reads, again and again.
-        enable,
+        enable: BIT,
         /// Pin: a conversion is under way.
-        busy,
-        /// Pins: a data line a channel, the first channel the least significant bit.
-        dout,
-        /// Writes a register of the ADC, 16 bits over SDI; taken where nothing is enabled.
-        write,
+        busy: BIT,
+        /// Pins: one data line per channel, the first channel the least significant bit.
+        dout: Format::unsigned(reader.channels as u8, 0),
+        /// Writes a register of the ADC, 16 bits over SDI; accepted while nothing is enabled.
+        write: BIT,
     }
-}
-
-bundle! {
-    /// The outputs.
-    pub struct Outputs {
+    outputs(reader) {
         /// Pin: its rising edge samples all channels.
-        convst,
+        convst: BIT,
         /// Pin: low while a set is read.
-        cs_n,
-        /// SCLK has a pulse in this clock; the pin follows by the latency of its primitive.
-        sclk_run,
-        /// The word for a register of the ADC moves on by a bit, a clock from now.
-        shift,
-        /// Set for each word of a set.
-        store,
+        cs_n: BIT,
+        /// SCLK has a pulse in this cycle; the pin follows by the latency of its primitive.
+        sclk_run: BIT,
+        /// The word for a register of the ADC moves on by a bit, one cycle later.
+        shift: BIT,
+        /// Asserted for each word of a set.
+        store: BIT,
         /// Where it belongs: the set, and the channel.
-        address,
+        address: Format::unsigned(reader.index().width + 1, 0),
         /// The word.
-        code,
+        code: reader.code,
         /// The set that is complete.
-        bank,
-        /// Set for a clock when it is.
-        strobe,
-        /// With `strobe`: the ADC was not done in time, and the codes are none.
-        late,
+        bank: BIT,
+        /// Asserted for one cycle when it is.
+        strobe: BIT,
+        /// With `strobe`: the ADC was not done in time, and the codes are invalid.
+        late: BIT,
     }
-}
-
-bundle! {
-    /// The registers.
-    pub struct Registers {
-        phase, active, convst, selected, run, capture, unload, index, filling, strobe, busy_pin, busy, began, late,
-        configuring, tail, line_a, line_b, line_c, line_d, line_e, line_f, line_g, line_h,
+    registers(reader) {
+        phase: Format::counter(reader.period - 1),
+        active: BIT,
+        convst: BIT,
+        selected: BIT,
+        run: BIT,
+        capture: BIT,
+        unload: BIT,
+        index: reader.index(),
+        filling: BIT,
+        strobe: BIT,
+        busy_pin: BIT,
+        busy: BIT,
+        began: BIT,
+        late: BIT,
+        configuring: BIT,
+        tail: reader.tail(),
+        line_a: reader.line(),
+        line_b: reader.line(),
+        line_c: reader.line(),
+        line_d: reader.line(),
+        line_e: reader.line(),
+        line_f: reader.line(),
+        line_g: reader.line(),
+        line_h: reader.line(),
     }
-}
-
-/// The configuration.
-#[derive(Debug, Clone)]
-pub struct AdcReader {
-    period: u64,
-    conversion: u64,
-    latency: u64,
-    channels: u64,
-    code: Format,
 }
 
 /// Bits of a register access.
@@ -127,7 +142,7 @@ impl AdcReader {
 
     /// One clock of the schedule. What is set while `phase` is t is there from clock t of the chart on.
     #[inline(always)]
-    fn step<V: Value>(&self, r: Registers<Signal<V>>, i: &Inputs<Signal<V>>) -> Registers<Signal<V>> {
+    fn step<V: Interpretation>(&self, r: Registers<Signal<V>>, i: &Inputs<Signal<V>>) -> Registers<Signal<V>> {
         let at = |clock: u64| r.phase.is(clock % self.period);
         let (cs, first) = (self.conversion, self.conversion + 1);
         let pulses = first - self.latency;
@@ -158,7 +173,7 @@ impl AdcReader {
     /// The data lines' words: shifted in bit by bit, then along from channel to channel. The last bits come straight from the
     /// pins, so that storing begins a clock earlier than the words are complete.
     #[inline(always)]
-    fn lines<V: Value>(&self, r: Registers<Signal<V>>, i: &Inputs<Signal<V>>) -> Registers<Signal<V>> {
+    fn lines<V: Interpretation>(&self, r: Registers<Signal<V>>, i: &Inputs<Signal<V>>) -> Registers<Signal<V>> {
         let lines = [r.line_a, r.line_b, r.line_c, r.line_d, r.line_e, r.line_f, r.line_g, r.line_h];
         let line = |k: usize| {
             if k as u64 >= self.channels {
@@ -184,7 +199,7 @@ impl AdcReader {
 
     /// Nothing enabled: a register of the ADC may be written.
     #[inline(always)]
-    fn rest<V: Value>(&self, r: Registers<Signal<V>>, i: &Inputs<Signal<V>>) -> Registers<Signal<V>> {
+    fn rest<V: Interpretation>(&self, r: Registers<Signal<V>>, i: &Inputs<Signal<V>>) -> Registers<Signal<V>> {
         let no = bit(false);
         Registers {
             phase: int(0),
@@ -219,67 +234,12 @@ impl AdcReader {
 }
 
 impl Block for AdcReader {
-    const NAME: &'static str = "adc_reader";
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    type Registers = Registers;
-    type Parts<V: Value> = ();
-
-    fn inputs(&self) -> Inputs<Format> {
-        Inputs { enable: BIT, busy: BIT, dout: Format::unsigned(self.channels as u8, 0), write: BIT }
-    }
-
-    fn outputs(&self) -> Outputs<Format> {
-        Outputs {
-            convst: BIT,
-            cs_n: BIT,
-            sclk_run: BIT,
-            shift: BIT,
-            store: BIT,
-            address: Format::unsigned(self.index().width + 1, 0),
-            code: self.code,
-            bank: BIT,
-            strobe: BIT,
-            late: BIT,
-        }
-    }
-
-    fn registers(&self) -> Registers<Format> {
-        let line = self.line();
-        Registers {
-            phase: Format::counter(self.period - 1),
-            active: BIT,
-            convst: BIT,
-            selected: BIT,
-            run: BIT,
-            capture: BIT,
-            unload: BIT,
-            index: self.index(),
-            filling: BIT,
-            strobe: BIT,
-            busy_pin: BIT,
-            busy: BIT,
-            began: BIT,
-            late: BIT,
-            configuring: BIT,
-            tail: self.tail(),
-            line_a: line,
-            line_b: line,
-            line_c: line,
-            line_d: line,
-            line_e: line,
-            line_f: line,
-            line_g: line,
-            line_h: line,
-        }
-    }
-
     #[inline(always)]
-    fn clock<V: Value>(&self, cell: &mut Cell<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
-        let r = cell.load(self);
+    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+        let r = state.load(self);
         let running = i.enable | r.active | r.selected | r.unload | r.configuring;
-        let next = when!(V, Registers, running, self.step(r, &i), self.rest(r, &i));
-        cell.store(self, Registers { busy_pin: i.busy, busy: r.busy_pin, ..next });
+        let next = when!(running => self.step(r, &i), else self.rest(r, &i));
+        state.store(self, Registers { busy_pin: i.busy, busy: r.busy_pin, ..next });
         let last_bit = r.index.is(0).select(i.dout.bits(0, 1), r.tail.bits(0, 1));
         Outputs {
             convst: r.convst,

@@ -2,12 +2,12 @@
 //! Small things that every peripheral does with bits.
 
 use hapticore_model::format::Format;
-use hapticore_model::signal::{Exact, Signal, Value, Wrap, int};
+use hapticore_model::signal::{Signal, Value, Wrap, int};
 
 /// One more, wrapping.
 #[inline(always)]
 pub fn next<V: Value>(count: Signal<V>) -> Signal<V> {
-    (count + int(1)).fit(count.format, Exact, Wrap)
+    (count + int(1)).resize(count.format, Wrap)
 }
 
 /// One less, wrapping.

@@ -2,7 +2,7 @@
 //! Framing: how packets lie in the bytes of the serial line, as [`hapticore_protocol`] says for both sides of it.
 
 use crate::codes::word_formats;
-use hapticore_model::blocks::core::Inputs;
+use hapticore_model::blocks::estimator::Calibration;
 use hapticore_model::format::Format;
 
 pub use hapticore_protocol::framing::{
@@ -10,7 +10,7 @@ pub use hapticore_protocol::framing::{
 };
 pub use hapticore_protocol::register::{Control, PLACE, Register};
 
-/// Bytes of a command's data, for a core with these inputs.
-pub fn data_bytes(core: &Inputs<Format>) -> u64 {
-    hapticore_protocol::framing::data_bytes(&word_formats(core))
+/// Bytes of a command's data, for a core with this calibration.
+pub fn data_bytes(calibration: &Calibration<Format>) -> u64 {
+    hapticore_protocol::framing::data_bytes(&word_formats(calibration))
 }

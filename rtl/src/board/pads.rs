@@ -14,41 +14,33 @@
 //! no line glitches. Source: DESIGN §3.
 
 use super::bits::{previous, word};
-use hapticore_model::block::{Block, Cell};
-use hapticore_model::bundle;
+use hapticore_model::block;
+use hapticore_model::block::{Block, Interpretation, State};
 use hapticore_model::format::{BIT, Format};
-use hapticore_model::signal::{Signal, Value, int};
+use hapticore_model::signal::{Signal, int};
 
-bundle! {
-    /// The inputs.
-    pub struct Inputs {
-        /// The pad that is served.
-        serve,
-        /// Whether its switch is to be made.
-        closed,
+block! {
+    /// The switches of the pads.
+    pub struct Pads("pads") {
+        pads: u64,
+        /// Cycles with all switches open between two pads.
+        dead: u64,
     }
-}
-
-bundle! {
-    /// The output: a register.
-    pub struct Outputs {
-        /// A bit for each pad: its switch is made.
-        select,
+    submodules {}
+    inputs(block) {
+        /// The selected pad.
+        serve: Format::counter(block.pads - 1),
+        /// Its switch is to be closed.
+        closed: BIT,
     }
-}
-
-bundle! {
-    /// The registers.
-    pub struct Registers {
-        select, dead,
+    outputs(block) {
+        /// A bit for each pad: its switch is closed.
+        select: Format::unsigned(block.pads as u8, 0),
     }
-}
-
-/// The configuration.
-#[derive(Debug, Clone)]
-pub struct Pads {
-    pads: u64,
-    dead: u64,
+    registers(block) {
+        select: Format::unsigned(block.pads as u8, 0),
+        dead: Format::counter(block.dead),
+    }
 }
 
 impl Pads {
@@ -60,34 +52,16 @@ impl Pads {
 }
 
 impl Block for Pads {
-    const NAME: &'static str = "pads";
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    type Registers = Registers;
-    type Parts<V: Value> = ();
-
-    fn inputs(&self) -> Inputs<Format> {
-        Inputs { serve: Format::counter(self.pads - 1), closed: BIT }
-    }
-
-    fn outputs(&self) -> Outputs<Format> {
-        Outputs { select: Format::unsigned(self.pads as u8, 0) }
-    }
-
-    fn registers(&self) -> Registers<Format> {
-        Registers { select: self.outputs().select, dead: Format::counter(self.dead) }
-    }
-
     #[inline(always)]
-    fn clock<V: Value>(&self, cell: &mut Cell<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
-        let r = cell.load(self);
+    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+        let r = state.load(self);
         let wanted = word((0..self.pads).map(|pad| i.closed & i.serve.is(pad)));
         let open = r.select.is(0);
         let may = r.select.equals(wanted) | (open & r.dead.is(0));
         let select = may.select(wanted, int(0));
         let rest = r.dead.is(0).select(int(0), previous(r.dead));
         let dead = open.select(rest, int(self.dead));
-        cell.store(self, Registers { select, dead });
+        state.store(self, Registers { select, dead });
         Outputs { select: r.select }
     }
 }

@@ -21,79 +21,75 @@ use super::bits::{next, read_as};
 use super::crc16;
 use super::framing::{Control, END, ESC, ESC_END, ESC_ESC, NIBBLE, PLACE, Register, data_bytes};
 use super::uart::BYTE;
-use hapticore_model::block::{Block, Cell};
-use hapticore_model::blocks::core;
+use hapticore_model::block::{Block, Interpretation, State};
+use hapticore_model::blocks::estimator::Calibration;
+use hapticore_model::blocks::position::TablePort;
 use hapticore_model::format::{BIT, Format};
-use hapticore_model::signal::{Exact, Signal, Value, Wrap, bit, code, int};
-use hapticore_model::{bundle, when};
+use hapticore_model::signal::{Signal, Wrap, bit, code, int};
+use hapticore_model::{block, when};
 use hapticore_protocol::Constant;
 
-bundle! {
-    /// The inputs.
-    pub struct Inputs {
-        /// A byte is there.
-        valid,
+block! {
+    /// The registers that commands write.
+    pub struct CommandRegisters("registers") {
+        calibration: Calibration<Format>,
+        words: u64,
+        data: Format,
+        /// Bytes of a command, CRC included.
+        length: u64,
+    }
+    submodules {}
+    inputs(block) {
+        /// Asserted for one cycle with each byte.
+        valid: BIT,
         /// The byte.
-        octet,
+        octet: BYTE,
         /// A command's data move on by a bit.
-        shift,
-        /// The bit that comes in behind them.
-        answer,
+        shift: BIT,
+        /// The bit that is shifted in behind them.
+        answer: BIT,
     }
-}
-
-bundle! {
-    /// The outputs.
-    pub struct Outputs {
+    outputs(block) {
         /// The register of the same name.
-        capacitance_gain,
+        capacitance_gain: block.calibration.capacitance_gain,
         /// The register of the same name.
-        force_gain,
-        /// Whether the board converts and measures.
-        enable,
-        /// Whether the ADC is in reset.
-        adc_reset,
-        /// Writes a word of the position table.
-        write,
-        /// Where.
-        address,
-        /// What.
-        word,
+        force_gain: block.calibration.force_gain,
+        /// The board converts and measures.
+        enable: BIT,
+        /// The ADC is in reset.
+        adc_reset: BIT,
+        table as TablePort: block.calibration.table,
         /// Writes a register of the ADC.
-        adc_write,
-        /// What, bit by bit.
-        sdi,
-        /// Commands taken so far, modulo 16.
-        commands,
-        /// Set for a clock when a command is refused.
-        refused,
-        /// Set for a clock when a register other than the control register has been written.
-        written,
+        adc_write: BIT,
+        /// The word for it, bit by bit.
+        sdi: BIT,
+        /// Commands accepted so far, modulo 16.
+        commands: NIBBLE,
+        /// Asserted for one cycle when a command is refused.
+        refused: BIT,
+        /// Asserted for one cycle when a register other than the control register has been written.
+        written: BIT,
         /// The number of the register that the last command named.
-        place,
+        place: PLACE,
         /// Its data, or the ADC's answer.
-        data,
+        data: block.data,
         /// All calibration may be there: since reset its last register has been written.
-        calibrated,
+        calibrated: BIT,
     }
-}
-
-bundle! {
-    /// The registers.
-    pub struct Registers {
-        escaped, count, crc, place, data, act, refused, commands,
-        capacitance_gain, force_gain, control, calibrated,
+    registers(block) {
+        escaped: BIT,
+        count: Format::counter(block.length + 1),
+        crc: crc16::CRC,
+        place: Format::unsigned(16, 0),
+        data: block.data,
+        act: BIT,
+        refused: BIT,
+        commands: NIBBLE,
+        capacitance_gain: block.calibration.capacitance_gain,
+        force_gain: block.calibration.force_gain,
+        control: Control::FORMAT,
+        calibrated: BIT,
     }
-}
-
-/// The configuration.
-#[derive(Debug, Clone)]
-pub struct CommandRegisters {
-    core: core::Inputs<Format>,
-    words: u64,
-    data: Format,
-    /// Bytes of a command, CRC included.
-    length: u64,
 }
 
 /// Bits of a register of the ADC.
@@ -102,15 +98,15 @@ const ADC_WORD: u8 = 16;
 const AROUND: u64 = 4;
 
 impl CommandRegisters {
-    /// The registers of a core with these inputs, whose position table has so many words.
-    pub fn new(core: core::Inputs<Format>, words: u64) -> Self {
-        let bytes = data_bytes(&core);
-        CommandRegisters { core, words, data: Format::unsigned(8 * bytes as u8, 0), length: bytes + AROUND }
+    /// The registers of a core with this calibration, whose position table has so many words.
+    pub fn new(calibration: Calibration<Format>, words: u64) -> Self {
+        let bytes = data_bytes(&calibration);
+        CommandRegisters { calibration, words, data: Format::unsigned(8 * bytes as u8, 0), length: bytes + AROUND }
     }
 
     /// A byte that is no END: part of a command, or the escape before one.
     #[inline(always)]
-    fn part<V: Value>(&self, r: Registers<Signal<V>>, byte: Signal<V>) -> Registers<Signal<V>> {
+    fn part<V: Interpretation>(&self, r: Registers<Signal<V>>, byte: Signal<V>) -> Registers<Signal<V>> {
         let is = |value: u8| byte.is(value.into());
         let (escape, known) = (is(ESC) & !r.escaped, is(ESC_END) | is(ESC_ESC));
         let meant = is(ESC_END).select(code(END.into(), BYTE), code(ESC.into(), BYTE));
@@ -121,23 +117,19 @@ impl CommandRegisters {
         let shifted = r.place.concat(r.data).concat(byte);
         let taken = Registers {
             escaped: bit(false),
-            count: bad.select(int(self.length + 1), full.select(r.count, next(r.count))).fit(
-                r.count.format,
-                Exact,
-                Wrap,
-            ),
+            count: bad.select(int(self.length + 1), full.select(r.count, next(r.count))).resize(r.count.format, Wrap),
             crc: crc16::with(r.crc, byte),
             place: payload.select(shifted.bits(self.data.width, 16), r.place),
             data: payload.select(shifted.bits(0, self.data.width), r.data),
             ..r
         };
         let escaped = Registers { escaped: bit(true), ..r };
-        when!(V, Registers, escape, escaped, taken)
+        when!(escape => escaped, else taken)
     }
 
     /// END: the command counts, or it does not.
     #[inline(always)]
-    fn end<V: Value>(&self, r: Registers<Signal<V>>) -> Registers<Signal<V>> {
+    fn end<V: Interpretation>(&self, r: Registers<Signal<V>>) -> Registers<Signal<V>> {
         let forbidden = self.is(&r, Register::Adc) & r.control.bits(Control::ENABLE, 1);
         let good = r.count.is(self.length) & r.crc.is(0) & !r.escaped & !forbidden;
         // END twice is nothing, not a command: a sender may clear the line with it.
@@ -149,7 +141,7 @@ impl CommandRegisters {
 
     /// The registers that a command writes.
     #[inline(always)]
-    fn written<V: Value>(&self, r: Registers<Signal<V>>) -> Registers<Signal<V>> {
+    fn written<V: Interpretation>(&self, r: Registers<Signal<V>>) -> Registers<Signal<V>> {
         let write = |register: Register, before: Signal<V>| {
             let here = r.act & self.is(&r, register);
             here.select(read_as(r.data, before.format), before)
@@ -165,83 +157,32 @@ impl CommandRegisters {
 
     /// Whether the place is this register.
     #[inline(always)]
-    fn is<V: Value>(&self, r: &Registers<Signal<V>>, register: Register) -> Signal<V> {
+    fn is<V: Interpretation>(&self, r: &Registers<Signal<V>>, register: Register) -> Signal<V> {
         r.place.msb() & r.place.bits(0, PLACE.width).is(register.number() as u64)
     }
 }
 
 impl Block for CommandRegisters {
-    const NAME: &'static str = "registers";
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    type Registers = Registers;
-    type Parts<V: Value> = ();
-
-    fn inputs(&self) -> Inputs<Format> {
-        Inputs { valid: BIT, octet: BYTE, shift: BIT, answer: BIT }
-    }
-
-    fn outputs(&self) -> Outputs<Format> {
-        let core::Inputs { capacitance_gain, force_gain, address, word, .. } = self.core;
-        Outputs {
-            capacitance_gain,
-            force_gain,
-            enable: BIT,
-            adc_reset: BIT,
-            write: BIT,
-            address,
-            word,
-            adc_write: BIT,
-            sdi: BIT,
-            commands: NIBBLE,
-            refused: BIT,
-            written: BIT,
-            place: PLACE,
-            data: self.data,
-            calibrated: BIT,
-        }
-    }
-
-    fn registers(&self) -> Registers<Format> {
-        let of = self.outputs();
-        Registers {
-            escaped: BIT,
-            count: Format::counter(self.length + 1),
-            crc: crc16::CRC,
-            place: Format::unsigned(16, 0),
-            data: self.data,
-            act: BIT,
-            refused: BIT,
-            commands: NIBBLE,
-            capacitance_gain: of.capacitance_gain,
-            force_gain: of.force_gain,
-            control: Control::FORMAT,
-            calibrated: BIT,
-        }
-    }
-
     #[inline(always)]
-    fn clock<V: Value>(&self, cell: &mut Cell<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
-        let r = cell.load(self);
-        let of = self.outputs();
+    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+        let r = state.load(self);
+        let table = self.calibration.table;
         // The CRC begins anew with a command's first octet: a register is zero at reset, a CRC is not at its beginning.
         let crc = r.count.is(0).select(crc16::begin(), r.crc);
         let data = i.shift.select(r.data.concat(i.answer).bits(0, self.data.width), r.data);
         let quiet = Registers { act: bit(false), refused: bit(false), data, ..self.written(r) };
         let fresh = Registers { crc, ..quiet };
-        let got = when!(V, Registers, i.octet.is(END.into()), self.end(quiet), self.part(fresh, i.octet));
-        let next = when!(V, Registers, i.valid, got, quiet);
-        cell.store(self, next);
-        let address = r.place.bits(0, of.address.width);
+        let got = when!(i.octet.is(END.into()) => self.end(quiet), else self.part(fresh, i.octet));
+        let next = when!(i.valid => got, else quiet);
+        state.store(self, next);
+        let address = r.place.bits(0, table.address.width);
         let of_table = !r.place.msb() & address.less_than(int(self.words));
         Outputs {
             capacitance_gain: r.capacitance_gain,
             force_gain: r.force_gain,
             enable: r.control.bits(Control::ENABLE, 1),
             adc_reset: r.control.bits(Control::ADC_RESET, 1),
-            write: r.act & of_table,
-            address,
-            word: read_as(r.data, of.word),
+            table: TablePort { write: r.act & of_table, address, word: read_as(r.data, table.word) },
             adc_write: r.act & self.is(&r, Register::Adc),
             sdi: r.data.bits(ADC_WORD - 1, 1),
             commands: r.commands,

@@ -16,38 +16,28 @@
 //! Latency: one clock. Source: Schreier and Temes, Understanding Delta-Sigma Data Converters, §2.
 
 use super::bits::read_as;
-use hapticore_model::block::{Block, Cell};
-use hapticore_model::bundle;
+use hapticore_model::block;
+use hapticore_model::block::{Block, Interpretation, State};
 use hapticore_model::format::{BIT, Format};
-use hapticore_model::signal::{Signal, Value, code};
+use hapticore_model::signal::{Signal, code};
 
-bundle! {
-    /// The inputs.
-    pub struct Inputs {
-        /// What is to be put out.
-        carrier,
+block! {
+    /// The sigma-delta modulator of the carrier.
+    pub struct SigmaDelta("sigma_delta") {
+        carrier: Format,
     }
-}
-
-bundle! {
-    /// The output: a register.
-    pub struct Outputs {
-        /// One bit of it.
-        pulse,
+    submodules {}
+    inputs(modulator) {
+        carrier: modulator.carrier,
     }
-}
-
-bundle! {
-    /// The registers.
-    pub struct Registers {
-        rest, pulse,
+    outputs(modulator) {
+        /// The carrier as a density of pulses.
+        pulse: BIT,
     }
-}
-
-/// The configuration.
-#[derive(Debug, Clone)]
-pub struct SigmaDelta {
-    carrier: Format,
+    registers(modulator) {
+        rest: modulator.rest(),
+        pulse: BIT,
+    }
 }
 
 impl SigmaDelta {
@@ -63,32 +53,14 @@ impl SigmaDelta {
 }
 
 impl Block for SigmaDelta {
-    const NAME: &'static str = "sigma_delta";
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    type Registers = Registers;
-    type Parts<V: Value> = ();
-
-    fn inputs(&self) -> Inputs<Format> {
-        Inputs { carrier: self.carrier }
-    }
-
-    fn outputs(&self) -> Outputs<Format> {
-        Outputs { pulse: BIT }
-    }
-
-    fn registers(&self) -> Registers<Format> {
-        Registers { rest: self.rest(), pulse: BIT }
-    }
-
     #[inline(always)]
-    fn clock<V: Value>(&self, cell: &mut Cell<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
-        let r = cell.load(self);
+    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+        let r = state.load(self);
         let width = self.carrier.width;
         let half = code::<V>(1 << (width - 1), self.rest());
         let offset = read_as(i.carrier.integer() + half, self.rest());
         let sum = r.rest + offset;
-        cell.store(self, Registers { rest: sum.bits(0, width), pulse: sum.bits(width, 1) });
+        state.store(self, Registers { rest: sum.bits(0, width), pulse: sum.bits(width, 1) });
         Outputs { pulse: r.pulse }
     }
 }

@@ -32,86 +32,71 @@ use super::crc16;
 use super::framing::{END, ESC, ESC_END, ESC_ESC, NIBBLE, PLACE, Register, STATUS_BYTES, VERSION, digest, word_bytes};
 use super::uart::BYTE;
 use super::uart::transmitter::{self, Transmitter};
-use hapticore_model::block::{Block, Cell};
+use hapticore_model::block::{Block, Interpretation, State};
+use hapticore_model::blocks::estimator::FramePort;
 use hapticore_model::blocks::frames::Field;
 use hapticore_model::format::{BIT, Format};
 use hapticore_model::memory::{Memory, Write};
 use hapticore_model::profile::Profile;
-use hapticore_model::signal::{Exact, Signal, Value, Wrap, bit, code, int};
-use hapticore_model::{bundle, parts};
+use hapticore_model::signal::{Signal, Wrap, bit, code, int};
+use hapticore_model::{block, call};
 
-bundle! {
-    /// The inputs: a frame as the core gives it, and what else is to be told.
-    pub struct Inputs {
-        /// Set for a clock for each word.
-        valid,
-        /// Which field the word is.
-        index,
-        /// The word.
-        frame,
-        /// Set with the last word.
-        done,
-        /// The pad of the frame.
-        pad,
-        /// A code was at a rail of the ADC.
-        clipped,
-        /// A word was held at a rail.
-        saturated,
-        /// The last valid results stand.
-        invalid,
-        /// A terminal's current is that of an open one.
-        lost,
-        /// The ADC was late.
-        late,
-        /// A command was refused.
-        refused,
-        /// Commands taken so far, modulo 16.
-        commands,
-        /// The board is enabled: no heartbeats.
-        enable,
-        /// Set for a clock when a word is to be kept for heartbeats.
-        keep,
-        /// Which of its words; holds until the next.
-        place,
-        /// The word; holds until the next.
-        data,
-        /// A flag of heartbeats.
-        calibrated,
+block! {
+    /// The stream of packets.
+    pub struct Stream("stream") {
+        pad: Format,
+        data: Format,
+        bytes: u64,
     }
-}
-
-bundle! {
-    /// The output.
-    pub struct Outputs {
-        /// Pin: the line, high at rest.
-        tx,
-    }
-}
-
-bundle! {
-    /// The registers.
-    pub struct Registers {
-        taking, busy, heartbeat, group, left, escaped, crc, number, pad, commands, clipped, saturated, invalid, lost,
-        late, refused, overrun, keep, wrote, pause,
-    }
-}
-
-parts! {
-    /// The memory and the block within.
-    pub struct Parts of Stream {
+    submodules {
         words: Memory,
         transmitter: Transmitter,
     }
-}
-
-/// The configuration.
-#[derive(Debug, Clone)]
-pub struct Stream {
-    words: Memory,
-    transmitter: Transmitter,
-    pad: Format,
-    data: Format,
-    bytes: u64,
+    inputs(stream) {
+        frames as FramePort: stream.frames(),
+        /// The ADC was late.
+        late: BIT,
+        /// A command was refused.
+        refused: BIT,
+        /// Commands accepted so far, modulo 16.
+        commands: NIBBLE,
+        /// The board is enabled: no heartbeats.
+        enable: BIT,
+        /// Asserted for one cycle when a word is to be kept for heartbeats.
+        keep: BIT,
+        /// The number of the word; stable until the next.
+        place: PLACE,
+        /// The word; stable until the next.
+        data: stream.data,
+        /// A flag of heartbeats.
+        calibrated: BIT,
+    }
+    outputs(stream) {
+        /// Pin: the line, high at rest.
+        tx: BIT,
+    }
+    registers(stream) {
+        taking: BIT,
+        busy: BIT,
+        heartbeat: BIT,
+        group: Format::counter(STATUS),
+        left: Format::counter(3),
+        escaped: BIT,
+        crc: crc16::CRC,
+        number: BYTE,
+        pad: stream.pad,
+        commands: NIBBLE,
+        clipped: BIT,
+        saturated: BIT,
+        invalid: BIT,
+        lost: BIT,
+        late: BIT,
+        refused: BIT,
+        overrun: BIT,
+        keep: BIT,
+        wrote: BIT,
+        pause: Format::unsigned(BEAT + 1, 0),
+    }
 }
 
 /// Words of a frame.
@@ -126,7 +111,7 @@ const TRAILER_BYTES: u64 = 3;
 const BEAT: u8 = 14;
 
 /// A bit of the version, as heartbeats tell it.
-fn version<V: Value>(at: u8) -> Signal<V> {
+fn version<V: Interpretation>(at: u8) -> Signal<V> {
     bit(VERSION >> at & 1 != 0)
 }
 
@@ -144,12 +129,17 @@ impl Stream {
         initial[WORDS as usize + Register::Control.number()] = f64::from(as_word(digest(profile), format));
         let words = Memory { initial: initial.into(), ..Memory::new("words", 2 * WORDS as usize, format) };
         Stream {
-            words: words.never_colliding(),
+            words: words.dont_care_on_collision(),
             data,
             transmitter: Transmitter::new(divisor),
             pad: Format::counter(profile.pads - 1),
             bytes: word_bytes(profile),
         }
+    }
+
+    /// The formats of a frame.
+    fn frames(&self) -> FramePort<Format> {
+        FramePort { index: Format::counter(WORDS - 1), frame: self.words.format, pad: self.pad, ..FramePort::of(BIT) }
     }
 
     /// Clocks of a packet without escapes, from a frame's last word to the end of its last stop bit.
@@ -159,8 +149,8 @@ impl Stream {
 
     /// The byte of the packet that is due.
     #[inline(always)]
-    fn byte<V: Value>(&self, r: &Registers<Signal<V>>, data: Signal<V>) -> Signal<V> {
-        let wide = data.fit(Format::signed(8 * self.bytes as u8, 0), Exact, Wrap);
+    fn byte<V: Interpretation>(&self, r: &Registers<Signal<V>>, data: Signal<V>) -> Signal<V> {
+        let wide = data.resize(Format::signed(8 * self.bytes as u8, 0), Wrap);
         let pick = |bytes: &[Signal<V>]| {
             let (first, rest) = bytes.split_first().expect("a group has bytes");
             (1..).zip(rest).fold(*first, |other, (left, byte)| r.left.is(left).select(*byte, other))
@@ -168,7 +158,7 @@ impl Stream {
         let words: Vec<_> = (0..self.bytes).map(|left| wide.bits(8 * left as u8, 8)).collect();
         let flags =
             bits_side_by_side([r.clipped, r.saturated, r.invalid, r.lost, r.late, r.refused, r.overrun, r.heartbeat]);
-        let pad = r.pad.fit(NIBBLE, Exact, Wrap);
+        let pad = r.pad.resize(NIBBLE, Wrap);
         let status = pick(&[flags, r.commands.concat(pad), r.number]);
         // The CRC takes its own high byte in as it is sent; what is left is the low byte, moved up.
         let check = r.crc.bits(8, 8);
@@ -178,19 +168,19 @@ impl Stream {
 
     /// What is written: a frame's word, or, between frames, the one that is kept for heartbeats.
     #[inline(always)]
-    fn write<V: Value>(&self, r: &Registers<Signal<V>>, i: &Inputs<Signal<V>>, taking: Signal<V>) -> Write<V> {
+    fn write<V: Interpretation>(&self, r: &Registers<Signal<V>>, i: &Inputs<Signal<V>>, taking: Signal<V>) -> Write<V> {
         let (format, address) = (self.words.format, self.words.address());
-        let kept = i.data.fit(Format::unsigned(format.width, 0), Exact, Wrap).as_code(format);
+        let kept = i.data.resize(Format::unsigned(format.width, 0), Wrap).as_code(format);
         Write {
-            enable: i.valid.select(taking, r.keep),
-            address: (!i.valid).concat(i.valid.select(i.index, i.place)).as_code(address),
-            data: i.valid.select(i.frame, kept),
+            enable: i.frames.valid.select(taking, r.keep),
+            address: (!i.frames.valid).concat(i.frames.valid.select(i.frames.index, i.place)).as_code(address),
+            data: i.frames.valid.select(i.frames.frame, kept),
         }
     }
 
     /// Where the packet goes on after a byte: the bytes of a group are counted down.
     #[inline(always)]
-    fn advance<V: Value>(&self, r: &Registers<Signal<V>>) -> (Signal<V>, Signal<V>) {
+    fn advance<V: Interpretation>(&self, r: &Registers<Signal<V>>) -> (Signal<V>, Signal<V>) {
         let last = r.left.is(0);
         let of_next = r.group.is(WORDS - 1).select(int(TRAILER_BYTES - 1), int(self.bytes - 1));
         (last.select(next(r.group), r.group), last.select(of_next, previous(r.left)))
@@ -198,72 +188,15 @@ impl Stream {
 }
 
 impl Block for Stream {
-    const NAME: &'static str = "stream";
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    type Registers = Registers;
-    type Parts<V: Value> = Parts<V>;
-
-    fn inputs(&self) -> Inputs<Format> {
-        Inputs {
-            valid: BIT,
-            index: Format::counter(WORDS - 1),
-            frame: self.words.format,
-            done: BIT,
-            pad: self.pad,
-            clipped: BIT,
-            saturated: BIT,
-            invalid: BIT,
-            lost: BIT,
-            late: BIT,
-            refused: BIT,
-            commands: NIBBLE,
-            enable: BIT,
-            keep: BIT,
-            place: PLACE,
-            data: self.data,
-            calibrated: BIT,
-        }
-    }
-
-    fn outputs(&self) -> Outputs<Format> {
-        Outputs { tx: BIT }
-    }
-
-    fn registers(&self) -> Registers<Format> {
-        Registers {
-            taking: BIT,
-            busy: BIT,
-            heartbeat: BIT,
-            group: Format::counter(STATUS),
-            left: Format::counter(3),
-            escaped: BIT,
-            crc: crc16::CRC,
-            number: BYTE,
-            pad: self.pad,
-            commands: NIBBLE,
-            clipped: BIT,
-            saturated: BIT,
-            invalid: BIT,
-            lost: BIT,
-            late: BIT,
-            refused: BIT,
-            overrun: BIT,
-            keep: BIT,
-            wrote: BIT,
-            pause: Format::unsigned(BEAT + 1, 0),
-        }
-    }
-
     #[inline(always)]
-    fn clock<V: Value>(&self, cell: &mut Cell<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
-        let r = cell.load(self);
-        let taking = (i.valid & i.index.is(0)).select(!r.busy, r.taking);
-        let data = self.words.data(&mut cell.parts.words);
+    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+        let r = state.load(self);
+        let taking = (i.frames.valid & i.frames.index.is(0)).select(!r.busy, r.taking);
+        let data = self.words.data(&mut state.submodules.words);
         let write = self.write(&r, &i, taking);
         // A word is never read while it is written, and in plain sight: the block RAM then needs no logic for that case.
         let address = write.enable.select(next(write.address), r.heartbeat.concat(r.group.bits(0, PLACE.width)));
-        self.words.access(&mut cell.parts.words, address, write);
+        self.words.access(&mut state.submodules.words, address, write);
 
         let byte = self.byte(&r, data);
         let at_end = r.group.is(TRAILER) & r.left.is(0);
@@ -273,40 +206,40 @@ impl Block for Stream {
         let escape = special & !r.escaped;
         let line = special.select(r.escaped.select(replaced, code(ESC.into(), BYTE)), byte);
         let inputs = transmitter::Inputs { valid: r.busy & !r.wrote, octet: line };
-        let transmitter = self.transmitter.call("transmitter", &mut cell.parts.transmitter, inputs);
+        let transmitter = call!(self.transmitter, state, inputs);
 
         let sent = transmitter.taken & !escape;
         let told = sent & r.group.is(STATUS) & r.left.is(0);
-        let frame = i.done & taking;
-        let heartbeat = r.pause.msb() & !r.busy & !i.enable & !i.valid;
+        let frame = i.frames.done & taking;
+        let heartbeat = r.pause.msb() & !r.busy & !i.enable & !i.frames.valid;
         let begin = frame | heartbeat;
         let (group, left) = self.advance(&r);
-        let cut = (write.enable & !i.valid & r.busy & r.heartbeat & !r.group.msb()).named("cuts");
+        let cut = (write.enable & !i.frames.valid & r.busy & r.heartbeat & !r.group.msb()).named("cuts");
         let onward = |end, next: Signal<V>, now: Signal<V>| cut.select(int(end), sent.select(next, now));
         let take = |now: Signal<V>, held: Signal<V>| begin.select(now, held);
-        cell.store(
+        state.store(
             self,
             Registers {
                 taking,
                 busy: flag(r.busy, begin, sent & at_end),
                 heartbeat: take(heartbeat, r.heartbeat),
-                group: take(int(STATUS), onward(TRAILER, group, r.group)).fit(r.group.format, Exact, Wrap),
-                left: take(int(STATUS_BYTES - 1), onward(0, left, r.left)).fit(r.left.format, Exact, Wrap),
+                group: take(int(STATUS), onward(TRAILER, group, r.group)).resize(r.group.format, Wrap),
+                left: take(int(STATUS_BYTES - 1), onward(0, left, r.left)).resize(r.left.format, Wrap),
                 escaped: transmitter.taken.select(escape, r.escaped),
                 crc: take(crc16::begin(), sent.select(crc16::with(r.crc, byte), r.crc)),
-                number: i.done.select(next(r.number), r.number),
-                pad: take(i.pad, r.pad),
+                number: i.frames.done.select(next(r.number), r.number),
+                pad: take(i.frames.pad, r.pad),
                 commands: take(i.commands, r.commands),
-                clipped: take(heartbeat.select(i.calibrated, i.clipped), r.clipped),
-                saturated: take(heartbeat.select(version(0), i.saturated), r.saturated),
-                invalid: take(heartbeat.select(version(1), i.invalid), r.invalid),
-                lost: take(heartbeat.select(version(2), i.lost), r.lost),
+                clipped: take(heartbeat.select(i.calibrated, i.frames.clipped), r.clipped),
+                saturated: take(heartbeat.select(version(0), i.frames.saturated), r.saturated),
+                invalid: take(heartbeat.select(version(1), i.frames.invalid), r.invalid),
+                lost: take(heartbeat.select(version(2), i.frames.lost), r.lost),
                 late: flag(r.late, i.late, told),
                 refused: flag(r.refused, i.refused, told),
-                overrun: flag(r.overrun, i.done & !taking, told),
-                keep: flag(r.keep, i.keep, !i.valid),
+                overrun: flag(r.overrun, i.frames.done & !taking, told),
+                keep: flag(r.keep, i.keep, !i.frames.valid),
                 wrote: write.enable,
-                pause: (i.enable | r.busy).select(int(0), next(r.pause)).fit(r.pause.format, Exact, Wrap),
+                pause: (i.enable | r.busy).select(int(0), next(r.pause)).resize(r.pause.format, Wrap),
             },
         );
         Outputs { tx: transmitter.tx }

@@ -13,10 +13,10 @@
 //! line passes two registers first. Latency: 10·D clocks a byte. Source: the usual asynchronous serial line (EIA-232 character).
 
 use super::bits::{next, previous};
-use hapticore_model::block::{Block, Cell};
+use hapticore_model::block::{Block, Interpretation, State};
 use hapticore_model::format::{BIT, Format};
-use hapticore_model::signal::{Signal, Value, bit, int};
-use hapticore_model::{bundle, when};
+use hapticore_model::signal::{Signal, bit, int};
+use hapticore_model::{block, when};
 
 /// The format of a byte.
 pub const BYTE: Format = Format::unsigned(8, 0);
@@ -28,35 +28,32 @@ const STOP: u64 = 9;
 pub mod receiver {
     use super::*;
 
-    bundle! {
-        /// The inputs.
-        pub struct Inputs {
+    block! {
+        /// The receiver. The line is kept inverted, so that it rests at reset.
+        pub struct Receiver("receiver") {
+            /// Cycles per bit.
+            divisor: u64,
+        }
+        submodules {}
+        inputs(receiver) {
             /// Pin: the line, high at rest.
-            rx,
+            rx: BIT,
         }
-    }
-
-    bundle! {
-        /// The outputs: registers.
-        pub struct Outputs {
-            /// Set for a clock when a byte is there.
-            valid,
+        outputs(receiver) {
+            /// Asserted for one cycle with each byte.
+            valid: BIT,
             /// The byte.
-            octet,
+            octet: BYTE,
         }
-    }
-
-    bundle! {
-        /// The registers. The line is kept inverted, so that it rests at reset.
-        pub struct Registers {
-            pin, low, busy, count, position, octet, valid,
+        registers(receiver) {
+            pin: BIT,
+            low: BIT,
+            busy: BIT,
+            count: Format::counter(receiver.divisor - 1),
+            position: Format::counter(STOP),
+            octet: BYTE,
+            valid: BIT,
         }
-    }
-
-    /// The configuration.
-    #[derive(Debug, Clone)]
-    pub struct Receiver {
-        divisor: u64,
     }
 
     impl Receiver {
@@ -67,13 +64,13 @@ pub mod receiver {
 
         /// Waits for a start bit.
         #[inline(always)]
-        fn wait<V: Value>(&self, r: Registers<Signal<V>>) -> Registers<Signal<V>> {
+        fn wait<V: Interpretation>(&self, r: Registers<Signal<V>>) -> Registers<Signal<V>> {
             Registers { busy: r.low, count: int(self.divisor / 2), position: int(0), ..r }
         }
 
         /// The middle of a bit.
         #[inline(always)]
-        fn sample<V: Value>(&self, r: Registers<Signal<V>>) -> Registers<Signal<V>> {
+        fn sample<V: Interpretation>(&self, r: Registers<Signal<V>>) -> Registers<Signal<V>> {
             let (start, stop) = (r.position.is(0), r.position.is(STOP));
             let shifted = (!r.low).concat(r.octet.bits(1, 7));
             Registers {
@@ -88,33 +85,14 @@ pub mod receiver {
     }
 
     impl Block for Receiver {
-        const NAME: &'static str = "receiver";
-        type Inputs = Inputs;
-        type Outputs = Outputs;
-        type Registers = Registers;
-        type Parts<V: Value> = ();
-
-        fn inputs(&self) -> Inputs<Format> {
-            Inputs { rx: BIT }
-        }
-
-        fn outputs(&self) -> Outputs<Format> {
-            Outputs { valid: BIT, octet: BYTE }
-        }
-
-        fn registers(&self) -> Registers<Format> {
-            let (count, position) = (Format::counter(self.divisor - 1), Format::counter(STOP));
-            Registers { pin: BIT, low: BIT, busy: BIT, count, position, octet: BYTE, valid: BIT }
-        }
-
         #[inline(always)]
-        fn clock<V: Value>(&self, cell: &mut Cell<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
-            let r = cell.load(self);
+        fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+            let r = state.load(self);
             let quiet = Registers { valid: bit(false), ..r };
             let counting = Registers { count: previous(r.count), ..quiet };
-            let busy = when!(V, Registers, r.count.is(0), self.sample(quiet), counting);
-            let next = when!(V, Registers, r.busy, busy, self.wait(quiet));
-            cell.store(self, Registers { pin: !i.rx, low: r.pin, ..next });
+            let busy = when!(r.count.is(0) => self.sample(quiet), else counting);
+            let next = when!(r.busy => busy, else self.wait(quiet));
+            state.store(self, Registers { pin: !i.rx, low: r.pin, ..next });
             Outputs { valid: r.valid, octet: r.octet }
         }
     }
@@ -124,37 +102,32 @@ pub mod receiver {
 pub mod transmitter {
     use super::*;
 
-    bundle! {
-        /// The inputs.
-        pub struct Inputs {
+    block! {
+        /// The transmitter. The line is kept inverted, so that it rests at reset.
+        pub struct Transmitter("transmitter") {
+            /// Cycles per bit.
+            divisor: u64,
+        }
+        submodules {}
+        inputs(transmitter) {
             /// A byte is to be sent.
-            valid,
+            valid: BIT,
             /// The byte.
-            octet,
+            octet: BYTE,
         }
-    }
-
-    bundle! {
-        /// The outputs.
-        pub struct Outputs {
-            /// The byte is taken in this clock.
-            taken,
+        outputs(transmitter) {
+            /// The byte is accepted in this cycle.
+            taken: BIT,
             /// Pin: the line, high at rest.
-            tx,
+            tx: BIT,
         }
-    }
-
-    bundle! {
-        /// The registers. The line is kept inverted, so that it rests at reset.
-        pub struct Registers {
-            low, busy, count, position, octet,
+        registers(transmitter) {
+            low: BIT,
+            busy: BIT,
+            count: Format::counter(transmitter.divisor - 1),
+            position: Format::counter(STOP),
+            octet: BYTE,
         }
-    }
-
-    /// The configuration.
-    #[derive(Debug, Clone)]
-    pub struct Transmitter {
-        divisor: u64,
     }
 
     impl Transmitter {
@@ -165,13 +138,13 @@ pub mod transmitter {
 
         /// The start bit.
         #[inline(always)]
-        fn begin<V: Value>(&self, i: &Inputs<Signal<V>>) -> Registers<Signal<V>> {
+        fn begin<V: Interpretation>(&self, i: &Inputs<Signal<V>>) -> Registers<Signal<V>> {
             Registers { low: i.valid, busy: i.valid, count: int(self.divisor - 1), position: int(0), octet: i.octet }
         }
 
         /// The end of a bit: ones follow the last, and so the stop bit is one.
         #[inline(always)]
-        fn advance<V: Value>(&self, r: Registers<Signal<V>>) -> Registers<Signal<V>> {
+        fn advance<V: Interpretation>(&self, r: Registers<Signal<V>>) -> Registers<Signal<V>> {
             Registers {
                 low: !r.octet.bits(0, 1),
                 busy: !r.position.is(STOP),
@@ -183,32 +156,13 @@ pub mod transmitter {
     }
 
     impl Block for Transmitter {
-        const NAME: &'static str = "transmitter";
-        type Inputs = Inputs;
-        type Outputs = Outputs;
-        type Registers = Registers;
-        type Parts<V: Value> = ();
-
-        fn inputs(&self) -> Inputs<Format> {
-            Inputs { valid: BIT, octet: BYTE }
-        }
-
-        fn outputs(&self) -> Outputs<Format> {
-            Outputs { taken: BIT, tx: BIT }
-        }
-
-        fn registers(&self) -> Registers<Format> {
-            let (count, position) = (Format::counter(self.divisor - 1), Format::counter(STOP));
-            Registers { low: BIT, busy: BIT, count, position, octet: BYTE }
-        }
-
         #[inline(always)]
-        fn clock<V: Value>(&self, cell: &mut Cell<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
-            let r = cell.load(self);
+        fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+            let r = state.load(self);
             let counting = Registers { count: previous(r.count), ..r };
-            let busy = when!(V, Registers, r.count.is(0), self.advance(r), counting);
-            let next = when!(V, Registers, r.busy, busy, self.begin(&i));
-            cell.store(self, next);
+            let busy = when!(r.count.is(0) => self.advance(r), else counting);
+            let next = when!(r.busy => busy, else self.begin(&i));
+            state.store(self, next);
             Outputs { taken: i.valid & !r.busy, tx: !r.low }
         }
     }

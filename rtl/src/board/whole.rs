@@ -20,62 +20,19 @@ use super::registers::{self, CommandRegisters};
 use super::sigma_delta::{self, SigmaDelta};
 use super::stream::{self, Stream};
 use super::uart::receiver::{self, Receiver};
-use hapticore_model::block::{Block, Cell};
+use hapticore_model::block::{Block, Interpretation, State};
 use hapticore_model::blocks::core::{self, Core};
-use hapticore_model::format::{BIT, Format};
+use hapticore_model::blocks::estimator::Calibration;
+use hapticore_model::format::BIT;
 use hapticore_model::memory::{Memory, Write};
 use hapticore_model::profile::Profile;
-use hapticore_model::signal::{Signal, Value};
-use hapticore_model::{bundle, parts};
+use hapticore_model::signal::Signal;
+use hapticore_model::{block, call};
 
-bundle! {
-    /// The inputs: pins.
-    pub struct Inputs {
-        /// The ADC's data lines, a bit each.
-        dout,
-        /// The ADC converts.
-        busy,
-        /// Serial line in.
-        rx,
-    }
-}
-
-bundle! {
-    /// The outputs: pins.
-    pub struct Outputs {
-        /// The ADC samples.
-        convst,
-        /// The ADC is read.
-        cs_n,
-        /// SCLK has a pulse in this clock.
-        sclk_run,
-        /// To the ADC's registers.
-        sdi,
-        /// The carrier, one bit a clock.
-        carrier,
-        /// The switches of the pads, a bit each.
-        select,
-        /// Serial line out.
-        tx,
-        /// For a lamp: the board is enabled.
-        enabled,
-        /// For a lamp: the ADC has been late since the board was enabled.
-        late,
-        /// The ADC's reset.
-        adc_reset,
-    }
-}
-
-bundle! {
-    /// The registers.
-    pub struct Registers {
-        shift, late,
-    }
-}
-
-parts! {
-    /// The blocks and the memory within.
-    pub struct Parts of Board {
+block! {
+    /// The board.
+    pub struct Board("board") {}
+    submodules {
         receiver: Receiver,
         registers: CommandRegisters,
         adc_reader: AdcReader,
@@ -85,19 +42,40 @@ parts! {
         pads: Pads,
         stream: Stream,
     }
-}
-
-/// The configuration.
-#[derive(Debug, Clone)]
-pub struct Board {
-    receiver: Receiver,
-    registers: CommandRegisters,
-    adc_reader: AdcReader,
-    codes: Memory,
-    core: Core,
-    sigma_delta: SigmaDelta,
-    pads: Pads,
-    stream: Stream,
+    inputs(board) {
+        /// The ADC's data lines, a bit each.
+        dout: board.adc_reader.inputs().dout,
+        /// The ADC converts.
+        busy: BIT,
+        /// Serial line in.
+        rx: BIT,
+    }
+    outputs(board) {
+        /// The ADC samples.
+        convst: BIT,
+        /// The ADC is read.
+        cs_n: BIT,
+        /// SCLK has a pulse in this cycle.
+        sclk_run: BIT,
+        /// To the ADC's registers.
+        sdi: BIT,
+        /// The carrier, one bit per cycle.
+        carrier: BIT,
+        /// The switches of the pads, a bit each.
+        select: board.pads.outputs().select,
+        /// Serial line out.
+        tx: BIT,
+        /// For a lamp: the board is enabled.
+        enabled: BIT,
+        /// For a lamp: the ADC has been late since the board was enabled.
+        late: BIT,
+        /// The ADC's reset.
+        adc_reset: BIT,
+    }
+    registers(board) {
+        shift: BIT,
+        late: BIT,
+    }
 }
 
 impl Board {
@@ -110,14 +88,14 @@ impl Board {
         let core = Core::new(profile);
         let reader = AdcReader::new(profile, parameters);
         let words = core.estimator().position().table().words as u64;
-        let registers = CommandRegisters::new(core.inputs(), words);
+        let registers = CommandRegisters::new(core.inputs().calibration, words);
         let sets = 1usize << reader.outputs().address.width;
         Ok(Board {
             receiver: Receiver::new(parameters.divisor()),
             stream: Stream::new(profile, parameters.divisor(), registers.outputs().data),
             registers,
             adc_reader: reader,
-            codes: Memory::new("codes", sets, profile.formats.adc).never_colliding(),
+            codes: Memory::new("codes", sets, profile.formats.adc).dont_care_on_collision(),
             sigma_delta: SigmaDelta::new(core.outputs().carrier),
             pads: Pads::new(profile.pads, parameters.dead()),
             core,
@@ -137,84 +115,39 @@ impl Board {
 
 /// The core's inputs: what has been calibrated, and a set of codes.
 #[inline(always)]
-fn core_inputs<V: Value>(
+fn core_inputs<V: Interpretation>(
     registers: &registers::Outputs<Signal<V>>,
     strobe: Signal<V>,
     code: Signal<V>,
 ) -> core::Inputs<Signal<V>> {
-    core::Inputs {
-        strobe,
-        clear: !registers.enable,
-        code,
-        capacitance_gain: registers.capacitance_gain,
-        force_gain: registers.force_gain,
-        write: registers.write,
-        address: registers.address,
-        word: registers.word,
-    }
+    let registers::Outputs { capacitance_gain, force_gain, table, .. } = *registers;
+    let calibration = Calibration { capacitance_gain, force_gain, table };
+    core::Inputs { strobe, clear: !registers.enable, code, calibration }
 }
 
 impl Block for Board {
-    const NAME: &'static str = "board";
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    type Registers = Registers;
-    type Parts<V: Value> = Parts<V>;
-
-    fn inputs(&self) -> Inputs<Format> {
-        Inputs { dout: self.adc_reader.inputs().dout, busy: BIT, rx: BIT }
-    }
-
-    fn outputs(&self) -> Outputs<Format> {
-        Outputs {
-            convst: BIT,
-            cs_n: BIT,
-            sclk_run: BIT,
-            sdi: BIT,
-            carrier: BIT,
-            select: self.pads.outputs().select,
-            tx: BIT,
-            enabled: BIT,
-            late: BIT,
-            adc_reset: BIT,
-        }
-    }
-
-    fn registers(&self) -> Registers<Format> {
-        Registers { shift: BIT, late: BIT }
-    }
-
     #[inline(always)]
-    fn clock<V: Value>(&self, cell: &mut Cell<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
-        let r = cell.load(self);
-        let parts = &mut cell.parts;
-        let bytes = self.receiver.call("receiver", &mut parts.receiver, receiver::Inputs { rx: i.rx });
+    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+        let r = state.load(self);
+        let bytes = call!(self.receiver, state, receiver::Inputs { rx: i.rx });
         let answer = i.dout.bits(0, 1);
         let inputs = registers::Inputs { valid: bytes.valid, octet: bytes.octet, shift: r.shift, answer };
-        let registers = self.registers.call("registers", &mut parts.registers, inputs);
+        let registers = call!(self.registers, state, inputs);
         let inputs =
             adc_reader::Inputs { enable: registers.enable, busy: i.busy, dout: i.dout, write: registers.adc_write };
-        let adc = self.adc_reader.call("adc_reader", &mut parts.adc_reader, inputs);
+        let adc = call!(self.adc_reader, state, inputs);
         // The reader cannot ask the registers in the same clock that it is told by them.
         let shift = adc.shift;
-        let inputs = core_inputs(&registers, adc.strobe, self.codes.data(&mut parts.codes));
-        let core = self.core.call("core", &mut parts.core, inputs);
+        let inputs = core_inputs(&registers, adc.strobe, self.codes.data(&mut state.submodules.codes));
+        let core = call!(self.core, state, inputs);
         let write = Write { enable: adc.store, address: adc.address, data: adc.code };
-        self.codes.access(&mut parts.codes, adc.bank.concat(core.channel), write);
+        self.codes.access(&mut state.submodules.codes, adc.bank.concat(core.channel), write);
         let inputs = sigma_delta::Inputs { carrier: core.carrier };
-        let carrier = self.sigma_delta.call("sigma_delta", &mut parts.sigma_delta, inputs);
+        let carrier = call!(self.sigma_delta, state, inputs);
         let inputs = pads::Inputs { serve: core.serve, closed: core.closed & registers.enable };
-        let pads = self.pads.call("pads", &mut parts.pads, inputs);
+        let pads = call!(self.pads, state, inputs);
         let inputs = stream::Inputs {
-            valid: core.valid,
-            index: core.index,
-            frame: core.frame,
-            done: core.done,
-            pad: core.pad,
-            clipped: core.clipped,
-            saturated: core.saturated,
-            invalid: core.invalid,
-            lost: core.lost,
+            frames: core.frames,
             late: adc.late,
             refused: registers.refused,
             commands: registers.commands,
@@ -224,8 +157,8 @@ impl Block for Board {
             data: registers.data,
             calibrated: registers.calibrated,
         };
-        let stream = self.stream.call("stream", &mut parts.stream, inputs);
-        cell.store(self, Registers { shift, late: registers.enable & (r.late | adc.late) });
+        let stream = call!(self.stream, state, inputs);
+        state.store(self, Registers { shift, late: registers.enable & (r.late | adc.late) });
         Outputs {
             convst: adc.convst,
             cs_n: adc.cs_n,

@@ -3,7 +3,7 @@
 
 use super::PortWidth;
 use crate::verilog::{Design, Direction};
-use hapticore_model::block::{Block, Cell};
+use hapticore_model::block::{Block, State};
 use hapticore_model::bundle::Bundle;
 use hapticore_model::format::Format;
 use hapticore_model::signal::Signal;
@@ -12,7 +12,7 @@ use rust_hdl_core::ast::{Verilog, Wrapper};
 /// A block that rust-hdl's simulator clocks.
 pub struct Simulated<B: Block> {
     block: B,
-    cell: Cell<B, i64>,
+    state: State<B, i64>,
     design: Design,
     inputs: Vec<u64>,
     outputs: Vec<u64>,
@@ -33,7 +33,7 @@ impl<B: Block> Simulated<B> {
         assert_eq!(of(Direction::Input), inputs, "the inputs of {}", B::NAME);
         assert_eq!(of(Direction::Output), outputs, "the outputs of {}", B::NAME);
         Simulated {
-            cell: block.cell(),
+            state: block.reset(),
             inputs: vec![0; inputs.len()],
             outputs: Vec::new(),
             settled: false,
@@ -46,15 +46,15 @@ impl<B: Block> Simulated<B> {
     pub fn update(&mut self, edge: bool, reset: bool, inputs: &[u64]) -> &[u64] {
         if edge {
             match reset {
-                true => self.cell = self.block.cell(),
+                true => self.state = self.block.reset(),
                 false => {
-                    clock(&self.block, &mut self.cell, inputs);
+                    clock(&self.block, &mut self.state, inputs);
                 }
             }
         }
         if edge || !self.settled || self.inputs != inputs {
             // What the outputs are before the next edge depends on the inputs, too: a clock that is not kept tells.
-            self.outputs = clock(&self.block, &mut self.cell.clone(), inputs);
+            self.outputs = clock(&self.block, &mut self.state.clone(), inputs);
             self.inputs.copy_from_slice(inputs);
             self.settled = true;
         }
@@ -71,10 +71,10 @@ impl<B: Block> Simulated<B> {
 }
 
 /// One clock, from bits to bits.
-fn clock<B: Block>(block: &B, cell: &mut Cell<B, i64>, inputs: &[u64]) -> Vec<u64> {
+fn clock<B: Block>(block: &B, state: &mut State<B, i64>, inputs: &[u64]) -> Vec<u64> {
     let mut inputs = inputs.iter();
     let read = |format: Format| Signal { value: code(*inputs.next().expect("a word a port"), format), format };
-    let outputs = block.clock(cell, B::Inputs::map(block.inputs(), read));
+    let outputs = block.clock(state, B::Inputs::map(block.inputs(), read));
     let mut words = Vec::new();
     B::Outputs::each(B::Outputs::zip(outputs, block.outputs()), |_, (signal, format)| {
         words.push(signal.value as u64 & mask(format));

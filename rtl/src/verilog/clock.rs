@@ -5,7 +5,7 @@
 use super::expression::broken;
 use super::scope::Scope;
 use hapticore_model::format::Format;
-use hapticore_model::signal::netlist::{Node, Op};
+use hapticore_model::interpretations::netlist::{Node, Op};
 use std::fmt::Write;
 
 /// What a register takes next.

@@ -3,7 +3,7 @@
 
 use super::scope::{Id, Kind, Scope, Text};
 use hapticore_model::format::Format;
-use hapticore_model::signal::netlist::{Node, Op};
+use hapticore_model::interpretations::netlist::{Node, Op};
 
 /// A sized constant: negative codes as the bits they are.
 pub fn literal(code: i64, width: u8) -> String {

@@ -3,7 +3,7 @@
 
 use super::scope::{Id, Kind, Scope, Text};
 use hapticore_model::format::Format;
-use hapticore_model::signal::netlist::Node;
+use hapticore_model::interpretations::netlist::Node;
 use hapticore_model::signal::{Overflow, Rounding};
 
 impl Scope<'_> {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What of a module its outputs depend on, and how often each wire is needed.
 
-use hapticore_model::signal::netlist::{Module, Node, Op};
+use hapticore_model::interpretations::netlist::{Module, Node, Op};
 
 /// What is needed of a module.
 pub struct Live {

@@ -29,8 +29,8 @@ mod scope;
 use hapticore_model::block::Block;
 use hapticore_model::blocks::core::Core;
 use hapticore_model::format::Format;
+use hapticore_model::interpretations::netlist::{Module, Netlist};
 use hapticore_model::profile::Profile;
-use hapticore_model::signal::netlist::{Module, Netlist};
 
 /// A file of a design: one module.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -6,7 +6,8 @@ use super::expression::{BREAK, bits, literal};
 use super::names::{Names, ports};
 use super::scope::{Scope, range};
 use super::{Direction, Port};
-use hapticore_model::signal::netlist::{Module, Named, Netlist, Node, Op, Ram};
+use hapticore_model::interpretations::netlist::{Module, Named, Netlist, Node, Op, Ram};
+use hapticore_model::memory::Collision;
 use std::fmt::Write;
 
 /// The text of a module.
@@ -126,8 +127,8 @@ impl Printer<'_> {
         for (index, ram) in module.memories.iter().enumerate().filter(|(index, _)| self.scope.live.memories[*index]) {
             let (range, name, words) =
                 (range(ram.format.width, ram.format.signed), &memories[index], ram.initial.len());
-            if !ram.collides && ram.write.is_some() {
-                text += "    (* no_rw_check *) // nobody uses a word that was read while it was being written\n";
+            if ram.collision == Collision::DontCare && ram.write.is_some() {
+                text += "    (* no_rw_check *) // read-during-write: don't care\n";
             }
             if ram.block {
                 text += "    (* ram_style = \"block\" *)\n";

@@ -2,7 +2,7 @@
 //! Names: of modules, of ports, and of all else within a module, each once.
 
 use super::{Direction, Port};
-use hapticore_model::signal::netlist::{Module, Named, Netlist};
+use hapticore_model::interpretations::netlist::{Module, Named, Netlist};
 use std::collections::HashSet;
 
 /// What a signal may not be called, although it might be: the words of Verilog (IEEE 1364-2005, annex B), ...

@@ -4,7 +4,7 @@
 use super::live::Live;
 use super::names::Names;
 use hapticore_model::format::Format;
-use hapticore_model::signal::netlist::{Module, Named, Node, Op};
+use hapticore_model::interpretations::netlist::{Module, Named, Node, Op};
 
 /// An expression in Verilog; its width and sign are those of the wire it stands for.
 #[derive(Debug, Clone)]

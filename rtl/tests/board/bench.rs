@@ -1,33 +1,33 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A block, clocked by codes.
 
-use hapticore_model::block::{Block, Cell, Inputs, Outputs};
+use hapticore_model::block::{Block, Inputs, Outputs, State};
 use hapticore_model::bundle::Bundle;
 use hapticore_model::signal::Signal;
 
 /// A block and its registers.
 pub struct Bench<B: Block> {
     pub block: B,
-    cell: Cell<B, i64>,
+    state: State<B, i64>,
 }
 
 impl<B: Block> Bench<B> {
     /// The block at reset.
     pub fn new(block: B) -> Self {
-        Bench { cell: block.cell(), block }
+        Bench { state: block.reset(), block }
     }
 
     /// One clock.
     pub fn clock(&mut self, inputs: Inputs<B, i64>) -> Outputs<B, i64> {
         let with_formats = B::Inputs::zip(inputs, self.block.inputs());
         let signals = B::Inputs::map(with_formats, |(value, format)| Signal { value, format });
-        B::Outputs::map(self.block.clock(&mut self.cell, signals), |signal| signal.value)
+        B::Outputs::map(self.block.clock(&mut self.state, signals), |signal| signal.value)
     }
 }
 
 impl<B: Block> Bench<B> {
     /// What the registers hold.
     pub fn registers(&self) -> hapticore_model::block::Registers<B, i64> {
-        self.cell.registers
+        self.state.registers
     }
 }

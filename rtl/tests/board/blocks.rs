@@ -5,7 +5,6 @@ use crate::bench::Bench;
 use crate::pins::Host;
 use crate::random::Random;
 use hapticore_host::Command;
-use hapticore_model::block::Block;
 use hapticore_model::blocks::core::{self, Core};
 use hapticore_model::bundle::Bundle;
 use hapticore_model::format::Format;
@@ -169,18 +168,18 @@ fn strobes_that_come_closer_than_the_profile_s_are_told_until_the_slot_is_abando
 fn every_command_is_taken_escaped_or_not() {
     let profile = Profile::bundled("small").expect("bundled");
     let core = Core::new(&profile).inputs();
-    let mut bench = Bench::new(CommandRegisters::new(core, 100));
+    let mut bench = Bench::new(CommandRegisters::new(core.calibration, 100));
     let mut random = Random::new(9);
     for count in 1..2_000 {
-        let (address, code) = (random.below(100) as u16, random.word(core.word));
+        let (address, code) = (random.below(100) as u16, random.word(core.calibration.table.word));
         let mut written = None;
         let bytes = Command::Table { address, code }.encode(&profile);
         for byte in bytes.iter().map(|&byte| Some(byte)).chain([None]) {
             let (valid, octet) = (byte.is_some().into(), byte.unwrap_or(0).into());
             let outputs = bench.clock(registers::Inputs { valid, octet, shift: 0, answer: 0 });
             assert_eq!(outputs.refused, 0, "{count}: {bytes:x?}");
-            if outputs.write != 0 {
-                written = Some((outputs.address as u16, outputs.word));
+            if outputs.table.write != 0 {
+                written = Some((outputs.table.address as u16, outputs.table.word));
             }
         }
         assert_eq!(written, Some((address, code)), "{count}: {bytes:x?}");

@@ -7,7 +7,6 @@ use crate::session::{Session, parameters, samples, simulated, small};
 use hapticore_host::Constant;
 use hapticore_host::startup::start;
 use hapticore_host::{Command, encode};
-use hapticore_model::block::Block;
 use hapticore_model::blocks::core::Core;
 use hapticore_model::profile::Profile;
 use hapticore_rtl::board::framing::Register;
@@ -17,11 +16,11 @@ const COMMANDS: usize = 10_000;
 
 /// A command that leaves the calibration as it is, and the bytes that damage has made of some of them.
 fn harmless(profile: &Profile, core: &Core, commands: &[Command], random: &mut Random) -> Vec<u8> {
-    let inputs = core.inputs();
+    let formats = core.inputs().calibration;
     // Words that the map's address could name but that it does not have; bits above the address are ignored.
-    let (words, most) = (core.estimator().position().table().words as u64, 1 << inputs.address.width);
+    let (words, most) = (core.estimator().position().table().words as u64, 1 << formats.table.address.width);
     let beyond = words + random.below(most - words) + most * random.below(0x8000 / most);
-    let any = random.word(inputs.force_gain);
+    let any = random.word(formats.force_gain);
     let command = match random.below(5) {
         0 => commands[random.below(commands.len() as u64) as usize],
         1 => Command::Table { address: beyond as u16, code: random.bits() as i64 },
@@ -56,7 +55,7 @@ fn ten_thousand_commands_while_enabled_reach_no_register_of_the_adc_and_harm_no_
     let (mut random, repeated) = (Random::new(SEED), calibrating(&profile));
     for _ in 0..COMMANDS {
         session.host.send(harmless(&profile, &core, &repeated, &mut random));
-        while !session.host.idle() {
+        while !session.host.can_skip() {
             session.clock();
         }
         session.run(random.below(600));

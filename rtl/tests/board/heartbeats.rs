@@ -6,7 +6,6 @@ use crate::pins::Host;
 use crate::random::Random;
 use hapticore_host::Constant;
 use hapticore_host::{Decoder, Message};
-use hapticore_model::block::Block;
 use hapticore_model::blocks::core::Core;
 use hapticore_model::bundle::Bundle;
 use hapticore_model::profile::Profile;
@@ -24,7 +23,7 @@ const REGISTERS: [Register; 2] =
 fn a_heartbeat_tells_words_that_were_written_or_ends_early() {
     for profile in Profile::all() {
         let mut random = Random::new(11);
-        let data = CommandRegisters::new(Core::new(&profile).inputs(), 100).outputs().data;
+        let data = CommandRegisters::new(Core::new(&profile).inputs().calibration, 100).outputs().data;
         let stream = Stream::new(&profile, DIVISOR, data);
         let quiet = stream::Inputs::map(stream.inputs(), |_| 0);
         let (mut bench, mut host) = (Bench::new(stream), Host::new(DIVISOR));

@@ -191,7 +191,7 @@ impl Host {
     }
 
     pub fn send(&mut self, bytes: impl IntoIterator<Item = u8>) {
-        if self.idle() {
+        if self.can_skip() {
             self.clocks = 0;
         }
         for byte in bytes {
@@ -201,7 +201,7 @@ impl Host {
     }
 
     /// Whether everything has been sent.
-    pub fn idle(&self) -> bool {
+    pub fn can_skip(&self) -> bool {
         self.sending.is_empty()
     }
 

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! No signal of a peripheral can overflow, whatever comes in.
 
-use hapticore_model::block::{Block, sample};
+use hapticore_model::block::Block;
 use hapticore_model::blocks::core::Core;
 use hapticore_model::bundle::Bundle;
 use hapticore_model::format::Format;
+use hapticore_model::interpretations::netlist::Netlist;
+use hapticore_model::interpretations::range::{Range, take_lemmas, take_violations, whole};
+use hapticore_model::probe::sample;
 use hapticore_model::profile::Profile;
 use hapticore_model::signal::Signal;
-use hapticore_model::signal::netlist::Netlist;
-use hapticore_model::signal::range::{Range, take_lemmas, take_violations, whole};
 use hapticore_rtl::board::adc_reader::AdcReader;
 use hapticore_rtl::board::pads::Pads;
 use hapticore_rtl::board::registers::CommandRegisters;
@@ -21,15 +22,15 @@ use hapticore_rtl::board::{Board, Parameters};
 /// Clocks the block with any inputs, from reset, until its registers can be nothing new.
 fn prove<B: Block>(block: &B) {
     let inputs = B::Inputs::map(block.inputs(), |format: Format| Signal { value: whole(format), format });
-    let mut cell = block.cell::<Range>();
+    let mut state = block.reset::<Range>();
     let mut seen: Vec<Range> = Vec::new();
     take_violations();
     take_lemmas();
     for clock in 0.. {
         assert!(clock < 50_000, "{} does not close", B::NAME);
-        block.clock(&mut cell, inputs);
+        block.clock(&mut state, inputs);
         let mut now = Vec::new();
-        sample(block, &cell, &mut now);
+        sample(block, &state, &mut now);
         let joined: Vec<_> = match seen.is_empty() {
             true => now.clone(),
             false => seen.iter().zip(&now).map(|(a, b)| a.join(*b)).collect(),
@@ -54,7 +55,8 @@ fn no_signal_of_a_peripheral_can_overflow() {
         prove(&Pads::new(profile.pads, parameters.dead()));
         prove(&Receiver::new(parameters.divisor()));
         prove(&Transmitter::new(parameters.divisor()));
-        let registers = CommandRegisters::new(core.inputs(), core.estimator().position().table().words as u64);
+        let registers =
+            CommandRegisters::new(core.inputs().calibration, core.estimator().position().table().words as u64);
         prove(&Stream::new(&profile, parameters.divisor(), registers.outputs().data));
         prove(&registers);
         let board = Board::new(&profile, &parameters).expect("bundled profiles fit");

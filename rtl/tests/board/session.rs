@@ -75,7 +75,7 @@ impl Session {
 
     pub fn send(&mut self, commands: &[Command]) {
         self.host.send(encode(commands, &self.profile));
-        while !self.host.idle() {
+        while !self.host.can_skip() {
             self.clock();
         }
     }

@@ -17,8 +17,9 @@ mod slots;
 
 use crate::sources::File;
 use calibrations::Set;
-use hapticore_model::block::{Block, Cell};
+use hapticore_model::block::{Block, State};
 use hapticore_model::blocks::core::{Core, Inputs, Outputs};
+use hapticore_model::blocks::position::TablePort;
 use hapticore_model::bundle::Bundle;
 use hapticore_model::format::Format;
 use hapticore_model::profile::Profile;
@@ -87,7 +88,7 @@ impl Noise {
 /// A core at work, what it is given, and what it says.
 struct Bench {
     core: Core,
-    cell: Cell<Core, i64>,
+    state: State<Core, i64>,
     constants: Inputs<i64>,
     asked: i64,
     clock: u64,
@@ -109,7 +110,7 @@ impl Bench {
     fn new(core: Core) -> Self {
         let text = String::from;
         Bench {
-            cell: core.cell(),
+            state: core.reset(),
             constants: Inputs::map(core.inputs(), |_| 0),
             core,
             asked: 0,
@@ -126,12 +127,13 @@ impl Bench {
     fn clock(&mut self, inputs: Inputs<i64>) {
         let formats = self.core.inputs();
         let signals = Inputs::map(Inputs::zip(inputs, formats), |(value, format)| Signal { value, format });
-        let o = Outputs::map(self.core.clock(&mut self.cell, signals), |signal| signal.value);
+        let o = Outputs::map(self.core.clock(&mut self.state, signals), |signal| signal.value);
         self.asked = o.channel;
-        if o.valid == 1 {
-            line(&mut self.frames, &[o.pad, o.index, o.frame, o.clipped, o.saturated, o.invalid, o.lost]);
+        let f = o.frames;
+        if f.valid == 1 {
+            line(&mut self.frames, &[f.pad, f.index, f.frame, f.clipped, f.saturated, f.invalid, f.lost]);
         }
-        let pins = [o.serve, o.closed, o.carrier, o.done, o.overrun];
+        let pins = [o.serve, o.closed, o.carrier, f.done, o.overrun];
         if pins != self.pins {
             self.pins = pins;
             line(&mut self.changes, &[&[self.clock as i64], &pins[..]].concat());
@@ -143,12 +145,13 @@ impl Bench {
     fn write(&mut self, what: &str, code: i64) {
         writeln!(self.written, "{},{what},{code}", self.row).expect("a string grows");
         if let Ok(address) = what.parse() {
-            self.clock(Inputs { write: 1, address, word: code, ..self.constants });
+            self.clock(self.constants.with_table(TablePort { write: 1, address, word: code }));
         } else if what == "clear" {
             self.clock(Inputs { clear: 1, ..self.constants });
         } else {
-            let mut names = Inputs::NAMES.iter();
-            self.constants = Inputs::map(self.constants, |old| if names.next() == Some(&what) { code } else { old });
+            let mut fields = Inputs::FIELDS.iter();
+            let mut is_meant = || fields.next().is_some_and(|field| field.name == what);
+            self.constants = Inputs::map(self.constants, |old| if is_meant() { code } else { old });
         }
     }
 

@@ -2,11 +2,10 @@
 //! Proofs of a board's blocks, at the parameters of the boards that one can buy; that what they speak of can happen; and that
 //! they can fail.
 
-use hapticore_model::block::Block;
 use hapticore_model::blocks::core::Core;
 use hapticore_model::blocks::frames::Field;
+use hapticore_model::interpretations::netlist::{Module, Named, Netlist};
 use hapticore_model::profile::Profile;
-use hapticore_model::signal::netlist::{Module, Named, Netlist};
 use hapticore_rtl::board::adc_reader::AdcReader;
 use hapticore_rtl::board::framing::{data_bytes, word_bytes};
 use hapticore_rtl::board::pads::Pads;
@@ -95,15 +94,15 @@ type Known = Vec<(&'static str, u64)>;
 fn registers(target: Target) -> (String, Known) {
     let core = Core::new(&target.profile());
     let words = core.estimator().position().table().words as u64;
-    let address = u64::from(core.inputs().address.width);
-    let verilog = print(Netlist::of(&CommandRegisters::new(core.inputs(), words)).top());
-    (verilog, vec![("DATA", data_bytes(&core.inputs())), ("WORDS", words), ("ADDRESS", address)])
+    let address = u64::from(core.inputs().calibration.table.address.width);
+    let verilog = print(Netlist::of(&CommandRegisters::new(core.inputs().calibration, words)).top());
+    (verilog, vec![("DATA", data_bytes(&core.inputs().calibration)), ("WORDS", words), ("ADDRESS", address)])
 }
 
 /// The stream of a board with its transmitter, and what goes into that, as `line`.
 fn stream(target: Target) -> (String, Known) {
     let (profile, core) = (target.profile(), Core::new(&target.profile()));
-    let data = CommandRegisters::new(core.inputs(), 1).outputs().data;
+    let data = CommandRegisters::new(core.inputs().calibration, 1).outputs().data;
     let text = Design::of(&Stream::new(&profile, target.parameters().divisor(), data), "a formal check").text();
     let line = text.split_once(".octet(").and_then(|(_, rest)| rest.split_once("),\n")).expect("a transmitter").0;
     let line = format!("    wire [7:0] line = {line};\nendmodule");

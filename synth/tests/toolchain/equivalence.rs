@@ -12,10 +12,10 @@
 //! wires between: one that matters only in states that can be reached may do anything in others, and the induction starts
 //! from any.
 
-use hapticore_model::block::Block;
+use hapticore_model::block::Interface;
 use hapticore_model::blocks::core::Core;
+use hapticore_model::interpretations::netlist::Netlist;
 use hapticore_model::profile::Profile;
-use hapticore_model::signal::netlist::Netlist;
 use hapticore_rtl::board::pads::Pads;
 use hapticore_synth::formal::print;
 use hapticore_synth::tools::Tools;

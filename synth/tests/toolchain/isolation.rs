@@ -2,8 +2,8 @@
 //! Nothing of one pad's slot can change another's frame, whatever the inputs; and what would let it is found.
 
 use hapticore_model::blocks::core::Core;
+use hapticore_model::interpretations::netlist::{Module, Named, Netlist, Op};
 use hapticore_model::profile::Profile;
-use hapticore_model::signal::netlist::{Module, Named, Netlist, Op};
 use hapticore_synth::isolation::{Seen, State};
 
 /// A profile with slots as short as they may be: what happens within does not depend on their length.
@@ -12,9 +12,9 @@ fn short(mut profile: Profile) -> Profile {
     profile = profile.with_window(samples);
     profile.slot.open = 2;
     profile.slot.settle = 0;
-    while profile.check().is_err() {
+    while hapticore_model::check(&profile).is_err() {
         profile.slot.settle += 1;
-        assert!(profile.slot.settle < 10_000, "{}: {:?}", profile.name, profile.check());
+        assert!(profile.slot.settle < 10_000, "{}: {:?}", profile.name, hapticore_model::check(&profile));
     }
     profile
 }

@@ -26,7 +26,7 @@ impl Trace {
         mut stimulus: impl FnMut(&[i64]) -> Option<Vec<i64>>,
     ) -> Trace {
         let inputs = ports.iter().filter(|port| port.direction == Direction::Input).count();
-        let mut cell = block.cell::<i64>();
+        let mut state = block.reset::<i64>();
         let mut codes: Vec<i64> = Vec::new();
         let mut outputs = vec![0; ports.len() - inputs];
         while let Some(given) = stimulus(&outputs) {
@@ -41,7 +41,7 @@ impl Trace {
                 Signal { value, format }
             });
             outputs.clear();
-            B::Outputs::each(block.clock(&mut cell, signals), |_, signal| outputs.push(signal.value));
+            B::Outputs::each(block.clock(&mut state, signals), |_, signal| outputs.push(signal.value));
             codes.extend(&outputs);
         }
         Trace { ports, codes }

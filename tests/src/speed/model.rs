@@ -3,8 +3,9 @@
 
 use std::time::Instant;
 
-use hapticore_model::block::{Block, Cell};
+use hapticore_model::block::{Block, State};
 use hapticore_model::blocks::core::{Core, Inputs, Outputs};
+use hapticore_model::blocks::position::TablePort;
 use hapticore_model::bundle::Bundle;
 use hapticore_model::signal::Signal;
 
@@ -12,17 +13,17 @@ use super::{Course, Lap, ROTATED, moved};
 
 /// Runs a course from reset.
 pub fn run(core: &Core, course: &Course) -> Lap {
-    let mut cell = core.cell();
+    let mut state = core.reset();
     for &(address, word) in &course.table {
-        core.clock(&mut cell, signals(core, Inputs { write: 1, address, word, ..course.constants }));
+        core.clock(&mut state, signals(core, course.constants.with_table(TablePort { write: 1, address, word })));
     }
     let start = Instant::now();
-    let sum = timed(core, &mut cell, course);
+    let sum = timed(core, &mut state, course);
     Lap { seconds: start.elapsed().as_secs_f64(), sum }
 }
 
 #[inline(never)]
-fn timed(core: &Core, cell: &mut Cell<Core, i64>, course: &Course) -> u64 {
+fn timed(core: &Core, state: &mut State<Core, i64>, course: &Course) -> u64 {
     let constants = signals(core, course.constants);
     let signal = |value, of: Signal<i64>| Signal { value, ..of };
     let (mut channel, mut sum) = (0, 0);
@@ -31,7 +32,7 @@ fn timed(core: &Core, cell: &mut Cell<Core, i64>, course: &Course) -> u64 {
             for clock in 0..course.clocks_per_sample {
                 let strobe = signal(i64::from(clock == 0), constants.strobe);
                 let code = signal(set[channel].into(), constants.code);
-                let outputs = core.clock(cell, Inputs { strobe, code, ..constants });
+                let outputs = core.clock(state, Inputs { strobe, code, ..constants });
                 channel = outputs.channel.value as usize;
                 sum = added(sum, outputs);
             }

@@ -6,7 +6,7 @@ use std::fs;
 use std::process::Command;
 
 use hapticore_model::blocks::core::Inputs;
-use hapticore_model::bundle::Bundle;
+use hapticore_model::bundle::{Bundle, Field};
 use hapticore_rtl::verilog::{Design, Direction, Port};
 
 use super::{Course, Lap, ROTATED, moved};
@@ -78,7 +78,7 @@ fn sum(ports: &[Port]) -> String {
 
 fn constants(course: &Course, width: &impl Fn(&str) -> u8) -> String {
     let mut text = String::new();
-    Inputs::each(course.constants, |name, code| {
+    Inputs::each(course.constants, |Field { name, .. }, code| {
         let _ = writeln!(text, "    top->{name} = {:#x}ull;", bits(code, width(name)));
     });
     text

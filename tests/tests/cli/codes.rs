@@ -8,6 +8,7 @@ use std::process::Command;
 use hapticore_model::block::Block;
 use hapticore_model::blocks::core::{Core, Inputs, Outputs};
 use hapticore_model::blocks::frames::Field;
+use hapticore_model::blocks::position::TablePort;
 use hapticore_model::bundle::Bundle;
 use hapticore_model::profile::Profile;
 use hapticore_model::signal::Signal;
@@ -69,25 +70,26 @@ fn from_header(text: &str) -> Codes {
 fn frames(profile: &Profile, codes: &Codes, samples: &[Vec<i64>]) -> Vec<[i64; 8]> {
     let core = Core::new(profile);
     let formats = core.inputs();
-    let mut names = Inputs::NAMES.iter();
+    let mut fields = Inputs::FIELDS.iter();
     let constants = Inputs::map(formats, |_| {
-        let name = names.next().unwrap();
+        let name = fields.next().unwrap().name;
         codes.constants.iter().find(|(known, _)| known == name).map_or(0, |(_, code)| *code)
     });
-    let (mut cell, mut asked, mut frames) = (core.cell(), 0, Vec::new());
+    let (mut state, mut asked, mut frames) = (core.reset(), 0, Vec::new());
     let mut clock = |inputs: Inputs<i64>, asked: &mut i64| {
         let signals = Inputs::map(Inputs::zip(inputs, formats), |(value, format)| Signal { value, format });
-        let outputs = Outputs::map(core.clock(&mut cell, signals), |signal| signal.value);
+        let outputs = Outputs::map(core.clock(&mut state, signals), |signal| signal.value);
         *asked = outputs.channel;
-        if outputs.valid == 1 {
-            if outputs.index == 0 {
+        let port = outputs.frames;
+        if port.valid == 1 {
+            if port.index == 0 {
                 frames.push([0; 8]);
             }
-            frames.last_mut().unwrap()[outputs.index as usize] = outputs.frame;
+            frames.last_mut().unwrap()[port.index as usize] = port.frame;
         }
     };
     for (address, &word) in codes.table.iter().enumerate() {
-        clock(Inputs { write: 1, address: address as i64, word, ..constants }, &mut asked);
+        clock(constants.with_table(TablePort { write: 1, address: address as i64, word }), &mut asked);
     }
     for row in samples {
         for step in 0..profile.clocks_per_sample {

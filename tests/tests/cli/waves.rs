@@ -4,9 +4,9 @@
 use std::fs;
 use std::path::Path;
 
-use hapticore_model::block::variables;
 use hapticore_model::blocks::core::Core;
 use hapticore_model::blocks::frames::Field;
+use hapticore_model::probe::variables;
 use hapticore_model::profile::Profile;
 use hapticore_waveforms::pattern::fits;
 use hapticore_waveforms::view::View;

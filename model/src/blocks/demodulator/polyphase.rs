@@ -21,14 +21,14 @@
 //! | i, q    | 2^-dropped S_p  | full scale · samples | cannot (range proof) |
 
 use super::{Demodulator, Inputs, Outputs, PIPELINE, Registers};
-use crate::block::{Block, Cell};
+use crate::block::{Interpretation, State};
 use crate::blocks::multiplier;
 use crate::blocks::oscillator::PHASES;
 use crate::format::Format;
 use crate::memory::Write;
 use crate::profile::Profile;
-use crate::signal::{Exact, Floor, HalfEven, Never, Signal, Value, Wrap, bit, code, int, zero};
-use crate::{choose, next};
+use crate::signal::{Floor, HalfEven, Proved, Signal, Wrap, bit, code, int, zero};
+use crate::{call, next, when};
 
 /// The multiplier's operands: unsigned integers.
 pub(super) const OPERAND: Format = Format::unsigned(LIMB, 0);
@@ -87,7 +87,7 @@ impl Polyphase {
 /// The wave's magnitude by which a phase's sum is multiplied for the in-phase or the quadrature part, and whether it is
 /// negative.
 #[inline(always)]
-fn wave<V: Value>(part: Signal<V>, tap: Signal<V>) -> (Signal<V>, Signal<V>) {
+fn wave<V: Interpretation>(part: Signal<V>, tap: Signal<V>) -> (Signal<V>, Signal<V>) {
     let of = |part: usize| {
         let magnitude = |tap: usize| code(WAVES[part][tap].abs(), OPERAND);
         let outer = (tap.is(1) | tap.is(4)).select(magnitude(1), magnitude(2));
@@ -101,30 +101,30 @@ fn wave<V: Value>(part: Signal<V>, tap: Signal<V>) -> (Signal<V>, Signal<V>) {
 impl Demodulator {
     /// A code moved up by its full scale.
     #[inline(always)]
-    pub(crate) fn raised<V: Value>(&self, code: Signal<V>) -> Signal<V> {
-        (code + int(1)).fit(UNSIGNED, Exact, Never)
+    pub(crate) fn raised<V: Interpretation>(&self, code: Signal<V>) -> Signal<V> {
+        (code + int(1)).resize(UNSIGNED, Proved)
     }
 
     /// The magnitude of a code.
     #[inline(always)]
-    pub(crate) fn magnitude<V: Value>(&self, code: Signal<V>) -> Signal<V> {
-        code.abs().fit(UNSIGNED, Exact, Never)
+    pub(crate) fn magnitude<V: Interpretation>(&self, code: Signal<V>) -> Signal<V> {
+        code.abs().resize(UNSIGNED, Proved)
     }
 
     /// A window's word.
     #[inline(always)]
-    pub(crate) fn weight<V: Value>(&self, window: Signal<V>) -> Signal<V> {
-        window.fit(WEIGHT, Exact, Never)
+    pub(crate) fn weight<V: Interpretation>(&self, window: Signal<V>) -> Signal<V> {
+        window.resize(WEIGHT, Proved)
     }
 
     /// The haptic code's share of the window.
     #[inline(always)]
-    pub(crate) fn share<V: Value>(&self, product: Signal<V>) -> Signal<V> {
-        product.fit(WEIGHT, HalfEven, Never)
+    pub(crate) fn share<V: Interpretation>(&self, product: Signal<V>) -> Signal<V> {
+        product.quantize(WEIGHT, HalfEven, Proved)
     }
 
     /// In-phase and quadrature sums from those of the phases.
-    pub(crate) fn combine<V: Value>(
+    pub(crate) fn combine<V: Interpretation>(
         &self,
         polyphase: &Polyphase,
         sums: [Signal<V>; PHASES as usize],
@@ -145,36 +145,52 @@ impl Demodulator {
 
     /// Sixteen bits of a phase's sum, or what they lack to all ones.
     #[inline(always)]
-    fn limb<V: Value>(&self, polyphase: &Polyphase, sum: Signal<V>, high: Signal<V>, negative: Signal<V>) -> Signal<V> {
+    fn limb<V: Interpretation>(
+        &self,
+        polyphase: &Polyphase,
+        sum: Signal<V>,
+        high: Signal<V>,
+        negative: Signal<V>,
+    ) -> Signal<V> {
         let upper = sum.bits(polyphase.dropped + LIMB, LIMB);
         let whole = sum.scaled(sum.format.frac - polyphase.dropped as i8);
-        let lower = sum.bits(polyphase.dropped, LIMB).ideally(&[whole, upper], |of| of[0] - of[1] * 65536.0);
+        let lower = sum.bits(polyphase.dropped, LIMB).golden(&[whole, upper], |of| of[0] - of[1] * 65536.0);
         let limb = high.select(upper, lower).named("limb");
-        negative.select((int(65535) - limb).fit(OPERAND, Exact, Never), limb)
+        negative.select((int(65535) - limb).resize(OPERAND, Proved), limb)
     }
 
     /// What a product of the read-out is added to: nothing, the sum of the lower halves' products less what negative waves
     /// add, or the sum so far.
     #[inline(always)]
-    fn carried<V: Value>(&self, sum: Signal<V>, tap: Signal<V>, high: Signal<V>, part: Signal<V>) -> Signal<V> {
+    fn carried<V: Interpretation>(
+        &self,
+        sum: Signal<V>,
+        tap: Signal<V>,
+        high: Signal<V>,
+        part: Signal<V>,
+    ) -> Signal<V> {
         let format = self.sum();
         let shifted = sum.scaled(-(LIMB as i8));
-        let above = shifted.fit(Format::unsigned(18, format.frac), Floor, Wrap).ideally(&[shifted], |of| of[0]);
+        let above = shifted.quantize(Format::unsigned(18, format.frac), Floor, Wrap).golden(&[shifted], |of| of[0]);
         let added = |part: usize| WAVES[part].iter().filter(|&&wave| wave < 0).sum::<i64>() << LIMB;
         let [cosine, sine] = [0, 1].map(|part| code(added(part), format));
-        let carried = (above + part.select(sine, cosine)).named("carried").fit(format, Exact, Never);
+        let carried = (above + part.select(sine, cosine)).named("carried").resize(format, Proved);
         tap.is(0).select(high.select(carried, zero(format)), sum)
     }
 
     /// A sum with one more product.
     #[inline(always)]
-    pub(crate) fn add<V: Value>(&self, sum: Signal<V>, product: Signal<V>) -> Signal<V> {
-        (sum + product).named("accumulated").fit(self.sum(), Exact, Never)
+    pub(crate) fn add<V: Interpretation>(&self, sum: Signal<V>, product: Signal<V>) -> Signal<V> {
+        (sum + product).named("accumulated").resize(self.sum(), Proved)
     }
 
     /// The operands of a sample's products: haptic code and window, each channel and the window, haptic code and its share.
     #[inline(always)]
-    fn sample_operands<V: Value>(&self, r: &Registers<Signal<V>>, i: &Inputs<Signal<V>>) -> (Signal<V>, Signal<V>) {
+    fn sample_operands<V: Interpretation>(
+        &self,
+        r: &Registers<Signal<V>>,
+        i: &Inputs<Signal<V>>,
+    ) -> (Signal<V>, Signal<V>) {
         let haptic = r.step.is(0) | r.step.is(self.channels + 1);
         let left = haptic.select(self.magnitude(i.code), self.raised(i.code));
         let right = r.step.is(self.channels + 1).select(r.weighted.scaled(-WEIGHT.frac), self.weight(i.window));
@@ -183,7 +199,7 @@ impl Demodulator {
 
     /// A clock of a sample: the product of the clock before last joins its sum.
     #[inline(always)]
-    fn sample<V: Value>(
+    fn sample<V: Interpretation>(
         &self,
         r: Registers<Signal<V>>,
         i: Inputs<Signal<V>>,
@@ -198,21 +214,21 @@ impl Demodulator {
         Registers {
             busy: !end,
             reading: end & r.last,
-            step: end.select(int(0), r.step + int(1)).fit(r.step.format, Exact, Never),
+            step: end.select(int(0), r.step + int(1)).resize(r.step.format, Proved),
             left,
             right,
-            weighted: choose!(V, weighs, self.share(product).integer(), r.weighted),
+            weighted: when!(weighs => self.share(product).integer(), else r.weighted),
             summed: !(weighs | r.step.less_than(int(PIPELINE))),
             index,
             sum,
-            clipped: r.clipped | choose!(V, uses_code, self.at_rail(i.code), bit(false)),
+            clipped: r.clipped | when!(uses_code => self.at_rail(i.code), else bit(false)),
             ..r
         }
     }
 
     /// A clock of the read-out: a product takes four, a result twice as many products as there are phases.
     #[inline(always)]
-    fn read<V: Value>(
+    fn read<V: Interpretation>(
         &self,
         polyphase: &Polyphase,
         r: Registers<Signal<V>>,
@@ -223,23 +239,23 @@ impl Demodulator {
         let (magnitude, negative) = wave(r.part, r.tap);
         let end = r.beat.is(BEATS - 1);
         let result = ((r.tap.is(PHASES - 1) & r.high) | square).named("result");
-        let tap = r.tap.is(PHASES - 1).select(int(0), r.tap + int(1)).fit(r.tap.format, Exact, Never);
+        let tap = r.tap.is(PHASES - 1).select(int(0), r.tap + int(1)).resize(r.tap.format, Proved);
         let turns = |bit: Signal<V>, by: Signal<V>| (bit & !by) | (by & !bit);
         let high = turns(r.high, r.tap.is(PHASES - 1));
         // Of the sum of squares one product is made, with the quadrature's first wave: zero.
         let last_channel = r.channel.is(self.channels - 1);
         let part = turns(r.part, result) | (last_channel & r.part);
-        let channel = (r.channel + (result & r.part)).fit(r.channel.format, Exact, Wrap);
+        let channel = (r.channel + (result & r.part)).resize(r.channel.format, Wrap);
         let place = r.channel.concat(r.part & !square);
-        let index = place.fit(r.index.format, Exact, Never);
+        let index = place.resize(r.index.format, Proved);
         let loads = r.beat.is(1);
         let after = |ends: Signal<V>, now: Signal<V>| end.select(ends, now);
         Registers {
-            beat: (r.beat + int(1)).fit(r.beat.format, Exact, Wrap),
-            tap: after(square.select(int(0), tap).fit(r.tap.format, Exact, Never), r.tap),
+            beat: r.beat.increment(),
+            tap: after(square.select(int(0), tap).resize(r.tap.format, Proved), r.tap),
             high: after(high & !square, r.high),
             part: after(part & !square, r.part),
-            channel: after(square.select(int(0), channel).fit(r.channel.format, Exact, Never), r.channel),
+            channel: after(square.select(int(0), channel).resize(r.channel.format, Proved), r.channel),
             left: loads.select(self.limb(polyphase, word, r.high, negative), r.left),
             right: loads.select(magnitude, r.right),
             sum: end.select(sum, r.sum),
@@ -252,24 +268,24 @@ impl Demodulator {
 
     /// A clock of a demodulator with polyphase sums.
     #[inline(always)]
-    pub(super) fn clock_polyphase<V: Value>(
+    pub(super) fn clock_polyphase<V: Interpretation>(
         &self,
         polyphase: &Polyphase,
-        cell: &mut Cell<Demodulator, V>,
+        state: &mut State<Demodulator, V>,
         i: Inputs<Signal<V>>,
     ) -> Outputs<Signal<V>> {
-        let r = cell.load(self);
-        let haptic = code(self.channels as i64, self.channel.counting());
-        let asked = r.step.fit(self.channel.counting(), Exact, Wrap);
+        let r = state.load(self);
+        let haptic = code(self.channels as i64, self.channel.as_uint());
+        let asked = r.step.resize(self.channel.as_uint(), Wrap);
         let channel = (r.busy & r.step.less_than(int(self.channels))).select(asked, haptic);
         let outputs =
             Outputs { channel, valid: r.valid, index: self.result(&r), sum: r.sum, pad: r.pad, clipped: r.clipped };
-        if (i.start | r.busy | r.summed | r.reading | r.valid).idle() {
+        if (i.start | r.busy | r.summed | r.reading | r.valid).can_skip() {
             return outputs;
         }
         let inputs = multiplier::Inputs { enable: r.busy | r.reading, left: r.left, right: r.right };
-        let product = self.multiplier.call("multiplier", &mut cell.parts.multiplier, inputs).product;
-        let word = Signal { format: self.sum(), ..self.sums.data(&mut cell.parts.sums) };
+        let product = call!(self.multiplier, state, inputs).product;
+        let word = Signal { format: self.sum(), ..self.sums.data(&mut state.submodules.sums) };
         let square = r.channel.is(self.channels);
         let begun = r.step.is(self.steps() - 1).select(r.first, r.fresh) & !r.reading;
         let so_far = begun.select(zero(word.format), word);
@@ -280,14 +296,10 @@ impl Demodulator {
         let reads = r.tap.concat(r.channel);
         let address = r.reading.select(reads, place(1));
         let write = Write { enable: r.summed, address: r.index, data: r.sum };
-        self.sums.access(&mut cell.parts.sums, address, write);
+        self.sums.access(&mut state.submodules.sums, address, write);
         let index = place(0);
         let quiet = Registers { valid: bit(false), summed: bit(false), ..r };
-        next!(
-            V,
-            Registers,
-            self,
-            cell,
+        next!(self, state,
             i.start => self.begin(quiet, i),
             r.busy => self.sample(quiet, i, product.scaled(-PRODUCT.frac), sum, index),
             r.reading => self.read(polyphase, quiet, word, sum),
@@ -298,16 +310,16 @@ impl Demodulator {
 
     /// The index of a result.
     #[inline(always)]
-    fn result<V: Value>(&self, r: &Registers<Signal<V>>) -> Signal<V> {
+    fn result<V: Interpretation>(&self, r: &Registers<Signal<V>>) -> Signal<V> {
         r.index.bits(0, Format::counter(self.sums() - 1).width)
     }
 
     /// Where the sum of a product lies, whose step is `ahead` after this one; anywhere where there is none.
     #[inline(always)]
-    fn place<V: Value>(&self, polyphase: &Polyphase, r: &Registers<Signal<V>>, ahead: u64) -> Signal<V> {
+    fn place<V: Interpretation>(&self, polyphase: &Polyphase, r: &Registers<Signal<V>>, ahead: u64) -> Signal<V> {
         // The first channel's product is the second; it joins its sum two steps later.
         let channel = (r.step - int(PIPELINE + 1 - ahead)).bits(0, polyphase.channel_bits);
         let square = channel.is(self.channels);
-        square.select(int(0), r.phase).fit(PHASE, Exact, Never).concat(channel)
+        square.select(int(0), r.phase).resize(PHASE, Proved).concat(channel)
     }
 }

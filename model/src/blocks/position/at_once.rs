@@ -4,10 +4,10 @@
 //!
 //! Instructions are as `instruction.rs` says, on raw codes. `fixed` and `clock` are held to be equal to the bit.
 
+use super::Layout;
 use super::instruction::{
     CHECK, COUNT, Index, Instruction, LOW, OPEN, Operation, SCALARS, SHARE, SLOT_BITS, SURFACE, WRAP,
 };
-use super::layout::Layout;
 use super::{Position, Program, Surface};
 use crate::format::Format;
 
@@ -233,7 +233,7 @@ impl Run<'_> {
 mod tests {
     use super::*;
     use crate::profile::Profile;
-    use crate::reference::rounded::{Exact, Position as Reference};
+    use hapticore_reference::rounded::{Exact, Position as Reference};
 
     /// Numbers without a pattern.
     fn random(state: &mut u64) -> i64 {

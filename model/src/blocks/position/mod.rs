@@ -32,98 +32,120 @@
 
 mod at_once;
 mod instruction;
-mod layout;
 mod program;
 
-pub use layout::{Axis, Layout, Scalar, Surface};
+pub use hapticore_contract::calibration::{Axis, Layout, Scalar, Surface};
 
 use self::at_once::AtOnce;
 use self::instruction::{COUNT, LOW, OPEN, Operation, SCALARS, SHARE, SURFACE, WRAP};
 use self::program::Program;
 use super::multiplier::{self, Multiplier};
-use crate::block::{Block, Cell};
+use crate::block::{Block, Interpretation, State};
 use crate::format::{BIT, Format};
 use crate::memory::{Memory, Write};
 use crate::profile::Profile;
-use crate::signal::{Exact, Floor, Never, Saturate, Signal, Value, Wrap, bit, code, int, is_set, zero};
-use crate::{bundle, choose, parts};
+use crate::signal::{Floor, Proved, Saturate, Signal, Wrap, bit, code, int, is_set, zero};
+use crate::states::States;
+use crate::{block, bundle, call, states, when};
 
 bundle! {
-    /// The inputs.
-    pub struct Inputs {
-        /// Begins; the ratios are valid and stable until `done`.
-        start,
-        /// The x ratio.
-        r_x,
-        /// The y ratio.
-        r_y,
-        /// The least current's share of the ratios' denominator.
-        share,
-        /// Calibration: writes a word of the position table.
+    /// The port through which a calibration writes the position table.
+    pub struct TablePort {
+        /// Writes a word of the position table.
         write,
-        /// Calibration: the word's address.
+        /// The word's address.
         address,
-        /// Calibration: the word.
         word,
     }
 }
 
-bundle! {
-    /// The outputs: registers.
-    pub struct Outputs {
-        /// Asserted for one cycle when the others are valid.
-        done,
-        /// The position along the long edges, in mm.
-        x,
-        /// The position along the short edges, in mm.
-        y,
-        /// The sheet's resistance at the pad, in full scales of voltage per current.
-        sheet,
-        /// No place of the table has the measured ratios.
-        invalid,
-        /// A terminal's current is that of an open one.
-        lost,
-        /// A position is saturated.
-        saturated,
+states! {
+    /// What a spline of the table gives.
+    pub enum Spline {
+        RX, RY, Resistance,
     }
 }
 
-bundle! {
-    /// The registers. `loads`, `floors`, `digits`, `multiplies` and `tables` say what becomes of the word that was read.
-    pub struct Registers {
-        running, bubble, fetched, instruction, waited,
-        loads, floors, digits, multiplies, tables, pending,
-        left, factor, word, sum, quotient, base,
-        surface: ["r_x", "r_y", "resistance"],
-        count, step, x, y, sheet, invalid, lost, saturated, done,
+block! {
+    /// Position and sheet resistance from the ratios.
+    pub struct Position("position") {
+        /// Cycles from the program's first instruction to its last.
+        clocks: u64,
+        steps: u64,
+        /// Cycles from a product's operands to its place in the sum.
+        wait: u64,
+        /// Digits of a quotient.
+        digits: u8,
+        ratio: Format,
+        word: Format,
+        position: Format,
+        sheet: Format,
+        /// For interpretations as codes, which need not step the program's cycles.
+        at_once: Option<AtOnce>,
     }
-}
-
-parts! {
-    /// The blocks and memories within.
-    pub struct Parts of Position {
+    submodules {
         table: Memory,
         scratch: Memory,
         program: Memory,
         multiplier: Multiplier,
     }
-}
-
-/// The configuration.
-#[derive(Debug, Clone)]
-pub struct Position {
-    table: Memory,
-    scratch: Memory,
-    program: Memory,
-    multiplier: Multiplier,
-    /// Clocks from the program's first instruction to its last.
-    clocks: u64,
-    steps: u64,
-    ratio: Format,
-    word: Format,
-    registers: Registers<Format>,
-    /// For readings of codes that need not step the program's clocks.
-    at_once: Option<AtOnce>,
+    inputs(block) {
+        /// Begins; the ratios are valid and stable until `done`.
+        start: BIT,
+        /// The x ratio.
+        r_x: block.ratio,
+        /// The y ratio.
+        r_y: block.ratio,
+        /// The least current's share of the ratios' denominator.
+        share: block.share(),
+        table as TablePort: TablePort { write: BIT, address: block.table.address(), word: block.word },
+    }
+    outputs(block) {
+        /// Asserted for one cycle when the others are valid.
+        done: BIT,
+        /// The position along the long edges, in mm.
+        x: block.position,
+        /// The position along the short edges, in mm.
+        y: block.position,
+        /// The sheet's resistance at the pad, in full scales of voltage per current.
+        sheet: block.sheet,
+        /// No place of the table has the measured ratios.
+        invalid: BIT,
+        /// A terminal is open.
+        lost: BIT,
+        /// A position is saturated.
+        saturated: BIT,
+    }
+    registers(block) {
+        running: BIT,
+        bubble: BIT,
+        fetched: block.program.address(),
+        instruction: Format::unsigned(instruction::BITS, 0),
+        waited: Format::counter(block.wait + 1),
+        /// What becomes of the word that was read, as the next four.
+        loads: BIT,
+        floors: BIT,
+        digits: BIT,
+        multiplies: BIT,
+        tables: BIT,
+        pending: Format::unsigned(block.wait as u8, 0),
+        left: block.word,
+        factor: block.word,
+        word: block.word,
+        sum: Format::signed(2 * block.word.width + 6, 2 * block.word.frac),
+        quotient: Format::unsigned(block.digits, 0),
+        base: block.table.address(),
+        surface in Spline,
+        count: Format::unsigned(4, 0),
+        step: Format::counter(block.steps),
+        x: block.position,
+        y: block.position,
+        sheet: block.sheet,
+        invalid: BIT,
+        lost: BIT,
+        saturated: BIT,
+        done: BIT,
+    }
 }
 
 /// An instruction that is carried out in this clock, if it need not wait.
@@ -136,7 +158,7 @@ struct Decoded<V> {
     slot: Signal<V>,
 }
 
-impl<V: Value> Decoded<V> {
+impl<V: Interpretation> Decoded<V> {
     /// Whether it is this one, done in this clock.
     #[inline(always)]
     fn does(&self, operation: Operation) -> Signal<V> {
@@ -168,13 +190,14 @@ impl Position {
         let program = Program::new(word);
         let codes = program.instructions.iter().map(|instruction| instruction.code().into()).collect();
         let constants = program::constants(&layout, word);
-        let table = Memory::new("words", layout.words(), word).never_colliding();
-        let scratch = Memory::new("scratch", constants.len(), word).never_colliding().in_block();
+        let table = Memory::new("words", layout.words(), word).dont_care_on_collision();
+        let scratch = Memory::new("scratch", constants.len(), word).dont_care_on_collision().in_block();
         let multiplier = Multiplier::new(word.integer(), word.integer(), profile.multiplier);
         let wait = 1 + multiplier.latency();
         Position {
             clocks: program.clocks(profile.position.steps, wait),
-            registers: registers(profile, &table, &program, wait),
+            digits: program.digits(),
+            wait,
             program: Memory::table("instructions", Format::unsigned(instruction::BITS, 0), codes),
             // A slot whose table is written meanwhile gives a frame of neither calibration in any case.
             table,
@@ -183,6 +206,8 @@ impl Position {
             steps: profile.position.steps,
             ratio: profile.formats.ratio,
             word,
+            position: profile.formats.position,
+            sheet: profile.sheet(),
             at_once: None,
         }
     }
@@ -198,7 +223,7 @@ impl Position {
     }
 
     /// The registers in the clock after `start`, without the program's clocks.
-    fn placed<V: Value>(
+    fn placed<V: Interpretation>(
         &self,
         at_once: &AtOnce,
         r: Registers<Signal<V>>,
@@ -230,109 +255,22 @@ impl Position {
     }
 }
 
-/// The formats of the registers.
-fn registers(profile: &Profile, table: &Memory, program: &Program, wait: u64) -> Registers<Format> {
-    let word = profile.formats.table;
-    Registers {
-        running: BIT,
-        bubble: BIT,
-        fetched: Format::counter(program.instructions.len() as u64 - 1),
-        instruction: Format::unsigned(instruction::BITS, 0),
-        waited: Format::counter(wait + 1),
-        loads: BIT,
-        floors: BIT,
-        digits: BIT,
-        multiplies: BIT,
-        tables: BIT,
-        pending: Format::unsigned(wait as u8, 0),
-        left: word,
-        factor: word,
-        word,
-        sum: Format::signed(2 * word.width + 6, 2 * word.frac),
-        quotient: Format::unsigned(program.digits(), 0),
-        base: table.address(),
-        surface: Format::counter(Surface::Resistance as u64),
-        count: Format::unsigned(4, 0),
-        step: Format::counter(profile.position.steps),
-        x: profile.formats.position,
-        y: profile.formats.position,
-        sheet: profile.sheet(),
-        invalid: BIT,
-        lost: BIT,
-        saturated: BIT,
-        done: BIT,
-    }
-}
-
 impl Block for Position {
-    const NAME: &'static str = "position";
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    type Registers = Registers;
-    type Parts<V: Value> = Parts<V>;
-
-    #[inline]
-    fn inputs(&self) -> Inputs<Format> {
-        Inputs {
-            start: BIT,
-            r_x: self.ratio,
-            r_y: self.ratio,
-            share: self.share(),
-            write: BIT,
-            address: self.table.address(),
-            word: self.word,
-        }
-    }
-
-    #[inline]
-    fn outputs(&self) -> Outputs<Format> {
-        let Registers { done, x, y, sheet, invalid, lost, saturated, .. } = self.registers;
-        Outputs { done, x, y, sheet, invalid, lost, saturated }
-    }
-
     #[inline(always)]
-    fn registers(&self) -> Registers<Format> {
-        let r = self.registers;
-        Registers {
-            running: BIT,
-            bubble: BIT,
-            fetched: r.fetched.counting(),
-            instruction: r.instruction.counting(),
-            waited: r.waited.counting(),
-            loads: BIT,
-            floors: BIT,
-            digits: BIT,
-            multiplies: BIT,
-            tables: BIT,
-            pending: r.pending.counting(),
-            quotient: r.quotient.counting(),
-            base: r.base.counting(),
-            surface: r.surface.counting(),
-            count: r.count.counting(),
-            step: r.step.counting(),
-            invalid: BIT,
-            lost: BIT,
-            saturated: BIT,
-            done: BIT,
-            ..r
-        }
-    }
-
-    #[inline(always)]
-    fn clock<V: Value>(&self, cell: &mut Cell<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
-        let r = cell.load(self);
+    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+        let r = state.load(self);
         let Registers { done, x, y, sheet, invalid, lost, saturated, .. } = r;
         let outputs = Outputs { done, x, y, sheet, invalid, lost, saturated };
-        if (i.start | r.running | r.done | i.write).idle() {
+        if (i.start | r.running | r.done | i.table.write).can_skip() {
             return outputs;
         }
         if let Some(at_once) = self.at_once.as_ref().filter(|_| V::DECIDES && is_set(i.start)) {
-            cell.store(self, self.placed(at_once, r, &i));
+            state.store(self, self.placed(at_once, r, &i));
             return outputs;
         }
         let now = self.decode(&r);
         let (result, held) = self.result(&r);
-        let read = self.read(cell, &r, &i, &now, result);
+        let read = self.read(state, &r, &i, &now, result);
         let next = self.follow(self.compute(r, &read, &now), &r, &now, read.instruction);
         let next = self.give_out(next, &r, &now, result, held);
         let begun = Registers {
@@ -341,13 +279,13 @@ impl Block for Position {
             sum: self.half(),
             // Of the slot before, another pad's, nothing is left.
             quotient: int(0),
-            surface: int(0),
+            surface: Spline::RX.signal(),
             step: int(0),
             invalid: bit(false),
             saturated: bit(false),
             ..next
         };
-        cell.store(self, crate::when!(V, Registers, i.start => begun, else next));
+        state.store(self, when!(i.start => begun, else next));
         outputs
     }
 }
@@ -364,12 +302,12 @@ struct Read<V> {
 impl Position {
     /// Half of a word's least step: what rounding adds.
     #[inline(always)]
-    fn half<V: Value>(&self) -> Signal<V> {
+    fn half<V: Interpretation>(&self) -> Signal<V> {
         code(1 << (self.word.frac - 1), Format::signed(self.word.width + 1, 2 * self.word.frac))
     }
 
     #[inline(always)]
-    fn decode<V: Value>(&self, r: &Registers<Signal<V>>) -> Decoded<V> {
+    fn decode<V: Interpretation>(&self, r: &Registers<Signal<V>>) -> Decoded<V> {
         let word = r.instruction;
         let operation = word.bits(instruction::BITS - instruction::OPERATION_BITS, instruction::OPERATION_BITS);
         let option = word.bits(0, instruction::OPTION_BITS);
@@ -380,7 +318,7 @@ impl Position {
         let done = (r.running & !r.bubble & (!waits | settled)).named("does");
         let group = word.bits(instruction::OPTION_BITS, instruction::SLOT_BITS);
         let index = word.bits(instruction::OPTION_BITS + instruction::SLOT_BITS, 2);
-        let by = |index: Signal<V>| index.fit(Format::unsigned(4, 0), Exact, Never);
+        let by = |index: Signal<V>| index.resize(Format::unsigned(4, 0), Proved);
         let none = int(0);
         let of_surface = by(r.surface);
         let of_pair = by(r.surface.bits(0, 1).concat(bit(false)));
@@ -397,65 +335,65 @@ impl Position {
 
     /// The sum as a word, and whether it was saturated.
     #[inline(always)]
-    fn result<V: Value>(&self, r: &Registers<Signal<V>>) -> (Signal<V>, Signal<V>) {
+    fn result<V: Interpretation>(&self, r: &Registers<Signal<V>>) -> (Signal<V>, Signal<V>) {
         let (word, held) = r.sum.saturate(self.word, Floor);
-        let rounded = word.ideally(&[r.sum, self.half()], |of| (of[0] - of[1]).clamp(-1.0, 1.0));
+        let rounded = word.golden(&[r.sum, self.half()], |of| (of[0] - of[1]).clamp(-1.0, 1.0));
         (rounded.named("result"), held.named("held"))
     }
 
     /// One clock of the memories and of the multiplier.
     #[inline(always)]
-    fn read<V: Value>(
+    fn read<V: Interpretation>(
         &self,
-        cell: &mut Cell<Self, V>,
+        state: &mut State<Self, V>,
         r: &Registers<Signal<V>>,
         i: &Inputs<Signal<V>>,
         now: &Decoded<V>,
         result: Signal<V>,
     ) -> Read<V> {
-        let of_table = self.table.data(&mut cell.parts.table);
-        let word = self.scratch.data(&mut cell.parts.scratch);
-        let instruction = self.program.data(&mut cell.parts.program);
+        let of_table = self.table.data(&mut state.submodules.table);
+        let word = self.scratch.data(&mut state.submodules.scratch);
+        let instruction = self.program.data(&mut state.submodules.program);
         let option = now.is(Operation::MultiplyTable).select(now.option, int(0));
-        let address = (r.base + option).fit(r.base.format, Exact, Wrap);
-        let write = Write { enable: i.write, address: i.address, data: i.word };
-        self.table.access(&mut cell.parts.table, address, write);
+        let address = (r.base + option).resize(r.base.format, Wrap);
+        let write = Write { enable: i.table.write, address: i.table.address, data: i.table.word };
+        self.table.access(&mut state.submodules.table, address, write);
         let enable = now.does(Operation::Store) | now.does(Operation::Input);
         let data = self.stored(r, i, now, result);
-        self.scratch.access(&mut cell.parts.scratch, now.slot, Write { enable, address: now.slot, data });
-        self.program.read(&mut cell.parts.program, self.fetch(r, now));
+        self.scratch.access(&mut state.submodules.scratch, now.slot, Write { enable, address: now.slot, data });
+        self.program.read(&mut state.submodules.program, self.fetch(r, now));
         let (now, next) = (r.pending.bits(0, 1), r.pending.bits(1, 1));
         // A product of two clocks goes on in the second.
         let enable = if self.multiplier.latency() == 1 { now } else { now | next };
         let inputs = multiplier::Inputs { enable, left: r.factor.integer(), right: r.word.integer() };
-        let product = self.multiplier.call("multiplier", &mut cell.parts.multiplier, inputs).product;
+        let product = call!(self.multiplier, state, inputs).product;
         let factor = r.tables.select(of_table, r.left);
         Read { instruction, word, factor, product: product.scaled(-2 * self.word.frac) }
     }
 
     /// What goes into the scratch memory.
     #[inline(always)]
-    fn stored<V: Value>(
+    fn stored<V: Interpretation>(
         &self,
         r: &Registers<Signal<V>>,
         i: &Inputs<Signal<V>>,
         now: &Decoded<V>,
         result: Signal<V>,
     ) -> Signal<V> {
-        let turned = r.sum.fit(self.word, Floor, Wrap);
+        let turned = r.sum.quantize(self.word, Floor, Wrap);
         // The whole turn that is nearest to the code's.
-        let turned = turned.ideally(&[r.sum, self.half(), turned], |of| {
+        let turned = turned.golden(&[r.sum, self.half(), turned], |of| {
             let number = of[0] - of[1];
             number - 2.0 * ((number - of[2]) / 2.0).round()
         });
         let ratio = r.surface.bits(0, 1).select(i.r_y, i.r_x);
-        let ratio = now.has(SHARE).select(i.share.fit(self.ratio, Exact, Never), ratio);
+        let ratio = now.has(SHARE).select(i.share.resize(self.ratio, Proved), ratio);
         let halved = ratio.scaled(-1);
-        let high = halved.fit(self.word, Floor, Never).ideally(&[halved], |of| of[0]);
+        let high = halved.quantize(self.word, Floor, Proved).golden(&[halved], |of| of[0]);
         let rest = (self.ratio.frac + 1 - self.word.frac) as u8;
         let low = match rest {
             0 => zero(self.word),
-            _ => ratio.bits(0, rest).scaled(-(rest as i8)).ideally(&[], |_| 0.0),
+            _ => ratio.bits(0, rest).scaled(-(rest as i8)).golden(&[], |_| 0.0),
         };
         let taken = now.has(LOW).select(low, high);
         let kept = now.has(WRAP).select(turned, result);
@@ -464,24 +402,24 @@ impl Position {
 
     /// Where the next instruction but one lies.
     #[inline(always)]
-    fn fetch<V: Value>(&self, r: &Registers<Signal<V>>, now: &Decoded<V>) -> Signal<V> {
+    fn fetch<V: Interpretation>(&self, r: &Registers<Signal<V>>, now: &Decoded<V>) -> Signal<V> {
         let target = r.instruction.bits(0, instruction::TARGET_BITS);
-        let target = target.fit(r.fetched.format, Exact, Wrap);
-        let following = (r.fetched + int(1)).fit(r.fetched.format, Exact, Wrap);
+        let target = target.resize(r.fetched.format, Wrap);
+        let following = r.fetched.increment();
         let on = self.jumps(r, now).select(target, (now.done | r.bubble).select(following, r.fetched));
         let ends = now.does(Operation::End);
         (r.running & !ends).select(on, int(0)).named("fetch")
     }
 
     #[inline(always)]
-    fn found<V: Value>(&self, r: &Registers<Signal<V>>) -> Signal<V> {
+    fn found<V: Interpretation>(&self, r: &Registers<Signal<V>>) -> Signal<V> {
         r.step.is(self.steps)
     }
 
     #[inline(always)]
-    fn jumps<V: Value>(&self, r: &Registers<Signal<V>>, now: &Decoded<V>) -> Signal<V> {
+    fn jumps<V: Interpretation>(&self, r: &Registers<Signal<V>>, now: &Decoded<V>) -> Signal<V> {
         let repeats = now.does(Operation::Repeat) & !r.count.is(0);
-        let other = now.does(Operation::Surfaces) & r.surface.is(0);
+        let other = now.does(Operation::Surfaces) & r.surface.at(Spline::RX);
         let again = now.does(Operation::Pass) & !r.step.is(self.steps - 1);
         let found = now.does(Operation::Found) & self.found(r);
         (repeats | other | again | found).named("jumps")
@@ -489,16 +427,21 @@ impl Position {
 
     /// The registers that compute: what was read goes to the multiplier, and its products into the sum.
     #[inline(always)]
-    fn compute<V: Value>(&self, r: Registers<Signal<V>>, read: &Read<V>, now: &Decoded<V>) -> Registers<Signal<V>> {
+    fn compute<V: Interpretation>(
+        &self,
+        r: Registers<Signal<V>>,
+        read: &Read<V>,
+        now: &Decoded<V>,
+    ) -> Registers<Signal<V>> {
         let does = |operation: Operation| now.does(operation);
         let (digit, quotient) = (does(Operation::LoadDigit), does(Operation::LoadQuotient));
         let loads = does(Operation::Load) | does(Operation::LoadCell) | digit | quotient;
         let tables = does(Operation::MultiplyTable);
-        let sum = (r.sum + read.product).fit(r.sum.format, Exact, Never);
-        let added = choose!(V, r.pending.msb(), sum, r.sum);
+        let sum = (r.sum + read.product).resize(r.sum.format, Proved);
+        let added = when!(r.pending.msb() => sum, else r.sum);
         let clears = does(Operation::Store) | does(Operation::Output);
         let cell = Format::signed(6, 5);
-        let whole = read.word.fit(cell, Floor, Never);
+        let whole = read.word.quantize(cell, Floor, Proved);
         let word = r.floors.select(whole, read.word);
         let operand = r.digits.select(self.of_digits(&r), word);
         let pending = r.pending.concat(r.multiplies);
@@ -513,7 +456,7 @@ impl Position {
             left: r.loads.select(operand, r.left),
             factor: r.multiplies.select(read.factor, r.factor),
             word: r.multiplies.select(read.word, r.word),
-            sum: choose!(V, clears, self.half(), added),
+            sum: when!(clears => self.half(), else added),
             quotient: digit.select(r.quotient.concat(!r.sum.msb()).bits(0, bits), r.quotient),
             base: self.next_base(&r, now),
             ..r
@@ -521,7 +464,7 @@ impl Position {
     }
 
     #[inline(always)]
-    fn next_base<V: Value>(&self, r: &Registers<Signal<V>>, now: &Decoded<V>) -> Signal<V> {
+    fn next_base<V: Interpretation>(&self, r: &Registers<Signal<V>>, now: &Decoded<V>) -> Signal<V> {
         let scalars = r.surface.bits(0, 1).concat(code(0, Format::counter(Layout::SCALARS as u64 - 1)));
         let sets = now.does(Operation::Set) & now.has(SCALARS);
         let from_sum = r.sum.bits(self.word.frac as u8, r.base.format.width);
@@ -529,19 +472,19 @@ impl Position {
         let last = code(self.table.words as i64 - 3, r.base.format);
         let from_sum = if self.multiplier.latency() == 1 { from_sum } else { from_sum.at_most(last) };
         let kept = now.does(Operation::Base).select(from_sum, r.base);
-        sets.select(scalars.fit(r.base.format, Exact, Never), kept)
+        sets.select(scalars.resize(r.base.format, Proved), kept)
     }
 
     /// The quotient of its digits, of which a set bit is +1 and another −1, as a place.
     #[inline(always)]
-    fn of_digits<V: Value>(&self, r: &Registers<Signal<V>>) -> Signal<V> {
+    fn of_digits<V: Interpretation>(&self, r: &Registers<Signal<V>>) -> Signal<V> {
         let bits = r.quotient.format.width;
         let coded = (!r.quotient.msb()).concat(r.quotient.bits(0, bits - 1));
         let quotient = Format::signed(bits, i8::try_from(bits + 2).expect("sixteen digits at most"));
         let step = code(1, Format::unsigned(1, i8::try_from(bits).expect("sixteen digits at most")));
         let rest = r.sum - self.half();
         // What the remainder, over the determinant in `left`, leaves; nothing where the quotient is at a rail.
-        coded.as_code(quotient).ideally(&[coded.as_code(quotient), rest, r.left, step], |of| {
+        coded.as_code(quotient).golden(&[coded.as_code(quotient), rest, r.left, step], |of| {
             let rest = of[1] / of[2].abs();
             if rest.abs() < 4.0 * of[3] { of[0] + rest / 8.0 } else { of[0] }
         })
@@ -549,7 +492,7 @@ impl Position {
 
     /// The registers that say where the program is.
     #[inline(always)]
-    fn follow<V: Value>(
+    fn follow<V: Interpretation>(
         &self,
         next: Registers<Signal<V>>,
         r: &Registers<Signal<V>>,
@@ -559,12 +502,15 @@ impl Position {
         let does = |operation: Operation| now.does(operation);
         let set = does(Operation::Set);
         let value = r.instruction.bits(instruction::OPTION_BITS, 4);
-        let less = (r.count - int(1)).fit(r.count.format, Exact, Wrap);
+        let less = (r.count - int(1)).resize(r.count.format, Wrap);
         let counted = (does(Operation::Repeat) & !r.count.is(0)).select(less, r.count);
-        let following = r.surface.is(0).select(int(1), self.found(r).select(int(2), int(0)));
+        let following = r
+            .surface
+            .at(Spline::RX)
+            .select(Spline::RY.signal(), self.found(r).select(Spline::Resistance.signal(), Spline::RX.signal()));
         let surface = does(Operation::Surfaces).select(following, r.surface);
         let on = now.done | r.bubble;
-        let more = (r.waited + int(1)).fit(r.waited.format, Exact, Wrap);
+        let more = r.waited.increment();
         let ends = does(Operation::End);
         Registers {
             running: r.running & !ends,
@@ -573,8 +519,8 @@ impl Position {
             instruction: on.select(instruction, r.instruction),
             waited: (on | !r.running).select(int(0), more),
             count: (set & now.has(COUNT)).select(value, counted),
-            surface: (set & now.has(SURFACE)).select(int(0), surface),
-            step: does(Operation::Pass).select((r.step + int(1)).fit(r.step.format, Exact, Wrap), r.step),
+            surface: (set & now.has(SURFACE)).select(Spline::RX.signal(), surface),
+            step: does(Operation::Pass).select(r.step.increment(), r.step),
             done: ends,
             ..next
         }
@@ -582,7 +528,7 @@ impl Position {
 
     /// The registers that are given out.
     #[inline(always)]
-    fn give_out<V: Value>(
+    fn give_out<V: Interpretation>(
         &self,
         next: Registers<Signal<V>>,
         r: &Registers<Signal<V>>,
@@ -591,7 +537,7 @@ impl Position {
         held: Signal<V>,
     ) -> Registers<Signal<V>> {
         let output = now.does(Operation::Output);
-        let (of_x, of_y) = (output & r.surface.is(0), output & r.surface.is(1));
+        let (of_x, of_y) = (output & r.surface.at(Spline::RX), output & r.surface.at(Spline::RY));
         let position = result.integer().as_code(r.x.format);
         let tolerance = self.word.frac as u8 - Position::TOLERANCE_BITS;
         let above = result.integer().bits(tolerance, Position::TOLERANCE_BITS + 1);
@@ -599,11 +545,11 @@ impl Position {
         let stores = now.does(Operation::Store);
         let checks = stores & now.has(instruction::CHECK);
         let opens = stores & now.has(OPEN);
-        let before = r.surface.is(1) & r.invalid;
+        let before = r.surface.at(Spline::RY) & r.invalid;
         Registers {
             x: of_x.select(position, r.x),
             y: of_y.select(position, r.y),
-            sheet: choose!(V, output & r.surface.is(2), result.fit(r.sheet.format, Exact, Saturate), r.sheet),
+            sheet: when!(output & r.surface.at(Spline::Resistance) => result.resize(r.sheet.format, Saturate), else r.sheet),
             invalid: checks.select(before | beyond, r.invalid),
             lost: opens.select(result.integer().less_than(int(0)), r.lost),
             saturated: r.saturated | ((of_x | of_y) & held),
@@ -614,7 +560,7 @@ impl Position {
 
 /// Either integer's bits, of four each.
 #[inline(always)]
-fn bits_or<V: Value>(a: Signal<V>, b: Signal<V>) -> Signal<V> {
+fn bits_or<V: Interpretation>(a: Signal<V>, b: Signal<V>) -> Signal<V> {
     let bit = |k: u8| a.bits(k, 1) | b.bits(k, 1);
     bit(3).concat(bit(2)).concat(bit(1)).concat(bit(0))
 }

@@ -5,7 +5,7 @@
 //! cells from the table's middle, by 32. The marks at the right say what a line has made.
 
 use super::instruction::{CHECK, COUNT, Index, Instruction, LOW, OPEN, Operation, SCALARS, SHARE, SURFACE, Slot, WRAP};
-use super::layout::{Axis, Layout, Scalar, Surface};
+use super::{Axis, Layout, Scalar, Surface};
 use crate::format::Format;
 use Operation::{
     Base, End, Found, Input, Load, LoadCell, LoadDigit, LoadQuotient, Multiply, MultiplyTable, Output, Pass, Repeat,

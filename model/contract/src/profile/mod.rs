@@ -1,0 +1,349 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Profiles: word lengths, counts and timings of a core, at run time. The one place where a width is written.
+//!
+//! A profile is TOML. `small`, `standard` and `fine` are bundled; [`Profile::parse`] reads any other, and nothing needs to
+//! be compiled again.
+
+mod check;
+
+use hapticore_hdl::format::Format;
+use serde::{Deserialize, Serialize};
+use std::fmt::Display;
+
+/// A profile.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Profile {
+    /// What it is called.
+    pub name: String,
+    /// Pads that are served in turn.
+    pub pads: u64,
+    /// Clocks of the core from one ADC sample to the next.
+    pub clocks_per_sample: u64,
+    /// The width of the words that a hardware multiplier of the part takes; wider products take two clocks.
+    pub multiplier: u8,
+    /// The current sensors.
+    pub terminals: Terminals,
+    /// How a pad's slot is spent.
+    pub slot: Slot,
+    /// The sensing carrier.
+    pub carrier: Carrier,
+    /// Position from ratios.
+    pub position: Position,
+    /// Capacitance from currents.
+    pub capacitance: Capacitance,
+    /// The haptic voltage.
+    #[serde(default)]
+    pub haptic: Haptic,
+    /// Word formats.
+    pub formats: Formats,
+}
+
+/// The current sensors at the sheet's edge, and where they stand in eqs. 2 and 3.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Terminals {
+    /// The sign of each terminal's current in the numerator of r_x.
+    pub x: Vec<i8>,
+    /// The sign of each terminal's current in the numerator of r_y.
+    pub y: Vec<i8>,
+}
+
+/// How a pad's slot is spent, in ADC samples.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Slot {
+    /// Samples with no pad driven, so that the switch before breaks first.
+    pub open: u64,
+    /// Samples for the new pad to settle.
+    pub settle: u64,
+    /// Samples of the demodulator's window.
+    pub integrate: u64,
+}
+
+/// The sensing carrier, made by the core itself.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Carrier {
+    /// Periods in a window. With no divisor in common with the window's samples every sample meets another phase, so that
+    /// harmonics of the carrier stay off it and undithered rounding averages out.
+    pub periods: u64,
+    /// The code that stands for one: of the carrier's words where a sample is multiplied by them, else of the window's.
+    pub amplitude: u64,
+    /// How a channel's in-phase and quadrature sums are made.
+    pub method: Method,
+    /// What weighs the samples of a window.
+    pub window: Window,
+}
+
+/// How a channel's in-phase and quadrature sums are made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Method {
+    /// Each sample times the windowed cosine and sine: any number of periods.
+    Products,
+    /// Each sample times the window, summed by phase of a carrier of five samples a period; cosine and sine are applied to
+    /// the five sums at the end of the window.
+    Polyphase,
+}
+
+/// What weighs the samples of a window.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Window {
+    /// (1 − cos) / 2.
+    Hann,
+    /// All alike.
+    Rectangular,
+}
+
+/// The position table and its inversion.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Position {
+    /// Coefficients of a ratio's spline along the long edges; an odd number, so that one lies in the middle.
+    pub columns: u64,
+    /// Coefficients along the short edges, likewise.
+    pub rows: u64,
+    /// The resistance's cells are `2^resistance_shift` of the ratios' wide and high.
+    pub resistance_shift: u8,
+    /// Newton steps.
+    pub steps: u64,
+}
+
+/// Capacitance from currents.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Capacitance {
+    /// Takes the sheet's resistance out (PHYSICS §2); without it, eq. 6 alone.
+    pub sheet_correction: bool,
+}
+
+/// The haptic voltage.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Haptic {
+    /// The mean square is that of so many of a pad's windows: a power of two.
+    pub windows: u64,
+}
+
+/// The last window alone.
+impl Default for Haptic {
+    fn default() -> Self {
+        Haptic { windows: 1 }
+    }
+}
+
+/// Word formats. Every other width of the core derives from these.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Formats {
+    /// ADC codes; one is full scale.
+    pub adc: Format,
+    /// Cosine, sine and window.
+    pub oscillator: Format,
+    /// In-phase and quadrature words of a channel; one is full scale.
+    pub iq: Format,
+    /// In-phase and quadrature words of the sum over all terminals.
+    pub total: Format,
+    /// Bits by which in-phase and quadrature words may be moved up, those of all terminals together, so that the largest
+    /// fills its word; 0 leaves the point where it is. `total` is then the format of the amplitudes that are given on.
+    pub block_shift: u8,
+    /// The ratios of eqs. 2 and 3.
+    pub ratio: Format,
+    /// Words of the position table; all are fractions.
+    pub table: Format,
+    /// Millimetres.
+    pub position: Format,
+    /// Total current over sensing voltage, the sheet's resistance taken out.
+    pub admittance: Format,
+    /// Picofarads.
+    pub capacitance: Format,
+    /// Mean square of the haptic voltage; one is full scale squared.
+    pub mean_square: Format,
+    /// Intermediate words of the force: square picofarads.
+    pub square: Format,
+    /// Newtons.
+    pub force: Format,
+    /// Calibration: picofarads at an admittance of one.
+    pub capacitance_gain: Format,
+    /// Calibration: newtons per square picofarad at the full haptic mean square.
+    pub force_gain: Format,
+}
+
+/// A profile that cannot be.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ProfileError {
+    /// The text is no profile.
+    #[error("{0}")]
+    Syntax(String),
+    /// A value is out of its range.
+    #[error("{field}: expected {expected}, got {got}")]
+    Value {
+        /// The key.
+        field: String,
+        /// What it may be.
+        expected: String,
+        /// What it is.
+        got: String,
+    },
+    /// No bundled profile has this name.
+    #[error("expected a file or a profile among {bundled}, got \"{name}\"", bundled = BUNDLED.map(|(name, _)| name).join(", "))]
+    Unknown {
+        /// The name.
+        name: String,
+    },
+}
+
+impl ProfileError {
+    /// A value of `field` other than what is expected.
+    pub fn value(field: &str, expected: impl Display, got: impl Display) -> Self {
+        ProfileError::Value { field: field.into(), expected: expected.to_string(), got: got.to_string() }
+    }
+}
+
+/// What an in-phase wave has for one under [`Method::Polyphase`]: its five values are integers over 2^16, and this is the
+/// first of them.
+pub const POLYPHASE_GAIN: f64 = 57230.0 / 65536.0;
+
+/// The bundled profiles: their names and texts.
+pub const BUNDLED: [(&str, &str); 3] = [
+    ("small", include_str!("small.toml")),
+    ("standard", include_str!("standard.toml")),
+    ("fine", include_str!("fine.toml")),
+];
+
+impl Profile {
+    /// Reads a profile.
+    ///
+    /// # Errors
+    /// Where the text is no profile, or a value is out of its range; the message names line or key.
+    pub fn parse(text: &str) -> Result<Profile, ProfileError> {
+        let profile: Profile = toml::from_str(text).map_err(|error| {
+            let line = error.span().map_or(1, |span| text[..span.start.min(text.len())].matches('\n').count() + 1);
+            ProfileError::Syntax(format!("{line}: {}", error.message().replace('\n', " ")))
+        })?;
+        profile.check_values()?;
+        Ok(profile)
+    }
+
+    /// A bundled profile.
+    ///
+    /// # Errors
+    /// Where none has the name.
+    pub fn bundled(name: &str) -> Result<Profile, ProfileError> {
+        let found = BUNDLED.iter().find(|(bundled, _)| *bundled == name);
+        Profile::parse(found.ok_or_else(|| ProfileError::Unknown { name: name.into() })?.1)
+    }
+
+    /// All bundled profiles.
+    pub fn all() -> Vec<Profile> {
+        BUNDLED.iter().map(|(_, text)| Profile::parse(text).expect("bundled profiles are tested")).collect()
+    }
+
+    /// Channels that are demodulated: the terminals and the sensing voltage.
+    pub fn demodulated(&self) -> u64 {
+        self.terminals.x.len() as u64 + 1
+    }
+
+    /// ADC channels: the terminals, the sensing voltage and the haptic voltage.
+    pub fn channels(&self) -> usize {
+        self.terminals.x.len() + 2
+    }
+
+    /// The core's clocks in a slot.
+    pub fn slot_clocks(&self) -> u64 {
+        self.slot.samples() * self.clocks_per_sample
+    }
+}
+
+impl Slot {
+    /// Samples of the whole slot.
+    pub fn samples(&self) -> u64 {
+        self.open + self.settle + self.integrate
+    }
+
+    /// Samples before the window.
+    pub fn blanking(&self) -> u64 {
+        self.open + self.settle
+    }
+}
+
+impl Window {
+    /// The mean weight.
+    pub fn mean(self) -> f64 {
+        match self {
+            Window::Hann => 0.5,
+            Window::Rectangular => 1.0,
+        }
+    }
+}
+
+impl Profile {
+    /// The carrier's frequency.
+    pub fn turns_per_sample(&self) -> f64 {
+        self.carrier.periods as f64 / self.slot.integrate as f64
+    }
+
+    /// ADC samples in a period of the carrier.
+    pub fn samples_per_period(&self) -> f64 {
+        1.0 / self.turns_per_sample()
+    }
+
+    /// The profile with a window of another length, its carrier as near to what it was as whole periods are.
+    pub fn with_window(mut self, samples: u64) -> Self {
+        self.carrier.periods = (self.turns_per_sample() * samples as f64).round() as u64;
+        self.slot.integrate = samples;
+        self
+    }
+
+    /// The number that the carrier's amplitude stands for.
+    pub fn amplitude(&self) -> f64 {
+        self.carrier.amplitude as f64 * self.formats.oscillator.lsb()
+    }
+
+    /// The mean weight of a window's samples.
+    pub fn mean_weight(&self) -> f64 {
+        self.carrier.window.mean() * self.amplitude()
+    }
+
+    /// The format of the sheet's resistance: a word of the position table that is never negative.
+    pub fn sheet(&self) -> Format {
+        let word = self.formats.table;
+        Format::unsigned(word.width - 1, word.frac)
+    }
+
+    /// The format of the amplitudes of total current and sensing voltage: of the root of two squares of a total's word, one
+    /// more bit than the word without its sign and one for the root's rounding.
+    pub fn amplitude_format(&self) -> Format {
+        Format::unsigned(self.formats.total.width + 1, self.formats.total.frac)
+    }
+
+    /// Bits by which the demodulator's sums are scaled down, so that a full-scale tone is a little below one.
+    pub fn sum_shift(&self) -> i8 {
+        shift(self.slot.integrate as f64 * self.carrier.window.mean() / 2.0)
+    }
+
+    /// Bits by which the sum of squares is scaled down, so that a full-scale square wave is a little below one.
+    pub fn square_shift(&self) -> i8 {
+        shift(self.slot.integrate as f64 * self.carrier.window.mean())
+    }
+
+    /// What an in-phase word is for a tone at full scale.
+    pub fn tone_gain(&self) -> f64 {
+        let wave = match self.carrier.method {
+            Method::Products => self.amplitude(),
+            Method::Polyphase => POLYPHASE_GAIN,
+        };
+        self.slot.integrate as f64 * self.mean_weight() * wave / 2.0 * 2f64.powi(-i32::from(self.sum_shift()))
+    }
+
+    /// What the mean square's word is for a constant at full scale.
+    pub fn square_gain(&self) -> f64 {
+        self.slot.integrate as f64 * self.mean_weight() * 2f64.powi(-i32::from(self.square_shift()))
+    }
+}
+
+fn shift(scale: f64) -> i8 {
+    scale.log2().ceil() as i8
+}

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Number formats: how the bits of a word are read as a number.
+//!
+//! `s18.17` is a signed word of 18 bits, 17 of them after the binary point; `u32.32` is unsigned and all fraction. The
+//! point may lie outside the word (`u18.38`), as calibrated constants need. Formats are run-time values, so that a sweep
+//! over word lengths needs no recompilation.
+
+use std::fmt;
+use std::str::FromStr;
+
+/// The widest word a clocked signal may have: raw codes are stored in an `i64`.
+pub const MAX_WIDTH: u8 = 63;
+
+/// The format of one signal: `value = code · 2^-frac`.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Format {
+    /// Whether codes are two's complement.
+    pub signed: bool,
+    /// Bits in the word, sign included.
+    pub width: u8,
+    /// Bits after the binary point; negative where the least significant bit is worth more than one.
+    pub frac: i8,
+}
+
+/// One bit: flags, strobes, the result of a comparison.
+pub const BIT: Format = Format::unsigned(1, 0);
+
+impl Format {
+    /// A signed format of `width` bits, `frac` of them after the point.
+    #[inline(always)]
+    pub const fn signed(width: u8, frac: i8) -> Self {
+        Format { signed: true, width, frac }
+    }
+
+    /// An unsigned format of `width` bits, `frac` of them after the point.
+    #[inline(always)]
+    pub const fn unsigned(width: u8, frac: i8) -> Self {
+        Format { signed: false, width, frac }
+    }
+
+    /// The narrowest unsigned integer format that holds `0 ..= most`.
+    #[inline(always)]
+    pub const fn counter(most: u64) -> Self {
+        let bits = 64 - most.leading_zeros();
+        Format::unsigned(if bits == 0 { 1 } else { bits as u8 }, 0)
+    }
+
+    /// The largest code.
+    #[inline(always)]
+    pub const fn max_code(self) -> i128 {
+        (1i128 << (self.width - self.signed as u8)) - 1
+    }
+
+    /// The smallest code.
+    #[inline(always)]
+    pub const fn min_code(self) -> i128 {
+        if self.signed { -(1i128 << (self.width - 1)) } else { 0 }
+    }
+
+    /// This unsigned integer format: [`Format::assume_frac`] for a counter.
+    #[inline(always)]
+    pub const fn as_uint(self) -> Self {
+        debug_assert!(!self.signed && self.frac == 0);
+        Format::unsigned(self.width, 0)
+    }
+
+    /// This format, whose point is known to be there: said where it is asked for at every clock, for the compiler then knows
+    /// which formats have theirs at the same place, and need no aligning.
+    #[inline(always)]
+    pub const fn assume_frac(self, frac: i8) -> Self {
+        debug_assert!(self.frac == frac);
+        Format { frac, ..self }
+    }
+
+    /// The codes of this format, read as integers.
+    #[inline(always)]
+    pub const fn integer(self) -> Self {
+        Format { frac: 0, ..self }
+    }
+
+    /// What one code step is worth.
+    #[inline(always)]
+    pub fn lsb(self) -> f64 {
+        2f64.powi(-i32::from(self.frac))
+    }
+
+    /// The number that `code` stands for.
+    #[inline(always)]
+    pub fn real(self, code: i64) -> f64 {
+        code as f64 * self.lsb()
+    }
+
+    /// The code nearest to `real`, ties to even; `None` where the format cannot hold it.
+    #[inline(always)]
+    pub fn code(self, real: f64) -> Option<i64> {
+        let code = (real / self.lsb()).round_ties_even();
+        let holds = code >= self.min_code() as f64 && code <= self.max_code() as f64;
+        holds.then_some(code as i64)
+    }
+
+    /// The code nearest to `real`, held at the rails of the format; zero for NaN.
+    #[inline(always)]
+    pub fn code_saturating(self, real: f64) -> i64 {
+        let code = (real / self.lsb()).round_ties_even();
+        code.clamp(self.min_code() as f64, self.max_code() as f64) as i64
+    }
+
+    /// Bits before the binary point, without the sign.
+    #[inline(always)]
+    pub const fn integer_bits(self) -> i16 {
+        self.width as i16 - self.signed as i16 - self.frac as i16
+    }
+
+    /// Whether every number of `other` is a number of this format.
+    #[inline(always)]
+    pub const fn holds(self, other: Format) -> bool {
+        let sign = self.signed || !other.signed;
+        sign && self.integer_bits() >= other.integer_bits() && self.frac >= other.frac
+    }
+
+    /// The narrowest format that holds every number of both.
+    #[inline(always)]
+    pub fn join(self, other: Format) -> Format {
+        let signed = self.signed || other.signed;
+        let frac = self.frac.max(other.frac);
+        let integer = self.integer_bits().max(other.integer_bits());
+        Format { signed, width: clip(integer + i16::from(frac) + i16::from(signed)), frac }
+    }
+
+    /// The exact format of a sum.
+    #[inline(always)]
+    pub fn sum(self, other: Format) -> Format {
+        let join = self.join(other);
+        Format { width: clip(i16::from(join.width) + 1), ..join }
+    }
+
+    /// The exact format of a difference.
+    #[inline(always)]
+    pub fn difference(self, other: Format) -> Format {
+        let join = self.join(other);
+        Format { signed: true, width: clip(i16::from(join.width) + 1), frac: join.frac }
+    }
+
+    /// The exact format of a product.
+    #[inline(always)]
+    pub fn product(self, other: Format) -> Format {
+        Format {
+            signed: self.signed || other.signed,
+            width: clip(i16::from(self.width) + i16::from(other.width)),
+            frac: self.frac + other.frac,
+        }
+    }
+}
+
+/// A width as stored; a width past 255 is a broken invariant long past [`MAX_WIDTH`].
+#[inline(always)]
+fn clip(width: i16) -> u8 {
+    width.clamp(1, 255) as u8
+}
+
+impl fmt::Display for Format {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}{}.{}", if self.signed { 's' } else { 'u' }, self.width, self.frac)
+    }
+}
+
+impl fmt::Debug for Format {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
+}
+
+/// A text that is not a format.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("expected a format such as \"s18.17\" or \"u32.32\" (at most {MAX_WIDTH} bits), got \"{0}\"")]
+pub struct FormatError(String);
+
+impl FromStr for Format {
+    type Err = FormatError;
+
+    fn from_str(text: &str) -> Result<Self, FormatError> {
+        parse(text).ok_or_else(|| FormatError(text.into()))
+    }
+}
+
+fn parse(text: &str) -> Option<Format> {
+    let signed = match text.chars().next()? {
+        's' => true,
+        'u' => false,
+        _ => return None,
+    };
+    let (width, frac) = text[1..].split_once('.')?;
+    let format = Format { signed, width: width.parse().ok()?, frac: frac.parse().ok()? };
+    (1..=MAX_WIDTH).contains(&format.width).then_some(format)
+}
+
+impl serde::Serialize for Format {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
+}
+
+impl<'de> serde::Deserialize<'de> for Format {
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let text = String::deserialize(deserializer)?;
+        text.parse().map_err(serde::de::Error::custom)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn formats_read_and_print() {
+        for text in ["s18.17", "u32.32", "u18.38", "s24.-3"] {
+            assert_eq!(text.parse::<Format>().unwrap().to_string(), text);
+        }
+        for text in ["", "x8.7", "s0.0", "s64.0", "s18", "u1.x", "é8.1"] {
+            assert!(text.parse::<Format>().is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn arithmetic_formats_hold_their_corners() {
+        let (s, u) = (Format::signed(4, 2), Format::unsigned(3, 1));
+        assert_eq!(s.product(u), Format::signed(7, 3));
+        assert_eq!(s.join(u), Format::signed(5, 2));
+        assert_eq!(s.sum(u), Format::signed(6, 2));
+        assert_eq!(u.difference(u), Format::signed(4, 1));
+        assert_eq!(s.min_code() * s.min_code(), 64, "the square of the most negative code needs the whole product");
+        assert!(s.product(s).max_code() >= 64);
+    }
+
+    #[test]
+    fn rails_and_ties() {
+        let s = Format::signed(4, 0);
+        assert_eq!(s.code(7.5), None, "half way to the code above the largest rounds to even, out of the format");
+        assert_eq!(s.code_saturating(9.0), 7);
+        assert_eq!(s.code_saturating(f64::NAN), 0);
+        assert_eq!(s.code(2.5), Some(2));
+    }
+}

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Fidelity `float`: a slot's reading in floating point, from the codes of its window or from phasors.
+//!
+//! ```text
+//! i_k = 2/Σw · Σ w·x_k·cos φ,   q_k = 2/Σw · Σ w·x_k·sin φ,   a_k = √(i_k² + q_k²)          (a full-scale tone gives one)
+//! r_x = Σ ±a_k / Σ a_k,   r_y likewise (eqs. 2, 3);   x, y, R: where the table has these ratios;   lost: min a_k < open · Σ a_k
+//! a = |Σ (i_k + j q_k)|,   C = gain · a / √(v² − (a·R)²)    or    gain · a / v (eq. 6)
+//! m = 1/Σw · Σ w·h², the mean of the pad's last N once there are as many,   F = gain · C² · m · square_gain (eq. 8)
+//! ```
+//!
+//! Amplitudes enter results as quotients only, so that the core's tone gain cancels; its square gain does not, and a reading's
+//! mean square holds it, as a frame's does. Nothing saturates.
+
+use hapticore_contract::calibration::Calibration;
+use hapticore_contract::frame::{Flags, Reading};
+use hapticore_contract::profile::{Profile, Window};
+use num_traits::{Float, FloatConst, FromPrimitive};
+
+/// What the equations can be evaluated in: `f32`, `f64`, or a type with more bits.
+pub trait Real: Float + FloatConst + FromPrimitive {}
+
+impl<T: Float + FloatConst + FromPrimitive> Real for T {}
+
+/// A number of the profile or the calibration, as it is.
+#[inline(always)]
+fn real<T: Real>(x: f64) -> T {
+    T::from_f64(x).expect("a floating-point type takes every f64")
+}
+
+/// What a sample of the window is weighed with.
+#[derive(Debug, Clone, Copy)]
+struct Weights<T> {
+    /// 2 w cos φ / Σw and 2 w sin φ / Σw, per full scale of a code.
+    carrier: [T; 2],
+    /// w / Σw, per full scale² of a code.
+    square: T,
+}
+
+/// The results of a pad that stand while there are none.
+#[derive(Debug, Clone, Copy)]
+struct Held<T> {
+    reading: Reading<T>,
+    eq6: T,
+}
+
+/// A slot's equations.
+struct Solution<T> {
+    values: Held<T>,
+    valid: bool,
+    lost: bool,
+}
+
+/// A core in floating point, slot by slot.
+pub struct Reference<T = f64> {
+    window: Vec<Weights<T>>,
+    channels: usize,
+    rails: [i32; 2],
+    signs: Vec<[T; 2]>,
+    sheet_correction: bool,
+    square_gain: T,
+    calibration: Calibration,
+    held: Vec<Held<T>>,
+    /// Windows over which squares are averaged, and the last squares of every pad.
+    windows: usize,
+    squares: Vec<Vec<T>>,
+    sums: Vec<[T; 2]>,
+    last: usize,
+}
+
+impl<T: Real> Reference<T> {
+    /// A core of a profile, calibrated, just before its first slot.
+    pub fn new(profile: &Profile, calibration: &Calibration) -> Self {
+        let pair = |(&x, &y): (&i8, &i8)| [x, y].map(|sign| real(sign.into()));
+        let terminals = &profile.terminals;
+        let half = 1i32 << (profile.formats.adc.width - 1);
+        Reference {
+            window: window(profile),
+            channels: terminals.x.len() + 2,
+            rails: [-half, half - 1],
+            signs: terminals.x.iter().zip(&terminals.y).map(pair).collect(),
+            sheet_correction: profile.capacitance.sheet_correction,
+            square_gain: real(profile.square_gain()),
+            calibration: calibration.clone(),
+            held: (0..profile.pads as usize).map(nothing).collect(),
+            windows: profile.haptic.windows as usize,
+            squares: vec![Vec::new(); profile.pads as usize],
+            sums: vec![[T::zero(); 2]; terminals.x.len() + 1],
+            last: 0,
+        }
+    }
+
+    /// The reading of a slot: `codes` are those of its window, a sample after the other: terminals, sensing voltage, haptic
+    /// voltage.
+    ///
+    /// # Panics
+    /// Where `codes` is not one code a channel and sample, or there is no such pad.
+    pub fn slot(&mut self, pad: usize, codes: &[i32]) -> Reading<T> {
+        assert_eq!(codes.len(), self.window.len() * self.channels, "one code a channel and sample of the window");
+        let mean_square = match self.channels {
+            8 => self.demodulate::<8>(codes),
+            _ => self.demodulate::<0>(codes),
+        };
+        let [low, high] = self.rails;
+        let clipped = codes.iter().fold(false, |clipped, &code| clipped | (code == low) | (code == high));
+        let phasors = std::mem::take(&mut self.sums);
+        let reading = self.estimate(pad, &phasors, mean_square, clipped);
+        self.sums = phasors;
+        reading
+    }
+
+    /// The reading of a slot with these phasors (in phase, quadrature; fractions of full scale) of the terminals and the
+    /// sensing voltage, and this mean square of the haptic voltage (full scales squared).
+    ///
+    /// # Panics
+    /// Where `phasors` is not one a terminal and one more, or there is no such pad.
+    pub fn phasors(&mut self, pad: usize, phasors: &[(f64, f64)], mean_square: f64) -> Reading<T> {
+        assert_eq!(phasors.len(), self.signs.len() + 1, "a phasor a terminal, and the sensing voltage's");
+        let phasors: Vec<_> = phasors.iter().map(|&(i, q)| [i, q].map(real)).collect();
+        self.estimate(pad, &phasors, real(mean_square), false)
+    }
+
+    /// The capacitance of the last slot by eq. 6 alone, in picofarads: what it is without the sheet's resistance.
+    pub fn capacitance_eq6(&self) -> T {
+        self.held[self.last].eq6
+    }
+
+    /// Phasors into `sums`; gives the mean square. `N` is the number of channels where that is known as this is compiled.
+    #[inline(always)]
+    fn demodulate<const N: usize>(&mut self, codes: &[i32]) -> T {
+        let channels = if N == 0 { self.channels } else { N };
+        let mut sums = [[T::zero(); 2]; 64];
+        let sums = &mut sums[..channels - 1];
+        let mut mean_square = T::zero();
+        for (codes, weights) in codes.chunks_exact(channels).zip(&self.window) {
+            let [cosine, sine] = weights.carrier;
+            for (sum, &code) in sums.iter_mut().zip(codes) {
+                let x = of_code::<T>(code);
+                *sum = [sum[0] + x * cosine, sum[1] + x * sine];
+            }
+            let haptic = of_code::<T>(codes[channels - 1]);
+            mean_square = mean_square + haptic * haptic * weights.square;
+        }
+        self.sums.copy_from_slice(sums);
+        mean_square
+    }
+
+    fn estimate(&mut self, pad: usize, phasors: &[[T; 2]], mean_square: T, clipped: bool) -> Reading<T> {
+        let mean_square = self.mean_square(pad, mean_square * self.square_gain);
+        let solution = self.solve(pad, phasors, mean_square);
+        self.last = pad;
+        if solution.valid {
+            self.held[pad] = solution.values;
+        }
+        let flags = Flags { clipped, saturated: false, invalid: !solution.valid, lost: solution.lost };
+        Reading { mean_square, flags, ..self.held[pad].reading }
+    }
+
+    /// The mean of the pad's last squares, or the newest while they are too few.
+    fn mean_square(&mut self, pad: usize, newest: T) -> T {
+        let last = &mut self.squares[pad];
+        if last.len() == self.windows {
+            last.remove(0);
+        }
+        last.push(newest);
+        if last.len() == self.windows { sum(last.iter().copied()) / real(self.windows as f64) } else { newest }
+    }
+
+    /// Eqs. 2, 3, 6 and 8 and the sheet's resistance.
+    fn solve(&self, pad: usize, phasors: &[[T; 2]], mean_square: T) -> Solution<T> {
+        let (terminals, sense) = phasors.split_at(self.signs.len());
+        let amplitudes = terminals.iter().map(magnitude);
+        let (mut x, mut y, mut corners, mut least) = (T::zero(), T::zero(), T::zero(), T::infinity());
+        for (amplitude, &[sign_x, sign_y]) in amplitudes.zip(&self.signs) {
+            x = x + sign_x * amplitude;
+            y = y + sign_y * amplitude;
+            corners = corners + if sign_x.is_zero() && sign_y.is_zero() { T::zero() } else { amplitude };
+            least = amplitude.min(least);
+        }
+        let of_all = |part: usize| sum(terminals.iter().map(|phasor| phasor[part]));
+        let (total, sense) = (magnitude(&[of_all(0), of_all(1)]), magnitude(&sense[0]));
+        let (r_x, r_y) = (x / corners, y / corners);
+        let place = self.calibration.position.look_up(r_x, r_y);
+        let (x_mm, y_mm, sheet) = (place.x, place.y, place.sheet.max(T::zero()));
+        let drop = if self.sheet_correction { total * sheet } else { T::zero() };
+        let left = sense * sense - drop * drop;
+        let capacitance_pf = real::<T>(self.calibration.capacitance_gain) * total / left.sqrt();
+        let force_n = real::<T>(self.calibration.force_gain) * capacitance_pf * capacitance_pf * mean_square;
+        let flags = Flags::default();
+        Solution {
+            values: Held {
+                reading: Reading { pad, r_x, r_y, x_mm, y_mm, sheet, capacitance_pf, force_n, mean_square, flags },
+                eq6: real::<T>(self.calibration.capacitance_gain) * total / sense,
+            },
+            valid: corners > T::zero() && place.is_valid() && left > T::zero(),
+            lost: least < real::<T>(self.calibration.position.open_share()) * corners,
+        }
+    }
+}
+
+#[inline(always)]
+fn of_code<T: Real>(code: i32) -> T {
+    T::from_i32(code).expect("a floating-point type takes every code")
+}
+
+fn sum<T: Real>(numbers: impl Iterator<Item = T>) -> T {
+    numbers.fold(T::zero(), |sum, x| sum + x)
+}
+
+fn magnitude<T: Real>(phasor: &[T; 2]) -> T {
+    (phasor[0] * phasor[0] + phasor[1] * phasor[1]).sqrt()
+}
+
+/// The weights of a window. The carrier's phase is zero at the first sample of the slot.
+fn window<T: Real>(profile: &Profile) -> Vec<Weights<T>> {
+    let samples = profile.slot.integrate;
+    let count = |n: u64| real::<T>(n as f64);
+    let weight = |m: u64| match profile.carrier.window {
+        Window::Hann => (T::PI() * count(m) / count(samples)).sin().powi(2),
+        Window::Rectangular => T::one(),
+    };
+    let total = sum((0..samples).map(weight));
+    let full = real::<T>(2f64.powi(profile.formats.adc.frac.into()));
+    let weights = |m: u64| {
+        let step = (profile.slot.blanking() + m) * profile.carrier.periods % samples;
+        let (sine, cosine) = (T::TAU() * count(step) / count(samples)).sin_cos();
+        let scale = count(2) * weight(m) / total / full;
+        Weights { carrier: [cosine, sine].map(|wave| scale * wave), square: weight(m) / total / full / full }
+    };
+    (0..samples).map(weights).collect()
+}
+
+/// A pad of which nothing is known yet.
+fn nothing<T: Real>(pad: usize) -> Held<T> {
+    let [r_x, r_y, x_mm, y_mm, sheet, capacitance_pf, force_n, mean_square] = [T::zero(); 8];
+    let flags = Flags::default();
+    let reading = Reading { pad, r_x, r_y, x_mm, y_mm, sheet, capacitance_pf, force_n, mean_square, flags };
+    Held { reading, eq6: T::zero() }
+}

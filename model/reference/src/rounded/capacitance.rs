@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Capacitance, with the sheet's resistance taken out (PHYSICS §2, the √ form), or by eq. 6 alone (R taken for zero).
+//!
+//! ```text
+//! drop = [a · R],   left = max(v² − drop², 0),   invalid where v² ≤ drop²
+//! admittance = [a / [√left]],   C = [admittance · gain]
+//! ```
+
+use super::{Exact, round, round_quotient, round_root};
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::format::Format;
+
+/// The capacitance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Capacitance {
+    /// In picofarads.
+    pub capacitance: Exact,
+    /// Whether there is none.
+    pub invalid: bool,
+    /// Whether a word is held at a rail.
+    pub saturated: bool,
+}
+
+/// The format of an amplitude: of the root of two squares of a total's word, one more bit than the word without its sign
+/// and one for the root's rounding.
+fn amplitude(profile: &Profile) -> Format {
+    let total = profile.formats.total;
+    Format { signed: false, width: total.width + 1, frac: total.frac }
+}
+
+/// The capacitance for amplitudes of current and sensing voltage, and the sheet's resistance.
+pub fn capacitance(profile: &Profile, total: Exact, sense: Exact, sheet: Exact, gain: Exact) -> Capacitance {
+    let f = &profile.formats;
+    let sheet = if profile.capacitance.sheet_correction { sheet } else { Exact::ZERO };
+    let drop = round(total * sheet, amplitude(profile));
+    let left = sense * sense - drop.value * drop.value;
+    let invalid = left <= Exact::ZERO;
+    let root = round_root(if invalid { Exact::ZERO } else { left }, f.total.frac);
+    let admittance = round_quotient(total, root, f.admittance);
+    let capacitance = round(admittance.value * gain, f.capacitance);
+    let saturated = drop.held | admittance.held | capacitance.held;
+    Capacitance { capacitance: capacitance.value, invalid, saturated }
+}

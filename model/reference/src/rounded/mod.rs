@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The rounded reference: each block's result as "the exact value, rounded so", and a slot's frame from all of them.
+//!
+//! One function a block, taking and giving [`Exact`] numbers; equality with the clocked model is to the bit.
+
+mod capacitance;
+mod currents;
+mod demodulator;
+mod force;
+mod frames;
+mod number;
+mod oscillator;
+mod position;
+mod ratio;
+
+pub use capacitance::{Capacitance, capacitance};
+pub use currents::{Currents, currents};
+pub use demodulator::{Sums, demodulate};
+pub use force::{Force, Squares, force, mean_square};
+pub use frames::Frames;
+pub use number::{Exact, Rounded, floor_quotient, round, round_quotient, round_real, round_root};
+pub use oscillator::{Oscillator, Sample, weighted};
+pub use position::{Place, Position};
+pub use ratio::{Ratio, ratio};
+
+use hapticore_contract::calibration::Calibration;
+use hapticore_contract::frame::{Flags, Frame};
+use hapticore_contract::profile::Profile;
+
+/// A core, slot by slot, rounded as the blocks round.
+pub struct Slots {
+    profile: Profile,
+    carrier: Vec<Sample>,
+    position: Position,
+    capacitance_gain: Exact,
+    force_gain: Exact,
+    squares: Squares,
+    frames: Frames,
+}
+
+impl Slots {
+    /// A core of a profile, calibrated, just before its first slot.
+    pub fn new(profile: &Profile, calibration: &Calibration) -> Self {
+        let f = &profile.formats;
+        let oscillator = Oscillator::new(profile);
+        let blanking = profile.slot.blanking();
+        let words: Vec<Exact> = calibration.position.words.iter().map(|&word| round_real(word, f.table)).collect();
+        Slots {
+            carrier: (0..profile.slot.integrate).map(|m| oscillator.sample(blanking + m, m)).collect(),
+            position: Position::new(profile, &words),
+            capacitance_gain: round_real(calibration.capacitance_gain, f.capacitance_gain),
+            force_gain: round_real(calibration.force_gain, f.force_gain),
+            squares: Squares::new(profile),
+            frames: Frames::new(profile),
+            profile: profile.clone(),
+        }
+    }
+
+    /// The frame of a slot: `codes` are those of its window, a sample after the other.
+    pub fn slot(&mut self, pad: usize, codes: &[i32]) -> Frame {
+        let sums = demodulate(&self.profile, &self.carrier, codes);
+        self.frame(pad, &sums)
+    }
+
+    /// The frame of a window's sums.
+    pub fn frame(&mut self, pad: usize, sums: &Sums) -> Frame {
+        let p = &self.profile;
+        let currents = currents(p, &sums.phases);
+        let ratio = ratio(p, &currents);
+        let place = self.position.place([ratio.r_x, ratio.r_y]);
+        let lost = self.position.any_open(ratio.share);
+        let sheet = place.sheet;
+        let capacitance = capacitance(p, currents.total, currents.sense, sheet, self.capacitance_gain);
+        let mean_square = self.squares.mean(p, pad, mean_square(p, sums.square));
+        let force = force(p, capacitance.capacitance, mean_square.value, self.force_gain);
+        let saturated =
+            currents.saturated | place.saturated | capacitance.saturated | mean_square.held | force.saturated;
+        let invalid = ratio.invalid | place.invalid | capacitance.invalid;
+        let values =
+            [ratio.r_x, ratio.r_y, place.x, place.y, sheet, capacitance.capacitance, force.force, mean_square.value];
+        let codes = self.frames.words(pad, values, invalid);
+        Frame { pad, codes, flags: Flags { clipped: sums.clipped, saturated, invalid, lost } }
+    }
+}

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The range interpretation: a value is the interval of codes that a signal may take.
+//!
+//! Control (counters, steps, addresses) is known exactly, so its intervals are points and the interpretation follows the one
+//! schedule that the core has; data spread over every input in their stated ranges. A narrowing that says it cannot
+//! overflow is checked at every clock; what does not hold is kept as a [`Violation`].
+
+use crate::block::Interpretation;
+use crate::format::Format;
+use crate::memory::{Memory, Storage, Write};
+use crate::signal::{Overflow, Rounding, Signal, Value};
+use std::cell::RefCell;
+
+/// The value of the range interpretation: `low ..= high`, in codes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Range {
+    /// The least code.
+    pub low: i128,
+    /// The greatest code.
+    pub high: i128,
+}
+
+/// A narrowing that said it could not overflow, and a range that does; or an address beyond the words of a memory.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Violation {
+    /// The range before the narrowing, in codes of the narrowed format; or of the address.
+    pub range: Range,
+    /// The format that does not hold it; or of the memory's addresses.
+    pub format: Format,
+}
+
+thread_local! {
+    static VIOLATIONS: RefCell<Vec<Violation>> = const { RefCell::new(Vec::new()) };
+    static LEMMAS: RefCell<Vec<&'static str>> = const { RefCell::new(Vec::new()) };
+}
+
+/// The violations found since the last call, on this thread.
+pub fn take_violations() -> Vec<Violation> {
+    VIOLATIONS.with_borrow_mut(std::mem::take)
+}
+
+/// The lemmas relied on since the last call, on this thread, each once.
+pub fn take_lemmas() -> Vec<&'static str> {
+    LEMMAS.with_borrow_mut(std::mem::take)
+}
+
+/// The range of a whole format.
+pub fn whole(format: Format) -> Range {
+    Range { low: format.min_code(), high: format.max_code() }
+}
+
+impl Range {
+    /// Just one code.
+    pub fn point(code: i128) -> Self {
+        Range { low: code, high: code }
+    }
+
+    /// The smallest range that holds both.
+    pub fn join(self, other: Range) -> Self {
+        Range { low: self.low.min(other.low), high: self.high.max(other.high) }
+    }
+
+    /// Whether every code of `other` is in this range.
+    pub fn holds(self, other: Range) -> bool {
+        self.low <= other.low && other.high <= self.high
+    }
+
+    fn is_point(self) -> bool {
+        self.low == self.high
+    }
+
+    fn map(self, f: impl Fn(i128) -> i128) -> Self {
+        Range { low: f(self.low), high: f(self.high) }
+    }
+
+    /// The range of a bit, from what is known to be so and what may be so.
+    fn bit(surely: bool, maybe: bool) -> Self {
+        Range { low: i128::from(surely), high: i128::from(maybe) }
+    }
+}
+
+fn align(a: Signal<Range>, to: Format) -> Range {
+    a.value.map(|code| code << (to.frac - a.format.frac))
+}
+
+fn round(code: i128, drop: i8, rounding: Rounding) -> i128 {
+    match rounding {
+        _ if drop <= 0 => code << -drop,
+        Rounding::HalfEven => (code + (1 << (drop - 1)) - 1 + ((code >> drop) & 1)) >> drop,
+        _ => code >> drop,
+    }
+}
+
+fn wrap(range: Range, to: Format) -> Range {
+    let span = 1i128 << to.width;
+    let turns = (range.low - to.min_code()).div_euclid(span);
+    let moved = range.map(|code| code - turns * span);
+    if whole(to).holds(moved) { moved } else { whole(to) }
+}
+
+/// The range as it is, noted as a violation where the format does not hold it.
+fn never(range: Range, to: Format) -> Range {
+    if !whole(to).holds(range) {
+        VIOLATIONS.with_borrow_mut(|found| found.push(Violation { range, format: to }));
+    }
+    clamp(range, to)
+}
+
+fn lemma(range: Range, to: Format, name: &'static str) -> Range {
+    LEMMAS.with_borrow_mut(|found| {
+        if !found.contains(&name) {
+            found.push(name);
+        }
+    });
+    clamp(range, to)
+}
+
+fn clamp(range: Range, to: Format) -> Range {
+    range.map(|code| code.clamp(to.min_code(), to.max_code()))
+}
+
+impl Value for Range {
+    const ELABORATES: bool = true;
+
+    fn literal(real: f64, format: Format) -> Self {
+        Range::point(i128::from(format.code_saturating(real)))
+    }
+
+    fn add(a: Signal<Self>, b: Signal<Self>, to: Format) -> Self {
+        let (a, b) = (align(a, to), align(b, to));
+        Range { low: a.low + b.low, high: a.high + b.high }
+    }
+
+    fn sub(a: Signal<Self>, b: Signal<Self>, to: Format) -> Self {
+        let (a, b) = (align(a, to), align(b, to));
+        Range { low: a.low - b.high, high: a.high - b.low }
+    }
+
+    fn mul(a: Signal<Self>, b: Signal<Self>, _to: Format) -> Self {
+        let (a, b) = (a.value, b.value);
+        let corners = [a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high];
+        corners.into_iter().map(Range::point).reduce(Range::join).expect("four corners")
+    }
+
+    fn square(a: Signal<Self>, to: Format) -> Self {
+        let magnitude = Self::abs(a, to);
+        magnitude.map(|code| code * code)
+    }
+
+    fn abs(a: Signal<Self>, _to: Format) -> Self {
+        let a = a.value;
+        let low = if a.low <= 0 && a.high >= 0 { 0 } else { a.low.abs().min(a.high.abs()) };
+        Range { low, high: a.low.abs().max(a.high.abs()) }
+    }
+
+    fn quantize(a: Signal<Self>, to: Format, rounding: Rounding, overflow: Overflow) -> Self {
+        let range = a.value.map(|code| round(code, a.format.frac - to.frac, rounding));
+        match overflow {
+            Overflow::Saturate => clamp(range, to),
+            Overflow::Wrap => wrap(range, to),
+            Overflow::Proved => never(range, to),
+            Overflow::Assumed(name) => lemma(range, to, name),
+        }
+    }
+
+    fn scale(a: Self, _by: i8) -> Self {
+        a
+    }
+
+    fn bits(a: Signal<Self>, low: u8, to: Format) -> Self {
+        wrap(a.value.map(|code| code >> low), to)
+    }
+
+    fn concat(high: Signal<Self>, low: Signal<Self>, _to: Format) -> Self {
+        let shift = low.format.width;
+        Range { low: (high.value.low << shift) | low.value.low, high: (high.value.high << shift) | low.value.high }
+    }
+
+    fn at_most(a: Signal<Self>, most: Signal<Self>) -> Self {
+        let (a, most) = (a.value, most.value);
+        Range { low: a.low.min(most.low), high: a.high.min(most.high) }
+    }
+
+    fn less(a: Signal<Self>, b: Signal<Self>) -> Self {
+        let to = a.format.join(b.format);
+        let (a, b) = (align(a, to), align(b, to));
+        Range::bit(a.high < b.low, a.low < b.high)
+    }
+
+    fn equal(a: Signal<Self>, b: Signal<Self>) -> Self {
+        let to = a.format.join(b.format);
+        let (a, b) = (align(a, to), align(b, to));
+        Range::bit(a.is_point() && a == b, a.low <= b.high && b.low <= a.high)
+    }
+
+    fn and(a: Self, b: Self) -> Self {
+        Range { low: a.low & b.low, high: a.high & b.high }
+    }
+
+    fn or(a: Self, b: Self) -> Self {
+        Range { low: a.low | b.low, high: a.high | b.high }
+    }
+
+    fn not(a: Self) -> Self {
+        Range { low: 1 - a.high, high: 1 - a.low }
+    }
+
+    fn select(bit: Self, a: Signal<Self>, b: Signal<Self>, to: Format) -> Self {
+        match (bit.low, bit.high) {
+            (1, _) => align(a, to),
+            (_, 0) => align(b, to),
+            _ => align(a, to).join(align(b, to)),
+        }
+    }
+
+    fn code(a: Signal<Self>) -> i64 {
+        a.value.low as i64
+    }
+
+    fn known(bit: Self) -> Option<bool> {
+        bit.is_point().then_some(bit.low != 0)
+    }
+}
+
+impl Storage for Range {
+    type Words = (Vec<Range>, Range);
+
+    fn words(memory: &Memory) -> Self::Words {
+        (memory.codes().into_iter().map(|code| Range::point(code.into())).collect(), Range::point(0))
+    }
+
+    fn data(_memory: &Memory, words: &mut Self::Words) -> Self {
+        words.1
+    }
+
+    fn access(memory: &Memory, words: &mut Self::Words, address: Signal<Self>, write: Option<Write<Self>>) {
+        let within = |address: Range| {
+            let last = memory.words as i128 - 1;
+            if address.low < 0 || address.high > last {
+                let violation = Violation { range: address, format: memory.address() };
+                VIOLATIONS.with_borrow_mut(|found| found.push(violation));
+            }
+            Range { low: address.low.clamp(0, last), high: address.high.clamp(0, last) }
+        };
+        words.1 = read(&words.0, within(address.value));
+        let Some(write) = write.filter(|write| write.enable.value.high != 0) else { return };
+        let data = align(write.data, memory.format);
+        let surely = write.enable.value.low == 1 && write.address.value.is_point();
+        let place = within(write.address.value);
+        for word in &mut words.0[place.low as usize..=place.high as usize] {
+            *word = if surely { data } else { word.join(data) };
+        }
+    }
+}
+
+impl Interpretation for Range {
+    /// Surely not busy: that skipping changes no bit is tested on the clocked interpretation.
+    fn can_skip(busy: Self) -> bool {
+        busy == Range::point(0)
+    }
+}
+
+/// The join of the words that an address may mean.
+fn read(words: &[Range], address: Range) -> Range {
+    let within = &words[address.low as usize..=address.high as usize];
+    within.iter().copied().reduce(Range::join).expect("an address means a word")
+}
