@@ -12,13 +12,13 @@
 use num_complex::Complex64;
 
 use crate::case::Case;
-use crate::device::PerTerminal;
 use crate::effects::carrier::CARRIER;
 use crate::effects::{NOISE, Spec};
 use crate::error::SceneError;
 use crate::plant::Plant;
 use crate::rotor::Rotor;
 use crate::scene::Scene;
+use crate::terminals::PerTerminal;
 use crate::timing::Timing;
 
 /// Slots that are looked at, spread evenly over those that are run.

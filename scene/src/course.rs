@@ -77,7 +77,8 @@ impl Course {
         }))
     }
 
-    fn extremes(&self) -> Vec<f64> {
+    /// Values between which all others lie.
+    pub fn extremes(&self) -> Vec<f64> {
         match self {
             Course::Constant(value) => vec![*value],
             Course::Sweep(values) => values.clone(),

@@ -15,6 +15,7 @@
 
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
+use crate::quantity::Quantity;
 
 /// What a criterion measures over the slots that it covers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,65 +60,6 @@ const MEASURES: [(&str, Measure); 11] = [
     ("jump_off", Measure::JumpOff),
     ("departure_off", Measure::DepartureOff),
 ];
-
-/// A quantity that a frame estimates, or that the plant alone knows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Quantity {
-    /// Time, s.
-    TimeS,
-    /// Position along x, mm.
-    XMm,
-    /// Position along y, mm.
-    YMm,
-    /// Both, taken as a vector.
-    PositionMm,
-    /// Capacitance between pad and sheet, pF.
-    CapacitancePf,
-    /// Resistance of the sheet at the pad, Ω.
-    SheetOhm,
-    /// Haptic voltage, V rms.
-    HapticVRms,
-    /// Haptic force, N.
-    ForceN,
-    /// Direction of the push, eq. 10.
-    Direction,
-    /// Load on the pad, g; known to the plant alone.
-    LoadG,
-}
-
-const QUANTITIES: [(&str, Quantity); 10] = [
-    ("time_s", Quantity::TimeS),
-    ("x_mm", Quantity::XMm),
-    ("y_mm", Quantity::YMm),
-    ("position_mm", Quantity::PositionMm),
-    ("capacitance_pf", Quantity::CapacitancePf),
-    ("sheet_ohm", Quantity::SheetOhm),
-    ("haptic_v_rms", Quantity::HapticVRms),
-    ("force_n", Quantity::ForceN),
-    ("direction", Quantity::Direction),
-    ("load_g", Quantity::LoadG),
-];
-
-impl Quantity {
-    /// The quantity's key: `force_n`.
-    pub fn name(self) -> &'static str {
-        name_of(&QUANTITIES, self)
-    }
-
-    /// Its unit: `N`.
-    pub fn unit(self) -> &'static str {
-        match self {
-            Quantity::TimeS => "s",
-            Quantity::XMm | Quantity::YMm | Quantity::PositionMm => "mm",
-            Quantity::CapacitancePf => "pF",
-            Quantity::SheetOhm => "Ω",
-            Quantity::HapticVRms => "V",
-            Quantity::ForceN => "N",
-            Quantity::Direction => "1",
-            Quantity::LoadG => "g",
-        }
-    }
-}
 
 impl Measure {
     /// The measure's name in a scene: `spread_percent`.
@@ -187,8 +129,8 @@ impl Criterion {
     pub(crate) fn read(table: &Table, cases: &[String]) -> Result<Criterion, SceneError> {
         let measure = word(table, "measure", &MEASURES)?;
         let measure = table.require("measure", "what is measured", measure)?;
-        let of = table.require("of", "a quantity", word(table, "of", &QUANTITIES)?)?;
-        let with = word(table, "with", &QUANTITIES)?;
+        let of = table.require("of", "a quantity", quantity(table, "of")?)?;
+        let with = quantity(table, "with")?;
         if with.is_some() != (measure == Measure::IncreasesWith) {
             return Err(table.error("with", "expected with measure = \"increases_with\", and only there"));
         }
@@ -234,12 +176,17 @@ fn read_cases(table: &Table, known: &[String]) -> Result<Vec<String>, SceneError
 
 fn read_filters(table: &Table) -> Result<Vec<Where>, SceneError> {
     let Some(ranges) = table.table("where")? else { return Ok(Vec::new()) };
-    let read = |(name, of): &(&'static str, Quantity)| -> Result<Option<Where>, SceneError> {
-        let range = ranges.pair(name, Limits::ANY)?;
-        Ok(range.map(|[low, high]| Where { of: *of, low, high }))
+    let read = |of: Quantity| -> Result<Option<Where>, SceneError> {
+        let range = ranges.pair(of.name(), Limits::ANY)?;
+        Ok(range.map(|[low, high]| Where { of, low, high }))
     };
-    let scalars = QUANTITIES.iter().filter(|(_, of)| *of != Quantity::PositionMm);
-    scalars.filter_map(|entry| read(entry).transpose()).collect()
+    Quantity::all().filter(|of| of.is_scalar()).filter_map(|of| read(of).transpose()).collect()
+}
+
+/// The quantity that `key` names.
+fn quantity(table: &Table, key: &'static str) -> Result<Option<Quantity>, SceneError> {
+    let names: Vec<_> = Quantity::all().map(Quantity::name).collect();
+    Ok(table.choice(key, &names)?.and_then(Quantity::named))
 }
 
 fn word<T: Copy>(table: &Table, key: &'static str, words: &[(&'static str, T)]) -> Result<Option<T>, SceneError> {

@@ -3,21 +3,9 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crate::effects::sheet;
 use crate::error::SceneError;
-use crate::few::Few;
 use crate::format::{Limits, Table};
-
-pub use hapticore_sheet::{LEAST_TERMINALS, MOST_TERMINALS};
-
-/// ADC channels beside the terminals' currents: the sensing voltage, then the haptic voltage.
-pub(crate) const VOLTAGES: usize = 2;
-
-/// The most ADC channels.
-pub(crate) const MOST_CHANNELS: usize = MOST_TERMINALS + VOLTAGES;
-
-/// One value per terminal, held in place: no slot or sample allocates.
-pub(crate) type PerTerminal<T> = Few<T, MOST_TERMINALS>;
+use crate::terminals::{VOLTAGES, terminals_mm};
 
 /// Permittivity of free space, F/m.
 pub const EPSILON_0: f64 = 8.854_187_812_8e-12;
@@ -104,7 +92,7 @@ impl Device {
             gravity_m_s2: number("device", "gravity_m_s2", Limits::POSITIVE, GRAVITY_M_S2)?,
             force_k: mu / (2.0 * EPSILON_0 * pad_area_m2),
         };
-        device.terminals_mm = sheet::terminals_mm(root, &device)?;
+        device.terminals_mm = terminals_mm(root, [device.width_mm, device.height_mm])?;
         Ok(device)
     }
 

@@ -4,8 +4,8 @@
 
 use crate::course::Course;
 use crate::device::{Device, EPSILON_0};
-use crate::effects::Pad;
 use crate::effects::sheet::ideal_split;
+use crate::effects::{FilmChange, Pad};
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
 use crate::path::{Path, SLACK_MM};
@@ -170,6 +170,7 @@ fn still(
         push_n: [0.0; 2],
         hand: None,
         friction_n: 0.0,
+        film: FilmChange::NONE,
         split: ideal_split(at[0], at[1], device),
         sheet_ohm: 0.0.into(),
         transfer: None,

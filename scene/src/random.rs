@@ -4,10 +4,16 @@
 use rand_distr::{Distribution, StandardNormal};
 use rand_xoshiro::rand_core::SeedableRng;
 
-use crate::effects::Origin;
-
 /// A fast generator of good quality, started afresh for each name.
 pub(crate) type Stream = rand_xoshiro::Xoshiro256PlusPlus;
+
+/// What noise comes from: each has a stream of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Origin {
+    Adc,
+    Amplifier,
+    Dither,
+}
 
 /// What a stream is for.
 #[derive(Clone, Copy, Debug)]

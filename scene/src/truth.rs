@@ -61,18 +61,31 @@ pub struct Setpoint {
     pub eccentricity_mm: f64,
 }
 
+/// Takes a value of a setpoint.
+type Taken = fn(&Setpoint) -> f64;
+
 impl Setpoint {
+    /// Keys and values, in the order in which a sweep varies them, the fastest first.
+    const KEYS: [(&str, Taken); 6] = [
+        ("x_mm", |set| set.x_mm),
+        ("y_mm", |set| set.y_mm),
+        ("load_g", |set| set.load_g),
+        ("haptic_v_rms", |set| set.haptic_v_rms),
+        ("capacitance_pf", |set| set.capacitance_pf),
+        ("eccentricity_mm", |set| set.eccentricity_mm),
+    ];
+
     /// The value of a key: `load_g`; not a number for another key.
+    ///
+    /// ```
+    /// use hapticore_scene::Setpoint;
+    ///
+    /// let set = Setpoint { load_g: 50.0, ..Setpoint::default() };
+    /// assert_eq!(set.get("load_g"), 50.0);
+    /// assert!(set.get("load").is_nan());
+    /// ```
     pub fn get(&self, key: &str) -> f64 {
-        match key {
-            "x_mm" => self.x_mm,
-            "y_mm" => self.y_mm,
-            "load_g" => self.load_g,
-            "haptic_v_rms" => self.haptic_v_rms,
-            "capacitance_pf" => self.capacitance_pf,
-            "eccentricity_mm" => self.eccentricity_mm,
-            _ => f64::NAN,
-        }
+        Setpoint::KEYS.iter().find(|(known, _)| *known == key).map_or(f64::NAN, |(_, of)| of(self))
     }
 }
 

@@ -131,3 +131,15 @@ fn a_slot_allocates_nothing_but_for_transients_and_coupled_pads() {
     }
     assert_eq!(allocations(&parts(|part| !ALLOCATE.contains(&part.name))), 0, "all others together");
 }
+
+/// Tables of the sheet and the shunt are the case's: plants share them, and so does what calibrates beside a run.
+#[test]
+fn a_second_plant_of_a_case_builds_no_table_anew() {
+    let scene = scene(&scene_of(&parts(|part| part.name != "sensor.quantisation" && part.name != "sensor.dither")));
+    let mut plants = Vec::new();
+    let [first, second] =
+        [0, 1].map(|_| measure(|| plants.push(Plant::new(&scene, 0, &timing()).unwrap())).bytes_total);
+    let map = measure(|| drop(plants[0].calibration_map(2, 2, 15.0))).bytes_total;
+    println!("{first} bytes, then {second}; {map} for a calibration");
+    assert!(first > 1_000_000 && second < 50_000 && map < 50_000, "{first}, then {second}; {map} for a calibration");
+}

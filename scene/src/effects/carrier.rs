@@ -16,11 +16,14 @@
 use crate::few::Few;
 use num_complex::Complex64;
 
-use super::{ChannelEffect, Effect, Pad, Phasors, Run, Rung, Setting, Spec};
-use crate::device::{Device, MOST_CHANNELS};
+use super::effect::{ChannelEffect, Effect, Phasors, Run};
+use super::pad::Pad;
+use super::spec::{Rung, Setting, Spec};
+use crate::device::Device;
 use crate::error::SceneError;
 use crate::format::Table;
 use crate::rotor::Rotor;
+use crate::terminals::MOST_CHANNELS;
 
 /// The effect's name.
 pub(crate) const CARRIER: &str = "carrier";

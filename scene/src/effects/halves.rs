@@ -8,7 +8,10 @@
 //! constant offset. The centres lie a quarter of the pad's diameter off its own. Each half has gaps of its own, at the rung of
 //! `[gap]`. The truth's direction is Δx over half the sheet's width, as the ratios of eq. 10 are. Source: PHYSICS §4.
 
-use super::{Effect, Pad, PadEffect, Rung, Setting, Spec, gap};
+use super::effect::{Effect, PadEffect};
+use super::gap;
+use super::pad::Pad;
+use super::spec::{Rung, Setting, Spec};
 use crate::device::Device;
 use crate::error::SceneError;
 use crate::format::{Limits, Table};

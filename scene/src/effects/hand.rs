@@ -7,7 +7,9 @@
 //! and a `damping_n_s_per_m` of 0 they alone move it. The friction that the hand works against is `[friction]`'s, which also
 //! takes the steps. Source: PHYSICS §4, 300 N/m, 3 N·s/m, 0.05 kg.
 
-use super::{Effect, Pad, PadEffect, Rung, Spec};
+use super::effect::{Effect, PadEffect};
+use super::pad::{Hand, Pad};
+use super::spec::{Rung, Spec};
 use crate::device::Device;
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
@@ -24,14 +26,6 @@ pub(super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError>
     };
     let spring = Rung::new("spring", 5.0, move |_| Effect::Pad(Box::new(OnHand { hand })));
     Spec::ladder("hand", Some(table), vec![spring], "spring")
-}
-
-/// Spring, damper and mass between the hand and the pad.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Hand {
-    pub stiffness_n_per_m: f64,
-    pub damping_n_s_per_m: f64,
-    pub mass_kg: f64,
 }
 
 struct OnHand {

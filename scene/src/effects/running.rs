@@ -3,7 +3,9 @@
 
 use std::time::Instant;
 
-use super::{ChannelEffect, Effect, Pad, Setting, Spec};
+use super::effect::{ChannelEffect, Effect};
+use super::pad::Pad;
+use super::spec::{Setting, Spec};
 
 /// What an effect has cost so far.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use super::Effect;
+use super::effect::Effect;
 use crate::device::Device;
 use crate::error::SceneError;
 use crate::format::Table;

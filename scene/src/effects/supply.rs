@@ -14,9 +14,9 @@
 
 use std::f64::consts::TAU;
 
-use num_complex::Complex64;
-
-use super::{Effect, Pad, PadEffect, Rung, Spec};
+use super::effect::{Effect, PadEffect};
+use super::pad::{Pad, Supply};
+use super::spec::{Rung, Spec};
 use crate::device::{Device, EPSILON_0};
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
@@ -32,24 +32,6 @@ pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneE
     let pad_m2 = device.pad_area_m2;
     let steady = Rung::new("steady", 20.0, move |_| Effect::Pad(Box::new(Supplied { supply, pad_m2 })));
     Spec::ladder("supply", Some(table), vec![steady], "steady")
-}
-
-/// The impedance between source and pad at the haptic frequency.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Supply {
-    pub limiting_ohm: f64,
-    pub transformer_h: f64,
-    pub parasitic_f: f64,
-    pub rad_s: f64,
-}
-
-impl Supply {
-    /// V_h/V_source.
-    pub fn share(&self, capacitance_f: f64) -> f64 {
-        let impedance = Complex64::new(self.limiting_ohm, self.rad_s * self.transformer_h);
-        let admittance = Complex64::new(0.0, self.rad_s * (capacitance_f + self.parasitic_f));
-        1.0 / (1.0 + impedance * admittance).norm()
-    }
 }
 
 struct Supplied {

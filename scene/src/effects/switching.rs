@@ -16,7 +16,9 @@ use std::f64::consts::TAU;
 
 use num_complex::Complex64;
 
-use super::{ChannelEffect, Effect, Pad, Phasors, Run, Rung, Spec};
+use super::effect::{ChannelEffect, Effect, Phasors, Run};
+use super::pad::Pad;
+use super::spec::{Rung, Spec};
 use crate::device::Device;
 use crate::error::SceneError;
 use crate::format::Table;

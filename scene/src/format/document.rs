@@ -1,87 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! TOML text to a tree of values, each with the line it was written on.
 
-use std::fmt;
-
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::Table;
+use super::tree::{Node, Table, Value, join};
 use crate::error::{Place, SceneError};
-
-/// A value and where it was written.
-#[derive(Clone, Debug)]
-pub(crate) struct Node {
-    pub place: Place,
-    pub value: Value,
-}
-
-/// A TOML value; dates stay text, since no key of a scene takes one.
-#[derive(Clone, Debug)]
-pub(crate) enum Value {
-    Text(String),
-    Integer(i64),
-    Number(f64),
-    Flag(bool),
-    List(Vec<Node>),
-    Table(Table),
-}
-
-impl Node {
-    /// The same value as if it had been written at `path`: what a case's override becomes.
-    pub fn moved_to(&self, path: &str) -> Node {
-        let value = match &self.value {
-            Value::Table(table) => Value::Table(table.moved_to(path)),
-            Value::List(list) => Value::List(
-                list.iter().enumerate().map(|(n, item)| item.moved_to(&join(path, &n.to_string()))).collect(),
-            ),
-            plain => plain.clone(),
-        };
-        Node { place: self.place.clone(), value }
-    }
-}
-
-impl Node {
-    /// The value as TOML.
-    pub fn to_toml(&self) -> toml::Value {
-        match &self.value {
-            Value::Text(text) => text.clone().into(),
-            Value::Integer(whole) => (*whole).into(),
-            Value::Number(number) => (*number).into(),
-            Value::Flag(flag) => (*flag).into(),
-            Value::List(list) => list.iter().map(Node::to_toml).collect::<Vec<_>>().into(),
-            Value::Table(table) => table.to_toml().into(),
-        }
-    }
-}
-
-impl Value {
-    /// An integer is a number too: `500` and `500.0` mean the same.
-    pub fn number(&self) -> Option<f64> {
-        match *self {
-            Value::Integer(whole) => Some(whole as f64),
-            Value::Number(number) => Some(number),
-            _ => None,
-        }
-    }
-}
-
-/// The value as an error message shows it, never longer than one line.
-impl fmt::Display for Value {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Value::Text(text) => {
-                let short: String = text.chars().take(40).flat_map(char::escape_debug).collect();
-                write!(f, "\"{short}{}\"", if text.chars().count() > 40 { "…" } else { "" })
-            }
-            Value::Integer(whole) => write!(f, "{whole}"),
-            Value::Number(number) => write!(f, "{number}"),
-            Value::Flag(flag) => write!(f, "{flag}"),
-            Value::List(list) => write!(f, "a list of {}", list.len()),
-            Value::Table(_) => write!(f, "a table"),
-        }
-    }
-}
 
 /// Reads a whole document; the error names the line of the first syntax error.
 pub(crate) fn parse(text: &str) -> Result<Table, SceneError> {
@@ -135,12 +59,6 @@ fn node(path: &str, from: &Spanned<DeValue<'_>>, at: &dyn Fn(usize) -> Place) ->
         DeValue::Table(inner) => Value::Table(table(path, place.clone(), inner, at)?),
     };
     Ok(Node { place, value })
-}
-
-/// `a` and `b` to `a.b`, the form keys take in messages and overrides.
-pub(super) fn join(path: &str, key: &str) -> String {
-    let short: String = key.chars().take(60).flat_map(char::escape_debug).collect();
-    if path.is_empty() { short } else { format!("{path}.{short}") }
 }
 
 /// Byte offsets of line starts, so that a line is found by bisection.

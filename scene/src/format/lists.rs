@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Typed access to the lists in a table.
 
+use super::limits::Limits;
 use super::table::Result;
-use super::{Limits, Node, Table, Value};
+use super::tree::{Node, Table, Value};
 
 impl Table {
     /// A list of texts.

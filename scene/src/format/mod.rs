@@ -6,8 +6,9 @@ mod limits;
 mod lists;
 mod overrides;
 mod table;
+mod tree;
 
-pub(crate) use document::{Node, Value, parse};
+pub(crate) use document::parse;
 pub(crate) use limits::Limits;
 pub(crate) use overrides::{apply, parse_value};
-pub(crate) use table::Table;
+pub(crate) use tree::{Node, Table, Value};

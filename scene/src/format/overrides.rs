@@ -5,8 +5,8 @@
 //! `pad.mallet.load_g`. Tables on the way are made where they are missing, so that an override can switch an effect on;
 //! setting an effect's table or an optional key to `false` takes it away.
 
-use super::document::{join, parse_one};
-use super::{Node, Table, Value};
+use super::document::parse_one;
+use super::tree::{Node, Table, Value, join};
 use crate::error::{Place, SceneError};
 
 /// Reads the VALUE of `--set KEY=VALUE`.

@@ -1,117 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Typed access to a table. Every key asked for becomes a known key; when all is read, a key nobody asked for is an error.
 
-use std::cell::{Cell, RefCell};
-use std::collections::BTreeMap;
-
-use super::document::join;
-use super::{Limits, Node, Value};
+use super::limits::Limits;
+use super::tree::{Table, Value};
 use crate::error::{Place, SceneError};
 
 pub(super) type Result<T> = std::result::Result<T, SceneError>;
 
-/// A TOML table that knows its dotted path, and which of its keys have been read.
-#[derive(Clone, Debug)]
-pub(crate) struct Table {
-    path: String,
-    place: Place,
-    entries: BTreeMap<String, (Node, Cell<bool>)>,
-    known: RefCell<Vec<&'static str>>,
-    /// Any key is meant, and so is whatever lies below: the overrides of a case.
-    free: Cell<bool>,
-}
-
 impl Table {
-    pub fn new(path: &str, place: Place) -> Self {
-        Table {
-            path: path.to_string(),
-            place,
-            entries: BTreeMap::new(),
-            known: RefCell::default(),
-            free: Cell::new(false),
-        }
-    }
-
-    pub fn path(&self) -> &str {
-        &self.path
-    }
-
-    /// The same table as if it stood at `path`.
-    pub fn moved_to(&self, path: &str) -> Table {
-        let mut moved = Table::new(path, self.place.clone());
-        for (key, (node, _)) in &self.entries {
-            moved.insert(key, node.moved_to(&join(path, key)));
-        }
-        moved
-    }
-
-    pub fn insert(&mut self, key: &str, node: Node) {
-        self.entries.insert(key.to_string(), (node, Cell::new(false)));
-    }
-
-    pub fn remove(&mut self, key: &str) {
-        self.entries.remove(key);
-    }
-
-    /// The value at `key`, read by nobody.
-    pub fn find(&mut self, key: &str) -> Option<&mut Node> {
-        self.entries.get_mut(key).map(|(node, _)| node)
-    }
-
-    /// The table as TOML.
-    pub fn to_toml(&self) -> toml::Table {
-        self.entries.iter().map(|(key, (node, _))| (key.clone(), node.to_toml())).collect()
-    }
-
-    /// The entry at `key`, made by `missing` where there is none.
-    pub fn entry(&mut self, key: &str, missing: impl FnOnce() -> Node) -> &mut Node {
-        &mut self.entries.entry(key.to_string()).or_insert_with(|| (missing(), Cell::new(false))).0
-    }
-
-    /// Puts `node` at `key`; at the top of a scene a table is merged into the table already there, so that
-    /// `set = { sheet = { terminal_ohm = 500 } }` changes one key only.
-    pub fn merge(&mut self, key: &str, node: Node) {
-        let top = self.path.is_empty();
-        match (self.entries.get_mut(key), node) {
-            (Some((Node { value: Value::Table(old), .. }, _)), Node { value: Value::Table(new), .. }) if top => {
-                old.entries.extend(new.entries);
-            }
-            (_, node) => self.insert(key, node),
-        }
-    }
-
-    pub fn is_named(&self, name: &str) -> bool {
-        matches!(self.entries.get("name"), Some((Node { value: Value::Text(text), .. }, _)) if text == name)
-    }
-
-    /// All entries with their keys, for a table whose keys are free: overrides.
-    pub fn all(&self) -> impl Iterator<Item = (&str, &Node)> {
-        self.free.set(true);
-        self.entries.iter().map(|(key, (node, _))| (key.as_str(), node))
-    }
-
-    /// The value at `key`, if it is there; `false` counts as absent, which is how an override takes a key away.
-    pub fn get(&self, key: &'static str) -> Option<&Node> {
-        self.ask(key).filter(|node| !matches!(node.value, Value::Flag(false)))
-    }
-
-    fn ask(&self, key: &'static str) -> Option<&Node> {
-        let mut known = self.known.borrow_mut();
-        if !known.contains(&key) {
-            known.push(key);
-        }
-        self.entries.get(key).map(|(node, used)| {
-            used.set(true);
-            node
-        })
-    }
-
-    /// An error about `key`, placed where the key is, or where its table is if it is missing.
-    pub fn error(&self, key: &str, message: impl Into<String>) -> SceneError {
-        let place = self.entries.get(key).map_or(&self.place, |(node, _)| &node.place);
-        SceneError::new(place.clone(), if key.is_empty() { self.path.clone() } else { join(&self.path, key) }, message)
-    }
-
     pub(super) fn wrong<T>(&self, key: &str, expected: impl std::fmt::Display, got: &Value) -> Result<T> {
         Err(self.error(key, format!("expected {expected}, got {got}")))
     }

@@ -18,12 +18,13 @@ const fn part(name: &'static str, key: &'static str, value: &'static str, needs:
 }
 
 /// In the order in which they act.
-pub const PARTS: [Part; 21] = [
+pub const PARTS: [Part; 22] = [
     part("supply", "supply", "", None),
     part("gap", "gap", "rung = \"tr-bdf2\"", None),
     part("halves", "halves", "mismatch_percent = 3", Some("gap")),
     part("hand", "hand", "", Some("friction")),
     part("friction", "friction", "rung = \"lugre\"", None),
+    part("temperature", "temperature", "tempco_ppm_per_k = 400\nrise_k = 15", Some("sheet")),
     part("sheet", "sheet", "", None),
     part("shunt", "shunt", "nanofarad_per_m2 = 9", Some("sheet")),
     part("coupling", "coupling", "", Some("sheet")),

@@ -32,6 +32,7 @@ pub fn truth(row: &Row, of: Quantity, start_s: f64) -> f64 {
     match (of, row.truth) {
         (Quantity::TimeS, _) => row.time_s - start_s,
         (Quantity::LoadG, Some(truth)) => truth.load_g,
+        (Quantity::FrictionN, Some(truth)) => truth.friction_n,
         (_, Some(truth)) => quantity(&truth.quantities, of),
         (_, None) => f64::NAN,
     }
@@ -39,4 +40,16 @@ pub fn truth(row: &Row, of: Quantity, start_s: f64) -> f64 {
 
 fn quantity(quantities: &Quantities, of: Quantity) -> f64 {
     hapticore_host::quantity(of.name()).map_or(f64::NAN, |quantity| quantity.of(quantities))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A scene knows the truth of what a host measures: either has a list of its own, for neither may know the other.
+    #[test]
+    fn what_a_frame_measures_is_what_a_scene_knows() {
+        let known: Vec<_> = Quantity::measured().map(Quantity::name).collect();
+        assert_eq!(known, hapticore_host::QUANTITIES.map(|quantity| quantity.name));
+    }
 }

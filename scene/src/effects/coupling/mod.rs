@@ -22,14 +22,17 @@ pub(crate) mod tests;
 use hapticore_sheet::coupling::{answered, apart, symmetric};
 use num_complex::Complex64;
 
-use super::sheet::Sheet;
+use super::effect::{Effect, PadsEffect};
+use super::pad::Pad;
 use super::sheet::analytic::{self, Analytic};
 use super::sheet::mesh::{Correction, Mesh, Network};
+use super::sheet::{Following, OfSheet, Sheet};
 use super::shunt::{self, Screened};
-use super::{Effect, Pad, PadsEffect, Rung, Spec};
-use crate::device::{Device, PerTerminal};
+use super::spec::{Rung, Spec};
+use crate::device::Device;
 use crate::error::SceneError;
 use crate::format::Table;
+use crate::terminals::PerTerminal;
 
 /// Spacing of the mesh that an uneven film's G comes from, m.
 const SPACING_M: f64 = 0.01;
@@ -40,29 +43,33 @@ pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneE
         return Err(table.error("", "expected a [sheet] too, since pads are coupled through its resistance"));
     };
     let sheet = Sheet::read(sheet, device)?;
-    let screened = shunt::screened(root, device)?;
+    let siemens_per_m2 = shunt::screened(root, device)?.map(|(_, siemens_per_m2)| siemens_per_m2);
     let rung = |word, cost_ns, once| {
-        let (sheet, screened) = (sheet.clone(), screened.clone());
+        let field = OfSheet::new(sheet.clone(), move |sheet| field(sheet, siemens_per_m2));
         Rung::new(word, cost_ns, move |setting| {
-            let field: Box<dyn Field> = match &screened {
-                Some((sheet, siemens_per_m2)) => Box::new(Screened::new(sheet, *siemens_per_m2)),
-                None if sheet.film.is_even() => Box::new(Analytic::new(&sheet)),
-                None => Box::new(Network::new(&sheet, Mesh::new(sheet.size_m, SPACING_M), Correction::Peaceman)),
-            };
-            Effect::Pads(Box::new(Coupling { field, once, device: setting.device.clone() }))
+            Effect::Pads(Box::new(Coupling { field: Following::new(&field), once, device: setting.device.clone() }))
         })
     };
     Spec::ladder("coupling", Some(table), vec![rung("once", 3.6e3, true), rung("full", 4.6e3, false)], "full")
 }
 
+/// The field of a sheet, with a shunt of ωc or none.
+fn field(sheet: &Sheet, siemens_per_m2: Option<f64>) -> Box<dyn Field> {
+    match siemens_per_m2 {
+        Some(siemens_per_m2) => Box::new(Screened::new(sheet, siemens_per_m2)),
+        None if sheet.film.is_even() => Box::new(Analytic::new(sheet)),
+        None => Box::new(Network::new(sheet, Mesh::new(sheet.size_m, SPACING_M), Correction::Peaceman)),
+    }
+}
+
 /// The sheet's potential at one place for a unit current into another, Ω.
-trait Field: Send {
+trait Field: Send + Sync {
     /// For each pair of different places; symmetric.
     fn ohm(&self, places_mm: &[[f64; 2]]) -> Vec<Vec<Complex64>>;
 }
 
 struct Coupling {
-    field: Box<dyn Field>,
+    field: Following<Box<dyn Field>>,
     once: bool,
     device: Device,
 }
@@ -74,7 +81,7 @@ impl PadsEffect for Coupling {
         let (places, touching) = apart(place(pad), others.iter().map(place), reach_mm, diameter_mm);
         pad.touching = touching;
         let pads: Vec<&Pad> = std::iter::once(&*pad).chain(others).collect();
-        let mut ohm = self.field.ohm(&places);
+        let mut ohm = self.field.at(pad.film).ohm(&places);
         for (k, one) in pads.iter().enumerate() {
             ohm[k][k] = one.admittance(self.device.carrier_rad_s).inv();
         }

@@ -26,7 +26,8 @@ fn pad(exact: &Analytic, [x, y]: [f64; 2], capacitance_f: f64) -> Pad {
 }
 
 fn coupling(once: bool) -> Coupling {
-    Coupling { field: Box::new(Analytic::new(&sheet(0.0))), once, device: device() }
+    let field = OfSheet::new(sheet(0.0), |sheet| field(sheet, None));
+    Coupling { field: Following::new(&field), once, device: device() }
 }
 
 /// Four places at random, their centres so far off the edges, none touching another.

@@ -19,7 +19,9 @@
 mod law;
 mod moving;
 
-use super::{Effect, Pad, PadEffect, Rung, Spec};
+use super::effect::{Effect, PadEffect};
+use super::pad::Pad;
+use super::spec::{Rung, Setting, Spec};
 use crate::device::Device;
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
@@ -43,7 +45,7 @@ pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneE
     let mut rungs = vec![Rung::new("coulomb", 20.0, move |_| Effect::Pad(Box::new(Coulomb { mu })))];
     for (word, law, cost_ns) in LAWS {
         let device = device.clone();
-        let build = move |_: &super::Setting| Effect::Pad(Box::new(Moving::new(law, surface, step_s, device.clone())));
+        let build = move |_: &Setting| Effect::Pad(Box::new(Moving::new(law, surface, step_s, device.clone())));
         rungs.push(Rung::new(word, cost_ns, build));
     }
     let usual = if root.table("hand")?.is_some() { "lugre" } else { "coulomb" };

@@ -5,9 +5,10 @@
 
 use super::law::{Drive, Law, Motion, Surface, Vector, add};
 use crate::device::Device;
-use crate::effects::hand::Hand;
+use crate::effects::effect::PadEffect;
+use crate::effects::pad::Hand;
+use crate::effects::pad::Pad;
 use crate::effects::sheet::ideal_split;
-use crate::effects::{Pad, PadEffect};
 use crate::path::SLACK_MM;
 
 /// The effect: a law, and where each pad is.

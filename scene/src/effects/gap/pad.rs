@@ -6,7 +6,8 @@ use super::equilibrium::equilibrium;
 use super::law::{Drive, Law, State};
 use super::quasi_static;
 use crate::device::EPSILON_0;
-use crate::effects::{Pad, PadEffect};
+use crate::effects::effect::PadEffect;
+use crate::effects::pad::Pad;
 
 /// How a pad's gaps follow their drive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -7,7 +7,8 @@ use super::dynamic::Method;
 use super::law::Law;
 use super::pad::{Gap, Motion, Rubber};
 use crate::device::Device;
-use crate::effects::{Effect, Rung, Setting, Spec};
+use crate::effects::effect::Effect;
+use crate::effects::spec::{Rung, Setting, Spec};
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
 

@@ -4,7 +4,9 @@
 
 use std::ops::{Add, Mul};
 
-use super::super::{ChannelEffect, Effect, Pad, Phasors, Run, Setting, Spec};
+use super::super::effect::{ChannelEffect, Effect, Phasors, Run};
+use super::super::pad::Pad;
+use super::super::spec::{Setting, Spec};
 use crate::device::Device;
 use crate::error::SceneError;
 use crate::format::{Limits, Table};

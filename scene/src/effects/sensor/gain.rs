@@ -2,11 +2,14 @@
 //! `sensor.gain_mismatch_percent`: each current sensor's gain is off by its own constant factor, drawn with the seed.
 //! 1 % costs 0.31 % rms of force over the map (PHYSICS §5).
 
-use super::super::{ChannelEffect, Effect, Pad, Phasors, Run, Setting, Spec};
-use crate::device::{Device, PerTerminal};
+use super::super::effect::{ChannelEffect, Effect, Phasors, Run};
+use super::super::pad::Pad;
+use super::super::spec::{Setting, Spec};
+use crate::device::Device;
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
 use crate::random::{Purpose, normals};
+use crate::terminals::PerTerminal;
 
 pub(in super::super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
     let Some(percent) = super::key(root, "gain_mismatch_percent", Limits::within(0.0, 50.0))? else { return Ok(None) };

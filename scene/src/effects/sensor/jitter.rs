@@ -10,13 +10,16 @@ use std::f64::consts::TAU;
 use crate::few::Few;
 use num_complex::Complex64;
 
-use super::super::{ChannelEffect, Effect, Pad, Phasors, Run, Setting, Spec};
+use super::super::effect::{ChannelEffect, Effect, Phasors, Run};
+use super::super::pad::Pad;
+use super::super::spec::{Setting, Spec};
 use super::noise::{HANN_NENBW, Source, normal};
-use crate::device::{Device, MOST_CHANNELS};
+use crate::device::Device;
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
 use crate::random::Purpose;
 use crate::rotor::Rotor;
+use crate::terminals::MOST_CHANNELS;
 
 pub(in super::super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
     let Some(ns) = super::key(root, "jitter_ns_rms", Limits::within(0.0, 1e3))? else { return Ok(None) };

@@ -6,7 +6,9 @@
 use std::f64::consts::{SQRT_2, TAU};
 
 use super::super::carrier::haptic_rotor;
-use super::super::{ChannelEffect, Effect, Pad, Phasors, Run, Setting, Spec};
+use super::super::effect::{ChannelEffect, Effect, Phasors, Run};
+use super::super::pad::Pad;
+use super::super::spec::{Setting, Spec};
 use crate::device::Device;
 use crate::error::SceneError;
 use crate::format::Table;

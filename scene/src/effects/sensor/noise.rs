@@ -15,11 +15,14 @@ use std::f64::consts::PI;
 
 use rand_distr::{Distribution, StandardNormal};
 
-use super::super::{ChannelEffect, Effect, Pad, Phasors, Run, Setting, Spec};
-use crate::device::{Device, MOST_CHANNELS};
+use super::super::effect::{ChannelEffect, Effect, Phasors, Run};
+use super::super::pad::Pad;
+use super::super::spec::{Setting, Spec};
+use crate::device::Device;
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
-use crate::random::{Purpose, Stream, stream};
+use crate::random::{Origin, Purpose, Stream, stream};
+use crate::terminals::MOST_CHANNELS;
 
 /// Equivalent noise bandwidth of a Hann window, bins.
 pub(super) const HANN_NENBW: f64 = 1.5;
@@ -59,14 +62,6 @@ pub(in super::super) fn read_dither(root: &Table, _: &Device) -> Result<Option<S
     };
     let build = move |setting: &Setting| Noise::effect([lsb / codes; MOST_CHANNELS], Origin::Dither, setting);
     Ok(Spec::new("sensor.dither", format!("{lsb} LSB"), build))
-}
-
-/// What noise comes from: each has a stream of its own.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Origin {
-    Adc,
-    Amplifier,
-    Dither,
 }
 
 struct Noise {

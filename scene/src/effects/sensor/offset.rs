@@ -2,11 +2,14 @@
 //! `sensor.offset_percent`: each ADC channel's constant offset, drawn with the seed. A demodulator over whole periods
 //! does not see it; the mean square of the haptic voltage does.
 
-use super::super::{ChannelEffect, Effect, Pad, Phasors, Run, Setting, Spec};
-use crate::device::{Device, MOST_CHANNELS};
+use super::super::effect::{ChannelEffect, Effect, Phasors, Run};
+use super::super::pad::Pad;
+use super::super::spec::{Setting, Spec};
+use crate::device::Device;
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
 use crate::random::{Purpose, normals};
+use crate::terminals::MOST_CHANNELS;
 
 pub(in super::super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
     let Some(percent) = super::key(root, "offset_percent", Limits::within(0.0, 50.0))? else { return Ok(None) };

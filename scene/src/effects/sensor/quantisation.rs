@@ -2,7 +2,9 @@
 //! `sensor.quantisation_bits`: samples become codes of so many bits, full scale ±1, half to even, clipped at the rails.
 //! Amplitudes stay exact: quantisation is a matter of samples.
 
-use super::super::{ChannelEffect, Effect, Pad, Phasors, Run, Setting, Spec};
+use super::super::effect::{ChannelEffect, Effect, Phasors, Run};
+use super::super::pad::Pad;
+use super::super::spec::{Setting, Spec};
 use crate::device::Device;
 use crate::error::SceneError;
 use crate::format::Table;

@@ -2,7 +2,9 @@
 //! `sensor.gain_error_percent`: all current sensors' gain is off by the same, so that capacitances are off by as much and
 //! forces by twice that; positions do not see it.
 
-use super::super::{ChannelEffect, Effect, Pad, Phasors, Run, Setting, Spec};
+use super::super::effect::{ChannelEffect, Effect, Phasors, Run};
+use super::super::pad::Pad;
+use super::super::spec::{Setting, Spec};
 use crate::device::Device;
 use crate::error::SceneError;
 use crate::format::{Limits, Table};

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The exact split of an even sheet, as [`hapticore_sheet`] has it.
 
-use super::{Sheet, Solver, Split};
+use super::geometry::Sheet;
+use super::split::{Solver, Split};
 use crate::few::Few;
 pub(crate) use hapticore_sheet::{Analytic, Source, UniformSheet};
 

@@ -2,8 +2,9 @@
 //! The paper's picture: the sheet as a star of strips, R_i = R_in + R_s·(distance to terminal i)/(width of the pad).
 //! R_p is their parallel combination. At the sheet's middle it gives 311 Ω for the paper's device.
 
-use super::{Sheet, Solver, Split};
-use crate::device::PerTerminal;
+use super::geometry::Sheet;
+use super::split::{Solver, Split};
+use crate::terminals::PerTerminal;
 
 pub(super) struct Distance {
     sheet: Sheet,

@@ -11,6 +11,7 @@
 //! ohm_per_square = 300
 //! ```
 
+use crate::effects::pad::FilmChange;
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
 
@@ -23,6 +24,8 @@ pub(crate) struct Film {
     slope_per_m: [f64; 2],
     middle_m: [f64; 2],
     patches: Vec<Patch>,
+    /// What an effect adds to the rise, patches included.
+    change_per_m: [f64; 2],
 }
 
 #[derive(Clone, Debug)]
@@ -36,7 +39,7 @@ impl Film {
     /// The same everywhere.
     #[cfg(test)]
     pub fn even(ohm_per_square: f64) -> Film {
-        Film { ohm_per_square, slope_per_m: [0.0; 2], middle_m: [0.0; 2], patches: Vec::new() }
+        Film { ohm_per_square, slope_per_m: [0.0; 2], middle_m: [0.0; 2], patches: Vec::new(), change_per_m: [0.0; 2] }
     }
 
     pub fn read(table: &Table, size_m: [f64; 2]) -> Result<Film, SceneError> {
@@ -48,23 +51,38 @@ impl Film {
             slope_per_m: [0, 1].map(|axis| slope_percent[axis] / 100.0 / size_m[axis]),
             middle_m,
             patches: patches.into_iter().map(|patch| Patch::read(patch, middle_m)).collect::<Result<_, _>>()?,
+            change_per_m: [0.0; 2],
         })
+    }
+
+    /// The film of a sheet of this size after a change.
+    pub fn changed(&self, change: FilmChange, size_m: [f64; 2]) -> Film {
+        let risen = 1.0 + change.rise;
+        let patch = |patch: &Patch| Patch { ohm_per_square: patch.ohm_per_square * risen, ..patch.clone() };
+        Film {
+            ohm_per_square: self.ohm_per_square * risen,
+            patches: self.patches.iter().map(patch).collect(),
+            change_per_m: [0, 1].map(|axis| change.slope[axis] / risen / size_m[axis]),
+            ..self.clone()
+        }
     }
 
     /// Whether it is the same everywhere.
     pub fn is_even(&self) -> bool {
-        self.slope_per_m == [0.0; 2] && self.patches.is_empty()
+        [self.slope_per_m, self.change_per_m] == [[0.0; 2]; 2] && self.patches.is_empty()
     }
 
     /// Ohms per square at a place from the bottom left corner.
     pub fn at(&self, place_m: [f64; 2]) -> f64 {
-        match self.patches.iter().rev().find(|patch| patch.covers(place_m)) {
+        let along = |slope: [f64; 2]| {
+            let rise = |axis: usize| slope[axis] * (place_m[axis] - self.middle_m[axis]);
+            1.0 + rise(0) + rise(1)
+        };
+        let ohm = match self.patches.iter().rev().find(|patch| patch.covers(place_m)) {
             Some(patch) => patch.ohm_per_square,
-            None => {
-                let rise = |axis: usize| self.slope_per_m[axis] * (place_m[axis] - self.middle_m[axis]);
-                self.ohm_per_square * (1.0 + rise(0) + rise(1))
-            }
-        }
+            None => self.ohm_per_square * along(self.slope_per_m),
+        };
+        ohm * along(self.change_per_m)
     }
 }
 

@@ -3,6 +3,7 @@
 
 use super::film::Film;
 use crate::device::Device;
+use crate::effects::pad::FilmChange;
 use crate::error::SceneError;
 use crate::format::{Limits, Node, Table, Value};
 
@@ -37,6 +38,11 @@ impl Sheet {
             terminals_m: terminals_m(device),
             table: [count("table_columns")?, count("table_rows")?],
         })
+    }
+
+    /// The same sheet after a change of its film.
+    pub fn changed(&self, film: FilmChange) -> Sheet {
+        Sheet { film: self.film.changed(film, self.size_m), ..self.clone() }
     }
 
     pub fn terminals(&self) -> usize {

@@ -9,10 +9,11 @@
 use std::f64::consts::PI;
 
 use super::analytic::Analytic;
+use super::geometry::Sheet;
 use super::mesh::{Correction, Mesh, Network};
 use super::nodes::Values;
 use super::spline::{Axis, Spline};
-use super::{Sheet, Solver, Split};
+use super::split::{Solver, Split};
 use crate::few::Few;
 
 /// Finest spacing that R_p is solved with, m.

@@ -20,7 +20,7 @@ use faer::sparse::linalg::solvers::Llt;
 use faer::sparse::{SparseColMat, Triplet};
 use faer::{Col, Mat};
 
-use super::Sheet;
+use super::geometry::Sheet;
 use super::linear::{Square, dot};
 use super::nodes::Values;
 use super::spline::Axis;

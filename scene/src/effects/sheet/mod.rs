@@ -29,49 +29,30 @@
 pub(crate) mod analytic;
 mod distance;
 mod film;
+mod following;
 pub(super) mod geometry;
 mod grid;
 pub(super) mod mesh;
 pub(super) mod nodes;
-mod places;
 pub(super) mod spline;
+mod split;
 mod table;
 
+pub(super) use following::{Following, OfSheet};
 pub(super) use geometry::Sheet;
 pub(super) use hapticore_sheet::{linear, neumann};
-pub(crate) use places::terminals_mm;
+pub(crate) use split::{Solver, Split};
 
-use nodes::Values;
 use num_complex::Complex64;
 
-use super::{Effect, Pad, PadEffect, Rung, Spec};
-use crate::device::{Device, PerTerminal};
+use super::effect::{Effect, PadEffect};
+use super::pad::Pad;
+use super::spec::{Rung, Spec};
+use crate::device::Device;
 use crate::error::SceneError;
 use crate::few::Few;
 use crate::format::Table;
-
-/// The sheet as a pad at one place sees it.
-#[derive(Clone, Debug)]
-pub(crate) struct Split {
-    pub share: PerTerminal<f64>,
-    pub ohm: f64,
-}
-
-impl Split {
-    fn node(&self) -> Values {
-        self.share.iter().copied().chain([self.ohm]).collect()
-    }
-
-    fn of_node(node: &Values) -> Split {
-        let terminals = node.len() - 1;
-        Split { share: Few::from_slice(&node[..terminals]), ohm: node[terminals] }
-    }
-}
-
-/// One way to get the split at a place, x and y in mm from the centre.
-pub(crate) trait Solver: Send {
-    fn split(&self, x_mm: f64, y_mm: f64) -> Split;
-}
+use crate::terminals::PerTerminal;
 
 /// Rungs of an even sheet, and what a look-up costs, ns.
 const EVEN: [(&str, f64); 5] =
@@ -105,7 +86,7 @@ fn rung(
     sheet: &Sheet,
     word: &'static str,
     cost_ns: f64,
-    build: impl Fn(&Sheet) -> Box<dyn Solver> + Send + Sync + 'static,
+    build: impl Fn(&Sheet) -> AnySolver + Send + Sync + 'static,
 ) -> Rung {
     let sheet = sheet.clone();
     let label = match table_of(word) {
@@ -115,7 +96,8 @@ fn rung(
         None => word.to_string(),
     };
     let reach_mm = sheet.reach_mm();
-    Rung::new(word, cost_ns, move |_| Effect::Pad(Box::new(OnSheet { solver: build(&sheet), reach_mm })))
+    let solver = OfSheet::new(sheet, build);
+    Rung::new(word, cost_ns, move |_| Effect::Pad(Box::new(OnSheet { solver: Following::new(&solver), reach_mm })))
         .labelled(label)
 }
 
@@ -129,7 +111,7 @@ fn table_of(word: &str) -> Option<[usize; 2]> {
     }
 }
 
-fn exact_or_table(word: &str, sheet: &Sheet) -> Box<dyn Solver> {
+fn exact_or_table(word: &str, sheet: &Sheet) -> AnySolver {
     match (word, table_of(word)) {
         ("bilinear", Some(nodes)) => Box::new(table::Bilinear::new(sheet, nodes)),
         (_, Some(nodes)) => Box::new(table::Bicubic::new(sheet, nodes)),
@@ -138,19 +120,22 @@ fn exact_or_table(word: &str, sheet: &Sheet) -> Box<dyn Solver> {
     }
 }
 
-fn grid(sheet: &Sheet, spacing_mm: f64) -> Box<dyn Solver> {
+fn grid(sheet: &Sheet, spacing_mm: f64) -> AnySolver {
     Box::new(grid::Grid::new(sheet, spacing_mm * 1e-3))
 }
 
+/// A solver at one of the rungs, as plants share it.
+type AnySolver = Box<dyn Solver + Sync>;
+
 struct OnSheet {
-    solver: Box<dyn Solver>,
+    solver: Following<AnySolver>,
     reach_mm: [f64; 2],
 }
 
 impl PadEffect for OnSheet {
     fn act(&mut self, pad: &mut Pad) {
         let [x, y] = self.reach_mm;
-        let split = self.solver.split(pad.x_mm.clamp(-x, x), pad.y_mm.clamp(-y, y));
+        let split = self.solver.at(pad.film).split(pad.x_mm.clamp(-x, x), pad.y_mm.clamp(-y, y));
         pad.split = split.share.map(Complex64::from);
         pad.sheet_ohm = split.ohm.into();
     }

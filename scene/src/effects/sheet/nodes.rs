@@ -4,8 +4,8 @@
 //! How many values a node has follows from the number of terminals, which is known at run time only. They are kept four to a
 //! lane, so that the loops of a look-up have a fixed length whatever that number is.
 
-use crate::device::MOST_TERMINALS;
 use crate::few::Few;
+use crate::terminals::MOST_TERMINALS;
 
 /// Values to a lane.
 const WIDTH: usize = 4;

@@ -5,9 +5,10 @@
 //! the bilinear table and with the fourth for the bicubic one.
 
 use super::analytic::Analytic;
+use super::geometry::Sheet;
 use super::nodes::Nodes;
 use super::spline::{Axis, Spline};
-use super::{Sheet, Solver, Split};
+use super::split::{Solver, Split};
 
 fn axes(sheet: &Sheet, nodes: [usize; 2]) -> [Axis; 2] {
     let reach_mm = sheet.reach_mm();

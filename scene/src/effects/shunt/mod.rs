@@ -24,14 +24,17 @@ use num_complex::Complex64;
 use screen::Screens;
 pub(super) use screen::{Screened, Source};
 
+use super::effect::{Effect, PadEffect};
+use super::pad::Pad;
 use super::sheet::analytic::Analytic;
 use super::sheet::nodes::Values;
 use super::sheet::spline::{Axis, Spline};
-use super::sheet::{Sheet, Solver, Split};
-use super::{Effect, Pad, PadEffect, Rung, Spec};
-use crate::device::{Device, PerTerminal};
+use super::sheet::{Following, OfSheet, Sheet, Solver, Split};
+use super::spec::{Rung, Spec};
+use crate::device::Device;
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
+use crate::terminals::PerTerminal;
 
 /// Columns and rows of the table.
 const NODES: [usize; 2] = [32, 19];
@@ -39,8 +42,12 @@ const NODES: [usize; 2] = [32, 19];
 pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneError> {
     let Some(sheet) = screened(root, device)? else { return Ok(None) };
     let rung = |word, cost_ns, nodes| {
-        let sheet = sheet.clone();
-        Rung::new(word, cost_ns, move |_| Effect::Pad(Box::new(Shunt::new(&sheet, nodes))))
+        let (sheet, siemens_per_m2) = sheet.clone();
+        let reach_mm = sheet.reach_mm();
+        let screening = OfSheet::new(sheet, move |sheet| Screening::new(sheet, siemens_per_m2, nodes));
+        Rung::new(word, cost_ns, move |_| {
+            Effect::Pad(Box::new(Shunt { screening: Following::new(&screening), reach_mm }))
+        })
     };
     let rungs = vec![rung("table", 820.0, Some(NODES)), rung("series", 2.8e4, None)];
     Spec::ladder("shunt", root.table("shunt")?, rungs, "table")
@@ -63,21 +70,26 @@ pub(super) fn screened(root: &Table, device: &Device) -> Result<Option<(Sheet, f
 }
 
 struct Shunt {
-    with: Screened,
-    without: Analytic,
-    table: Option<Spline>,
+    screening: Following<Screening>,
     reach_mm: [f64; 2],
 }
 
-impl Shunt {
+/// What a shunt does on one sheet.
+struct Screening {
+    with: Screened,
+    without: Analytic,
+    table: Option<Spline>,
+}
+
+impl Screening {
     /// With a table of so many columns and rows, or none.
-    fn new((sheet, siemens_per_m2): &(Sheet, f64), nodes: Option<[usize; 2]>) -> Self {
-        let (with, reach_mm) = (Screened::new(sheet, *siemens_per_m2), sheet.reach_mm());
+    fn new(sheet: &Sheet, siemens_per_m2: f64, nodes: Option<[usize; 2]>) -> Self {
+        let (with, reach_mm) = (Screened::new(sheet, siemens_per_m2), sheet.reach_mm());
         let table = nodes.map(|nodes| {
             let axes = [0, 1].map(|axis| Axis::symmetric(reach_mm[axis], nodes[axis]));
             Spline::of(axes, 2 * (sheet.terminals() + 1), |x, y| node(&with.screens(x, y)))
         });
-        Shunt { with, without: Analytic::new(sheet), table, reach_mm }
+        Screening { with, without: Analytic::new(sheet), table }
     }
 
     /// What the shunt changes of the shares and of the impedance.
@@ -96,7 +108,8 @@ impl Shunt {
 impl PadEffect for Shunt {
     fn act(&mut self, pad: &mut Pad) {
         let [x, y] = self.reach_mm;
-        let (shares, ohm) = self.change(pad.x_mm.clamp(-x, x), pad.y_mm.clamp(-y, y));
+        let screening = self.screening.at(pad.film);
+        let (shares, ohm) = screening.change(pad.x_mm.clamp(-x, x), pad.y_mm.clamp(-y, y));
         pad.split.iter_mut().zip(shares).for_each(|(share, change)| *share += change);
         pad.sheet_ohm += ohm;
     }

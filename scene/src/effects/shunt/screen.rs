@@ -14,10 +14,10 @@ use std::f64::consts::PI;
 use crate::few::Few;
 use num_complex::Complex64;
 
-use crate::device::{MOST_TERMINALS, PerTerminal};
 use crate::effects::sheet::Sheet;
 use crate::effects::sheet::linear::Square;
 use crate::effects::sheet::neumann::Neumann;
+use crate::terminals::{MOST_TERMINALS, PerTerminal};
 
 /// Modes along y; those left out are below 3e-7 of the sum at 22 nF/m².
 const MODES: usize = 100;

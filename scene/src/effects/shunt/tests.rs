@@ -55,7 +55,7 @@ fn no_current_is_lost() {
 /// As measured; PHYSICS has no figure.
 #[test]
 fn the_tables_error_is_three_millionths_and_falls_with_the_fourth_power_of_its_spacing() {
-    let shunt = |nodes| Shunt::new(&(sheet(0.0), siemens(22.0)), nodes);
+    let shunt = |nodes| Screening::new(&sheet(0.0), siemens(22.0), nodes);
     let series = shunt(None);
     let error = |nodes| {
         let table = shunt(Some(nodes));

@@ -9,9 +9,20 @@
 //! terminal_5_mm = [100, -250]                            # or where these say
 //! ```
 
-use crate::device::{Device, LEAST_TERMINALS, MOST_TERMINALS};
 use crate::error::SceneError;
+use crate::few::Few;
 use crate::format::{Limits, Table};
+
+pub use hapticore_sheet::{LEAST_TERMINALS, MOST_TERMINALS};
+
+/// ADC channels beside the terminals' currents: the sensing voltage, then the haptic voltage.
+pub(crate) const VOLTAGES: usize = 2;
+
+/// The most ADC channels.
+pub(crate) const MOST_CHANNELS: usize = MOST_TERMINALS + VOLTAGES;
+
+/// One value per terminal, held in place: no slot or sample allocates.
+pub(crate) type PerTerminal<T> = Few<T, MOST_TERMINALS>;
 
 /// Keys that say where terminals are in another way than `terminals_mm`.
 const OTHERS: [&str; 4] = ["terminals", "middles", "terminal_5_mm", "terminal_6_mm"];
@@ -19,9 +30,9 @@ const OTHERS: [&str; 4] = ["terminals", "middles", "terminal_5_mm", "terminal_6_
 /// How far off the edge a place still counts as on it, mm: what decimal fractions lose.
 const SLACK_MM: f64 = 1e-6;
 
-/// Places of the terminals of a device, mm from the sheet's middle; a device without `[sheet]` has six.
-pub(crate) fn terminals_mm(root: &Table, device: &Device) -> Result<Vec<[f64; 2]>, SceneError> {
-    let edge = Edge { half: [device.width_mm / 2.0, device.height_mm / 2.0] };
+/// Places of the terminals on a sheet of this size, mm from its middle; a device without `[sheet]` has six.
+pub(crate) fn terminals_mm(root: &Table, size_mm: [f64; 2]) -> Result<Vec<[f64; 2]>, SceneError> {
+    let edge = Edge { half: size_mm.map(|size| size / 2.0) };
     root.table("sheet")?.map_or_else(|| Ok(edge.usual("long")), |table| read(table, &edge))
 }
 

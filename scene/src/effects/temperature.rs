@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `[temperature]`: the sheet's film is warmer than it was when the device was calibrated, and resists more, or less.
+//!
+//!   R_s(x, y) = R_s·[1 + α·(ΔT + g_x·x/width + g_y·y/height)]      (x and y from the sheet's middle)
+//!
+//! ```toml
+//! [temperature]
+//! tempco_ppm_per_k = 400          # α
+//! rise_k = 15                     # ΔT in the middle, or over time, as a pad's load; see `course`
+//! gradient_k = [4, 0]             # g: from the left edge to the right one, from the bottom to the top
+//! step_k = 0.05                   # of ΔT, where it moves: what is computed from the sheet is renewed so often
+//! ```
+//!
+//! Split, R_p, shunt and coupling follow, and so does the truth; calibrations and what the host knows are of the film without the
+//! rise. Resistances in series with the terminals stay as they are: without any an even rise moves no position, with them it does.
+//!
+//! α is a property of the film that somebody has to measure, so it has no default: films differ even in its sign. ITO that was
+//! sputtered with a dc magnetron has +123 to +868 ppm/K between 150 K and 250 K, less the more oxygen there was (I. Prasaja,
+//! thesis, Universitas Indonesia, 1999); thermometers of ITO on alumina have −2313 ppm/K from room temperature to 400 °C (Wang,
+//! Zhang and Ding, IEEE INEC 2016).
+//!
+//! A step of ΔT is a step of α·`step_k` in R_s, 20 ppm at 400 ppm/K: the film is at most half of that off its course. With a
+//! gradient the film is uneven, so that `[sheet]` needs a rung of a mesh, and no `[shunt]`. Every step builds the sheet's table anew.
+
+use super::effect::{Effect, PadEffect};
+use super::pad::{FilmChange, Pad};
+use super::spec::Spec;
+use crate::course::Course;
+use crate::device::Device;
+use crate::error::SceneError;
+use crate::format::{Limits, Table};
+
+/// The most that a film may change, as a share of its resistance: what is left is positive.
+const MOST_CHANGE: f64 = 0.9;
+
+pub(super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
+    let Some(table) = root.table("temperature")? else { return Ok(None) };
+    let Some(sheet) = root.table("sheet")? else {
+        return Err(table.error("", "expected a [sheet] too, since its film is what the temperature changes"));
+    };
+    let temperature = Temperature::read(table)?;
+    if temperature.gradient_k != [0.0; 2] {
+        let meshed = sheet.text("rung")?.is_some_and(|rung| rung.starts_with("grid"));
+        if !meshed || root.table("shunt")?.is_some() {
+            let expected = "expected a mesh as sheet.rung, such as \"grid-5-mm\", and no [shunt]";
+            return Err(table.error("gradient_k", format!("{expected}, since a gradient leaves no film even")));
+        }
+    }
+    let label = temperature.label();
+    Ok(Spec::new("temperature", label, move |_| Effect::Pad(Box::new(temperature.clone()))))
+}
+
+/// The film's temperature above that of the calibration.
+#[derive(Clone, Debug)]
+struct Temperature {
+    per_k: f64,
+    rise_k: Course,
+    gradient_k: [f64; 2],
+    step_k: f64,
+}
+
+impl Temperature {
+    fn read(table: &Table) -> Result<Temperature, SceneError> {
+        let ppm = Limits::within(-1e5, 1e5);
+        let tempco = table.require("tempco_ppm_per_k", &ppm.to_string(), table.number("tempco_ppm_per_k", ppm)?)?;
+        let rise_k = Course::read(table, "rise_k", Limits::within(-1e3, 1e3))?.unwrap_or(Course::Constant(0.0));
+        let temperature = Temperature {
+            per_k: 1e-6 * tempco,
+            gradient_k: table.pair("gradient_k", Limits::within(-1e3, 1e3))?.unwrap_or_default(),
+            step_k: table.number_or("step_k", Limits::above(0.0, 100.0), 0.05)?,
+            rise_k,
+        };
+        if temperature.rise_k.points() > 1 {
+            return Err(table.error("rise_k", "expected a temperature over time, not a sweep; a case can set another"));
+        }
+        let change = temperature.largest_change();
+        match change <= MOST_CHANGE {
+            true => Ok(temperature),
+            false => Err(table.error(
+                "tempco_ppm_per_k",
+                format!("expected a film that changes by at most {MOST_CHANGE} of itself, got {change}"),
+            )),
+        }
+    }
+
+    /// The largest change of R_s anywhere, ever, as a fraction.
+    fn largest_change(&self) -> f64 {
+        let rise_k = self.rise_k.extremes().into_iter().map(f64::abs).fold(0.0, f64::max);
+        let [x, y] = self.gradient_k.map(f64::abs);
+        self.per_k.abs() * (rise_k + 0.5 * (x + y))
+    }
+
+    fn label(&self) -> String {
+        match self.rise_k.moves() {
+            true => format!("steps of {} K", self.step_k),
+            false => format!("{} K", self.rise_k.at(0, 0.0)),
+        }
+    }
+
+    /// ΔT, in steps where it moves.
+    fn rise_k(&self, time_s: f64) -> f64 {
+        let rise_k = self.rise_k.at(0, time_s);
+        if self.rise_k.moves() { (rise_k / self.step_k).round() * self.step_k } else { rise_k }
+    }
+}
+
+impl PadEffect for Temperature {
+    fn act(&mut self, pad: &mut Pad) {
+        pad.film = FilmChange {
+            rise: pad.film.rise + self.per_k * self.rise_k(pad.time_s),
+            slope: [0, 1].map(|axis| pad.film.slope[axis] + self.per_k * self.gradient_k[axis]),
+        };
+    }
+
+    /// A calibration is of the film as the scene describes it.
+    fn settle(&mut self, _: &mut Pad) {}
+}
