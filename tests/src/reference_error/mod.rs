@@ -9,7 +9,7 @@
 mod bound;
 
 use bound::bounds;
-use hapticore::calibrate::Scales;
+use hapticore_host::Scales;
 use hapticore_model::calibration::Calibration;
 use hapticore_model::frame::Reading;
 use hapticore_model::profile::Profile;
