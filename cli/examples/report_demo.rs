@@ -6,8 +6,8 @@
 use std::f64::consts::TAU;
 use std::path::PathBuf;
 
-use hapticore::record::{Criterion, Effect, Quantities, Record, Reference, Row, SignalError, Truth};
 use hapticore::report;
+use hapticore_run::record::{Criterion, Effect, Quantities, Record, Reference, Row, SignalError, Truth};
 
 fn main() -> std::io::Result<()> {
     let dir = PathBuf::from(std::env::args().nth(1).unwrap_or_else(|| ".".into()));

@@ -7,10 +7,9 @@
 use std::time::Instant;
 
 use anyhow::Result;
-use hapticore::args::Fidelity;
-use hapticore::case::{Case, Settings};
-use hapticore::inputs;
-use indicatif::ProgressBar;
+use hapticore_run::case::{Case, Settings};
+use hapticore_run::engine::Fidelity;
+use hapticore_run::inputs;
 
 /// The carrier's rung and the core's fidelity.
 const WAYS: [(&str, Fidelity); 4] = [
@@ -49,7 +48,7 @@ fn once(name: &str, carrier: &str, fidelity: Fidelity) -> Result<[f64; 2]> {
     let mut device_s = 0.0;
     for index in 0..scene.cases.len() {
         let case = Case::new(&scene, index, index, &profile, device_s)?;
-        case.run(&Settings { fidelity, errors: false }, None, &ProgressBar::hidden())?;
+        case.run(&Settings { fidelity, errors: false }, None, &|| ())?;
         device_s += case.seconds();
     }
     Ok([device_s, start.elapsed().as_secs_f64()])

@@ -5,6 +5,7 @@ use std::ops::Range;
 use std::path::PathBuf;
 
 use clap::{Parser, Subcommand, ValueEnum};
+use hapticore_run::engine::Fidelity;
 
 /// Simulate, replay and inspect the hapticore sensing core.
 #[derive(Debug, Parser)]
@@ -166,8 +167,8 @@ pub struct ScenesArgs {
 #[derive(Debug, Clone, clap::Args)]
 pub struct CoreArgs {
     /// How exactly the core is run
-    #[arg(long, value_enum, default_value_t = Fidelity::Fixed)]
-    pub core: Fidelity,
+    #[arg(long, value_enum, default_value_t = Core::Fixed)]
+    pub core: Core,
     /// The core's profile: a bundled name (small, standard, fine) or a TOML file
     #[arg(long, value_name = "PROFILE")]
     pub profile: Option<String>,
@@ -238,7 +239,7 @@ pub struct ReplayArgs {
 
 /// How exactly the core is run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Fidelity {
+pub enum Core {
     /// The equations in floating point
     Float,
     /// The core's results to the bit, slot by slot
@@ -247,14 +248,20 @@ pub enum Fidelity {
     Clock,
 }
 
-impl Fidelity {
-    /// Its name on the command line.
-    pub fn name(self) -> &'static str {
-        match self {
-            Fidelity::Float => "float",
-            Fidelity::Fixed => "fixed",
-            Fidelity::Clock => "clock",
+impl From<Core> for Fidelity {
+    fn from(core: Core) -> Self {
+        match core {
+            Core::Float => Fidelity::Float,
+            Core::Fixed => Fidelity::Fixed,
+            Core::Clock => Fidelity::Clock,
         }
+    }
+}
+
+impl CoreArgs {
+    /// How exactly the core is run.
+    pub fn fidelity(&self) -> Fidelity {
+        self.core.into()
     }
 }
 

@@ -13,14 +13,13 @@ use std::path::Path;
 use anyhow::{Context, Result};
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::format::Format;
-use hapticore_rtl::board::framing::digest;
-use hapticore_rtl::codes::{Codes, Constant};
+use hapticore_host::residual::LIMIT_MM;
+use hapticore_host::{CalibrationWords, ConstantWord, DeviceCalibration, digest};
 
 use crate::args::{CodesArgs, CodesFormat};
-use crate::calibrate::DeviceCalibration;
-use crate::record::Provenance;
-use crate::residual::LIMIT_MM;
-use crate::{capture, console, inputs};
+use crate::console;
+use hapticore_run::record::Provenance;
+use hapticore_run::{calibrate, capture, inputs};
 
 /// The profile where none is named.
 const PROFILE: &str = "standard";
@@ -39,17 +38,17 @@ pub fn run(args: &CodesArgs) -> Result<bool> {
     let profile = inputs::profile(args.profile.as_deref().unwrap_or(PROFILE))?;
     let device = match &args.calibration {
         Some(path) => DeviceCalibration::read(path)?,
-        None => DeviceCalibration::nominal(&profile)?,
+        None => calibrate::nominal(&profile)?,
     };
     let profile = device.profile(&profile)?;
     let calibration = device.of(&profile).with_context(|| name(args.calibration.as_deref()))?;
     device.residual(&calibration).warning(LIMIT_MM).iter().for_each(|text| console::warn(text));
-    let codes = Codes::new(&profile, &calibration);
+    let words = CalibrationWords::new(&profile, &calibration);
     let head = head(&profile, &name(args.calibration.as_deref()));
     let text = match args.format {
-        CodesFormat::Csv => csv(&codes, &head),
-        CodesFormat::Readmemh => readmemh(&codes, &head),
-        CodesFormat::C => header(&codes, &head, &profile),
+        CodesFormat::Csv => csv(&words, &head),
+        CodesFormat::Readmemh => readmemh(&words, &head),
+        CodesFormat::C => header(&words, &head, &profile),
     };
     match &args.out {
         Some(path) => capture::write_text(path, &text)?,
@@ -85,51 +84,52 @@ fn comments(head: &[String], sign: &str) -> String {
     head.iter().map(|line| format!("{sign} {line}\n")).collect()
 }
 
-fn csv(codes: &Codes, head: &[String]) -> String {
+fn csv(words: &CalibrationWords, head: &[String]) -> String {
     let mut text = comments(head, "#") + "name,address,code,value,format\n";
     let mut row = |name: &str, address: &str, code: i64, format: Format| {
         writeln!(text, "{name},{address},{code},{},{format}", format.real(code)).expect("a string takes all");
     };
-    codes.constants().iter().for_each(|constant| row(constant.name, "", constant.code, constant.format));
-    for (address, &code) in codes.table.iter().enumerate() {
-        row(TABLE, &address.to_string(), code, codes.formats.calibration.table.word);
+    words.constants.iter().for_each(|word| row(word.constant.name(), "", word.code, word.format));
+    for (address, &code) in words.table.iter().enumerate() {
+        row(TABLE, &address.to_string(), code, words.table_format);
     }
     text
 }
 
-fn readmemh(codes: &Codes, head: &[String]) -> String {
-    let (constants, table, word) = (codes.constants(), &codes.table, codes.formats.calibration.table.word);
+fn readmemh(words: &CalibrationWords, head: &[String]) -> String {
+    let (constants, table, word) = (words.constants, &words.table, words.table_format);
     let width = constants.iter().map(|constant| constant.format.width).chain([word.width]).max().expect("a word");
     let (digits, mask) = (usize::from(width).div_ceil(4), u64::MAX >> (64 - u32::from(width)));
     let mut text = comments(head, "//");
-    let words = table.len() + constants.len();
-    writeln!(text, "// {words} words of {width} bits, sign-extended: reg [{}:0] codes [0:{}];", width - 1, words - 1)
+    let count = table.len() + constants.len();
+    writeln!(text, "// {count} words of {width} bits, sign-extended: reg [{}:0] codes [0:{}];", width - 1, count - 1)
         .expect("a string takes all");
     writeln!(text, "// 0 to {}: {TABLE}, {word}", table.len() - 1).expect("a string takes all");
     let mut line = |code: i64, about: &str| {
         writeln!(text, "{:0digits$x}{about}", code as u64 & mask).expect("a string takes all");
     };
     table.iter().for_each(|&code| line(code, ""));
-    for (address, Constant { name, code, format, .. }) in (table.len()..).zip(constants) {
-        line(code, &format!(" // {address}: {name}, {format}"));
+    for (address, ConstantWord { constant, code, format }) in (table.len()..).zip(constants) {
+        line(code, &format!(" // {address}: {}, {format}", constant.name()));
     }
     text
 }
 
-fn header(codes: &Codes, head: &[String], profile: &Profile) -> String {
+fn header(words: &CalibrationWords, head: &[String], profile: &Profile) -> String {
     let mut text =
         comments(head, "//") + "#ifndef HAPTICORE_CODES_H\n#define HAPTICORE_CODES_H\n\n#include <stdint.h>\n\n";
     let mut line = |line: String| text.push_str(&(line + "\n"));
     line(format!("#define HAPTICORE_PROFILE {:?}", profile.name));
     line(format!("#define HAPTICORE_PROFILE_DIGEST 0x{:04x}", digest(profile)));
-    for Constant { name, about, code, format } in codes.constants() {
-        let name = name.to_uppercase();
+    for ConstantWord { constant, code, format } in words.constants {
+        let (name, about) = (constant.name().to_uppercase(), constant.about());
         line(format!("#define HAPTICORE_{name} {code} // {format} = {}  {about}", format.real(code)));
     }
-    let (words, word) = (codes.table.len(), codes.formats.calibration.table.word);
+    let (table, word) = (&words.table, words.table_format);
+    let words = table.len();
     line(format!("#define HAPTICORE_{}_WORDS {words}", TABLE.to_uppercase()));
     line(format!("\n// {word}, by address.\nstatic const int32_t hapticore_{TABLE}[{words}] = {{"));
-    for words in codes.table.chunks(LINE) {
+    for words in table.chunks(LINE) {
         let words: Vec<_> = words.iter().map(i64::to_string).collect();
         line(format!("    {},", words.join(", ")));
     }

@@ -13,9 +13,10 @@
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
+use hapticore_run::engine::Fidelity;
 use hapticore_scene::gallery;
 
-use crate::args::{CoreArgs, Fidelity, ReplayArgs, SimulateArgs};
+use crate::args::{CoreArgs, ReplayArgs, SimulateArgs};
 
 /// The longest name of a folder.
 const LONGEST: usize = 100;
@@ -42,7 +43,7 @@ pub fn of_capture(args: &ReplayArgs) -> PathBuf {
 }
 
 fn of_core(args: &CoreArgs) -> Vec<String> {
-    let core = (args.core != Fidelity::Fixed).then(|| args.core.name().to_string());
+    let core = (args.fidelity() != Fidelity::Fixed).then(|| args.fidelity().name().to_string());
     core.into_iter().chain(args.profile.as_deref().and_then(|profile| stem(Path::new(profile)))).collect()
 }
 

@@ -11,10 +11,10 @@ use hapticore_rtl::header;
 use serde_json::json;
 
 use crate::args::HdlArgs;
-use crate::calibrate::DeviceCalibration;
-use crate::inputs;
 use crate::output::Output;
 use crate::say;
+use hapticore_host::DeviceCalibration;
+use hapticore_run::inputs;
 
 /// The profile where neither it nor a board is named.
 const PROFILE: &str = "standard";

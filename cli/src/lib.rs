@@ -4,58 +4,33 @@
 //! | module | does |
 //! | --- | --- |
 //! | [`args`] | the command line |
-//! | [`simulate`], [`replay`], [`hdl`], [`codes`](mod@codes), [`lab`], [`scenes`] | one command each |
-//! | [`inputs`] | scenes and profiles from names and files |
-//! | [`units`] | the one place where volts and fractions meet codes |
-//! | [`calibrate`] | a device as a core is told of it |
-//! | [`engine`] | the core at its three fidelities behind one trait |
-//! | [`session`] | slots in, rows out: the core, the reference beside it, rounding errors |
-//! | [`case`] | a case of a scene, its samples made while the core works |
-//! | [`criteria`] | what a scene claims, measured |
-//! | [`capture`] | ADC samples in CSV and WAV files |
-//! | [`uncoupling`] | readings of several pads freed of each other |
-//! | [`haptic`] | whether the core's window is long enough for the haptic voltage |
-//! | [`record`] | what a run leaves |
-//! | [`report`] | the page with the figures |
-//! | [`output`], [`print`](mod@print) | the same written into a folder and on the terminal |
-//! | [`folder`], [`partial`], [`console`] | which folder; what is not finished yet; standard output that may be closed |
+//! | [`simulate`], [`replay`], [`hdl`], [`codes`](mod@codes), [`calibrate`], [`scenes`] | one command each |
+//! | [`output`], [`print`](mod@print), [`report`] | what a run leaves: a folder of files, lines on the terminal, a page of figures |
+//! | [`waves`] | waveforms of a case |
+//! | [`folder`], [`console`], [`progress`] | which folder; standard output that may be closed; how far a run is |
+//!
+//! Running itself is `hapticore-run`'s.
 
 pub mod args;
 pub mod calibrate;
-pub mod capture;
-pub mod case;
 pub mod codes;
 pub mod console;
-pub mod criteria;
-pub mod engine;
-pub mod errors;
 pub mod folder;
-pub mod haptic;
 pub mod hdl;
-pub mod inputs;
-pub mod interrupt;
-pub mod lab;
 pub mod output;
-pub mod partial;
-pub mod placement;
 pub mod print;
 pub mod progress;
-pub mod provenance;
-pub mod record;
 pub mod replay;
 pub mod report;
-pub mod residual;
 pub mod scenes;
-pub mod session;
 pub mod simulate;
-pub mod uncoupling;
-pub mod units;
 pub mod waves;
 
 use std::process::ExitCode;
 
 use args::{Args, Command};
 use clap::Parser;
+use hapticore_run::interrupt;
 
 /// Runs the command line. The exit code is 0 where all criteria hold, 1 where one fails, 2 on bad input, and 130 where the
 /// run was told to stop.
@@ -68,7 +43,7 @@ pub fn main() -> ExitCode {
         Command::Replay(args) => replay::run(&args),
         Command::Hdl(args) => hdl::run(&args),
         Command::Codes(args) => codes::run(&args),
-        Command::Calibrate(args) => lab::run(&args),
+        Command::Calibrate(args) => calibrate::run(&args),
     };
     match outcome.and_then(|holds| console::finish().map(|()| holds)) {
         Ok(true) => ExitCode::SUCCESS,

@@ -1,34 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The folder that a run writes: everything is written aside and gets its name when all of it is whole.
+//! The folder that a run writes, atomically: all of its files appear together, or none.
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
-use tempfile::TempDir;
+use hapticore_files::AtomicFolder;
+use hapticore_host::{COLUMNS, QUANTITIES};
 
-use crate::partial;
-use crate::record::{Quantities, Record, Row, Truth};
-
-/// The columns of `frames.csv`.
-pub const COLUMNS: [&str; 12] = [
-    "time_s",
-    "pad",
-    "r_x",
-    "r_y",
-    "x_mm",
-    "y_mm",
-    "capacitance_pf",
-    "sheet_ohm",
-    "haptic_v_rms",
-    "force_n",
-    "direction",
-    "flags",
-];
-
-/// How many of the columns, from `r_x` on, have a truth.
-const QUANTITIES: usize = 9;
+use hapticore_run::record::{Record, Row, Truth};
 
 /// What a scene adds behind the truth: the case's name, the point of its sweep, and what no frame has.
 const OF_SCENE: [&str; 4] = ["case", "point", "true_load_g", "true_friction_n"];
@@ -41,10 +22,7 @@ const SUMMARY: &str = "summary.json";
 
 /// A folder in the making. Dropped before [`Output::keep`], it leaves nothing behind.
 pub struct Output {
-    folder: PathBuf,
-    aside: Option<TempDir>,
-    lock: Option<File>,
-    created: Vec<PathBuf>,
+    folder: AtomicFolder,
 }
 
 impl Output {
@@ -53,20 +31,13 @@ impl Output {
     /// # Errors
     /// It cannot be made or written to.
     pub fn new(folder: &Path) -> Result<Self> {
-        let missing = |path: &&Path| !path.as_os_str().is_empty() && !path.exists();
-        let created = folder.ancestors().take_while(missing).map(Path::to_owned).collect();
-        let mut output = Output { folder: folder.to_owned(), aside: None, lock: None, created };
-        let within = || format!("--out {}", folder.display());
-        fs::create_dir_all(folder).with_context(within)?;
-        partial::clear(folder);
-        output.aside = Some(tempfile::Builder::new().prefix(partial::PREFIX).tempdir_in(folder).with_context(within)?);
-        output.lock = Some(partial::hold(output.aside()).with_context(within)?);
-        Ok(output)
+        let folder = AtomicFolder::create(folder).with_context(|| format!("--out {}", folder.display()))?;
+        Ok(Output { folder })
     }
 
     /// Where files grow.
     pub fn aside(&self) -> &Path {
-        self.aside.as_ref().expect("there until kept").path()
+        self.folder.aside()
     }
 
     /// Writes a whole file.
@@ -74,7 +45,7 @@ impl Output {
     /// # Errors
     /// It cannot be written.
     pub fn write(&self, name: &str, text: &str) -> Result<()> {
-        fs::write(self.aside().join(name), text).with_context(|| self.folder.join(name).display().to_string())
+        fs::write(self.aside().join(name), text).with_context(|| self.folder.path().join(name).display().to_string())
     }
 
     /// Writes a file that can be run.
@@ -92,29 +63,17 @@ impl Output {
     ///
     /// # Errors
     /// A file cannot be renamed.
-    pub fn keep(mut self) -> Result<Vec<PathBuf>> {
-        let aside = self.aside.take().expect("kept once");
-        let entries = fs::read_dir(aside.path())?.collect::<Result<Vec<_>, _>>()?;
-        let mut names: Vec<_> = entries.into_iter().map(|entry| entry.file_name()).collect();
-        names.retain(|name| name != partial::LOCK);
-        names.sort();
+    pub fn keep(self) -> Result<Vec<PathBuf>> {
         self.clear_waves()?;
-        let mut paths = Vec::new();
-        for name in names {
-            let path = self.folder.join(&name);
-            fs::rename(aside.path().join(&name), &path).with_context(|| path.display().to_string())?;
-            paths.push(path);
-        }
-        self.created.clear();
-        Ok(paths)
+        Ok(self.folder.persist()?)
     }
 
     /// Removes the waveforms of an earlier run in the folder: they are not of the run that is kept.
     fn clear_waves(&self) -> Result<()> {
-        if !self.folder.join(SUMMARY).exists() {
+        if !self.folder.path().join(SUMMARY).exists() {
             return Ok(());
         }
-        for entry in fs::read_dir(&self.folder)?.flatten() {
+        for entry in fs::read_dir(self.folder.path())?.flatten() {
             if is_of_waves(&entry.file_name().to_string_lossy()) {
                 fs::remove_file(entry.path()).with_context(|| entry.path().display().to_string())?;
             }
@@ -131,17 +90,6 @@ pub fn is_of_a_run(name: &str) -> bool {
 fn is_of_waves(name: &str) -> bool {
     let texts = name.starts_with("waves.core.") && name.ends_with(".txt");
     texts || ["waves.vcd", "waves.fst", "waves.gtkw"].contains(&name)
-}
-
-impl Drop for Output {
-    fn drop(&mut self) {
-        drop(self.aside.take());
-        drop(self.lock.take());
-        for folder in &self.created {
-            // Somebody else may have written there meanwhile: only empty folders go.
-            let _ = fs::remove_dir(folder);
-        }
-    }
 }
 
 /// `frames.csv`, row by row.
@@ -166,7 +114,7 @@ impl Frames {
     /// # Errors
     /// It cannot be written, as below.
     pub fn create(output: &Output, scene: Option<OfScene>) -> Result<Self> {
-        let path = output.folder.join("frames.csv");
+        let path = output.folder.path().join("frames.csv");
         let file = File::create(output.aside().join("frames.csv")).with_context(|| path.display().to_string())?;
         let mut frames = Frames { file: BufWriter::new(file), path, scene };
         frames.header().with_context(|| frames.path.display().to_string())?;
@@ -176,7 +124,7 @@ impl Frames {
     fn header(&mut self) -> io::Result<()> {
         write!(self.file, "{}", COLUMNS.join(","))?;
         if let Some(scene) = &self.scene {
-            COLUMNS[2..2 + QUANTITIES].iter().try_for_each(|name| write!(self.file, ",true_{name}"))?;
+            QUANTITIES.iter().try_for_each(|quantity| write!(self.file, ",true_{}", quantity.name))?;
             write!(self.file, ",{}", OF_SCENE.join(","))?;
             scene.swept.iter().try_for_each(|name| write!(self.file, ",set_{name}"))?;
             write!(self.file, ",{}", TRUE_FLAGS.join(","))?;
@@ -194,7 +142,7 @@ impl Frames {
 
     fn write(&mut self, row: &Row) -> io::Result<()> {
         write!(self.file, "{},{}", row.time_s, row.pad)?;
-        numbers(&row.measured).iter().try_for_each(|number| write!(self.file, ",{number}"))?;
+        row.measured.values().iter().try_for_each(|number| write!(self.file, ",{number}"))?;
         write!(self.file, ",{}", row.flags)?;
         if let (Some(scene), Some(truth)) = (&self.scene, &row.truth) {
             scene.write(&mut self.file, row.case, truth)?;
@@ -213,7 +161,7 @@ impl Frames {
 
 impl OfScene {
     fn write(&self, file: &mut impl Write, case: usize, truth: &Truth) -> io::Result<()> {
-        numbers(&truth.quantities).iter().try_for_each(|number| write!(file, ",{number}"))?;
+        truth.quantities.values().iter().try_for_each(|number| write!(file, ",{number}"))?;
         let case = self.cases.get(case).map_or("", String::as_str);
         write!(file, ",{},{},{},{}", field(case), truth.point, truth.load_g, truth.friction_n)?;
         self.swept.iter().try_for_each(|name| write!(file, ",{}", truth.set.get(name)))?;
@@ -227,12 +175,6 @@ fn field(text: &str) -> String {
         true => format!("\"{}\"", text.replace('"', "\"\"")),
         false => text.into(),
     }
-}
-
-/// The quantities in the order of the columns.
-fn numbers(quantities: &Quantities) -> [f64; QUANTITIES] {
-    let Quantities { r_x, r_y, x_mm, y_mm, capacitance_pf, sheet_ohm, haptic_v_rms, force_n, direction } = *quantities;
-    [r_x, r_y, x_mm, y_mm, capacitance_pf, sheet_ohm, haptic_v_rms, force_n, direction]
 }
 
 /// The text of `summary.json`.

@@ -3,8 +3,12 @@
 
 use std::path::PathBuf;
 
+use hapticore_run::lab::Outcome;
+use hapticore_run::lab::least_squares::Estimate;
+pub use hapticore_run::number::number;
+use hapticore_run::record::{Criterion, Effect, Record, SignalError};
+
 use crate::console;
-use crate::record::{Criterion, Effect, Record, SignalError};
 use crate::say;
 
 /// A table as text: columns as wide as their widest cell, numbers to the right.
@@ -25,15 +29,6 @@ pub fn table(head: &[&str], rows: &[Vec<String>]) -> String {
         line.join("  ").trim_end().to_string() + "\n"
     };
     (0..=rows.len()).map(line).collect()
-}
-
-/// A number with as many digits as matter.
-pub fn number(value: f64) -> String {
-    match value.abs() {
-        0.0 => "0".into(),
-        size if !(1e-4..1e6).contains(&size) => format!("{value:.3e}"),
-        size => format!("{value:.*}", (3.0 - size.log10().floor()).clamp(0.0, 7.0) as usize),
-    }
 }
 
 /// One line at the start: which effects are on, and at which rung.
@@ -111,4 +106,32 @@ fn errors(errors: &[SignalError]) -> String {
         vec![error.signal.clone(), error.format.clone(), number(error.max_error), number(error.max_codes)]
     };
     table(&["signal", "format", "largest error", "in codes"], &errors.iter().map(row).collect::<Vec<_>>())
+}
+
+/// What is told of a calibration.
+pub fn calibration_lines(outcome: &Outcome) -> Vec<String> {
+    let raster =
+        outcome.columns.map_or("lying anywhere".into(), |columns| format!("{columns} × {}", outcome.places / columns));
+    let mut lines = vec![
+        format!("{} places ({raster}), {} terminals, profile {}", outcome.places, outcome.terminals, outcome.profile),
+        format!("position table: {}", outcome.own_places.text()),
+        format!("every other place held out: {}", outcome.held_out.errors()),
+    ];
+    if let Some(force) = &outcome.force {
+        let readings = force.points.len();
+        lines.push(format!(
+            "force_k = {} N/(F·V)², {readings} readings with {} mN of noise",
+            estimate(force.force_k),
+            number(1e3 * force.noise_n)
+        ));
+        lines.extend(force.mu.map(|mu| format!("mu = {}", estimate(mu))));
+        lines.extend(force.current_scale.map(|scale| format!("current_full_scale_a times {}", estimate(scale))));
+    }
+    lines
+}
+
+/// A number and its interval.
+pub fn estimate(estimate: Estimate) -> String {
+    let [low, high] = estimate.interval.map(number);
+    format!("{} (95 %: {low} to {high})", number(estimate.value))
 }

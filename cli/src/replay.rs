@@ -7,17 +7,18 @@ use std::time::Instant;
 
 use anyhow::{Context, Result, bail, ensure};
 use hapticore_contract::profile::Profile;
+use hapticore_host::profile::serving;
+use hapticore_host::{DeviceCalibration, SlotClock, residual};
+use hapticore_run::capture::{self, Adc, Described, Source};
+use hapticore_run::engine::{Signals, Slot};
+use hapticore_run::haptic::{self, Meter};
+use hapticore_run::record::{Provenance, Record, Row};
+use hapticore_run::session::Session;
+use hapticore_run::{calibrate, inputs, interrupt};
 
-use crate::args::{Fidelity, ReplayArgs};
-use crate::calibrate::DeviceCalibration;
-use crate::capture::{self, Adc, Described, Source};
-use crate::engine::{Signals, Slot};
-use crate::haptic::Meter;
+use crate::args::ReplayArgs;
 use crate::output::{Frames, Output, summary};
-use crate::record::{Provenance, Record, Row};
-use crate::residual;
-use crate::session::{Session, SlotClock};
-use crate::{console, folder, haptic, inputs, interrupt, print, progress, report, say};
+use crate::{console, folder, print, progress, report, say};
 
 /// The profile where none is named.
 const PROFILE: &str = "standard";
@@ -34,14 +35,14 @@ pub fn run(args: &ReplayArgs) -> Result<bool> {
     let calibration = calibration(args);
     let device = match &calibration {
         Some(path) => DeviceCalibration::read(path)?,
-        None => DeviceCalibration::nominal(&profile)?,
+        None => calibrate::nominal(&profile)?,
     };
     let profile = device.profile(&profile)?;
     let adc = Adc { terminals: profile.terminals.x.len(), format: profile.formats.adc };
     let described = Described { channels: args.channels.clone(), bits: args.bits, full_scale_v: args.full_scale_v };
     let mut source = capture::open(&args.capture, adc, &described)?;
     let pads = args.pads.unwrap_or(device.pads);
-    let profile = Arc::new(inputs::serving(&profile, pads as usize));
+    let profile = Arc::new(serving(&profile, pads as usize));
     check_rate(source.as_ref(), &device, &profile)?;
     let name = args.capture.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let folder = args.out.clone().unwrap_or_else(|| folder::of_capture(args));
@@ -116,7 +117,7 @@ impl Replay {
         let clock = SlotClock::new(profile, device.device.sample_rate_hz, 0.0);
         let channels = profile.channels();
         Ok(Replay {
-            session: Session::new(profile, device, args.core.core, args.core.errors, (0, clock))?,
+            session: Session::new(profile, device, args.core.fidelity(), args.core.errors, (0, clock))?,
             frames: Frames::create(output, None)?,
             rows: Thinned::default(),
             clock,
@@ -198,7 +199,7 @@ impl Replay {
             summary: "Recorded ADC samples, replayed.".into(),
             figure: None,
             profile: profile.name.clone(),
-            fidelity: args.core.core.name().into(),
+            fidelity: args.core.fidelity().name().into(),
             cases: vec!["main".into()],
             pads: (0..self.pads).map(|pad| format!("pad {pad}")).collect(),
             effects: Vec::new(),
@@ -222,7 +223,7 @@ fn tell(args: &ReplayArgs, record: &Record, left: usize, files: &[PathBuf]) {
         console::print(format_args!("{}", summary(record)));
         return;
     }
-    let core: Fidelity = args.core.core;
+    let core = args.core.fidelity();
     say!("{} · core {} · profile {}", record.title, core.name(), record.profile);
     if left > 0 {
         say!("{left} samples at the end are no whole slot and were left out");

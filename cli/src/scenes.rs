@@ -6,7 +6,8 @@ use hapticore_scene::{Scene, gallery};
 use serde::Serialize;
 
 use crate::args::ScenesArgs;
-use crate::{console, inputs, print, say};
+use crate::{console, print, say};
+use hapticore_run::inputs;
 
 #[derive(Serialize)]
 struct Listed {

@@ -6,18 +6,19 @@ use std::time::Instant;
 
 use anyhow::{Result, ensure};
 use hapticore_contract::profile::Profile;
+use hapticore_run::capture::{self, Adc, Recorder};
+use hapticore_run::case::{Case, Outcome, Settings};
+use hapticore_run::criteria::{self, CaseRows};
+use hapticore_run::record::{Effect, Provenance, Record, Row};
+use hapticore_run::{errors, haptic, inputs};
 use hapticore_scene::{Figure, Quantity, Record as Wanted, Scene, Timing};
 use hapticore_waveforms::wave::Kind;
 use rayon::prelude::*;
 
 use crate::args::{SimulateArgs, Waves};
-use crate::capture::{self, Adc, Recorder};
-use crate::case::{Case, Outcome, Settings};
-use crate::criteria::{self, CaseRows};
 use crate::output::{Frames, OfScene, Output, is_of_a_run, summary};
-use crate::record::{Effect, Provenance, Record, Row};
-use crate::residual::{self, Residual};
-use crate::{console, errors, folder, haptic, inputs, print, progress, report, say, waves};
+use crate::{console, folder, print, progress, report, say, waves};
+use hapticore_host::residual::{self, Residual};
 
 /// Below this the haptic voltage is off, V rms.
 const HAPTIC_OFF_V: f64 = 1.0;
@@ -82,7 +83,7 @@ fn cases<'a>(args: &SimulateArgs, scene: &'a Scene, profile: &Profile) -> Result
     for index in (0..names.len()).filter(chosen) {
         let start_s = cases.iter().map(Case::seconds).sum();
         let case = Case::new(scene, index, cases.len(), profile, start_s)?;
-        case.check(&args.scene, args.core.core)?;
+        case.check(&args.scene, args.core.fidelity())?;
         cases.push(case);
     }
     Ok(cases)
@@ -146,7 +147,7 @@ fn announce(args: &SimulateArgs, scene: &Scene, cases: &[Case]) -> Result<()> {
     say!("{}", scene.title);
     say!(
         "core {} · profile {} · {} cases · {slots} slots · {} s",
-        args.core.core.name(),
+        args.core.fidelity().name(),
         cases[0].profile.name,
         cases.len(),
         print::number(seconds)
@@ -161,15 +162,16 @@ type Capture = Option<Box<dyn Recorder + Send>>;
 /// Runs all cases at once; what they leave together.
 fn simulate(args: &SimulateArgs, scene: &Scene, cases: &[Case], mut recorder: Capture) -> Result<(Record, Capture)> {
     let start = Instant::now();
-    let settings = Settings { fidelity: args.core.core, errors: args.core.errors };
+    let settings = Settings { fidelity: args.core.fidelity(), errors: args.core.errors };
     let bar = progress::bar(Some(cases.iter().map(|case| case.slots as u64).sum()), args.core.json);
+    let tick = || bar.inc(1);
     let outcomes = match recorder.as_deref_mut() {
-        Some(recorder) => vec![cases[0].run(&settings, Some(recorder), &bar)?],
-        None => cases.par_iter().map(|case| case.run(&settings, None, &bar)).collect::<Result<Vec<_>>>()?,
+        Some(recorder) => vec![cases[0].run(&settings, Some(recorder), &tick)?],
+        None => cases.par_iter().map(|case| case.run(&settings, None, &tick)).collect::<Result<Vec<_>>>()?,
     };
     bar.finish_and_clear();
     let mut record = gather(scene, cases, outcomes);
-    record.fidelity = args.core.core.name().into();
+    record.fidelity = args.core.fidelity().name().into();
     record.wall_seconds = start.elapsed().as_secs_f64();
     record.provenance = Provenance::of_scene(scene, &args.set);
     record.warnings.extend(haptic_warning(&record, cases));

@@ -10,6 +10,7 @@ use std::ops::Range;
 use std::path::Path;
 
 use anyhow::{Result, bail};
+use hapticore_host::{QUANTITIES, Quantity, quantities_of};
 use hapticore_model::fidelity::clock::ClockSimulation;
 use hapticore_scene::Truth;
 use hapticore_waveforms::declarations::TruthVariable;
@@ -19,10 +20,11 @@ use hapticore_waveforms::tracer::{Settings, Tracer};
 use hapticore_waveforms::view::View;
 use hapticore_waveforms::wave::{Kind, Wave};
 
-use crate::case::{Case, Maker};
-use crate::engine::Signals;
 use crate::print::number;
-use crate::{interrupt, progress};
+use crate::progress;
+use hapticore_run::case::{Case, Maker};
+use hapticore_run::engine::Signals;
+use hapticore_run::interrupt;
 
 /// Slots traced where no window is named.
 const SLOTS: u64 = 2;
@@ -34,20 +36,25 @@ const FST_BYTES_PER_CLOCK: f64 = 8.0;
 /// A file of more bytes is worth a warning.
 const LARGE_BYTES: f64 = 2e8;
 
-/// The truth beside the core's signals: name, unit, value.
-type Known = (&'static str, &'static str, fn(&Truth) -> f64);
+/// The load on the pad: known to the plant alone.
+const LOAD: (&str, &str) = ("load_g", "g");
 
-const TRUTH: [Known; 9] = [
-    ("r_x", "", |truth| truth.r_x),
-    ("r_y", "", |truth| truth.r_y),
-    ("x_mm", "mm", |truth| truth.x_mm),
-    ("y_mm", "mm", |truth| truth.y_mm),
-    ("capacitance_pf", "pF", |truth| truth.capacitance_pf),
-    ("sheet_ohm", "Ohm", |truth| truth.sheet_ohm),
-    ("haptic_v_rms", "V", |truth| truth.haptic_v_rms),
-    ("force_n", "N", |truth| truth.force_n),
-    ("load_g", "g", |truth| truth.load_g),
-];
+/// The truth beside the core's signals: quantities that waveforms name with these units, and the load.
+fn truth_variables() -> Vec<TruthVariable> {
+    let traced = traced().map(|quantity| (quantity.name, if quantity.unit == "Ω" { "Ohm" } else { quantity.unit }));
+    traced.chain([LOAD]).map(|(name, unit)| TruthVariable::new(name, unit)).collect()
+}
+
+/// The quantities that are traced: all but the direction, which no core computes.
+fn traced() -> impl Iterator<Item = &'static Quantity> {
+    QUANTITIES.iter().filter(|quantity| quantity.name != "direction")
+}
+
+/// Their values.
+fn truth_values(truth: &Truth) -> impl Iterator<Item = f64> {
+    let quantities = quantities_of!(truth);
+    traced().map(move |quantity| quantity.of(&quantities)).chain([truth.load_g])
+}
 
 /// What is going to be traced, and how large the file will be, about.
 pub struct Extent {
@@ -113,7 +120,7 @@ pub fn trace(case: &Case, kind: Kind, window: Option<&Range<f64>>, folder: &Path
     let mut core = ClockSimulation::new(profile, &case.device.of(profile)?);
     let settings =
         Settings { timebase: Timebase::of_clock(clock_hz.round() as u64)?, window: Some(clocks), clock_wire: false };
-    let truth = TRUTH.map(|(name, unit, _)| TruthVariable::new(name, unit));
+    let truth = truth_variables();
     let name = format!("waves.{}", kind.extension());
     let mut tracer = Tracer::new(kind.create(&folder.join(&name))?, &core, &truth, &settings)?;
     tracer.skip(first * profile.slot_clocks());
@@ -128,7 +135,7 @@ pub fn trace(case: &Case, kind: Kind, window: Option<&Range<f64>>, folder: &Path
         if slot >= first {
             interrupt::check()?;
             if let Some(truth) = &finished {
-                TRUTH.iter().enumerate().for_each(|(index, (_, _, of))| tracer.set_truth(index, of(truth)));
+                truth_values(truth).enumerate().for_each(|(index, value)| tracer.set_truth(index, value));
             }
             if let (Signals::Samples { codes, .. }, _) = maker.sample(slot as usize) {
                 step(&mut core, &mut tracer, &codes, profile.channels())?;

@@ -13,13 +13,13 @@ use crate::case::{Case, Length};
 use crate::device::Device;
 use crate::effects::{EffectCost, Effects, Pad, Phasors, Run, Setting};
 use crate::error::{Place, SceneError};
+use crate::nominal::NominalSheet;
 use crate::pad::resting;
 use crate::path::raster;
-use crate::ratios::Ratios;
+use crate::ratios::{self, Ratios};
 use crate::scene::Scene;
 use crate::timing::Timing;
 use crate::truth::{ForcePoint, MapPoint, PadReading, Truth};
-use crate::uncouple::{RASTER, Uncoupler};
 
 /// One case of a scene at work.
 ///
@@ -81,7 +81,7 @@ impl Plant {
         let setting = Setting { device: &device, timing, seed, case: index };
         let effects = Effects::build(&case.effects, &setting);
         let now = (None, resting([0.0; 2], 0.0, 0.0, &device));
-        let ratios = Ratios::new(&device, timing.signs.as_ref());
+        let ratios = ratios::of_device(&device, timing.signs.as_ref());
         let ratios = ratios.map_err(|message| SceneError::new(Place::File, "profile", message))?;
         let plant = Plant { effects, ratios, case, device, timing: timing.clone(), seed, index, now };
         plant.ask_limited_rungs()?;
@@ -108,13 +108,12 @@ impl Plant {
         Ok(())
     }
 
-    /// What takes the other pads' influence out of readings of this device; none where the case does not ask for it.
-    pub fn uncoupler(&self) -> Option<Uncoupler> {
+    /// The nominal sheet that a host of this device takes crosstalk out by; none where the case does not ask for it.
+    pub fn nominal_sheet(&self) -> Option<NominalSheet> {
         let nominal = self.case.nominal.as_ref()?;
         let setting = Setting { device: &self.device, timing: &self.timing, seed: self.seed, case: self.index };
-        let [columns, rows] = RASTER;
-        let calibration = self.calibration_map(columns, rows, self.device.pad_diameter_mm / 2.0);
-        Some(Uncoupler::new(Effects::build(nominal, &setting), self.device(), self.ratios.clone(), &calibration))
+        let effects = Effects::build(nominal, &setting);
+        Some(NominalSheet { effects, device: self.device(), ratios: self.ratios.clone() })
     }
 
     /// Effects of their own, for what must leave the run as it was.

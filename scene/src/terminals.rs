@@ -13,11 +13,7 @@ use crate::error::SceneError;
 use crate::few::Few;
 use crate::format::{Limits, Table};
 
-/// The fewest terminals of a sheet: two ratios need three currents.
-pub const LEAST_TERMINALS: usize = 3;
-
-/// The most terminals of a sheet.
-pub const MOST_TERMINALS: usize = 16;
+pub use hapticore_sheet::{LEAST_TERMINALS, MOST_TERMINALS};
 
 /// ADC channels beside the terminals' currents: the sensing voltage, then the haptic voltage.
 pub(crate) const VOLTAGES: usize = 2;

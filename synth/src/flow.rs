@@ -43,7 +43,7 @@ impl<'a> Flow<'a> {
     pub fn new(tools: &'a Tools, family: Family, top: &'a str, files: &[File], folder: &Path) -> Result<Flow<'a>> {
         fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
         for file in files {
-            fs::write(folder.join(&file.name), &file.text)?;
+            hapticore_files::write(&folder.join(&file.name), &file.text)?;
         }
         // In one order: Yosys's names, and so its results, follow the order in which it reads.
         let mut names: Vec<_> = files.iter().map(|file| file.name.clone()).collect();

@@ -73,12 +73,12 @@ impl Claim<'_> {
             },
         );
         let defines: String = defines.iter().map(|name| format!("-D{name} ")).collect();
-        fs::write(folder.join("claim.sv"), self.text()?)?;
+        hapticore_files::write(&folder.join("claim.sv"), &self.text()?)?;
         let script = format!(
             "[options]\nmode {mode}\ndepth {depth}\n[engines]\nsmtbmc z3\n[script]\nread -formal {defines}claim.sv\n\
              prep -top {module}\n[files]\nclaim.sv\n"
         );
-        fs::write(folder.join("claim.sby"), script)?;
+        hapticore_files::write(&folder.join("claim.sby"), &script)?;
         let output = tools.command("sby").args(["-f", "claim.sby"]).current_dir(folder).output()?;
         let said = String::from_utf8_lossy(&output.stdout);
         match output.status.code() {

@@ -68,9 +68,13 @@ fn main() -> ExitCode {
 
 fn save(folder: &Path, name: &str, report: &impl Serialize, text: &str) -> Result<()> {
     fs::create_dir_all(folder)?;
-    fs::write(folder.join(format!("{name}.json")), serde_json::to_string_pretty(report)? + "\n")?;
-    fs::write(folder.join(format!("{name}.md")), text)?;
-    Ok(())
+    write(&folder.join(format!("{name}.json")), &(serde_json::to_string_pretty(report)? + "\n"))?;
+    write(&folder.join(format!("{name}.md")), text)
+}
+
+/// Writes a whole file atomically.
+fn write(path: &Path, text: &str) -> Result<()> {
+    hapticore_files::write(path, text).with_context(|| path.display().to_string())
 }
 
 fn board(args: &Args, name: &str, seeds: u64) -> Result<bool> {
@@ -107,7 +111,7 @@ fn vectors() -> Result<bool> {
     let folder = root().join("rtl/verilog/vectors");
     fs::create_dir_all(&folder)?;
     for file in hapticore_synth::vectors::files() {
-        fs::write(folder.join(&file.name), &file.text)?;
+        write(&folder.join(&file.name), &file.text)?;
     }
     Ok(true)
 }

@@ -4,13 +4,13 @@
 use std::fmt::Write;
 
 use fastrand::Rng;
-use hapticore::args::Fidelity;
-use hapticore::case::{Case, Maker, known};
-use hapticore::engine::{Signals, Slot};
-use hapticore::record::{Quantities, Row};
-use hapticore::residual::Residual;
-use hapticore::session::Session;
 use hapticore_contract::profile::Profile;
+use hapticore_host::Residual;
+use hapticore_run::case::{Case, Maker, known};
+use hapticore_run::engine::Fidelity;
+use hapticore_run::engine::{Signals, Slot};
+use hapticore_run::record::{Quantities, Row};
+use hapticore_run::session::Session;
 use hapticore_scene::Scene;
 
 /// A sheet with terminals.

@@ -2,14 +2,15 @@
 //! The blocks of a board, each alone with a trace: directed input, as its surroundings give it, and what no surroundings should.
 
 use fastrand::Rng;
+use hapticore_contract::profile::Profile;
 use hapticore_hdl::block::Block;
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::Format;
 use hapticore_hdl::verilog::Design;
+use hapticore_host::Command;
 use hapticore_model::blocks::core::Core;
 use hapticore_rtl::board::adc_reader::AdcReader;
 use hapticore_rtl::board::framing::{END, ESC, ESC_END, ESC_ESC, Register};
-use hapticore_rtl::board::packet::Command;
 use hapticore_rtl::board::pads::Pads;
 use hapticore_rtl::board::registers::CommandRegisters;
 use hapticore_rtl::board::sigma_delta::SigmaDelta;
@@ -130,12 +131,7 @@ fn adc_reader(block: &AdcReader, parameters: &Parameters) -> Alone {
 }
 
 /// The bytes of a command that may be damaged: too long, too short, escaped wrongly, or changed.
-fn command(
-    block: &CommandRegisters,
-    core: &hapticore_model::blocks::core::Inputs<Format>,
-    words: u16,
-    rng: &mut Rng,
-) -> Vec<u8> {
+fn command(block: &CommandRegisters, profile: &Profile, words: u16, rng: &mut Rng) -> Vec<u8> {
     let data = block.outputs().data;
     let address = match rng.u8(..8) {
         0 => words - 1 + rng.u16(..3),
@@ -148,7 +144,7 @@ fn command(
         3 => [Command::ENABLE, Command::DISABLE, Command::RESET_ADC][rng.usize(..3)],
         _ => Command::Register(Register::ALL[rng.usize(..4)], code),
     };
-    let mut bytes = command.encode(core);
+    let mut bytes = command.encode(profile);
     let at = rng.usize(..bytes.len());
     match rng.u8(..24) {
         0 => bytes[at] ^= 1 << rng.u8(..8),
@@ -162,12 +158,12 @@ fn command(
 }
 
 /// Commands, and the moves that the ADC reader makes of their data.
-fn registers(block: &CommandRegisters, core: hapticore_model::blocks::core::Inputs<Format>, words: u64) -> Alone {
+fn registers(block: &CommandRegisters, profile: Profile, words: u64) -> Alone {
     let (mut bytes, mut shift) = (Vec::new(), Level::default());
     alone(block, 150_000, move |rng| {
         let valid = now(rng, 2) == 1;
         if valid && bytes.is_empty() {
-            bytes = command(block, &core, words as u16, rng);
+            bytes = command(block, &profile, words as u16, rng);
         }
         let octet = if valid { bytes.remove(0) } else { octet(rng) };
         let shift = i64::from(shift.next(rng, 200) == 1 && rng.u8(..16) == 0);
@@ -245,7 +241,7 @@ pub fn blocks(target: Target) -> Vec<Alone> {
     let block = CommandRegisters::new(core.inputs().calibration, words);
     vec![
         stream(&Stream::new(&profile, divisor, block.outputs().data), divisor),
-        registers(&block, core.inputs(), words),
+        registers(&block, profile.clone(), words),
         adc_reader(&AdcReader::new(&profile, &parameters), &parameters),
         receiver(divisor),
         transmitter(divisor),

@@ -6,9 +6,6 @@ use std::collections::VecDeque;
 use std::f64::consts::TAU;
 
 use fastrand::Rng;
-use hapticore::case::{Case, Maker};
-use hapticore::engine::Signals;
-use hapticore::inputs;
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::block::Block;
 use hapticore_hdl::bundle::Bundle;
@@ -16,6 +13,9 @@ use hapticore_hdl::format::Format;
 use hapticore_hdl::memory::Memory;
 use hapticore_model::blocks::core::{Core, Inputs, Outputs};
 use hapticore_model::blocks::position::TablePort;
+use hapticore_run::case::{Case, Maker};
+use hapticore_run::engine::Signals;
+use hapticore_run::inputs;
 
 /// What the core is given of the plant: sets of codes, one for each strobe.
 pub type Samples = Box<dyn Iterator<Item = Vec<i64>>>;

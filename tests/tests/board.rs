@@ -8,22 +8,25 @@ mod device;
 #[path = "../../model/tests/equality/random.rs"]
 #[allow(dead_code)]
 mod random;
+#[path = "board/recording.rs"]
+mod recording;
 
 use device::{Sight, calibration, codes};
-use hapticore::args::Fidelity;
-use hapticore::case::{Case, Maker};
-use hapticore::engine::{Slot, engine};
-use hapticore::inputs;
 use hapticore_contract::calibration::Calibration;
 use hapticore_contract::frame::Frame;
 use hapticore_contract::profile::Profile;
+use hapticore_host::startup::{AdcSetup, check, prepare};
+use hapticore_host::{Command as BoardCommand, Decoder, Message, encode};
+use hapticore_host::{Constant, WordFormats};
 use hapticore_model::blocks::core::Core;
 use hapticore_model::fidelity::clock::ClockSimulation;
 use hapticore_rtl::board::framing::Register;
-use hapticore_rtl::board::packet::{Command as BoardCommand, Decoder, Told, encode};
-use hapticore_rtl::board::startup::{AdcSetup, check, prepare};
 use hapticore_rtl::board::{Parameters, Target};
 use hapticore_rtl::component;
+use hapticore_run::case::{Case, Maker};
+use hapticore_run::engine::Fidelity;
+use hapticore_run::engine::{Slot, engine};
+use hapticore_run::inputs;
 use hapticore_tests::tools;
 use random::Random;
 use std::fs;
@@ -147,7 +150,7 @@ fn boards_tell_over_their_line_what_the_model_computes_from_what_their_adc_saw()
     for target in Target::ALL {
         let profile = shortened(target);
         let (calibration, samples) = (calibration(&profile), samples(&profile));
-        let heard = heard(Simulator::Icarus, (target, &profile), &calibration, &samples);
+        let (heard, _) = heard(Simulator::Icarus, (target, &profile), &calibration, &samples);
         assert_eq!(heard, simulated(&profile, &calibration, &samples), "{target:?}");
     }
 }
@@ -171,9 +174,12 @@ fn returns_what_simulate_gives(target: Target, simulator: Simulator) {
         expected.extend(engine.slot(&slot));
     }
     expected.extend(engine.finish());
-    let heard = heard(simulator, (target, &profile), &calibration, &samples);
+    let (heard, bytes) = heard(simulator, (target, &profile), &calibration, &samples);
     let readings: Vec<_> = heard.iter().map(|frame| frame.reading(&profile)).collect();
     assert_eq!(readings, expected);
+    if target == Target::Icebreaker {
+        recording::check(&bytes[bytes.len() - recording::BYTES..], &profile, &case.device);
+    }
 }
 
 #[test]
@@ -190,25 +196,30 @@ fn ulx3s_returns_over_its_line_the_frames_that_simulate_gives() {
 /// Commands that change nothing, to be taken while frames come: a register's own code, with any bits in the bytes that the
 /// register has not, and words beyond the map.
 fn storm(profile: &Profile, calibration: &Calibration) -> Vec<BoardCommand> {
-    let (mut random, gain) = (Random::new(SEED), Register::ForceGain.format(&Core::new(profile).inputs().calibration));
+    let (mut random, gain) =
+        (Random::new(SEED), Register::Constant(Constant::ForceGain).format(&WordFormats::new(profile)));
     let own = Core::new(profile).idle_inputs(calibration).calibration.force_gain;
     let any = |random: &mut Random| random.bits() as i64;
     let of_gain = |random: &mut Random| own | any(random) & 0xffff << gain.width;
     let adc = |random: &mut Random| BoardCommand::Register(Register::Adc, any(random) & 0xffff);
     let one = |k| {
-        if k % 2 == 0 { adc(&mut random) } else { BoardCommand::Register(Register::ForceGain, of_gain(&mut random)) }
+        if k % 2 == 0 {
+            adc(&mut random)
+        } else {
+            BoardCommand::Register(Register::Constant(Constant::ForceGain), of_gain(&mut random))
+        }
     };
     (0..STORM).map(one).collect()
 }
 
-/// The frames that a board's host hears, after it has sent the calibration: heartbeats that say so before them, nothing else,
+/// The frames that a board's host hears, and the bytes that they came in, after it has sent the calibration: heartbeats that say so before them, nothing else,
 /// and no fault of the ADC's pins, whatever else the host then sends.
 fn heard(
     simulator: Simulator,
     (target, profile): (Target, &Profile),
     calibration: &Calibration,
     samples: &[i32],
-) -> Vec<Frame> {
+) -> (Vec<Frame>, Vec<u8>) {
     let setup = AdcSetup::default();
     let prepared = prepare(profile, calibration, &setup);
     let mut commands = prepared.clone();
@@ -222,21 +233,25 @@ fn heard(
     let (said, heard) = bench(simulator, (target, profile), &commands, samples, folder.path());
     let said: Vec<_> = said.lines().filter(|line| !line.contains("$finish") && !line.starts_with("- ")).collect();
     assert_eq!(said, [format!("faults 0, commands {}", setup.words().len())], "{target:?}");
-    let told: Result<Vec<_>, _> = Decoder::new(profile).take_all(heard).collect();
+    let told: Result<Vec<_>, _> = Decoder::new(profile).decode(heard.iter().copied()).collect();
     let told = told.expect("every packet is whole");
     let mut heartbeats =
-        told.iter().filter_map(|told| if let Told::Heartbeat(heartbeat) = told { Some(heartbeat) } else { None });
+        told.iter().filter_map(|told| if let Message::Heartbeat(heartbeat) = told { Some(heartbeat) } else { None });
     let last = heartbeats.next_back().expect("the board told that it was there");
-    let before = (16 + last.commands - (prepared.len() % 16) as u8) % 16;
+    let before = (16 + last.status.commands - (prepared.len() % 16) as u8) % 16;
     assert_eq!(check(last, profile, calibration, (before, &prepared)), Ok(()), "{target:?}");
     let packets: Vec<_> = told.iter().filter_map(|told| told.frame()).collect();
     assert_eq!(packets.len(), SLOTS, "{target:?}");
-    assert!(packets.iter().any(|packet| packet.refused), "{target:?}: the ADC is not spoken to while enabled");
-    assert_eq!(packets[SLOTS - 1].commands, ((taken + STORM / 2) % 16) as u8, "{target:?}: all but those were taken");
+    assert!(packets.iter().any(|packet| packet.status.refused), "{target:?}: the ADC is not spoken to while enabled");
+    assert_eq!(
+        packets[SLOTS - 1].status.commands,
+        ((taken + STORM / 2) % 16) as u8,
+        "{target:?}: all but those were taken"
+    );
     for packet in &packets {
-        assert!(!(packet.late || packet.overrun), "{target:?}: {packet:?}");
+        assert!(!(packet.status.late || packet.status.overrun), "{target:?}: {packet:?}");
     }
-    packets.into_iter().map(|packet| packet.frame).collect()
+    (packets.into_iter().map(|packet| packet.frame).collect(), heard)
 }
 
 #[test]

@@ -7,8 +7,8 @@
 
 use std::env;
 
-use hapticore::record::Row;
 use hapticore_contract::profile::Profile;
+use hapticore_run::record::Row;
 use hapticore_tests::devices::{Device, Found, Raster, error_mm, find, rms, rows};
 use rayon::prelude::*;
 

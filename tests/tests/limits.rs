@@ -7,9 +7,9 @@ use std::env;
 use std::fmt::Write;
 use std::fs;
 
-use hapticore::engine::Signals;
-use hapticore::record::Row;
 use hapticore_contract::profile::Profile;
+use hapticore_run::engine::Signals;
+use hapticore_run::record::Row;
 use hapticore_tests::devices::{disturbed_rows, error_mm};
 
 const DOCUMENT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/limits.md");

@@ -8,20 +8,40 @@ use std::path::{Path, PathBuf};
 use toml::{Table, Value};
 
 /// Which crates of the workspace a crate may use; tests may use more ([`DEVELOPMENT`]).
-const IMPORTS: [(&str, &[&str]); 8] = [
+const IMPORTS: [(&str, &[&str]); 14] = [
     ("model/hdl", &[]),
     ("model/contract", &["hapticore-hdl"]),
     // Not the hardware language: its signals round, too.
     ("model/reference", &["hapticore-contract"]),
     ("model", &["hapticore-contract", "hapticore-hdl"]),
-    ("rtl", &["hapticore-contract", "hapticore-hdl", "hapticore-model"]),
-    ("synth", &["hapticore-contract", "hapticore-hdl", "hapticore-model", "hapticore-rtl"]),
-    ("scene", &[]),
-    ("waveforms", &["hapticore-hdl"]),
+    ("host/protocol", &["hapticore-contract", "hapticore-hdl"]),
+    ("host", &["hapticore-model", "hapticore-protocol", "hapticore-sheet"]),
+    ("rtl", &["hapticore-model", "hapticore-protocol"]),
+    ("synth", &["hapticore-files", "hapticore-model", "hapticore-rtl"]),
+    ("scene/sheet", &[]),
+    ("scene", &["hapticore-sheet"]),
+    ("cli/files", &[]),
+    ("waveforms", &["hapticore-files", "hapticore-model"]),
+    ("cli/run", &["hapticore-files", "hapticore-host", "hapticore-model", "hapticore-reference", "hapticore-scene"]),
+    (
+        "cli",
+        &[
+            "hapticore-files",
+            "hapticore-host",
+            "hapticore-model",
+            "hapticore-rtl",
+            "hapticore-run",
+            "hapticore-scene",
+            "hapticore-waveforms",
+        ],
+    ),
 ];
 
 /// What the tests of a crate use besides.
-const DEVELOPMENT: [(&str, &[&str]); 1] = [("model", &["hapticore-reference"])];
+///
+/// Tests of boards take the host's side of the line, those of scenes its crosstalk cancellation.
+const DEVELOPMENT: [(&str, &[&str]); 3] =
+    [("model", &["hapticore-reference"]), ("rtl", &["hapticore-host"]), ("scene", &["hapticore-host"])];
 
 /// What a crate must not reach by any path of dependencies, tests included: the reference, and what it is made of, cannot see
 /// the core, and the core is built without the reference.
@@ -142,7 +162,7 @@ fn the_model_knows_no_files_and_no_time() {
 
 #[test]
 fn every_source_names_its_licence() {
-    for folder in ["model", "rtl", "synth", "scene", "waveforms", "cli", "tests"] {
+    for folder in ["model", "rtl", "synth", "scene", "waveforms", "host", "cli", "tests"] {
         for path in sources(folder) {
             let text = fs::read_to_string(&path).expect("a source");
             assert!(text.starts_with("// SPDX-License-Identifier: MIT OR Apache-2.0"), "{}", path.display());

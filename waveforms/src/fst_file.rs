@@ -3,15 +3,15 @@
 
 use std::fs::File;
 use std::io::{BufWriter, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use fst_writer::{
     FstBodyWriter, FstFileType, FstHeaderWriter, FstInfo, FstScopeType, FstSignalId, FstSignalType, FstVarDirection,
     FstVarType,
 };
+use hapticore_files::AtomicFile;
 
 use crate::Error;
-use crate::aside::Aside;
 use crate::bits::digits;
 use crate::declarations::{Declarations, Signal, Step};
 use crate::wave::Wave;
@@ -24,7 +24,9 @@ pub struct FstFile {
     body: Option<FstBodyWriter<BufWriter<File>>>,
     variables: Vec<Variable>,
     section_bytes: usize,
-    aside: Aside,
+    /// None once it has its name.
+    aside: Option<AtomicFile>,
+    path: PathBuf,
 }
 
 #[derive(Clone, Copy)]
@@ -35,8 +37,12 @@ struct Variable {
 
 impl FstFile {
     /// A file that will be called `path`.
-    pub fn create(path: &Path) -> Self {
-        FstFile { body: None, variables: Vec::new(), section_bytes: SECTION_BYTES, aside: Aside::new(path) }
+    ///
+    /// # Errors
+    /// The folder cannot be written to.
+    pub fn create(path: &Path) -> Result<Self, Error> {
+        let aside = Some(AtomicFile::create(path).map_err(Error::io(path))?);
+        Ok(FstFile { body: None, variables: Vec::new(), section_bytes: SECTION_BYTES, aside, path: path.to_owned() })
     }
 
     /// Writes sections of about `bytes` bytes of changes.
@@ -45,7 +51,7 @@ impl FstFile {
     }
 
     fn header(&mut self, declarations: &Declarations) -> fst_writer::Result<()> {
-        let mut header = fst_writer::open_fst(self.aside.partial(), &info(declarations))?;
+        let mut header = fst_writer::open_fst(self.aside.as_ref().expect(BEGUN).partial_path(), &info(declarations))?;
         let mut variables = vec![None; declarations.signals().len()];
         for step in declarations.walk() {
             match step {
@@ -61,20 +67,20 @@ impl FstFile {
 
     fn change(&mut self, signal: usize, value: &[u8]) -> Result<(), Error> {
         let id = self.variables[signal].id;
-        body(&mut self.body).signal_change(id, value).map_err(Error::fst(self.aside.path()))
+        body(&mut self.body).signal_change(id, value).map_err(Error::fst(&self.path))
     }
 }
 
 impl Wave for FstFile {
     fn begin(&mut self, declarations: &Declarations) -> Result<(), Error> {
-        self.header(declarations).map_err(Error::fst(self.aside.path()))
+        self.header(declarations).map_err(Error::fst(&self.path))
     }
 
     fn time(&mut self, ticks: u64) -> Result<(), Error> {
         let body = body(&mut self.body);
         // The encoder can only end a section between two times.
         let flushed = if body.size() > self.section_bytes { body.flush() } else { Ok(()) };
-        flushed.and_then(|()| body.time_change(ticks)).map_err(Error::fst(self.aside.path()))
+        flushed.and_then(|()| body.time_change(ticks)).map_err(Error::fst(&self.path))
     }
 
     fn bits(&mut self, signal: usize, bits: u64) -> Result<(), Error> {
@@ -88,10 +94,10 @@ impl Wave for FstFile {
 
     fn finish(&mut self) -> Result<(), Error> {
         let body = self.body.take().expect(BEGUN);
-        let mut file = body.finish().map_err(Error::fst(self.aside.path()))?;
-        file.flush().map_err(Error::io(self.aside.path()))?;
+        let mut file = body.finish().map_err(Error::fst(&self.path))?;
+        file.flush().map_err(Error::io(&self.path))?;
         drop(file);
-        self.aside.keep()
+        self.aside.take().map_or(Ok(()), AtomicFile::persist).map_err(Error::io(&self.path))
     }
 }
 

@@ -11,7 +11,6 @@
 use std::path::Path;
 
 use crate::Error;
-use crate::aside;
 use crate::declarations::{Reading, Signal};
 use crate::display::{alias, fixed_point, flag, flags, viewer_path};
 use crate::layout::{Row, Section, lay_out};
@@ -56,9 +55,9 @@ impl SaveFile {
 pub fn save(view: &View, trace: &Trace, dump: &str, path: &Path) -> Result<(), Error> {
     let file = SaveFile::new(view, trace, dump)?;
     for (name, text) in &file.translations {
-        aside::write(&path.with_file_name(name), text)?;
+        write(&path.with_file_name(name), text)?;
     }
-    aside::write(path, &file.text)
+    write(path, &file.text)
 }
 
 struct Printer<'a> {
@@ -158,4 +157,9 @@ fn head(trace: &Trace, dump: &str) -> String {
 /// The lines `code NAME` of a translation file; codes in decimal, as the flags ask for.
 fn translation(states: States) -> String {
     states.iter().enumerate().map(|(code, name)| format!("{code} {name}\n")).collect()
+}
+
+/// Writes a whole small file atomically.
+fn write(path: &Path, text: &str) -> Result<(), Error> {
+    hapticore_files::write(path, text).map_err(Error::io(path))
 }

@@ -16,7 +16,6 @@
 //! Tracing looks at a simulation and never alters it; nothing here knows what a signal means. A file appears under its
 //! name only when it is whole.
 
-mod aside;
 mod bits;
 mod changes;
 pub mod declarations;

@@ -3,12 +3,12 @@
 
 use std::fs::File;
 use std::io::{BufWriter, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
+use hapticore_files::AtomicFile;
 use vcd::{IdCode, TimescaleUnit, VarType, Writer};
 
 use crate::Error;
-use crate::aside::Aside;
 use crate::bits::digits;
 use crate::declarations::{Declarations, Signal, Step};
 use crate::wave::{BUFFER_BYTES, Wave};
@@ -23,7 +23,9 @@ const LINE_BYTES: usize = 80;
 pub struct VcdFile {
     writer: Writer<BufWriter<File>>,
     variables: Vec<Variable>,
-    aside: Aside,
+    /// None once it has its name.
+    aside: Option<AtomicFile>,
+    path: PathBuf,
 }
 
 struct Variable {
@@ -39,10 +41,10 @@ impl VcdFile {
     /// # Errors
     /// The folder cannot be written to.
     pub fn create(path: &Path) -> Result<Self, Error> {
-        let aside = Aside::new(path);
-        let file = File::create(aside.partial()).map_err(Error::io(path))?;
+        let aside = AtomicFile::create(path).map_err(Error::io(path))?;
+        let file = aside.reopen().map_err(Error::io(path))?;
         let writer = Writer::new(BufWriter::with_capacity(BUFFER_BYTES, file));
-        Ok(VcdFile { writer, variables: Vec::new(), aside })
+        Ok(VcdFile { writer, variables: Vec::new(), aside: Some(aside), path: path.to_owned() })
     }
 
     fn header(&mut self, declarations: &Declarations) -> std::io::Result<()> {
@@ -70,26 +72,26 @@ impl VcdFile {
 
 impl Wave for VcdFile {
     fn begin(&mut self, declarations: &Declarations) -> Result<(), Error> {
-        self.header(declarations).map_err(Error::io(self.aside.path()))
+        self.header(declarations).map_err(Error::io(&self.path))
     }
 
     fn time(&mut self, ticks: u64) -> Result<(), Error> {
-        self.writer.timestamp(ticks).map_err(Error::io(self.aside.path()))
+        self.writer.timestamp(ticks).map_err(Error::io(&self.path))
     }
 
     fn bits(&mut self, signal: usize, bits: u64) -> Result<(), Error> {
         let mut line = [0; LINE_BYTES];
         let length = self.variables[signal].line(bits, &mut line);
-        self.writer.writer().write_all(&line[..length]).map_err(Error::io(self.aside.path()))
+        self.writer.writer().write_all(&line[..length]).map_err(Error::io(&self.path))
     }
 
     fn real(&mut self, signal: usize, value: f64) -> Result<(), Error> {
-        self.writer.change_real(self.variables[signal].id, value).map_err(Error::io(self.aside.path()))
+        self.writer.change_real(self.variables[signal].id, value).map_err(Error::io(&self.path))
     }
 
     fn finish(&mut self) -> Result<(), Error> {
-        self.writer.flush().map_err(Error::io(self.aside.path()))?;
-        self.aside.keep()
+        self.writer.flush().map_err(Error::io(&self.path))?;
+        self.aside.take().map_or(Ok(()), AtomicFile::persist).map_err(Error::io(&self.path))
     }
 }
 

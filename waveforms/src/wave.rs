@@ -74,7 +74,7 @@ impl Kind {
     pub fn create(self, path: &Path) -> Result<Box<dyn Wave>, Error> {
         Ok(match self {
             Kind::Vcd => Box::new(VcdFile::create(path)?),
-            Kind::Fst => Box::new(FstFile::create(path)),
+            Kind::Fst => Box::new(FstFile::create(path)?),
         })
     }
 

@@ -141,7 +141,7 @@ fn clocks_passed_over_hold_their_values() {
 fn sections_of_an_fst_join_without_a_seam() {
     let folder = folder();
     let path = folder.path().join("waves.fst");
-    let wave = FstFile::create(&path).with_section_bytes(2000);
+    let wave = FstFile::create(&path).unwrap().with_section_bytes(2000);
     let mut tracer = Tracer::new(wave, &Fake { clock: 0 }, &[], &settings()).unwrap();
     for clock in 0..CLOCKS {
         tracer.clock(&Fake { clock }).unwrap();

@@ -10,10 +10,11 @@ use super::page::{self, escape};
 use super::paint::Paint;
 use super::plot::Plot;
 use super::series::Series;
-use crate::calibrate::Found;
-use crate::lab::loads::{Force, Point};
-use crate::lab::{self, Outcome};
-use crate::residual::Residual;
+use crate::print;
+use hapticore_host::Found;
+use hapticore_host::Residual;
+use hapticore_run::lab::Outcome;
+use hapticore_run::lab::loads::{Force, Point};
 
 /// Tiles of a map.
 const TILES: usize = 7000;
@@ -23,7 +24,8 @@ const NANO: f64 = 1e18;
 
 /// The page of a calibration.
 pub fn of_calibration(outcome: &Outcome) -> String {
-    let lines: String = lab::lines(outcome).iter().map(|line| format!("<li>{}</li>", escape(line))).collect();
+    let lines: String =
+        print::calibration_lines(outcome).iter().map(|line| format!("<li>{}</li>", escape(line))).collect();
     let heading =
         format!("<header>\n<h1>{TITLE}</h1>\n{}<ul>{lines}</ul>\n</header>\n", page::warnings(&outcome.warnings));
     let figures: Vec<_> = [positions(outcome)].into_iter().chain(outcome.force.iter().flat_map(forces)).collect();
@@ -105,8 +107,8 @@ fn residuals(force: &Force, series: Vec<Series>) -> Figure {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::least_squares::Estimate;
-    use crate::record::Provenance;
+    use hapticore_run::lab::least_squares::Estimate;
+    use hapticore_run::record::Provenance;
 
     fn outcome(points: Vec<Point>, found: Vec<Found>) -> Outcome {
         let estimate = |value: f64| Estimate { value, interval: [0.9 * value, 1.1 * value] };

@@ -9,7 +9,7 @@ use super::paint::Paint;
 use super::plot::Plot;
 use super::select::{self, Setting, deviation_percent, settings, spread_percent};
 use super::series::{Mark, Point, Series};
-use crate::record::{Record, Row};
+use hapticore_run::record::{Record, Row};
 
 /// How a value is got from a slot.
 type Get = fn(&Row) -> f64;

@@ -7,7 +7,7 @@ use super::number;
 use super::page::escape;
 use super::paint::{DIVERGING, Paint, SEQUENTIAL};
 use super::select::{Setting, deviation_percent, position_error, rms, spread_percent};
-use crate::record::Row;
+use hapticore_run::record::Row;
 
 /// Tiles that all maps of a figure share.
 const TILES: usize = 7000;

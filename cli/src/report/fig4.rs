@@ -9,7 +9,7 @@ use super::plot::Plot;
 use super::select::{Setting, extent};
 use super::series::Series;
 use super::sweep::{self, Load, load, loads, means, reference, slots, voltage};
-use crate::record::{Record, Row, Truth};
+use hapticore_run::record::{Record, Row, Truth};
 
 /// Voltages that are drawn over the load.
 const VOLTAGES: usize = 8;

@@ -10,7 +10,7 @@ use super::plot::Plot;
 use super::select::{self, extent};
 use super::series::{Point, Series};
 use super::sweep::{Load, loads, means, reference, slots};
-use crate::record::{Record, Row, Truth};
+use hapticore_run::record::{Record, Row, Truth};
 
 /// The square law is fitted up to this voltage, where the paper's data still follow it.
 const SQUARE_LAW_TO_V: f64 = 150.0;

@@ -2,9 +2,9 @@
 //! The paper's Fig. 7: friction and what eq. 8 makes of it over time, the pad's capacitance, and its voltage, which falls.
 
 use super::figure::Figure;
-use super::general::{self, CAPACITANCE, FORCE, Quantity};
+use super::general::{self, Quantity};
 use super::hockey::force_error;
-use crate::record::Record;
+use hapticore_run::record::Record;
 
 /// Below this the haptic voltage is off, V rms.
 const OFF_V: f64 = 1.0;
@@ -15,6 +15,7 @@ const VOLTAGE: Quantity =
 
 /// Force, its error, capacitance, voltage.
 pub fn figures(record: &Record) -> Vec<Figure> {
-    let [force, capacitance, voltage] = [FORCE, CAPACITANCE, VOLTAGE].map(|q| general::over_time(record, q));
+    let [force, capacitance, voltage] =
+        [general::of("force_n"), general::of("capacitance_pf"), VOLTAGE].map(|q| general::over_time(record, q));
     vec![force, force_error(record, "estimate"), capacitance, voltage]
 }

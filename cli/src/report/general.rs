@@ -8,7 +8,8 @@ use super::paint::Paint;
 use super::plot::Plot;
 use super::select;
 use super::series::{Mark, Point, Series};
-use crate::record::{Quantities, Record, Row};
+use hapticore_host::{QUANTITIES, Quantities};
+use hapticore_run::record::{Record, Row};
 
 /// How a quantity is got from a row's.
 pub type Get = fn(&Quantities) -> f64;
@@ -16,18 +17,14 @@ pub type Get = fn(&Quantities) -> f64;
 /// A quantity over time: title, axis, how it is got.
 pub type Quantity = (&'static str, &'static str, Get);
 
-/// Position along x.
-pub const X: Quantity = ("Position along x", "x (mm)", |q| q.x_mm);
-/// Position along y.
-pub const Y: Quantity = ("Position along y", "y (mm)", |q| q.y_mm);
-/// Capacitance.
-pub const CAPACITANCE: Quantity = ("Capacitance", "C (pF)", |q| q.capacitance_pf);
-/// Force.
-pub const FORCE: Quantity = ("Haptic force", "F (N)", |q| q.force_n);
-/// Voltage.
-pub const VOLTAGE: Quantity = ("Haptic voltage", "V rms (V)", |q| q.haptic_v_rms);
-/// Direction.
-pub const DIRECTION: Quantity = ("Direction of the push", "direction", |q| q.direction);
+/// The quantity of a column, over time.
+///
+/// # Panics
+/// If there is no such column.
+pub fn of(name: &str) -> Quantity {
+    let found = hapticore_host::quantity(name).expect("a column");
+    (found.label, found.axis, found.get)
+}
 
 /// Slots of a pad of which each has a dot of its own; more become a line of means and the band that they fill.
 const FEW: usize = 300;
@@ -45,8 +42,10 @@ pub fn quantities(record: &Record) -> Vec<Quantity> {
     let some = |value: f64| value.is_finite() && value != 0.0;
     let measured = |get: Get| record.rows.iter().any(|r| some(get(&r.measured)));
     let true_one = |get: Get| record.rows.iter().any(|r| r.truth.is_some_and(|t| some(get(&t.quantities))));
-    let present = |(title, _, get): &Quantity| measured(*get) || (*title != DIRECTION.0 && true_one(*get));
-    [X, Y, CAPACITANCE, FORCE, VOLTAGE, DIRECTION].into_iter().filter(present).collect()
+    let direction = of("direction").0;
+    let present = |(title, _, get): &Quantity| measured(*get) || (*title != direction && true_one(*get));
+    let drawn = QUANTITIES.iter().filter(|quantity| !quantity.axis.is_empty());
+    drawn.map(|quantity| of(quantity.name)).filter(present).collect()
 }
 
 /// One quantity of all pads over time.

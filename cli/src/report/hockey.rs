@@ -3,21 +3,22 @@
 
 use super::axis::Axis;
 use super::figure::Figure;
-use super::general::{self, CAPACITANCE, FORCE, VOLTAGE};
+use super::general;
 use super::map;
 use super::number;
 use super::paint::Paint;
 use super::plot::Plot;
 use super::select;
 use super::series::{Mark, Point, Series};
-use crate::record::{Record, Row};
+use hapticore_run::record::{Record, Row};
 
 /// Bins of time for what is too dense to draw.
 const BINS: u32 = 50;
 
 /// Paths, force, both errors, capacitance, voltage.
 pub fn figures(record: &Record) -> Vec<Figure> {
-    let [force, capacitance, voltage] = [FORCE, CAPACITANCE, VOLTAGE].map(|q| general::over_time(record, q));
+    let [force, capacitance, voltage] =
+        ["force_n", "capacitance_pf", "haptic_v_rms"].map(|name| general::over_time(record, general::of(name)));
     vec![paths(record), force, position_error(record), force_error(record, "force"), capacitance, voltage]
 }
 

@@ -9,7 +9,7 @@ use plotters::style::Color as _;
 
 use super::canvas::{inline, stroke};
 use super::paint::Paint;
-use crate::record::Record;
+use hapticore_run::record::Record;
 
 /// Half the sheet of the paper, mm, for a run that does not know its own.
 const HALF_SHEET_MM: (f64, f64) = (430.0, 250.0);

@@ -38,9 +38,9 @@ mod tables;
 #[cfg(test)]
 mod tests;
 
-use crate::record::Record;
 pub use calibration::of_calibration;
 use figure::Figure;
+use hapticore_run::record::Record;
 
 /// The report of a run as a self-contained HTML page.
 pub fn html(record: &Record) -> String {

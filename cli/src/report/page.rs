@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The page around tables and figures.
 
-use crate::record::Record;
+use hapticore_run::record::Record;
 
 const STYLE: &str = include_str!("report.css");
 

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use super::map::half_sheet_mm;
 use super::number;
-use crate::record::{Quantities, Record, Row, Truth};
+use hapticore_run::record::{Quantities, Record, Row, Truth};
 
 /// Slots with all settings equal but the position.
 #[derive(Clone, Debug)]

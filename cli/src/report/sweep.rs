@@ -3,7 +3,7 @@
 
 use super::select::{Setting, mean, settings};
 use super::series::Point;
-use crate::record::{Quantities, Record, Row, Truth};
+use hapticore_run::record::{Quantities, Record, Row, Truth};
 
 /// All settings at one load of one case, by rising voltage.
 #[derive(Clone, Debug)]

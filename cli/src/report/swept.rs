@@ -12,7 +12,7 @@ use super::paint::Paint;
 use super::plot::Plot;
 use super::select::{self, settings};
 use super::series::{Mark, Point, Series};
-use crate::record::{Record, Row, Truth};
+use hapticore_run::record::{Record, Row, Truth};
 
 /// Lines of a plot; more would not be told apart.
 const LINES: usize = 12;

@@ -4,7 +4,7 @@
 use super::number;
 use super::page::escape;
 use crate::print;
-use crate::record::{Criterion, Effect, Record, SignalError};
+use hapticore_run::record::{Criterion, Effect, Record, SignalError};
 
 /// The criteria under a sentence that says how many hold.
 pub fn criteria(criteria: &[Criterion]) -> String {

@@ -2,7 +2,7 @@
 //! Every figure on awkward runs: none, one row, no numbers, several cases, no truth, a great many rows.
 
 use super::*;
-use crate::record::{Criterion, Effect, Quantities, Reference, Row, SignalError, Truth};
+use hapticore_run::record::{Criterion, Effect, Quantities, Reference, Row, SignalError, Truth};
 
 const FIGURES: [Option<&str>; 7] =
     [Some("fig3"), Some("fig4"), Some("fig6"), Some("fig7"), Some("hockey"), Some("fig99"), None];

@@ -7,11 +7,9 @@
 //! | [`adc_reader`] | eight channels of a simultaneous ADC, in |
 //! | [`sigma_delta`] | the carrier, out |
 //! | [`pads`] | one pad at a time, out |
-//! | [`uart`], [`crc16`], [`framing`] | the serial line and its packets |
+//! | [`uart`], [`crc16`], [`framing`] | the serial line and its packets; the host's side of it is `hapticore-host` |
 //! | [`stream`] | frames, out |
 //! | [`registers`] | calibration, in |
-//! | [`packet`] | the host's side of the line |
-//! | [`startup`] | what a host sends first, and what it checks before it enables the board |
 //! | [`parameters`] | what a board adds to a profile |
 //! | [`top`], [`target`] | tops in rust-hdl, and the boards that one can buy: pins, constraints |
 
@@ -19,12 +17,10 @@ pub mod adc_reader;
 mod bits;
 pub mod crc16;
 pub mod framing;
-pub mod packet;
 pub mod pads;
 pub mod parameters;
 pub mod registers;
 pub mod sigma_delta;
-pub mod startup;
 pub mod stream;
 pub mod target;
 pub mod top;

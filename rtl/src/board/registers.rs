@@ -27,6 +27,7 @@ use hapticore_hdl::signal::{Signal, Wrap, bit, code, int};
 use hapticore_hdl::{block, when};
 use hapticore_model::blocks::estimator::Calibration;
 use hapticore_model::blocks::position::TablePort;
+use hapticore_protocol::Constant;
 
 block! {
     /// The registers that commands write.
@@ -146,10 +147,10 @@ impl CommandRegisters {
             here.select(read_as(r.data, before.format), before)
         };
         Registers {
-            capacitance_gain: write(Register::CapacitanceGain, r.capacitance_gain),
-            force_gain: write(Register::ForceGain, r.force_gain),
+            capacitance_gain: write(Register::Constant(Constant::CapacitanceGain), r.capacitance_gain),
+            force_gain: write(Register::Constant(Constant::ForceGain), r.force_gain),
             control: write(Register::Control, r.control),
-            calibrated: r.calibrated | (r.act & self.is(&r, Register::ForceGain)),
+            calibrated: r.calibrated | (r.act & self.is(&r, Register::LAST_CONSTANT)),
             ..r
         }
     }
@@ -157,7 +158,7 @@ impl CommandRegisters {
     /// Whether the place is this register.
     #[inline(always)]
     fn is<V: Interpretation>(&self, r: &Registers<Signal<V>>, register: Register) -> Signal<V> {
-        r.place.msb() & r.place.bits(0, PLACE.width).is(register as u64)
+        r.place.msb() & r.place.bits(0, PLACE.width).is(register.number() as u64)
     }
 }
 

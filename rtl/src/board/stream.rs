@@ -126,7 +126,7 @@ impl Stream {
     pub fn new(profile: &Profile, divisor: u64, data: Format) -> Self {
         let format = Field::word(profile);
         let mut initial = vec![0.0; 2 * WORDS as usize];
-        initial[WORDS as usize + Register::Control as usize] = f64::from(as_word(digest(profile), format));
+        initial[WORDS as usize + Register::Control.number()] = f64::from(as_word(digest(profile), format));
         let words = Memory { initial: initial.into(), ..Memory::new("words", 2 * WORDS as usize, format) };
         Stream {
             words: words.dont_care_on_collision(),

@@ -7,8 +7,8 @@ use crate::random::Random;
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::Format;
+use hapticore_host::Command;
 use hapticore_model::blocks::core::{self, Core};
-use hapticore_rtl::board::packet::Command;
 use hapticore_rtl::board::pads::{self, Pads};
 use hapticore_rtl::board::registers::{self, CommandRegisters};
 use hapticore_rtl::board::sigma_delta::{self, SigmaDelta};
@@ -173,7 +173,7 @@ fn every_command_is_taken_escaped_or_not() {
     for count in 1..2_000 {
         let (address, code) = (random.below(100) as u16, random.word(core.calibration.table.word));
         let mut written = None;
-        let bytes = Command::Table { address, code }.encode(&core);
+        let bytes = Command::Table { address, code }.encode(&profile);
         for byte in bytes.iter().map(|&byte| Some(byte)).chain([None]) {
             let (valid, octet) = (byte.is_some().into(), byte.unwrap_or(0).into());
             let outputs = bench.clock(registers::Inputs { valid, octet, shift: 0, answer: 0 });

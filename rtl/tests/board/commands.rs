@@ -5,10 +5,11 @@ use crate::device::calibration;
 use crate::random::Random;
 use crate::session::{Session, parameters, samples, simulated, small};
 use hapticore_contract::profile::Profile;
+use hapticore_host::Constant;
+use hapticore_host::startup::start;
+use hapticore_host::{Command, encode};
 use hapticore_model::blocks::core::Core;
 use hapticore_rtl::board::framing::Register;
-use hapticore_rtl::board::packet::{Command, encode};
-use hapticore_rtl::board::startup::start;
 
 const SEED: u64 = 41;
 const COMMANDS: usize = 10_000;
@@ -26,7 +27,7 @@ fn harmless(profile: &Profile, core: &Core, commands: &[Command], random: &mut R
         2 => Command::Register(Register::Adc, random.below(1 << 16) as i64),
         3 => Command::ENABLE,
         _ => {
-            let mut bytes = encode(&[Command::Register(Register::ForceGain, any)], profile);
+            let mut bytes = encode(&[Command::Register(Register::Constant(Constant::ForceGain), any)], profile);
             let at = 1 + random.below(bytes.len() as u64 - 2) as usize;
             bytes[at] ^= 1 << random.below(8);
             return bytes;
@@ -65,7 +66,7 @@ fn ten_thousand_commands_while_enabled_reach_no_register_of_the_adc_and_harm_no_
     let unintended = session.adc.part.commands.len() - commanded;
     println!("{} frames, {wrong} wrong; {unintended} unintended commands", packets.len());
     assert!(packets.len() > 1_000 && packets.len() < expected.len());
-    assert!(!packets.iter().any(|packet| packet.late || packet.overrun), "and none is flagged");
+    assert!(!packets.iter().any(|packet| packet.status.late || packet.status.overrun), "and none is flagged");
     assert_eq!((unintended, wrong, session.adc.sdi_changes), (0, 0, 0));
     assert_eq!(session.adc.wrong, Vec::<&str>::new());
 }

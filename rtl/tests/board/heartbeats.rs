@@ -6,16 +6,18 @@ use crate::pins::Host;
 use crate::random::Random;
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::bundle::Bundle;
+use hapticore_host::Constant;
+use hapticore_host::{Decoder, Message};
 use hapticore_model::blocks::core::Core;
 use hapticore_rtl::board::framing::{END, Register};
-use hapticore_rtl::board::packet::{Decoder, Told};
 use hapticore_rtl::board::registers::CommandRegisters;
 use hapticore_rtl::board::stream::{self, Stream};
 
 const DIVISOR: u64 = 4;
 /// Clocks from one command to the next at the same rate: eight bytes at least.
 const COMMAND: u64 = 80 * DIVISOR;
-const REGISTERS: [Register; 2] = [Register::CapacitanceGain, Register::ForceGain];
+const REGISTERS: [Register; 2] =
+    [Register::Constant(Constant::CapacitanceGain), Register::Constant(Constant::ForceGain)];
 
 #[test]
 fn a_heartbeat_tells_words_that_were_written_or_ends_early() {
@@ -38,8 +40,8 @@ fn a_heartbeat_tells_words_that_were_written_or_ends_early() {
         }
         let ends = host.heard.iter().filter(|byte| **byte == END).count();
         let mut whole = 0;
-        for told in Decoder::new(&profile).take_all(host.heard) {
-            let Ok(Told::Heartbeat(heartbeat)) = told else { panic!("{}: {told:?}", profile.name) };
+        for told in Decoder::new(&profile).decode(host.heard) {
+            let Ok(Message::Heartbeat(heartbeat)) = told else { panic!("{}: {told:?}", profile.name) };
             whole += 1;
             for (register, written) in REGISTERS.into_iter().zip(&written) {
                 let (told, bits) = heartbeat.register(register).expect("heartbeats tell it");

@@ -8,9 +8,9 @@ use crate::random::Random;
 use hapticore_contract::calibration::Calibration;
 use hapticore_contract::frame::Frame;
 use hapticore_contract::profile::Profile;
+use hapticore_host::startup::start;
+use hapticore_host::{Command, Damage, Decoder, Heartbeat, Message, Packet, encode};
 use hapticore_model::fidelity::clock::ClockSimulation;
-use hapticore_rtl::board::packet::{Command, Damage, Decoder, Heartbeat, Packet, Told, encode};
-use hapticore_rtl::board::startup::start;
 use hapticore_rtl::board::whole::Inputs;
 use hapticore_rtl::board::{Board, Parameters};
 
@@ -60,10 +60,10 @@ impl Session {
             self.closed.push(outputs.select);
         }
         let bytes = std::mem::take(&mut self.host.heard);
-        for told in self.decoder.take_all(bytes) {
+        for told in self.decoder.decode(bytes) {
             match told {
-                Ok(Told::Heartbeat(heartbeat)) => self.heartbeats.push(heartbeat),
-                Ok(Told::Frame(packet)) => self.packets.push(Ok(packet)),
+                Ok(Message::Heartbeat(heartbeat)) => self.heartbeats.push(heartbeat),
+                Ok(Message::Frame(packet)) => self.packets.push(Ok(packet)),
                 Err(damage) => self.packets.push(Err(damage)),
             }
         }
@@ -127,9 +127,13 @@ fn over_the_line_come_the_frames_of_the_core() {
         let expected = simulated(&profile, &calibration, &samples);
         for (number, (packet, expected)) in packets.iter().zip(&expected).enumerate() {
             assert_eq!(packet.frame, *expected, "{}: frame {number}", profile.name);
-            assert_eq!(usize::from(packet.sequence), number + 1);
-            assert!(!(packet.late || packet.refused || packet.overrun), "{}: {packet:?}", profile.name);
-            assert_eq!(packet.commands, commands.len() as u8 % 16);
+            assert_eq!(usize::from(packet.status.sequence), number + 1);
+            assert!(
+                !(packet.status.late || packet.status.refused || packet.status.overrun),
+                "{}: {packet:?}",
+                profile.name
+            );
+            assert_eq!(packet.status.commands, commands.len() as u8 % 16);
         }
         assert_eq!(expected.len(), 9);
         assert!(expected.iter().any(|frame| frame.flags.lost) && expected.iter().any(|frame| frame.flags.invalid));
@@ -162,11 +166,11 @@ fn a_damaged_command_changes_nothing_and_is_told() {
     session.run(5_000);
     assert_eq!(session.bench.clock(Inputs { dout: 0, busy: 0, rx: 1 }).enabled, 0, "none of them enables");
     session.send(&commands[20..]);
-    let refusals = session.heartbeats.iter().filter(|heartbeat| heartbeat.refused).count();
+    let refusals = session.heartbeats.iter().filter(|heartbeat| heartbeat.status.refused).count();
     assert!((1..=5).contains(&refusals), "told once each, or several together: {refusals}");
     let packets = session.packets(2);
-    assert!(!packets[0].refused && !packets[1].refused, "and not again");
-    assert_eq!(packets[0].commands, commands.len() as u8 % 16);
+    assert!(!packets[0].status.refused && !packets[1].status.refused, "and not again");
+    assert_eq!(packets[0].status.commands, commands.len() as u8 % 16);
     let expected = simulated(&profile, &calibration(&profile), &samples);
     assert_eq!(packets[1].frame, expected[1]);
 }
@@ -178,11 +182,11 @@ fn a_late_or_absent_adc_is_told_and_hangs_nothing() {
         let mut session = Session::new(&profile, parameters(&profile, 4, 0), &samples(&profile, 4));
         session.send(&start(&profile, &calibration(&profile)));
         let well = session.packets(1);
-        assert!(!well[0].late);
+        assert!(!well[0].status.late);
         session.adc.health = health;
-        assert!(session.packets(3)[2].late, "{health:?}");
+        assert!(session.packets(3)[2].status.late, "{health:?}");
         session.adc.health = Health::Well;
-        assert!(!session.packets(5)[4].late, "{health:?} and over");
+        assert!(!session.packets(5)[4].status.late, "{health:?} and over");
         let lamp = |session: &mut Session| session.bench.clock(Inputs { dout: 0, busy: 0, rx: 1 }).late;
         assert_eq!(lamp(&mut session), 1, "the lamp stays on");
         session.send(&[Command::DISABLE]);
@@ -200,12 +204,12 @@ fn a_line_too_slow_drops_whole_frames_and_says_so() {
     session.send(&start(&profile, &calibration));
     let packets = session.packets(4);
     let expected = simulated(&profile, &calibration, &samples);
-    assert!(packets.windows(2).any(|pair| pair[1].sequence > pair[0].sequence + 1), "some are dropped");
+    assert!(packets.windows(2).any(|pair| pair[1].status.sequence > pair[0].status.sequence + 1), "some are dropped");
     for pair in packets.windows(2) {
-        assert!(pair[0].overrun || pair[1].overrun, "and that is said: {pair:?}");
+        assert!(pair[0].status.overrun || pair[1].status.overrun, "and that is said: {pair:?}");
     }
     for packet in &packets {
-        assert_eq!(packet.frame, expected[usize::from(packet.sequence) - 1], "those that come are whole");
+        assert_eq!(packet.frame, expected[usize::from(packet.status.sequence) - 1], "those that come are whole");
     }
 }
 

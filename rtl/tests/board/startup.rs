@@ -6,10 +6,11 @@ use crate::part::Part;
 use crate::random::Random;
 use crate::session::{Session, parameters, samples, simulated, small};
 use hapticore_contract::profile::Profile;
+use hapticore_host::Constant;
+use hapticore_host::startup::{AdcSetup, Range, StartupError, check, prepare, start};
+use hapticore_host::{Command, Heartbeat};
 use hapticore_model::blocks::core::Core;
 use hapticore_rtl::board::framing::{self, Register, digest};
-use hapticore_rtl::board::packet::{Command, Heartbeat};
-use hapticore_rtl::board::startup::{AdcSetup, Range, StartupError, check, prepare, start};
 
 const SEED: u64 = 43;
 const ROUNDS: usize = 200;
@@ -66,11 +67,14 @@ fn a_board_that_is_not_as_it_should_be_is_not_enabled() {
     assert!(matches!(error, StartupError::Profile { .. }), "{error}");
     let error = check(&told, &profile, &calibration, (0, &commands[1..])).expect_err("a command more");
     assert!(matches!(error, StartupError::Commands { .. }), "{error}");
-    let wrong = Command::Register(Register::ForceGain, 5);
+    let wrong = Command::Register(Register::Constant(Constant::ForceGain), 5);
     session.send(&[wrong]);
     commands.push(wrong);
     let error = check(&heartbeat(&mut session), &profile, &calibration, (0, &commands)).expect_err("another scale");
-    assert!(matches!(error, StartupError::Register { register: Register::ForceGain, got: 5, .. }), "{error}");
+    assert!(
+        matches!(error, StartupError::Register { register: Register::Constant(Constant::ForceGain), got: 5, .. }),
+        "{error}"
+    );
 }
 
 #[test]
@@ -82,8 +86,8 @@ fn the_adc_takes_no_command_while_the_board_is_enabled() {
     session.packets(1);
     session.send(&[Command::Register(Register::Adc, 0x6f00)]);
     let told = session.packets(3);
-    assert!(told.iter().any(|packet| packet.refused), "it is refused");
-    assert_eq!(told[2].commands, commands.len() as u8 % 16, "and not counted");
+    assert!(told.iter().any(|packet| packet.status.refused), "it is refused");
+    assert_eq!(told[2].status.commands, commands.len() as u8 % 16, "and not counted");
     assert_eq!(session.adc.part.commands.len(), AdcSetup::default().words().len());
 }
 
@@ -118,7 +122,7 @@ fn whenever_a_board_is_disabled_and_enabled_again_its_first_frame_is_whole() {
         let packet = session.packets(heard + 1)[heard];
         let of_slot = &samples[from..from + profile.slot.samples() as usize];
         assert_eq!(packet.frame, simulated(&profile, &calibration, of_slot)[0], "round {round}, from sample {from}");
-        assert!(!(packet.late || packet.refused || packet.overrun), "round {round}: {packet:?}");
+        assert!(!(packet.status.late || packet.status.refused || packet.status.overrun), "round {round}: {packet:?}");
         assert_eq!(session.adc.part.commands.len(), commanded, "round {round}: nothing else was commanded");
     }
     assert_eq!(session.adc.wrong, Vec::<&str>::new());

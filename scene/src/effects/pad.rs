@@ -79,8 +79,7 @@ impl Pad {
 
     /// jωC/(1 + jωC·R_p): the pad's capacitance in series with the sheet, S.
     pub fn admittance(&self, rad_s: f64) -> Complex64 {
-        let capacitive = Complex64::new(0.0, rad_s * self.capacitance_f);
-        capacitive / (capacitive * self.sheet_ohm + 1.0)
+        hapticore_sheet::coupling::admittance(rad_s, self.capacitance_f, self.sheet_ohm)
     }
 
     /// Amplitudes of the terminals' currents, up to a common factor.

@@ -5,7 +5,7 @@ use super::Noise;
 use hapticore_contract::calibration::{Calibration, Point, PositionTable};
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::format::Format;
-use hapticore_rtl::codes::Codes;
+use hapticore_rtl::codes::CalibrationWords;
 
 /// What is written before a slot's frame is computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,7 +30,7 @@ pub type Written = Vec<(String, i64)>;
 impl Set {
     /// What is written.
     pub fn written(self, profile: &Profile, noise: &mut Noise) -> Written {
-        let sheet = Codes::new(profile, &sheet(profile, self));
+        let sheet = CalibrationWords::new(profile, &sheet(profile, self));
         let code = |before: i64, format: Format, noise: &mut Noise| match self {
             Set::Sheet | Set::Behind => before,
             Set::Constants | Set::Flat(_) => noise.any(format),
@@ -38,14 +38,13 @@ impl Set {
             Set::Corners => corner(format, noise),
         };
         let mut written = Written::new();
-        for constant in sheet.constants() {
-            written.push((constant.name.into(), code(constant.code, constant.format, noise)));
+        for word in sheet.constants {
+            written.push((word.constant.name().into(), code(word.code, word.format, noise)));
         }
         if self != Set::Constants {
             let words = (0..).zip(&sheet.table);
             let is_flat = matches!(self, Set::Flat(_));
-            let mut code =
-                |word: i64| if is_flat { word } else { code(word, sheet.formats.calibration.table.word, noise) };
+            let mut code = |word: i64| if is_flat { word } else { code(word, sheet.table_format, noise) };
             written.extend(words.map(|(address, &word)| (address.to_string(), code(word))));
         }
         written

@@ -18,10 +18,10 @@
 //! The sums of n terms are bounded by n roundings though they behave as √n of them, so that a sum over 1000 samples is found
 //! well within its bound. What is bounded tightly is all that follows the sums.
 
-use hapticore::engine::Signals;
 use hapticore_contract::calibration::Calibration;
 use hapticore_contract::frame::Reading;
 use hapticore_contract::profile::{Profile, Window};
+use hapticore_run::engine::Signals;
 use std::f64::consts::{PI, SQRT_2, TAU};
 
 /// One rounding of an `f64`, of its result.

@@ -9,14 +9,14 @@
 mod bound;
 
 use bound::bounds;
-use hapticore::calibrate::Scales;
-use hapticore::case::{Case, Maker};
-use hapticore::engine::{Signals, Slot};
-use hapticore::inputs;
 use hapticore_contract::calibration::Calibration;
 use hapticore_contract::frame::Reading;
 use hapticore_contract::profile::Profile;
+use hapticore_host::Scales;
 use hapticore_reference::{Real, Reference};
+use hapticore_run::case::{Case, Maker};
+use hapticore_run::engine::{Signals, Slot};
+use hapticore_run::inputs;
 use hapticore_scene::Timing;
 use xprec::Df64;
 

@@ -19,12 +19,12 @@
 #[cfg(test)]
 pub(crate) mod tests;
 
+use hapticore_sheet::coupling::{answered, apart, symmetric};
 use num_complex::Complex64;
 
 use super::effect::{Effect, PadsEffect};
 use super::pad::Pad;
 use super::sheet::analytic::{self, Analytic};
-use super::sheet::linear::solve;
 use super::sheet::mesh::{Correction, Mesh, Network};
 use super::sheet::{Following, OfSheet, Sheet};
 use super::shunt::{self, Screened};
@@ -76,7 +76,9 @@ struct Coupling {
 
 impl PadsEffect for Coupling {
     fn act(&mut self, pad: &mut Pad, others: &[Pad]) {
-        let (places, touching) = apart(pad, others, &self.device);
+        let place = |pad: &Pad| [pad.x_mm, pad.y_mm];
+        let (reach_mm, diameter_mm) = (self.device.reach_mm(), self.device.pad_diameter_mm);
+        let (places, touching) = apart(place(pad), others.iter().map(place), reach_mm, diameter_mm);
         pad.touching = touching;
         let pads: Vec<&Pad> = std::iter::once(&*pad).chain(others).collect();
         let mut ohm = self.field.at(pad.film).ohm(&places);
@@ -91,48 +93,10 @@ impl PadsEffect for Coupling {
     }
 }
 
-/// Places of all pads, the first one's first: on the sheet, and none nearer to the first than touching; whether one was.
-fn apart(pad: &Pad, others: &[Pad], device: &Device) -> (Vec<[f64; 2]>, bool) {
-    let reach = device.reach_mm();
-    let on_sheet = |pad: &Pad| [pad.x_mm.clamp(-reach[0], reach[0]), pad.y_mm.clamp(-reach[1], reach[1])];
-    let mut places = vec![on_sheet(pad)];
-    let mut touching = false;
-    for place in others.iter().map(on_sheet) {
-        let [x, y] = [0, 1].map(|axis| place[axis] - places[0][axis]);
-        let distance = x.hypot(y);
-        touching |= distance < device.pad_diameter_mm;
-        places.push(match distance {
-            0.0 => [places[0][0] - device.pad_diameter_mm.copysign(places[0][0]), places[0][1]],
-            near if near < device.pad_diameter_mm => {
-                let away = device.pad_diameter_mm / near;
-                [places[0][0] + x * away, places[0][1] + y * away]
-            }
-            _ => place,
-        });
-    }
-    (places, touching)
-}
-
-/// Currents of all pads where the first one has 1 V: the first column of the inverse.
-fn answered(ohm: Vec<Vec<Complex64>>) -> Vec<Complex64> {
-    let driven = (0..ohm.len()).map(|k| vec![Complex64::from(f64::from(u8::from(k == 0)))]).collect();
-    solve(ohm, driven).into_iter().flatten().collect()
-}
-
 /// The same where each other pad answers the first one's current alone, and the first one takes no notice.
 fn answered_once(ohm: &[Vec<Complex64>]) -> Vec<Complex64> {
     let first = ohm[0][0].inv();
     (0..ohm.len()).map(|k| if k == 0 { first } else { -ohm[k][0] / ohm[k][k] * first }).collect()
-}
-
-/// A symmetric matrix from what is above its diagonal.
-fn symmetric(count: usize, above: impl Fn(usize, usize) -> Complex64) -> Vec<Vec<Complex64>> {
-    let mut matrix = vec![vec![Complex64::ZERO; count]; count];
-    for (k, l) in (0..count).flat_map(|k| (k + 1..count).map(move |l| (k, l))) {
-        matrix[k][l] = above(k, l);
-        matrix[l][k] = matrix[k][l];
-    }
-    matrix
 }
 
 impl Field for Analytic {

@@ -50,7 +50,7 @@ pub(crate) fn placements(count: usize, margin_mm: f64) -> Vec<[[f64; 2]; 4]> {
 
 /// The paper's ratios, of the corners' currents.
 fn eqs_2_and_3() -> Ratios {
-    Ratios::new(&device(), Some(&[vec![-1, -1, 1, 1, 0, 0], vec![1, -1, -1, 1, 0, 0]])).unwrap()
+    Ratios::new([vec![-1, -1, 1, 1, 0, 0], vec![1, -1, -1, 1, 0, 0]])
 }
 
 /// Where a lone pad would read these ratios: Newton's steps on the exact map.

@@ -7,8 +7,7 @@ use crate::effects::pad::FilmChange;
 use crate::error::SceneError;
 use crate::format::{Limits, Node, Table, Value};
 
-/// Resistance in series with a terminal that is not connected, Ω.
-pub(crate) const OPEN: f64 = f64::INFINITY;
+pub(crate) use hapticore_sheet::uniform::OPEN;
 
 /// What `[sheet]` says.
 #[derive(Clone, Debug)]

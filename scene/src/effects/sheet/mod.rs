@@ -32,9 +32,7 @@ mod film;
 mod following;
 pub(super) mod geometry;
 mod grid;
-pub(super) mod linear;
 pub(super) mod mesh;
-pub(super) mod neumann;
 pub(super) mod nodes;
 pub(super) mod spline;
 mod split;
@@ -42,6 +40,7 @@ mod table;
 
 pub(super) use following::{Following, OfSheet};
 pub(super) use geometry::Sheet;
+pub(super) use hapticore_sheet::{linear, neumann};
 pub(crate) use split::{Solver, Split};
 
 use num_complex::Complex64;

@@ -3,9 +3,9 @@
 
 use std::ops::RangeInclusive;
 
-use hapticore::lab::least_squares::Estimate;
-use hapticore::lab::loads::{Force, Load, Loads};
-use hapticore::lab::setup::Setup;
+use hapticore_run::lab::least_squares::Estimate;
+use hapticore_run::lab::loads::{Force, Load, Loads};
+use hapticore_run::lab::setup::Setup;
 
 use super::{Noise, SETUP};
 

@@ -64,7 +64,7 @@ pub fn plant(scene: &str, set: &[&str]) -> Plant {
     let text = hapticore_scene::gallery::find(scene).unwrap();
     let scene = Scene::parse(text, scene, &set).unwrap();
     let profile = hapticore_contract::profile::Profile::bundled("standard").unwrap();
-    let timing = Timing { signs: None, ..hapticore::inputs::timing(&profile) };
+    let timing = Timing { signs: None, ..hapticore_run::inputs::timing(&profile) };
     Plant::new(&scene.within_budget(&timing).unwrap(), 0, &timing).unwrap()
 }
 

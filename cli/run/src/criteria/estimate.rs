@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What is said of a quantity in a row: by the core, by the reference, by eq. 6 alone, and by the plant.
+
+use hapticore_scene::Quantity;
+
+use crate::record::{Quantities, Row};
+
+/// Who says what a quantity is.
+#[derive(Clone, Copy)]
+pub enum Estimate {
+    /// The core.
+    Core,
+    /// The floating-point reference.
+    Reference,
+    /// Eq. 6 alone.
+    Eq6,
+}
+
+/// What an estimate says of a quantity; not a number where it says nothing.
+pub fn said(row: &Row, of: Quantity, estimate: Estimate) -> f64 {
+    match (estimate, row.reference) {
+        (Estimate::Core, _) => quantity(&row.measured, of),
+        (Estimate::Reference, Some(reference)) => quantity(&reference.quantities, of),
+        (Estimate::Eq6, Some(reference)) if of == Quantity::ForceN => reference.force_eq6_n,
+        (Estimate::Eq6, Some(reference)) if of == Quantity::CapacitancePf => reference.capacitance_eq6_pf,
+        _ => f64::NAN,
+    }
+}
+
+/// What the plant knows of a quantity; times since `start_s`.
+pub fn truth(row: &Row, of: Quantity, start_s: f64) -> f64 {
+    match (of, row.truth) {
+        (Quantity::TimeS, _) => row.time_s - start_s,
+        (Quantity::LoadG, Some(truth)) => truth.load_g,
+        (Quantity::FrictionN, Some(truth)) => truth.friction_n,
+        (_, Some(truth)) => quantity(&truth.quantities, of),
+        (_, None) => f64::NAN,
+    }
+}
+
+fn quantity(quantities: &Quantities, of: Quantity) -> f64 {
+    hapticore_host::quantity(of.name()).map_or(f64::NAN, |quantity| quantity.of(quantities))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A scene knows the truth of what a host measures: either has a list of its own, for neither may know the other.
+    #[test]
+    fn what_a_frame_measures_is_what_a_scene_knows() {
+        let known: Vec<_> = Quantity::measured().map(Quantity::name).collect();
+        assert_eq!(known, hapticore_host::QUANTITIES.map(|quantity| quantity.name));
+    }
+}

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Scenes and profiles, from bundled names or files.
+
+use std::path::Path;
+
+use anyhow::{Context, Result, anyhow};
+use hapticore_contract::profile::Profile;
+pub use hapticore_host::profile::load as profile;
+use hapticore_host::profile::looks_like_a_file;
+use hapticore_host::text::read;
+use hapticore_scene::{Scene, Timing, gallery};
+
+/// The scene of a bundled name or a file, with keys set.
+///
+/// # Errors
+/// No such scene, or one that cannot be run; the message names file, line and key.
+pub fn scene(name: &str, set: &[(String, String)]) -> Result<Scene> {
+    let (text, file) = match gallery::find(name) {
+        Some(text) => (text.to_string(), format!("{name}.toml")),
+        None => (scene_file(name)?, name.to_string()),
+    };
+    Ok(Scene::parse(&text, &file, set)?)
+}
+
+fn scene_file(name: &str) -> Result<String> {
+    if looks_like_a_file(name) {
+        return Ok(read(Path::new(name))?);
+    }
+    let bundled: Vec<_> = gallery::all().iter().map(|(name, _)| *name).collect();
+    Err(anyhow!("expected a file or a scene among {}, got \"{name}\"", bundled.join(", ")))
+}
+
+/// The profile with the window that a scene asks for.
+///
+/// # Errors
+/// A window that the profile's core cannot have.
+pub fn windowed(mut profile: Profile, scene: &Scene) -> Result<Profile> {
+    if let Some(samples) = scene.window_samples {
+        profile = profile.with_window(samples);
+        hapticore_model::check(&profile).with_context(|| format!("{}: window_samples", scene.name))?;
+    }
+    Ok(profile)
+}
+
+/// How a core of the profile divides its time.
+pub fn timing(profile: &Profile) -> Timing {
+    Timing {
+        pads: profile.pads as usize,
+        slot_samples: profile.slot.samples() as usize,
+        window_start: profile.slot.blanking() as usize,
+        window_samples: profile.slot.integrate as usize,
+        samples_per_period: profile.samples_per_period(),
+        signs: Some([profile.terminals.x.clone(), profile.terminals.y.clone()]),
+    }
+}

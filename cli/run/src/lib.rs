@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Runs of the core: scenes, captures and a lab's data in; records and calibrations out. It knows no command line and writes
+//! no report.
+//!
+//! | module | does |
+//! | --- | --- |
+//! | [`inputs`] | scenes and profiles from names and files |
+//! | [`calibrate`] | the calibration of a simulated device |
+//! | [`digitiser`] | the one place where fractions of full scale meet codes |
+//! | [`engine`] | the core at its three fidelities behind one trait |
+//! | [`session`] | slots in, rows out: the core, the reference beside it, rounding errors |
+//! | [`case`] | a case of a scene, its samples made while the core works |
+//! | [`criteria`] | what a scene claims, measured |
+//! | [`errors`] | rounding errors of every signal |
+//! | [`capture`] | ADC samples in CSV, WAV and SigMF files |
+//! | [`haptic`] | whether the core's window is long enough for the haptic voltage |
+//! | [`lab`] | a device's calibration from what a lab measured |
+//! | [`record`], [`provenance`] | what a run leaves, and where it comes from |
+//! | [`interrupt`], [`number`] | a run that is told to stop; numbers in messages |
+
+pub mod calibrate;
+pub mod capture;
+pub mod case;
+pub mod criteria;
+pub mod digitiser;
+pub mod engine;
+pub mod errors;
+pub mod haptic;
+pub mod inputs;
+pub mod interrupt;
+pub mod lab;
+pub mod number;
+pub mod provenance;
+pub mod record;
+pub mod session;

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What a run leaves: rows, criteria, effects. Everything written (CSV, JSON, HTML, the terminal's tables) is made from it.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+pub use hapticore_host::Quantities;
+use hapticore_host::Residual;
+use hapticore_scene::Setpoint;
+use serde::Serialize;
+
+/// A finished slot.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Row {
+    /// Which case of the scene.
+    pub case: usize,
+    /// The middle of the slot's window, counted on over the cases.
+    pub time_s: f64,
+    /// The pad.
+    pub pad: usize,
+    /// What the core says.
+    pub measured: Quantities,
+    /// Names of the flags that are set, joined by `+`.
+    pub flags: String,
+    /// What the plant knows, where there is one.
+    pub truth: Option<Truth>,
+    /// The floating-point reference on the same samples, and eq. 6 alone, where they were asked for.
+    pub reference: Option<Reference>,
+}
+
+/// What the plant knows of a slot.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+pub struct Truth {
+    /// The quantities.
+    pub quantities: Quantities,
+    /// The load on the pad.
+    pub load_g: f64,
+    /// Friction that acts on the pad; zero where no law of motion makes it.
+    pub friction_n: f64,
+    /// What the scene sets the pad to.
+    #[serde(skip)]
+    pub set: Setpoint,
+    /// The point of the sweep, the same for all slots at one place and setting.
+    pub point: usize,
+    /// The group that the slot belongs to: all settings but the position.
+    pub group: usize,
+    /// The pad reaches over the edge.
+    pub over_edge: bool,
+    /// The pad lies on another one; known where pads are coupled.
+    pub touching: bool,
+}
+
+/// What the floating-point reference says of a slot.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Reference {
+    /// The quantities.
+    pub quantities: Quantities,
+    /// The capacitance by eq. 6 alone.
+    pub capacitance_eq6_pf: f64,
+    /// The force from it.
+    pub force_eq6_n: f64,
+}
+
+/// A criterion of the scene and what was measured.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Criterion {
+    /// Its name.
+    pub name: String,
+    /// What was measured, in `unit`.
+    pub measured: f64,
+    /// What it may be at most.
+    pub limit: f64,
+    /// Whether it holds. One that is not applicable does, with `measured` no number.
+    pub pass: bool,
+    /// The unit of both.
+    pub unit: String,
+    /// Something to compare with: what it is (eq. 6 alone, an affine fit) and its value in `unit`.
+    pub beside: Option<(String, f64)>,
+    /// Whether any slot meets the criterion's condition.
+    pub applicable: bool,
+}
+
+/// An effect of the scene and what it cost.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Effect {
+    /// Its name.
+    pub name: String,
+    /// How exactly it was simulated.
+    pub rung: String,
+    /// What it took.
+    pub seconds: f64,
+    /// The next finer rung and the largest difference to it on the scene, percent.
+    pub finer: Option<(String, f64)>,
+}
+
+/// The largest rounding error of a signal, from the shadow reading.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SignalError {
+    /// The signal, with its instances: `estimator.force_estimator.haptic_force`.
+    pub signal: String,
+    /// Its format: `u20.17`.
+    pub format: String,
+    /// The largest difference from the signal without rounding, in its own unit.
+    pub max_error: f64,
+    /// The same in codes of its format.
+    pub max_codes: f64,
+}
+
+/// Where a run comes from: enough to repeat it.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct Provenance {
+    /// The version of this program.
+    pub version: String,
+    /// The commit that it was built from, with `-modified` where the sources were; none where that is not known.
+    pub commit: Option<String>,
+    /// The command line.
+    pub command: Vec<String>,
+    /// The seed of noise and mismatch.
+    pub seed: Option<u64>,
+    /// What `--set` set, in its order.
+    pub set: Vec<(String, String)>,
+    /// Each case as a scene of its own in TOML, with all that cases and `--set` set.
+    pub resolved_scene: BTreeMap<String, String>,
+    /// The calibration file of a replay; none where the nominal device's was taken, or a scene was run.
+    pub calibration: Option<PathBuf>,
+}
+
+/// A whole run.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct Record {
+    /// The scene's or capture's name.
+    pub scene: String,
+    /// Its title.
+    pub title: String,
+    /// What it is about.
+    pub summary: String,
+    /// Which figures to draw: `fig3`, `fig4`, `fig6`, `fig7`, `hockey`; any other gets the general ones.
+    pub figure: Option<String>,
+    /// The profile's name.
+    pub profile: String,
+    /// `float`, `fixed` or `clock`.
+    pub fidelity: String,
+    /// The names of the cases.
+    pub cases: Vec<String>,
+    /// The names of the pads.
+    pub pads: Vec<String>,
+    /// The effects that were on.
+    pub effects: Vec<Effect>,
+    /// The criteria.
+    pub criteria: Vec<Criterion>,
+    /// Rounding errors by signal, where they were asked for.
+    pub errors: Vec<SignalError>,
+    /// Device time.
+    pub simulated_seconds: f64,
+    /// Wall time.
+    pub wall_seconds: f64,
+    /// What its user must know before using the results.
+    pub warnings: Vec<String>,
+    /// What the position table leaves of its own places; of several cases the worst.
+    pub position_table: Option<Residual>,
+    /// Width and height of the sheet, where they are known.
+    pub sheet_mm: Option<[f64; 2]>,
+    /// The keys of the pads that are swept.
+    pub swept: Vec<&'static str>,
+    /// Where it comes from.
+    #[serde(flatten)]
+    pub provenance: Provenance,
+    /// The slots.
+    #[serde(skip)]
+    pub rows: Vec<Row>,
+}

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Slots in, rows out: the core at its fidelity, the floating-point reference on the same samples, and rounding errors.
+
+use std::collections::VecDeque;
+use std::sync::Arc;
+
+use anyhow::Result;
+use hapticore_contract::frame::Reading;
+use hapticore_contract::profile::Profile;
+use hapticore_host::{CrosstalkCanceller, DeviceCalibration, Readout, Residual, SlotClock};
+use hapticore_reference::Reference as FloatCore;
+
+use crate::engine::{Engine, Fidelity, Slot, engine};
+use crate::errors::Errors;
+use crate::record::{Reference, Row, SignalError, Truth};
+
+/// A core at work on one stream of slots.
+pub struct Session {
+    residual: Residual,
+    engine: Box<dyn Engine>,
+    reference: FloatCore,
+    errors: Option<Errors>,
+    /// Of the core and of the reference.
+    readouts: [Readout; 2],
+    clock: SlotClock,
+    case: usize,
+    waiting: VecDeque<Row>,
+}
+
+impl Session {
+    /// A core of the profile for a device, just before its first slot. `case` is the number of the case in rows.
+    ///
+    /// # Errors
+    /// A calibration that the profile's formats do not hold.
+    pub fn new(
+        profile: &Arc<Profile>,
+        device: &DeviceCalibration,
+        fidelity: Fidelity,
+        errors: bool,
+        (case, clock): (usize, SlotClock),
+    ) -> Result<Self> {
+        let calibration = device.of(profile)?;
+        Ok(Session {
+            residual: device.residual(&calibration),
+            engine: engine(fidelity, profile, &calibration),
+            reference: FloatCore::new(profile, &calibration),
+            errors: errors.then(|| Errors::new(profile, &calibration)),
+            readouts: [0, 1].map(|_| Readout::new(profile, device)),
+            clock,
+            case,
+            waiting: VecDeque::new(),
+        })
+    }
+
+    /// The same session, which takes out of its measurements, the core's and the reference's, what other pads did to them.
+    pub fn with_cancellers(mut self, cancellers: Option<[CrosstalkCanceller; 2]>) -> Self {
+        let cancellers = cancellers.map_or([None, None], |both| both.map(Some));
+        let [core, reference] = self.readouts;
+        let [of_core, of_reference] = cancellers;
+        self.readouts = [core.with_canceller(of_core), reference.with_canceller(of_reference)];
+        self
+    }
+
+    /// Takes a slot and what is known of it; the row that is finished, if one is.
+    pub fn slot(&mut self, slot: &Slot, truth: Option<Truth>) -> Option<Row> {
+        if let Some(errors) = &mut self.errors {
+            errors.slot(slot);
+        }
+        let reference = self.refer(slot);
+        self.waiting.push_back(Row {
+            case: self.case,
+            time_s: self.clock.tick(),
+            pad: slot.pad,
+            measured: reference.quantities,
+            flags: String::new(),
+            truth,
+            reference: Some(reference),
+        });
+        let reading = self.engine.slot(slot)?;
+        self.finished(&reading)
+    }
+
+    /// The last row, where it is still to come.
+    pub fn finish(&mut self) -> Option<Row> {
+        let reading = self.engine.finish()?;
+        self.finished(&reading)
+    }
+
+    /// What the position table leaves of its own places.
+    pub fn residual(&self) -> Residual {
+        self.residual
+    }
+
+    /// Rounding errors, where they were asked for.
+    pub fn errors(&self) -> Vec<SignalError> {
+        self.errors.as_ref().map(Errors::largest).unwrap_or_default()
+    }
+
+    fn refer(&mut self, slot: &Slot) -> Reference {
+        let reading = slot.refer(&mut self.reference);
+        let capacitance_pf = self.reference.capacitance_eq6();
+        let ratio = capacitance_pf / reading.capacitance_pf;
+        let (quantities, _) = self.readouts[1].convert(&reading);
+        Reference {
+            quantities,
+            capacitance_eq6_pf: capacitance_pf,
+            force_eq6_n: if reading.capacitance_pf > 0.0 { reading.force_n * ratio * ratio } else { 0.0 },
+        }
+    }
+
+    fn finished(&mut self, reading: &Reading) -> Option<Row> {
+        let row = self.waiting.pop_front()?;
+        assert_eq!(row.pad, reading.pad, "readings come in the order of their slots");
+        let (measured, flags) = self.readouts[0].convert(reading);
+        Some(Row { measured, flags, ..row })
+    }
+}

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The serial line between a board and its host, as both sides must know it.
+//!
+//! The gateware (`hapticore-rtl`) and the host library (`hapticore-host`) take every number of the line from here: what is
+//! written down once cannot differ between them. How either side encodes and decodes is its own, so that neither checks itself.
+//!
+//! | module | holds |
+//! | --- | --- |
+//! | [`framing`] | bytes: packets in the stream, flags, version, the digest of a profile |
+//! | [`register`] | what commands may write, and where |
+//! | [`calibration`] | the words that make a calibrated sensor of a core: the one list of them |
+
+pub mod calibration;
+pub mod framing;
+pub mod register;
+
+pub use calibration::{CalibrationWords, Constant, ConstantWord, WordFormats};
+pub use register::{Control, Register};

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Commands: what a host writes on a board, as bytes.
+
+use crate::line::frame_bytes;
+use hapticore_contract::profile::Profile;
+use hapticore_protocol::framing::{END, data_bytes};
+use hapticore_protocol::{Control, Register, WordFormats};
+
+/// Something to be written on the board.
+///
+/// ```
+/// use hapticore_host::{Command, END, Profile};
+///
+/// let profile = Profile::bundled("small")?;
+/// let bytes = Command::Table { address: 0x0102, code: -2 }.encode(&profile);
+/// assert_eq!(bytes[..4], [0x01, 0x02, 0xff, 0xfe]);
+/// assert_eq!(bytes.len(), 2 + 2 + 2 + 1, "place, data, CRC, END");
+/// # Ok::<(), hapticore_host::ProfileError>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Command {
+    /// A register's code.
+    Register(Register, i64),
+    /// A word of the position table.
+    Table {
+        /// Its address.
+        address: u16,
+        /// Its code.
+        code: i64,
+    },
+}
+
+impl Command {
+    /// What switches the board on.
+    pub const ENABLE: Command = Command::Register(Register::Control, 1 << Control::ENABLE);
+    /// What switches it off.
+    pub const DISABLE: Command = Command::Register(Register::Control, 0);
+    /// What switches it off and holds the ADC in reset, until the next command to the control register.
+    pub const RESET_ADC: Command = Command::Register(Register::Control, 1 << Control::ADC_RESET);
+
+    /// The bytes, for a board of the profile.
+    pub fn encode(self, profile: &Profile) -> Vec<u8> {
+        let (place, code) = match self {
+            Command::Register(register, code) => (register.place(), code),
+            Command::Table { address, code } => (address, code),
+        };
+        let data = &code.to_be_bytes()[8 - data_bytes(&WordFormats::new(profile)) as usize..];
+        frame_bytes(&[&place.to_be_bytes(), data].concat())
+    }
+}
+
+/// The bytes of commands, with an END before them that clears the line.
+///
+/// ```
+/// use hapticore_host::{Command, END, Profile, encode};
+///
+/// let profile = Profile::bundled("small")?;
+/// let bytes = encode(&[Command::RESET_ADC, Command::DISABLE], &profile);
+/// assert_eq!(bytes.iter().filter(|byte| **byte == END).count(), 3);
+/// # Ok::<(), hapticore_host::ProfileError>(())
+/// ```
+pub fn encode(commands: &[Command], profile: &Profile) -> Vec<u8> {
+    std::iter::once(END).chain(commands.iter().flat_map(|command| command.encode(profile))).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use hapticore_protocol::framing::{ESC, ESC_ESC};
+
+    #[test]
+    fn an_escape_within_is_escaped_and_end_is_only_at_the_end() {
+        let profile = Profile::bundled("small").expect("bundled");
+        let bytes = Command::Table { address: 0x40db, code: 0xdb }.encode(&profile);
+        assert!(bytes.windows(2).any(|pair| pair == [ESC, ESC_ESC]));
+        assert_eq!(bytes.iter().filter(|&&byte| byte == END).count(), 1);
+        assert_eq!(bytes.last(), Some(&END));
+    }
+}

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Decoder: messages from a stream of bytes, whatever has become of it on the way.
+
+use crate::line::{Collector, Damage};
+use crate::packet::{Layout, Message};
+use hapticore_contract::profile::Profile;
+
+/// Makes messages of bytes as they come. What it has lost it says, and the next END puts it right; it keeps at most one packet.
+///
+/// Whoever begins to listen in the middle of a packet hears of one damaged packet first. A packet that is damaged passes for a
+/// good one with the probability of its CRC, 1 in 65,536.
+///
+/// ```
+/// use hapticore_host::{Decoder, Heartbeat, Message, Profile, Status};
+///
+/// let profile = Profile::bundled("small")?;
+/// let heartbeat = Message::Heartbeat(Heartbeat::new(Status::default(), &profile));
+/// let bytes = heartbeat.encode(&profile);
+/// let mut decoder = Decoder::new(&profile);
+/// // From the middle of one packet to the end of the next.
+/// let heard: Vec<_> = decoder.decode(bytes[9..].iter().chain(&bytes).copied()).collect();
+/// assert!(heard[0].is_err());
+/// assert_eq!(heard[1..], [Ok(heartbeat)]);
+/// # Ok::<(), hapticore_host::ProfileError>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Decoder {
+    layout: Layout,
+    collector: Collector,
+}
+
+impl Decoder {
+    /// For a board of the profile.
+    pub fn new(profile: &Profile) -> Self {
+        let layout = Layout::new(profile);
+        Decoder { layout, collector: Collector::new(layout.payload_bytes()) }
+    }
+
+    /// Takes a byte; gives a message, or what became of it, at its END.
+    pub fn push(&mut self, byte: u8) -> Option<Result<Message, Damage>> {
+        match self.collector.push(byte)? {
+            Ok(bytes) if bytes.len() < self.collector.length() && self.layout.is_cut_heartbeat(&bytes) => None,
+            Ok(bytes) => Some(self.message(&bytes)),
+            Err(damage) => Some(Err(damage)),
+        }
+    }
+
+    /// Every message of some bytes.
+    pub fn decode<'a>(
+        &'a mut self,
+        bytes: impl IntoIterator<Item = u8, IntoIter: 'a>,
+    ) -> impl Iterator<Item = Result<Message, Damage>> + 'a {
+        bytes.into_iter().filter_map(|byte| self.push(byte))
+    }
+
+    fn message(&self, bytes: &[u8]) -> Result<Message, Damage> {
+        self.layout.message(self.collector.payload(bytes)?).map_err(Damage::Pad)
+    }
+}

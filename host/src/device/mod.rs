@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Device calibration: full scales, the force law, and a raster of places with what is measured there.
+//!
+//! The file is TOML and holds nothing of a profile, so that one capture can be replayed with any:
+//!
+//! ```toml
+//! pads = 1
+//! [terminals]                     # signs in the ratios; those of eqs. 2 and 3 where the table is left out
+//! x = [-1, -1, 1, 1, 0, 0]
+//! y = [1, -1, -1, 1, -1, 1]
+//! [device]
+//! sample_rate_hz = 1000000.0      # of the ADC while the capture was taken
+//! carrier_hz = 100000.0
+//! current_full_scale_a = 0.004    # at the end of the ADC's range, as the next two
+//! sense_full_scale_v = 8.0
+//! haptic_full_scale_v = 600.0
+//! force_k = 9.6e12                # eq. 8, N/(F·V)²
+//! pad_diameter_mm = 30.0          # pads that are nearer to each other touch; never told where it is left out
+//! [map]
+//! columns = 121                   # places in a row
+//! open_share = 0.01               # of the ratios' denominator: a terminal with less current is open; none ever where it is left out
+//! places = [[x_mm, y_mm, r_x, r_y, sheet_ohm], …]
+//! ```
+
+mod file;
+mod refine;
+
+pub use file::DeviceError;
+
+use std::f64::consts::TAU;
+
+use crate::profile::{TerminalsError, for_terminals, serving};
+use crate::residual::Residual;
+use hapticore_contract::calibration::{Calibration, CalibrationError, Point, PositionError, PositionTable};
+use hapticore_contract::profile::Profile;
+use serde::Deserialize;
+
+/// The calibration of a device, as its file holds it: the same for every profile.
+///
+/// ```
+/// use hapticore_host::{DeviceCalibration, Profile};
+///
+/// let device = DeviceCalibration::read("recordings/hockey.calibration.toml".as_ref())?;
+/// let profile = device.profile(&Profile::bundled("standard")?)?;
+/// let calibration = device.of(&profile)?;
+/// assert!(device.residual(&calibration).rms_mm < 0.5);
+/// assert_eq!(calibration.capacitance_gain.round(), 796.0, "pF at 4 mA for 8 V");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct DeviceCalibration {
+    /// Pads served in turn.
+    pub pads: u64,
+    /// The signs of the terminals' currents in the ratios of `map`.
+    #[serde(default)]
+    pub terminals: Signs,
+    /// Full scales and the force law.
+    pub device: Scales,
+    /// Places and what is measured there.
+    pub map: Raster,
+}
+
+/// The signs of the terminals' currents in the numerators of both ratios.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Signs {
+    /// Of r_x.
+    pub x: Vec<i8>,
+    /// Of r_y.
+    pub y: Vec<i8>,
+}
+
+/// Those of eqs. 2 and 3, of which calibrations without signs are.
+impl Default for Signs {
+    fn default() -> Self {
+        Signs { x: vec![-1, -1, 1, 1, 0, 0], y: vec![1, -1, -1, 1, 0, 0] }
+    }
+}
+
+/// A place, mm, and where it was found.
+pub type Found = ([f64; 2], [f64; 2]);
+
+/// Full scales, frequencies and the force law.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Scales {
+    /// ADC samples a second.
+    pub sample_rate_hz: f64,
+    /// The sensing carrier.
+    pub carrier_hz: f64,
+    /// Current at full scale.
+    pub current_full_scale_a: f64,
+    /// Sensing voltage at full scale.
+    pub sense_full_scale_v: f64,
+    /// Haptic voltage at full scale.
+    pub haptic_full_scale_v: f64,
+    /// k of eq. 8, N/(F·V)².
+    pub force_k: f64,
+    /// Of a pad, where it is known.
+    pub pad_diameter_mm: Option<f64>,
+}
+
+/// Places in whole rows: `[x_mm, y_mm, r_x, r_y, sheet_ohm]`.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Raster {
+    /// Places in a row.
+    pub columns: usize,
+    /// A terminal whose current is a smaller share of the ratios' denominator counts as open.
+    #[serde(default)]
+    pub open_share: f64,
+    /// The places.
+    pub places: Vec<[f64; 5]>,
+}
+
+impl Scales {
+    /// Ohms of one full scale of voltage per current.
+    pub fn ohm(&self) -> f64 {
+        self.sense_full_scale_v / self.current_full_scale_a
+    }
+
+    /// Picofarads at an admittance of one full scale of current per voltage.
+    fn capacitance_gain(&self) -> f64 {
+        self.current_full_scale_a / (TAU * self.carrier_hz * self.sense_full_scale_v) * 1e12
+    }
+}
+
+/// A terminal whose share of the current is below this at every place is open.
+pub const OPEN: f64 = 1e-4;
+
+/// The share of the ratios' denominator below which a terminal counts as open: half of the least that any has anywhere that is
+/// not open already. `shares` are those of each terminal, place by place.
+pub fn open_share(shares: &[Vec<f64>]) -> f64 {
+    let of = |terminal: usize| shares.iter().map(move |place| place[terminal]);
+    let terminals = 0..shares.first().map_or(0, Vec::len);
+    let connected = terminals.filter(|&terminal| of(terminal).fold(0.0, f64::max) >= OPEN);
+    connected.flat_map(of).fold(1.0, f64::min) / 2.0
+}
+
+/// Where the position table of a calibration finds places, `[x_mm, y_mm, r_x, r_y, sheet_ohm]`.
+pub fn found(places: &[[f64; 5]], calibration: &Calibration) -> Vec<Found> {
+    let found = |&[x, y, r_x, r_y, _]: &[f64; 5]| {
+        let found = calibration.position.look_up(r_x, r_y);
+        ([x, y], [found.x, found.y])
+    };
+    places.iter().map(found).collect()
+}
+
+/// Numbers that a core of a profile cannot be given.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum DeviceWordsError {
+    /// No position table fits the map.
+    #[error("calibration map: {0}")]
+    Map(PositionError),
+    /// A number that its format cannot represent.
+    #[error(transparent)]
+    Number(#[from] CalibrationError),
+}
+
+impl DeviceCalibration {
+    /// What is left of the calibration's own places, looked up in the table that was fitted to them.
+    pub fn residual(&self, calibration: &Calibration) -> Residual {
+        Residual::of(found(&self.map.places, calibration).into_iter())
+    }
+
+    /// The profile of a core for the device: with its terminals, and serving its pads.
+    ///
+    /// # Errors
+    /// As [`for_terminals`].
+    pub fn profile(&self, profile: &Profile) -> Result<Profile, TerminalsError> {
+        let signs = [self.terminals.x.clone(), self.terminals.y.clone()];
+        Ok(serving(&for_terminals(profile, &signs)?, self.pads as usize))
+    }
+
+    /// The calibration for a core of the profile.
+    ///
+    /// # Errors
+    /// A number that the profile's formats cannot represent, a map that no position table fits.
+    pub fn of(&self, profile: &Profile) -> Result<Calibration, DeviceWordsError> {
+        let device = &self.device;
+        let place = |&[x, y, r_x, r_y, sheet_ohm]: &[f64; 5]| Point { x, y, r_x, r_y, sheet: sheet_ohm / device.ohm() };
+        let (_, places) = refine::refine(self.map.columns, &self.map.places);
+        let points: Vec<_> = places.iter().map(place).collect();
+        let table = PositionTable::fit(profile, &points).map_err(DeviceWordsError::Map)?;
+        let calibration = Calibration {
+            position: table.with_open_share(self.map.open_share),
+            capacitance_gain: device.capacitance_gain(),
+            force_gain: device.force_k * 1e-24 * device.haptic_full_scale_v.powi(2) / profile.square_gain(),
+        };
+        calibration.check(profile)?;
+        Ok(calibration)
+    }
+}

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What a PC beside a board needs, and nothing else: no simulator, no command, no Verilog.
+//!
+//! A board sends bytes. This library finds packets in them, turns the core's words into volts, picofarads, millimetres and
+//! newtons, and takes out what the pads did to each other; the other way, it sends a device's calibration to the board.
+//!
+//! ```text
+//! board ── bytes ─ Decoder ─ Packet ─ Readout ─┬─ Units ─ CrosstalkCanceller ─ Placement ── Quantities, flags
+//!       └─ bytes ─ encode ─ Command ─ startup ─┴─ DeviceCalibration ── mine.toml
+//! ```
+//!
+//! | module | does |
+//! | --- | --- |
+//! | [`decoder`], [`packet`] | messages from bytes: frames, heartbeats, and what was damaged |
+//! | [`command`], [`startup`] | bytes to the board: calibration, ADC, on and off; whether it took them |
+//! | [`device`], [`residual`] | the calibration of a device: its file, its words for a core, how well its table fits |
+//! | [`profile`] | the core's profile, for the terminals and pads of a device |
+//! | [`units`], [`quantities`] | physical units; the one list of what a slot measures |
+//! | [`crosstalk`] | what other pads did to a measurement, taken out |
+//! | [`placement`] | pads at the edge, pads that touch |
+//! | [`readout`] | all of that in one: a frame to a row of `frames.csv` |
+//!
+//! The numbers of the line itself (framing, registers, version) are `hapticore-protocol`'s, which the gateware shares.
+//!
+//! # A first example
+//!
+//! A recording of four pads on a board, as a serial line gave it:
+//!
+//! ```
+//! use hapticore_host::{Decoder, DeviceCalibration, Readout, profile};
+//!
+//! let device = DeviceCalibration::read("recordings/hockey.calibration.toml".as_ref())?;
+//! let profile = device.profile(&profile::load("small")?)?;
+//! let mut readout = Readout::new(&profile, &device);
+//! let mut decoder = Decoder::new(&profile);
+//! let bytes = std::fs::read("recordings/hockey.bin")?;
+//! let frames = decoder.decode(bytes).filter_map(|message| message.ok()?.frame());
+//! let forces: Vec<f64> = frames.map(|packet| readout.convert(&packet.frame.reading(&profile)).0.force_n).collect();
+//! assert_eq!(forces.len(), 5);
+//! assert!(forces.iter().all(|newton| (0.0..0.5).contains(newton)));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! `examples/board_to_csv.rs` is the same as a program: bytes on standard input, CSV on standard output.
+
+pub mod command;
+pub mod crosstalk;
+pub mod decoder;
+pub mod device;
+mod line;
+pub mod packet;
+pub mod placement;
+pub mod profile;
+pub mod quantities;
+pub mod readout;
+pub mod residual;
+pub mod startup;
+pub mod text;
+pub mod units;
+
+pub use command::{Command, encode};
+pub use crosstalk::{CrosstalkCanceller, NominalSheet, PadEstimate, Ratios, SheetModel, UniformSheet};
+pub use decoder::Decoder;
+pub use device::{DeviceCalibration, DeviceError, Found, Raster, Scales, Signs, found, open_share};
+pub use line::Damage;
+pub use packet::{Heartbeat, Message, Packet, Status};
+pub use placement::Placement;
+pub use profile::LoadProfileError;
+pub use quantities::{QUANTITIES, Quantities, Quantity, quantity};
+pub use readout::{COLUMNS, Readout};
+pub use residual::Residual;
+pub use units::{SlotClock, Units, flag_names};
+
+pub use hapticore_contract::calibration::Calibration;
+pub use hapticore_contract::frame::{Flags, Frame, Reading};
+pub use hapticore_contract::profile::{Profile, ProfileError};
+pub use hapticore_protocol::framing::{END, ESC, VERSION, digest};
+pub use hapticore_protocol::{CalibrationWords, Constant, ConstantWord, Register, WordFormats};

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Packets: the payloads of the board's line, as bits and bytes.
+//!
+//! [`Layout`] goes both ways between a [`Message`] and its payload; [`crate::decoder`] finds payloads in a stream of bytes.
+//! Boards encode by gateware, which shares nothing with this but the constants of [`hapticore_protocol::framing`]; the encoder
+//! here serves tests and programs that stand in for a board.
+
+use bitvec::prelude::{BitArray, Lsb0};
+use bitvec::view::BitView;
+use hapticore_contract::frame::Field;
+use hapticore_contract::frame::{Flags, Frame};
+use hapticore_contract::profile::Profile;
+use hapticore_protocol::framing::{STATUS_BYTES, VERSION, data_bytes, flags, word_bytes};
+use hapticore_protocol::{Register, WordFormats};
+
+/// A board's words: frames' fields, or what has been written into registers.
+type Words = [i64; Field::ALL.len()];
+
+/// What every packet says of the line and of the commands that came over it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Status {
+    /// Counts the frames of the core, modulo 256; the first after a reset is 1. A gap is a loss.
+    pub sequence: u8,
+    /// The ADC was late since the packet before; samples of it are wrong.
+    pub late: bool,
+    /// A command was refused since the packet before.
+    pub refused: bool,
+    /// The line was too slow: frames were dropped since the packet before.
+    pub overrun: bool,
+    /// Commands accepted since reset, modulo 16.
+    pub commands: u8,
+}
+
+/// A frame as it came over the line.
+///
+/// ```
+/// use hapticore_host::{Decoder, Message, Packet, Profile, Status};
+/// use hapticore_host::{Flags, Frame};
+///
+/// let profile = Profile::bundled("small")?;
+/// let frame = Frame { pad: 2, codes: [-5, 6, -700, 800, 9, 1000, 11, 12], flags: Flags::default() };
+/// let packet = Packet { status: Status { sequence: 7, ..Status::default() }, frame };
+/// let bytes = Message::Frame(packet).encode(&profile);
+/// assert_eq!(Decoder::new(&profile).decode(bytes).collect::<Vec<_>>(), [Ok(Message::Frame(packet))]);
+/// # Ok::<(), hapticore_host::ProfileError>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Packet {
+    /// The line and its commands.
+    pub status: Status,
+    /// The frame.
+    pub frame: Frame,
+}
+
+/// What a board sends while it is disabled.
+///
+/// ```
+/// use hapticore_host::{Heartbeat, Profile, Status, digest};
+///
+/// let profile = Profile::bundled("standard")?;
+/// let heartbeat = Heartbeat::new(Status { commands: 3, ..Status::default() }, &profile);
+/// assert_eq!(heartbeat.digest(), digest(&profile));
+/// assert!(!heartbeat.calibrated && heartbeat.status.commands == 3);
+/// # Ok::<(), hapticore_host::ProfileError>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Heartbeat {
+    /// The line and its commands; the sequence number is that of the last frame.
+    pub status: Status,
+    /// Since its reset the board has been given the last constant of a calibration.
+    pub calibrated: bool,
+    /// The version of the line's framing, [`VERSION`] here.
+    pub version: u8,
+    words: Words,
+    bits: u8,
+}
+
+impl Heartbeat {
+    /// Of a board that was made for the profile and has just been reset.
+    pub fn new(status: Status, profile: &Profile) -> Self {
+        let layout = Layout::new(profile);
+        let mut words = Words::default();
+        words[Register::Control.number()] = layout.word(hapticore_protocol::framing::digest(profile).into());
+        Heartbeat { status, calibrated: false, version: VERSION, words, bits: layout.register_bits }
+    }
+
+    /// The low bits of what was last written into a constant's register, as many as fit a word of a frame, and how many these
+    /// are; none of the other registers, which heartbeats do not tell.
+    pub fn register(&self, register: Register) -> Option<(u64, u8)> {
+        let word = self.words[register.number()] as u64 & ((1 << self.bits) - 1);
+        matches!(register, Register::Constant(_)).then_some((word, self.bits))
+    }
+
+    /// The digest of the profile that the board was made for.
+    pub fn digest(&self) -> u16 {
+        self.words[Register::Control.number()] as u16
+    }
+
+    /// What the ADC put out while the last word was sent to it: the register that the word before has read.
+    pub fn adc_answer(&self) -> u8 {
+        // A bit more has come in than the word has.
+        (self.words[Register::Adc.number()] >> 1) as u8
+    }
+}
+
+/// A packet of a board.
+///
+/// ```
+/// use hapticore_host::{Heartbeat, Message, Profile, Status};
+///
+/// let profile = Profile::bundled("small")?;
+/// let message = Message::Heartbeat(Heartbeat::new(Status::default(), &profile));
+/// assert_eq!(message.frame(), None);
+/// assert_eq!(message.encode(&profile).last(), Some(&hapticore_host::END));
+/// # Ok::<(), hapticore_host::ProfileError>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Message {
+    /// A frame.
+    Frame(Packet),
+    /// The board is there, and disabled.
+    Heartbeat(Heartbeat),
+}
+
+impl Message {
+    /// The frame, if it is one.
+    pub fn frame(self) -> Option<Packet> {
+        match self {
+            Message::Frame(packet) => Some(packet),
+            Message::Heartbeat(_) => None,
+        }
+    }
+
+    /// The heartbeat, if it is one.
+    pub fn heartbeat(self) -> Option<Heartbeat> {
+        match self {
+            Message::Frame(_) => None,
+            Message::Heartbeat(heartbeat) => Some(heartbeat),
+        }
+    }
+
+    /// The bytes that a board of the profile sends.
+    pub fn encode(&self, profile: &Profile) -> Vec<u8> {
+        crate::line::frame_bytes(&Layout::new(profile).payload(self))
+    }
+}
+
+/// How the payload of a profile's packets is laid out.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Layout {
+    word_bytes: usize,
+    /// Bits of a register that a heartbeat tells.
+    register_bits: u8,
+    pads: u64,
+}
+
+impl Layout {
+    pub fn new(profile: &Profile) -> Self {
+        let data_bits = 8 * data_bytes(&WordFormats::new(profile)) as u8;
+        let register_bits = Field::word(profile).width.min(data_bits);
+        Layout { word_bytes: word_bytes(profile) as usize, register_bits, pads: profile.pads }
+    }
+
+    /// Bytes of a payload.
+    pub fn payload_bytes(&self) -> usize {
+        STATUS_BYTES as usize + Field::ALL.len() * self.word_bytes
+    }
+
+    /// Whether these are the first bytes of a heartbeat that ended early because one of its words was written.
+    pub fn is_cut_heartbeat(&self, bytes: &[u8]) -> bool {
+        let is_heartbeat = |flags: &u8| flags >> flags::HEARTBEAT & 1 != 0 && flags >> flags::VERSION & 7 == VERSION;
+        bytes.get(STATUS_BYTES as usize - 1).is_some_and(is_heartbeat)
+    }
+
+    /// What a payload of the right length says; the number of the pad where there is no such pad.
+    pub fn message(&self, payload: &[u8]) -> Result<Message, u8> {
+        let (&[sequence, pad, bits], words) = payload.split_first_chunk().expect("the length was checked");
+        let words = words.chunks_exact(self.word_bytes).map(signed).collect::<Vec<_>>();
+        let words = Words::try_from(words).expect("the length was checked");
+        let (commands, pad) = (pad >> 4, pad & 0xf);
+        let version = bits >> flags::VERSION & 7;
+        let bits = BitArray::<_, Lsb0>::new([bits]);
+        let is = |flag: u8| bits[usize::from(flag)];
+        let [late, refused, overrun] = [flags::LATE, flags::REFUSED, flags::OVERRUN].map(is);
+        let status = Status { sequence, late, refused, overrun, commands };
+        if is(flags::HEARTBEAT) {
+            let (calibrated, bits) = (is(flags::CALIBRATED), self.register_bits);
+            return Ok(Message::Heartbeat(Heartbeat { status, calibrated, version, words, bits }));
+        }
+        if u64::from(pad) >= self.pads {
+            return Err(pad);
+        }
+        let [clipped, saturated, invalid, lost] =
+            [flags::CLIPPED, flags::SATURATED, flags::INVALID, flags::LOST].map(is);
+        let flags = Flags { clipped, saturated, invalid, lost };
+        Ok(Message::Frame(Packet { status, frame: Frame { pad: pad.into(), codes: words, flags } }))
+    }
+
+    /// The payload of a message.
+    pub fn payload(&self, message: &Message) -> Vec<u8> {
+        let (status, pad, words) = match message {
+            Message::Frame(Packet { status, frame }) => (status, frame.pad as u8, &frame.codes),
+            Message::Heartbeat(heartbeat) => (&heartbeat.status, 0, &heartbeat.words),
+        };
+        let mut bits = BitArray::<u8, Lsb0>::ZERO;
+        let set = [(flags::LATE, status.late), (flags::REFUSED, status.refused), (flags::OVERRUN, status.overrun)];
+        set.into_iter().chain(self.own_flags(message)).for_each(|(flag, is)| bits.set(usize::from(flag), is));
+        let mut payload = vec![status.sequence, status.commands << 4 | pad, bits.into_inner()];
+        words.iter().for_each(|word| payload.extend(&word.to_be_bytes()[8 - self.word_bytes..]));
+        payload
+    }
+
+    /// The flags that frames and heartbeats have in the same bits.
+    fn own_flags(&self, message: &Message) -> Vec<(u8, bool)> {
+        match message {
+            Message::Frame(Packet { frame: Frame { flags, .. }, .. }) => vec![
+                (flags::CLIPPED, flags.clipped),
+                (flags::SATURATED, flags.saturated),
+                (flags::INVALID, flags.invalid),
+                (flags::LOST, flags.lost),
+            ],
+            Message::Heartbeat(Heartbeat { calibrated, version, .. }) => {
+                let version = version.view_bits::<Lsb0>()[..3].iter().by_vals().zip(flags::VERSION..);
+                let own = [(flags::HEARTBEAT, true), (flags::CALIBRATED, *calibrated)];
+                own.into_iter().chain(version.map(|(is, flag)| (flag, is))).collect()
+            }
+        }
+    }
+
+    /// The word that these low bits stand for.
+    fn word(&self, code: i64) -> i64 {
+        signed(&code.to_be_bytes()[8 - self.word_bytes..])
+    }
+}
+
+/// A two's complement word, most significant byte first.
+fn signed(bytes: &[u8]) -> i64 {
+    let sign = if bytes[0] & 0x80 != 0 { -1 } else { 0 };
+    bytes.iter().fold(sign, |code, &byte| code << 8 | i64::from(byte))
+}
