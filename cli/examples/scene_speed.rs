@@ -11,7 +11,7 @@ use hapticore_run::case::{Case, Settings};
 use hapticore_run::engine::Fidelity;
 use hapticore_run::inputs;
 
-/// The carrier's rung and the core's fidelity.
+/// The carrier's level and the core's fidelity.
 const WAYS: [(&str, Fidelity); 4] = [
     ("phasor", Fidelity::Float),
     ("phasor", Fidelity::Fixed),

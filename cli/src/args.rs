@@ -18,7 +18,7 @@ pub struct Args {
 
 const EXIT: &str = "Exit status: 0 all criteria hold, 1 one fails, 2 bad input.";
 
-/// The commands.
+/// Subcommands of `hapticore`.
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// List the bundled scenes: their cases, effects and criteria
@@ -90,7 +90,7 @@ pub struct CalibrateArgs {
     /// Where the calibration goes, and FILE.report.html beside it
     #[arg(long, value_name = "FILE")]
     pub out: PathBuf,
-    /// Print JSON
+    /// Print results as JSON
     #[arg(long)]
     pub json: bool,
 }
@@ -127,11 +127,11 @@ pub struct CodesArgs {
 /// How codes are printed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum CodesFormat {
-    /// A table
+    /// CSV table
     Csv,
     /// For Verilog's $readmemh
     Readmemh,
-    /// A header
+    /// C header
     C,
 }
 
@@ -150,7 +150,7 @@ pub struct HdlArgs {
     /// Where the files go
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
-    /// Print JSON
+    /// Print results as JSON
     #[arg(long)]
     pub json: bool,
 }
@@ -158,7 +158,7 @@ pub struct HdlArgs {
 /// Arguments of `scenes`.
 #[derive(Debug, clap::Args)]
 pub struct ScenesArgs {
-    /// Print JSON
+    /// Print results as JSON
     #[arg(long)]
     pub json: bool,
 }
@@ -175,7 +175,7 @@ pub struct CoreArgs {
     /// Also find the rounding error of every signal, against the same signal without rounding
     #[arg(long)]
     pub errors: bool,
-    /// Print JSON
+    /// Print results as JSON
     #[arg(long)]
     pub json: bool,
 }
@@ -185,7 +185,7 @@ pub struct CoreArgs {
 pub struct SimulateArgs {
     /// A bundled scene (see `hapticore scenes`) or a TOML file
     pub scene: String,
-    /// The core.
+    /// How the core is run.
     #[command(flatten)]
     pub core: CoreArgs,
     /// Set a key of the scene: sheet.terminal_ohm=500, pad.0.load_g=50, sensor.quantisation_bits=12
@@ -213,7 +213,7 @@ pub struct SimulateArgs {
 pub struct ReplayArgs {
     /// A capture: NAME.csv, NAME.wav, NAME.sigmf-meta, or - for CSV or WAV from standard input
     pub capture: PathBuf,
-    /// The core.
+    /// How the core is run.
     #[command(flatten)]
     pub core: CoreArgs,
     /// The device's calibration [default: CAPTURE.calibration.toml where there is one, else the nominal device's]
@@ -265,14 +265,14 @@ impl CoreArgs {
     }
 }
 
-/// Waveform files.
+/// Formats of waveform files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Waves {
     /// Text that every viewer reads
     Vcd,
     /// GTKWave's own, much smaller
     Fst,
-    /// None
+    /// No waveforms
     None,
 }
 

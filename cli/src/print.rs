@@ -31,7 +31,7 @@ pub fn table(head: &[&str], rows: &[Vec<String>]) -> String {
     (0..=rows.len()).map(line).collect()
 }
 
-/// One line at the start: which effects are on, and at which rung.
+/// One line at the start: which effects are on, and at which level.
 pub fn effects_line<'a>(effects: impl Iterator<Item = (&'static str, &'a str)>) -> String {
     let mut words: Vec<String> = Vec::new();
     for (name, rung) in effects {
@@ -81,7 +81,7 @@ fn effects(effects: &[Effect], wall_seconds: f64) -> String {
     table(&["effect", "rung", "error", "seconds", "of the run"], &effects.iter().map(row).collect::<Vec<_>>())
 }
 
-/// How far a rung is off the next finer one.
+/// How far a level is off the next finer one.
 pub fn off(percent: f64, finer: &str) -> String {
     format!("{} % off {finer}", number(percent))
 }

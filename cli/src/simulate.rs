@@ -253,7 +253,7 @@ fn swept(scene: &Scene, cases: &[Case]) -> Vec<&'static str> {
     keys
 }
 
-/// Adds what the effects of a case cost to those of the same name and rung.
+/// Adds what the effects of a case cost to those of the same name and level.
 fn add_effects(effects: &mut Vec<Effect>, outcome: &Outcome) {
     for cost in &outcome.effects {
         match effects.iter_mut().find(|effect| effect.name == cost.name && effect.rung == cost.rung) {
@@ -268,7 +268,7 @@ fn add_effects(effects: &mut Vec<Effect>, outcome: &Outcome) {
     }
 }
 
-/// Adds how far each rung is from the next finer one: in the case where that is furthest.
+/// Adds how far each level is from the next finer one: in the case where that is furthest.
 fn add_errors(effects: &mut [Effect], cases: &[Case]) -> Result<()> {
     for error in cases.par_iter().map(Case::rung_errors).collect::<Result<Vec<_>>>()?.into_iter().flatten() {
         let same = effects.iter_mut().find(|effect| effect.name == error.effect && effect.rung == error.rung);

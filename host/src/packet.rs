@@ -48,7 +48,7 @@ pub struct Status {
 pub struct Packet {
     /// The line and its commands.
     pub status: Status,
-    /// The frame.
+    /// Decoded frame.
     pub frame: Frame,
 }
 
@@ -116,7 +116,7 @@ impl Heartbeat {
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Message {
-    /// A frame.
+    /// A frame of a slot.
     Frame(Packet),
     /// The board is there, and disabled.
     Heartbeat(Heartbeat),

@@ -30,16 +30,16 @@ use hapticore_protocol::{CalibrationWords, Register};
 /// What a channel of the ADC spans, to either side of zero.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Range {
-    /// 2.5 V.
+    /// ±2.5 V.
     V2_5,
-    /// 5 V.
+    /// ±5 V.
     V5,
-    /// 6.25 V.
+    /// ±6.25 V.
     V6_25,
-    /// 10 V, as after a reset.
+    /// ±10 V, the default after a reset.
     #[default]
     V10,
-    /// 12.5 V.
+    /// ±12.5 V.
     V12_5,
 }
 
@@ -115,9 +115,9 @@ pub enum StartupError {
     /// A register is not as it was written.
     #[error("{register} reads back {got:x} (hex), expected {expected:x}")]
     Register {
-        /// Which.
+        /// Register that differs.
         register: Register,
-        /// As written.
+        /// Value that was written.
         expected: u64,
         /// As read back.
         got: u64,

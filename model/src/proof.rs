@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The proof that no signal of a core overflows where its format says that it cannot.
 //!
-//! The range reading runs the core through whole rounds of all pads, as many as there are windows in a mean, with every ADC code, every calibration and every table
+//! The range interpretation runs the core through whole rounds of all pads, as many as there are windows in a mean, with every ADC code, every calibration and every table
 //! word anywhere in its format. Control is data-independent, so it is known exactly; data are intervals. Once the state
 //! after a round lies within the state before it, no further round can leave what has been seen, and the proof holds for
 //! all time. What relates several signals is beyond intervals: those places name a lemma, and tests hold the lemmas.
@@ -25,7 +25,7 @@ pub struct Proof {
     pub lemmas: Vec<&'static str>,
     /// Rounds run, from reset.
     pub rounds: u64,
-    /// Clocks run.
+    /// Number of clocks that the proof ran.
     pub clocks: u64,
     /// Registers, with the range that each has between rounds.
     pub registers: Vec<(String, Format, Range)>,

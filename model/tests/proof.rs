@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The range reading proves that nothing overflows, and would notice if something did.
+//! The range interpretation proves that nothing overflows, and would notice if something did.
 
 use std::thread;
 

@@ -17,7 +17,7 @@ component! {
     }
 }
 
-/// The meter.
+/// A rust-hdl design that wraps the ratio block.
 #[derive(LogicBlock)]
 struct RatioMeter {
     clock: Signal<In, Clock>,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What the plant costs for a second of device time, effect by effect and rung by rung, alone and together: slots as
+//! What the plant costs for a second of device time, effect by effect and level by level, alone and together: slots as
 //! amplitudes and as samples, and how long the effect takes to build.
 //!
 //! `cargo run --release -p hapticore-scene --example speed`
@@ -19,7 +19,7 @@ const PADS: &str = "title = \"speed\"\nduration_s = 10\n\
     [[pad]]\nposition_mm = { line = { from_mm = [-100, -180], to_mm = [100, 200], period_s = 0.8 } }\n\
     [[pad]]\nposition_mm = [-60, 205]\n";
 
-/// What is measured: its name, what it is added to, what it adds, and what PHYSICS has of it, in milliseconds to build or for a
+/// What is measured: its name, what it is added to, what it adds, and what the prototype of docs/physics.md took, in milliseconds to build or for a
 /// second; there one patch of a gap, here 32.
 const EFFECTS: &[(&str, &str, &str, &str)] = &[
     ("sheet distance", "", "[sheet]\nrung = \"distance\"\n", "10 ns a look-up: 0.006"),
@@ -80,7 +80,7 @@ const EFFECTS: &[(&str, &str, &str, &str)] = &[
 ];
 
 fn main() -> Result<(), SceneError> {
-    println!("{:22} {:>10} {:>16} {:>14}  PHYSICS", "", "build, ms", "amplitudes, ms/s", "samples, ms/s");
+    println!("{:22} {:>10} {:>16} {:>14}  prototype", "", "build, ms", "amplitudes, ms/s", "samples, ms/s");
     print("carrier", measure("")?, "0.17; samples 21");
     for (name, under, added, physics) in EFFECTS {
         let (without, with) = (measure(under)?, measure(&format!("{under}{added}"))?);

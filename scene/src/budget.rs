@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How exact the rungs are on a scene, and the cheapest ones within an error budget.
+//! How exact the levels are on a scene, and the cheapest ones within an error budget.
 //!
-//! The error of a rung against a finer one is the largest difference it makes, all other effects alike, over the slots of
+//! The error of a level against a finer one is the largest difference it makes, all other effects alike, over the slots of
 //! the case: of a terminal's amplitude in percent of the sum of all, of the capacitance in percent, of the force in percent
 //! of the largest force. An ideal demodulator reads the amplitudes: from the samples where the carrier itself is asked
 //! about, else from the phasors, so that codes do not hide what the plant does. Noise is left out.
 //!
-//! `error_budget_percent` is shared evenly by the effects whose rung the scene leaves open. Each gets the cheapest rung that
+//! `error_budget_percent` is shared evenly by the effects whose level the scene leaves open. Each gets the cheapest level that
 //! is within its share of its finest one while all others are at their finest.
 
 use num_complex::Complex64;
@@ -27,19 +27,19 @@ const LOOKS: usize = 64;
 /// Slots that are run at most, so that states evolve as in the scene.
 const MOST_SLOTS: usize = 4096;
 
-/// A rung that a case uses and how far it is from the next finer one.
+/// A level that a case uses and how far it is from the next finer one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RungError {
-    /// The effect.
+    /// Name of the effect.
     pub effect: &'static str,
-    /// Its rung.
+    /// Fidelity level in use.
     pub rung: String,
-    /// The next finer rung and the error against it, percent; none where there is no finer one.
+    /// The next finer level and the error against it, percent; none where there is no finer one.
     pub finer: Option<(String, f64)>,
 }
 
 impl Scene {
-    /// The scene with the cheapest rungs that its error budgets allow, for a profile's timing; as it is where it has none.
+    /// The scene with the cheapest levels that its error budgets allow, for a profile's timing; as it is where it has none.
     ///
     /// # Errors
     /// As [`Plant::new`].
@@ -59,7 +59,7 @@ impl Scene {
         Ok(self)
     }
 
-    /// Effect `n` at the cheapest rung that is within `share_percent` of the finest.
+    /// Effect `n` at the cheapest level that is within `share_percent` of the finest.
     fn cheapest(
         &self,
         finest: &Case,
@@ -72,7 +72,7 @@ impl Scene {
         let mut rungs = finest.effects[n].all();
         rungs.sort_by(|a, b| a.rung().cost_ns.total_cmp(&b.rung().cost_ns));
         for rung in rungs {
-            // A rung that refuses the scene is one that does not fit.
+            // A level that refuses the scene is one that does not fit.
             if let Ok(looks) = self.looks(finest, index, &rung, timing)
                 && error_percent(&looks, &exact) <= share_percent
             {
@@ -82,7 +82,7 @@ impl Scene {
         Ok(finest.effects[n].clone())
     }
 
-    /// The rungs of a case, each with its error against the next finer one on this scene.
+    /// The levels of a case, each with its error against the next finer one on this scene.
     ///
     /// # Errors
     /// As [`Plant::new`].
@@ -98,7 +98,7 @@ impl Scene {
         case.effects.iter().map(against).collect()
     }
 
-    /// What is seen of a case whose effect of that name is at another rung.
+    /// What is seen of a case whose effect of that name is at another level.
     fn looks(&self, case: &Case, index: usize, rung: &Spec, timing: &Timing) -> Result<Vec<Look>, SceneError> {
         let mut case = case.clone();
         case.effects.retain(|effect| effect.name != NOISE);

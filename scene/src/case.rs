@@ -35,7 +35,7 @@ pub struct Case {
     pub(crate) pads: Vec<PadPlan>,
     pub(crate) effects: Vec<Spec>,
     pub(crate) length: Length,
-    /// Error that all rungs together may leave, where the scene names one: until they are chosen, nothing can be run.
+    /// Error that all levels together may leave, where the scene names one: until they are chosen, nothing can be run.
     pub(crate) budget_percent: Option<f64>,
     /// What the host knows of the device, where it takes out of readings what other pads did to them: the effects that split
     /// a current, on a film that is even.
@@ -73,12 +73,12 @@ impl Case {
         keys
     }
 
-    /// The effects that are on, with their rungs.
+    /// The effects that are on, with their levels.
     pub fn effects(&self) -> Vec<(&'static str, &str)> {
         self.effects.iter().map(|effect| (effect.name, effect.rung().label.as_str())).collect()
     }
 
-    /// Whether the scene wants the float core to demodulate samples too, carrier rung `samples`.
+    /// Whether the scene wants the float core to demodulate samples too, carrier level `samples`.
     pub fn sampled(&self) -> bool {
         self.effects.iter().any(|effect| effect.name == carrier::CARRIER && effect.is_at(carrier::SAMPLES))
     }

@@ -10,9 +10,9 @@ use crate::terminals::{VOLTAGES, terminals_mm};
 /// Permittivity of free space, F/m.
 pub const EPSILON_0: f64 = 8.854_187_812_8e-12;
 
-/// What a kilogram of load weighs, N/kg, where the scene does not say: PHYSICS' fit is of 0.5 N for 50 g.
+/// Default gravity, N/kg: the fit of the gap's heights assumes 10 (docs/physics.md §3).
 ///
-/// PHYSICS names no value; its check values do. With 10 a pad under 20 g and 50 g rests at 353.4 and 372.7 pF (PHYSICS §3:
+/// With 10 a pad under 20 g and 50 g rests at 353.4 and 372.7 pF (docs/physics.md §3:
 /// 353 and 373), eq. 10 has slopes of 0.202 and 0.151 (§4: 0.20 and 0.15), and `fig7` jumps at 1.03 s and 2.84 s (1.0 and
 /// 2.8); with 9.80665 these are 353.2 and 372.0 pF, 0.197 and 0.140, 1.09 s and 2.98 s.
 const GRAVITY_M_S2: f64 = 10.0;
@@ -67,7 +67,7 @@ pub struct Device {
 }
 
 impl Device {
-    /// The device under a core whose oscillator has so many ADC samples a period: the sample rate is the whole multiple of the
+    /// The device under a core whose oscillator has so many ADC samples per period: the sample rate is the whole multiple of the
     /// scene's carrier that is nearest, and the carrier what the oscillator makes of it, 101 kHz for 100 kHz at 9.9 samples.
     pub(crate) fn sampled(self, samples_per_period: f64) -> Self {
         let sample_rate_hz = self.carrier_hz * samples_per_period.round();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The nominal sheet of a simulated device, at the rungs of its scene: what a host of it knows.
+//! The nominal sheet of a simulated device, at the levels of its scene: what a host of it knows.
 
 use hapticore_sheet::model::{PadEstimate, SheetModel};
 use num_complex::Complex64;

@@ -36,7 +36,7 @@ use crate::truth::{ForcePoint, MapPoint, PadReading, Truth};
 ///     assert!(truth.capacitance_pf > 300.0 && truth.force_n >= 0.0);
 /// }
 /// let gap = plant.effects().into_iter().find(|effect| effect.name == "gap").unwrap();
-/// assert_eq!((gap.rung.as_str(), gap.evaluations), ("tr-bdf2 100 µs", 10));
+/// assert_eq!((gap.level.as_str(), gap.evaluations), ("tr-bdf2 100 µs", 10));
 /// # Ok::<(), hapticore_scene::SceneError>(())
 /// ```
 pub struct Plant {
@@ -56,7 +56,7 @@ impl Plant {
     ///
     /// # Errors
     /// A scene with more pads than the profile serves, a timing without a window, no such case, an error budget for which
-    /// no rungs have been [chosen](Scene::within_budget).
+    /// no levels have been [chosen](Scene::within_budget).
     pub fn new(scene: &Scene, case: usize, timing: &Timing) -> Result<Plant, SceneError> {
         let fail = |key: &str, message: String| SceneError::new(Place::File, key, message).in_file(&scene.name);
         let Some(chosen) = scene.cases.get(case) else {
@@ -88,7 +88,7 @@ impl Plant {
         Ok(plant)
     }
 
-    /// Asks rungs that refuse some scenes, at slots spread evenly over the case, each pad in turn.
+    /// Asks levels that refuse some scenes, at slots spread evenly over the case, each pad in turn.
     fn ask_limited_rungs(&self) -> Result<(), SceneError> {
         const ASKED: usize = 256;
         if !self.case.effects.iter().any(|effect| effect.rung().limited) {

@@ -27,7 +27,7 @@ pub(crate) enum Purpose {
         from: u64,
     },
     PhasorJitter,
-    /// The same.
+    /// Sampling jitter of a run that starts this many samples after its slot.
     SampleJitter {
         from: u64,
     },

@@ -12,7 +12,7 @@
 //! dwell_slots = 1                 # slots of each pad at each point of a sweep, or
 //! duration_s = 2.0                # time, where pads move and nothing is swept
 //! uncouple = true                 # the host takes out of readings what [coupling] did to them
-//! error_budget_percent = 0.1      # chooses the rungs that the effects' tables leave open; see `budget`
+//! error_budget_percent = 0.1      # chooses the levels that the effects' tables leave open; see `budget`
 //!
 //! [[pad]]                         # 1 to 16; served one slot each in turn
 //! name = "mallet"
@@ -63,7 +63,7 @@ pub enum Figure {
 pub enum Record {
     /// One row per finished slot.
     Frames,
-    /// The figures.
+    /// A report with figures.
     Report,
     /// The ADC's samples.
     Capture,
@@ -89,7 +89,7 @@ pub enum Record {
 pub struct Scene {
     /// The file's name without folder and `.toml`.
     pub name: String,
-    /// One line.
+    /// Title of the scene, one line.
     pub title: String,
     /// A few sentences.
     pub summary: String,

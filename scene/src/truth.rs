@@ -67,7 +67,7 @@ pub struct Setpoint {
     pub x_mm: f64,
     /// Position, mm above the sheet's centre.
     pub y_mm: f64,
-    /// Load, g.
+    /// Load on the pad, g.
     pub load_g: f64,
     /// Haptic voltage of the source, V rms.
     pub haptic_v_rms: f64,

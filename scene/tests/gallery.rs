@@ -47,7 +47,7 @@ fn truths(name: &str) -> Vec<Truth> {
     (0..plant.slots()).map(|slot| plant.truth(slot)).collect()
 }
 
-/// PHYSICS §3: eq. 8 within 0.025 N to 350 V; the paper: within 0.1 N for 20 g and 100 g with one k.
+/// docs/physics.md §3: eq. 8 within 0.025 N to 350 V; the paper: within 0.1 N for 20 g and 100 g with one k.
 #[test]
 fn fig6_eq_8_holds_at_both_loads_with_one_k_from_a_friction_calibration() {
     let scene = Scene::parse(gallery::find("fig6").unwrap(), "fig6", &[]).unwrap();
@@ -75,7 +75,7 @@ fn fig4_capacitance_rises_with_load_and_with_voltage() {
     assert!(all.iter().all(|from| all.iter().all(|to| rises(from, to))));
 }
 
-/// Force by eq. 8 with PHYSICS §2's exact inversion C = |I|²/(ωVq), from what the plant's sensors show.
+/// Force by eq. 8 with the exact inversion of docs/physics.md §2, C = |I|²/(ωVq), from what the plant's sensors show.
 fn ideal_force(plant: &mut Plant, slot: usize) -> f64 {
     let device = plant.device();
     let mut phasors = [Complex::default(); TERMINALS + 1];

@@ -51,7 +51,7 @@ fn effects_that_a_scene_leaves_out_leave_the_bits_of_the_others_alone() {
     assert!(scene("[supply]\n").0 != bare, "300 kilohms do");
 }
 
-/// Held for long, every rung settles where the static one is.
+/// Held for long, every level settles where the static one is.
 #[test]
 fn every_rung_of_the_gap_settles_at_the_static_one() {
     let last = |rung: &str, supply: &str| {
@@ -126,8 +126,8 @@ fn reading_mm(volt: f64, eccentricity_mm: f64, mismatch_percent: f64, after_s: f
     truths(&text).last().unwrap().direction * 430.0
 }
 
-/// PHYSICS §4: slopes of 0.20 at 0 V, 0.15 at 300 V, 0.036 at 400 V, an offset of −0.11 mm for 3 % mismatch; 0.2 s after
-/// switching on, before the rubber creeps. The first two and the offset hold to PHYSICS' digits. At 400 V it is 0.026 here
+/// docs/physics.md §4: slopes of 0.20 at 0 V, 0.15 at 300 V, 0.036 at 400 V, an offset of −0.11 mm for 3 % mismatch; 0.2 s after
+/// switching on, before the rubber creeps. The first two and the offset hold to the prototype's digits. At 400 V it is 0.026 here
 /// and the limit was set after that: six of the eight patches are closed by then, and neither creep, the supply nor a real
 /// sine brings the slope to 0.036; 23 ms after switching on it passes through it.
 #[test]
@@ -135,7 +135,7 @@ fn eq_10_reads_part_of_the_eccentricity_and_less_of_it_pulled_in() {
     for (volt, physics, within) in [(0.0, 0.20, 0.005), (300.0, 0.15, 0.005), (400.0, 0.036, 0.011)] {
         let [left, middle, right] = [-0.2, 0.0, 0.2].map(|e_mm| reading_mm(volt, e_mm, 3.0, 0.2));
         let slope = (right - left) / 0.4;
-        println!("{volt} V: slope {slope:.3}, PHYSICS {physics}; offset {middle:.3} mm");
+        println!("{volt} V: slope {slope:.3}, prototype {physics}; offset {middle:.3} mm");
         assert!((slope - physics).abs() < within, "{volt} V: {slope}");
         assert!((middle + 0.1125).abs() < 1e-3, "{volt} V: {middle} mm");
         assert!(reading_mm(volt, 0.0, 0.0, 0.2) == 0.0, "even halves read nothing");

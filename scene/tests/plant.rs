@@ -120,7 +120,7 @@ fn currents_follow_equations_1_and_4() {
     let mut phasors = [Complex::default(); CHANNELS - 1];
     plant.phasors(0, &mut phasors);
     let total: Complex = phasors[..TERMINALS].iter().map(|current| current * device.current_full_scale_a).sum();
-    // PHYSICS §2: C = (p² + q²)/(ωVq), R_p = Vp/(p² + q²), exactly
+    // docs/physics.md §2: C = (p² + q²)/(ωVq), R_p = Vp/(p² + q²), exactly
     let capacitance_pf = 1e12 * total.norm_sqr() / (device.carrier_rad_s * device.carrier_v * total.im);
     let sheet_ohm = device.carrier_v * total.re / total.norm_sqr();
     assert!((capacitance_pf - truth.capacitance_pf).abs() < 1e-9 && (sheet_ohm - truth.sheet_ohm).abs() < 1e-8);
@@ -135,7 +135,7 @@ fn currents_follow_equations_1_and_4() {
     assert!((r_x - paper.r_x).abs() < 1e-12 && (r_y - paper.r_y).abs() < 1e-12);
 }
 
-/// PHYSICS §5, with V_h in V rms and V_s in V peak: f_h·V_h/(f_s·V_s).
+/// docs/physics.md §5, with V_h in V rms and V_s in V peak: f_h·V_h/(f_s·V_s).
 #[test]
 fn leakage_is_as_far_below_the_carrier_as_physics_says() {
     for (haptic_hz, db) in [(200.0, -17.1), (1000.0, -3.1)] {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The sensor chain against the check values of PHYSICS §5, over windows of 200 µs.
+//! The sensor chain against the check values of docs/physics.md §5, over windows of 200 µs.
 
 mod common;
 
@@ -24,7 +24,7 @@ fn total(phasors: &[Complex]) -> Complex {
     phasors[..TERMINALS].iter().sum()
 }
 
-/// PHYSICS §5 has 0.031 and 1.6e-5 %, without saying of which voltage; 0.106 and 2.8e-4 % are what was measured here, and the
+/// The prototype has 0.031 and 1.6e-5 % at an unknown voltage (docs/physics.md §5); 0.106 and 2.8e-4 % were measured here, and the
 /// limits hold that.
 #[test]
 fn a_hann_window_keeps_out_what_a_rectangular_one_lets_in() {
@@ -33,7 +33,7 @@ fn a_hann_window_keeps_out_what_a_rectangular_one_lets_in() {
     assert_near("Hann", spread(hann), 2.8e-4, 0.02);
 }
 
-/// PHYSICS §5's percents; that a tenth of them is the least was set after measuring.
+/// The prototype's percentages (docs/physics.md §5); the lower limit, a tenth of them, was set after measuring.
 #[test]
 fn codes_dithered_by_the_leakage_cost_less_than_physics_allows() {
     for (bits, percent) in [(8, 0.28), (10, 0.074), (12, 0.005), (14, 0.002), (16, 0.0006)] {
@@ -53,7 +53,7 @@ fn bias_percent(plant: &mut Plant) -> f64 {
     (0..SLOTS).map(error).sum::<f64>() / SLOTS as f64
 }
 
-/// PHYSICS §5: 0.27 % at 10 bits, 0.015 % at 12. 0.14 and −0.054 % were measured here, then the limits set.
+/// The prototype has 0.27 % at 10 bits, 0.015 % at 12 (docs/physics.md §5). 0.14 and −0.054 % were measured here, then the limits set.
 #[test]
 fn without_dither_ten_samples_a_cycle_leave_a_bias_that_only_dither_averages_out() {
     for bits in [10, 12] {
@@ -64,7 +64,7 @@ fn without_dither_ten_samples_a_cycle_leave_a_bias_that_only_dither_averages_out
     }
 }
 
-/// PHYSICS §5's 0.0037 % is the amplitude's. A force is the square of current over voltage, both of which the clock moves.
+/// The 0.0037 % of docs/physics.md §5 is the amplitude's. A force is the square of current over voltage, both of which the clock moves.
 #[test]
 fn a_nanosecond_of_jitter_costs_37_ppm_of_the_amplitude() {
     let mut plant = plant(&with("jitter_ns_rms = 1\n"));
@@ -89,7 +89,7 @@ fn white_noise_costs_what_the_formula_says() {
     assert_near("force", force_noise_percent(&mut plant, SLOTS, hann), percent, 0.08);
 }
 
-/// PHYSICS §5 has 0.31 % rms for some mismatch of 1 %; over 40 of them 0.35 % was measured, which the limit holds.
+/// The prototype has 0.31 % rms for one draw of a 1 % mismatch (docs/physics.md §5); over 40 draws 0.35 % was measured, which the limit holds.
 #[test]
 fn a_mismatch_of_one_percent_costs_a_third_of_a_percent_of_force_over_the_map() {
     let map = "[[pad]]\nposition_mm = { raster = { nx = 41, ny = 25, margin_mm = 20 } }\n[sheet]\n[sensor]\n";

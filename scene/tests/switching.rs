@@ -30,11 +30,11 @@ fn the_first_current_is_all_across_the_sheet_and_the_rest_decays_with_tau() {
     let transient: Vec<_> = settling.iter().zip(&settled).map(|(a, b)| a - b).collect();
     let decay = (-1.0 / (device.sample_rate_hz * tau_s)).exp();
     assert!((transient[1] / transient[0] - decay).abs() < 1e-9 && decay < 3e-3);
-    // PHYSICS §5: 0.01 % in 5 µs.
+    // docs/physics.md §5: 0.01 % in 5 µs.
     assert!(transient[5].abs() < 1e-4 * settled.iter().copied().fold(0.0, f64::max));
 }
 
-/// What the trapezoid rule takes for the carrier's frequency: tan(ωh/2)/(ωh/2) of it. PHYSICS §2 has the same percents.
+/// What the trapezoid rule takes for the carrier's frequency: tan(ωh/2)/(ωh/2) of it. docs/physics.md §2 has the same percentages.
 #[test]
 fn trapezoids_read_a_capacitance_that_is_too_large_by_exactly_so_much() {
     for (steps, percent) in [(1, 3.4), (4, 0.21), (8, 0.051), (16, 0.013), (64, 0.0008)] {

@@ -38,7 +38,7 @@ fn difference(a: &[Slot], b: &[Slot]) -> f64 {
     a.iter().zip(b).map(one).fold(0.0, f64::max)
 }
 
-/// Shunt and coupling, alone and together, at each of their rungs.
+/// Shunt and coupling, alone and together, at each of their levels.
 const ABOVE: [&str; 6] = [
     "",
     "[shunt]\nnanofarad_per_m2 = 22\n",

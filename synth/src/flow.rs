@@ -29,7 +29,7 @@ pub struct Flow<'a> {
 /// A placed and routed design.
 #[derive(Debug, Clone)]
 pub struct Placed {
-    /// Its clock.
+    /// Achieved clock frequency.
     pub timing: Timing,
     /// What of the part it takes.
     pub used: Used,

@@ -20,11 +20,11 @@ use hapticore_hdl::signal::{Overflow, Rounding};
 /// What is known of a signal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Seen {
-    /// This code.
+    /// A constant code.
     Known(i64),
     /// The same code in both runs.
     Same,
-    /// Whatever.
+    /// Any code; may differ between the two runs.
     Other,
 }
 

@@ -12,11 +12,11 @@ pub struct Cells {
     pub luts: u64,
     /// Carries: one bit each on iCE40, two on ECP5.
     pub carries: u64,
-    /// Flip-flops.
+    /// Number of flip-flops.
     pub registers: u64,
-    /// Hardware multipliers.
+    /// Number of hardware multipliers.
     pub multipliers: u64,
-    /// Block RAMs.
+    /// Number of block RAMs; used and available where there are two numbers.
     pub block_rams: u64,
     /// Look-up tables used as memory.
     pub lut_rams: u64,
@@ -25,9 +25,9 @@ pub struct Cells {
 /// The cells of a module, without those of modules within.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ModuleCells {
-    /// Its name.
+    /// Name of the module.
     pub module: String,
-    /// Its cells.
+    /// Cells of the module alone.
     pub cells: Cells,
 }
 
@@ -36,9 +36,9 @@ pub struct ModuleCells {
 pub struct Used {
     /// Logic cells (iCE40: a table with its flip-flop; ECP5: a table).
     pub logic: [u64; 2],
-    /// Multipliers.
+    /// Hardware multipliers, used and available.
     pub multipliers: [u64; 2],
-    /// Block RAMs.
+    /// Number of block RAMs; used and available where there are two numbers.
     pub block_rams: [u64; 2],
 }
 
@@ -54,7 +54,7 @@ pub struct Timing {
 /// What must hold.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Limit {
-    /// Of what.
+    /// Quantity that the limit applies to.
     pub name: String,
     /// What it is.
     pub measured: f64,
@@ -69,9 +69,9 @@ pub struct Limit {
 pub struct BoardReport {
     /// The command that makes it.
     pub made_by: String,
-    /// The board.
+    /// Name of the board.
     pub board: String,
-    /// Its part.
+    /// FPGA of the board.
     pub part: String,
     /// The hash of its Verilog and constraints.
     pub sources: String,
@@ -81,7 +81,7 @@ pub struct BoardReport {
     pub used: Used,
     /// The clock with each seed.
     pub timings: Vec<Timing>,
-    /// Their median.
+    /// Median clock of all seeds, MHz.
     pub median_mhz: f64,
     /// The hash of the first seed's bitstream.
     pub bitstream: String,
@@ -94,9 +94,9 @@ pub struct BoardReport {
 /// One core in a table of all.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CoreRow {
-    /// The profile.
+    /// Name of the profile.
     pub profile: String,
-    /// The part.
+    /// FPGA that the core is placed on.
     pub part: String,
     /// The hash of its Verilog.
     pub sources: String,
@@ -113,7 +113,7 @@ pub struct CoreRow {
 pub struct CoresReport {
     /// The command that makes it.
     pub made_by: String,
-    /// The rows.
+    /// One row per profile and family.
     pub rows: Vec<CoreRow>,
 }
 
@@ -150,7 +150,7 @@ fn mhz(timings: &[Timing]) -> String {
 }
 
 impl BoardReport {
-    /// As text.
+    /// The report as Markdown.
     pub fn markdown(&self) -> String {
         let Used { logic, multipliers, block_rams } = self.used;
         let share = |[used, available]: [u64; 2]| {
@@ -188,7 +188,7 @@ impl BoardReport {
 }
 
 impl CoresReport {
-    /// As text.
+    /// The report as Markdown.
     pub fn markdown(&self) -> String {
         let mut text = format!(
             "# Every bundled profile on every family: the core alone\n\nMade by `{}`. Cells after synthesis of the bare core; the \

@@ -7,7 +7,7 @@ use hapticore_rtl::board::target::Target;
 /// A file by name.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct File {
-    /// Its name.
+    /// Name of the module and file.
     pub name: String,
     /// What stands in it.
     pub text: String,

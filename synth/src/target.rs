@@ -13,7 +13,7 @@ pub enum Family {
     Ecp5,
 }
 
-/// A board.
+/// A supported board with its FPGA and limits.
 #[derive(Debug, Clone, Copy)]
 pub struct Board {
     /// Its pins and its top.
@@ -26,7 +26,7 @@ pub struct Board {
     pub most: Option<[u64; 3]>,
 }
 
-/// The boards.
+/// All supported boards.
 pub const BOARDS: [Board; 2] = [
     Board { target: Target::Ulx3s, family: Family::Ecp5, least_mhz: 100.0, most: None },
     Board {
@@ -46,7 +46,7 @@ pub fn board(name: &str) -> Option<&'static Board> {
 }
 
 impl Family {
-    /// Both.
+    /// All supported families.
     pub const ALL: [Family; 2] = [Family::Ice40, Family::Ecp5];
 
     /// The part, for people.

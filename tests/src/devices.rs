@@ -33,9 +33,9 @@ pub struct Device {
 /// Places of a pad: of columns × rows, 15 mm off the edges and evenly between, every so many.
 #[derive(Debug, Clone, Copy)]
 pub struct Raster {
-    /// Along x.
+    /// Positions along x.
     pub columns: usize,
-    /// Along y.
+    /// Positions along y.
     pub rows: usize,
     /// Every so many of them, row by row.
     pub every: usize,
@@ -57,7 +57,7 @@ impl Raster {
 /// What came of a pad at many places of a device.
 #[derive(Debug, Clone)]
 pub struct Found {
-    /// The device.
+    /// Device that is calibrated and read.
     pub device: Device,
     /// Distances from where the pad is, mm, of frames without *invalid*.
     pub errors_mm: Vec<f64>,

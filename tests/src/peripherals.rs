@@ -24,9 +24,9 @@ use crate::stimulus::corner;
 
 /// A block alone: what is printed of it, and what its model did.
 pub struct Alone {
-    /// Its Verilog.
+    /// Printed Verilog of the block.
     pub design: Design,
-    /// Its trace.
+    /// Trace of the model.
     pub trace: Trace,
 }
 

@@ -81,7 +81,7 @@ fn bench_files() -> [PathBuf; 3] {
 /// What runs a bench.
 #[derive(Debug, Clone, Copy)]
 enum Simulator {
-    /// Some fifty thousand clocks a second.
+    /// Some fifty thousand clocks per second.
     Icarus,
     /// Thirty times as many, once compiled.
     Verilator,

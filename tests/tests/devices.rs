@@ -74,7 +74,7 @@ fn positions_are_right_on_random_devices() {
 fn positions_are_right_with_three_to_sixteen_terminals() {
     let profile = profile("standard");
     let found = (3..=16).into_par_iter().map(|terminals| {
-        let mut device = Device::draw(2 * terminals); // an even film
+        let mut device = Device::draw(2 * terminals); // a uniform film
         let [width, height] = device.size_mm;
         let mut extra = (0..).map(|n| {
             let along = 0.9 * ((0.618 * f64::from(n)).fract() - 0.5);

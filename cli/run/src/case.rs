@@ -27,7 +27,7 @@ const AHEAD: usize = 8;
 
 /// A case, ready to be run.
 pub struct Case<'a> {
-    /// The scene.
+    /// Scene that the case belongs to.
     pub scene: &'a Scene,
     /// Which of the scene's cases it is.
     pub index: usize,
@@ -37,7 +37,7 @@ pub struct Case<'a> {
     pub profile: Arc<Profile>,
     /// The device's calibration.
     pub device: DeviceCalibration,
-    /// Slots.
+    /// Number of slots of the case.
     pub slots: usize,
     /// When they are.
     pub clock: SlotClock,
@@ -45,7 +45,7 @@ pub struct Case<'a> {
 
 /// What a case left.
 pub struct Outcome {
-    /// The slots.
+    /// One row per finished slot.
     pub rows: Vec<Row>,
     /// Effects and what they cost.
     pub effects: Vec<EffectCost>,
@@ -99,7 +99,7 @@ impl<'a> Case<'a> {
         self.clock.start_s()
     }
 
-    /// Device time.
+    /// Simulated time of the case, s.
     pub fn seconds(&self) -> f64 {
         self.clock.seconds(self.slots)
     }
@@ -125,7 +125,7 @@ impl<'a> Case<'a> {
         Ok(())
     }
 
-    /// The case's rungs, each with its error against the next finer one.
+    /// The case's levels, each with its error against the next finer one.
     ///
     /// # Errors
     /// As [`Case::new`].
@@ -192,7 +192,7 @@ pub fn known(truth: &Truth) -> record::Truth {
     record::Truth { quantities, load_g, friction_n, set, point, group, over_edge, touching }
 }
 
-/// Makes slots.
+/// Produces the samples or amplitudes of slots in order.
 pub struct Maker {
     plant: Plant,
     digitiser: Digitiser,
@@ -241,7 +241,7 @@ impl Maker {
         (Signals::Samples { codes, blanking }, peak)
     }
 
-    /// The plant.
+    /// Simulated device of the case.
     pub fn plant(&mut self) -> &mut Plant {
         &mut self.plant
     }

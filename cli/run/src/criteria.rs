@@ -15,13 +15,13 @@ mod jumps;
 
 /// A case that was run, as criteria see it.
 pub struct CaseRows<'a> {
-    /// Its name.
+    /// Name of the case.
     pub name: &'a str,
     /// When it began.
     pub start_s: f64,
     /// The largest sample, as a fraction of full scale.
     pub peak: f64,
-    /// Its slots.
+    /// Rows of the case.
     pub rows: &'a [Row],
 }
 

@@ -3,7 +3,7 @@
 
 use hapticore_hdl::format::Format;
 
-/// An ADC: fractions of full scale to codes, rounded to nearest even, held at its rails.
+/// An ADC: fractions of full scale to codes, rounded to nearest even, saturated.
 #[derive(Debug, Clone, Copy)]
 pub struct Digitiser {
     scale: f64,

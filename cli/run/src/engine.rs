@@ -36,9 +36,9 @@ impl Fidelity {
 /// What the core is given of a slot.
 #[derive(Debug, Clone)]
 pub struct Slot {
-    /// The pad.
+    /// Pad number, from 0.
     pub pad: usize,
-    /// The signals.
+    /// Samples or amplitudes of the slot.
     pub signals: Signals,
 }
 

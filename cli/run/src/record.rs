@@ -16,7 +16,7 @@ pub struct Row {
     pub case: usize,
     /// The middle of the slot's window, counted on over the cases.
     pub time_s: f64,
-    /// The pad.
+    /// Pad number, from 0.
     pub pad: usize,
     /// What the core says.
     pub measured: Quantities,
@@ -31,7 +31,7 @@ pub struct Row {
 /// What the plant knows of a slot.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 pub struct Truth {
-    /// The quantities.
+    /// Quantities of the slot, in physical units.
     pub quantities: Quantities,
     /// The load on the pad.
     pub load_g: f64,
@@ -53,7 +53,7 @@ pub struct Truth {
 /// What the floating-point reference says of a slot.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Reference {
-    /// The quantities.
+    /// Quantities of the slot, in physical units.
     pub quantities: Quantities,
     /// The capacitance by eq. 6 alone.
     pub capacitance_eq6_pf: f64,
@@ -64,7 +64,7 @@ pub struct Reference {
 /// A criterion of the scene and what was measured.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Criterion {
-    /// Its name.
+    /// Name, as in the scene.
     pub name: String,
     /// What was measured, in `unit`.
     pub measured: f64,
@@ -83,17 +83,17 @@ pub struct Criterion {
 /// An effect of the scene and what it cost.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Effect {
-    /// Its name.
+    /// Name, as in the scene.
     pub name: String,
     /// How exactly it was simulated.
     pub rung: String,
     /// What it took.
     pub seconds: f64,
-    /// The next finer rung and the largest difference to it on the scene, percent.
+    /// The next finer level and the largest difference to it on the scene, percent.
     pub finer: Option<(String, f64)>,
 }
 
-/// The largest rounding error of a signal, from the shadow reading.
+/// The largest rounding error of a signal, from the shadow interpretation.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SignalError {
     /// The signal, with its instances: `estimator.force_estimator.haptic_force`.
@@ -130,7 +130,7 @@ pub struct Provenance {
 pub struct Record {
     /// The scene's or capture's name.
     pub scene: String,
-    /// Its title.
+    /// Title of the scene.
     pub title: String,
     /// What it is about.
     pub summary: String,
@@ -146,13 +146,13 @@ pub struct Record {
     pub pads: Vec<String>,
     /// The effects that were on.
     pub effects: Vec<Effect>,
-    /// The criteria.
+    /// Criteria of the scene with their measurements.
     pub criteria: Vec<Criterion>,
     /// Rounding errors by signal, where they were asked for.
     pub errors: Vec<SignalError>,
-    /// Device time.
+    /// Simulated time, s.
     pub simulated_seconds: f64,
-    /// Wall time.
+    /// Wall-clock time of the run, s.
     pub wall_seconds: f64,
     /// What its user must know before using the results.
     pub warnings: Vec<String>,
@@ -165,7 +165,7 @@ pub struct Record {
     /// Where it comes from.
     #[serde(flatten)]
     pub provenance: Provenance,
-    /// The slots.
+    /// One row per finished slot.
     #[serde(skip)]
     pub rows: Vec<Row>,
 }

@@ -23,9 +23,9 @@ pub const SEQUENTIAL: usize = 6;
 pub enum Dash {
     /// Not at all.
     Solid,
-    /// Long dashes.
+    /// Dashed line.
     Dashed,
-    /// Dots.
+    /// Dotted line.
     Dotted,
 }
 
@@ -39,9 +39,9 @@ pub struct Paint {
 impl Paint {
     /// Text and the truth.
     pub const INK: Paint = Paint::solid(0);
-    /// Tick labels.
+    /// Colour of tick labels.
     pub const MUTED: Paint = Paint::solid(1);
-    /// Grid lines.
+    /// Colour of grid lines.
     pub const GRID: Paint = Paint::solid(2);
     /// What a criterion allows.
     pub const LIMIT: Paint = Paint::solid(3).dashed();

@@ -29,7 +29,7 @@ const BAND: f64 = 0.3;
 /// Columns that all lines of a plot share.
 const COLUMNS: usize = 2400;
 
-/// A plot.
+/// A plot: axes, series, legend and title.
 #[derive(Clone, Debug)]
 pub struct Plot {
     /// What it shows, for readers who do not see it.

@@ -21,16 +21,16 @@ pub enum Mark {
     Band,
 }
 
-/// A series.
+/// Points that share a name, a colour and a mark.
 #[derive(Clone, Debug)]
 pub struct Series {
     /// Its name in the legend; none where another series stands for it.
     pub name: String,
-    /// Its colour.
+    /// Colour and line style.
     pub paint: Paint,
     /// How it is drawn.
     pub mark: Mark,
-    /// Its points.
+    /// Points in the units of the axes.
     pub points: Vec<Point>,
     /// A label at its last point.
     pub tag: Option<String>,
@@ -42,7 +42,7 @@ impl Series {
         Series { name: name.into(), paint, mark: Mark::Line(4), points, tag: None }
     }
 
-    /// Dots.
+    /// A series drawn as dots.
     pub fn dots(name: &str, paint: Paint, points: Vec<Point>) -> Series {
         Series { name: name.into(), paint, mark: Mark::Dots(7), points, tag: None }
     }

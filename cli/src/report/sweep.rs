@@ -8,9 +8,9 @@ use hapticore_run::record::{Quantities, Record, Row, Truth};
 /// All settings at one load of one case, by rising voltage.
 #[derive(Clone, Debug)]
 pub struct Load<'a> {
-    /// The load.
+    /// Load of the group, g.
     pub load_g: f64,
-    /// The settings.
+    /// Settings of the sweep at this load, in order.
     pub settings: Vec<Setting<'a>>,
 }
 

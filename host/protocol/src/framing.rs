@@ -41,7 +41,7 @@ pub const CRC_BYTES: u64 = 2;
 
 /// The bits of a frame packet's flags.
 pub mod flags {
-    /// A code was at a rail of the ADC.
+    /// A code was at full scale of the ADC.
     pub const CLIPPED: u8 = 0;
     /// A word was saturated.
     pub const SATURATED: u8 = 1;

@@ -85,7 +85,7 @@ pub type Found = ([f64; 2], [f64; 2]);
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scales {
-    /// ADC samples a second.
+    /// ADC samples per second.
     pub sample_rate_hz: f64,
     /// The sensing carrier.
     pub carrier_hz: f64,

@@ -218,7 +218,7 @@ macro_rules! bundle {
 /// `bit.select(a, b)` does.
 ///
 /// It is a macro, not a function of closures, because those are not inlined and the registers then travel through memory
-/// (measured: half the clocks a second). Each alternative is written out twice, whatever their number: nested in one another,
+/// (measured: half the clocks per second). Each alternative is written out twice, whatever their number: nested in one another,
 /// they would be written out three times a level.
 #[macro_export]
 macro_rules! when {

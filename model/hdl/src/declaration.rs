@@ -85,7 +85,7 @@ macro_rules! block {
             pub struct Outputs { $($(#[doc = $out_doc])* $out $(in $out_states)? $(as $out_group)?),* }
         }
         $crate::bundle! {
-            /// The registers.
+            /// Registers: the state of one instance.
             pub struct Registers { $($(#[doc = $reg_doc])* $reg $(in $reg_states)? $(as $reg_group)?),* }
         }
         $crate::block!(@submodules $name { $($part: $part_type),* });

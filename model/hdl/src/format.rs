@@ -116,7 +116,7 @@ impl Format {
         holds.then_some(code as i64)
     }
 
-    /// The code nearest to `real`, held at the rails of the format; zero for NaN.
+    /// The code nearest to `real`, saturated to the format; zero for NaN.
     #[inline(always)]
     pub fn code_saturating(self, real: f64) -> i64 {
         let code = (real / self.lsb()).round_ties_even();

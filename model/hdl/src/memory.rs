@@ -52,7 +52,7 @@ pub struct Memory {
 pub struct Write<V> {
     /// Whether anything is.
     pub enable: Signal<V>,
-    /// Where.
+    /// Address of the word.
     pub address: Signal<V>,
     /// What: of a format that the memory's holds.
     pub data: Signal<V>,
@@ -104,7 +104,7 @@ impl Memory {
         Format::counter(self.words as u64 - 1)
     }
 
-    /// What was asked for in the clock before.
+    /// What was asked for in the previous cycle.
     #[inline(always)]
     pub fn data<V: Storage>(&self, words: &mut V::Words) -> Signal<V> {
         Signal { value: V::data(self, words), format: self.format }

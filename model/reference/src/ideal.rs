@@ -119,7 +119,7 @@ impl<T: Real> Reference<T> {
     /// voltage.
     ///
     /// # Panics
-    /// Where `codes` is not one code a channel and sample, or there is no such pad.
+    /// Where `codes` is not one code per channel and sample, or there is no such pad.
     pub fn slot(&mut self, pad: usize, codes: &[i32]) -> Reading<T> {
         assert_eq!(codes.len(), self.window.len() * self.channels, "one code a channel and sample of the window");
         let mean_square = match self.channels {

@@ -2,7 +2,7 @@
 //! Capacitance: the total current over the sensing voltage, with the sheet's resistance taken out.
 //!
 //! ```text
-//! C = gain · a / √(v² − (a·R)²)        (PHYSICS §2, robust form; R of the pad's place, from the map)
+//! C = gain · a / √(v² − (a·R)²)        (docs/physics.md §2, robust form; R of the pad's place, from the map)
 //! C = gain · a / v                     (paper, eq. 6, where the profile asks for it alone)
 //! ```
 //!
@@ -59,11 +59,11 @@ block! {
     inputs(block) {
         /// Begins; all others are valid and stable until `done`.
         start: BIT,
-        /// The amplitude of the total current.
+        /// Amplitude of the total current, full scale.
         total: block.amplitude,
-        /// The amplitude of the sensing voltage.
+        /// Amplitude of the sensing voltage, full scale.
         sense: block.amplitude,
-        /// The sheet's resistance at the pad, in full scales of voltage per current.
+        /// Resistance of the sheet at the pad, full scales of voltage per current.
         sheet: block.sheet,
         /// Picofarads at an admittance of one.
         gain: block.gain,

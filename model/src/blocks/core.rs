@@ -34,7 +34,7 @@ block! {
     inputs(core) {
         /// A set of ADC codes is valid.
         strobe: BIT,
-        /// Abandons the slot under way: the next strobe is the first of the first pad's slot.
+        /// Abandons the current slot; the next strobe starts the first pad's slot.
         clear: BIT,
         /// The code of the channel that `channel` asked for one cycle earlier.
         code: core.demodulator.inputs().code,
@@ -85,22 +85,22 @@ impl Core {
         inputs
     }
 
-    /// The multiplexer.
+    /// The pad multiplexer's configuration.
     pub fn multiplexer(&self) -> &Multiplexer {
         &self.multiplexer
     }
 
-    /// The oscillator.
+    /// The oscillator's configuration.
     pub fn oscillator(&self) -> &Oscillator {
         &self.oscillator
     }
 
-    /// The demodulator.
+    /// The demodulator's configuration.
     pub fn demodulator(&self) -> &Demodulator {
         &self.demodulator
     }
 
-    /// The estimator.
+    /// The estimator's configuration.
     pub fn estimator(&self) -> &Estimator {
         &self.estimator
     }

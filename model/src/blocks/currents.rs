@@ -20,7 +20,7 @@
 //! largest current makes of a word's step; total and sensing voltage are at one point again.
 //!
 //! Latency: (terminals + 2) · (6 products + square root + 1) + 1 clocks from the last sum (the mean square's) to `done`. Source: paper,
-//! eqs. 2–5; the sum is that of all terminals' complex currents, for the corners alone carry only a part (PHYSICS §1).
+//! eqs. 2–5; the sum is that of all terminals' complex currents, for the corners alone carry only a part (docs/physics.md §1).
 
 mod block_floating;
 
@@ -78,17 +78,17 @@ block! {
     outputs(currents) {
         /// Asserted for one cycle when all others are valid; they are stable until the next results.
         done: BIT,
-        /// The amplitude of the total current.
+        /// Amplitude of the total current, full scale.
         total: currents.given,
-        /// The amplitude of the sensing voltage.
+        /// Amplitude of the sensing voltage, full scale.
         sense: currents.given,
-        /// The numerator of r_x.
+        /// Numerator of r_x: the terminals' amplitudes with their signs.
         x: currents.numerator(),
-        /// The numerator of r_y.
+        /// Numerator of r_y: the terminals' amplitudes with their signs.
         y: currents.numerator(),
-        /// Their denominator.
+        /// Denominator of both ratios.
         corners: currents.denominator(),
-        /// The least amplitude of the terminals, in the unit of the numerators.
+        /// Smallest amplitude of all terminals, in the unit of the numerators.
         least: currents.root_format(),
         /// A word is saturated.
         saturated: BIT,
@@ -195,7 +195,7 @@ impl Currents {
         (self.terminals + 2) * (6 * self.multiplier.latency() + self.sqrt.latency() + 1) + 1 + self.block_latency()
     }
 
-    /// The in-phase or quadrature word of a sum, and whether it is held at a rail.
+    /// The in-phase or quadrature word of a sum, and whether it is saturated.
     #[inline(always)]
     fn word<V: Interpretation>(&self, sum: Signal<V>) -> (Signal<V>, Signal<V>) {
         let rounding = if self.block == 0 { HalfEven } else { Floor };
@@ -224,7 +224,7 @@ impl Currents {
         }
     }
 
-    /// A total with a terminal's word more, and whether it is held at a rail.
+    /// A total with a terminal's word more, and whether it is saturated.
     #[inline(always)]
     fn add_terminal<V: Interpretation>(&self, r: &Registers<Signal<V>>) -> (Signal<V>, Signal<V>) {
         (r.total_i + r.part).named("with_terminal").saturate(self.total, Exact)

@@ -8,7 +8,7 @@
 //! ```text
 //! window, codes ──┐
 //! local oscillator ─(×)─[product]─┬─[windowed: rounded]─[windowed_lo: w·cos, w·sin, w·h]
-//!                                 └─(+)─[sum]─[sums: one word a channel and phase]
+//!                                 └─(+)─[sum]─[sums: one word per channel and phase]
 //! ```
 //!
 //! One multiplier serves all: three products apply the window (w·cos, w·sin, w·h), two for each channel and one for h follow. What has
@@ -20,10 +20,10 @@
 //!
 //! What rounding leaves of w·cos and w·sin is carried to the next sample's, so that the sums of the words are those of the
 //! products to half a word, wherever one stops: rounding has no share at low frequencies. w·h is rounded half even.
-//! A carrier with five samples a period may have its sums by phase instead: see `demodulator/polyphase.rs`.
+//! A carrier with five samples per period may have its sums by phase instead: see `demodulator/polyphase.rs`.
 //!
-//! q is positive where the channel lags. The answer to `channel` is expected a clock later as `code`. Latency: products + 3
-//! clocks from `start` to the last sum. Source: paper, eqs. 1 and 5, detected synchronously; PHYSICS §5 for the window.
+//! q is positive where the channel lags. The answer to `channel` is expected one cycle later as `code`. Latency: products + 3
+//! clocks from `start` to the last sum. Source: paper, eqs. 1 and 5, detected synchronously; docs/physics.md §5 for the window.
 
 mod polyphase;
 
@@ -64,9 +64,9 @@ block! {
     inputs(demodulator) {
         /// The oscillator's outputs are those of a sample to be integrated.
         start: BIT,
-        /// The sample is the first of its window.
+        /// First sample of its window.
         first: BIT,
-        /// The sample is the last of its window.
+        /// Last sample of its window.
         last: BIT,
         /// The selected pad.
         pad: demodulator.pad,
@@ -89,7 +89,7 @@ block! {
         /// The number of the sum: 2k the in-phase and 2k + 1 the quadrature of channel k, the last the mean square.
         index: Format::counter(demodulator.sums() - 1),
         sum: demodulator.sum(),
-        /// The pad of the window.
+        /// Pad whose slot the window belongs to.
         pad: demodulator.pad,
         /// A code of the window was at full scale.
         clipped: BIT,
@@ -245,7 +245,7 @@ impl Demodulator {
         (before + product).named("accumulated").resize(sum.format, Proved)
     }
 
-    /// Whether a code is at a rail of the ADC.
+    /// Whether a code is at full scale of the ADC.
     #[inline(always)]
     pub fn at_rail<V: Interpretation>(&self, code: Signal<V>) -> Signal<V> {
         let [most, least] = self.rails;

@@ -6,7 +6,7 @@
 //! ```
 //!
 //! ```text
-//! numerator ──[remainder : tail]──(− denominator ≥ 0 ?)── one quotient bit a clock ──[tail]──[round half even, saturate]── quotient
+//! numerator ──[remainder : tail]──(− denominator ≥ 0 ?)── one quotient bit per clock ──[tail]──[round half even, saturate]── quotient
 //! ```
 //!
 //! | signal    | overflow                                                                 |

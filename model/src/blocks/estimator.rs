@@ -26,9 +26,9 @@ use hapticore_hdl::{block, bundle, call, when};
 bundle! {
     /// What a calibration sets. The words of the position table are written while no slot is under way.
     pub struct Calibration {
-        /// Calibration: picofarads at an admittance of one.
+        /// Calibration: gain of the capacitance, pF at an admittance of 1.
         capacitance_gain,
-        /// Calibration: newtons per square picofarad at full haptic mean square.
+        /// Calibration: gain of the force, N/pF² at a full-scale haptic mean square.
         force_gain,
         table as TablePort,
     }
@@ -41,11 +41,11 @@ bundle! {
         valid,
         /// The number of the word's field.
         index,
-        /// The word.
+        /// Word of the frame, a code in the field's format.
         frame,
         /// Asserted with the last word.
         done,
-        /// The pad of the frame.
+        /// Pad of the frame.
         pad,
         /// A code was at full scale of the ADC.
         clipped,
@@ -80,7 +80,7 @@ block! {
         /// The number of the sum.
         index: estimator.haptic_voltage.inputs().index,
         sum: estimator.haptic_voltage.inputs().sum,
-        /// The pad of the window.
+        /// Pad whose slot the window belongs to.
         pad: estimator.pad(),
         /// A code of the window was at full scale.
         clipped: BIT,
@@ -149,12 +149,12 @@ impl Estimator {
         self.position.place_at_once(table);
     }
 
-    /// The position.
+    /// The position block's configuration.
     pub fn position(&self) -> &Position {
         &self.position
     }
 
-    /// The currents.
+    /// The currents block's configuration.
     pub fn currents(&self) -> &Currents {
         &self.currents
     }

@@ -54,7 +54,7 @@ block! {
         capacitance: force.capacitance,
         /// The mean square of the haptic voltage, in full scales squared.
         mean_square: force.mean_square,
-        /// Newtons per square picofarad at full mean square.
+        /// Gain of the force, N/pF² at a full-scale haptic mean square.
         gain: force.gain,
     }
     outputs(force) {
@@ -94,7 +94,7 @@ impl Force {
         (Step::ALL.len() as u64 - 1) * self.multiplier.latency() + 1
     }
 
-    /// The product of two codes in the format `to`, and whether it is held at a rail.
+    /// The product of two codes in the format `to`, and whether it is saturated.
     #[inline(always)]
     fn narrow<V: Interpretation>(
         &self,

@@ -7,7 +7,7 @@
 //! ```
 //!
 //! Words are codes as integers, in the formats of [`Field::format`]. The haptic mean square is always valid and never held.
-//! Latency: fields + 2 clocks from `start` to the last word. Source: DESIGN §3 (invalid: last value held).
+//! Latency: fields + 2 clocks from `start` to the last word. Source: docs/decisions.md §6 (invalid: last value held).
 
 pub use hapticore_contract::frame::Field;
 use hapticore_contract::profile::Profile;
@@ -34,21 +34,21 @@ block! {
         pad: frames.pad,
         /// The results are invalid: the pad's last valid ones are given out instead.
         invalid: BIT,
-        /// As [`Field::RatioX`].
+        /// Ratio r_x, eq. 2.
         r_x: frames.fields[0],
-        /// As [`Field::RatioY`].
+        /// Ratio r_y, eq. 3.
         r_y: frames.fields[1],
-        /// As [`Field::X`].
+        /// Position along the long edges, mm.
         x: frames.fields[2],
-        /// As [`Field::Y`].
+        /// Position along the short edges, mm.
         y: frames.fields[3],
-        /// As [`Field::Sheet`].
+        /// Resistance of the sheet at the pad, full scales of voltage per current.
         sheet: frames.fields[4],
-        /// As [`Field::Capacitance`].
+        /// Capacitance between pad and sheet, pF.
         capacitance: frames.fields[5],
-        /// As [`Field::Force`].
+        /// Haptic force, N.
         haptic_force: frames.fields[6],
-        /// As [`Field::MeanSquare`].
+        /// Mean square of the haptic voltage, full scale².
         mean_square: frames.fields[7],
     }
     outputs(frames) {

@@ -19,7 +19,7 @@
 //! periods are right in the mean. Until a pad has had N windows since reset or `clear` its last one alone counts.
 //!
 //! Latency: one clock; with N > 1, N + 3, which the currents' outlasts. Source: paper, eq. 7 (the force follows the square);
-//! PHYSICS §3 (the gap follows the RMS).
+//! docs/physics.md §3 (the gap follows the RMS).
 
 use super::demodulator::Demodulator;
 use hapticore_contract::profile::Profile;
@@ -50,13 +50,13 @@ block! {
         pad: haptic.pad,
         /// Asserted for one cycle with each sum.
         valid: BIT,
-        /// The number of the sum; the last is that of the squares.
+        /// Number of the sum; the last is the mean square.
         index: Format::counter(haptic.sums - 1),
-        /// The sum.
+        /// Sum of a window, from the demodulator.
         sum: haptic.sum,
     }
     outputs(haptic) {
-        /// The mean square.
+        /// Mean square of the haptic voltage, full scale².
         mean_square: haptic.square,
         /// A window's mean square is saturated.
         saturated: BIT,

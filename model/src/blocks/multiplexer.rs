@@ -34,7 +34,7 @@ block! {
     inputs(multiplexer) {
         /// A set of ADC codes is valid.
         strobe: BIT,
-        /// Abandons the slot under way; wins over `strobe`.
+        /// Abandons the current slot; overrides `strobe`.
         clear: BIT,
     }
     outputs(multiplexer) {
@@ -42,11 +42,11 @@ block! {
         sample: BIT,
         /// The first of a slot: the carrier's phase restarts.
         restart: BIT,
-        /// Within the integration window.
+        /// The sample lies in the integration window.
         integrate: BIT,
-        /// The first of the window.
+        /// First sample of the window.
         first: BIT,
-        /// The last of the window.
+        /// Last sample of the window.
         last: BIT,
         /// The selected pad.
         pad: multiplexer.pad(),

@@ -33,9 +33,9 @@ block! {
     inputs(multiplier) {
         /// Asserted while a product is multiplier_busy for.
         enable: BIT,
-        /// A code as an integer.
+        /// Left operand, a code as an integer.
         left: multiplier.left,
-        /// A code as an integer.
+        /// Right operand, a code as an integer.
         right: multiplier.right,
     }
     outputs(multiplier) {
@@ -125,7 +125,7 @@ impl Multiplier {
         }
     }
 
-    /// Their sum.
+    /// Sum of the partial products, aligned.
     #[inline(always)]
     fn sum<V: Interpretation>(&self, r: &Registers<Signal<V>>) -> Signal<V> {
         let whole = |sum: Signal<V>| sum.resize(self.product(), Proved);

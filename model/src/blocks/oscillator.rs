@@ -60,21 +60,21 @@ block! {
     inputs(oscillator) {
         /// A sample is valid.
         sample: BIT,
-        /// It is the first of its slot.
+        /// First sample of its slot: the carrier restarts.
         restart: BIT,
-        /// It is the first of its window.
+        /// First sample of its window.
         first: BIT,
     }
     outputs(oscillator) {
         /// Asserted for one cycle before the other outputs are those of the sample.
         ready: BIT,
-        /// The cosine of the carrier.
+        /// Cosine of the carrier, fraction of its amplitude.
         cosine: oscillator.wave,
-        /// The sine of the carrier.
+        /// Sine of the carrier, fraction of its amplitude.
         sine: oscillator.wave,
-        /// The window.
+        /// Window value, from 0 to 1.
         window: oscillator.wave,
-        /// Polyphase: which of the carrier's five phases the sample has.
+        /// Polyphase: carrier phase of the sample, 0 to 4.
         phase: if oscillator.polyphase { POLYPHASE } else { BIT },
     }
     registers(oscillator) {
@@ -230,7 +230,7 @@ impl Oscillator {
         }
     }
 
-    /// Polyphase: the word of the window's place, or of its mirror image, is looked up; a clock later it is there.
+    /// Polyphase: the word of the window's place, or of its mirror image, is looked up; one cycle later it is there.
     #[inline(always)]
     fn clock_polyphase<V: Interpretation>(
         &self,

@@ -31,7 +31,7 @@ block! {
         clear: BIT,
     }
     outputs(pace) {
-        /// A strobe was too early.
+        /// A strobe came too early; stays asserted until `clear` or reset.
         overrun: BIT,
     }
     registers(pace) {

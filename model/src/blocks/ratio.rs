@@ -44,23 +44,23 @@ block! {
     inputs(block) {
         /// Begins; all others are valid and stable until `done`.
         start: BIT,
-        /// The numerator of r_x.
+        /// Numerator of r_x: the terminals' amplitudes with their signs.
         x: block.sums,
-        /// The numerator of r_y.
+        /// Numerator of r_y: the terminals' amplitudes with their signs.
         y: block.sums,
-        /// Their denominator.
+        /// Denominator of both ratios: the amplitudes of all terminals with a sign.
         corners: block.corners,
-        /// The least amplitude of the terminals.
+        /// Smallest amplitude of all terminals.
         least: block.least,
     }
     outputs(block) {
         /// Asserted for one cycle when the ratios are valid.
         done: BIT,
-        /// The x ratio.
+        /// Ratio r_x of eq. 2.
         r_x: block.ratio,
-        /// The y ratio.
+        /// Ratio r_y of eq. 3.
         r_y: block.ratio,
-        /// The least of the terminals' currents, as a share of the denominator; until the next slot's `start`.
+        /// Smallest amplitude over the denominator; stable until the next `start`.
         share: block.quotient(),
         /// The denominator is zero.
         invalid: BIT,

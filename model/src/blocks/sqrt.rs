@@ -32,7 +32,7 @@ block! {
     }
     submodules {}
     inputs(block) {
-        /// Takes the radicand and begins.
+        /// Starts a square root.
         start: BIT,
         radicand: block.radicand,
     }

@@ -72,7 +72,7 @@ impl<V: Interpretation> FixedSimulation<V> {
     /// The frame of a slot: `codes` are those of its window, a sample after the other.
     ///
     /// # Panics
-    /// Where `codes` is not one code a channel and sample, or the estimator does not finish within its latency.
+    /// Where `codes` is not one code per channel and sample, or the estimator does not finish within its latency.
     pub fn slot(&mut self, pad: usize, codes: &[i32]) -> Frame {
         assert_eq!(codes.len(), self.window() * self.channels, "one code a channel and sample of the window");
         self.demodulate(codes);
@@ -103,7 +103,7 @@ impl<V: Interpretation> FixedSimulation<V> {
     /// The sums of a window, as numbers: in phase and quadrature of each channel, then of the haptic voltage's squares.
     ///
     /// # Panics
-    /// Where `codes` is not one code a channel and sample.
+    /// Where `codes` is not one code per channel and sample.
     pub fn sums(&mut self, codes: &[i32]) -> Vec<f64> {
         assert_eq!(codes.len(), self.window() * self.channels, "one code a channel and sample of the window");
         self.demodulate(codes);
@@ -132,7 +132,7 @@ impl<V: Interpretation> FixedSimulation<V> {
         }
     }
 
-    /// A channel's sums by the phases of a carrier with five samples a period.
+    /// A channel's sums by the phases of a carrier with five samples per period.
     #[inline]
     fn phases(&self, channel: usize, codes: &[i32]) -> [Signal<V>; 5] {
         let (demodulator, adc) = (self.core.demodulator(), self.adc);

@@ -38,7 +38,7 @@ impl Response {
         response
     }
 
-    /// The in-phase and quadrature sums of a tone, held at the rail, and whether it was.
+    /// The in-phase and quadrature sums of a tone, saturated, and whether it was.
     pub fn tone(&self, (p, q): (f64, f64)) -> ([f64; 2], bool) {
         let amplitude = p.hypot(q);
         let held = (self.rail / amplitude).min(1.0);
@@ -46,7 +46,7 @@ impl Response {
         ([0, 1].map(|phase| held * (p * of_p[phase] + q * of_q[phase])), amplitude >= self.rail)
     }
 
-    /// The sum of squares of a sine of this mean square, held at the rail, and whether it was.
+    /// The sum of squares of a sine of this mean square, saturated, and whether it was.
     pub fn square(&self, mean_square: f64) -> (f64, bool) {
         let most = 0.5 * self.rail * self.rail;
         (mean_square.min(most) * self.square, mean_square >= most)

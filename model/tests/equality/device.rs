@@ -56,13 +56,13 @@ pub struct Tones {
 pub enum Sight {
     /// Nothing at all.
     Silence,
-    /// Any codes.
+    /// Uniformly distributed codes.
     Noise,
     /// A few codes about zero.
     Whisper,
-    /// Codes at the rails.
+    /// Codes at full scale.
     Rails,
-    /// A pad.
+    /// Tones as a pad on the sheet causes them.
     Tones,
     /// A pad, one terminal's wire broken.
     Broken,

@@ -29,7 +29,7 @@ impl<B: Block, V: Interpretation> Bench<B, V> {
         Bench { state: block.reset(), block, clock: 0 }
     }
 
-    /// One clock.
+    /// Runs one clock and returns the outputs.
     pub fn clock(&mut self, inputs: Inputs<B, i64>) -> Outputs<B, i64> {
         let with_formats = B::Inputs::zip(inputs, self.block.inputs());
         let signals = B::Inputs::map(with_formats, |(code, format)| Signal { value: V::raw(code, format), format });

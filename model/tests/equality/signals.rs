@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Operations on small formats: the clocked reading is the exact rational, rounded as named; the real reading is the number
-//! itself; the range reading holds whatever happens within its operands' ranges.
+//! Operations on small formats: the clocked interpretation is the exact rational, rounded as named; the real interpretation is the number
+//! itself; the range interpretation holds whatever happens within its operands' ranges.
 
 use hapticore_hdl::format::Format;
 use hapticore_hdl::interpretations::range::{Range, take_violations, whole};

@@ -170,7 +170,7 @@ fn calibration(profile: &Profile) -> Calibration {
     }
 }
 
-/// The document.
+/// Text of docs/lock-in.md.
 pub fn document(measured: &[Measured]) -> String {
     let mut text = String::from(
         "# The lock-in, measured\n\n\

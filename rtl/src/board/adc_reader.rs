@@ -11,7 +11,7 @@
 //! CS      ‾‾‾‾‾‾‾‾┐_______________________┌‾‾‾
 //! SCLK    ‾‾‾‾‾‾‾‾‾‾‾┐_┌‾┐_┌‾ … ┐_┌‾‾‾‾‾‾‾‾‾‾             high, then low, within each of W clocks
 //! DOUTx            ⟨W−1⟩⟨W−2⟩ … ⟨ 0 ⟩                      captured at the end of each of these clocks
-//! store                         C+W … C+W+7                one word a clock, channel 0 first; `strobe` follows
+//! store                         C+W … C+W+7                one word per clock, channel 0 first; `strobe` follows
 //! ```
 //!
 //! The ADC puts out the first bit at CS, each other one after a *rising* edge of SCLK, and holds it until the next. Rising edges
@@ -57,9 +57,9 @@ block! {
     }
     submodules {}
     inputs(reader) {
-        /// Converts and reads, again and again.
+        /// Starts a conversion and a read every period while asserted.
         enable: BIT,
-        /// Pin: a conversion is under way.
+        /// Pin: high while the ADC converts.
         busy: BIT,
         /// Pins: one data line per channel, the first channel the least significant bit.
         dout: Format::unsigned(reader.channels as u8, 0),
@@ -69,7 +69,7 @@ block! {
     outputs(reader) {
         /// Pin: its rising edge samples all channels.
         convst: BIT,
-        /// Pin: low while a set is read.
+        /// Pin: chip select, low during a read.
         cs_n: BIT,
         /// SCLK has a pulse in this cycle; the pin follows by the latency of its primitive.
         sclk_run: BIT,
@@ -77,11 +77,11 @@ block! {
         shift: BIT,
         /// Asserted for each word of a set.
         store: BIT,
-        /// Where it belongs: the set, and the channel.
+        /// Address of the stored word: bank, then channel.
         address: Format::unsigned(reader.index().width + 1, 0),
-        /// The word.
+        /// Stored word: the code of a channel.
         code: reader.code,
-        /// The set that is complete.
+        /// Bank of the complete set.
         bank: BIT,
         /// Asserted for one cycle when it is.
         strobe: BIT,

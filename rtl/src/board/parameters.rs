@@ -18,7 +18,7 @@ pub struct Parameters {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{field}: expected {expected}, got {got}")]
 pub struct ParametersError {
-    /// The number.
+    /// Name of the parameter.
     pub field: &'static str,
     /// What it may be.
     pub expected: String,

@@ -42,24 +42,24 @@ block! {
     inputs(block) {
         /// Asserted for one cycle with each byte.
         valid: BIT,
-        /// The byte.
+        /// Received byte.
         octet: BYTE,
-        /// A command's data move on by a bit.
+        /// Shifts the command's data by one bit.
         shift: BIT,
         /// The bit that is shifted in behind them.
         answer: BIT,
     }
     outputs(block) {
-        /// The register of the same name.
+        /// Calibration register: gain of the capacitance.
         capacitance_gain: block.calibration.capacitance_gain,
-        /// The register of the same name.
+        /// Calibration register: gain of the force.
         force_gain: block.calibration.force_gain,
         /// The board converts and measures.
         enable: BIT,
         /// The ADC is in reset.
         adc_reset: BIT,
         table as TablePort: block.calibration.table,
-        /// Writes a register of the ADC.
+        /// Asserted for one cycle to write a register of the ADC.
         adc_write: BIT,
         /// The word for it, bit by bit.
         sdi: BIT,
@@ -69,11 +69,11 @@ block! {
         refused: BIT,
         /// Asserted for one cycle when a register other than the control register has been written.
         written: BIT,
-        /// The number of the register that the last command named.
+        /// Number of the register that the last command addressed.
         place: PLACE,
-        /// Its data, or the ADC's answer.
+        /// Data of the last command, or the ADC's answer.
         data: block.data,
-        /// All calibration may be there: since reset its last register has been written.
+        /// The last calibration register was written since reset.
         calibrated: BIT,
     }
     registers(block) {

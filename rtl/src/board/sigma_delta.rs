@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Sigma-delta: the carrier as one bit a clock, for a pin and a low-pass filter.
+//! Sigma-delta: the carrier as one bit per clock, for a pin and a low-pass filter.
 //!
 //! ```text
 //! s[n] = rest[n−1] + x[n] + ½ full scale,   pulse = carry of s,   rest = the others

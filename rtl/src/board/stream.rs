@@ -54,13 +54,13 @@ block! {
     }
     inputs(stream) {
         frames as FramePort: stream.frames(),
-        /// The ADC was late.
+        /// Asserted for one cycle when the ADC was late.
         late: BIT,
-        /// A command was refused.
+        /// Asserted for one cycle when a command was refused.
         refused: BIT,
         /// Commands accepted so far, modulo 16.
         commands: NIBBLE,
-        /// The board is enabled: no heartbeats.
+        /// The board is enabled; no heartbeats are sent.
         enable: BIT,
         /// Asserted for one cycle when a word is to be kept for heartbeats.
         keep: BIT,
@@ -68,11 +68,11 @@ block! {
         place: PLACE,
         /// The word; stable until the next.
         data: stream.data,
-        /// A flag of heartbeats.
+        /// Flag `calibrated` of heartbeats.
         calibrated: BIT,
     }
     outputs(stream) {
-        /// Pin: the line, high at rest.
+        /// Pin: serial output, high when idle.
         tx: BIT,
     }
     registers(stream) {
@@ -122,7 +122,7 @@ fn as_word(bits: u16, word: Format) -> i32 {
 }
 
 impl Stream {
-    /// The stream of a profile's frames, with so many clocks a bit, and of a board whose commands bring so much data.
+    /// The stream of a profile's frames, with so many clocks per bit, and of a board whose commands bring so much data.
     pub fn new(profile: &Profile, divisor: u64, data: Format) -> Self {
         let format = Field::word(profile);
         let mut initial = vec![0.0; 2 * WORDS as usize];

@@ -22,7 +22,7 @@ use std::str::FromStr;
 pub enum Target {
     /// Radiona ULX3S with an ECP5 85F.
     Ulx3s,
-    /// 1BitSquared iCEBreaker.
+    /// 1BitSquared iCEBreaker with an iCE40UP5K.
     Icebreaker,
 }
 
@@ -50,7 +50,7 @@ macro_rules! locate {
 }
 
 impl Target {
-    /// All boards.
+    /// All supported boards.
     pub const ALL: [Target; 2] = [Target::Ulx3s, Target::Icebreaker];
 
     /// What it is called in commands.

@@ -61,7 +61,7 @@ pub struct SclkOutput {
     pub clock: Signal<In, Clock>,
     /// A pulse in this clock.
     pub run: Signal<In, Bit>,
-    /// The pin.
+    /// Pin: serial clock of the ADC.
     pub sclk: Signal<Out, Bit>,
     primitive: Primitive,
 }

@@ -24,7 +24,7 @@ pub const BYTE: Format = Format::unsigned(8, 0);
 /// The position of the stop bit; that of the start bit is 0.
 const STOP: u64 = 9;
 
-/// A receiver.
+/// Receiver: 8N1 line to bytes.
 pub mod receiver {
     use super::*;
 
@@ -42,7 +42,7 @@ pub mod receiver {
         outputs(receiver) {
             /// Asserted for one cycle with each byte.
             valid: BIT,
-            /// The byte.
+            /// Byte, least significant bit first on the line.
             octet: BYTE,
         }
         registers(receiver) {
@@ -57,7 +57,7 @@ pub mod receiver {
     }
 
     impl Receiver {
-        /// A receiver with so many clocks a bit.
+        /// A receiver with so many clocks per bit.
         pub fn new(divisor: u64) -> Self {
             Receiver { divisor }
         }
@@ -98,7 +98,7 @@ pub mod receiver {
     }
 }
 
-/// A transmitter.
+/// Transmitter: bytes to 8N1 line.
 pub mod transmitter {
     use super::*;
 
@@ -112,7 +112,7 @@ pub mod transmitter {
         inputs(transmitter) {
             /// A byte is to be sent.
             valid: BIT,
-            /// The byte.
+            /// Byte, least significant bit first on the line.
             octet: BYTE,
         }
         outputs(transmitter) {
@@ -131,7 +131,7 @@ pub mod transmitter {
     }
 
     impl Transmitter {
-        /// A transmitter with so many clocks a bit.
+        /// A transmitter with so many clocks per bit.
         pub fn new(divisor: u64) -> Self {
             Transmitter { divisor }
         }

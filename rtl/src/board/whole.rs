@@ -43,33 +43,33 @@ block! {
         stream: Stream,
     }
     inputs(board) {
-        /// The ADC's data lines, a bit each.
+        /// Pins: data lines of the ADC, one bit per channel.
         dout: board.adc_reader.inputs().dout,
-        /// The ADC converts.
+        /// Pin: high while the ADC converts.
         busy: BIT,
-        /// Serial line in.
+        /// Pin: serial input.
         rx: BIT,
     }
     outputs(board) {
-        /// The ADC samples.
+        /// Pin: its rising edge samples all channels.
         convst: BIT,
-        /// The ADC is read.
+        /// Pin: chip select of the ADC, active low.
         cs_n: BIT,
         /// SCLK has a pulse in this cycle.
         sclk_run: BIT,
-        /// To the ADC's registers.
+        /// Pin: serial data to the ADC's registers.
         sdi: BIT,
         /// The carrier, one bit per cycle.
         carrier: BIT,
-        /// The switches of the pads, a bit each.
+        /// Pins: one bit per pad, high closes its switch.
         select: board.pads.outputs().select,
-        /// Serial line out.
+        /// Pin: serial output.
         tx: BIT,
-        /// For a lamp: the board is enabled.
+        /// LED: the board is enabled.
         enabled: BIT,
-        /// For a lamp: the ADC has been late since the board was enabled.
+        /// LED: the ADC was late since the board was enabled.
         late: BIT,
-        /// The ADC's reset.
+        /// Pin: reset of the ADC, active high.
         adc_reset: BIT,
     }
     registers(board) {
@@ -102,7 +102,7 @@ impl Board {
         })
     }
 
-    /// The core.
+    /// The core's configuration.
     pub fn core(&self) -> &Core {
         &self.core
     }

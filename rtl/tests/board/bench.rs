@@ -17,7 +17,7 @@ impl<B: Block> Bench<B> {
         Bench { state: block.reset(), block }
     }
 
-    /// One clock.
+    /// Runs one clock and returns the outputs.
     pub fn clock(&mut self, inputs: Inputs<B, i64>) -> Outputs<B, i64> {
         let with_formats = B::Inputs::zip(inputs, self.block.inputs());
         let signals = B::Inputs::map(with_formats, |(value, format)| Signal { value, format });

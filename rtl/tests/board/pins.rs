@@ -40,7 +40,7 @@ pub struct Adc {
     sdi: Vec<i64>,
     /// What the first data line puts out in register mode.
     answer: Option<u16>,
-    /// The registers.
+    /// Registers of the modelled ADC.
     pub part: Part,
     /// Conversions that it has begun.
     pub conversions: usize,

@@ -6,7 +6,7 @@
 //!   Δ = x−x′, s = x+x′, θ± = π(y±y′)/b, g₀ = (x²+x′²)/2a − max(x, x′) + a/3
 //!
 //! Each logarithm's argument is (1−e)² + 4e·sin²(θ/2), which does not cancel near the source; the product of all is taken
-//! before one logarithm. What is cut off after M images is 3.8e-6, 8e-11, 2e-15 for M = 1, 2, 3. Source: PHYSICS §1.
+//! before one logarithm. What is cut off after M images is 3.8e-6, 8e-11, 2e-15 for M = 1, 2, 3. Source: docs/physics.md §1.
 
 use std::f64::consts::PI;
 

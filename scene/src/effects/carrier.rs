@@ -6,7 +6,7 @@
 //! The sensing voltage is V·cos ωt with t = 0 at each slot's first sample; the haptic voltage is √2·V_h·sin ω_h·t with t
 //! since the start of the case.
 //!
-//! | rung | what the `float` and `fixed` cores are given | error |
+//! | level | what the `float` and `fixed` cores are given | error |
 //! | --- | --- | --- |
 //! | `phasor` | the amplitudes themselves, one set per slot | exact in steady state |
 //! | `samples` | ADC samples, as the `clock` core always is | sampling effects only |
@@ -28,7 +28,7 @@ use crate::terminals::MOST_CHANNELS;
 /// The effect's name.
 pub(crate) const CARRIER: &str = "carrier";
 
-/// The rung at which a core demodulates samples itself.
+/// The level at which a core demodulates samples itself.
 pub(crate) const SAMPLES: &str = "samples";
 
 pub(super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {

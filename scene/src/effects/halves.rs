@@ -5,8 +5,8 @@
 //!
 //! A push off the centre, a pad's `eccentricity_mm`, presses one half more than the other; its gap closes further, and
 //! eq. 10 reads a part of e. `mismatch_percent` is by how much the left electrode is larger than the right one: it reads as a
-//! constant offset. The centres lie a quarter of the pad's diameter off its own. Each half has gaps of its own, at the rung of
-//! `[gap]`. The truth's direction is Δx over half the sheet's width, as the ratios of eq. 10 are. Source: PHYSICS §4.
+//! constant offset. The centres lie a quarter of the pad's diameter off its own. Each half has gaps of its own, at the level of
+//! `[gap]`. The truth's direction is Δx over half the sheet's width, as the ratios of eq. 10 are. Source: docs/physics.md §4.
 
 use super::effect::{Effect, PadEffect};
 use super::gap;

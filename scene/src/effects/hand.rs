@@ -5,7 +5,7 @@
 //!
 //! Without the table the pad itself follows its path. A pad's `push_x_n` and `push_y_n` push it besides; with a `stiffness_n_per_m`
 //! and a `damping_n_s_per_m` of 0 they alone move it. The friction that the hand works against is `[friction]`'s, which also
-//! takes the steps. Source: PHYSICS §4, 300 N/m, 3 N·s/m, 0.05 kg.
+//! takes the steps. Source: docs/physics.md §4, 300 N/m, 3 N·s/m, 0.05 kg.
 
 use super::effect::{Effect, PadEffect};
 use super::pad::{Hand, Pad};

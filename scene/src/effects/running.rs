@@ -12,7 +12,7 @@ use super::spec::{Setting, Spec};
 pub struct EffectCost {
     /// Its table, or table and key.
     pub name: &'static str,
-    /// Its rung.
+    /// Fidelity level in use.
     pub rung: String,
     /// Wall time, s.
     pub seconds: f64,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! An effect as a scene asks for it: its rungs of accuracy and the one that is used.
+//! An effect as a scene asks for it: its fidelity levels and the one that is used.
 
 use std::sync::Arc;
 
@@ -17,7 +17,7 @@ pub(crate) struct Spec {
     /// From the coarsest to the finest; a single one where the effect is one way or not at all.
     rungs: Vec<Rung>,
     chosen: usize,
-    /// The scene names the rung itself, so that an error budget leaves it alone.
+    /// The scene names the level itself, so that an error budget leaves it alone.
     named: bool,
 }
 
@@ -28,7 +28,7 @@ pub(crate) struct Rung {
     word: &'static str,
     /// What a run says: the word, and its numbers where it has some.
     pub label: String,
-    /// What a slot costs, as the `speed` example measured it, ns: an error budget takes the cheapest rung that fits.
+    /// What a slot costs, as the `speed` example measured it, ns: an error budget takes the cheapest level that fits.
     pub cost_ns: f64,
     /// There are scenes that it refuses, so that it has to be asked before a run.
     pub limited: bool,
@@ -47,17 +47,17 @@ pub(crate) struct Setting<'a> {
 }
 
 impl Rung {
-    /// A rung that a scene asks for by `word`.
+    /// A level that a scene asks for by `word`.
     pub fn new(word: &'static str, cost_ns: f64, build: impl Fn(&Setting) -> Effect + Send + Sync + 'static) -> Self {
         Rung { word, label: word.to_string(), cost_ns, limited: false, build: Arc::new(build) }
     }
 
-    /// The same rung, which refuses some scenes.
+    /// The same level, which refuses some scenes.
     pub fn limited(self) -> Self {
         Rung { limited: true, ..self }
     }
 
-    /// The same rung, with its numbers beside its word.
+    /// The same level, with its numbers beside its word.
     pub fn labelled(self, label: String) -> Self {
         Rung { label, ..self }
     }
@@ -74,7 +74,7 @@ impl Spec {
         Some(Spec { name, rungs, chosen: 0, named: true })
     }
 
-    /// An effect with rungs, from the coarsest to the finest, of which `table` names one as `rung`; `usual` where it does
+    /// An effect with levels, from the coarsest to the finest, of which `table` names one as `rung`; `usual` where it does
     /// not.
     pub fn ladder(
         name: &'static str,
@@ -89,32 +89,32 @@ impl Spec {
         Ok(Some(Spec { name, rungs, chosen, named: word.is_some() }))
     }
 
-    /// The rung that is used.
+    /// The level that is used.
     pub fn rung(&self) -> &Rung {
         &self.rungs[self.chosen]
     }
 
-    /// Whether the rung that is used is the one a scene writes so.
+    /// Whether the level that is used is the one a scene writes so.
     pub fn is_at(&self, word: &str) -> bool {
         self.rung().word == word
     }
 
-    /// Whether an error budget may choose the rung.
+    /// Whether an error budget may choose the level.
     pub fn is_free(&self) -> bool {
         !self.named && self.rungs.len() > 1
     }
 
-    /// The same effect at each of its rungs, coarsest first.
+    /// The same effect at each of its levels, coarsest first.
     pub fn all(&self) -> Vec<Spec> {
         (0..self.rungs.len()).map(|chosen| self.at(chosen)).collect()
     }
 
-    /// The same effect at its finest rung.
+    /// The same effect at its finest level.
     pub fn finest(&self) -> Spec {
         self.at(self.rungs.len() - 1)
     }
 
-    /// The same effect one rung up.
+    /// The same effect one level up.
     pub fn finer(&self) -> Option<Spec> {
         (self.chosen + 1 < self.rungs.len()).then(|| self.at(self.chosen + 1))
     }

@@ -4,12 +4,12 @@
 //!
 //!   V_h = V_source / |1 + jω_h(R_lim + jω_hL)(C + C_par)|
 //!
-//! | rung | what | error |
+//! | level | what | error |
 //! | --- | --- | --- |
 //! | `steady` | amplitudes | none once R_lim·(C + C_par), a quarter of a millisecond, has passed |
 //!
 //! `limiting_kohm` is the resistor that keeps the current harmless, `transformer_h` the inductance of the winding that adds
-//! the sensing voltage, `parasitic_pf` the capacitance of cable and pad to ground. Source: PHYSICS §3; the inductance is no one's
+//! the sensing voltage, `parasitic_pf` the capacitance of cable and pad to ground. Source: docs/physics.md §3; the inductance is no one's
 //! measurement, hence 0.
 
 use std::f64::consts::TAU;
@@ -52,7 +52,7 @@ impl PadEffect for Supplied {
 mod tests {
     use super::*;
 
-    /// PHYSICS §3, Fig. 7: 343 V where the pad has some 440 pF, 333 V where it has 760 pF.
+    /// docs/physics.md §3, Fig. 7: 343 V where the pad has some 440 pF, 333 V where it has 760 pF.
     #[test]
     fn three_hundred_kilohms_drop_350_v_to_343_v_and_333_v() {
         let supply = Supply { limiting_ohm: 300e3, transformer_h: 0.0, parasitic_f: 100e-12, rad_s: TAU * 200.0 };

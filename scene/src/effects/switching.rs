@@ -4,7 +4,7 @@
 //!
 //!   i(t) = Re{Y·V·[e^(jωt) + e^(−t/τ)/(jωτ)]},   Y = jωC/(1 + jωτ)
 //!
-//! | rung | what | error of C in steady state |
+//! | level | what | error of C in steady state |
 //! | --- | --- | --- |
 //! | `rc-1`, `rc-4`, `rc-8`, `rc-16`, `rc-64` | the circuit by the trapezoid rule, so many steps per sample | tan(ωh/2)/(ωh/2) − 1: 3.4, 0.21, 0.051, 0.013, 0.0008 % at 1 MS/s |
 //! | `euler-64` | the same explicitly; refused where a step is longer than 2τ, since it would diverge | first order in the step |
@@ -25,7 +25,7 @@ use crate::format::Table;
 use crate::rotor::Rotor;
 use crate::timing::Timing;
 
-/// The rungs: steps per sample, and what a slot costs, ns.
+/// The levels: steps per sample, and what a slot costs, ns.
 const RC: [(&str, Method, usize, f64); 6] = [
     ("rc-1", Method::Trapezoid, 1, 1.4e4),
     ("euler-64", Method::Euler, 64, 1e6),

@@ -22,7 +22,7 @@
 //! Zhang and Ding, IEEE INEC 2016).
 //!
 //! A step of ΔT is a step of α·`step_k` in R_s, 20 ppm at 400 ppm/K: the film is at most half of that off its course. With a
-//! gradient the film is uneven, so that `[sheet]` needs a rung of a mesh, and no `[shunt]`. Every step builds the sheet's table anew.
+//! gradient the film is uneven, so that `[sheet]` needs a level of a mesh, and no `[shunt]`. Every step builds the sheet's table anew.
 
 use super::effect::{Effect, PadEffect};
 use super::pad::{FilmChange, Pad};

@@ -13,7 +13,7 @@ use crate::plant::Plant;
 use crate::scene::Scene;
 use crate::timing::Timing;
 
-/// With the paper's ratios, eqs. 2 and 3: the shifts that are taken out are those of PHYSICS §1.
+/// With the paper's ratios, eqs. 2 and 3: the shifts that are cancelled are those of docs/physics.md §1.
 fn timing() -> Timing {
     let signs = Some([vec![-1, -1, 1, 1, 0, 0], vec![1, -1, -1, 1, 0, 0]]);
     Timing { pads: 4, slot_samples: 200, window_start: 0, window_samples: 200, samples_per_period: 10.0, signs }
@@ -131,7 +131,7 @@ fn a_pad_alone_stays_as_it_is_read() {
     assert!((freed.x_mm - 120.0).abs() < 1e-9 && (freed.capacitance_pf - 318.0).abs() < 1e-9, "{freed:?}");
 }
 
-/// What a host of a real board has of the sheet is what the simulation's `analytic` and `full` rungs compute.
+/// What a host of a real board has of the sheet is what the simulation's `analytic` and `full` levels compute.
 #[test]
 fn the_hosts_own_nominal_sheet_is_the_simulated_one() {
     let mut simulated = plant(&[[0.0, 0.0]], NOMINAL).nominal_sheet().unwrap();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What several tests share: scenes of one pad, an ideal demodulator and PHYSICS §2's exact inversion.
+//! What several tests share: scenes of one pad, an ideal demodulator and the exact inversion of docs/physics.md §2.
 #![allow(dead_code, reason = "each test file uses a part")]
 
 pub mod every;
@@ -66,7 +66,7 @@ pub fn demodulate(plant: &mut Plant, slot: usize, weight: Window) -> Vec<Complex
     phasors
 }
 
-/// C = |I|²/(ω·Im(I·V*)), the I/Q inversion of PHYSICS §2 for any phase of V, in F.
+/// C = |I|²/(ω·Im(I·V*)), the I/Q inversion of docs/physics.md §2 for any phase of V, in F.
 pub fn capacitance_f(plant: &Plant, phasors: &[Complex]) -> f64 {
     let device = plant.device();
     let total: Complex = phasors[..TERMINALS].iter().map(|current| current * device.current_full_scale_a).sum();

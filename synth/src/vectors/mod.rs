@@ -2,7 +2,7 @@
 //! Vectors for users of the Verilog who have no Rust: calibrations, slots of samples, and the frames and pins that follow.
 //!
 //! `rtl/verilog/vectors/` holds them for the small profile; `synth/run vectors` makes them, a test holds them fresh. The
-//! first slots are pads somewhere on a sheet, a carrier of five samples a period with some noise; the others are what breaks a
+//! first slots are pads somewhere on a sheet, a carrier of five samples per period with some noise; the others are what breaks a
 //! careless core. No plant is behind them. `tests/tests/vectors.rs` holds that they notice faults.
 //!
 //! | file | holds |
@@ -191,7 +191,7 @@ fn slot(bench: &mut Bench, profile: &Profile, slot: Slot, set: Option<Set>, nois
     }
 }
 
-/// The files.
+/// All files of the vectors.
 pub fn files() -> Vec<File> {
     let profile = Profile::bundled(PROFILE).expect("a bundled profile");
     let mut bench = Bench::new(Core::new(&profile));

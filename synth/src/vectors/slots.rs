@@ -15,7 +15,7 @@ const SHARE: i64 = 32_768 / 64;
 /// What the ADC sees in a slot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Slot {
-    /// A pad.
+    /// Signals of a pad on the sheet.
     Pad,
     /// A pad with small currents.
     Faint,
@@ -29,7 +29,7 @@ pub enum Slot {
     Any,
     /// Tones of any phase beyond the rails.
     Loud,
-    /// Tones of one phase at the rails, one of the full size of a sum.
+    /// Tones of one phase at full scale, one of the full size of a sum.
     Alike(i64),
     /// Tones of any phase and size that begin within the window: its two halves no longer cancel what is not in phase.
     Late,
@@ -37,9 +37,9 @@ pub enum Slot {
     Offset,
     /// A few codes about zero.
     Noise,
-    /// Zero.
+    /// All codes zero.
     Silence,
-    /// Codes at either rail.
+    /// Codes at either end of full scale.
     Rails,
     /// Currents of a few codes.
     Whisper,
@@ -56,11 +56,11 @@ pub enum Slot {
 /// What a channel sees.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Tone {
-    /// Amplitude, codes.
+    /// Amplitude, in codes.
     size: i64,
-    /// Samples.
+    /// Delay, in samples.
     lag: i64,
-    /// Codes.
+    /// Offset, in codes.
     offset: i64,
     /// Samples of the window before it begins.
     onset: u64,

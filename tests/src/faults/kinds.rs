@@ -10,7 +10,7 @@ use regex::{Captures, Regex};
 pub enum Kind {
     /// An operand is extended with zeros, taken as unsigned, added instead of subtracted, or the other way round.
     Sign,
-    /// A word is a bit narrower, above or below, or wraps where it should be held at a rail.
+    /// A word is a bit narrower, above or below, or wraps where it should be saturated.
     Width,
     /// What is dropped is not rounded, or halves are rounded up and not to even.
     Rounding,
@@ -19,7 +19,7 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// All.
+    /// Every kind of mutant.
     pub const ALL: [Kind; 4] = [Kind::Sign, Kind::Width, Kind::Rounding, Kind::Latency];
 }
 

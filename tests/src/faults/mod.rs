@@ -23,10 +23,10 @@ pub use plant::Planted;
 
 use std::fmt;
 
-/// A fault.
+/// A mutant of the printed Verilog.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Fault {
-    /// The module.
+    /// Module that the mutant is in.
     pub module: String,
     /// The wire, register or condition that is wrong.
     pub name: String,

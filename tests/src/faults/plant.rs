@@ -15,9 +15,9 @@ use super::{Fault, Kind};
 /// A design with faults, number 1 the first.
 #[derive(Debug, Clone)]
 pub struct Planted {
-    /// Its Verilog.
+    /// Verilog with all mutants, enabled by number.
     pub verilog: String,
-    /// The faults.
+    /// The mutants, in the order of their numbers.
     pub faults: Vec<Fault>,
 }
 

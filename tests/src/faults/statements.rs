@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 
 use regex::{Captures, Regex};
 
-/// A statement.
+/// A statement of the printed Verilog.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Statement {
     /// A wire with what drives it; the range has the sign in front and a space behind.

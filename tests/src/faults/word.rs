@@ -12,7 +12,7 @@ use std::collections::HashSet;
 use super::Kind;
 use super::kinds::{Variant, variants};
 
-/// A wire.
+/// A declared wire of the printed Verilog.
 pub struct Word<'a> {
     name: &'a str,
     value: &'a str,

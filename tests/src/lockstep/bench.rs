@@ -10,11 +10,11 @@ use crate::stimulus::Stimulus;
 
 /// A core and what is printed of it.
 pub struct Bench {
-    /// The profile.
+    /// Profile of the core.
     pub profile: Profile,
-    /// The core.
+    /// Configuration of the core.
     pub core: Core,
-    /// Its Verilog.
+    /// Printed Verilog of the core.
     pub design: Design,
 }
 

@@ -24,7 +24,7 @@ use std::fmt;
 pub struct Mismatch {
     /// At which clock after reset.
     pub clock: usize,
-    /// Which output.
+    /// Output that differs.
     pub signal: String,
     /// The model's code, as bits.
     pub model: String,

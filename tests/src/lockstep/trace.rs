@@ -9,7 +9,7 @@ use hapticore_hdl::verilog::{Direction, Port};
 /// Codes of all ports at every clock after reset: inputs, then outputs, in the order of the ports.
 #[derive(Debug, Clone)]
 pub struct Trace {
-    /// The ports.
+    /// Ports in the order of the traced values.
     pub ports: Vec<Port>,
     codes: Vec<i64>,
 }

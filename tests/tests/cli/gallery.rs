@@ -111,7 +111,7 @@ fn small_and_fine_profiles_run_the_same_scene() {
 /// The largest haptic force that the paper reaches, N: full scale of the claims about force.
 const FORCE_FULL_SCALE_N: f64 = 1.0;
 
-/// The largest rounding error of the force over a scene, N, as the shadow reading has it.
+/// The largest rounding error of the force over a scene, N, as the shadow interpretation has it.
 fn force_error(folder: &Path, scene: &str, profile: &str) -> f64 {
     let args = ["simulate", scene, "--errors", "--json", "--profile", profile];
     let summary: Value = serde_json::from_slice(&finish(folder, &args).stdout).unwrap();

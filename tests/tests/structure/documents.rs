@@ -152,7 +152,6 @@ const ABSENT: [&str; 5] = [
 ];
 
 #[test]
-#[ignore = "sources cite docs/ from the merge of the branches on"]
 fn nothing_cites_a_document_that_is_not_here() {
     let mut errors = Vec::new();
     for path in files(&TEXTS) {

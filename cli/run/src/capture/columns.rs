@@ -13,7 +13,7 @@ const LEFT_OUT: &str = "_";
 pub enum Column {
     /// This channel of the ADC.
     Channel(usize),
-    /// The pad that is served.
+    /// The selected pad.
     Pad,
     /// Nothing that is used.
     LeftOut,
@@ -24,7 +24,7 @@ pub enum Column {
 pub struct Columns {
     /// What each holds.
     pub columns: Vec<Column>,
-    /// Its name.
+    /// Accepted names.
     pub names: Vec<String>,
     /// Channels of the ADC.
     pub channels: usize,

@@ -20,7 +20,7 @@ const PATIENCE: Duration = Duration::from_millis(100);
 
 /// A capture's bytes.
 pub struct Input {
-    /// The bytes.
+    /// Content of the file or stream.
     pub bytes: BufReader<Box<dyn Read>>,
     /// What messages call it.
     pub name: String,

@@ -29,7 +29,7 @@ pub type Row<const P: usize> = ([f64; P], f64);
 /// A fit of `P` coefficients.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fit<const P: usize> {
-    /// The coefficients.
+    /// Estimated coefficients with their intervals.
     pub estimates: [Estimate; P],
     /// What they leave of each reading.
     pub residuals: Vec<f64>,

@@ -41,7 +41,7 @@ pub struct Load {
     pub newtons: f64,
     /// What lies on the pad, where it was told.
     pub load_g: Option<f64>,
-    /// Measured otherwise.
+    /// Capacitance measured with a bridge, pF.
     pub reference_pf: Option<f64>,
     /// From the currents, with the full scale of the setup.
     pub sensed_pf: Option<f64>,
@@ -50,9 +50,9 @@ pub struct Load {
 /// The readings of a file.
 #[derive(Debug, Clone)]
 pub struct Loads {
-    /// The file.
+    /// Name of the file, for messages.
     pub file: String,
-    /// The readings.
+    /// Measurements, one per row.
     pub loads: Vec<Load>,
     /// Whether `newtons` are all of the friction.
     pub friction: bool,
@@ -69,7 +69,7 @@ pub struct Force {
     pub current_scale: Option<Estimate>,
     /// The standard deviation of a reading's noise, N, by the residuals.
     pub noise_n: f64,
-    /// The readings.
+    /// Data points of the fit.
     #[serde(skip)]
     pub points: Vec<Point>,
 }
@@ -77,7 +77,7 @@ pub struct Force {
 /// A reading as eq. 8 has it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Point {
-    /// (C·V)², (F·V)².
+    /// Regressor (C·V)², (F·V)².
     pub square: f64,
     /// Less the friction without voltage.
     pub force_n: f64,

@@ -49,11 +49,11 @@ const SCALES: [f64; 2] = [0.8, 1.25];
 pub struct Outcome {
     /// The profile that positions were looked up with.
     pub profile: String,
-    /// Different places.
+    /// Number of distinct positions.
     pub places: usize,
     /// Places in a row, where they are a raster.
     pub columns: Option<usize>,
-    /// Terminals.
+    /// Number of terminals.
     pub terminals: usize,
     /// At the places that the table is made from.
     pub own_places: Residual,
@@ -176,7 +176,7 @@ enum Resistance {
     Unknown,
 }
 
-/// The sheet's resistance at each place: measured, from currents with their phases, or that of an even film.
+/// The sheet's resistance at each place: measured, from currents with their phases, or that of a uniform film.
 fn resistances(places: &Places, setup: &Setup, even: Option<&Plant>) -> (Vec<f64>, Resistance) {
     let all = || places.places.iter();
     let film = setup.sheet.as_ref().and_then(|sheet| sheet.ohm_per_square);
@@ -271,7 +271,7 @@ impl Measured<'_> {
         Ok(Raster { columns, places, open_share: self.open_share })
     }
 
-    /// The ratios that an even sheet has at places; its resistance is not asked for.
+    /// The ratios that a uniform sheet has at places; its resistance is not asked for.
     fn even(&self, places: &[[f64; 2]]) -> Vec<Values> {
         let Some(even) = self.even else { return vec![[0.0; 3]; places.len()] };
         let values = |siemens: &[Complex]| {
@@ -281,7 +281,7 @@ impl Measured<'_> {
         even.readings(places).iter().map(|reading| values(&reading.siemens)).collect()
     }
 
-    /// With the even sheet or without, whichever finds places better that are held out; and these.
+    /// With the uniform sheet or without, whichever finds places better that are held out; and these.
     fn best(self, device: &DeviceCalibration, profile: &Profile) -> Result<(Self, Vec<Found>)> {
         let without = Measured { even: None, ..self.clone() };
         let found = without.hold_out(device, profile);

@@ -37,7 +37,7 @@ pub struct Place {
 /// The places of a file.
 #[derive(Debug, Clone)]
 pub struct Places {
-    /// The file.
+    /// Name of the file, for messages.
     pub file: String,
     /// What was read.
     pub places: Vec<Place>,
@@ -142,7 +142,7 @@ impl Places {
         Ok(places)
     }
 
-    /// Terminals.
+    /// Number of terminals.
     pub fn terminals(&self) -> usize {
         self.places[0].siemens.len()
     }

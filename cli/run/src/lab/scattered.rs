@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Places that lie anywhere, brought onto a raster: polyharmonic splines of what they differ by from an even sheet.
+//! Places that lie anywhere, brought onto a raster: polyharmonic splines of what they differ by from a uniform sheet.
 //!
 //!   f(p) = e(p) + Σ a_i·|p − p_i|³ + b·p + c,   f(p_i) + λ·a_i = f_i,   Σ a_i = Σ a_i·p_i = 0
 //!
-//! e is what an even sheet has there, where the setup says enough, else 0. Readings have noise, which a spline through all of
+//! e is what a uniform sheet has there, where the setup says enough, else 0. Readings have noise, which a spline through all of
 //! them would follow: λ is the one that leaves least of each reading that is left out. Sources: Duchon, "Splines minimizing
 //! rotation-invariant semi-norms in Sobolev spaces", 1977 (kernel r³ in the plane); Wahba, "Spline models for observational
 //! data", 1990, ch. 4 (leaving one out).
@@ -29,7 +29,7 @@ const LAMBDAS: [f64; 9] = [0.0, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2];
 /// So many places, at most, are left out one by one: the best λ depends on the noise, not on their number.
 const LEFT_OUT: usize = 400;
 
-/// The raster about the places: its columns and its places. `even` is what an even sheet has at places, mm.
+/// The raster about the places: its columns and its places. `even` is what a uniform sheet has at places, mm.
 ///
 /// # Errors
 /// Places on a line, or one twice.

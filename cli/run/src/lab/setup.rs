@@ -39,7 +39,7 @@ use hapticore_host::text::{read, with_key};
 pub struct Setup {
     /// Pads served in turn.
     pub pads: u64,
-    /// ADC samples a second.
+    /// ADC samples per second.
     pub sample_rate_hz: f64,
     /// The sensing carrier.
     pub carrier_hz: f64,
@@ -56,7 +56,7 @@ pub struct Setup {
     pub gravity_m_s2: f64,
     /// k of eq. 8, where no loads are measured.
     pub force_k: Option<f64>,
-    /// The terminals.
+    /// Signs or positions of the terminals.
     #[serde(default)]
     pub terminals: Terminals,
     /// The sheet, where its size is known.
@@ -79,13 +79,13 @@ pub struct Terminals {
     pub places_mm: Option<Vec<[f64; 2]>>,
 }
 
-/// An even sheet.
+/// A uniform sheet.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Sheet {
-    /// Along x.
+    /// Size of the sheet along x, mm.
     pub width_mm: f64,
-    /// Along y.
+    /// Size of the sheet along y, mm.
     pub height_mm: f64,
     /// Of a pad.
     #[serde(default = "pad_diameter_mm")]

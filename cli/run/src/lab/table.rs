@@ -8,7 +8,7 @@ use anyhow::{Context, Result, anyhow, bail};
 /// A table of numbers.
 #[derive(Debug, Clone)]
 pub struct Table {
-    /// The file.
+    /// Name of the file, for messages.
     pub file: String,
     names: Vec<String>,
     rows: Vec<Row>,
@@ -65,7 +65,7 @@ impl Table {
         found.ok_or_else(|| anyhow!("{}:1: expected a column {name}, got {}", self.file, self.names.join(", ")))
     }
 
-    /// The rows.
+    /// Data rows with their line numbers.
     pub fn rows(&self) -> &[Row] {
         &self.rows
     }

@@ -4,7 +4,7 @@
 //! | fault | is seen by | needs |
 //! | --- | --- | --- |
 //! | reversed terminal, reversed sensing voltage | a current that lags the voltage; through a pad it leads by up to a quarter turn | phases |
-//! | swapped terminals | a share of the current that goes over the sheet as another terminal's would on an even sheet | `terminals.places_mm` and `[sheet]` |
+//! | swapped terminals | a share of the current that goes over the sheet as another terminal's would on a uniform sheet | `terminals.places_mm` and `[sheet]` |
 //! | the same, across an axis of the sheet | a share that falls towards the side on which its sign says the terminal is | nothing more |
 
 use std::fmt::Write;
@@ -18,13 +18,13 @@ use super::setup::Setup;
 use crate::inputs;
 use hapticore_host::Signs;
 
-/// A current that is so much better correlated with another terminal's on the even sheet is not of its own.
+/// A current that is so much better correlated with another terminal's on the uniform sheet is not of its own.
 const BETTER: f64 = 0.05;
 
 /// A share counts as falling towards its terminal's side from this correlation on.
 const FALLS: f64 = -0.3;
 
-/// Checks the terminals of places, with an even sheet of the setup where it says enough.
+/// Checks the terminals of places, with a uniform sheet of the setup where it says enough.
 ///
 /// # Errors
 /// Terminals that are swapped or reversed, by name.
@@ -37,7 +37,7 @@ pub fn check(places: &Places, setup: &Setup, signs: &Signs, even: Option<&Plant>
     check_sides(places, signs)
 }
 
-/// An even sheet of the setup, where it says enough.
+/// A uniform sheet of the setup, where it says enough.
 ///
 /// # Errors
 /// A sheet that cannot be.
@@ -157,7 +157,7 @@ fn list(terminals: &[usize], one: &str, more: &str) -> String {
     }
 }
 
-/// Pearson's.
+/// Pearson's correlation coefficient.
 fn correlation(a: &[f64], b: &[f64]) -> f64 {
     let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
     let (mean_a, mean_b) = (mean(a), mean(b));

@@ -39,7 +39,7 @@ use hapticore_hdl::format::Format;
 pub struct Calibration {
     /// Position and sheet resistance from ratios.
     pub position: PositionTable,
-    /// Picofarads at an admittance of one.
+    /// Gain of the capacitance, pF at an admittance of 1.
     pub capacitance_gain: f64,
     /// Newtons per square picofarad at a haptic mean-square word of one.
     pub force_gain: f64,

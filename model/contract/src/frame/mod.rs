@@ -10,20 +10,20 @@ use crate::profile::Profile;
 /// What to think of a frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
 pub struct Flags {
-    /// A code was at a rail of the ADC.
+    /// An ADC code of the window was at full scale.
     pub clipped: bool,
-    /// A word was held at a rail.
+    /// A word of the estimate is saturated.
     pub saturated: bool,
-    /// There is no such position or capacitance: the pad's last valid results stand.
+    /// No such position or capacitance: the words repeat the pad's last valid ones.
     pub invalid: bool,
-    /// A terminal's current is that of an open one.
+    /// Open terminal: a current is below the calibrated threshold.
     pub lost: bool,
 }
 
 /// A frame: codes of all fields, in their order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Frame {
-    /// The pad.
+    /// Pad number, from 0.
     pub pad: usize,
     /// The codes, in the formats of [`Field::format`].
     pub codes: [i64; Field::ALL.len()],
@@ -34,11 +34,11 @@ pub struct Frame {
 /// The numbers of a frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reading<T = f64> {
-    /// The pad.
+    /// Pad number, from 0.
     pub pad: usize,
-    /// Eq. 2.
+    /// Ratio r_x of eq. 2.
     pub r_x: T,
-    /// Eq. 3.
+    /// Ratio r_y of eq. 3.
     pub r_y: T,
     /// Millimetres from the middle, along the long edges.
     pub x_mm: T,
@@ -46,9 +46,9 @@ pub struct Reading<T = f64> {
     pub y_mm: T,
     /// The sheet's resistance, in full scales of voltage per current.
     pub sheet: T,
-    /// Picofarads.
+    /// Capacitance between pad and sheet, pF.
     pub capacitance_pf: T,
-    /// Newtons.
+    /// Haptic force of eq. 8, N.
     pub force_n: T,
     /// The mean square of the haptic voltage, in full scales squared (a constant at full scale gives
     /// [`Profile::square_gain`]).

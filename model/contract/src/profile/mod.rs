@@ -45,7 +45,7 @@ pub struct Profile {
     /// The haptic voltage.
     #[serde(default)]
     pub haptic: Haptic,
-    /// Word formats.
+    /// Formats of the core's words; all other widths derive from them.
     pub formats: Formats,
 }
 
@@ -92,7 +92,7 @@ pub struct Carrier {
 pub enum Method {
     /// Each sample times the windowed cosine and sine: any number of periods.
     Products,
-    /// Each sample times the window, summed by phase of a carrier of five samples a period; cosine and sine are applied to
+    /// Each sample times the window, summed by phase of a carrier of five samples per period; cosine and sine are applied to
     /// the five sums at the end of the window.
     Polyphase,
 }
@@ -103,7 +103,7 @@ pub enum Method {
 pub enum Window {
     /// (1 − cos) / 2.
     Hann,
-    /// All alike.
+    /// w = 1.
     Rectangular,
 }
 
@@ -117,7 +117,7 @@ pub struct Position {
     pub rows: u64,
     /// The resistance's cells are `2^resistance_shift` of the ratios' wide and high.
     pub resistance_shift: u8,
-    /// Newton steps.
+    /// Newton steps per slot.
     pub steps: u64,
 }
 
@@ -125,7 +125,7 @@ pub struct Position {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Capacitance {
-    /// Takes the sheet's resistance out (PHYSICS §2); without it, eq. 6 alone.
+    /// Takes the sheet's resistance out (docs/physics.md §2); without it, eq. 6 alone.
     pub sheet_correction: bool,
 }
 
@@ -163,19 +163,19 @@ pub struct Formats {
     pub ratio: Format,
     /// Words of the position table; all are fractions.
     pub table: Format,
-    /// Millimetres.
+    /// Positions, mm.
     pub position: Format,
     /// Total current over sensing voltage, the sheet's resistance taken out.
     pub admittance: Format,
-    /// Picofarads.
+    /// Capacitances, pF.
     pub capacitance: Format,
     /// Mean square of the haptic voltage; one is full scale squared.
     pub mean_square: Format,
     /// Intermediate words of the force: square picofarads.
     pub square: Format,
-    /// Newtons.
+    /// Haptic forces, N.
     pub force: Format,
-    /// Calibration: picofarads at an admittance of one.
+    /// Calibration: gain of the capacitance, pF at an admittance of 1.
     pub capacitance_gain: Format,
     /// Calibration: newtons per square picofarad at the full haptic mean square.
     pub force_gain: Format,
@@ -190,7 +190,7 @@ pub enum ProfileError {
     /// A value is out of its range.
     #[error("{field}: expected {expected}, got {got}")]
     Value {
-        /// The key.
+        /// Key of the offending value, such as `slot.integrate`.
         field: String,
         /// What it may be.
         expected: String,
@@ -200,7 +200,7 @@ pub enum ProfileError {
     /// No bundled profile has this name.
     #[error("expected a file or a profile among {bundled}, got \"{name}\"", bundled = BUNDLED.map(|(name, _)| name).join(", "))]
     Unknown {
-        /// The name.
+        /// Name that was asked for.
         name: String,
     },
 }

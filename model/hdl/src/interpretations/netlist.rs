@@ -29,13 +29,13 @@ pub enum Op {
     Data(usize),
     /// The output port of an instance: their indices.
     Output(usize, usize),
-    /// A sum.
+    /// Exact sum.
     Add(Node, Node),
-    /// A difference.
+    /// Exact difference.
     Sub(Node, Node),
-    /// A product.
+    /// Exact product.
     Mul(Node, Node),
-    /// A magnitude.
+    /// Absolute value; takes the most negative code.
     Abs(Node),
     /// A change of format.
     Fit(Node, Rounding, Overflow),
@@ -49,9 +49,9 @@ pub enum Op {
     Less(Node, Node),
     /// Whether they are equal.
     Equal(Node, Node),
-    /// Both bits.
+    /// Bitwise AND.
     And(Node, Node),
-    /// Either bit.
+    /// Bitwise OR.
     Or(Node, Node),
     /// The other bit.
     Not(Node),
@@ -64,7 +64,7 @@ pub enum Op {
 pub struct Wire {
     /// What drives it.
     pub op: Op,
-    /// Its format.
+    /// Number format.
     pub format: Format,
     /// Its name, where the block gave it one.
     pub name: Option<&'static str>,
@@ -75,7 +75,7 @@ pub struct Wire {
 pub struct Named {
     /// Its name in the bundle.
     pub name: &'static str,
-    /// Its format.
+    /// Number format.
     pub format: Format,
     /// The names of its codes, where it is a state.
     pub states: &'static [&'static str],
@@ -107,7 +107,7 @@ pub struct Ram {
 /// A block within a module.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub struct Instance {
-    /// Its name.
+    /// Name in Verilog and waveforms.
     pub name: &'static str,
     /// The index of its module.
     pub module: usize,
@@ -128,9 +128,9 @@ pub struct Module {
     pub outputs: Vec<Named>,
     /// Whether its registers take zero at reset.
     pub resets: bool,
-    /// Its registers.
+    /// Registers of the module.
     pub registers: Vec<Named>,
-    /// Its memories.
+    /// Memories of the module.
     pub memories: Vec<Ram>,
     /// The blocks within.
     pub instances: Vec<Instance>,

@@ -144,7 +144,7 @@ pub fn code<V: Value>(code: i64, format: Format) -> Signal<V> {
     Signal { value: V::raw(code, format), format }
 }
 
-/// Zero.
+/// A signal of this format with the value 0.
 #[inline(always)]
 pub fn zero<V: Value>(format: Format) -> Signal<V> {
     code(0, format)
@@ -272,7 +272,7 @@ impl<V: Value> Signal<V> {
         Signal { value: V::abs(self, to), format: to }
     }
 
-    /// The square.
+    /// The exact square; 2B + 1 bits hold that of the most negative code.
     #[inline(always)]
     pub fn square(self) -> Self {
         let product = self.format.product(self.format);

@@ -85,7 +85,7 @@ impl Scope<'_> {
         Text::atom(self.slice(wide, width - 1, 0))
     }
 
-    /// Held at the rails of a format with the same point.
+    /// Held at full scale of a format with the same point.
     fn held(&mut self, id: Id, to: Format) -> Text {
         let (width, signed) = (self.width(id), self.signed(id));
         match (signed, to.signed) {

@@ -53,7 +53,7 @@ pub enum Direction {
 pub struct Port {
     /// Its name in Verilog: the field's, with `_out` where an input has the same.
     pub name: String,
-    /// Which way.
+    /// Input or output.
     pub direction: Direction,
     /// How its bits are read as a number.
     pub format: Format,

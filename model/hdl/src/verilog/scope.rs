@@ -10,7 +10,7 @@ use crate::interpretations::netlist::{Module, Named, Node, Op};
 /// An expression in Verilog; its width and sign are those of the wire it stands for.
 #[derive(Debug, Clone)]
 pub struct Text {
-    /// The expression.
+    /// Verilog text of the expression.
     pub text: String,
     /// How it binds.
     pub kind: Kind,

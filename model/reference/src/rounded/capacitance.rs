@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Capacitance, with the sheet's resistance taken out (PHYSICS §2, the √ form), or by eq. 6 alone (R taken for zero).
+//! Capacitance, with the sheet's resistance taken out (docs/physics.md §2, the √ form), or by eq. 6 alone (R taken for zero).
 //!
 //! ```text
 //! drop = [a · R],   left = max(v² − drop², 0),   invalid where v² ≤ drop²
@@ -10,14 +10,14 @@ use super::{Exact, round, round_quotient, round_root};
 use hapticore_contract::format::Format;
 use hapticore_contract::profile::Profile;
 
-/// The capacitance.
+/// Capacitance of a slot, exactly rounded.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Capacitance {
-    /// In picofarads.
+    /// Capacitance, pF.
     pub capacitance: Exact,
     /// Whether there is none.
     pub invalid: bool,
-    /// Whether a word is held at a rail.
+    /// The result is saturated.
     pub saturated: bool,
 }
 

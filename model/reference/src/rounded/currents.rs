@@ -2,7 +2,7 @@
 //! Amplitudes, and the sums of eqs. 2 and 3.
 //!
 //! ```text
-//! i_k = [sum / 2^s],   i = [..[[i_1 + i_2] + i_3]..] over the terminals,   q likewise      ([·]: held at the rails, too)
+//! i_k = [sum / 2^s],   i = [..[[i_1 + i_2] + i_3]..] over the terminals,   q likewise      ([·]: saturated, too)
 //! a_k = [√(i_k² + q_k²)],   a = [√(i² + q²)]
 //! x = Σ ±a_k,   y = Σ ±a_k,   corners = Σ a_k of those in x or y,   least = min a_k
 //! ```
@@ -18,15 +18,15 @@ pub struct Currents {
     pub total: Exact,
     /// Of the sensing voltage.
     pub sense: Exact,
-    /// The numerator of r_x.
+    /// Numerator of r_x: the terminals' amplitudes with their signs.
     pub x: Exact,
-    /// The numerator of r_y.
+    /// Numerator of r_y: the terminals' amplitudes with their signs.
     pub y: Exact,
-    /// Their denominator.
+    /// Denominator of both ratios.
     pub corners: Exact,
     /// The least of the terminals' amplitudes.
     pub least: Exact,
-    /// Whether a word is held at a rail.
+    /// The result is saturated.
     pub saturated: bool,
 }
 

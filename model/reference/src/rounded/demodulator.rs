@@ -21,7 +21,7 @@ pub struct Sums {
     pub phases: Vec<[Exact; 2]>,
     /// Of the haptic voltage's squares.
     pub square: Exact,
-    /// Whether a code was at a rail.
+    /// Whether a code was at full scale.
     pub clipped: bool,
 }
 

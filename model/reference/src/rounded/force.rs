@@ -9,12 +9,12 @@ use super::currents::{growth, power_above};
 use super::{Exact, Rounded, round};
 use hapticore_contract::profile::Profile;
 
-/// The force.
+/// Haptic force of a slot, exactly rounded.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Force {
-    /// In newtons.
+    /// Haptic force, N.
     pub force: Exact,
-    /// Whether a word is held at a rail.
+    /// The result is saturated.
     pub saturated: bool,
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Exact numbers, and how a word departs from them: to the nearest code, ties to even, held at the rails.
+//! Exact numbers, and how a word departs from them: to the nearest code, ties to even, saturated.
 //!
 //! An `f64` would do up to 2^53; squares of the widest words have 62 bits. So numbers are `mantissa · 2^exponent` with an
 //! `i128`, which holds every sum and product of the core exactly.
@@ -34,12 +34,12 @@ pub struct Exact {
 pub struct Rounded {
     /// The number of the code.
     pub value: Exact,
-    /// Whether it is held at a rail.
+    /// Whether it is saturated.
     pub held: bool,
 }
 
 impl Exact {
-    /// Zero.
+    /// The number 0.
     pub const ZERO: Exact = Exact { mantissa: 0, exponent: 0 };
 
     /// An integer times a power of two.
@@ -67,7 +67,7 @@ impl Exact {
         Exact { exponent: self.exponent + i32::from(by), ..self }
     }
 
-    /// Its magnitude.
+    /// Absolute value.
     pub fn magnitude(self) -> Self {
         Exact { mantissa: self.mantissa.abs(), ..self }
     }
@@ -146,7 +146,7 @@ fn nearest(n: i128, d: i128) -> i128 {
     floor + i128::from(up)
 }
 
-/// A code, held at the rails of a format.
+/// A code, saturated to a format.
 fn hold(code: i128, to: Format) -> Rounded {
     let bits = u32::from(to.width) - u32::from(to.signed);
     let (low, high) = (if to.signed { -(1i128 << bits) } else { 0 }, (1i128 << bits) - 1);

@@ -7,7 +7,7 @@
 //! local oscillator = {C(m+1)} − {C(m)},   C(m) = Σ_{k<m} window·cosine; the sine likewise     ({·}: ⌊· + ½⌋ of a word)
 //! ```
 //!
-//! Polyphase: window = [A sin² π m/N], the cosine that of five samples a period, no sine.
+//! Polyphase: window = [A sin² π m/N], the cosine that of five samples per period, no sine.
 
 use super::{Exact, round_real};
 use hapticore_contract::format::Format;
@@ -17,11 +17,11 @@ use std::f64::consts::{PI, TAU};
 /// A sample of the carrier.
 #[derive(Debug, Clone, Copy)]
 pub struct Sample {
-    /// The cosine.
+    /// Cosine of the carrier, fraction of its amplitude.
     pub cosine: Exact,
-    /// The sine.
+    /// Sine of the carrier, fraction of its amplitude.
     pub sine: Exact,
-    /// The window.
+    /// Window value, from 0 to 1.
     pub window: Exact,
 }
 

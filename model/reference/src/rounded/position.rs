@@ -2,7 +2,7 @@
 //! Position and sheet resistance from the ratios: the measured splines, inverted by Newton steps of rounded words.
 //!
 //! ```text
-//! [·]: to a word's W − 1 fractional bits, halves upwards, held at the rails
+//! [·]: to a word's W − 1 fractional bits, halves upwards, saturated
 //! r = [32·gain·[⌊r/2⌋ − centre] + 32·[gain·rest]],       ⌊·⌋ to a word, rest·2^(1 − W) what it cuts
 //! u = [4·(constant + rise_x·r_x + rise_y·r_y)]            a place: 32 cells are one
 //! t = 64·u, modulo 2:  weights a = [⅛(1 − t)²], 1 − a − b, b = [⅛(1 + t)²] and [½(t − 1)], [−t], [½(t + 1)] of [t²]
@@ -26,7 +26,7 @@ pub struct Place {
     pub sheet: Exact,
     /// Whether the table has no place with these ratios.
     pub invalid: bool,
-    /// Whether a position is held at a rail.
+    /// Whether a position is saturated.
     pub saturated: bool,
 }
 

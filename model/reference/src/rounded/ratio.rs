@@ -9,16 +9,16 @@ use super::{Currents, Exact, round_quotient};
 use hapticore_contract::format::Format;
 use hapticore_contract::profile::Profile;
 
-/// The ratios.
+/// Both ratios of a slot, exactly rounded.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ratio {
-    /// Eq. 2.
+    /// Ratio r_x of eq. 2.
     pub r_x: Exact,
-    /// Eq. 3.
+    /// Ratio r_y of eq. 3.
     pub r_y: Exact,
     /// The least current's share of the denominator.
     pub share: Exact,
-    /// Whether the denominator is zero.
+    /// The denominator is zero.
     pub invalid: bool,
 }
 

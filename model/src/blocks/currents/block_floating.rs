@@ -118,7 +118,7 @@ impl Currents {
         }
     }
 
-    /// An amplitude as it is given out, and whether it is held at a rail.
+    /// An amplitude as it is given out, and whether it is saturated.
     #[inline(always)]
     pub(super) fn rounded<V: Interpretation>(&self, amplitude: Signal<V>) -> (Signal<V>, Signal<V>) {
         amplitude.saturate(self.given, HalfEven)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Polyphase sums: a sum a channel and phase of a carrier with five samples a period; its cosine and sine come last.
+//! Polyphase sums: a sum a channel and phase of a carrier with five samples per period; its cosine and sine come last.
 //!
 //! ```text
 //! S_p = Σ w[n]·(x[n] + 1) over the samples of phase p,   i = Σ c_p·S_p,   q = Σ s_p·S_p      (c_p, s_p: 16 bits and a sign)

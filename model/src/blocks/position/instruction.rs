@@ -91,26 +91,26 @@ pub enum Index {
 
 /// Options of [`Operation::Store`].
 pub const WRAP: u8 = 1;
-/// See [`Operation::Store`].
+/// Option of [`Operation::Store`]: compare the residual with the tolerance.
 pub const CHECK: u8 = 2;
-/// See [`Operation::Store`].
+/// Option of [`Operation::Store`]: compare the sum with zero; tells an open terminal.
 pub const OPEN: u8 = 4;
 /// Options of [`Operation::Input`].
 pub const LOW: u8 = 1;
-/// See [`Operation::Input`].
+/// Option of [`Operation::Input`]: the smallest share of the currents.
 pub const SHARE: u8 = 2;
 /// Options of [`Operation::Set`].
 pub const COUNT: u8 = 1;
-/// See [`Operation::Set`].
+/// Option of [`Operation::Set`]: select the surface of r_x.
 pub const SURFACE: u8 = 2;
-/// See [`Operation::Set`].
+/// Option of [`Operation::Set`]: base ← the surface's scalars.
 pub const SCALARS: u8 = 4;
 
 /// Widths of the fields.
 pub const OPERATION_BITS: u8 = 4;
-/// See [`OPERATION_BITS`].
+/// Bits of an instruction's slot field.
 pub const SLOT_BITS: u8 = 7;
-/// See [`OPERATION_BITS`].
+/// Bits of an instruction's option field.
 pub const OPTION_BITS: u8 = 3;
 /// Bits of a target.
 pub const TARGET_BITS: u8 = 8;
@@ -143,21 +143,21 @@ impl Slot {
     }
 }
 
-/// An instruction.
+/// An instruction of the position program: operation, slot and option.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Instruction {
     /// What it does.
     pub operation: Operation,
     /// With which word.
     pub slot: Slot,
-    /// How.
+    /// Variant of the operation.
     pub option: u8,
     /// Where it goes on, for those that jump.
     pub target: u8,
 }
 
 impl Instruction {
-    /// Its code.
+    /// The instruction as a word of the program memory.
     pub fn code(&self) -> u16 {
         let operation = (self.operation as u16) << (BITS - OPERATION_BITS);
         let index = (self.slot.1 as u16) << (SLOT_BITS + OPTION_BITS);

@@ -92,11 +92,11 @@ block! {
     inputs(block) {
         /// Begins; the ratios are valid and stable until `done`.
         start: BIT,
-        /// The x ratio.
+        /// Ratio r_x of eq. 2.
         r_x: block.ratio,
-        /// The y ratio.
+        /// Ratio r_y of eq. 3.
         r_y: block.ratio,
-        /// The least current's share of the ratios' denominator.
+        /// Smallest amplitude over the ratios' denominator.
         share: block.share(),
         table as TablePort: TablePort { write: BIT, address: block.table.address(), word: block.word },
     }
@@ -107,9 +107,9 @@ block! {
         x: block.position,
         /// The position along the short edges, in mm.
         y: block.position,
-        /// The sheet's resistance at the pad, in full scales of voltage per current.
+        /// Resistance of the sheet at the pad, full scales of voltage per current.
         sheet: block.sheet,
-        /// No place of the table has the measured ratios.
+        /// No position of the table has the measured ratios.
         invalid: BIT,
         /// A terminal is open.
         lost: BIT,
@@ -483,7 +483,7 @@ impl Position {
         let quotient = Format::signed(bits, i8::try_from(bits + 2).expect("sixteen digits at most"));
         let step = code(1, Format::unsigned(1, i8::try_from(bits).expect("sixteen digits at most")));
         let rest = r.sum - self.half();
-        // What the remainder, over the determinant in `left`, leaves; nothing where the quotient is at a rail.
+        // What the remainder, over the determinant in `left`, leaves; nothing where the quotient is at full scale.
         coded.as_code(quotient).golden(&[coded.as_code(quotient), rest, r.left, step], |of| {
             let rest = of[1] / of[2].abs();
             if rest.abs() < 4.0 * of[3] { of[0] + rest / 8.0 } else { of[0] }

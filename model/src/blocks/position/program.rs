@@ -31,7 +31,7 @@ const LESS_HALF: Slot = at(17);
 const LESS_ONE: Slot = at(18);
 const QUARTER: Slot = at(19);
 const EIGHTH: Slot = at(21);
-/// A cell.
+/// Slot of the constant that stands for one cell.
 const CELL: Slot = at(23);
 /// What a cell times this is, is one as a word's code.
 const PER_CELL: Slot = at(24);

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `[coupling]`: what the other pads do to the one that a slot serves.
 //!
-//! Only the served pad has the sensing voltage, but every pad lies on the sheet, and for the carrier the others are
-//! capacitors to ground. Where the served pad's current lifts the sheet, they draw some of it away:
+//! Only the selected pad has the sensing voltage, but every pad lies on the sheet, and for the carrier the others are
+//! capacitors to ground. Where the selected pad's current lifts the sheet, they draw some of it away:
 //!
 //!   I_k/(jωC_k) + Σ_l G_kl·I_l = V_k,   V = (V_s, 0, 0, …),   terminal i gets Σ_k w_i(x_k)·I_k
 //!
 //! G_kl is the sheet's potential at pad k for a unit current into pad l; G_kk is R_p. Four pads shift a position by some
-//! tenths of a millimetre at 318 pF and by millimetres at 760 pF (PHYSICS §1), since amplitudes are of second order in ωCG.
+//! tenths of a millimetre at 318 pF and by millimetres at 760 pF (docs/physics.md §1), since amplitudes are of second order in ωCG.
 //!
-//! | rung | what | error | four pads |
+//! | level | what | error | four pads |
 //! | --- | --- | --- | --- |
 //! | `once` | the other pads answer the served one, not each other | second order in ωCG | 3.6 µs |
 //! | `full` | all currents at once | – | 4.6 µs |

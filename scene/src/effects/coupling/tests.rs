@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Coupling against the check values of PHYSICS §1.
+//! Coupling against the check values of docs/physics.md §1.
 
 use rand_distr::{Distribution, Uniform};
 
@@ -53,7 +53,7 @@ fn eqs_2_and_3() -> Ratios {
     Ratios::new([vec![-1, -1, 1, 1, 0, 0], vec![1, -1, -1, 1, 0, 0]])
 }
 
-/// Where a lone pad would read these ratios: Newton's steps on the exact map.
+/// Where an isolated pad would read these ratios: Newton's steps on the exact map.
 pub(crate) fn place_of(exact: &impl Solver, ratios: &Ratios, [r_x, r_y]: [f64; 2], from: [f64; 2]) -> [f64; 2] {
     let read = |[x, y]: [f64; 2]| {
         let [a, b] = ratios.of(&exact.split(x, y).share);
@@ -101,7 +101,7 @@ fn shifts(picofarad: f64, margin_mm: f64) -> ([f64; 3], [f64; 2]) {
     ([mean, shifts[shifts.len() * 95 / 100], shifts[shifts.len() - 1]], force)
 }
 
-/// PHYSICS §1 does not say where its pads were; 50 mm off the edges gives its figures, found by
+/// docs/physics.md §1: the prototype's pad positions are not known; 50 mm off the edges gives its figures, found by
 /// trying margins; the limits were set after that.
 #[test]
 fn four_pads_shift_a_position_as_physics_says() {
@@ -115,7 +115,7 @@ fn four_pads_shift_a_position_as_physics_says() {
     assert!((low + 3.1).abs() < 0.5 && (high + 0.9).abs() < 0.1, "force {low} to {high} %");
 }
 
-/// PHYSICS §1 has 6.4 mm, its authors "a few millimeters"; 11.5 mm was measured before
+/// The prototype has 6.4 mm, the paper's authors "a few millimeters" (docs/physics.md §1); 11.5 mm was measured before
 /// the limits were set.
 #[test]
 fn up_to_the_edges_a_position_shifts_by_a_centimetre() {

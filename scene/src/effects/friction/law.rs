@@ -7,7 +7,7 @@
 //!
 //! with f_c = μ(N + F_e). All take the pad's velocity v implicitly, so that any step is stable: A·v = b − F(v), with
 //! A = m/h + c + kh and b what drives the pad. The bristles' z⁺ = (z + hv)/(1 + hσ₀|v|/g) is linear in v once |v| is known, so
-//! that one number is sought. Source: PHYSICS §4; Canudas de Wit et al., 1995.
+//! that one number is sought. Source: docs/physics.md §4; Canudas de Wit et al., 1995.
 
 pub(super) type Vector = [f64; 2];
 
@@ -22,13 +22,13 @@ pub(super) enum Law {
 /// The numbers of the laws.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Surface {
-    /// f_s/f_c.
+    /// Ratio f_s/f_c of static to sliding friction.
     pub stiction: f64,
-    /// v_s, m/s.
+    /// Stribeck velocity v_s, m/s.
     pub stribeck_m_s: f64,
-    /// σ₀, N/m.
+    /// Stiffness σ₀ of the bristles, N/m.
     pub bristle_n_per_m: f64,
-    /// σ₁, N·s/m.
+    /// Damping σ₁ of the bristles, N·s/m.
     pub bristle_n_s_per_m: f64,
 }
 
@@ -50,7 +50,7 @@ pub(super) struct Drive {
     pub mobility_n_s_per_m: f64,
     /// b, N; where the motion is prescribed, the velocity.
     pub push_n: Vector,
-    /// f_c, N.
+    /// Sliding friction f_c, N.
     pub sliding_n: f64,
 }
 

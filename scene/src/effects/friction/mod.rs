@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `[friction]`: the haptic force that the finger feels, and the pad's motion against friction.
 //!
-//! | rung | what |
+//! | level | what |
 //! | --- | --- |
 //! | `coulomb` | F_h = μ·ΣF_e, the attraction summed over the patches of the gap; the pad goes where it is told |
 //! | `stiction` | besides, friction μ(N + F_e) that sticks and slides |
@@ -9,12 +9,12 @@
 //! | `lugre` | besides, the Stribeck fall of sliding friction and the bristles' damping |
 //!
 //! The step's error in the pad's place is 1.4, 16 and 150 µm at 10 µs, 100 µs and 1 ms, of a hand that swings 30 mm twice a
-//! second; PHYSICS §4 has 1.8, 18 and 180 µm.
+//! second; the prototype has 1.8, 18 and 180 µm (docs/physics.md §4).
 //!
 //! Without the table the force is eq. 8 with the true capacitance and voltage, which for an even gap is the same. μ is
 //! `device.mu`: 0.12, or 0.065 where the loop has to agree with the paper's K = 600. The haptic force is what friction can do
 //! because of the voltage, whether the pad slides or sticks; how much it does is the truth's `friction_n`. With `[hand]` the
-//! pad lags behind its path; a step is `step_us`, 100 µs. Source: PHYSICS §3, §4.
+//! pad lags behind its path; a step is `step_us`, 100 µs. Source: docs/physics.md §3, §4.
 
 mod law;
 mod moving;

@@ -5,7 +5,7 @@ use super::law::*;
 
 const SURFACE: Surface = Surface { stiction: 1.2, stribeck_m_s: 0.01, bristle_n_per_m: 1e5, bristle_n_s_per_m: 300.0 };
 
-/// The hand of PHYSICS §4.
+/// The finger of docs/physics.md §4.
 const STIFFNESS: f64 = 300.0;
 const DAMPING: f64 = 3.0;
 const MASS: f64 = 0.05;
@@ -44,7 +44,7 @@ fn swing(time_s: f64) -> f64 {
     0.03 * (2.0 * std::f64::consts::TAU * time_s).sin()
 }
 
-/// PHYSICS §4: 1.8, 18 and 180 µm at 10 µs, 100 µs and 1 ms; of a motion that it does not name.
+/// docs/physics.md §4: the prototype has 1.8, 18 and 180 µm at 10 µs, 100 µs and 1 ms, of a motion that is not known.
 /// The range was set after measuring on this swing.
 #[test]
 fn the_error_of_a_step_falls_in_proportion() {
@@ -58,7 +58,7 @@ fn the_error_of_a_step_falls_in_proportion() {
         let errors = [1e-5, 1e-4, 1e-3].map(error);
         println!("{law:?}: {:.2} {:.1} {:.0} µm", errors[0] * 1e6, errors[1] * 1e6, errors[2] * 1e6);
         for (error, physics) in errors.into_iter().zip([1.8e-6, 18e-6, 180e-6]) {
-            assert!((0.7..1.0).contains(&(error / physics)), "{law:?}: {errors:?}, PHYSICS 1.8, 18, 180 µm");
+            assert!((0.7..1.0).contains(&(error / physics)), "{law:?}: {errors:?}, prototype 1.8, 18, 180 µm");
         }
     }
 }
@@ -125,7 +125,7 @@ fn friction_has_no_preferred_direction() {
     }
 }
 
-/// The explicit method that PHYSICS §4 compares with: the largest error of friction against the semi-implicit step.
+/// The explicit method for comparison (docs/physics.md §4): the largest error of friction against the semi-implicit step.
 fn explicit_error(step_s: f64) -> f64 {
     let slope = |[x, v, z]: [f64; 3], time_s: f64| {
         let g = 0.6 * (1.0 + 0.2 * (-(v / 0.01f64).powi(2)).exp());

@@ -9,7 +9,7 @@
 //! | TR-BDF2, γ = 2 − √2 (Bank et al., 1985) | 2 | stable, damps: the reference |
 //!
 //! An implicit stage of length θ asks for g = a + θ·v, v = b + θ·g̈, z = e + θ·ż. As g alone decides v and z, it is one
-//! equation in g, solved by Newton's steps within a bracket. Source: PHYSICS §3.
+//! equation in g, solved by Newton's steps within a bracket. Source: docs/physics.md §3.
 
 use super::law::{Drive, Law, Sloped, State, root};
 

@@ -5,7 +5,7 @@
 //!   ż = (g₀ − g − z)/τ,   c(g) = 1.5·η·R²/(g+g_v)³
 //!
 //! z is the part of the compression that the rubber has crept after; relaxed, z = g₀ − g. The film is Stefan's for a disc of
-//! the patch's area: 1.5πηR⁴ over the area πR². Source: PHYSICS §3.
+//! the patch's area: 1.5πηR⁴ over the area πR². Source: docs/physics.md §3.
 
 use crate::device::EPSILON_0;
 
@@ -21,7 +21,7 @@ pub(super) struct Sloped {
 pub(super) struct Drive {
     /// ½ε₀V², N: the attraction's pressure times (g+d)².
     pub pull_n: f64,
-    /// W/S, Pa.
+    /// Pressure W/S of the load, Pa.
     pub pressure_pa: f64,
 }
 
@@ -34,11 +34,11 @@ impl Drive {
 /// Where a patch is and how it moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct State {
-    /// g, m.
+    /// Gap g, m.
     pub gap_m: f64,
-    /// ġ, m/s.
+    /// Speed ġ of the gap, m/s.
     pub speed_m_s: f64,
-    /// z, m.
+    /// Crept part z of the compression, m.
     pub creep_m: f64,
 }
 
@@ -49,19 +49,19 @@ pub(super) struct Law {
     pub spring_pa_per_m: f64,
     /// k₁: what creeps away.
     pub creep_spring_pa_per_m: f64,
-    /// τ.
+    /// Creep time τ, s.
     pub creep_s: f64,
-    /// p₀.
+    /// Contact pressure p₀ at zero gap, Pa.
     pub contact_pa: f64,
-    /// λ.
+    /// Decay length λ of the contact pressure, m.
     pub contact_decay_m: f64,
     /// d: thickness of the insulators as so much air.
     pub insulator_m: f64,
-    /// 1.5·η·R².
+    /// Film constant 1.5·η·R², N·s.
     pub film_n_s: f64,
     /// g_v: what the film keeps of its thickness in contact.
     pub film_rest_m: f64,
-    /// m.
+    /// Inertia m per area, kg/m².
     pub inertia_kg_m2: f64,
 }
 
@@ -85,7 +85,7 @@ impl Law {
         Sloped { value: spring * (rest_m - gap_m - crept_m), slope: -spring }
     }
 
-    /// c(g), Pa·s/m.
+    /// Damping c(g) of the air film, Pa·s/m, and its derivative.
     #[inline]
     pub fn film(&self, gap_m: f64) -> Sloped {
         let thickness = gap_m + self.film_rest_m;

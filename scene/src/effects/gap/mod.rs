@@ -3,7 +3,7 @@
 //!
 //!   C = Σ ε₀S_i/(g_i+d),   F_e = Σ ½ε₀S_iV²/(g_i+d)²;   how g moves: see `law`
 //!
-//! | rung | what | largest error of C, 0 → 400 → 0 V |
+//! | level | what | largest error of C, 0 → 400 → 0 V |
 //! | --- | --- | --- |
 //! | `static` | the relaxed equilibrium, on the branch that starts open | – |
 //! | `quasi-static` | film and creep without inertia, linearly implicit, 1 ms | 8e-2 |
@@ -12,10 +12,10 @@
 //! | `trapezoid` | second order, 100 µs | 1.1e-3 |
 //! | `tr-bdf2` | second order and damping, 100 µs: the reference | 3.0e-4 |
 //!
-//! `step_us` sets another step for the rung that is named, up to 1 ms. A pad starts relaxed under its load, its voltage
+//! `step_us` sets another step for the level that is named, up to 1 ms. A pad starts relaxed under its load, its voltage
 //! switched on at time 0; between slots load and square of the voltage are taken as linear. `drive = "sine"` pulls with the
 //! haptic voltage's own sine instead of its mean square; the force that is reported is then still of the mean square, at the
-//! gap of the moment. Behind `[supply]` the pad's voltage falls as its capacitance grows. Source: PHYSICS §3.
+//! gap of the moment. Behind `[supply]` the pad's voltage falls as its capacitance grows. Source: docs/physics.md §3.
 
 mod dynamic;
 mod equilibrium;

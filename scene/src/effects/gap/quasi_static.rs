@@ -3,7 +3,7 @@
 //!
 //! Linearly implicit (Rosenbrock's first): δ = h·F/(c − h·F′), one evaluation a step and no iteration. Where attraction wins,
 //! F′ > 0, or where the film changes within the step, the step is cut: a gap changes by at most a share of itself. That is
-//! what passes the fold and the closure. Source: PHYSICS §3.
+//! what passes the fold and the closure. Source: docs/physics.md §3.
 
 use super::law::{Drive, Law, Sloped, State};
 

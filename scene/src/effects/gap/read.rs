@@ -12,7 +12,7 @@ use crate::effects::spec::{Rung, Setting, Spec};
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
 
-/// Heights g₀ + d of eight patches of equal area, µm: fitted to the paper's Fig. 7 (PHYSICS §3).
+/// Heights g₀ + d of eight patches of equal area, µm: fitted to the paper's Fig. 7 (docs/physics.md §3).
 const REST_UM: [f64; 8] = [13.0, 14.5, 16.0, 17.5, 19.106, 19.585, 26.0, 34.0];
 
 /// Viscosity of air, Pa·s.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `sensor.gain_mismatch_percent`: each current sensor's gain is off by its own constant factor, drawn with the seed.
-//! 1 % costs 0.31 % rms of force over the map (PHYSICS §5).
+//! 1 % costs 0.31 % rms of force over the map (docs/physics.md §5).
 
 use super::super::effect::{ChannelEffect, Effect, Phasors, Run};
 use super::super::pad::Pad;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `sensor.haptic_leakage`: the haptic voltage drives a current of its own into the terminals, eq. 1's second term,
 //! −17 dB (200 Hz, 350 V) to −3 dB (1 kHz) of the carrier's at 5 V. It shifts no phasor, since a demodulator's window
-//! rejects it, but takes ADC range and dithers the codes (PHYSICS §5).
+//! rejects it, but takes ADC range and dithers the codes (docs/physics.md §5).
 
 use std::f64::consts::{SQRT_2, TAU};
 

@@ -9,7 +9,7 @@
 //!
 //! A run's noise follows from seed, case, slot and first sample alone, so that leaving one run out changes no other.
 //! Amplitudes get what a Hann window over the slot's N samples passes: σ·√(2·1.5/N) in each of both parts, so that a force
-//! has the relative noise 2n·√(6·NENBW/T)/|I| of PHYSICS §5.
+//! has the relative noise 2n·√(6·NENBW/T)/|I| of docs/physics.md §5.
 
 use std::f64::consts::PI;
 
@@ -27,17 +27,17 @@ use crate::terminals::MOST_CHANNELS;
 /// Equivalent noise bandwidth of a Hann window, bins.
 pub(super) const HANN_NENBW: f64 = 1.5;
 
-/// `noise_ppm_rms`
+/// Reads `sensor.noise_ppm_rms`: ADC noise on every channel.
 pub(in super::super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
     let Some(ppm) = super::key(root, "noise_ppm_rms", Limits::within(0.0, 1e6))? else { return Ok(None) };
     let build = move |setting: &Setting| Noise::effect([ppm * 1e-6; MOST_CHANNELS], Origin::Adc, setting);
     Ok(Spec::new(NOISE, format!("{ppm} ppm"), build))
 }
 
-/// The name of the effect that an error of a rung leaves out.
+/// The name of the effect that an error of a level leaves out.
 pub(crate) const NOISE: &str = "sensor.noise";
 
-/// `noise_density_na_per_rthz`
+/// Reads `sensor.noise_density_na_per_rthz`: noise of the current sensors.
 pub(in super::super) fn read_density(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
     let density = super::key(root, "noise_density_na_per_rthz", Limits::within(0.0, 1e6))?;
     let (Some(na), bandwidth_khz) = (density, super::key(root, "bandwidth_khz", Limits::POSITIVE)?) else {
@@ -53,7 +53,7 @@ pub(in super::super) fn read_density(root: &Table, _: &Device) -> Result<Option<
     Ok(Spec::new("sensor.noise_density", format!("{na} nA/√Hz"), build))
 }
 
-/// `dither_lsb_rms`
+/// Reads `sensor.dither_lsb_rms`: noise before quantisation.
 pub(in super::super) fn read_dither(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
     let Some(lsb) = super::key(root, "dither_lsb_rms", Limits::within(0.0, 1e3))? else { return Ok(None) };
     let Some(codes) = super::quantisation::codes(root)? else {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The exact split of an even sheet, as [`hapticore_sheet`] has it.
+//! The exact split of a uniform sheet, as [`hapticore_sheet`] has it.
 
 use super::geometry::Sheet;
 use super::split::{Solver, Split};

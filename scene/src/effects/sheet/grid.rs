@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Finite differences: a table of the split over a mesh from rim to rim, for sheets that are not even.
+//! Finite differences: a table of the split over a mesh from rim to rim, for non-uniform sheets.
 //!
 //! By reciprocity the share of a terminal is a field over the pad's place, solved once for all places. It is level at the
 //! insulated rim, and so is its spline. R_p needs a solution for each place: it comes from a mesh of 10 mm or coarser (finer on
 //! sheets that would have less than fourteen cells across), at every fourth node along either axis, with the pad's radius put in place of the node's as for terminals. What varies
-//! quickly, near terminals and corners, an even sheet has too: what is solved for is the ratio to its exact R_p.
+//! quickly, near terminals and corners, a uniform sheet has too: what is solved for is the ratio to its exact R_p.
 
 use std::f64::consts::PI;
 
@@ -76,7 +76,7 @@ fn own(sheet: &Sheet, network: &Network) -> Spline {
     Spline::of(axes, 1, |x, y| one(even.split(x, y).ohm * ratio.at(x, y)[0]))
 }
 
-/// R_p of the mesh by that of an even sheet, over the places that are not on the rim.
+/// R_p of the mesh by that of a uniform sheet, over the places that are not on the rim.
 fn ratio(sheet: &Sheet, network: &Network, even: &Analytic) -> Spline {
     let mesh = network.mesh;
     let axes = axes(&mesh, 1, OWN_STEP);

@@ -25,7 +25,7 @@ fn converges(errors: [f64; 4]) -> bool {
 #[test]
 fn halving_the_spacing_divides_the_error_by_four() {
     let errors = errors(Correction::Peaceman);
-    // PHYSICS §1 at 10 mm, where all terminals are nodes there too; with nodes at the edges' middles 20 mm does better.
+    // docs/physics.md §1 at 10 mm, where all terminals are nodes there too; with nodes at the edges' middles 20 mm does better.
     assert_near("10 mm", &errors[1..2], &[6.9e-5], 1e-6);
     assert!(errors.windows(2).all(|pair| (3.3..5.0).contains(&(pair[0] / pair[1]))), "{errors:?}");
 }

@@ -5,10 +5,10 @@
 //! bottom right, top right (the signs of eqs. 2 and 3); 5 and 6 are the middles of the bottom and the top edge, of the left and
 //! the right one with `middles = "short"`, or where `terminal_5_mm` and `terminal_6_mm` say; `terminals = 4` leaves both away.
 //! Each is a patch of radius `terminal_radius_mm` behind `terminal_ohm`, a number or a list of one for each; those listed in
-//! `shorted` have no resistance, those in `open` no current. The radius is not the paper's: 1.7 mm gives the R_p of PHYSICS §1,
+//! `shorted` have no resistance, those in `open` no current. The radius is not the paper's: 1.7 mm gives the R_p of docs/physics.md §1,
 //! 73 to 190 Ω, mean 143 Ω, for pads 20 mm off the edges. On a mesh a terminal is the node nearest to its place.
 //!
-//! | rung | what | look-up | error of the split, rms / max | build |
+//! | level | what | look-up | error of the split, rms / max | build |
 //! | --- | --- | --- | --- | --- |
 //! | `distance` | R_i ∝ distance, the paper's picture | 50 ns | 5.0e-2 / 2.5e-1 | – |
 //! | `bilinear` | table of the analytic solution, 64 × 37 | 20 ns | 5.4e-5 / 2.4e-3 | 0.8 ms |
@@ -21,7 +21,7 @@
 //! | `grid-2.5-mm` | | 100 ns | 3.9e-6 / 1.9e-4 | 0.2 s |
 //! | `grid-1.25-mm` | | 170 ns | 9.7e-7 / 4.7e-5 | 0.9 s |
 //!
-//! A table may have `table_columns` × `table_rows` of its own. Grids are the only rungs for a film that is not even.
+//! A table may have `table_columns` × `table_rows` of its own. Grids are the only levels for a non-uniform film.
 //! Errors are over pads 20 mm off the edges; at the edges, in front of terminals 5 and 6, the table's reach 2e-4.
 //!
 //! Without the table the sheet is ideal: no resistance, and corner currents that are bilinear in the position.
@@ -54,7 +54,7 @@ use crate::few::Few;
 use crate::format::Table;
 use crate::terminals::PerTerminal;
 
-/// Rungs of an even sheet, and what a look-up costs, ns.
+/// Rungs of a uniform sheet, and what a look-up costs, ns.
 const EVEN: [(&str, f64); 5] =
     [("distance", 70.0), ("bilinear", 20.0), ("bicubic", 60.0), ("bicubic-fine", 61.0), ("analytic", 400.0)];
 
@@ -101,7 +101,7 @@ fn rung(
         .labelled(label)
 }
 
-/// Columns and rows of a rung that is a table of the analytic solution.
+/// Columns and rows of a level that is a table of the analytic solution.
 fn table_of(word: &str) -> Option<[usize; 2]> {
     match word {
         "bilinear" => Some([64, 37]),
@@ -124,7 +124,7 @@ fn grid(sheet: &Sheet, spacing_mm: f64) -> AnySolver {
     Box::new(grid::Grid::new(sheet, spacing_mm * 1e-3))
 }
 
-/// A solver at one of the rungs, as plants share it.
+/// A solver at one of the levels, as plants share it.
 type AnySolver = Box<dyn Solver + Sync>;
 
 struct OnSheet {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Sheets of three to sixteen terminals anywhere on the edge: balance, reciprocity, symmetry, and all rungs against the exact one.
+//! Sheets of three to sixteen terminals anywhere on the edge: balance, reciprocity, symmetry, and all levels against the exact one.
 
 use super::analytic::Analytic;
 use super::grid::Grid;

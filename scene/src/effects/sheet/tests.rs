@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The sheet against the check values of PHYSICS §1.
+//! The sheet against the check values of docs/physics.md §1.
 
 use std::f64::consts::PI;
 
@@ -89,7 +89,7 @@ fn fit_error(points: &[([f64; 2], [f64; 2])], degree: i32) -> [f64; 2] {
     [(squares.clone().sum::<f64>() / points.len() as f64).sqrt(), squares.fold(0.0, f64::max).sqrt()]
 }
 
-/// What PHYSICS §1 says is cut off after so many images: that of the shares; N itself errs by the first images left out,
+/// Truncation error after so many images (docs/physics.md §1): that of the shares; N itself errs by the first images left out,
 /// (2/π)·e^(−2πaM/b) at most, which is from corner to corner.
 #[test]
 fn truncation_falls_with_each_image_as_predicted() {
@@ -97,7 +97,7 @@ fn truncation_falls_with_each_image_as_predicted() {
     let shares = |images| Analytic::with(&sheet(0.0), Neumann::new(size, images));
     for (images, physics) in [(1, 3.8e-6), (2, 8e-11), (3, 2e-15)] {
         let [_, most] = difference(&shares(images), &shares(6), MARGIN_MM);
-        assert!((0.5..1.0).contains(&(most / physics)), "{images} images: {most:e}, PHYSICS {physics:e}");
+        assert!((0.5..1.0).contains(&(most / physics)), "{images} images: {most:e}, prototype {physics:e}");
         let left_out = 2.0 / PI * (-2.0 * PI * f64::from(images) * size[0] / size[1]).exp();
         let [cut, exact] = [images, 6].map(|images| Neumann::new(size, images).at([0.0; 2], [1e-4; 2], 1e-3));
         assert!(((cut - exact) / left_out).abs() < 1.0 + 1e-14 / left_out, "{images} images: {:e}", cut - exact);
@@ -118,7 +118,7 @@ fn disc([x_mm, y_mm]: [f64; 2], within: f64) -> impl Iterator<Item = [f64; 2]> {
 /// Centres of discs that lie on the sheet and off the terminals.
 const DISCS_MM: [[f64; 2]; 5] = [[0.0, 0.0], [120.0, -60.0], [-300.0, 150.0], [405.0, 40.0], [40.0, 225.0]];
 
-/// PHYSICS §1's theorem: the shares are harmonic in the pad's place, so that their mean over a disc is the centre's.
+/// docs/physics.md §1: the shares are harmonic in the pad's position, so that their mean over a disc is the centre's.
 #[test]
 fn an_even_disc_has_exactly_the_split_of_its_centre() {
     for terminal_ohm in [0.0, 300.0] {
@@ -202,8 +202,8 @@ fn affine_to_septic_fits_leave_69_16_9_and_5_mm() {
     assert_near("r_x", &[points.iter().fold(0.0, |most, (r, _)| r[0].max(most))], &[0.78], 0.01);
 }
 
-/// PHYSICS §1 says 1 to 1.3 kΩ; that is for the corners alone, with six terminals R_in counts only a sixth.
-/// 418, 443 and 500 Ω and a span of 0.227 are what was measured, PHYSICS has about 0.35.
+/// docs/physics.md §1: the prototype has 1.67 kΩ for the pad.
+/// 418, 443 and 500 Ω and a span of 0.227 are what was measured here.
 #[test]
 fn the_papers_500_ohm_take_1_7_kiloohm_at_each_of_six_terminals_and_narrow_r_x() {
     let exact = splits(&Analytic::new(&sheet(1700.0)), MARGIN_MM);
@@ -212,7 +212,7 @@ fn the_papers_500_ohm_take_1_7_kiloohm_at_each_of_six_terminals_and_narrow_r_x()
     assert_near("r_x", &range(r_x)[2..], &[0.227], 0.01);
 }
 
-/// PHYSICS §1's figures, but for the bilinear rms: 5.4e-5 was measured where PHYSICS has 4.5e-5.
+/// The prototype's figures (docs/physics.md §1), except for the bilinear rms: 5.4e-5 was measured, the prototype has 4.5e-5.
 #[test]
 fn bicubic_and_distance_err_as_measured() {
     let [rms, most] = split_error(&Bilinear::new(&sheet(0.0), [64, 37]), MARGIN_MM);

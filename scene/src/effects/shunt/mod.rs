@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `[shunt]`: the capacitance between the sheet and the panel behind it, which takes a part of the current and turns the
-//! terminals' phases: 9 nF/m² by −12°, 22 nF/m² by −28° (PHYSICS §1).
+//! terminals' phases: 9 nF/m² by −12°, 22 nF/m² by −28° (docs/physics.md §1).
 //!
 //! ```toml
 //! [shunt]
 //! nanofarad_per_m2 = 9
 //! ```
 //!
-//! | rung | what | error | look-up | build |
+//! | level | what | error | look-up | build |
 //! | --- | --- | --- | --- | --- |
 //! | `table` | the exact solution with a spline of its series, 32 × 19 | 3e-6 of the current | 0.8 µs | 40 ms |
 //! | `series` | the exact solution, 100 modes | 3e-7 | 28 µs | – |
 //!
-//! The change against the sheet alone is added to what `[sheet]` says, at any of its rungs; it is that of an even film, so no
+//! The change against the sheet alone is added to what `[sheet]` says, at any of its levels; it is that of a uniform film, so no
 //! other is accepted.
 
 mod screen;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a shunt capacitance changes of an even sheet, exactly.
+//! What a shunt capacitance changes of a uniform sheet, exactly.
 //!
 //! −∇·(∇φ/R_s) + jωc·φ = I·δ has the Neumann function of the sheet alone plus
 //!
@@ -25,7 +25,7 @@ const MODES: usize = 100;
 /// Modes that have decayed by so much along x, to 1e-11, are left out.
 const NEPERS: f64 = 25.0;
 
-/// An even sheet with a shunt.
+/// A uniform sheet with a shunt.
 pub(in super::super) struct Screened {
     sheet: Sheet,
     neumann: Neumann,
@@ -111,7 +111,7 @@ impl Screened {
         (screen + self.neumann.at(p, q, near_m)) * self.sheet.film.ohm_per_square
     }
 
-    /// D
+    /// The change D of the Neumann function by the shunt.
     fn screen(&self, p: [f64; 2], q: [f64; 2]) -> Complex64 {
         let [a, b] = self.sheet.size_m;
         let angle = |y: f64| y * PI / b;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The shunt against the check values of PHYSICS §1.
+//! The shunt against the check values of docs/physics.md §1.
 
 use super::*;
 use crate::effects::sheet::tests::{places, sheet};
@@ -19,7 +19,7 @@ fn phases_deg(nanofarad: f64) -> [f64; 2] {
     [sums.sum::<f64>() / sources.len() as f64, most]
 }
 
-/// PHYSICS §1 has −12° and −28°: those are of the terminal that lags most, the sum lags less. Limits are
+/// The prototype has −12° and −28° (docs/physics.md §1): those are of the terminal that lags most, the sum lags less. Limits are
 /// around what was measured, −11.8° and −28.4°.
 #[test]
 fn terminals_lag_by_up_to_12_and_28_degrees() {
@@ -52,7 +52,7 @@ fn no_current_is_lost() {
     assert!((shunted - lost).norm() < 2e-4, "{shunted} {lost}");
 }
 
-/// As measured; PHYSICS has no figure.
+/// As measured; the prototype has no figure.
 #[test]
 fn the_tables_error_is_three_millionths_and_falls_with_the_fourth_power_of_its_spacing() {
     let shunt = |nodes| Screening::new(&sheet(0.0), siemens(22.0), nodes);

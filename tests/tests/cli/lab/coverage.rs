@@ -17,7 +17,7 @@ const SEED: u64 = 20_261_122;
 /// 94 to 96 %.
 const WITHIN: RangeInclusive<f64> = 0.94..=0.96;
 
-/// The truth.
+/// True k of eq. 8, N/(F·V)².
 const K: f64 = 9.6e12;
 const MU: f64 = 0.12;
 const SCALE: f64 = 1.03;

@@ -39,7 +39,7 @@ fn a_squeezed_film_takes_stefans_time() {
 }
 
 /// t → πc/(κ√(1.5ε)), c at the fold; the path to the fold and from it adds a share that falls as √ε.
-/// PHYSICS §3 gives the form without a limit; the limits were set after measuring.
+/// docs/physics.md §3 has the form; the limits were set after measuring.
 #[test]
 fn delay_above_the_fold_tends_to_the_closed_form() {
     let law = Law { inertia_kg_m2: 1e-3, ..bare() };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Each method against the reference: the order at which its error falls, PHYSICS' table, and what it must survive.
+//! Each method against the reference: the order at which its error falls, the table of docs/physics.md §3, and what it must survive.
 
 use super::*;
 
@@ -21,7 +21,7 @@ fn step_of_400_v(time_s: f64) -> f64 {
     if time_s < 0.05 { 400.0 } else { 0.0 }
 }
 
-/// The quasi-static rung cuts its steps through a closure, so that its order shows without one.
+/// The quasi-static level cuts its steps through a closure, so that its order shows without one.
 #[test]
 fn each_error_falls_at_its_methods_order() {
     let law = law(AIR_PA_S);
@@ -39,8 +39,8 @@ fn flat(((by, order), volt): ((By, i32), f64)) -> (By, i32, f64) {
     (by, order, volt)
 }
 
-/// PHYSICS §3, within a factor of 1.3: its film is about a quarter thicker than that of a disc of an eighth of the pad.
-/// The factor was set after measuring errors of 1.2 to 1.27 times PHYSICS'; a trapezoid at 1 ms rings to 0.81, PHYSICS 0.38.
+/// The prototype's errors (docs/physics.md §3), within a factor of 1.3: its film constant is 1.24 times that of a disc of an eighth of the pad.
+/// The factor was set after measuring errors of 1.2 to 1.27 times the prototype's; a trapezoid at 1 ms rings to 0.81, the prototype's to 0.38.
 #[test]
 fn errors_of_0_to_400_to_0_v_are_those_of_the_table() {
     let law = law(AIR_PA_S);
@@ -56,12 +56,12 @@ fn errors_of_0_to_400_to_0_v_are_those_of_the_table() {
         (By::Dynamic(Method::TrBdf2), 1e-3, 2.6e-2),
     ] {
         let error = capacitance_error(&run(by, step_s), &exact);
-        println!("{by:?} {step_s:e}: {error:.1e}, PHYSICS {physics:.1e}");
-        assert!((physics..1.3 * physics).contains(&error), "{by:?} {step_s:e}: {error:e}, PHYSICS {physics:e}");
+        println!("{by:?} {step_s:e}: {error:.1e}, prototype {physics:.1e}");
+        assert!((physics..1.3 * physics).contains(&error), "{by:?} {step_s:e}: {error:e}, prototype {physics:e}");
     }
     let ringing = capacitance_error(&run(By::Dynamic(Method::Trapezoid), 1e-3), &exact);
     let explicit = capacitance_error(&run(By::Rk4, 2e-7), &exact);
-    println!("trapezoid at 1 ms {ringing:.2}, PHYSICS 0.38; RK4 at 0.2 µs {explicit:.1e}, PHYSICS 1e-9");
+    println!("trapezoid at 1 ms {ringing:.2}, prototype 0.38; RK4 at 0.2 µs {explicit:.1e}, prototype 1e-9");
     assert!(ringing > 0.38 && explicit < 1e-9);
 }
 
@@ -72,7 +72,7 @@ fn explicit_steps_diverge_after_closure_from_half_a_microsecond_on() {
     assert!((gap(2e-7) / closed - 1.0).abs() < 0.3 && !gap(5e-7).is_finite(), "{} {}", gap(2e-7), gap(5e-7));
 }
 
-/// What inertia does is small: a patch without it is within PHYSICS' 8e-4 as long as nothing pulls in.
+/// Inertia matters little: a patch without it is within the prototype's 8e-4 (docs/physics.md §3) as long as nothing pulls in.
 #[test]
 fn leaving_inertia_out_costs_less_than_the_models_floor() {
     let law = law(AIR_PA_S);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Closed forms, orders of convergence, hard cases, and the figures of PHYSICS §3.
+//! Closed forms, orders of convergence, hard cases, and the check values of docs/physics.md §3.
 
 mod closed_forms;
 mod equilibria;
@@ -11,13 +11,13 @@ use super::equilibrium::equilibrium;
 use super::law::{Drive, Law, State};
 use super::quasi_static;
 
-/// ε₀ as PHYSICS §3 rounds it.
+/// ε₀ rounded to four digits, F/m.
 const ROUNDED_EPSILON_0: f64 = 8.854e-12;
 
-/// g₀ of the single patch of PHYSICS §3: h₀ = 19.66 µm.
+/// g₀ of the single patch of docs/physics.md §3: h₀ = 19.66 µm.
 const REST_M: f64 = 14.66e-6;
 
-/// The patch of PHYSICS §3 without creep, an eighth of the pad over a film of this viscosity.
+/// The patch of docs/physics.md §3 without creep, an eighth of the pad over a film of this viscosity.
 fn law(film_pa_s: f64) -> Law {
     Law {
         spring_pa_per_m: 5e8,
@@ -35,7 +35,7 @@ fn law(film_pa_s: f64) -> Law {
 /// The film of air under the patch.
 const AIR_PA_S: f64 = 1.8e-5;
 
-/// The explicit method that PHYSICS §3 compares with.
+/// The explicit method for comparison (docs/physics.md §3).
 fn rk4(law: &Law, from: State, step_s: f64, drive: Drive) -> State {
     let slope = |at: State| {
         let (acceleration, creep) = law.rates(at, REST_M, drive);

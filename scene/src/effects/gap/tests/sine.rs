@@ -49,8 +49,8 @@ fn at_200_hz_and_above_capacitance_follows_the_mean_square_within_0_2_percent() 
     }
 }
 
-/// PHYSICS §3: C +3 %, F +6 %. The peaks: of C over its value under the mean square, of F over twice its own, in
-/// percent of it. 3.9 and 6.5 were measured, then the limits set around them: PHYSICS does not say what its figures are of.
+/// The prototype has C +3 %, F +6 % (docs/physics.md §3). The peaks: of C over its value under the mean square, of F over twice its own, in
+/// percent of it. 3.9 and 6.5 were measured, then the limits set around them: what the prototype's figures are of is not known.
 #[test]
 fn at_50_hz_and_350_v_peaks_rise_by_some_percent() {
     let ([c, f], [steady_c, steady_f]) = (tail(350.0, Some(50.0)), tail(350.0, None));
