@@ -120,6 +120,8 @@ impl Capacitance {
     pub fn latency(&self) -> u64 {
         let clocks = |step: &Step| match step {
             Step::Idle => 1,
+            // The square root begins with this step, and outlasts it.
+            Step::Radicand => 0,
             Step::SquareRoot => self.sqrt.latency() + 1,
             Step::Divide => self.divider.latency() + 1,
             _ => self.multiplier.latency(),
