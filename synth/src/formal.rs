@@ -36,10 +36,8 @@ pub enum Mode {
 /// A module and its checker.
 #[derive(Debug, Clone)]
 pub struct Claim<'a> {
-    /// The printed module.
+    /// The printed module, behind those within it.
     pub verilog: &'a str,
-    /// The name of the module.
-    pub module: &'a str,
     /// The checker: a file of `synth/formal/` without its ending.
     pub checker: &'a str,
     /// The checker's parameters.
@@ -64,15 +62,15 @@ impl Claim<'_> {
     /// # Errors
     /// The tools do not run, or do not understand the module.
     pub fn check(&self, tools: &Tools, mode: Mode, folder: &Path) -> Result<Verdict> {
-        let (Claim { module, defines, .. }, (mode, depth)) = (
-            self,
+        let (module, (mode, depth)) = (
+            top(self.verilog).context("a module begins")?,
             match mode {
                 Mode::Prove(depth) => ("prove", depth),
                 Mode::Bounded(depth) => ("bmc", depth),
                 Mode::Cover(depth) => ("cover", depth),
             },
         );
-        let defines: String = defines.iter().map(|name| format!("-D{name} ")).collect();
+        let defines: String = self.defines.iter().map(|name| format!("-D{name} ")).collect();
         hapticore_files::write(&folder.join("claim.sv"), &self.text()?)?;
         let script = format!(
             "[options]\nmode {mode}\ndepth {depth}\n[engines]\nsmtbmc z3\n[script]\nread -formal {defines}claim.sv\n\
@@ -98,6 +96,11 @@ impl Claim<'_> {
             status => bail!("sby: {status:?}\n{said}"),
         }
     }
+}
+
+/// The name of the last module of a text, which all others are within.
+pub fn top(verilog: &str) -> Option<&str> {
+    verilog.lines().rev().find_map(|line| line.strip_prefix("module ")?.split([' ', '(']).next())
 }
 
 /// The wires that an output depends on, through registers too.

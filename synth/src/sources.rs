@@ -30,11 +30,19 @@ pub fn hash(bytes: impl IntoIterator<Item = u8>) -> String {
     format!("{:016x}", bytes.into_iter().fold(0xcbf2_9ce4_8422_2325, step))
 }
 
-/// The hash of files, whichever order they come in.
+/// The hash of what tools read of files, whichever order the files come in: comments (`//` to the end of the line) and
+/// blank lines do not count.
 pub fn hash_of(files: &[File]) -> String {
-    let mut all: Vec<_> = files.iter().map(|file| format!("{}\0{}\0", file.name, file.text)).collect();
+    let mut all: Vec<_> = files.iter().map(|file| format!("{}\0{}\0", file.name, code(&file.text))).collect();
     all.sort();
     hash(all.concat().into_bytes())
+}
+
+/// The lines of a text without comments and what they leave blank. A line without a comment stays as it is.
+fn code(text: &str) -> String {
+    let uncommented =
+        |line: &str| line.split_once("//").map_or(line.to_owned(), |(code, _)| code.trim_end().to_owned());
+    text.lines().map(uncommented).filter(|line| !line.trim().is_empty()).map(|line| line + "\n").collect()
 }
 
 #[cfg(test)]
@@ -54,5 +62,17 @@ mod tests {
         assert_eq!(hash_of(&[a.clone(), b.clone()]), hash_of(&[b.clone(), a.clone()]));
         assert_ne!(hash_of(&[a.clone(), b]), hash_of(&[file("a.v", "y"), file("b.v", "x")]));
         assert_ne!(hash_of(&[a]), hash_of(&[file("a.v", "x ")]));
+    }
+
+    #[test]
+    fn the_hash_ignores_comments_and_blank_lines_only() {
+        let hash = |text: &str| hash_of(&[File { name: "a.v".into(), text: text.into() }]);
+        let plain = hash("module a;\n  wire b = c / d;\nendmodule\n");
+        assert_eq!(
+            plain,
+            hash("// Version 2\n\nmodule a; // all of it\n  wire b = c / d;\n  // e\n\nendmodule // a\n")
+        );
+        assert_ne!(plain, hash("module a;\n  wire b = c // d;\nendmodule\n"), "what a comment hides is missing");
+        assert_ne!(plain, hash("module a;\n  wire b = c / e;\nendmodule\n"));
     }
 }

@@ -11,6 +11,7 @@ use hapticore_hdl::format::Format;
 use hapticore_hdl::memory::Memory;
 use hapticore_hdl::signal::Signal;
 use hapticore_hdl::verilog::Design;
+use hapticore_rtl::header;
 
 fn committed(folder: &Path) -> BTreeMap<String, String> {
     let files = fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display())).flatten();
@@ -20,8 +21,10 @@ fn committed(folder: &Path) -> BTreeMap<String, String> {
 }
 
 fn printed(profile: &str) -> BTreeMap<String, String> {
-    let design = hapticore_rtl::header::design(&Profile::bundled(profile).expect("bundled"));
-    design.modules.into_iter().map(|file| (format!("{}.v", file.name), file.text)).collect()
+    let profile = Profile::bundled(profile).expect("bundled");
+    let design = header::design(&profile);
+    let header = (header::NAME.to_owned(), header::of_core(&profile, &design));
+    design.modules.into_iter().map(|file| (format!("{}.v", file.name), file.text)).chain([header]).collect()
 }
 
 #[test]

@@ -156,8 +156,8 @@ fn each_printed_module_is_there_once() {
     let mut pair = Pair::new();
     pair.connect_all();
     let text = component::verilog(&pair);
-    assert_eq!(text.matches("\nmodule divider ").count(), 1);
-    assert_eq!(text.matches("divider block (").count(), 2);
+    assert_eq!(text.matches("\nmodule hapticore_divider ").count(), 1);
+    assert_eq!(text.matches("hapticore_divider block (").count(), 2);
 }
 
 #[test]
@@ -172,7 +172,7 @@ fn any_block_has_a_component() {
     let profile = Profile::bundled("small").expect("bundled");
     let mut turns = Turns::new(Multiplexer::new(&profile));
     turns.connect_all();
-    assert!(component::verilog(&turns).contains("module multiplexer"));
+    assert!(component::verilog(&turns).contains("module hapticore_multiplexer"));
     // As it stands at the top of this file.
     let declared = component::declaration(&Multiplexer::new(&profile), "Multiplexer", "Turns");
     let words = |text: &str| text.split_whitespace().map(str::to_owned).collect::<Vec<_>>();

@@ -20,13 +20,13 @@ use hapticore_synth::tools::Tools;
 fn verdict(
     tools: &Tools,
     verilog: &str,
-    module: &'static str,
+    checker: &'static str,
     parameters: &[(&'static str, u64)],
     mode: Mode,
 ) -> Verdict {
     let folder = tempfile::tempdir().expect("a folder");
-    let claim = Claim { verilog, module, checker: module, parameters: parameters.to_vec(), defines: Vec::new() };
-    claim.check(tools, mode, folder.path()).unwrap_or_else(|error| panic!("{module}: {error}"))
+    let claim = Claim { verilog, checker, parameters: parameters.to_vec(), defines: Vec::new() };
+    claim.check(tools, mode, folder.path()).unwrap_or_else(|error| panic!("{checker}: {error}"))
 }
 
 /// The ADC reader of a board: as printed, and its checker's parameters.
@@ -122,8 +122,9 @@ fn board(target: Target) -> (String, Known) {
     let design = Design::of(&board, "a formal check");
     let (top, _) = design.modules.split_last().expect("modules");
     let within = Netlist::of(&board);
-    let blocks = within.modules.iter().filter(|module| top.text.contains(&format!("\n    {} u_", module.name)));
-    let hollow = |module: &Module| {
+    let names = design.modules.iter().map(|file| file.name.as_str());
+    let blocks = names.zip(&within.modules).filter(|(name, _)| top.text.contains(&format!("\n    {name} u_")));
+    let hollow = |(name, module): (&str, &Module)| {
         let of = |ports: &[Named], with: &dyn Fn(u8, &str) -> String| -> String {
             ports.iter().map(|port| with(port.format.width - 1, port.name)).collect()
         };
@@ -133,7 +134,7 @@ fn board(target: Target) -> (String, Known) {
             format!("    (* anyseq *) wire [{high}:0] any_{name};\n    assign {name} = any_{name};\n")
         };
         let anything = of(&module.outputs, &any);
-        format!("module {} (input wire clock, input wire reset{inputs}{outputs});\n{anything}endmodule\n", module.name)
+        format!("module {name} (input wire clock, input wire reset{inputs}{outputs});\n{anything}endmodule\n")
     };
     (blocks.map(hollow).collect::<String>() + &top.text, Known::new())
 }

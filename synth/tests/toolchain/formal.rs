@@ -53,7 +53,7 @@ fn verdict(tools: &Tools, module: &Module, parameters: &Parameters, small: bool,
     let folder = tempfile::tempdir().expect("a folder");
     let (verilog, parameters) = (print(module), parameters.clone());
     let defines = if small { vec!["SMALL"] } else { Vec::new() };
-    let claim = Claim { verilog: &verilog, module: module.name, checker: module.name, parameters, defines };
+    let claim = Claim { verilog: &verilog, checker: module.name, parameters, defines };
     claim.check(tools, mode, folder.path()).unwrap_or_else(|error| panic!("{}: {error}", module.name))
 }
 

@@ -48,7 +48,7 @@ fn the_fusesoc_core_names_every_file_of_its_profiles() {
             .expect("a folder")
             .map(|entry| format!("{profile}/{}", entry.expect("a file").file_name().to_string_lossy()))
             .collect();
-        let named = core.lines().filter_map(|line| line.trim().strip_prefix("- "));
+        let named = core.lines().filter_map(|line| line.trim().strip_prefix("- ")?.split(" : ").next());
         let named: BTreeSet<_> =
             named.filter(|name| name.starts_with(&format!("{profile}/"))).map(String::from).collect();
         assert_eq!(named, there, "rtl/verilog/hapticore.core");
