@@ -8,9 +8,9 @@ module hapticore_capacitance (
     input wire clock,
     input wire reset,
     input wire start, // u1.0  Begins; all others are valid and stable until `done`.
-    input wire [15:0] total, // u16.13  The amplitude of the total current.
-    input wire [15:0] sense, // u16.13  The amplitude of the sensing voltage.
-    input wire [14:0] sheet, // u15.15  The sheet's resistance at the pad, in full scales of voltage per current.
+    input wire [15:0] total, // u16.13  Amplitude of the total current, full scale.
+    input wire [15:0] sense, // u16.13  Amplitude of the sensing voltage, full scale.
+    input wire [14:0] sheet, // u15.15  Resistance of the sheet at the pad, full scales of voltage per current.
     input wire [14:0] gain, // u15.5  Picofarads at an admittance of one.
     output reg done, // u1.0  Asserted for one cycle when the capacitance is valid.
     output reg [14:0] capacitance, // u15.5  The capacitance, in pF.

@@ -11,12 +11,12 @@ module hapticore_currents (
     input wire [3:0] index, // u4.0  The number of the sum.
     input wire signed [41:0] sum, // s42.31
     output reg done, // u1.0  Asserted for one cycle when all others are valid; they are stable until the next results.
-    output wire [15:0] total, // u16.13  The amplitude of the total current.
-    output wire [15:0] sense, // u16.13  The amplitude of the sensing voltage.
-    output reg signed [20:0] x, // s21.15  The numerator of r_x.
-    output reg signed [20:0] y, // s21.15  The numerator of r_y.
-    output reg [19:0] corners, // u20.15  Their denominator.
-    output reg [16:0] least, // u17.15  The least amplitude of the terminals, in the unit of the numerators.
+    output wire [15:0] total, // u16.13  Amplitude of the total current, full scale.
+    output wire [15:0] sense, // u16.13  Amplitude of the sensing voltage, full scale.
+    output reg signed [20:0] x, // s21.15  Numerator of r_x: the terminals' amplitudes with their signs.
+    output reg signed [20:0] y, // s21.15  Numerator of r_y: the terminals' amplitudes with their signs.
+    output reg [19:0] corners, // u20.15  Denominator of both ratios.
+    output reg [16:0] least, // u17.15  Smallest amplitude of all terminals, in the unit of the numerators.
     output wire saturated // u1.0  A word is saturated.
 );
 

@@ -10,7 +10,7 @@ module hapticore_force_estimator (
     input wire start, // u1.0  Begins; all others are valid and stable until `done`.
     input wire [14:0] capacitance, // u15.5  The capacitance, in pF.
     input wire [14:0] mean_square, // u15.15  The mean square of the haptic voltage, in full scales squared.
-    input wire [14:0] gain, // u15.31  Newtons per square picofarad at full mean square.
+    input wire [14:0] gain, // u15.31  Gain of the force, N/pF² at a full-scale haptic mean square.
     output reg done, // u1.0  Asserted for one cycle when the force is valid.
     output reg [14:0] haptic_force, // u15.12  The haptic force, in N.
     output reg saturated // u1.0  A word is saturated.

@@ -10,9 +10,9 @@ module hapticore_haptic_voltage (
     input wire clear, // u1.0  Windows before this cycle no longer count.
     input wire [1:0] pad, // u2.0  The pad of the window; stable until the next window's sums.
     input wire valid, // u1.0  Asserted for one cycle with each sum.
-    input wire [3:0] index, // u4.0  The number of the sum; the last is that of the squares.
-    input wire signed [41:0] sum, // s42.31  The sum.
-    output reg [14:0] mean_square, // u15.15  The mean square.
+    input wire [3:0] index, // u4.0  Number of the sum; the last is the mean square.
+    input wire signed [41:0] sum, // s42.31  Sum of a window, from the demodulator.
+    output reg [14:0] mean_square, // u15.15  Mean square of the haptic voltage, full scale².
     output reg saturated // u1.0  A window's mean square is saturated.
 );
 

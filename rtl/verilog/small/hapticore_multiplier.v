@@ -8,8 +8,8 @@ module hapticore_multiplier (
     input wire clock,
     input wire reset,
     input wire enable, // u1.0  Asserted while a product is multiplier_busy for.
-    input wire [15:0] left, // u16.0  A code as an integer.
-    input wire [15:0] right, // u16.0  A code as an integer.
+    input wire [15:0] left, // u16.0  Left operand, a code as an integer.
+    input wire [15:0] right, // u16.0  Right operand, a code as an integer.
     output reg [31:0] product // u32.0
 );
 

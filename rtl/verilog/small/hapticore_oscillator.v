@@ -8,13 +8,13 @@ module hapticore_oscillator (
     input wire clock,
     input wire reset,
     input wire sample, // u1.0  A sample is valid.
-    input wire restart, // u1.0  It is the first of its slot.
-    input wire first, // u1.0  It is the first of its window.
+    input wire restart, // u1.0  First sample of its slot: the carrier restarts.
+    input wire first, // u1.0  First sample of its window.
     output reg ready, // u1.0  Asserted for one cycle before the other outputs are those of the sample.
-    output wire signed [16:0] cosine, // s17.16  The cosine of the carrier.
-    output wire signed [16:0] sine, // s17.16  The sine of the carrier.
-    output wire signed [16:0] window, // s17.16  The window.
-    output reg [2:0] phase // u3.0  Polyphase: which of the carrier's five phases the sample has.
+    output wire signed [16:0] cosine, // s17.16  Cosine of the carrier, fraction of its amplitude.
+    output wire signed [16:0] sine, // s17.16  Sine of the carrier, fraction of its amplitude.
+    output wire signed [16:0] window, // s17.16  Window value, from 0 to 1.
+    output reg [2:0] phase // u3.0  Polyphase: carrier phase of the sample, 0 to 4.
 );
 
     reg [2:0] step; // u3.0  0 idle, 1 look_up, 2 wave, 3 cosine, 4 sine

@@ -9,7 +9,7 @@ module hapticore_pace (
     input wire reset,
     input wire strobe, // u1.0  A set of ADC codes is valid.
     input wire clear, // u1.0  Clears `overrun`.
-    output reg overrun // u1.0  A strobe was too early.
+    output reg overrun // u1.0  A strobe came too early; stays asserted until `clear` or reset.
 );
 
     reg [4:0] left; // u5.0

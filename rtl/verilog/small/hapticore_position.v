@@ -8,17 +8,17 @@ module hapticore_position (
     input wire clock,
     input wire reset,
     input wire start, // u1.0  Begins; the ratios are valid and stable until `done`.
-    input wire signed [17:0] r_x, // s18.16  The x ratio.
-    input wire signed [17:0] r_y, // s18.16  The y ratio.
-    input wire [16:0] share, // u17.16  The least current's share of the ratios' denominator.
+    input wire signed [17:0] r_x, // s18.16  Ratio r_x of eq. 2.
+    input wire signed [17:0] r_y, // s18.16  Ratio r_y of eq. 3.
+    input wire [16:0] share, // u17.16  Smallest amplitude over the ratios' denominator.
     input wire write, // u1.0  Writes a word of the position table.
     input wire [10:0] address, // u11.0  The word's address.
     input wire signed [15:0] word, // s16.15
     output reg done, // u1.0  Asserted for one cycle when the others are valid.
     output reg signed [15:0] x, // s16.5  The position along the long edges, in mm.
     output reg signed [15:0] y, // s16.5  The position along the short edges, in mm.
-    output reg [14:0] sheet, // u15.15  The sheet's resistance at the pad, in full scales of voltage per current.
-    output reg invalid, // u1.0  No place of the table has the measured ratios.
+    output reg [14:0] sheet, // u15.15  Resistance of the sheet at the pad, full scales of voltage per current.
+    output reg invalid, // u1.0  No position of the table has the measured ratios.
     output reg lost, // u1.0  A terminal is open.
     output reg saturated // u1.0  A position is saturated.
 );

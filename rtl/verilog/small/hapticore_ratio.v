@@ -8,14 +8,14 @@ module hapticore_ratio (
     input wire clock,
     input wire reset,
     input wire start, // u1.0  Begins; all others are valid and stable until `done`.
-    input wire signed [20:0] x, // s21.15  The numerator of r_x.
-    input wire signed [20:0] y, // s21.15  The numerator of r_y.
-    input wire [19:0] corners, // u20.15  Their denominator.
-    input wire [16:0] least, // u17.15  The least amplitude of the terminals.
+    input wire signed [20:0] x, // s21.15  Numerator of r_x: the terminals' amplitudes with their signs.
+    input wire signed [20:0] y, // s21.15  Numerator of r_y: the terminals' amplitudes with their signs.
+    input wire [19:0] corners, // u20.15  Denominator of both ratios: the amplitudes of all terminals with a sign.
+    input wire [16:0] least, // u17.15  Smallest amplitude of all terminals.
     output reg done, // u1.0  Asserted for one cycle when the ratios are valid.
-    output reg signed [17:0] r_x, // s18.16  The x ratio.
-    output reg signed [17:0] r_y, // s18.16  The y ratio.
-    output wire [16:0] share, // u17.16  The least of the terminals' currents, as a share of the denominator; until the next slot's `start`.
+    output reg signed [17:0] r_x, // s18.16  Ratio r_x of eq. 2.
+    output reg signed [17:0] r_y, // s18.16  Ratio r_y of eq. 3.
+    output wire [16:0] share, // u17.16  Smallest amplitude over the denominator; stable until the next `start`.
     output reg invalid // u1.0  The denominator is zero.
 );
 

@@ -7,7 +7,7 @@
 module hapticore_sqrt (
     input wire clock,
     input wire reset,
-    input wire start, // u1.0  Takes the radicand and begins.
+    input wire start, // u1.0  Starts a square root.
     input wire [31:0] radicand, // u32.30
     output reg done, // u1.0  Asserted for one cycle when the square root is valid.
     output reg [16:0] sqrt // u17.15  The square root, stable until the next `done`.

@@ -7,7 +7,7 @@
 // - code: the code of the channel that `channel` named one cycle earlier, of the set announced by the last strobe;
 //   a set is read from the strobe's cycle on, and is stable for 24 cycles.
 // - channels 0 to 7: terminals, sensing voltage, haptic voltage.
-// - slots of 1700 samples, pad after pad; a frame follows its slot's last strobe by at most 7831 cycles.
+// - slots of 1700 samples, pad after pad; a frame follows its slot's last strobe by at most 7829 cycles.
 // - capacitance_gain, force_gain: stable from a slot's last strobe to its frame's `done`.
 // - write, address, word: a word of the position table per cycle; a slot that is estimated meanwhile gives a frame of
 //   neither table. Reset does not clear the table.
@@ -27,10 +27,10 @@ module hapticore (
     input wire clock,
     input wire reset,
     input wire strobe, // u1.0  A set of ADC codes is valid.
-    input wire clear, // u1.0  Abandons the slot under way: the next strobe is the first of the first pad's slot.
+    input wire clear, // u1.0  Abandons the current slot; the next strobe starts the first pad's slot.
     input wire signed [17:0] code, // s18.17  The code of the channel that `channel` asked for one cycle earlier.
-    input wire [17:0] capacitance_gain, // u18.7  Calibration: picofarads at an admittance of one.
-    input wire [17:0] force_gain, // u18.34  Calibration: newtons per square picofarad at full haptic mean square.
+    input wire [17:0] capacitance_gain, // u18.7  Calibration: gain of the capacitance, pF at an admittance of 1.
+    input wire [17:0] force_gain, // u18.34  Calibration: gain of the force, N/pF² at a full-scale haptic mean square.
     input wire write, // u1.0  Writes a word of the position table.
     input wire [12:0] address, // u13.0  The word's address.
     input wire signed [17:0] word, // s18.17
@@ -40,9 +40,9 @@ module hapticore (
     output wire signed [17:0] carrier, // s18.17
     output wire valid, // u1.0  Asserted for one cycle for each word of a frame.
     output wire [2:0] index, // u3.0  The number of the word's field.
-    output wire signed [24:0] frame, // s25.0  The word.
+    output wire signed [24:0] frame, // s25.0  Word of the frame, a code in the field's format.
     output wire done, // u1.0  Asserted with the last word.
-    output wire [1:0] pad, // u2.0  The pad of the frame.
+    output wire [1:0] pad, // u2.0  Pad of the frame.
     output wire clipped, // u1.0  A code was at full scale of the ADC.
     output wire saturated, // u1.0  A word is saturated.
     output wire invalid, // u1.0  No position or capacitance has these currents; the last valid results are given out.

@@ -8,9 +8,9 @@ module hapticore_capacitance (
     input wire clock,
     input wire reset,
     input wire start, // u1.0  Begins; all others are valid and stable until `done`.
-    input wire [26:0] total, // u27.23  The amplitude of the total current.
-    input wire [26:0] sense, // u27.23  The amplitude of the sensing voltage.
-    input wire [16:0] sheet, // u17.17  The sheet's resistance at the pad, in full scales of voltage per current.
+    input wire [26:0] total, // u27.23  Amplitude of the total current, full scale.
+    input wire [26:0] sense, // u27.23  Amplitude of the sensing voltage, full scale.
+    input wire [16:0] sheet, // u17.17  Resistance of the sheet at the pad, full scales of voltage per current.
     input wire [17:0] gain, // u18.7  Picofarads at an admittance of one.
     output reg done, // u1.0  Asserted for one cycle when the capacitance is valid.
     output reg [23:0] capacitance, // u24.13  The capacitance, in pF.

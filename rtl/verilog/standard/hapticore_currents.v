@@ -11,12 +11,12 @@ module hapticore_currents (
     input wire [3:0] index, // u4.0  The number of the sum.
     input wire signed [44:0] sum, // s45.34
     output reg done, // u1.0  Asserted for one cycle when all others are valid; they are stable until the next results.
-    output wire [26:0] total, // u27.23  The amplitude of the total current.
-    output reg [26:0] sense, // u27.23  The amplitude of the sensing voltage.
-    output reg signed [30:0] x, // s31.23  The numerator of r_x.
-    output reg signed [30:0] y, // s31.23  The numerator of r_y.
-    output reg [29:0] corners, // u30.23  Their denominator.
-    output reg [26:0] least, // u27.23  The least amplitude of the terminals, in the unit of the numerators.
+    output wire [26:0] total, // u27.23  Amplitude of the total current, full scale.
+    output reg [26:0] sense, // u27.23  Amplitude of the sensing voltage, full scale.
+    output reg signed [30:0] x, // s31.23  Numerator of r_x: the terminals' amplitudes with their signs.
+    output reg signed [30:0] y, // s31.23  Numerator of r_y: the terminals' amplitudes with their signs.
+    output reg [29:0] corners, // u30.23  Denominator of both ratios.
+    output reg [26:0] least, // u27.23  Smallest amplitude of all terminals, in the unit of the numerators.
     output reg saturated // u1.0  A word is saturated.
 );
 

@@ -8,8 +8,8 @@ module hapticore_demodulator (
     input wire clock,
     input wire reset,
     input wire start, // u1.0  The oscillator's outputs are those of a sample to be integrated.
-    input wire first, // u1.0  The sample is the first of its window.
-    input wire last, // u1.0  The sample is the last of its window.
+    input wire first, // u1.0  First sample of its window.
+    input wire last, // u1.0  Last sample of its window.
     input wire [1:0] pad, // u2.0  The selected pad.
     input wire signed [17:0] code, // s18.17  The code of the channel that `channel` asked for one cycle earlier.
     input wire signed [17:0] cosine, // s18.17  The oscillator's cosine.
@@ -20,7 +20,7 @@ module hapticore_demodulator (
     output reg valid, // u1.0  Asserted for one cycle for each finished sum of a window.
     output reg [3:0] index, // u4.0  The number of the sum: 2k the in-phase and 2k + 1 the quadrature of channel k, the last the mean square.
     output reg signed [44:0] sum, // s45.34
-    output wire [1:0] pad_out, // u2.0  The pad of the window.
+    output wire [1:0] pad_out, // u2.0  Pad whose slot the window belongs to.
     output reg clipped // u1.0  A code of the window was at full scale.
 );
 

@@ -11,18 +11,18 @@ module hapticore_estimator (
     input wire valid, // u1.0  Asserted for one cycle with each of the demodulator's sums.
     input wire [3:0] index, // u4.0  The number of the sum.
     input wire signed [44:0] sum, // s45.34
-    input wire [1:0] pad, // u2.0  The pad of the window.
+    input wire [1:0] pad, // u2.0  Pad whose slot the window belongs to.
     input wire clipped, // u1.0  A code of the window was at full scale.
-    input wire [17:0] capacitance_gain, // u18.7  Calibration: picofarads at an admittance of one.
-    input wire [17:0] force_gain, // u18.34  Calibration: newtons per square picofarad at full haptic mean square.
+    input wire [17:0] capacitance_gain, // u18.7  Calibration: gain of the capacitance, pF at an admittance of 1.
+    input wire [17:0] force_gain, // u18.34  Calibration: gain of the force, N/pF² at a full-scale haptic mean square.
     input wire write, // u1.0  Writes a word of the position table.
     input wire [12:0] address, // u13.0  The word's address.
     input wire signed [17:0] word, // s18.17
     output wire valid_out, // u1.0  Asserted for one cycle for each word of a frame.
     output wire [2:0] index_out, // u3.0  The number of the word's field.
-    output wire signed [24:0] frame, // s25.0  The word.
+    output wire signed [24:0] frame, // s25.0  Word of the frame, a code in the field's format.
     output wire done, // u1.0  Asserted with the last word.
-    output wire [1:0] pad_out, // u2.0  The pad of the frame.
+    output wire [1:0] pad_out, // u2.0  Pad of the frame.
     output wire clipped_out, // u1.0  A code was at full scale of the ADC.
     output wire saturated, // u1.0  A word is saturated.
     output wire invalid, // u1.0  No position or capacitance has these currents; the last valid results are given out.

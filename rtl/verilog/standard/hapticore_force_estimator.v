@@ -10,7 +10,7 @@ module hapticore_force_estimator (
     input wire start, // u1.0  Begins; all others are valid and stable until `done`.
     input wire [23:0] capacitance, // u24.13  The capacitance, in pF.
     input wire [21:0] mean_square, // u22.22  The mean square of the haptic voltage, in full scales squared.
-    input wire [17:0] gain, // u18.34  Newtons per square picofarad at full mean square.
+    input wire [17:0] gain, // u18.34  Gain of the force, N/pF² at a full-scale haptic mean square.
     output reg done, // u1.0  Asserted for one cycle when the force is valid.
     output reg [19:0] haptic_force, // u20.17  The haptic force, in N.
     output reg saturated // u1.0  A word is saturated.

@@ -10,14 +10,14 @@ module hapticore_frames (
     input wire start, // u1.0  Begins; all others are valid and stable until `done`.
     input wire [1:0] pad, // u2.0
     input wire invalid, // u1.0  The results are invalid: the pad's last valid ones are given out instead.
-    input wire signed [21:0] r_x, // s22.20  As [`Field::RatioX`].
-    input wire signed [21:0] r_y, // s22.20  As [`Field::RatioY`].
-    input wire signed [17:0] x, // s18.7  As [`Field::X`].
-    input wire signed [17:0] y, // s18.7  As [`Field::Y`].
-    input wire [16:0] sheet, // u17.17  As [`Field::Sheet`].
-    input wire [23:0] capacitance, // u24.13  As [`Field::Capacitance`].
-    input wire [19:0] haptic_force, // u20.17  As [`Field::Force`].
-    input wire [21:0] mean_square, // u22.22  As [`Field::MeanSquare`].
+    input wire signed [21:0] r_x, // s22.20  Ratio r_x, eq. 2.
+    input wire signed [21:0] r_y, // s22.20  Ratio r_y, eq. 3.
+    input wire signed [17:0] x, // s18.7  Position along the long edges, mm.
+    input wire signed [17:0] y, // s18.7  Position along the short edges, mm.
+    input wire [16:0] sheet, // u17.17  Resistance of the sheet at the pad, full scales of voltage per current.
+    input wire [23:0] capacitance, // u24.13  Capacitance between pad and sheet, pF.
+    input wire [19:0] haptic_force, // u20.17  Haptic force, N.
+    input wire [21:0] mean_square, // u22.22  Mean square of the haptic voltage, full scale².
     output reg valid, // u1.0  Asserted for one cycle for each word.
     output reg [2:0] index, // u3.0  The number of the word's field.
     output reg signed [24:0] word, // s25.0

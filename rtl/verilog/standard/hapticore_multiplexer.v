@@ -8,12 +8,12 @@ module hapticore_multiplexer (
     input wire clock,
     input wire reset,
     input wire strobe, // u1.0  A set of ADC codes is valid.
-    input wire clear, // u1.0  Abandons the slot under way; wins over `strobe`.
+    input wire clear, // u1.0  Abandons the current slot; overrides `strobe`.
     output reg sample, // u1.0  Asserted for one cycle for each sample; the flags below are about this sample.
     output reg restart, // u1.0  The first of a slot: the carrier's phase restarts.
-    output reg integrate, // u1.0  Within the integration window.
-    output reg first, // u1.0  The first of the window.
-    output reg last, // u1.0  The last of the window.
+    output reg integrate, // u1.0  The sample lies in the integration window.
+    output reg first, // u1.0  First sample of the window.
+    output reg last, // u1.0  Last sample of the window.
     output reg [1:0] pad, // u2.0  The selected pad.
     output reg closed // u1.0  The pad's switch is closed.
 );

@@ -8,8 +8,8 @@ module hapticore_multiplier (
     input wire clock,
     input wire reset,
     input wire enable, // u1.0  Asserted while a product is multiplier_busy for.
-    input wire signed [17:0] left, // s18.0  A code as an integer.
-    input wire signed [17:0] right, // s18.0  A code as an integer.
+    input wire signed [17:0] left, // s18.0  Left operand, a code as an integer.
+    input wire signed [17:0] right, // s18.0  Right operand, a code as an integer.
     output reg signed [35:0] product // s36.0
 );
 

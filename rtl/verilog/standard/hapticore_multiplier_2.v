@@ -8,8 +8,8 @@ module hapticore_multiplier_2 (
     input wire clock,
     input wire reset,
     input wire enable, // u1.0  Asserted while a product is multiplier_busy for.
-    input wire signed [25:0] left, // s26.0  A code as an integer.
-    input wire signed [25:0] right, // s26.0  A code as an integer.
+    input wire signed [25:0] left, // s26.0  Left operand, a code as an integer.
+    input wire signed [25:0] right, // s26.0  Right operand, a code as an integer.
     output reg signed [51:0] product // s52.0
 );
 

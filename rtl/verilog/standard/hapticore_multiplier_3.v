@@ -8,8 +8,8 @@ module hapticore_multiplier_3 (
     input wire clock,
     input wire reset,
     input wire enable, // u1.0  Asserted while a product is multiplier_busy for.
-    input wire [26:0] left, // u27.0  A code as an integer.
-    input wire [26:0] right, // u27.0  A code as an integer.
+    input wire [26:0] left, // u27.0  Left operand, a code as an integer.
+    input wire [26:0] right, // u27.0  Right operand, a code as an integer.
     output reg [53:0] product // u54.0
 );
 

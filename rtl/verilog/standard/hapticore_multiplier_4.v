@@ -8,8 +8,8 @@ module hapticore_multiplier_4 (
     input wire clock,
     input wire reset,
     input wire enable, // u1.0  Asserted while a product is multiplier_busy for.
-    input wire [23:0] left, // u24.0  A code as an integer.
-    input wire [23:0] right, // u24.0  A code as an integer.
+    input wire [23:0] left, // u24.0  Left operand, a code as an integer.
+    input wire [23:0] right, // u24.0  Right operand, a code as an integer.
     output reg [47:0] product // u48.0
 );
 

@@ -8,17 +8,17 @@ module hapticore_position (
     input wire clock,
     input wire reset,
     input wire start, // u1.0  Begins; the ratios are valid and stable until `done`.
-    input wire signed [21:0] r_x, // s22.20  The x ratio.
-    input wire signed [21:0] r_y, // s22.20  The y ratio.
-    input wire [20:0] share, // u21.20  The least current's share of the ratios' denominator.
+    input wire signed [21:0] r_x, // s22.20  Ratio r_x of eq. 2.
+    input wire signed [21:0] r_y, // s22.20  Ratio r_y of eq. 3.
+    input wire [20:0] share, // u21.20  Smallest amplitude over the ratios' denominator.
     input wire write, // u1.0  Writes a word of the position table.
     input wire [12:0] address, // u13.0  The word's address.
     input wire signed [17:0] word, // s18.17
     output reg done, // u1.0  Asserted for one cycle when the others are valid.
     output reg signed [17:0] x, // s18.7  The position along the long edges, in mm.
     output reg signed [17:0] y, // s18.7  The position along the short edges, in mm.
-    output reg [16:0] sheet, // u17.17  The sheet's resistance at the pad, in full scales of voltage per current.
-    output reg invalid, // u1.0  No place of the table has the measured ratios.
+    output reg [16:0] sheet, // u17.17  Resistance of the sheet at the pad, full scales of voltage per current.
+    output reg invalid, // u1.0  No position of the table has the measured ratios.
     output reg lost, // u1.0  A terminal is open.
     output reg saturated // u1.0  A position is saturated.
 );

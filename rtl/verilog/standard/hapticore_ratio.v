@@ -8,14 +8,14 @@ module hapticore_ratio (
     input wire clock,
     input wire reset,
     input wire start, // u1.0  Begins; all others are valid and stable until `done`.
-    input wire signed [30:0] x, // s31.23  The numerator of r_x.
-    input wire signed [30:0] y, // s31.23  The numerator of r_y.
-    input wire [29:0] corners, // u30.23  Their denominator.
-    input wire [26:0] least, // u27.23  The least amplitude of the terminals.
+    input wire signed [30:0] x, // s31.23  Numerator of r_x: the terminals' amplitudes with their signs.
+    input wire signed [30:0] y, // s31.23  Numerator of r_y: the terminals' amplitudes with their signs.
+    input wire [29:0] corners, // u30.23  Denominator of both ratios: the amplitudes of all terminals with a sign.
+    input wire [26:0] least, // u27.23  Smallest amplitude of all terminals.
     output reg done, // u1.0  Asserted for one cycle when the ratios are valid.
-    output reg signed [21:0] r_x, // s22.20  The x ratio.
-    output reg signed [21:0] r_y, // s22.20  The y ratio.
-    output wire [20:0] share, // u21.20  The least of the terminals' currents, as a share of the denominator; until the next slot's `start`.
+    output reg signed [21:0] r_x, // s22.20  Ratio r_x of eq. 2.
+    output reg signed [21:0] r_y, // s22.20  Ratio r_y of eq. 3.
+    output wire [20:0] share, // u21.20  Smallest amplitude over the denominator; stable until the next `start`.
     output reg invalid // u1.0  The denominator is zero.
 );
 

@@ -7,7 +7,7 @@
 module hapticore_sqrt_2 (
     input wire clock,
     input wire reset,
-    input wire start, // u1.0  Takes the radicand and begins.
+    input wire start, // u1.0  Starts a square root.
     input wire [53:0] radicand, // u54.46
     output reg done, // u1.0  Asserted for one cycle when the square root is valid.
     output reg [27:0] sqrt // u28.23  The square root, stable until the next `done`.
