@@ -14,6 +14,9 @@ fn said(simulator: &[&str], file: &str, printed: &str, instead: &str) -> (String
     let mut command = Command::new(env!("CARGO_BIN_EXE_hapticore-lockstep"));
     command.args(simulator).arg("small");
     for entry in fs::read_dir(small).expect("the printed core").flatten() {
+        if entry.path().extension().is_none_or(|extension| extension != "v") {
+            continue; // what benches include is no module
+        }
         let (name, text) = (entry.file_name(), fs::read_to_string(entry.path()).expect("a file"));
         let changed = if name == file { text.replacen(printed, instead, 1) } else { text.clone() };
         assert!(name != file || printed == instead || changed != text, "{file} has {printed}");
