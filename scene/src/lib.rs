@@ -46,7 +46,6 @@
 //! | know the display that a scene describes | [`Device`], [`signs_by_place`] |
 //! | name a quantity, its unit and its truth | [`Quantity`] |
 //! | know what a scene claims | [`Criterion`], [`Measure`] |
-//! | take crosstalk between pads out of measurements | [`Uncoupler`] |
 //! | start from a bundled scene | [`gallery`] |
 //!
 //! Inside, from the bottom up:

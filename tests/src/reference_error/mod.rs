@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The reference's own error: its `f64` against the same equations in double-double, on every quantity of a scene's slots, and a
-//! bound that is derived for each slot ([`bound`]).
+//! bound that is derived for each slot (`bound.rs`).
 //!
 //! Double-double is `xprec`'s `Df64`, of 104 bits or more in every operation that the reference uses; a test asks it. (`twofloat`
 //! 0.8.4 was tried: its quotients have 53 bits and its sines 66.) Codes, phasors and the calibration's numbers are taken as
