@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Packets: the payloads of the board's line, as bits and bytes.
 //!
-//! [`Layout`] goes both ways between a [`Message`] and its payload; [`crate::decoder`] finds payloads in a stream of bytes.
+//! `Layout` goes both ways between a [`Message`] and its payload; [`crate::decoder`] finds payloads in a stream of bytes.
 //! Boards encode by gateware, which shares nothing with this but the constants of [`hapticore_protocol::framing`]; the encoder
 //! here serves tests and programs that stand in for a board.
 

@@ -7,10 +7,10 @@
 //!
 //! | module | holds |
 //! | --- | --- |
-//! | [`format`] | formats of fixed-point numbers |
+//! | [`format`](mod@format) | formats of fixed-point numbers |
 //! | [`signal`] | signals: a value and its format; operators, `quantize`, `resize` |
-//! | [`bundle`] | named groups of registers or ports: [`bundle!`]; multiplexers: [`when!`] |
-//! | [`states`] | states of state machines: [`states!`] |
+//! | [`bundle`](mod@bundle) | named groups of registers or ports: [`bundle!`]; multiplexers: [`when!`] |
+//! | [`states`](mod@states) | states of state machines: [`states!`] |
 //! | [`memory`] | block RAMs and tables |
 //! | [`block`](mod@block) | blocks, their instances and their state: [`block!`], [`call!`], [`next!`] |
 //! | [`interpretations`] | codes, reals, both, intervals, and the netlist |
