@@ -36,7 +36,7 @@ use crate::truth::{ForcePoint, MapPoint, PadReading, Truth};
 ///     assert!(truth.capacitance_pf > 300.0 && truth.force_n >= 0.0);
 /// }
 /// let gap = plant.effects().into_iter().find(|effect| effect.name == "gap").unwrap();
-/// assert_eq!((gap.level.as_str(), gap.evaluations), ("tr-bdf2 100 µs", 10));
+/// assert_eq!((gap.rung.as_str(), gap.evaluations), ("tr-bdf2 100 µs", 10));
 /// # Ok::<(), hapticore_scene::SceneError>(())
 /// ```
 pub struct Plant {
