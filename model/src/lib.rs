@@ -8,7 +8,6 @@
 //! | --- | --- |
 //! | [`blocks`] | the blocks, one file each: multiplexer, oscillator, demodulator, estimator and what it is made of |
 //! | [`fidelity`] | the core at work: every clock ([`fidelity::clock`]), or slot by slot to the same bits ([`fidelity::fixed`]) |
-//! | [`proof`] | the proof that no signal of a profile's core overflows |
 //!
 //! Widths, counts and timings are those of a [`Profile`]; [`check()`] says whether a core can be built of one.
 //!
@@ -28,7 +27,6 @@
 pub mod blocks;
 mod check;
 pub mod fidelity;
-pub mod proof;
 
 pub use check::{check, least_clocks_per_sample, parse_profile};
 // Paths of before the language and the contract had crates of their own.

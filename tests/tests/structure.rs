@@ -8,12 +8,13 @@ use std::path::{Path, PathBuf};
 use toml::{Table, Value};
 
 /// Which crates of the workspace a crate may use; tests may use more ([`DEVELOPMENT`]).
-const IMPORTS: [(&str, &[&str]); 14] = [
+const IMPORTS: [(&str, &[&str]); 15] = [
     ("model/hdl", &[]),
     ("model/contract", &["hapticore-hdl"]),
     // Not the hardware language: its signals round, too.
     ("model/reference", &["hapticore-contract"]),
     ("model", &["hapticore-contract", "hapticore-hdl"]),
+    ("model/proof", &["hapticore-contract", "hapticore-hdl", "hapticore-model"]),
     ("host/protocol", &["hapticore-contract", "hapticore-hdl"]),
     ("host", &["hapticore-contract", "hapticore-model", "hapticore-protocol", "hapticore-sheet"]),
     ("rtl", &["hapticore-contract", "hapticore-hdl", "hapticore-model", "hapticore-protocol"]),

@@ -5,7 +5,7 @@
 //! schedule that the core has; data spread over every input in their stated ranges. A narrowing that says it cannot
 //! overflow is checked at every clock; what does not hold is kept as a [`Violation`].
 
-use crate::block::Interpretation;
+use crate::block::{Block, Inputs, Interpretation, Outputs, State};
 use crate::format::Format;
 use crate::memory::{Memory, Storage, Write};
 use crate::signal::{Overflow, Rounding, Signal, Value};
@@ -119,6 +119,7 @@ fn clamp(range: Range, to: Format) -> Range {
     range.map(|code| code.clamp(to.min_code(), to.max_code()))
 }
 
+/// Operations are out of line, as instances are.
 impl Value for Range {
     const ELABORATES: bool = true;
 
@@ -126,33 +127,39 @@ impl Value for Range {
         Range::point(i128::from(format.code_saturating(real)))
     }
 
+    #[inline(never)]
     fn add(a: Signal<Self>, b: Signal<Self>, to: Format) -> Self {
         let (a, b) = (align(a, to), align(b, to));
         Range { low: a.low + b.low, high: a.high + b.high }
     }
 
+    #[inline(never)]
     fn sub(a: Signal<Self>, b: Signal<Self>, to: Format) -> Self {
         let (a, b) = (align(a, to), align(b, to));
         Range { low: a.low - b.high, high: a.high - b.low }
     }
 
+    #[inline(never)]
     fn mul(a: Signal<Self>, b: Signal<Self>, _to: Format) -> Self {
         let (a, b) = (a.value, b.value);
         let corners = [a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high];
         corners.into_iter().map(Range::point).reduce(Range::join).expect("four corners")
     }
 
+    #[inline(never)]
     fn square(a: Signal<Self>, to: Format) -> Self {
         let magnitude = Self::abs(a, to);
         magnitude.map(|code| code * code)
     }
 
+    #[inline(never)]
     fn abs(a: Signal<Self>, _to: Format) -> Self {
         let a = a.value;
         let low = if a.low <= 0 && a.high >= 0 { 0 } else { a.low.abs().min(a.high.abs()) };
         Range { low, high: a.low.abs().max(a.high.abs()) }
     }
 
+    #[inline(never)]
     fn quantize(a: Signal<Self>, to: Format, rounding: Rounding, overflow: Overflow) -> Self {
         let range = a.value.map(|code| round(code, a.format.frac - to.frac, rounding));
         match overflow {
@@ -167,26 +174,31 @@ impl Value for Range {
         a
     }
 
+    #[inline(never)]
     fn bits(a: Signal<Self>, low: u8, to: Format) -> Self {
         wrap(a.value.map(|code| code >> low), to)
     }
 
+    #[inline(never)]
     fn concat(high: Signal<Self>, low: Signal<Self>, _to: Format) -> Self {
         let shift = low.format.width;
         Range { low: (high.value.low << shift) | low.value.low, high: (high.value.high << shift) | low.value.high }
     }
 
+    #[inline(never)]
     fn at_most(a: Signal<Self>, most: Signal<Self>) -> Self {
         let (a, most) = (a.value, most.value);
         Range { low: a.low.min(most.low), high: a.high.min(most.high) }
     }
 
+    #[inline(never)]
     fn less(a: Signal<Self>, b: Signal<Self>) -> Self {
         let to = a.format.join(b.format);
         let (a, b) = (align(a, to), align(b, to));
         Range::bit(a.high < b.low, a.low < b.high)
     }
 
+    #[inline(never)]
     fn equal(a: Signal<Self>, b: Signal<Self>) -> Self {
         let to = a.format.join(b.format);
         let (a, b) = (align(a, to), align(b, to));
@@ -205,6 +217,7 @@ impl Value for Range {
         Range { low: 1 - a.high, high: 1 - a.low }
     }
 
+    #[inline(never)]
     fn select(bit: Self, a: Signal<Self>, b: Signal<Self>, to: Format) -> Self {
         match (bit.low, bit.high) {
             (1, _) => align(a, to),
@@ -254,6 +267,17 @@ impl Storage for Range {
 }
 
 impl Interpretation for Range {
+    /// Out of line: a proof runs few clocks, and a core in intervals in one piece takes long to compile.
+    #[inline(never)]
+    fn instance<B: Block>(
+        block: &B,
+        _name: &'static str,
+        state: &mut State<B, Self>,
+        inputs: Inputs<B, Signal<Self>>,
+    ) -> Outputs<B, Signal<Self>> {
+        block.clock(state, inputs)
+    }
+
     /// Surely not busy: that skipping changes no bit is tested on the clocked interpretation.
     fn can_skip(busy: Self) -> bool {
         busy == Range::point(0)

@@ -6,13 +6,13 @@
 //! after a round lies within the state before it, no further round can leave what has been seen, and the proof holds for
 //! all time. What relates several signals is beyond intervals: those places name a lemma, and tests hold the lemmas.
 
-use crate::blocks::core::{Core, Inputs};
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::block::{self, Block, Submodule, Visitor};
 use hapticore_hdl::bundle::{Bundle, Field};
 use hapticore_hdl::format::{BIT, Format};
 use hapticore_hdl::interpretations::range::{Range, Violation, take_lemmas, take_violations, whole};
 use hapticore_hdl::signal::{Signal, bit, zero};
+use hapticore_model::blocks::core::{Core, Inputs};
 
 /// What was proved, or what stands in the way.
 #[derive(Debug, Clone, PartialEq)]

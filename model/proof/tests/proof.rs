@@ -11,7 +11,7 @@ use hapticore_hdl::signal::{Proved, Signal, bit, int, zero};
 use hapticore_model::blocks::core::Core;
 use hapticore_model::blocks::demodulator::Demodulator;
 use hapticore_model::parse_profile;
-use hapticore_model::proof::prove;
+use hapticore_proof::prove;
 
 /// What relates several signals, and where it is held: `tests/equality` runs the divider and the root over all codes of
 /// small widths, and every test build checks each of these narrowings at each clock.
