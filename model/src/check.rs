@@ -62,11 +62,6 @@ pub fn check(profile: &Profile) -> Check {
     check_clocks(profile)
 }
 
-/// The fewest clocks from one sample to the next in which every channel can be read and demodulated.
-pub fn least_clocks_per_sample(profile: &Profile) -> u64 {
-    Demodulator::new(profile).least_clocks_per_sample()
-}
-
 const ROUNDED: &str = "what is rounded to it";
 
 /// Bits of a signal with the point of the format to which it is rounded, before that saturates.
@@ -104,13 +99,9 @@ fn check_widths(profile: &Profile) -> Check {
 }
 
 fn check_clocks(profile: &Profile) -> Check {
-    let (least, most, clocks) = (least_clocks_per_sample(profile), 1 << 16, profile.clocks_per_sample);
-    if !(least..=most).contains(&clocks) {
-        return Err(ProfileError::value("clocks_per_sample", format_args!("{least} to {most}"), clocks));
-    }
     // The next window begins when the last one's sums have been read out and its frame is made.
     let estimate = Demodulator::new(profile).latency() + Estimator::new(profile).latency();
-    let blanking = profile.slot.blanking() * clocks;
+    let blanking = profile.slot.blanking() * profile.clocks_per_sample;
     if blanking <= estimate {
         let expected = format_args!("more than {estimate} clocks of blanking").to_string();
         return Err(ProfileError::value("slot.settle", expected, blanking));
@@ -129,12 +120,22 @@ mod tests {
         }
     }
 
+    #[test]
+    fn the_demodulator_takes_as_many_clocks_a_sample_as_the_contract_says() {
+        for mut profile in Profile::all() {
+            for terminals in 3..=16 {
+                (profile.terminals.x, profile.terminals.y) = (vec![1; terminals], vec![-1; terminals]);
+                let least = Demodulator::new(&profile).least_clocks_per_sample();
+                assert_eq!(least, profile.least_clocks_per_sample(), "{}, {terminals} terminals", profile.name);
+            }
+        }
+    }
+
     /// What values alone do not tell: the contract accepts it, the core's blocks refuse it.
     #[test]
     fn blocks_refuse_what_values_alone_do_not_tell() {
         for (change, field) in [
-            ((|p| p.clocks_per_sample = 1) as fn(&mut Profile), "clocks_per_sample"),
-            (|p| p.slot.settle = 0, "slot.settle"),
+            ((|p| p.slot.settle = 0) as fn(&mut Profile), "slot.settle"),
             (|p| p.formats.square = Format::unsigned(28, 48), "formats.square"),
         ] {
             let mut profile = Profile::bundled("standard").expect("bundled");

@@ -30,7 +30,7 @@ mod check;
 pub mod fidelity;
 pub mod proof;
 
-pub use check::{check, least_clocks_per_sample, parse_profile};
+pub use check::{check, parse_profile};
 // Paths of before the language and the contract had crates of their own.
 pub use hapticore_contract::{calibration, frame, profile};
 pub use hapticore_hdl::{block, bundle, format, interpretations, memory, probe, signal, states};
