@@ -8,7 +8,8 @@
 use crate::blocks::core::Core;
 use crate::blocks::demodulator::{Demodulator, POLYPHASE_GAIN};
 use crate::blocks::estimator::Estimator;
-use crate::blocks::position::{Layout, Position};
+use crate::blocks::position::Position;
+use hapticore_contract::calibration::Layout;
 use hapticore_contract::profile::{self, Profile, ProfileError};
 use hapticore_hdl::format::{Format, MAX_WIDTH};
 

@@ -31,6 +31,3 @@ pub mod fidelity;
 pub mod proof;
 
 pub use check::{check, parse_profile};
-// Paths of before the language and the contract had crates of their own.
-pub use hapticore_contract::{calibration, frame, profile};
-pub use hapticore_hdl::{block, bundle, format, interpretations, memory, probe, signal, states};

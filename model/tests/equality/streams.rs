@@ -3,12 +3,13 @@
 
 use crate::harness::{Bench, operations};
 use crate::random::Random;
+use hapticore_contract::frame::Field;
 use hapticore_contract::profile::{Method, Profile, Window};
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::Format;
 use hapticore_model::blocks::currents::{self, Currents};
 use hapticore_model::blocks::demodulator::{self, Demodulator};
-use hapticore_model::blocks::frames::{self, Field, Frames};
+use hapticore_model::blocks::frames::{self, Frames};
 use hapticore_model::blocks::haptic_voltage::{self, HapticVoltage};
 use hapticore_model::blocks::multiplexer::{self, Multiplexer};
 use hapticore_model::blocks::oscillator::{self, Oscillator};

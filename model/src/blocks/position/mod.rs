@@ -34,12 +34,11 @@ mod at_once;
 mod instruction;
 mod program;
 
-pub use hapticore_contract::calibration::{Axis, Layout, Scalar, Surface};
-
 use self::at_once::AtOnce;
 use self::instruction::{COUNT, LOW, OPEN, Operation, SCALARS, SHARE, SURFACE, WRAP};
 use self::program::Program;
 use super::multiplier::{self, Multiplier};
+use hapticore_contract::calibration::Layout;
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format};
