@@ -25,9 +25,15 @@
 //!
 //! [`Profile`]: hapticore_contract::profile::Profile
 
+// For what tests of blocks share with tests of whole cores.
+#[cfg(test)]
+extern crate self as hapticore_model;
+
 pub mod blocks;
 mod check;
 pub mod fidelity;
 pub mod proof;
+#[cfg(test)]
+mod support;
 
 pub use check::{check, parse_profile};

@@ -256,3 +256,6 @@ impl Block for Capacitance {
         outputs
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -187,3 +187,6 @@ impl Block for Core {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

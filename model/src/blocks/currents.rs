@@ -405,3 +405,6 @@ impl Block for Currents {
         outputs
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -405,3 +405,6 @@ impl Block for Demodulator {
         outputs
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -177,3 +177,6 @@ impl Block for Divider {
         outputs
     }
 }
+
+#[cfg(test)]
+mod tests;

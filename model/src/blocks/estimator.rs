@@ -254,3 +254,6 @@ impl Estimator {
         Outputs { frames: FramePort { pad: r.pad, clipped: r.clipped, ..nothing } }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -170,3 +170,6 @@ impl Block for Force {
         outputs
     }
 }
+
+#[cfg(test)]
+mod tests;

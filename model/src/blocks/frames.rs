@@ -144,3 +144,6 @@ impl Block for Frames {
         outputs
     }
 }
+
+#[cfg(test)]
+mod tests;

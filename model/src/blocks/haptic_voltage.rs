@@ -182,3 +182,6 @@ impl Block for HapticVoltage {
         outputs
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -154,3 +154,6 @@ impl Block for Ratio {
         outputs
     }
 }
+
+#[cfg(test)]
+mod tests;

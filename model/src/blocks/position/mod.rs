@@ -563,3 +563,6 @@ fn bits_or<V: Interpretation>(a: Signal<V>, b: Signal<V>) -> Signal<V> {
     let bit = |k: u8| a.bits(k, 1) | b.bits(k, 1);
     bit(3).concat(bit(2)).concat(bit(1)).concat(bit(0))
 }
+
+#[cfg(test)]
+mod tests;
