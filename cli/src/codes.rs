@@ -40,7 +40,7 @@ pub fn run(args: &CodesArgs) -> Result<bool> {
         Some(path) => DeviceCalibration::read(path)?,
         None => calibrate::nominal(&profile)?,
     };
-    let profile = device.profile(&profile)?;
+    let profile = inputs::buildable(device.profile(&profile)?)?;
     let calibration = device.of(&profile).with_context(|| name(args.calibration.as_deref()))?;
     device.residual(&calibration).warning(LIMIT_MM).iter().for_each(|text| console::warn(text));
     let words = CalibrationWords::new(&profile, &calibration);

@@ -28,7 +28,10 @@ pub fn run(args: &HdlArgs) -> Result<bool> {
     let name = board.map_or(PROFILE, Target::profile_name);
     let profile = inputs::profile(args.profile.as_deref().unwrap_or(name))?;
     let device = args.calibration.as_deref().map(DeviceCalibration::read).transpose()?;
-    let profile = device.map_or(Ok(profile.clone()), |device| device.profile(&profile))?;
+    let profile = match device {
+        Some(device) => inputs::buildable(device.profile(&profile)?)?,
+        None => profile,
+    };
     let output = Output::new(&args.out)?;
     let top = match board {
         Some(board) => write_board(&output, board, &profile)?,

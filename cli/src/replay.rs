@@ -37,7 +37,7 @@ pub fn run(args: &ReplayArgs) -> Result<bool> {
         Some(path) => DeviceCalibration::read(path)?,
         None => calibrate::nominal(&profile)?,
     };
-    let profile = device.profile(&profile)?;
+    let profile = inputs::buildable(device.profile(&profile)?)?;
     let adc = Adc { terminals: profile.terminals.x.len(), format: profile.formats.adc };
     let described = Described { channels: args.channels.clone(), bits: args.bits, full_scale_v: args.full_scale_v };
     let mut source = capture::open(&args.capture, adc, &described)?;

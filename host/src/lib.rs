@@ -16,6 +16,7 @@
 //! | [`device`], [`residual`] | the calibration of a device: its file, its words for a core, how well its table fits |
 //! | [`profile`] | the core's profile, for the terminals and pads of a device |
 //! | [`units`], [`quantities`] | physical units; the one list of what a slot measures |
+//! | [`typed`] | words as numbers of the crate `fixed`, for programs that compute without floating point |
 //! | [`crosstalk`] | what other pads did to a measurement, taken out |
 //! | [`placement`] | pads at the edge, pads that touch |
 //! | [`readout`] | all of that in one: a frame to a row of `frames.csv` |
@@ -56,6 +57,7 @@ pub mod readout;
 pub mod residual;
 pub mod startup;
 pub mod text;
+pub mod typed;
 pub mod units;
 
 pub use command::{Command, encode};
@@ -69,10 +71,11 @@ pub use profile::LoadProfileError;
 pub use quantities::{QUANTITIES, Quantities, Quantity, quantity};
 pub use readout::{COLUMNS, Readout};
 pub use residual::Residual;
+pub use typed::{Word, WordError};
 pub use units::{SlotClock, Units, flag_names};
 
 pub use hapticore_contract::calibration::Calibration;
-pub use hapticore_contract::frame::{Flags, Frame, Reading};
+pub use hapticore_contract::frame::{Field, Flags, Frame, Reading};
 pub use hapticore_contract::profile::{Profile, ProfileError};
 pub use hapticore_protocol::framing::{END, ESC, VERSION, digest};
 pub use hapticore_protocol::{CalibrationWords, Constant, ConstantWord, Register, WordFormats};

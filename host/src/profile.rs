@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The profile of a board: a bundled one or a file's, with the terminals and pads of a device.
+//!
+//! Values are checked against their ranges. Whether a core can be built of them is the concern of whoever builds it.
 
 use crate::text::{ReadError, read, with_key};
 use hapticore_contract::profile::{Profile, ProfileError};
@@ -22,7 +24,7 @@ pub enum LoadProfileError {
 /// The profile of a bundled name or a file.
 ///
 /// # Errors
-/// No such profile, or one that no core can have; the message names file, line or key.
+/// No such profile, or a value that is out of its range; the message names file, line or key.
 ///
 /// ```
 /// let small = hapticore_host::profile::load("small")?;
@@ -34,7 +36,7 @@ pub fn load(name: &str) -> Result<Profile, LoadProfileError> {
     match Profile::bundled(name) {
         Err(ProfileError::Unknown { .. }) if looks_like_a_file(name) => {
             let text = read(Path::new(name))?;
-            hapticore_model::parse_profile(&text).map_err(|error| {
+            Profile::parse(&text).map_err(|error| {
                 LoadProfileError::Invalid(match error {
                     ProfileError::Syntax(message) => format!("{name}:{}", with_key(&text, &message)),
                     other => format!("{name}: {other}"),
@@ -81,7 +83,7 @@ pub enum TerminalsError {
 /// More terminals than the profile's ADC can be read for in a sample take more clocks.
 ///
 /// # Errors
-/// A profile of a user's own for another number of terminals; a core that cannot be.
+/// A profile of a user's own for another number of terminals; signs that no profile can have.
 ///
 /// ```
 /// # use hapticore_host::{Profile, profile::for_terminals};
@@ -100,9 +102,9 @@ pub fn for_terminals(profile: &Profile, signs: &[Vec<i8>; 2]) -> Result<Profile,
     let mut profile = profile.clone();
     if bundled {
         (profile.terminals.x, profile.terminals.y) = (x.clone(), y.clone());
-        profile.clocks_per_sample = profile.clocks_per_sample.max(hapticore_model::least_clocks_per_sample(&profile));
+        profile.clocks_per_sample = profile.clocks_per_sample.max(profile.least_clocks_per_sample());
         let name = profile.name.clone();
-        hapticore_model::check(&profile).map_err(|source| TerminalsError::Profile { profile: name, device, source })?;
+        profile.check_values().map_err(|source| TerminalsError::Profile { profile: name, device, source })?;
     }
     Ok(profile)
 }

@@ -4,9 +4,9 @@
 
 use std::fmt::Write;
 
+use hapticore_contract::frame::Field;
 use hapticore_contract::profile::Profile;
 use hapticore_model::blocks::core::Core;
-use hapticore_model::blocks::frames::Field;
 
 use hapticore_hdl::verilog::{Design, Heading};
 

@@ -17,7 +17,7 @@ use crate::calibrate;
 use crate::capture::Recorder;
 use crate::digitiser::Digitiser;
 use crate::engine::{Fidelity, Signals, Slot};
-use crate::inputs::timing;
+use crate::inputs::{buildable, timing};
 use crate::interrupt;
 use crate::record::{self, Row, SignalError};
 use crate::session::Session;
@@ -80,7 +80,7 @@ impl<'a> Case<'a> {
     pub fn new(scene: &'a Scene, index: usize, number: usize, profile: &Profile, start_s: f64) -> Result<Self> {
         let device = &scene.cases[index].device;
         let signs = signs_by_place(&device.terminals_mm, [device.width_mm, device.height_mm]);
-        let profile = for_terminals(profile, &signs)?;
+        let profile = buildable(for_terminals(profile, &signs)?)?;
         let plant = Plant::new(scene, index, &timing(&profile))?;
         let pads = plant.pad_names().len();
         let profile = Arc::new(serving(&profile, pads));

@@ -5,8 +5,7 @@ use std::path::Path;
 
 use anyhow::{Context, Result, anyhow};
 use hapticore_contract::profile::Profile;
-pub use hapticore_host::profile::load as profile;
-use hapticore_host::profile::looks_like_a_file;
+use hapticore_host::profile::{load, looks_like_a_file};
 use hapticore_host::text::read;
 use hapticore_scene::{Scene, Timing, gallery};
 
@@ -28,6 +27,26 @@ fn scene_file(name: &str) -> Result<String> {
     }
     let bundled: Vec<_> = gallery::all().iter().map(|(name, _)| *name).collect();
     Err(anyhow!("expected a file or a scene among {}, got \"{name}\"", bundled.join(", ")))
+}
+
+/// The profile of a bundled name or a file.
+///
+/// # Errors
+/// No such profile, or one that no core can have; the message names file, line or key.
+pub fn profile(name: &str) -> Result<Profile> {
+    let profile = load(name)?;
+    hapticore_model::check(&profile).with_context(|| name.to_string())?;
+    Ok(profile)
+}
+
+/// A profile with the terminals of a device, if a core can be built of it.
+///
+/// # Errors
+/// A core that cannot be.
+pub fn buildable(profile: Profile) -> Result<Profile> {
+    let what = || format!("profile {} for {} terminals", profile.name, profile.terminals.x.len());
+    hapticore_model::check(&profile).with_context(what)?;
+    Ok(profile)
 }
 
 /// The profile with the window that a scene asks for.

@@ -88,6 +88,32 @@ impl Format {
         Format { frac: 0, ..self }
     }
 
+    /// The format of the same codes with the point moved: of numbers `2^by` times as large.
+    #[inline(always)]
+    pub const fn scaled(self, by: i8) -> Self {
+        Format { frac: self.frac - by, ..self }
+    }
+
+    /// The format of numbers of this one that are rounded to the steps of `to`, before those beyond `to` saturate.
+    ///
+    /// ```
+    /// # use hapticore_hdl::format::Format;
+    /// let (sum, word) = (Format::signed(20, 17), Format::signed(8, 7));
+    /// assert_eq!(sum.rounded(word), Format::signed(11, 7), "one bit more than its own, for rounding up");
+    /// assert_eq!(sum.rounding_width(word), 20);
+    /// ```
+    #[inline(always)]
+    pub fn rounded(self, to: Format) -> Self {
+        let width = self.integer_bits() + 1 + i16::from(to.frac) + i16::from(self.signed);
+        Format { signed: self.signed, width: clip(width.max(i16::from(to.width))), frac: to.frac }
+    }
+
+    /// Bits of the widest word that rounding to `to` takes: the number, the half step that is added to it, the result.
+    pub fn rounding_width(self, to: Format) -> u8 {
+        let half_step = i16::from(self.frac) - i16::from(to.frac);
+        self.rounded(to).width.max(self.width).max(clip(half_step))
+    }
+
     /// What one code step is worth.
     #[inline(always)]
     pub fn lsb(self) -> f64 {

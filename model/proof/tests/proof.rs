@@ -13,7 +13,7 @@ use hapticore_model::blocks::demodulator::Demodulator;
 use hapticore_model::parse_profile;
 use hapticore_proof::prove;
 
-/// What relates several signals, and where it is held: `tests/equality` runs the divider and the root over all codes of
+/// What relates several signals, and where it is held: the tests of divider and square root run them over all codes of
 /// small widths, and every test build checks each of these narrowings at each clock.
 const LEMMAS: [&str; 3] = [
     "a square is not negative",

@@ -23,7 +23,8 @@
 use super::divider::{self, Divider};
 use super::multiplier::{self, Multiplier};
 use super::sqrt::{self, SquareRoot};
-use hapticore_contract::profile::Profile;
+use crate::check::{built, fits, rounds};
+use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format};
 use hapticore_hdl::signal::{HalfEven, Saturate, Signal, Wrap, bit, int, zero};
@@ -103,7 +104,18 @@ const fn square(amplitude: Format) -> Format {
 
 impl Capacitance {
     /// The capacitance of a profile, for amplitudes of a format.
+    ///
+    /// # Panics
+    /// Where [`Capacitance::try_new`] fails.
     pub fn new(profile: &Profile, amplitude: Format) -> Self {
+        built(Self::try_new(profile, amplitude))
+    }
+
+    /// As [`Capacitance::new`].
+    ///
+    /// # Errors
+    /// An admittance whose dividend no word of the model holds, a capacitance to which none can be rounded.
+    pub fn try_new(profile: &Profile, amplitude: Format) -> Result<Self, ProfileError> {
         let f = &profile.formats;
         let (sheet, admittance, gain) = (profile.sheet(), f.admittance, f.capacitance_gain);
         let sqrt = SquareRoot::new(square(amplitude), amplitude.frac);
@@ -113,7 +125,28 @@ impl Capacitance {
         let correct = profile.capacitance.sheet_correction;
         let multiplier = Multiplier::new(left, right, profile.multiplier);
         let capacitance = f.capacitance;
-        Capacitance { multiplier, sqrt, divider, correct, amplitude, sheet, admittance, gain, capacitance, left, right }
+        fits("formats.admittance", "the dividend of the admittance", divider.dividend.width)?;
+        let block = Capacitance {
+            multiplier,
+            sqrt,
+            divider,
+            correct,
+            amplitude,
+            sheet,
+            admittance,
+            gain,
+            capacitance,
+            left,
+            right,
+        };
+        rounds("formats.capacitance", block.gain_product(), capacitance)?;
+        Ok(block)
+    }
+
+    /// The format of the capacitance before it is rounded.
+    #[inline(always)]
+    fn gain_product(&self) -> Format {
+        self.admittance.product(self.gain)
     }
 
     /// Clocks from `start` to `done`.
@@ -171,8 +204,7 @@ impl Capacitance {
         let at = |step: Step| r.step.at(step);
         let (drop, drop_held) = product.as_code(self.amplitude.product(self.sheet)).saturate(self.amplitude, HalfEven);
         let square = product.as_code(self.amplitude.product(self.amplitude));
-        let (result, held) =
-            product.as_code(self.admittance.product(self.gain)).saturate(r.capacitance.format, HalfEven);
+        let (result, held) = product.as_code(self.gain_product()).saturate(r.capacitance.format, HalfEven);
         let (left, right) = self.operands(&r, &i, divided.quotient);
         let waits = (at(SquareRoot) & !sqrt_done) | (at(Divide) & !divided.done);
         let onward = at(Finish).select(Idle.signal(), r.step + int(1));
@@ -224,3 +256,6 @@ impl Block for Capacitance {
         outputs
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -14,7 +14,8 @@ use super::multiplexer::{self, Multiplexer};
 use super::oscillator::{self, Oscillator};
 use super::pace::{self, Pace};
 use super::position::TablePort;
-use hapticore_contract::profile::Profile;
+use crate::check::built;
+use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::BIT;
@@ -64,15 +65,44 @@ impl<T: Copy> Inputs<T> {
 }
 
 impl Core {
-    /// The core of a profile.
+    /// The core of a profile whose values are in their ranges.
+    ///
+    /// # Panics
+    /// Where one of its blocks cannot be.
     pub fn new(profile: &Profile) -> Self {
-        Core {
+        built(Self::of_blocks(profile))
+    }
+
+    /// The core of a profile that need not have been checked.
+    ///
+    /// # Errors
+    /// The first value that does not allow it: field, range and value.
+    pub fn try_new(profile: &Profile) -> Result<Self, ProfileError> {
+        profile.check_values()?;
+        let core = Self::of_blocks(profile)?;
+        core.check_blanking(profile)?;
+        Ok(core)
+    }
+
+    fn of_blocks(profile: &Profile) -> Result<Self, ProfileError> {
+        Ok(Core {
             multiplexer: Multiplexer::new(profile),
             pace: Pace::new(profile),
             oscillator: Oscillator::new(profile),
-            demodulator: Demodulator::new(profile),
-            estimator: Estimator::new(profile),
+            demodulator: Demodulator::try_new(profile)?,
+            estimator: Estimator::try_new(profile)?,
+        })
+    }
+
+    /// The next window begins when the last one's sums have been read out and its frame is made.
+    fn check_blanking(&self, profile: &Profile) -> Result<(), ProfileError> {
+        let estimate = self.demodulator.latency() + self.estimator.latency();
+        let blanking = profile.slot.blanking() * profile.clocks_per_sample;
+        if blanking > estimate {
+            return Ok(());
         }
+        let expected = format_args!("more than {estimate} clocks of blanking").to_string();
+        Err(ProfileError::value("slot.settle", expected, blanking))
     }
 
     /// The inputs of a core with a calibration, as codes, while nothing happens.
@@ -157,3 +187,6 @@ impl Block for Core {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -24,9 +24,12 @@
 
 mod block_floating;
 
+use self::block_floating::wide;
+use super::demodulator::Demodulator;
 use super::multiplier::{self, Multiplier};
 use super::sqrt::{self, SquareRoot};
-use hapticore_contract::profile::Profile;
+use crate::check::{built, rounds};
+use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format};
 use hapticore_hdl::memory::{Memory, Write};
@@ -126,27 +129,40 @@ const SQUARE: &str = "a square is not negative";
 
 impl Currents {
     /// The currents of a profile.
+    ///
+    /// # Panics
+    /// Where [`Currents::try_new`] fails.
     pub fn new(profile: &Profile) -> Self {
+        built(Self::try_new(profile))
+    }
+
+    /// The currents of a profile.
+    ///
+    /// # Errors
+    /// I/Q words to which no word of the model can be rounded; sums as [`Demodulator::try_new`].
+    pub fn try_new(profile: &Profile) -> Result<Self, ProfileError> {
         let (iq, block) = (profile.formats.iq, profile.formats.block_shift);
+        let demodulator = Demodulator::try_new(profile)?;
+        let shift = profile.sum_shift() - demodulator.shift();
+        let wide = wide(iq, block);
+        rounds("formats.iq", demodulator.sum().scaled(-shift), wide)?;
         let terminals = profile.terminals.x.len() as u64;
         let (part, total) = match block {
             0 => (profile.formats.total, profile.formats.total),
             _ => (iq, Format::signed(iq.width + Format::counter(terminals).width, iq.frac)),
         };
-        let wide = Format::signed(iq.width + block, iq.frac + block as i8);
         let power = Format::unsigned(2 * part.width, 2 * part.frac);
         let sqrt = SquareRoot::new(power, part.frac);
         let amplitude = sqrt.sqrt();
-        let demodulator = super::demodulator::Demodulator::new(profile);
         let words =
             Memory::new("words", (2 * terminals + 4).next_power_of_two() as usize, wide).dont_care_on_collision();
-        Currents {
+        Ok(Currents {
             words,
             multiplier: Multiplier::new(part.integer(), part.integer(), profile.multiplier),
             sqrt,
             terminals,
             signs: [profile.terminals.x.clone(), profile.terminals.y.clone()],
-            shift: profile.sum_shift() - demodulator.shift(),
+            shift,
             sum: demodulator.sum(),
             iq,
             total,
@@ -154,7 +170,7 @@ impl Currents {
             block,
             given: if block == 0 { amplitude } else { profile.amplitude_format() },
             amplitude: amplitude.width,
-        }
+        })
     }
 
     /// The format of an amplitude as the square root gives it.
@@ -389,3 +405,6 @@ impl Block for Currents {
         outputs
     }
 }
+
+#[cfg(test)]
+mod tests;

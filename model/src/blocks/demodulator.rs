@@ -29,7 +29,8 @@ mod polyphase;
 
 pub(crate) use self::polyphase::{GAIN as POLYPHASE_GAIN, Polyphase};
 use super::multiplier::{self, Multiplier};
-use hapticore_contract::profile::{Method, Profile};
+use crate::check::{built, fits};
+use hapticore_contract::profile::{Method, Profile, ProfileError};
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format, MAX_WIDTH};
 use hapticore_hdl::memory::{Memory, Write};
@@ -128,7 +129,18 @@ const PIPELINE: u64 = 2;
 
 impl Demodulator {
     /// The demodulator of a profile.
+    ///
+    /// # Panics
+    /// Where [`Demodulator::try_new`] fails.
     pub fn new(profile: &Profile) -> Self {
+        built(Self::try_new(profile))
+    }
+
+    /// The demodulator of a profile.
+    ///
+    /// # Errors
+    /// A window whose sums no word of the model holds.
+    pub fn try_new(profile: &Profile) -> Result<Self, ProfileError> {
         let (adc, oscillator) = (profile.formats.adc, profile.formats.oscillator);
         let channels = profile.demodulated();
         let polyphase = (profile.carrier.method == Method::Polyphase).then(|| Polyphase::new(profile));
@@ -139,10 +151,11 @@ impl Demodulator {
         let product = if polyphase.is_some() { polyphase::PRODUCT } else { operand.product(operand) };
         let sum =
             Format::signed(product.width - u8::from(product.signed) + growth + u8::from(!product.signed), product.frac);
+        fits("slot.integrate", "a sum over the window", sum.width)?;
         let sums = 2 * channels + 1;
         let words = polyphase.as_ref().map_or(sums, |polyphase| polyphase.words());
         let steps = if polyphase.is_some() { channels + 2 } else { WINDOWING + sums } + PIPELINE;
-        Demodulator {
+        Ok(Demodulator {
             // In one clock whatever its width: products keep pace with the channels.
             multiplier: Multiplier::new(operand.integer(), operand.integer(), MAX_WIDTH),
             windowed_lo: Memory::new("windowed_lo", WINDOWING.next_power_of_two() as usize, operand)
@@ -160,7 +173,7 @@ impl Demodulator {
             index: Format::counter(words.max(sums) - 1),
             pad: Format::counter(profile.pads - 1),
             polyphase,
-        }
+        })
     }
 
     /// The format of a sum.
@@ -392,3 +405,6 @@ impl Block for Demodulator {
         outputs
     }
 }
+
+#[cfg(test)]
+mod tests;

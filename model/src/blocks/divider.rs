@@ -28,7 +28,7 @@ block! {
         denominator: Format,
         quotient: Format,
         /// The numerator with zeros behind it, so that the integer quotient has the quotient's point.
-        dividend: Format,
+        pub(super) dividend: Format,
         /// Bits of the remainder.
         head: u8,
     }
@@ -177,3 +177,6 @@ impl Block for Divider {
         outputs
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -16,7 +16,8 @@ use super::frames::{self, Frames};
 use super::haptic_voltage::{self, HapticVoltage};
 use super::position::{self, Position, TablePort};
 use super::ratio::{self, Ratio};
-use hapticore_contract::profile::Profile;
+use crate::check::built;
+use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::{BIT, Format};
@@ -98,18 +99,29 @@ block! {
 
 impl Estimator {
     /// The estimator of a profile.
+    ///
+    /// # Panics
+    /// Where [`Estimator::try_new`] fails.
     pub fn new(profile: &Profile) -> Self {
-        let currents = Currents::new(profile);
-        Estimator {
-            ratio: Ratio::new(profile, currents.sums(), currents.least()),
+        built(Self::try_new(profile))
+    }
+
+    /// The estimator of a profile.
+    ///
+    /// # Errors
+    /// The first of its blocks that cannot be.
+    pub fn try_new(profile: &Profile) -> Result<Self, ProfileError> {
+        let currents = Currents::try_new(profile)?;
+        Ok(Estimator {
+            ratio: Ratio::try_new(profile, currents.sums(), currents.least())?,
             position: Position::new(profile),
-            haptic_voltage: HapticVoltage::new(profile),
-            capacitance: Capacitance::new(profile, currents.amplitude()),
-            force_estimator: Force::new(profile),
+            haptic_voltage: HapticVoltage::try_new(profile)?,
+            capacitance: Capacitance::try_new(profile, currents.amplitude())?,
+            force_estimator: Force::try_new(profile)?,
             frames: Frames::new(profile),
             pads: profile.pads,
             currents,
-        }
+        })
     }
 
     #[inline(always)]
@@ -242,3 +254,6 @@ impl Estimator {
         Outputs { frames: FramePort { pad: r.pad, clipped: r.clipped, ..nothing } }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -17,7 +17,8 @@
 //! clock from `start` to `done`.
 
 use super::multiplier::{self, Multiplier};
-use hapticore_contract::profile::Profile;
+use crate::check::{built, rounds};
+use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format};
 use hapticore_hdl::signal::{HalfEven, Signal, Wrap, bit, int};
@@ -80,29 +81,43 @@ block! {
 
 impl Force {
     /// The force estimator of a profile.
+    ///
+    /// # Panics
+    /// Where [`Force::try_new`] fails.
     pub fn new(profile: &Profile) -> Self {
+        built(Self::try_new(profile))
+    }
+
+    /// The force estimator of a profile.
+    ///
+    /// # Errors
+    /// A format to which no word of the model can be rounded.
+    pub fn try_new(profile: &Profile) -> Result<Self, ProfileError> {
         let f = &profile.formats;
         let (capacitance, mean_square, square, gain) = (f.capacitance, f.mean_square, f.square, f.force_gain);
         let left = Format::unsigned(capacitance.width.max(square.width), 0);
         let right = Format::unsigned(capacitance.width.max(mean_square.width).max(gain.width), 0);
         let multiplier = Multiplier::new(left, right, profile.multiplier);
-        Force { multiplier, capacitance, mean_square, square, gain, force: f.force, left, right }
+        let force = Force { multiplier, capacitance, mean_square, square, gain, force: f.force, left, right };
+        for (field, (product, to)) in ["square", "square", "force"].into_iter().zip(force.products()) {
+            rounds(&format!("formats.{field}"), product, to)?;
+        }
+        Ok(force)
+    }
+
+    /// The products square, energy and force, and the formats to which they are rounded.
+    #[inline(always)]
+    fn products(&self) -> [(Format, Format); 3] {
+        [
+            (self.capacitance.product(self.capacitance), self.square),
+            (self.square.product(self.mean_square), self.square),
+            (self.square.product(self.gain), self.force),
+        ]
     }
 
     /// Clocks from `start` to `done`.
     pub fn latency(&self) -> u64 {
         (Step::ALL.len() as u64 - 1) * self.multiplier.latency() + 1
-    }
-
-    /// The product of two codes in the format `to`, and whether it is saturated.
-    #[inline(always)]
-    fn narrow<V: Interpretation>(
-        &self,
-        product: Signal<V>,
-        (left, right): (Format, Format),
-        to: Format,
-    ) -> (Signal<V>, Signal<V>) {
-        product.as_code(left.product(right)).saturate(to, HalfEven)
     }
 
     #[inline(always)]
@@ -114,9 +129,8 @@ impl Force {
     ) -> Registers<Signal<V>> {
         use Step::*;
         let at = |step: Step| r.step.at(step);
-        let (square, square_held) = self.narrow(product, (self.capacitance, self.capacitance), self.square);
-        let (energy, energy_held) = self.narrow(product, (self.square, self.mean_square), self.square);
-        let (force, force_held) = self.narrow(product, (self.square, self.gain), r.haptic_force.format);
+        let narrowed = self.products().map(|(of, to)| product.as_code(of).saturate(to, HalfEven));
+        let [(square, square_held), (energy, energy_held), (force, force_held)] = narrowed;
         let [capacitance, mean_square, gain] = [i.capacitance, i.mean_square, i.gain].map(Signal::integer);
         let factor = at(NarrowSquare).select(square, energy);
         let saturated = (at(NarrowSquare) & square_held) | (at(NarrowEnergy) & energy_held) | (at(Finish) & force_held);
@@ -156,3 +170,6 @@ impl Block for Force {
         outputs
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -9,7 +9,7 @@
 //! Words are codes as integers, in the formats of [`Field::format`]. The haptic mean square is always valid and never held.
 //! Latency: fields + 2 clocks from `start` to the last word. Source: docs/decisions.md §6 (invalid: last value held).
 
-pub use hapticore_contract::frame::Field;
+use hapticore_contract::frame::Field;
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format};
@@ -144,3 +144,6 @@ impl Block for Frames {
         outputs
     }
 }
+
+#[cfg(test)]
+mod tests;

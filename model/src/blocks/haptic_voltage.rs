@@ -22,7 +22,8 @@
 //! docs/physics.md §3 (the gap follows the RMS).
 
 use super::demodulator::Demodulator;
-use hapticore_contract::profile::Profile;
+use crate::check::{built, rounds};
+use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format};
 use hapticore_hdl::memory::{Memory, Write};
@@ -78,19 +79,31 @@ block! {
 
 impl HapticVoltage {
     /// The haptic voltage of a profile.
+    ///
+    /// # Panics
+    /// Where [`HapticVoltage::try_new`] fails.
     pub fn new(profile: &Profile) -> Self {
-        let demodulator = Demodulator::new(profile);
+        built(Self::try_new(profile))
+    }
+
+    /// The haptic voltage of a profile.
+    ///
+    /// # Errors
+    /// A mean square to which no word of the model can be rounded; sums as [`Demodulator::try_new`].
+    pub fn try_new(profile: &Profile) -> Result<Self, ProfileError> {
+        let demodulator = Demodulator::try_new(profile)?;
         let (windows, square) = (profile.haptic.windows, profile.formats.mean_square);
-        let pad = Format::counter(profile.pads - 1);
-        HapticVoltage {
+        let (pad, shift) = (Format::counter(profile.pads - 1), profile.square_shift());
+        rounds("formats.mean_square", demodulator.sum().scaled(-shift), square)?;
+        Ok(HapticVoltage {
             squares: Memory::new("squares", (windows as usize) << pad.width, square).dont_care_on_collision(),
             windows,
-            shift: profile.square_shift(),
+            shift,
             sums: demodulator.sums(),
             sum: demodulator.sum(),
             pad,
             square,
-        }
+        })
     }
 
     /// Clocks from the last sum to the mean square.
@@ -169,3 +182,6 @@ impl Block for HapticVoltage {
         outputs
     }
 }
+
+#[cfg(test)]
+mod tests;

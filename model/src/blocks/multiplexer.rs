@@ -118,3 +118,6 @@ impl Block for Multiplexer {
         outputs
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -340,3 +340,6 @@ impl Block for Oscillator {
         outputs
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -16,7 +16,8 @@
 //! A zero denominator gives `invalid`. Latency: 3 · (divider + 1) + 1 clocks from `start` to `done`.
 
 use super::divider::{self, Divider};
-use hapticore_contract::profile::Profile;
+use crate::check::{built, fits};
+use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format};
 use hapticore_hdl::signal::{Proved, Signal, bit, int};
@@ -83,10 +84,22 @@ const fn magnitude(ratio: Format) -> Format {
 
 impl Ratio {
     /// The ratios of a profile; `sums` are the formats of the numerators and of the denominator, `least` that of an amplitude.
-    pub fn new(profile: &Profile, (sums, corners): (Format, Format), least: Format) -> Self {
+    ///
+    /// # Panics
+    /// Where [`Ratio::try_new`] fails.
+    pub fn new(profile: &Profile, sums: (Format, Format), least: Format) -> Self {
+        built(Self::try_new(profile, sums, least))
+    }
+
+    /// As [`Ratio::new`].
+    ///
+    /// # Errors
+    /// A ratio whose dividend no word of the model holds.
+    pub fn try_new(profile: &Profile, (sums, corners): (Format, Format), least: Format) -> Result<Self, ProfileError> {
         let ratio = profile.formats.ratio;
         let divider = Divider::new(Format { signed: false, ..sums }, corners, magnitude(ratio));
-        Ratio { divider, sums, corners, least, ratio }
+        fits("formats.ratio", "the dividend of a ratio", divider.dividend.width)?;
+        Ok(Ratio { divider, sums, corners, least, ratio })
     }
 
     /// The format of a quotient.
@@ -141,3 +154,6 @@ impl Block for Ratio {
         outputs
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -135,3 +135,6 @@ impl Block for SquareRoot {
         outputs
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -12,10 +12,10 @@
 use crate::device::{Tones, calibration, tone_codes};
 use crate::random::Random;
 use hapticore_contract::calibration::Calibration;
+use hapticore_contract::frame::Field;
 use hapticore_contract::frame::Reading;
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::format::Format;
-use hapticore_model::blocks::frames::Field;
 use hapticore_model::fidelity::fixed::FixedSimulation;
 use hapticore_reference::Reference;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A device to calibrate with, and what its ADC could see.
 
-use crate::random::Random;
+use super::random::Random;
 use hapticore_contract::calibration::{Calibration, Point, PositionTable};
 use hapticore_contract::profile::Profile;
 use std::f64::consts::TAU;

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Equality: of every block with the rounded reference, of the readings of a block with each other, of whole slots.
+//! Equality of whole cores: with the rounded reference, of the readings of a core with each other. What is held of one block
+//! alone stands with the block, in `model/src/blocks/`.
 //!
 //! | tests | hold |
 //! | --- | --- |
-//! | [`serial`], [`streams`] | fixed results = the exact values, rounded so: corners, then a million random operations a block |
-//! | [`exhaustive`] | small dividers and roots over all operands, every register within its format on every clock |
-//! | [`latencies`] | `latency()` = the clocks measured |
 //! | [`idle`] | skipping an idle block changes no bit on any clock |
 //! | [`netlists`] | the captured graph, run by an interpreter of its own = the clocked model, on every clock |
 //! | [`slots`] | frames of fidelities `fixed` and `clock` = the rounded reference |
@@ -16,17 +14,13 @@
 
 mod accuracy;
 mod device;
-mod exhaustive;
 mod harness;
 mod ideal;
 mod idle;
 mod interpreter;
-mod latencies;
 mod netlists;
 mod never_idle;
 mod phasors;
 mod random;
-mod serial;
 mod signals;
 mod slots;
-mod streams;

@@ -32,6 +32,7 @@ use super::crc16;
 use super::framing::{END, ESC, ESC_END, ESC_ESC, NIBBLE, PLACE, Register, STATUS_BYTES, VERSION, digest, word_bytes};
 use super::uart::BYTE;
 use super::uart::transmitter::{self, Transmitter};
+use hapticore_contract::frame::Field;
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format};
@@ -39,7 +40,6 @@ use hapticore_hdl::memory::{Memory, Write};
 use hapticore_hdl::signal::{Signal, Wrap, bit, code, int};
 use hapticore_hdl::{block, call};
 use hapticore_model::blocks::estimator::FramePort;
-use hapticore_model::blocks::frames::Field;
 
 block! {
     /// The stream of packets.

@@ -2,11 +2,11 @@
 //! Proofs of a board's blocks, at the parameters of the boards that one can buy; that what they speak of can happen; and that
 //! they can fail.
 
+use hapticore_contract::frame::Field;
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::interpretations::netlist::{Module, Named, Netlist};
 use hapticore_hdl::verilog::Design;
 use hapticore_model::blocks::core::Core;
-use hapticore_model::blocks::frames::Field;
 use hapticore_rtl::board::adc_reader::AdcReader;
 use hapticore_rtl::board::framing::{data_bytes, word_bytes};
 use hapticore_rtl::board::pads::Pads;

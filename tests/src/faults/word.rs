@@ -68,7 +68,7 @@ impl<'a> Word<'a> {
 fn has(part: &str, name: &str, bit: u8) -> bool {
     let bits = part.strip_prefix(name).and_then(|rest| rest.strip_prefix('[')?.strip_suffix(']'));
     let Some((high, low)) = bits.map(|bits| bits.split_once(':').unwrap_or((bits, bits))) else { return false };
-    matches!((low.parse(), high.parse()), (Ok(low), Ok(high)) if (low..=high).contains(&bit))
+    matches!((low.parse::<u8>(), high.parse::<u8>()), (Ok(low), Ok(high)) if (low..=high).contains(&bit))
 }
 
 #[cfg(test)]

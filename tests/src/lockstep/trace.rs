@@ -34,7 +34,7 @@ impl Trace {
             let signals = B::Inputs::map(block.inputs(), |format| {
                 let value = given.next().expect("a code for each input");
                 assert!(
-                    (format.min_code()..=format.max_code()).contains(&value.into()),
+                    (format.min_code()..=format.max_code()).contains(&i128::from(value)),
                     "{value} is no code of {format}"
                 );
                 codes.push(value);

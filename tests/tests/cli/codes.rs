@@ -5,12 +5,12 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
+use hapticore_contract::frame::Field;
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::block::Block;
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::signal::Signal;
 use hapticore_model::blocks::core::{Core, Inputs, Outputs};
-use hapticore_model::blocks::frames::Field;
 use hapticore_model::blocks::position::TablePort;
 use hapticore_tests::tools::{have, run};
 

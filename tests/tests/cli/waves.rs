@@ -4,10 +4,10 @@
 use std::fs;
 use std::path::Path;
 
+use hapticore_contract::frame::Field;
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::probe::variables;
 use hapticore_model::blocks::core::Core;
-use hapticore_model::blocks::frames::Field;
 use hapticore_waveforms::pattern::fits;
 use hapticore_waveforms::view::View;
 use wellen::simple::Waveform;

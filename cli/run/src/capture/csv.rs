@@ -137,7 +137,7 @@ impl Reader {
             return Ok(volts.ok_or_else(message)? / full_scale_v);
         }
         let (bits, most) = (self.bits, 1i64 << (self.bits - 1));
-        let code = field.parse().ok().filter(|code| (-most..most).contains(code));
+        let code = field.parse::<i64>().ok().filter(|code| (-most..most).contains(code));
         let message = || {
             let volts = field.contains('.') && field.parse::<f64>().is_ok();
             let cure = if volts { "; for volts say how many are full scale: --full-scale-v 10" } else { "" };

@@ -32,6 +32,7 @@ use hapticore_contract::profile::Profile;
 use hapticore_scene::{Complex, Plant};
 use serde::Serialize;
 
+use crate::inputs::buildable;
 use crate::record::Provenance;
 use hapticore_host::residual::LIMIT_MM;
 use hapticore_host::{DeviceCalibration, Found, Raster, Residual, Scales, Signs, found, open_share};
@@ -144,7 +145,7 @@ pub fn calibrate(data: &Data, profile: &Profile) -> Result<(DeviceCalibration, O
         device: scales(setup, scale, force_k),
         terminals: signs.clone(),
     };
-    let profile = device.profile(profile)?;
+    let profile = buildable(device.profile(profile)?)?;
     let (measured, held_out) = measured.best(&device, &profile).with_context(|| places.file.clone())?;
     device.map = measured.raster().with_context(|| places.file.clone())?;
     let calibration = device.of(&profile).with_context(|| places.file.clone())?;

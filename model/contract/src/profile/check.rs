@@ -52,6 +52,7 @@ impl Profile {
 
     fn check_slot(&self) -> Check {
         let (samples, periods, windows) = (self.slot.integrate, self.carrier.periods, self.haptic.windows);
+        within("clocks_per_sample", self.clocks_per_sample, self.least_clocks_per_sample(), 1 << 16)?;
         ensure(windows.is_power_of_two() && windows <= 64, "haptic.windows", "a power of two, 64 at most", windows)?;
         within("slot.open", self.slot.open, 1, 1 << 20)?;
         within("slot.settle", self.slot.settle, 0, 1 << 20)?;

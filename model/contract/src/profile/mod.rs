@@ -283,6 +283,24 @@ impl Profile {
         self.terminals.x.len() + 2
     }
 
+    /// The fewest clocks from one sample to the next: in them a core asks for the code of every channel and has used the last.
+    ///
+    /// ```
+    /// use hapticore_contract::profile::Profile;
+    ///
+    /// let mut profile = Profile::bundled("standard")?;
+    /// assert_eq!(profile.least_clocks_per_sample(), 24, "six terminals");
+    /// profile.terminals.x.extend([1, -1]);
+    /// assert_eq!(profile.least_clocks_per_sample(), 28, "eight");
+    /// # Ok::<(), hapticore_contract::profile::ProfileError>(())
+    /// ```
+    pub fn least_clocks_per_sample(&self) -> u64 {
+        match self.carrier.method {
+            Method::Products => 2 * self.demodulated() + 10,
+            Method::Polyphase => self.demodulated() + 6,
+        }
+    }
+
     /// The core's clocks in a slot.
     pub fn slot_clocks(&self) -> u64 {
         self.slot.samples() * self.clocks_per_sample

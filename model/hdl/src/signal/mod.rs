@@ -222,10 +222,7 @@ impl<V: Value> Signal<V> {
     /// As [`Signal::quantize`] with saturation, and a bit that says whether the number saturated.
     #[inline(always)]
     pub fn saturate(self, to: Format, rounding: Rounding) -> (Self, Self) {
-        let integer = self.format.integer_bits() + 1;
-        let signed = self.format.signed;
-        let width = (integer + i16::from(to.frac) + i16::from(signed)).max(i16::from(to.width)) as u8;
-        let rounded = self.quantize(Format { signed, width, frac: to.frac }, rounding, Proved);
+        let rounded = self.quantize(self.format.rounded(to), rounding, Proved);
         let limited = rounded.resize(to, Saturate);
         let saturated = rounded.beyond(to).golden(&[limited, rounded], |of| f64::from(u8::from(of[0] != of[1])));
         (limited, saturated)
@@ -249,8 +246,7 @@ impl<V: Value> Signal<V> {
     /// The same bits with the point moved: the number times `2^by`.
     #[inline(always)]
     pub fn scaled(self, by: i8) -> Self {
-        let format = Format { frac: self.format.frac - by, ..self.format };
-        Signal { value: V::scale(self.value, by), format }
+        Signal { value: V::scale(self.value, by), format: self.format.scaled(by) }
     }
 
     /// The code as an integer: the number times `2^frac`.

@@ -17,6 +17,12 @@ use hapticore_hdl::format::Format;
 use hapticore_hdl::signal::{Floor, HalfEven, Proved, Saturate, Signal, Wrap, bit, int};
 use hapticore_hdl::states::States;
 
+/// The format of an I/Q word with all the bits by which it may be moved up.
+#[inline(always)]
+pub(super) const fn wide(iq: Format, block: u8) -> Format {
+    Format::signed(iq.width + block, iq.frac.saturating_add(block as i8))
+}
+
 impl Currents {
     /// Clocks that words of one point do without: alignment, and moving back.
     pub(super) fn block_latency(&self) -> u64 {
@@ -26,7 +32,7 @@ impl Currents {
 
     /// A word as it is first kept.
     pub(super) fn wide(&self) -> Format {
-        Format::signed(self.iq.width + self.block, self.iq.frac + self.block as i8)
+        wide(self.iq, self.block)
     }
 
     /// Bits by which a total's word is rounded before it is squared, so that it has no more than a terminal's.

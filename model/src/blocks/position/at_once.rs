@@ -4,11 +4,11 @@
 //!
 //! Instructions are as `instruction.rs` says, on raw codes. `fixed` and `clock` are held to be equal to the bit.
 
-use super::Layout;
 use super::instruction::{
     CHECK, COUNT, Index, Instruction, LOW, OPEN, Operation, SCALARS, SHARE, SLOT_BITS, SURFACE, WRAP,
 };
-use super::{Position, Program, Surface};
+use super::{Position, Program};
+use hapticore_contract::calibration::{Layout, Surface};
 use hapticore_hdl::format::Format;
 
 /// The scratch memory, as many words as an instruction can name: a run has a copy of its own, without an allocation.

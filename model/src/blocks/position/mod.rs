@@ -34,12 +34,11 @@ mod at_once;
 mod instruction;
 mod program;
 
-pub use hapticore_contract::calibration::{Axis, Layout, Scalar, Surface};
-
 use self::at_once::AtOnce;
 use self::instruction::{COUNT, LOW, OPEN, Operation, SCALARS, SHARE, SURFACE, WRAP};
 use self::program::Program;
 use super::multiplier::{self, Multiplier};
+use hapticore_contract::calibration::Layout;
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format};
@@ -564,3 +563,6 @@ fn bits_or<V: Interpretation>(a: Signal<V>, b: Signal<V>) -> Signal<V> {
     let bit = |k: u8| a.bits(k, 1) | b.bits(k, 1);
     bit(3).concat(bit(2)).concat(bit(1)).concat(bit(0))
 }
+
+#[cfg(test)]
+mod tests;

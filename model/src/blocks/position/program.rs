@@ -5,11 +5,11 @@
 //! cells from the table's middle, by 32. The marks at the right say what a line has made.
 
 use super::instruction::{CHECK, COUNT, Index, Instruction, LOW, OPEN, Operation, SCALARS, SHARE, SURFACE, Slot, WRAP};
-use super::{Axis, Layout, Scalar, Surface};
 use Operation::{
     Base, End, Found, Input, Load, LoadCell, LoadDigit, LoadQuotient, Multiply, MultiplyTable, Output, Pass, Repeat,
     Set, Store, Surfaces,
 };
+use hapticore_contract::calibration::{Axis, Layout, Scalar, Surface};
 use hapticore_hdl::format::Format;
 
 /// The program of a profile.

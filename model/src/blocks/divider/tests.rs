@@ -1,11 +1,29 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Small dividers and roots, over all operands: results, and the lemmas on their remainders, on every clock.
+//! Quotients: the nearest codes, for all operands of small dividers and for random ones of wide; the clocks they take.
 
-use crate::harness::{Bench, within};
+use super::{Divider, Inputs, Outputs};
+use crate::support::{Bench, MILLION, cases, check, check_latency};
 use hapticore_hdl::format::Format;
-use hapticore_model::blocks::divider::{self, Divider};
-use hapticore_model::blocks::sqrt::{self, SquareRoot};
-use hapticore_reference::rounded::{Exact, round_quotient, round_root};
+use hapticore_reference::rounded::{Exact, round_quotient};
+
+#[test]
+fn quotients_are_the_nearest_codes() {
+    let formats = [
+        ("u29.23", "u28.23", "u21.20"),
+        ("u27.23", "u28.23", "u24.22"),
+        ("u30.26", "u31.26", "u28.26"),
+        ("u12.4", "u9.7", "u7.3"),
+    ];
+    for (seed, (numerator, denominator, quotient)) in (0..).zip(formats) {
+        let [n, d, q] = [numerator, denominator, quotient].map(|text| text.parse::<Format>().expect("a format"));
+        let mut bench = Bench::new(Divider::new(n, d, q));
+        let cases = cases(&bench.block, MILLION / 4, seed);
+        check(&mut bench, cases, |i| {
+            let quotient = round_quotient(Exact::of(i.numerator, n), Exact::of(i.denominator, d), q);
+            [("quotient", quotient.value.code(q)), ("saturated", quotient.held.into())]
+        });
+    }
+}
 
 fn check_divider(numerator: &str, denominator: &str, quotient: &str) {
     let [n, d, q] = [numerator, denominator, quotient].map(|text| text.parse::<Format>().expect("a format"));
@@ -21,10 +39,10 @@ fn check_divider(numerator: &str, denominator: &str, quotient: &str) {
 }
 
 /// Divides, and looks at every register on every clock.
-fn divide(bench: &mut Bench<Divider>, numerator: i64, denominator: i64, case: &str) -> divider::Outputs<i64> {
+fn divide(bench: &mut Bench<Divider>, numerator: i64, denominator: i64, case: &str) -> Outputs<i64> {
     let mut start = 1;
     loop {
-        let out = bench.clock(divider::Inputs { start, numerator, denominator });
+        let out = bench.clock(Inputs { start, numerator, denominator });
         if out.done == 1 && start == 0 {
             return out;
         }
@@ -59,43 +77,11 @@ fn every_quotient_of_4_by_8_bits() {
     check_divider("u4.0", "u8.0", "u9.8");
 }
 
-fn check_root(radicand: &str, frac: i8) {
-    let format: Format = radicand.parse().expect("a format");
-    let mut bench = Bench::new(SquareRoot::new(format, frac));
-    for radicand in 0..1 << format.width {
-        let out = take_root(&mut bench, radicand);
-        let reference = round_root(Exact::of(radicand, format), frac).code(bench.block.sqrt());
-        assert_eq!(out.sqrt, reference, "√{radicand} of {format}: got, reference");
-    }
-}
-
-/// Takes a root, and looks at every register on every clock.
-fn take_root(bench: &mut Bench<SquareRoot>, radicand: i64) -> sqrt::Outputs<i64> {
-    let mut start = 1;
-    loop {
-        let out = bench.clock(sqrt::Inputs { start, radicand });
-        if out.done == 1 && start == 0 {
-            return out;
-        }
-        start = 0;
-        bench.check_registers();
-        let r = &bench.state.registers;
-        assert!(within(r.remainder, Format::unsigned(62, 0)) && r.remainder <= 2 * r.partial, "√{radicand}");
-    }
-}
-
 #[test]
-fn every_root_of_up_to_16_bits() {
-    for width in 1..=16 {
-        check_root(&format!("u{width}.0"), 0);
-    }
-}
-
-#[test]
-fn every_root_with_odd_and_even_integer_bits() {
-    for (radicand, frac) in
-        [("u9.8", 4), ("u10.8", 4), ("u11.7", 4), ("u8.3", 5), ("u8.-1", 2), ("u8.-2", 2), ("u7.9", 5)]
-    {
-        check_root(radicand, frac);
+fn latency_is_the_clocks_measured() {
+    let [n, d] = [Format::unsigned(9, 4), Format::unsigned(7, 3)];
+    for width in [3, 8, 20] {
+        let block = Divider::new(n, d, Format::unsigned(width, 5));
+        check_latency(block.clone(), block.latency());
     }
 }

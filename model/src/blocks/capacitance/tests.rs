@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Capacitances: those of the equation, rounded; the clocks they take.
+
+use super::{Capacitance, Inputs};
+use crate::blocks::currents::Currents;
+use crate::support::{Bench, MILLION, cases, check, check_latency};
+use hapticore_contract::profile::Profile;
+use hapticore_reference::rounded::{self, Exact};
+
+#[test]
+fn capacitances_have_the_sheet_taken_out() {
+    for (seed, mut profile) in (0..).zip(Profile::all().into_iter().chain(Profile::all())) {
+        profile.capacitance.sheet_correction = seed < 3;
+        let amplitude = Currents::new(&profile).amplitude();
+        let f = &profile.formats;
+        let mut bench = Bench::new(Capacitance::new(&profile, amplitude));
+        // Every other current is below the voltage, as a real one is; else most would saturate.
+        let plausible = |i: Inputs<i64>| match i.total % 2 {
+            0 => Inputs { total: i.total / 4, sense: i.sense.max(i.total / 3), ..i },
+            _ => i,
+        };
+        let cases = cases(&bench.block, MILLION / 6, seed).map(plausible);
+        check(&mut bench, cases, |i| {
+            let [total, sense] = [i.total, i.sense].map(|code| Exact::of(code, amplitude));
+            let (sheet, gain) = (Exact::of(i.sheet, profile.sheet()), Exact::of(i.gain, f.capacitance_gain));
+            let expected = rounded::capacitance(&profile, total, sense, sheet, gain);
+            let code = expected.capacitance.code(f.capacitance);
+            [("capacitance", code), ("invalid", expected.invalid.into()), ("saturated", expected.saturated.into())]
+        });
+    }
+}
+
+#[test]
+fn latency_is_the_clocks_measured() {
+    for mut profile in Profile::all() {
+        for sheet_correction in [true, false] {
+            profile.capacitance.sheet_correction = sheet_correction;
+            let block = Capacitance::new(&profile, Currents::new(&profile).amplitude());
+            check_latency(block.clone(), block.latency());
+        }
+    }
+}

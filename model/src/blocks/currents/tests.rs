@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Currents: amplitudes and their sums, rounded; the clocks they take.
+
+use super::{Currents, Inputs, Outputs};
+use crate::support::random::Random;
+use crate::support::{Bench, MILLION, operations};
+use hapticore_contract::profile::Profile;
+use hapticore_reference::rounded::{self, Exact};
+
+#[test]
+fn currents_are_amplitudes_and_their_sums() {
+    for (seed, profile) in (0..).zip(Profile::all()) {
+        let (mut bench, mut random) = (Bench::new(Currents::new(&profile)), Random::new(seed));
+        for _ in 0..operations(MILLION / 20) {
+            check_currents(&mut bench, &profile, &mut random);
+        }
+    }
+}
+
+fn check_currents(bench: &mut Bench<Currents>, profile: &Profile, random: &mut Random) {
+    let (sum, amplitude, sums) = (bench.block.inputs().sum, bench.block.amplitude(), bench.block.sums());
+    let count = 2 * profile.demodulated();
+    let smaller = random.below(u64::from(sum.width) / 2);
+    let codes: Vec<i64> = (0..count).map(|_| random.word(sum) >> smaller).collect();
+    for (index, &sum) in (0..).zip(&codes) {
+        bench.clock(Inputs { valid: 1, index, sum });
+    }
+    bench.clock(Inputs { valid: 1, index: count as i64, sum: 0 });
+    let quiet = Inputs { valid: 0, index: 0, sum: 0 };
+    let out = (0..10_000).map(|_| bench.clock(quiet)).find(|out| out.done == 1).expect("currents finish");
+    let words: Vec<[Exact; 2]> = codes.chunks(2).map(|iq| [0, 1].map(|part| Exact::of(iq[part], sum))).collect();
+    let expected = rounded::currents(profile, &words);
+    let reference = Outputs {
+        done: 1,
+        total: expected.total.code(amplitude),
+        sense: expected.sense.code(amplitude),
+        x: expected.x.code(sums.0),
+        y: expected.y.code(sums.0),
+        corners: expected.corners.code(sums.1),
+        least: expected.least.code(bench.block.least()),
+        saturated: expected.saturated.into(),
+    };
+    assert_eq!(out, reference, "clock {}: got, reference of sums {codes:?}", bench.clock);
+}
+
+#[test]
+fn latency_is_the_clocks_measured() {
+    for profile in Profile::all() {
+        let mut bench = Bench::new(Currents::new(&profile));
+        for index in 0..=2 * profile.demodulated() as i64 {
+            bench.clock(Inputs { valid: 1, index, sum: 1000 * index });
+        }
+        let quiet = Inputs { valid: 0, index: 0, sum: 0 };
+        let measured = (1..10_000).find(|_| bench.clock(quiet).done == 1);
+        assert_eq!(measured, Some(bench.block.latency()), "clocks from the last sum (the mean square's) to done");
+    }
+}

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Forces: those of eq. 8, rounded; the clocks they take.
+
+use super::Force;
+use crate::support::{Bench, MILLION, cases, check, check_latency};
+use hapticore_contract::profile::Profile;
+use hapticore_reference::rounded::{self, Exact};
+
+#[test]
+fn forces_are_those_of_eq_8() {
+    for (seed, profile) in (0..).zip(Profile::all()) {
+        let f = &profile.formats;
+        let mut bench = Bench::new(Force::new(&profile));
+        let cases = cases(&bench.block, MILLION / 3, seed);
+        check(&mut bench, cases, |i| {
+            let capacitance = Exact::of(i.capacitance, f.capacitance);
+            let (mean_square, gain) = (Exact::of(i.mean_square, f.mean_square), Exact::of(i.gain, f.force_gain));
+            let expected = rounded::force(&profile, capacitance, mean_square, gain);
+            [("haptic_force", expected.force.code(f.force)), ("saturated", expected.saturated.into())]
+        });
+    }
+}
+
+#[test]
+fn latency_is_the_clocks_measured() {
+    for profile in Profile::all() {
+        let block = Force::new(&profile);
+        check_latency(block.clone(), block.latency());
+    }
+}

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Waves: those of the table at the phase; the clocks they take.
+
+use super::{Inputs, Oscillator, Outputs};
+use crate::support::random::Random;
+use crate::support::{Bench, MILLION, operations};
+use hapticore_contract::profile::{Method, Profile, Window};
+use hapticore_reference::rounded::{self, Sample};
+
+#[test]
+fn waves_are_those_of_the_table_at_the_phase() {
+    for (seed, mut profile) in (0..).zip(Profile::all().into_iter().chain(Profile::all())) {
+        profile.carrier.window = if seed < 3 { Window::Hann } else { Window::Rectangular };
+        let reference = rounded::Oscillator::new(&profile);
+        let (mut bench, mut random) = (Bench::new(Oscillator::new(&profile)), Random::new(seed));
+        let format = profile.formats.oscillator;
+        let (mut since_restart, mut since_first) = (0, 0);
+        for sample in 0..operations(MILLION / 6) {
+            let [restart, first] = [1500, 700].map(|one_in| sample == 0 || random.below(one_in) == 0);
+            since_restart = if restart { 0 } else { since_restart + 1 };
+            since_first = if first { 0 } else { since_first + 1 };
+            bench.clock(Inputs { sample: 1, restart: restart.into(), first: first.into() });
+            let quiet = Inputs { sample: 0, restart: 0, first: 0 };
+            (0..4).map(|_| bench.clock(quiet)).find(|out| out.ready == 1).expect("ready after four clocks");
+            let out = bench.clock(quiet);
+            let Sample { cosine, sine, window } = reference.sample(since_restart, since_first);
+            let [cosine, sine, window] = [cosine, sine, window].map(|wave| wave.code(format));
+            let phase = if profile.carrier.method == Method::Polyphase { since_restart as i64 % 5 } else { 0 };
+            let expected = Outputs { ready: 0, cosine, sine, window, phase };
+            assert_eq!(out, expected, "clock {}: sample {since_restart}, of the window {since_first}", bench.clock);
+        }
+    }
+}
+
+#[test]
+fn latency_is_the_clocks_measured() {
+    for profile in Profile::all() {
+        let mut bench = Bench::new(Oscillator::new(&profile));
+        bench.clock(Inputs { sample: 1, restart: 1, first: 1 });
+        let quiet = Inputs { sample: 0, restart: 0, first: 0 };
+        let measured = (1..100).find(|_| bench.clock(quiet).ready == 1);
+        assert_eq!(measured, Some(bench.block.latency()), "clocks from sample to ready");
+    }
+}

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Ratios: those of eqs. 2 and 3, rounded; the clocks they take.
+
+use super::{Inputs, Ratio};
+use crate::blocks::currents::Currents;
+use crate::support::{Bench, MILLION, cases, check, check_latency_of};
+use hapticore_contract::profile::Profile;
+use hapticore_reference::rounded::{self, Exact};
+
+/// A numerator is at most its denominator: each term of the one is a term of the other.
+fn bounded(i: Inputs<i64>) -> Inputs<i64> {
+    let bound = |x: i64| if i.corners == 0 { 0 } else { x % (i.corners + 1) };
+    Inputs { x: bound(i.x), y: bound(i.y), least: bound(i.least), ..i }
+}
+
+#[test]
+fn ratios_are_those_of_eqs_2_and_3() {
+    for (seed, profile) in (0..).zip(Profile::all()) {
+        let currents = Currents::new(&profile);
+        let ((sums, corners), least) = (currents.sums(), currents.least());
+        let ratio = profile.formats.ratio;
+        let mut bench = Bench::new(Ratio::new(&profile, (sums, corners), least));
+        let cases = cases(&bench.block, MILLION / 3, seed).map(bounded);
+        check(&mut bench, cases, |i| {
+            let of = |code| Exact::of(code, sums);
+            let [total, sense] = [Exact::ZERO; 2];
+            let corners = Exact::of(i.corners, corners);
+            let (x, y, least) = (of(i.x), of(i.y), Exact::of(i.least, least));
+            let currents = rounded::Currents { total, sense, x, y, corners, least, saturated: false };
+            let expected = rounded::ratio(&profile, &currents);
+            let [r_x, r_y, share] = [expected.r_x, expected.r_y, expected.share].map(|r| r.code(ratio));
+            [("r_x", r_x), ("r_y", r_y), ("share", share), ("invalid", expected.invalid.into())]
+        });
+    }
+}
+
+#[test]
+fn latency_is_the_clocks_measured() {
+    for profile in Profile::all() {
+        let currents = Currents::new(&profile);
+        let block = Ratio::new(&profile, currents.sums(), currents.least());
+        check_latency_of(block.clone(), block.latency(), bounded);
+    }
+}

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What tests of single blocks share; their bench is that of the tests of whole cores (`model/tests/equality/`).
+
+mod comparison;
+#[allow(dead_code, reason = "tests of whole cores use the rest")]
+#[path = "../tests/equality/device.rs"]
+pub mod device;
+#[path = "../tests/equality/harness.rs"]
+mod harness;
+#[path = "../tests/equality/random.rs"]
+pub mod random;
+
+pub use comparison::{MILLION, cases, check, check_latency, check_latency_of, within};
+pub use harness::{Bench, operations};

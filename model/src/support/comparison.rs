@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Random operations of a block: their results and their clocks, and the comparison that tells all when it fails.
+
+use super::harness::{Bench, operations, show};
+use super::random::Random;
+use hapticore_hdl::block::{Block, Inputs, Interpretation, Outputs};
+use hapticore_hdl::bundle::Bundle;
+use hapticore_hdl::format::Format;
+
+/// Operations of a block in a test of random ones, over all profiles.
+pub const MILLION: u64 = 1_000_000;
+
+/// Clocks that a block is given in all where its latency is measured, about.
+const CLOCKS: u64 = 2_000_000;
+
+/// A result by the name of its port.
+pub type Port = (&'static str, i64);
+
+impl<B: Block, V: Interpretation> Bench<B, V> {
+    /// Starts the block, and clocks it until it is done: its outputs, and the clocks it took.
+    pub fn operate(&mut self, inputs: Inputs<B, i64>) -> (Outputs<B, i64>, u64) {
+        let mut outputs = self.clock(with::<B::Inputs>(inputs, "start", 1));
+        let held = with::<B::Inputs>(inputs, "start", 0);
+        let begun = self.clock;
+        while field::<B::Outputs>(outputs, "done") == 0 {
+            assert!(self.clock - begun < 100_000, "{} does not finish\n{}", B::NAME, show::<B::Inputs>(inputs));
+            outputs = self.clock(held);
+        }
+        (outputs, self.clock - begun)
+    }
+}
+
+impl<B: Block> Bench<B> {
+    /// Holds that every register holds a code of its format.
+    pub fn check_registers(&self) {
+        for (variable, code) in self.registers() {
+            let format = variable.format;
+            let within = within(code, format);
+            let name = variable.scope.join(".") + "." + &variable.name;
+            assert!(within, "clock {}: {name} holds {code}, beyond {format}", self.clock);
+        }
+    }
+}
+
+/// Whether a code is one of a format.
+pub fn within(code: i64, format: Format) -> bool {
+    let bits = format.width - u8::from(format.signed);
+    let low = if format.signed { -(1i64 << bits) } else { 0 };
+    (low..=(1i64 << bits) - 1).contains(&code)
+}
+
+/// Holds that each operation's results are those of the reference, the ports that it names.
+pub fn check<B: Block, const N: usize>(
+    bench: &mut Bench<B>,
+    cases: impl Iterator<Item = Inputs<B, i64>>,
+    reference: impl Fn(&Inputs<B, i64>) -> [Port; N],
+) {
+    for inputs in cases {
+        let (outputs, _) = bench.operate(inputs);
+        let expected = reference(&inputs);
+        if expected.iter().any(|&(name, code)| field::<B::Outputs>(outputs, name) != code) {
+            let (block, clock) = (B::NAME, bench.clock);
+            panic!(
+                "{block}, clock {clock}\ninputs:    {}\ngot:       {}\nreference: {expected:?}",
+                show::<B::Inputs>(inputs),
+                show::<B::Outputs>(outputs)
+            );
+        }
+    }
+}
+
+/// Holds that a block which starts and finishes takes as many clocks as it says, whatever its operands.
+pub fn check_latency<B: Block>(block: B, latency: u64) {
+    check_latency_of(block, latency, |inputs| inputs);
+}
+
+/// As [`check_latency`], for a block that takes only some operands.
+pub fn check_latency_of<B: Block>(block: B, latency: u64, legal: impl Fn(Inputs<B, i64>) -> Inputs<B, i64>) {
+    let (mut bench, operations) = (Bench::new(block), (CLOCKS / latency).clamp(100, 4000));
+    for inputs in cases(&bench.block, operations, 1).map(legal) {
+        let (_, clocks) = bench.operate(inputs);
+        assert_eq!(clocks, latency, "{}: clocks measured, latency()", B::NAME);
+    }
+}
+
+/// Random inputs of a block, corners among them.
+pub fn cases<B: Block>(block: &B, count: u64, seed: u64) -> impl Iterator<Item = Inputs<B, i64>> + use<B> {
+    let formats = block.inputs();
+    let mut random = Random::new(seed);
+    (0..operations(count)).map(move |_| B::Inputs::map(formats, |format| random.word(format)))
+}
+
+/// The code of the field of a name.
+pub fn field<S: Bundle>(bundle: S::Of<i64>, name: &str) -> i64 {
+    let wanted = S::FIELDS.iter().position(|field| field.name == name);
+    let (mut found, mut index) = (None, 0);
+    S::map(bundle, |code| {
+        if Some(index) == wanted {
+            found = Some(code);
+        }
+        index += 1;
+    });
+    found.unwrap_or_else(|| panic!("there is no {name} among {:?}", S::FIELDS))
+}
+
+/// The bundle with another code in the field of a name.
+fn with<S: Bundle>(bundle: S::Of<i64>, name: &str, code: i64) -> S::Of<i64> {
+    let wanted = S::FIELDS.iter().position(|field| field.name == name);
+    let mut index = 0;
+    S::map(bundle, |before| {
+        index += 1;
+        if Some(index - 1) == wanted { code } else { before }
+    })
+}
