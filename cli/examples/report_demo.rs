@@ -43,18 +43,20 @@ fn record(figure: &str, rows: Vec<Row>) -> Record {
 
 fn effects() -> Vec<Effect> {
     let effects = [("sheet", "bicubic", 0.021), ("gap", "static", 0.43), ("noise", "on", 0.2), ("offset", "on", 1e-5)];
-    effects.map(|(name, rung, seconds)| Effect { name: name.into(), rung: rung.into(), seconds, finer: None }).to_vec()
+    effects
+        .map(|(name, level, seconds)| Effect { name: name.into(), level: level.into(), seconds, finer: None })
+        .to_vec()
 }
 
 fn criteria() -> Vec<Criterion> {
-    let criterion = |name: &str, measured: f64, limit: f64, unit: &str, beside: Option<(&str, f64)>| Criterion {
+    let criterion = |name: &str, measured: f64, limit: f64, unit: &str, baseline: Option<(&str, f64)>| Criterion {
         name: name.into(),
         measured,
         limit,
         pass: measured <= limit,
         applicable: true,
         unit: unit.into(),
-        beside: beside.map(|(what, value)| (what.into(), value)),
+        baseline: baseline.map(|(what, value)| (what.into(), value)),
     };
     vec![
         criterion("force spread over the sheet, pulled in", 0.21, 0.5, "%", Some(("eq. 6 alone", 4.7))),

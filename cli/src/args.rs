@@ -16,7 +16,7 @@ pub struct Args {
     pub command: Command,
 }
 
-const EXIT: &str = "Exit status: 0 all criteria hold, 1 one fails, 2 bad input.";
+const EXIT: &str = "Exit status: 0 all criteria pass, 1 one fails, 2 bad input.";
 
 /// Subcommands of `hapticore`.
 #[derive(Debug, Subcommand)]
@@ -46,7 +46,7 @@ const SIMULATE: &str = "Examples:
   hapticore simulate hockey --core clock --waves vcd
   hapticore simulate hockey --capture hockey.wav && hapticore replay hockey.wav
 
-Exit status: 0 all criteria hold, 1 one fails, 2 bad input.";
+Exit status: 0 all criteria pass, 1 one fails, 2 bad input.";
 
 const REPLAY: &str = "A capture is CSV (a header naming columns among i1 … i6, v_sense, v_haptic, pad; one row of integer codes per ADC
 sample; lines \"# key = value\" before it may give sample_rate_hz, bits and, for volts, full_scale_v), WAV (channels in that order;
@@ -219,7 +219,7 @@ pub struct ReplayArgs {
     /// The device's calibration [default: CAPTURE.calibration.toml where there is one, else the nominal device's]
     #[arg(long, value_name = "FILE")]
     pub calibration: Option<PathBuf>,
-    /// How many pads are served in turn [default: as in the calibration, else in the profile]
+    /// How many pads are selected in turn [default: as in the calibration, else in the profile]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=256))]
     pub pads: Option<u64>,
     /// What the columns or channels of the capture are, in their order; _ leaves one out [default: as its header says, else i1 … iN,

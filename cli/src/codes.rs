@@ -41,7 +41,7 @@ pub fn run(args: &CodesArgs) -> Result<bool> {
         None => calibrate::nominal(&profile)?,
     };
     let profile = inputs::buildable(device.profile(&profile)?)?;
-    let calibration = device.of(&profile).with_context(|| name(args.calibration.as_deref()))?;
+    let calibration = device.for_profile(&profile).with_context(|| name(args.calibration.as_deref()))?;
     device.residual(&calibration).warning(LIMIT_MM).iter().for_each(|text| console::warn(text));
     let words = CalibrationWords::new(&profile, &calibration);
     let head = head(&profile, &name(args.calibration.as_deref()));

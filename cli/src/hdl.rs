@@ -37,7 +37,7 @@ pub fn run(args: &HdlArgs) -> Result<bool> {
         Some(board) => write_board(&output, board, &profile)?,
         None => write_core(&output, &profile)?,
     };
-    tell(args, &profile, &top, &output.keep()?)
+    print_result(args, &profile, &top, &output.keep()?)
 }
 
 /// The core: a file for each module, and what a bench must know of it.
@@ -65,7 +65,7 @@ fn script(board: Target) -> &'static str {
     }
 }
 
-fn tell(args: &HdlArgs, profile: &Profile, top: &str, files: &[PathBuf]) -> Result<bool> {
+fn print_result(args: &HdlArgs, profile: &Profile, top: &str, files: &[PathBuf]) -> Result<bool> {
     if args.json {
         let told = json!({ "profile": profile.name, "board": args.board, "top": top, "files": files });
         say!("{}", serde_json::to_string_pretty(&told)?);

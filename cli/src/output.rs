@@ -35,9 +35,9 @@ impl Output {
         Ok(Output { folder })
     }
 
-    /// Where files grow.
-    pub fn aside(&self) -> &Path {
-        self.folder.aside()
+    /// The temporary folder in which files are written.
+    pub fn partial_path(&self) -> &Path {
+        self.folder.partial_path()
     }
 
     /// Writes a whole file.
@@ -45,7 +45,8 @@ impl Output {
     /// # Errors
     /// It cannot be written.
     pub fn write(&self, name: &str, text: &str) -> Result<()> {
-        fs::write(self.aside().join(name), text).with_context(|| self.folder.path().join(name).display().to_string())
+        fs::write(self.partial_path().join(name), text)
+            .with_context(|| self.folder.path().join(name).display().to_string())
     }
 
     /// Writes a file that can be run.
@@ -55,7 +56,7 @@ impl Output {
     pub fn write_script(&self, name: &str, text: &str) -> Result<()> {
         self.write(name, text)?;
         #[cfg(unix)]
-        fs::set_permissions(self.aside().join(name), std::os::unix::fs::PermissionsExt::from_mode(0o755))?;
+        fs::set_permissions(self.partial_path().join(name), std::os::unix::fs::PermissionsExt::from_mode(0o755))?;
         Ok(())
     }
 
@@ -115,7 +116,8 @@ impl Frames {
     /// It cannot be written, as below.
     pub fn create(output: &Output, scene: Option<OfScene>) -> Result<Self> {
         let path = output.folder.path().join("frames.csv");
-        let file = File::create(output.aside().join("frames.csv")).with_context(|| path.display().to_string())?;
+        let file =
+            File::create(output.partial_path().join("frames.csv")).with_context(|| path.display().to_string())?;
         let mut frames = Frames { file: BufWriter::new(file), path, scene };
         frames.header().with_context(|| frames.path.display().to_string())?;
         Ok(frames)

@@ -34,8 +34,8 @@ pub fn table(head: &[&str], rows: &[Vec<String>]) -> String {
 /// One line at the start: which effects are on, and at which level.
 pub fn effects_line<'a>(effects: impl Iterator<Item = (&'static str, &'a str)>) -> String {
     let mut words: Vec<String> = Vec::new();
-    for (name, rung) in effects {
-        let word = if rung.is_empty() || rung == "on" { name.to_string() } else { format!("{name} {rung}") };
+    for (name, level) in effects {
+        let word = if level.is_empty() || level == "on" { name.to_string() } else { format!("{name} {level}") };
         if !words.contains(&word) {
             words.push(word);
         }
@@ -64,7 +64,7 @@ pub fn finish(record: &Record, files: &[PathBuf]) {
     }
     let speed = record.wall_seconds / record.simulated_seconds;
     say!(
-        "\n{} s simulated in {} s ({} s a second)",
+        "\n{} s simulated in {} s ({} s per simulated second)",
         number(record.simulated_seconds),
         number(record.wall_seconds),
         number(speed)
@@ -76,51 +76,57 @@ fn effects(effects: &[Effect], wall_seconds: f64) -> String {
     let row = |effect: &Effect| {
         let error = effect.finer.as_ref().map_or(String::new(), |(finer, percent)| off(*percent, finer));
         let share = format!("{} %", number(100.0 * effect.seconds / wall_seconds));
-        vec![effect.name.clone(), effect.rung.clone(), error, number(effect.seconds), share]
+        vec![effect.name.clone(), effect.level.clone(), error, number(effect.seconds), share]
     };
-    table(&["effect", "rung", "error", "seconds", "of the run"], &effects.iter().map(row).collect::<Vec<_>>())
+    table(
+        &["effect", "fidelity level", "difference from finer level", "wall seconds", "share of run"],
+        &effects.iter().map(row).collect::<Vec<_>>(),
+    )
 }
 
-/// How far a level is off the next finer one.
+/// The difference of a level from the next finer one, percent of the quantity.
 pub fn off(percent: f64, finer: &str) -> String {
-    format!("{} % off {finer}", number(percent))
+    format!("{} % from {finer}", number(percent))
 }
 
 fn criteria(criteria: &[Criterion]) -> String {
     let row = |criterion: &Criterion| {
         let with_unit = |value| format!("{} {}", number(value), criterion.unit);
-        let beside =
-            criterion.beside.as_ref().map_or(String::new(), |(name, value)| format!("{name}: {}", with_unit(*value)));
+        let baseline =
+            criterion.baseline.as_ref().map_or(String::new(), |(name, value)| format!("{name}: {}", with_unit(*value)));
         let (measured, limit) = (with_unit(criterion.measured), with_unit(criterion.limit));
         match (criterion.applicable, criterion.pass) {
             (false, _) => vec![criterion.name.clone(), String::new(), limit, "not applicable".into()],
-            (true, true) => vec![criterion.name.clone(), measured, limit, "holds".into(), beside],
-            (true, false) => vec![criterion.name.clone(), measured, limit, "FAILS".into(), beside],
+            (true, true) => vec![criterion.name.clone(), measured, limit, "pass".into(), baseline],
+            (true, false) => vec![criterion.name.clone(), measured, limit, "FAIL".into(), baseline],
         }
     };
-    table(&["criterion", "measured", "limit", "", "beside"], &criteria.iter().map(row).collect::<Vec<_>>())
+    table(&["criterion", "measured", "limit", "", "for comparison"], &criteria.iter().map(row).collect::<Vec<_>>())
 }
 
 fn errors(errors: &[SignalError]) -> String {
     let row = |error: &SignalError| {
         vec![error.signal.clone(), error.format.clone(), number(error.max_error), number(error.max_codes)]
     };
-    table(&["signal", "format", "largest error", "in codes"], &errors.iter().map(row).collect::<Vec<_>>())
+    table(
+        &["signal", "format", "largest rounding error", "in codes (LSB)"],
+        &errors.iter().map(row).collect::<Vec<_>>(),
+    )
 }
 
-/// What is told of a calibration.
+/// A calibration's results, one line each.
 pub fn calibration_lines(outcome: &Outcome) -> Vec<String> {
     let raster =
-        outcome.columns.map_or("lying anywhere".into(), |columns| format!("{columns} × {}", outcome.places / columns));
+        outcome.columns.map_or("scattered".into(), |columns| format!("{columns} × {}", outcome.places / columns));
     let mut lines = vec![
         format!("{} places ({raster}), {} terminals, profile {}", outcome.places, outcome.terminals, outcome.profile),
         format!("position table: {}", outcome.own_places.text()),
-        format!("every other place held out: {}", outcome.held_out.errors()),
+        format!("every other position held out of the table: {}", outcome.held_out.errors()),
     ];
     if let Some(force) = &outcome.force {
-        let readings = force.points.len();
+        let measurements = force.points.len();
         lines.push(format!(
-            "force_k = {} N/(F·V)², {readings} readings with {} mN of noise",
+            "force_k = {} N/(F·V)², {measurements} measurements with {} mN of noise",
             estimate(force.force_k),
             number(1e3 * force.noise_n)
         ));

@@ -57,14 +57,14 @@ pub fn run(args: &ReplayArgs) -> Result<bool> {
     output.write("summary.json", &summary(&record))?;
     output.write("report.html", &report::html(&record))?;
     let files = output.keep()?;
-    tell(args, &record, left, &files);
+    print_result(args, &record, left, &files);
     Ok(true)
 }
 
 /// The calibration named, or that of the capture.
 fn calibration(args: &ReplayArgs) -> Option<PathBuf> {
-    let beside = Some(capture::calibration_path(&args.capture)).filter(|path| path.exists());
-    args.calibration.clone().or(beside)
+    let of_capture = Some(capture::calibration_path(&args.capture)).filter(|path| path.exists());
+    args.calibration.clone().or(of_capture)
 }
 
 fn uncalibrated(args: &ReplayArgs) -> String {
@@ -162,7 +162,7 @@ impl Replay {
     /// Takes a whole slot to the core; its buffer, emptied.
     fn slot(&mut self, pad: usize, codes: Vec<i32>) -> Result<Vec<i32>> {
         interrupt::check()?;
-        self.meter.take(&codes, self.channels);
+        self.meter.append(&codes, self.channels);
         let slot = Slot { pad, signals: Signals::Samples { codes, blanking: self.blanking_codes } };
         let row = self.session.slot(&slot, None);
         row.into_iter().try_for_each(|row| self.row(row))?;
@@ -217,7 +217,7 @@ impl Replay {
     }
 }
 
-fn tell(args: &ReplayArgs, record: &Record, left: usize, files: &[PathBuf]) {
+fn print_result(args: &ReplayArgs, record: &Record, left: usize, files: &[PathBuf]) {
     print::warnings(record);
     if args.core.json {
         console::print(format_args!("{}", summary(record)));

@@ -53,7 +53,7 @@ fn write(args: &SimulateArgs, scene: &Scene, profile: &Profile, folder: &Path) -
     announce(args, scene, &cases)?;
     let (record, recorder) = simulate(args, scene, &cases, recorder)?;
     if let Some(kind) = wave_kind(args, scene) {
-        waves::trace(&cases[0], kind, args.waves_window.as_ref(), output.aside(), args.core.json)?;
+        waves::trace(&cases[0], kind, args.waves_window.as_ref(), output.partial_path(), args.core.json)?;
     }
     let of_scene = OfScene { cases: record.cases.clone(), swept: record.swept.clone() };
     let mut frames = Frames::create(&output, Some(of_scene))?;
@@ -256,11 +256,11 @@ fn swept(scene: &Scene, cases: &[Case]) -> Vec<&'static str> {
 /// Adds what the effects of a case cost to those of the same name and level.
 fn add_effects(effects: &mut Vec<Effect>, outcome: &Outcome) {
     for cost in &outcome.effects {
-        match effects.iter_mut().find(|effect| effect.name == cost.name && effect.rung == cost.rung) {
+        match effects.iter_mut().find(|effect| effect.name == cost.name && effect.level == cost.level) {
             Some(effect) => effect.seconds += cost.seconds,
             None => effects.push(Effect {
                 name: cost.name.into(),
-                rung: cost.rung.clone(),
+                level: cost.level.clone(),
                 seconds: cost.seconds,
                 finer: None,
             }),
@@ -270,8 +270,8 @@ fn add_effects(effects: &mut Vec<Effect>, outcome: &Outcome) {
 
 /// Adds how far each level is from the next finer one: in the case where that is furthest.
 fn add_errors(effects: &mut [Effect], cases: &[Case]) -> Result<()> {
-    for error in cases.par_iter().map(Case::rung_errors).collect::<Result<Vec<_>>>()?.into_iter().flatten() {
-        let same = effects.iter_mut().find(|effect| effect.name == error.effect && effect.rung == error.rung);
+    for error in cases.par_iter().map(Case::level_deviations).collect::<Result<Vec<_>>>()?.into_iter().flatten() {
+        let same = effects.iter_mut().find(|effect| effect.name == error.effect && effect.level == error.level);
         let (Some(effect), Some((finer, percent))) = (same, error.finer) else { continue };
         if effect.finer.as_ref().is_none_or(|(_, known)| *known < percent) {
             effect.finer = Some((finer, percent));

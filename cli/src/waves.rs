@@ -50,10 +50,10 @@ fn traced() -> impl Iterator<Item = &'static Quantity> {
     QUANTITIES.iter().filter(|quantity| quantity.name != "direction")
 }
 
-/// Their values.
+/// The values of [`truth_variables`], in the same order.
 fn truth_values(truth: &Truth) -> impl Iterator<Item = f64> {
     let quantities = quantities_of!(truth);
-    traced().map(move |quantity| quantity.of(&quantities)).chain([truth.load_g])
+    traced().map(move |quantity| quantity.value_in(&quantities)).chain([truth.load_g])
 }
 
 /// What is going to be traced, and how large the file will be, about.
@@ -117,7 +117,7 @@ pub fn trace(case: &Case, kind: Kind, window: Option<&Range<f64>>, folder: &Path
         bail!("--waves-window: expected a window within the case's {} s", case.seconds());
     }
     let mut maker = Maker::new(case.plant()?, profile, true, true);
-    let mut core = ClockSimulation::new(profile, &case.device.of(profile)?);
+    let mut core = ClockSimulation::new(profile, &case.device.for_profile(profile)?);
     let settings =
         Settings { timebase: Timebase::of_clock(clock_hz.round() as u64)?, window: Some(clocks), clock_wire: false };
     let truth = truth_variables();

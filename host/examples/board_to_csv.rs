@@ -16,7 +16,7 @@ pub fn convert(profile: &str, calibration: &str, bytes: impl Read, csv: impl Wri
     for byte in BufReader::new(bytes).bytes() {
         match decoder.push(byte?) {
             Some(Ok(Message::Frame(packet))) => {
-                let (measured, flags) = readout.convert(&packet.frame.reading(&profile));
+                let (measured, flags) = readout.convert(&packet.frame.measurement(&profile));
                 let time_and_pad = [clock.time_of(packet.status.sequence), packet.frame.pad as f64];
                 let numbers = time_and_pad.into_iter().chain(measured.values()).map(|number| number.to_string());
                 csv.write_record(numbers.chain([flags]))?;

@@ -23,9 +23,9 @@ pub enum Command {
     Register(Register, i64),
     /// A word of the position table.
     Table {
-        /// Its address.
+        /// Address of the word, from 0.
         address: u16,
-        /// Its code.
+        /// Raw code of the word.
         code: i64,
     },
 }

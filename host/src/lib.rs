@@ -36,7 +36,7 @@
 //! let mut decoder = Decoder::new(&profile);
 //! let bytes = std::fs::read("recordings/hockey.bin")?;
 //! let frames = decoder.decode(bytes).filter_map(|message| message.ok()?.frame());
-//! let forces: Vec<f64> = frames.map(|packet| readout.convert(&packet.frame.reading(&profile)).0.force_n).collect();
+//! let forces: Vec<f64> = frames.map(|packet| readout.convert(&packet.frame.measurement(&profile)).0.force_n).collect();
 //! assert_eq!(forces.len(), 5);
 //! assert!(forces.iter().all(|newton| (0.0..0.5).contains(newton)));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -75,7 +75,7 @@ pub use typed::{Word, WordError};
 pub use units::{SlotClock, Units, flag_names};
 
 pub use hapticore_contract::calibration::Calibration;
-pub use hapticore_contract::frame::{Field, Flags, Frame, Reading};
+pub use hapticore_contract::frame::{Field, Flags, Frame, Measurement};
 pub use hapticore_contract::profile::{Profile, ProfileError};
 pub use hapticore_protocol::framing::{END, ESC, VERSION, digest};
 pub use hapticore_protocol::{CalibrationWords, Constant, ConstantWord, Register, WordFormats};

@@ -45,9 +45,9 @@ pub enum Damage {
     /// They are not those that were sent.
     #[error("a packet's CRC is {got:04x}, expected {expected:04x}")]
     Crc {
-        /// As computed.
+        /// CRC computed from the packet.
         expected: u16,
-        /// As it came.
+        /// CRC received with the packet.
         got: u16,
     },
     /// ESC stands before a byte that it cannot stand before.

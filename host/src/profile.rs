@@ -7,7 +7,7 @@ use crate::text::{ReadError, read, with_key};
 use hapticore_contract::profile::{Profile, ProfileError};
 use std::path::Path;
 
-/// No profile.
+/// Why a profile cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum LoadProfileError {
     /// Its file cannot be read.
@@ -72,7 +72,7 @@ pub enum TerminalsError {
         profile: String,
         /// Terminals of the device.
         device: usize,
-        /// Why not.
+        /// Why the profile is invalid with so many terminals.
         source: ProfileError,
     },
 }

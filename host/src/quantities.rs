@@ -5,7 +5,7 @@
 //! here, and what computes it: a field of the core's measurement, and of the plant's truth where a scene knows it.
 
 use crate::units::Units;
-use hapticore_contract::frame::Reading;
+use hapticore_contract::frame::Measurement;
 
 /// One of the [`QUANTITIES`].
 ///
@@ -14,7 +14,7 @@ use hapticore_contract::frame::Reading;
 ///
 /// let force = quantity("force_n").expect("a column");
 /// assert_eq!((force.unit, force.label, force.axis), ("N", "Haptic force", "F (N)"));
-/// assert_eq!(force.of(&Quantities { force_n: 0.3, ..Quantities::default() }), 0.3);
+/// assert_eq!(force.value_in(&Quantities { force_n: 0.3, ..Quantities::default() }), 0.3);
 /// assert!(QUANTITIES.iter().any(|quantity| quantity.name == "capacitance_pf"));
 /// ```
 #[derive(Debug, Clone, Copy)]
@@ -32,8 +32,8 @@ pub struct Quantity {
 }
 
 impl Quantity {
-    /// Its value.
-    pub fn of(&self, quantities: &Quantities) -> f64 {
+    /// The quantity's value among these.
+    pub fn value_in(&self, quantities: &Quantities) -> f64 {
         (self.get)(quantities)
     }
 }
@@ -69,9 +69,9 @@ macro_rules! table {
 
         impl Quantities {
             /// The quantities of a measurement of the core.
-            pub(crate) fn measured(units: &Units, reading: &Reading) -> Self {
-                $(let $name: fn(&Units, &Reading) -> f64 = $of;)*
-                Quantities { $($name: $name(units, reading)),* }
+            pub(crate) fn measured(units: &Units, measurement: &Measurement) -> Self {
+                $(let $name: fn(&Units, &Measurement) -> f64 = $of;)*
+                Quantities { $($name: $name(units, measurement)),* }
             }
 
             /// Their values, in the order of [`QUANTITIES`].
@@ -90,21 +90,21 @@ macro_rules! table {
 
 table! {
     /// Eq. 2.
-    r_x, "", "Ratio r_x", "", |_, reading| reading.r_x;
+    r_x, "", "Ratio r_x", "", |_, measurement| measurement.r_x;
     /// Eq. 3.
-    r_y, "", "Ratio r_y", "", |_, reading| reading.r_y;
+    r_y, "", "Ratio r_y", "", |_, measurement| measurement.r_y;
     /// Millimetres from the sheet's middle, along the long edges.
-    x_mm, "mm", "Position along x", "x (mm)", |_, reading| reading.x_mm;
+    x_mm, "mm", "Position along x", "x (mm)", |_, measurement| measurement.x_mm;
     /// Millimetres from the sheet's middle, along the short edges.
-    y_mm, "mm", "Position along y", "y (mm)", |_, reading| reading.y_mm;
+    y_mm, "mm", "Position along y", "y (mm)", |_, measurement| measurement.y_mm;
     /// The pad's capacitance, pF.
-    capacitance_pf, "pF", "Capacitance", "C (pF)", |_, reading| reading.capacitance_pf;
+    capacitance_pf, "pF", "Capacitance", "C (pF)", |_, measurement| measurement.capacitance_pf;
     /// The sheet's resistance at the pad, Ω.
-    sheet_ohm, "Ω", "Resistance of the sheet", "", |units, reading| units.sheet_ohm(reading);
+    sheet_ohm, "Ω", "Resistance of the sheet", "", |units, measurement| units.sheet_ohm(measurement);
     /// The haptic voltage, V rms.
-    haptic_v_rms, "V", "Haptic voltage", "V rms (V)", |units, reading| units.haptic_v_rms(reading);
+    haptic_v_rms, "V", "Haptic voltage", "V RMS (V)", |units, measurement| units.haptic_v_rms(measurement);
     /// The haptic force, N.
-    force_n, "N", "Haptic force", "F (N)", |_, reading| reading.force_n;
+    force_n, "N", "Haptic force", "F (N)", |_, measurement| measurement.force_n;
     /// The direction of the user's push; zero where nothing measures it.
     direction, "", "Direction of the push", "direction", |_, _| 0.0;
 }

@@ -6,7 +6,7 @@ use crate::device::DeviceCalibration;
 use crate::placement::Placement;
 use crate::quantities::{QUANTITIES, Quantities};
 use crate::units::{Units, flag_names};
-use hapticore_contract::frame::Reading;
+use hapticore_contract::frame::Measurement;
 use hapticore_contract::profile::Profile;
 
 /// The columns of `frames.csv`: time and pad, the [`QUANTITIES`], the flags.
@@ -31,7 +31,7 @@ pub const COLUMNS: [&str; QUANTITIES.len() + 3] = {
 /// let profile = device.profile(&Profile::bundled("small")?)?;
 /// let mut readout = Readout::new(&profile, &device);
 /// let frame = Frame { pad: 1, codes: [0; 8], flags: Flags { clipped: true, ..Flags::default() } };
-/// let (measured, flags) = readout.convert(&frame.reading(&profile));
+/// let (measured, flags) = readout.convert(&frame.measurement(&profile));
 /// assert_eq!((measured.x_mm, measured.force_n, flags.as_str()), (0.0, 0.0, "clipped"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -56,13 +56,13 @@ impl Readout {
     ///
     /// # Panics
     /// If the device has no such pad.
-    pub fn convert(&mut self, reading: &Reading) -> (Quantities, String) {
-        let mut measured = self.units.quantities(reading);
-        if let Some(canceller) = self.canceller.as_mut().filter(|_| !reading.flags.invalid) {
-            canceller.apply(reading.pad, &mut measured);
+    pub fn convert(&mut self, measurement: &Measurement) -> (Quantities, String) {
+        let mut measured = self.units.quantities(measurement);
+        if let Some(canceller) = self.canceller.as_mut().filter(|_| !measurement.flags.invalid) {
+            canceller.apply(measurement.pad, &mut measured);
         }
-        let at_mm = (!reading.flags.invalid).then_some([measured.x_mm, measured.y_mm]);
-        let flags: Vec<_> = flag_names(reading.flags).chain(self.placement.flags(reading.pad, at_mm)).collect();
+        let at_mm = (!measurement.flags.invalid).then_some([measured.x_mm, measured.y_mm]);
+        let flags: Vec<_> = flag_names(measurement.flags).chain(self.placement.flags(measurement.pad, at_mm)).collect();
         (measured, flags.join("+"))
     }
 }

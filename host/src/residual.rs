@@ -12,7 +12,7 @@ pub struct Residual {
     pub rms_mm: f64,
     /// At the worst place, mm.
     pub worst_mm: f64,
-    /// The worst place.
+    /// Position with the largest error, mm.
     pub at_mm: [f64; 2],
 }
 
@@ -52,14 +52,14 @@ impl Residual {
 
     fn words(&self, over: &str) -> String {
         let [x, y] = self.at_mm;
-        format!("{:.2} mm rms{over}, {:.2} mm at most, at x = {x:.0}, y = {y:.0} mm", self.rms_mm, self.worst_mm)
+        format!("{:.2} mm RMS{over}, {:.2} mm at most, at x = {x:.0}, y = {y:.0} mm", self.rms_mm, self.worst_mm)
     }
 
     /// What its user must know, where it is beyond a limit, mm.
     pub fn warning(&self, limit_mm: f64) -> Option<String> {
         let text = || {
             format!(
-                "the position table does not fit this device: {}, where {limit_mm} mm rms are allowed. Positions, and with them \
+                "the position table does not fit this device: {}, where {limit_mm} mm RMS are allowed. Positions, and with them \
                  the sheet's resistance and the force, are off without a flag in the frames",
                 self.text()
             )

@@ -99,9 +99,9 @@ pub enum StartupError {
     /// It was made for another profile.
     #[error("the board's profile has the digest {got:04x}, expected {expected:04x}")]
     Profile {
-        /// Of the profile.
+        /// Value that the profile requires.
         expected: u16,
-        /// Of the board's.
+        /// Value that the board reports.
         got: u16,
     },
     /// A command was lost or refused.
@@ -119,7 +119,7 @@ pub enum StartupError {
         register: Register,
         /// Value that was written.
         expected: u64,
-        /// As read back.
+        /// Value that was read back.
         got: u64,
     },
     /// The ADC is none, or another.

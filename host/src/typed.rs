@@ -2,7 +2,7 @@
 //! Words as numbers of the crate [`fixed`]: for programs that are compiled for one profile, and compute without floating point.
 //!
 //! A profile is read at run time, a type is known at compile time. [`Word::new`] compares them once, when the program starts;
-//! reading a word after that cannot fail.
+//! measurement a word after that cannot fail.
 
 use fixed::traits::Fixed;
 use hapticore_contract::format::Format;
@@ -22,7 +22,7 @@ use std::marker::PhantomData;
 /// frame.codes[Field::X as usize] = -40;
 /// frame.codes[Field::Force as usize] = 1 << 12;
 /// assert_eq!(x_mm.read(frame.codes[Field::X as usize]), I11F5::from_num(-1.25));
-/// assert_eq!(force_n.read(frame.codes[Field::Force as usize]).to_num::<f64>(), frame.reading(&profile).force_n);
+/// assert_eq!(force_n.read(frame.codes[Field::Force as usize]).to_num::<f64>(), frame.measurement(&profile).force_n);
 ///
 /// // A type may have bits to spare; one that lacks some is refused.
 /// Word::<I32F32>::new(Constant::CapacitanceGain.format(&profile))?;

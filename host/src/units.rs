@@ -3,7 +3,7 @@
 
 use crate::device::Scales;
 use crate::quantities::Quantities;
-use hapticore_contract::frame::{Flags, Reading};
+use hapticore_contract::frame::{Flags, Measurement};
 use hapticore_contract::profile::Profile;
 
 /// From a core's numbers to physical units.
@@ -15,7 +15,7 @@ use hapticore_contract::profile::Profile;
 /// let profile = Profile::bundled("standard")?;
 /// let units = Units::new(&profile, &device.device);
 /// let frame = Frame { pad: 0, codes: [0, 0, 128, -64, 512, 256, 65_536, 0], flags: Flags::default() };
-/// let measured = units.quantities(&frame.reading(&profile));
+/// let measured = units.quantities(&frame.measurement(&profile));
 /// assert_eq!((measured.x_mm, measured.y_mm, measured.haptic_v_rms), (1.0, -0.5, 0.0));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -33,16 +33,16 @@ impl Units {
     }
 
     /// A slot's measurement in physical units.
-    pub fn quantities(&self, reading: &Reading) -> Quantities {
-        Quantities::measured(self, reading)
+    pub fn quantities(&self, measurement: &Measurement) -> Quantities {
+        Quantities::measured(self, measurement)
     }
 
-    pub(crate) fn sheet_ohm(&self, reading: &Reading) -> f64 {
-        reading.sheet * self.ohm
+    pub(crate) fn sheet_ohm(&self, measurement: &Measurement) -> f64 {
+        measurement.sheet * self.ohm
     }
 
-    pub(crate) fn haptic_v_rms(&self, reading: &Reading) -> f64 {
-        self.haptic_v * (reading.mean_square / self.square_gain).sqrt()
+    pub(crate) fn haptic_v_rms(&self, measurement: &Measurement) -> f64 {
+        self.haptic_v * (measurement.mean_square / self.square_gain).sqrt()
     }
 }
 

@@ -63,7 +63,7 @@ fn accuracy(profile: &Profile, calibration: &Calibration) {
         let codes = slot(profile, level);
         let mut fixed: FixedSimulation = FixedSimulation::new(profile, calibration);
         let window = &codes[profile.slot.blanking() as usize * profile.channels()..];
-        let core = fixed.slot(0, window).reading(profile).capacitance_pf / calibration.capacitance_gain;
+        let core = fixed.slot(0, window).measurement(profile).capacitance_pf / calibration.capacitance_gain;
         let currents: f64 = (0..SHARES.len()).map(|channel| idsp_amplitude(profile, &codes, channel)).sum();
         let idsp = currents / idsp_amplitude(profile, &codes, SHARES.len());
         let ideal = level * SHARES.iter().sum::<f64>() / SENSE;

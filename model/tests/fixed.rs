@@ -33,7 +33,7 @@ where
     i64::try_from(number.to_bits()).ok().expect("at most 32 bits")
 }
 
-/// A code, and a format that holds it; half of them within a few steps of a power of two, where rails and ties are.
+/// A code, and a format that holds it; half of them within a few steps of a power of two, where full scale and ties are.
 fn codes() -> impl Strategy<Value = (i64, Format)> {
     let anywhere = -(1i64 << 46)..1i64 << 46;
     let near = (0..46u32, -4i64..=4, any::<bool>())

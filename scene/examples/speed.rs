@@ -12,7 +12,7 @@ use hapticore_scene::{Complex, Plant, Scene, SceneError, Timing};
 const SLOTS: [usize; 2] = [2000, 100];
 const BEST_OF: usize = 5;
 
-/// Four pads that move, one of them served per slot.
+/// Four pads that move, one of them selected per slot.
 const PADS: &str = "title = \"speed\"\nduration_s = 10\n\
     [[pad]]\nposition_mm = { circle = { centre_mm = [280, 20], radius_mm = 110, period_s = 0.9 } }\nhaptic_v_rms = 150\n\
     [[pad]]\nposition_mm = { circle = { centre_mm = [-280, 20], radius_mm = 110, period_s = 0.7 } }\n\

@@ -29,11 +29,11 @@ const MOST_SLOTS: usize = 4096;
 
 /// A level that a case uses and how far it is from the next finer one.
 #[derive(Clone, Debug, PartialEq)]
-pub struct RungError {
+pub struct LevelDeviation {
     /// Name of the effect.
     pub effect: &'static str,
     /// Fidelity level in use.
-    pub rung: String,
+    pub level: String,
     /// The next finer level and the error against it, percent; none where there is no finer one.
     pub finer: Option<(String, f64)>,
 }
@@ -69,14 +69,14 @@ impl Scene {
         timing: &Timing,
     ) -> Result<Spec, SceneError> {
         let exact = self.looks(finest, index, &finest.effects[n], timing)?;
-        let mut rungs = finest.effects[n].all();
-        rungs.sort_by(|a, b| a.rung().cost_ns.total_cmp(&b.rung().cost_ns));
-        for rung in rungs {
+        let mut levels = finest.effects[n].all();
+        levels.sort_by(|a, b| a.level().cost_ns.total_cmp(&b.level().cost_ns));
+        for level in levels {
             // A level that refuses the scene is one that does not fit.
-            if let Ok(looks) = self.looks(finest, index, &rung, timing)
+            if let Ok(looks) = self.looks(finest, index, &level, timing)
                 && error_percent(&looks, &exact) <= share_percent
             {
-                return Ok(rung);
+                return Ok(level);
             }
         }
         Ok(finest.effects[n].clone())
@@ -86,24 +86,24 @@ impl Scene {
     ///
     /// # Errors
     /// As [`Plant::new`].
-    pub fn rung_errors(&self, index: usize, timing: &Timing) -> Result<Vec<RungError>, SceneError> {
+    pub fn level_deviations(&self, index: usize, timing: &Timing) -> Result<Vec<LevelDeviation>, SceneError> {
         let case = &self.cases[index];
-        let against = |effect: &Spec| -> Result<RungError, SceneError> {
+        let against = |effect: &Spec| -> Result<LevelDeviation, SceneError> {
             let finer = effect.finer().map(|finer| -> Result<(String, f64), SceneError> {
-                let [coarse, fine] = [effect, &finer].map(|rung| self.looks(case, index, rung, timing));
-                Ok((finer.rung().label.clone(), error_percent(&coarse?, &fine?)))
+                let [coarse, fine] = [effect, &finer].map(|level| self.looks(case, index, level, timing));
+                Ok((finer.level().label.clone(), error_percent(&coarse?, &fine?)))
             });
-            Ok(RungError { effect: effect.name, rung: effect.rung().label.clone(), finer: finer.transpose()? })
+            Ok(LevelDeviation { effect: effect.name, level: effect.level().label.clone(), finer: finer.transpose()? })
         };
         case.effects.iter().map(against).collect()
     }
 
     /// What is seen of a case whose effect of that name is at another level.
-    fn looks(&self, case: &Case, index: usize, rung: &Spec, timing: &Timing) -> Result<Vec<Look>, SceneError> {
+    fn looks(&self, case: &Case, index: usize, level: &Spec, timing: &Timing) -> Result<Vec<Look>, SceneError> {
         let mut case = case.clone();
         case.effects.retain(|effect| effect.name != NOISE);
-        case.effects.iter_mut().filter(|effect| effect.name == rung.name).for_each(|effect| *effect = rung.clone());
-        let sampled = rung.name == CARRIER && case.sampled();
+        case.effects.iter_mut().filter(|effect| effect.name == level.name).for_each(|effect| *effect = level.clone());
+        let sampled = level.name == CARRIER && case.sampled();
         let mut plant = Plant::of_case(case, self.seed, index, timing).map_err(|error| error.in_file(&self.name))?;
         let slots = plant.slots().min(MOST_SLOTS);
         let every = slots.div_ceil(LOOKS);

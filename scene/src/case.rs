@@ -10,7 +10,7 @@ use crate::pad::{PadPlan, Tables};
 /// The most pads of a scene.
 const MOST_PADS: usize = 16;
 
-/// Keys of `[sheet]` of which the host knows nothing: what makes a film uneven.
+/// Keys of `[sheet]` of which the host knows nothing: what makes a film non-uniform.
 const UNEVEN: [&str; 2] = ["slope_percent", "patch"];
 
 /// One variant of a scene.
@@ -37,7 +37,7 @@ pub struct Case {
     pub(crate) length: Length,
     /// Error that all levels together may leave, where the scene names one: until they are chosen, nothing can be run.
     pub(crate) budget_percent: Option<f64>,
-    /// What the host knows of the device, where it takes out of readings what other pads did to them: the effects that split
+    /// What the host knows of the device, where it takes out of measurements what other pads did to them: the effects that split
     /// a current, on a film that is even.
     pub(crate) nominal: Option<Vec<Spec>>,
 }
@@ -51,7 +51,7 @@ pub(crate) enum Length {
 
 impl std::fmt::Debug for Case {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let effects: Vec<_> = self.effects.iter().map(|effect| (effect.name, &effect.rung().label)).collect();
+        let effects: Vec<_> = self.effects.iter().map(|effect| (effect.name, &effect.level().label)).collect();
         f.debug_struct("Case").field("name", &self.name).field("pads", &self.pads).field("effects", &effects).finish()
     }
 }
@@ -75,7 +75,7 @@ impl Case {
 
     /// The effects that are on, with their levels.
     pub fn effects(&self) -> Vec<(&'static str, &str)> {
-        self.effects.iter().map(|effect| (effect.name, effect.rung().label.as_str())).collect()
+        self.effects.iter().map(|effect| (effect.name, effect.level().label.as_str())).collect()
     }
 
     /// Whether the scene wants the float core to demodulate samples too, carrier level `samples`.
@@ -88,7 +88,7 @@ impl Case {
         let effects: Vec<Spec> =
             EFFECTS.iter().filter_map(|read| read(root, &device).transpose()).collect::<Result<_, _>>()?;
         let has = |name| effects.iter().any(|effect| effect.name == name);
-        let has = Tables { gap: has("gap"), hand: has("hand"), halves: has("halves") };
+        let has = Tables { gap: has("gap"), finger: has("hand"), split_electrode: has("halves") };
         let tables = root.tables("pad")?;
         if tables.is_empty() || tables.len() > MOST_PADS {
             return Err(
@@ -98,11 +98,11 @@ impl Case {
         let plan = |(index, table): (usize, &&Table)| PadPlan::read(table, index, &device, has);
         let pads = tables.iter().enumerate().map(plan).collect::<Result<Vec<_>, _>>()?;
         let budget_percent = root.number("error_budget_percent", Limits::above(0.0, 100.0))?;
-        let uncouple = root.flag("uncouple")?;
-        if uncouple && !effects.iter().any(|effect| effect.name == "coupling") {
+        let cancels_crosstalk = root.flag("uncouple")?;
+        if cancels_crosstalk && !effects.iter().any(|effect| effect.name == "coupling") {
             return Err(root.error("uncouple", "expected a [coupling] that could be taken out again"));
         }
-        let nominal = if uncouple { Some(nominal(root, &device)?) } else { None };
+        let nominal = if cancels_crosstalk { Some(nominal(root, &device)?) } else { None };
         let length = Length::read(root, &pads)?;
         Ok(Case {
             name: name.to_string(),
@@ -142,7 +142,7 @@ fn keep_covering(criterion: &mut Table, name: &str) -> bool {
     all == [true; 2]
 }
 
-/// Effects that split a current among the terminals, as they would be were the film even.
+/// Effects that split a current among the terminals, as they would be with a uniform film.
 fn nominal(root: &Table, device: &Device) -> Result<Vec<Spec>, SceneError> {
     let mut even = root.clone();
     if let Node { value: Value::Table(sheet), .. } = even.entry("sheet", || unreachable!("coupling needs a sheet")) {

@@ -39,7 +39,7 @@ pub enum Measure {
     InvalidPercent,
     /// Largest |estimate − expected|.
     MaxOff,
-    /// How far from the expected time the estimate jumps: where a pad's reading rises most from one slot to the next, by
+    /// How far from the expected time the estimate jumps: where a pad's measurement rises most from one slot to the next, by
     /// five times its mean change at least.
     JumpOff,
     /// How far from the expected haptic voltage the estimate leaves the square law: where it first is a quarter more, per
@@ -133,9 +133,9 @@ pub struct Where {
 pub struct Criterion {
     /// What it says, for people.
     pub name: String,
-    /// What is measured.
+    /// How the quantity is measured over the slots.
     pub measure: Measure,
-    /// Of which quantity.
+    /// The quantity that the measure applies to.
     pub of: Quantity,
     /// For [`Measure::IncreasesWith`]: with which.
     pub with: Option<Quantity>,

@@ -134,7 +134,7 @@ impl Device {
     }
 
     /// How far the centre of either electrode of a split pad is off the pad's, mm.
-    pub(crate) fn half_centre_mm(&self) -> f64 {
+    pub(crate) fn electrode_offset_mm(&self) -> f64 {
         0.25 * self.pad_diameter_mm
     }
 

@@ -54,16 +54,15 @@
 //! | --- | --- |
 //! | `error`, `format` | messages with file, line and key; TOML as a tree that knows which keys were read |
 //! | `terminals`, `device`, `ratios` | where the terminals are, sizes and full scales, signs of the ratios |
-//! | `course`, `path`, `pad` | what a pad does over a sweep or over time |
+//! | `stimulus`, `trajectory`, `pad` | what a pad does over a sweep or over time |
 //! | `effects` | one file or folder for each effect; `effects::EFFECTS` is the list of all |
 //! | `case`, `scene`, `criterion`, `quantity` | a scene as it is read |
-//! | `plant`, `budget`, `uncouple` | a case at work; errors of the fidelity levels; crosstalk cancellation |
+//! | `plant`, `budget`, `nominal` | a case at work; errors of the fidelity levels; the sheet as its host knows it |
 //!
 //! The plant knows no bit widths of the core and writes no file.
 
 mod budget;
 mod case;
-mod course;
 mod criterion;
 mod device;
 mod effects;
@@ -73,19 +72,20 @@ mod format;
 pub mod gallery;
 mod nominal;
 mod pad;
-mod path;
 mod plant;
 mod quantity;
 mod random;
 mod ratios;
 mod rotor;
 mod scene;
+mod stimulus;
 mod terminals;
 mod timing;
+mod trajectory;
 mod truth;
 mod variant;
 
-pub use budget::RungError;
+pub use budget::LevelDeviation;
 pub use case::Case;
 pub use criterion::{Criterion, Measure, Per, Where};
 pub use device::Device;
@@ -99,4 +99,4 @@ pub use ratios::signs_by_place;
 pub use scene::{Figure, Record, Scene};
 pub use terminals::{LEAST_TERMINALS, MOST_TERMINALS};
 pub use timing::Timing;
-pub use truth::{ForcePoint, MapPoint, PadReading, Setpoint, Truth};
+pub use truth::{ForcePoint, MapPoint, PadMeasurement, Setpoint, Truth};

@@ -6,7 +6,7 @@ use num_complex::Complex64;
 
 use crate::device::Device;
 use crate::effects::{Effects, Pad};
-use crate::pad::lying;
+use crate::pad::pad_of_frame;
 use crate::ratios::Ratios;
 
 /// The nominal sheet of a simulated device.
@@ -20,7 +20,7 @@ pub struct NominalSheet {
 impl NominalSheet {
     /// A pad that the sheet alone has acted on.
     fn on_sheet(&mut self, pad: &PadEstimate) -> Pad {
-        let mut pad = lying([pad.x_mm, pad.y_mm], pad.capacitance_pf, &self.device);
+        let mut pad = pad_of_frame([pad.x_mm, pad.y_mm], pad.capacitance_pf, &self.device);
         self.effects.on_pad(&mut pad);
         pad
     }
@@ -29,14 +29,14 @@ impl NominalSheet {
 impl SheetModel for NominalSheet {
     fn isolated(&mut self, pad: &PadEstimate) -> ([f64; 2], f64) {
         let pad = self.on_sheet(pad);
-        (self.ratios.of(&pad.amplitudes()), pad.sheet_ohm.re)
+        (self.ratios.of_amplitudes(&pad.amplitudes()), pad.sheet_ohm.re)
     }
 
-    fn among(&mut self, pad: &PadEstimate, others: &[PadEstimate]) -> ([f64; 2], f64) {
+    fn with_neighbours(&mut self, pad: &PadEstimate, others: &[PadEstimate]) -> ([f64; 2], f64) {
         let others: Vec<_> = others.iter().map(|pad| self.on_sheet(pad)).collect();
         let mut pad = self.on_sheet(pad);
         self.effects.on_pads(&mut pad, &others);
-        (self.ratios.of(&pad.amplitudes()), pad.transfer(&self.device).iter().sum::<Complex64>().norm())
+        (self.ratios.of_amplitudes(&pad.amplitudes()), pad.transfer(&self.device).iter().sum::<Complex64>().norm())
     }
 
     fn reach_mm(&self) -> [f64; 2] {

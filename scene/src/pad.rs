@@ -2,96 +2,97 @@
 //! `[[pad]]`: what one pad does. A sweep runs over all combinations of what is swept, the position fastest, then the load,
 //! the haptic voltage, the capacitance and the eccentricity.
 
-use crate::course::Course;
 use crate::device::{Device, EPSILON_0};
 use crate::effects::sheet::ideal_split;
 use crate::effects::{FilmChange, Pad};
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
-use crate::path::{Path, SLACK_MM};
+use crate::stimulus::Stimulus;
+use crate::trajectory::{SLACK_MM, Trajectory};
 use crate::truth::Setpoint;
 
 /// Capacitance of a pad that neither names one nor has a gap, pF: 5 kΩ at 100 kHz.
 const CAPACITANCE_PF: f64 = 318.0;
 
-/// The course of one pad.
+/// What one pad does: its trajectory and its stimuli.
 #[derive(Clone, Debug)]
 pub(crate) struct PadPlan {
     pub name: String,
-    path: Path,
-    load_g: Course,
-    haptic_v_rms: Course,
-    capacitance_pf: Course,
-    eccentricity_mm: Course,
-    /// Along x and y; a pad without a hand is not pushed.
-    push_n: [Course; 2],
+    trajectory: Trajectory,
+    load_g: Stimulus,
+    haptic_v_rms: Stimulus,
+    capacitance_pf: Stimulus,
+    eccentricity_mm: Stimulus,
+    /// Along x and y; a pad without a finger is not pushed.
+    push_n: [Stimulus; 2],
 }
 
 impl PadPlan {
     pub fn read(table: &Table, index: usize, device: &Device, has: Tables) -> Result<PadPlan, SceneError> {
-        let course = |key, limits, default| Ok(Course::read(table, key, limits)?.unwrap_or(Course::Constant(default)));
+        let stimulus =
+            |key, limits, default| Ok(Stimulus::read(table, key, limits)?.unwrap_or(Stimulus::Constant(default)));
         if has.gap && table.get("capacitance_pf").is_some() {
             return Err(table.error("capacitance_pf", "expected no capacitance of its own, since [gap] decides it"));
         }
-        let push = |key| match has.hand {
+        let push = |key| match has.finger {
             true => read_push(table, key),
-            false => Ok(Course::Constant(0.0)),
+            false => Ok(Stimulus::Constant(0.0)),
         };
-        let reach_mm = device.half_centre_mm();
-        let eccentricity_mm = match has.halves {
-            true => course("eccentricity_mm", Limits::within(-reach_mm, reach_mm), 0.0)?,
-            false => Course::Constant(0.0),
+        let reach_mm = device.electrode_offset_mm();
+        let eccentricity_mm = match has.split_electrode {
+            true => stimulus("eccentricity_mm", Limits::within(-reach_mm, reach_mm), 0.0)?,
+            false => Stimulus::Constant(0.0),
         };
         Ok(PadPlan {
             eccentricity_mm,
             push_n: [push("push_x_n")?, push("push_y_n")?],
             name: table.text("name")?.unwrap_or_else(|| format!("pad {index}")),
-            path: Path::read(table, device)?,
-            load_g: course("load_g", Limits::within(0.0, 1e5), 20.0)?,
-            haptic_v_rms: course("haptic_v_rms", Limits::within(0.0, 1e5), 0.0)?,
-            capacitance_pf: course("capacitance_pf", Limits::above(0.0, 1e6), CAPACITANCE_PF)?,
+            trajectory: Trajectory::read(table, device)?,
+            load_g: stimulus("load_g", Limits::within(0.0, 1e5), 20.0)?,
+            haptic_v_rms: stimulus("haptic_v_rms", Limits::within(0.0, 1e5), 0.0)?,
+            capacitance_pf: stimulus("capacitance_pf", Limits::above(0.0, 1e6), CAPACITANCE_PF)?,
         })
     }
 
-    fn courses(&self) -> [&Course; 6] {
+    fn stimuli(&self) -> [&Stimulus; 6] {
         let [x, y] = &self.push_n;
         [&self.load_g, &self.haptic_v_rms, &self.capacitance_pf, &self.eccentricity_mm, x, y]
     }
 
     /// Points of the whole sweep; one where nothing is swept.
     pub fn points(&self) -> usize {
-        self.path.points() * self.courses().into_iter().map(Course::points).product::<usize>()
+        self.trajectory.points() * self.stimuli().into_iter().map(Stimulus::points).product::<usize>()
     }
 
     /// Whether anything depends on time.
     pub fn moves(&self) -> bool {
-        self.path.moves() || self.courses().into_iter().any(Course::moves)
+        self.trajectory.moves() || self.stimuli().into_iter().any(Stimulus::moves)
     }
 
     /// Points that differ in position alone are one group.
     pub fn group(&self, point: usize) -> usize {
-        point % self.points() / self.path.points()
+        point % self.points() / self.trajectory.points()
     }
 
     /// The keys that are swept, as [`Setpoint::get`] knows them.
     pub fn swept(&self) -> Vec<&'static str> {
-        let courses = [
+        let stimuli = [
             ("load_g", &self.load_g),
             ("haptic_v_rms", &self.haptic_v_rms),
             ("capacitance_pf", &self.capacitance_pf),
             ("eccentricity_mm", &self.eccentricity_mm),
         ];
-        let place = ["x_mm", "y_mm"].into_iter().filter(|_| self.path.points() > 1);
-        place.chain(courses.into_iter().filter(|(_, course)| course.points() > 1).map(|(key, _)| key)).collect()
+        let place = ["x_mm", "y_mm"].into_iter().filter(|_| self.trajectory.points() > 1);
+        place.chain(stimuli.into_iter().filter(|(_, stimulus)| stimulus.points() > 1).map(|(key, _)| key)).collect()
     }
 
     /// What the pad is set to.
     pub fn set(&self, point: usize, time_s: f64) -> Setpoint {
-        let load = point / self.path.points();
+        let load = point / self.trajectory.points();
         let haptic = load / self.load_g.points();
         let capacitance = haptic / self.haptic_v_rms.points();
         let eccentricity = capacitance / self.capacitance_pf.points();
-        let [x_mm, y_mm] = self.path.at(point, time_s);
+        let [x_mm, y_mm] = self.trajectory.at(point, time_s);
         Setpoint {
             x_mm,
             y_mm,
@@ -116,10 +117,10 @@ impl PadPlan {
 }
 
 /// A push, over time only.
-fn read_push(table: &Table, key: &'static str) -> Result<Course, SceneError> {
-    let course = Course::read(table, key, Limits::ANY)?.unwrap_or(Course::Constant(0.0));
-    match course.points() {
-        1 => Ok(course),
+fn read_push(table: &Table, key: &'static str) -> Result<Stimulus, SceneError> {
+    let stimulus = Stimulus::read(table, key, Limits::ANY)?.unwrap_or(Stimulus::Constant(0.0));
+    match stimulus.points() {
+        1 => Ok(stimulus),
         points => Err(table.error(key, format!("expected a push over time, got a sweep of {points} points"))),
     }
 }
@@ -128,8 +129,8 @@ fn read_push(table: &Table, key: &'static str) -> Result<Course, SceneError> {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Tables {
     pub gap: bool,
-    pub hand: bool,
-    pub halves: bool,
+    pub finger: bool,
+    pub split_electrode: bool,
 }
 
 /// A pad at rest, for a calibration.
@@ -137,8 +138,8 @@ pub(crate) fn resting(at_mm: [f64; 2], load_g: f64, haptic_v_rms: f64, device: &
     still(0, 0.0, at_mm, load_g, haptic_v_rms, CAPACITANCE_PF * 1e-12, device)
 }
 
-/// A pad of which no more is known than a frame tells.
-pub(crate) fn lying(at_mm: [f64; 2], capacitance_pf: f64, device: &Device) -> Pad {
+/// A resting pad, as far as a frame describes it.
+pub(crate) fn pad_of_frame(at_mm: [f64; 2], capacitance_pf: f64, device: &Device) -> Pad {
     still(0, 0.0, at_mm, 0.0, 0.0, capacitance_pf * 1e-12, device)
 }
 
@@ -168,7 +169,7 @@ fn still(
         eccentricity_mm: 0.0,
         direction: 0.0,
         push_n: [0.0; 2],
-        hand: None,
+        finger: None,
         friction_n: 0.0,
         film: FilmChange::NONE,
         split: ideal_split(at[0], at[1], device),

@@ -15,11 +15,11 @@ use crate::effects::{EffectCost, Effects, Pad, Phasors, Run, Setting};
 use crate::error::{Place, SceneError};
 use crate::nominal::NominalSheet;
 use crate::pad::resting;
-use crate::path::raster;
 use crate::ratios::{self, Ratios};
 use crate::scene::Scene;
 use crate::timing::Timing;
-use crate::truth::{ForcePoint, MapPoint, PadReading, Truth};
+use crate::trajectory::raster;
+use crate::truth::{ForcePoint, MapPoint, PadMeasurement, Truth};
 
 /// One case of a scene at work.
 ///
@@ -36,7 +36,7 @@ use crate::truth::{ForcePoint, MapPoint, PadReading, Truth};
 ///     assert!(truth.capacitance_pf > 300.0 && truth.force_n >= 0.0);
 /// }
 /// let gap = plant.effects().into_iter().find(|effect| effect.name == "gap").unwrap();
-/// assert_eq!((gap.rung.as_str(), gap.evaluations), ("tr-bdf2 100 µs", 10));
+/// assert_eq!((gap.level.as_str(), gap.evaluations), ("tr-bdf2 100 µs", 10));
 /// # Ok::<(), hapticore_scene::SceneError>(())
 /// ```
 pub struct Plant {
@@ -70,7 +70,7 @@ impl Plant {
             ));
         }
         if chosen.budget_percent.is_some() {
-            return Err(fail("error_budget_percent", "expected rungs that have been chosen within it".to_string()));
+            return Err(fail("error_budget_percent", "expected levels that have been chosen within it".to_string()));
         }
         Plant::of_case(chosen.clone(), scene.seed, case, timing).map_err(|error| error.in_file(&scene.name))
     }
@@ -84,14 +84,14 @@ impl Plant {
         let ratios = ratios::of_device(&device, timing.signs.as_ref());
         let ratios = ratios.map_err(|message| SceneError::new(Place::File, "profile", message))?;
         let plant = Plant { effects, ratios, case, device, timing: timing.clone(), seed, index, now };
-        plant.ask_limited_rungs()?;
+        plant.check_limited_levels()?;
         Ok(plant)
     }
 
     /// Asks levels that refuse some scenes, at slots spread evenly over the case, each pad in turn.
-    fn ask_limited_rungs(&self) -> Result<(), SceneError> {
+    fn check_limited_levels(&self) -> Result<(), SceneError> {
         const ASKED: usize = 256;
-        if !self.case.effects.iter().any(|effect| effect.rung().limited) {
+        if !self.case.effects.iter().any(|effect| effect.level().limited) {
             return Ok(());
         }
         let mut effects = self.fresh_effects();
@@ -174,7 +174,7 @@ impl Plant {
     pub fn truth(&mut self, slot: usize) -> Truth {
         self.look(slot);
         let (pad, point) = (&self.now.1, self.point(slot));
-        let [r_x, r_y] = self.ratios.of(&pad.amplitudes());
+        let [r_x, r_y] = self.ratios.of_amplitudes(&pad.amplitudes());
         Truth {
             time_s: pad.time_s,
             pad: pad.index,
@@ -245,20 +245,20 @@ impl Plant {
             raster(nx, ny, margin_mm, &self.device).into_iter().map(|place| resting(place, 0.0, 0.0, &self.device));
         let point = |pad: Pad| {
             let amplitudes = pad.amplitudes();
-            let ([r_x, r_y], shares) = (self.ratios.of(&amplitudes), self.ratios.shares(&amplitudes));
+            let ([r_x, r_y], shares) = (self.ratios.of_amplitudes(&amplitudes), self.ratios.shares(&amplitudes));
             MapPoint { x_mm: pad.x_mm, y_mm: pad.y_mm, r_x, r_y, shares, sheet_ohm: pad.sheet_ohm.re }
         };
         self.settle(still).map(point).collect()
     }
 
-    /// What the terminals of the nominal device read of a pad alone and at rest at each of these places, mm.
-    pub fn readings(&self, places_mm: &[[f64; 2]]) -> Vec<PadReading> {
+    /// What the terminals of the nominal device measure of an isolated pad at rest at each of these positions, mm.
+    pub fn measurements(&self, places_mm: &[[f64; 2]]) -> Vec<PadMeasurement> {
         let still = places_mm.iter().map(|place| resting(*place, 0.0, 0.0, &self.device));
-        let reading = |pad: Pad| PadReading {
+        let measurement = |pad: Pad| PadMeasurement {
             siemens: pad.transfer(&self.device).iter().copied().collect(),
             sheet_ohm: pad.sheet_ohm.re,
         };
-        self.settle(still).map(reading).collect()
+        self.settle(still).map(measurement).collect()
     }
 
     /// A friction calibration, as for the paper's Fig. 6: one pad alone in the middle of the sheet, under each load at each

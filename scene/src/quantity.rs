@@ -127,7 +127,7 @@ impl Quantity {
     }
 
     /// Its value in a slot, in its unit; not a number for a position.
-    pub fn of(self, truth: &Truth) -> f64 {
+    pub fn true_value(self, truth: &Truth) -> f64 {
         (self.entry().truth)(truth)
     }
 

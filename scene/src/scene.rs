@@ -11,13 +11,13 @@
 //! record = ["frames", "report"]   # frames | report | capture | waves
 //! dwell_slots = 1                 # slots of each pad at each point of a sweep, or
 //! duration_s = 2.0                # time, where pads move and nothing is swept
-//! uncouple = true                 # the host takes out of readings what [coupling] did to them
+//! uncouple = true                 # the host takes out of measurements what [coupling] did to them
 //! error_budget_percent = 0.1      # chooses the levels that the effects' tables leave open; see `budget`
 //!
-//! [[pad]]                         # 1 to 16; served one slot each in turn
+//! [[pad]]                         # 1 to 16; selected for one slot each in turn
 //! name = "mallet"
-//! position_mm = [0, 0]            # see `path`
-//! load_g = 50                     # see `course`; also haptic_v_rms, capacitance_pf; with
+//! position_mm = [0, 0]            # see `trajectory`
+//! load_g = 50                     # see `stimulus`; also haptic_v_rms, capacitance_pf; with
 //!                                 # [hand] push_x_n, push_y_n; with [halves] eccentricity_mm
 //!
 //! [device]                        # width_mm, height_mm, pad_diameter_mm, mu, gravity_m_s2
@@ -105,7 +105,7 @@ pub struct Scene {
     pub record: Vec<Record>,
     /// Variants, run one after the other.
     pub cases: Vec<Case>,
-    /// What it claims.
+    /// The criteria that a run checks.
     pub criteria: Vec<Criterion>,
 }
 

@@ -16,7 +16,7 @@ use num_complex::Complex64;
 /// let mut plant = Plant::new(&scene, 0, &timing)?;
 /// let (off, on) = (plant.truth(0), plant.truth(1));
 /// assert_eq!((off.force_n, on.set.haptic_v_rms), (0.0, 300.0));
-/// assert_eq!(Quantity::ForceN.of(&on), on.force_n);
+/// assert_eq!(Quantity::ForceN.true_value(&on), on.force_n);
 /// assert!((on.time_s - off.time_s - 1.7e-3).abs() < 1e-12); // slots of 1.7 ms
 /// # Ok::<(), hapticore_scene::SceneError>(())
 /// ```
@@ -122,9 +122,9 @@ pub struct MapPoint {
     pub sheet_ohm: f64,
 }
 
-/// What the terminals read of a pad at rest.
+/// What the terminals measure of a pad at rest.
 #[derive(Clone, Debug, PartialEq)]
-pub struct PadReading {
+pub struct PadMeasurement {
     /// Current into each terminal per volt of sensing, S.
     pub siemens: Vec<Complex64>,
     /// Resistance R_p of the sheet there, Ω.

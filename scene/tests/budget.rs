@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Rungs: how far each is from the next finer one, and which of them an error budget takes.
+//! Levels: how far each is from the next finer one, and which of them an error budget takes.
 
-use hapticore_scene::{Plant, RungError, Scene, Timing};
+use hapticore_scene::{LevelDeviation, Plant, Scene, Timing};
 
 const HEAD: &str = "title = \"t\"\n";
 const REST: &str = "[[pad]]\nposition_mm = { raster = { nx = 7, ny = 5, margin_mm = 20 } }\n[sheet]\n";
@@ -18,20 +18,20 @@ fn within(percent: f64) -> Scene {
     scene(&format!("error_budget_percent = {percent}\n"), "").within_budget(&timing()).unwrap()
 }
 
-fn sheet_error(rung: &str) -> RungError {
-    scene("", &format!("rung = {rung:?}")).rung_errors(0, &timing()).unwrap().remove(0)
+fn sheet_error(level: &str) -> LevelDeviation {
+    scene("", &format!("rung = {level:?}")).level_deviations(0, &timing()).unwrap().remove(0)
 }
 
 #[test]
-fn each_rung_is_closer_to_the_next_and_the_finest_has_none() {
-    let percent = |rung| sheet_error(rung).finer.map(|(_, percent)| percent);
-    let [distance, bilinear, bicubic] = ["distance", "bilinear", "bicubic"].map(|rung| percent(rung).unwrap());
+fn each_level_is_closer_to_the_next_and_the_finest_has_none() {
+    let percent = |level| sheet_error(level).finer.map(|(_, percent)| percent);
+    let [distance, bilinear, bicubic] = ["distance", "bilinear", "bicubic"].map(|level| percent(level).unwrap());
     assert!(distance > 5.0 && bilinear < 0.5 && bicubic < 0.02 && bicubic > 1e-6, "{distance} {bilinear} {bicubic}");
     assert_eq!(percent("analytic"), None);
 }
 
 #[test]
-fn a_budget_takes_the_cheapest_rung_whose_measured_error_fits() {
+fn a_budget_takes_the_cheapest_level_whose_measured_error_fits() {
     let chosen = |percent| {
         let scene = within(percent);
         let sheet = scene.cases[0].effects()[0].1.to_string();
@@ -41,14 +41,14 @@ fn a_budget_takes_the_cheapest_rung_whose_measured_error_fits() {
 }
 
 #[test]
-fn a_rung_that_the_scene_names_is_left_alone() {
+fn a_level_that_the_scene_names_is_left_alone() {
     let scene = scene("error_budget_percent = 1e-9\n", "rung = \"distance\"").within_budget(&timing()).unwrap();
     assert_eq!(scene.cases[0].effects()[0], ("sheet", "distance"));
 }
 
 #[test]
-fn a_budget_without_chosen_rungs_cannot_be_run() {
+fn a_budget_without_chosen_levels_cannot_be_run() {
     let scene = scene("error_budget_percent = 1\n", "");
     let error = Plant::new(&scene, 0, &timing()).map(|_| ()).unwrap_err().to_string();
-    assert!(error.starts_with("s: error_budget_percent: expected rungs that have been chosen"), "{error}");
+    assert!(error.starts_with("s: error_budget_percent: expected levels that have been chosen"), "{error}");
 }

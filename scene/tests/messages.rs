@@ -18,7 +18,7 @@ fn check(table: &str, expected: &str) {
 }
 
 #[test]
-fn unknown_rung() {
+fn unknown_level() {
     check(
         "[sheet]\nrung = \"cubic\"",
         "s.toml:5: sheet.rung: expected one of \"distance\", \"bilinear\", \"bicubic\", \"bicubic-fine\", \"analytic\", \"grid-20-mm\"",
@@ -58,7 +58,7 @@ fn effects_that_need_a_sheet() {
     check("[coupling]", &format!("s.toml:4: coupling: {sheet}"));
     check("[switching]", &format!("s.toml:4: switching: {sheet}"));
     let uneven = "[sheet]\nslope_percent = [5, 0]\n[shunt]\nnanofarad_per_m2 = 9";
-    check(uneven, "s.toml:6: shunt: expected an even film, without sheet.slope_percent and sheet.patch");
+    check(uneven, "s.toml:6: shunt: expected a uniform film, without sheet.slope_percent and sheet.patch");
     let wish = message(&format!("uncouple = true\n{SCENE}"), &[]);
     assert_eq!(wish, "s.toml:1: uncouple: expected a [coupling] that could be taken out again");
 }

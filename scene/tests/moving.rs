@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Effects with a state, as a scene has them: the gap in motion, the supply, the hand, split pads; and that none of them is
+//! Effects with a state, as a scene has them: the gap in motion, the supply, the finger, split pads; and that none of them is
 //! there unless the scene names it.
 
 use hapticore_scene::{Complex, Plant, Scene, Timing, Truth};
@@ -26,7 +26,7 @@ fn truths(text: &str) -> Vec<Truth> {
     (0..plant.slots()).map(|slot| plant.truth(slot)).collect()
 }
 
-const RUNGS: [&str; 6] = ["static", "quasi-static", "semi-implicit", "implicit-euler", "trapezoid", "tr-bdf2"];
+const LEVELS: [&str; 6] = ["static", "quasi-static", "semi-implicit", "implicit-euler", "trapezoid", "tr-bdf2"];
 
 #[test]
 fn effects_that_a_scene_leaves_out_leave_the_bits_of_the_others_alone() {
@@ -53,18 +53,18 @@ fn effects_that_a_scene_leaves_out_leave_the_bits_of_the_others_alone() {
 
 /// Held for long, every level settles where the static one is.
 #[test]
-fn every_rung_of_the_gap_settles_at_the_static_one() {
-    let last = |rung: &str, supply: &str| {
+fn every_level_of_the_gap_settles_at_the_static_one() {
+    let last = |level: &str, supply: &str| {
         let text = format!(
-            "duration_s = 40\n[[pad]]\nposition_mm = [0, 0]\nload_g = 50\nhaptic_v_rms = 120\n{supply}\n[gap]\nrung = \"{rung}\"\n"
+            "duration_s = 40\n[[pad]]\nposition_mm = [0, 0]\nload_g = 50\nhaptic_v_rms = 120\n{supply}\n[gap]\nrung = \"{level}\"\n"
         );
         truths(&text).pop().unwrap()
     };
     for supply in ["", "[supply]\nlimiting_kohm = 3000\n[carrier]\nhaptic_hz = 200"] {
         let settled = last("static", supply);
-        for rung in RUNGS {
-            let off = last(rung, supply).capacitance_pf / settled.capacitance_pf - 1.0;
-            assert!(off.abs() < 1e-6, "{rung}: {off:e}");
+        for level in LEVELS {
+            let off = last(level, supply).capacitance_pf / settled.capacitance_pf - 1.0;
+            assert!(off.abs() < 1e-6, "{level}: {off:e}");
         }
     }
 }
@@ -89,36 +89,36 @@ fn a_sine_pulls_as_its_mean_square_does_but_for_a_ripple() {
 
 #[test]
 fn a_large_limiting_resistor_holds_the_voltage_down_and_nothing_swings() {
-    for rung in RUNGS {
+    for level in LEVELS {
         for kohm in [3e3, 3e5] {
             let text = format!(
                 "duration_s = 0.5\n[[pad]]\nposition_mm = [0, 0]\nhaptic_v_rms = 600\n[supply]\nlimiting_kohm = {kohm}\n\
-                 [carrier]\nhaptic_hz = 200\n[gap]\nrung = \"{rung}\"\n"
+                 [carrier]\nhaptic_hz = 200\n[gap]\nrung = \"{level}\"\n"
             );
             let truths = truths(&text);
-            assert!(truths.iter().all(|truth| truth.haptic_v_rms.is_finite() && truth.haptic_v_rms < 600.0), "{rung}");
+            assert!(truths.iter().all(|truth| truth.haptic_v_rms.is_finite() && truth.haptic_v_rms < 600.0), "{level}");
             let tail = &truths[truths.len() - 50..];
             let swing = tail.windows(2).map(|pair| (pair[1].haptic_v_rms / pair[0].haptic_v_rms - 1.0).abs());
-            assert!(swing.fold(0.0, f64::max) < 1e-4, "{rung}, {kohm} kΩ");
+            assert!(swing.fold(0.0, f64::max) < 1e-4, "{level}, {kohm} kΩ");
         }
     }
 }
 
 #[test]
 fn no_load_and_600_v_and_back_leave_a_pad_as_it_was() {
-    for rung in &RUNGS[1..] {
+    for level in &LEVELS[1..] {
         let truths = truths(&format!(
             "duration_s = 40\n[[pad]]\nposition_mm = [0, 0]\nload_g = 0\n\
-             haptic_v_rms = {{ timeline = [[0, 0], [0.1, 0], [0.1, 600], [0.3, 600], [0.3, 0]] }}\n[gap]\nrung = \"{rung}\"\n"
+             haptic_v_rms = {{ timeline = [[0, 0], [0.1, 0], [0.1, 600], [0.3, 600], [0.3, 0]] }}\n[gap]\nrung = \"{level}\"\n"
         ));
-        assert!(truths.iter().all(|truth| truth.capacitance_pf > 300.0 && truth.capacitance_pf < 1251.0), "{rung}");
+        assert!(truths.iter().all(|truth| truth.capacitance_pf > 300.0 && truth.capacitance_pf < 1251.0), "{level}");
         let (before, after) = (truths[20].capacitance_pf, truths.last().unwrap().capacitance_pf);
-        assert!((after / before - 1.0).abs() < 1e-6, "{rung}: {before} {after}");
+        assert!((after / before - 1.0).abs() < 1e-6, "{level}: {before} {after}");
     }
 }
 
 /// Eq. 10 in mm of a pad under 100 g, so long after its voltage is switched on.
-fn reading_mm(volt: f64, eccentricity_mm: f64, mismatch_percent: f64, after_s: f64) -> f64 {
+fn measurement_mm(volt: f64, eccentricity_mm: f64, mismatch_percent: f64, after_s: f64) -> f64 {
     let text = format!(
         "duration_s = {after_s}\n[[pad]]\nposition_mm = [0, 0]\nload_g = 100\nhaptic_v_rms = {volt}\n\
          eccentricity_mm = {eccentricity_mm}\n[gap]\nrung = \"tr-bdf2\"\n[halves]\nmismatch_percent = {mismatch_percent}\n"
@@ -133,17 +133,17 @@ fn reading_mm(volt: f64, eccentricity_mm: f64, mismatch_percent: f64, after_s: f
 #[test]
 fn eq_10_reads_part_of_the_eccentricity_and_less_of_it_pulled_in() {
     for (volt, physics, within) in [(0.0, 0.20, 0.005), (300.0, 0.15, 0.005), (400.0, 0.036, 0.011)] {
-        let [left, middle, right] = [-0.2, 0.0, 0.2].map(|e_mm| reading_mm(volt, e_mm, 3.0, 0.2));
+        let [left, middle, right] = [-0.2, 0.0, 0.2].map(|e_mm| measurement_mm(volt, e_mm, 3.0, 0.2));
         let slope = (right - left) / 0.4;
         println!("{volt} V: slope {slope:.3}, prototype {physics}; offset {middle:.3} mm");
         assert!((slope - physics).abs() < within, "{volt} V: {slope}");
         assert!((middle + 0.1125).abs() < 1e-3, "{volt} V: {middle} mm");
-        assert!(reading_mm(volt, 0.0, 0.0, 0.2) == 0.0, "even halves read nothing");
+        assert!(measurement_mm(volt, 0.0, 0.0, 0.2) == 0.0, "equal electrodes measure no push");
     }
 }
 
 #[test]
-fn a_hand_drags_its_pad_behind_it_by_the_friction() {
+fn a_finger_drags_its_pad_behind_it_by_the_friction() {
     let drag = |volt: f64| {
         truths(&format!(
             "duration_s = 1\n[[pad]]\nload_g = 50\nhaptic_v_rms = {volt}\n\
@@ -151,10 +151,10 @@ fn a_hand_drags_its_pad_behind_it_by_the_friction() {
         ))
     };
     let (free, held) = (drag(0.0), drag(350.0));
-    let hand_mm = |truth: &Truth| -100.0 + 100.0 * truth.time_s;
+    let finger_mm = |truth: &Truth| -100.0 + 100.0 * truth.time_s;
     for truths in [&free, &held] {
         let last = truths.last().unwrap();
-        let lag_mm = hand_mm(last) - last.x_mm;
+        let lag_mm = finger_mm(last) - last.x_mm;
         assert!((lag_mm - 1e3 * last.friction_n / 300.0).abs() < 1e-3, "{lag_mm} mm, {} N", last.friction_n);
     }
     let [free, held] = [free, held].map(|truths| truths.last().unwrap().clone());
@@ -163,16 +163,16 @@ fn a_hand_drags_its_pad_behind_it_by_the_friction() {
 
 #[test]
 fn a_push_that_friction_holds_moves_no_pad_and_a_larger_one_does() {
-    let moved = |push_n: f64, rung: &str| {
+    let moved = |push_n: f64, level: &str| {
         let text = format!(
             "duration_s = 0.5\n[[pad]]\nposition_mm = [0, 0]\nload_g = 50\npush_x_n = {push_n}\n\
-             [hand]\nstiffness_n_per_m = 0\ndamping_n_s_per_m = 0\n[friction]\nrung = \"{rung}\"\n"
+             [hand]\nstiffness_n_per_m = 0\ndamping_n_s_per_m = 0\n[friction]\nrung = \"{level}\"\n"
         );
         truths(&text).last().unwrap().x_mm
     };
     let holds_n = 0.12 * 0.5;
-    for rung in ["stiction", "dahl", "lugre"] {
-        assert!(moved(0.9 * holds_n, rung) < 0.02, "{rung}: {} mm", moved(0.9 * holds_n, rung));
-        assert!(moved(1.5 * holds_n, rung) > 10.0, "{rung}: {} mm", moved(1.5 * holds_n, rung));
+    for level in ["stiction", "dahl", "lugre"] {
+        assert!(moved(0.9 * holds_n, level) < 0.02, "{level}: {} mm", moved(0.9 * holds_n, level));
+        assert!(moved(1.5 * holds_n, level) > 10.0, "{level}: {} mm", moved(1.5 * holds_n, level));
     }
 }

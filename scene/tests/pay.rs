@@ -100,9 +100,9 @@ fn an_effect_that_a_scene_leaves_out_holds_no_memory() {
         let tied = |part: &Part| {
             part.needs(one.name) || [("shunt", "coupling"), ("coupling", "shunt")].contains(&(one.name, part.name))
         };
-        let among = held(&parts(|part| !tied(part))) - held(&parts(|part| !tied(part) && part.name != one.name));
-        println!("{}: {alone} bytes alone, {among} among all others", one.name);
-        assert!(alone > 0 && alone == among, "{}: {alone} bytes alone, {among} among all others", one.name);
+        let with_others = held(&parts(|part| !tied(part))) - held(&parts(|part| !tied(part) && part.name != one.name));
+        println!("{}: {alone} bytes alone, {with_others} among all others", one.name);
+        assert!(alone > 0 && alone == with_others, "{}: {alone} bytes alone, {with_others} among all others", one.name);
     }
 }
 

@@ -62,7 +62,12 @@ fn an_effect_without_a_table_is_never_evaluated() {
 fn an_override_switches_an_effect_off_and_on() {
     let set = |key: &str, value: &str| {
         let scene = Scene::parse(&format!("{BARE}{NOISY}"), "s.toml", &[(key.into(), value.into())]).unwrap();
-        scene.cases[0].effects().into_iter().map(|(name, rung)| format!("{name} {rung}")).collect::<Vec<_>>().join(", ")
+        scene.cases[0]
+            .effects()
+            .into_iter()
+            .map(|(name, level)| format!("{name} {level}"))
+            .collect::<Vec<_>>()
+            .join(", ")
     };
     assert!(!set("gap", "false").contains("gap") && !set("sensor.noise_ppm_rms", "false").contains("noise"));
     assert!(set("friction.rung", "coulomb").contains("friction coulomb"));
@@ -171,7 +176,7 @@ fn noise_has_its_stated_size_in_samples_and_phasors() {
 }
 
 #[test]
-fn quantised_samples_are_codes_half_a_step_from_the_truth_and_stop_at_the_rails() {
+fn quantised_samples_are_codes_half_a_step_from_the_truth_and_stop_at_full_scale() {
     let (mut exact, mut coded) = (plant(""), plant("[sensor]\nquantisation_bits = 12\n"));
     for (a, b) in window(&mut exact, 5).as_flattened().iter().zip(window(&mut coded, 5).as_flattened()) {
         assert!((b * 2048.0).fract() == 0.0 && (a - b).abs() <= 0.5 / 2048.0);

@@ -55,8 +55,8 @@ fn trapezoids_read_a_capacitance_that_is_too_large_by_exactly_so_much() {
 #[test]
 fn integrated_transients_converge_to_the_closed_form_at_their_methods_order() {
     let exact = currents("[switching]\n");
-    let error = |rung: &str| {
-        let integrated = currents(&format!("[switching]\nrung = {rung:?}\n"));
+    let error = |level: &str| {
+        let integrated = currents(&format!("[switching]\nrung = {level:?}\n"));
         integrated.iter().zip(&exact).skip(1).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
     };
     let [eight, sixteen, sixty_four, euler] = ["rc-8", "rc-16", "rc-64", "euler-64"].map(error);
@@ -67,13 +67,13 @@ fn integrated_transients_converge_to_the_closed_form_at_their_methods_order() {
 
 #[test]
 fn samples_and_phasors_tell_of_the_same_transient() {
-    for rung in ["settling", "rc-8"] {
-        let mut plant = plant(&with(&format!("[switching]\nrung = {rung:?}\n")));
+    for level in ["settling", "rc-8"] {
+        let mut plant = plant(&with(&format!("[switching]\nrung = {level:?}\n")));
         let sampled = demodulate(&mut plant, 0, hann);
         let mut phasors = [Complex::default(); SENSE + 1];
         plant.phasors(0, &mut phasors);
         for (a, b) in sampled.iter().zip(phasors) {
-            assert!((a - b).norm() < 1e-12, "{rung}: {a} {b}");
+            assert!((a - b).norm() < 1e-12, "{level}: {a} {b}");
         }
     }
 }

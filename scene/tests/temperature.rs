@@ -50,13 +50,13 @@ const ABOVE: [&str; 6] = [
 
 #[test]
 fn an_even_rise_is_a_film_of_more_resistance_for_sheet_shunt_and_coupling_alike() {
-    for rung in ["distance", "bilinear", "bicubic", "analytic", "grid-20-mm"] {
+    for level in ["distance", "bilinear", "bicubic", "analytic", "grid-20-mm"] {
         for above in ABOVE {
-            let sheet = |more: &str| format!("{PADS}[sheet]\nterminal_ohm = 300\nrung = \"{rung}\"\n{more}{above}");
+            let sheet = |more: &str| format!("{PADS}[sheet]\nterminal_ohm = 300\nrung = \"{level}\"\n{more}{above}");
             let [cold, warm, more] =
                 [sheet(""), sheet("") + TENTH, sheet("ohm_per_square = 165\n")].map(|text| see(&text));
-            assert!(difference(&warm, &more) < 1e-12, "{rung}, {above}: {:e}", difference(&warm, &more));
-            assert!(difference(&warm, &cold) > 1e-3, "{rung}, {above}: nothing changed");
+            assert!(difference(&warm, &more) < 1e-12, "{level}, {above}: {:e}", difference(&warm, &more));
+            assert!(difference(&warm, &cold) > 1e-3, "{level}, {above}: nothing changed");
         }
     }
 }
@@ -127,7 +127,7 @@ fn a_calibration_is_of_the_film_before_it_warmed_up() {
     let scene = |rest: &str| plant(&format!("{PADS}[sheet]\nterminal_ohm = 300\n{rest}"));
     let (warm, cold) = (scene(TENTH), scene(""));
     assert_eq!(warm.calibration_map(9, 5, 15.0), cold.calibration_map(9, 5, 15.0));
-    assert_eq!(warm.readings(&[[10.0, 20.0]]), cold.readings(&[[10.0, 20.0]]));
+    assert_eq!(warm.measurements(&[[10.0, 20.0]]), cold.measurements(&[[10.0, 20.0]]));
 }
 
 #[test]

@@ -18,7 +18,7 @@ pub enum Verdict {
     Holds,
     /// Some input breaks an assertion.
     Broken,
-    /// Neither was shown.
+    /// Neither proved nor refuted.
     Unknown,
 }
 
@@ -78,13 +78,13 @@ impl Claim<'_> {
         );
         hapticore_files::write(&folder.join("claim.sby"), &script)?;
         let output = tools.command("sby").args(["-f", "claim.sby"]).current_dir(folder).output()?;
-        let said = String::from_utf8_lossy(&output.stdout);
+        let log = String::from_utf8_lossy(&output.stdout);
         match output.status.code() {
             Some(0) => Ok(Verdict::Holds),
             Some(2) => Ok(Verdict::Broken),
             Some(4) => {
                 // Which assertion, at which line of the module with its checker.
-                let lines = said.lines().filter(|line| line.contains("Assert failed"));
+                let lines = log.lines().filter(|line| line.contains("Assert failed"));
                 let text = self.text()?;
                 for line in lines {
                     let number =
@@ -93,7 +93,7 @@ impl Claim<'_> {
                 }
                 Ok(Verdict::Unknown)
             }
-            status => bail!("sby: {status:?}\n{said}"),
+            status => bail!("sby: {status:?}\n{log}"),
         }
     }
 }

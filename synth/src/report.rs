@@ -51,16 +51,16 @@ pub struct Timing {
     pub mhz: f64,
 }
 
-/// What must hold.
+/// A limit that the design must meet.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Limit {
     /// Quantity that the limit applies to.
     pub name: String,
-    /// What it is.
+    /// Measured value.
     pub measured: f64,
-    /// What it may be.
+    /// Largest or smallest value allowed.
     pub limit: f64,
-    /// Whether it holds.
+    /// Whether the measured value is within the limit.
     pub holds: bool,
 }
 
@@ -85,7 +85,7 @@ pub struct BoardReport {
     pub median_mhz: f64,
     /// The hash of the first seed's bitstream.
     pub bitstream: String,
-    /// What must hold.
+    /// Limits that the design must meet.
     pub limits: Vec<Limit>,
     /// Cells module by module, each kept apart: their sum is more than `cells`.
     pub modules: Vec<ModuleCells>,

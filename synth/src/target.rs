@@ -18,7 +18,7 @@ pub enum Family {
 pub struct Board {
     /// Its pins and its top.
     pub target: Target,
-    /// What it carries.
+    /// FPGA family on the board.
     pub family: Family,
     /// The clock that the median seed must reach.
     pub least_mhz: f64,

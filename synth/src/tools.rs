@@ -56,20 +56,20 @@ impl Tools {
         command
     }
 
-    /// Runs a tool in a folder, and gives what it said. Files are named relative to the folder: the tools are
+    /// Runs a tool in a folder; its output. Files are named relative to the folder: the tools are
     /// WebAssembly, and have a `/tmp` of their own.
     ///
     /// # Errors
-    /// It cannot be started, or fails; with the end of what it said.
+    /// It cannot be started, or fails; with the end of its output.
     pub fn run<S: AsRef<str>>(&self, program: &str, arguments: &[S], folder: &Path) -> Result<String> {
         let arguments = arguments.iter().map(AsRef::as_ref);
         let output = self.command(program).args(arguments).current_dir(folder).output();
         let output = output.with_context(|| format!("{program} does not start"))?;
-        let said = format!("{}{}", String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+        let log = format!("{}{}", String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
         if !output.status.success() {
-            let lines: Vec<_> = said.lines().collect();
+            let lines: Vec<_> = log.lines().collect();
             bail!("{program} failed in {}:\n{}", folder.display(), lines[lines.len().saturating_sub(30)..].join("\n"));
         }
-        Ok(said)
+        Ok(log)
     }
 }

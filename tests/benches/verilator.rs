@@ -8,7 +8,7 @@ use hapticore_contract::profile::Profile;
 use hapticore_hdl::verilog::Design;
 use hapticore_model::blocks::core::Core;
 use hapticore_tests::speed::verilator::Verilated;
-use hapticore_tests::speed::{Course, Lap, model};
+use hapticore_tests::speed::{Lap, Workload, model};
 use hapticore_tests::{stimulus, tools};
 
 const SCENE: &str = "fig6";
@@ -32,22 +32,22 @@ fn main() {
 
 fn race(profile: &Profile) {
     let core = Core::new(profile);
-    let course = Course::new(profile, stimulus::scene(profile, SCENE, SLOTS), PASSES);
-    let verilated = Verilated::new(&Design::of(&core, "a bench"), &course);
+    let workload = Workload::new(profile, stimulus::scene(profile, SCENE, SLOTS), PASSES);
+    let verilated = Verilated::new(&Design::of(&core, "a bench"), &workload);
     let (mut ours, mut theirs) = (Vec::new(), Vec::new());
     for _ in 0..ROUNDS {
-        let (model, verilog) = (model::run(&core, &course), verilated.run());
+        let (model, verilog) = (model::run(&core, &workload), verilated.run());
         assert_eq!(model.sum, verilog.sum, "outputs differ: see the lock-step tests for where");
         ours.push(model);
         theirs.push(verilog);
     }
-    let rate = |laps| course.clocks() as f64 / median(laps) / 1e6;
+    let rate = |laps| workload.clocks() as f64 / median(laps) / 1e6;
     let (ours, theirs) = (rate(ours), rate(theirs));
     println!(
         "{:>10} {ours:14.1} {theirs:14.1} {:6.1}×   {} clocks a round",
         profile.name,
         ours / theirs,
-        course.clocks()
+        workload.clocks()
     );
 }
 

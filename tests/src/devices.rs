@@ -6,7 +6,7 @@ use std::fmt::Write;
 use fastrand::Rng;
 use hapticore_contract::profile::Profile;
 use hapticore_host::Residual;
-use hapticore_run::case::{Case, Maker, known};
+use hapticore_run::case::{Case, Maker, record_truth};
 use hapticore_run::engine::Fidelity;
 use hapticore_run::engine::{Signals, Slot};
 use hapticore_run::record::{Quantities, Row};
@@ -24,7 +24,7 @@ pub struct Device {
     pub terminals_mm: Vec<[f64; 2]>,
     /// In series with each.
     pub terminal_ohm: Vec<f64>,
-    /// In the middle.
+    /// Sheet resistance in the middle, Ω per square.
     pub ohm_per_square: f64,
     /// Of the film, along x and y.
     pub slope_percent: [f64; 2],
@@ -110,9 +110,9 @@ impl Device {
             self.terminal_ohm,
             self.ohm_per_square
         );
-        let rung = if self.slope_percent == [0.0; 2] { "bicubic-fine" } else { self.mesh() };
+        let level = if self.slope_percent == [0.0; 2] { "bicubic-fine" } else { self.mesh() };
         let slope = self.slope_percent;
-        writeln!(text, "slope_percent = {slope:?}\nrung = \"{rung}\"").expect("a string takes all");
+        writeln!(text, "slope_percent = {slope:?}\nrung = \"{level}\"").expect("a string takes all");
         text
     }
 
@@ -149,13 +149,13 @@ impl Found {
         rms(&self.errors_mm)
     }
 
-    /// The largest, mm.
+    /// Largest position error, mm.
     pub fn worst_mm(&self) -> f64 {
         self.errors_mm.iter().copied().fold(0.0, f64::max)
     }
 }
 
-/// The readings of a core of the profile, at `fixed`, of every slot of a scene with one pad, and what its calibration's report
+/// The measurements of a core of the profile, at `fixed`, of every slot of a scene with one pad, and what its calibration's report
 /// says.
 ///
 /// # Panics
@@ -179,7 +179,7 @@ pub fn disturbed_rows(profile: &Profile, scene: &str, disturb: impl Fn(usize, &m
         let (mut signals, _) = maker.signals(slot);
         disturb(slot, &mut signals);
         let slot = Slot { pad: truth.pad, signals };
-        session.slot(&slot, Some(known(&truth))).expect("a reading with each slot")
+        session.slot(&slot, Some(record_truth(&truth))).expect("a reading with each slot")
     };
     let rows = (0..case.slots).map(row).collect();
     (rows, session.residual())
@@ -215,7 +215,7 @@ pub fn find(profile: &Profile, device: Device, places: &Raster) -> Found {
     }
 }
 
-/// The root of the mean square.
+/// Root mean square of the position error, mm.
 pub fn rms(values: &[f64]) -> f64 {
     (values.iter().map(|value| value * value).sum::<f64>() / values.len() as f64).sqrt()
 }

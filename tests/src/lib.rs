@@ -10,7 +10,7 @@
 //! | [`reference_error`] | how far the reference's `f64` is from the equations |
 //! | [`speed`] | how fast the model is, and Verilator |
 //! | [`stimulus`] | what a core is given: random and directed input, whole scenes |
-//! | [`tools`] | the HDL tools, and what is said where one is missing |
+//! | [`tools`] | the HDL tools, and the message where one is missing |
 
 pub mod devices;
 pub mod faults;

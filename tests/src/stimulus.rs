@@ -72,7 +72,7 @@ impl Stimulus {
     }
 }
 
-/// The rails of a format, what is next to them and to zero, and else anything.
+/// The ends of a format's range, their neighbours and those of zero, and otherwise anything.
 pub fn corner(rng: &mut Rng, format: Format) -> i64 {
     let (low, high) = (format.min_code() as i64, format.max_code() as i64);
     match rng.u8(..8) {
@@ -165,7 +165,7 @@ pub fn operations<B: Block>(
                 script.push_back(with(&[(strobes[0], 1)]));
             } else {
                 let (index, sum) = (at("index").expect("a port"), at("sum").expect("a port"));
-                // Now and then all of one sign and about one size: of words within their rails, the total is not.
+                // Now and then all of one sign and about one size: of words that are not saturated, the total is.
                 let size = alike.bool().then(|| formats[sum].1.max_code() as i64 >> alike.u8(..12));
                 for word in 0..=words {
                     let code =
@@ -198,14 +198,14 @@ fn disturbed(inputs: Inputs<i64>, rng: &mut Rng, table: &Memory) -> Inputs<i64> 
     inputs.with_table(TablePort { write, address: rng.i64(0..table.words as i64), word: corner(rng, table.format) })
 }
 
-/// Slots of a scene's first case, each served to every pad of the profile in turn where the scene has fewer.
+/// Slots of a scene's first case, each used for every pad of the profile in turn where the scene has fewer.
 ///
 /// # Panics
 /// Where there is no such scene.
 pub fn scene(profile: &Profile, name: &str, slots: usize) -> Stimulus {
     let scene = inputs::scene(name, &[]).expect("bundled");
     let case = Case::new(&scene, 0, 0, profile, 0.0).expect("a case");
-    let calibration = case.device.of(profile).expect("a calibration");
+    let calibration = case.device.for_profile(profile).expect("a calibration");
     let mut maker = Maker::new(case.plant().expect("a plant"), &case.profile, true, true);
     let (channels, last) = (profile.channels(), case.slots);
     let samples = (0..slots).flat_map(move |slot| {

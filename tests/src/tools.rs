@@ -4,7 +4,7 @@
 use std::path::Path;
 use std::process::{Command, Output};
 
-/// Whether all these commands are there. Where one is not, it is said; in CI that is a failure.
+/// Whether all these commands are there. A missing one is reported; in CI that is a failure.
 ///
 /// # Panics
 /// In CI (`CI=true`), where one is missing.
@@ -25,11 +25,11 @@ pub fn have(commands: &[&str]) -> bool {
 /// Runs a command in a folder to its end.
 ///
 /// # Panics
-/// Where it cannot be started, or fails; with all it said.
+/// Where it cannot be started, or fails; with all of its output.
 pub fn run(command: &mut Command, folder: &Path) -> String {
     let Output { status, stdout, stderr } =
         command.current_dir(folder).output().unwrap_or_else(|error| panic!("{command:?}: {error}"));
-    let said = String::from_utf8_lossy(&stdout).into_owned();
-    assert!(status.success(), "{command:?}: {status}\n{said}\n{}", String::from_utf8_lossy(&stderr));
-    said
+    let log = String::from_utf8_lossy(&stdout).into_owned();
+    assert!(status.success(), "{command:?}: {status}\n{log}\n{}", String::from_utf8_lossy(&stderr));
+    log
 }

@@ -53,7 +53,7 @@ fn shortened(target: Target) -> Profile {
 
 fn samples(profile: &Profile) -> Vec<i32> {
     let mut random = Random::new(SEED);
-    let sights = [Sight::Tones, Sight::Tones, Sight::Noise, Sight::Broken, Sight::Rails];
+    let sights = [Sight::Tones, Sight::Tones, Sight::Noise, Sight::Broken, Sight::FullScale];
     sights.iter().cycle().take(SLOTS).flat_map(|&sight| codes(profile, sight, &mut random)).collect()
 }
 
@@ -88,7 +88,7 @@ enum Simulator {
 }
 
 impl Simulator {
-    /// Compiles and runs the bench with these parameters: what it said.
+    /// Compiles and runs the bench with these parameters; its output.
     fn run(self, parameters: &[(&str, String)], folder: &Path) -> String {
         let mut compiler = match self {
             Simulator::Icarus => Command::new("iverilog"),
@@ -114,7 +114,7 @@ impl Simulator {
     }
 }
 
-/// Runs the bench: what it said, and the bytes that the host heard.
+/// Runs the bench: its output, and the bytes that the host received.
 fn bench(
     simulator: Simulator,
     (target, profile): (Target, &Profile),
@@ -137,9 +137,9 @@ fn bench(
         ("PERIOD", format!("{:.3}", 1e9 / clock_hz as f64)),
         ("ACTIVE_LOW", u8::from(target == Target::Icebreaker).to_string()),
     ];
-    let said = simulator.run(&parameters, folder);
+    let log = simulator.run(&parameters, folder);
     let heard = fs::read_to_string(folder.join("heard.hex")).expect("the bench wrote what it heard");
-    (said, heard.lines().map(|line| u8::from_str_radix(line, 16).expect("a known byte")).collect())
+    (log, heard.lines().map(|line| u8::from_str_radix(line, 16).expect("a known byte")).collect())
 }
 
 #[test]
@@ -164,7 +164,7 @@ fn returns_what_simulate_gives(target: Target, simulator: Simulator) {
     let scene = inputs::scene("hockey", &[]).expect("bundled");
     let case = Case::new(&scene, 0, 0, &profile, 0.0).expect("a case");
     assert_eq!(*case.profile, profile, "the scene has as many pads as the board");
-    let calibration = case.device.of(&profile).expect("a calibration");
+    let calibration = case.device.for_profile(&profile).expect("a calibration");
     let mut maker = Maker::new(case.plant().expect("a plant"), &profile, true, true);
     let mut engine = engine(Fidelity::Clock, &case.profile, &calibration);
     let (mut samples, mut expected) = (Vec::new(), Vec::new());
@@ -175,8 +175,8 @@ fn returns_what_simulate_gives(target: Target, simulator: Simulator) {
     }
     expected.extend(engine.finish());
     let (heard, bytes) = heard(simulator, (target, &profile), &calibration, &samples);
-    let readings: Vec<_> = heard.iter().map(|frame| frame.reading(&profile)).collect();
-    assert_eq!(readings, expected);
+    let measurements: Vec<_> = heard.iter().map(|frame| frame.measurement(&profile)).collect();
+    assert_eq!(measurements, expected);
     if target == Target::Icebreaker {
         recording::check(&bytes[bytes.len() - recording::BYTES..], &profile, &case.device);
     }
@@ -230,9 +230,9 @@ fn heard(
     let storm = storm(profile, calibration);
     let commands = encode(&[commands.as_slice(), &storm].concat(), profile);
     let folder = tempfile::tempdir().expect("a folder");
-    let (said, heard) = bench(simulator, (target, profile), &commands, samples, folder.path());
-    let said: Vec<_> = said.lines().filter(|line| !line.contains("$finish") && !line.starts_with("- ")).collect();
-    assert_eq!(said, [format!("faults 0, commands {}", setup.words().len())], "{target:?}");
+    let (log, heard) = bench(simulator, (target, profile), &commands, samples, folder.path());
+    let log: Vec<_> = log.lines().filter(|line| !line.contains("$finish") && !line.starts_with("- ")).collect();
+    assert_eq!(log, [format!("faults 0, commands {}", setup.words().len())], "{target:?}");
     let told: Result<Vec<_>, _> = Decoder::new(profile).decode(heard.iter().copied()).collect();
     let told = told.expect("every packet is whole");
     let mut heartbeats =

@@ -25,7 +25,7 @@ fn none(target: Target) -> &'static str {
 fn survivors(target: Target, Alone { design, trace }: &Alone) -> (Vec<String>, usize) {
     let planted = Planted::new(design);
     let compiled = Verilated::new("alone", &design.ports, &planted.alone(design.top()), Start::Zero);
-    let given = compiled.given(trace.clone());
+    let given = compiled.with_trace(trace.clone());
     assert_eq!(given.check(0), Ok(()), "{target:?}, {}", design.top());
     // Those of a block within are tried with that block.
     let own = (1..).zip(&planted.faults).filter(|(_, fault)| fault.module == design.top());

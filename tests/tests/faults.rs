@@ -25,7 +25,7 @@ use hapticore_model::blocks::position::Position;
 use hapticore_model::blocks::ratio::Ratio;
 use hapticore_tests::faults::campaign::{self, two_at_a_time};
 use hapticore_tests::faults::{Fault, Kind, Planted};
-use hapticore_tests::lockstep::verilator::{Given, Start, Verilated};
+use hapticore_tests::lockstep::verilator::{CompiledTrace, Start, Verilated};
 use hapticore_tests::lockstep::{Bench, Mismatch, Trace};
 use hapticore_tests::{stimulus, tools};
 
@@ -93,7 +93,7 @@ fn within(design: &Design, module: &str, other: &str) -> bool {
     module == other || parents.any(|file| within(design, &file.name, other))
 }
 
-fn first_mismatch<'a>(mut traces: impl Iterator<Item = &'a Given<'a>>, number: usize) -> Option<Mismatch> {
+fn first_mismatch<'a>(mut traces: impl Iterator<Item = &'a CompiledTrace<'a>>, number: usize) -> Option<Mismatch> {
     traces.find_map(|trace| trace.check(number).err())
 }
 
@@ -111,11 +111,11 @@ fn faults_of_each_kind_in_each_module_are_noticed() {
         two_at_a_time(&alone, |(name, trace)| Verilated::new("alone", &trace.ports, &planted.alone(name), Start::Zero));
     let core = compiled.last().expect("the core");
     let mut traces: Vec<_> =
-        alone.into_iter().zip(&compiled).map(|((name, trace), compiled)| (name, compiled.given(trace))).collect();
+        alone.into_iter().zip(&compiled).map(|((name, trace), compiled)| (name, compiled.with_trace(trace))).collect();
     // Positions that are found: of random codes there are few, and frames hold what was valid last.
     let valid = (bench.design.top().to_owned(), bench.record(stimulus::scene(&bench.profile, "hockey", 8)));
     let more = [2, 3, 4].map(of_core).into_iter().chain([valid]);
-    traces.extend(more.map(|(name, trace)| (name, core.given(trace))));
+    traces.extend(more.map(|(name, trace)| (name, core.with_trace(trace))));
     assert_eq!(first_mismatch(traces.iter().map(|(_, trace)| trace), 0), None, "without a fault");
 
     let all = campaign::all();

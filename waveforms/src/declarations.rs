@@ -31,9 +31,9 @@ impl TruthVariable {
     }
 }
 
-/// How the values of a signal are read.
+/// How a signal's values are encoded.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Reading {
+pub enum Encoding {
     /// Codes of a format.
     Code(Format),
     /// Codes that name states: `states[code]`.
@@ -42,12 +42,12 @@ pub enum Reading {
     Real(String),
 }
 
-impl Reading {
+impl Encoding {
     /// Bits of a code; `None` for a real.
     pub fn width(&self) -> Option<u8> {
         match self {
-            Reading::Code(format) | Reading::State(format, _) => Some(format.width),
-            Reading::Real(_) => None,
+            Encoding::Code(format) | Encoding::State(format, _) => Some(format.width),
+            Encoding::Real(_) => None,
         }
     }
 }
@@ -59,8 +59,8 @@ pub struct Signal {
     pub scope: Vec<String>,
     /// Its name within the innermost scope.
     pub name: String,
-    /// How its values are read.
-    pub reading: Reading,
+    /// How its values are encoded.
+    pub encoding: Encoding,
 }
 
 impl Signal {
@@ -70,12 +70,12 @@ impl Signal {
         if scope.is_empty() {
             scope.push(TOP.into());
         }
-        let reading = if states.is_empty() { Reading::Code(format) } else { Reading::State(format, states) };
-        Signal { scope, name, reading }
+        let encoding = if states.is_empty() { Encoding::Code(format) } else { Encoding::State(format, states) };
+        Signal { scope, name, encoding }
     }
 
     fn of_truth(truth: &TruthVariable) -> Self {
-        Signal { scope: vec![TRUTH.into()], name: truth.name.clone(), reading: Reading::Real(truth.unit.clone()) }
+        Signal { scope: vec![TRUTH.into()], name: truth.name.clone(), encoding: Encoding::Real(truth.unit.clone()) }
     }
 
     /// The path, its parts joined by dots.
@@ -91,7 +91,7 @@ pub enum Step {
     Enter(String),
     /// Declare the signal of this index.
     Declare(usize),
-    /// Leave the scope.
+    /// Leave the innermost scope.
     Leave,
 }
 
@@ -117,13 +117,13 @@ impl Declarations {
         let top = signals.first().map_or(TOP, |first| &first.scope[0]).to_string();
         signals.extend(truth.iter().map(Signal::of_truth));
         if clock_wire {
-            signals.push(Signal { scope: vec![top], name: "clk".into(), reading: Reading::Code(BIT) });
+            signals.push(Signal { scope: vec![top], name: "clk".into(), encoding: Encoding::Code(BIT) });
         }
         check(&signals)?;
         Ok(Declarations { timebase, signals })
     }
 
-    /// The time axis.
+    /// The tick of the trace's time axis.
     pub fn timebase(&self) -> Timebase {
         self.timebase
     }
@@ -162,7 +162,7 @@ fn check(signals: &[Signal]) -> Result<(), Error> {
         if let Some(name) = signal.scope.iter().chain([&signal.name]).find(|name| !is_name(name)) {
             return Err(Error::Name { path, name: name.clone() });
         }
-        if let Some(width) = signal.reading.width().filter(|width| !(1..=MAX_WIDTH).contains(width)) {
+        if let Some(width) = signal.encoding.width().filter(|width| !(1..=MAX_WIDTH).contains(width)) {
             return Err(Error::Width { path, width });
         }
         if !seen.insert(path) {

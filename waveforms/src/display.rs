@@ -3,7 +3,7 @@
 
 use hapticore_hdl::format::Format;
 
-use crate::declarations::{Reading, Signal};
+use crate::declarations::{Encoding, Signal};
 use crate::view::Style;
 
 /// Bits of a trace's flags line.
@@ -30,17 +30,17 @@ const LEAST_INTEGER_BITS: i16 = -8;
 
 /// The path as GTKWave spells it: with the bit range of a vector.
 pub(crate) fn viewer_path(signal: &Signal) -> String {
-    match signal.reading.width() {
+    match signal.encoding.width() {
         Some(width @ 2..) => format!("{}[{}:0]", signal.path(), width - 1),
         _ => signal.path(),
     }
 }
 
 /// The bits after the point, where the viewer is to put one.
-pub(crate) fn fixed_point(reading: &Reading, style: Style) -> Option<i8> {
-    match (reading, style) {
+pub(crate) fn fixed_point(encoding: &Encoding, style: Style) -> Option<i8> {
+    match (encoding, style) {
         (_, Style::Hex | Style::Binary) => None,
-        (Reading::Code(format), _) if is_fixed_point(*format) => Some(format.frac),
+        (Encoding::Code(format), _) if is_fixed_point(*format) => Some(format.frac),
         _ => None,
     }
 }
@@ -51,9 +51,9 @@ fn is_fixed_point(format: Format) -> bool {
 
 /// A name that says what the values shown are worth, where the values alone do not.
 pub(crate) fn alias(signal: &Signal) -> Option<String> {
-    match &signal.reading {
-        Reading::Real(unit) if !unit.is_empty() => Some(format!("{} ({unit})", signal.path())),
-        Reading::Code(format) if format.frac != 0 && !is_fixed_point(*format) => {
+    match &signal.encoding {
+        Encoding::Real(unit) if !unit.is_empty() => Some(format!("{} ({unit})", signal.path())),
+        Encoding::Code(format) if format.frac != 0 && !is_fixed_point(*format) => {
             Some(format!("{} (2^{})", signal.path(), -i16::from(format.frac)))
         }
         _ => None,
@@ -61,23 +61,23 @@ pub(crate) fn alias(signal: &Signal) -> Option<String> {
 }
 
 /// The flags of a trace.
-pub(crate) fn flags(reading: &Reading, style: Style) -> u64 {
+pub(crate) fn flags(encoding: &Encoding, style: Style) -> u64 {
     let curve = match style {
         Style::Step => flag::ANALOG_STEP,
         Style::Line => flag::INTERPOLATED,
         Style::Number | Style::Hex | Style::Binary => 0,
     };
-    let point = if fixed_point(reading, style).is_some() { flag::FIXED_POINT } else { 0 };
-    flag::RIGHT_JUSTIFY | curve | point | radix(reading, style)
+    let point = if fixed_point(encoding, style).is_some() { flag::FIXED_POINT } else { 0 };
+    flag::RIGHT_JUSTIFY | curve | point | radix(encoding, style)
 }
 
-fn radix(reading: &Reading, style: Style) -> u64 {
-    match (reading, style) {
-        (Reading::Real(_), _) => flag::REAL,
+fn radix(encoding: &Encoding, style: Style) -> u64 {
+    match (encoding, style) {
+        (Encoding::Real(_), _) => flag::REAL,
         (_, Style::Hex) => flag::HEX,
         (_, Style::Binary) => flag::BINARY,
-        (Reading::State(..), Style::Number) => flag::DECIMAL | flag::FILE_TRANSLATE,
-        (Reading::Code(format) | Reading::State(format, _), _) if format.signed => flag::DECIMAL | flag::SIGNED,
+        (Encoding::State(..), Style::Number) => flag::DECIMAL | flag::FILE_TRANSLATE,
+        (Encoding::Code(format) | Encoding::State(format, _), _) if format.signed => flag::DECIMAL | flag::SIGNED,
         _ => flag::DECIMAL,
     }
 }

@@ -11,23 +11,23 @@ pub enum Error {
     /// The file system refused.
     #[error("{}: {source}", path.display())]
     Io {
-        /// The file concerned.
+        /// Path of the file.
         path: PathBuf,
-        /// What the file system said.
+        /// The file system's error.
         source: io::Error,
     },
     /// The FST encoder refused.
     #[error("{}: {source}", path.display())]
     Fst {
-        /// The file concerned.
+        /// Path of the file.
         path: PathBuf,
-        /// What the encoder said.
+        /// The encoder's error.
         source: fst_writer::FstWriteError,
     },
     /// A scope or variable name that waveform viewers would misread.
     #[error("signal \"{path}\": expected a name of letters, digits and '_' that starts with no digit, got \"{name}\"")]
     Name {
-        /// The whole path.
+        /// Full path of the signal.
         path: String,
         /// The part of it that is no name.
         name: String,
@@ -38,9 +38,9 @@ pub enum Error {
     /// A width that an `i64` code cannot have.
     #[error("signal \"{path}\": expected a width of 1 to {most} bits, got {width}", most = hapticore_hdl::format::MAX_WIDTH)]
     Width {
-        /// The whole path.
+        /// Full path of the signal.
         path: String,
-        /// Its declared width.
+        /// Declared width, bits.
         width: u8,
     },
     /// A clock outside the range that ticks of a picosecond can show.

@@ -25,7 +25,7 @@ pub struct FstFile {
     variables: Vec<Variable>,
     section_bytes: usize,
     /// None once it has its name.
-    aside: Option<AtomicFile>,
+    partial: Option<AtomicFile>,
     path: PathBuf,
 }
 
@@ -41,8 +41,8 @@ impl FstFile {
     /// # Errors
     /// The folder cannot be written to.
     pub fn create(path: &Path) -> Result<Self, Error> {
-        let aside = Some(AtomicFile::create(path).map_err(Error::io(path))?);
-        Ok(FstFile { body: None, variables: Vec::new(), section_bytes: SECTION_BYTES, aside, path: path.to_owned() })
+        let partial = Some(AtomicFile::create(path).map_err(Error::io(path))?);
+        Ok(FstFile { body: None, variables: Vec::new(), section_bytes: SECTION_BYTES, partial, path: path.to_owned() })
     }
 
     /// Writes sections of about `bytes` bytes of changes.
@@ -51,7 +51,7 @@ impl FstFile {
     }
 
     fn header(&mut self, declarations: &Declarations) -> fst_writer::Result<()> {
-        let mut header = fst_writer::open_fst(self.aside.as_ref().expect(BEGUN).partial_path(), &info(declarations))?;
+        let mut header = fst_writer::open_fst(self.partial.as_ref().expect(BEGUN).partial_path(), &info(declarations))?;
         let mut variables = vec![None; declarations.signals().len()];
         for step in declarations.walk() {
             match step {
@@ -97,7 +97,7 @@ impl Wave for FstFile {
         let mut file = body.finish().map_err(Error::fst(&self.path))?;
         file.flush().map_err(Error::io(&self.path))?;
         drop(file);
-        self.aside.take().map_or(Ok(()), AtomicFile::persist).map_err(Error::io(&self.path))
+        self.partial.take().map_or(Ok(()), AtomicFile::persist).map_err(Error::io(&self.path))
     }
 }
 
@@ -119,7 +119,7 @@ fn info(declarations: &Declarations) -> FstInfo {
 }
 
 fn declare(header: &mut FstHeaderWriter<BufWriter<File>>, signal: &Signal) -> fst_writer::Result<Variable> {
-    let width = signal.reading.width();
+    let width = signal.encoding.width();
     let (encoding, kind) = match width {
         Some(width) => (FstSignalType::bit_vec(width.into()), FstVarType::Wire),
         None => (FstSignalType::real(), FstVarType::Real),

@@ -11,7 +11,7 @@
 use std::path::Path;
 
 use crate::Error;
-use crate::declarations::{Reading, Signal};
+use crate::declarations::{Encoding, Signal};
 use crate::display::{alias, fixed_point, flag, flags, viewer_path};
 use crate::layout::{Row, Section, lay_out};
 use crate::tracer::Trace;
@@ -91,7 +91,7 @@ impl Printer<'_> {
     fn row(&mut self, row: &Row) {
         let trace = self.trace;
         let signal = &trace.declarations.signals()[row.signal];
-        self.flags(flags(&signal.reading, row.style));
+        self.flags(flags(&signal.encoding, row.style));
         self.attributes(signal, row);
         let path = viewer_path(signal);
         match row.alias.clone().or_else(|| alias(signal)) {
@@ -102,14 +102,14 @@ impl Printer<'_> {
     }
 
     fn attributes(&mut self, signal: &Signal, row: &Row) {
-        if let (Reading::State(_, states), Style::Number) = (&signal.reading, row.style) {
+        if let (Encoding::State(_, states), Style::Number) = (&signal.encoding, row.style) {
             let (number, name) = self.translation(signal, states);
             self.line(&format!("^{number} {FOLDER}/{name}"));
         }
         if let Some(color) = row.color {
             self.line(&format!("[color] {}", color as u8));
         }
-        if let Some(shift) = fixed_point(&signal.reading, row.style) {
+        if let Some(shift) = fixed_point(&signal.encoding, row.style) {
             self.line(&format!("[fpshift_count] {shift}"));
         }
     }

@@ -3,7 +3,7 @@
 
 use std::collections::HashSet;
 
-use crate::declarations::{Declarations, Reading, Signal};
+use crate::declarations::{Declarations, Encoding, Signal};
 use crate::pattern::fits;
 use crate::view::{Color, Entry, Group, Style, View, ViewError};
 
@@ -80,7 +80,7 @@ impl Layout<'_> {
 
     fn row(&self, signal: usize, entry: &Entry) -> Row {
         let declared = &self.declarations.signals()[signal];
-        let usual = if matches!(declared.reading, Reading::Real(_)) { Style::Step } else { Style::Number };
+        let usual = if matches!(declared.encoding, Encoding::Real(_)) { Style::Step } else { Style::Number };
         Row {
             signal,
             style: entry.style.unwrap_or(usual),

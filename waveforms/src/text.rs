@@ -16,7 +16,7 @@ use std::ops::Range;
 use hapticore_hdl::format::Format;
 use hapticore_hdl::probe::Probe;
 
-use crate::declarations::{Reading, Signal};
+use crate::declarations::{Encoding, Signal};
 use crate::pattern::fits;
 
 /// The codes of a simulation at every clock, kept.
@@ -37,7 +37,7 @@ impl History {
         probe.sample(&mut self.codes);
     }
 
-    /// The clocks kept.
+    /// Number of clocks kept.
     pub fn clocks(&self) -> usize {
         self.codes.len() / self.signals.len().max(1)
     }
@@ -99,10 +99,10 @@ struct Row {
 
 impl Row {
     fn new(history: &History, signal: usize, clocks: &Range<usize>) -> Self {
-        let Signal { reading, .. } = &history.signals[signal];
+        let Signal { encoding, .. } = &history.signals[signal];
         let codes: Vec<_> = clocks.clone().map(|clock| history.code(signal, clock)).collect();
-        let runs = codes.chunk_by(|a, b| a == b).map(|run| (value(reading, run[0]), run.len())).collect();
-        Row { label: history.signals[signal].path(), bit: reading.width() == Some(1), runs }
+        let runs = codes.chunk_by(|a, b| a == b).map(|run| (value(encoding, run[0]), run.len())).collect();
+        Row { label: history.signals[signal].path(), bit: encoding.width() == Some(1), runs }
     }
 
     /// The narrowest column in which every value and its edge fit. A bit takes any.
@@ -124,14 +124,14 @@ impl Row {
     }
 }
 
-fn value(reading: &Reading, code: i64) -> String {
-    match reading {
-        Reading::State(format, states) => match states.get(code as usize) {
+fn value(encoding: &Encoding, code: i64) -> String {
+    match encoding {
+        Encoding::State(format, states) => match states.get(code as usize) {
             Some(name) => name.to_string(),
             None => number(*format, code),
         },
-        Reading::Code(format) => number(*format, code),
-        Reading::Real(_) => unreachable!("a probe has codes"),
+        Encoding::Code(format) => number(*format, code),
+        Encoding::Real(_) => unreachable!("a probe has codes"),
     }
 }
 

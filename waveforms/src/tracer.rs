@@ -23,7 +23,7 @@ use crate::wave::Wave;
 /// What to trace of a run.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Settings {
-    /// The time axis.
+    /// The tick of the trace's time axis.
     pub timebase: Timebase,
     /// The clocks to trace, counted from 0; all where `None`.
     pub window: Option<Range<u64>>,

@@ -24,7 +24,7 @@ pub struct VcdFile {
     writer: Writer<BufWriter<File>>,
     variables: Vec<Variable>,
     /// None once it has its name.
-    aside: Option<AtomicFile>,
+    partial: Option<AtomicFile>,
     path: PathBuf,
 }
 
@@ -41,10 +41,10 @@ impl VcdFile {
     /// # Errors
     /// The folder cannot be written to.
     pub fn create(path: &Path) -> Result<Self, Error> {
-        let aside = AtomicFile::create(path).map_err(Error::io(path))?;
-        let file = aside.reopen().map_err(Error::io(path))?;
+        let partial = AtomicFile::create(path).map_err(Error::io(path))?;
+        let file = partial.reopen().map_err(Error::io(path))?;
         let writer = Writer::new(BufWriter::with_capacity(BUFFER_BYTES, file));
-        Ok(VcdFile { writer, variables: Vec::new(), aside: Some(aside), path: path.to_owned() })
+        Ok(VcdFile { writer, variables: Vec::new(), partial: Some(partial), path: path.to_owned() })
     }
 
     fn header(&mut self, declarations: &Declarations) -> std::io::Result<()> {
@@ -63,7 +63,7 @@ impl VcdFile {
 
     fn declare(&mut self, index: usize, signal: &Signal) -> std::io::Result<()> {
         let id = self.variables[index].id;
-        match signal.reading.width() {
+        match signal.encoding.width() {
             Some(width) => self.writer.var_def(VarType::Wire, width.into(), id, &signal.name, None),
             None => self.writer.var_def(VarType::Real, 64, id, &signal.name, None),
         }
@@ -91,13 +91,13 @@ impl Wave for VcdFile {
 
     fn finish(&mut self) -> Result<(), Error> {
         self.writer.flush().map_err(Error::io(&self.path))?;
-        self.aside.take().map_or(Ok(()), AtomicFile::persist).map_err(Error::io(&self.path))
+        self.partial.take().map_or(Ok(()), AtomicFile::persist).map_err(Error::io(&self.path))
     }
 }
 
 impl Variable {
     fn new(signal: &Signal, id: u32) -> Self {
-        let (id, scalar) = (IdCode::from(id), signal.reading.width() == Some(1));
+        let (id, scalar) = (IdCode::from(id), signal.encoding.width() == Some(1));
         let tail = if scalar { format!("{id}\n") } else { format!(" {id}\n") };
         Variable { id, tail: tail.into_bytes().into(), scalar }
     }

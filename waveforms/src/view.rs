@@ -106,7 +106,7 @@ pub struct Group {
 pub struct Entry {
     /// The pattern of the signals.
     pub show: Spanned<String>,
-    /// How to show them; by what they are, if not said.
+    /// How to show them; by their kind where not given.
     #[serde(rename = "as")]
     pub style: Option<Style>,
     /// The colour of the trace.

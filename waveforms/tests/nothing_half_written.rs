@@ -24,7 +24,7 @@ fn a_dropped_trace_leaves_nothing_and_an_older_file_alone() {
         fs::write(&path, "older").unwrap();
         let mut tracer = Tracer::new(kind.create(&path).unwrap(), &Fake { clock: 0 }, &truth(), &settings()).unwrap();
         (0..1000).for_each(|clock| tracer.clock(&Fake { clock }).unwrap());
-        assert_eq!(names(folder.path()).len(), 2, "written aside");
+        assert_eq!(names(folder.path()).len(), 2, "a partial file");
         drop(tracer);
         assert_eq!((names(folder.path()), fs::read_to_string(&path).unwrap()), (vec!["waves".into()], "older".into()));
     }

@@ -14,12 +14,12 @@ use tempfile::NamedTempFile;
 /// # let path = folder.path().join("samples.csv");
 /// use std::io::Write;
 ///
-/// let aside = hapticore_files::AtomicFile::create(&path)?;
-/// let mut file = std::io::BufWriter::new(aside.reopen()?);
+/// let partial = hapticore_files::AtomicFile::create(&path)?;
+/// let mut file = std::io::BufWriter::new(partial.reopen()?);
 /// writeln!(file, "i1,i2")?;
 /// file.flush()?;
 /// assert!(!path.exists());
-/// aside.persist()?;
+/// partial.persist()?;
 /// assert_eq!(std::fs::read_to_string(&path)?, "i1,i2\n");
 /// # Ok::<(), std::io::Error>(())
 /// ```
@@ -82,7 +82,7 @@ impl AtomicFile {
 /// # Errors
 /// It cannot be written; then an older one stays as it was.
 pub fn write(path: &Path, text: &str) -> io::Result<()> {
-    let aside = AtomicFile::create(path)?;
-    aside.reopen()?.write_all(text.as_bytes())?;
-    aside.persist()
+    let partial = AtomicFile::create(path)?;
+    partial.reopen()?.write_all(text.as_bytes())?;
+    partial.persist()
 }

@@ -14,7 +14,7 @@ use tempfile::TempDir;
 /// # let root = tempfile::tempdir()?;
 /// # let out = root.path().join("out/fig6");
 /// let run = hapticore_files::AtomicFolder::create(&out)?;
-/// std::fs::write(run.aside().join("frames.csv"), "time_s\n")?;
+/// std::fs::write(run.partial_path().join("frames.csv"), "time_s\n")?;
 /// assert!(!out.join("frames.csv").exists());
 /// assert_eq!(run.persist()?, [out.join("frames.csv")]);
 /// assert!(out.join("frames.csv").exists());
@@ -23,7 +23,7 @@ use tempfile::TempDir;
 #[derive(Debug)]
 pub struct AtomicFolder {
     folder: PathBuf,
-    aside: Option<TempDir>,
+    partial: Option<TempDir>,
     lock: Option<File>,
     created: Vec<PathBuf>,
 }
@@ -36,23 +36,23 @@ impl AtomicFolder {
     pub fn create(folder: &Path) -> io::Result<Self> {
         let missing = |path: &&Path| !path.as_os_str().is_empty() && !path.exists();
         let created = folder.ancestors().take_while(missing).map(Path::to_owned).collect();
-        let mut made = AtomicFolder { folder: folder.to_owned(), aside: None, lock: None, created };
+        let mut made = AtomicFolder { folder: folder.to_owned(), partial: None, lock: None, created };
         fs::create_dir_all(folder)?;
         partial::clear(folder);
-        made.aside = Some(tempfile::Builder::new().prefix(partial::PREFIX).tempdir_in(folder)?);
-        made.lock = Some(partial::hold(made.aside())?);
+        made.partial = Some(tempfile::Builder::new().prefix(partial::PREFIX).tempdir_in(folder)?);
+        made.lock = Some(partial::hold(made.partial_path())?);
         Ok(made)
     }
 
-    /// Where files grow.
+    /// The temporary folder in which files are written.
     ///
     /// # Panics
     /// Proved: it is there until the files are persisted.
-    pub fn aside(&self) -> &Path {
-        self.aside.as_ref().expect("there until persisted").path()
+    pub fn partial_path(&self) -> &Path {
+        self.partial.as_ref().expect("there until persisted").path()
     }
 
-    /// The folder.
+    /// Path of the folder that the files will appear in.
     pub fn path(&self) -> &Path {
         &self.folder
     }
@@ -62,14 +62,14 @@ impl AtomicFolder {
     /// # Errors
     /// A file cannot be renamed; the message names it.
     pub fn persist(mut self) -> io::Result<Vec<PathBuf>> {
-        let entries = fs::read_dir(self.aside())?.collect::<Result<Vec<_>, _>>()?;
+        let entries = fs::read_dir(self.partial_path())?.collect::<Result<Vec<_>, _>>()?;
         let mut names: Vec<_> = entries.into_iter().map(|entry| entry.file_name()).collect();
         names.retain(|name| name != partial::LOCK);
         names.sort();
         let mut paths = Vec::new();
         for name in names {
             let path = self.folder.join(&name);
-            fs::rename(self.aside().join(&name), &path)
+            fs::rename(self.partial_path().join(&name), &path)
                 .map_err(|error| io::Error::new(error.kind(), format!("{}: {error}", path.display())))?;
             paths.push(path);
         }
@@ -80,7 +80,7 @@ impl AtomicFolder {
 
 impl Drop for AtomicFolder {
     fn drop(&mut self) {
-        drop(self.aside.take());
+        drop(self.partial.take());
         drop(self.lock.take());
         for folder in &self.created {
             // Somebody else may have written there meanwhile: only empty folders go.

@@ -46,7 +46,7 @@ pub fn of_plant(plant: &Plant, profile: &Profile) -> DeviceCalibration {
     }
 }
 
-/// The nominal device, served by a core of the profile.
+/// The nominal device with a core of the profile.
 ///
 /// # Errors
 /// A profile for another number of terminals than the paper's device has.

@@ -11,7 +11,7 @@ use anyhow::{Result, ensure};
 use hapticore_contract::profile::Profile;
 use hapticore_host::profile::{for_terminals, serving};
 use hapticore_host::{CrosstalkCanceller, DeviceCalibration, Residual, SlotClock, quantities_of};
-use hapticore_scene::{Complex, EffectCost, Plant, RungError, Scene, Truth, signs_by_place};
+use hapticore_scene::{Complex, EffectCost, LevelDeviation, Plant, Scene, Truth, signs_by_place};
 
 use crate::calibrate;
 use crate::capture::Recorder;
@@ -39,7 +39,7 @@ pub struct Case<'a> {
     pub device: DeviceCalibration,
     /// Number of slots of the case.
     pub slots: usize,
-    /// When they are.
+    /// The time of each slot.
     pub clock: SlotClock,
 }
 
@@ -89,7 +89,7 @@ impl<'a> Case<'a> {
         Ok(Case { scene, index, number, profile, device, slots: plant.slots(), clock })
     }
 
-    /// The case's name.
+    /// Name of the case, as the scene gives it.
     pub fn name(&self) -> &str {
         &self.scene.cases[self.index].name
     }
@@ -129,8 +129,8 @@ impl<'a> Case<'a> {
     ///
     /// # Errors
     /// As [`Case::new`].
-    pub fn rung_errors(&self) -> Result<Vec<RungError>> {
-        Ok(self.scene.rung_errors(self.index, &timing(&self.profile))?)
+    pub fn level_deviations(&self) -> Result<Vec<LevelDeviation>> {
+        Ok(self.scene.level_deviations(self.index, &timing(&self.profile))?)
     }
 
     /// Runs the case; `progress` is called at each slot.
@@ -178,7 +178,7 @@ fn consume(
             recorder.slot(slot.pad, slot.whole())?;
         }
         peak = peak.max(of_slot);
-        rows.extend(session.slot(&slot, Some(known(&truth))));
+        rows.extend(session.slot(&slot, Some(record_truth(&truth))));
         progress();
     }
     rows.extend(session.finish());
@@ -186,7 +186,7 @@ fn consume(
 }
 
 /// What the record keeps of the plant's truth.
-pub fn known(truth: &Truth) -> record::Truth {
+pub fn record_truth(truth: &Truth) -> record::Truth {
     let quantities = quantities_of!(truth);
     let Truth { load_g, friction_n, set, point, group, over_edge, touching, .. } = *truth;
     record::Truth { quantities, load_g, friction_n, set, point, group, over_edge, touching }

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use hapticore_scene::{Criterion, Measure, Per, Quantity};
 
 use crate::record::{self, Row};
-use estimate::{Estimate, said, truth};
+use estimate::{Estimate, estimated, truth};
 
 mod affine;
 mod departure;
@@ -17,7 +17,7 @@ mod jumps;
 pub struct CaseRows<'a> {
     /// Name of the case.
     pub name: &'a str,
-    /// When it began.
+    /// Start of the case, s.
     pub start_s: f64,
     /// The largest sample, as a fraction of full scale.
     pub peak: f64,
@@ -28,10 +28,10 @@ pub struct CaseRows<'a> {
 /// Measures each criterion that covers a case that was run.
 pub fn measure(criteria: &[Criterion], cases: &[CaseRows]) -> Vec<record::Criterion> {
     let covers = |criterion: &&Criterion| cases.iter().any(|case| criterion.covers(case.name));
-    criteria.iter().filter(covers).map(|criterion| one(criterion, cases)).collect()
+    criteria.iter().filter(covers).map(|criterion| measure_criterion(criterion, cases)).collect()
 }
 
-fn one(criterion: &Criterion, cases: &[CaseRows]) -> record::Criterion {
+fn measure_criterion(criterion: &Criterion, cases: &[CaseRows]) -> record::Criterion {
     let covered = || cases.iter().filter(|case| criterion.covers(case.name));
     let sets: Vec<Vec<&Row>> = covered().flat_map(|case| sets(criterion, case)).collect();
     let worst = |of: &dyn Fn(&[&Row]) -> f64| greatest(sets.iter().map(|set| of(set)));
@@ -52,7 +52,7 @@ fn one(criterion: &Criterion, cases: &[CaseRows]) -> record::Criterion {
         pass: measured <= criterion.limit || !applicable,
         applicable,
         unit: criterion.unit.clone(),
-        beside: beside(criterion).map(|(name, of)| (name.to_string(), worst(&|rows| of(criterion, rows)))),
+        baseline: baseline(criterion).map(|(name, of)| (name.to_string(), worst(&|rows| of(criterion, rows)))),
     }
 }
 
@@ -82,10 +82,10 @@ fn sets<'a>(criterion: &Criterion, case: &'a CaseRows) -> Vec<Vec<&'a Row>> {
     sets.into_values().collect()
 }
 
-type Beside = fn(&Criterion, &[&Row]) -> f64;
+type Baseline = fn(&Criterion, &[&Row]) -> f64;
 
-/// Something to compare the measure with: its name and how it is measured.
-fn beside(criterion: &Criterion) -> Option<(&'static str, Beside)> {
+/// The baseline that a measure is compared with: its name and how it is measured.
+fn baseline(criterion: &Criterion) -> Option<(&'static str, Baseline)> {
     match (criterion.measure, criterion.of) {
         (Measure::MaxPercentOfFullScale | Measure::InvalidPercent | Measure::JumpOff, _) => None,
         (Measure::MaxAbsError | Measure::RmsError, Quantity::PositionMm) => {
@@ -101,23 +101,23 @@ fn beside(criterion: &Criterion) -> Option<(&'static str, Beside)> {
 /// The measure over one set of rows.
 fn value(criterion: &Criterion, rows: &[&Row], estimate: Estimate) -> f64 {
     let of = criterion.of;
-    let pairs = || rows.iter().map(|row| (said(row, of, estimate), truth(row, of, 0.0)));
+    let pairs = || rows.iter().map(|row| (estimated(row, of, estimate), truth(row, of, 0.0)));
     match criterion.measure {
         Measure::MaxAbsError | Measure::RmsError => {
             let distance = |row: &&Row| distance(row, of, estimate);
             errors(criterion.measure, rows.iter().map(distance))
         }
-        Measure::MeanError => mean(pairs().map(|(said, truth)| said - truth)).abs(),
+        Measure::MeanError => mean(pairs().map(|(estimated, truth)| estimated - truth)).abs(),
         Measure::MaxPercentError => {
             let true_ones = pairs().filter(|(_, truth)| *truth != 0.0);
-            greatest(true_ones.map(|(said, truth)| 100.0 * ((said - truth) / truth).abs()))
+            greatest(true_ones.map(|(estimated, truth)| 100.0 * ((estimated - truth) / truth).abs()))
         }
-        Measure::SpreadPercent => spread(rows.iter().map(|row| said(row, of, estimate))),
+        Measure::SpreadPercent => spread(rows.iter().map(|row| estimated(row, of, estimate))),
         Measure::IncreasesWith => rise(rows, of, criterion.with.unwrap_or(of), estimate),
         Measure::InvalidPercent => 100.0 * mean(rows.iter().map(|row| f64::from(row.flags.contains("invalid")))),
         Measure::MaxOff => {
             let expected = criterion.expected.unwrap_or(f64::NAN);
-            greatest(rows.iter().map(|row| (said(row, of, estimate) - expected).abs()))
+            greatest(rows.iter().map(|row| (estimated(row, of, estimate) - expected).abs()))
         }
         Measure::DepartureOff => departure::off(rows, criterion, estimate),
         Measure::MaxPercentOfFullScale | Measure::JumpOff => f64::NAN,
@@ -149,9 +149,9 @@ fn rise(rows: &[&Row], of: Quantity, with: Quantity, estimate: Estimate) -> f64 
     for row in rows {
         let others = [Quantity::LoadG, Quantity::HapticVRms].into_iter().filter(|other| *other != with);
         let line = lines.entry(others.map(|other| key(truth(row, other, 0.0))).collect()).or_default();
-        line.entry(key(truth(row, with, 0.0))).or_default().push(said(row, of, estimate));
+        line.entry(key(truth(row, with, 0.0))).or_default().push(estimated(row, of, estimate));
     }
-    let overall = mean(rows.iter().map(|row| said(row, of, estimate)));
+    let overall = mean(rows.iter().map(|row| estimated(row, of, estimate)));
     let means = lines.into_values().map(|line| line.into_values().map(|v| mean(v.into_iter())).collect::<Vec<_>>());
     let falls = means.flat_map(|line| line.windows(2).map(|pair| pair[0] - pair[1]).collect::<Vec<_>>());
     100.0 * greatest(falls) / overall
@@ -161,9 +161,9 @@ fn rise(rows: &[&Row], of: Quantity, with: Quantity, estimate: Estimate) -> f64 
 fn distance(row: &Row, of: Quantity, estimate: Estimate) -> f64 {
     match of {
         Quantity::PositionMm => {
-            let off = |of| said(row, of, estimate) - truth(row, of, 0.0);
+            let off = |of| estimated(row, of, estimate) - truth(row, of, 0.0);
             off(Quantity::XMm).hypot(off(Quantity::YMm))
         }
-        _ => (said(row, of, estimate) - truth(row, of, 0.0)).abs(),
+        _ => (estimated(row, of, estimate) - truth(row, of, 0.0)).abs(),
     }
 }

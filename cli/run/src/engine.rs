@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The core at its three fidelities behind one trait: slots in, readings out.
+//! The core at its three fidelities behind one trait: slots in, measurements out.
 
 use std::sync::Arc;
 
 use hapticore_contract::calibration::Calibration;
-use hapticore_contract::frame::{Frame, Reading};
+use hapticore_contract::frame::{Frame, Measurement};
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::block::Interpretation;
 use hapticore_model::fidelity::clock::ClockSimulation;
@@ -89,8 +89,8 @@ impl Slot {
         }
     }
 
-    /// The reference's reading of the slot.
-    pub fn refer(&self, reference: &mut Reference) -> Reading {
+    /// The reference's measurement of the slot.
+    pub fn refer(&self, reference: &mut Reference) -> Measurement {
         match &self.signals {
             Signals::Samples { .. } => reference.slot(self.pad, self.window()),
             Signals::Phasors { amplitudes, mean_square } => reference.phasors(self.pad, amplitudes, *mean_square),
@@ -98,13 +98,13 @@ impl Slot {
     }
 }
 
-/// A core at work. Readings come in the order of their slots, perhaps some slots later.
+/// A core at work. Measurements come in the order of their slots, perhaps some slots later.
 pub trait Engine: Send {
-    /// Takes a slot; the reading that is finished, if one is.
-    fn slot(&mut self, slot: &Slot) -> Option<Reading>;
+    /// Takes a slot; the measurement that is finished, if one is.
+    fn slot(&mut self, slot: &Slot) -> Option<Measurement>;
 
-    /// The reading of the last slot, where it is still to come.
-    fn finish(&mut self) -> Option<Reading> {
+    /// The measurement of the last slot, where it is still to come.
+    fn finish(&mut self) -> Option<Measurement> {
         None
     }
 }
@@ -121,7 +121,7 @@ pub fn engine(fidelity: Fidelity, profile: &Arc<Profile>, calibration: &Calibrat
 struct Float(Reference);
 
 impl Engine for Float {
-    fn slot(&mut self, slot: &Slot) -> Option<Reading> {
+    fn slot(&mut self, slot: &Slot) -> Option<Measurement> {
         Some(slot.refer(&mut self.0))
     }
 }
@@ -129,8 +129,8 @@ impl Engine for Float {
 struct Fixed(FixedSimulation<i64>, Arc<Profile>);
 
 impl Engine for Fixed {
-    fn slot(&mut self, slot: &Slot) -> Option<Reading> {
-        Some(slot.frame(&mut self.0).reading(&self.1))
+    fn slot(&mut self, slot: &Slot) -> Option<Measurement> {
+        Some(slot.frame(&mut self.0).measurement(&self.1))
     }
 }
 
@@ -138,12 +138,12 @@ impl Engine for Fixed {
 struct Clock(ClockSimulation, Arc<Profile>);
 
 impl Engine for Clock {
-    fn slot(&mut self, slot: &Slot) -> Option<Reading> {
+    fn slot(&mut self, slot: &Slot) -> Option<Measurement> {
         self.0.samples(slot.whole());
-        self.0.take_frame().map(|frame| frame.reading(&self.1))
+        self.0.take_frame().map(|frame| frame.measurement(&self.1))
     }
 
-    fn finish(&mut self) -> Option<Reading> {
-        self.0.finish_slot().map(|frame| frame.reading(&self.1))
+    fn finish(&mut self) -> Option<Measurement> {
+        self.0.finish_slot().map(|frame| frame.measurement(&self.1))
     }
 }

@@ -27,7 +27,7 @@ impl Errors {
         Errors { core, largest: vec![0.0; variables.len()], values: Vec::with_capacity(variables.len()), variables }
     }
 
-    /// Takes a slot.
+    /// Runs a slot and keeps the largest error of each signal.
     pub fn slot(&mut self, slot: &Slot) {
         slot.frame(&mut self.core);
         let (core, cell) = self.core.state();

@@ -94,8 +94,8 @@ pub struct Meter {
 }
 
 impl Meter {
-    /// Takes the codes of a slot, all channels of an instant after the other, the haptic voltage last.
-    pub fn take(&mut self, codes: &[i32], channels: usize) {
+    /// Appends the codes of a slot, all channels of an instant after the other, the haptic voltage last.
+    pub fn append(&mut self, codes: &[i32], channels: usize) {
         let free = SAMPLES - self.codes.len();
         self.codes.extend(codes.iter().skip(channels - 1).step_by(channels).take(free));
     }
@@ -239,7 +239,7 @@ mod tests {
         let mut meter = Meter::default();
         for slot in 0..100 {
             let sample = |n: i32| (30_000.0 * (2.0 * PI * 233.0e-6 * f64::from(slot * 1000 + n)).sin()) as i32 + 500;
-            meter.take(&(0..1000).flat_map(|n| [1, 2, sample(n) + n % 7]).collect::<Vec<_>>(), 3);
+            meter.append(&(0..1000).flat_map(|n| [1, 2, sample(n) + n % 7]).collect::<Vec<_>>(), 3);
         }
         let found = meter.frequency(131_072.0).unwrap().unwrap();
         assert!((found / 233.0e-6 - 1.0).abs() < 1e-3, "{found}");

@@ -75,7 +75,8 @@ pub struct Criterion {
     /// The unit of both.
     pub unit: String,
     /// Something to compare with: what it is (eq. 6 alone, an affine fit) and its value in `unit`.
-    pub beside: Option<(String, f64)>,
+    #[serde(rename = "beside")]
+    pub baseline: Option<(String, f64)>,
     /// Whether any slot meets the criterion's condition.
     pub applicable: bool,
 }
@@ -86,8 +87,9 @@ pub struct Effect {
     /// Name, as in the scene.
     pub name: String,
     /// How exactly it was simulated.
-    pub rung: String,
-    /// What it took.
+    #[serde(rename = "rung")]
+    pub level: String,
+    /// Wall time, s.
     pub seconds: f64,
     /// The next finer level and the largest difference to it on the scene, percent.
     pub finer: Option<(String, f64)>,
@@ -98,7 +100,7 @@ pub struct Effect {
 pub struct SignalError {
     /// The signal, with its instances: `estimator.force_estimator.haptic_force`.
     pub signal: String,
-    /// Its format: `u20.17`.
+    /// Number format, for example `u20.17`.
     pub format: String,
     /// The largest difference from the signal without rounding, in its own unit.
     pub max_error: f64,
@@ -113,7 +115,7 @@ pub struct Provenance {
     pub version: String,
     /// The commit that it was built from, with `-modified` where the sources were; none where that is not known.
     pub commit: Option<String>,
-    /// The command line.
+    /// The command line, word by word.
     pub command: Vec<String>,
     /// The seed of noise and mismatch.
     pub seed: Option<u64>,
@@ -136,7 +138,7 @@ pub struct Record {
     pub summary: String,
     /// Which figures to draw: `fig3`, `fig4`, `fig6`, `fig7`, `hockey`; any other gets the general ones.
     pub figure: Option<String>,
-    /// The profile's name.
+    /// Name of the profile.
     pub profile: String,
     /// `float`, `fixed` or `clock`.
     pub fidelity: String,

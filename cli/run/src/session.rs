@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 
 use anyhow::Result;
-use hapticore_contract::frame::Reading;
+use hapticore_contract::frame::Measurement;
 use hapticore_contract::profile::Profile;
 use hapticore_host::{CrosstalkCanceller, DeviceCalibration, Readout, Residual, SlotClock};
 use hapticore_reference::Reference as FloatCore;
@@ -39,7 +39,7 @@ impl Session {
         errors: bool,
         (case, clock): (usize, SlotClock),
     ) -> Result<Self> {
-        let calibration = device.of(profile)?;
+        let calibration = device.for_profile(profile)?;
         Ok(Session {
             residual: device.residual(&calibration),
             engine: engine(fidelity, profile, &calibration),
@@ -76,14 +76,14 @@ impl Session {
             truth,
             reference: Some(reference),
         });
-        let reading = self.engine.slot(slot)?;
-        self.finished(&reading)
+        let measurement = self.engine.slot(slot)?;
+        self.finished(&measurement)
     }
 
     /// The last row, where it is still to come.
     pub fn finish(&mut self) -> Option<Row> {
-        let reading = self.engine.finish()?;
-        self.finished(&reading)
+        let measurement = self.engine.finish()?;
+        self.finished(&measurement)
     }
 
     /// What the position table leaves of its own places.
@@ -97,21 +97,21 @@ impl Session {
     }
 
     fn refer(&mut self, slot: &Slot) -> Reference {
-        let reading = slot.refer(&mut self.reference);
+        let measurement = slot.refer(&mut self.reference);
         let capacitance_pf = self.reference.capacitance_eq6();
-        let ratio = capacitance_pf / reading.capacitance_pf;
-        let (quantities, _) = self.readouts[1].convert(&reading);
+        let ratio = capacitance_pf / measurement.capacitance_pf;
+        let (quantities, _) = self.readouts[1].convert(&measurement);
         Reference {
             quantities,
             capacitance_eq6_pf: capacitance_pf,
-            force_eq6_n: if reading.capacitance_pf > 0.0 { reading.force_n * ratio * ratio } else { 0.0 },
+            force_eq6_n: if measurement.capacitance_pf > 0.0 { measurement.force_n * ratio * ratio } else { 0.0 },
         }
     }
 
-    fn finished(&mut self, reading: &Reading) -> Option<Row> {
+    fn finished(&mut self, measurement: &Measurement) -> Option<Row> {
         let row = self.waiting.pop_front()?;
-        assert_eq!(row.pad, reading.pad, "readings come in the order of their slots");
-        let (measured, flags) = self.readouts[0].convert(reading);
+        assert_eq!(row.pad, measurement.pad, "measurements come in the order of their slots");
+        let (measured, flags) = self.readouts[0].convert(measurement);
         Some(Row { measured, flags, ..row })
     }
 }

@@ -3,7 +3,7 @@
 
 use super::number;
 
-/// Ticks aimed at.
+/// Number of ticks that an axis aims at.
 const TICKS: f64 = 5.0;
 
 /// Share of the range that is added at both ends.

@@ -38,17 +38,17 @@ const TITLE: &str = "Calibration";
 
 fn positions(outcome: &Outcome) -> Figure {
     let [own, held_out] = &outcome.found;
-    let maps = error_map("its own places", own, &outcome.own_places)
-        + &error_map("every other place, the table made from the others", held_out, &outcome.held_out);
-    let note = "Distance of each place from where the position table finds it; rms and largest above.";
-    Figure::wide("Position error of the table", note, error_legend(), grid(&maps))
+    let maps = error_map("positions that the table was made from", own, &outcome.own_places)
+        + &error_map("every other position held out of the table", held_out, &outcome.held_out);
+    let note = "Distance of each measured position from the one that the position table computes. RMS and largest distance stand above each map.";
+    Figure::wide("Error of the position table", note, error_legend(), grid(&maps))
 }
 
 fn error_map(name: &str, found: &[Found], residual: &Residual) -> String {
     let error = |&([x, y], [a, b]): &Found| (x, y, (a - x).hypot(b - y));
     let places: Vec<_> =
         found.iter().map(error).map(|(x, y, error)| (x, y, if error.is_finite() { error } else { f64::MAX })).collect();
-    let what = format!("{} mm rms, {} mm at most", number::short(residual.rms_mm), number::short(residual.worst_mm));
+    let what = format!("{} mm RMS, {} mm at most", number::short(residual.rms_mm), number::short(residual.worst_mm));
     titled(name, &what, |about| map(about, (0.0, 0.0), &places, TILES, error_paint))
 }
 
@@ -57,7 +57,7 @@ fn forces(force: &Force) -> [Figure; 2] {
     let of = |load: Option<f64>| force.points.iter().filter(move |point| point.load_g == load);
     let series = |get: fn(&Point) -> (f64, f64)| {
         let dots = |(n, load): (usize, &Option<f64>)| {
-            let name = load.map_or("readings".into(), |load| format!("{} g", number::chosen(load)));
+            let name = load.map_or("measurements".into(), |load| format!("{} g", number::chosen(load)));
             Series::dots(&name, Paint::series(n), of(*load).map(get).collect())
         };
         loads.iter().enumerate().map(dots).collect::<Vec<_>>()
@@ -80,11 +80,11 @@ fn law(force: &Force, mut series: Vec<Series>) -> Figure {
     let line = |k: f64| vec![(0.0, 0.0), (most, k * most / NANO)];
     let [low, high] = force.force_k.interval;
     series.push(Series::line("eq. 8", Paint::INK, line(force.force_k.value)));
-    series.push(Series::line("95 %", Paint::MUTED, line(low)));
+    series.push(Series::line("ends of the 95 % interval", Paint::MUTED, line(low)));
     series.push(Series::line("", Paint::MUTED, line(high)));
     let values = force.points.iter().map(|point| point.force_n);
     let plot = Plot::new(
-        "Force over (C V) squared",
+        "Haptic force over the square of capacitance times voltage",
         Axis::with_zero("(C·V)² ((nF·V)²)", [most]),
         Axis::with_zero("F (N)", values),
         series,
@@ -95,10 +95,10 @@ fn law(force: &Force, mut series: Vec<Series>) -> Figure {
 fn residuals(force: &Force, series: Vec<Series>) -> Figure {
     let noise_mn = 1e3 * force.noise_n;
     let values = force.points.iter().map(|point| 1e3 * point.residual_n).chain([-noise_mn, noise_mn]);
-    let x = Axis::with_zero("haptic voltage (V rms)", force.points.iter().map(|point| point.haptic_v_rms));
-    let plot = Plot::new("What eq. 8 leaves of each force", x, Axis::with_zero("ΔF (mN)", values), series);
+    let x = Axis::with_zero("haptic voltage (V RMS)", force.points.iter().map(|point| point.haptic_v_rms));
+    let plot = Plot::new("Measured force minus eq. 8", x, Axis::with_zero("ΔF (mN)", values), series);
     let note = format!(
-        "Measured less eq. 8; {} mN of noise by these residuals. A bow or a step in them is no noise: eq. 8 does not hold there, and the intervals are then too narrow.",
+        "Measured force minus eq. 8. Standard deviation of the noise, estimated from these residuals: {} mN. A bend or step shows that eq. 8 does not apply there; the 95 % intervals are then too narrow.",
         number::short(noise_mn)
     );
     Figure::plot("Residuals of the force", &note, &plot)

@@ -59,7 +59,7 @@ fn spreads(settings: &[Setting], title: &str, [eq6, core, reference]: [Get; 3]) 
     let names = settings.iter().map(|s| s.name.clone()).collect();
     let mut plot = Plot::new(title, x, Axis::categories("", names), series);
     plot.height = 150 + 66 * u32::try_from(settings.len()).unwrap_or(8).clamp(2, 40);
-    Figure::plot(title, "The further left, the less the pad's place matters.", &plot)
+    Figure::plot(title, "A point further left means less dependence on the pad's position.", &plot)
 }
 
 /// The setting that needs the core most.
@@ -97,7 +97,11 @@ fn profiles(setting: &Setting) -> Figure {
     }
     let series = series.into_iter().filter(|s| s.points.iter().any(|p| p.1.is_finite())).collect();
     let title = titled("Force along x", setting);
-    Figure::plot(&title, "Deviation from the mean over the sheet, at three heights.", &deviations(&title, series))
+    Figure::plot(
+        &title,
+        "Deviation of the force from its mean over the sheet, for three positions along y.",
+        &deviations(&title, series),
+    )
 }
 
 fn magnified(setting: &Setting) -> Figure {
@@ -111,8 +115,12 @@ fn magnified(setting: &Setting) -> Figure {
     if series.iter().any(|s| matches!(s.mark, Mark::Line(_)) && s.points.iter().any(|p| p.1.is_finite())) {
         series.push(Series::line(REFERENCE.0, Paint::INK, vec![]));
     }
-    let title = titled("The same, the core alone", setting);
-    Figure::plot(&title, "The scale is finer than before.", &deviations(&title, series))
+    let title = titled("Force along x, core only", setting);
+    Figure::plot(
+        &title,
+        "Deviation from the mean over the sheet, at three heights, on a finer scale than the figure with eq. 6.",
+        &deviations(&title, series),
+    )
 }
 
 fn height(y: f64) -> String {
@@ -137,13 +145,17 @@ fn position_errors(record: &Record, settings: &[Setting]) -> Figure {
     let errors = series.iter().flat_map(|s| s.points.iter().map(|p| p.0));
     let limit = select::limit(record, "mm", "position");
     let x = Axis::log("|Δ position| (mm)", errors.chain(limit));
-    let y = Axis::exact("slots below (%)", 0.0, 100.0);
-    let mut plot = Plot::new("Share of the slots below a position error", x, y, series);
+    let y = Axis::exact("slots with a smaller error (%)", 0.0, 100.0);
+    let mut plot = Plot::new("Share of the slots with a smaller position error", x, y, series);
     plot.breaks = limit.into_iter().collect();
     let rms = select::rms(settings.iter().flat_map(fig3_maps::position_errors));
-    let limit =
-        limit.map_or(String::new(), |l| format!(" The dotted line is the limit of the rms, {} mm.", number::short(l)));
-    Figure::plot("How large the position error is", &format!("{} mm rms over all.{limit}", number::short(rms)), &plot)
+    let limit = limit
+        .map_or(String::new(), |l| format!(" The dotted line is the limit of the RMS error, {} mm.", number::short(l)));
+    Figure::plot(
+        "Distribution of the position error",
+        &format!("{} mm RMS over all settings.{limit}", number::short(rms)),
+        &plot,
+    )
 }
 
 fn cumulative(setting: &Setting) -> Vec<Point> {

@@ -20,28 +20,28 @@ const ERROR_STEPS: [f64; 5] = [0.2, 0.5, 1.0, 2.0, 5.0];
 
 /// Deviations of the force from its mean over the sheet, by the core and by eq. 6 alone.
 pub fn force(settings: &[Setting], left_out: usize, core: fn(&Row) -> f64, eq6: fn(&Row) -> f64) -> Figure {
-    let readings = [("core", core), ("eq. 6 alone", eq6)];
-    let known = |get: fn(&Row) -> f64| settings.iter().any(|s| s.rows.iter().any(|(row, _)| get(row).is_finite()));
-    let readings: Vec<_> = readings.into_iter().filter(|(_, get)| known(*get)).collect();
-    let most = TILES / (settings.len() * readings.len()).max(1);
+    let estimates = [("core", core), ("eq. 6 alone", eq6)];
+    let is_known = |get: fn(&Row) -> f64| settings.iter().any(|s| s.rows.iter().any(|(row, _)| get(row).is_finite()));
+    let estimates: Vec<_> = estimates.into_iter().filter(|(_, get)| is_known(*get)).collect();
+    let most = TILES / (settings.len() * estimates.len()).max(1);
     let mut maps = String::new();
     for setting in settings {
-        for (name, get) in &readings {
+        for (name, get) in &estimates {
             maps += &deviation_map(setting, name, *get, most);
         }
     }
     let mut note = String::from(
-        "Deviation from the mean over the sheet; above each map (largest − smallest) / mean. The frame is the sheet.",
+        "Deviation of the force from its mean over the sheet. The number above each map is (largest − smallest) / mean. The frame is the sheet's edge.",
     );
     if left_out > 0 {
-        note += &format!(" {left_out} more settings are left out, here and below.");
+        note += &format!(" {left_out} further settings are not shown, here and below.");
     }
     Figure::wide("Force over the sheet", &note, deviation_legend(), grid(&maps))
 }
 
-fn deviation_map(setting: &Setting, reading: &str, get: fn(&Row) -> f64, most: usize) -> String {
+fn deviation_map(setting: &Setting, estimate: &str, get: fn(&Row) -> f64, most: usize) -> String {
     let values: Vec<_> = setting.rows.iter().map(|(row, _)| get(row)).collect();
-    let what = format!("{reading}: {} %", number::short(spread_percent(&values)));
+    let what = format!("{estimate}: {} %", number::short(spread_percent(&values)));
     let places = places(setting, &deviation_percent(&values));
     titled(&setting.name, &what, |about| {
         map(about, setting.half_sheet_mm, &places, most, |d| Paint::diverging(deviation_step(d)))
@@ -73,7 +73,7 @@ fn deviation_name(step: i32) -> String {
 pub fn position(settings: &[Setting]) -> Figure {
     let most = TILES / settings.len().max(1);
     let maps: String = settings.iter().map(|s| error_map(s, most)).collect();
-    let note = "Distance from the true position; its root mean square above, in brackets that of the floating-point reference.";
+    let note = "Distance from the true position. The number above each map is its RMS over the sheet; in brackets, that of the floating-point reference.";
     Figure::wide("Position error over the sheet", note, error_legend(), grid(&maps))
 }
 

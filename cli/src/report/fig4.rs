@@ -60,7 +60,7 @@ pub fn trio(settings: &[Setting], paint: Paint, tag: &str, x: fn(&Row, &Truth) -
 
 /// What line, dot and ring stand for, whatever their colour.
 pub fn keys(loads: &[Load]) -> Vec<Series> {
-    let mut keys = vec![Series::dots("measured", Paint::INK, vec![]), Series::line("truth", Paint::INK, vec![])];
+    let mut keys = vec![Series::dots("measured", Paint::INK, vec![]), Series::line("true value", Paint::INK, vec![])];
     if rows(loads).any(|(row, _)| row.reference.is_some()) {
         keys.push(Series::rings("floating-point reference", Paint::INK, vec![]));
     }
@@ -71,12 +71,12 @@ fn rows<'a>(loads: &'a [Load]) -> impl Iterator<Item = &'a (&'a Row, Truth)> {
     loads.iter().flat_map(|l| l.settings.iter().flat_map(|s| s.rows.iter()))
 }
 
-/// All true voltages.
+/// The horizontal axis over all true haptic voltages.
 pub fn voltage_axis(loads: &[Load]) -> Axis {
-    Axis::linear("haptic voltage (V rms)", rows(loads).map(|(_, t)| t.quantities.haptic_v_rms))
+    Axis::linear("haptic voltage (V RMS)", rows(loads).map(|(_, t)| t.quantities.haptic_v_rms))
 }
 
-/// All capacitances, true and measured.
+/// The vertical axis over all capacitances, true and measured.
 pub fn capacitance_axis(loads: &[Load]) -> Axis {
     let of = |(r, t): &(&Row, Truth)| {
         [r.measured.capacitance_pf, reference(r, |q| q.capacitance_pf), t.quantities.capacitance_pf]
@@ -100,5 +100,9 @@ fn error(loads: &[Load]) -> Figure {
     let worst = extent(values.iter().map(|v| v.abs())).map_or(f64::NAN, |(_, high)| high);
     let y = Axis::with_zero("ΔC (%)", values);
     let plot = Plot::new("Error of the capacitance over haptic voltage", voltage_axis(loads), y, series);
-    Figure::plot("Error of the capacitance", &format!("At most {} % of the truth.", number::short(worst)), &plot)
+    Figure::plot(
+        "Error of the capacitance",
+        &format!("At most {} % of the true capacitance.", number::short(worst)),
+        &plot,
+    )
 }

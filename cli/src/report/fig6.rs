@@ -15,7 +15,7 @@ use hapticore_run::record::{Record, Row, Truth};
 /// The square law is fitted up to this voltage, where the paper's data still follow it.
 const SQUARE_LAW_TO_V: f64 = 150.0;
 
-/// Force over the voltage squared, capacitance over voltage, and what eq. 8 leaves.
+/// Force over the voltage squared, capacitance over voltage, and the force error of eq. 8.
 pub fn figures(record: &Record) -> Vec<Figure> {
     let loads = loads(record);
     vec![force(&loads), capacitance(&loads), residual(record, &loads)]
@@ -36,7 +36,7 @@ fn force(loads: &[Load]) -> Figure {
     let x = Axis::with_zero("haptic voltage squared (10³ V²)", points().map(|p| p.0));
     let y = Axis::with_zero("F (N)", points().map(|p| p.1));
     let plot = Plot::new("Haptic force over the square of the haptic voltage", x, y, series);
-    let note = format!("The square law is fitted to the truth up to {SQUARE_LAW_TO_V} V.");
+    let note = format!("The square law is fitted to the true force up to {SQUARE_LAW_TO_V} V RMS.");
     Figure::plot("Haptic force over the haptic voltage squared", &note, &plot)
 }
 
@@ -94,7 +94,11 @@ fn residual(record: &Record, loads: &[Load]) -> Figure {
     let limits = select::limit(record, "N", "").map_or(vec![], |limit| vec![-limit, limit]);
     let worst = extent(values.iter().map(|v| v.abs())).map_or(f64::NAN, |(_, high)| high);
     let y = Axis::with_zero("ΔF (N)", values.into_iter().chain(limits.iter().copied()));
-    let mut plot = Plot::new("Measured less true force over haptic voltage", voltage_axis(loads), y, series);
+    let mut plot = Plot::new("Measured minus true force over haptic voltage", voltage_axis(loads), y, series);
     plot.limits = limits;
-    Figure::plot("What eq. 8 leaves", &format!("At most {} N.", number::short(worst)), &plot)
+    Figure::plot(
+        "Force error of eq. 8",
+        &format!("Measured minus true force: at most {} N.", number::short(worst)),
+        &plot,
+    )
 }

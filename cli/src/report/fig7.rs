@@ -11,11 +11,16 @@ const OFF_V: f64 = 1.0;
 
 /// Voltage on an axis of its own range, since it falls by some percent.
 const VOLTAGE: Quantity =
-    ("Haptic voltage while it is on", "V rms (V)", |q| if q.haptic_v_rms > OFF_V { q.haptic_v_rms } else { f64::NAN });
+    (
+        "Haptic voltage while switched on",
+        "V RMS (V)",
+        |q| if q.haptic_v_rms > OFF_V { q.haptic_v_rms } else { f64::NAN },
+    );
 
 /// Force, its error, capacitance, voltage.
 pub fn figures(record: &Record) -> Vec<Figure> {
     let [force, capacitance, voltage] =
-        [general::of("force_n"), general::of("capacitance_pf"), VOLTAGE].map(|q| general::over_time(record, q));
+        [general::quantity_of_column("force_n"), general::quantity_of_column("capacitance_pf"), VOLTAGE]
+            .map(|q| general::over_time(record, q));
     vec![force, force_error(record, "estimate"), capacitance, voltage]
 }

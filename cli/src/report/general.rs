@@ -21,7 +21,7 @@ pub type Quantity = (&'static str, &'static str, Get);
 ///
 /// # Panics
 /// If there is no such column.
-pub fn of(name: &str) -> Quantity {
+pub fn quantity_of_column(name: &str) -> Quantity {
     let found = hapticore_host::quantity(name).expect("a column");
     (found.label, found.axis, found.get)
 }
@@ -42,10 +42,10 @@ pub fn quantities(record: &Record) -> Vec<Quantity> {
     let some = |value: f64| value.is_finite() && value != 0.0;
     let measured = |get: Get| record.rows.iter().any(|r| some(get(&r.measured)));
     let true_one = |get: Get| record.rows.iter().any(|r| r.truth.is_some_and(|t| some(get(&t.quantities))));
-    let direction = of("direction").0;
+    let direction = quantity_of_column("direction").0;
     let present = |(title, _, get): &Quantity| measured(*get) || (*title != direction && true_one(*get));
     let drawn = QUANTITIES.iter().filter(|quantity| !quantity.axis.is_empty());
-    drawn.map(|quantity| of(quantity.name)).filter(present).collect()
+    drawn.map(|quantity| quantity_of_column(quantity.name)).filter(present).collect()
 }
 
 /// One quantity of all pads over time.
@@ -64,7 +64,9 @@ pub fn over_time(record: &Record, (title, axis, get): Quantity) -> Figure {
 /// What a band is.
 pub fn band_note(bands: bool) -> String {
     if bands {
-        format!("Lines are means over 1/{BINS} of a pad's slots, bands from the least to the largest in it.")
+        format!(
+            "Each line shows means over 1/{BINS} of the pad's slots, each band the range from the smallest to the largest value."
+        )
     } else {
         String::new()
     }
@@ -119,7 +121,7 @@ pub fn difference_note(record: &Record, get: Get, axis: &str) -> String {
     match select::extent(record.rows.iter().filter_map(difference)) {
         Some((_, most)) => {
             let most = number::with_unit(&number::short(most), unit);
-            format!("The core differs from the floating-point reference by at most {most}.")
+            format!("Largest difference between core and floating-point reference: {most}.")
         }
         None => String::new(),
     }
@@ -131,7 +133,7 @@ pub fn keys(record: &Record) -> Vec<Series> {
     let few = select::pads(record).iter().any(|pad| record.rows.iter().filter(|r| r.pad == *pad).count() < FEW);
     let reference = few && record.rows.iter().any(|r| r.reference.is_some());
     let keys = [
-        (truth, Series::line("truth", Paint::INK, Vec::new())),
+        (truth, Series::line("true value", Paint::INK, Vec::new())),
         (reference, Series::line("floating-point reference", Paint::MUTED.dotted(), Vec::new())),
     ];
     keys.into_iter().filter_map(|(there, key)| there.then_some(key)).collect()
@@ -163,5 +165,5 @@ fn breaks_note(record: &Record) -> String {
     if breaks(record).is_empty() {
         return String::new();
     }
-    format!("The dotted lines part the cases: {}.", record.cases.join(", "))
+    format!("Dotted lines separate the cases: {}.", record.cases.join(", "))
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Several pads at once: their paths over the sheet, forces and errors over time.
+//! Several pads at once: their trajectories over the sheet, forces and errors over time.
 
 use super::axis::Axis;
 use super::figure::Figure;
@@ -15,33 +15,33 @@ use hapticore_run::record::{Record, Row};
 /// Bins of time for what is too dense to draw.
 const BINS: u32 = 50;
 
-/// Paths, force, both errors, capacitance, voltage.
+/// Trajectories, force, both errors, capacitance, voltage.
 pub fn figures(record: &Record) -> Vec<Figure> {
-    let [force, capacitance, voltage] =
-        ["force_n", "capacitance_pf", "haptic_v_rms"].map(|name| general::over_time(record, general::of(name)));
-    vec![paths(record), force, position_error(record), force_error(record, "force"), capacitance, voltage]
+    let [force, capacitance, voltage] = ["force_n", "capacitance_pf", "haptic_v_rms"]
+        .map(|name| general::over_time(record, general::quantity_of_column(name)));
+    vec![trajectories(record), force, position_error(record), force_error(record, "force"), capacitance, voltage]
 }
 
-fn paths(record: &Record) -> Figure {
+fn trajectories(record: &Record) -> Figure {
     let pads = select::pads(record);
     let true_place = |r: &Row| r.truth.map_or((f64::NAN, f64::NAN), |t| (t.quantities.x_mm, t.quantities.y_mm));
     let place = |r: &Row| (r.measured.x_mm, r.measured.y_mm);
     let measured = |pad: &usize| {
         let name = select::pad_name(record, *pad);
-        Series::dots(&name, Paint::series(*pad), path(record, *pad, place)).mark(Mark::Dots(8))
+        Series::dots(&name, Paint::series(*pad), trajectory(record, *pad, place)).mark(Mark::Dots(8))
     };
-    let truth = |pad: &usize| Series::line("", Paint::INK, path(record, *pad, true_place)).mark(Mark::Line(3));
+    let truth = |pad: &usize| Series::line("", Paint::INK, trajectory(record, *pad, true_place)).mark(Mark::Line(3));
     let half = map::half_sheet_mm(record);
     let mut series = vec![frame(half)];
     series.extend(pads.iter().map(measured));
     series.extend(pads.iter().map(truth));
-    series.push(Series::line("truth", Paint::INK, vec![]));
+    series.push(Series::line("true value", Paint::INK, vec![]));
     let points = || series.iter().flat_map(|s| s.points.iter());
     let (x, y) = (side("x (mm)", half.0, points().map(|p| p.0)), side("y (mm)", half.1, points().map(|p| p.1)));
     let ratio = y.1 / x.1;
-    let mut plot = Plot::new("Paths of the pads over the sheet", x.0, y.0, series);
+    let mut plot = Plot::new("Trajectories of the pads over the sheet", x.0, y.0, series);
     plot.height = (120.0 + 1130.0 * ratio).clamp(400.0, 1400.0) as u32;
-    Figure::plot("Paths over the sheet", "The frame is the sheet's edge.", &plot)
+    Figure::plot("Trajectories over the sheet", "The frame is the sheet's edge.", &plot)
 }
 
 /// The sheet's edge.
@@ -49,13 +49,13 @@ fn frame((x, y): (f64, f64)) -> Series {
     Series::line("", Paint::MUTED, vec![(-x, y), (x, y), (x, -y), (-x, -y), (-x, y)]).mark(Mark::Line(2))
 }
 
-/// An axis over the sheet, and further where a path goes beyond its edge; half of what it shows.
+/// An axis over the sheet, and further where a trajectory goes beyond its edge; half of what it shows.
 fn side(title: &str, half: f64, values: impl Iterator<Item = f64>) -> (Axis, f64) {
     let reach = values.map(f64::abs).filter(|v| v.is_finite()).fold(half, f64::max);
     (Axis::exact(title, -reach, reach), reach)
 }
 
-fn path(record: &Record, pad: usize, place: impl Fn(&Row) -> Point) -> Vec<Point> {
+fn trajectory(record: &Record, pad: usize, place: impl Fn(&Row) -> Point) -> Vec<Point> {
     let rows: Vec<_> = record.rows.iter().filter(|r| r.pad == pad).collect();
     let cases = rows.chunk_by(|a, b| a.case == b.case);
     cases.flat_map(|case| case.iter().map(|r| place(r)).chain([(f64::NAN, f64::NAN)])).collect()
@@ -72,14 +72,15 @@ fn position_error(record: &Record) -> Figure {
         series.push(Series::line(&select::pad_name(record, pad), paint, binned(&points, select::rms)));
         series.push(Series::dots("", paint, binned(&points, |b| select::extent(b).map_or(f64::NAN, |e| e.1))));
     }
-    series.push(Series::dots("largest", Paint::INK, vec![]));
+    series.push(Series::dots("largest error", Paint::INK, vec![]));
     let y = Axis::with_zero("|Δ position| (mm)", values);
     let mut plot = Plot::new("Distance from the true position", general::time_axis(record), y, series);
     plot.breaks = general::breaks(record);
     plot.limits.extend(select::limit(record, "mm", "position"));
-    let limit = if plot.shows_limits() { " The limit is that of the rms." } else { "" };
-    let note =
-        format!("Lines: rms over 1/{BINS} of the run, dots: the largest in it. {rms} mm rms over all pads.{limit}");
+    let limit = if plot.shows_limits() { " The limit applies to the RMS error." } else { "" };
+    let note = format!(
+        "Lines: RMS error in each 1/{BINS} of the run; dots: largest error in it. {rms} mm RMS over all pads.{limit}"
+    );
     Figure::plot("Position error", &note, &plot)
 }
 
@@ -99,7 +100,7 @@ fn binned(points: &[Point], value: impl Fn(Vec<f64>) -> f64) -> Vec<Point> {
 pub fn force_error(record: &Record, word: &str) -> Figure {
     let error = |r: &Row| r.truth.map_or(f64::NAN, |t| r.measured.force_n - t.quantities.force_n);
     let values: Vec<_> = record.rows.iter().map(error).collect();
-    let note = format!("{} N rms over all pads. ", number::short(select::rms(values.iter().copied())));
+    let note = format!("{} N RMS over all pads. ", number::short(select::rms(values.iter().copied())));
     let line = |pad: usize| {
         let name = select::pad_name(record, pad);
         general::noisy(&name, Paint::series(pad), general::points(record, pad, error))
@@ -107,7 +108,7 @@ pub fn force_error(record: &Record, word: &str) -> Figure {
     let series: Vec<_> = select::pads(record).into_iter().flat_map(line).collect();
     let bands = general::band_note(series.iter().any(|s| s.mark == Mark::Band));
     let y = Axis::with_zero("ΔF (N)", values);
-    let mut plot = Plot::new("Measured less true force", general::time_axis(record), y, series);
+    let mut plot = Plot::new("Measured minus true force", general::time_axis(record), y, series);
     plot.breaks = general::breaks(record);
     plot.limits = select::limit(record, "N", word).map_or(Vec::new(), |limit| vec![-limit, limit]);
     Figure::plot("Force error", (note + &bands).trim(), &plot)

@@ -50,8 +50,8 @@ pub fn html(record: &Record) -> String {
         page::heading(record),
         page::section("Criteria", &tables::criteria(&record.criteria)),
         page::section("Figures", &figures),
-        page::section("Effects and what they cost", &cost),
-        page::section("Rounding errors by signal", &tables::errors(&record.errors)),
+        page::section("Effects: fidelity levels and computing time", &cost),
+        page::section("Rounding errors of the core's signals", &tables::errors(&record.errors)),
         page::section("The run", &tables::run(record)),
     ];
     page::document(&record.title, &body.concat())

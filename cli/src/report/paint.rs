@@ -21,7 +21,7 @@ pub const SEQUENTIAL: usize = 6;
 /// How a line is interrupted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dash {
-    /// Not at all.
+    /// Without dashes.
     Solid,
     /// Dashed line.
     Dashed,

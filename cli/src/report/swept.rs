@@ -19,7 +19,7 @@ const LINES: usize = 12;
 
 /// What quantities are drawn over, the first that is swept, and how it is called.
 const OVER: [(&str, &str); 4] = [
-    ("haptic_v_rms", "haptic voltage (V rms)"),
+    ("haptic_v_rms", "haptic voltage (V RMS)"),
     ("load_g", "load (g)"),
     ("capacitance_pf", "set capacitance (pF)"),
     ("eccentricity_mm", "eccentricity (mm)"),
@@ -67,9 +67,9 @@ fn over_setting(record: &Record, (title, axis, get): Quantity, (key, name): (&st
     series.extend(truths);
     let points = || series.iter().flat_map(|s| s.points.iter());
     let (x, y) = (Axis::linear(name, points().map(|p| p.0)), Axis::linear(axis, points().map(|p| p.1)));
-    series.push(Series::line("truth", Paint::INK, Vec::new()));
+    series.push(Series::line("true value", Paint::INK, Vec::new()));
     let left_out = lines.len().saturating_sub(LINES);
-    let more = if left_out > 0 { format!(" {left_out} further settings are not drawn.") } else { String::new() };
+    let more = if left_out > 0 { format!(" {left_out} further settings are not shown.") } else { String::new() };
     let note = general::difference_note(record, get, axis) + &more;
     Figure::plot(title, note.trim(), &Plot::new(&format!("{title} over {name}"), x, y, series))
 }
@@ -109,7 +109,7 @@ fn error_over_x(record: &Record, (title, axis, get): Quantity) -> Figure {
     let horizontal = Axis::linear("x (mm)", points().map(|p| p.0));
     let vertical = Axis::with_zero(&format!("Δ{axis}"), points().map(|p| p.1));
     let rms = number::short(select::rms(points().map(|p| p.1)));
-    let title = format!("{title}: measured less true");
-    let note = format!("{rms} rms over all places.");
+    let title = format!("{title}: measured minus true value");
+    let note = format!("RMS error over all positions: {rms}.");
     Figure::plot(&title, &note, &Plot::new(&format!("{title}, over x"), horizontal, vertical, series))
 }

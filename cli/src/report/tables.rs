@@ -6,13 +6,13 @@ use super::page::escape;
 use crate::print;
 use hapticore_run::record::{Criterion, Effect, Record, SignalError};
 
-/// The criteria under a sentence that says how many hold.
+/// The criteria, below a sentence that says how many passed.
 pub fn criteria(criteria: &[Criterion]) -> String {
     if criteria.is_empty() {
         return String::new();
     }
     let rows = criteria.iter().map(criterion).collect::<String>();
-    verdict(criteria) + &table("Criteria", &["criterion", "", "#measured", "#at most", "for comparison"], &rows)
+    verdict(criteria) + &table("Criteria", &["criterion", "", "#measured", "#limit (at most)", "for comparison"], &rows)
 }
 
 fn verdict(criteria: &[Criterion]) -> String {
@@ -24,7 +24,7 @@ fn verdict(criteria: &[Criterion]) -> String {
         others => format!(" {others} not applicable: no slot meets the condition."),
     };
     format!(
-        "<p class=\"verdict {class}\">{} {holding} of {applicable} criteria hold.{others}</p>\n",
+        "<p class=\"verdict {class}\">{} {holding} of {applicable} criteria passed.{others}</p>\n",
         sign(class == "pass"),
     )
 }
@@ -36,11 +36,11 @@ fn sign(pass: bool) -> &'static str {
 fn criterion(criterion: &Criterion) -> String {
     let (class, word) = match (criterion.applicable, criterion.pass) {
         (false, _) => ("", "– not applicable"),
-        (true, true) => ("pass", "✓ holds"),
-        (true, false) => ("fail", "✗ fails"),
+        (true, true) => ("pass", "✓ pass"),
+        (true, false) => ("fail", "✗ fail"),
     };
     let in_unit = |number: String| number::with_unit(&number, &criterion.unit);
-    let beside = criterion.beside.as_ref().map_or_else(String::new, |(what, value)| {
+    let baseline = criterion.baseline.as_ref().map_or_else(String::new, |(what, value)| {
         format!("{}: {}", escape(what), escape(&in_unit(number::short(*value))))
     });
     row(&[
@@ -48,7 +48,7 @@ fn criterion(criterion: &Criterion) -> String {
         (class, word),
         ("number", &escape(&in_unit(number::short(criterion.measured)))),
         ("number", &escape(&in_unit(number::chosen(criterion.limit)))),
-        ("", &beside),
+        ("", &baseline),
     ])
 }
 
@@ -58,13 +58,17 @@ pub fn effects(effects: &[Effect], wall_seconds: f64) -> String {
         return String::new();
     }
     let rows = effects.iter().map(|e| effect(e, wall_seconds)).collect::<String>();
-    table("Effects", &["effect", "rung", "error", "#time", "#of the run"], &rows)
+    table(
+        "Effects",
+        &["effect", "fidelity level", "difference from the next finer level", "#wall time", "#share of the run"],
+        &rows,
+    )
 }
 
 fn effect(effect: &Effect, wall_seconds: f64) -> String {
     row(&[
         ("", &escape(&effect.name)),
-        ("", &escape(&effect.rung)),
+        ("", &escape(&effect.level)),
         ("", &effect.finer.as_ref().map_or(String::new(), |(finer, percent)| escape(&print::off(*percent, finer)))),
         ("number", &number::seconds(effect.seconds)),
         ("number", &share(effect.seconds / wall_seconds)),
@@ -87,7 +91,7 @@ pub fn errors(errors: &[SignalError]) -> String {
         return String::new();
     }
     let rows = errors.iter().map(signal).collect::<String>();
-    table("Rounding errors", &["signal", "format", "#largest error", "#in codes"], &rows)
+    table("Rounding errors", &["signal", "format", "#largest rounding error", "#in codes (LSB)"], &rows)
 }
 
 fn signal(error: &SignalError) -> String {
@@ -108,8 +112,8 @@ pub fn run(record: &Record) -> String {
         ("wall time per second of device time", number::seconds(ratio)),
         ("finished slots", record.rows.len().to_string()),
         ("slots with a flag set", record.rows.iter().filter(|r| !r.flags.is_empty()).count().to_string()),
-        ("pads", record.pads.len().to_string()),
-        ("cases", record.cases.len().to_string()),
+        ("number of pads", record.pads.len().to_string()),
+        ("number of cases", record.cases.len().to_string()),
     ];
     let rows = facts.iter().map(|(name, value)| row(&[("", *name), ("number", value)])).collect::<String>();
     table("Run", &["", "#"], &rows)

@@ -22,7 +22,7 @@ fn record(figure: Option<&str>, rows: Vec<Row>) -> Record {
         pads: vec!["<pad>".into()],
         effects: vec![Effect {
             name: "<effect>".into(),
-            rung: "<rung>".into(),
+            level: "<rung>".into(),
             seconds: 0.1,
             finer: Some(("<finer>".into(), 0.5)),
         }],
@@ -36,14 +36,14 @@ fn record(figure: Option<&str>, rows: Vec<Row>) -> Record {
 }
 
 fn criterion(measured: f64) -> Criterion {
-    let beside = Some(("<eq. 6>".into(), f64::INFINITY));
+    let baseline = Some(("<eq. 6>".into(), f64::INFINITY));
     Criterion {
         name: "<force>".into(),
         measured,
         limit: 0.2,
         pass: measured < 0.2,
         unit: "N".into(),
-        beside,
+        baseline,
         applicable: true,
     }
 }
@@ -167,7 +167,7 @@ fn names_are_escaped() {
 #[test]
 fn a_criterion_that_fails_is_told_in_words() {
     let page = check(&record(None, rows(1)));
-    assert!(page.contains("1 of 2 criteria hold") && page.contains("✗ fails") && page.contains("✓ holds"));
+    assert!(page.contains("1 of 2 criteria passed") && page.contains("✗ fail") && page.contains("✓ pass"));
 }
 
 /// A reference far beyond what is measured, as it is where a core saturates.
@@ -210,7 +210,7 @@ fn nothing_is_drawn_outside_of_its_plot() {
 fn a_sweep_is_drawn_over_what_is_swept() {
     let swept = |keys: &[&'static str]| check(&Record { swept: keys.to_vec(), ..record(None, rows(90)) });
     let page = swept(&["load_g", "haptic_v_rms"]);
-    assert!(page.contains("over haptic voltage (V rms)") && !page.contains("over time"));
+    assert!(page.contains("over haptic voltage (V RMS)") && !page.contains("over time"));
     let page = swept(&["x_mm", "y_mm"]);
     assert!(page.contains("Position error over the sheet") && !page.contains("over time"));
     assert!(swept(&[]).contains("over time"));
@@ -219,7 +219,7 @@ fn a_sweep_is_drawn_over_what_is_swept() {
 #[test]
 fn many_slots_are_a_line_and_a_band() {
     let [few, many] = [200, 5000].map(|count| check(&record(Some("hockey"), rows(count))));
-    assert!(!few.contains("<polygon") && many.contains("<polygon") && many.contains("bands from the least"));
+    assert!(!few.contains("<polygon") && many.contains("<polygon") && many.contains("each band the range"));
 }
 
 #[test]

@@ -75,9 +75,9 @@ impl WordFormats {
 pub struct ConstantWord {
     /// Which constant it is.
     pub constant: Constant,
-    /// The code.
+    /// Raw code of the word.
     pub code: i64,
-    /// Its format.
+    /// Number format of the word.
     pub format: Format,
 }
 

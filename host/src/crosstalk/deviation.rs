@@ -13,7 +13,7 @@ pub(super) struct Deviation {
 }
 
 impl Deviation {
-    /// None.
+    /// No deviation from the nominal sheet.
     pub fn none(reach_mm: [f64; 2]) -> Self {
         Deviation { reach_mm, columns: 0, places: Vec::new() }
     }

@@ -55,7 +55,7 @@ impl From<&Quantities> for PadEstimate {
 /// let mut nominal = NominalSheet::new(sheet.clone(), 100e3, ratios.clone());
 /// let pad = PadEstimate { x_mm: 100.0, y_mm: 20.0, capacitance_pf: 760.0 };
 /// let other = PadEstimate { x_mm: -50.0, y_mm: -10.0, ..pad };
-/// let (measured, _) = nominal.among(&pad, &[other]);
+/// let (measured, _) = nominal.with_neighbours(&pad, &[other]);
 ///
 /// let mut canceller = CrosstalkCanceller::nominal(nominal);
 /// let isolated = canceller.cancel(PadEstimate { x_mm: 103.0, ..pad }, measured, &[other]);
@@ -114,14 +114,14 @@ impl CrosstalkCanceller {
         let mut pad = measured;
         self.hold(&mut pad);
         for _ in 0..STEPS {
-            let (_, alone) = self.among(pad, &[]);
-            let (seen, among) = self.among(pad, others);
+            let (_, alone) = self.with_neighbours(pad, &[]);
+            let (seen, with_neighbours) = self.with_neighbours(pad, others);
             let [by_x, by_y, _] = self.deviation.at(pad.x_mm, pad.y_mm);
             let step = self.step(pad, [seen[0] + by_x - ratios[0], seen[1] + by_y - ratios[1]]);
             let longest = (LONGEST_MM / step[0].hypot(step[1])).min(1.0);
             pad.x_mm -= step[0] * longest;
             pad.y_mm -= step[1] * longest;
-            pad.capacitance_pf = measured.capacitance_pf * alone / among;
+            pad.capacitance_pf = measured.capacitance_pf * alone / with_neighbours;
             self.hold(&mut pad);
         }
         pad
@@ -132,7 +132,7 @@ impl CrosstalkCanceller {
         let mut slope = |x_mm: f64, y_mm: f64| {
             let [low, high] = [-1.0, 1.0].map(|sign| {
                 let moved = PadEstimate { x_mm: pad.x_mm + sign * x_mm, y_mm: pad.y_mm + sign * y_mm, ..pad };
-                self.among(moved, &[]).0
+                self.with_neighbours(moved, &[]).0
             });
             [0, 1].map(|n| (high[n] - low[n]) / (2.0 * SLOPE_MM))
         };
@@ -149,9 +149,9 @@ impl CrosstalkCanceller {
     }
 
     /// Both ratios of a pad among others on the nominal sheet, and the amplitude of the sum.
-    fn among(&mut self, pad: PadEstimate, others: &[PadEstimate]) -> ([f64; 2], f64) {
+    fn with_neighbours(&mut self, pad: PadEstimate, others: &[PadEstimate]) -> ([f64; 2], f64) {
         let others: Vec<_> = others.iter().map(|pad| self.as_coupled(*pad)).collect();
-        self.sheet.among(&self.as_coupled(pad), &others)
+        self.sheet.with_neighbours(&self.as_coupled(pad), &others)
     }
 
     /// A pad that is as coupled on the nominal sheet as this one is on the device's: only ωCG counts, so that where the

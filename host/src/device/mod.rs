@@ -42,7 +42,7 @@ use serde::Deserialize;
 ///
 /// let device = DeviceCalibration::read("recordings/hockey.calibration.toml".as_ref())?;
 /// let profile = device.profile(&Profile::bundled("standard")?)?;
-/// let calibration = device.of(&profile)?;
+/// let calibration = device.for_profile(&profile)?;
 /// assert!(device.residual(&calibration).rms_mm < 0.5);
 /// assert_eq!(calibration.capacitance_gain.round(), 796.0, "pF at 4 mA for 8 V");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -50,7 +50,7 @@ use serde::Deserialize;
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct DeviceCalibration {
-    /// Pads served in turn.
+    /// Number of pads, selected in turn.
     pub pads: u64,
     /// The signs of the terminals' currents in the ratios of `map`.
     #[serde(default)]
@@ -65,9 +65,9 @@ pub struct DeviceCalibration {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Signs {
-    /// Of r_x.
+    /// Signs of the terminals in r_x: −1, 0 or 1.
     pub x: Vec<i8>,
-    /// Of r_y.
+    /// Signs of the terminals in r_y: −1, 0 or 1.
     pub y: Vec<i8>,
 }
 
@@ -87,7 +87,7 @@ pub type Found = ([f64; 2], [f64; 2]);
 pub struct Scales {
     /// ADC samples per second.
     pub sample_rate_hz: f64,
-    /// The sensing carrier.
+    /// Frequency of the sensing carrier, Hz.
     pub carrier_hz: f64,
     /// Current at full scale.
     pub current_full_scale_a: f64,
@@ -177,7 +177,7 @@ impl DeviceCalibration {
     ///
     /// # Errors
     /// A number that the profile's formats cannot represent, a map that no position table fits.
-    pub fn of(&self, profile: &Profile) -> Result<Calibration, DeviceWordsError> {
+    pub fn for_profile(&self, profile: &Profile) -> Result<Calibration, DeviceWordsError> {
         let device = &self.device;
         let place = |&[x, y, r_x, r_y, sheet_ohm]: &[f64; 5]| Point { x, y, r_x, r_y, sheet: sheet_ohm / device.ohm() };
         let (_, places) = refine::refine(self.map.columns, &self.map.places);

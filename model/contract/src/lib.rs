@@ -31,11 +31,11 @@
 //! let profile = Profile::bundled("small")?;
 //! // Eight words, integers, as they come over the line.
 //! let frame = Frame { pad: 2, codes: [13107, -6554, 3200, -1600, 1500, 4096, 512, 900], flags: Flags::default() };
-//! let reading = frame.reading(&profile);
+//! let measurement = frame.measurement(&profile);
 //!
 //! assert_eq!(Field::X.format(&profile).to_string(), "s16.5");
-//! assert_eq!((reading.x_mm, reading.y_mm), (100.0, -50.0));
-//! assert!((reading.r_x - 0.8).abs() < 1e-4 && !reading.flags.invalid);
+//! assert_eq!((measurement.x_mm, measurement.y_mm), (100.0, -50.0));
+//! assert!((measurement.r_x - 0.8).abs() < 1e-4 && !measurement.flags.invalid);
 //! # Ok::<(), hapticore_contract::profile::ProfileError>(())
 //! ```
 

@@ -87,7 +87,7 @@ pub trait Choice<V: Value>: Copy {
 impl<V: Value> Choice<V> for Signal<V> {
     #[inline(always)]
     fn choose(bit: Signal<V>, set: Self, clear: Self) -> Self {
-        match V::known(bit.value) {
+        match V::known_bit(bit.value) {
             Some(true) => set,
             Some(false) => clear,
             None => bit.select(set, clear),
@@ -190,7 +190,7 @@ macro_rules! bundle {
         impl<V: $crate::signal::Value> $crate::bundle::Choice<V> for $name<$crate::signal::Signal<V>> {
             #[inline(always)]
             fn choose(bit: $crate::signal::Signal<V>, set: Self, clear: Self) -> Self {
-                match V::known(bit.value) {
+                match V::known_bit(bit.value) {
                     Some(true) => set,
                     Some(false) => clear,
                     None => $name { $($field: $crate::bundle::Choice::choose(bit, set.$field, clear.$field)),* },

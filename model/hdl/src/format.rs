@@ -298,7 +298,7 @@ mod tests {
     }
 
     #[test]
-    fn rails_and_ties() {
+    fn full_scale_and_ties() {
         let s = Format::signed(4, 0);
         assert_eq!(s.code(7.5), None, "half way to the code above the largest rounds to even, out of the format");
         assert_eq!(s.code_saturating(9.0), 7);

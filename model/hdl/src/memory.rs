@@ -50,7 +50,7 @@ pub struct Memory {
 /// What is written into a memory at the end of a clock.
 #[derive(Debug, Clone, Copy)]
 pub struct Write<V> {
-    /// Whether anything is.
+    /// Whether a word is written in this cycle.
     pub enable: Signal<V>,
     /// Address of the word.
     pub address: Signal<V>,
@@ -74,7 +74,7 @@ impl Memory {
         Memory { block: true, ..self }
     }
 
-    /// A table that nobody writes. Entries past a rail of the format are held there.
+    /// A read-only table. Entries outside the format saturate.
     pub fn table(name: &'static str, format: Format, initial: Vec<f64>) -> Self {
         Memory {
             name,

@@ -4,13 +4,13 @@
 //! The range interpretation runs the core through whole rounds of all pads, as many as there are windows in a mean, with every ADC code, every calibration and every table
 //! word anywhere in its format. Control is data-independent, so it is known exactly; data are intervals. Once the state
 //! after a round lies within the state before it, no further round can leave what has been seen, and the proof holds for
-//! all time. What relates several signals is beyond intervals: those places name a lemma, and tests hold the lemmas.
+//! all time. What relates several signals is beyond intervals: those places name an assumption, and tests hold the assumptions.
 
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::block::{self, Block, Submodule, Visitor};
 use hapticore_hdl::bundle::{Bundle, Field};
 use hapticore_hdl::format::{BIT, Format};
-use hapticore_hdl::interpretations::range::{Range, Violation, take_lemmas, take_violations, whole};
+use hapticore_hdl::interpretations::range::{Range, Violation, take_assumptions, take_violations, whole};
 use hapticore_hdl::signal::{Signal, bit, zero};
 use hapticore_model::blocks::core::{Core, Inputs};
 
@@ -21,8 +21,8 @@ pub struct Proof {
     pub violations: Vec<Violation>,
     /// Whether the state after the last round lies within the state before it.
     pub closed: bool,
-    /// Lemmas relied on.
-    pub lemmas: Vec<&'static str>,
+    /// Assumptions relied on.
+    pub assumptions: Vec<&'static str>,
     /// Rounds run, from reset.
     pub rounds: u64,
     /// Number of clocks that the proof ran.
@@ -46,7 +46,7 @@ pub fn prove(profile: &Profile) -> Proof {
     let core = Core::new(profile);
     let mut run = Run { profile, inputs: any_inputs(&core), state: core.reset(), core, clocks: 0 };
     take_violations();
-    take_lemmas();
+    take_assumptions();
     run.any_tables();
     let (mut before, mut closed, mut rounds) = (run.state(), false, 0);
     while !closed && rounds < MOST_ROUNDS {
@@ -57,7 +57,14 @@ pub fn prove(profile: &Profile) -> Proof {
         before = after;
     }
     let registers = before.registers;
-    Proof { violations: take_violations(), lemmas: take_lemmas(), closed, rounds, clocks: run.clocks, registers }
+    Proof {
+        violations: take_violations(),
+        assumptions: take_assumptions(),
+        closed,
+        rounds,
+        clocks: run.clocks,
+        registers,
+    }
 }
 
 struct Run<'a> {

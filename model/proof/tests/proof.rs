@@ -15,7 +15,7 @@ use hapticore_proof::prove;
 
 /// What relates several signals, and where it is held: the tests of divider and square root run them over all codes of
 /// small widths, and every test build checks each of these narrowings at each clock.
-const LEMMAS: [&str; 3] = [
+const ASSUMPTIONS: [&str; 3] = [
     "a square is not negative",
     "the remainder of a division stays below its denominator",
     "the remainder of a square root is at most twice the root so far",
@@ -25,8 +25,8 @@ const LEMMAS: [&str; 3] = [
 fn no_signal_of_a_bundled_profile_can_overflow() {
     for profile in Profile::all() {
         let proof = prove(&profile);
-        let mut lemmas = proof.lemmas.clone();
-        lemmas.sort_unstable();
+        let mut assumptions = proof.assumptions.clone();
+        assumptions.sort_unstable();
         println!(
             "{}: {} clocks in {} rounds, {} registers",
             profile.name,
@@ -35,7 +35,7 @@ fn no_signal_of_a_bundled_profile_can_overflow() {
             proof.registers.len()
         );
         assert!(proof.holds(), "{}: {:?}", profile.name, proof.violations.first());
-        assert_eq!(lemmas, LEMMAS, "{}: the lemmas that the proof relies on", profile.name);
+        assert_eq!(assumptions, ASSUMPTIONS, "{}: the assumptions that the proof relies on", profile.name);
     }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Fidelity `float`: a slot's reading in floating point, from the codes of its window or from phasors.
+//! Fidelity `float`: a slot's measurement in floating point, from the codes of its window or from phasors.
 //!
 //! ```text
 //! i_k = 2/Σw · Σ w·x_k·cos φ,   q_k = 2/Σw · Σ w·x_k·sin φ,   a_k = √(i_k² + q_k²)          (a full-scale tone gives one)
@@ -8,11 +8,11 @@
 //! m = 1/Σw · Σ w·h², the mean of the pad's last N once there are as many,   F = gain · C² · m · square_gain (eq. 8)
 //! ```
 //!
-//! Amplitudes enter results as quotients only, so that the core's tone gain cancels; its square gain does not, and a reading's
+//! Amplitudes enter results as quotients only, so that the core's tone gain cancels; its square gain does not, and a measurement's
 //! mean square holds it, as a frame's does. Nothing saturates.
 
 use hapticore_contract::calibration::Calibration;
-use hapticore_contract::frame::{Flags, Reading};
+use hapticore_contract::frame::{Flags, Measurement};
 use hapticore_contract::profile::{Profile, Window};
 use num_traits::{Float, FloatConst, FromPrimitive};
 
@@ -27,9 +27,9 @@ fn real<T: Real>(x: f64) -> T {
     T::from_f64(x).expect("a floating-point type takes every f64")
 }
 
-/// What a sample of the window is weighed with.
+/// The local oscillator and the window at one sample.
 #[derive(Debug, Clone, Copy)]
-struct Weights<T> {
+struct WindowedCarrier<T> {
     /// 2 w cos φ / Σw and 2 w sin φ / Σw, per full scale of a code.
     carrier: [T; 2],
     /// w / Σw, per full scale² of a code.
@@ -39,7 +39,7 @@ struct Weights<T> {
 /// The results of a pad that stand while there are none.
 #[derive(Debug, Clone, Copy)]
 struct Held<T> {
-    reading: Reading<T>,
+    measurement: Measurement<T>,
     eq6: T,
 }
 
@@ -52,9 +52,9 @@ struct Solution<T> {
 
 /// A core in floating point, slot by slot.
 pub struct Reference<T = f64> {
-    window: Vec<Weights<T>>,
+    window: Vec<WindowedCarrier<T>>,
     channels: usize,
-    rails: [i32; 2],
+    full_scale: [i32; 2],
     signs: Vec<[T; 2]>,
     sheet_correction: bool,
     square_gain: T,
@@ -102,7 +102,7 @@ impl<T: Real> Reference<T> {
         Reference {
             window: window(profile),
             channels: terminals.x.len() + 2,
-            rails: [-half, half - 1],
+            full_scale: [-half, half - 1],
             signs: terminals.x.iter().zip(&terminals.y).map(pair).collect(),
             sheet_correction: profile.capacitance.sheet_correction,
             square_gain: real(profile.square_gain()),
@@ -115,31 +115,31 @@ impl<T: Real> Reference<T> {
         }
     }
 
-    /// The reading of a slot: `codes` are those of its window, a sample after the other: terminals, sensing voltage, haptic
+    /// The measurement of a slot: `codes` are those of its window, a sample after the other: terminals, sensing voltage, haptic
     /// voltage.
     ///
     /// # Panics
     /// Where `codes` is not one code per channel and sample, or there is no such pad.
-    pub fn slot(&mut self, pad: usize, codes: &[i32]) -> Reading<T> {
+    pub fn slot(&mut self, pad: usize, codes: &[i32]) -> Measurement<T> {
         assert_eq!(codes.len(), self.window.len() * self.channels, "one code a channel and sample of the window");
         let mean_square = match self.channels {
             8 => self.demodulate::<8>(codes),
             _ => self.demodulate::<0>(codes),
         };
-        let [low, high] = self.rails;
+        let [low, high] = self.full_scale;
         let clipped = codes.iter().fold(false, |clipped, &code| clipped | (code == low) | (code == high));
         let phasors = std::mem::take(&mut self.sums);
-        let reading = self.estimate(pad, &phasors, mean_square, clipped);
+        let measurement = self.estimate(pad, &phasors, mean_square, clipped);
         self.sums = phasors;
-        reading
+        measurement
     }
 
-    /// The reading of a slot with these phasors (in phase, quadrature; fractions of full scale) of the terminals and the
+    /// The measurement of a slot with these phasors (in phase, quadrature; fractions of full scale) of the terminals and the
     /// sensing voltage, and this mean square of the haptic voltage (full scales squared).
     ///
     /// # Panics
     /// Where `phasors` is not one a terminal and one more, or there is no such pad.
-    pub fn phasors(&mut self, pad: usize, phasors: &[(f64, f64)], mean_square: f64) -> Reading<T> {
+    pub fn phasors(&mut self, pad: usize, phasors: &[(f64, f64)], mean_square: f64) -> Measurement<T> {
         assert_eq!(phasors.len(), self.signs.len() + 1, "a phasor a terminal, and the sensing voltage's");
         let phasors: Vec<_> = phasors.iter().map(|&(i, q)| [i, q].map(real)).collect();
         self.estimate(pad, &phasors, real(mean_square), false)
@@ -157,20 +157,20 @@ impl<T: Real> Reference<T> {
         let mut sums = [[T::zero(); 2]; 64];
         let sums = &mut sums[..channels - 1];
         let mut mean_square = T::zero();
-        for (codes, weights) in codes.chunks_exact(channels).zip(&self.window) {
-            let [cosine, sine] = weights.carrier;
+        for (codes, windowed) in codes.chunks_exact(channels).zip(&self.window) {
+            let [cosine, sine] = windowed.carrier;
             for (sum, &code) in sums.iter_mut().zip(codes) {
                 let x = of_code::<T>(code);
                 *sum = [sum[0] + x * cosine, sum[1] + x * sine];
             }
             let haptic = of_code::<T>(codes[channels - 1]);
-            mean_square = mean_square + haptic * haptic * weights.square;
+            mean_square = mean_square + haptic * haptic * windowed.square;
         }
         self.sums.copy_from_slice(sums);
         mean_square
     }
 
-    fn estimate(&mut self, pad: usize, phasors: &[[T; 2]], mean_square: T, clipped: bool) -> Reading<T> {
+    fn estimate(&mut self, pad: usize, phasors: &[[T; 2]], mean_square: T, clipped: bool) -> Measurement<T> {
         let mean_square = self.mean_square(pad, mean_square * self.square_gain);
         let solution = self.solve(pad, phasors, mean_square);
         self.last = pad;
@@ -178,7 +178,7 @@ impl<T: Real> Reference<T> {
             self.held[pad] = solution.values;
         }
         let flags = Flags { clipped, saturated: false, invalid: !solution.valid, lost: solution.lost };
-        Reading { mean_square, flags, ..self.held[pad].reading }
+        Measurement { mean_square, flags, ..self.held[pad].measurement }
     }
 
     /// The mean of the pad's last squares, or the newest while they are too few.
@@ -214,7 +214,18 @@ impl<T: Real> Reference<T> {
         let flags = Flags::default();
         Solution {
             values: Held {
-                reading: Reading { pad, r_x, r_y, x_mm, y_mm, sheet, capacitance_pf, force_n, mean_square, flags },
+                measurement: Measurement {
+                    pad,
+                    r_x,
+                    r_y,
+                    x_mm,
+                    y_mm,
+                    sheet,
+                    capacitance_pf,
+                    force_n,
+                    mean_square,
+                    flags,
+                },
                 eq6: real::<T>(self.calibration.capacitance_gain) * total / sense,
             },
             valid: corners > T::zero() && place.is_valid() && left > T::zero(),
@@ -236,29 +247,29 @@ fn magnitude<T: Real>(phasor: &[T; 2]) -> T {
     (phasor[0] * phasor[0] + phasor[1] * phasor[1]).sqrt()
 }
 
-/// The weights of a window. The carrier's phase is zero at the first sample of the slot.
-fn window<T: Real>(profile: &Profile) -> Vec<Weights<T>> {
+/// The windowed carrier. The carrier's phase is zero at the first sample of the slot.
+fn window<T: Real>(profile: &Profile) -> Vec<WindowedCarrier<T>> {
     let samples = profile.slot.integrate;
     let count = |n: u64| real::<T>(n as f64);
-    let weight = |m: u64| match profile.carrier.window {
+    let window_at = |m: u64| match profile.carrier.window {
         Window::Hann => (T::PI() * count(m) / count(samples)).sin().powi(2),
         Window::Rectangular => T::one(),
     };
-    let total = sum((0..samples).map(weight));
+    let total = sum((0..samples).map(window_at));
     let full = real::<T>(2f64.powi(profile.formats.adc.frac.into()));
-    let weights = |m: u64| {
+    let windowed = |m: u64| {
         let step = (profile.slot.blanking() + m) * profile.carrier.periods % samples;
         let (sine, cosine) = (T::TAU() * count(step) / count(samples)).sin_cos();
-        let scale = count(2) * weight(m) / total / full;
-        Weights { carrier: [cosine, sine].map(|wave| scale * wave), square: weight(m) / total / full / full }
+        let scale = count(2) * window_at(m) / total / full;
+        WindowedCarrier { carrier: [cosine, sine].map(|wave| scale * wave), square: window_at(m) / total / full / full }
     };
-    (0..samples).map(weights).collect()
+    (0..samples).map(windowed).collect()
 }
 
 /// A pad of which nothing is known yet.
 fn nothing<T: Real>(pad: usize) -> Held<T> {
     let [r_x, r_y, x_mm, y_mm, sheet, capacitance_pf, force_n, mean_square] = [T::zero(); 8];
     let flags = Flags::default();
-    let reading = Reading { pad, r_x, r_y, x_mm, y_mm, sheet, capacitance_pf, force_n, mean_square, flags };
-    Held { reading, eq6: T::zero() }
+    let measurement = Measurement { pad, r_x, r_y, x_mm, y_mm, sheet, capacitance_pf, force_n, mean_square, flags };
+    Held { measurement, eq6: T::zero() }
 }

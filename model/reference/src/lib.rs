@@ -30,13 +30,13 @@
 //! // The same current at all six terminals, a tenth of full scale; the sensing voltage at half of it.
 //! let mut phasors = [(0.0, 0.1); 7];
 //! phasors[6] = (0.5, 0.0);
-//! let reading = reference.phasors(0, &phasors, 0.125);
+//! let measurement = reference.phasors(0, &phasors, 0.125);
 //!
-//! assert_eq!((reading.r_x, reading.r_y), (0.0, 0.0), "a pad in the middle");
-//! assert!((reading.capacitance_pf - 800.0 * 0.6 / 0.5).abs() < 1e-9, "gain · total current / voltage");
-//! let force = 2e-6 * reading.capacitance_pf.powi(2) * reading.mean_square;
-//! assert!((reading.force_n - force).abs() < 1e-12, "eq. 8");
-//! assert!(!reading.flags.invalid);
+//! assert_eq!((measurement.r_x, measurement.r_y), (0.0, 0.0), "a pad in the middle");
+//! assert!((measurement.capacitance_pf - 800.0 * 0.6 / 0.5).abs() < 1e-9, "gain · total current / voltage");
+//! let force = 2e-6 * measurement.capacitance_pf.powi(2) * measurement.mean_square;
+//! assert!((measurement.force_n - force).abs() < 1e-12, "eq. 8");
+//! assert!(!measurement.flags.invalid);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 

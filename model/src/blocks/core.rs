@@ -135,7 +135,7 @@ impl Core {
         &self.estimator
     }
 
-    /// From now on readings of codes have positions at once, without their clocks, from a position table of these codes.
+    /// From now on interpretations of codes have positions at once, without their clocks, from a position table of these codes.
     pub(crate) fn place_at_once(&mut self, table: Vec<i64>) {
         self.estimator.place_at_once(table);
     }

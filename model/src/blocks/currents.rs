@@ -92,7 +92,7 @@ block! {
         /// Denominator of both ratios.
         corners: currents.denominator(),
         /// Smallest amplitude of all terminals, in the unit of the numerators.
-        least: currents.root_format(),
+        least: currents.sqrt_format(),
         /// A word is saturated.
         saturated: BIT,
     }
@@ -108,11 +108,11 @@ block! {
         part: currents.part,
         power: Format::unsigned(2 * currents.part.width, 2 * currents.part.frac),
         sqrt_start: BIT,
-        sense: currents.root_format(),
+        sense: currents.sqrt_format(),
         x: currents.numerator(),
         y: currents.numerator(),
         corners: currents.denominator(),
-        least: currents.root_format(),
+        least: currents.sqrt_format(),
         saturated: BIT,
         done: BIT,
         long: currents.wide(),
@@ -175,7 +175,7 @@ impl Currents {
 
     /// The format of an amplitude as the square root gives it.
     #[inline(always)]
-    fn root_format(&self) -> Format {
+    fn sqrt_format(&self) -> Format {
         Format::unsigned(self.amplitude, self.part.frac)
     }
 
@@ -203,7 +203,7 @@ impl Currents {
 
     /// The format of the least amplitude.
     pub fn least(&self) -> Format {
-        self.root_format()
+        self.sqrt_format()
     }
 
     /// Clocks from the last sum to `done`.

@@ -45,7 +45,7 @@ block! {
         pub(super) adc: Format,
         pub(super) oscillator: Format,
         /// The ADC's largest and smallest codes.
-        rails: [i64; 2],
+        full_scale: [i64; 2],
         /// Operands of the multiplier, and their product: the point of both is known here.
         pub(super) operand: Format,
         /// Where the sums' point is.
@@ -165,7 +165,7 @@ impl Demodulator {
             channels,
             adc,
             oscillator,
-            rails: [adc.max_code(), adc.min_code()].map(|rail| rail as i64),
+            full_scale: [adc.max_code(), adc.min_code()].map(|code| code as i64),
             operand,
             point: product.frac,
             channel: Format::counter(channels),
@@ -260,8 +260,8 @@ impl Demodulator {
 
     /// Whether a code is at full scale of the ADC.
     #[inline(always)]
-    pub fn at_rail<V: Interpretation>(&self, code: Signal<V>) -> Signal<V> {
-        let [most, least] = self.rails;
+    pub fn at_full_scale<V: Interpretation>(&self, code: Signal<V>) -> Signal<V> {
+        let [most, least] = self.full_scale;
         code.equals(hapticore_hdl::signal::code(most, code.format))
             | code.equals(hapticore_hdl::signal::code(least, code.format))
     }
@@ -364,7 +364,7 @@ impl Demodulator {
             summed,
             index,
             sum,
-            clipped: r.clipped | when!(uses_code => self.at_rail(i.code), else bit(false)),
+            clipped: r.clipped | when!(uses_code => self.at_full_scale(i.code), else bit(false)),
             ..r
         }
     }

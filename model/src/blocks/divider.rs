@@ -11,7 +11,7 @@
 //!
 //! | signal    | overflow                                                                 |
 //! | quotient  | saturates, and says so                                                   |
-//! | remainder | cannot: it stays below the denominator (lemma, held by an exhaustive test) |
+//! | remainder | cannot: it stays below the denominator (assumed; verified exhaustively) |
 //!
 //! A zero denominator gives a saturated quotient; the caller says what that means. Latency: quotient width + 4 clocks from
 //! `start` to `done`. Source: restoring division, Parhami, Computer Arithmetic, §13.

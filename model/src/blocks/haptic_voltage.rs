@@ -118,7 +118,7 @@ impl HapticVoltage {
         if self.windows == 1 {
             return Registers { mean_square: newest, saturated, ..r };
         }
-        // Pads are served in turn: with the first one all begin another round.
+        // Pads are selected in turn: with the first one all begin another round.
         let round = r.round.increment();
         let begins = i.pad.is(0);
         Registers {

@@ -112,11 +112,11 @@ fn quarter_wave(profile: &Profile) -> Vec<f64> {
 /// The first half of the window, its middle among it.
 fn half_window(profile: &Profile) -> Vec<f64> {
     let samples = profile.slot.integrate;
-    let weight = |m: u64| match profile.carrier.window {
+    let window_value = |m: u64| match profile.carrier.window {
         Window::Hann => (TAU / 2.0 * m as f64 / samples as f64).sin().powi(2),
         Window::Rectangular => 1.0,
     };
-    (0..=samples / 2).map(|m| profile.amplitude() * weight(m)).collect()
+    (0..=samples / 2).map(|m| profile.amplitude() * window_value(m)).collect()
 }
 
 /// The format of a wave without its sign.
@@ -187,7 +187,7 @@ impl Oscillator {
 
     /// (1 − cos) / 2 and what the halving drops, or one throughout.
     #[inline(always)]
-    fn weight<V: Interpretation>(&self, cosine: Signal<V>, residue: Signal<V>) -> (Signal<V>, Signal<V>) {
+    fn window_value<V: Interpretation>(&self, cosine: Signal<V>, residue: Signal<V>) -> (Signal<V>, Signal<V>) {
         let one = code(self.amplitude, magnitude(self.wave));
         let twice = (one - cosine).named("twice");
         let sum = twice + residue.scaled(-self.wave.frac);
@@ -294,7 +294,7 @@ impl Oscillator {
         let [quadrant, phase] = advanced([r.quadrant, r.phase], self.step);
         let [window_quadrant, window_phase] = advanced([r.window_quadrant, r.window_phase], [0, 1]);
         let wave = r.sign.select(-r.wave, r.wave).resize(r.sine.format, Wrap).named("signed_wave");
-        let (weight, residue) = self.weight(r.window, r.residue);
+        let (window_value, residue) = self.window_value(r.window, r.residue);
         Registers {
             step: end.select(Idle.signal(), r.step + int(1)).resize(r.step.format, Wrap),
             quadrant,
@@ -303,7 +303,7 @@ impl Oscillator {
             window_phase,
             wave: magnitude,
             sign: negative,
-            window: at(Wave).select(wave, at(Cosine).select(weight, r.window)),
+            window: at(Wave).select(wave, at(Cosine).select(window_value, r.window)),
             residue: at(Cosine).select(residue, r.residue),
             // The cosine comes first, and moves on: one value, one register that takes it.
             cosine: end.select(r.sine, r.cosine),

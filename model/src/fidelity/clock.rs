@@ -96,32 +96,32 @@ impl State {
     fn samples(&mut self, core: &Core, inputs: &Inputs<Signal<i64>>, clocks: u64, samples: ChunksExact<'_, i32>) {
         for codes in samples {
             for count in 0..clocks {
-                let inputs = self.given(inputs, count == 0, codes);
+                let inputs = self.inputs_for_cycle(inputs, count == 0, codes);
                 let outputs = core.clock(&mut self.core, inputs);
-                self.take(outputs);
+                self.collect_outputs(outputs);
             }
         }
     }
 
     fn clock(&mut self, core: &Core, inputs: &Inputs<Signal<i64>>, strobe: bool, codes: &[i32]) {
-        let inputs = self.given(inputs, strobe, codes);
+        let inputs = self.inputs_for_cycle(inputs, strobe, codes);
         let outputs = clock(core, &mut self.core, inputs);
-        self.take(outputs);
+        self.collect_outputs(outputs);
     }
 
     /// The inputs of a clock: the code is that of the channel that was asked for.
     #[inline(always)]
-    fn given(&self, inputs: &Inputs<Signal<i64>>, strobe: bool, codes: &[i32]) -> Inputs<Signal<i64>> {
+    fn inputs_for_cycle(&self, inputs: &Inputs<Signal<i64>>, strobe: bool, codes: &[i32]) -> Inputs<Signal<i64>> {
         let code = Signal { value: i64::from(codes[self.channel]), format: inputs.code.format };
         Inputs { strobe: bit(strobe), code, ..*inputs }
     }
 
     #[inline(always)]
-    fn take(&mut self, outputs: Outputs<Signal<i64>>) {
+    fn collect_outputs(&mut self, outputs: Outputs<Signal<i64>>) {
         self.clocks += 1;
         self.channel = outputs.channel.value as usize;
         let frame = outputs.frames;
-        self.gathered.take(frame.valid.value, frame.index.value, frame.frame.value);
+        self.gathered.accept_word(frame.valid.value, frame.index.value, frame.frame.value);
         if frame.done.value != 0 {
             self.frame = Some(self.gathered.frame(frame));
         }

@@ -19,7 +19,7 @@ use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::Format;
 use hapticore_hdl::signal::{Proved, Signal, bit, code, constant, zero};
 
-/// The weighted carrier at a sample of the window, and the window itself.
+/// The windowed carrier at a sample, and the window itself.
 #[derive(Debug, Clone, Copy)]
 struct Local<V> {
     cosine: V,
@@ -160,7 +160,7 @@ impl<V: Interpretation> FixedSimulation<V> {
         sums.map(|sum| sum.resize(demodulator.sum(), Proved))
     }
 
-    /// The weighted sum of squares of a channel.
+    /// The windowed sum of squares of a channel.
     #[inline]
     fn squares(&self, channel: usize, codes: &[i32]) -> Signal<V> {
         let (demodulator, adc, begun) = (self.core.demodulator(), self.adc, bit(false));
@@ -193,8 +193,8 @@ impl<V: Interpretation> FixedSimulation<V> {
     }
 
     fn clipped(&self, codes: &[i32]) -> bool {
-        let rails = [self.adc.min_code() as i32, self.adc.max_code() as i32];
-        codes.iter().fold(false, |clipped, code| clipped | rails.contains(code))
+        let full_scale = [self.adc.min_code() as i32, self.adc.max_code() as i32];
+        codes.iter().fold(false, |clipped, code| clipped | full_scale.contains(code))
     }
 
     /// Hands the sums to the estimator and runs it until its frame is there.
@@ -229,10 +229,10 @@ fn run<V: Interpretation>(
             None => *quiet,
         };
         let frame = estimator.clock(state, inputs).frames;
-        if V::known(frame.valid.value) == Some(true) {
-            gathered.take(1, V::code(frame.index), V::code(frame.frame));
+        if V::known_bit(frame.valid.value) == Some(true) {
+            gathered.accept_word(1, V::code(frame.index), V::code(frame.frame));
         }
-        if V::known(frame.done.value) == Some(true) {
+        if V::known_bit(frame.done.value) == Some(true) {
             return gathered.frame(frame);
         }
     }
@@ -256,7 +256,7 @@ fn response<V: Interpretation>(core: &Core, local: &[Local<V>], profile: &Profil
     let format = profile.formats.oscillator;
     let real = |value: V| format.real(V::code(Signal { value, format }));
     let polyphase = core.demodulator().polyphase();
-    let weights = local.iter().enumerate().map(|(sample, local)| {
+    let windowed = local.iter().enumerate().map(|(sample, local)| {
         let [cosine, sine, window] = [local.cosine, local.sine, local.window].map(real);
         match polyphase {
             None => [cosine, sine, window],
@@ -266,8 +266,8 @@ fn response<V: Interpretation>(core: &Core, local: &[Local<V>], profile: &Profil
             }
         }
     });
-    let rail = 1.0 - profile.formats.adc.lsb();
-    Response::new(weights, profile.slot.blanking(), profile.turns_per_sample(), rail)
+    let full_scale = 1.0 - profile.formats.adc.lsb();
+    Response::new(windowed, profile.slot.blanking(), profile.turns_per_sample(), full_scale)
 }
 
 /// The local oscillator over the window of a slot: the oscillator's own, asked once.
@@ -279,7 +279,7 @@ fn local<V: Interpretation>(core: &Core, profile: &Profile) -> Vec<Local<V>> {
         let [restart, first] = [sample == 0, sample == profile.slot.blanking()].map(bit);
         let quiet = Sample { sample: bit(false), restart: bit(false), first: bit(false) };
         let mut out = oscillator.clock(&mut state, Sample { sample: bit(true), restart, first });
-        while V::known(out.ready.value) != Some(true) {
+        while V::known_bit(out.ready.value) != Some(true) {
             out = oscillator.clock(&mut state, quiet);
         }
         let out = oscillator.clock(&mut state, quiet);

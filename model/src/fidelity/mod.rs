@@ -27,8 +27,9 @@ struct Gathered {
 }
 
 impl Gathered {
+    /// Stores a valid word at its index.
     #[inline(always)]
-    fn take(&mut self, valid: i64, index: i64, word: i64) {
+    fn accept_word(&mut self, valid: i64, index: i64, word: i64) {
         if valid != 0 {
             self.codes[index as usize] = word;
         }

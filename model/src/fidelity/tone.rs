@@ -10,8 +10,8 @@
 
 use std::f64::consts::TAU;
 
-/// A sample of the window: the oscillator's weighted cosine and sine, and the window.
-pub(super) type Weights = [f64; 3];
+/// A sample of the window: the oscillator's windowed cosine and sine, and the window.
+pub(super) type WindowedSample = [f64; 3];
 
 /// What a window makes of signals of unit amplitude.
 #[derive(Debug, Clone)]
@@ -21,19 +21,24 @@ pub(super) struct Response {
     /// The sum of squares of a unit constant.
     square: f64,
     /// The largest amplitude that the ADC takes.
-    rail: f64,
+    full_scale: f64,
 }
 
 impl Response {
     /// The response of a window that begins `blanking` samples after the carrier.
-    pub fn new(window: impl Iterator<Item = Weights>, blanking: u64, turns_per_sample: f64, rail: f64) -> Self {
-        let mut response = Response { tones: [[0.0; 2]; 2], square: 0.0, rail };
-        for (sample, [cosine, sine, weight]) in (blanking..).zip(window) {
+    pub fn new(
+        window: impl Iterator<Item = WindowedSample>,
+        blanking: u64,
+        turns_per_sample: f64,
+        full_scale: f64,
+    ) -> Self {
+        let mut response = Response { tones: [[0.0; 2]; 2], square: 0.0, full_scale };
+        for (sample, [cosine, sine, window]) in (blanking..).zip(window) {
             let phase = TAU * (sample as f64 * turns_per_sample).fract();
             for (tone, wave) in response.tones.iter_mut().zip([phase.cos(), -phase.sin()]) {
                 *tone = [tone[0] + wave * cosine, tone[1] + wave * sine];
             }
-            response.square += weight;
+            response.square += window;
         }
         response
     }
@@ -41,14 +46,14 @@ impl Response {
     /// The in-phase and quadrature sums of a tone, saturated, and whether it was.
     pub fn tone(&self, (p, q): (f64, f64)) -> ([f64; 2], bool) {
         let amplitude = p.hypot(q);
-        let held = (self.rail / amplitude).min(1.0);
+        let held = (self.full_scale / amplitude).min(1.0);
         let [of_p, of_q] = self.tones;
-        ([0, 1].map(|phase| held * (p * of_p[phase] + q * of_q[phase])), amplitude >= self.rail)
+        ([0, 1].map(|phase| held * (p * of_p[phase] + q * of_q[phase])), amplitude >= self.full_scale)
     }
 
     /// The sum of squares of a sine of this mean square, saturated, and whether it was.
     pub fn square(&self, mean_square: f64) -> (f64, bool) {
-        let most = 0.5 * self.rail * self.rail;
+        let most = 0.5 * self.full_scale * self.full_scale;
         (mean_square.min(most) * self.square, mean_square >= most)
     }
 }

@@ -13,7 +13,7 @@ use crate::device::{Tones, calibration, tone_codes};
 use crate::random::Random;
 use hapticore_contract::calibration::Calibration;
 use hapticore_contract::frame::Field;
-use hapticore_contract::frame::Reading;
+use hapticore_contract::frame::Measurement;
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::format::Format;
 use hapticore_model::fidelity::fixed::FixedSimulation;
@@ -50,7 +50,7 @@ fn carrier(profile: &Profile) -> f64 {
 
 /// The deviation of a position: of its ratios and of the table's words, by the slope of the place over the ratios, and of the
 /// words of the place itself.
-fn position(profile: &Profile, calibration: &Calibration, ideal: &Reading, of_ratio: [f64; 2]) -> f64 {
+fn position(profile: &Profile, calibration: &Calibration, ideal: &Measurement, of_ratio: [f64; 2]) -> f64 {
     let f = &profile.formats;
     let x = |dx: f64, dy: f64| calibration.position.look_up(ideal.r_x + dx, ideal.r_y + dy).x;
     let step = 1e-3;
@@ -66,7 +66,7 @@ fn position(profile: &Profile, calibration: &Calibration, ideal: &Reading, of_ra
 }
 
 /// The deviations of [`NAMES`] that the word lengths predict.
-fn predict(profile: &Profile, calibration: &Calibration, tones: &Tones, ideal: &Reading) -> [f64; 5] {
+fn predict(profile: &Profile, calibration: &Calibration, tones: &Tones, ideal: &Measurement) -> [f64; 5] {
     let (f, g) = (&profile.formats, profile.tone_gain());
     let (terminals, sense) = tones.phasors.split_at(profile.terminals.x.len());
     let carrier = carrier(profile);
@@ -97,7 +97,7 @@ fn predict(profile: &Profile, calibration: &Calibration, tones: &Tones, ideal: &
         relative(of_terminals, words, total),
         relative(of_sense, 2.0, sense[0].0),
         given(total),
-        // Its amplitude, and the root of what the sheet's drop leaves of it.
+        // Its amplitude, and the square root of what the sheet's drop leaves of it.
         2f64.sqrt() * given(sense[0].0),
         q(f.admittance) / admittance,
         q(f.capacitance) / ideal.capacitance_pf,
@@ -121,7 +121,7 @@ fn predict(profile: &Profile, calibration: &Calibration, tones: &Tones, ideal: &
     [in_frame, position(profile, calibration, ideal, of_ratio), capacitance, force, mean_square]
 }
 
-fn deviate(ideal: &Reading, fixed: &Reading) -> [f64; 5] {
+fn deviate(ideal: &Measurement, fixed: &Measurement) -> [f64; 5] {
     [
         fixed.r_x - ideal.r_x,
         fixed.x_mm - ideal.x_mm,
@@ -148,7 +148,7 @@ fn deviations_are_those_of_the_word_lengths() {
             let (ideal, got) = (reference.slot(0, &codes), fixed.slot(0, &codes));
             assert_eq!(got.flags, ideal.flags, "{tones:?}");
             let predicted = predict(&profile, &calibration, &tones, &ideal);
-            let measured = deviate(&ideal, &got.reading(&profile));
+            let measured = deviate(&ideal, &got.measurement(&profile));
             for (square, (p, m)) in squares.iter_mut().zip(predicted.into_iter().zip(measured)) {
                 *square = [square[0] + p * p, square[1] + m * m];
             }

@@ -61,7 +61,7 @@ pub enum Sight {
     /// A few codes about zero.
     Whisper,
     /// Codes at full scale.
-    Rails,
+    FullScale,
     /// Tones as a pad on the sheet causes them.
     Tones,
     /// A pad, one terminal's wire broken.
@@ -72,7 +72,7 @@ pub enum Sight {
 
 impl Sight {
     pub const ALL: [Sight; 7] =
-        [Sight::Tones, Sight::Silence, Sight::Noise, Sight::Broken, Sight::NoVoltage, Sight::Whisper, Sight::Rails];
+        [Sight::Tones, Sight::Silence, Sight::Noise, Sight::Broken, Sight::NoVoltage, Sight::Whisper, Sight::FullScale];
 }
 
 /// A pad somewhere on the sheet.
@@ -109,7 +109,7 @@ pub fn codes(profile: &Profile, sight: Sight, random: &mut Random) -> Vec<i32> {
         Sight::Silence => vec![0; channels],
         Sight::Noise => (0..channels).map(|_| random.word(adc) as i32).collect(),
         Sight::Whisper => (0..channels).map(|_| random.below(5) as i32 - 2).collect(),
-        Sight::Rails => {
+        Sight::FullScale => {
             (0..channels).map(|k| if (n + k as u64).is_multiple_of(3) { -half } else { half - 1 }).collect()
         }
         _ => tone_codes(profile, &tones, n),

@@ -19,7 +19,7 @@ pub struct Bench<B: Block, V: Interpretation = i64> {
 }
 
 impl<B: Block, V: Interpretation> Bench<B, V> {
-    /// The block at reset, in some reading.
+    /// The block at reset, in some interpretation.
     pub fn read(block: B) -> Self {
         Bench { state: block.reset(), block, clock: 0 }
     }

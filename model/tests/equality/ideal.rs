@@ -17,7 +17,7 @@ fn phasor((amplitude, turns): (f64, f64)) -> (f64, f64) {
 
 /// Eq. 5: |I| = y v / √(1 + (y R)²) of an admittance y behind the sheet's R at the pad.
 #[test]
-fn the_root_form_gives_the_capacitance_back() {
+fn the_square_root_form_gives_the_capacitance_back() {
     let profile = Profile::bundled("standard").expect("bundled");
     let calibration = calibration(&profile);
     let (mut reference, mut random) = (Reference::<f64>::new(&profile, &calibration), Random::new(1));
@@ -36,12 +36,16 @@ fn the_root_form_gives_the_capacitance_back() {
         let turn = random.unit();
         let mut phasors: Vec<_> = terminals.iter().map(|share| phasor((share / sum * current, turn))).collect();
         phasors.push(phasor((*voltage, random.unit())));
-        let reading = reference.phasors(0, &phasors, 0.25);
+        let measurement = reference.phasors(0, &phasors, 0.25);
         let expected = 800.0 * admittance;
-        assert!(close(reading.capacitance_pf, expected, 1e-12), "{reading:?} of {expected} pF");
+        assert!(close(measurement.capacitance_pf, expected, 1e-12), "{measurement:?} of {expected} pF");
         assert!(close(reference.capacitance_eq6(), expected / behind, 1e-12), "eq. 6 reads low");
-        assert!(close(reading.mean_square, 0.25 * profile.square_gain(), 1e-15));
-        assert!(close(reading.force_n, calibration.force_gain * expected * expected * reading.mean_square, 1e-11));
+        assert!(close(measurement.mean_square, 0.25 * profile.square_gain(), 1e-15));
+        assert!(close(
+            measurement.force_n,
+            calibration.force_gain * expected * expected * measurement.mean_square,
+            1e-11
+        ));
     }
 }
 
@@ -71,8 +75,8 @@ fn what_is_invalid_holds_the_last_of_its_pad() {
     let (mut reference, mut random) = (Reference::<f64>::new(&profile, &calibration(&profile)), Random::new(7));
     let mut slot = |pad: usize, sight: Sight| {
         let codes = device::codes(&profile, sight, &mut random);
-        let reading = reference.slot(pad, &codes[profile.slot.blanking() as usize * profile.channels()..]);
-        (reading, reference.capacitance_eq6())
+        let measurement = reference.slot(pad, &codes[profile.slot.blanking() as usize * profile.channels()..]);
+        (measurement, reference.capacitance_eq6())
     };
     let (valid, eq6) = slot(2, Sight::Tones);
     assert!(!valid.flags.invalid && !valid.flags.lost && !valid.flags.clipped);
@@ -85,5 +89,5 @@ fn what_is_invalid_holds_the_last_of_its_pad() {
     }
     assert_eq!(slot(3, Sight::Silence).0.capacitance_pf, 0.0, "a pad that never was");
     assert!(slot(0, Sight::Broken).0.flags.lost);
-    assert!(slot(0, Sight::Rails).0.flags.clipped);
+    assert!(slot(0, Sight::FullScale).0.flags.clipped);
 }

@@ -3,7 +3,7 @@
 
 use crate::device::{self, Sight, calibration, short_profiles};
 use crate::harness::{Bench, show};
-use crate::never_idle::NeverIdle;
+use crate::never_skips::NeverSkips;
 use crate::random::Random;
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::block::{Block, Inputs, Outputs};
@@ -19,19 +19,19 @@ const SLOTS: u64 = if cfg!(optimised) { 60 } else { 8 };
 fn skipping_changes_no_bit_on_any_clock() {
     for profile in short_profiles() {
         let (mut skips, mut never) =
-            (Bench::new(Core::new(&profile)), Bench::<_, NeverIdle>::read(Core::new(&profile)));
-        let (mut registers, mut of_never) = (Vec::new(), Vec::new());
+            (Bench::new(Core::new(&profile)), Bench::<_, NeverSkips>::read(Core::new(&profile)));
+        let (mut registers, mut of_never_skipping) = (Vec::new(), Vec::new());
         drive_core(&profile, SLOTS, |inputs| {
             let (got, expected) = (skips.clock(inputs), never.clock(inputs));
             assert_same_outputs::<Core>(skips.clock, inputs, got, expected);
             registers.clear();
-            of_never.clear();
+            of_never_skipping.clear();
             sample(&skips.block, &skips.state, &mut registers);
-            sample(&never.block, &never.state, &mut of_never);
-            if !registers.iter().zip(&of_never).all(|(a, b)| *a == b.0) {
+            sample(&never.block, &never.state, &mut of_never_skipping);
+            if !registers.iter().zip(&of_never_skipping).all(|(a, b)| *a == b.0) {
                 let pairs = skips.registers().zip(never.registers());
                 let differs = |((variable, a), (_, b)): &_| -> Option<String> {
-                    let (a, b): (&i64, &NeverIdle) = (a, b);
+                    let (a, b): (&i64, &NeverSkips) = (a, b);
                     let variable: &hapticore_hdl::probe::Variable = variable;
                     (*a != b.0)
                         .then(|| format!("{}.{}: {a} skipping, {} never", variable.scope.join("."), variable.name, b.0))

@@ -19,7 +19,7 @@ mod ideal;
 mod idle;
 mod interpreter;
 mod netlists;
-mod never_idle;
+mod never_skips;
 mod phasors;
 mod random;
 mod signals;

@@ -49,9 +49,9 @@ fn check(profile: &Profile, random: &mut Random) {
         let tones = tones(profile, random);
         let phasors: Vec<_> =
             tones.phasors.iter().map(|&(a, turns)| (a * (TAU * turns).cos(), -a * (TAU * turns).sin())).collect();
-        let from_samples = sampled.slot(0, &window(profile, &tones)).reading(profile);
+        let from_samples = sampled.slot(0, &window(profile, &tones)).measurement(profile);
         let from_phasors = told.phasors(0, &phasors, 0.5 * tones.haptic * tones.haptic);
-        let from_phasors = from_phasors.reading(profile);
+        let from_phasors = from_phasors.measurement(profile);
         assert_eq!(from_samples.flags, from_phasors.flags, "{}", profile.name);
         let terminals = profile.terminals.x.len() as f64;
         let total: f64 = tones.phasors.iter().take(profile.terminals.x.len()).map(|(a, _)| a).sum();
@@ -77,7 +77,7 @@ fn frames_from_amplitudes_are_those_from_samples_but_for_the_adcs_rounding() {
 }
 
 #[test]
-fn amplitudes_beyond_the_rails_are_held_and_flagged() {
+fn amplitudes_beyond_full_scale_are_held_and_flagged() {
     for profile in Profile::all() {
         let mut core = FixedSimulation::<i64>::new(&profile, &calibration(&profile));
         let mut phasors = vec![(0.0, 0.1); profile.channels() - 1];

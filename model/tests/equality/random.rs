@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Random words that know where circuits break: at rails, around zero, at powers of two, in short words.
+//! Random words that know where circuits break: at full scale, around zero, at powers of two, in short words.
 
 use hapticore_hdl::format::Format;
 

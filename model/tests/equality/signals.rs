@@ -72,7 +72,7 @@ fn binary<V: Value>(a: Signal<V>, b: Signal<V>, f: fn(Signal<V>, Signal<V>) -> S
     if fits { f(a, b) } else { a }
 }
 
-/// The expression in a reading.
+/// The expression in an interpretation.
 fn read<V: Value>(expression: &Expression, operands: [Signal<V>; 2]) -> Signal<V> {
     let of = |expression: &Expression| read(expression, operands);
     match expression {
@@ -151,7 +151,7 @@ proptest! {
     }
 
     #[test]
-    fn the_real_reading_is_the_number_where_nothing_narrows(a in signals(), b in signals()) {
+    fn the_real_interpretation_is_the_number_where_nothing_narrows(a in signals(), b in signals()) {
         let (x, y) = (real(a), real(b));
         for (got, of_codes) in [(x + y, a + b), (x - y, a - b), (x * y, a * b), (-x, -a), (x.abs(), a.abs())] {
             prop_assert_eq!(got.value.0, exact(of_codes).real());

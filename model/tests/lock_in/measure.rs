@@ -16,7 +16,7 @@ use std::f64::consts::{PI, TAU};
 use std::fmt::Write as _;
 
 /// Parts of a bin, one over the window, at which the response is looked at.
-const PARTS: usize = 16;
+const POINTS_PER_BIN: usize = 16;
 /// Below this, in dB, nobody asks how a response compares with floating point.
 const FLOOR: f64 = -110.0;
 /// The reserve is looked at from here to there, Hz.
@@ -54,10 +54,10 @@ pub fn all() -> Vec<Measured> {
 
 fn measure(profile: Profile, rate_hz: f64) -> Measured {
     let mut core = FixedSimulation::new(&profile, &calibration(&profile));
-    let (fixed, float) = (weights(&profile, &mut core), ideal(&profile));
-    let carrier = profile.carrier.periods as usize * PARTS;
-    let [fixed_db, float_db] = [&fixed, &float].map(|weights| response(weights, carrier));
-    let hz = |k: usize| k as f64 * rate_hz / (PARTS as f64 * profile.slot.integrate as f64);
+    let (fixed, float) = (windowed_carrier(&profile, &mut core), ideal(&profile));
+    let carrier = profile.carrier.periods as usize * POINTS_PER_BIN;
+    let [fixed_db, float_db] = [&fixed, &float].map(|windowed_carrier| response(windowed_carrier, carrier));
+    let hz = |k: usize| k as f64 * rate_hz / (POINTS_PER_BIN as f64 * profile.slot.integrate as f64);
     let over = |k: usize| fixed_db[k].max(FLOOR) - float_db[k].max(FLOOR);
     let worst = (0..fixed_db.len()).max_by(|&a, &b| over(a).total_cmp(&over(b))).expect("frequencies");
     let band = |response: &[f64]| {
@@ -85,50 +85,51 @@ fn sums(profile: &Profile, core: &mut FixedSimulation, code: impl Fn(usize, usiz
 }
 
 /// The response to a constant of a third of full scale, in dB; none where not a bit of it is left.
-fn constant(profile: &Profile, core: &mut FixedSimulation, weights: &[Pair]) -> Option<f64> {
+fn constant(profile: &Profile, core: &mut FixedSimulation, windowed_carrier: &[Pair]) -> Option<f64> {
     let code = profile.formats.adc.max_code() as i32 / 3;
     let silence = sums(profile, core, |_, _| 0)[0];
     let read = sums(profile, core, |_, _| code)[0];
     let left = (read[0] - silence[0]).hypot(read[1] - silence[1]) / f64::from(code);
-    let carrier = amplitude(weights, profile.carrier.periods as usize * PARTS);
+    let carrier = amplitude(windowed_carrier, profile.carrier.periods as usize * POINTS_PER_BIN);
     (left > 0.0).then(|| 20.0 * (2.0 * left / carrier).log10())
 }
 
 /// What a code of one adds to the sums, by the sample where it is: an impulse in each channel at a sample of its own.
-fn weights(profile: &Profile, core: &mut FixedSimulation) -> Vec<Pair> {
+fn windowed_carrier(profile: &Profile, core: &mut FixedSimulation) -> Vec<Pair> {
     let (samples, channels) = (profile.slot.integrate as usize, profile.channels() - 1);
     let impulse = 1i32 << (profile.formats.adc.width - 2);
     let silence = sums(profile, core, |_, _| 0)[0];
-    let mut weights = Vec::new();
+    let mut windowed_carrier = Vec::new();
     for first in (0..samples).step_by(channels) {
         let of = sums(profile, core, |n, channel| if channel < channels && n == first + channel { impulse } else { 0 });
-        weights.extend(of.iter().map(|sum| [0, 1].map(|part| (sum[part] - silence[part]) / f64::from(impulse))));
+        windowed_carrier
+            .extend(of.iter().map(|sum| [0, 1].map(|part| (sum[part] - silence[part]) / f64::from(impulse))));
     }
-    weights.truncate(samples);
-    weights
+    windowed_carrier.truncate(samples);
+    windowed_carrier
 }
 
 /// The Hann window and the carrier, in floating point.
 fn ideal(profile: &Profile) -> Vec<Pair> {
     let (samples, periods) = (profile.slot.integrate, profile.carrier.periods);
-    let weight = |m: u64| (PI * m as f64 / samples as f64).sin().powi(2);
+    let window = |m: u64| (PI * m as f64 / samples as f64).sin().powi(2);
     let phase = |m: u64| TAU * ((profile.slot.blanking() + m) * periods % samples) as f64 / samples as f64;
-    (0..samples).map(|m| [weight(m) * phase(m).cos(), weight(m) * phase(m).sin()]).collect()
+    (0..samples).map(|m| [window(m) * phase(m).cos(), window(m) * phase(m).sin()]).collect()
 }
 
 /// The response from zero to half the sample rate, in dB of that at `carrier`.
-fn response(weights: &[Pair], carrier: usize) -> Vec<f64> {
-    let one = amplitude(weights, carrier);
-    let half = PARTS * weights.len() / 2;
-    (0..=half).map(|k| 20.0 * (amplitude(weights, k) / one).max(1e-15).log10()).collect()
+fn response(windowed_carrier: &[Pair], carrier: usize) -> Vec<f64> {
+    let one = amplitude(windowed_carrier, carrier);
+    let half = POINTS_PER_BIN * windowed_carrier.len() / 2;
+    (0..=half).map(|k| 20.0 * (amplitude(windowed_carrier, k) / one).max(1e-15).log10()).collect()
 }
 
 /// |H(f)| + |H(−f)| at a frequency of so many parts of a bin.
-fn amplitude(weights: &[Pair], frequency: usize) -> f64 {
-    let turn = PARTS * weights.len();
+fn amplitude(windowed_carrier: &[Pair], frequency: usize) -> f64 {
+    let turn = POINTS_PER_BIN * windowed_carrier.len();
     let (step, mut of) = (TAU / turn as f64, [0.0; 4]);
     // Of both w_i and w_q the sums with cosine and sine; H(±f) are made of these four.
-    for (n, [i, q]) in weights.iter().enumerate() {
+    for (n, [i, q]) in windowed_carrier.iter().enumerate() {
         let (sine, cosine) = (step * (frequency * n % turn) as f64).sin_cos();
         of = [of[0] + i * cosine, of[1] + i * sine, of[2] + q * cosine, of[3] + q * sine];
     }
@@ -137,7 +138,7 @@ fn amplitude(weights: &[Pair], frequency: usize) -> f64 {
 }
 
 /// How far the amplitude of a tone on the carrier is off that is not dithered, rms over phases.
-fn bias(profile: &Profile, core: &mut FixedSimulation, weights: &[Pair]) -> f64 {
+fn bias(profile: &Profile, core: &mut FixedSimulation, windowed_carrier: &[Pair]) -> f64 {
     let (first, channels) = (profile.slot.blanking(), profile.channels());
     let turn = profile.turns_per_sample();
     let wave = |n: usize, phase: f64| QUIET * (TAU * ((first + n as u64) as f64 * turn - phase)).cos();
@@ -147,8 +148,8 @@ fn bias(profile: &Profile, core: &mut FixedSimulation, weights: &[Pair]) -> f64 
         let phase = |channel: usize| (block * (channels - 1) + channel) as f64 / PHASES as f64;
         let read = sums(profile, core, |n, channel| wave(n, phase(channel)).round() as i32);
         for (channel, sum) in read.iter().enumerate() {
-            let exact = weights.iter().enumerate().fold([0.0; 2], |sum, (n, weight)| {
-                [0, 1].map(|part| sum[part] + weight[part] * wave(n, phase(channel)))
+            let exact = windowed_carrier.iter().enumerate().fold([0.0; 2], |sum, (n, window)| {
+                [0, 1].map(|part| sum[part] + window[part] * wave(n, phase(channel)))
             });
             let amplitude = (sum[0] - silence[0]).hypot(sum[1] - silence[1]);
             squares += (amplitude / exact[0].hypot(exact[1]) - 1.0).powi(2);

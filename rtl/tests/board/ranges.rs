@@ -6,7 +6,7 @@ use hapticore_hdl::block::Block;
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::Format;
 use hapticore_hdl::interpretations::netlist::Netlist;
-use hapticore_hdl::interpretations::range::{Range, take_lemmas, take_violations, whole};
+use hapticore_hdl::interpretations::range::{Range, take_assumptions, take_violations, whole};
 use hapticore_hdl::probe::sample;
 use hapticore_hdl::signal::Signal;
 use hapticore_model::blocks::core::Core;
@@ -25,7 +25,7 @@ fn prove<B: Block>(block: &B) {
     let mut state = block.reset::<Range>();
     let mut seen: Vec<Range> = Vec::new();
     take_violations();
-    take_lemmas();
+    take_assumptions();
     for clock in 0.. {
         assert!(clock < 50_000, "{} does not close", B::NAME);
         block.clock(&mut state, inputs);
@@ -41,7 +41,7 @@ fn prove<B: Block>(block: &B) {
         seen = joined;
     }
     assert_eq!(take_violations(), [], "{}", B::NAME);
-    assert_eq!(take_lemmas(), Vec::<&str>::new(), "{}", B::NAME);
+    assert_eq!(take_assumptions(), Vec::<&str>::new(), "{}", B::NAME);
 }
 
 #[test]

@@ -63,10 +63,10 @@ pub fn printed<D: Design>(verilog: &str, inputs: &[Vec<u64>]) -> Vec<Vec<u64>> {
         String::from_utf8(output.stdout).expect("text")
     };
     run("iverilog", &["-g2005", "-s", "bench", "-o", "bench", "bench.v", "top.v"]);
-    let said = run("vvp", &["bench"]);
+    let log = run("vvp", &["bench"]);
     let words =
         |line: &str| line.split_whitespace().map(|word| u64::from_str_radix(word, 16).expect("a known word")).collect();
-    said.lines().skip(D::UNKNOWN).map(words).collect()
+    log.lines().skip(D::UNKNOWN).map(words).collect()
 }
 
 /// A bench that gives the inputs in turn and prints the outputs.

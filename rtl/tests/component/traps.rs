@@ -160,6 +160,6 @@ fn the_most_negative_code_overflows_the_stack() {
     let tests = std::env::current_exe().expect("this very program");
     let alone = ["--exact", "traps::widen_the_most_negative", "--ignored", "--nocapture"];
     let output = Command::new(tests).args(alone).output().expect("it runs");
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert!(!output.status.success() && said.contains("overflowed its stack"), "{}: {said}", output.status);
+    let log = String::from_utf8_lossy(&output.stderr);
+    assert!(!output.status.success() && log.contains("overflowed its stack"), "{}: {log}", output.status);
 }

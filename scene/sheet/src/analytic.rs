@@ -27,7 +27,7 @@ pub struct Analytic {
 }
 
 impl Analytic {
-    /// Of a sheet.
+    /// The solution for a sheet.
     pub fn new(sheet: impl Into<UniformSheet>) -> Self {
         let sheet = sheet.into();
         let neumann = Neumann::exact(sheet.size_m);
@@ -41,8 +41,8 @@ impl Analytic {
         Analytic { sheet, neumann, inverse }
     }
 
-    /// R_s·N from a place to each terminal, then the border's 1.
-    fn known(&self, at: [f64; 2]) -> Bordered {
+    /// R_s·N from a position to each terminal, Ω, then the border's 1.
+    fn to_terminals(&self, at: [f64; 2]) -> Bordered {
         let sheet = &self.sheet;
         let ohm = |there| sheet.ohm_per_square * self.neumann.at(there, at, sheet.terminal_radius_m);
         let terminals = sheet.terminals_m.iter().zip(&sheet.terminal_ohm);
@@ -53,7 +53,7 @@ impl Analytic {
     /// A place, for [`Analytic::between`].
     pub fn source(&self, x_mm: f64, y_mm: f64) -> Source {
         let at = self.sheet.place_m(x_mm, y_mm);
-        let known = self.known(at);
+        let known = self.to_terminals(at);
         let unknown = self.inverse.rows().map(|row| dot(row, &known)).collect();
         Source { at, known, unknown }
     }

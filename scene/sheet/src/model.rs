@@ -13,7 +13,7 @@ use std::f64::consts::TAU;
 pub struct PadEstimate {
     /// Millimetres right of the sheet's centre.
     pub x_mm: f64,
-    /// Millimetres above it.
+    /// Millimetres above the sheet's centre.
     pub y_mm: f64,
     /// Picofarads between pad and sheet.
     pub capacitance_pf: f64,
@@ -25,7 +25,7 @@ pub trait SheetModel: Send {
     fn isolated(&mut self, pad: &PadEstimate) -> ([f64; 2], f64);
 
     /// Both ratios of a pad among others, and the amplitude of the sum of all terminals' currents, in any unit.
-    fn among(&mut self, pad: &PadEstimate, others: &[PadEstimate]) -> ([f64; 2], f64);
+    fn with_neighbours(&mut self, pad: &PadEstimate, others: &[PadEstimate]) -> ([f64; 2], f64);
 
     /// How far from the sheet's centre a pad's centre may be, mm.
     fn reach_mm(&self) -> [f64; 2];
@@ -48,8 +48,8 @@ pub trait SheetModel: Send {
 /// let mut nominal = NominalSheet::new(sheet, 100e3, ratios);
 /// let pad = PadEstimate { x_mm: 100.0, y_mm: 0.0, capacitance_pf: 760.0 };
 /// let other = PadEstimate { x_mm: -100.0, ..pad };
-/// let (([alone, _], ohm), ([among, _], _)) = (nominal.isolated(&pad), nominal.among(&pad, &[other]));
-/// assert!(among > alone, "the other one draws current from the left");
+/// let (([alone, _], ohm), ([with_neighbours, _], _)) = (nominal.isolated(&pad), nominal.with_neighbours(&pad, &[other]));
+/// assert!(with_neighbours > alone, "the other one draws current from the left");
 /// assert!((100.0..250.0).contains(&ohm));
 /// ```
 pub struct NominalSheet {
@@ -88,10 +88,10 @@ impl SheetModel for NominalSheet {
     fn isolated(&mut self, pad: &PadEstimate) -> ([f64; 2], f64) {
         let source = self.source(pad);
         let amplitudes: Vec<f64> = source.shares().iter().map(|share| share.abs()).collect();
-        (self.ratios.of(&amplitudes), self.analytic.between(&source, &source))
+        (self.ratios.of_amplitudes(&amplitudes), self.analytic.between(&source, &source))
     }
 
-    fn among(&mut self, pad: &PadEstimate, others: &[PadEstimate]) -> ([f64; 2], f64) {
+    fn with_neighbours(&mut self, pad: &PadEstimate, others: &[PadEstimate]) -> ([f64; 2], f64) {
         let place = |pad: &PadEstimate| [pad.x_mm, pad.y_mm];
         let (places, _) = apart(place(pad), others.iter().map(place), self.reach_mm, self.pad_diameter_mm);
         let apart: Vec<_> = places.iter().map(|[x, y]| self.analytic.source(*x, *y)).collect();
@@ -105,7 +105,7 @@ impl SheetModel for NominalSheet {
         };
         let into: Vec<_> = (0..sources[0].shares().len()).map(into).collect();
         let amplitudes: Vec<_> = into.iter().map(|current| current.norm()).collect();
-        (self.ratios.of(&amplitudes), into.iter().sum::<Complex64>().norm())
+        (self.ratios.of_amplitudes(&amplitudes), into.iter().sum::<Complex64>().norm())
     }
 
     fn reach_mm(&self) -> [f64; 2] {

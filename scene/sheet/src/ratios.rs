@@ -21,7 +21,7 @@ impl Ratios {
     }
 
     /// r_x and r_y of amplitudes.
-    pub fn of(&self, amplitudes: &[f64]) -> [f64; 2] {
+    pub fn of_amplitudes(&self, amplitudes: &[f64]) -> [f64; 2] {
         let sum = self.denominator(amplitudes);
         self.signs.each_ref().map(|signs| {
             let of = |sign: i8| {

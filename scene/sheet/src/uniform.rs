@@ -24,9 +24,9 @@ pub const OPEN: f64 = f64::INFINITY;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct UniformSheet {
-    /// Width and height.
+    /// Width and height, m.
     pub size_m: [f64; 2],
-    /// Of the film.
+    /// Sheet resistance of the film, Ω per square.
     pub ohm_per_square: f64,
     /// Of a pad, a disc of even current.
     pub pad_radius_m: f64,
@@ -34,7 +34,7 @@ pub struct UniformSheet {
     pub terminals_m: Vec<[f64; 2]>,
     /// In series with each terminal, Ω; [`OPEN`] where it carries no current.
     pub terminal_ohm: Vec<f64>,
-    /// Of a terminal.
+    /// Effective radius of a terminal, m.
     pub terminal_radius_m: f64,
 }
 

@@ -18,7 +18,7 @@ use num_complex::Complex64;
 
 use super::effect::{ChannelEffect, Effect, Phasors, Run};
 use super::pad::Pad;
-use super::spec::{Rung, Setting, Spec};
+use super::spec::{Level, Setting, Spec};
 use crate::device::Device;
 use crate::error::SceneError;
 use crate::format::Table;
@@ -32,8 +32,8 @@ pub(crate) const CARRIER: &str = "carrier";
 pub(crate) const SAMPLES: &str = "samples";
 
 pub(super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
-    let rung = |word, cost_ns| Rung::new(word, cost_ns, |setting| Effect::Channels(Box::new(Carrier::new(setting))));
-    Spec::ladder(CARRIER, root.table("carrier")?, vec![rung("phasor", 100.0), rung(SAMPLES, 4e3)], "phasor")
+    let level = |word, cost_ns| Level::new(word, cost_ns, |setting| Effect::Channels(Box::new(Carrier::new(setting))));
+    Spec::with_levels(CARRIER, root.table("carrier")?, vec![level("phasor", 100.0), level(SAMPLES, 4e3)], "phasor")
 }
 
 struct Carrier {

@@ -9,16 +9,16 @@
 pub(crate) mod carrier;
 pub(crate) mod coupling;
 mod effect;
+mod finger;
 mod friction;
 mod gap;
-mod halves;
-mod hand;
 mod pad;
 mod running;
 mod sensor;
 pub(crate) mod sheet;
 mod shunt;
 mod spec;
+mod split_electrode;
 mod supply;
 mod switching;
 mod temperature;
@@ -38,8 +38,8 @@ use crate::format::Table;
 pub(crate) const EFFECTS: &[Reader] = &[
     supply::read,
     gap::read,
-    halves::read,
-    hand::read,
+    split_electrode::read,
+    finger::read,
     friction::read,
     temperature::read,
     sheet::read,

@@ -31,10 +31,10 @@ pub(crate) struct Pad {
     pub eccentricity_mm: f64,
     /// Eq. 10, where an effect says it.
     pub direction: f64,
-    /// What pushes the pad besides its hand, N.
+    /// What pushes the pad besides its finger, N.
     pub push_n: [f64; 2],
-    /// What the pad hangs on, where an effect says it; else it goes where its path says.
-    pub hand: Option<Hand>,
+    /// What the pad hangs on, where an effect says it; else it goes where its trajectory says.
+    pub finger: Option<Finger>,
     /// Friction that acts on the pad, N, where an effect says it.
     pub friction_n: f64,
     /// What has become of the sheet's film since the device was calibrated.
@@ -126,9 +126,9 @@ impl Supply {
     }
 }
 
-/// Spring, damper and mass between the hand and the pad.
+/// Spring, damper and mass between the finger and the pad.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Hand {
+pub(crate) struct Finger {
     pub stiffness_n_per_m: f64,
     pub damping_n_s_per_m: f64,
     pub mass_kg: f64,

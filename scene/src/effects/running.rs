@@ -13,7 +13,7 @@ pub struct EffectCost {
     /// Its table, or table and key.
     pub name: &'static str,
     /// Fidelity level in use.
-    pub rung: String,
+    pub level: String,
     /// Wall time, s.
     pub seconds: f64,
     /// How often it was evaluated: slots, or runs of samples.
@@ -33,8 +33,12 @@ impl Effects {
 
     /// Counts and times every evaluation from now on.
     pub fn metered(&mut self, specs: &[Spec]) {
-        let idle =
-            |spec: &Spec| EffectCost { name: spec.name, rung: spec.rung().label.clone(), seconds: 0.0, evaluations: 0 };
+        let idle = |spec: &Spec| EffectCost {
+            name: spec.name,
+            level: spec.level().label.clone(),
+            seconds: 0.0,
+            evaluations: 0,
+        };
         self.meter = Meter::On(specs.iter().map(idle).collect());
     }
 

@@ -15,7 +15,7 @@ pub(crate) struct Spec {
     /// Its table, or table and key.
     pub name: &'static str,
     /// From the coarsest to the finest; a single one where the effect is one way or not at all.
-    rungs: Vec<Rung>,
+    levels: Vec<Level>,
     chosen: usize,
     /// The scene names the level itself, so that an error budget leaves it alone.
     named: bool,
@@ -23,7 +23,7 @@ pub(crate) struct Spec {
 
 /// One way to evaluate an effect.
 #[derive(Clone)]
-pub(crate) struct Rung {
+pub(crate) struct Level {
     /// What a scene writes.
     word: &'static str,
     /// What a run says: the word, and its numbers where it has some.
@@ -46,20 +46,20 @@ pub(crate) struct Setting<'a> {
     pub case: usize,
 }
 
-impl Rung {
+impl Level {
     /// A level that a scene asks for by `word`.
     pub fn new(word: &'static str, cost_ns: f64, build: impl Fn(&Setting) -> Effect + Send + Sync + 'static) -> Self {
-        Rung { word, label: word.to_string(), cost_ns, limited: false, build: Arc::new(build) }
+        Level { word, label: word.to_string(), cost_ns, limited: false, build: Arc::new(build) }
     }
 
     /// The same level, which refuses some scenes.
     pub fn limited(self) -> Self {
-        Rung { limited: true, ..self }
+        Level { limited: true, ..self }
     }
 
     /// The same level, with its numbers beside its word.
     pub fn labelled(self, label: String) -> Self {
-        Rung { label, ..self }
+        Level { label, ..self }
     }
 }
 
@@ -70,53 +70,53 @@ impl Spec {
         label: impl Into<String>,
         build: impl Fn(&Setting) -> Effect + Send + Sync + 'static,
     ) -> Option<Spec> {
-        let rungs = vec![Rung::new("", 0.0, build).labelled(label.into())];
-        Some(Spec { name, rungs, chosen: 0, named: true })
+        let levels = vec![Level::new("", 0.0, build).labelled(label.into())];
+        Some(Spec { name, levels, chosen: 0, named: true })
     }
 
     /// An effect with levels, from the coarsest to the finest, of which `table` names one as `rung`; `usual` where it does
     /// not.
-    pub fn ladder(
+    pub fn with_levels(
         name: &'static str,
         table: Option<&Table>,
-        rungs: Vec<Rung>,
+        levels: Vec<Level>,
         usual: &str,
     ) -> Result<Option<Spec>, SceneError> {
-        let words: Vec<_> = rungs.iter().map(|rung| rung.word).collect();
+        let words: Vec<_> = levels.iter().map(|level| level.word).collect();
         let word = table.map_or(Ok(None), |table| table.choice("rung", &words))?;
         let chosen = words.iter().position(|known| *known == word.unwrap_or(usual));
-        let chosen = chosen.expect("the usual rung is one of the ladder's");
-        Ok(Some(Spec { name, rungs, chosen, named: word.is_some() }))
+        let chosen = chosen.expect("the usual level is one of the effect's");
+        Ok(Some(Spec { name, levels, chosen, named: word.is_some() }))
     }
 
     /// The level that is used.
-    pub fn rung(&self) -> &Rung {
-        &self.rungs[self.chosen]
+    pub fn level(&self) -> &Level {
+        &self.levels[self.chosen]
     }
 
     /// Whether the level that is used is the one a scene writes so.
     pub fn is_at(&self, word: &str) -> bool {
-        self.rung().word == word
+        self.level().word == word
     }
 
     /// Whether an error budget may choose the level.
     pub fn is_free(&self) -> bool {
-        !self.named && self.rungs.len() > 1
+        !self.named && self.levels.len() > 1
     }
 
     /// The same effect at each of its levels, coarsest first.
     pub fn all(&self) -> Vec<Spec> {
-        (0..self.rungs.len()).map(|chosen| self.at(chosen)).collect()
+        (0..self.levels.len()).map(|chosen| self.at(chosen)).collect()
     }
 
     /// The same effect at its finest level.
     pub fn finest(&self) -> Spec {
-        self.at(self.rungs.len() - 1)
+        self.at(self.levels.len() - 1)
     }
 
     /// The same effect one level up.
     pub fn finer(&self) -> Option<Spec> {
-        (self.chosen + 1 < self.rungs.len()).then(|| self.at(self.chosen + 1))
+        (self.chosen + 1 < self.levels.len()).then(|| self.at(self.chosen + 1))
     }
 
     fn at(&self, chosen: usize) -> Spec {
@@ -125,6 +125,6 @@ impl Spec {
 
     /// The effect at work.
     pub fn build(&self, setting: &Setting) -> Effect {
-        (self.rung().build)(setting)
+        (self.level().build)(setting)
     }
 }

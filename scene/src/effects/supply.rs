@@ -16,7 +16,7 @@ use std::f64::consts::TAU;
 
 use super::effect::{Effect, PadEffect};
 use super::pad::{Pad, Supply};
-use super::spec::{Rung, Spec};
+use super::spec::{Level, Spec};
 use crate::device::{Device, EPSILON_0};
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
@@ -30,8 +30,8 @@ pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneE
         rad_s: TAU * device.haptic_hz,
     };
     let pad_m2 = device.pad_area_m2;
-    let steady = Rung::new("steady", 20.0, move |_| Effect::Pad(Box::new(Supplied { supply, pad_m2 })));
-    Spec::ladder("supply", Some(table), vec![steady], "steady")
+    let steady = Level::new("steady", 20.0, move |_| Effect::Pad(Box::new(Supplied { supply, pad_m2 })));
+    Spec::with_levels("supply", Some(table), vec![steady], "steady")
 }
 
 struct Supplied {

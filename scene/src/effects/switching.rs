@@ -18,7 +18,7 @@ use num_complex::Complex64;
 
 use super::effect::{ChannelEffect, Effect, Phasors, Run};
 use super::pad::Pad;
-use super::spec::{Rung, Spec};
+use super::spec::{Level, Spec};
 use crate::device::Device;
 use crate::error::SceneError;
 use crate::format::Table;
@@ -45,8 +45,8 @@ pub(super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError>
             table.error("", "expected a [sheet] too, since without its resistance nothing takes time to settle")
         );
     }
-    let rung = |word, method, steps, cost_ns| {
-        Rung::new(word, cost_ns, move |setting| {
+    let level = |word, method, steps, cost_ns| {
+        Level::new(word, cost_ns, move |setting| {
             Effect::Channels(Box::new(Switching {
                 method,
                 steps,
@@ -56,12 +56,12 @@ pub(super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError>
         })
     };
     let integrated = |(word, method, steps, cost_ns): (&'static str, Method, usize, f64)| {
-        let rung = rung(word, method, steps, cost_ns);
-        if method == Method::Euler { rung.limited() } else { rung }
+        let level = level(word, method, steps, cost_ns);
+        if method == Method::Euler { level.limited() } else { level }
     };
-    let mut rungs: Vec<_> = RC.map(integrated).into();
-    rungs.push(rung("settling", Method::Exact, 1, 50.0));
-    Spec::ladder("switching", Some(table), rungs, "settling")
+    let mut levels: Vec<_> = RC.map(integrated).into();
+    levels.push(level("settling", Method::Exact, 1, 50.0));
+    Spec::with_levels("switching", Some(table), levels, "settling")
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -113,7 +113,7 @@ impl ChannelEffect for Switching {
         let deviation = self.deviation(pad, window_start + window_samples);
         let mut carrier = Rotor::new(-(window_start as f64) / samples_per_period, -1.0 / samples_per_period);
         let mut hann = Rotor::new(0.0, 1.0 / window_samples as f64);
-        // The current is (A·d + its conjugate)/2: a demodulator weighs both.
+        // The current is (A·d + its conjugate)/2: a demodulator sums both under its window.
         let [mut with, mut against] = [Complex64::ZERO; 2];
         for d in deviation.get(window_start..).unwrap_or_default() {
             let weight = carrier.turn() * ((1.0 - hann.turn().re) / window_samples as f64);

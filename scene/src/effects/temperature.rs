@@ -6,7 +6,7 @@
 //! ```toml
 //! [temperature]
 //! tempco_ppm_per_k = 400          # α
-//! rise_k = 15                     # ΔT in the middle, or over time, as a pad's load; see `course`
+//! rise_k = 15                     # ΔT in the middle, or over time, as a pad's load; see `stimulus`
 //! gradient_k = [4, 0]             # g: from the left edge to the right one, from the bottom to the top
 //! step_k = 0.05                   # of ΔT, where it moves: what is computed from the sheet is renewed so often
 //! ```
@@ -21,16 +21,16 @@
 //! thesis, Universitas Indonesia, 1999); thermometers of ITO on alumina have −2313 ppm/K from room temperature to 400 °C (Wang,
 //! Zhang and Ding, IEEE INEC 2016).
 //!
-//! A step of ΔT is a step of α·`step_k` in R_s, 20 ppm at 400 ppm/K: the film is at most half of that off its course. With a
-//! gradient the film is uneven, so that `[sheet]` needs a level of a mesh, and no `[shunt]`. Every step builds the sheet's table anew.
+//! A step of ΔT is a step of α·`step_k` in R_s, 20 ppm at 400 ppm/K: the film deviates by at most half of that. With a
+//! gradient the film is not uniform, so that `[sheet]` needs a level of a mesh, and no `[shunt]`. Every step builds the sheet's table anew.
 
 use super::effect::{Effect, PadEffect};
 use super::pad::{FilmChange, Pad};
 use super::spec::Spec;
-use crate::course::Course;
 use crate::device::Device;
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
+use crate::stimulus::Stimulus;
 
 /// The most that a film may change, as a share of its resistance: what is left is positive.
 const MOST_CHANGE: f64 = 0.9;
@@ -42,7 +42,7 @@ pub(super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError>
     };
     let temperature = Temperature::read(table)?;
     if temperature.gradient_k != [0.0; 2] {
-        let meshed = sheet.text("rung")?.is_some_and(|rung| rung.starts_with("grid"));
+        let meshed = sheet.text("rung")?.is_some_and(|level| level.starts_with("grid"));
         if !meshed || root.table("shunt")?.is_some() {
             let expected = "expected a mesh as sheet.rung, such as \"grid-5-mm\", and no [shunt]";
             return Err(table.error("gradient_k", format!("{expected}, since a gradient leaves no film even")));
@@ -56,7 +56,7 @@ pub(super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError>
 #[derive(Clone, Debug)]
 struct Temperature {
     per_k: f64,
-    rise_k: Course,
+    rise_k: Stimulus,
     gradient_k: [f64; 2],
     step_k: f64,
 }
@@ -65,7 +65,7 @@ impl Temperature {
     fn read(table: &Table) -> Result<Temperature, SceneError> {
         let ppm = Limits::within(-1e5, 1e5);
         let tempco = table.require("tempco_ppm_per_k", &ppm.to_string(), table.number("tempco_ppm_per_k", ppm)?)?;
-        let rise_k = Course::read(table, "rise_k", Limits::within(-1e3, 1e3))?.unwrap_or(Course::Constant(0.0));
+        let rise_k = Stimulus::read(table, "rise_k", Limits::within(-1e3, 1e3))?.unwrap_or(Stimulus::Constant(0.0));
         let temperature = Temperature {
             per_k: 1e-6 * tempco,
             gradient_k: table.pair("gradient_k", Limits::within(-1e3, 1e3))?.unwrap_or_default(),

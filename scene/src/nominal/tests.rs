@@ -52,14 +52,15 @@ impl Exact {
         Exact(RefCell::new(NominalSheet { effects, device, ratios }))
     }
 
-    /// What the core reads of each pad: where a lone one has its ratios, and the capacitance by the sum's amplitude.
+    /// What the core reads of each pad: where an isolated one has its ratios, and the capacitance by the sum's amplitude.
     fn read(&self, plant: &mut Plant, places: &[[f64; 2]]) -> Vec<(PadEstimate, [f64; 2])> {
         let pads: Vec<_> = places.iter().map(|place| at(*place)).collect();
         let one = |slot: usize| {
             let truth = plant.truth(slot);
             let place = place_of(self, &plant.ratios(), [truth.r_x, truth.r_y], places[slot]);
             let mut exact = self.0.borrow_mut();
-            let share = exact.among(&pads[slot], &without(&pads, slot)).1 / exact.among(&pads[slot], &[]).1;
+            let share =
+                exact.with_neighbours(&pads[slot], &without(&pads, slot)).1 / exact.with_neighbours(&pads[slot], &[]).1;
             (PadEstimate { capacitance_pf: PICOFARAD * share, ..at(place) }, [truth.r_x, truth.r_y])
         };
         (0..places.len()).map(one).collect()
@@ -69,7 +70,7 @@ impl Exact {
 impl Solver for Exact {
     fn split(&self, x_mm: f64, y_mm: f64) -> Split {
         let mut exact = self.0.borrow_mut();
-        let mut pad = lying([x_mm, y_mm], PICOFARAD, &exact.device);
+        let mut pad = pad_of_frame([x_mm, y_mm], PICOFARAD, &exact.device);
         exact.effects.on_pad(&mut pad);
         Split { share: pad.split.map(|share| share.re), ohm: pad.sheet_ohm.re }
     }
@@ -77,10 +78,10 @@ impl Solver for Exact {
 
 /// The farthest that a place is off as read and as freed, mm, and how far off the freed capacitance is at most.
 fn off(sheet: &str, count: usize) -> [f64; 3] {
-    let lone = plant(&[[0.0, 0.0]], sheet);
-    let exact = Exact::of(&lone);
+    let isolated = plant(&[[0.0, 0.0]], sheet);
+    let exact = Exact::of(&isolated);
     let nominal = plant(&[[0.0, 0.0]], NOMINAL).nominal_sheet().unwrap();
-    let calibration = lone.calibration_map(COLUMNS, ROWS, 15.0);
+    let calibration = isolated.calibration_map(COLUMNS, ROWS, 15.0);
     let places = calibration.iter().map(|point| [point.x_mm, point.y_mm, point.r_x, point.r_y, point.sheet_ohm]);
     let mut host = CrosstalkCanceller::with_map(nominal, COLUMNS, &places.collect::<Vec<_>>());
     let mut worst = [0.0f64; 3];
@@ -126,7 +127,7 @@ fn a_sheet_that_is_not_the_nominal_one_leaves_less_than_a_millimetre_too() {
 fn a_pad_alone_stays_as_it_is_read() {
     let read = PadEstimate { x_mm: 120.0, y_mm: -60.0, capacitance_pf: 318.0 };
     let mut nominal = plant(&[[0.0, 0.0]], NOMINAL).nominal_sheet().unwrap();
-    let (ratios, _) = nominal.among(&read, &[]);
+    let (ratios, _) = nominal.with_neighbours(&read, &[]);
     let freed = CrosstalkCanceller::nominal(nominal).cancel(read, ratios, &[]);
     assert!((freed.x_mm - 120.0).abs() < 1e-9 && (freed.capacitance_pf - 318.0).abs() < 1e-9, "{freed:?}");
 }
@@ -147,8 +148,8 @@ fn the_hosts_own_nominal_sheet_is_the_simulated_one() {
     let mut own = hapticore_sheet::NominalSheet::new(sheet, device.carrier_hz, simulated.ratios.clone());
     for places in placements(40, 20.0) {
         let pads = places.map(at);
-        let ([r_x, r_y], amplitude) = simulated.among(&pads[0], &pads[1..]);
-        let (ratios, sum) = own.among(&pads[0], &pads[1..]);
+        let ([r_x, r_y], amplitude) = simulated.with_neighbours(&pads[0], &pads[1..]);
+        let (ratios, sum) = own.with_neighbours(&pads[0], &pads[1..]);
         let off = [ratios[0] - r_x, ratios[1] - r_y, sum / amplitude - 1.0];
         assert!(off.iter().all(|off| off.abs() < 1e-9), "{off:?}");
         let (a, b) = (simulated.isolated(&pads[0]), own.isolated(&pads[0]));

@@ -54,14 +54,14 @@ pub fn rectangle(_: usize, of: usize) -> f64 {
 }
 
 /// Amplitudes of the terminals and the sensing voltage, from the samples of a slot's window.
-pub fn demodulate(plant: &mut Plant, slot: usize, weight: Window) -> Vec<Complex> {
+pub fn demodulate(plant: &mut Plant, slot: usize, window: Window) -> Vec<Complex> {
     let (mut samples, timing) = (Vec::new(), timing());
     plant.samples(slot, 0..timing.window_samples, &mut samples);
     let mut phasors = vec![Complex::default(); plant.channels() - 1];
     for (n, row) in samples.chunks_exact(plant.channels()).enumerate() {
         let turned = Complex::cis(-TAU * n as f64 / timing.samples_per_period);
-        let weight = turned * (2.0 * weight(n, timing.window_samples));
-        phasors.iter_mut().zip(row).for_each(|(phasor, sample)| *phasor += weight * sample);
+        let window = turned * (2.0 * window(n, timing.window_samples));
+        phasors.iter_mut().zip(row).for_each(|(phasor, sample)| *phasor += window * sample);
     }
     phasors
 }
@@ -75,10 +75,10 @@ pub fn capacitance_f(plant: &Plant, phasors: &[Complex]) -> f64 {
 }
 
 /// Standard deviation of the force in percent of its mean, over so many slots; force goes with C².
-pub fn force_noise_percent(plant: &mut Plant, slots: usize, weight: Window) -> f64 {
+pub fn force_noise_percent(plant: &mut Plant, slots: usize, window: Window) -> f64 {
     let forces: Vec<f64> = (0..slots)
         .map(|slot| {
-            let phasors = demodulate(plant, slot, weight);
+            let phasors = demodulate(plant, slot, window);
             capacitance_f(plant, &phasors).powi(2)
         })
         .collect();

@@ -20,7 +20,7 @@ pub enum Set {
     Flat(i64),
     /// Powers of two: what is rounded then often lies halfway.
     Powers,
-    /// At the rails, next to them or to zero, or any.
+    /// At full scale, next to it or to zero, or anything.
     Corners,
 }
 
@@ -28,7 +28,7 @@ pub enum Set {
 pub type Written = Vec<(String, i64)>;
 
 impl Set {
-    /// What is written.
+    /// The words to be written, in order.
     pub fn written(self, profile: &Profile, noise: &mut Noise) -> Written {
         let sheet = CalibrationWords::new(profile, &sheet(profile, self));
         let code = |before: i64, format: Format, noise: &mut Noise| match self {

@@ -53,7 +53,7 @@ const SLOTS: [(Slot, Option<Set>, u32); 32] = [
     (Slot::Any, Some(Set::Powers), 1220),
     (Slot::Any, Some(Set::Constants), 1236),
     (Slot::Abandoned, None, 8),
-    (Slot::Rails, None, 9),
+    (Slot::FullScale, None, 9),
     (Slot::Loud, Some(Set::Corners), 1290),
     (Slot::Faint, Some(Set::Constants), 1291),
     (Slot::Late, Some(Set::Constants), 10),

@@ -27,7 +27,7 @@ pub enum Slot {
     OneSide(bool),
     /// Tones of one size or of any, in step or of any phase, that may begin within the window.
     Any,
-    /// Tones of any phase beyond the rails.
+    /// Tones of any phase beyond full scale.
     Loud,
     /// Tones of one phase at full scale, one of the full size of a sum.
     Alike(i64),
@@ -40,7 +40,7 @@ pub enum Slot {
     /// All codes zero.
     Silence,
     /// Codes at either end of full scale.
-    Rails,
+    FullScale,
     /// Currents of a few codes.
     Whisper,
     /// Currents of which three have the sign that the others do not: next to nothing is their total.
@@ -126,7 +126,7 @@ impl Slot {
                 })
             }
             Slot::Noise | Slot::Silence => [Tone::default(); CHANNELS],
-            Slot::Pad | Slot::Rails | Slot::Halfway | Slot::Abandoned => pad,
+            Slot::Pad | Slot::FullScale | Slot::Halfway | Slot::Abandoned => pad,
         }
     }
 
@@ -136,8 +136,8 @@ impl Slot {
             let Tone { size, lag, offset, onset } = tones[channel];
             let code = match self {
                 Slot::Silence => 0,
-                Slot::Rails if (sample as usize + channel).is_multiple_of(3) => i64::from(i16::MIN),
-                Slot::Rails => i64::from(i16::MAX),
+                Slot::FullScale if (sample as usize + channel).is_multiple_of(3) => i64::from(i16::MIN),
+                Slot::FullScale => i64::from(i16::MAX),
                 Slot::Halfway if channel == CHANNELS - 1 => (noise.below(7) - 3) << 13,
                 _ if sample < onset => 0,
                 _ => CARRIER[(sample as usize + 5 - lag as usize) % 5] * size / 32_768 + offset + noise.below(8) - 4,

@@ -83,13 +83,10 @@ fn check(family: &str) {
     command.args([family, "design.v", "gates.v"]).env("TOP", "mixture").current_dir(folder.path());
     let output = command.output().expect("a script");
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let said = simulate(&tools, folder.path(), false);
-    assert!(said.contains("EQUAL"), "{family}: {said}");
-    let said = simulate(&tools, folder.path(), true);
-    assert!(
-        said.contains("clock ") && !said.contains("EQUAL"),
-        "{family}, with a write that only the gates see: {said}"
-    );
+    let log = simulate(&tools, folder.path(), false);
+    assert!(log.contains("EQUAL"), "{family}: {log}");
+    let log = simulate(&tools, folder.path(), true);
+    assert!(log.contains("clock ") && !log.contains("EQUAL"), "{family}, with a write that only the gates see: {log}");
 }
 
 #[test]

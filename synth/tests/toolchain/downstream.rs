@@ -46,11 +46,11 @@ fn the_makefile_lints_and_simulates() {
     let Some(tools) = Tools::or_skip() else { return };
     let folder = users_copy();
     for profile in ["PROFILE=small", "PROFILE=standard"] {
-        let said = tools.run("make", &["lint", profile], folder.path()).unwrap();
-        assert!(!said.contains("%Warning"), "{said}");
+        let log = tools.run("make", &["lint", profile], folder.path()).unwrap();
+        assert!(!log.contains("%Warning"), "{log}");
     }
-    let said = tools.run("make", &["sim"], folder.path()).unwrap();
-    assert!(said.contains("PASSED"), "{said}");
+    let log = tools.run("make", &["sim"], folder.path()).unwrap();
+    assert!(log.contains("PASSED"), "{log}");
     falsify(folder.path());
     let error = tools.run("make", &["sim"], folder.path()).expect_err("a wrong frame").to_string();
     assert!(error.contains("FAILED"), "{error}");
@@ -60,8 +60,8 @@ fn the_makefile_lints_and_simulates() {
 fn cocotb_sees_the_frame_of_the_model() {
     let Some(tools) = Tools::or_skip() else { return };
     let folder = users_copy();
-    let said = tools.run("make", &["test", &python()], folder.path()).unwrap();
-    assert!(said.contains("1 tests, 0 failures"), "{said}");
+    let log = tools.run("make", &["test", &python()], folder.path()).unwrap();
+    assert!(log.contains("1 tests, 0 failures"), "{log}");
     falsify(folder.path());
     tools.run("make", &["test", &python()], folder.path()).expect_err("a wrong frame");
 }
@@ -77,9 +77,9 @@ fn fusesoc_lints_and_simulates() {
         tools.run("fusesoc", &arguments, folder.path()).unwrap()
     };
     for flags in [&["--flag", "small"][..], &[]] {
-        let said = run("lint", flags);
-        assert!(!said.contains("%Warning"), "{said}");
+        let log = run("lint", flags);
+        assert!(!log.contains("%Warning"), "{log}");
     }
-    let said = run("sim", &[]);
-    assert!(said.contains("PASSED"), "{said}");
+    let log = run("sim", &[]);
+    assert!(log.contains("PASSED"), "{log}");
 }

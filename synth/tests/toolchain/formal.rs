@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Proofs for all inputs: division and root are right, no two pads are closed. And that the proofs can fail.
+//! Proofs for all inputs: division and square root are right, no two pads are closed. And that the proofs can fail.
 
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::block::Block;
@@ -32,11 +32,11 @@ fn of_divider(module: &Module) -> Parameters {
     vec![("N", n), ("D", d), ("Q", q), ("PAD", zeros as u64), ("LATENCY", latency)]
 }
 
-fn of_root(module: &Module) -> Parameters {
-    let (radicand, root) = (format_of(&module.inputs, "radicand"), format_of(&module.outputs, "sqrt"));
-    let zeros = 2 * root.frac - radicand.frac;
-    let latency = SquareRoot::new(radicand, root.frac).latency();
-    vec![("R", widths(radicand)), ("DIGITS", widths(root) - 1), ("PAD", zeros as u64), ("LATENCY", latency)]
+fn sqrt_parameters(module: &Module) -> Parameters {
+    let (radicand, sqrt) = (format_of(&module.inputs, "radicand"), format_of(&module.outputs, "sqrt"));
+    let zeros = 2 * sqrt.frac - radicand.frac;
+    let latency = SquareRoot::new(radicand, sqrt.frac).latency();
+    vec![("R", widths(radicand)), ("DIGITS", widths(sqrt) - 1), ("PAD", zeros as u64), ("LATENCY", latency)]
 }
 
 fn of_multiplexer(profile: &Profile) -> Parameters {
@@ -90,7 +90,7 @@ fn narrow_divider() -> Module {
     module(&Divider::new(Format::unsigned(5, 2), Format::unsigned(3, 1), Format::unsigned(4, 2)))
 }
 
-fn narrow_root() -> Module {
+fn narrow_sqrt() -> Module {
     module(&SquareRoot::new(Format::unsigned(6, 3), 2))
 }
 
@@ -112,20 +112,20 @@ fn a_changed_divider_is_noticed() {
 }
 
 #[test]
-fn roots_are_right_for_all_radicands() {
+fn square_roots_are_right_for_all_radicands() {
     let Some(tools) = Tools::or_skip() else { return };
-    let narrow = narrow_root();
-    holds(&tools, &narrow, &of_root(&narrow), true);
+    let narrow = narrow_sqrt();
+    holds(&tools, &narrow, &sqrt_parameters(&narrow), true);
     for module in of_profiles("sqrt") {
-        holds(&tools, &module, &of_root(&module), false);
+        holds(&tools, &module, &sqrt_parameters(&module), false);
     }
 }
 
 #[test]
-fn a_changed_root_is_noticed() {
+fn a_changed_square_root_is_noticed() {
     let Some(tools) = Tools::or_skip() else { return };
-    let narrow = narrow_root();
-    breaks(&tools, &narrow, &of_root(&narrow), 10, 0);
+    let narrow = narrow_sqrt();
+    breaks(&tools, &narrow, &sqrt_parameters(&narrow), 10, 0);
 }
 
 #[test]

@@ -53,9 +53,8 @@ fn bench(top: &str, ports: &[Port]) -> String {
             let _ = writeln!(declare, "    wire [{high}:0] {name}; reg [{high}:0] model_{name};");
             let _ = writeln!(read, "            got = $fscanf(file, \"%h\", model_{name});");
             let _ = writeln!(compare, "            if ({name} !== model_{name}) begin");
-            let said = format!("\"mismatch %0d {name} 0x%0h 0x%0h\", clocks, model_{name}, {name}");
-            let _ =
-                writeln!(compare, "                $display({said});\n                $finish(0);\n            end");
+            let log = format!("\"mismatch %0d {name} 0x%0h 0x%0h\", clocks, model_{name}, {name}");
+            let _ = writeln!(compare, "                $display({log});\n                $finish(0);\n            end");
         }
     }
     include_str!("icarus.v")

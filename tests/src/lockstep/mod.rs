@@ -42,9 +42,9 @@ impl fmt::Display for Mismatch {
 }
 
 /// Reads a simulator's verdict: a line `mismatch CLOCK SIGNAL MODEL VERILOG`, or `equal CLOCKS`.
-fn verdict(said: &str, trace: &Trace) -> Result<(), Mismatch> {
+fn verdict(log: &str, trace: &Trace) -> Result<(), Mismatch> {
     let words = |line: &str| line.split_whitespace().map(str::to_owned).collect::<Vec<_>>();
-    for line in said.lines().map(words) {
+    for line in log.lines().map(words) {
         match line.iter().map(String::as_str).collect::<Vec<_>>()[..] {
             ["mismatch", clock, signal, model, verilog] => {
                 let clock: usize = clock.parse().expect("a clock");
@@ -58,5 +58,5 @@ fn verdict(said: &str, trace: &Trace) -> Result<(), Mismatch> {
             _ => (),
         }
     }
-    panic!("the simulator gave no verdict: {said}");
+    panic!("the simulator gave no verdict: {log}");
 }

@@ -47,7 +47,7 @@ impl Trace {
         Trace { ports, codes }
     }
 
-    /// How many clocks.
+    /// Number of clocks in the trace.
     pub fn clocks(&self) -> usize {
         self.codes.len() / self.ports.len()
     }

@@ -64,7 +64,7 @@ impl Program {
         self.folder.path().join(name)
     }
 
-    /// The program itself.
+    /// Path of the compiled program.
     pub fn path(&self) -> PathBuf {
         self.at("obj_dir/Vtop")
     }
@@ -90,25 +90,25 @@ impl Verilated {
     /// # Errors
     /// An output that differs.
     pub fn check(&self, trace: &Trace) -> Result<(), Mismatch> {
-        self.given(trace.clone()).check(0)
+        self.with_trace(trace.clone()).check(0)
     }
 
     /// A trace beside the program, to be run more than once.
-    pub fn given(&self, trace: Trace) -> Given<'_> {
+    pub fn with_trace(&self, trace: Trace) -> CompiledTrace<'_> {
         let file = tempfile::NamedTempFile::new_in(self.program.at("")).expect("a file");
         fs::write(file.path(), trace.bytes()).expect("written");
-        Given { verilated: self, trace, file }
+        CompiledTrace { verilated: self, trace, file }
     }
 }
 
 /// A compiled design with a trace.
-pub struct Given<'a> {
+pub struct CompiledTrace<'a> {
     verilated: &'a Verilated,
     trace: Trace,
     file: tempfile::NamedTempFile,
 }
 
-impl Given<'_> {
+impl CompiledTrace<'_> {
     /// Runs the trace with a fault of a [`Planted`](crate::faults::Planted) design, or none (0).
     ///
     /// # Errors

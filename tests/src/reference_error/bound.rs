@@ -10,7 +10,7 @@
 //! | r | `((E + K·S)·(1 + abs r))/S + 2·abs r` | `S = Σ a_k`, `E = Σ e_k` over the K terminals of the ratio |
 //! | x, y | `J⁻¹` of r's bound and of [`SPLINE`], and [`PLACE`] roundings of the table's range | Newton's steps end where the ratio's evaluation is all that is left |
 //! | R | `∂R/∂r` of the same, and [`SPLINE`] of R | nine products and their sum |
-//! | C | `δ_T + ½·(v²·(2δ_v + 2) + (TR)²·(2δ_T + 2δ_R + 4))/(v² − (TR)²) + 5` of C | the difference under the root |
+//! | C | `δ_T + ½·(v²·(2δ_v + 2) + (TR)²·(2δ_T + 2δ_R + 4))/(v² − (TR)²) + 5` of C | the difference under the square root |
 //! | C by eq. 6 | `δ_T + δ_v + 4` of C | a quotient |
 //! | V | half of m's, and 3, of V | `m = Σ w·h²/Σw` has `2n + 16` and 32 of `Σ h²/Σ w·h²` |
 //! | F | `2δ_C + δ_m + 5` of F | eq. 8 |
@@ -19,7 +19,7 @@
 //! well within its bound. What is bounded tightly is all that follows the sums.
 
 use hapticore_contract::calibration::Calibration;
-use hapticore_contract::frame::Reading;
+use hapticore_contract::frame::Measurement;
 use hapticore_contract::profile::{Profile, Window};
 use hapticore_run::engine::Signals;
 use std::f64::consts::{PI, SQRT_2, TAU};
@@ -95,32 +95,32 @@ pub fn bounds(
     profile: &Profile,
     calibration: &Calibration,
     signals: &Signals,
-    [reading_eq6, haptic_v]: [f64; 2],
-    reading: &Reading,
+    [measurement_eq6, haptic_v]: [f64; 2],
+    measurement: &Measurement,
 ) -> Option<[f64; super::QUANTITIES.len()]> {
     let sums = Sums::of(profile, signals);
     let (terminals, sense) = sums.phasors.split_at(profile.terminals.x.len());
-    let ratios = ratios(profile, terminals, [reading.r_x, reading.r_y]);
-    let condition = calibration.position.condition(reading.x_mm, reading.y_mm)?;
+    let ratios = ratios(profile, terminals, [measurement.r_x, measurement.r_y]);
+    let condition = calibration.position.condition(measurement.x_mm, measurement.y_mm)?;
     let position = profile.formats.position;
     let range = position.real(position.max_code() as i64);
     let moved = |by: [f64; 2]| by[0].abs() * (ratios[0] + SPLINE) + by[1].abs() * (ratios[1] + SPLINE);
     let place = condition.place.map(|by| moved(by) + PLACE * range);
-    let sheet = Rough { value: reading.sheet, error: moved(condition.sheet) + SPLINE * reading.sheet.abs() };
+    let sheet = Rough { value: measurement.sheet, error: moved(condition.sheet) + SPLINE * measurement.sheet.abs() };
     let (total, sense) = (total(terminals), Rough { value: sense[0].0[0].hypot(sense[0].0[1]), error: sense[0].1 });
     let eq6 = total.share() + sense.share() + 4.0;
-    let capacitance = total.share() + under_root(profile, total, sense, sheet) / 2.0 + 5.0;
+    let capacitance = total.share() + under_square_root(profile, total, sense, sheet) / 2.0 + 5.0;
     let mean_square = sums.mean_square.share() + profile.haptic.windows as f64;
     let bounds = [
         ratios[0],
         ratios[1],
         place[0],
         place[1],
-        capacitance * reading.capacitance_pf,
-        eq6 * reading_eq6,
+        capacitance * measurement.capacitance_pf,
+        eq6 * measurement_eq6,
         sheet.error,
         (mean_square / 2.0 + 3.0) * haptic_v,
-        (2.0 * capacitance + mean_square + 5.0) * reading.force_n,
+        (2.0 * capacitance + mean_square + 5.0) * measurement.force_n,
     ];
     Some(bounds.map(|bound| bound * U))
 }
@@ -144,7 +144,7 @@ fn total(terminals: &[([f64; 2], f64)]) -> Rough {
 }
 
 /// The share of `v² − (TR)²` by which it is off.
-fn under_root(profile: &Profile, total: Rough, sense: Rough, sheet: Rough) -> f64 {
+fn under_square_root(profile: &Profile, total: Rough, sense: Rough, sheet: Rough) -> f64 {
     let square = sense.value * sense.value;
     let of_sense = square * (2.0 * sense.share() + 2.0);
     if !profile.capacitance.sheet_correction || sheet.value <= 0.0 {

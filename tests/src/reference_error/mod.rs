@@ -10,7 +10,7 @@ mod bound;
 
 use bound::bounds;
 use hapticore_contract::calibration::Calibration;
-use hapticore_contract::frame::Reading;
+use hapticore_contract::frame::Measurement;
 use hapticore_contract::profile::Profile;
 use hapticore_host::Scales;
 use hapticore_reference::{Real, Reference};
@@ -69,7 +69,7 @@ const HAPTIC: usize = 7;
 /// A slot as a core of one precision says it.
 struct Read {
     /// Rounded to `f64`, of which flags are taken.
-    reading: Reading,
+    measurement: Measurement,
     quantities: [Df64; QUANTITIES.len()],
 }
 
@@ -99,14 +99,14 @@ impl Cores {
 }
 
 fn read<T: Real>(reference: &mut Reference<T>, widened: fn(T) -> Df64, units: &Units, slot: &Slot) -> Read {
-    let reading = match &slot.signals {
+    let measurement = match &slot.signals {
         Signals::Samples { .. } => reference.slot(slot.pad, slot.window()),
         Signals::Phasors { amplitudes, mean_square } => reference.phasors(slot.pad, amplitudes, *mean_square),
     };
-    let reading = reading.map(widened);
+    let measurement = measurement.map(widened);
     Read {
-        reading: reading.map(f64::from),
-        quantities: units.quantities(&reading, widened(reference.capacitance_eq6())),
+        measurement: measurement.map(f64::from),
+        quantities: units.quantities(&measurement, widened(reference.capacitance_eq6())),
     }
 }
 
@@ -122,7 +122,7 @@ impl Units {
         Units { ohm: scales.ohm(), haptic_v: scales.haptic_full_scale_v, square_gain: profile.square_gain() }
     }
 
-    fn quantities(&self, r: &Reading<Df64>, eq6: Df64) -> [Df64; QUANTITIES.len()] {
+    fn quantities(&self, r: &Measurement<Df64>, eq6: Df64) -> [Df64; QUANTITIES.len()] {
         let haptic_v = (r.mean_square / self.square_gain).sqrt() * self.haptic_v;
         [r.r_x, r.r_y, r.x_mm, r.y_mm, r.capacitance_pf, eq6, r.sheet * self.ohm, haptic_v, r.force_n]
     }
@@ -142,7 +142,7 @@ pub fn measure(scene: &str, slots: usize) -> Measured {
     let profile = inputs::profile(&scene.profile).expect("a bundled profile");
     let profile = inputs::windowed(profile, &scene).expect("a window");
     let timing = Timing { signs: None, ..inputs::timing(&profile) };
-    let scene = scene.within_budget(&timing).expect("rungs within the budget");
+    let scene = scene.within_budget(&timing).expect("levels within the budget");
     let mut measured = Measured::default();
     let cases = scene.cases.len();
     let of_each = slots.div_ceil(cases);
@@ -155,7 +155,7 @@ pub fn measure(scene: &str, slots: usize) -> Measured {
 
 impl Measured {
     fn case(&mut self, case: &Case, sampled: bool, slots: usize) {
-        let calibration = case.device.of(&case.profile).expect("a calibration");
+        let calibration = case.device.for_profile(&case.profile).expect("a calibration");
         let mut cores = Cores::new(&case.profile, &calibration);
         let units = Units::new(&case.profile, &case.device.device);
         let mut maker = Maker::new(case.plant().expect("a plant"), &case.profile, sampled, false);
@@ -163,10 +163,10 @@ impl Measured {
             let pad = maker.plant().truth(slot).pad;
             let slot = Slot { pad, signals: maker.signals(slot).0 };
             let [single, double, exact] = cores.read(&units, &slot);
-            self.contradictions += usize::from(double.reading.flags != exact.reading.flags);
+            self.contradictions += usize::from(double.measurement.flags != exact.measurement.flags);
             let own = [double.quantities[EQ6], double.quantities[HAPTIC]].map(f64::from);
-            let bounds = bounds(&case.profile, &calibration, &slot.signals, own, &double.reading);
-            match bounds.filter(|_| !double.reading.flags.invalid) {
+            let bounds = bounds(&case.profile, &calibration, &slot.signals, own, &double.measurement);
+            match bounds.filter(|_| !double.measurement.flags.invalid) {
                 Some(bounds) => self.add([single, double, exact].map(|read| read.quantities), units.of_bounds(bounds)),
                 None => self.left_out += 1,
             }

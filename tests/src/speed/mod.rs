@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Clocks a second of the model and of Verilator on the Verilog that is printed of it, both over the same [`Course`].
+//! Clocks a second of the model and of Verilator on the Verilog that is printed of it, both over the same [`Workload`].
 //!
-//! | file | runs a course in |
+//! | file | runs a workload in |
 //! | --- | --- |
 //! | [`model`] | the clocked model |
 //! | [`verilator`] | Verilator, as fast as it can be |
@@ -10,16 +10,16 @@
 //! channel that was asked for, and at every clock all outputs into a sum, so that none is spared. Equal sums are equal
 //! outputs (the lock-step tests compare them one by one).
 
-mod course;
 pub mod model;
 pub mod verilator;
+mod workload;
 
-pub use course::Course;
+pub use workload::Workload;
 
 /// What a run gave.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Lap {
-    /// How long it took, without calibration and without reading the course.
+    /// How long it took, without calibration and without reading the workload.
     pub seconds: f64,
     /// The sum of all outputs at every clock.
     pub sum: u64,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A course in the clocked model.
+//! A workload in the clocked model.
 
 use std::time::Instant;
 
@@ -9,27 +9,27 @@ use hapticore_hdl::signal::Signal;
 use hapticore_model::blocks::core::{Core, Inputs, Outputs};
 use hapticore_model::blocks::position::TablePort;
 
-use super::{Course, Lap, ROTATED, moved};
+use super::{Lap, ROTATED, Workload, moved};
 
-/// Runs a course from reset.
-pub fn run(core: &Core, course: &Course) -> Lap {
+/// Runs a workload from reset.
+pub fn run(core: &Core, workload: &Workload) -> Lap {
     let mut state = core.reset();
-    for &(address, word) in &course.table {
-        core.clock(&mut state, signals(core, course.constants.with_table(TablePort { write: 1, address, word })));
+    for &(address, word) in &workload.table {
+        core.clock(&mut state, signals(core, workload.constants.with_table(TablePort { write: 1, address, word })));
     }
     let start = Instant::now();
-    let sum = timed(core, &mut state, course);
+    let sum = timed(core, &mut state, workload);
     Lap { seconds: start.elapsed().as_secs_f64(), sum }
 }
 
 #[inline(never)]
-fn timed(core: &Core, state: &mut State<Core, i64>, course: &Course) -> u64 {
-    let constants = signals(core, course.constants);
+fn timed(core: &Core, state: &mut State<Core, i64>, workload: &Workload) -> u64 {
+    let constants = signals(core, workload.constants);
     let signal = |value, of: Signal<i64>| Signal { value, ..of };
     let (mut channel, mut sum) = (0, 0);
-    for _ in 0..course.passes {
-        for set in course.samples.chunks_exact(course.channels) {
-            for clock in 0..course.clocks_per_sample {
+    for _ in 0..workload.passes {
+        for set in workload.samples.chunks_exact(workload.channels) {
+            for clock in 0..workload.clocks_per_sample {
                 let strobe = signal(i64::from(clock == 0), constants.strobe);
                 let code = signal(set[channel].into(), constants.code);
                 let outputs = core.clock(state, Inputs { strobe, code, ..constants });

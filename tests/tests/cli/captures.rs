@@ -51,8 +51,8 @@ fn samples_after_the_last_whole_slot_are_reported_and_left_out() {
     let kept = 3 + 2 * 1700 + 77;
     let cut: String = text.split_inclusive('\n').take(kept).collect();
     fs::write(folder.path().join("h.csv"), cut).unwrap();
-    let said = String::from_utf8(expect(folder.path(), &["replay", "h.csv"], 0).stdout).unwrap();
-    assert!(said.contains("77 samples at the end"), "{said}");
+    let log = String::from_utf8(expect(folder.path(), &["replay", "h.csv"], 0).stdout).unwrap();
+    assert!(log.contains("77 samples at the end"), "{log}");
     assert_eq!(Table::read(&folder.path().join("out/replay-h.csv/frames.csv")).rows.len(), 2);
 }
 

@@ -153,9 +153,9 @@ fn verilog_reads_the_same_codes() {
     fs::write(folder.path().join("bench.v"), BENCH.replace("WIDTH", width)).unwrap();
     fs::write(folder.path().join("codes.hex"), &hex).unwrap();
     run(Command::new("iverilog").args(["-g2005", "-o", "bench", "bench.v"]), folder.path());
-    let said = run(Command::new("vvp").args(["-n", "bench"]), folder.path());
-    let read: Vec<i64> = said.lines().filter_map(|line| line.parse().ok()).collect();
-    assert_eq!(read.len(), codes.table.len() + codes.constants.len(), "{said}");
+    let log = run(Command::new("vvp").args(["-n", "bench"]), folder.path());
+    let read: Vec<i64> = log.lines().filter_map(|line| line.parse().ok()).collect();
+    assert_eq!(read.len(), codes.table.len() + codes.constants.len(), "{log}");
     assert_eq!(read[..codes.table.len()], codes.table);
     // A constant without sign fills the word: it is the same bits.
     let modulus = 1i64 << width.parse::<u8>().unwrap();
@@ -183,8 +183,8 @@ fn a_host_in_c_has_the_same_codes() {
     fs::write(folder.path().join("codes.h"), text(folder.path(), "c")).unwrap();
     fs::write(folder.path().join("host.c"), HOST).unwrap();
     run(Command::new("gcc").args(["-std=c99", "-Wall", "-Wextra", "-Werror", "-o", "host", "host.c"]), folder.path());
-    let said = run(&mut Command::new(folder.path().join("host")), folder.path());
-    let numbers: Vec<i64> = said.lines().map(|line| line.parse().unwrap()).collect();
+    let log = run(&mut Command::new(folder.path().join("host")), folder.path());
+    let numbers: Vec<i64> = log.lines().map(|line| line.parse().unwrap()).collect();
     let codes = from_csv(&text(folder.path(), "csv"));
     let constant = |name: &str| codes.constants.iter().find(|(known, _)| known == name).unwrap().1;
     assert_eq!(numbers[..2], [constant("capacitance_gain"), constant("force_gain")]);

@@ -93,8 +93,8 @@ fn results_do_not_depend_on_the_number_of_threads() {
     let run = |threads: &str| {
         let args = ["simulate", "fig3", "--set", "pad.0.position_mm.raster.nx=4", "--out", threads];
         let output = crate::command(folder.path(), &args).env("RAYON_NUM_THREADS", threads).output().unwrap();
-        let said = String::from_utf8_lossy(&output.stderr);
-        assert!(output.status.code().is_some_and(|code| code < 2), "{said}");
+        let log = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.code().is_some_and(|code| code < 2), "{log}");
         fs::read(folder.path().join(threads).join("frames.csv")).unwrap()
     };
     assert!(run("1") == run("5"));

@@ -33,16 +33,16 @@ fn command(folder: &Path, args: &[&str]) -> Command {
 /// Runs the command and expects it to end with `code`.
 fn expect(folder: &Path, args: &[&str], code: i32) -> Output {
     let output = hapticore(folder, args);
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(code), "{args:?}: {said}{}", String::from_utf8_lossy(&output.stdout));
+    let log = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(code), "{args:?}: {log}{}", String::from_utf8_lossy(&output.stdout));
     output
 }
 
 /// Runs the command on part of a scene, whose criteria may not hold, and expects it to finish.
 fn finish(folder: &Path, args: &[&str]) -> Output {
     let output = hapticore(folder, args);
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.code().is_some_and(|code| code < 2), "{args:?}: {said}");
+    let log = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.code().is_some_and(|code| code < 2), "{args:?}: {log}");
     output
 }
 
@@ -50,10 +50,10 @@ fn finish(folder: &Path, args: &[&str]) -> Output {
 fn refuse(folder: &Path, args: &[&str], words: &[&str]) {
     let args = [args, &["--out", "results"]].concat();
     let output = expect(folder, &args, 2);
-    let said = String::from_utf8(output.stderr).expect("text");
-    assert_eq!(said.lines().count(), 1, "{args:?}: one line, got {said}");
+    let log = String::from_utf8(output.stderr).expect("text");
+    assert_eq!(log.lines().count(), 1, "{args:?}: one line, got {log}");
     for word in words {
-        assert!(said.contains(word), "{args:?}: expected \"{word}\" in {said}");
+        assert!(log.contains(word), "{args:?}: expected \"{word}\" in {log}");
     }
     assert!(!folder.join("results").exists(), "{args:?}: leaves nothing behind");
 }

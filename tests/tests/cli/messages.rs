@@ -25,13 +25,13 @@ fn a_criterion_that_fails_is_exit_code_1_and_the_results_are_there() {
     let folder = tempfile::tempdir().unwrap();
     let scene = gallery::find("fig6").unwrap().replace("limit = 0.1", "limit = 1e-9");
     fs::write(folder.path().join("strict.toml"), scene).unwrap();
-    let said = expect(
+    let log = expect(
         folder.path(),
         &["simulate", "strict.toml", "--set", "dwell_slots=1", "--waves", "none", "--out", "out/strict"],
         1,
     )
     .stdout;
-    assert!(String::from_utf8(said).unwrap().contains("FAILS"));
+    assert!(String::from_utf8(log).unwrap().contains("FAIL"));
     for name in ["frames.csv", "summary.json", "report.html"] {
         assert!(folder.path().join("out/strict").join(name).exists(), "{name}");
     }
@@ -41,9 +41,9 @@ fn a_criterion_that_fails_is_exit_code_1_and_the_results_are_there() {
 #[test]
 fn a_run_says_first_which_effects_are_on() {
     let folder = tempfile::tempdir().unwrap();
-    let said = expect(folder.path(), &["simulate", "fig6", "--set", "dwell_slots=1"], 0).stdout;
-    let said = String::from_utf8(said).unwrap();
-    let line = said.lines().find(|line| line.starts_with("effects:")).expect("a line of effects");
+    let log = expect(folder.path(), &["simulate", "fig6", "--set", "dwell_slots=1"], 0).stdout;
+    let log = String::from_utf8(log).unwrap();
+    let line = log.lines().find(|line| line.starts_with("effects:")).expect("a line of effects");
     for effect in ["sheet bicubic", "gap static", "friction coulomb", "carrier samples", "sensor.noise"] {
         assert!(line.contains(effect), "{effect} in {line}");
     }
@@ -70,8 +70,8 @@ fn bad_input_is_one_line() {
     fs::write(folder.path().join("scene.toml"), "title = \"x\"\n[[pad]]\nposition_mm = [0, 0]\ncolour = 1\n").unwrap();
     refuse(&["simulate", "scene.toml"], &["scene.toml:4: ", "colour"]);
     fs::write(folder.path().join("file"), "").unwrap();
-    let said = expect(folder.path(), &["simulate", "fig6", "--out", "file"], 2).stderr;
-    assert_eq!(String::from_utf8(said).unwrap().lines().count(), 1);
+    let log = expect(folder.path(), &["simulate", "fig6", "--out", "file"], 2).stderr;
+    assert_eq!(String::from_utf8(log).unwrap().lines().count(), 1);
 }
 
 /// A scene of one pad, of which each adds a line 4 and further.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Captures as other recorders write them: whatever the file is like, the same signal gives the same readings, or a reason.
+//! Captures as other recorders write them: whatever the file is like, the same signal gives the same measurements, or a reason.
 //!
 //! The files are put together here byte by byte, after the formats' documents, without the command's own writers.
 
@@ -73,7 +73,7 @@ fn replay(folder: &Path, args: &[&str]) -> Table {
     Table::read(&folder.join("o/frames.csv"))
 }
 
-/// Against the readings of a CSV capture of integer codes of so many bits, finer ones than the ADC's 18 rounded to these, half to even.
+/// Against the measurements of a CSV capture of integer codes of so many bits, finer ones than the ADC's 18 rounded to these, half to even.
 /// Floats and volts are compared at 24 bits: a code may then be rounded otherwise.
 fn same(folder: &Path, args: &[&str], bits: u16) {
     let power = |bits: u16| f64::from(bits).exp2();
@@ -273,8 +273,8 @@ fn a_capture_without_calibration_says_so() {
     assert!(output.stderr.is_empty(), "{output:?}");
     fs::rename(folder.path().join("h.wav.calibration.toml"), folder.path().join("c.toml")).unwrap();
     let output = expect(folder.path(), &["replay", "h.wav", "--out", "o", "--json"], 0);
-    let said = String::from_utf8(output.stderr).unwrap();
-    assert!(said.contains("warning: h.wav: NO CALIBRATION") && said.contains("--calibration"), "{said}");
+    let log = String::from_utf8(output.stderr).unwrap();
+    assert!(log.contains("warning: h.wav: NO CALIBRATION") && log.contains("--calibration"), "{log}");
     let summary = String::from_utf8(output.stdout).unwrap();
     assert!(summary.contains("NO CALIBRATION") && summary.contains("\"calibration\": null"), "{summary}");
     assert!(fs::read_to_string(folder.path().join("o/report.html")).unwrap().contains("NO CALIBRATION"));
@@ -288,11 +288,11 @@ fn a_capture_without_calibration_says_so() {
 #[test]
 fn a_slow_haptic_voltage_in_a_capture_is_told() {
     let folder = tempfile::tempdir().unwrap();
-    let said = |hz: f64| {
+    let log = |hz: f64| {
         fs::write(folder.path().join("c.wav"), Wav::default().integers(&signal(40, hz))).unwrap();
         String::from_utf8(expect(folder.path(), &["replay", "c.wav", "--out", "o", "--pads", "1"], 0).stderr).unwrap()
     };
-    assert!(!said(1000.0).contains("haptic_v_rms"));
-    let slow = said(150.0);
+    assert!(!log(1000.0).contains("haptic_v_rms"));
+    let slow = log(150.0);
     assert!(slow.contains("haptic_v_rms") && slow.contains("150") && slow.contains("6668 samples"), "{slow}");
 }

@@ -48,16 +48,16 @@ fn a_seed_makes_another_noise() {
 fn a_criterion_whose_condition_never_occurs_is_not_applicable() {
     let folder = tempfile::tempdir().unwrap();
     let output = expect(folder.path(), &["simulate", "fig6", "--set", "pad.0.load_g=50", "--out", "o"], 0);
-    let said = String::from_utf8(output.stdout).unwrap();
-    assert!(said.contains("not applicable") && !said.contains("NaN") && !said.contains("FAILS"), "{said}");
+    let log = String::from_utf8(output.stdout).unwrap();
+    assert!(log.contains("not applicable") && !log.contains("NaN") && !log.contains("FAIL"), "{log}");
     let criteria = summary(&folder.path().join("o"))["criteria"].clone();
     let applicable: Vec<_> = criteria.as_array().unwrap().iter().map(|one| one["applicable"].clone()).collect();
     assert_eq!(applicable, [true, true, false, false]);
     let report = fs::read_to_string(folder.path().join("o/report.html")).unwrap();
-    assert!(report.contains("2 of 2 criteria hold. 2 not applicable"), "the report says so");
+    assert!(report.contains("2 of 2 criteria passed. 2 not applicable"), "the report says so");
     // The condition occurs, and what it asks for does not: that fails still.
     let low = ["simulate", "fig6", "--set", "pad.0.haptic_v_rms=90", "--waves", "none"];
-    assert!(String::from_utf8(expect(folder.path(), &low, 1).stdout).unwrap().contains("FAILS"));
+    assert!(String::from_utf8(expect(folder.path(), &low, 1).stdout).unwrap().contains("FAIL"));
 }
 
 #[test]
@@ -190,8 +190,8 @@ fn a_haptic_voltage_too_slow_for_the_window_is_told_with_its_cure() {
         String::from_utf8(finish(folder.path(), &args.into_iter().chain(set).collect::<Vec<_>>()).stderr).unwrap()
     };
     assert_eq!(run(&[]), "", "1 kHz is quick enough");
-    let said = run(&["carrier.haptic_hz=200"]);
-    assert!(said.starts_with("warning: haptic_v_rms") && said.contains("5000 samples (window_samples"), "{said}");
+    let log = run(&["carrier.haptic_hz=200"]);
+    assert!(log.starts_with("warning: haptic_v_rms") && log.contains("5000 samples (window_samples"), "{log}");
     assert!(summary(&folder.path().join("o"))["warnings"][0].as_str().unwrap().contains("200 Hz"));
     assert!(fs::read_to_string(folder.path().join("o/report.html")).unwrap().contains("class=\"warning\""));
     assert_eq!(run(&["carrier.haptic_hz=200", "window_samples=5000"]), "", "the cure");

@@ -37,8 +37,8 @@ fn a_full_standard_output_is_an_error_and_loses_no_run() {
     let folder = tempfile::tempdir().unwrap();
     for line in [&format!("$H {SHORT}"), "$H scenes", "$H scenes --json", "$H hdl --out v"] {
         let output = shell(folder.path(), &format!("{line} > /dev/full"));
-        let said = String::from_utf8_lossy(&output.stderr);
-        assert!(output.status.code() == Some(2) && said.starts_with("error: standard output: "), "{line}: {output:?}");
+        let log = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.code() == Some(2) && log.starts_with("error: standard output: "), "{line}: {output:?}");
     }
     assert_eq!(frames(folder.path()), 11);
     let output = shell(folder.path(), "$H simulate fig5 2> /dev/full");
@@ -103,9 +103,9 @@ fn a_full_disk_is_an_error_that_names_the_file() {
         (100, format!("{SHORT} --capture c.wav"), "c.wav: "),
     ] {
         let output = limited(blocks, &args);
-        let said = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(2), "{args}: {said}");
-        assert!(said.contains(name) && said.lines().count() == 1, "{args}: expected {name} in {said}");
+        let log = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{args}: {log}");
+        assert!(log.contains(name) && log.lines().count() == 1, "{args}: expected {name} in {log}");
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0, "{args}: nothing stays behind");
     }
 }

@@ -87,8 +87,8 @@ fn eight_terminals_need_a_profile_and_a_scene_alone() {
 #[test]
 fn a_position_table_that_does_not_fit_its_sheet_is_told() {
     let folder = tempfile::tempdir().unwrap();
-    let said = |args: &[&str]| String::from_utf8(finish(folder.path(), args).stderr).unwrap();
-    let fits = said(&["simulate", "minimal-sheet", "--waves", "none", "--out", "o", "--capture", "c.wav"]);
+    let log = |args: &[&str]| String::from_utf8(finish(folder.path(), args).stderr).unwrap();
+    let fits = log(&["simulate", "minimal-sheet", "--waves", "none", "--out", "o", "--capture", "c.wav"]);
     assert!(!fits.contains("the position table"), "860 × 500 mm: {fits}");
     // Places that were written down 4 mm too far to either side, in turn: no table fits these.
     let text = fs::read_to_string(folder.path().join("c.wav.calibration.toml")).unwrap();
@@ -102,7 +102,7 @@ fn a_position_table_that_does_not_fit_its_sheet_is_told() {
         None => format!("{line}\n"),
     });
     fs::write(folder.path().join("off.toml"), format!("{head}places = [{}", moved.collect::<String>())).unwrap();
-    let off = said(&["replay", "c.wav", "--calibration", "off.toml", "--out", "r"]);
+    let off = log(&["replay", "c.wav", "--calibration", "off.toml", "--out", "r"]);
     assert!(off.contains("the position table does not fit this device: "), "{off}");
     let summary = fs::read_to_string(folder.path().join("o/summary.json")).unwrap();
     let summary: serde_json::Value = serde_json::from_str(&summary).unwrap();

@@ -76,8 +76,8 @@ impl Reader {
             Block::File { name, text } => fs::write(self.at(name), text).unwrap(),
             Block::Commands(commands) => {
                 let output = self.run(commands);
-                let said = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
-                assert!(output.status.success(), "{commands}\n{}{}", said(&output.stdout), said(&output.stderr));
+                let log = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+                assert!(output.status.success(), "{commands}\n{}{}", log(&output.stdout), log(&output.stderr));
             }
         }
     }

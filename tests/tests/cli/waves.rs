@@ -117,13 +117,13 @@ fn a_window_that_makes_a_large_file_is_told() {
     let args =
         ["simulate", "hockey", "--waves", "vcd", "--waves-window", "0..99", "--set", "duration_s=0.12", "--out", "o"];
     let output = finish(folder.path(), &args);
-    let said = String::from_utf8(output.stderr).unwrap();
+    let log = String::from_utf8(output.stderr).unwrap();
     let written = fs::metadata(folder.path().join("o/waves.vcd")).unwrap().len() as f64 / 1e6;
     assert!(
-        said.contains("warning: waves: 0 to 0.1190 s, 2975000 clocks, about ") && said.contains("--waves fst"),
-        "{said}"
+        log.contains("warning: waves: 0 to 0.1190 s, 2975000 clocks, about ") && log.contains("--waves fst"),
+        "{log}"
     );
-    let told: f64 = said.split("about ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
+    let told: f64 = log.split("about ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
     assert!((told / written - 1.0).abs() < 0.3, "told {told} MB, written {written} MB");
 }
 

@@ -22,9 +22,9 @@ pub enum Column {
 /// The columns of a file, in its order.
 #[derive(Debug, Clone)]
 pub struct Columns {
-    /// What each holds.
+    /// What each column holds, in the file's order.
     pub columns: Vec<Column>,
-    /// Accepted names.
+    /// Names that a header may use, for messages.
     pub names: Vec<String>,
     /// Channels of the ADC.
     pub channels: usize,

@@ -16,9 +16,9 @@ use std::path::Path;
 
 use anyhow::{Context, Result, anyhow, bail};
 
-use super::aside::Aside;
 use super::columns::{self, Column, Columns, wanted};
 use super::input::Input;
+use super::partial_file::PartialFile;
 use super::stream::{Adc, Described, Recorder, Sampled, Source};
 use crate::digitiser::Digitiser;
 
@@ -214,23 +214,23 @@ impl Source for Reader {
 
 /// A CSV capture being written.
 pub struct Writer {
-    aside: Aside,
+    partial: PartialFile,
     channels: usize,
 }
 
 impl Writer {
     /// Creates a capture.
     pub fn create(path: &Path, adc: Adc, sample_rate_hz: f64) -> Result<Self> {
-        let mut aside = Aside::create(path)?;
+        let mut partial = PartialFile::create(path)?;
         let channels = adc.channels();
         let header =
             format!("# sample_rate_hz = {sample_rate_hz}\n# bits = {}\n{},pad\n", adc.format.width, channels.join(","));
-        aside.file.write_all(header.as_bytes()).with_context(|| path.display().to_string())?;
-        Ok(Writer { aside, channels: channels.len() })
+        partial.file.write_all(header.as_bytes()).with_context(|| path.display().to_string())?;
+        Ok(Writer { partial, channels: channels.len() })
     }
 
     fn write(&mut self, pad: usize, codes: &[i32]) -> std::io::Result<()> {
-        let file = &mut self.aside.file;
+        let file = &mut self.partial.file;
         for row in codes.chunks_exact(self.channels) {
             row.iter().try_for_each(|code| write!(file, "{code},"))?;
             writeln!(file, "{pad}")?;
@@ -241,10 +241,10 @@ impl Writer {
 
 impl Recorder for Writer {
     fn slot(&mut self, pad: usize, codes: &[i32]) -> Result<()> {
-        self.write(pad, codes).with_context(|| self.aside.path().display().to_string())
+        self.write(pad, codes).with_context(|| self.partial.path().display().to_string())
     }
 
     fn keep(self: Box<Self>) -> Result<()> {
-        self.aside.keep()
+        self.partial.keep()
     }
 }

@@ -7,10 +7,10 @@
 //! | WAV: integers of 16 to 32 bits, floats; RIFF, RF64 | yes, from standard input too | yes, RF64 beyond 4 GiB |
 //! | SigMF: real integers and floats | yes | no |
 
-mod aside;
 mod columns;
 mod csv;
 mod input;
+mod partial_file;
 mod raw;
 mod sigmf;
 mod stream;

@@ -33,7 +33,7 @@ pub struct Layout {
     pub bytes: usize,
     /// Whether the most significant byte comes first.
     pub big_endian: bool,
-    /// What they are.
+    /// How a sample is encoded.
     pub encoding: Encoding,
     /// What ±1 of a fraction is in the file's numbers.
     pub full_scale: f64,

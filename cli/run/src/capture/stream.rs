@@ -27,7 +27,7 @@ pub trait Source {
 /// What a row says beside its codes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Sampled {
-    /// The pad that was served.
+    /// The selected pad.
     pub pad: Option<usize>,
 }
 
@@ -51,7 +51,7 @@ pub trait Recorder {
 pub struct Adc {
     /// Current sensors; the sensing and the haptic voltage follow.
     pub terminals: usize,
-    /// Codes.
+    /// Format of the codes.
     pub format: Format,
 }
 

@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What is said of a quantity in a row: by the core, by the reference, by eq. 6 alone, and by the plant.
+//! The value of a quantity in a row: as the core, the reference and eq. 6 alone estimate it, and as the plant has it.
 
 use hapticore_scene::Quantity;
 
 use crate::record::{Quantities, Row};
 
-/// Who says what a quantity is.
+/// The source of an estimate.
 #[derive(Clone, Copy)]
 pub enum Estimate {
-    /// The core.
+    /// The fixed-point core.
     Core,
-    /// The floating-point reference.
+    /// The floating-point reference on the same samples.
     Reference,
-    /// Eq. 6 alone.
+    /// Eq. 6 alone, without the sheet's resistance.
     Eq6,
 }
 
-/// What an estimate says of a quantity; not a number where it says nothing.
-pub fn said(row: &Row, of: Quantity, estimate: Estimate) -> f64 {
+/// The estimate of a quantity; not a number where there is none.
+pub fn estimated(row: &Row, of: Quantity, estimate: Estimate) -> f64 {
     match (estimate, row.reference) {
         (Estimate::Core, _) => quantity(&row.measured, of),
         (Estimate::Reference, Some(reference)) => quantity(&reference.quantities, of),
@@ -39,7 +39,7 @@ pub fn truth(row: &Row, of: Quantity, start_s: f64) -> f64 {
 }
 
 fn quantity(quantities: &Quantities, of: Quantity) -> f64 {
-    hapticore_host::quantity(of.name()).map_or(f64::NAN, |quantity| quantity.of(quantities))
+    hapticore_host::quantity(of.name()).map_or(f64::NAN, |quantity| quantity.value_in(quantities))
 }
 
 #[cfg(test)]

@@ -19,11 +19,11 @@ const ALIKE: f64 = 1e-4;
 pub struct Estimate {
     /// The most likely one.
     pub value: f64,
-    /// The interval's ends.
+    /// Ends of the 95 % interval.
     pub interval: [f64; 2],
 }
 
-/// What a reading depends on, and the reading.
+/// What a measurement depends on, and the measurement.
 pub type Row<const P: usize> = ([f64; P], f64);
 
 /// A fit of `P` coefficients.
@@ -31,13 +31,13 @@ pub type Row<const P: usize> = ([f64; P], f64);
 pub struct Fit<const P: usize> {
     /// Estimated coefficients with their intervals.
     pub estimates: [Estimate; P],
-    /// What they leave of each reading.
+    /// What they leave of each measurement.
     pub residuals: Vec<f64>,
-    /// The standard deviation of a reading's noise.
+    /// The standard deviation of a measurement's noise.
     pub noise: f64,
 }
 
-/// Readings that no coefficients can be had from.
+/// Measurements that no coefficients can be had from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Unfit {
     /// Fewer than this many.

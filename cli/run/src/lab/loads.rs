@@ -32,10 +32,10 @@ const PICO: f64 = 1e-12;
 /// (C·V)² whose least and largest differ by less than this share tell no k.
 const ALIKE: f64 = 0.02;
 
-/// A reading under a load.
+/// A measurement under a load.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Load {
-    /// At the pad.
+    /// Haptic voltage at the pad, V RMS.
     pub haptic_v_rms: f64,
     /// The force, or the friction.
     pub newtons: f64,
@@ -47,7 +47,7 @@ pub struct Load {
     pub sensed_pf: Option<f64>,
 }
 
-/// The readings of a file.
+/// The measurements of a file.
 #[derive(Debug, Clone)]
 pub struct Loads {
     /// Name of the file, for messages.
@@ -67,23 +67,23 @@ pub struct Force {
     pub mu: Option<Estimate>,
     /// What the currents' full scale is to be multiplied by, where both capacitances were measured.
     pub current_scale: Option<Estimate>,
-    /// The standard deviation of a reading's noise, N, by the residuals.
+    /// The standard deviation of a measurement's noise, N, by the residuals.
     pub noise_n: f64,
     /// Data points of the fit.
     #[serde(skip)]
     pub points: Vec<Point>,
 }
 
-/// A reading as eq. 8 has it.
+/// A measurement as eq. 8 has it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Point {
-    /// Regressor (C·V)², (F·V)².
+    /// Regressor (C·V)², in (F·V)².
     pub square: f64,
     /// Less the friction without voltage.
     pub force_n: f64,
-    /// Less eq. 8.
+    /// Measured force minus eq. 8, N.
     pub residual_n: f64,
-    /// At the pad.
+    /// Haptic voltage at the pad, V RMS.
     pub haptic_v_rms: f64,
     /// What lies on the pad.
     pub load_g: Option<f64>,
@@ -95,7 +95,7 @@ pub fn is(table: &Table) -> bool {
 }
 
 impl Loads {
-    /// The readings of a table; `sheet_ohm` is the sheet's resistance at a place.
+    /// The measurements of a table; `sheet_ohm` is the sheet's resistance at a place.
     ///
     /// # Errors
     /// Columns or numbers that are not as above.
@@ -121,7 +121,7 @@ impl Loads {
             "{}:1: expected a column capacitance_pf, or i_total (or i1 …) and v_sense",
             table.file
         );
-        let reading = |row: &Row| {
+        let measurement = |row: &Row| {
             let negative = [(haptic, "haptic_v_rms")]
                 .into_iter()
                 .chain(load.map(|column| (column, "load_g")))
@@ -140,7 +140,7 @@ impl Loads {
                     .transpose()?,
             })
         };
-        let loads = table.rows().iter().map(reading).collect::<Result<_>>()?;
+        let loads = table.rows().iter().map(measurement).collect::<Result<_>>()?;
         Ok(Loads { file: table.file.clone(), loads, friction: force.is_none() })
     }
 
@@ -172,7 +172,7 @@ impl Loads {
         let [low, high] = force_k.interval;
         ensure!(
             low > 0.0,
-            "{}: the force does not rise with (C·V)²: force_k = {:.3e} N/(F·V)², 95 %: {low:.3e} to {high:.3e}, which holds 0: expected higher voltages, or more readings",
+            "{}: the force does not rise with (C·V)²: force_k = {:.3e} N/(F·V)², 95 %: {low:.3e} to {high:.3e}, which holds 0: expected higher voltages, or more measurements",
             self.file,
             force_k.value
         );
@@ -190,7 +190,10 @@ impl Loads {
     fn check(&self, setup: &Setup) -> Result<()> {
         let (file, count) = (&self.file, self.loads.len());
         let least = if self.friction && setup.mu.is_none() { 4 } else { 3 };
-        ensure!(count >= least, "{file}: too few readings: expected {least} at least, better 10 or more, got {count}");
+        ensure!(
+            count >= least,
+            "{file}: too few measurements: expected {least} at least, better 10 or more, got {count}"
+        );
         ensure!(
             self.loads.iter().any(|load| load.haptic_v_rms > 0.0),
             "{file}: haptic_v_rms: all are 0: force_k is seen with voltage only; expected several, up to the highest that is used"
@@ -214,7 +217,7 @@ impl Loads {
         ensure!(most > 0.0, "{}: capacitance_pf: all are 0", self.file);
         ensure!(
             most - least > ALIKE * most,
-            "{}: (C·V)² is the same in all readings, so that any error of the force's zero goes into force_k; expected several voltages, 0 among them",
+            "{}: (C·V)² is the same in all measurements, so that any error of the force's zero goes into force_k; expected several voltages, 0 among them",
             self.file
         );
         Ok(())
@@ -230,7 +233,7 @@ impl Loads {
 
     fn unfit(&self, why: Unfit) -> anyhow::Error {
         match why {
-            Unfit::Few(least) => anyhow!("{}: too few readings: expected {least} at least", self.file),
+            Unfit::Few(least) => anyhow!("{}: too few measurements: expected {least} at least", self.file),
             Unfit::Zero(0) => anyhow!("{}: capacitances are all 0", self.file),
             Unfit::Zero(_) => anyhow!("{}: load_g: all are 0: they do not tell friction from load", self.file),
             Unfit::Alike => anyhow!(

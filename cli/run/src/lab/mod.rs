@@ -121,10 +121,10 @@ pub fn calibrate(data: &Data, profile: &Profile) -> Result<(DeviceCalibration, O
     let mut places = Places::of(&data.places, setup.current_full_scale_a)?;
     let columns = places.raster();
     let signs = setup.signs(places.terminals())?;
-    let even = wiring::even_sheet(setup)?;
-    wiring::check(&places, setup, &signs, even.as_ref())?;
+    let uniform = wiring::uniform_sheet(setup)?;
+    wiring::check(&places, setup, &signs, uniform.as_ref())?;
     let mut warnings = Vec::new();
-    let (sheet, from) = resistances(&places, setup, even.as_ref());
+    let (sheet, from) = resistances(&places, setup, uniform.as_ref());
     warnings.extend((from == Resistance::Unknown).then(|| no_resistance(&places.file)));
     let nearest = |at: [f64; 2]| nearest(&places.places, &sheet, at);
     let force = data.loads.as_ref().map(|table| Loads::of(table, setup, nearest)?.fit(setup)).transpose()?;
@@ -138,7 +138,7 @@ pub fn calibrate(data: &Data, profile: &Profile) -> Result<(DeviceCalibration, O
     let shares = |place: &Place| Places::shares(&place.siemens, [&signs.x, &signs.y]);
     let open_share = open_share(&places.places.iter().map(shares).collect::<Vec<_>>());
     let measured =
-        Measured { rows: rows(&places, &sheet, &signs), columns, open_share, even: even.as_ref(), signs: &signs };
+        Measured { rows: rows(&places, &sheet, &signs), columns, open_share, uniform: uniform.as_ref(), signs: &signs };
     let mut device = DeviceCalibration {
         pads: setup.pads,
         map: Raster { columns: 0, places: Vec::new(), open_share: 0.0 },
@@ -148,7 +148,7 @@ pub fn calibrate(data: &Data, profile: &Profile) -> Result<(DeviceCalibration, O
     let profile = buildable(device.profile(profile)?)?;
     let (measured, held_out) = measured.best(&device, &profile).with_context(|| places.file.clone())?;
     device.map = measured.raster().with_context(|| places.file.clone())?;
-    let calibration = device.of(&profile).with_context(|| places.file.clone())?;
+    let calibration = device.for_profile(&profile).with_context(|| places.file.clone())?;
     let found = [found(&measured.rows, &calibration), held_out];
     let [own_places, held_out] = [0, 1].map(|k| Residual::of(found[k].iter().copied()));
     warnings.extend(own_places.warning(LIMIT_MM));
@@ -173,12 +173,12 @@ pub fn calibrate(data: &Data, profile: &Profile) -> Result<(DeviceCalibration, O
 enum Resistance {
     Measured,
     Currents,
-    EvenSheet,
+    UniformSheet,
     Unknown,
 }
 
 /// The sheet's resistance at each place: measured, from currents with their phases, or that of a uniform film.
-fn resistances(places: &Places, setup: &Setup, even: Option<&Plant>) -> (Vec<f64>, Resistance) {
+fn resistances(places: &Places, setup: &Setup, uniform: Option<&Plant>) -> (Vec<f64>, Resistance) {
     let all = || places.places.iter();
     let film = setup.sheet.as_ref().and_then(|sheet| sheet.ohm_per_square);
     if let Some(measured) = all().map(|place| place.sheet_ohm).collect() {
@@ -188,10 +188,13 @@ fn resistances(places: &Places, setup: &Setup, even: Option<&Plant>) -> (Vec<f64
         let ohm = |place: &Place| (1.0 / place.siemens.iter().sum::<Complex>()).re;
         return (all().map(ohm).collect(), Resistance::Currents);
     }
-    match even.filter(|_| film.is_some()) {
-        Some(even) => {
+    match uniform.filter(|_| film.is_some()) {
+        Some(uniform) => {
             let at: Vec<_> = all().map(|place| place.at_mm).collect();
-            (even.readings(&at).iter().map(|reading| reading.sheet_ohm).collect(), Resistance::EvenSheet)
+            (
+                uniform.measurements(&at).iter().map(|measurement| measurement.sheet_ohm).collect(),
+                Resistance::UniformSheet,
+            )
         }
         None => (vec![0.0; places.places.len()], Resistance::Unknown),
     }
@@ -254,7 +257,7 @@ struct Measured<'a> {
     rows: Vec<Row>,
     columns: Option<usize>,
     open_share: f64,
-    even: Option<&'a Plant>,
+    uniform: Option<&'a Plant>,
     signs: &'a Signs,
 }
 
@@ -268,26 +271,26 @@ impl Measured<'_> {
     }
 
     fn scattered(&self, rows: &[Row]) -> Result<Raster> {
-        let (columns, places) = scattered::raster(rows, |places| self.even(places))?;
+        let (columns, places) = scattered::raster(rows, |places| self.uniform(places))?;
         Ok(Raster { columns, places, open_share: self.open_share })
     }
 
     /// The ratios that a uniform sheet has at places; its resistance is not asked for.
-    fn even(&self, places: &[[f64; 2]]) -> Vec<Values> {
-        let Some(even) = self.even else { return vec![[0.0; 3]; places.len()] };
+    fn uniform(&self, places: &[[f64; 2]]) -> Vec<Values> {
+        let Some(uniform) = self.uniform else { return vec![[0.0; 3]; places.len()] };
         let values = |siemens: &[Complex]| {
             let [r_x, r_y] = Places::ratios(siemens, [&self.signs.x, &self.signs.y]);
             [r_x, r_y, 0.0]
         };
-        even.readings(places).iter().map(|reading| values(&reading.siemens)).collect()
+        uniform.measurements(places).iter().map(|measurement| values(&measurement.siemens)).collect()
     }
 
     /// With the uniform sheet or without, whichever finds places better that are held out; and these.
     fn best(self, device: &DeviceCalibration, profile: &Profile) -> Result<(Self, Vec<Found>)> {
-        let without = Measured { even: None, ..self.clone() };
+        let without = Measured { uniform: None, ..self.clone() };
         let found = without.hold_out(device, profile);
         let rms_mm = |found: &Vec<Found>| Residual::of(found.iter().copied()).rms_mm;
-        match self.even.and_then(|_| self.hold_out(device, profile).ok()) {
+        match self.uniform.and_then(|_| self.hold_out(device, profile).ok()) {
             Some(with) if found.as_ref().map_or(true, |found| rms_mm(&with) < rms_mm(found)) => Ok((self, with)),
             _ => Ok((without, found?)),
         }
@@ -300,7 +303,7 @@ impl Measured<'_> {
         let (kept, held): (Vec<_>, Vec<_>) = (0..self.rows.len()).partition(is_kept);
         let [kept, held] = [kept, held].map(|half| half.into_iter().map(|index| self.rows[index]).collect::<Vec<_>>());
         let from = DeviceCalibration { map: self.scattered(&kept)?, ..device.clone() };
-        let calibration = from.of(profile).context("with every other place held out")?;
+        let calibration = from.for_profile(profile).context("with every other place held out")?;
         Ok(found(&held, &calibration))
     }
 }

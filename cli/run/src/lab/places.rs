@@ -28,7 +28,7 @@ pub struct Place {
     pub at_mm: [f64; 2],
     /// Each terminal's current per volt of sensing, S; real where no phases are known.
     pub siemens: Vec<Complex>,
-    /// The sensing voltage.
+    /// Amplitude of the sensing voltage, V.
     pub sense_v: f64,
     /// The sheet's resistance, where it was measured.
     pub sheet_ohm: Option<f64>,
@@ -39,7 +39,7 @@ pub struct Place {
 pub struct Places {
     /// Name of the file, for messages.
     pub file: String,
-    /// What was read.
+    /// Measured positions, those at the same position averaged.
     pub places: Vec<Place>,
     /// Whether phases are known.
     pub phases: bool,
@@ -53,7 +53,7 @@ enum Form {
     Rectangular,
 }
 
-/// Where everything is.
+/// Column numbers of the table.
 struct Columns {
     place: [usize; 2],
     currents: Vec<(usize, Option<usize>)>,
@@ -224,7 +224,7 @@ fn distinct(values: impl Iterator<Item = f64>) -> Vec<f64> {
     values
 }
 
-/// Readings of the very same place as one.
+/// Measurements of the very same place as one.
 fn averaged(mut places: Vec<Place>) -> Vec<Place> {
     let key = |place: &Place| place.at_mm;
     places.sort_by(|a, b| key(a)[1].total_cmp(&key(b)[1]).then(key(a)[0].total_cmp(&key(b)[0])));

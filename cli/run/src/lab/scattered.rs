@@ -3,8 +3,8 @@
 //!
 //!   f(p) = e(p) + Σ a_i·|p − p_i|³ + b·p + c,   f(p_i) + λ·a_i = f_i,   Σ a_i = Σ a_i·p_i = 0
 //!
-//! e is what a uniform sheet has there, where the setup says enough, else 0. Readings have noise, which a spline through all of
-//! them would follow: λ is the one that leaves least of each reading that is left out. Sources: Duchon, "Splines minimizing
+//! e is what a uniform sheet has there, where the setup says enough, else 0. Measurements have noise, which a spline through all of
+//! them would follow: λ is the one that leaves least of each measurement that is left out. Sources: Duchon, "Splines minimizing
 //! rotation-invariant semi-norms in Sobolev spaces", 1977 (kernel r³ in the plane); Wahba, "Spline models for observational
 //! data", 1990, ch. 4 (leaving one out).
 
@@ -29,22 +29,22 @@ const LAMBDAS: [f64; 9] = [0.0, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2];
 /// So many places, at most, are left out one by one: the best λ depends on the noise, not on their number.
 const LEFT_OUT: usize = 400;
 
-/// The raster about the places: its columns and its places. `even` is what a uniform sheet has at places, mm.
+/// The raster about the places: its columns and its places. `uniform` is what a uniform sheet has at positions, mm.
 ///
 /// # Errors
 /// Places on a line, or one twice.
-pub fn raster(places: &[Row], even: impl Fn(&[[f64; 2]]) -> Vec<Values>) -> Result<(usize, Vec<Row>)> {
+pub fn raster(places: &[Row], uniform: impl Fn(&[[f64; 2]]) -> Vec<Values>) -> Result<(usize, Vec<Row>)> {
     let at: Vec<_> = places.iter().map(|place| [place[0], place[1]]).collect();
     let [xs, ys] = [0, 1].map(|axis| along(at.iter().map(|place| place[axis]), RASTER[axis]));
     let raster: Vec<_> = ys.iter().flat_map(|y| xs.iter().map(|x| [*x, *y])).collect();
-    let expected = even(&at);
+    let expected = uniform(&at);
     let spline = Spline::of(&at, |k, value| places[k][2 + value] - expected[k][value])?;
     let place = |(at, expected): (&[f64; 2], Values)| {
         let differs = spline.at(*at);
         let value = |k: usize| expected[k] + differs[k];
         [at[0], at[1], value(0), value(1), value(2)]
     };
-    Ok((RASTER[0], raster.iter().zip(even(&raster)).map(place).collect()))
+    Ok((RASTER[0], raster.iter().zip(uniform(&raster)).map(place).collect()))
 }
 
 /// Evenly from the least to the greatest.
@@ -142,7 +142,7 @@ mod tests {
         }
     }
 
-    /// With readings that are noise in part, what is between the places is nearer to the truth than the readings are.
+    /// With measurements that are noise in part, what is between the places is nearer to the truth than the measurements are.
     #[test]
     fn noise_is_smoothed_away() {
         let noise = |k: usize| 0.1 * ((1e4 * (k as f64 * 5f64.sqrt()).sin()).rem_euclid(1.0) - 0.5);
@@ -159,8 +159,8 @@ mod tests {
     #[test]
     fn what_an_even_sheet_has_comes_back_exactly() {
         let of = |[x, y]: [f64; 2]| [(x / 20.0).sin(), (y / 20.0).cos(), 1.0];
-        let even = |places: &[[f64; 2]]| places.iter().map(|place| of(*place)).collect();
-        let (_, raster) = raster(&places(20, of), even).unwrap();
+        let uniform = |places: &[[f64; 2]]| places.iter().map(|place| of(*place)).collect();
+        let (_, raster) = raster(&places(20, of), uniform).unwrap();
         assert!(raster.iter().all(|[x, y, a, b, _]| (a - of([*x, *y])[0]).hypot(b - of([*x, *y])[1]) < 1e-9));
     }
 

@@ -37,11 +37,11 @@ use hapticore_host::text::{read, with_key};
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Setup {
-    /// Pads served in turn.
+    /// Number of pads, selected in turn.
     pub pads: u64,
     /// ADC samples per second.
     pub sample_rate_hz: f64,
-    /// The sensing carrier.
+    /// Frequency of the sensing carrier, Hz.
     pub carrier_hz: f64,
     /// Current at full scale, peak.
     pub current_full_scale_a: f64,
@@ -87,7 +87,7 @@ pub struct Sheet {
     pub width_mm: f64,
     /// Size of the sheet along y, mm.
     pub height_mm: f64,
-    /// Of a pad.
+    /// Diameter of a pad, mm.
     #[serde(default = "pad_diameter_mm")]
     pub pad_diameter_mm: f64,
     /// Of the film, where it is known.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Whether each current is of the terminal that it is said to be: a self-test at calibration.
+//! Whether each current comes from the terminal that its column names: a self-test at calibration.
 //!
 //! | fault | is seen by | needs |
 //! | --- | --- | --- |
@@ -11,7 +11,7 @@ use std::fmt::Write;
 
 use anyhow::{Result, anyhow, bail, ensure};
 use hapticore_contract::profile::Profile;
-use hapticore_scene::{PadReading, Plant, Scene, Timing};
+use hapticore_scene::{PadMeasurement, Plant, Scene, Timing};
 
 use super::places::{Place, Places, total};
 use super::setup::Setup;
@@ -28,11 +28,11 @@ const FALLS: f64 = -0.3;
 ///
 /// # Errors
 /// Terminals that are swapped or reversed, by name.
-pub fn check(places: &Places, setup: &Setup, signs: &Signs, even: Option<&Plant>) -> Result<()> {
+pub fn check(places: &Places, setup: &Setup, signs: &Signs, uniform: Option<&Plant>) -> Result<()> {
     check_polarity(places)?;
-    if let Some(even) = even {
+    if let Some(uniform) = uniform {
         let at: Vec<_> = places.places.iter().map(|place| place.at_mm).collect();
-        check_order(places, &even.readings(&at), setup)?;
+        check_order(places, &uniform.measurements(&at), setup)?;
     }
     check_sides(places, signs)
 }
@@ -41,9 +41,9 @@ pub fn check(places: &Places, setup: &Setup, signs: &Signs, even: Option<&Plant>
 ///
 /// # Errors
 /// A sheet that cannot be.
-pub fn even_sheet(setup: &Setup) -> Result<Option<Plant>> {
+pub fn uniform_sheet(setup: &Setup) -> Result<Option<Plant>> {
     let (Some(sheet), Some(terminals)) = (&setup.sheet, &setup.terminals.places_mm) else { return Ok(None) };
-    let mut scene = String::from("title = \"an even sheet\"\n[[pad]]\nposition_mm = [0, 0]\n");
+    let mut scene = String::from("title = \"a uniform sheet\"\n[[pad]]\nposition_mm = [0, 0]\n");
     let _ = writeln!(
         scene,
         "[device]\nwidth_mm = {:?}\nheight_mm = {:?}\npad_diameter_mm = {:?}",
@@ -80,10 +80,10 @@ fn check_polarity(places: &Places) -> Result<()> {
     Ok(())
 }
 
-fn check_order(places: &Places, model: &[PadReading], setup: &Setup) -> Result<()> {
+fn check_order(places: &Places, model: &[PadMeasurement], setup: &Setup) -> Result<()> {
     let expected = |k: usize| {
-        let share = move |reading: &PadReading| {
-            reading.siemens[k].norm() / reading.siemens.iter().map(|s| s.norm()).sum::<f64>()
+        let share = move |measurement: &PadMeasurement| {
+            measurement.siemens[k].norm() / measurement.siemens.iter().map(|s| s.norm()).sum::<f64>()
         };
         model.iter().map(share).collect::<Vec<_>>()
     };
@@ -121,7 +121,7 @@ fn check_order(places: &Places, model: &[PadReading], setup: &Setup) -> Result<(
         .find(|axis| mirrored(*axis))
         .map_or(String::new(), |axis| format!(" (or {} of the places runs the other way)", ["x_mm", "y_mm"][axis]));
     bail!(
-        "{}: {}{hint}: their shares of the current go over the sheet as each other's would on an even sheet",
+        "{}: {}{hint}: their shares of the current go over the sheet as each other's would on a uniform sheet",
         places.file,
         told.join(", ")
     );

@@ -18,7 +18,7 @@ impl Fit {
         Fit { normal: vec![Vec::new(); entries], right: DMatrix::zeros(entries, layers) }
     }
 
-    /// Asks that the weighted sum of some entries be near to the values, one a layer.
+    /// Adds an equation: the weighted sum of some entries equals the values, one per layer.
     pub fn ask(&mut self, terms: &[(usize, f64)], values: &[f64], importance: f64) {
         for &(row, a) in terms {
             for &(column, b) in terms {

@@ -33,7 +33,7 @@ pub struct Frame {
 
 /// The numbers of a frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Reading<T = f64> {
+pub struct Measurement<T = f64> {
     /// Pad number, from 0.
     pub pad: usize,
     /// Ratio r_x of eq. 2.
@@ -57,20 +57,20 @@ pub struct Reading<T = f64> {
     pub flags: Flags,
 }
 
-impl<T> Reading<T> {
-    /// The reading with each of its numbers converted.
+impl<T> Measurement<T> {
+    /// The measurement with each of its numbers converted.
     ///
     /// ```
-    /// use hapticore_contract::{frame::{Flags, Frame, Reading}, profile::Profile};
+    /// use hapticore_contract::{frame::{Flags, Frame, Measurement}, profile::Profile};
     ///
     /// let profile = Profile::bundled("standard")?;
     /// let frame = Frame { pad: 0, codes: [0, 0, 96, 0, 0, 0, 0, 0], flags: Flags::default() };
-    /// let single: Reading<f32> = frame.reading(&profile).map(|number| number as f32);
-    /// assert_eq!(f64::from(single.x_mm), frame.reading(&profile).x_mm);
+    /// let single: Measurement<f32> = frame.measurement(&profile).map(|number| number as f32);
+    /// assert_eq!(f64::from(single.x_mm), frame.measurement(&profile).x_mm);
     /// # Ok::<(), hapticore_contract::profile::ProfileError>(())
     /// ```
-    pub fn map<U>(self, mut of: impl FnMut(T) -> U) -> Reading<U> {
-        Reading {
+    pub fn map<U>(self, mut of: impl FnMut(T) -> U) -> Measurement<U> {
+        Measurement {
             pad: self.pad,
             r_x: of(self.r_x),
             r_y: of(self.r_y),
@@ -95,13 +95,13 @@ impl Frame {
     /// let mut codes = [0; Field::ALL.len()];
     /// codes[Field::Force as usize] = Field::Force.format(&profile).code(0.25).expect("a quarter of a newton");
     /// let flags = Flags { saturated: true, ..Flags::default() };
-    /// let reading = Frame { pad: 3, codes, flags }.reading(&profile);
-    /// assert_eq!((reading.pad, reading.force_n, reading.flags.saturated), (3, 0.25, true));
+    /// let measurement = Frame { pad: 3, codes, flags }.measurement(&profile);
+    /// assert_eq!((measurement.pad, measurement.force_n, measurement.flags.saturated), (3, 0.25, true));
     /// # Ok::<(), hapticore_contract::profile::ProfileError>(())
     /// ```
-    pub fn reading(&self, profile: &Profile) -> Reading {
+    pub fn measurement(&self, profile: &Profile) -> Measurement {
         let of = |field: Field| field.format(profile).real(self.codes[field as usize]);
-        Reading {
+        Measurement {
             pad: self.pad,
             r_x: of(Field::RatioX),
             r_y: of(Field::RatioY),

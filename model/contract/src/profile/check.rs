@@ -68,7 +68,7 @@ impl Profile {
         }
     }
 
-    /// Five sums of a window's weights, one a phase of the carrier, must be the same: what a constant makes of them then
+    /// Five sums of the window's values, one per phase of the carrier, must be the same: what a constant makes of them then
     /// leaves nothing.
     fn check_polyphase(&self) -> Check {
         let samples = self.slot.integrate;

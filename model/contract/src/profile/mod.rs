@@ -26,7 +26,7 @@ use std::fmt::Display;
 pub struct Profile {
     /// What it is called.
     pub name: String,
-    /// Pads that are served in turn.
+    /// Number of pads, selected in turn.
     pub pads: u64,
     /// Clocks of the core from one ADC sample to the next.
     pub clocks_per_sample: u64,
@@ -82,7 +82,7 @@ pub struct Carrier {
     pub amplitude: u64,
     /// How a channel's in-phase and quadrature sums are made.
     pub method: Method,
-    /// What weighs the samples of a window.
+    /// The window function.
     pub window: Window,
 }
 
@@ -97,13 +97,13 @@ pub enum Method {
     Polyphase,
 }
 
-/// What weighs the samples of a window.
+/// The window function.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Window {
     /// (1 − cos) / 2.
     Hann,
-    /// w = 1.
+    /// Rectangular window, w = 1.
     Rectangular,
 }
 
@@ -194,7 +194,7 @@ pub enum ProfileError {
         field: String,
         /// What it may be.
         expected: String,
-        /// What it is.
+        /// The value found.
         got: String,
     },
     /// No bundled profile has this name.
@@ -320,7 +320,7 @@ impl Slot {
 }
 
 impl Window {
-    /// The mean weight.
+    /// The mean of the window function, 0 to 1.
     pub fn mean(self) -> f64 {
         match self {
             Window::Hann => 0.5,
@@ -330,7 +330,7 @@ impl Window {
 }
 
 impl Profile {
-    /// The carrier's frequency.
+    /// The carrier's frequency, turns per sample.
     pub fn turns_per_sample(&self) -> f64 {
         self.carrier.periods as f64 / self.slot.integrate as f64
     }
@@ -361,8 +361,8 @@ impl Profile {
         self.carrier.amplitude as f64 * self.formats.oscillator.lsb()
     }
 
-    /// The mean weight of a window's samples.
-    pub fn mean_weight(&self) -> f64 {
+    /// The mean of the window function over the samples of a window.
+    pub fn window_mean(&self) -> f64 {
         self.carrier.window.mean() * self.amplitude()
     }
 
@@ -372,8 +372,8 @@ impl Profile {
         Format::unsigned(word.width - 1, word.frac)
     }
 
-    /// The format of the amplitudes of total current and sensing voltage: of the root of two squares of a total's word, one
-    /// more bit than the word without its sign and one for the root's rounding.
+    /// The format of the amplitudes of total current and sensing voltage: of the square root of two squares of a total's word, one
+    /// more bit than the word without its sign and one for the square root's rounding.
     pub fn amplitude_format(&self) -> Format {
         Format::unsigned(self.formats.total.width + 1, self.formats.total.frac)
     }
@@ -394,12 +394,12 @@ impl Profile {
             Method::Products => self.amplitude(),
             Method::Polyphase => POLYPHASE_GAIN,
         };
-        self.slot.integrate as f64 * self.mean_weight() * wave / 2.0 * 2f64.powi(-i32::from(self.sum_shift()))
+        self.slot.integrate as f64 * self.window_mean() * wave / 2.0 * 2f64.powi(-i32::from(self.sum_shift()))
     }
 
     /// What the mean square's word is for a constant at full scale.
     pub fn square_gain(&self) -> f64 {
-        self.slot.integrate as f64 * self.mean_weight() * 2f64.powi(-i32::from(self.square_shift()))
+        self.slot.integrate as f64 * self.window_mean() * 2f64.powi(-i32::from(self.square_shift()))
     }
 }
 

@@ -44,10 +44,7 @@ fn limit(code: i64, to: Format, overflow: Overflow) -> i64 {
         Overflow::Saturate => code.clamp(min(to), max(to)),
         Overflow::Wrap => wrap(code, to),
         Overflow::Proved | Overflow::Assumed(_) => {
-            debug_assert!(
-                code >= min(to) && code <= max(to),
-                "{code} does not fit {to}, which was said never to happen"
-            );
+            debug_assert!(code >= min(to) && code <= max(to), "{code} does not fit {to}, which is declared impossible");
             code
         }
     }
@@ -160,7 +157,7 @@ impl Value for i64 {
     }
 
     #[inline(always)]
-    fn known(bit: i64) -> Option<bool> {
+    fn known_bit(bit: i64) -> Option<bool> {
         Some(bit != 0)
     }
 }
@@ -229,6 +226,6 @@ mod tests {
         assert_eq!(signal(-1, Format::signed(8, 1)).quantize(wide, Floor, Wrap).value, -1);
         assert_eq!(signal(-128, wide).abs().value, 128);
         let (held, saturated) = signal(127, Format::signed(8, 4)).saturate(narrow, HalfEven);
-        assert_eq!((held.value, saturated.value), (7, 1), "7.94 rounds to 8, which the rail holds");
+        assert_eq!((held.value, saturated.value), (7, 1), "7.94 rounds to 8, which saturates to 7");
     }
 }

@@ -53,7 +53,7 @@ pub enum Op {
     And(Node, Node),
     /// Bitwise OR.
     Or(Node, Node),
-    /// The other bit.
+    /// Bitwise NOT of one bit.
     Not(Node),
     /// The second where the first is set, else the third.
     Select(Node, Node, Node),
@@ -62,7 +62,7 @@ pub enum Op {
 /// A wire of a module.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub struct Wire {
-    /// What drives it.
+    /// The operation that drives the node.
     pub op: Op,
     /// Number format.
     pub format: Format,
@@ -88,7 +88,7 @@ pub struct Named {
 /// A memory of a module.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub struct Ram {
-    /// Its name among the parts of its block.
+    /// Its name among the submodules of its block.
     pub name: &'static str,
     /// The format of a word.
     pub format: Format,
@@ -132,7 +132,7 @@ pub struct Module {
     pub registers: Vec<Named>,
     /// Memories of the module.
     pub memories: Vec<Ram>,
-    /// The blocks within.
+    /// Instances of other modules.
     pub instances: Vec<Instance>,
     /// Its wires; each depends only on wires before it, on registers and on ports.
     pub wires: Vec<Wire>,
@@ -327,7 +327,7 @@ impl Value for Node {
         unreachable!("a wire has no code before the circuit runs")
     }
 
-    fn known(_bit: Self) -> Option<bool> {
+    fn known_bit(_bit: Self) -> Option<bool> {
         None
     }
 }

@@ -20,7 +20,7 @@ pub struct Range {
     pub high: i128,
 }
 
-/// A narrowing that said it could not overflow, and a range that does; or an address beyond the words of a memory.
+/// A narrowing that is declared not to overflow, and a range that does; or an address beyond the words of a memory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Violation {
     /// The range before the narrowing, in codes of the narrowed format; or of the address.
@@ -31,7 +31,7 @@ pub struct Violation {
 
 thread_local! {
     static VIOLATIONS: RefCell<Vec<Violation>> = const { RefCell::new(Vec::new()) };
-    static LEMMAS: RefCell<Vec<&'static str>> = const { RefCell::new(Vec::new()) };
+    static ASSUMPTIONS: RefCell<Vec<&'static str>> = const { RefCell::new(Vec::new()) };
 }
 
 /// The violations found since the last call, on this thread.
@@ -39,9 +39,9 @@ pub fn take_violations() -> Vec<Violation> {
     VIOLATIONS.with_borrow_mut(std::mem::take)
 }
 
-/// The lemmas relied on since the last call, on this thread, each once.
-pub fn take_lemmas() -> Vec<&'static str> {
-    LEMMAS.with_borrow_mut(std::mem::take)
+/// The assumptions relied on since the last call, on this thread, each once.
+pub fn take_assumptions() -> Vec<&'static str> {
+    ASSUMPTIONS.with_borrow_mut(std::mem::take)
 }
 
 /// The range of a whole format.
@@ -106,8 +106,8 @@ fn never(range: Range, to: Format) -> Range {
     clamp(range, to)
 }
 
-fn lemma(range: Range, to: Format, name: &'static str) -> Range {
-    LEMMAS.with_borrow_mut(|found| {
+fn assume(range: Range, to: Format, name: &'static str) -> Range {
+    ASSUMPTIONS.with_borrow_mut(|found| {
         if !found.contains(&name) {
             found.push(name);
         }
@@ -166,7 +166,7 @@ impl Value for Range {
             Overflow::Saturate => clamp(range, to),
             Overflow::Wrap => wrap(range, to),
             Overflow::Proved => never(range, to),
-            Overflow::Assumed(name) => lemma(range, to, name),
+            Overflow::Assumed(name) => assume(range, to, name),
         }
     }
 
@@ -230,7 +230,7 @@ impl Value for Range {
         a.value.low as i64
     }
 
-    fn known(bit: Self) -> Option<bool> {
+    fn known_bit(bit: Self) -> Option<bool> {
         bit.is_point().then_some(bit.low != 0)
     }
 }

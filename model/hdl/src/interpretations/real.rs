@@ -107,7 +107,7 @@ impl Value for Real {
         a.format.code_saturating(a.value.0)
     }
 
-    fn known(bit: Self) -> Option<bool> {
+    fn known_bit(bit: Self) -> Option<bool> {
         Some(bit.0 != 0.0)
     }
 

@@ -123,7 +123,7 @@ impl Value for Shadow {
         a.value.code
     }
 
-    fn known(bit: Self) -> Option<bool> {
+    fn known_bit(bit: Self) -> Option<bool> {
         Some(bit.code != 0)
     }
 }
@@ -140,9 +140,9 @@ impl Storage for Shadow {
     }
 
     fn access(memory: &Memory, words: &mut Shadows, address: Signal<Self>, write: Option<Write<Self>>) {
-        i64::access(memory, &mut words.codes, code(address), write.map(|w| of(w, code)));
+        i64::access(memory, &mut words.codes, code(address), write.map(|w| map_write(w, code)));
         let index = Signal { value: Real(address.value.code as f64), format: address.format };
-        let write = write.map(|w| Write { address: follow(w.address), ..of(w, real) });
+        let write = write.map(|w| Write { address: follow(w.address), ..map_write(w, real) });
         Real::access(memory, &mut words.reals, index, write);
     }
 }
@@ -153,7 +153,7 @@ impl Interpretation for Shadow {
     }
 }
 
-fn of<V>(write: Write<Shadow>, side: fn(Signal<Shadow>) -> Signal<V>) -> Write<V> {
+fn map_write<V>(write: Write<Shadow>, side: fn(Signal<Shadow>) -> Signal<V>) -> Write<V> {
     Write { enable: side(write.enable), address: side(write.address), data: side(write.data) }
 }
 

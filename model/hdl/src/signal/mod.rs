@@ -103,9 +103,9 @@ pub trait Value: Copy + std::fmt::Debug + 'static {
     fn less(a: Signal<Self>, b: Signal<Self>) -> Self;
     /// Whether `a = b`.
     fn equal(a: Signal<Self>, b: Signal<Self>) -> Self;
-    /// One bit: both.
+    /// AND of two bits.
     fn and(a: Self, b: Self) -> Self;
-    /// One bit: either.
+    /// OR of two bits.
     fn or(a: Self, b: Self) -> Self;
     /// One bit: the other.
     fn not(a: Self) -> Self;
@@ -135,7 +135,7 @@ pub trait Value: Copy + std::fmt::Debug + 'static {
     fn code(a: Signal<Self>) -> i64;
 
     /// What a bit is, where the interpretation knows.
-    fn known(bit: Self) -> Option<bool>;
+    fn known_bit(bit: Self) -> Option<bool>;
 }
 
 /// A constant by its code.
@@ -172,13 +172,13 @@ pub fn bit<V: Value>(set: bool) -> Signal<V> {
 /// Whether a bit is set, in interpretations that know.
 #[inline(always)]
 pub fn is_set<V: Value>(bit: Signal<V>) -> bool {
-    V::known(bit.value) == Some(true)
+    V::known_bit(bit.value) == Some(true)
 }
 
 /// Whether the interpretation knows a bit.
 #[inline(always)]
 pub fn is_known<V: Value>(bit: &Signal<V>) -> bool {
-    V::known(bit.value).is_some()
+    V::known_bit(bit.value).is_some()
 }
 
 /// Whether the interpretation of a signal knows every bit.

@@ -102,18 +102,18 @@ impl Scope<'_> {
         let (sign, above, low) =
             (self.slice(id, top, top), self.slice(id, top, width - 1), self.slice(id, width - 1, 0));
         let fits = format!("({above} == {{{}{{{sign}}}}})", top + 2 - width);
-        let rail = if width == 1 { sign } else { format!("{{{sign}, {{{}{{~{sign}}}}}}}", width - 1) };
-        Text { text: format!("{fits} ? {low} : {rail}"), kind: Kind::Select }
+        let limit = if width == 1 { sign } else { format!("{{{sign}, {{{}{{~{sign}}}}}}}", width - 1) };
+        Text { text: format!("{fits} ? {low} : {limit}"), kind: Kind::Select }
     }
 
     /// Bits of an unsigned code; all ones where any above is set. With a zero in front for a signed format.
     fn held_unsigned(&mut self, id: Id, width: u8, signed: bool) -> Text {
         let top = self.width(id) - 1;
         let (above, low) = (self.slice(id, top, width), self.slice(id, width - 1, 0));
-        let rail = format!("{{{width}{{1'b1}}}}");
+        let limit = format!("{{{width}{{1'b1}}}}");
         let text = match signed {
-            true => format!("(|{above}) ? {{1'b0, {rail}}} : {{1'b0, {low}}}"),
-            false => format!("(|{above}) ? {rail} : {low}"),
+            true => format!("(|{above}) ? {{1'b0, {limit}}} : {{1'b0, {low}}}"),
+            false => format!("(|{above}) ? {limit} : {low}"),
         };
         Text { text, kind: Kind::Select }
     }

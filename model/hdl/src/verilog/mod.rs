@@ -10,7 +10,7 @@
 //! | an exact sum, difference | both operands extended to the width of the result |
 //! | a product | signed where one factor is; the other then gets a zero in front |
 //! | `quantize` with `HalfEven` | the kept bits, and one more where the rest is over a half, or a half and the kept part odd |
-//! | `quantize` with `Saturate` | the low bits where those above agree, else the rail |
+//! | `quantize` with `Saturate` | the low bits where those above agree, else the largest or smallest code |
 //! | a memory | an array with one read register and one write port, in a process of its own: a block RAM |
 //! | a register | synchronous reset to zero |
 //!
@@ -42,9 +42,9 @@ pub struct File {
 /// The direction of a port.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Direction {
-    /// Into the module.
+    /// An input of the module.
     Input,
-    /// Out of it.
+    /// An output of the module.
     Output,
 }
 

@@ -14,7 +14,7 @@ use std::fmt::Write;
 pub fn print(netlist: &Netlist, modules: &[String], module: &Module, name: &str, heading: &Heading) -> String {
     let ports = ports(module);
     let mut names = Names::default();
-    ports.iter().for_each(|port| names.take(&port.name));
+    ports.iter().for_each(|port| names.reserve(&port.name));
     let mut printer =
         Printer { scope: Scope::new(module, names), netlist, modules, ports, registers: vec![], memories: vec![] };
     let mut text = printer.head(name, heading);

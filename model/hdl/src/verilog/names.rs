@@ -73,7 +73,7 @@ impl Names {
     }
 
     /// Takes a name that is known to be free, or to be shared on purpose.
-    pub fn take(&mut self, name: &str) {
+    pub fn reserve(&mut self, name: &str) {
         self.taken.insert(name.to_owned());
     }
 

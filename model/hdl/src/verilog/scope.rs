@@ -12,7 +12,7 @@ use crate::interpretations::netlist::{Module, Named, Node, Op};
 pub struct Text {
     /// Verilog text of the expression.
     pub text: String,
-    /// How it binds.
+    /// Precedence class of the expression.
     pub kind: Kind,
 }
 
@@ -36,7 +36,7 @@ impl Text {
         Text { text, kind: Kind::Operation }
     }
 
-    /// As an operand.
+    /// The text as an operand, in parentheses where needed.
     pub fn operand(&self) -> String {
         if self.kind == Kind::Atom { self.text.clone() } else { format!("({})", self.text) }
     }

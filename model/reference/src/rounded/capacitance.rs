@@ -6,7 +6,7 @@
 //! admittance = [a / [√left]],   C = [admittance · gain]
 //! ```
 
-use super::{Exact, round, round_quotient, round_root};
+use super::{Exact, round, round_quotient, round_sqrt};
 use hapticore_contract::format::Format;
 use hapticore_contract::profile::Profile;
 
@@ -21,8 +21,8 @@ pub struct Capacitance {
     pub saturated: bool,
 }
 
-/// The format of an amplitude: of the root of two squares of a total's word, one more bit than the word without its sign
-/// and one for the root's rounding.
+/// The format of an amplitude: of the square root of two squares of a total's word, one more bit than the word without its sign
+/// and one for the square root's rounding.
 fn amplitude(profile: &Profile) -> Format {
     let total = profile.formats.total;
     Format { signed: false, width: total.width + 1, frac: total.frac }
@@ -35,8 +35,8 @@ pub fn capacitance(profile: &Profile, total: Exact, sense: Exact, sheet: Exact, 
     let drop = round(total * sheet, amplitude(profile));
     let left = sense * sense - drop.value * drop.value;
     let invalid = left <= Exact::ZERO;
-    let root = round_root(if invalid { Exact::ZERO } else { left }, f.total.frac);
-    let admittance = round_quotient(total, root, f.admittance);
+    let sqrt = round_sqrt(if invalid { Exact::ZERO } else { left }, f.total.frac);
+    let admittance = round_quotient(total, sqrt, f.admittance);
     let capacitance = round(admittance.value * gain, f.capacitance);
     let saturated = drop.held | admittance.held | capacitance.held;
     Capacitance { capacitance: capacitance.value, invalid, saturated }

@@ -7,7 +7,7 @@
 //! x = Σ ±a_k,   y = Σ ±a_k,   corners = Σ a_k of those in x or y,   least = min a_k
 //! ```
 
-use super::{Exact, round, round_root};
+use super::{Exact, round, round_sqrt};
 use hapticore_contract::format::Format;
 use hapticore_contract::profile::{Method, Profile, Window};
 
@@ -35,7 +35,7 @@ pub(super) fn power_above(scale: f64) -> i8 {
     (0..).find(|&power| 2f64.powi(power) >= scale).expect("a window is finite") as i8
 }
 
-/// Σw · share: of the window's weights, what a sum grows by.
+/// Σw · share: the sum of the window, by which a sum of samples grows.
 pub(super) fn growth(profile: &Profile, share: f64) -> f64 {
     let mean = match profile.carrier.window {
         Window::Hann => 0.5,
@@ -71,7 +71,7 @@ fn block_currents(profile: &Profile, sums: &[[Exact; 2]], shift: i8) -> Currents
     let words: Vec<[Exact; 2]> = sums.iter().map(|sum| sum.map(|part| kept(part.scaled(-shift)))).collect();
     let (terminals, sense) = words.split_at(profile.terminals.x.len());
     let ((by, terminals), (by_sense, sense)) = (moved(profile, terminals), moved(profile, sense));
-    let amplitude = |[i, q]: [Exact; 2]| round_root(i * i + q * q, f.iq.frac);
+    let amplitude = |[i, q]: [Exact; 2]| round_sqrt(i * i + q * q, f.iq.frac);
     let down = (0..).find(|&bits| terminals.len() < 1 << bits).expect("few terminals") as i8;
     let total = terminals.iter().fold([Exact::ZERO; 2], |[i, q], word| [i + word[0], q + word[1]]);
     let total = amplitude(total.map(|part| round(part.scaled(-down), f.iq).value)).scaled(down);
@@ -91,8 +91,8 @@ fn block_currents(profile: &Profile, sums: &[[Exact; 2]], shift: i8) -> Currents
 /// x, y and corners.
 fn numerators(profile: &Profile, amplitudes: &[Exact]) -> [Exact; 3] {
     let (x, y) = (&profile.terminals.x, &profile.terminals.y);
-    let among: Vec<i8> = x.iter().zip(y).map(|(&x, &y)| i8::from(x != 0 || y != 0)).collect();
-    [x, y, &among].map(|signs| {
+    let in_ratios: Vec<i8> = x.iter().zip(y).map(|(&x, &y)| i8::from(x != 0 || y != 0)).collect();
+    [x, y, &in_ratios].map(|signs| {
         let signed = |(&a, &sign): (&Exact, &i8)| a * Exact::new(sign.into(), 0);
         amplitudes.iter().zip(signs).map(signed).fold(Exact::ZERO, |sum, term| sum + term)
     })
@@ -119,7 +119,7 @@ pub fn currents(profile: &Profile, sums: &[[Exact; 2]]) -> Currents {
     let (terminals, sense) = words.split_at(profile.terminals.x.len());
     let mut add = |sum: Exact, word: Exact| held(sum + word, f.total);
     let total = terminals.iter().fold([Exact::ZERO; 2], |[i, q], word| [add(i, word[0]), add(q, word[1])]);
-    let amplitude = |[i, q]: [Exact; 2]| round_root(i * i + q * q, f.total.frac);
+    let amplitude = |[i, q]: [Exact; 2]| round_sqrt(i * i + q * q, f.total.frac);
     let amplitudes: Vec<Exact> = terminals.iter().map(|&word| amplitude(word)).collect();
     let total = amplitude(total);
     let [x, y, corners] = numerators(profile, &amplitudes);

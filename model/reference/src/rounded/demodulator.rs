@@ -9,7 +9,7 @@
 //!
 //! d leaves 32 bits of the largest sum that the window lets be.
 
-use super::{Exact, Sample, round, round_real, weighted};
+use super::{Exact, Sample, round, round_real, windowed_lo};
 use hapticore_contract::format::Format;
 use hapticore_contract::profile::{Method, Profile, Window};
 use std::f64::consts::TAU;
@@ -72,7 +72,7 @@ pub fn demodulate(profile: &Profile, carrier: &[Sample], codes: &[i32]) -> Sums 
     let adc = profile.formats.adc;
     let channels = profile.terminals.x.len() + 2;
     let mut sums = Sums { phases: vec![[Exact::ZERO; 2]; channels - 1], square: Exact::ZERO, clipped: false };
-    let local = weighted(profile, carrier);
+    let local = windowed_lo(profile, carrier);
     for ((codes, sample), [cosine, sine]) in codes.chunks_exact(channels).zip(carrier).zip(local) {
         let x = |k: usize| Exact::of(codes[k].into(), adc);
         for (k, [i, q]) in sums.phases.iter_mut().enumerate() {
@@ -81,8 +81,8 @@ pub fn demodulate(profile: &Profile, carrier: &[Sample], codes: &[i32]) -> Sums 
         }
         let h = x(channels - 1);
         sums.square = sums.square + h * round(sample.window * h, adc).value;
-        let rail = 1i64 << (adc.width - 1);
-        sums.clipped |= codes.iter().any(|&code| i64::from(code) == -rail || i64::from(code) == rail - 1);
+        let full_scale = 1i64 << (adc.width - 1);
+        sums.clipped |= codes.iter().any(|&code| i64::from(code) == -full_scale || i64::from(code) == full_scale - 1);
     }
     sums
 }

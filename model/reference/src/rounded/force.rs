@@ -37,7 +37,7 @@ impl Squares {
     }
 
     /// The mean over the pad's last windows with this one, which alone counts until there are as many; of several windows each at
-    /// the rail counts as held there.
+    /// full scale counts as saturated.
     pub fn mean(&mut self, profile: &Profile, pad: usize, newest: Rounded) -> Rounded {
         let last = &mut self.pads[pad];
         if last.len() == self.windows {

@@ -18,8 +18,8 @@ pub use currents::{Currents, currents};
 pub use demodulator::{Sums, demodulate};
 pub use force::{Force, Squares, force, mean_square};
 pub use frames::Frames;
-pub use number::{Exact, Rounded, floor_quotient, round, round_quotient, round_real, round_root};
-pub use oscillator::{Oscillator, Sample, weighted};
+pub use number::{Exact, Rounded, floor_quotient, round, round_quotient, round_real, round_sqrt};
+pub use oscillator::{Oscillator, Sample, windowed_lo};
 pub use position::{Place, Position};
 pub use ratio::{Ratio, ratio};
 

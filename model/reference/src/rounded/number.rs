@@ -166,7 +166,7 @@ pub fn floor_quotient(n: Exact, d: Exact) -> i128 {
     n.div_euclid(d)
 }
 
-/// `n / d` in a format, `n` and `d` not negative; by zero it is held at the upper rail.
+/// `n / d` in a format, `n` and `d` not negative; by zero it saturates at the largest code.
 pub fn round_quotient(n: Exact, d: Exact, to: Format) -> Rounded {
     let (n, d, _) = n.scaled(to.frac).both(d);
     if d == 0 { hold(i128::MAX, to) } else { hold(nearest(n, d), to) }
@@ -176,11 +176,11 @@ pub fn round_quotient(n: Exact, d: Exact, to: Format) -> Rounded {
 /// integers decide: `√x` is past `n + ½` where `x` is past `n² + n`.
 ///
 /// ```
-/// use hapticore_reference::rounded::{Exact, round_root};
+/// use hapticore_reference::rounded::{Exact, round_sqrt};
 ///
-/// assert_eq!(round_root(Exact::new(2, 0), 10).real(), 1448.0 / 1024.0);
+/// assert_eq!(round_sqrt(Exact::new(2, 0), 10).real(), 1448.0 / 1024.0);
 /// ```
-pub fn round_root(x: Exact, frac: i8) -> Exact {
+pub fn round_sqrt(x: Exact, frac: i8) -> Exact {
     let x = x.over(-2 * i32::from(frac));
     let n = x.isqrt();
     Exact::new(n + i128::from(x > n * n + n), -i32::from(frac))
@@ -199,7 +199,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn ties_go_to_even_and_rails_hold() {
+    fn ties_go_to_even_and_words_saturate() {
         let to = Format::signed(4, 0);
         let halves = |halves: i128| round(Exact::new(halves, -1), to).value.real();
         assert_eq!([-5, -3, -1, 1, 3, 5, 100, -100].map(halves), [-2.0, -2.0, 0.0, 0.0, 2.0, 2.0, 7.0, -8.0]);
@@ -209,9 +209,9 @@ mod tests {
     }
 
     #[test]
-    fn roots_and_quotients_are_nearest() {
+    fn square_roots_and_quotients_are_nearest() {
         assert_eq!(
-            [0, 1, 2, 3, 6, 7, 12, 13].map(|x| round_root(Exact::new(x, 0), 0).real() as i128),
+            [0, 1, 2, 3, 6, 7, 12, 13].map(|x| round_sqrt(Exact::new(x, 0), 0).real() as i128),
             [0, 1, 1, 2, 2, 3, 3, 4]
         );
         let to = Format::unsigned(4, 0);

@@ -38,7 +38,7 @@ pub struct Oscillator {
     polyphase: bool,
     window: Window,
     /// T(m) for m up to N, in words.
-    weights: Vec<i128>,
+    cosine_sums: Vec<i128>,
 }
 
 impl Oscillator {
@@ -52,12 +52,12 @@ impl Oscillator {
             amplitude: profile.carrier.amplitude as f64 * 2f64.powi(-i32::from(format.frac)),
             polyphase: profile.carrier.method == Method::Polyphase,
             window: profile.carrier.window,
-            weights: vec![0],
+            cosine_sums: vec![0],
         };
         let one = i128::from(profile.carrier.amplitude);
         for m in 0..oscillator.samples {
             let cosine = oscillator.wave(m + oscillator.samples / 4).code(format);
-            oscillator.weights.push(oscillator.weights[m as usize] + one - i128::from(cosine));
+            oscillator.cosine_sums.push(oscillator.cosine_sums[m as usize] + one - i128::from(cosine));
         }
         oscillator
     }
@@ -76,16 +76,16 @@ impl Oscillator {
     pub fn sample(&self, n: u64, m: u64) -> Sample {
         if self.polyphase {
             let cosine = round_real((TAU * (n % 5) as f64 / 5.0).cos(), self.format);
-            return Sample { cosine, sine: Exact::ZERO, window: self.weight(m) };
+            return Sample { cosine, sine: Exact::ZERO, window: self.window_at(m) };
         }
         let phase = n % self.samples * self.periods;
-        Sample { cosine: self.wave(phase + self.samples / 4), sine: self.wave(phase), window: self.weight(m) }
+        Sample { cosine: self.wave(phase + self.samples / 4), sine: self.wave(phase), window: self.window_at(m) }
     }
 
-    fn weight(&self, m: u64) -> Exact {
+    fn window_at(&self, m: u64) -> Exact {
         let total = |m: u64| {
-            let whole = i128::from(m / self.samples) * self.weights[self.samples as usize];
-            whole + self.weights[(m % self.samples) as usize]
+            let whole = i128::from(m / self.samples) * self.cosine_sums[self.samples as usize];
+            whole + self.cosine_sums[(m % self.samples) as usize]
         };
         match self.window {
             Window::Hann if self.polyphase => {
@@ -102,7 +102,7 @@ impl Oscillator {
 }
 
 /// The local oscillator over the samples of a window: w cos φ and w sin φ, what rounding leaves over carried on.
-pub fn weighted(profile: &Profile, samples: &[Sample]) -> Vec<[Exact; 2]> {
+pub fn windowed_lo(profile: &Profile, samples: &[Sample]) -> Vec<[Exact; 2]> {
     let frac = profile.formats.oscillator.frac;
     let half = Exact::new(1, -1);
     let word = |sum: Exact| Exact::new((sum.scaled(frac) + half).floor(), -i32::from(frac));

@@ -46,7 +46,7 @@ struct Axis {
     /// Less the constant, then the rise with either ratio.
     start: [Exact; 3],
     pitch: Exact,
-    /// Less the origin.
+    /// Origin of the axis, subtracted from the ratio.
     origin: Exact,
 }
 

@@ -2,7 +2,7 @@
 //! Eqs. 2 and 3.
 //!
 //! ```text
-//! r_x = [x / corners],   r_y = [y / corners],   share = [least / corners]        (by zero: the rail on the numerator's side, and invalid)
+//! r_x = [x / corners],   r_y = [y / corners],   share = [least / corners]        (by zero: saturated on the numerator's side, and invalid)
 //! ```
 
 use super::{Currents, Exact, round_quotient};

@@ -221,7 +221,7 @@ impl Demodulator {
             summed: !(windows | r.step.less_than(int(PIPELINE))),
             index,
             sum,
-            clipped: r.clipped | when!(uses_code => self.at_rail(i.code), else bit(false)),
+            clipped: r.clipped | when!(uses_code => self.at_full_scale(i.code), else bit(false)),
             ..r
         }
     }

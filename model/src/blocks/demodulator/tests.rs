@@ -33,7 +33,7 @@ fn check_window(bench: &mut Bench<Demodulator>, profile: &Profile, samples: u64,
         let codes: Vec<i64> = (0..profile.channels()).map(|_| random.word(adc)).collect();
         let [cosine, sine] = [random.word(lo), random.word(lo)];
         let window = random.word(Format { signed: false, width: lo.width - 1, ..lo });
-        // By phase, sums have room for what a window weighs in the mean.
+        // By phase, sums have room for the mean of the window.
         let polyphase = profile.carrier.method == Method::Polyphase;
         let (window, phase) = if polyphase { (window / 2, m as i64 % 5) } else { (window, 0) };
         let [first, last] = [m == 0, m == samples - 1].map(i64::from);

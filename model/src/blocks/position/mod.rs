@@ -216,7 +216,7 @@ impl Position {
         self.clocks + 2
     }
 
-    /// From now on readings of codes have their results in the clock after `start`, with a table of these codes.
+    /// From now on interpretations of codes have their results in the clock after `start`, with a table of these codes.
     pub(crate) fn place_at_once(&mut self, table: Vec<i64>) {
         self.at_once = Some(AtOnce::new(self, table));
     }

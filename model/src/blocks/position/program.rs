@@ -124,7 +124,7 @@ impl Writer {
         self.instructions.push(Instruction { operation, slot, option, target: 0 });
     }
 
-    fn here(&self) -> u8 {
+    fn next_address(&self) -> u8 {
         self.instructions.len() as u8
     }
 
@@ -133,18 +133,18 @@ impl Writer {
     }
 
     /// The target of a jump that was written before it was known.
-    fn land(&mut self, jump: u8) {
-        self.instructions[jump as usize].target = self.here();
+    fn set_target(&mut self, jump: u8) {
+        self.instructions[jump as usize].target = self.next_address();
     }
 
     /// sum += factor · each of the words
     fn products(&mut self, factor: Slot, words: &[Slot]) {
         self.add(Load, factor, 0);
-        self.more(words);
+        self.multiply_add(words);
     }
 
     /// sum += left · each of the words
-    fn more(&mut self, words: &[Slot]) {
+    fn multiply_add(&mut self, words: &[Slot]) {
         words.iter().for_each(|&word| self.add(Multiply, word, 0));
     }
 
@@ -159,14 +159,14 @@ impl Writer {
     /// The counter's body is written by `body`, and done `times`.
     fn repeat(&mut self, times: u8, body: impl Fn(&mut Writer)) {
         self.add(Set, at(times - 1), COUNT);
-        let start = self.here();
+        let start = self.next_address();
         body(self);
         self.jump(Repeat, start);
     }
 
     /// The body is done for r_x, or x, and then for r_y, or y.
     fn surfaces(&mut self, body: impl Fn(&mut Writer)) {
-        let start = self.here();
+        let start = self.next_address();
         body(self);
         self.jump(Surfaces, start);
     }
@@ -180,9 +180,9 @@ impl Program {
         open_terminal(&mut w);
         w.surfaces(normalise);
         w.surfaces(start);
-        let step = w.here();
+        let step = w.next_address();
         w.surfaces(weights);
-        let surface = w.here();
+        let surface = w.next_address();
         rows(&mut w);
         let found = column(&mut w);
         residual(&mut w);
@@ -194,7 +194,7 @@ impl Program {
         w.surfaces(position);
         w.add(Set, at(0), SURFACE);
         w.jump(Found, step);
-        w.land(found);
+        w.set_target(found);
         w.add(Output, at(0), 0); //                                                  R = value
         w.jump(End, 0);
         w.jump(End, 0); //                                                           fetched, never done
@@ -291,7 +291,7 @@ fn clamp(w: &mut Writer) {
     let (place, margin) = (PLACE.of_surface(), MARGIN.of_surface());
     w.products(HALF, &[place, place, margin, margin]);
     w.store(place); //                                                               u + margin
-    w.more(&[place, place]);
+    w.multiply_add(&[place, place]);
     w.products(LESS_ONE, &[margin, margin]);
     w.store(place); //                                                               u − margin
     w.products(HALF, &[place, place, margin, margin]);
@@ -325,7 +325,7 @@ fn weights(w: &mut Writer) {
     w.store(middle.of_surface()); //                                                 exact
     w.products(HALF, &[OFFSET, LESS_ONE]);
     w.store(fall.of_surface());
-    w.more(&[OFFSET]);
+    w.multiply_add(&[OFFSET]);
     w.products(LESS_HALF, &[LESS_ONE]);
     w.store(rise.of_surface());
 }
@@ -333,9 +333,9 @@ fn weights(w: &mut Writer) {
 /// Three rows of a surface: the value and the slope along u of each.
 fn rows(w: &mut Writer) {
     w.add(LoadCell, CORNER.word(0), 0);
-    w.more(&[PER_CELL]);
+    w.multiply_add(&[PER_CELL]);
     w.add(LoadCell, CORNER.word(1), 0);
-    w.more(&[COLUMNS.of_surface()]);
+    w.multiply_add(&[COLUMNS.of_surface()]);
     w.products(LESS_ONE, &[LESS_MIDDLE.of_surface()]);
     w.store(FIRST); //                                                               the first coefficient's address
     w.repeat(3, |w| {
@@ -358,7 +358,7 @@ fn along_v(w: &mut Writer, weights: [Slot; 3], rows: Slot) {
 /// The surface's value is the sum; where all steps are done, this was the resistance: the jump's place.
 fn column(w: &mut Writer) -> u8 {
     along_v(w, WEIGHTS, VALUES);
-    let found = w.here();
+    let found = w.next_address();
     w.jump(Found, 0);
     found
 }
@@ -367,7 +367,7 @@ fn column(w: &mut Writer) -> u8 {
 fn residual(w: &mut Writer) {
     w.products(LESS_ONE, &[RATIO.of_surface()]);
     w.add(Store, ERROR.of_surface(), CHECK);
-    w.more(&[ERROR.of_surface()]);
+    w.multiply_add(&[ERROR.of_surface()]);
     w.store(ERROR.of_surface());
 }
 
@@ -405,12 +405,12 @@ fn newton(w: &mut Writer, digits: u8) {
     w.products(HALF, &[LESS_STEP]); //                                               the sum is not to be rounded
     w.repeat(digits, |w| {
         w.add(LoadDigit, DETERMINANT, 0);
-        w.more(&[POWERS.of_counter()]);
+        w.multiply_add(&[POWERS.of_counter()]);
     });
     w.add(LoadQuotient, at(0), 0);
     w.store(SPARE); //                                                               the remainder goes
     let place = PLACE.of_surface();
-    w.more(&[HALF, HALF]);
+    w.multiply_add(&[HALF, HALF]);
     w.products(HALF, &[place, place]);
     w.store(place);
     clamp(w);

@@ -4,15 +4,15 @@
 use super::{Inputs, Outputs, SquareRoot};
 use crate::support::{Bench, MILLION, cases, check, check_latency, within};
 use hapticore_hdl::format::Format;
-use hapticore_reference::rounded::{Exact, round_root};
+use hapticore_reference::rounded::{Exact, round_sqrt};
 
 #[test]
-fn roots_are_the_nearest_codes() {
+fn square_roots_are_the_nearest_codes() {
     for (seed, (radicand, frac)) in (0..).zip([("u52.46", 23), ("u60.52", 26), ("u11.4", 5), ("u13.-2", 3)]) {
         let radicand = radicand.parse::<Format>().expect("a format");
         let mut bench = Bench::new(SquareRoot::new(radicand, frac));
         let (cases, root) = (cases(&bench.block, MILLION / 4, seed), bench.block.sqrt());
-        check(&mut bench, cases, |i| [("sqrt", round_root(Exact::of(i.radicand, radicand), frac).code(root))]);
+        check(&mut bench, cases, |i| [("sqrt", round_sqrt(Exact::of(i.radicand, radicand), frac).code(root))]);
     }
 }
 
@@ -21,12 +21,12 @@ fn check_root(radicand: &str, frac: i8) {
     let mut bench = Bench::new(SquareRoot::new(format, frac));
     for radicand in 0..1 << format.width {
         let out = take_root(&mut bench, radicand);
-        let reference = round_root(Exact::of(radicand, format), frac).code(bench.block.sqrt());
+        let reference = round_sqrt(Exact::of(radicand, format), frac).code(bench.block.sqrt());
         assert_eq!(out.sqrt, reference, "√{radicand} of {format}: got, reference");
     }
 }
 
-/// Takes a root, and looks at every register on every clock.
+/// Computes a square root, and looks at every register on every clock.
 fn take_root(bench: &mut Bench<SquareRoot>, radicand: i64) -> Outputs<i64> {
     let mut start = 1;
     loop {

@@ -11,7 +11,7 @@
 //!
 //! | level | what | error | four pads |
 //! | --- | --- | --- | --- |
-//! | `once` | the other pads answer the served one, not each other | second order in ωCG | 3.6 µs |
+//! | `once` | the other pads answer the selected one, not each other | second order in ωCG | 3.6 µs |
 //! | `full` | all currents at once | – | 4.6 µs |
 //!
 //! Pads that are nearer to each other than they are wide are taken as touching, and flagged.
@@ -28,13 +28,13 @@ use super::sheet::analytic::{self, Analytic};
 use super::sheet::mesh::{Correction, Mesh, Network};
 use super::sheet::{Following, OfSheet, Sheet};
 use super::shunt::{self, Screened};
-use super::spec::{Rung, Spec};
+use super::spec::{Level, Spec};
 use crate::device::Device;
 use crate::error::SceneError;
 use crate::format::Table;
 use crate::terminals::PerTerminal;
 
-/// Spacing of the mesh that an uneven film's G comes from, m.
+/// Spacing of the mesh that a non-uniform film's G comes from, m.
 const SPACING_M: f64 = 0.01;
 
 pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneError> {
@@ -44,20 +44,20 @@ pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneE
     };
     let sheet = Sheet::read(sheet, device)?;
     let siemens_per_m2 = shunt::screened(root, device)?.map(|(_, siemens_per_m2)| siemens_per_m2);
-    let rung = |word, cost_ns, once| {
+    let level = |word, cost_ns, once| {
         let field = OfSheet::new(sheet.clone(), move |sheet| field(sheet, siemens_per_m2));
-        Rung::new(word, cost_ns, move |setting| {
+        Level::new(word, cost_ns, move |setting| {
             Effect::Pads(Box::new(Coupling { field: Following::new(&field), once, device: setting.device.clone() }))
         })
     };
-    Spec::ladder("coupling", Some(table), vec![rung("once", 3.6e3, true), rung("full", 4.6e3, false)], "full")
+    Spec::with_levels("coupling", Some(table), vec![level("once", 3.6e3, true), level("full", 4.6e3, false)], "full")
 }
 
 /// The field of a sheet, with a shunt of ωc or none.
 fn field(sheet: &Sheet, siemens_per_m2: Option<f64>) -> Box<dyn Field> {
     match siemens_per_m2 {
         Some(siemens_per_m2) => Box::new(Screened::new(sheet, siemens_per_m2)),
-        None if sheet.film.is_even() => Box::new(Analytic::new(sheet)),
+        None if sheet.film.is_uniform() => Box::new(Analytic::new(sheet)),
         None => Box::new(Network::new(sheet, Mesh::new(sheet.size_m, SPACING_M), Correction::Peaceman)),
     }
 }

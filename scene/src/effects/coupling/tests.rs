@@ -56,7 +56,7 @@ fn eqs_2_and_3() -> Ratios {
 /// Where an isolated pad would read these ratios: Newton's steps on the exact map.
 pub(crate) fn place_of(exact: &impl Solver, ratios: &Ratios, [r_x, r_y]: [f64; 2], from: [f64; 2]) -> [f64; 2] {
     let read = |[x, y]: [f64; 2]| {
-        let [a, b] = ratios.of(&exact.split(x, y).share);
+        let [a, b] = ratios.of_amplitudes(&exact.split(x, y).share);
         [a - r_x, b - r_y]
     };
     let mut at = from;
@@ -88,7 +88,7 @@ fn shifts(picofarad: f64, margin_mm: f64) -> ([f64; 3], [f64; 2]) {
     for places in placements(500, margin_mm) {
         let [mut first, others @ ..] = places.map(|place| pad(&exact, place, picofarad * 1e-12));
         coupling(false).act(&mut first, &others);
-        let read = place_of(&exact, &ratios, ratios.of(&first.amplitudes()), places[0]);
+        let read = place_of(&exact, &ratios, ratios.of_amplitudes(&first.amplitudes()), places[0]);
         shifts.push((read[0] - places[0][0]).hypot(read[1] - places[0][1]));
         let total: Complex64 = first.transfer.unwrap().iter().sum();
         let alone = first.admittance(device().carrier_rad_s).norm();
@@ -126,10 +126,10 @@ fn up_to_the_edges_a_position_shifts_by_a_centimetre() {
 #[test]
 fn a_pad_alone_is_not_coupled() {
     let exact = Analytic::new(&sheet(0.0));
-    let lone = pad(&exact, [120.0, -60.0], 318e-12);
-    let mut coupled = lone.clone();
+    let isolated = pad(&exact, [120.0, -60.0], 318e-12);
+    let mut coupled = isolated.clone();
     coupling(false).act(&mut coupled, &[]);
-    let pairs = coupled.transfer.unwrap().into_iter().zip(lone.transfer(&device()));
+    let pairs = coupled.transfer.unwrap().into_iter().zip(isolated.transfer(&device()));
     assert!(pairs.into_iter().all(|(a, b)| (a - b).norm() < 1e-15 * a.norm().max(1e-6)));
 }
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Pads that move against friction, from slot to slot: as their path says, or hanging on the hand that follows it.
+//! Pads that move against friction, from slot to slot: as their trajectory says, or hanging on the finger that follows it.
 //!
-//! Between slots the hand moves evenly, and load, attraction and push are linear.
+//! Between slots the finger moves evenly, and load, attraction and push are linear.
 
 use super::law::{Drive, Law, Motion, Surface, Vector, add};
 use crate::device::Device;
 use crate::effects::effect::PadEffect;
-use crate::effects::pad::Hand;
+use crate::effects::pad::Finger;
 use crate::effects::pad::Pad;
 use crate::effects::sheet::ideal_split;
-use crate::path::SLACK_MM;
+use crate::trajectory::SLACK_MM;
 
 /// The effect: a law, and where each pad is.
 pub(super) struct Moving {
@@ -24,7 +24,7 @@ pub(super) struct Moving {
 #[derive(Clone, Copy, Debug)]
 struct Track {
     time_s: f64,
-    hand_m: Vector,
+    finger_m: Vector,
     pad_m: Vector,
     push_n: Vector,
     sliding_n: f64,
@@ -36,15 +36,15 @@ impl Moving {
         Moving { law, surface, step_s, device, pads: Vec::new() }
     }
 
-    /// Where the path, the push and the friction's strength are now.
+    /// Where the trajectory, the push and the friction's strength are now.
     fn now(&self, pad: &Pad) -> Track {
         let at_m = [1e-3 * pad.x_mm, 1e-3 * pad.y_mm];
         let sliding_n = self.device.mu * (self.device.weight_n(pad.load_g) + pad.attraction_n);
         let motion = Motion::default();
-        Track { time_s: pad.time_s, hand_m: at_m, pad_m: at_m, push_n: pad.push_n, sliding_n, motion }
+        Track { time_s: pad.time_s, finger_m: at_m, pad_m: at_m, push_n: pad.push_n, sliding_n, motion }
     }
 
-    fn advance(&self, from: Track, to: Track, hand: Option<Hand>) -> Track {
+    fn advance(&self, from: Track, to: Track, finger: Option<Finger>) -> Track {
         let span_s = (to.time_s - from.time_s).max(0.0);
         let steps = (span_s / self.step_s).ceil();
         let mut at = from;
@@ -52,28 +52,28 @@ impl Moving {
             let along = step as f64 / steps;
             let mix = |from: Vector, to: Vector| add(from, along, add(to, -1.0, from));
             let there = Track {
-                hand_m: mix(from.hand_m, to.hand_m),
+                finger_m: mix(from.finger_m, to.finger_m),
                 push_n: mix(from.push_n, to.push_n),
                 sliding_n: from.sliding_n + along * (to.sliding_n - from.sliding_n),
                 ..at
             };
-            at = match hand {
-                Some(hand) => self.pull(hand, there, at.hand_m, span_s / steps),
-                None => self.follow(there, at.hand_m, span_s / steps),
+            at = match finger {
+                Some(finger) => self.pull(finger, there, at.finger_m, span_s / steps),
+                None => self.follow(there, at.finger_m, span_s / steps),
             };
         }
         Track { time_s: to.time_s, ..at }
     }
 
-    /// The pad on the hand's spring.
-    fn pull(&self, hand: Hand, to: Track, hand_before_m: Vector, step_s: f64) -> Track {
-        let hand_m_s = add([0.0; 2], 1.0 / step_s, add(to.hand_m, -1.0, hand_before_m));
-        let inertia = hand.mass_kg / step_s;
-        let spring = add(to.push_n, hand.stiffness_n_per_m, add(to.hand_m, -1.0, to.pad_m));
-        let damped = add(spring, hand.damping_n_s_per_m, hand_m_s);
+    /// The pad on the finger's spring.
+    fn pull(&self, finger: Finger, to: Track, finger_before_m: Vector, step_s: f64) -> Track {
+        let finger_m_s = add([0.0; 2], 1.0 / step_s, add(to.finger_m, -1.0, finger_before_m));
+        let inertia = finger.mass_kg / step_s;
+        let spring = add(to.push_n, finger.stiffness_n_per_m, add(to.finger_m, -1.0, to.pad_m));
+        let damped = add(spring, finger.damping_n_s_per_m, finger_m_s);
         let drive = Drive {
             step_s,
-            mobility_n_s_per_m: inertia + hand.damping_n_s_per_m + hand.stiffness_n_per_m * step_s,
+            mobility_n_s_per_m: inertia + finger.damping_n_s_per_m + finger.stiffness_n_per_m * step_s,
             push_n: add(damped, inertia, to.motion.velocity_m_s),
             sliding_n: to.sliding_n,
         };
@@ -81,11 +81,11 @@ impl Moving {
         Track { pad_m: add(to.pad_m, step_s, motion.velocity_m_s), motion, ..to }
     }
 
-    /// The pad where its path says.
+    /// The pad where its trajectory says.
     fn follow(&self, to: Track, before_m: Vector, step_s: f64) -> Track {
-        let velocity_m_s = add([0.0; 2], 1.0 / step_s, add(to.hand_m, -1.0, before_m));
+        let velocity_m_s = add([0.0; 2], 1.0 / step_s, add(to.finger_m, -1.0, before_m));
         let motion = self.law.follow(&self.surface, to.motion, velocity_m_s, step_s, to.sliding_n);
-        Track { pad_m: to.hand_m, motion, ..to }
+        Track { pad_m: to.finger_m, motion, ..to }
     }
 }
 
@@ -95,7 +95,7 @@ impl PadEffect for Moving {
             self.pads.resize(pad.index + 1, None);
         }
         let now = self.now(pad);
-        let track = self.pads[pad.index].map_or(now, |from| self.advance(from, now, pad.hand));
+        let track = self.pads[pad.index].map_or(now, |from| self.advance(from, now, pad.finger));
         self.pads[pad.index] = Some(track);
         let [half_mm, reach_mm] =
             [[self.device.width_mm, self.device.height_mm].map(|mm| mm / 2.0), self.device.reach_mm()];

@@ -12,19 +12,19 @@ const MASS: f64 = 0.05;
 
 const ALL: [Law; 3] = [Law::Stiction, Law::Dahl, Law::LuGre];
 
-/// Places of a pad whose hand moves along x, every `every_s`, with its friction.
+/// Places of a pad whose finger moves along x, every `every_s`, with its friction.
 fn pulled(
     law: Law,
-    hand_m: impl Fn(f64) -> f64,
+    finger_m: impl Fn(f64) -> f64,
     sliding_n: f64,
     step_s: f64,
     every_s: f64,
     until_s: f64,
 ) -> Vec<[f64; 2]> {
-    let (mut motion, mut at_m) = (Motion::default(), hand_m(0.0));
+    let (mut motion, mut at_m) = (Motion::default(), finger_m(0.0));
     let each = (every_s / step_s).round() as usize;
     let step = |n: usize| {
-        let [before, now] = [n, n + 1].map(|n| hand_m(n as f64 * step_s));
+        let [before, now] = [n, n + 1].map(|n| finger_m(n as f64 * step_s));
         let spring = STIFFNESS * (now - at_m) + DAMPING * (now - before) / step_s;
         let drive = Drive {
             step_s,
@@ -130,8 +130,8 @@ fn explicit_error(step_s: f64) -> f64 {
     let slope = |[x, v, z]: [f64; 3], time_s: f64| {
         let g = 0.6 * (1.0 + 0.2 * (-(v / 0.01f64).powi(2)).exp());
         let rate = v - 1e5 * v.abs() * z / g;
-        let hand_v = (swing(time_s + 1e-7) - swing(time_s - 1e-7)) / 2e-7;
-        let force = STIFFNESS * (swing(time_s) - x) + DAMPING * (hand_v - v) - 1e5 * z - 300.0 * rate;
+        let finger_v = (swing(time_s + 1e-7) - swing(time_s - 1e-7)) / 2e-7;
+        let force = STIFFNESS * (swing(time_s) - x) + DAMPING * (finger_v - v) - 1e5 * z - 300.0 * rate;
         [v, force / MASS, rate]
     };
     let ahead = |at: [f64; 3], h: f64, k: [f64; 3]| std::array::from_fn(|n| at[n] + h * k[n]);

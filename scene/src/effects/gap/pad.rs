@@ -75,9 +75,9 @@ impl PadEffect for Gap {
         let asked = [pad.source_v_rms, pad.load_g];
         let (volt, gaps) = match self.rested.take() {
             Some((same, volt, gaps)) if same == asked => (volt, gaps),
-            _ => self.rest(pad),
+            _ => self.at_rest(pad),
         };
-        self.tell(pad, volt, gaps.iter().copied());
+        self.set_results(pad, volt, gaps.iter().copied());
         self.rested = Some((asked, volt, gaps));
     }
 }
@@ -89,7 +89,7 @@ impl Gap {
 
     /// Voltage at the pad and relaxed gaps. Behind a supply the voltage falls as the capacitance rises, and that rises with
     /// the voltage: there is one voltage that agrees, found by halving.
-    fn rest(&self, pad: &Pad) -> (f64, Vec<f64>) {
+    fn at_rest(&self, pad: &Pad) -> (f64, Vec<f64>) {
         let pressure_pa = self.rubber.pa_per_g * pad.load_g;
         let gaps = |volt: f64| self.rubber.equilibrium_m(Drive::new(volt, pressure_pa));
         let (mut low, mut high) = (0.0, pad.source_v_rms);
@@ -113,7 +113,7 @@ impl Gap {
         let moving = self.advance(moving, pad);
         let gaps = || moving.patches.iter().map(|patch| patch.gap_m);
         let volt = pad.haptic_v_at(self.rubber.capacitance_f(gaps()));
-        self.tell(pad, volt, gaps());
+        self.set_results(pad, volt, gaps());
         self.pads[pad.index] = Some(moving);
     }
 
@@ -165,7 +165,7 @@ impl Gap {
         self.sine_rad_s.map_or(mean_square, |rad_s| 2.0 * mean_square * (rad_s * time_s).sin().powi(2))
     }
 
-    fn tell(&self, pad: &mut Pad, volt: f64, gaps_m: impl Iterator<Item = f64> + Clone) {
+    fn set_results(&self, pad: &mut Pad, volt: f64, gaps_m: impl Iterator<Item = f64> + Clone) {
         pad.haptic_v_rms = volt;
         pad.capacitance_f = self.rubber.capacitance_f(gaps_m.clone());
         pad.attraction_n = self.rubber.attraction_n(gaps_m, Drive::new(volt, 0.0).pull_n);

@@ -8,7 +8,7 @@ use super::law::Law;
 use super::pad::{Gap, Motion, Rubber};
 use crate::device::Device;
 use crate::effects::effect::Effect;
-use crate::effects::spec::{Rung, Setting, Spec};
+use crate::effects::spec::{Level, Setting, Spec};
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
 
@@ -24,8 +24,8 @@ const LONGEST_US: f64 = 1000.0;
 /// The longest step whose contact is explicit, µs.
 const LONGEST_SEMI_IMPLICIT_US: f64 = 200.0;
 
-/// Rungs, and what a slot of 1.7 ms costs at its usual step, ns.
-const RUNGS: [(&str, Motion, f64); 6] = [
+/// Levels, and what a slot of 1.7 ms costs at its usual step, ns.
+const LEVELS: [(&str, Motion, f64); 6] = [
     ("static", Motion::Static, 500.0),
     ("quasi-static", Motion::QuasiStatic, 400.0),
     ("semi-implicit", Motion::Dynamic(Method::SemiImplicit), 2.4e3),
@@ -36,13 +36,13 @@ const RUNGS: [(&str, Motion, f64); 6] = [
 
 pub(in super::super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneError> {
     let Some(table) = root.table("gap")? else { return Ok(None) };
-    let named = table.choice("rung", &RUNGS.map(|(word, ..)| word))?;
+    let named = table.choice("rung", &LEVELS.map(|(word, ..)| word))?;
     let rubber = read_rubber(table, device)?;
     let sine = table.choice("drive", &["rms", "sine"])? == Some("sine");
     let sine_rad_s = sine.then_some(TAU * device.haptic_hz);
     let asked_us = table.number("step_us", Limits::POSITIVE)?;
-    let mut rungs = Vec::new();
-    for (word, motion, cost_ns) in RUNGS {
+    let mut levels = Vec::new();
+    for (word, motion, cost_ns) in LEVELS {
         let asked_us = asked_us.filter(|_| named == Some(word));
         let step_us = asked_us.unwrap_or(usual_step_us(motion));
         check_step(table, motion, step_us)?;
@@ -50,9 +50,9 @@ pub(in super::super) fn read(root: &Table, device: &Device) -> Result<Option<Spe
         let build =
             move |_: &Setting| Effect::Pad(Box::new(Gap::new(rubber.clone(), motion, step_us * 1e-6, sine_rad_s)));
         let label = if motion == Motion::Static { word.to_string() } else { format!("{word} {step_us} µs") };
-        rungs.push(Rung::new(word, cost_ns, build).labelled(label));
+        levels.push(Level::new(word, cost_ns, build).labelled(label));
     }
-    Spec::ladder("gap", Some(table), rungs, "static")
+    Spec::with_levels("gap", Some(table), levels, "static")
 }
 
 fn usual_step_us(motion: Motion) -> f64 {

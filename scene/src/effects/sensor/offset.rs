@@ -18,7 +18,7 @@ pub(in super::super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, S
 }
 
 struct Offset {
-    /// Of each channel.
+    /// Offset of each channel, fraction of full scale.
     offsets: [f64; MOST_CHANNELS],
     /// The haptic channel.
     haptic: usize,

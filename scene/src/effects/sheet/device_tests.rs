@@ -102,18 +102,18 @@ fn currents_of_all_terminals_sum_to_the_pads() {
     for (terminals, device) in drawn() {
         let plant = device.plant(1, "");
         let capacitive = Complex64::new(0.0, plant.device().carrier_rad_s * 318e-12);
-        for reading in plant.readings(&device.places_mm) {
-            assert_eq!(reading.siemens.len(), terminals);
-            let total: Complex64 = reading.siemens.iter().sum();
-            let expected = capacitive / (capacitive * reading.sheet_ohm + 1.0);
+        for measurement in plant.measurements(&device.places_mm) {
+            assert_eq!(measurement.siemens.len(), terminals);
+            let total: Complex64 = measurement.siemens.iter().sum();
+            let expected = capacitive / (capacitive * measurement.sheet_ohm + 1.0);
             assert!((total / expected - 1.0).norm() < 1e-9, "{}: {total} for {expected}", device.scene);
-            let shares: Vec<Complex64> = reading.siemens.iter().map(|siemens| siemens / total).collect();
+            let shares: Vec<Complex64> = measurement.siemens.iter().map(|siemens| siemens / total).collect();
             assert!(
                 shares.iter().all(|share| share.re > -1e-9 && share.im.abs() < 1e-9),
                 "{}: {shares:?}",
                 device.scene
             );
-            assert!(reading.sheet_ohm > 0.0);
+            assert!(measurement.sheet_ohm > 0.0);
         }
     }
 }
@@ -147,7 +147,7 @@ fn potentials_between_two_places_are_reciprocal() {
     }
 }
 
-/// Two coupled pads, 1 V on the one that is served: Z·I = V has one Z_12 that explains what the terminals get in both slots.
+/// Two coupled pads, 1 V on the selected one: Z·I = V has one Z_12 that explains what the terminals get in both slots.
 #[test]
 fn two_coupled_pads_are_a_reciprocal_two_port() {
     for (terminals, device) in drawn() {
@@ -163,7 +163,7 @@ fn two_coupled_pads_are_a_reciprocal_two_port() {
         };
         let ((a, sum_a, touching), (b, sum_b, _)) = (slot(0), slot(1));
         if touching {
-            continue; // pads that overlap are moved apart, each as the other is served
+            continue; // pads that overlap are moved apart, each as the other is selected
         }
         let mutual = (b * sum_b - a * sum_a) / (sum_b - sum_a);
         let off = (sum_a * (a * b - mutual * mutual) - (b - mutual)).norm() / b.norm();

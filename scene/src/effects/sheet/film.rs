@@ -38,7 +38,7 @@ struct Patch {
 impl Film {
     /// The same everywhere.
     #[cfg(test)]
-    pub fn even(ohm_per_square: f64) -> Film {
+    pub fn uniform(ohm_per_square: f64) -> Film {
         Film { ohm_per_square, slope_per_m: [0.0; 2], middle_m: [0.0; 2], patches: Vec::new(), change_per_m: [0.0; 2] }
     }
 
@@ -68,7 +68,7 @@ impl Film {
     }
 
     /// Whether it is the same everywhere.
-    pub fn is_even(&self) -> bool {
+    pub fn is_uniform(&self) -> bool {
         [self.slope_per_m, self.change_per_m] == [[0.0; 2]; 2] && self.patches.is_empty()
     }
 

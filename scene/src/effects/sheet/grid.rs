@@ -63,21 +63,21 @@ fn own_spacing_m(sheet: &Sheet, spacing_m: f64) -> f64 {
 }
 
 /// A single value.
-fn one(value: f64) -> Values {
+fn single(value: f64) -> Values {
     std::iter::once(value).collect()
 }
 
 /// R_p over the places of a pad.
 fn own(sheet: &Sheet, network: &Network) -> Spline {
-    let even = Analytic::new(sheet);
-    let ratio = ratio(sheet, network, &even);
+    let uniform = Analytic::new(sheet);
+    let ratio = ratio(sheet, network, &uniform);
     let reach_mm = sheet.reach_mm();
     let axes = [0, 1].map(|axis| Axis::symmetric(reach_mm[axis], OWN_TABLE[axis]));
-    Spline::of(axes, 1, |x, y| one(even.split(x, y).ohm * ratio.at(x, y)[0]))
+    Spline::of(axes, 1, |x, y| single(uniform.split(x, y).ohm * ratio.at(x, y)[0]))
 }
 
 /// R_p of the mesh by that of a uniform sheet, over the places that are not on the rim.
-fn ratio(sheet: &Sheet, network: &Network, even: &Analytic) -> Spline {
+fn ratio(sheet: &Sheet, network: &Network, uniform: &Analytic) -> Spline {
     let mesh = network.mesh;
     let axes = axes(&mesh, 1, OWN_STEP);
     let disc = (mesh.node_radius_m() / sheet.disc_m()).ln() / (2.0 * PI);
@@ -86,7 +86,7 @@ fn ratio(sheet: &Sheet, network: &Network, even: &Analytic) -> Spline {
         let [column, row] = [1 + OWN_STEP * column, 1 + OWN_STEP * row];
         let node = mesh.node(column, row);
         let ohm = network.potential(node)[node] + sheet.film.at(mesh.place_m(column, row)) * disc;
-        one(ohm / even.split(place[0], place[1]).ohm)
+        single(ohm / uniform.split(place[0], place[1]).ohm)
     };
     let (columns, rows) = (axes[0].nodes, axes[1].nodes);
     let solved: Vec<_> = (0..columns * rows).map(|n| ratio(n % columns, n / columns)).collect();

@@ -78,9 +78,9 @@ fn film(text: &str) -> Film {
 fn a_film_that_resists_twice_as_much_everywhere_is_an_even_one() {
     let patch = film("ohm_per_square = 150\n[[patch]]\ncentre_mm = [0, 0]\nsize_mm = [900, 600]\nohm_per_square = 300");
     let patched = Grid::new(&Sheet { film: patch, ..sheet(0.0) }, 0.01);
-    let even = Grid::new(&Sheet { film: Film::even(300.0), ..sheet(0.0) }, 0.01);
-    assert!(difference(&patched, &even, MARGIN_MM)[1] < 1e-9);
-    let [a, b] = [&patched, &even].map(|grid| grid.split(100.0, 50.0).ohm);
+    let uniform = Grid::new(&Sheet { film: Film::uniform(300.0), ..sheet(0.0) }, 0.01);
+    assert!(difference(&patched, &uniform, MARGIN_MM)[1] < 1e-9);
+    let [a, b] = [&patched, &uniform].map(|grid| grid.split(100.0, 50.0).ohm);
     assert!((a / b - 1.0).abs() < 0.01, "{a} {b}");
 }
 
@@ -102,7 +102,7 @@ fn resistance_at_the_pad_is_right_on_small_sheets_too() {
         let to_corner = |place: [f64; 2]| [0, 1].map(|axis| place[axis] / sheet(0.0).size_m[axis] * size_m[axis]);
         let small = Sheet { size_m, terminals_m: TERMINALS_M.map(to_corner).to_vec(), ..sheet(0.0) };
         let exact = Analytic::new(&small);
-        for spacing in GRIDS.map(|rung| rung.1 * 1e-3) {
+        for spacing in GRID_LEVELS.map(|level| level.1 * 1e-3) {
             let grid = Grid::new(&small, spacing);
             let reach = small.reach_mm();
             let places = (0..35).map(|n| [(n % 7) as f64 / 3.0 - 1.0, (n / 7) as f64 / 2.0 - 1.0]);

@@ -47,19 +47,19 @@ use num_complex::Complex64;
 
 use super::effect::{Effect, PadEffect};
 use super::pad::Pad;
-use super::spec::{Rung, Spec};
+use super::spec::{Level, Spec};
 use crate::device::Device;
 use crate::error::SceneError;
 use crate::few::Few;
 use crate::format::Table;
 use crate::terminals::PerTerminal;
 
-/// Rungs of a uniform sheet, and what a look-up costs, ns.
-const EVEN: [(&str, f64); 5] =
+/// Levels of a uniform sheet, and what a look-up costs, ns.
+const UNIFORM_LEVELS: [(&str, f64); 5] =
     [("distance", 70.0), ("bilinear", 20.0), ("bicubic", 60.0), ("bicubic-fine", 61.0), ("analytic", 400.0)];
 
-/// Rungs of any sheet: their spacing in mm, and what a look-up costs, ns.
-const GRIDS: [(&str, f64, f64); 5] = [
+/// Levels of any sheet: their spacing in mm, and what a look-up costs, ns.
+const GRID_LEVELS: [(&str, f64, f64); 5] = [
     ("grid-20-mm", 20.0, 60.0),
     ("grid-10-mm", 10.0, 61.0),
     ("grid-5-mm", 5.0, 62.0),
@@ -70,24 +70,30 @@ const GRIDS: [(&str, f64, f64); 5] = [
 pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneError> {
     let Some(table) = root.table("sheet")? else { return Ok(None) };
     let sheet = Sheet::read(table, device)?;
-    let even = sheet.film.is_even();
-    let words: Vec<_> = EVEN.iter().filter(|_| even).map(|rung| rung.0).chain(GRIDS.map(|rung| rung.0)).collect();
+    let uniform = sheet.film.is_uniform();
+    let words: Vec<_> = UNIFORM_LEVELS
+        .iter()
+        .filter(|_| uniform)
+        .map(|level| level.0)
+        .chain(GRID_LEVELS.map(|level| level.0))
+        .collect();
     let word = table.choice("rung", &words)?;
-    if !even || word.is_some_and(|word| word.starts_with("grid")) {
-        let rungs = GRIDS.map(|(word, mm, cost_ns)| rung(&sheet, word, cost_ns, move |sheet| grid(sheet, mm)));
-        Spec::ladder("sheet", Some(table), rungs.into(), "grid-5-mm")
+    if !uniform || word.is_some_and(|word| word.starts_with("grid")) {
+        let levels = GRID_LEVELS.map(|(word, mm, cost_ns)| level(&sheet, word, cost_ns, move |sheet| grid(sheet, mm)));
+        Spec::with_levels("sheet", Some(table), levels.into(), "grid-5-mm")
     } else {
-        let rungs = EVEN.map(|(word, cost_ns)| rung(&sheet, word, cost_ns, move |sheet| exact_or_table(word, sheet)));
-        Spec::ladder("sheet", Some(table), rungs.into(), "bicubic")
+        let levels = UNIFORM_LEVELS
+            .map(|(word, cost_ns)| level(&sheet, word, cost_ns, move |sheet| exact_or_table(word, sheet)));
+        Spec::with_levels("sheet", Some(table), levels.into(), "bicubic")
     }
 }
 
-fn rung(
+fn level(
     sheet: &Sheet,
     word: &'static str,
     cost_ns: f64,
     build: impl Fn(&Sheet) -> AnySolver + Send + Sync + 'static,
-) -> Rung {
+) -> Level {
     let sheet = sheet.clone();
     let label = match table_of(word) {
         Some([columns, rows]) => {
@@ -97,7 +103,7 @@ fn rung(
     };
     let reach_mm = sheet.reach_mm();
     let solver = OfSheet::new(sheet, build);
-    Rung::new(word, cost_ns, move |_| Effect::Pad(Box::new(OnSheet { solver: Following::new(&solver), reach_mm })))
+    Level::new(word, cost_ns, move |_| Effect::Pad(Box::new(OnSheet { solver: Following::new(&solver), reach_mm })))
         .labelled(label)
 }
 

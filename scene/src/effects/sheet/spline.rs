@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A bicubic spline of several values over a rectangle, from its nodes and the slopes at its rim.
 //!
-//! The spline is kept as coefficients c of B-splines, so that a look-up weighs four by four of them:
+//! The spline is kept as coefficients c of B-splines, so that a look-up is a weighted sum of four by four of them:
 //!
 //!   f(i + t) = [(1−t)³ c_(i−1) + (3t³−6t²+4) c_i + (−3t³+3t²+3t+1) c_(i+1) + t³ c_(i+2)]/6
 //!

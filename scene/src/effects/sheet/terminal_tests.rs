@@ -29,15 +29,15 @@ fn sheet_of(count: usize, terminal_ohm: f64) -> Sheet {
 const COUNTS: [usize; 5] = [3, 4, 5, 8, 16];
 
 #[test]
-fn shares_of_any_number_of_terminals_sum_to_one_at_every_rung() {
+fn shares_of_any_number_of_terminals_sum_to_one_at_every_level() {
     for count in COUNTS {
         let sheet = sheet_of(count, 300.0);
-        let mut rungs: Vec<_> = EVEN.map(|(word, _)| exact_or_table(word, &sheet)).into();
-        rungs.push(grid(&sheet, 10.0));
-        for (rung, [x, y]) in
-            rungs.iter().flat_map(|rung| places(15.0).into_iter().step_by(7).map(move |at| (rung, at)))
+        let mut levels: Vec<_> = UNIFORM_LEVELS.map(|(word, _)| exact_or_table(word, &sheet)).into();
+        levels.push(grid(&sheet, 10.0));
+        for (level, [x, y]) in
+            levels.iter().flat_map(|level| places(15.0).into_iter().step_by(7).map(move |at| (level, at)))
         {
-            let split = rung.split(x, y);
+            let split = level.split(x, y);
             assert_eq!(split.share.len(), count);
             assert_near("sum", &[split.share.iter().sum::<f64>()], &[1.0], 1e-9);
             assert!(split.ohm > 0.0 && split.share.iter().all(|share| *share > -1e-3), "{count}: {split:?}");

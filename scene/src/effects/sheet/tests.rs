@@ -23,7 +23,7 @@ pub(crate) fn sheet(terminal_ohm: f64) -> Sheet {
     Sheet {
         size_m: [0.86, 0.5],
         pad_radius_m: 0.015,
-        film: Film::even(150.0),
+        film: Film::uniform(150.0),
         terminal_ohm: vec![terminal_ohm; TERMINALS],
         terminal_radius_m: 1.7e-3,
         terminals_m: TERMINALS_M.to_vec(),
@@ -36,8 +36,8 @@ pub(crate) fn places(margin_mm: f64) -> Vec<[f64; 2]> {
     (0..81 * 47).map(|n| [along(n % 81, 81, 860.0), along(n / 81, 47, 500.0)]).collect()
 }
 
-fn splits(rung: &(impl Solver + ?Sized), margin_mm: f64) -> Vec<Split> {
-    places(margin_mm).into_iter().map(|[x, y]| rung.split(x, y)).collect()
+fn splits(level: &(impl Solver + ?Sized), margin_mm: f64) -> Vec<Split> {
+    places(margin_mm).into_iter().map(|[x, y]| level.split(x, y)).collect()
 }
 
 fn corners(split: &Split) -> f64 {
@@ -56,14 +56,14 @@ pub(crate) fn assert_near(name: &str, got: &[f64], expected: &[f64], tolerance: 
 }
 
 /// Rms and maximum of the shares' difference from the exact split of the paper's sheet.
-pub(crate) fn split_error(rung: &impl Solver, margin_mm: f64) -> [f64; 2] {
-    difference(rung, &Analytic::with(&sheet(0.0), Neumann::new([0.86, 0.5], 4)), margin_mm)
+pub(crate) fn split_error(level: &impl Solver, margin_mm: f64) -> [f64; 2] {
+    difference(level, &Analytic::with(&sheet(0.0), Neumann::new([0.86, 0.5], 4)), margin_mm)
 }
 
 /// Rms and maximum of the shares' difference.
-pub(crate) fn difference(rung: &(impl Solver + ?Sized), exact: &impl Solver, margin_mm: f64) -> [f64; 2] {
+pub(crate) fn difference(level: &(impl Solver + ?Sized), exact: &impl Solver, margin_mm: f64) -> [f64; 2] {
     let exact = splits(exact, margin_mm);
-    let pairs = splits(rung, margin_mm).into_iter().zip(exact);
+    let pairs = splits(level, margin_mm).into_iter().zip(exact);
     let errors: Vec<f64> =
         pairs.flat_map(|(a, b)| a.share.into_iter().zip(b.share).map(|(a, b)| (a - b).abs())).collect();
     [
@@ -149,11 +149,11 @@ fn resistance_sees_the_disc() {
 }
 
 #[test]
-fn shares_sum_to_one_and_mirror_at_every_rung() {
+fn shares_sum_to_one_and_mirror_at_every_level() {
     let sheet = sheet(300.0);
-    let rungs = EVEN.map(|(word, _)| exact_or_table(word, &sheet));
-    for (rung, [x, y]) in rungs.iter().flat_map(|rung| places(15.0).into_iter().map(move |place| (rung, place))) {
-        let (split, mirrored) = (rung.split(x, y), rung.split(-x, -y));
+    let levels = UNIFORM_LEVELS.map(|(word, _)| exact_or_table(word, &sheet));
+    for (level, [x, y]) in levels.iter().flat_map(|level| places(15.0).into_iter().map(move |place| (level, place))) {
+        let (split, mirrored) = (level.split(x, y), level.split(-x, -y));
         assert!((split.share.iter().sum::<f64>() - 1.0).abs() < 1e-11);
         let mirrored = [2, 3, 0, 1, 5, 4].map(|terminal| mirrored.share[terminal]);
         assert_near("mirrored", &split.share, &mirrored, 1e-9);

@@ -30,7 +30,7 @@ use super::sheet::analytic::Analytic;
 use super::sheet::nodes::Values;
 use super::sheet::spline::{Axis, Spline};
 use super::sheet::{Following, OfSheet, Sheet, Solver, Split};
-use super::spec::{Rung, Spec};
+use super::spec::{Level, Spec};
 use crate::device::Device;
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
@@ -41,16 +41,16 @@ const NODES: [usize; 2] = [32, 19];
 
 pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneError> {
     let Some(sheet) = screened(root, device)? else { return Ok(None) };
-    let rung = |word, cost_ns, nodes| {
+    let level = |word, cost_ns, nodes| {
         let (sheet, siemens_per_m2) = sheet.clone();
         let reach_mm = sheet.reach_mm();
         let screening = OfSheet::new(sheet, move |sheet| Screening::new(sheet, siemens_per_m2, nodes));
-        Rung::new(word, cost_ns, move |_| {
+        Level::new(word, cost_ns, move |_| {
             Effect::Pad(Box::new(Shunt { screening: Following::new(&screening), reach_mm }))
         })
     };
-    let rungs = vec![rung("table", 820.0, Some(NODES)), rung("series", 2.8e4, None)];
-    Spec::ladder("shunt", root.table("shunt")?, rungs, "table")
+    let levels = vec![level("table", 820.0, Some(NODES)), level("series", 2.8e4, None)];
+    Spec::with_levels("shunt", root.table("shunt")?, levels, "table")
 }
 
 /// The sheet and ωc, S/m², where there is a shunt.
@@ -63,9 +63,9 @@ pub(super) fn screened(root: &Table, device: &Device) -> Result<Option<(Sheet, f
         return Err(table.error("", "expected a [sheet] too, since that is what the capacitance lies across"));
     };
     let sheet = Sheet::read(sheet, device)?;
-    match sheet.film.is_even() {
+    match sheet.film.is_uniform() {
         true => Ok(Some((sheet, 1e-9 * nanofarad * device.carrier_rad_s))),
-        false => Err(table.error("", "expected an even film, without sheet.slope_percent and sheet.patch")),
+        false => Err(table.error("", "expected a uniform film, without sheet.slope_percent and sheet.patch")),
     }
 }
 

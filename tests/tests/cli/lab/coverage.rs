@@ -26,13 +26,13 @@ const SCALE: f64 = 1.03;
 fn lab(noise: &mut Noise, friction: bool) -> Loads {
     let loads = [vec![20.0, 100.0], vec![10.0, 50.0, 120.0]][noise.0.usize(..2)].clone();
     let (voltages, sd_n) = (noise.0.u32(3..=12), 1e-3 + 9e-3 * noise.0.f64());
-    let mut readings = Vec::new();
+    let mut measurements = Vec::new();
     for load_g in loads {
         for step in 0..voltages {
             let haptic_v_rms = 350.0 * f64::from(step) / f64::from(voltages - 1);
             let capacitance_pf = 310.0 + 0.8 * load_g + 60.0 * (haptic_v_rms / 350.0).powi(2);
             let press_n = if friction { MU * load_g * 1e-2 } else { 0.0 };
-            readings.push(Load {
+            measurements.push(Load {
                 haptic_v_rms,
                 newtons: press_n + K * (1e-12 * capacitance_pf * haptic_v_rms).powi(2) + sd_n * noise.normal(),
                 load_g: Some(load_g),
@@ -41,7 +41,7 @@ fn lab(noise: &mut Noise, friction: bool) -> Loads {
             });
         }
     }
-    Loads { file: "loads.csv".into(), loads: readings, friction }
+    Loads { file: "loads.csv".into(), loads: measurements, friction }
 }
 
 /// A lab whose bridge has noise of 0.5 pF, and whose currents' full scale is not what the setup says.

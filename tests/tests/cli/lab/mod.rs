@@ -37,7 +37,7 @@ pad_diameter_mm = 20
 
 /// A place and what is read there.
 #[derive(Clone)]
-pub struct Reading {
+pub struct Measurement {
     pub at_mm: [f64; 2],
     pub currents_a: Vec<Complex>,
     pub sense_v: f64,
@@ -76,24 +76,24 @@ pub fn raster([columns, rows]: [usize; 2], half_mm: [f64; 2]) -> Vec<[f64; 2]> {
 }
 
 /// What a plant's terminals read at places, each with noise of so many parts.
-pub fn readings(plant: &Plant, places: &[[f64; 2]], parts: f64, noise: &mut Noise) -> Vec<Reading> {
+pub fn measurements(plant: &Plant, places: &[[f64; 2]], parts: f64, noise: &mut Noise) -> Vec<Measurement> {
     let sense_v = plant.device().carrier_v;
     let mut noisy = |current: Complex| current * (1.0 + parts * noise.normal());
-    let of = |(read, place): (hapticore_scene::PadReading, &[f64; 2])| Reading {
+    let of = |(read, place): (hapticore_scene::PadMeasurement, &[f64; 2])| Measurement {
         at_mm: *place,
         currents_a: read.siemens.iter().map(|siemens| noisy(siemens * sense_v)).collect(),
         sense_v,
     };
-    plant.readings(places).into_iter().zip(places).map(of).collect()
+    plant.measurements(places).into_iter().zip(places).map(of).collect()
 }
 
 /// Currents by amplitude and phase, or by amplitude alone.
-pub fn places_csv(readings: &[Reading], phases: bool) -> String {
-    let terminals = readings.first().map_or(4, |reading| reading.currents_a.len());
+pub fn places_csv(measurements: &[Measurement], phases: bool) -> String {
+    let terminals = measurements.first().map_or(4, |measurement| measurement.currents_a.len());
     let mut text = String::from("# measured in a test\nx_mm, y_mm, v_sense");
     (1..=terminals)
         .for_each(|k| write!(text, ", i{k}{}", if phases { format!(", i{k}_deg") } else { String::new() }).unwrap());
-    for Reading { at_mm: [x, y], currents_a, sense_v } in readings {
+    for Measurement { at_mm: [x, y], currents_a, sense_v } in measurements {
         write!(text, "\n{x}, {y}, {sense_v}").unwrap();
         for current in currents_a {
             write!(text, ", {:e}", current.norm()).unwrap();
@@ -139,9 +139,9 @@ impl Files<'_> {
     /// Those of [`SHEET`], measured at a raster, without noise.
     pub fn new(folder: &Path) -> Files<'_> {
         let plant = plant("minimal-sheet", &SHEET);
-        let readings = readings(&plant, &raster([13, 9], [140.0, 90.0]), 0.0, &mut Noise::of(1));
+        let measurements = measurements(&plant, &raster([13, 9], [140.0, 90.0]), 0.0, &mut Noise::of(1));
         Files {
-            places: places_csv(&readings, true),
+            places: places_csv(&measurements, true),
             loads: loads_csv(&forces(9.6e12, 2e-3, &mut Noise::of(2))),
             setup: format!("{SETUP}{TERMINALS}"),
             folder,

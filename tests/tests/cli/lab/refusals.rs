@@ -5,10 +5,10 @@ use std::fs;
 
 use hapticore_scene::ForcePoint;
 
-use super::{Files, Noise, SETUP, SHEET, forces, loads_csv, places_csv, plant, raster, readings};
+use super::{Files, Noise, SETUP, SHEET, forces, loads_csv, measurements, places_csv, plant, raster};
 use crate::refuse;
 
-/// Files whose loads are changed, reading by reading.
+/// Files whose loads are changed, measurement by measurement.
 fn with_loads(change: impl Fn(&mut ForcePoint), words: &[&str]) {
     let folder = tempfile::tempdir().unwrap();
     let mut points = forces(9.6e12, 2e-3, &mut Noise::of(2));
@@ -27,7 +27,7 @@ fn loads_that_tell_no_force_are_refused() {
         &["loads.csv", "does not rise with (C·V)²", "95 %"],
     );
     let alike = |point: &mut ForcePoint| (point.haptic_v_rms, point.capacitance_pf) = (200.0, 400.0);
-    with_loads(alike, &["loads.csv", "(C·V)² is the same in all readings", "several voltages"]);
+    with_loads(alike, &["loads.csv", "(C·V)² is the same in all measurements", "several voltages"]);
 }
 
 #[test]
@@ -36,7 +36,7 @@ fn too_few_loads_and_columns_that_are_missing_are_refused() {
     let with = |loads: &str, words: &[&str]| Files { loads: loads.into(), ..Files::new(folder.path()) }.refused(words);
     with(
         "haptic_v_rms,capacitance_pf,force_n\n0,350,0\n300,360,0.1\n",
-        &["loads.csv", "too few readings", "3", "got 2"],
+        &["loads.csv", "too few measurements", "3", "got 2"],
     );
     with("haptic_v_rms,capacitance_pf\n0,350\n", &["loads.csv:1", "force_n, or friction_n and load_g"]);
     with("haptic_v_rms,capacitance_pf,friction_n\n0,350,1\n", &["loads.csv:1", "load_g"]);
@@ -56,15 +56,15 @@ fn too_few_loads_and_columns_that_are_missing_are_refused() {
 fn places_that_tell_no_position_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     let plant = plant("minimal-sheet", &SHEET);
-    let all = readings(&plant, &raster([13, 9], [140.0, 90.0]), 0.0, &mut Noise::of(1));
+    let all = measurements(&plant, &raster([13, 9], [140.0, 90.0]), 0.0, &mut Noise::of(1));
     let with = |places: String, words: &[&str]| Files { places, ..Files::new(folder.path()) }.refused(words);
     with(places_csv(&all[..15], true), &["places.csv", "too few places", "got 15"]);
     with(places_csv(&all[..26], true), &["places.csv", "y_mm", "4 different y_mm", "got 2"]);
     let mut open = all.clone();
-    open.iter_mut().for_each(|reading| reading.currents_a[2] = 0.0.into());
+    open.iter_mut().for_each(|measurement| measurement.currents_a[2] = 0.0.into());
     with(places_csv(&open, true), &["places.csv", "i3: terminal 3 has no current at any place", "open"]);
     let mut same = all.clone();
-    same.iter_mut().for_each(|reading| reading.currents_a.clone_from(&all[0].currents_a));
+    same.iter_mut().for_each(|measurement| measurement.currents_a.clone_from(&all[0].currents_a));
     with(places_csv(&same, true), &["places.csv", "ratios that tell the places apart"]);
     let with_line = |line: &str, words: &[&str]| with(places_csv(&all, false) + line, words);
     with_line("1,2,0,1e-4,1e-4,1e-4,1e-4\n", &["places.csv:120: v_sense", "above 0"]);

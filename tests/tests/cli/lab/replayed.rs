@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::Path;
 
-use super::{Files, Noise, Reading, SETUP, SHEET, TERMINALS, loads_csv, places_csv, plant, raster, readings};
+use super::{Files, Measurement, Noise, SETUP, SHEET, TERMINALS, loads_csv, measurements, places_csv, plant, raster};
 use crate::{Table, expect, finish};
 
 /// Parts of a current that are noise, and newtons of a force.
@@ -50,21 +50,21 @@ fn compare(folder: &Path) -> Errors {
 }
 
 /// The device, measured at places.
-fn measured(places: &[[f64; 2]], seed: u64) -> (Vec<Reading>, String) {
+fn measured(places: &[[f64; 2]], seed: u64) -> (Vec<Measurement>, String) {
     let plant = plant("minimal-sheet", &SHEET);
     let mut noise = Noise::of(seed);
-    let readings = readings(&plant, places, NOISE[0], &mut noise);
+    let measurements = measurements(&plant, places, NOISE[0], &mut noise);
     let mut points = plant.friction_calibration(&[20.0, 100.0], &[0.0, 50.0, 100.0, 150.0, 200.0, 250.0, 300.0, 350.0]);
     points.iter_mut().for_each(|point| point.force_n += NOISE[1] * noise.normal());
-    (readings, loads_csv(&points))
+    (measurements, loads_csv(&points))
 }
 
 #[test]
 fn a_raster_with_phases_gives_positions_and_forces_within_limits() {
     let folder = tempfile::tempdir().unwrap();
-    let (readings, loads) = measured(&raster([29, 19], [140.0, 90.0]), 3);
+    let (measurements, loads) = measured(&raster([29, 19], [140.0, 90.0]), 3);
     let setup = format!("{SETUP}{TERMINALS}");
-    let errors = replay(&Files { places: places_csv(&readings, true), loads, setup, folder: folder.path() });
+    let errors = replay(&Files { places: places_csv(&measurements, true), loads, setup, folder: folder.path() });
     assert!(errors.rms_mm < 0.2 && errors.worst_mm < 0.5, "{} {} mm", errors.rms_mm, errors.worst_mm);
     assert!(errors.force < 0.02 && errors.capacitance < 1e-3, "{} {}", errors.force, errors.capacitance);
 }
@@ -72,9 +72,9 @@ fn a_raster_with_phases_gives_positions_and_forces_within_limits() {
 #[test]
 fn amplitudes_alone_do_with_the_resistance_of_the_film() {
     let folder = tempfile::tempdir().unwrap();
-    let (readings, loads) = measured(&raster([29, 19], [140.0, 90.0]), 4);
+    let (measurements, loads) = measured(&raster([29, 19], [140.0, 90.0]), 4);
     let setup = format!("{SETUP}{TERMINALS}ohm_per_square = 150\n");
-    let errors = replay(&Files { places: places_csv(&readings, false), loads, setup, folder: folder.path() });
+    let errors = replay(&Files { places: places_csv(&measurements, false), loads, setup, folder: folder.path() });
     assert!(errors.rms_mm < 0.2 && errors.capacitance < 1e-3, "{} mm {}", errors.rms_mm, errors.capacitance);
 }
 
@@ -85,23 +85,25 @@ fn places_that_lie_anywhere_do_as_well() {
     let mut places: Vec<_> = (0..500).map(|_| [280.0 * (random.f64() - 0.5), 180.0 * (random.f64() - 0.5)]).collect();
     places.extend(raster([15, 2], [140.0, 90.0]));
     places.extend(raster([2, 11], [140.0, 90.0]).into_iter().filter(|place| place[1].abs() < 90.0));
-    let (readings, loads) = measured(&places, 5);
+    let (measurements, loads) = measured(&places, 5);
     let setup = format!("{SETUP}{TERMINALS}");
-    let errors = replay(&Files { places: places_csv(&readings, true), loads, setup, folder: folder.path() });
+    let errors = replay(&Files { places: places_csv(&measurements, true), loads, setup, folder: folder.path() });
     assert!(errors.rms_mm < 0.2 && errors.worst_mm < 0.5, "{} {} mm", errors.rms_mm, errors.worst_mm);
     let text = fs::read_to_string(folder.path().join("mine.toml")).unwrap();
-    assert!(text.contains(&format!("{} places (lying anywhere)", places.len())), "{}", text.lines().nth(1).unwrap());
+    assert!(text.contains(&format!("{} places (scattered)", places.len())), "{}", text.lines().nth(1).unwrap());
 }
 
 #[test]
 fn a_full_scale_that_is_wrong_comes_out_of_loads_with_both_capacitances() {
     let folder = tempfile::tempdir().unwrap();
-    let (mut readings, _) = measured(&raster([29, 19], [140.0, 90.0]), 6);
+    let (mut measurements, _) = measured(&raster([29, 19], [140.0, 90.0]), 6);
     let device = plant("minimal-sheet", &SHEET).device();
     // The lab's ammeter reads 5 % low, and so does the core's channel, whose full scale it was found with.
-    readings.iter_mut().for_each(|reading| reading.currents_a.iter_mut().for_each(|current| *current /= 1.05));
+    measurements
+        .iter_mut()
+        .for_each(|measurement| measurement.currents_a.iter_mut().for_each(|current| *current /= 1.05));
     let mut loads = String::from("load_g,haptic_v_rms,capacitance_pf,i_total,v_sense,force_n\n");
-    let ohm = plant("minimal-sheet", &SHEET).readings(&[[0.0; 2]])[0].sheet_ohm;
+    let ohm = plant("minimal-sheet", &SHEET).measurements(&[[0.0; 2]])[0].sheet_ohm;
     let mut noise = Noise::of(8);
     for (load_g, capacitance_pf) in [(20.0, 350.0), (100.0, 410.0)] {
         for step in 0..8 {
@@ -114,7 +116,7 @@ fn a_full_scale_that_is_wrong_comes_out_of_loads_with_both_capacitances() {
     }
     let setup = format!("{SETUP}{TERMINALS}")
         .replace("current_full_scale_a = 0.004", &format!("current_full_scale_a = {}", 0.004 / 1.05));
-    let errors = replay(&Files { places: places_csv(&readings, true), loads, setup, folder: folder.path() });
+    let errors = replay(&Files { places: places_csv(&measurements, true), loads, setup, folder: folder.path() });
     assert!(errors.force < 0.02 && errors.capacitance < 1e-3, "{} {}", errors.force, errors.capacitance);
     let text = fs::read_to_string(folder.path().join("mine.toml")).unwrap();
     assert!(text.contains("current_full_scale_a times 1.05"), "{}", text.lines().take(8).collect::<String>());
@@ -127,18 +129,18 @@ fn what_is_left_is_printed_plotted_and_told() {
     files.write();
     let args = ["calibrate", "places.csv", "loads.csv", "device.toml", "--out", "mine.toml"];
     let output = expect(folder.path(), &args, 0);
-    let said = String::from_utf8(output.stdout).unwrap();
+    let log = String::from_utf8(output.stdout).unwrap();
     for words in [
         "117 places (13 × 9), 4 terminals",
         "over its own places",
-        "every other place held out",
+        "every other position held out of the table",
         "force_k = ",
         "(95 %: ",
     ] {
-        assert!(said.contains(words), "{words}: {said}");
+        assert!(log.contains(words), "{words}: {log}");
     }
     let report = fs::read_to_string(folder.path().join("mine.toml.report.html")).unwrap();
-    for words in ["Position error of the table", "Force and eq. 8", "Residuals of the force", "<svg"] {
+    for words in ["Error of the position table", "Force and eq. 8", "Residuals of the force", "<svg"] {
         assert!(report.contains(words), "{words}");
     }
     let output = expect(folder.path(), &[&args[..], &["--json"]].concat(), 0);
@@ -148,10 +150,10 @@ fn what_is_left_is_printed_plotted_and_told() {
     assert!(told["held_out"]["rms_mm"].as_f64() > told["own_places"]["rms_mm"].as_f64());
     // Places too far from each other: those held out are found less well, and that is a warning.
     let plant = plant("minimal-sheet", &SHEET);
-    let few = readings(&plant, &raster([5, 4], [140.0, 90.0]), 0.0, &mut Noise::of(1));
+    let few = measurements(&plant, &raster([5, 4], [140.0, 90.0]), 0.0, &mut Noise::of(1));
     let setup = format!("{SETUP}[terminals]\nx = [-1, -1, 1, 1]\ny = [1, -1, -1, 1]\n");
     Files { places: places_csv(&few, true), setup, ..files }.write();
     let output = expect(folder.path(), &args, 0);
-    let said = String::from_utf8(output.stderr).unwrap();
-    assert!(said.starts_with("warning: places that the table was not made from are found less well"), "{said}");
+    let log = String::from_utf8(output.stderr).unwrap();
+    assert!(log.starts_with("warning: places that the table was not made from are found less well"), "{log}");
 }

@@ -3,15 +3,15 @@
 
 use hapticore_scene::{Complex, Plant};
 
-use super::{Files, Noise, Reading, SETUP, SHEET, TERMINALS, places_csv, plant, raster, readings};
+use super::{Files, Measurement, Noise, SETUP, SHEET, TERMINALS, measurements, places_csv, plant, raster};
 
-fn measured(plant: &Plant) -> Vec<Reading> {
-    readings(plant, &raster([13, 9], [140.0, 90.0]), 1e-3, &mut Noise::of(7))
+fn measured(plant: &Plant) -> Vec<Measurement> {
+    measurements(plant, &raster([13, 9], [140.0, 90.0]), 1e-3, &mut Noise::of(7))
 }
 
-fn refused(setup: &str, readings: &[Reading], phases: bool, words: &[&str]) {
+fn refused(setup: &str, measurements: &[Measurement], phases: bool, words: &[&str]) {
     let folder = tempfile::tempdir().unwrap();
-    Files { places: places_csv(readings, phases), setup: setup.into(), ..Files::new(folder.path()) }.refused(words);
+    Files { places: places_csv(measurements, phases), setup: setup.into(), ..Files::new(folder.path()) }.refused(words);
 }
 
 #[test]
@@ -22,15 +22,15 @@ fn swapped_terminals_are_named() {
         let all = measured(&plant("minimal-sheet", set));
         for (a, b) in [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)] {
             let mut swapped = all.clone();
-            swapped.iter_mut().for_each(|reading| reading.currents_a.swap(a, b));
+            swapped.iter_mut().for_each(|measurement| measurement.currents_a.swap(a, b));
             let name = format!("places.csv: i{} and i{} are swapped: their shares", a + 1, b + 1);
             refused(&setup, &swapped, false, &[&name]);
         }
         let mut turned = all.clone();
-        turned.iter_mut().for_each(|reading| reading.currents_a.rotate_left(1));
+        turned.iter_mut().for_each(|measurement| measurement.currents_a.rotate_left(1));
         refused(&setup, &turned, false, &["i1 reads as i2's terminal at [-150.0, -100.0] mm", "i4 reads as i1's"]);
         let mut mirrored = all.clone();
-        mirrored.iter_mut().for_each(|reading| reading.at_mm[0] *= -1.0);
+        mirrored.iter_mut().for_each(|measurement| measurement.at_mm[0] *= -1.0);
         refused(&setup, &mirrored, false, &["i1 and i4 are swapped", "or x_mm of the places runs the other way"]);
     }
 }
@@ -45,7 +45,7 @@ fn of_six_terminals_the_middle_ones_too() {
     for a in 0..6 {
         for b in 0..a {
             let mut swapped = all.clone();
-            swapped.iter_mut().for_each(|reading| reading.currents_a.swap(a, b));
+            swapped.iter_mut().for_each(|measurement| measurement.currents_a.swap(a, b));
             refused(&setup, &swapped, false, &[&format!("i{} and i{} are swapped", b + 1, a + 1)]);
         }
     }
@@ -57,9 +57,9 @@ fn signs_alone_see_swaps_across_an_axis() {
     let all = measured(&plant("minimal-sheet", &SHEET));
     for ((a, b), name) in [((1, 2), "terminals.x"), ((0, 1), "terminals.y"), ((0, 2), "terminals.x")] {
         let mut swapped = all.clone();
-        swapped.iter_mut().for_each(|reading| reading.currents_a.swap(a, b));
-        let said = format!("i{} and i{} are on the other side than {name} says", a + 1, b + 1);
-        refused(&setup, &swapped, false, &[&said]);
+        swapped.iter_mut().for_each(|measurement| measurement.currents_a.swap(a, b));
+        let message = format!("i{} and i{} are on the other side than {name} says", a + 1, b + 1);
+        refused(&setup, &swapped, false, &[&message]);
     }
 }
 
@@ -69,8 +69,8 @@ fn reversed_terminals_are_named_where_phases_are_known() {
     let all = measured(&plant("minimal-sheet", &SHEET));
     let reverse = |terminals: &[usize]| {
         let mut reversed = all.clone();
-        for reading in &mut reversed {
-            terminals.iter().for_each(|k| reading.currents_a[*k] *= Complex::new(-1.0, 0.0));
+        for measurement in &mut reversed {
+            terminals.iter().for_each(|k| measurement.currents_a[*k] *= Complex::new(-1.0, 0.0));
         }
         reversed
     };

@@ -11,7 +11,7 @@ use std::path::Path;
 
 use anyhow::{Context, Result, ensure};
 
-use super::super::aside::Aside;
+use super::super::partial_file::PartialFile;
 use super::super::stream::{Adc, Recorder};
 use super::format::{ELSEWHERE, EXTENSIBLE, GUID, PCM};
 
@@ -23,7 +23,7 @@ const MOST_BYTES: u64 = ELSEWHERE as u64 - HEAD_BYTES - 1;
 
 /// A WAV capture being written.
 pub struct Writer {
-    aside: Aside,
+    partial: PartialFile,
     format: Format,
     shift: u32,
     written: u64,
@@ -48,16 +48,16 @@ impl Writer {
             path.display()
         );
         let format = Format { channels: adc.channels().len() as u16, rate, bytes: u16::from(bits / 8) };
-        let mut aside = Aside::create(path)?;
-        aside.file.write_all(&format.head(0, MOST_BYTES)).with_context(|| path.display().to_string())?;
+        let mut partial = PartialFile::create(path)?;
+        partial.file.write_all(&format.head(0, MOST_BYTES)).with_context(|| path.display().to_string())?;
         let shift = u32::from(bits - adc.format.width);
-        Ok(Writer { aside, format, shift, written: 0, most: MOST_BYTES })
+        Ok(Writer { partial, format, shift, written: 0, most: MOST_BYTES })
     }
 
     fn write(&mut self, codes: &[i32]) -> io::Result<()> {
         let bytes = usize::from(self.format.bytes);
         for code in codes {
-            self.aside.file.write_all(&(code << self.shift).to_le_bytes()[..bytes])?;
+            self.partial.file.write_all(&(code << self.shift).to_le_bytes()[..bytes])?;
         }
         self.written += (bytes * codes.len()) as u64;
         Ok(())
@@ -66,21 +66,21 @@ impl Writer {
     /// Makes the number of bytes even and puts the head right.
     fn complete(&mut self) -> io::Result<()> {
         if !self.written.is_multiple_of(2) {
-            self.aside.file.write_all(&[0])?;
+            self.partial.file.write_all(&[0])?;
         }
-        self.aside.file.seek(SeekFrom::Start(0))?;
-        self.aside.file.write_all(&self.format.head(self.written, self.most))
+        self.partial.file.seek(SeekFrom::Start(0))?;
+        self.partial.file.write_all(&self.format.head(self.written, self.most))
     }
 }
 
 impl Recorder for Writer {
     fn slot(&mut self, _pad: usize, codes: &[i32]) -> Result<()> {
-        self.write(codes).with_context(|| self.aside.path().display().to_string())
+        self.write(codes).with_context(|| self.partial.path().display().to_string())
     }
 
     fn keep(mut self: Box<Self>) -> Result<()> {
-        self.complete().with_context(|| self.aside.path().display().to_string())?;
-        self.aside.keep()
+        self.complete().with_context(|| self.partial.path().display().to_string())?;
+        self.partial.keep()
     }
 }
 

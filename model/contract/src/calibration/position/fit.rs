@@ -30,7 +30,7 @@ pub enum PositionError {
     /// They do not span an area.
     #[error("expected places that span an area, got {points} places over {width} × {height} mm")]
     Area {
-        /// Places.
+        /// Number of positions.
         points: usize,
         /// Their extent along the long edges, mm.
         width: f64,
@@ -40,17 +40,17 @@ pub enum PositionError {
     /// The area is larger than the table's words can say, or too far off.
     #[error("expected places within ± {most} mm of the origin, got x or y = {got} mm")]
     Range {
-        /// The largest coordinate.
+        /// The largest coordinate that the format can represent, mm.
         most: f64,
-        /// The coordinate.
+        /// The coordinate, mm.
         got: f64,
     },
     /// The table's cells are larger than its words can say.
     #[error("expected cells of less than {most} mm, got {got:.0} mm: choose a table with more columns or rows")]
     Coarse {
-        /// The largest cell.
+        /// The table's words represent cells smaller than this, mm.
         most: f64,
-        /// The cell.
+        /// Size of the cells over these positions, mm.
         got: f64,
     },
     /// Ratios do not tell places apart.

@@ -3,15 +3,15 @@
 //!
 //!   F₁,₂ = W/2·(1 ∓ e/x_c),   Δx = Σa_i·x_i/Σa_i − Σx_i/2,   x_i = ∓x_c,   a_i ∝ C_i      (CoP and eq. 10)
 //!
-//! A push off the centre, a pad's `eccentricity_mm`, presses one half more than the other; its gap closes further, and
+//! A push off the centre, a pad's `eccentricity_mm`, presses one electrode more than the other; its gap closes further, and
 //! eq. 10 reads a part of e. `mismatch_percent` is by how much the left electrode is larger than the right one: it reads as a
-//! constant offset. The centres lie a quarter of the pad's diameter off its own. Each half has gaps of its own, at the level of
+//! constant offset. The centres lie a quarter of the pad's diameter off its own. Each electrode has gaps of its own, at the level of
 //! `[gap]`. The truth's direction is Δx over half the sheet's width, as the ratios of eq. 10 are. Source: docs/physics.md §4.
 
 use super::effect::{Effect, PadEffect};
 use super::gap;
 use super::pad::Pad;
-use super::spec::{Rung, Setting, Spec};
+use super::spec::{Level, Setting, Spec};
 use crate::device::Device;
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
@@ -23,35 +23,35 @@ pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneE
     };
     let mismatch = 0.01 * table.number_or("mismatch_percent", Limits::within(-50.0, 50.0), 0.0)?;
     let build = move |setting: &Setting| {
-        let halves = [gap.build(setting), gap.build(setting)];
-        let (centre_mm, half_width_mm) = (setting.device.half_centre_mm(), 0.5 * setting.device.width_mm);
-        Effect::Pad(Box::new(Halves { gaps: halves, mismatch, centre_mm, half_width_mm }))
+        let electrodes = [gap.build(setting), gap.build(setting)];
+        let (centre_mm, half_width_mm) = (setting.device.electrode_offset_mm(), 0.5 * setting.device.width_mm);
+        Effect::Pad(Box::new(SplitElectrode { gaps: electrodes, mismatch, centre_mm, half_width_mm }))
     };
-    Spec::ladder("halves", Some(table), vec![Rung::new("gaps", 1e3, build)], "gaps")
+    Spec::with_levels("halves", Some(table), vec![Level::new("gaps", 1e3, build)], "gaps")
 }
 
-struct Halves {
-    /// The gap effect of the left and the right half.
+struct SplitElectrode {
+    /// The gap effect of the left and of the right electrode.
     gaps: [Effect; 2],
     mismatch: f64,
     centre_mm: f64,
     half_width_mm: f64,
 }
 
-impl Halves {
-    fn both(&mut self, pad: &mut Pad, mut act: impl FnMut(&mut dyn PadEffect, &mut Pad)) {
+impl SplitElectrode {
+    fn for_both(&mut self, pad: &mut Pad, mut act: impl FnMut(&mut dyn PadEffect, &mut Pad)) {
         let lean = pad.eccentricity_mm / self.centre_mm;
         let sides = [-1.0, 1.0].map(|side| Pad { load_g: pad.load_g * (1.0 + side * lean), ..pad.clone() });
-        let mut halves = sides;
-        for (gap, half) in self.gaps.iter_mut().zip(&mut halves) {
+        let mut electrodes = sides;
+        for (gap, electrode) in self.gaps.iter_mut().zip(&mut electrodes) {
             if let Effect::Pad(gap) = gap {
-                act(gap.as_mut(), half);
+                act(gap.as_mut(), electrode);
             }
         }
-        self.tell(pad, &halves);
+        self.combine(pad, &electrodes);
     }
 
-    fn tell(&self, pad: &mut Pad, [left, right]: &[Pad; 2]) {
+    fn combine(&self, pad: &mut Pad, [left, right]: &[Pad; 2]) {
         let areas = [0.5 + 0.25 * self.mismatch, 0.5 - 0.25 * self.mismatch];
         let [a, b] = [areas[0] * left.capacitance_f, areas[1] * right.capacitance_f];
         pad.capacitance_f = a + b;
@@ -61,12 +61,12 @@ impl Halves {
     }
 }
 
-impl PadEffect for Halves {
+impl PadEffect for SplitElectrode {
     fn act(&mut self, pad: &mut Pad) {
-        self.both(pad, |gap, half| gap.act(half));
+        self.for_both(pad, |gap, electrode| gap.act(electrode));
     }
 
     fn settle(&mut self, pad: &mut Pad) {
-        self.both(pad, |gap, half| gap.settle(half));
+        self.for_both(pad, |gap, electrode| gap.settle(electrode));
     }
 }

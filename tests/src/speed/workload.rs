@@ -8,7 +8,7 @@ use crate::stimulus::Stimulus;
 
 /// What a core is given, over and over.
 #[derive(Debug, Clone)]
-pub struct Course {
+pub struct Workload {
     /// Inputs that stay: the calibration's.
     pub constants: Inputs<i64>,
     /// Addresses and words of the calibration's tables, which are written before the time is taken.
@@ -23,12 +23,12 @@ pub struct Course {
     pub passes: usize,
 }
 
-impl Course {
+impl Workload {
     /// A stimulus's samples, so many times.
-    pub fn new(profile: &Profile, stimulus: Stimulus, passes: usize) -> Course {
+    pub fn new(profile: &Profile, stimulus: Stimulus, passes: usize) -> Workload {
         let (constants, table, samples) = stimulus.into_parts();
         let code = |code: i64| i32::try_from(code).expect("an ADC's code");
-        Course {
+        Workload {
             constants,
             table: table.collect(),
             samples: samples.flatten().map(code).collect(),

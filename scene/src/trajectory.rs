@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Where a pad is, over the points of a sweep or over time. Millimetres from the sheet's centre, x right, y up. With
+//! The position of a pad over the points of a sweep or over time. Millimetres from the sheet's centre, x right, y up. With
 //! `over_edge = true` beside it the pad may reach over the edge, where its slots are flagged.
 //!
 //! | written as `position_mm =` | the pad |
@@ -19,32 +19,32 @@ use crate::format::{Limits, Table, Value};
 
 type Point = [f64; 2];
 
-/// Rounding of a path that reaches just to the edge is not a pad over the edge.
+/// Rounding of a trajectory that reaches just to the edge is not a pad over the edge.
 pub(crate) const SLACK_MM: f64 = 1e-9;
 
 /// A pad's position over sweep points or time.
 #[derive(Clone, Debug)]
-pub(crate) enum Path {
+pub(crate) enum Trajectory {
     Points(Vec<Point>),
     Line { from: Point, to: Point, period_s: f64 },
     Swing { centre: Point, amplitude: Point, frequency_hz: Point, phase_turns: Point },
 }
 
-impl Path {
+impl Trajectory {
     /// Reads `position_mm`; the pad must stay wholly on the sheet, but with `over_edge = true` its centre alone.
-    pub fn read(pad: &Table, device: &Device) -> Result<Path, SceneError> {
+    pub fn read(pad: &Table, device: &Device) -> Result<Trajectory, SceneError> {
         const KEY: &str = "position_mm";
-        let path = match pad.get(KEY).map(|node| &node.value) {
-            Some(Value::Table(form)) => Path::read_form(form, device)?,
-            _ => Path::Points(vec![pad.require(KEY, "[x, y]", pad.pair(KEY, Limits::ANY)?)?]),
+        let trajectory = match pad.get(KEY).map(|node| &node.value) {
+            Some(Value::Table(form)) => Trajectory::read_form(form, device)?,
+            _ => Trajectory::Points(vec![pad.require(KEY, "[x, y]", pad.pair(KEY, Limits::ANY)?)?]),
         };
         let reach = if pad.flag("over_edge")? {
             [device.width_mm, device.height_mm].map(|size| size / 2.0)
         } else {
             device.reach_mm()
         };
-        match path.extremes().into_iter().find(|[x, y]| x.abs() > reach[0] + SLACK_MM || y.abs() > reach[1] + SLACK_MM) {
-            None => Ok(path),
+        match trajectory.extremes().into_iter().find(|[x, y]| x.abs() > reach[0] + SLACK_MM || y.abs() > reach[1] + SLACK_MM) {
+            None => Ok(trajectory),
             Some([x, y]) => Err(pad.error(
                 KEY,
                 format!(
@@ -55,15 +55,15 @@ impl Path {
         }
     }
 
-    fn read_form(form: &Table, device: &Device) -> Result<Path, SceneError> {
-        let points = form.pairs("sweep")?.map(Path::Points);
+    fn read_form(form: &Table, device: &Device) -> Result<Trajectory, SceneError> {
+        let points = form.pairs("sweep")?.map(Trajectory::Points);
         let raster = form.table("raster")?.map(|raster| read_raster(raster, device)).transpose()?;
         let line = form.table("line")?.map(read_line).transpose()?;
         let circle = form.table("circle")?.map(read_circle).transpose()?;
         let lissajous = form.table("lissajous")?.map(read_lissajous).transpose()?;
         let mut given = [points, raster, line, circle, lissajous].into_iter().flatten();
         match (given.next(), given.next()) {
-            (Some(path), None) => Ok(path),
+            (Some(trajectory), None) => Ok(trajectory),
             _ => {
                 Err(form
                     .error("", "expected exactly one of \"sweep\", \"raster\", \"line\", \"circle\", \"lissajous\""))
@@ -71,12 +71,12 @@ impl Path {
         }
     }
 
-    /// Corners of a box that holds the path.
+    /// Corners of a box that holds the trajectory.
     fn extremes(&self) -> Vec<Point> {
         match self {
-            Path::Points(points) => points.clone(),
-            Path::Line { from, to, .. } => vec![*from, *to],
-            Path::Swing { centre: [x, y], amplitude: [ax, ay], .. } => {
+            Trajectory::Points(points) => points.clone(),
+            Trajectory::Line { from, to, .. } => vec![*from, *to],
+            Trajectory::Swing { centre: [x, y], amplitude: [ax, ay], .. } => {
                 vec![[x - ax.abs(), y - ay.abs()], [x + ax.abs(), y + ay.abs()]]
             }
         }
@@ -84,24 +84,24 @@ impl Path {
 
     /// How many places a sweep has; one where it does not sweep.
     pub fn points(&self) -> usize {
-        if let Path::Points(points) = self { points.len() } else { 1 }
+        if let Trajectory::Points(points) = self { points.len() } else { 1 }
     }
 
     /// Whether the position depends on time.
     pub fn moves(&self) -> bool {
-        !matches!(self, Path::Points(_))
+        !matches!(self, Trajectory::Points(_))
     }
 
     /// The position at a sweep's point and a time.
     pub fn at(&self, point: usize, time_s: f64) -> Point {
         match self {
-            Path::Points(points) => points[point % points.len()],
-            Path::Line { from, to, period_s } => {
+            Trajectory::Points(points) => points[point % points.len()],
+            Trajectory::Line { from, to, period_s } => {
                 let turns = time_s / period_s;
                 let there = 1.0 - (2.0 * (turns - turns.floor()) - 1.0).abs();
                 [0, 1].map(|axis| from[axis] + (to[axis] - from[axis]) * there)
             }
-            Path::Swing { centre, amplitude, frequency_hz, phase_turns } => [0, 1].map(|axis| {
+            Trajectory::Swing { centre, amplitude, frequency_hz, phase_turns } => [0, 1].map(|axis| {
                 centre[axis] + amplitude[axis] * (TAU * (frequency_hz[axis] * time_s + phase_turns[axis])).sin()
             }),
         }
@@ -118,21 +118,21 @@ pub(crate) fn raster(nx: usize, ny: usize, margin_mm: f64, device: &Device) -> V
     (0..nx * ny).map(place).collect()
 }
 
-fn read_raster(table: &Table, device: &Device) -> Result<Path, SceneError> {
+fn read_raster(table: &Table, device: &Device) -> Result<Trajectory, SceneError> {
     let count = |key| table.require(key, "an integer", table.whole(key, 1, 1000)?);
     let margin = table.number_or("margin_mm", Limits::POSITIVE, device.pad_diameter_mm / 2.0)?;
-    Ok(Path::Points(raster(count("nx")? as usize, count("ny")? as usize, margin, device)))
+    Ok(Trajectory::Points(raster(count("nx")? as usize, count("ny")? as usize, margin, device)))
 }
 
-fn read_line(table: &Table) -> Result<Path, SceneError> {
+fn read_line(table: &Table) -> Result<Trajectory, SceneError> {
     let pair = |key| table.require(key, "[x, y]", table.pair(key, Limits::ANY)?);
-    Ok(Path::Line { from: pair("from_mm")?, to: pair("to_mm")?, period_s: period(table)? })
+    Ok(Trajectory::Line { from: pair("from_mm")?, to: pair("to_mm")?, period_s: period(table)? })
 }
 
-fn read_circle(table: &Table) -> Result<Path, SceneError> {
+fn read_circle(table: &Table) -> Result<Trajectory, SceneError> {
     let radius = table.require("radius_mm", "a number above 0", table.number("radius_mm", Limits::POSITIVE)?)?;
     let turns = table.number_or("phase_turns", Limits::ANY, 0.0)?;
-    Ok(Path::Swing {
+    Ok(Trajectory::Swing {
         centre: table.pair("centre_mm", Limits::ANY)?.unwrap_or_default(),
         amplitude: [radius; 2],
         frequency_hz: [1.0 / period(table)?; 2],
@@ -140,9 +140,9 @@ fn read_circle(table: &Table) -> Result<Path, SceneError> {
     })
 }
 
-fn read_lissajous(table: &Table) -> Result<Path, SceneError> {
+fn read_lissajous(table: &Table) -> Result<Trajectory, SceneError> {
     let pair = |key, limits| table.require(key, "two numbers", table.pair(key, limits)?);
-    Ok(Path::Swing {
+    Ok(Trajectory::Swing {
         centre: table.pair("centre_mm", Limits::ANY)?.unwrap_or_default(),
         amplitude: pair("amplitude_mm", Limits::ANY)?,
         frequency_hz: pair("frequency_hz", Limits::NOT_NEGATIVE)?,

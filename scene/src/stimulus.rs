@@ -17,41 +17,41 @@ use crate::format::{Limits, Table, Value};
 /// The most points of one sweep.
 const MOST_POINTS: u64 = 1_000_000;
 
-/// One quantity over sweep points or time.
+/// One quantity of a pad over sweep points or time.
 #[derive(Clone, Debug)]
-pub(crate) enum Course {
+pub(crate) enum Stimulus {
     Constant(f64),
     Sweep(Vec<f64>),
     Timeline(Vec<[f64; 2]>),
     Sine { mean: f64, amplitude: f64, frequency_hz: f64, phase_turns: f64 },
 }
 
-impl Course {
+impl Stimulus {
     /// Reads `key`; every value it can take must lie in `limits`.
-    pub fn read(table: &Table, key: &'static str, limits: Limits) -> Result<Option<Course>, SceneError> {
+    pub fn read(table: &Table, key: &'static str, limits: Limits) -> Result<Option<Stimulus>, SceneError> {
         match table.get(key).map(|node| &node.value) {
             None => Ok(None),
-            Some(Value::Table(form)) => Course::read_form(form, limits).map(Some),
-            Some(_) => Ok(table.number(key, limits)?.map(Course::Constant)),
+            Some(Value::Table(form)) => Stimulus::read_form(form, limits).map(Some),
+            Some(_) => Ok(table.number(key, limits)?.map(Stimulus::Constant)),
         }
     }
 
-    fn read_form(form: &Table, limits: Limits) -> Result<Course, SceneError> {
-        let all = (Course::read_sweep(form, limits)?, form.pairs("timeline")?, Course::read_sine(form)?);
-        let (key, course) = match all {
-            (Some(sweep), None, None) => ("sweep", Course::Sweep(sweep)),
-            (None, Some(timeline), None) => ("timeline", Course::Timeline(timeline)),
+    fn read_form(form: &Table, limits: Limits) -> Result<Stimulus, SceneError> {
+        let all = (Stimulus::read_sweep(form, limits)?, form.pairs("timeline")?, Stimulus::read_sine(form)?);
+        let (key, stimulus) = match all {
+            (Some(sweep), None, None) => ("sweep", Stimulus::Sweep(sweep)),
+            (None, Some(timeline), None) => ("timeline", Stimulus::Timeline(timeline)),
             (None, None, Some(sine)) => ("sine", sine),
             _ => return Err(form.error("", "expected exactly one of \"sweep\", \"timeline\", \"sine\"")),
         };
-        if let Course::Timeline(points) = &course
+        if let Stimulus::Timeline(points) = &stimulus
             && points.windows(2).any(|pair| pair[1][0] < pair[0][0])
         {
             return Err(form.error("timeline", "expected times that do not fall"));
         }
-        match course.extremes().into_iter().find(|value| !limits.holds(*value)) {
+        match stimulus.extremes().into_iter().find(|value| !limits.holds(*value)) {
             Some(value) => Err(form.error(key, format!("expected {limits}, got {value}"))),
-            None => Ok(course),
+            None => Ok(stimulus),
         }
     }
 
@@ -66,10 +66,10 @@ impl Course {
         Ok(Some((0..points).map(|n| from + step * n as f64).collect()))
     }
 
-    fn read_sine(form: &Table) -> Result<Option<Course>, SceneError> {
+    fn read_sine(form: &Table) -> Result<Option<Stimulus>, SceneError> {
         let Some(sine) = form.table("sine")? else { return Ok(None) };
         let frequency_hz = sine.number("frequency_hz", Limits::POSITIVE)?;
-        Ok(Some(Course::Sine {
+        Ok(Some(Stimulus::Sine {
             mean: sine.number_or("mean", Limits::ANY, 0.0)?,
             amplitude: sine.require("amplitude", "a number", sine.number("amplitude", Limits::ANY)?)?,
             frequency_hz: sine.require("frequency_hz", "a number above 0", frequency_hz)?,
@@ -80,30 +80,30 @@ impl Course {
     /// Values between which all others lie.
     pub fn extremes(&self) -> Vec<f64> {
         match self {
-            Course::Constant(value) => vec![*value],
-            Course::Sweep(values) => values.clone(),
-            Course::Timeline(points) => points.iter().map(|point| point[1]).collect(),
-            Course::Sine { mean, amplitude, .. } => vec![mean - amplitude.abs(), mean + amplitude.abs()],
+            Stimulus::Constant(value) => vec![*value],
+            Stimulus::Sweep(values) => values.clone(),
+            Stimulus::Timeline(points) => points.iter().map(|point| point[1]).collect(),
+            Stimulus::Sine { mean, amplitude, .. } => vec![mean - amplitude.abs(), mean + amplitude.abs()],
         }
     }
 
     /// How many points a sweep has; one where it does not sweep.
     pub fn points(&self) -> usize {
-        if let Course::Sweep(values) = self { values.len() } else { 1 }
+        if let Stimulus::Sweep(values) = self { values.len() } else { 1 }
     }
 
     /// Whether the value depends on time.
     pub fn moves(&self) -> bool {
-        matches!(self, Course::Timeline(_) | Course::Sine { .. })
+        matches!(self, Stimulus::Timeline(_) | Stimulus::Sine { .. })
     }
 
     /// The value at a sweep's point and a time.
     pub fn at(&self, point: usize, time_s: f64) -> f64 {
         match self {
-            Course::Constant(value) => *value,
-            Course::Sweep(values) => values[point % values.len()],
-            Course::Timeline(points) => interpolate(points, time_s),
-            Course::Sine { mean, amplitude, frequency_hz, phase_turns } => {
+            Stimulus::Constant(value) => *value,
+            Stimulus::Sweep(values) => values[point % values.len()],
+            Stimulus::Timeline(points) => interpolate(points, time_s),
+            Stimulus::Sine { mean, amplitude, frequency_hz, phase_turns } => {
                 mean + amplitude * (TAU * (frequency_hz * time_s + phase_turns)).sin()
             }
         }
@@ -127,7 +127,7 @@ mod tests {
 
     #[test]
     fn a_timeline_is_linear_between_points_and_steps_where_times_are_equal() {
-        let ramp = Course::Timeline(vec![[0.0, 0.0], [1.0, 10.0], [1.0, 50.0], [2.0, 50.0]]);
+        let ramp = Stimulus::Timeline(vec![[0.0, 0.0], [1.0, 10.0], [1.0, 50.0], [2.0, 50.0]]);
         let at = |time| ramp.at(0, time);
         assert_eq!([at(-1.0), at(0.5), at(1.0), at(9.0)], [0.0, 5.0, 50.0, 50.0]);
     }

@@ -8,20 +8,20 @@ use std::path::Path;
 use anyhow::{Context, Result};
 use hapticore_files::AtomicFile;
 
-/// A file in the making, and what writes into it.
-pub(super) struct Aside {
-    /// Writes.
+/// A file that gets its name when it is complete.
+pub(super) struct PartialFile {
+    /// Buffered writer into the temporary file.
     pub file: BufWriter<File>,
     atomic: AtomicFile,
 }
 
-impl Aside {
+impl PartialFile {
     /// A file that will be called `path`.
     pub fn create(path: &Path) -> Result<Self> {
         let within = || path.display().to_string();
         let atomic = AtomicFile::create(path).with_context(within)?;
         let file = BufWriter::with_capacity(1 << 18, atomic.reopen().with_context(within)?);
-        Ok(Aside { file, atomic })
+        Ok(PartialFile { file, atomic })
     }
 
     /// The name that it will have.

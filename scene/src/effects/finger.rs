@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `[hand]`: the pad hangs on the hand by a spring and a damper, and the hand is what follows the pad's path.
+//! `[hand]`: the pad hangs on the finger by a spring and a damper, and the finger is what follows the pad's trajectory.
 //!
 //!   m·v̇ = k(x_h − x) + c(v_h − v) + push − friction
 //!
-//! Without the table the pad itself follows its path. A pad's `push_x_n` and `push_y_n` push it besides; with a `stiffness_n_per_m`
-//! and a `damping_n_s_per_m` of 0 they alone move it. The friction that the hand works against is `[friction]`'s, which also
+//! Without the table the pad itself follows its trajectory. A pad's `push_x_n` and `push_y_n` push it besides; with a `stiffness_n_per_m`
+//! and a `damping_n_s_per_m` of 0 they alone move it. The friction that the finger works against is `[friction]`'s, which also
 //! takes the steps. Source: docs/physics.md §4, 300 N/m, 3 N·s/m, 0.05 kg.
 
 use super::effect::{Effect, PadEffect};
-use super::pad::{Hand, Pad};
-use super::spec::{Rung, Spec};
+use super::pad::{Finger, Pad};
+use super::spec::{Level, Spec};
 use crate::device::Device;
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
@@ -17,23 +17,23 @@ use crate::format::{Limits, Table};
 pub(super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
     let Some(table) = root.table("hand")? else { return Ok(None) };
     if root.table("friction")?.is_none() {
-        return Err(table.error("", "expected [friction] too, which is what the hand works against"));
+        return Err(table.error("", "expected [friction] too, which the finger works against"));
     }
-    let hand = Hand {
+    let finger = Finger {
         stiffness_n_per_m: table.number_or("stiffness_n_per_m", Limits::NOT_NEGATIVE, 300.0)?,
         damping_n_s_per_m: table.number_or("damping_n_s_per_m", Limits::NOT_NEGATIVE, 3.0)?,
         mass_kg: table.number_or("mass_kg", Limits::POSITIVE, 0.05)?,
     };
-    let spring = Rung::new("spring", 5.0, move |_| Effect::Pad(Box::new(OnHand { hand })));
-    Spec::ladder("hand", Some(table), vec![spring], "spring")
+    let spring = Level::new("spring", 5.0, move |_| Effect::Pad(Box::new(OnFinger { finger })));
+    Spec::with_levels("hand", Some(table), vec![spring], "spring")
 }
 
-struct OnHand {
-    hand: Hand,
+struct OnFinger {
+    finger: Finger,
 }
 
-impl PadEffect for OnHand {
+impl PadEffect for OnFinger {
     fn act(&mut self, pad: &mut Pad) {
-        pad.hand = Some(self.hand);
+        pad.finger = Some(self.finger);
     }
 }
