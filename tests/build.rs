@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Tells tests whether code is optimised: they are thorough where it is, which debug assertions do not say.
+//! Tells tests whether code is optimised: they are thorough where it is, which debug assertions do
+//! not say.
 
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");

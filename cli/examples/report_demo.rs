@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Reports on made-up runs, to look at while working on the report: `cargo run -p hapticore --example report_demo -- DIR`.
+//! Reports on made-up runs, to look at while working on the report: `cargo run -p hapticore
+//! --example report_demo -- DIR`.
 //!
 //! The data only resemble a run: a rough sheet, a rough pull-in, a made-up noise.
 
@@ -7,14 +8,20 @@ use std::f64::consts::TAU;
 use std::path::PathBuf;
 
 use hapticore::report;
-use hapticore_run::record::{Criterion, Effect, Quantities, Record, Reference, Row, SignalError, Truth};
+use hapticore_run::record::{
+    Criterion, Effect, Quantities, Record, Reference, Row, SignalError, Truth,
+};
 
 fn main() -> std::io::Result<()> {
     let dir = PathBuf::from(std::env::args().nth(1).unwrap_or_else(|| ".".into()));
     std::fs::create_dir_all(&dir)?;
+    let rows = [
+        ("fig3", fig3()),
+        ("fig4", sweep(&[20.0, 40.0, 60.0, 80.0, 100.0], 15)),
+        ("fig6", sweep(&[20.0, 100.0], 36)),
+    ];
     let rows =
-        [("fig3", fig3()), ("fig4", sweep(&[20.0, 40.0, 60.0, 80.0, 100.0], 15)), ("fig6", sweep(&[20.0, 100.0], 36))];
-    let rows = rows.into_iter().chain([("hockey", hockey()), ("other", hockey()), ("capture", capture())]);
+        rows.into_iter().chain([("hockey", hockey()), ("other", hockey()), ("capture", capture())]);
     for (figure, rows) in rows {
         std::fs::write(dir.join(format!("{figure}.html")), report::html(&record(figure, rows)))?;
     }
@@ -29,7 +36,11 @@ fn record(figure: &str, rows: Vec<Row>) -> Record {
         figure: Some(figure.into()),
         profile: "paper".into(),
         fidelity: "fixed".into(),
-        cases: if figure == "fig3" { CASES.iter().map(|c| c.0.to_string()).collect() } else { vec!["all".into()] },
+        cases: if figure == "fig3" {
+            CASES.iter().map(|c| c.0.to_string()).collect()
+        } else {
+            vec!["all".into()]
+        },
         pads: ["left mallet", "right mallet", "puck", "spare"].map(String::from).to_vec(),
         effects: effects(),
         criteria: criteria(),
@@ -42,24 +53,43 @@ fn record(figure: &str, rows: Vec<Row>) -> Record {
 }
 
 fn effects() -> Vec<Effect> {
-    let effects = [("sheet", "bicubic", 0.021), ("gap", "static", 0.43), ("noise", "on", 0.2), ("offset", "on", 1e-5)];
+    let effects = [
+        ("sheet", "bicubic", 0.021),
+        ("gap", "static", 0.43),
+        ("noise", "on", 0.2),
+        ("offset", "on", 1e-5),
+    ];
     effects
-        .map(|(name, level, seconds)| Effect { name: name.into(), level: level.into(), seconds, finer: None })
+        .map(|(name, level, seconds)| Effect {
+            name: name.into(),
+            level: level.into(),
+            seconds,
+            finer: None,
+        })
         .to_vec()
 }
 
 fn criteria() -> Vec<Criterion> {
-    let criterion = |name: &str, measured: f64, limit: f64, unit: &str, baseline: Option<(&str, f64)>| Criterion {
-        name: name.into(),
-        measured,
-        limit,
-        pass: measured <= limit,
-        applicable: true,
-        unit: unit.into(),
-        baseline: baseline.map(|(what, value)| (what.into(), value)),
-    };
+    let criterion =
+        |name: &str, measured: f64, limit: f64, unit: &str, baseline: Option<(&str, f64)>| {
+            Criterion {
+                name: name.into(),
+                measured,
+                limit,
+                pass: measured <= limit,
+                applicable: true,
+                unit: unit.into(),
+                baseline: baseline.map(|(what, value)| (what.into(), value)),
+            }
+        };
     vec![
-        criterion("force spread over the sheet, pulled in", 0.21, 0.5, "%", Some(("eq. 6 alone", 4.7))),
+        criterion(
+            "force spread over the sheet, pulled in",
+            0.21,
+            0.5,
+            "%",
+            Some(("eq. 6 alone", 4.7)),
+        ),
         criterion("position", 0.12, 1.0, "mm", Some(("affine fit", 69.0))),
         criterion("force", 0.12, 0.1, "N", None),
     ]
@@ -90,7 +120,8 @@ fn fig3() -> Vec<Row> {
     let mut rows = Vec::new();
     for (case, (_, ohm, pf)) in CASES.into_iter().enumerate() {
         for point in 0..24 * 14 {
-            let (x, y) = (f64::from(point % 24) * 36.0 - 414.0, f64::from(point / 24) * 36.0 - 234.0);
+            let (x, y) =
+                (f64::from(point % 24) * 36.0 - 414.0, f64::from(point / 24) * 36.0 - 234.0);
             let distance = (x / 430.0).powi(2) + (y / 250.0).powi(2);
             let sheet = ohm * (0.75 + 0.12 * distance);
             rows.push(slot(case, point, truth(x, y, pf, 150.0, 20.0, sheet, 0)));
@@ -104,7 +135,9 @@ fn sweep(loads: &[f64], points: u32) -> Vec<Row> {
     for (l, load) in loads.iter().enumerate() {
         for point in 0..points {
             let volts = f64::from(point) / f64::from(points - 1) * 350.0;
-            let pull = (0..8).filter(|patch| volts > 230.0 + 15.0 * f64::from(*patch) - load / 2.0).count();
+            let pull = (0..8)
+                .filter(|patch| volts > 230.0 + 15.0 * f64::from(*patch) - load / 2.0)
+                .count();
             let pf = 300.0 + load / 2.0 + volts * volts / 5e3 + 40.0 * pull as f64;
             let group = l * points as usize + point as usize;
             for _ in 0..4 {
@@ -126,7 +159,11 @@ fn hockey() -> Vec<Row> {
         let (pad, t) = (n as usize % 4, f64::from(n) / 4000.0);
         let (x, y) = at(pad, t);
         let volts = 150.0 + 25.0 * pad as f64 + 70.0 * (TAU * 2.0 * t).sin();
-        Row { pad, time_s: t, ..slot(0, n, truth(x, y, 330.0 + volts / 5.0, volts, 30.0, 140.0, 0)) }
+        Row {
+            pad,
+            time_s: t,
+            ..slot(0, n, truth(x, y, 330.0 + volts / 5.0, volts, 30.0, 140.0, 0))
+        }
     });
     rows.collect()
 }
@@ -139,17 +176,36 @@ fn numbered(rows: Vec<Row>) -> Vec<Row> {
     rows.into_iter().enumerate().map(|(n, row)| Row { time_s: n as f64 * 1e-3, ..row }).collect()
 }
 
-fn truth(x_mm: f64, y_mm: f64, capacitance_pf: f64, volts: f64, load_g: f64, sheet_ohm: f64, group: usize) -> Truth {
+fn truth(
+    x_mm: f64,
+    y_mm: f64,
+    capacitance_pf: f64,
+    volts: f64,
+    load_g: f64,
+    sheet_ohm: f64,
+    group: usize,
+) -> Truth {
     let force_n = 6e-11 * (capacitance_pf * volts).powi(2) * (1.0 - 0.06 * (volts / 350.0).powi(3));
     let (r_x, r_y) = (x_mm / 550.0, y_mm / 320.0);
     let haptic_v_rms = volts;
-    let quantities =
-        Quantities { r_x, r_y, x_mm, y_mm, capacitance_pf, sheet_ohm, haptic_v_rms, force_n, direction: 0.0 };
+    let quantities = Quantities {
+        r_x,
+        r_y,
+        x_mm,
+        y_mm,
+        capacitance_pf,
+        sheet_ohm,
+        haptic_v_rms,
+        force_n,
+        direction: 0.0,
+    };
     Truth { quantities, load_g, group, ..Truth::default() }
 }
 
 fn slot(case: usize, seed: u32, truth: Truth) -> Row {
-    let noise = |salt: f64| ((f64::from(seed) * 12.9898 + salt + truth.load_g).sin() * 43_758.545).fract() - 0.5;
+    let noise = |salt: f64| {
+        ((f64::from(seed) * 12.9898 + salt + truth.load_g).sin() * 43_758.545).fract() - 0.5
+    };
     let q = truth.quantities;
     let ideal = Quantities { force_n: 6e-11 * (q.capacitance_pf * q.haptic_v_rms).powi(2), ..q };
     let tan = TAU * 1e5 * q.capacitance_pf * 1e-12 * q.sheet_ohm;
@@ -167,5 +223,13 @@ fn slot(case: usize, seed: u32, truth: Truth) -> Row {
         capacitance_eq6_pf: q.capacitance_pf * loss,
         force_eq6_n: ideal.force_n * loss * loss,
     };
-    Row { case, time_s: 0.0, pad: 0, measured, flags: String::new(), truth: Some(truth), reference: Some(reference) }
+    Row {
+        case,
+        time_s: 0.0,
+        pad: 0,
+        measured,
+        flags: String::new(),
+        truth: Some(truth),
+        reference: Some(reference),
+    }
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! How fast scenes run: wall seconds beside seconds of device time, the best of three runs.
 //!
-//! `cargo run --release -p hapticore --example scene_speed [-- SCENE…]`, `fig7` unless said otherwise; `taskset -c 0` before it
-//! keeps the plant's thread and the core's on one processor core.
+//! `cargo run --release -p hapticore --example scene_speed [-- SCENE…]`, `fig7` unless said
+//! otherwise; `taskset -c 0` before it keeps the plant's thread and the core's on one processor
+//! core.
 
 use std::time::Instant;
 
@@ -24,11 +25,18 @@ const BEST_OF: usize = 3;
 fn main() -> Result<()> {
     let named: Vec<String> = std::env::args().skip(1).collect();
     let scenes = if named.is_empty() { vec!["fig7".into()] } else { named };
-    println!("{:20} {:8} {:6} {:>9} {:>9} {:>7}", "scene", "carrier", "core", "device, s", "wall, s", "ratio");
+    println!(
+        "{:20} {:8} {:6} {:>9} {:>9} {:>7}",
+        "scene", "carrier", "core", "device, s", "wall, s", "ratio"
+    );
     for scene in scenes {
         for (carrier, fidelity) in WAYS {
             let [device, wall] = best(&scene, carrier, fidelity)?;
-            println!("{scene:20} {carrier:8} {:6} {device:9.3} {wall:9.3} {:7.3}", fidelity.name(), wall / device);
+            println!(
+                "{scene:20} {carrier:8} {:6} {device:9.3} {wall:9.3} {:7.3}",
+                fidelity.name(),
+                wall / device
+            );
         }
     }
     Ok(())

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Tells the command which commit it is built from. Without git, or outside a repository, it is built without knowing.
+//! Tells the command which commit it is built from. Without git, or outside a repository, it is
+//! built without knowing.
 
 use std::process::Command;
 
@@ -18,12 +19,16 @@ const SOURCES: [&str; 8] = [
 fn main() {
     let commit = git(&["describe", "--always", "--exclude=*", "--abbrev=40", "--dirty=-modified"]);
     println!("cargo::rustc-env=HAPTICORE_COMMIT={}", commit.unwrap_or_default());
-    let heads = [git(&["rev-parse", "--git-path", "logs/HEAD"]), git(&["rev-parse", "--git-path", "index"])];
+    let heads = [
+        git(&["rev-parse", "--git-path", "logs/HEAD"]),
+        git(&["rev-parse", "--git-path", "index"]),
+    ];
     let watched = heads.into_iter().flatten().chain(SOURCES.map(String::from));
     watched.for_each(|path| println!("cargo::rerun-if-changed={path}"));
 }
 
 fn git(args: &[&str]) -> Option<String> {
-    let output = Command::new("git").args(args).output().ok().filter(|output| output.status.success())?;
+    let output =
+        Command::new("git").args(args).output().ok().filter(|output| output.status.success())?;
     Some(String::from_utf8(output.stdout).ok()?.trim().to_string())
 }

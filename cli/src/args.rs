@@ -84,7 +84,8 @@ pub struct CalibrateArgs {
     /// What was measured: places and loads as CSV, full scales and rates as TOML
     #[arg(required = true)]
     pub data: Vec<PathBuf>,
-    /// The profile whose position table is tried on the places: a bundled name or a TOML file [default: standard]
+    /// The profile whose position table is tried on the places: a bundled name or a TOML file
+    /// [default: standard]
     #[arg(long, value_name = "PROFILE")]
     pub profile: Option<String>,
     /// Where the calibration goes, and FILE.report.html beside it
@@ -110,7 +111,8 @@ Exit status: 0 done, 2 bad input.";
 /// Arguments of `codes`.
 #[derive(Debug, Clone, clap::Args)]
 pub struct CodesArgs {
-    /// The core's profile: a bundled name (small, standard, fine) or a TOML file [default: standard]
+    /// The core's profile: a bundled name (small, standard, fine) or a TOML file [default:
+    /// standard]
     #[arg(long, value_name = "PROFILE")]
     pub profile: Option<String>,
     /// The device's calibration [default: the paper's display's]
@@ -141,7 +143,8 @@ pub struct HdlArgs {
     /// A board: its top, constraints and a script that makes a bitstream, too
     #[arg(long, value_name = "ulx3s|icebreaker")]
     pub board: Option<String>,
-    /// The core's profile: a bundled name (small, standard, fine) or a TOML file [default: the board's, else standard]
+    /// The core's profile: a bundled name (small, standard, fine) or a TOML file [default: the
+    /// board's, else standard]
     #[arg(long, value_name = "PROFILE")]
     pub profile: Option<String>,
     /// A device's calibration, whose terminals and pads a bundled profile takes
@@ -200,10 +203,12 @@ pub struct SimulateArgs {
     /// What to write waveforms of, in seconds of the first case [default: the first two slots]
     #[arg(long, value_name = "FROM..TO", value_parser = window)]
     pub waves_window: Option<Range<f64>>,
-    /// Save the ADC samples of the case that is run, and a calibration beside them for `hapticore replay`
+    /// Save the ADC samples of the case that is run, and a calibration beside them for `hapticore
+    /// replay`
     #[arg(long, value_name = "FILE.csv|FILE.wav")]
     pub capture: Option<PathBuf>,
-    /// Where results go [default: out/SCENE and what differs from the default, as out/fig6-pad.0.load_g=50]
+    /// Where results go [default: out/SCENE and what differs from the default, as
+    /// out/fig6-pad.0.load_g=50]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 }
@@ -216,14 +221,15 @@ pub struct ReplayArgs {
     /// How the core is run.
     #[command(flatten)]
     pub core: CoreArgs,
-    /// The device's calibration [default: CAPTURE.calibration.toml where there is one, else the nominal device's]
+    /// The device's calibration [default: CAPTURE.calibration.toml where there is one, else the
+    /// nominal device's]
     #[arg(long, value_name = "FILE")]
     pub calibration: Option<PathBuf>,
     /// How many pads are selected in turn [default: as in the calibration, else in the profile]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=256))]
     pub pads: Option<u64>,
-    /// What the columns or channels of the capture are, in their order; _ leaves one out [default: as its header says, else i1 … iN,
-    /// v_sense, v_haptic and perhaps pad]
+    /// What the columns or channels of the capture are, in their order; _ leaves one out [default:
+    /// as its header says, else i1 … iN, v_sense, v_haptic and perhaps pad]
     #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
     pub channels: Option<Vec<String>>,
     /// Bits of integer codes that are at the bottom of wider samples, or have no `# bits` in CSV
@@ -278,7 +284,9 @@ pub enum Waves {
 
 fn key_value(text: &str) -> Result<(String, String), String> {
     let split = text.split_once('=').map(|(key, value)| (key.trim().into(), value.trim().into()));
-    split.filter(|(key, _): &(String, String)| !key.is_empty()).ok_or_else(|| "expected KEY=VALUE".into())
+    split
+        .filter(|(key, _): &(String, String)| !key.is_empty())
+        .ok_or_else(|| "expected KEY=VALUE".into())
 }
 
 fn above_zero(text: &str) -> Result<f64, String> {
@@ -289,7 +297,11 @@ fn above_zero(text: &str) -> Result<f64, String> {
 }
 
 fn window(text: &str) -> Result<Range<f64>, String> {
-    let seconds = |text: &str| text.trim().parse::<f64>().ok().filter(|time| time.is_finite() && *time >= 0.0);
+    let seconds = |text: &str| {
+        text.trim().parse::<f64>().ok().filter(|time| time.is_finite() && *time >= 0.0)
+    };
     let range = text.split_once("..").and_then(|(from, to)| Some(seconds(from)?..seconds(to)?));
-    range.filter(|range| range.start < range.end).ok_or_else(|| "expected two times such as 0.1..0.2".into())
+    range
+        .filter(|range| range.start < range.end)
+        .ok_or_else(|| "expected two times such as 0.1..0.2".into())
 }

@@ -44,7 +44,12 @@ fn report_path(out: &Path) -> PathBuf {
 /// What stands at the head of a calibration file.
 fn comments(outcome: &Outcome) -> String {
     let Provenance { version, command, .. } = &outcome.provenance;
-    let files: Vec<_> = command.iter().skip(1).map(|word| word.replace(char::is_control, " ")).collect();
+    let files: Vec<_> =
+        command.iter().skip(1).map(|word| word.replace(char::is_control, " ")).collect();
     let head = format!("Made by hapticore {version}: hapticore {}", files.join(" "));
-    [head].iter().chain(&print::calibration_lines(outcome)).map(|line| format!("# {line}\n")).collect()
+    [head]
+        .iter()
+        .chain(&print::calibration_lines(outcome))
+        .map(|line| format!("# {line}\n"))
+        .collect()
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `hapticore codes`: a device's calibration as the codes that a core's registers and position table take.
+//! `hapticore codes`: a device's calibration as the codes that a core's registers and position
+//! table take.
 //!
 //! | format | is |
 //! | --- | --- |
@@ -33,7 +34,8 @@ const LINE: usize = 12;
 /// Prints the codes of a calibration.
 ///
 /// # Errors
-/// No such profile or calibration, numbers that the profile does not hold, a file that cannot be written.
+/// No such profile or calibration, numbers that the profile does not hold, a file that cannot be
+/// written.
 pub fn run(args: &CodesArgs) -> Result<bool> {
     let profile = inputs::profile(args.profile.as_deref().unwrap_or(PROFILE))?;
     let device = match &args.calibration {
@@ -41,7 +43,8 @@ pub fn run(args: &CodesArgs) -> Result<bool> {
         None => calibrate::nominal(&profile)?,
     };
     let profile = inputs::buildable(device.profile(&profile)?)?;
-    let calibration = device.for_profile(&profile).with_context(|| name(args.calibration.as_deref()))?;
+    let calibration =
+        device.for_profile(&profile).with_context(|| name(args.calibration.as_deref()))?;
     device.residual(&calibration).warning(LIMIT_MM).iter().for_each(|text| console::warn(text));
     let words = CalibrationWords::new(&profile, &calibration);
     let head = head(&profile, &name(args.calibration.as_deref()));
@@ -87,7 +90,8 @@ fn comments(head: &[String], sign: &str) -> String {
 fn csv(words: &CalibrationWords, head: &[String]) -> String {
     let mut text = comments(head, "#") + "name,address,code,value,format\n";
     let mut row = |name: &str, address: &str, code: i64, format: Format| {
-        writeln!(text, "{name},{address},{code},{},{format}", format.real(code)).expect("a string takes all");
+        writeln!(text, "{name},{address},{code},{},{format}", format.real(code))
+            .expect("a string takes all");
     };
     words.constants.iter().for_each(|word| row(word.constant.name(), "", word.code, word.format));
     for (address, &code) in words.table.iter().enumerate() {
@@ -98,12 +102,22 @@ fn csv(words: &CalibrationWords, head: &[String]) -> String {
 
 fn readmemh(words: &CalibrationWords, head: &[String]) -> String {
     let (constants, table, word) = (words.constants, &words.table, words.table_format);
-    let width = constants.iter().map(|constant| constant.format.width).chain([word.width]).max().expect("a word");
+    let width = constants
+        .iter()
+        .map(|constant| constant.format.width)
+        .chain([word.width])
+        .max()
+        .expect("a word");
     let (digits, mask) = (usize::from(width).div_ceil(4), u64::MAX >> (64 - u32::from(width)));
     let mut text = comments(head, "//");
     let count = table.len() + constants.len();
-    writeln!(text, "// {count} words of {width} bits, sign-extended: reg [{}:0] codes [0:{}];", width - 1, count - 1)
-        .expect("a string takes all");
+    writeln!(
+        text,
+        "// {count} words of {width} bits, sign-extended: reg [{}:0] codes [0:{}];",
+        width - 1,
+        count - 1
+    )
+    .expect("a string takes all");
     writeln!(text, "// 0 to {}: {TABLE}, {word}", table.len() - 1).expect("a string takes all");
     let mut line = |code: i64, about: &str| {
         writeln!(text, "{:0digits$x}{about}", code as u64 & mask).expect("a string takes all");
@@ -116,14 +130,17 @@ fn readmemh(words: &CalibrationWords, head: &[String]) -> String {
 }
 
 fn header(words: &CalibrationWords, head: &[String], profile: &Profile) -> String {
-    let mut text =
-        comments(head, "//") + "#ifndef HAPTICORE_CODES_H\n#define HAPTICORE_CODES_H\n\n#include <stdint.h>\n\n";
+    let mut text = comments(head, "//")
+        + "#ifndef HAPTICORE_CODES_H\n#define HAPTICORE_CODES_H\n\n#include <stdint.h>\n\n";
     let mut line = |line: String| text.push_str(&(line + "\n"));
     line(format!("#define HAPTICORE_PROFILE {:?}", profile.name));
     line(format!("#define HAPTICORE_PROFILE_DIGEST 0x{:04x}", digest(profile)));
     for ConstantWord { constant, code, format } in words.constants {
         let (name, about) = (constant.name().to_uppercase(), constant.about());
-        line(format!("#define HAPTICORE_{name} {code} // {format} = {}  {about}", format.real(code)));
+        line(format!(
+            "#define HAPTICORE_{name} {code} // {format} = {}  {about}",
+            format.real(code)
+        ));
     }
     let (table, word) = (&words.table, words.table_format);
     let words = table.len();

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Standard output and standard error, which may be closed or full: a run is never lost to them.
 //!
-//! A reader that has gone (`hapticore simulate fig3 | head -1`) wants no more: what is left to say is dropped in silence. Any
-//! other failure, a full disk, is an error, told when everything else is done.
+//! A reader that has gone (`hapticore simulate fig3 | head -1`) wants no more: what is left to say
+//! is dropped in silence. Any other failure, a full disk, is an error, told when everything else is
+//! done.
 
 use std::fmt::Arguments;
 use std::io::{self, ErrorKind, Write};
@@ -44,7 +45,9 @@ pub fn warn(text: &str) {
 pub fn finish() -> Result<()> {
     let mut failed = FAILED.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
     match failed.take().map_or_else(|| io::stdout().flush(), Err) {
-        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(error).context("standard output"),
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            Err(error).context("standard output")
+        }
         _ => Ok(()),
     }
 }

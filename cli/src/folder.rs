@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Where results go where nobody says: a folder of their own for each scene, capture and way to run it.
+//! Where results go where nobody says: a folder of their own for each scene, capture and way to run
+//! it.
 //!
 //! | run | folder |
 //! | --- | --- |
@@ -44,14 +45,17 @@ pub fn of_capture(args: &ReplayArgs) -> PathBuf {
 
 fn of_core(args: &CoreArgs) -> Vec<String> {
     let core = (args.fidelity() != Fidelity::Fixed).then(|| args.fidelity().name().to_string());
-    core.into_iter().chain(args.profile.as_deref().and_then(|profile| stem(Path::new(profile)))).collect()
+    core.into_iter()
+        .chain(args.profile.as_deref().and_then(|profile| stem(Path::new(profile))))
+        .collect()
 }
 
 fn stem(path: &Path) -> Option<String> {
     path.file_stem().map(|stem| stem.to_string_lossy().into_owned())
 }
 
-/// `out` and a name of these words; where it cannot hold them as they are, it ends with a number that they alone have.
+/// `out` and a name of these words; where it cannot hold them as they are, it ends with a number
+/// that they alone have.
 fn folder(words: &[String]) -> PathBuf {
     let whole = words.join("-");
     let plain = |c: char| if c.is_ascii_alphanumeric() || "-_.=".contains(c) { c } else { '_' };
@@ -79,7 +83,8 @@ mod tests {
     fn every_run_has_a_folder_of_its_own() {
         assert_eq!(name(&["fig6"]), "out/fig6");
         assert_eq!(name(&["fig6", "pad.0.load_g=50"]), "out/fig6-pad.0.load_g=50");
-        let [a, b] = ["[0, 1]", "[0. 1]"].map(|place| name(&["fig6", &format!("pad.0.position_mm={place}")]));
+        let [a, b] = ["[0, 1]", "[0. 1]"]
+            .map(|place| name(&["fig6", &format!("pad.0.position_mm={place}")]));
         assert!(a.starts_with("out/fig6-pad.0.position_mm=_0__1_-") && a != b, "{a} {b}");
         assert!(name(&["x", &"y".repeat(1000)]).len() < 120);
     }

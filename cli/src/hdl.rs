@@ -22,7 +22,8 @@ const PROFILE: &str = "standard";
 /// Prints the core, or a whole board, into the folder.
 ///
 /// # Errors
-/// No such profile or board, a board that cannot serve the profile, or a folder that cannot be written.
+/// No such profile or board, a board that cannot serve the profile, or a folder that cannot be
+/// written.
 pub fn run(args: &HdlArgs) -> Result<bool> {
     let board = args.board.as_deref().map(str::parse::<Target>).transpose().context("--board")?;
     let name = board.map_or(PROFILE, Target::profile_name);
@@ -43,14 +44,19 @@ pub fn run(args: &HdlArgs) -> Result<bool> {
 /// The core: a file for each module, and what a bench must know of it.
 fn write_core(output: &Output, profile: &Profile) -> Result<String> {
     let design = header::design(profile);
-    design.modules.iter().try_for_each(|file| output.write(&format!("{}.v", file.name), &file.text))?;
+    design
+        .modules
+        .iter()
+        .try_for_each(|file| output.write(&format!("{}.v", file.name), &file.text))?;
     output.write(header::NAME, &header::of_core(profile, &design))?;
     Ok(design.top().to_owned())
 }
 
 /// A board: its Verilog, its constraints, and the script that makes its bitstream.
 fn write_board(output: &Output, board: Target, profile: &Profile) -> Result<String> {
-    let top = board.top_of(profile).with_context(|| format!("board {}, profile {}", board.name(), profile.name))?;
+    let top = board
+        .top_of(profile)
+        .with_context(|| format!("board {}, profile {}", board.name(), profile.name))?;
     output.write("top.v", &component::verilog(&top))?;
     let (name, constraints) = board.constraints();
     output.write(&name, &constraints)?;
@@ -67,7 +73,8 @@ fn script(board: Target) -> &'static str {
 
 fn print_result(args: &HdlArgs, profile: &Profile, top: &str, files: &[PathBuf]) -> Result<bool> {
     if args.json {
-        let told = json!({ "profile": profile.name, "board": args.board, "top": top, "files": files });
+        let told =
+            json!({ "profile": profile.name, "board": args.board, "top": top, "files": files });
         say!("{}", serde_json::to_string_pretty(&told)?);
         return Ok(true);
     }

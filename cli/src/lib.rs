@@ -32,8 +32,8 @@ use args::{Args, Command};
 use clap::Parser;
 use hapticore_run::interrupt;
 
-/// Runs the command line. The exit code is 0 where all criteria hold, 1 where one fails, 2 on bad input, and 130 where the
-/// run was told to stop.
+/// Runs the command line. The exit code is 0 where all criteria hold, 1 where one fails, 2 on bad
+/// input, and 130 where the run was told to stop.
 pub fn main() -> ExitCode {
     let args = Args::parse();
     interrupt::listen();

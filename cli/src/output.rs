@@ -11,7 +11,8 @@ use hapticore_host::{COLUMNS, QUANTITIES};
 
 use hapticore_run::record::{Record, Row, Truth};
 
-/// What a scene adds behind the truth: the case's name, the point of its sweep, and what no frame has.
+/// What a scene adds behind the truth: the case's name, the point of its sweep, and what no frame
+/// has.
 const OF_SCENE: [&str; 4] = ["case", "point", "true_load_g", "true_friction_n"];
 
 /// The last columns of a scene: one or zero.
@@ -31,7 +32,8 @@ impl Output {
     /// # Errors
     /// It cannot be made or written to.
     pub fn new(folder: &Path) -> Result<Self> {
-        let folder = AtomicFolder::create(folder).with_context(|| format!("--out {}", folder.display()))?;
+        let folder =
+            AtomicFolder::create(folder).with_context(|| format!("--out {}", folder.display()))?;
         Ok(Output { folder })
     }
 
@@ -56,7 +58,10 @@ impl Output {
     pub fn write_script(&self, name: &str, text: &str) -> Result<()> {
         self.write(name, text)?;
         #[cfg(unix)]
-        fs::set_permissions(self.partial_path().join(name), std::os::unix::fs::PermissionsExt::from_mode(0o755))?;
+        fs::set_permissions(
+            self.partial_path().join(name),
+            std::os::unix::fs::PermissionsExt::from_mode(0o755),
+        )?;
         Ok(())
     }
 
@@ -76,7 +81,8 @@ impl Output {
         }
         for entry in fs::read_dir(self.folder.path())?.flatten() {
             if is_of_waves(&entry.file_name().to_string_lossy()) {
-                fs::remove_file(entry.path()).with_context(|| entry.path().display().to_string())?;
+                fs::remove_file(entry.path())
+                    .with_context(|| entry.path().display().to_string())?;
             }
         }
         Ok(())
@@ -116,8 +122,8 @@ impl Frames {
     /// It cannot be written, as below.
     pub fn create(output: &Output, scene: Option<OfScene>) -> Result<Self> {
         let path = output.folder.path().join("frames.csv");
-        let file =
-            File::create(output.partial_path().join("frames.csv")).with_context(|| path.display().to_string())?;
+        let file = File::create(output.partial_path().join("frames.csv"))
+            .with_context(|| path.display().to_string())?;
         let mut frames = Frames { file: BufWriter::new(file), path, scene };
         frames.header().with_context(|| frames.path.display().to_string())?;
         Ok(frames)
@@ -126,7 +132,9 @@ impl Frames {
     fn header(&mut self) -> io::Result<()> {
         write!(self.file, "{}", COLUMNS.join(","))?;
         if let Some(scene) = &self.scene {
-            QUANTITIES.iter().try_for_each(|quantity| write!(self.file, ",true_{}", quantity.name))?;
+            QUANTITIES
+                .iter()
+                .try_for_each(|quantity| write!(self.file, ",true_{}", quantity.name))?;
             write!(self.file, ",{}", OF_SCENE.join(","))?;
             scene.swept.iter().try_for_each(|name| write!(self.file, ",set_{name}"))?;
             write!(self.file, ",{}", TRUE_FLAGS.join(","))?;

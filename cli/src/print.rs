@@ -17,7 +17,8 @@ pub fn table(head: &[&str], rows: &[Vec<String>]) -> String {
         0 => head[column],
         _ => rows[row - 1].get(column).map_or("", String::as_str),
     };
-    let width = |column| (0..=rows.len()).map(|row| cells(row, column).chars().count()).max().unwrap_or(0);
+    let width =
+        |column| (0..=rows.len()).map(|row| cells(row, column).chars().count()).max().unwrap_or(0);
     let widths: Vec<usize> = (0..head.len()).map(width).collect();
     let is_number = |text: &str| text.starts_with(|c: char| c.is_ascii_digit() || c == '-');
     let pad = |text: &str, width: usize| {
@@ -25,7 +26,8 @@ pub fn table(head: &[&str], rows: &[Vec<String>]) -> String {
         if is_number(text) { space + text } else { text.to_string() + &space }
     };
     let line = |row| {
-        let line: Vec<_> = (0..head.len()).map(|column| pad(cells(row, column), widths[column])).collect();
+        let line: Vec<_> =
+            (0..head.len()).map(|column| pad(cells(row, column), widths[column])).collect();
         line.join("  ").trim_end().to_string() + "\n"
     };
     (0..=rows.len()).map(line).collect()
@@ -35,7 +37,11 @@ pub fn table(head: &[&str], rows: &[Vec<String>]) -> String {
 pub fn effects_line<'a>(effects: impl Iterator<Item = (&'static str, &'a str)>) -> String {
     let mut words: Vec<String> = Vec::new();
     for (name, level) in effects {
-        let word = if level.is_empty() || level == "on" { name.to_string() } else { format!("{name} {level}") };
+        let word = if level.is_empty() || level == "on" {
+            name.to_string()
+        } else {
+            format!("{name} {level}")
+        };
         if !words.contains(&word) {
             words.push(word);
         }
@@ -74,12 +80,19 @@ pub fn finish(record: &Record, files: &[PathBuf]) {
 
 fn effects(effects: &[Effect], wall_seconds: f64) -> String {
     let row = |effect: &Effect| {
-        let error = effect.finer.as_ref().map_or(String::new(), |(finer, percent)| off(*percent, finer));
+        let error =
+            effect.finer.as_ref().map_or(String::new(), |(finer, percent)| off(*percent, finer));
         let share = format!("{} %", number(100.0 * effect.seconds / wall_seconds));
         vec![effect.name.clone(), effect.level.clone(), error, number(effect.seconds), share]
     };
     table(
-        &["effect", "fidelity level", "difference from finer level", "wall seconds", "share of run"],
+        &[
+            "effect",
+            "fidelity level",
+            "difference from finer level",
+            "wall seconds",
+            "share of run",
+        ],
         &effects.iter().map(row).collect::<Vec<_>>(),
     )
 }
@@ -92,21 +105,33 @@ pub fn off(percent: f64, finer: &str) -> String {
 fn criteria(criteria: &[Criterion]) -> String {
     let row = |criterion: &Criterion| {
         let with_unit = |value| format!("{} {}", number(value), criterion.unit);
-        let baseline =
-            criterion.baseline.as_ref().map_or(String::new(), |(name, value)| format!("{name}: {}", with_unit(*value)));
+        let baseline = criterion
+            .baseline
+            .as_ref()
+            .map_or(String::new(), |(name, value)| format!("{name}: {}", with_unit(*value)));
         let (measured, limit) = (with_unit(criterion.measured), with_unit(criterion.limit));
         match (criterion.applicable, criterion.pass) {
-            (false, _) => vec![criterion.name.clone(), String::new(), limit, "not applicable".into()],
+            (false, _) => {
+                vec![criterion.name.clone(), String::new(), limit, "not applicable".into()]
+            }
             (true, true) => vec![criterion.name.clone(), measured, limit, "pass".into(), baseline],
             (true, false) => vec![criterion.name.clone(), measured, limit, "FAIL".into(), baseline],
         }
     };
-    table(&["criterion", "measured", "limit", "", "for comparison"], &criteria.iter().map(row).collect::<Vec<_>>())
+    table(
+        &["criterion", "measured", "limit", "", "for comparison"],
+        &criteria.iter().map(row).collect::<Vec<_>>(),
+    )
 }
 
 fn errors(errors: &[SignalError]) -> String {
     let row = |error: &SignalError| {
-        vec![error.signal.clone(), error.format.clone(), number(error.max_error), number(error.max_codes)]
+        vec![
+            error.signal.clone(),
+            error.format.clone(),
+            number(error.max_error),
+            number(error.max_codes),
+        ]
     };
     table(
         &["signal", "format", "largest rounding error", "in codes (LSB)"],
@@ -116,10 +141,14 @@ fn errors(errors: &[SignalError]) -> String {
 
 /// A calibration's results, one line each.
 pub fn calibration_lines(outcome: &Outcome) -> Vec<String> {
-    let raster =
-        outcome.columns.map_or("scattered".into(), |columns| format!("{columns} × {}", outcome.places / columns));
+    let raster = outcome
+        .columns
+        .map_or("scattered".into(), |columns| format!("{columns} × {}", outcome.places / columns));
     let mut lines = vec![
-        format!("{} places ({raster}), {} terminals, profile {}", outcome.places, outcome.terminals, outcome.profile),
+        format!(
+            "{} places ({raster}), {} terminals, profile {}",
+            outcome.places, outcome.terminals, outcome.profile
+        ),
         format!("position table: {}", outcome.own_places.text()),
         format!("every other position held out of the table: {}", outcome.held_out.errors()),
     ];
@@ -131,7 +160,11 @@ pub fn calibration_lines(outcome: &Outcome) -> Vec<String> {
             number(1e3 * force.noise_n)
         ));
         lines.extend(force.mu.map(|mu| format!("mu = {}", estimate(mu))));
-        lines.extend(force.current_scale.map(|scale| format!("current_full_scale_a times {}", estimate(scale))));
+        lines.extend(
+            force
+                .current_scale
+                .map(|scale| format!("current_full_scale_a times {}", estimate(scale))),
+        );
     }
     lines
 }

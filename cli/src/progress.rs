@@ -13,11 +13,13 @@ pub fn bar(steps: Option<u64>, quiet: bool) -> ProgressBar {
     match steps {
         Some(steps) => {
             let template = "{bar:40} {pos}/{len} slots, {eta} left";
-            ProgressBar::new(steps).with_style(ProgressStyle::with_template(template).expect("a valid template"))
+            ProgressBar::new(steps)
+                .with_style(ProgressStyle::with_template(template).expect("a valid template"))
         }
         None => {
             let template = "{spinner} {pos} slots";
-            ProgressBar::new_spinner().with_style(ProgressStyle::with_template(template).expect("a valid template"))
+            ProgressBar::new_spinner()
+                .with_style(ProgressStyle::with_template(template).expect("a valid template"))
         }
     }
 }

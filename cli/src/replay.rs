@@ -39,7 +39,11 @@ pub fn run(args: &ReplayArgs) -> Result<bool> {
     };
     let profile = inputs::buildable(device.profile(&profile)?)?;
     let adc = Adc { terminals: profile.terminals.x.len(), format: profile.formats.adc };
-    let described = Described { channels: args.channels.clone(), bits: args.bits, full_scale_v: args.full_scale_v };
+    let described = Described {
+        channels: args.channels.clone(),
+        bits: args.bits,
+        full_scale_v: args.full_scale_v,
+    };
     let mut source = capture::open(&args.capture, adc, &described)?;
     let pads = args.pads.unwrap_or(device.pads);
     let profile = Arc::new(serving(&profile, pads as usize));
@@ -47,7 +51,11 @@ pub fn run(args: &ReplayArgs) -> Result<bool> {
     let name = args.capture.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let folder = args.out.clone().unwrap_or_else(|| folder::of_capture(args));
     let output = Output::new(&folder)?;
-    let named = || calibration.as_ref().map_or("the nominal calibration".into(), |path| path.display().to_string());
+    let named = || {
+        calibration
+            .as_ref()
+            .map_or("the nominal calibration".into(), |path| path.display().to_string())
+    };
     let mut replay = Replay::new(args, &profile, &device, &output).with_context(named)?;
     let left = replay.run(source.as_mut(), args.core.json)?;
     let mut record = replay.finish(name, &profile, args)?;
@@ -113,11 +121,22 @@ struct Replay {
 }
 
 impl Replay {
-    fn new(args: &ReplayArgs, profile: &Arc<Profile>, device: &DeviceCalibration, output: &Output) -> Result<Self> {
+    fn new(
+        args: &ReplayArgs,
+        profile: &Arc<Profile>,
+        device: &DeviceCalibration,
+        output: &Output,
+    ) -> Result<Self> {
         let clock = SlotClock::new(profile, device.device.sample_rate_hz, 0.0);
         let channels = profile.channels();
         Ok(Replay {
-            session: Session::new(profile, device, args.core.fidelity(), args.core.errors, (0, clock))?,
+            session: Session::new(
+                profile,
+                device,
+                args.core.fidelity(),
+                args.core.errors,
+                (0, clock),
+            )?,
             frames: Frames::create(output, None)?,
             rows: Thinned::default(),
             clock,
@@ -152,7 +171,11 @@ impl Replay {
             }
         }
         let (samples, got) = (self.slot_codes / self.channels, codes.len() / self.channels);
-        ensure!(self.slots > 0, "{}: expected samples of one slot at least, {samples}, got {got}", source.place());
+        ensure!(
+            self.slots > 0,
+            "{}: expected samples of one slot at least, {samples}, got {got}",
+            source.place()
+        );
         let last = self.session.finish();
         last.into_iter().try_for_each(|row| self.row(row))?;
         bar.finish_and_clear();
@@ -185,7 +208,8 @@ impl Replay {
     /// Says where the core's window is too short for the haptic voltage that was recorded.
     fn haptic_warning(&self, profile: &Profile) -> Option<String> {
         let full_scale = 1.0 / profile.formats.adc.lsb();
-        let (Ok(frequency) | Err(frequency)) = self.meter.frequency(full_scale)?.map_err(|samples| 1.0 / samples);
+        let (Ok(frequency) | Err(frequency)) =
+            self.meter.frequency(full_scale)?.map_err(|samples| 1.0 / samples);
         haptic::warning(profile, frequency * self.sample_rate_hz, self.sample_rate_hz)
     }
 

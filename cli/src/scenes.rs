@@ -25,8 +25,10 @@ struct Listed {
 /// # Errors
 /// None, but for a scene that is broken.
 pub fn run(args: &ScenesArgs) -> Result<bool> {
-    let listed =
-        gallery::all().iter().map(|(name, _)| Ok(list(&inputs::scene(name, &[])?))).collect::<Result<Vec<_>>>()?;
+    let listed = gallery::all()
+        .iter()
+        .map(|(name, _)| Ok(list(&inputs::scene(name, &[])?)))
+        .collect::<Result<Vec<_>>>()?;
     if args.json {
         say!("{}", serde_json::to_string_pretty(&listed)?);
     } else {
@@ -36,7 +38,10 @@ pub fn run(args: &ScenesArgs) -> Result<bool> {
         };
         console::print(format_args!(
             "{}",
-            print::table(&["scene", "title", "cases", "effects"], &listed.iter().map(row).collect::<Vec<_>>())
+            print::table(
+                &["scene", "title", "cases", "effects"],
+                &listed.iter().map(row).collect::<Vec<_>>()
+            )
         ));
     }
     Ok(true)

@@ -44,7 +44,12 @@ pub fn run(args: &SimulateArgs) -> Result<bool> {
 }
 
 /// Runs a scene and writes everything; what it left, and the files.
-fn write(args: &SimulateArgs, scene: &Scene, profile: &Profile, folder: &Path) -> Result<(Record, Vec<PathBuf>)> {
+fn write(
+    args: &SimulateArgs,
+    scene: &Scene,
+    profile: &Profile,
+    folder: &Path,
+) -> Result<(Record, Vec<PathBuf>)> {
     let cases = cases(args, scene, profile)?;
     let output = Output::new(folder)?;
     let capture = capture_path(args, scene, folder);
@@ -53,7 +58,13 @@ fn write(args: &SimulateArgs, scene: &Scene, profile: &Profile, folder: &Path) -
     announce(args, scene, &cases)?;
     let (record, recorder) = simulate(args, scene, &cases, recorder)?;
     if let Some(kind) = wave_kind(args, scene) {
-        waves::trace(&cases[0], kind, args.waves_window.as_ref(), output.partial_path(), args.core.json)?;
+        waves::trace(
+            &cases[0],
+            kind,
+            args.waves_window.as_ref(),
+            output.partial_path(),
+            args.core.json,
+        )?;
     }
     let of_scene = OfScene { cases: record.cases.clone(), swept: record.swept.clone() };
     let mut frames = Frames::create(&output, Some(of_scene))?;
@@ -78,7 +89,8 @@ fn cases<'a>(args: &SimulateArgs, scene: &'a Scene, profile: &Profile) -> Result
     if let Some(unknown) = args.case.iter().find(|name| !names.contains(&name.as_str())) {
         anyhow::bail!("--case: expected a case among {}, got \"{unknown}\"", names.join(", "));
     }
-    let chosen = |index: &usize| args.case.is_empty() || args.case.iter().any(|name| name == names[*index]);
+    let chosen =
+        |index: &usize| args.case.is_empty() || args.case.iter().any(|name| name == names[*index]);
     let mut cases: Vec<Case> = Vec::new();
     for index in (0..names.len()).filter(chosen) {
         let start_s = cases.iter().map(Case::seconds).sum();
@@ -94,7 +106,8 @@ fn capture_path(args: &SimulateArgs, scene: &Scene, folder: &Path) -> Option<Pat
     args.capture.clone().or(wanted)
 }
 
-/// Checks that neither a capture nor its calibration would be in the way of what the run writes itself.
+/// Checks that neither a capture nor its calibration would be in the way of what the run writes
+/// itself.
 fn check_capture(path: &Path, folder: &Path) -> Result<()> {
     let calibration = capture::calibration_path(path);
     ensure!(
@@ -103,7 +116,10 @@ fn check_capture(path: &Path, folder: &Path) -> Result<()> {
         calibration.display()
     );
     let of = path.parent().filter(|of| !of.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let same = of.canonicalize().ok().is_some_and(|of| folder.canonicalize().is_ok_and(|folder| folder == of));
+    let same = of
+        .canonicalize()
+        .ok()
+        .is_some_and(|of| folder.canonicalize().is_ok_and(|folder| folder == of));
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     ensure!(
         !(same && is_of_a_run(&name)),
@@ -138,12 +154,17 @@ fn wave_kind(args: &SimulateArgs, scene: &Scene) -> Option<Kind> {
 
 fn announce(args: &SimulateArgs, scene: &Scene, cases: &[Case]) -> Result<()> {
     let window = args.waves_window.as_ref();
-    let waves = wave_kind(args, scene).map(|kind| waves::extent(&cases[0], kind, window)).transpose()?;
-    waves.iter().filter(|waves| waves.is_large()).for_each(|waves| console::warn(&waves.to_string()));
+    let waves =
+        wave_kind(args, scene).map(|kind| waves::extent(&cases[0], kind, window)).transpose()?;
+    waves
+        .iter()
+        .filter(|waves| waves.is_large())
+        .for_each(|waves| console::warn(&waves.to_string()));
     if args.core.json {
         return Ok(());
     }
-    let (slots, seconds) = (cases.iter().map(|case| case.slots).sum::<usize>(), cases.iter().map(Case::seconds).sum());
+    let (slots, seconds) =
+        (cases.iter().map(|case| case.slots).sum::<usize>(), cases.iter().map(Case::seconds).sum());
     say!("{}", scene.title);
     say!(
         "core {} · profile {} · {} cases · {slots} slots · {} s",
@@ -152,7 +173,10 @@ fn announce(args: &SimulateArgs, scene: &Scene, cases: &[Case]) -> Result<()> {
         cases.len(),
         print::number(seconds)
     );
-    say!("effects: {}", print::effects_line(cases.iter().flat_map(|case| scene.cases[case.index].effects())));
+    say!(
+        "effects: {}",
+        print::effects_line(cases.iter().flat_map(|case| scene.cases[case.index].effects()))
+    );
     waves.iter().filter(|waves| !waves.is_large()).for_each(|waves| say!("{waves}"));
     Ok(())
 }
@@ -160,14 +184,22 @@ fn announce(args: &SimulateArgs, scene: &Scene, cases: &[Case]) -> Result<()> {
 type Capture = Option<Box<dyn Recorder + Send>>;
 
 /// Runs all cases at once; what they leave together.
-fn simulate(args: &SimulateArgs, scene: &Scene, cases: &[Case], mut recorder: Capture) -> Result<(Record, Capture)> {
+fn simulate(
+    args: &SimulateArgs,
+    scene: &Scene,
+    cases: &[Case],
+    mut recorder: Capture,
+) -> Result<(Record, Capture)> {
     let start = Instant::now();
     let settings = Settings { fidelity: args.core.fidelity(), errors: args.core.errors };
     let bar = progress::bar(Some(cases.iter().map(|case| case.slots as u64).sum()), args.core.json);
     let tick = || bar.inc(1);
     let outcomes = match recorder.as_deref_mut() {
         Some(recorder) => vec![cases[0].run(&settings, Some(recorder), &tick)?],
-        None => cases.par_iter().map(|case| case.run(&settings, None, &tick)).collect::<Result<Vec<_>>>()?,
+        None => cases
+            .par_iter()
+            .map(|case| case.run(&settings, None, &tick))
+            .collect::<Result<Vec<_>>>()?,
     };
     bar.finish_and_clear();
     let mut record = gather(scene, cases, outcomes);
@@ -175,7 +207,8 @@ fn simulate(args: &SimulateArgs, scene: &Scene, cases: &[Case], mut recorder: Ca
     record.wall_seconds = start.elapsed().as_secs_f64();
     record.provenance = Provenance::of_scene(scene, &args.set);
     record.warnings.extend(haptic_warning(&record, cases));
-    let warned = record.position_table.and_then(|residual| residual.warning(position_limit_mm(scene)));
+    let warned =
+        record.position_table.and_then(|residual| residual.warning(position_limit_mm(scene)));
     record.warnings.extend(warned);
     add_errors(&mut record.effects, cases)?;
     Ok((record, recorder))
@@ -190,7 +223,8 @@ fn position_limit_mm(scene: &Scene) -> f64 {
 /// Says where the core's window is too short for the haptic voltage, in the first case where it is.
 fn haptic_warning(record: &Record, cases: &[Case]) -> Option<String> {
     let is_on = |case: &&Case| {
-        let volts = |row: &Row| row.truth.is_some_and(|truth| truth.quantities.haptic_v_rms > HAPTIC_OFF_V);
+        let volts =
+            |row: &Row| row.truth.is_some_and(|truth| truth.quantities.haptic_v_rms > HAPTIC_OFF_V);
         record.rows.iter().any(|row| row.case == case.number && volts(row))
     };
     let sampled = cases.iter().filter(|case| case.scene.cases[case.index].sampled()).filter(is_on);
@@ -204,11 +238,8 @@ fn haptic_warning(record: &Record, cases: &[Case]) -> Option<String> {
 fn gather(scene: &Scene, cases: &[Case], outcomes: Vec<Outcome>) -> Record {
     let measured = |(case, outcome): (&'_ Case, &'_ Outcome)| (case.start_s(), outcome.peak);
     let starts: Vec<_> = cases.iter().zip(&outcomes).map(measured).collect();
-    let rows = cases.iter().zip(&outcomes).zip(starts).map(|((case, outcome), (start_s, peak))| CaseRows {
-        name: case.name(),
-        start_s,
-        peak,
-        rows: &outcome.rows,
+    let rows = cases.iter().zip(&outcomes).zip(starts).map(|((case, outcome), (start_s, peak))| {
+        CaseRows { name: case.name(), start_s, peak, rows: &outcome.rows }
     });
     let criteria = criteria::measure(&scene.criteria, &rows.collect::<Vec<_>>());
     let (mut effects, mut signal_errors, mut all) = (Vec::new(), Vec::new(), Vec::new());
@@ -256,7 +287,10 @@ fn swept(scene: &Scene, cases: &[Case]) -> Vec<&'static str> {
 /// Adds what the effects of a case cost to those of the same name and level.
 fn add_effects(effects: &mut Vec<Effect>, outcome: &Outcome) {
     for cost in &outcome.effects {
-        match effects.iter_mut().find(|effect| effect.name == cost.name && effect.level == cost.level) {
+        match effects
+            .iter_mut()
+            .find(|effect| effect.name == cost.name && effect.level == cost.level)
+        {
             Some(effect) => effect.seconds += cost.seconds,
             None => effects.push(Effect {
                 name: cost.name.into(),
@@ -270,8 +304,16 @@ fn add_effects(effects: &mut Vec<Effect>, outcome: &Outcome) {
 
 /// Adds how far each level is from the next finer one: in the case where that is furthest.
 fn add_errors(effects: &mut [Effect], cases: &[Case]) -> Result<()> {
-    for error in cases.par_iter().map(Case::level_deviations).collect::<Result<Vec<_>>>()?.into_iter().flatten() {
-        let same = effects.iter_mut().find(|effect| effect.name == error.effect && effect.level == error.level);
+    for error in cases
+        .par_iter()
+        .map(Case::level_deviations)
+        .collect::<Result<Vec<_>>>()?
+        .into_iter()
+        .flatten()
+    {
+        let same = effects
+            .iter_mut()
+            .find(|effect| effect.name == error.effect && effect.level == error.level);
         let (Some(effect), Some((finer, percent))) = (same, error.finer) else { continue };
         if effect.finer.as_ref().is_none_or(|(_, known)| *known < percent) {
             effect.finer = Some((finer, percent));

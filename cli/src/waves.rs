@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Waveforms of a case: the core stepped clock by clock through a window, beside the plant's truth.
 //!
-//! The truth of a slot stands from the end of the slot to that of the next, beside the results of the slot; before the first slot
-//! has ended there is none. The window is a run of its own: the core that makes the frames is never altered by being looked at. It begins with the slot
-//! that the window begins in, or a rotation of the pads before it; what the core holds of earlier invalid slots is not there.
+//! The truth of a slot stands from the end of the slot to that of the next, beside the results of
+//! the slot; before the first slot has ended there is none. The window is a run of its own: the
+//! core that makes the frames is never altered by being looked at. It begins with the slot that the
+//! window begins in, or a rotation of the pads before it; what the core holds of earlier invalid
+//! slots is not there.
 
 use std::fmt;
 use std::ops::Range;
@@ -39,9 +41,11 @@ const LARGE_BYTES: f64 = 2e8;
 /// The load on the pad: known to the plant alone.
 const LOAD: (&str, &str) = ("load_g", "g");
 
-/// The truth beside the core's signals: quantities that waveforms name with these units, and the load.
+/// The truth beside the core's signals: quantities that waveforms name with these units, and the
+/// load.
 fn truth_variables() -> Vec<TruthVariable> {
-    let traced = traced().map(|quantity| (quantity.name, if quantity.unit == "Ω" { "Ohm" } else { quantity.unit }));
+    let traced = traced()
+        .map(|quantity| (quantity.name, if quantity.unit == "Ω" { "Ohm" } else { quantity.unit }));
     traced.chain([LOAD]).map(|(name, unit)| TruthVariable::new(name, unit)).collect()
 }
 
@@ -74,10 +78,13 @@ impl Extent {
 impl fmt::Display for Extent {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (from, to) = (number(self.seconds.start), number(self.seconds.end));
-        let (clocks, megabytes, extension) = (self.clocks, number(self.bytes / 1e6), self.kind.extension());
+        let (clocks, megabytes, extension) =
+            (self.clocks, number(self.bytes / 1e6), self.kind.extension());
         write!(f, "waves: {from} to {to} s, {clocks} clocks, about {megabytes} MB of {extension}")?;
         match self.kind {
-            Kind::Vcd if self.is_large() => write!(f, "; --waves fst takes a tenth of that, --waves-window says which"),
+            Kind::Vcd if self.is_large() => {
+                write!(f, "; --waves fst takes a tenth of that, --waves-window says which")
+            }
             _ => Ok(()),
         }
     }
@@ -95,7 +102,8 @@ pub fn extent(case: &Case, kind: Kind, window: Option<&Range<f64>>) -> Result<Ex
         bail!("--waves-window: expected a window within the case's {} s", case.seconds());
     }
     let per_clock = if kind == Kind::Vcd { VCD_BYTES_PER_CLOCK } else { FST_BYTES_PER_CLOCK };
-    let (seconds, count) = (clocks.start as f64 / clock_hz..clocks.end as f64 / clock_hz, clocks.end - clocks.start);
+    let (seconds, count) =
+        (clocks.start as f64 / clock_hz..clocks.end as f64 / clock_hz, clocks.end - clocks.start);
     Ok(Extent { seconds, clocks: count, bytes: per_clock * count as f64, kind })
 }
 
@@ -103,11 +111,18 @@ fn clock_hz(case: &Case) -> f64 {
     case.device.device.sample_rate_hz * case.profile.clocks_per_sample as f64
 }
 
-/// Writes `waves.vcd` or `waves.fst` and `waves.gtkw` into `folder`: the window in seconds, the first slots where none is named.
+/// Writes `waves.vcd` or `waves.fst` and `waves.gtkw` into `folder`: the window in seconds, the
+/// first slots where none is named.
 ///
 /// # Errors
 /// A window in which the case has no slot, a file that cannot be written, an interruption.
-pub fn trace(case: &Case, kind: Kind, window: Option<&Range<f64>>, folder: &Path, quiet: bool) -> Result<()> {
+pub fn trace(
+    case: &Case,
+    kind: Kind,
+    window: Option<&Range<f64>>,
+    folder: &Path,
+    quiet: bool,
+) -> Result<()> {
     let (profile, clock_hz) = (&case.profile, clock_hz(case));
     let clocks = clocks(case, window, clock_hz);
     let pads = profile.pads;
@@ -118,8 +133,11 @@ pub fn trace(case: &Case, kind: Kind, window: Option<&Range<f64>>, folder: &Path
     }
     let mut maker = Maker::new(case.plant()?, profile, true, true);
     let mut core = ClockSimulation::new(profile, &case.device.for_profile(profile)?);
-    let settings =
-        Settings { timebase: Timebase::of_clock(clock_hz.round() as u64)?, window: Some(clocks), clock_wire: false };
+    let settings = Settings {
+        timebase: Timebase::of_clock(clock_hz.round() as u64)?,
+        window: Some(clocks),
+        clock_wire: false,
+    };
     let truth = truth_variables();
     let name = format!("waves.{}", kind.extension());
     let mut tracer = Tracer::new(kind.create(&folder.join(&name))?, &core, &truth, &settings)?;
@@ -135,7 +153,9 @@ pub fn trace(case: &Case, kind: Kind, window: Option<&Range<f64>>, folder: &Path
         if slot >= first {
             interrupt::check()?;
             if let Some(truth) = &finished {
-                truth_values(truth).enumerate().for_each(|(index, value)| tracer.set_truth(index, value));
+                truth_values(truth)
+                    .enumerate()
+                    .for_each(|(index, value)| tracer.set_truth(index, value));
             }
             if let (Signals::Samples { codes, .. }, _) = maker.sample(slot as usize) {
                 step(&mut core, &mut tracer, &codes, profile.channels())?;
@@ -147,16 +167,26 @@ pub fn trace(case: &Case, kind: Kind, window: Option<&Range<f64>>, folder: &Path
     Ok(gtkwave::save(&View::bundled("slot")?, &trace, &name, &folder.join("waves.gtkw"))?)
 }
 
-/// The clocks to trace: by default the first slots and as much of the next as it takes for their frames to be there.
+/// The clocks to trace: by default the first slots and as much of the next as it takes for their
+/// frames to be there.
 fn clocks(case: &Case, window: Option<&Range<f64>>, clock_hz: f64) -> Range<u64> {
     let profile = &case.profile;
     match window {
-        Some(seconds) => (seconds.start * clock_hz).floor() as u64..(seconds.end * clock_hz).ceil() as u64,
-        None => 0..SLOTS * profile.slot_clocks() + profile.slot.blanking() * profile.clocks_per_sample,
+        Some(seconds) => {
+            (seconds.start * clock_hz).floor() as u64..(seconds.end * clock_hz).ceil() as u64
+        }
+        None => {
+            0..SLOTS * profile.slot_clocks() + profile.slot.blanking() * profile.clocks_per_sample
+        }
     }
 }
 
-fn step<W: Wave>(core: &mut ClockSimulation, tracer: &mut Tracer<W>, codes: &[i32], channels: usize) -> Result<()> {
+fn step<W: Wave>(
+    core: &mut ClockSimulation,
+    tracer: &mut Tracer<W>,
+    codes: &[i32],
+    channels: usize,
+) -> Result<()> {
     let mut outcome = Ok(());
     for codes in codes.chunks_exact(channels) {
         core.sample_with(codes, |core| {

@@ -6,7 +6,12 @@ use std::error::Error;
 use std::io::{self, BufReader, Read, Write};
 
 /// Converts until the bytes end; damaged packets are told on standard error.
-pub fn convert(profile: &str, calibration: &str, bytes: impl Read, csv: impl Write) -> Result<(), Box<dyn Error>> {
+pub fn convert(
+    profile: &str,
+    calibration: &str,
+    bytes: impl Read,
+    csv: impl Write,
+) -> Result<(), Box<dyn Error>> {
     let device = DeviceCalibration::read(calibration.as_ref())?;
     let profile = device.profile(&profile::load(profile)?)?;
     let (mut decoder, mut readout) = (Decoder::new(&profile), Readout::new(&profile, &device));
@@ -18,7 +23,10 @@ pub fn convert(profile: &str, calibration: &str, bytes: impl Read, csv: impl Wri
             Some(Ok(Message::Frame(packet))) => {
                 let (measured, flags) = readout.convert(&packet.frame.measurement(&profile));
                 let time_and_pad = [clock.time_of(packet.status.sequence), packet.frame.pad as f64];
-                let numbers = time_and_pad.into_iter().chain(measured.values()).map(|number| number.to_string());
+                let numbers = time_and_pad
+                    .into_iter()
+                    .chain(measured.values())
+                    .map(|number| number.to_string());
                 csv.write_record(numbers.chain([flags]))?;
                 csv.flush()?;
             }

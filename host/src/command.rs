@@ -35,7 +35,8 @@ impl Command {
     pub const ENABLE: Command = Command::Register(Register::Control, 1 << Control::ENABLE);
     /// What switches it off.
     pub const DISABLE: Command = Command::Register(Register::Control, 0);
-    /// What switches it off and holds the ADC in reset, until the next command to the control register.
+    /// What switches it off and holds the ADC in reset, until the next command to the control
+    /// register.
     pub const RESET_ADC: Command = Command::Register(Register::Control, 1 << Control::ADC_RESET);
 
     /// The bytes, for a board of the profile.
@@ -60,7 +61,9 @@ impl Command {
 /// # Ok::<(), hapticore_host::ProfileError>(())
 /// ```
 pub fn encode(commands: &[Command], profile: &Profile) -> Vec<u8> {
-    std::iter::once(END).chain(commands.iter().flat_map(|command| command.encode(profile))).collect()
+    std::iter::once(END)
+        .chain(commands.iter().flat_map(|command| command.encode(profile)))
+        .collect()
 }
 
 #[cfg(test)]

@@ -5,10 +5,11 @@ use crate::line::{Collector, Damage};
 use crate::packet::{Layout, Message};
 use hapticore_contract::profile::Profile;
 
-/// Makes messages of bytes as they come. What it has lost it says, and the next END puts it right; it keeps at most one packet.
+/// Makes messages of bytes as they come. What it has lost it says, and the next END puts it right;
+/// it keeps at most one packet.
 ///
-/// Whoever begins to listen in the middle of a packet hears of one damaged packet first. A packet that is damaged passes for a
-/// good one with the probability of its CRC, 1 in 65,536.
+/// Whoever begins to listen in the middle of a packet hears of one damaged packet first. A packet
+/// that is damaged passes for a good one with the probability of its CRC, 1 in 65,536.
 ///
 /// ```
 /// use hapticore_host::{Decoder, Heartbeat, Message, Profile, Status};
@@ -39,7 +40,12 @@ impl Decoder {
     /// Takes a byte; gives a message, or what became of it, at its END.
     pub fn push(&mut self, byte: u8) -> Option<Result<Message, Damage>> {
         match self.collector.push(byte)? {
-            Ok(bytes) if bytes.len() < self.collector.length() && self.layout.is_cut_heartbeat(&bytes) => None,
+            Ok(bytes)
+                if bytes.len() < self.collector.length()
+                    && self.layout.is_cut_heartbeat(&bytes) =>
+            {
+                None
+            }
             Ok(bytes) => Some(self.message(&bytes)),
             Err(damage) => Some(Err(damage)),
         }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What a PC beside a board needs, and nothing else: no simulator, no command, no Verilog.
 //!
-//! A board sends bytes. This library finds packets in them, turns the core's words into volts, picofarads, millimetres and
-//! newtons, and takes out what the pads did to each other; the other way, it sends a device's calibration to the board.
+//! A board sends bytes. This library finds packets in them, turns the core's words into volts,
+//! picofarads, millimetres and newtons, and takes out what the pads did to each other; the other
+//! way, it sends a device's calibration to the board.
 //!
 //! ```text
 //! board ── bytes ─ Decoder ─ Packet ─ Readout ─┬─ Units ─ CrosstalkCanceller ─ Placement ── Quantities, flags
@@ -21,7 +22,8 @@
 //! | [`placement`] | pads at the edge, pads that touch |
 //! | [`readout`] | all of that in one: a frame to a row of `frames.csv` |
 //!
-//! The numbers of the line itself (framing, registers, version) are `hapticore-protocol`'s, which the gateware shares.
+//! The numbers of the line itself (framing, registers, version) are `hapticore-protocol`'s, which
+//! the gateware shares.
 //!
 //! # A first example
 //!
@@ -42,7 +44,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! `examples/board_to_csv.rs` is the same as a program: bytes on standard input, CSV on standard output.
+//! `examples/board_to_csv.rs` is the same as a program: bytes on standard input, CSV on standard
+//! output.
 
 pub mod command;
 pub mod crosstalk;
@@ -61,7 +64,9 @@ pub mod typed;
 pub mod units;
 
 pub use command::{Command, encode};
-pub use crosstalk::{CrosstalkCanceller, NominalSheet, PadEstimate, Ratios, SheetModel, UniformSheet};
+pub use crosstalk::{
+    CrosstalkCanceller, NominalSheet, PadEstimate, Ratios, SheetModel, UniformSheet,
+};
 pub use decoder::Decoder;
 pub use device::{DeviceCalibration, DeviceError, Found, Raster, Scales, Signs, found, open_share};
 pub use line::Damage;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The line: payloads in a stream of bytes, with CRC and escapes. Format: [`hapticore_protocol::framing`].
+//! The line: payloads in a stream of bytes, with CRC and escapes. Format:
+//! [`hapticore_protocol::framing`].
 
 use crc::{CRC_16_IBM_3740, Crc};
 use hapticore_protocol::framing::{CRC_BYTES, END, ESC, ESC_END, ESC_ESC};

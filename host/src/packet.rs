@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Packets: the payloads of the board's line, as bits and bytes.
 //!
-//! `Layout` goes both ways between a [`Message`] and its payload; [`crate::decoder`] finds payloads in a stream of bytes.
-//! Boards encode by gateware, which shares nothing with this but the constants of [`hapticore_protocol::framing`]; the encoder
-//! here serves tests and programs that stand in for a board.
+//! `Layout` goes both ways between a [`Message`] and its payload; [`crate::decoder`] finds payloads
+//! in a stream of bytes. Boards encode by gateware, which shares nothing with this but the
+//! constants of [`hapticore_protocol::framing`]; the encoder here serves tests and programs that
+//! stand in for a board.
 
 use bitvec::prelude::{BitArray, Lsb0};
 use bitvec::view::BitView;
@@ -80,12 +81,13 @@ impl Heartbeat {
     pub fn new(status: Status, profile: &Profile) -> Self {
         let layout = Layout::new(profile);
         let mut words = Words::default();
-        words[Register::Control.number()] = layout.word(hapticore_protocol::framing::digest(profile).into());
+        words[Register::Control.number()] =
+            layout.word(hapticore_protocol::framing::digest(profile).into());
         Heartbeat { status, calibrated: false, version: VERSION, words, bits: layout.register_bits }
     }
 
-    /// The low bits of what was last written into a constant's register, as many as fit a word of a frame, and how many these
-    /// are; none of the other registers, which heartbeats do not tell.
+    /// The low bits of what was last written into a constant's register, as many as fit a word of a
+    /// frame, and how many these are; none of the other registers, which heartbeats do not tell.
     pub fn register(&self, register: Register) -> Option<(u64, u8)> {
         let word = self.words[register.number()] as u64 & ((1 << self.bits) - 1);
         matches!(register, Register::Constant(_)).then_some((word, self.bits))
@@ -96,7 +98,8 @@ impl Heartbeat {
         self.words[Register::Control.number()] as u16
     }
 
-    /// What the ADC put out while the last word was sent to it: the register that the word before has read.
+    /// What the ADC put out while the last word was sent to it: the register that the word before
+    /// has read.
     pub fn adc_answer(&self) -> u8 {
         // A bit more has come in than the word has.
         (self.words[Register::Adc.number()] >> 1) as u8
@@ -166,15 +169,19 @@ impl Layout {
         STATUS_BYTES as usize + Field::ALL.len() * self.word_bytes
     }
 
-    /// Whether these are the first bytes of a heartbeat that ended early because one of its words was written.
+    /// Whether these are the first bytes of a heartbeat that ended early because one of its words
+    /// was written.
     pub fn is_cut_heartbeat(&self, bytes: &[u8]) -> bool {
-        let is_heartbeat = |flags: &u8| flags >> flags::HEARTBEAT & 1 != 0 && flags >> flags::VERSION & 7 == VERSION;
+        let is_heartbeat = |flags: &u8| {
+            flags >> flags::HEARTBEAT & 1 != 0 && flags >> flags::VERSION & 7 == VERSION
+        };
         bytes.get(STATUS_BYTES as usize - 1).is_some_and(is_heartbeat)
     }
 
     /// What a payload of the right length says; the number of the pad where there is no such pad.
     pub fn message(&self, payload: &[u8]) -> Result<Message, u8> {
-        let (&[sequence, pad, bits], words) = payload.split_first_chunk().expect("the length was checked");
+        let (&[sequence, pad, bits], words) =
+            payload.split_first_chunk().expect("the length was checked");
         let words = words.chunks_exact(self.word_bytes).map(signed).collect::<Vec<_>>();
         let words = Words::try_from(words).expect("the length was checked");
         let (commands, pad) = (pad >> 4, pad & 0xf);
@@ -203,8 +210,14 @@ impl Layout {
             Message::Heartbeat(heartbeat) => (&heartbeat.status, 0, &heartbeat.words),
         };
         let mut bits = BitArray::<u8, Lsb0>::ZERO;
-        let set = [(flags::LATE, status.late), (flags::REFUSED, status.refused), (flags::OVERRUN, status.overrun)];
-        set.into_iter().chain(self.own_flags(message)).for_each(|(flag, is)| bits.set(usize::from(flag), is));
+        let set = [
+            (flags::LATE, status.late),
+            (flags::REFUSED, status.refused),
+            (flags::OVERRUN, status.overrun),
+        ];
+        set.into_iter()
+            .chain(self.own_flags(message))
+            .for_each(|(flag, is)| bits.set(usize::from(flag), is));
         let mut payload = vec![status.sequence, status.commands << 4 | pad, bits.into_inner()];
         words.iter().for_each(|word| payload.extend(&word.to_be_bytes()[8 - self.word_bytes..]));
         payload
@@ -220,7 +233,8 @@ impl Layout {
                 (flags::LOST, flags.lost),
             ],
             Message::Heartbeat(Heartbeat { calibrated, version, .. }) => {
-                let version = version.view_bits::<Lsb0>()[..3].iter().by_vals().zip(flags::VERSION..);
+                let version =
+                    version.view_bits::<Lsb0>()[..3].iter().by_vals().zip(flags::VERSION..);
                 let own = [(flags::HEARTBEAT, true), (flags::CALIBRATED, *calibrated)];
                 own.into_iter().chain(version.map(|(is, flag)| (flag, is))).collect()
             }

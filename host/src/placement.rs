@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Flags of the host's own: pads at the sheet's edge and pads that touch. The core knows neither the sheet's size nor the pads'.
+//! Flags of the host's own: pads at the sheet's edge and pads that touch. The core knows neither
+//! the sheet's size nor the pads'.
 //!
 //! | flag | is set where |
 //! | --- | --- |
@@ -25,8 +26,12 @@ pub struct Placement {
 impl Placement {
     /// Pads of a device, none read yet.
     pub fn new(device: &DeviceCalibration) -> Self {
-        let end = |axis: usize, of: fn(f64, f64) -> f64| device.map.places.iter().map(|place| place[axis]).reduce(of);
-        let ends = |axis| [end(axis, f64::min).unwrap_or(f64::NAN), end(axis, f64::max).unwrap_or(f64::NAN)];
+        let end = |axis: usize, of: fn(f64, f64) -> f64| {
+            device.map.places.iter().map(|place| place[axis]).reduce(of)
+        };
+        let ends = |axis| {
+            [end(axis, f64::min).unwrap_or(f64::NAN), end(axis, f64::max).unwrap_or(f64::NAN)]
+        };
         Placement {
             ends_mm: [ends(0), ends(1)],
             pad_diameter_mm: device.device.pad_diameter_mm,
@@ -35,9 +40,14 @@ impl Placement {
     }
 
     /// The flags of a pad that was read at a place, or at none.
-    pub fn flags(&mut self, pad: usize, at_mm: Option<[f64; 2]>) -> impl Iterator<Item = &'static str> {
+    pub fn flags(
+        &mut self,
+        pad: usize,
+        at_mm: Option<[f64; 2]>,
+    ) -> impl Iterator<Item = &'static str> {
         self.pads[pad] = at_mm;
-        let set = at_mm.map_or([false; 2], |at_mm| [self.at_edge(at_mm), self.touching(pad, at_mm)]);
+        let set =
+            at_mm.map_or([false; 2], |at_mm| [self.at_edge(at_mm), self.touching(pad, at_mm)]);
         set.into_iter().zip(["at_edge", "touching"]).filter(|(set, _)| *set).map(|(_, name)| name)
     }
 
@@ -48,8 +58,15 @@ impl Placement {
 
     fn touching(&self, pad: usize, at_mm: [f64; 2]) -> bool {
         let Some(diameter_mm) = self.pad_diameter_mm else { return false };
-        let others = self.pads.iter().enumerate().filter(|(other, _)| *other != pad).filter_map(|(_, place)| *place);
-        others.into_iter().any(|other| (other[0] - at_mm[0]).hypot(other[1] - at_mm[1]) < diameter_mm)
+        let others = self
+            .pads
+            .iter()
+            .enumerate()
+            .filter(|(other, _)| *other != pad)
+            .filter_map(|(_, place)| *place);
+        others
+            .into_iter()
+            .any(|other| (other[0] - at_mm[0]).hypot(other[1] - at_mm[1]) < diameter_mm)
     }
 }
 
@@ -58,7 +75,11 @@ mod tests {
     use super::*;
 
     fn placement(pad_diameter_mm: Option<f64>) -> Placement {
-        Placement { ends_mm: [[-415.0, 415.0], [-235.0, 235.0]], pad_diameter_mm, pads: vec![None; 3] }
+        Placement {
+            ends_mm: [[-415.0, 415.0], [-235.0, 235.0]],
+            pad_diameter_mm,
+            pads: vec![None; 3],
+        }
     }
 
     fn flags(placement: &mut Placement, pad: usize, at_mm: Option<[f64; 2]>) -> String {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The profile of a board: a bundled one or a file's, with the terminals and pads of a device.
 //!
-//! Values are checked against their ranges. Whether a core can be built of them is the concern of whoever builds it.
+//! Values are checked against their ranges. Whether a core can be built of them is the concern of
+//! whoever builds it.
 
 use crate::text::{ReadError, read, with_key};
 use hapticore_contract::profile::{Profile, ProfileError};
@@ -38,7 +39,9 @@ pub fn load(name: &str) -> Result<Profile, LoadProfileError> {
             let text = read(Path::new(name))?;
             Profile::parse(&text).map_err(|error| {
                 LoadProfileError::Invalid(match error {
-                    ProfileError::Syntax(message) => format!("{name}:{}", with_key(&text, &message)),
+                    ProfileError::Syntax(message) => {
+                        format!("{name}:{}", with_key(&text, &message))
+                    }
                     other => format!("{name}: {other}"),
                 })
             })
@@ -56,7 +59,9 @@ pub fn looks_like_a_file(name: &str) -> bool {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum TerminalsError {
     /// A profile of a user's own is for another number of them.
-    #[error("profile {profile}: terminals.x: expected {device} signs, as many as the device has terminals, got {own}")]
+    #[error(
+        "profile {profile}: terminals.x: expected {device} signs, as many as the device has terminals, got {own}"
+    )]
     Count {
         /// The profile's name.
         profile: String,
@@ -79,8 +84,9 @@ pub enum TerminalsError {
 
 /// The profile of a core for a device whose terminals have these signs in the ratios r_x and r_y.
 ///
-/// The bundled profiles are for the paper's six terminals and take any other device's; a profile of a user's own keeps its signs.
-/// More terminals than the profile's ADC can be read for in a sample take more clocks.
+/// The bundled profiles are for the paper's six terminals and take any other device's; a profile of
+/// a user's own keeps its signs. More terminals than the profile's ADC can be read for in a sample
+/// take more clocks.
 ///
 /// # Errors
 /// A profile of a user's own for another number of terminals; signs that no profile can have.
@@ -94,7 +100,8 @@ pub enum TerminalsError {
 /// ```
 pub fn for_terminals(profile: &Profile, signs: &[Vec<i8>; 2]) -> Result<Profile, TerminalsError> {
     let [x, y] = signs;
-    let bundled = Profile::bundled(&profile.name).is_ok_and(|bundled| bundled.terminals == profile.terminals);
+    let bundled =
+        Profile::bundled(&profile.name).is_ok_and(|bundled| bundled.terminals == profile.terminals);
     let (own, device) = (profile.terminals.x.len(), x.len());
     if !bundled && own != device {
         return Err(TerminalsError::Count { profile: profile.name.clone(), device, own });
@@ -102,9 +109,14 @@ pub fn for_terminals(profile: &Profile, signs: &[Vec<i8>; 2]) -> Result<Profile,
     let mut profile = profile.clone();
     if bundled {
         (profile.terminals.x, profile.terminals.y) = (x.clone(), y.clone());
-        profile.clocks_per_sample = profile.clocks_per_sample.max(profile.least_clocks_per_sample());
+        profile.clocks_per_sample =
+            profile.clocks_per_sample.max(profile.least_clocks_per_sample());
         let name = profile.name.clone();
-        profile.check_values().map_err(|source| TerminalsError::Profile { profile: name, device, source })?;
+        profile.check_values().map_err(|source| TerminalsError::Profile {
+            profile: name,
+            device,
+            source,
+        })?;
     }
     Ok(profile)
 }

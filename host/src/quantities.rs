@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Quantities: what a slot measures, in physical units. The one list of them.
 //!
-//! Columns of `frames.csv`, the truth in waveforms, criteria and reports all follow [`QUANTITIES`]. To add a quantity: a line
-//! here, and what computes it: a field of the core's measurement, and of the plant's truth where a scene knows it.
+//! Columns of `frames.csv`, the truth in waveforms, criteria and reports all follow [`QUANTITIES`].
+//! To add a quantity: a line here, and what computes it: a field of the core's measurement, and of
+//! the plant's truth where a scene knows it.
 
 use crate::units::Units;
 use hapticore_contract::frame::Measurement;
@@ -80,7 +81,8 @@ macro_rules! table {
             }
         }
 
-        /// The [`Quantities`] whose values are the fields of another struct, of the same names: those of the plant's truth.
+        /// The [`Quantities`] whose values are the fields of another struct, of the same names:
+        /// those of the plant's truth.
         #[macro_export]
         macro_rules! quantities_of {
             ($from:expr) => { $crate::Quantities { $($name: $from.$name),* } };

@@ -22,7 +22,8 @@ pub const COLUMNS: [&str; QUANTITIES.len() + 3] = {
     columns
 };
 
-/// From the core's measurements to physical units and flags, pad after pad: what `simulate` and `replay` do, too.
+/// From the core's measurements to physical units and flags, pad after pad: what `simulate` and
+/// `replay` do, too.
 ///
 /// ```
 /// use hapticore_host::{DeviceCalibration, Flags, Frame, Profile, Readout};
@@ -44,7 +45,11 @@ pub struct Readout {
 impl Readout {
     /// Of a core of the profile on a device, before its first frame.
     pub fn new(profile: &Profile, device: &DeviceCalibration) -> Self {
-        Readout { units: Units::new(profile, &device.device), canceller: None, placement: Placement::new(device) }
+        Readout {
+            units: Units::new(profile, &device.device),
+            canceller: None,
+            placement: Placement::new(device),
+        }
     }
 
     /// The same, which takes out what other pads did to a pad's measurements.
@@ -62,7 +67,9 @@ impl Readout {
             canceller.apply(measurement.pad, &mut measured);
         }
         let at_mm = (!measurement.flags.invalid).then_some([measured.x_mm, measured.y_mm]);
-        let flags: Vec<_> = flag_names(measurement.flags).chain(self.placement.flags(measurement.pad, at_mm)).collect();
+        let flags: Vec<_> = flag_names(measurement.flags)
+            .chain(self.placement.flags(measurement.pad, at_mm))
+            .collect();
         (measured, flags.join("+"))
     }
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! How well a position table knows the places that it was fitted to.
 //!
-//! The places of the calibration are looked up in floating point: what is left is the table's own error, which no frame shows.
+//! The places of the calibration are looked up in floating point: what is left is the table's own
+//! error, which no frame shows.
 
 use serde::Serialize;
 
@@ -20,7 +21,8 @@ pub struct Residual {
 pub const LIMIT_MM: f64 = 1.0;
 
 impl Residual {
-    /// Of pairs of a place and where the table finds it, mm. An error that is no number counts as infinite.
+    /// Of pairs of a place and where the table finds it, mm. An error that is no number counts as
+    /// infinite.
     pub fn of(pairs: impl Iterator<Item = ([f64; 2], [f64; 2])>) -> Self {
         let (mut squares, mut count) = (0.0, 0u32);
         let mut worst = Residual { rms_mm: 0.0, worst_mm: 0.0, at_mm: [0.0; 2] };
@@ -52,7 +54,10 @@ impl Residual {
 
     fn words(&self, over: &str) -> String {
         let [x, y] = self.at_mm;
-        format!("{:.2} mm RMS{over}, {:.2} mm at most, at x = {x:.0}, y = {y:.0} mm", self.rms_mm, self.worst_mm)
+        format!(
+            "{:.2} mm RMS{over}, {:.2} mm at most, at x = {x:.0}, y = {y:.0} mm",
+            self.rms_mm, self.worst_mm
+        )
     }
 
     /// What its user must know, where it is beyond a limit, mm.

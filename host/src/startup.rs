@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Start-up: the commands that make a sensor of a board and its AD7606C, and whether the board has taken them.
+//! Start-up: the commands that make a sensor of a board and its AD7606C, and whether the board has
+//! taken them.
 //!
 //! ```text
 //! RESET_ADC, DISABLE ─ registers, table ─ ADC: read, write …, read the ID, end ─ heartbeat: check ─ ENABLE
@@ -14,11 +15,12 @@
 //! | 6F00 | reads register 2F again |
 //! | 0000 | ends register mode, and brings the answer to the read before |
 //!
-//! After a reset the ADC takes 253 µs until it may be spoken to; the calibration takes longer to send. The upper half of
-//! its ID is 3 by data sheet and no-OS driver; users of the AD7606C-16 also report 22 (hex), so that 2 is taken as well. 1 is an
-//! AD7606B, which is too slow.
-//! Sources: data sheets AD7606C-16 and -18 (register map, serial interface); `drivers/adc/ad7606` of Analog Devices' no-OS
-//! (`ad7606_spi_reg_write`: a dummy read before the first write; `ad7606_init`: 253 µs, ID) and of Linux.
+//! After a reset the ADC takes 253 µs until it may be spoken to; the calibration takes longer to
+//! send. The upper half of its ID is 3 by data sheet and no-OS driver; users of the AD7606C-16 also
+//! report 22 (hex), so that 2 is taken as well. 1 is an AD7606B, which is too slow. Sources: data
+//! sheets AD7606C-16 and -18 (register map, serial interface); `drivers/adc/ad7606` of Analog
+//! Devices' no-OS (`ad7606_spi_reg_write`: a dummy read before the first write; `ad7606_init`: 253
+//! µs, ID) and of Linux.
 
 use crate::command::Command;
 use crate::packet::Heartbeat;
@@ -66,21 +68,29 @@ const CONVERT: i64 = 0x0000;
 impl AdcSetup {
     /// The words that set up an ADC that has just been reset.
     pub fn words(&self) -> Vec<i64> {
-        let pair = |pair: usize| i64::from(self.ranges[2 * pair + 1] as u8) << 4 | self.ranges[2 * pair] as i64;
+        let pair = |pair: usize| {
+            i64::from(self.ranges[2 * pair + 1] as u8) << 4 | self.ranges[2 * pair] as i64
+        };
         let ranges = (0..4).map(|k| (0x03 + k as i64) << 8 | pair(k));
         [READ_ID, 0x0218].into_iter().chain(ranges).chain([0x07ff, READ_ID, CONVERT]).collect()
     }
 }
 
-/// The commands that make a calibrated sensor of a board: all but the last, [`Command::ENABLE`], before which a heartbeat
-/// should be [`check`]ed.
+/// The commands that make a calibrated sensor of a board: all but the last, [`Command::ENABLE`],
+/// before which a heartbeat should be [`check`]ed.
 pub fn prepare(profile: &Profile, calibration: &Calibration, adc: &AdcSetup) -> Vec<Command> {
     let words = CalibrationWords::new(profile, calibration);
     let table = words.table.iter().enumerate();
     let table = table.map(|(address, &code)| Command::Table { address: address as u16, code });
     let adc = adc.words().into_iter().map(|word| Command::Register(Register::Adc, word));
-    let registers = words.constants.map(|word| Command::Register(Register::Constant(word.constant), word.code));
-    [Command::RESET_ADC, Command::DISABLE].into_iter().chain(registers).chain(table).chain(adc).collect()
+    let registers =
+        words.constants.map(|word| Command::Register(Register::Constant(word.constant), word.code));
+    [Command::RESET_ADC, Command::DISABLE]
+        .into_iter()
+        .chain(registers)
+        .chain(table)
+        .chain(adc)
+        .collect()
 }
 
 /// As [`prepare`] with the ADC's ranges as after a reset, and on without looking.
@@ -105,7 +115,9 @@ pub enum StartupError {
         got: u16,
     },
     /// A command was lost or refused.
-    #[error("the board has accepted commands up to {got} modulo 16, expected {expected}, or has refused one")]
+    #[error(
+        "the board has accepted commands up to {got} modulo 16, expected {expected}, or has refused one"
+    )]
     Commands {
         /// As sent, modulo 16.
         expected: u8,
@@ -127,8 +139,8 @@ pub enum StartupError {
     Adc(u8),
 }
 
-/// Whether a board that has been sent [`prepare`]'s commands may be enabled, `before` which it had accepted so many commands
-/// modulo 16 (none after its own reset).
+/// Whether a board that has been sent [`prepare`]'s commands may be enabled, `before` which it had
+/// accepted so many commands modulo 16 (none after its own reset).
 ///
 /// # Errors
 /// The first thing that is not as it should be.
@@ -145,7 +157,8 @@ pub fn check(
     if expected != got {
         return Err(StartupError::Profile { expected, got });
     }
-    let (expected, got) = (((usize::from(before) + commands.len()) % 16) as u8, heartbeat.status.commands);
+    let (expected, got) =
+        (((usize::from(before) + commands.len()) % 16) as u8, heartbeat.status.commands);
     if expected != got || heartbeat.status.refused || !heartbeat.calibrated {
         return Err(StartupError::Commands { expected, got });
     }

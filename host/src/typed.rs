@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Words as numbers of the crate [`fixed`]: for programs that are compiled for one profile, and compute without floating point.
+//! Words as numbers of the crate [`fixed`]: for programs that are compiled for one profile, and
+//! compute without floating point.
 //!
-//! A profile is read at run time, a type is known at compile time. [`Word::new`] compares them once, when the program starts;
-//! measurement a word after that cannot fail.
+//! A profile is read at run time, a type is known at compile time. [`Word::new`] compares them
+//! once, when the program starts; measurement a word after that cannot fail.
 
 use fixed::traits::Fixed;
 use hapticore_contract::format::Format;
@@ -67,7 +68,9 @@ where
     pub fn read(self, code: i64) -> F {
         let code = i128::from(code).clamp(self.format.min_code(), self.format.max_code());
         let bits = code << (F::FRAC_NBITS as i32 - i32::from(self.format.frac));
-        F::from_bits(F::Bits::try_from(bits).ok().expect("the type represents every number of the word"))
+        F::from_bits(
+            F::Bits::try_from(bits).ok().expect("the type represents every number of the word"),
+        )
     }
 }
 
@@ -77,20 +80,21 @@ mod tests {
     use fixed::types::{I11F5, I32F32, U0F64, U16F16, U64F0};
     use proptest::prelude::*;
 
-    /// The number of each code, its format's ends among them, is what the format says; where the type does not hold it, it is
-    /// refused.
+    /// The number of each code, its format's ends among them, is what the format says; where the
+    /// type does not hold it, it is refused.
     fn check<F: Fixed>(format: Format, code: i64)
     where
         F::Bits: TryFrom<i128>,
     {
         let [low, high] = [format.min_code(), format.max_code()].map(|code| code as i64);
         match Word::<F>::new(format) {
-            Ok(word) => [low, code.clamp(low, high), high]
-                .into_iter()
-                .for_each(|code| assert_eq!(word.read(code).to_num::<f64>(), format.real(code), "{code} of {format}")),
+            Ok(word) => [low, code.clamp(low, high), high].into_iter().for_each(|code| {
+                assert_eq!(word.read(code).to_num::<f64>(), format.real(code), "{code} of {format}")
+            }),
             Err(_) => {
                 let holds = |code| {
-                    F::checked_from_num(format.real(code)).is_some_and(|f| f.to_num::<f64>() == format.real(code))
+                    F::checked_from_num(format.real(code))
+                        .is_some_and(|f| f.to_num::<f64>() == format.real(code))
                 };
                 assert!(![low, low + 1, high].into_iter().all(holds), "{format} refused");
             }
@@ -114,6 +118,9 @@ mod tests {
     #[test]
     fn codes_beyond_the_word_saturate() {
         let word = Word::<U16F16>::new(Format::unsigned(8, 4)).expect("a wide type");
-        assert_eq!([-1, 255, 256].map(|code| word.read(code).to_num::<f64>()), [0.0, 255.0 / 16.0, 255.0 / 16.0]);
+        assert_eq!(
+            [-1, 255, 256].map(|code| word.read(code).to_num::<f64>()),
+            [0.0, 255.0 / 16.0, 255.0 / 16.0]
+        );
     }
 }

@@ -29,7 +29,11 @@ pub struct Units {
 impl Units {
     /// The units of a core of the profile on a device.
     pub fn new(profile: &Profile, scales: &Scales) -> Self {
-        Units { ohm: scales.ohm(), haptic_v: scales.haptic_full_scale_v, square_gain: profile.square_gain() }
+        Units {
+            ohm: scales.ohm(),
+            haptic_v: scales.haptic_full_scale_v,
+            square_gain: profile.square_gain(),
+        }
     }
 
     /// A slot's measurement in physical units.
@@ -55,8 +59,12 @@ impl Units {
 /// assert_eq!(flag_names(flags).collect::<Vec<_>>(), ["clipped", "invalid"]);
 /// ```
 pub fn flag_names(flags: Flags) -> impl Iterator<Item = &'static str> {
-    let named =
-        [(flags.clipped, "clipped"), (flags.saturated, "saturated"), (flags.invalid, "invalid"), (flags.lost, "lost")];
+    let named = [
+        (flags.clipped, "clipped"),
+        (flags.saturated, "saturated"),
+        (flags.invalid, "invalid"),
+        (flags.lost, "lost"),
+    ];
     named.into_iter().filter(|(set, _)| *set).map(|(_, name)| name)
 }
 
@@ -84,7 +92,13 @@ impl SlotClock {
     /// Slots of the profile from `start_s` on.
     pub fn new(profile: &Profile, sample_rate_hz: f64, start_s: f64) -> Self {
         let middle = profile.slot.blanking() as f64 + profile.slot.integrate as f64 / 2.0;
-        SlotClock { start_s, slot_samples: profile.slot.samples() as f64, middle, sample_rate_hz, slots: 0 }
+        SlotClock {
+            start_s,
+            slot_samples: profile.slot.samples() as f64,
+            middle,
+            sample_rate_hz,
+            slots: 0,
+        }
     }
 
     /// The middle of the next slot's window, s.
@@ -94,8 +108,8 @@ impl SlotClock {
         self.start_s + samples / self.sample_rate_hz
     }
 
-    /// The middle of the window of the frame with this sequence number, s: as [`SlotClock::tick`], but for slots whose frames
-    /// are lost, up to 255 at a time.
+    /// The middle of the window of the frame with this sequence number, s: as [`SlotClock::tick`],
+    /// but for slots whose frames are lost, up to 255 at a time.
     ///
     /// ```
     /// # use hapticore_host::{Profile, SlotClock};

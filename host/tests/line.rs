@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The line as a stranger feeds it: from the middle, damaged, cut, endless.
 
-use hapticore_host::{Damage, Decoder, END, Flags, Frame, Heartbeat, Message, Packet, Profile, Status};
+use hapticore_host::{
+    Damage, Decoder, END, Flags, Frame, Heartbeat, Message, Packet, Profile, Status,
+};
 use proptest::prelude::*;
 
 /// A bundled profile.
@@ -10,13 +12,15 @@ fn profiles() -> impl Strategy<Value = Profile> {
 }
 
 fn status() -> impl Strategy<Value = Status> {
-    (any::<[u8; 2]>(), any::<[bool; 3]>()).prop_map(|([sequence, commands], [late, refused, overrun])| Status {
-        sequence,
-        late,
-        refused,
-        overrun,
-        commands: commands % 16,
-    })
+    (any::<[u8; 2]>(), any::<[bool; 3]>()).prop_map(
+        |([sequence, commands], [late, refused, overrun])| Status {
+            sequence,
+            late,
+            refused,
+            overrun,
+            commands: commands % 16,
+        },
+    )
 }
 
 /// Any message that a board of the profile can send.
@@ -24,10 +28,17 @@ fn message(profile: &Profile) -> impl Strategy<Value = Message> + use<> {
     let bits = 8 * hapticore_protocol::framing::word_bytes(profile);
     let word = (-(1i64 << (bits - 1)))..(1 << (bits - 1));
     let (pads, profile) = (profile.pads as usize, profile.clone());
-    let flags =
-        any::<[bool; 4]>().prop_map(|[clipped, saturated, invalid, lost]| Flags { clipped, saturated, invalid, lost });
-    let frame = (status(), 0..pads, prop::array::uniform8(word), flags)
-        .prop_map(|(status, pad, codes, flags)| Message::Frame(Packet { status, frame: Frame { pad, codes, flags } }));
+    let flags = any::<[bool; 4]>().prop_map(|[clipped, saturated, invalid, lost]| Flags {
+        clipped,
+        saturated,
+        invalid,
+        lost,
+    });
+    let frame = (status(), 0..pads, prop::array::uniform8(word), flags).prop_map(
+        |(status, pad, codes, flags)| {
+            Message::Frame(Packet { status, frame: Frame { pad, codes, flags } })
+        },
+    );
     let heartbeat = (status(), any::<bool>()).prop_map(move |(status, calibrated)| {
         let mut heartbeat = Heartbeat::new(status, &profile);
         heartbeat.calibrated = calibrated;
@@ -37,7 +48,9 @@ fn message(profile: &Profile) -> impl Strategy<Value = Message> + use<> {
 }
 
 fn messages() -> impl Strategy<Value = (Profile, Vec<Message>)> {
-    profiles().prop_flat_map(|profile| (Just(profile.clone()), prop::collection::vec(message(&profile), 1..8)))
+    profiles().prop_flat_map(|profile| {
+        (Just(profile.clone()), prop::collection::vec(message(&profile), 1..8))
+    })
 }
 
 fn encoded(profile: &Profile, messages: &[Message]) -> Vec<u8> {
@@ -96,7 +109,8 @@ proptest! {
         (profile, messages) in messages(),
         flips in prop::collection::vec((any::<prop::sample::Index>(), 0..8), 1..=3),
     ) {
-        // Of the bytes as they are before escaping: CRC-16 finds all of these in packets of this length.
+        // Of the bytes as they are before escaping: CRC-16 finds all of these in packets of this
+        // length.
         let clean = |message: &Message| !message.encode(&profile).iter().any(|byte| matches!(byte, 0xdb..=0xdd));
         let message = messages[0];
         prop_assume!(clean(&message));
@@ -121,13 +135,19 @@ fn damaged_packets_pass_for_good_ones_with_the_probability_of_the_crc() {
     for _ in 0..PACKETS {
         let mut bytes = good.clone();
         for byte in &mut bytes[4..20] {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
             *byte = (state >> 33) as u8;
         }
-        passed += bytes.into_iter().filter_map(|byte| decoder.push(byte)).filter(Result::is_ok).count();
+        passed +=
+            bytes.into_iter().filter_map(|byte| decoder.push(byte)).filter(Result::is_ok).count();
     }
     let expected = f64::from(PACKETS) / 65_536.0;
-    assert!((passed as f64) < expected + 5.0 * expected.sqrt(), "{passed} of {PACKETS}, {expected:.1} by chance");
+    assert!(
+        (passed as f64) < expected + 5.0 * expected.sqrt(),
+        "{passed} of {PACKETS}, {expected:.1} by chance"
+    );
     assert!(passed > 0, "{passed}: with none the test would show nothing");
 }
 
@@ -136,7 +156,9 @@ fn an_endless_stream_without_an_end_is_not_kept() {
     let profile = Profile::bundled("standard").expect("bundled");
     let mut decoder = Decoder::new(&profile);
     assert!((0..20_000_000u32).all(|n| decoder.push(n as u8 & 0x7f).is_none()));
-    let Some(Err(Damage::Length { expected, got })) = decoder.push(END) else { panic!("a damaged packet") };
+    let Some(Err(Damage::Length { expected, got })) = decoder.push(END) else {
+        panic!("a damaged packet")
+    };
     assert_eq!(got, expected + 1, "no more is counted");
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The program of `examples/board_to_csv.rs` on bytes of a simulated board: its rows are those of `hapticore simulate`.
+//! The program of `examples/board_to_csv.rs` on bytes of a simulated board: its rows are those of
+//! `hapticore simulate`.
 
 #[path = "../examples/board_to_csv.rs"]
 mod board_to_csv;
@@ -75,6 +76,7 @@ fn a_pipe_that_closes_ends_the_conversion() {
             Ok(into.len())
         }
     }
-    let error = convert("small", CALIBRATION, Endless(endless), Closed(2)).expect_err("a closed pipe");
+    let error =
+        convert("small", CALIBRATION, Endless(endless), Closed(2)).expect_err("a closed pipe");
     assert!(error.to_string().contains("pipe"), "{error}");
 }

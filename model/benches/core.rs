@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! How fast the core runs, and how exactly, beside idsp's lock-in on the same samples, in one run.
 //!
-//! `cargo bench -p hapticore-model --bench core [PROFILE]`. Figures are medians of alternating rounds; nothing here asserts a
-//! time, for the machine is never quiet: quote the ratios.
+//! `cargo bench -p hapticore-model --bench core [PROFILE]`. Figures are medians of alternating
+//! rounds; nothing here asserts a time, for the machine is never quiet: quote the ratios.
 
 use dsp_process::SplitProcess;
 use hapticore_contract::calibration::{Calibration, Point, PositionTable};
@@ -21,7 +21,8 @@ const SAMPLE_HZ: f64 = 1e6;
 
 fn main() {
     let name = std::env::args().nth(1).filter(|argument| !argument.starts_with('-'));
-    let profile = Profile::bundled(name.as_deref().unwrap_or("standard")).expect("a bundled profile");
+    let profile =
+        Profile::bundled(name.as_deref().unwrap_or("standard")).expect("a bundled profile");
     let calibration = calibration(&profile);
     let codes = slot(&profile, 0.2);
     let mut clock = ClockSimulation::new(&profile, &calibration);
@@ -43,7 +44,11 @@ fn main() {
         clocks / BOARD_HZ,
         BOARD_HZ / 1e6
     );
-    println!("fixed   {:8.1} M instants/s in window {:6.1} × 1 MS/s", instants / 1e6, instants / SAMPLE_HZ);
+    println!(
+        "fixed   {:8.1} M instants/s in window {:6.1} × 1 MS/s",
+        instants / 1e6,
+        instants / SAMPLE_HZ
+    );
     println!(
         "        with the blanking between, which it need not look at: {:.1} × real time",
         instants / share / SAMPLE_HZ
@@ -51,11 +56,16 @@ fn main() {
     println!("        {:8.1} M channel samples/s", instants * channels / 1e6);
     println!("idsp    {:8.1} M samples/s of one channel (Lockin<Lowpass2>)", lockin / 1e6);
     println!("fixed / idsp, per channel sample: {:.2}", instants * channels / lockin);
-    println!("resident memory: {memory} KiB before, {} KiB after {} clocks", resident_kib(), clock.clocks());
+    println!(
+        "resident memory: {memory} KiB before, {} KiB after {} clocks",
+        resident_kib(),
+        clock.clocks()
+    );
     accuracy(&profile, &calibration);
 }
 
-/// The total current's amplitude over the sensing voltage's, of clean tones: what the core and idsp make of it.
+/// The total current's amplitude over the sensing voltage's, of clean tones: what the core and idsp
+/// make of it.
 fn accuracy(profile: &Profile, calibration: &Calibration) {
     println!("tones without noise, total current / sensing voltage: relative error by level");
     println!("{:>10} {:>12} {:>12}", "level", "core", "idsp");
@@ -63,8 +73,10 @@ fn accuracy(profile: &Profile, calibration: &Calibration) {
         let codes = slot(profile, level);
         let mut fixed: FixedSimulation = FixedSimulation::new(profile, calibration);
         let window = &codes[profile.slot.blanking() as usize * profile.channels()..];
-        let core = fixed.slot(0, window).measurement(profile).capacitance_pf / calibration.capacitance_gain;
-        let currents: f64 = (0..SHARES.len()).map(|channel| idsp_amplitude(profile, &codes, channel)).sum();
+        let core = fixed.slot(0, window).measurement(profile).capacitance_pf
+            / calibration.capacitance_gain;
+        let currents: f64 =
+            (0..SHARES.len()).map(|channel| idsp_amplitude(profile, &codes, channel)).sum();
         let idsp = currents / idsp_amplitude(profile, &codes, SHARES.len());
         let ideal = level * SHARES.iter().sum::<f64>() / SENSE;
         println!("{level:>10.0e} {:>+12.1e} {:>+12.1e}", core / ideal - 1.0, idsp / ideal - 1.0);
@@ -84,14 +96,17 @@ fn calibration(profile: &Profile) -> Calibration {
     Calibration { position, capacitance_gain: 796.0, force_gain: 1e-6 }
 }
 
-/// The codes of a slot: currents a quarter turn ahead of the sensing voltage, a slow haptic voltage.
+/// The codes of a slot: currents a quarter turn ahead of the sensing voltage, a slow haptic
+/// voltage.
 fn slot(profile: &Profile, level: f64) -> Vec<i32> {
     let full = -(profile.formats.adc.min_code() as f64);
     let turn = TAU * profile.turns_per_sample();
     let mut codes = Vec::new();
     for n in 0..profile.slot.samples() {
         let phase = turn * n as f64;
-        codes.extend(SHARES.map(|share| -level * share * phase.sin()).map(|x| (x * full).round() as i32));
+        codes.extend(
+            SHARES.map(|share| -level * share * phase.sin()).map(|x| (x * full).round() as i32),
+        );
         codes.push((SENSE * full * phase.cos()).round() as i32);
         codes.push((0.8 * full * (phase / 100.0).sin()).round() as i32);
     }
@@ -121,12 +136,14 @@ fn run_idsp(profile: &Profile, codes: &[i32]) -> f64 {
     (SLOTS as u64 * profile.slot.samples()) as f64
 }
 
-/// idsp's lock-in on one channel: a second-order low-pass that settles within the slot; its last output.
+/// idsp's lock-in on one channel: a second-order low-pass that settles within the slot; its last
+/// output.
 fn idsp_amplitude(profile: &Profile, codes: &[i32], channel: usize) -> f64 {
     let corner = 4.0 / profile.slot.samples() as f64;
     let k = TAU * corner;
     let gain = (k * 2f64.powi(31)) as i64;
-    let lowpass: Lowpass2 = Lowpass([((gain * gain) >> 32) as i32, (-(gain as f64) * SQRT_2) as i32]);
+    let lowpass: Lowpass2 =
+        Lowpass([((gain * gain) >> 32) as i32, (-(gain as f64) * SQRT_2) as i32]);
     let lockin = Lockin(lowpass);
     let mut state: [LowpassState<2>; 2] = Default::default();
     let step = (2f64.powi(32) * profile.turns_per_sample()).round() as i64 as i32;

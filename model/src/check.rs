@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Whether a core can be built of a profile: its blocks are asked.
 //!
-//! The contract's [`Profile::check_values`] holds the ranges that a profile states of itself. Two questions are left that only
-//! blocks answer: whether every signal fits a word of the model ([`MAX_WIDTH`]), which each says as it is built, and whether
-//! the clocks between two windows suffice.
+//! The contract's [`Profile::check_values`] holds the ranges that a profile states of itself. Two
+//! questions are left that only blocks answer: whether every signal fits a word of the model
+//! ([`MAX_WIDTH`]), which each says as it is built, and whether the clocks between two windows
+//! suffice.
 
 use crate::blocks::core::Core;
 use crate::blocks::demodulator::POLYPHASE_GAIN;
@@ -29,8 +30,8 @@ pub fn parse_profile(text: &str) -> Result<Profile, ProfileError> {
     Ok(profile)
 }
 
-/// Whether a core can be built of a profile: its values are in their ranges, its signals fit the model's words, and its clocks
-/// suffice.
+/// Whether a core can be built of a profile: its values are in their ranges, its signals fit the
+/// model's words, and its clocks suffice.
 ///
 /// ```
 /// use hapticore_contract::profile::Profile;
@@ -49,7 +50,8 @@ pub fn check(profile: &Profile) -> Check {
     Core::try_new(profile).map(drop)
 }
 
-/// Whether a word of a block is one of the model's; a field of the profile makes it as wide as it is.
+/// Whether a word of a block is one of the model's; a field of the profile makes it as wide as it
+/// is.
 pub(crate) fn fits(field: &str, word: &str, width: u8) -> Check {
     if width <= MAX_WIDTH {
         return Ok(());
@@ -83,9 +85,15 @@ mod tests {
     fn the_demodulator_takes_as_many_clocks_a_sample_as_the_contract_says() {
         for mut profile in Profile::all() {
             for terminals in 3..=16 {
-                (profile.terminals.x, profile.terminals.y) = (vec![1; terminals], vec![-1; terminals]);
+                (profile.terminals.x, profile.terminals.y) =
+                    (vec![1; terminals], vec![-1; terminals]);
                 let least = Demodulator::new(&profile).least_clocks_per_sample();
-                assert_eq!(least, profile.least_clocks_per_sample(), "{}, {terminals} terminals", profile.name);
+                assert_eq!(
+                    least,
+                    profile.least_clocks_per_sample(),
+                    "{}, {terminals} terminals",
+                    profile.name
+                );
             }
         }
     }

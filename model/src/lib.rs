@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The sensing core, written once in the hardware language of [`hapticore_hdl`].
 //!
-//! ADC codes of the terminals' currents, of the sensing voltage and of the haptic voltage come in; for each pad in turn a frame
-//! goes out: current ratios, position, sheet resistance, capacitance, haptic force, and flags.
+//! ADC codes of the terminals' currents, of the sensing voltage and of the haptic voltage come in;
+//! for each pad in turn a frame goes out: current ratios, position, sheet resistance, capacitance,
+//! haptic force, and flags.
 //!
 //! | module | holds |
 //! | --- | --- |
 //! | [`blocks`] | the blocks, one file each: multiplexer, oscillator, demodulator, estimator and what it is made of |
 //! | [`fidelity`] | the core at work: every clock ([`fidelity::clock`]), or slot by slot to the same bits ([`fidelity::fixed`]) |
 //!
-//! Widths, counts and timings are those of a [`Profile`]; [`check()`] says whether a core can be built of one.
+//! Widths, counts and timings are those of a [`Profile`]; [`check()`] says whether a core can be
+//! built of one.
 //!
 //! ```
 //! use hapticore_contract::profile::Profile;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What tests of single blocks share; their bench is that of the tests of whole cores (`model/tests/equality/`).
+//! What tests of single blocks share; their bench is that of the tests of whole cores
+//! (`model/tests/equality/`).
 
 mod comparison;
 #[allow(dead_code, reason = "tests of whole cores use the rest")]

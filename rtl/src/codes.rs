@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The core's ports and the words of a calibration: which port takes which word of [`hapticore_protocol`].
+//! The core's ports and the words of a calibration: which port takes which word of
+//! [`hapticore_protocol`].
 
 use hapticore_hdl::bundle::{Bundle, Field};
 use hapticore_hdl::format::Format;
@@ -13,7 +14,10 @@ pub use hapticore_protocol::{CalibrationWords, ConstantWord};
 /// # Panics
 /// If the core has no port for a constant.
 pub fn word_formats(ports: &Calibration<Format>) -> WordFormats {
-    WordFormats { constants: Constant::ALL.map(|constant| port(ports, constant)), table: ports.table.word }
+    WordFormats {
+        constants: Constant::ALL.map(|constant| port(ports, constant)),
+        table: ports.table.word,
+    }
 }
 
 fn port(ports: &Calibration<Format>, constant: Constant) -> Format {

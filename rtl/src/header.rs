@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a bench of the core must know, as `localparam`s to be included within its module: widths of the ports, counts, and
-//! the binary points of a frame's words.
+//! What a bench of the core must know, as `localparam`s to be included within its module: widths of
+//! the ports, counts, and the binary points of a frame's words.
 
 use std::fmt::Write;
 
@@ -16,7 +16,8 @@ use crate::board::framing::digest;
 pub const NAME: &str = "hapticore.vh";
 
 /// The words of a frame, in the order of [`Field::ALL`].
-const FIELDS: [&str; Field::ALL.len()] = ["R_X", "R_Y", "X", "Y", "SHEET", "CAPACITANCE", "FORCE", "MEAN_SQUARE"];
+const FIELDS: [&str; Field::ALL.len()] =
+    ["R_X", "R_Y", "X", "Y", "SHEET", "CAPACITANCE", "FORCE", "MEAN_SQUARE"];
 
 /// Prints the core of a profile, as `hapticore hdl --profile` does.
 pub fn design(profile: &Profile) -> Design {
@@ -31,7 +32,12 @@ pub fn design(profile: &Profile) -> Design {
 
 /// The versions of what a design is made from.
 pub fn source(profile: &Profile) -> String {
-    format!("hapticore {}, profile {}, digest {:04x}", env!("CARGO_PKG_VERSION"), profile.name, digest(profile))
+    format!(
+        "hapticore {}, profile {}, digest {:04x}",
+        env!("CARGO_PKG_VERSION"),
+        profile.name,
+        digest(profile)
+    )
 }
 
 /// What a user of the core must know besides its ports.
@@ -65,10 +71,15 @@ pub fn of_core(profile: &Profile, design: &Design) -> String {
         profile.name
     );
     let mut parameter = |name: &str, value: i64, about: &str| {
-        writeln!(text, "localparam HAPTICORE_{name} = {value}; // {about}").expect("a string takes all");
+        writeln!(text, "localparam HAPTICORE_{name} = {value}; // {about}")
+            .expect("a string takes all");
     };
     parameter("PADS", profile.pads as i64, "served in turn");
-    parameter("CHANNELS", profile.channels() as i64, "of the ADC: terminals, sensing voltage, haptic voltage");
+    parameter(
+        "CHANNELS",
+        profile.channels() as i64,
+        "of the ADC: terminals, sensing voltage, haptic voltage",
+    );
     parameter("CLOCKS_PER_SAMPLE", profile.clocks_per_sample as i64, "from one strobe to the next");
     parameter("SLOT_SAMPLES", profile.slot.samples() as i64, "of a pad's slot");
     parameter(
@@ -79,12 +90,20 @@ pub fn of_core(profile: &Profile, design: &Design) -> String {
     let table = Core::new(profile).estimator().position().table().words;
     parameter("TABLE_WORDS", table as i64, "of the position table");
     for port in &design.ports {
-        parameter(&format!("{}_BITS", port.name.to_uppercase()), port.format.width.into(), "of the port");
+        parameter(
+            &format!("{}_BITS", port.name.to_uppercase()),
+            port.format.width.into(),
+            "of the port",
+        );
     }
     for (index, (field, name)) in (0..).zip(Field::ALL.into_iter().zip(FIELDS)) {
         let format = field.format(profile);
         parameter(&format!("FRAME_{name}"), index, "the word's index in a frame");
-        parameter(&format!("FRAME_{name}_FRAC"), format.frac.into(), "bits behind its binary point");
+        parameter(
+            &format!("FRAME_{name}_FRAC"),
+            format.frac.into(),
+            "bits behind its binary point",
+        );
     }
     text
 }
@@ -97,14 +116,16 @@ mod tests {
     fn names_are_there_once() {
         let profile = Profile::bundled("small").expect("bundled");
         let text = of_core(&profile, &design(&profile));
-        let names = text.lines().filter_map(|line| line.strip_prefix("localparam ")?.split(' ').next());
+        let names =
+            text.lines().filter_map(|line| line.strip_prefix("localparam ")?.split(' ').next());
         let names: Vec<_> = names.collect();
         let mut distinct = names.clone();
         distinct.sort_unstable();
         distinct.dedup();
         assert_eq!(distinct.len(), names.len());
         assert!(
-            text.contains("localparam HAPTICORE_CODE_BITS = 16;") && text.contains("HAPTICORE_FRAME_X = 2;"),
+            text.contains("localparam HAPTICORE_CODE_BITS = 16;")
+                && text.contains("HAPTICORE_FRAME_X = 2;"),
             "{text}"
         );
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What the plant costs for a second of device time, effect by effect and level by level, alone and together: slots as
-//! amplitudes and as samples, and how long the effect takes to build.
+//! What the plant costs for a second of device time, effect by effect and level by level, alone and
+//! together: slots as amplitudes and as samples, and how long the effect takes to build.
 //!
 //! `cargo run --release -p hapticore-scene --example speed`
 
@@ -8,7 +8,8 @@ use std::time::Instant;
 
 use hapticore_scene::{Complex, Plant, Scene, SceneError, Timing};
 
-/// Slots of a measurement as amplitudes, and of one as samples; the best of so many measurements counts.
+/// Slots of a measurement as amplitudes, and of one as samples; the best of so many measurements
+/// counts.
 const SLOTS: [usize; 2] = [2000, 100];
 const BEST_OF: usize = 5;
 
@@ -19,8 +20,9 @@ const PADS: &str = "title = \"speed\"\nduration_s = 10\n\
     [[pad]]\nposition_mm = { line = { from_mm = [-100, -180], to_mm = [100, 200], period_s = 0.8 } }\n\
     [[pad]]\nposition_mm = [-60, 205]\n";
 
-/// What is measured: its name, what it is added to, what it adds, and what the prototype of docs/physics.md took, in milliseconds to build or for a
-/// second; there one patch of a gap, here 32.
+/// What is measured: its name, what it is added to, what it adds, and what the prototype of
+/// docs/physics.md took, in milliseconds to build or for a second; there one patch of a gap, here
+/// 32.
 const EFFECTS: &[(&str, &str, &str, &str)] = &[
     ("sheet distance", "", "[sheet]\nrung = \"distance\"\n", "10 ns a look-up: 0.006"),
     ("sheet bilinear", "", "[sheet]\nrung = \"bilinear\"\n", "0.9; 12 ns: 0.007"),
@@ -80,7 +82,10 @@ const EFFECTS: &[(&str, &str, &str, &str)] = &[
 ];
 
 fn main() -> Result<(), SceneError> {
-    println!("{:22} {:>10} {:>16} {:>14}  prototype", "", "build, ms", "amplitudes, ms/s", "samples, ms/s");
+    println!(
+        "{:22} {:>10} {:>16} {:>14}  prototype",
+        "", "build, ms", "amplitudes, ms/s", "samples, ms/s"
+    );
     print("carrier", measure("")?, "0.17; samples 21");
     for (name, under, added, physics) in EFFECTS {
         let (without, with) = (measure(under)?, measure(&format!("{under}{added}"))?);
@@ -93,7 +98,8 @@ fn print(name: &str, [build, amplitudes, samples]: [f64; 3], physics: &str) {
     println!("{name:22} {build:10.2} {amplitudes:16.3} {samples:14.2}  {physics}");
 }
 
-/// The least milliseconds to build the plant, and for a second of device time as amplitudes and as samples.
+/// The least milliseconds to build the plant, and for a second of device time as amplitudes and as
+/// samples.
 fn measure(effects: &str) -> Result<[f64; 3], SceneError> {
     let mut least = [f64::INFINITY; 3];
     for _ in 0..BEST_OF {
@@ -129,7 +135,8 @@ fn once(scene: &Scene) -> Result<[f64; 3], SceneError> {
         plant.samples(slot, 0..timing.window_start, &mut samples);
         plant.samples(slot, timing.window_start..timing.slot_samples, &mut samples);
     });
-    Ok([built, amplitudes * slots_per_second, sampled * slots_per_second].map(|seconds| 1e3 * seconds))
+    Ok([built, amplitudes * slots_per_second, sampled * slots_per_second]
+        .map(|seconds| 1e3 * seconds))
 }
 
 /// Seconds a slot.

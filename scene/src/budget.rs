@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! How exact the levels are on a scene, and the cheapest ones within an error budget.
 //!
-//! The error of a level against a finer one is the largest difference it makes, all other effects alike, over the slots of
-//! the case: of a terminal's amplitude in percent of the sum of all, of the capacitance in percent, of the force in percent
-//! of the largest force. An ideal demodulator reads the amplitudes: from the samples where the carrier itself is asked
-//! about, else from the phasors, so that codes do not hide what the plant does. Noise is left out.
+//! The error of a level against a finer one is the largest difference it makes, all other effects
+//! alike, over the slots of the case: of a terminal's amplitude in percent of the sum of all, of
+//! the capacitance in percent, of the force in percent of the largest force. An ideal demodulator
+//! reads the amplitudes: from the samples where the carrier itself is asked about, else from the
+//! phasors, so that codes do not hide what the plant does. Noise is left out.
 //!
-//! `error_budget_percent` is shared evenly by the effects whose level the scene leaves open. Each gets the cheapest level that
-//! is within its share of its finest one while all others are at their finest.
+//! `error_budget_percent` is shared evenly by the effects whose level the scene leaves open. Each
+//! gets the cheapest level that is within its share of its finest one while all others are at their
+//! finest.
 
 use num_complex::Complex64;
 
@@ -39,7 +41,8 @@ pub struct LevelDeviation {
 }
 
 impl Scene {
-    /// The scene with the cheapest levels that its error budgets allow, for a profile's timing; as it is where it has none.
+    /// The scene with the cheapest levels that its error budgets allow, for a profile's timing; as
+    /// it is where it has none.
     ///
     /// # Errors
     /// As [`Plant::new`].
@@ -50,10 +53,12 @@ impl Scene {
             for effect in finest.effects.iter_mut().filter(|effect| effect.is_free()) {
                 *effect = effect.finest();
             }
-            let free: Vec<_> = (0..finest.effects.len()).filter(|n| finest.effects[*n].is_free()).collect();
+            let free: Vec<_> =
+                (0..finest.effects.len()).filter(|n| finest.effects[*n].is_free()).collect();
             for &n in &free {
                 let share_percent = budget_percent / free.len() as f64;
-                self.cases[index].effects[n] = self.cheapest(&finest, index, n, share_percent, timing)?;
+                self.cases[index].effects[n] =
+                    self.cheapest(&finest, index, n, share_percent, timing)?;
             }
         }
         Ok(self)
@@ -86,25 +91,44 @@ impl Scene {
     ///
     /// # Errors
     /// As [`Plant::new`].
-    pub fn level_deviations(&self, index: usize, timing: &Timing) -> Result<Vec<LevelDeviation>, SceneError> {
+    pub fn level_deviations(
+        &self,
+        index: usize,
+        timing: &Timing,
+    ) -> Result<Vec<LevelDeviation>, SceneError> {
         let case = &self.cases[index];
         let against = |effect: &Spec| -> Result<LevelDeviation, SceneError> {
             let finer = effect.finer().map(|finer| -> Result<(String, f64), SceneError> {
-                let [coarse, fine] = [effect, &finer].map(|level| self.looks(case, index, level, timing));
+                let [coarse, fine] =
+                    [effect, &finer].map(|level| self.looks(case, index, level, timing));
                 Ok((finer.level().label.clone(), error_percent(&coarse?, &fine?)))
             });
-            Ok(LevelDeviation { effect: effect.name, level: effect.level().label.clone(), finer: finer.transpose()? })
+            Ok(LevelDeviation {
+                effect: effect.name,
+                level: effect.level().label.clone(),
+                finer: finer.transpose()?,
+            })
         };
         case.effects.iter().map(against).collect()
     }
 
     /// What is seen of a case whose effect of that name is at another level.
-    fn looks(&self, case: &Case, index: usize, level: &Spec, timing: &Timing) -> Result<Vec<Look>, SceneError> {
+    fn looks(
+        &self,
+        case: &Case,
+        index: usize,
+        level: &Spec,
+        timing: &Timing,
+    ) -> Result<Vec<Look>, SceneError> {
         let mut case = case.clone();
         case.effects.retain(|effect| effect.name != NOISE);
-        case.effects.iter_mut().filter(|effect| effect.name == level.name).for_each(|effect| *effect = level.clone());
+        case.effects
+            .iter_mut()
+            .filter(|effect| effect.name == level.name)
+            .for_each(|effect| *effect = level.clone());
         let sampled = level.name == CARRIER && case.sampled();
-        let mut plant = Plant::of_case(case, self.seed, index, timing).map_err(|error| error.in_file(&self.name))?;
+        let mut plant = Plant::of_case(case, self.seed, index, timing)
+            .map_err(|error| error.in_file(&self.name))?;
         let slots = plant.slots().min(MOST_SLOTS);
         let every = slots.div_ceil(LOOKS);
         let look = |slot| {
@@ -154,7 +178,8 @@ fn error_percent(coarse: &[Look], fine: &[Look]) -> f64 {
     let largest_n = fine.iter().map(|look| look.force_n.abs()).fold(f64::MIN_POSITIVE, f64::max);
     let error = |(coarse, fine): (&Look, &Look)| {
         let sum = fine.currents.iter().sum::<Complex64>().norm();
-        let currents = coarse.currents.iter().zip(fine.currents.iter()).map(|(a, b)| (a - b).norm() / sum);
+        let currents =
+            coarse.currents.iter().zip(fine.currents.iter()).map(|(a, b)| (a - b).norm() / sum);
         let capacitance = (coarse.capacitance_pf / fine.capacitance_pf - 1.0).abs();
         let force = (coarse.force_n - fine.force_n).abs() / largest_n;
         currents.fold(capacitance.max(force), f64::max)

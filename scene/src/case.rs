@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! One variant of a scene, read: the device, what its pads do, which effects are on and how long it lasts.
+//! One variant of a scene, read: the device, what its pads do, which effects are on and how long it
+//! lasts.
 
 use crate::device::Device;
 use crate::effects::{EFFECTS, SPLITTING, Spec, carrier};
@@ -30,15 +31,17 @@ pub struct Case {
     pub name: String,
     /// The case as a scene of its own, in TOML, with all that it and `--set` set.
     pub document: String,
-    /// The device in this case; its sample rate is not a number until a plant is built for a profile.
+    /// The device in this case; its sample rate is not a number until a plant is built for a
+    /// profile.
     pub device: Device,
     pub(crate) pads: Vec<PadPlan>,
     pub(crate) effects: Vec<Spec>,
     pub(crate) length: Length,
-    /// Error that all levels together may leave, where the scene names one: until they are chosen, nothing can be run.
+    /// Error that all levels together may leave, where the scene names one: until they are chosen,
+    /// nothing can be run.
     pub(crate) budget_percent: Option<f64>,
-    /// What the host knows of the device, where it takes out of measurements what other pads did to them: the effects that split
-    /// a current, on a film that is even.
+    /// What the host knows of the device, where it takes out of measurements what other pads did to
+    /// them: the effects that split a current, on a film that is even.
     pub(crate) nominal: Option<Vec<Spec>>,
 }
 
@@ -51,8 +54,13 @@ pub(crate) enum Length {
 
 impl std::fmt::Debug for Case {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let effects: Vec<_> = self.effects.iter().map(|effect| (effect.name, &effect.level().label)).collect();
-        f.debug_struct("Case").field("name", &self.name).field("pads", &self.pads).field("effects", &effects).finish()
+        let effects: Vec<_> =
+            self.effects.iter().map(|effect| (effect.name, &effect.level().label)).collect();
+        f.debug_struct("Case")
+            .field("name", &self.name)
+            .field("pads", &self.pads)
+            .field("effects", &effects)
+            .finish()
     }
 }
 
@@ -80,27 +88,34 @@ impl Case {
 
     /// Whether the scene wants the float core to demodulate samples too, carrier level `samples`.
     pub fn sampled(&self) -> bool {
-        self.effects.iter().any(|effect| effect.name == carrier::CARRIER && effect.is_at(carrier::SAMPLES))
+        self.effects
+            .iter()
+            .any(|effect| effect.name == carrier::CARRIER && effect.is_at(carrier::SAMPLES))
     }
 
     pub(crate) fn read(root: &Table, name: &str) -> Result<Case, SceneError> {
         let device = Device::read(root)?;
-        let effects: Vec<Spec> =
-            EFFECTS.iter().filter_map(|read| read(root, &device).transpose()).collect::<Result<_, _>>()?;
+        let effects: Vec<Spec> = EFFECTS
+            .iter()
+            .filter_map(|read| read(root, &device).transpose())
+            .collect::<Result<_, _>>()?;
         let has = |name| effects.iter().any(|effect| effect.name == name);
         let has = Tables { gap: has("gap"), finger: has("hand"), split_electrode: has("halves") };
         let tables = root.tables("pad")?;
         if tables.is_empty() || tables.len() > MOST_PADS {
-            return Err(
-                root.error("pad", format!("expected 1 to {MOST_PADS} tables headed [[pad]], got {}", tables.len()))
-            );
+            return Err(root.error(
+                "pad",
+                format!("expected 1 to {MOST_PADS} tables headed [[pad]], got {}", tables.len()),
+            ));
         }
         let plan = |(index, table): (usize, &&Table)| PadPlan::read(table, index, &device, has);
         let pads = tables.iter().enumerate().map(plan).collect::<Result<Vec<_>, _>>()?;
         let budget_percent = root.number("error_budget_percent", Limits::above(0.0, 100.0))?;
         let cancels_crosstalk = root.flag("uncouple")?;
         if cancels_crosstalk && !effects.iter().any(|effect| effect.name == "coupling") {
-            return Err(root.error("uncouple", "expected a [coupling] that could be taken out again"));
+            return Err(
+                root.error("uncouple", "expected a [coupling] that could be taken out again")
+            );
         }
         let nominal = if cancels_crosstalk { Some(nominal(root, &device)?) } else { None };
         let length = Length::read(root, &pads)?;
@@ -145,7 +160,9 @@ fn keep_covering(criterion: &mut Table, name: &str) -> bool {
 /// Effects that split a current among the terminals, as they would be with a uniform film.
 fn nominal(root: &Table, device: &Device) -> Result<Vec<Spec>, SceneError> {
     let mut even = root.clone();
-    if let Node { value: Value::Table(sheet), .. } = even.entry("sheet", || unreachable!("coupling needs a sheet")) {
+    if let Node { value: Value::Table(sheet), .. } =
+        even.entry("sheet", || unreachable!("coupling needs a sheet"))
+    {
         UNEVEN.iter().for_each(|key| sheet.remove(key));
     }
     let specs = EFFECTS.iter().filter_map(|read| read(&even, device).transpose());
@@ -160,12 +177,16 @@ impl Length {
         let points = pads.iter().map(PadPlan::points).max().unwrap_or(1);
         match (duration_s, dwell) {
             (Some(duration_s), None) if points == 1 => Ok(Length::Time { duration_s }),
-            (Some(_), None) => Err(root.error("duration_s", "expected none, since the sweep decides the duration")),
-            (Some(_), Some(_)) => Err(root.error("dwell_slots", "expected either this or duration_s")),
-            (None, None) if pads.iter().any(PadPlan::moves) && points == 1 => {
-                Err(root
-                    .error("duration_s", "expected a number above 0, since a pad changes over time, but it is missing"))
+            (Some(_), None) => {
+                Err(root.error("duration_s", "expected none, since the sweep decides the duration"))
             }
+            (Some(_), Some(_)) => {
+                Err(root.error("dwell_slots", "expected either this or duration_s"))
+            }
+            (None, None) if pads.iter().any(PadPlan::moves) && points == 1 => Err(root.error(
+                "duration_s",
+                "expected a number above 0, since a pad changes over time, but it is missing",
+            )),
             (None, dwell) => Ok(Length::Sweep { points, dwell_slots: dwell.unwrap_or(1) as usize }),
         }
     }

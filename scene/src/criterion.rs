@@ -30,8 +30,8 @@ pub enum Measure {
     MaxPercentError,
     /// (max − min)/mean of the estimate, percent.
     SpreadPercent,
-    /// Smallest step, negated, between group means ordered by the truth of `with`, all else equal, in percent of the mean:
-    /// below the limit (usually 0) where the estimate rises throughout.
+    /// Smallest step, negated, between group means ordered by the truth of `with`, all else equal,
+    /// in percent of the mean: below the limit (usually 0) where the estimate rises throughout.
     IncreasesWith,
     /// Largest sample of the ADC channels, percent of full scale.
     MaxPercentOfFullScale,
@@ -39,11 +39,11 @@ pub enum Measure {
     InvalidPercent,
     /// Largest |estimate − expected|.
     MaxOff,
-    /// How far from the expected time the estimate jumps: where a pad's measurement rises most from one slot to the next, by
-    /// five times its mean change at least.
+    /// How far from the expected time the estimate jumps: where a pad's measurement rises most from
+    /// one slot to the next, by five times its mean change at least.
     JumpOff,
-    /// How far from the expected haptic voltage the estimate leaves the square law: where it first is a quarter more, per
-    /// volt squared, than it is up to 100 V.
+    /// How far from the expected haptic voltage the estimate leaves the square law: where it first
+    /// is a quarter more, per volt squared, than it is up to 100 V.
     DepartureOff,
 }
 
@@ -78,7 +78,9 @@ impl Measure {
     /// ```
     pub fn unit(self, of: Quantity) -> &'static str {
         match self {
-            Measure::MaxAbsError | Measure::RmsError | Measure::MeanError | Measure::MaxOff => of.unit(),
+            Measure::MaxAbsError | Measure::RmsError | Measure::MeanError | Measure::MaxOff => {
+                of.unit()
+            }
             Measure::JumpOff => Quantity::TimeS.unit(),
             Measure::DepartureOff => Quantity::HapticVRms.unit(),
             _ => "%",
@@ -139,8 +141,8 @@ pub struct Criterion {
     pub of: Quantity,
     /// For [`Measure::IncreasesWith`]: with which.
     pub with: Option<Quantity>,
-    /// For [`Measure::MaxOff`], [`Measure::JumpOff`] and [`Measure::DepartureOff`]: the value, the time, s, or the haptic
-    /// voltage, V rms, that is expected.
+    /// For [`Measure::MaxOff`], [`Measure::JumpOff`] and [`Measure::DepartureOff`]: the value, the
+    /// time, s, or the haptic voltage, V rms, that is expected.
     pub expected: Option<f64>,
     /// Names of the cases it covers; all where empty.
     pub cases: Vec<String>,
@@ -161,7 +163,9 @@ impl Criterion {
         let of = table.require("of", "a quantity", quantity(table, "of")?)?;
         let with = quantity(table, "with")?;
         if with.is_some() != (measure == Measure::IncreasesWith) {
-            return Err(table.error("with", "expected with measure = \"increases_with\", and only there"));
+            return Err(
+                table.error("with", "expected with measure = \"increases_with\", and only there")
+            );
         }
         Ok(Criterion {
             name: table.require("name", "text", table.text("name")?)?,
@@ -170,7 +174,8 @@ impl Criterion {
             with,
             expected: read_expected(table, measure)?,
             cases: read_cases(table, cases)?,
-            per: word(table, "per", &[("case", Per::Case), ("group", Per::Group)])?.unwrap_or_default(),
+            per: word(table, "per", &[("case", Per::Case), ("group", Per::Group)])?
+                .unwrap_or_default(),
             filters: read_filters(table)?,
             limit: table.require("limit", "a number", table.number("limit", Limits::ANY)?)?,
             unit: table.text("unit")?.unwrap_or_else(|| measure.unit(of).to_string()),
@@ -185,7 +190,9 @@ impl Criterion {
 
 fn read_expected(table: &Table, measure: Measure) -> Result<Option<f64>, SceneError> {
     let expected = table.number("expected", Limits::ANY)?;
-    if expected.is_some() == matches!(measure, Measure::MaxOff | Measure::JumpOff | Measure::DepartureOff) {
+    if expected.is_some()
+        == matches!(measure, Measure::MaxOff | Measure::JumpOff | Measure::DepartureOff)
+    {
         return Ok(expected);
     }
     let with = "\"max_off\", \"jump_off\" or \"departure_off\"";
@@ -198,7 +205,8 @@ fn read_cases(table: &Table, known: &[String]) -> Result<Vec<String>, SceneError
         None => ("cases", table.texts("cases")?.unwrap_or_default()),
     };
     match names.iter().find(|name| !known.contains(name)) {
-        Some(name) => Err(table.error(key, format!("expected the name of a case, one of {known:?}, got {name:?}"))),
+        Some(name) => Err(table
+            .error(key, format!("expected the name of a case, one of {known:?}, got {name:?}"))),
         None => Ok(names),
     }
 }
@@ -218,10 +226,16 @@ fn quantity(table: &Table, key: &'static str) -> Result<Option<Quantity>, SceneE
     Ok(table.choice(key, &names)?.and_then(Quantity::named))
 }
 
-fn word<T: Copy>(table: &Table, key: &'static str, words: &[(&'static str, T)]) -> Result<Option<T>, SceneError> {
+fn word<T: Copy>(
+    table: &Table,
+    key: &'static str,
+    words: &[(&'static str, T)],
+) -> Result<Option<T>, SceneError> {
     let names: Vec<_> = words.iter().map(|(name, _)| *name).collect();
     let chosen = table.choice(key, &names)?;
-    Ok(chosen.and_then(|chosen| words.iter().find(|(name, _)| *name == chosen)).map(|(_, value)| *value))
+    Ok(chosen
+        .and_then(|chosen| words.iter().find(|(name, _)| *name == chosen))
+        .map(|(_, value)| *value))
 }
 
 fn name_of<T: Copy + PartialEq>(words: &[(&'static str, T)], value: T) -> &'static str {

@@ -12,9 +12,9 @@ pub const EPSILON_0: f64 = 8.854_187_812_8e-12;
 
 /// Default gravity, N/kg: the fit of the gap's heights assumes 10 (docs/physics.md §3).
 ///
-/// With 10 a pad under 20 g and 50 g rests at 353.4 and 372.7 pF (docs/physics.md §3:
-/// 353 and 373), eq. 10 has slopes of 0.202 and 0.151 (§4: 0.20 and 0.15), and `fig7` jumps at 1.03 s and 2.84 s (1.0 and
-/// 2.8); with 9.80665 these are 353.2 and 372.0 pF, 0.197 and 0.140, 1.09 s and 2.98 s.
+/// With 10 a pad under 20 g and 50 g rests at 353.4 and 372.7 pF (docs/physics.md §3: 353 and 373),
+/// eq. 10 has slopes of 0.202 and 0.151 (§4: 0.20 and 0.15), and `fig7` jumps at 1.03 s and 2.84 s
+/// (1.0 and 2.8); with 9.80665 these are 353.2 and 372.0 pF, 0.197 and 0.140, 1.09 s and 2.98 s.
 const GRAVITY_M_S2: f64 = 10.0;
 
 /// Sizes, full scales, frequencies and the nominal force law of the display.
@@ -32,7 +32,8 @@ const GRAVITY_M_S2: f64 = 10.0;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Device {
-    /// Where the current sensors are, mm from the sheet's centre, in the order of their channels: 3 to 16 of them.
+    /// Where the current sensors are, mm from the sheet's centre, in the order of their channels: 3
+    /// to 16 of them.
     pub terminals_mm: Vec<[f64; 2]>,
     /// Current at the end of a terminal's ADC range, A (peak).
     pub current_full_scale_a: f64,
@@ -67,20 +68,25 @@ pub struct Device {
 }
 
 impl Device {
-    /// The device under a core whose oscillator has so many ADC samples per period: the sample rate is the whole multiple of the
-    /// scene's carrier that is nearest, and the carrier what the oscillator makes of it, 101 kHz for 100 kHz at 9.9 samples.
+    /// The device under a core whose oscillator has so many ADC samples per period: the sample rate
+    /// is the whole multiple of the scene's carrier that is nearest, and the carrier what the
+    /// oscillator makes of it, 101 kHz for 100 kHz at 9.9 samples.
     pub(crate) fn sampled(self, samples_per_period: f64) -> Self {
         let sample_rate_hz = self.carrier_hz * samples_per_period.round();
         let carrier_hz = sample_rate_hz / samples_per_period;
         Device { sample_rate_hz, carrier_hz, carrier_rad_s: TAU * carrier_hz, ..self }
     }
 
-    /// Reads `[device]`, `[carrier]`'s voltages and frequencies and `[sensor]`'s full scales; all have defaults.
+    /// Reads `[device]`, `[carrier]`'s voltages and frequencies and `[sensor]`'s full scales; all
+    /// have defaults.
     pub(crate) fn read(root: &Table) -> Result<Device, SceneError> {
-        let number = |table: &'static str, key: &'static str, limits: Limits, default: f64| match root.table(table)? {
-            Some(table) => table.number_or(key, limits, default),
-            None => Ok(default),
-        };
+        let number =
+            |table: &'static str, key: &'static str, limits: Limits, default: f64| match root
+                .table(table)?
+            {
+                Some(table) => table.number_or(key, limits, default),
+                None => Ok(default),
+            };
         let pad_diameter_mm = number("device", "pad_diameter_mm", Limits::POSITIVE, 30.0)?;
         let smallest = Limits::above(pad_diameter_mm, 1e4);
         let mu = number("device", "mu", Limits::above(0.0, 10.0), 0.12)?;
@@ -88,7 +94,8 @@ impl Device {
         let pad_area_m2 = PI / 4.0 * (pad_diameter_mm * 1e-3).powi(2);
         let mut device = Device {
             terminals_mm: Vec::new(),
-            current_full_scale_a: 1e-3 * number("sensor", "current_full_scale_ma", Limits::POSITIVE, 4.0)?,
+            current_full_scale_a: 1e-3
+                * number("sensor", "current_full_scale_ma", Limits::POSITIVE, 4.0)?,
             sense_full_scale_v: number("sensor", "sense_full_scale_v", Limits::POSITIVE, 8.0)?,
             haptic_full_scale_v: number("sensor", "haptic_full_scale_v", Limits::POSITIVE, 600.0)?,
             carrier_v: number("carrier", "amplitude_v", Limits::POSITIVE, 5.0)?,
@@ -138,7 +145,8 @@ impl Device {
         0.25 * self.pad_diameter_mm
     }
 
-    /// How far from the sheet's centre a pad's centre may be, so that the pad lies wholly on the sheet.
+    /// How far from the sheet's centre a pad's centre may be, so that the pad lies wholly on the
+    /// sheet.
     pub fn reach_mm(&self) -> [f64; 2] {
         [self.width_mm, self.height_mm].map(|size| (size - self.pad_diameter_mm) / 2.0)
     }

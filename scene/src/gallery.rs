@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The bundled scenes: after the figures of the paper, of what a device may have besides, and a minimal one per effect.
+//! The bundled scenes: after the figures of the paper, of what a device may have besides, and a
+//! minimal one per effect.
 
 /// Name and text of each scene.
 const SCENES: &[(&str, &str)] = &[

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The plant of an electrostatic visuo-haptic display, simulated in SI units and `f64`: sheet, gap, friction, carrier and sensor
-//! chain, each an opt-in effect, and the scenes that say what is done with it. It gives what an ADC at the display would see, and
-//! beside it the truth that a sensing core has to find.
+//! The plant of an electrostatic visuo-haptic display, simulated in SI units and `f64`: sheet, gap,
+//! friction, carrier and sensor chain, each an opt-in effect, and the scenes that say what is done
+//! with it. It gives what an ADC at the display would see, and beside it the truth that a sensing
+//! core has to find.
 //!
-//! A scene is TOML. Whatever effect has no table in it is not there: no state, no cost. [`Scene::parse`] reads and checks it,
-//! [`Plant::new`] sets one of its cases up for a core's [`Timing`], and from then on slots are asked for one after the other:
+//! A scene is TOML. Whatever effect has no table in it is not there: no state, no cost.
+//! [`Scene::parse`] reads and checks it, [`Plant::new`] sets one of its cases up for a core's
+//! [`Timing`], and from then on slots are asked for one after the other:
 //!
 //! ```
 //! use hapticore_scene::{Complex, Plant, Scene, Timing};

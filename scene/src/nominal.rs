@@ -36,7 +36,10 @@ impl SheetModel for NominalSheet {
         let others: Vec<_> = others.iter().map(|pad| self.on_sheet(pad)).collect();
         let mut pad = self.on_sheet(pad);
         self.effects.on_pads(&mut pad, &others);
-        (self.ratios.of_amplitudes(&pad.amplitudes()), pad.transfer(&self.device).iter().sum::<Complex64>().norm())
+        (
+            self.ratios.of_amplitudes(&pad.amplitudes()),
+            pad.transfer(&self.device).iter().sum::<Complex64>().norm(),
+        )
     }
 
     fn reach_mm(&self) -> [f64; 2] {

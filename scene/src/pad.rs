@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `[[pad]]`: what one pad does. A sweep runs over all combinations of what is swept, the position fastest, then the load,
-//! the haptic voltage, the capacitance and the eccentricity.
+//! `[[pad]]`: what one pad does. A sweep runs over all combinations of what is swept, the position
+//! fastest, then the load, the haptic voltage, the capacitance and the eccentricity.
 
 use crate::device::{Device, EPSILON_0};
 use crate::effects::sheet::ideal_split;
@@ -28,11 +28,20 @@ pub(crate) struct PadPlan {
 }
 
 impl PadPlan {
-    pub fn read(table: &Table, index: usize, device: &Device, has: Tables) -> Result<PadPlan, SceneError> {
-        let stimulus =
-            |key, limits, default| Ok(Stimulus::read(table, key, limits)?.unwrap_or(Stimulus::Constant(default)));
+    pub fn read(
+        table: &Table,
+        index: usize,
+        device: &Device,
+        has: Tables,
+    ) -> Result<PadPlan, SceneError> {
+        let stimulus = |key, limits, default| {
+            Ok(Stimulus::read(table, key, limits)?.unwrap_or(Stimulus::Constant(default)))
+        };
         if has.gap && table.get("capacitance_pf").is_some() {
-            return Err(table.error("capacitance_pf", "expected no capacitance of its own, since [gap] decides it"));
+            return Err(table.error(
+                "capacitance_pf",
+                "expected no capacitance of its own, since [gap] decides it",
+            ));
         }
         let push = |key| match has.finger {
             true => read_push(table, key),
@@ -61,7 +70,8 @@ impl PadPlan {
 
     /// Points of the whole sweep; one where nothing is swept.
     pub fn points(&self) -> usize {
-        self.trajectory.points() * self.stimuli().into_iter().map(Stimulus::points).product::<usize>()
+        self.trajectory.points()
+            * self.stimuli().into_iter().map(Stimulus::points).product::<usize>()
     }
 
     /// Whether anything depends on time.
@@ -83,7 +93,14 @@ impl PadPlan {
             ("eccentricity_mm", &self.eccentricity_mm),
         ];
         let place = ["x_mm", "y_mm"].into_iter().filter(|_| self.trajectory.points() > 1);
-        place.chain(stimuli.into_iter().filter(|(_, stimulus)| stimulus.points() > 1).map(|(key, _)| key)).collect()
+        place
+            .chain(
+                stimuli
+                    .into_iter()
+                    .filter(|(_, stimulus)| stimulus.points() > 1)
+                    .map(|(key, _)| key),
+            )
+            .collect()
     }
 
     /// What the pad is set to.
@@ -121,7 +138,10 @@ fn read_push(table: &Table, key: &'static str) -> Result<Stimulus, SceneError> {
     let stimulus = Stimulus::read(table, key, Limits::ANY)?.unwrap_or(Stimulus::Constant(0.0));
     match stimulus.points() {
         1 => Ok(stimulus),
-        points => Err(table.error(key, format!("expected a push over time, got a sweep of {points} points"))),
+        points => {
+            Err(table
+                .error(key, format!("expected a push over time, got a sweep of {points} points")))
+        }
     }
 }
 
@@ -153,7 +173,8 @@ fn still(
     device: &Device,
 ) -> Pad {
     let reach_mm = device.reach_mm();
-    let attraction_n = (capacitance_f * haptic_v_rms).powi(2) / (2.0 * EPSILON_0 * device.pad_area_m2);
+    let attraction_n =
+        (capacitance_f * haptic_v_rms).powi(2) / (2.0 * EPSILON_0 * device.pad_area_m2);
     Pad {
         index,
         time_s,

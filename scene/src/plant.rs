@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! One case of a scene at work: the truth, the phasors and the ADC samples, slot by slot.
 //!
-//! Slot s serves pad s mod pads. Its sample n is taken at (s·slot_samples + n)/sample rate; the carrier starts afresh at
-//! n = 0. A pad is held for the whole slot as it is in the middle of the slot's window. Effects may have a state: ask for
-//! slots in rising order.
+//! Slot s serves pad s mod pads. Its sample n is taken at (s·slot_samples + n)/sample rate; the
+//! carrier starts afresh at n = 0. A pad is held for the whole slot as it is in the middle of the
+//! slot's window. Effects may have a state: ask for slots in rising order.
 
 use std::ops::Range;
 
@@ -55,27 +55,44 @@ impl Plant {
     /// Sets up case number `case` of a scene for a profile's timing.
     ///
     /// # Errors
-    /// A scene with more pads than the profile serves, a timing without a window, no such case, an error budget for which
-    /// no levels have been [chosen](Scene::within_budget).
+    /// A scene with more pads than the profile serves, a timing without a window, no such case, an
+    /// error budget for which no levels have been [chosen](Scene::within_budget).
     pub fn new(scene: &Scene, case: usize, timing: &Timing) -> Result<Plant, SceneError> {
-        let fail = |key: &str, message: String| SceneError::new(Place::File, key, message).in_file(&scene.name);
+        let fail = |key: &str, message: String| {
+            SceneError::new(Place::File, key, message).in_file(&scene.name)
+        };
         let Some(chosen) = scene.cases.get(case) else {
-            return Err(fail("case", format!("expected a case below {}, got {case}", scene.cases.len())));
+            return Err(fail(
+                "case",
+                format!("expected a case below {}, got {case}", scene.cases.len()),
+            ));
         };
         if chosen.pads.len() > timing.pads {
             let (pads, name) = (chosen.pads.len(), &scene.profile);
             return Err(fail(
                 "pad",
-                format!("expected at most {} pads, as profile {name} serves, got {pads}", timing.pads),
+                format!(
+                    "expected at most {} pads, as profile {name} serves, got {pads}",
+                    timing.pads
+                ),
             ));
         }
         if chosen.budget_percent.is_some() {
-            return Err(fail("error_budget_percent", "expected levels that have been chosen within it".to_string()));
+            return Err(fail(
+                "error_budget_percent",
+                "expected levels that have been chosen within it".to_string(),
+            ));
         }
-        Plant::of_case(chosen.clone(), scene.seed, case, timing).map_err(|error| error.in_file(&scene.name))
+        Plant::of_case(chosen.clone(), scene.seed, case, timing)
+            .map_err(|error| error.in_file(&scene.name))
     }
 
-    pub(crate) fn of_case(case: Case, seed: u64, index: usize, timing: &Timing) -> Result<Plant, SceneError> {
+    pub(crate) fn of_case(
+        case: Case,
+        seed: u64,
+        index: usize,
+        timing: &Timing,
+    ) -> Result<Plant, SceneError> {
         timing.check().map_err(|message| SceneError::new(Place::File, "profile", message))?;
         let device = case.device.clone().sampled(timing.samples_per_period);
         let setting = Setting { device: &device, timing, seed, case: index };
@@ -83,7 +100,8 @@ impl Plant {
         let now = (None, resting([0.0; 2], 0.0, 0.0, &device));
         let ratios = ratios::of_device(&device, timing.signs.as_ref());
         let ratios = ratios.map_err(|message| SceneError::new(Place::File, "profile", message))?;
-        let plant = Plant { effects, ratios, case, device, timing: timing.clone(), seed, index, now };
+        let plant =
+            Plant { effects, ratios, case, device, timing: timing.clone(), seed, index, now };
         plant.check_limited_levels()?;
         Ok(plant)
     }
@@ -101,24 +119,39 @@ impl Plant {
                 let mut pad = plan.at(index, self.point(slot), self.time_s(slot), &self.device);
                 effects.on_pad(&mut pad);
                 if let Some((n, why)) = effects.refusal(&pad) {
-                    return Err(SceneError::new(Place::File, format!("{}.rung", self.case.effects[n].name), why));
+                    return Err(SceneError::new(
+                        Place::File,
+                        format!("{}.rung", self.case.effects[n].name),
+                        why,
+                    ));
                 }
             }
         }
         Ok(())
     }
 
-    /// The nominal sheet that a host of this device takes crosstalk out by; none where the case does not ask for it.
+    /// The nominal sheet that a host of this device takes crosstalk out by; none where the case
+    /// does not ask for it.
     pub fn nominal_sheet(&self) -> Option<NominalSheet> {
         let nominal = self.case.nominal.as_ref()?;
-        let setting = Setting { device: &self.device, timing: &self.timing, seed: self.seed, case: self.index };
+        let setting = Setting {
+            device: &self.device,
+            timing: &self.timing,
+            seed: self.seed,
+            case: self.index,
+        };
         let effects = Effects::build(nominal, &setting);
         Some(NominalSheet { effects, device: self.device(), ratios: self.ratios.clone() })
     }
 
     /// Effects of their own, for what must leave the run as it was.
     pub(crate) fn fresh_effects(&self) -> Effects {
-        let setting = Setting { device: &self.device, timing: &self.timing, seed: self.seed, case: self.index };
+        let setting = Setting {
+            device: &self.device,
+            timing: &self.timing,
+            seed: self.seed,
+            case: self.index,
+        };
         Effects::build(&self.case.effects, &setting)
     }
 
@@ -138,9 +171,9 @@ impl Plant {
     pub fn slots(&self) -> usize {
         match self.case.length {
             Length::Sweep { points, dwell_slots } => points * dwell_slots * self.case.pads.len(),
-            Length::Time { duration_s } => {
-                (duration_s * self.device.sample_rate_hz / self.timing.slot_samples as f64).floor() as usize
-            }
+            Length::Time { duration_s } => (duration_s * self.device.sample_rate_hz
+                / self.timing.slot_samples as f64)
+                .floor() as usize,
         }
     }
 
@@ -164,8 +197,8 @@ impl Plant {
         self.case.pad_names()
     }
 
-    /// What each effect has cost so far, in the order in which they act; nothing where the plant is not
-    /// [metered](Plant::metered).
+    /// What each effect has cost so far, in the order in which they act; nothing where the plant is
+    /// not [metered](Plant::metered).
     pub fn effects(&self) -> Vec<EffectCost> {
         self.effects.costs()
     }
@@ -197,8 +230,9 @@ impl Plant {
         }
     }
 
-    /// What an ideal demodulator over the slot's window finds, as fractions of full scale: one amplitude per terminal, then
-    /// the sensing voltage's, into `out` (channels − 1 of them); returns the mean square of the haptic channel.
+    /// What an ideal demodulator over the slot's window finds, as fractions of full scale: one
+    /// amplitude per terminal, then the sensing voltage's, into `out` (channels − 1 of them);
+    /// returns the mean square of the haptic channel.
     ///
     /// # Panics
     /// If `out` is shorter than that.
@@ -210,11 +244,11 @@ impl Plant {
         phasors.haptic_mean_square
     }
 
-    /// ADC samples of a run within the slot, appended to `out`: for each instant the terminals, the sensing voltage and the
-    /// haptic voltage, as fractions of full scale in [−1, 1].
+    /// ADC samples of a run within the slot, appended to `out`: for each instant the terminals, the
+    /// sensing voltage and the haptic voltage, as fractions of full scale in [−1, 1].
     ///
-    /// The noise of a run depends on where it starts, not on which runs were asked for before. Take the blanking part and
-    /// the window whole, so that it is the same each time.
+    /// The noise of a run depends on where it starts, not on which runs were asked for before. Take
+    /// the blanking part and the window whole, so that it is the same each time.
     pub fn samples(&mut self, slot: usize, range: Range<usize>, out: &mut Vec<f64>) {
         self.look(slot);
         let slot_start = (slot * self.timing.slot_samples) as u64;
@@ -225,7 +259,8 @@ impl Plant {
         out[start..].iter_mut().for_each(|sample| *sample = sample.clamp(-1.0, 1.0));
     }
 
-    /// A raster of places with what the nominal device reads there: no noise, no mismatch, one pad alone and at rest.
+    /// A raster of places with what the nominal device reads there: no noise, no mismatch, one pad
+    /// alone and at rest.
     ///
     /// ```
     /// # use hapticore_scene::{Plant, Scene, Timing};
@@ -241,17 +276,27 @@ impl Plant {
     /// # Ok::<(), hapticore_scene::SceneError>(())
     /// ```
     pub fn calibration_map(&self, nx: usize, ny: usize, margin_mm: f64) -> Vec<MapPoint> {
-        let still =
-            raster(nx, ny, margin_mm, &self.device).into_iter().map(|place| resting(place, 0.0, 0.0, &self.device));
+        let still = raster(nx, ny, margin_mm, &self.device)
+            .into_iter()
+            .map(|place| resting(place, 0.0, 0.0, &self.device));
         let point = |pad: Pad| {
             let amplitudes = pad.amplitudes();
-            let ([r_x, r_y], shares) = (self.ratios.of_amplitudes(&amplitudes), self.ratios.shares(&amplitudes));
-            MapPoint { x_mm: pad.x_mm, y_mm: pad.y_mm, r_x, r_y, shares, sheet_ohm: pad.sheet_ohm.re }
+            let ([r_x, r_y], shares) =
+                (self.ratios.of_amplitudes(&amplitudes), self.ratios.shares(&amplitudes));
+            MapPoint {
+                x_mm: pad.x_mm,
+                y_mm: pad.y_mm,
+                r_x,
+                r_y,
+                shares,
+                sheet_ohm: pad.sheet_ohm.re,
+            }
         };
         self.settle(still).map(point).collect()
     }
 
-    /// What the terminals of the nominal device measure of an isolated pad at rest at each of these positions, mm.
+    /// What the terminals of the nominal device measure of an isolated pad at rest at each of these
+    /// positions, mm.
     pub fn measurements(&self, places_mm: &[[f64; 2]]) -> Vec<PadMeasurement> {
         let still = places_mm.iter().map(|place| resting(*place, 0.0, 0.0, &self.device));
         let measurement = |pad: Pad| PadMeasurement {
@@ -261,8 +306,9 @@ impl Plant {
         self.settle(still).map(measurement).collect()
     }
 
-    /// A friction calibration, as for the paper's Fig. 6: one pad alone in the middle of the sheet, under each load at each
-    /// voltage. Eq. 8's k is fitted to it; without `[gap]` every point has `force_k` itself.
+    /// A friction calibration, as for the paper's Fig. 6: one pad alone in the middle of the sheet,
+    /// under each load at each voltage. Eq. 8's k is fitted to it; without `[gap]` every point has
+    /// `force_k` itself.
     ///
     /// ```
     /// # use hapticore_scene::{Plant, Scene, Timing};
@@ -278,7 +324,8 @@ impl Plant {
     /// # Ok::<(), hapticore_scene::SceneError>(())
     /// ```
     pub fn friction_calibration(&self, loads_g: &[f64], haptic_v_rms: &[f64]) -> Vec<ForcePoint> {
-        let settings = loads_g.iter().flat_map(|load| haptic_v_rms.iter().map(move |volt| (*load, *volt)));
+        let settings =
+            loads_g.iter().flat_map(|load| haptic_v_rms.iter().map(move |volt| (*load, *volt)));
         let still = settings.map(|(load, volt)| resting([0.0, 0.0], load, volt, &self.device));
         let point = |pad: Pad| ForcePoint {
             load_g: pad.load_g,
@@ -320,8 +367,10 @@ impl Plant {
         let index = slot % self.case.pads.len();
         self.now = (Some(slot), self.alone(index, slot, time_s));
         if self.effects.joins_pads() {
-            let others: Vec<_> = (0..self.case.pads.len()).filter(|other| *other != index).collect();
-            let others: Vec<_> = others.into_iter().map(|other| self.alone(other, slot, time_s)).collect();
+            let others: Vec<_> =
+                (0..self.case.pads.len()).filter(|other| *other != index).collect();
+            let others: Vec<_> =
+                others.into_iter().map(|other| self.alone(other, slot, time_s)).collect();
             self.effects.on_pads(&mut self.now.1, &others);
         }
     }

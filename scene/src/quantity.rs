@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Quantities of a slot: what a frame estimates of a pad, and what the plant alone knows. This is the one list of them; names
-//! in scenes, columns of tables, units and truths all come from it.
+//! Quantities of a slot: what a frame estimates of a pad, and what the plant alone knows. This is
+//! the one list of them; names in scenes, columns of tables, units and truths all come from it.
 
 use crate::truth::Truth;
 
@@ -66,7 +66,8 @@ quantities! {
     XMm: "x_mm", "mm", Frame, |truth| truth.x_mm;
     /// Position along y, mm above the sheet's centre.
     YMm: "y_mm", "mm", Frame, |truth| truth.y_mm;
-    /// [`XMm`](Quantity::XMm) and [`YMm`](Quantity::YMm) as a vector: it has no column and no single value.
+    /// [`XMm`](Quantity::XMm) and [`YMm`](Quantity::YMm) as a vector: it has no column and no
+    /// single value.
     PositionMm: "position_mm", "mm", Pair, |_| f64::NAN;
     /// Capacitance between pad and sheet, pF.
     CapacitancePf: "capacitance_pf", "pF", Frame, |truth| truth.capacitance_pf;
@@ -100,7 +101,8 @@ impl Quantity {
         Quantity::all().find(|quantity| quantity.name() == name)
     }
 
-    /// The quantity's name, which is its key in a scene and its column in a table of frames: `force_n`.
+    /// The quantity's name, which is its key in a scene and its column in a table of frames:
+    /// `force_n`.
     pub fn name(self) -> &'static str {
         self.entry().name
     }
@@ -120,7 +122,8 @@ impl Quantity {
         self.entry().source != Source::Pair
     }
 
-    /// The column of its truth in a table of frames, `true_force_n`; none where the truth is no column of its own.
+    /// The column of its truth in a table of frames, `true_force_n`; none where the truth is no
+    /// column of its own.
     pub fn true_column(self) -> Option<String> {
         let has_column = matches!(self.entry().source, Source::Frame | Source::Plant);
         has_column.then(|| format!("true_{}", self.name()))
@@ -151,10 +154,18 @@ mod tests {
     /// A name ends with its unit, but for those without one: a column says what it is in.
     #[test]
     fn names_end_with_their_units() {
-        let spelt =
-            [("Ω", "_ohm"), ("V", "_v_rms"), ("pF", "_pf"), ("N", "_n"), ("mm", "_mm"), ("g", "_g"), ("s", "_s")];
+        let spelt = [
+            ("Ω", "_ohm"),
+            ("V", "_v_rms"),
+            ("pF", "_pf"),
+            ("N", "_n"),
+            ("mm", "_mm"),
+            ("g", "_g"),
+            ("s", "_s"),
+        ];
         for quantity in Quantity::all().filter(|quantity| quantity.unit() != "1") {
-            let (_, ending) = spelt.iter().find(|(unit, _)| *unit == quantity.unit()).expect("a known unit");
+            let (_, ending) =
+                spelt.iter().find(|(unit, _)| *unit == quantity.unit()).expect("a known unit");
             assert!(quantity.name().ends_with(ending), "{quantity:?}");
         }
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Random streams named by what they are for, so that no stream depends on how much another was used.
+//! Random streams named by what they are for, so that no stream depends on how much another was
+//! used.
 
 use rand_distr::{Distribution, StandardNormal};
 use rand_xoshiro::rand_core::SeedableRng;
@@ -60,7 +61,8 @@ pub(crate) fn normals(seed: u64, purpose: Purpose) -> impl Iterator<Item = f64> 
     StandardNormal.sample_iter(stream(seed, [0, 0], purpose))
 }
 
-/// One step of SplitMix64: every bit of the input reaches every bit of the output (Steele, Lea and Flood, 2014).
+/// One step of SplitMix64: every bit of the input reaches every bit of the output (Steele, Lea and
+/// Flood, 2014).
 fn mix(word: u64) -> u64 {
     let word = word.wrapping_add(0x9e37_79b9_7f4a_7c15);
     let word = (word ^ (word >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);

@@ -12,8 +12,10 @@ pub(crate) fn of_device(device: &Device, signs: Option<&[Vec<i8>; 2]>) -> Result
     let signs = signs.cloned().unwrap_or_else(by_place);
     match signs.iter().find(|signs| signs.len() != device.terminals()) {
         None => Ok(Ratios::new(signs)),
-        Some(signs) => {
-            Err(format!("expected {} signs, as the device has terminals, got {}", device.terminals(), signs.len()))
-        }
+        Some(signs) => Err(format!(
+            "expected {} signs, as the device has terminals, got {}",
+            device.terminals(),
+            signs.len()
+        )),
     }
 }

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A rotating unit vector, stepped by multiplication: the sine and cosine of a run of samples without a call each.
+//! A rotating unit vector, stepped by multiplication: the sine and cosine of a run of samples
+//! without a call each.
 
 use std::f64::consts::TAU;
 
 use num_complex::Complex64;
 
-/// e^(jφ) with φ stepping evenly. Rounding lets it drift by about 1e-16 a step; it is set anew for every run of samples.
+/// e^(jφ) with φ stepping evenly. Rounding lets it drift by about 1e-16 a step; it is set anew for
+/// every run of samples.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Rotor {
     at: Complex64,
@@ -15,7 +17,8 @@ pub(crate) struct Rotor {
 impl Rotor {
     /// Starts at phase `turns` and steps by `step_turns`.
     pub fn new(turns: f64, step_turns: f64) -> Self {
-        let unit = |turns: f64| Complex64::new((TAU * turns.fract()).cos(), (TAU * turns.fract()).sin());
+        let unit =
+            |turns: f64| Complex64::new((TAU * turns.fract()).cos(), (TAU * turns.fract()).sin());
         Rotor { at: unit(turns), step: unit(step_turns) }
     }
 

@@ -110,12 +110,17 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Reads a scene. `file` is its name in messages; `overrides` are keys and values as in `--set KEY=VALUE` and win over
-    /// the file and its cases.
+    /// Reads a scene. `file` is its name in messages; `overrides` are keys and values as in `--set
+    /// KEY=VALUE` and win over the file and its cases.
     ///
     /// # Errors
-    /// A text that is no scene: the message names file, line and key, what was expected and what was found.
-    pub fn parse(text: &str, file: &str, overrides: &[(String, String)]) -> Result<Scene, SceneError> {
+    /// A text that is no scene: the message names file, line and key, what was expected and what
+    /// was found.
+    pub fn parse(
+        text: &str,
+        file: &str,
+        overrides: &[(String, String)],
+    ) -> Result<Scene, SceneError> {
         Scene::read(text, file, overrides).map_err(|error| error.in_file(file))
     }
 
@@ -155,7 +160,10 @@ impl Scene {
             profile: root.text("profile")?.unwrap_or_else(|| "standard".to_string()),
             window_samples: root.whole("window_samples", 1, 1 << 20)?,
             seed: root.whole("seed", 0, i64::MAX as u64)?.unwrap_or(1),
-            figure: figures.into_iter().find(|(name, _)| Some(*name) == figure).map(|(_, figure)| figure),
+            figure: figures
+                .into_iter()
+                .find(|(name, _)| Some(*name) == figure)
+                .map(|(_, figure)| figure),
             record: read_record(root)?,
             cases: Vec::new(),
             criteria: root
@@ -168,21 +176,26 @@ impl Scene {
 }
 
 fn read_record(root: &Table) -> Result<Vec<Record>, SceneError> {
-    let Some(words) = root.texts("record")? else { return Ok(vec![Record::Frames, Record::Report]) };
-    let record =
-        |word: &String| match word.as_str() {
-            "frames" => Ok(Record::Frames),
-            "report" => Ok(Record::Report),
-            "capture" => Ok(Record::Capture),
-            "waves" => Ok(Record::Waves),
-            other => Err(root
-                .error("record", format!("expected \"frames\", \"report\", \"capture\" or \"waves\", got {other:?}"))),
-        };
+    let Some(words) = root.texts("record")? else {
+        return Ok(vec![Record::Frames, Record::Report]);
+    };
+    let record = |word: &String| match word.as_str() {
+        "frames" => Ok(Record::Frames),
+        "report" => Ok(Record::Report),
+        "capture" => Ok(Record::Capture),
+        "waves" => Ok(Record::Waves),
+        other => Err(root.error(
+            "record",
+            format!("expected \"frames\", \"report\", \"capture\" or \"waves\", got {other:?}"),
+        )),
+    };
     words.iter().map(record).collect()
 }
 
 fn override_all(root: &mut Table, overrides: &[(String, String)]) -> Result<(), SceneError> {
-    overrides.iter().try_for_each(|(key, value)| format::apply(root, key, format::parse_value(key, value)?))
+    overrides
+        .iter()
+        .try_for_each(|(key, value)| format::apply(root, key, format::parse_value(key, value)?))
 }
 
 fn stem(file: &str) -> &str {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A quantity of a pad over the points of a sweep or over time: its load, its haptic voltage, its capacitance.
+//! A quantity of a pad over the points of a sweep or over time: its load, its haptic voltage, its
+//! capacitance.
 //!
 //! | written as | the value is |
 //! | --- | --- |
@@ -28,7 +29,11 @@ pub(crate) enum Stimulus {
 
 impl Stimulus {
     /// Reads `key`; every value it can take must lie in `limits`.
-    pub fn read(table: &Table, key: &'static str, limits: Limits) -> Result<Option<Stimulus>, SceneError> {
+    pub fn read(
+        table: &Table,
+        key: &'static str,
+        limits: Limits,
+    ) -> Result<Option<Stimulus>, SceneError> {
         match table.get(key).map(|node| &node.value) {
             None => Ok(None),
             Some(Value::Table(form)) => Stimulus::read_form(form, limits).map(Some),
@@ -37,12 +42,20 @@ impl Stimulus {
     }
 
     fn read_form(form: &Table, limits: Limits) -> Result<Stimulus, SceneError> {
-        let all = (Stimulus::read_sweep(form, limits)?, form.pairs("timeline")?, Stimulus::read_sine(form)?);
+        let all = (
+            Stimulus::read_sweep(form, limits)?,
+            form.pairs("timeline")?,
+            Stimulus::read_sine(form)?,
+        );
         let (key, stimulus) = match all {
             (Some(sweep), None, None) => ("sweep", Stimulus::Sweep(sweep)),
             (None, Some(timeline), None) => ("timeline", Stimulus::Timeline(timeline)),
             (None, None, Some(sine)) => ("sine", sine),
-            _ => return Err(form.error("", "expected exactly one of \"sweep\", \"timeline\", \"sine\"")),
+            _ => {
+                return Err(
+                    form.error("", "expected exactly one of \"sweep\", \"timeline\", \"sine\"")
+                );
+            }
         };
         if let Stimulus::Timeline(points) = &stimulus
             && points.windows(2).any(|pair| pair[1][0] < pair[0][0])
@@ -61,7 +74,8 @@ impl Stimulus {
         };
         let from = range.require("from", "a number", range.number("from", limits)?)?;
         let to = range.require("to", "a number", range.number("to", limits)?)?;
-        let points = range.require("points", "an integer", range.whole("points", 2, MOST_POINTS)?)?;
+        let points =
+            range.require("points", "an integer", range.whole("points", 2, MOST_POINTS)?)?;
         let step = (to - from) / (points - 1) as f64;
         Ok(Some((0..points).map(|n| from + step * n as f64).collect()))
     }
@@ -71,7 +85,11 @@ impl Stimulus {
         let frequency_hz = sine.number("frequency_hz", Limits::POSITIVE)?;
         Ok(Some(Stimulus::Sine {
             mean: sine.number_or("mean", Limits::ANY, 0.0)?,
-            amplitude: sine.require("amplitude", "a number", sine.number("amplitude", Limits::ANY)?)?,
+            amplitude: sine.require(
+                "amplitude",
+                "a number",
+                sine.number("amplitude", Limits::ANY)?,
+            )?,
             frequency_hz: sine.require("frequency_hz", "a number above 0", frequency_hz)?,
             phase_turns: sine.number_or("phase_turns", Limits::ANY, 0.0)?,
         }))
@@ -83,7 +101,9 @@ impl Stimulus {
             Stimulus::Constant(value) => vec![*value],
             Stimulus::Sweep(values) => values.clone(),
             Stimulus::Timeline(points) => points.iter().map(|point| point[1]).collect(),
-            Stimulus::Sine { mean, amplitude, .. } => vec![mean - amplitude.abs(), mean + amplitude.abs()],
+            Stimulus::Sine { mean, amplitude, .. } => {
+                vec![mean - amplitude.abs(), mean + amplitude.abs()]
+            }
         }
     }
 
@@ -110,7 +130,8 @@ impl Stimulus {
     }
 }
 
-/// Linear between points, held before the first and after the last; at two points of equal time the later one holds.
+/// Linear between points, held before the first and after the last; at two points of equal time the
+/// later one holds.
 fn interpolate(points: &[[f64; 2]], time_s: f64) -> f64 {
     let after = points.partition_point(|point| point[0] <= time_s);
     match (after.checked_sub(1).map(|n| points[n]), points.get(after)) {

@@ -30,7 +30,8 @@ const OTHERS: [&str; 4] = ["terminals", "middles", "terminal_5_mm", "terminal_6_
 /// How far off the edge a place still counts as on it, mm: what decimal fractions lose.
 const SLACK_MM: f64 = 1e-6;
 
-/// Places of the terminals on a sheet of this size, mm from its middle; a device without `[sheet]` has six.
+/// Places of the terminals on a sheet of this size, mm from its middle; a device without `[sheet]`
+/// has six.
 pub(crate) fn terminals_mm(root: &Table, size_mm: [f64; 2]) -> Result<Vec<[f64; 2]>, SceneError> {
     let edge = Edge { half: size_mm.map(|size| size / 2.0) };
     root.table("sheet")?.map_or_else(|| Ok(edge.usual("long")), |table| read(table, &edge))
@@ -38,7 +39,9 @@ pub(crate) fn terminals_mm(root: &Table, size_mm: [f64; 2]) -> Result<Vec<[f64; 
 
 /// The same from `[sheet]`.
 fn read(table: &Table, edge: &Edge) -> Result<Vec<[f64; 2]>, SceneError> {
-    let count = table.whole("terminals", LEAST_TERMINALS as u64, MOST_TERMINALS as u64)?.map(|count| count as usize);
+    let count = table
+        .whole("terminals", LEAST_TERMINALS as u64, MOST_TERMINALS as u64)?
+        .map(|count| count as usize);
     let middles = table.choice("middles", &["long", "short"])?;
     let fifth = edge.place(table, "terminal_5_mm")?;
     let sixth = edge.place(table, "terminal_6_mm")?;
@@ -46,16 +49,24 @@ fn read(table: &Table, edge: &Edge) -> Result<Vec<[f64; 2]>, SceneError> {
         return listed(table, edge, &places);
     }
     let mut places = edge.usual(middles.unwrap_or("long"));
-    [fifth, sixth].into_iter().zip(&mut places[4..]).for_each(|(given, place)| *place = given.unwrap_or(*place));
+    [fifth, sixth]
+        .into_iter()
+        .zip(&mut places[4..])
+        .for_each(|(given, place)| *place = given.unwrap_or(*place));
     if places[4] == places[5] {
         let got = places[5];
-        return Err(table.error("terminal_6_mm", format!("expected a place other than terminal 5's, got {got:?}")));
+        return Err(table.error(
+            "terminal_6_mm",
+            format!("expected a place other than terminal 5's, got {got:?}"),
+        ));
     }
     match count {
         None | Some(6) => {}
         Some(4) => places.truncate(4),
         Some(count) => {
-            let message = format!("expected 4 or 6, got {count}; terminals_mm takes the places of any other number");
+            let message = format!(
+                "expected 4 or 6, got {count}; terminals_mm takes the places of any other number"
+            );
             return Err(table.error("terminals", message));
         }
     }
@@ -66,10 +77,15 @@ fn read(table: &Table, edge: &Edge) -> Result<Vec<[f64; 2]>, SceneError> {
 fn listed(table: &Table, edge: &Edge, places: &[[f64; 2]]) -> Result<Vec<[f64; 2]>, SceneError> {
     let fail = |message: String| Err(table.error("terminals_mm", message));
     if let Some(other) = OTHERS.into_iter().find(|key| table.get(key).is_some()) {
-        return Err(table.error(other, "expected none, since terminals_mm says where all terminals are"));
+        return Err(
+            table.error(other, "expected none, since terminals_mm says where all terminals are")
+        );
     }
     if !(LEAST_TERMINALS..=MOST_TERMINALS).contains(&places.len()) {
-        return fail(format!("expected {LEAST_TERMINALS} to {MOST_TERMINALS} places, got {}", places.len()));
+        return fail(format!(
+            "expected {LEAST_TERMINALS} to {MOST_TERMINALS} places, got {}",
+            places.len()
+        ));
     }
     let mut terminals: Vec<[f64; 2]> = Vec::new();
     for (n, place) in places.iter().enumerate() {
@@ -79,7 +95,11 @@ fn listed(table: &Table, edge: &Edge, places: &[[f64; 2]]) -> Result<Vec<[f64; 2
             return fail(format!("{expected}, got {place:?} as terminal {}", n + 1));
         };
         if let Some(same) = terminals.iter().position(|other| *other == place) {
-            return fail(format!("expected different places, got {place:?} as terminals {} and {}", same + 1, n + 1));
+            return fail(format!(
+                "expected different places, got {place:?} as terminals {} and {}",
+                same + 1,
+                n + 1
+            ));
         }
         terminals.push(place);
     }
@@ -95,14 +115,16 @@ impl Edge {
     /// The corners, then two edges' middles.
     fn usual(&self, middles: &str) -> Vec<[f64; 2]> {
         let [x, y] = self.half;
-        let [fifth, sixth] = if middles == "short" { [[-x, 0.0], [x, 0.0]] } else { [[0.0, -y], [0.0, y]] };
+        let [fifth, sixth] =
+            if middles == "short" { [[-x, 0.0], [x, 0.0]] } else { [[0.0, -y], [0.0, y]] };
         vec![[-x, y], [-x, -y], [x, -y], [x, y], fifth, sixth]
     }
 
     /// A place on the edge, put on it exactly.
     fn hold(&self, place: [f64; 2]) -> Option<[f64; 2]> {
         let beyond = [0, 1].map(|axis| place[axis].abs() - self.half[axis]);
-        let on_edge = beyond.iter().any(|mm| mm.abs() <= SLACK_MM) && beyond.iter().all(|mm| *mm <= SLACK_MM);
+        let on_edge =
+            beyond.iter().any(|mm| mm.abs() <= SLACK_MM) && beyond.iter().all(|mm| *mm <= SLACK_MM);
         let held = |axis: usize| match beyond[axis].abs() <= SLACK_MM {
             true => self.half[axis].copysign(place[axis]),
             false => place[axis],

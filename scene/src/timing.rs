@@ -14,8 +14,9 @@ pub struct Timing {
     pub window_samples: usize,
     /// ADC samples per carrier period.
     pub samples_per_period: f64,
-    /// Sign of each terminal's current in the ratios r_x and r_y, as [`Truth`](crate::Truth) tells them; by the terminals'
-    /// places ([`signs_by_place`](crate::signs_by_place)) where there are none.
+    /// Sign of each terminal's current in the ratios r_x and r_y, as [`Truth`](crate::Truth) tells
+    /// them; by the terminals' places ([`signs_by_place`](crate::signs_by_place)) where there are
+    /// none.
     pub signs: Option<[Vec<i8>; 2]>,
 }
 
@@ -24,11 +25,16 @@ impl Timing {
     pub(crate) fn check(&self) -> Result<(), String> {
         let window_end = self.window_start + self.window_samples;
         let periods = self.samples_per_period;
-        let sound = self.window_samples > 0 && window_end <= self.slot_samples && periods.is_finite() && periods > 2.0;
+        let sound = self.window_samples > 0
+            && window_end <= self.slot_samples
+            && periods.is_finite()
+            && periods > 2.0;
         if sound {
             Ok(())
         } else {
-            Err(format!("expected a window within the slot and over 2 samples a period, got {self:?}"))
+            Err(format!(
+                "expected a window within the slot and over 2 samples a period, got {self:?}"
+            ))
         }
     }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The position of a pad over the points of a sweep or over time. Millimetres from the sheet's centre, x right, y up. With
-//! `over_edge = true` beside it the pad may reach over the edge, where its slots are flagged.
+//! The position of a pad over the points of a sweep or over time. Millimetres from the sheet's
+//! centre, x right, y up. With `over_edge = true` beside it the pad may reach over the edge, where
+//! its slots are flagged.
 //!
 //! | written as `position_mm =` | the pad |
 //! | --- | --- |
@@ -31,12 +32,15 @@ pub(crate) enum Trajectory {
 }
 
 impl Trajectory {
-    /// Reads `position_mm`; the pad must stay wholly on the sheet, but with `over_edge = true` its centre alone.
+    /// Reads `position_mm`; the pad must stay wholly on the sheet, but with `over_edge = true` its
+    /// centre alone.
     pub fn read(pad: &Table, device: &Device) -> Result<Trajectory, SceneError> {
         const KEY: &str = "position_mm";
         let trajectory = match pad.get(KEY).map(|node| &node.value) {
             Some(Value::Table(form)) => Trajectory::read_form(form, device)?,
-            _ => Trajectory::Points(vec![pad.require(KEY, "[x, y]", pad.pair(KEY, Limits::ANY)?)?]),
+            _ => {
+                Trajectory::Points(vec![pad.require(KEY, "[x, y]", pad.pair(KEY, Limits::ANY)?)?])
+            }
         };
         let reach = if pad.flag("over_edge")? {
             [device.width_mm, device.height_mm].map(|size| size / 2.0)
@@ -101,20 +105,26 @@ impl Trajectory {
                 let there = 1.0 - (2.0 * (turns - turns.floor()) - 1.0).abs();
                 [0, 1].map(|axis| from[axis] + (to[axis] - from[axis]) * there)
             }
-            Trajectory::Swing { centre, amplitude, frequency_hz, phase_turns } => [0, 1].map(|axis| {
-                centre[axis] + amplitude[axis] * (TAU * (frequency_hz[axis] * time_s + phase_turns[axis])).sin()
-            }),
+            Trajectory::Swing { centre, amplitude, frequency_hz, phase_turns } => {
+                [0, 1].map(|axis| {
+                    centre[axis]
+                        + amplitude[axis]
+                            * (TAU * (frequency_hz[axis] * time_s + phase_turns[axis])).sin()
+                })
+            }
         }
     }
 }
 
-/// Evenly spaced places, the outermost `margin_mm` from the edges; a single column or row is in the middle.
+/// Evenly spaced places, the outermost `margin_mm` from the edges; a single column or row is in the
+/// middle.
 pub(crate) fn raster(nx: usize, ny: usize, margin_mm: f64, device: &Device) -> Vec<Point> {
     let along = |n: usize, of: usize, size: f64| match of {
         1 => 0.0,
         _ => (size / 2.0 - margin_mm) * (2.0 * n as f64 / (of - 1) as f64 - 1.0),
     };
-    let place = |n: usize| [along(n % nx, nx, device.width_mm), along(n / nx, ny, device.height_mm)];
+    let place =
+        |n: usize| [along(n % nx, nx, device.width_mm), along(n / nx, ny, device.height_mm)];
     (0..nx * ny).map(place).collect()
 }
 
@@ -130,7 +140,11 @@ fn read_line(table: &Table) -> Result<Trajectory, SceneError> {
 }
 
 fn read_circle(table: &Table) -> Result<Trajectory, SceneError> {
-    let radius = table.require("radius_mm", "a number above 0", table.number("radius_mm", Limits::POSITIVE)?)?;
+    let radius = table.require(
+        "radius_mm",
+        "a number above 0",
+        table.number("radius_mm", Limits::POSITIVE)?,
+    )?;
     let turns = table.number_or("phase_turns", Limits::ANY, 0.0)?;
     Ok(Trajectory::Swing {
         centre: table.pair("centre_mm", Limits::ANY)?.unwrap_or_default(),

@@ -56,7 +56,8 @@ pub struct Truth {
     pub set: Setpoint,
     /// The pad reaches over the edge; what the plant says is for a pad at the edge.
     pub over_edge: bool,
-    /// The pad lies on another one; what the plant says is for pads that touch. Known only where pads are coupled.
+    /// The pad lies on another one; what the plant says is for pads that touch. Known only where
+    /// pads are coupled.
     pub touching: bool,
 }
 

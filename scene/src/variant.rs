@@ -5,8 +5,17 @@ use crate::error::SceneError;
 use crate::format::{Node, Table};
 
 /// Keys that belong to the scene as a whole, so that a case cannot set them.
-const WHOLE: [&str; 9] =
-    ["title", "summary", "profile", "window_samples", "seed", "figure", "record", "case", "criterion"];
+const WHOLE: [&str; 9] = [
+    "title",
+    "summary",
+    "profile",
+    "window_samples",
+    "seed",
+    "figure",
+    "record",
+    "case",
+    "criterion",
+];
 
 /// Whether a dotted key belongs to the scene as a whole.
 pub(crate) fn is_whole(key: &str) -> bool {
@@ -25,7 +34,10 @@ pub(crate) fn variants(root: &Table) -> Result<Vec<Variant>, SceneError> {
     for table in root.tables("case")? {
         let variant = Variant::read(table)?;
         if variants.iter().any(|other| other.name == variant.name) {
-            return Err(table.error("name", format!("expected a name of its own, got {:?} again", variant.name)));
+            return Err(table.error(
+                "name",
+                format!("expected a name of its own, got {:?} again", variant.name),
+            ));
         }
         variants.push(variant);
     }
@@ -41,7 +53,10 @@ impl Variant {
         let mut set = Vec::new();
         for (key, node) in table.table("set")?.into_iter().flat_map(Table::all) {
             if is_whole(key) {
-                return Err(table.error("set", format!("{key} belongs to the whole scene, a case cannot set it")));
+                return Err(table.error(
+                    "set",
+                    format!("{key} belongs to the whole scene, a case cannot set it"),
+                ));
             }
             set.push((key.to_string(), node.moved_to(key)));
         }

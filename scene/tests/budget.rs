@@ -4,14 +4,23 @@
 use hapticore_scene::{LevelDeviation, Plant, Scene, Timing};
 
 const HEAD: &str = "title = \"t\"\n";
-const REST: &str = "[[pad]]\nposition_mm = { raster = { nx = 7, ny = 5, margin_mm = 20 } }\n[sheet]\n";
+const REST: &str =
+    "[[pad]]\nposition_mm = { raster = { nx = 7, ny = 5, margin_mm = 20 } }\n[sheet]\n";
 
 fn timing() -> Timing {
-    Timing { pads: 4, slot_samples: 500, window_start: 100, window_samples: 400, samples_per_period: 10.0, signs: None }
+    Timing {
+        pads: 4,
+        slot_samples: 500,
+        window_start: 100,
+        window_samples: 400,
+        samples_per_period: 10.0,
+        signs: None,
+    }
 }
 
 fn scene(head: &str, rest: &str) -> Scene {
-    Scene::parse(&format!("{HEAD}{head}{REST}{rest}"), "s.toml", &[]).unwrap_or_else(|error| panic!("{error}"))
+    Scene::parse(&format!("{HEAD}{head}{REST}{rest}"), "s.toml", &[])
+        .unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn within(percent: f64) -> Scene {
@@ -25,8 +34,12 @@ fn sheet_error(level: &str) -> LevelDeviation {
 #[test]
 fn each_level_is_closer_to_the_next_and_the_finest_has_none() {
     let percent = |level| sheet_error(level).finer.map(|(_, percent)| percent);
-    let [distance, bilinear, bicubic] = ["distance", "bilinear", "bicubic"].map(|level| percent(level).unwrap());
-    assert!(distance > 5.0 && bilinear < 0.5 && bicubic < 0.02 && bicubic > 1e-6, "{distance} {bilinear} {bicubic}");
+    let [distance, bilinear, bicubic] =
+        ["distance", "bilinear", "bicubic"].map(|level| percent(level).unwrap());
+    assert!(
+        distance > 5.0 && bilinear < 0.5 && bicubic < 0.02 && bicubic > 1e-6,
+        "{distance} {bilinear} {bicubic}"
+    );
     assert_eq!(percent("analytic"), None);
 }
 
@@ -42,7 +55,9 @@ fn a_budget_takes_the_cheapest_level_whose_measured_error_fits() {
 
 #[test]
 fn a_level_that_the_scene_names_is_left_alone() {
-    let scene = scene("error_budget_percent = 1e-9\n", "rung = \"distance\"").within_budget(&timing()).unwrap();
+    let scene = scene("error_budget_percent = 1e-9\n", "rung = \"distance\"")
+        .within_budget(&timing())
+        .unwrap();
     assert_eq!(scene.cases[0].effects()[0], ("sheet", "distance"));
 }
 
@@ -50,5 +65,8 @@ fn a_level_that_the_scene_names_is_left_alone() {
 fn a_budget_without_chosen_levels_cannot_be_run() {
     let scene = scene("error_budget_percent = 1\n", "");
     let error = Plant::new(&scene, 0, &timing()).map(|_| ()).unwrap_err().to_string();
-    assert!(error.starts_with("s: error_budget_percent: expected levels that have been chosen"), "{error}");
+    assert!(
+        error.starts_with("s: error_budget_percent: expected levels that have been chosen"),
+        "{error}"
+    );
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Effects together: those of no size change no bit, and none depends on what else is asked for, on which thread.
+//! Effects together: those of no size change no bit, and none depends on what else is asked for, on
+//! which thread.
 
 mod common;
 
@@ -50,21 +51,30 @@ fn slots_are_the_same_on_any_number_of_threads_and_in_any_order() {
                 .map(|first| {
                     let mut plant = Plant::new(&scene, 0, &timing()).unwrap();
                     scope.spawn(move || {
-                        (first..12).step_by(threads).map(|slot| see(&mut plant, slot)).collect::<Vec<_>>()
+                        (first..12)
+                            .step_by(threads)
+                            .map(|slot| see(&mut plant, slot))
+                            .collect::<Vec<_>>()
                     })
                 })
                 .collect();
             workers.into_iter().map(|worker| worker.join().unwrap()).collect()
         });
         for (slot, expected) in one_by_one.iter().enumerate() {
-            assert_eq!(&seen[slot % threads][slot / threads], expected, "slot {slot} of {threads} threads");
+            assert_eq!(
+                &seen[slot % threads][slot / threads],
+                expected,
+                "slot {slot} of {threads} threads"
+            );
         }
     }
 }
 
 #[test]
 fn a_pad_over_the_edge_is_taken_as_at_the_edge_and_flagged() {
-    let truth = |x: f64| plant(&format!("[[pad]]\nposition_mm = [{x}, 0]\nover_edge = true\n[sheet]\n")).truth(0);
+    let truth = |x: f64| {
+        plant(&format!("[[pad]]\nposition_mm = [{x}, 0]\nover_edge = true\n[sheet]\n")).truth(0)
+    };
     let (at, over) = (truth(415.0), truth(425.0));
     assert!(!at.over_edge && over.over_edge && over.x_mm == 425.0);
     assert_eq!((over.r_x, over.r_y, over.sheet_ohm), (at.r_x, at.r_y, at.sheet_ohm));
@@ -82,5 +92,8 @@ fn four_terminals_are_all_there_is_and_short_edges_have_their_middles_left_and_r
     let four = currents("terminals = 4\n");
     assert!(four.len() == 4 && four.iter().all(|current| *current > 0.0), "{four:?}");
     let (long, short) = (currents(""), currents("middles = \"short\"\n"));
-    assert!((long[4] / long[5] - 1.0).abs() < 1e-6 && short[5] > 2.0 * short[4], "{long:?} {short:?}");
+    assert!(
+        (long[4] / long[5] - 1.0).abs() < 1e-6 && short[5] > 2.0 * short[4],
+        "{long:?} {short:?}"
+    );
 }

@@ -22,7 +22,8 @@ fn timing() -> Timing {
 #[test]
 fn every_bundled_scene_runs() {
     for (name, text) in gallery::all() {
-        let scene = Scene::parse(text, &format!("{name}.toml"), &[]).unwrap_or_else(|error| panic!("{error}"));
+        let scene = Scene::parse(text, &format!("{name}.toml"), &[])
+            .unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(scene.name, *name);
         assert!(!scene.criteria.is_empty());
         let scene = scene.within_budget(&timing()).unwrap();
@@ -47,7 +48,8 @@ fn truths(name: &str) -> Vec<Truth> {
     (0..plant.slots()).map(|slot| plant.truth(slot)).collect()
 }
 
-/// docs/physics.md §3: eq. 8 within 0.025 N to 350 V; the paper: within 0.1 N for 20 g and 100 g with one k.
+/// docs/physics.md §3: eq. 8 within 0.025 N to 350 V; the paper: within 0.1 N for 20 g and 100 g
+/// with one k.
 #[test]
 fn fig6_eq_8_holds_at_both_loads_with_one_k_from_a_friction_calibration() {
     let scene = Scene::parse(gallery::find("fig6").unwrap(), "fig6", &[]).unwrap();
@@ -55,8 +57,13 @@ fn fig6_eq_8_holds_at_both_loads_with_one_k_from_a_friction_calibration() {
     let volts: Vec<f64> = (0..=35).map(|step| 10.0 * f64::from(step)).collect();
     let calibration = plant.friction_calibration(&[20.0, 100.0], &volts);
     let square = |capacitance_pf: f64, volt: f64| (capacitance_pf * 1e-12 * volt).powi(2);
-    let pairs = || calibration.iter().map(|point| (square(point.capacitance_pf, point.haptic_v_rms), point.force_n));
-    let k = pairs().map(|(s, force)| s * force).sum::<f64>() / pairs().map(|(s, _)| s * s).sum::<f64>();
+    let pairs = || {
+        calibration
+            .iter()
+            .map(|point| (square(point.capacitance_pf, point.haptic_v_rms), point.force_n))
+    };
+    let k =
+        pairs().map(|(s, force)| s * force).sum::<f64>() / pairs().map(|(s, _)| s * s).sum::<f64>();
     for slot in 0..plant.slots() {
         let truth = plant.truth(slot);
         let error = truth.force_n - k * square(truth.capacitance_pf, truth.haptic_v_rms);
@@ -75,12 +82,14 @@ fn fig4_capacitance_rises_with_load_and_with_voltage() {
     assert!(all.iter().all(|from| all.iter().all(|to| rises(from, to))));
 }
 
-/// Force by eq. 8 with the exact inversion of docs/physics.md §2, C = |I|²/(ωVq), from what the plant's sensors show.
+/// Force by eq. 8 with the exact inversion of docs/physics.md §2, C = |I|²/(ωVq), from what the
+/// plant's sensors show.
 fn ideal_force(plant: &mut Plant, slot: usize) -> f64 {
     let device = plant.device();
     let mut phasors = [Complex::default(); TERMINALS + 1];
     let haptic_square = plant.phasors(slot, &mut phasors) * device.haptic_full_scale_v.powi(2);
-    let total: Complex = phasors[..TERMINALS].iter().map(|current| current * device.current_full_scale_a).sum();
+    let total: Complex =
+        phasors[..TERMINALS].iter().map(|current| current * device.current_full_scale_a).sum();
     let volt = phasors[TERMINALS].re * device.sense_full_scale_v;
     let capacitance_f = total.norm_sqr() / (device.carrier_rad_s * volt * total.im);
     device.force_k * capacitance_f.powi(2) * haptic_square
@@ -89,7 +98,12 @@ fn ideal_force(plant: &mut Plant, slot: usize) -> f64 {
 #[test]
 fn fig3_leaves_an_ideal_core_a_force_spread_below_a_third_of_the_tightest_criterion() {
     let scene = Scene::parse(gallery::find("fig3").unwrap(), "fig3", &[]).unwrap();
-    let tightest = scene.criteria.iter().filter(|c| c.of.name() == "force_n").map(|c| c.limit).fold(f64::MAX, f64::min);
+    let tightest = scene
+        .criteria
+        .iter()
+        .filter(|c| c.of.name() == "force_n")
+        .map(|c| c.limit)
+        .fold(f64::MAX, f64::min);
     for case in 0..scene.cases.len() {
         let (mut plant, mut groups) =
             (Plant::new(&scene, case, &timing()).unwrap(), BTreeMap::<usize, Vec<f64>>::new());
@@ -98,9 +112,14 @@ fn fig3_leaves_an_ideal_core_a_force_spread_below_a_third_of_the_tightest_criter
             groups.entry(group).or_default().push(ideal_force(&mut plant, slot));
         }
         for forces in groups.values() {
-            let (least, most) = forces.iter().fold((f64::MAX, f64::MIN), |(l, m), f| (l.min(*f), m.max(*f)));
+            let (least, most) =
+                forces.iter().fold((f64::MAX, f64::MIN), |(l, m), f| (l.min(*f), m.max(*f)));
             let spread_percent = 200.0 * (most - least) / (most + least);
-            assert!(spread_percent < tightest / 3.0, "{}: {spread_percent} %", scene.cases[case].name);
+            assert!(
+                spread_percent < tightest / 3.0,
+                "{}: {spread_percent} %",
+                scene.cases[case].name
+            );
         }
     }
 }

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Every mistake in a scene is one line that names the file, the line, the key, what was expected and what was found.
+//! Every mistake in a scene is one line that names the file, the line, the key, what was expected
+//! and what was found.
 
 use hapticore_scene::{Plant, Scene, Timing};
 
 const SCENE: &str = "title = \"t\"\n[[pad]]\nposition_mm = [0, 0]\n";
 
 fn message(text: &str, overrides: &[(&str, &str)]) -> String {
-    let overrides: Vec<_> = overrides.iter().map(|(key, value)| (key.to_string(), value.to_string())).collect();
-    let error = Scene::parse(text, "s.toml", &overrides).expect_err("the scene was accepted").to_string();
+    let overrides: Vec<_> =
+        overrides.iter().map(|(key, value)| (key.to_string(), value.to_string())).collect();
+    let error =
+        Scene::parse(text, "s.toml", &overrides).expect_err("the scene was accepted").to_string();
     assert!(!error.contains('\n') && error.len() < 600, "not one line: {error}");
     error
 }
@@ -29,17 +32,25 @@ fn unknown_level() {
 fn unknown_effect() {
     let magnet = format!("{SCENE}[magnet]\nrung = \"a\"");
     assert!(message(&magnet, &[]).starts_with("s.toml:4: magnet: unknown key, expected one of "));
-    assert!(message(&magnet, &[]).contains("\"supply\", \"gap\", \"halves\", \"hand\", \"friction\""));
+    assert!(
+        message(&magnet, &[]).contains("\"supply\", \"gap\", \"halves\", \"hand\", \"friction\"")
+    );
 }
 
 #[test]
 fn unknown_key() {
-    check("[gap]\n\ncoil = 3", "s.toml:6: gap.coil: unknown key, expected one of \"rung\", \"insulator_um\", ");
+    check(
+        "[gap]\n\ncoil = 3",
+        "s.toml:6: gap.coil: unknown key, expected one of \"rung\", \"insulator_um\", ",
+    );
 }
 
 #[test]
 fn negative_thickness() {
-    check("[gap]\ninsulator_um = -8", "s.toml:5: gap.insulator_um: expected a number above 0, got -8");
+    check(
+        "[gap]\ninsulator_um = -8",
+        "s.toml:5: gap.insulator_um: expected a number above 0, got -8",
+    );
 }
 
 #[test]
@@ -47,8 +58,14 @@ fn missing_unit() {
     let bare = message("title = \"t\"\n[[pad]]\nposition = [0, 0]", &[]);
     assert_eq!(bare, "s.toml:3: pad.0.position: expected position_mm, since a key names its unit");
     check("load = 20", "s.toml:4: pad.0.load: expected load_g, since a key names its unit");
-    check("[sheet]\n[shunt]\nnanofarad = 9", "s.toml:6: shunt.nanofarad: expected nanofarad_per_m2, since a key");
-    check("[sensor]\njitter_ns = 1", "s.toml:5: sensor.jitter_ns: expected jitter_ns_rms, since a key names its unit");
+    check(
+        "[sheet]\n[shunt]\nnanofarad = 9",
+        "s.toml:6: shunt.nanofarad: expected nanofarad_per_m2, since a key",
+    );
+    check(
+        "[sensor]\njitter_ns = 1",
+        "s.toml:5: sensor.jitter_ns: expected jitter_ns_rms, since a key names its unit",
+    );
 }
 
 #[test]
@@ -58,7 +75,10 @@ fn effects_that_need_a_sheet() {
     check("[coupling]", &format!("s.toml:4: coupling: {sheet}"));
     check("[switching]", &format!("s.toml:4: switching: {sheet}"));
     let uneven = "[sheet]\nslope_percent = [5, 0]\n[shunt]\nnanofarad_per_m2 = 9";
-    check(uneven, "s.toml:6: shunt: expected a uniform film, without sheet.slope_percent and sheet.patch");
+    check(
+        uneven,
+        "s.toml:6: shunt: expected a uniform film, without sheet.slope_percent and sheet.patch",
+    );
     let wish = message(&format!("uncouple = true\n{SCENE}"), &[]);
     assert_eq!(wish, "s.toml:1: uncouple: expected a [coupling] that could be taken out again");
 }
@@ -73,12 +93,18 @@ fn sheets_that_cannot_be() {
         "[sheet]\nterminals = 4\nopen = [6]",
         "s.toml:6: sheet.open: expected a list, each a number from 1 to 4, got 6",
     );
-    check("[sheet]\nopen = [1.5]", "s.toml:5: sheet.open: expected numbers of terminals, 1 to 6, got 1.5");
+    check(
+        "[sheet]\nopen = [1.5]",
+        "s.toml:5: sheet.open: expected numbers of terminals, 1 to 6, got 1.5",
+    );
     check(
         "[sheet]\nopen = [1, 2, 3, 4, 5, 6]",
         "s.toml:5: sheet.open: expected a terminal that is not open, since the current has to leave",
     );
-    check("[sheet]\nslope_percent = [95, 0]", "s.toml:5: sheet.slope_percent: expected a list, each a number from -90");
+    check(
+        "[sheet]\nslope_percent = [95, 0]",
+        "s.toml:5: sheet.slope_percent: expected a list, each a number from -90",
+    );
     check(
         "[sheet]\nslope_percent = [5, 0]\nrung = \"bicubic\"",
         "s.toml:6: sheet.rung: expected one of \"grid-20-mm\"",
@@ -91,7 +117,10 @@ fn sheets_that_cannot_be() {
         "[shunt]\nnanofarad_per_m2 = -9",
         "s.toml:5: shunt.nanofarad_per_m2: expected a number from 0 to 10000, got -9",
     );
-    check("[sensor]\ndither_lsb_rms = 1", "s.toml:5: sensor.dither_lsb_rms: expected quantisation_bits too");
+    check(
+        "[sensor]\ndither_lsb_rms = 1",
+        "s.toml:5: sensor.dither_lsb_rms: expected quantisation_bits too",
+    );
 }
 
 #[test]
@@ -144,9 +173,15 @@ fn wrong_types() {
         "[sensor]\nquantisation_bits = 16.5",
         "s.toml:5: sensor.quantisation_bits: expected an integer from 2 to 32, got 16.5",
     );
-    check("[sensor]\nhaptic_leakage = 1", "s.toml:5: sensor.haptic_leakage: expected true or false, got 1");
+    check(
+        "[sensor]\nhaptic_leakage = 1",
+        "s.toml:5: sensor.haptic_leakage: expected true or false, got 1",
+    );
     check("[[sheet]]", "s.toml:4: sheet: expected a table, got a list of 1");
-    check("[carrier]\nfrequency_hz = nan", "s.toml:5: carrier.frequency_hz: expected a number above 0, got NaN");
+    check(
+        "[carrier]\nfrequency_hz = nan",
+        "s.toml:5: carrier.frequency_hz: expected a number above 0, got NaN",
+    );
     check(
         "[carrier]\nfrequency_hz = 99999999999999999999",
         "s.toml:5: carrier.frequency_hz: expected an integer of at most 64 bits",
@@ -173,7 +208,10 @@ fn pad_outside_the_sheet() {
 
 #[test]
 fn terminals_inside_the_sheet() {
-    check("[sheet]\nterminal_5_mm = [0, 0]", "s.toml:5: sheet.terminal_5_mm: expected a place on the sheet's edge");
+    check(
+        "[sheet]\nterminal_5_mm = [0, 0]",
+        "s.toml:5: sheet.terminal_5_mm: expected a place on the sheet's edge",
+    );
     check(
         "[sheet]\nterminal_6_mm = [0, -250]",
         "s.toml:5: sheet.terminal_6_mm: expected a place other than terminal 5's",
@@ -203,19 +241,27 @@ fn places_of_terminals_that_cannot_be() {
     let many: Vec<_> = (0..17).map(|n| format!("[{}, 250]", n * 20 - 200)).collect();
     places(&format!("[{}]", many.join(", ")), "terminals_mm: expected 3 to 16 places, got 17");
     places("[1, 2, 3]", "terminals_mm: expected a list of pairs of numbers");
-    for (key, value) in
-        [("terminals", "4"), ("middles", "\"short\""), ("terminal_5_mm", "[0, 250]"), ("terminal_6_mm", "[0, 250]")]
-    {
+    for (key, value) in [
+        ("terminals", "4"),
+        ("middles", "\"short\""),
+        ("terminal_5_mm", "[0, 250]"),
+        ("terminal_6_mm", "[0, 250]"),
+    ] {
         check(
             &format!("[sheet]\nterminals_mm = [{a}, {b}, {c}]\n{key} = {value}"),
-            &format!("s.toml:6: sheet.{key}: expected none, since terminals_mm says where all terminals are"),
+            &format!(
+                "s.toml:6: sheet.{key}: expected none, since terminals_mm says where all terminals are"
+            ),
         );
     }
     check(
         &format!("[sheet]\nterminals_mm = [{a}, {b}, {c}]\nopen = [4]"),
         "s.toml:6: sheet.open: expected a list, each a number from 1 to 3, got 4",
     );
-    check("[sheet]\nterminals = 17", "s.toml:5: sheet.terminals: expected an integer from 3 to 16, got 17");
+    check(
+        "[sheet]\nterminals = 17",
+        "s.toml:5: sheet.terminals: expected an integer from 3 to 16, got 17",
+    );
 }
 
 #[test]
@@ -234,8 +280,14 @@ fn a_resistance_for_each_terminal() {
 fn signs_for_other_terminals() {
     let scene = Scene::parse(&format!("{SCENE}[sheet]\nterminals = 4"), "s.toml", &[]).unwrap();
     let signs = Some([vec![-1, -1, 1, 1, 0, 0], vec![1, -1, -1, 1, 0, 0]]);
-    let timing =
-        Timing { pads: 1, slot_samples: 9, window_start: 0, window_samples: 9, samples_per_period: 9.0, signs };
+    let timing = Timing {
+        pads: 1,
+        slot_samples: 9,
+        window_start: 0,
+        window_samples: 9,
+        samples_per_period: 9.0,
+        signs,
+    };
     let error = Plant::new(&scene, 0, &timing).map(|_| ()).unwrap_err().to_string();
     assert_eq!(error, "s: profile: expected 4 signs, as the device has terminals, got 6");
 }
@@ -243,13 +295,19 @@ fn signs_for_other_terminals() {
 #[test]
 fn sweeps_and_time_do_not_mix() {
     let swept = format!("duration_s = 1\n{SCENE}load_g = {{ sweep = [1, 2] }}");
-    assert!(message(&swept, &[]).starts_with("s.toml:1: duration_s: expected none, since the sweep decides"));
+    assert!(
+        message(&swept, &[])
+            .starts_with("s.toml:1: duration_s: expected none, since the sweep decides")
+    );
     check(
         "load_g = { sine = { amplitude = 1, frequency_hz = 1 } }",
         "s.toml:4: pad.0.load_g.sine: expected a number from 0",
     );
     let endless = "load_g = { timeline = [[0, 1], [1, 2]] }";
-    check(endless, "s.toml: duration_s: expected a number above 0, since a pad changes over time, but it is missing");
+    check(
+        endless,
+        "s.toml: duration_s: expected a number above 0, since a pad changes over time, but it is missing",
+    );
     check(
         "load_g = { sweep = [] }",
         "s.toml:4: pad.0.load_g.sweep: expected a list, each a number from 0 to 100000, got a list of 0",
@@ -292,8 +350,14 @@ fn criteria() {
 
 #[test]
 fn cases() {
-    check("[[case]]\nname = \"a\"\nset = { \"sheet.wet\" = 1 }", "s.toml:6: sheet.wet: unknown key");
-    check("[[case]]\nname = \"a\"\nset = { seed = 1 }", "s.toml:6: case.0.set: seed belongs to the whole scene");
+    check(
+        "[[case]]\nname = \"a\"\nset = { \"sheet.wet\" = 1 }",
+        "s.toml:6: sheet.wet: unknown key",
+    );
+    check(
+        "[[case]]\nname = \"a\"\nset = { seed = 1 }",
+        "s.toml:6: case.0.set: seed belongs to the whole scene",
+    );
     check(
         "[[case]]\nname = \"a\"\n[[case]]\nname = \"a\"",
         "s.toml:7: case.1.name: expected a name of its own, got \"a\" again",
@@ -308,17 +372,28 @@ fn overrides() {
         assert!(message.starts_with(expected), "got      {message}\nexpected {expected}");
     };
     expect("sheet.rung", "cubic", "s.toml: --set sheet.rung: expected one of \"distance\"");
-    expect("sheet.wet", "1", "s.toml: --set sheet.wet: unknown key, expected one of \"terminals\", \"middles\"");
+    expect(
+        "sheet.wet",
+        "1",
+        "s.toml: --set sheet.wet: unknown key, expected one of \"terminals\", \"middles\"",
+    );
     expect("magnet.rung", "1", "s.toml: --set magnet: unknown key");
     expect("pad.3.load_g", "1", "s.toml: --set pad.3.load_g: there is no 3 that could be entered");
     expect("title.x", "1", "s.toml: --set title.x: there is no title that could be entered");
-    expect("sheet..rung", "1", "s.toml: --set sheet..rung: expected a key such as sheet.terminal_ohm");
+    expect(
+        "sheet..rung",
+        "1",
+        "s.toml: --set sheet..rung: expected a key such as sheet.terminal_ohm",
+    );
 }
 
 #[test]
 fn no_scene_at_all() {
     assert_eq!(message("", &[]), "s.toml: title: expected text, but it is missing");
-    assert_eq!(message("title = \"t\"", &[]), "s.toml: pad: expected 1 to 16 tables headed [[pad]], got 0");
+    assert_eq!(
+        message("title = \"t\"", &[]),
+        "s.toml: pad: expected 1 to 16 tables headed [[pad]], got 0"
+    );
     assert!(message("title = \"t\"\n\ntitle = \"u\"", &[]).starts_with("s.toml:3: duplicate key"));
     for nonsense in ["%&@\u{0}\u{1b}[2J ", "[[[[", "a = [", "{", "\"\"\"", "a.", "= ", "\n", "é"] {
         assert!(message(&nonsense.repeat((1 << 20) / nonsense.len()), &[]).starts_with("s.toml"));
@@ -327,9 +402,16 @@ fn no_scene_at_all() {
 
 #[test]
 fn too_many_pads_for_the_profile() {
-    let scene = Scene::parse(&format!("{SCENE}[[pad]]\nposition_mm = [9, 9]"), "s.toml", &[]).unwrap();
-    let timing =
-        Timing { pads: 1, slot_samples: 9, window_start: 0, window_samples: 9, samples_per_period: 9.0, signs: None };
+    let scene =
+        Scene::parse(&format!("{SCENE}[[pad]]\nposition_mm = [9, 9]"), "s.toml", &[]).unwrap();
+    let timing = Timing {
+        pads: 1,
+        slot_samples: 9,
+        window_start: 0,
+        window_samples: 9,
+        samples_per_period: 9.0,
+        signs: None,
+    };
     let error = Plant::new(&scene, 0, &timing).map(|_| ()).unwrap_err().to_string();
     assert_eq!(error, "s: pad: expected at most 1 pads, as profile standard serves, got 2");
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Effects with a state, as a scene has them: the gap in motion, the supply, the finger, split pads; and that none of them is
-//! there unless the scene names it.
+//! Effects with a state, as a scene has them: the gap in motion, the supply, the finger, split
+//! pads; and that none of them is there unless the scene names it.
 
 use hapticore_scene::{Complex, Plant, Scene, Timing, Truth};
 
@@ -26,7 +26,8 @@ fn truths(text: &str) -> Vec<Truth> {
     (0..plant.slots()).map(|slot| plant.truth(slot)).collect()
 }
 
-const LEVELS: [&str; 6] = ["static", "quasi-static", "semi-implicit", "implicit-euler", "trapezoid", "tr-bdf2"];
+const LEVELS: [&str; 6] =
+    ["static", "quasi-static", "semi-implicit", "implicit-euler", "trapezoid", "tr-bdf2"];
 
 #[test]
 fn effects_that_a_scene_leaves_out_leave_the_bits_of_the_others_alone() {
@@ -40,14 +41,24 @@ fn effects_that_a_scene_leaves_out_leave_the_bits_of_the_others_alone() {
             let mut phasors = [Complex::default(); 7];
             bits.push(plant.phasors(slot, &mut phasors));
         }
-        (bits, plant.effects().into_iter().map(|cost| (cost.name, cost.evaluations)).collect::<Vec<_>>())
+        (
+            bits,
+            plant
+                .effects()
+                .into_iter()
+                .map(|cost| (cost.name, cost.evaluations))
+                .collect::<Vec<_>>(),
+        )
     };
     let (bare, evaluated) = scene("");
     assert_eq!(evaluated, [("sheet", 20), ("carrier", 40)]);
     let off = "[supply]\nlimiting_kohm = 0\n[friction]\nrung = \"coulomb\"\n";
     let (same, evaluated) = scene(off);
     assert_eq!(evaluated, [("supply", 20), ("friction", 20), ("sheet", 20), ("carrier", 40)]);
-    assert!(bare == same, "a supply without resistance and a friction that nobody reads change no bit");
+    assert!(
+        bare == same,
+        "a supply without resistance and a friction that nobody reads change no bit"
+    );
     assert!(scene("[supply]\n").0 != bare, "300 kilohms do");
 }
 
@@ -81,7 +92,9 @@ fn a_sine_pulls_as_its_mean_square_does_but_for_a_ripple() {
     };
     let [rms, sine] = ["rms", "sine"].map(capacitances);
     let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
-    let ripple = |values: &[f64]| values.iter().map(|value| (value / mean(values) - 1.0).abs()).fold(0.0, f64::max);
+    let ripple = |values: &[f64]| {
+        values.iter().map(|value| (value / mean(values) - 1.0).abs()).fold(0.0, f64::max)
+    };
     assert!((mean(&sine) / mean(&rms) - 1.0).abs() < 2e-3, "{} {}", mean(&sine), mean(&rms));
     // What is left of the creep moves both by 0.15 %.
     assert!(ripple(&sine) > 1e-2 && ripple(&rms) < 2e-3, "{} {}", ripple(&sine), ripple(&rms));
@@ -96,9 +109,16 @@ fn a_large_limiting_resistor_holds_the_voltage_down_and_nothing_swings() {
                  [carrier]\nhaptic_hz = 200\n[gap]\nrung = \"{level}\"\n"
             );
             let truths = truths(&text);
-            assert!(truths.iter().all(|truth| truth.haptic_v_rms.is_finite() && truth.haptic_v_rms < 600.0), "{level}");
+            assert!(
+                truths
+                    .iter()
+                    .all(|truth| truth.haptic_v_rms.is_finite() && truth.haptic_v_rms < 600.0),
+                "{level}"
+            );
             let tail = &truths[truths.len() - 50..];
-            let swing = tail.windows(2).map(|pair| (pair[1].haptic_v_rms / pair[0].haptic_v_rms - 1.0).abs());
+            let swing = tail
+                .windows(2)
+                .map(|pair| (pair[1].haptic_v_rms / pair[0].haptic_v_rms - 1.0).abs());
             assert!(swing.fold(0.0, f64::max) < 1e-4, "{level}, {kohm} kΩ");
         }
     }
@@ -111,7 +131,12 @@ fn no_load_and_600_v_and_back_leave_a_pad_as_it_was() {
             "duration_s = 40\n[[pad]]\nposition_mm = [0, 0]\nload_g = 0\n\
              haptic_v_rms = {{ timeline = [[0, 0], [0.1, 0], [0.1, 600], [0.3, 600], [0.3, 0]] }}\n[gap]\nrung = \"{level}\"\n"
         ));
-        assert!(truths.iter().all(|truth| truth.capacitance_pf > 300.0 && truth.capacitance_pf < 1251.0), "{level}");
+        assert!(
+            truths
+                .iter()
+                .all(|truth| truth.capacitance_pf > 300.0 && truth.capacitance_pf < 1251.0),
+            "{level}"
+        );
         let (before, after) = (truths[20].capacitance_pf, truths.last().unwrap().capacitance_pf);
         assert!((after / before - 1.0).abs() < 1e-6, "{level}: {before} {after}");
     }
@@ -126,14 +151,17 @@ fn measurement_mm(volt: f64, eccentricity_mm: f64, mismatch_percent: f64, after_
     truths(&text).last().unwrap().direction * 430.0
 }
 
-/// docs/physics.md §4: slopes of 0.20 at 0 V, 0.15 at 300 V, 0.036 at 400 V, an offset of −0.11 mm for 3 % mismatch; 0.2 s after
-/// switching on, before the rubber creeps. The first two and the offset hold to the prototype's digits. At 400 V it is 0.026 here
-/// and the limit was set after that: six of the eight patches are closed by then, and neither creep, the supply nor a real
-/// sine brings the slope to 0.036; 23 ms after switching on it passes through it.
+/// docs/physics.md §4: slopes of 0.20 at 0 V, 0.15 at 300 V, 0.036 at 400 V, an offset of −0.11 mm
+/// for 3 % mismatch; 0.2 s after switching on, before the rubber creeps. The first two and the
+/// offset hold to the prototype's digits. At 400 V it is 0.026 here and the limit was set after
+/// that: six of the eight patches are closed by then, and neither creep, the supply nor a real sine
+/// brings the slope to 0.036; 23 ms after switching on it passes through it.
 #[test]
 fn eq_10_reads_part_of_the_eccentricity_and_less_of_it_pulled_in() {
-    for (volt, physics, within) in [(0.0, 0.20, 0.005), (300.0, 0.15, 0.005), (400.0, 0.036, 0.011)] {
-        let [left, middle, right] = [-0.2, 0.0, 0.2].map(|e_mm| measurement_mm(volt, e_mm, 3.0, 0.2));
+    for (volt, physics, within) in [(0.0, 0.20, 0.005), (300.0, 0.15, 0.005), (400.0, 0.036, 0.011)]
+    {
+        let [left, middle, right] =
+            [-0.2, 0.0, 0.2].map(|e_mm| measurement_mm(volt, e_mm, 3.0, 0.2));
         let slope = (right - left) / 0.4;
         println!("{volt} V: slope {slope:.3}, prototype {physics}; offset {middle:.3} mm");
         assert!((slope - physics).abs() < within, "{volt} V: {slope}");
@@ -155,10 +183,17 @@ fn a_finger_drags_its_pad_behind_it_by_the_friction() {
     for truths in [&free, &held] {
         let last = truths.last().unwrap();
         let lag_mm = finger_mm(last) - last.x_mm;
-        assert!((lag_mm - 1e3 * last.friction_n / 300.0).abs() < 1e-3, "{lag_mm} mm, {} N", last.friction_n);
+        assert!(
+            (lag_mm - 1e3 * last.friction_n / 300.0).abs() < 1e-3,
+            "{lag_mm} mm, {} N",
+            last.friction_n
+        );
     }
     let [free, held] = [free, held].map(|truths| truths.last().unwrap().clone());
-    assert!((held.friction_n - free.friction_n - held.force_n).abs() < 1e-6, "the haptic force is what comes on top");
+    assert!(
+        (held.friction_n - free.friction_n - held.force_n).abs() < 1e-6,
+        "the haptic force is what comes on top"
+    );
 }
 
 #[test]

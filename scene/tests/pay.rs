@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Pay for what you use: an effect that a scene does not name is not built, never evaluated, holds no memory and leaves the
-//! bits of the run alone.
+//! Pay for what you use: an effect that a scene does not name is not built, never evaluated, holds
+//! no memory and leaves the bits of the run alone.
 
 mod common;
 
@@ -26,7 +26,8 @@ fn names(parts: &[&Part]) -> Vec<&'static str> {
 
 fn run(text: &str, overrides: &[(String, String)]) -> Vec<Seen> {
     let scene = Scene::parse(&format!("title = \"t\"\n{text}"), "s.toml", overrides);
-    let mut plant = Plant::new(&scene.unwrap_or_else(|error| panic!("{error}")), 0, &timing()).unwrap();
+    let mut plant =
+        Plant::new(&scene.unwrap_or_else(|error| panic!("{error}")), 0, &timing()).unwrap();
     (0..SLOTS).map(|slot| see(&mut plant, slot)).collect()
 }
 
@@ -37,8 +38,8 @@ fn evaluations(parts: &[&Part]) -> Vec<(&'static str, u64)> {
     plant.effects().into_iter().map(|cost| (cost.name, cost.evaluations)).collect()
 }
 
-/// An effect on a pad acts once a slot, on each pad where pads are coupled; one on all pads once; one on the channels on
-/// amplitudes and on samples.
+/// An effect on a pad acts once a slot, on each pad where pads are coupled; one on all pads once;
+/// one on the channels on amplitudes and on samples.
 fn expected(parts: &[&Part]) -> Vec<(&'static str, u64)> {
     let coupled = parts.iter().any(|part| part.name == "coupling");
     let each = |name: &str| match name {
@@ -87,22 +88,30 @@ fn held(parts: &[&Part]) -> i64 {
     memory.bytes_current
 }
 
-/// What an effect holds is gone with it: as much among all others as on the least scene that has it, so that none keeps
-/// anything for another, and none anything for itself where it is not named. (Shunt and coupling are looked at one by one:
-/// pads are coupled through what the shunt makes of the sheet.)
+/// What an effect holds is gone with it: as much among all others as on the least scene that has
+/// it, so that none keeps anything for another, and none anything for itself where it is not named.
+/// (Shunt and coupling are looked at one by one: pads are coupled through what the shunt makes of
+/// the sheet.)
 #[test]
 fn an_effect_that_a_scene_leaves_out_holds_no_memory() {
     held(&parts(|_| true)); // whatever a library keeps for ever is there now
     println!("all effects hold {} bytes", held(&parts(|_| true)));
     for one in optional() {
         let needed = |part: &Part| part.name == "carrier" || one.needs(part.name);
-        let alone = held(&parts(|part| part.name == one.name || needed(part))) - held(&parts(needed));
+        let alone =
+            held(&parts(|part| part.name == one.name || needed(part))) - held(&parts(needed));
         let tied = |part: &Part| {
-            part.needs(one.name) || [("shunt", "coupling"), ("coupling", "shunt")].contains(&(one.name, part.name))
+            part.needs(one.name)
+                || [("shunt", "coupling"), ("coupling", "shunt")].contains(&(one.name, part.name))
         };
-        let with_others = held(&parts(|part| !tied(part))) - held(&parts(|part| !tied(part) && part.name != one.name));
+        let with_others = held(&parts(|part| !tied(part)))
+            - held(&parts(|part| !tied(part) && part.name != one.name));
         println!("{}: {alone} bytes alone, {with_others} among all others", one.name);
-        assert!(alone > 0 && alone == with_others, "{}: {alone} bytes alone, {with_others} among all others", one.name);
+        assert!(
+            alone > 0 && alone == with_others,
+            "{}: {alone} bytes alone, {with_others} among all others",
+            one.name
+        );
     }
 }
 
@@ -125,21 +134,32 @@ fn allocations(parts: &[&Part]) -> u64 {
 fn a_slot_allocates_nothing_but_for_transients_and_coupled_pads() {
     const ALLOCATE: [&str; 2] = ["coupling", "switching"];
     for one in optional() {
-        let with = parts(|part| part.name == "carrier" || part.name == one.name || one.needs(part.name));
+        let with =
+            parts(|part| part.name == "carrier" || part.name == one.name || one.needs(part.name));
         let count = allocations(&with);
         assert_eq!(count > 0, ALLOCATE.contains(&one.name), "{}: {count} allocations", one.name);
     }
-    assert_eq!(allocations(&parts(|part| !ALLOCATE.contains(&part.name))), 0, "all others together");
+    assert_eq!(
+        allocations(&parts(|part| !ALLOCATE.contains(&part.name))),
+        0,
+        "all others together"
+    );
 }
 
-/// Tables of the sheet and the shunt are the case's: plants share them, and so does what calibrates beside a run.
+/// Tables of the sheet and the shunt are the case's: plants share them, and so does what calibrates
+/// beside a run.
 #[test]
 fn a_second_plant_of_a_case_builds_no_table_anew() {
-    let scene = scene(&scene_of(&parts(|part| part.name != "sensor.quantisation" && part.name != "sensor.dither")));
+    let scene = scene(&scene_of(&parts(|part| {
+        part.name != "sensor.quantisation" && part.name != "sensor.dither"
+    })));
     let mut plants = Vec::new();
-    let [first, second] =
-        [0, 1].map(|_| measure(|| plants.push(Plant::new(&scene, 0, &timing()).unwrap())).bytes_total);
+    let [first, second] = [0, 1]
+        .map(|_| measure(|| plants.push(Plant::new(&scene, 0, &timing()).unwrap())).bytes_total);
     let map = measure(|| drop(plants[0].calibration_map(2, 2, 15.0))).bytes_total;
     println!("{first} bytes, then {second}; {map} for a calibration");
-    assert!(first > 1_000_000 && second < 50_000 && map < 50_000, "{first}, then {second}; {map} for a calibration");
+    assert!(
+        first > 1_000_000 && second < 50_000 && map < 50_000,
+        "{first}, then {second}; {map} for a calibration"
+    );
 }

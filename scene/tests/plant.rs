@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The plant as its users see it: what is asked for once is the same when asked again, samples agree with phasors, and an
-//! effect that the scene leaves out is not there.
+//! The plant as its users see it: what is asked for once is the same when asked again, samples
+//! agree with phasors, and an effect that the scene leaves out is not there.
 
 use std::f64::consts::TAU;
 
@@ -12,15 +12,24 @@ const CHANNELS: usize = 8;
 const SENSE: usize = 6;
 const HAPTIC: usize = 7;
 
-const BARE: &str = "title = \"t\"\ndwell_slots = 50\n[[pad]]\nposition_mm = [120, -60]\nhaptic_v_rms = 150\n";
+const BARE: &str =
+    "title = \"t\"\ndwell_slots = 50\n[[pad]]\nposition_mm = [120, -60]\nhaptic_v_rms = 150\n";
 const NOISY: &str = "[sheet]\n[gap]\n[sensor]\nnoise_ppm_rms = 18\nhaptic_leakage = true\ngain_mismatch_percent = 1\noffset_percent = 0.1\n";
 
 fn timing() -> Timing {
-    Timing { pads: 4, slot_samples: 500, window_start: 100, window_samples: 400, samples_per_period: 10.0, signs: None }
+    Timing {
+        pads: 4,
+        slot_samples: 500,
+        window_start: 100,
+        window_samples: 400,
+        samples_per_period: 10.0,
+        signs: None,
+    }
 }
 
 fn scene(effects: &str) -> Scene {
-    Scene::parse(&format!("{BARE}{effects}"), "s.toml", &[]).unwrap_or_else(|error| panic!("{error}"))
+    Scene::parse(&format!("{BARE}{effects}"), "s.toml", &[])
+        .unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn plant(effects: &str) -> Plant {
@@ -35,7 +44,10 @@ fn window(plant: &mut Plant, slot: usize) -> Vec<[f64; CHANNELS]> {
 
 /// Amplitude at so many turns per sample, over a whole number of periods, rectangular.
 fn lock_in(rows: &[[f64; CHANNELS]], channel: usize, turns: f64) -> Complex {
-    let turned = rows.iter().enumerate().map(|(n, row)| Complex::cis(-TAU * n as f64 * turns) * row[channel]);
+    let turned = rows
+        .iter()
+        .enumerate()
+        .map(|(n, row)| Complex::cis(-TAU * n as f64 * turns) * row[channel]);
     turned.sum::<Complex>() * (2.0 / rows.len() as f64)
 }
 
@@ -54,14 +66,24 @@ fn an_effect_without_a_table_is_never_evaluated() {
         }
     }
     assert_eq!(evaluations(&bare), [("carrier", 10)]);
-    let all = ["gap", "sheet", "carrier", "sensor.leakage", "sensor.gain", "sensor.offset", "sensor.noise"];
+    let all = [
+        "gap",
+        "sheet",
+        "carrier",
+        "sensor.leakage",
+        "sensor.gain",
+        "sensor.offset",
+        "sensor.noise",
+    ];
     assert_eq!(evaluations(&noisy), all.map(|name| (name, 10)));
 }
 
 #[test]
 fn an_override_switches_an_effect_off_and_on() {
     let set = |key: &str, value: &str| {
-        let scene = Scene::parse(&format!("{BARE}{NOISY}"), "s.toml", &[(key.into(), value.into())]).unwrap();
+        let scene =
+            Scene::parse(&format!("{BARE}{NOISY}"), "s.toml", &[(key.into(), value.into())])
+                .unwrap();
         scene.cases[0]
             .effects()
             .into_iter()
@@ -69,7 +91,10 @@ fn an_override_switches_an_effect_off_and_on() {
             .collect::<Vec<_>>()
             .join(", ")
     };
-    assert!(!set("gap", "false").contains("gap") && !set("sensor.noise_ppm_rms", "false").contains("noise"));
+    assert!(
+        !set("gap", "false").contains("gap")
+            && !set("sensor.noise_ppm_rms", "false").contains("noise")
+    );
     assert!(set("friction.rung", "coulomb").contains("friction coulomb"));
     assert!(set("sheet.rung", "analytic").contains("sheet analytic"));
 }
@@ -113,7 +138,8 @@ fn recurrences_stay_within_1e_9_of_full_scale() {
     let rate = plant.device().sample_rate_hz;
     for (n, row) in window(&mut plant, 49).into_iter().enumerate() {
         let carrier = 5.0 / 8.0 * (TAU * (n + 100) as f64 / 10.0).cos();
-        let haptic = 150.0 * 2f64.sqrt() / 600.0 * (TAU * 1000.0 * (49 * 500 + 100 + n) as f64 / rate).sin();
+        let haptic =
+            150.0 * 2f64.sqrt() / 600.0 * (TAU * 1000.0 * (49 * 500 + 100 + n) as f64 / rate).sin();
         assert!((row[SENSE] - carrier).abs() < 1e-12 && (row[HAPTIC] - haptic).abs() < 1e-12);
     }
 }
@@ -124,15 +150,25 @@ fn currents_follow_equations_1_and_4() {
     let (truth, device) = (plant.truth(0), plant.device());
     let mut phasors = [Complex::default(); CHANNELS - 1];
     plant.phasors(0, &mut phasors);
-    let total: Complex = phasors[..TERMINALS].iter().map(|current| current * device.current_full_scale_a).sum();
+    let total: Complex =
+        phasors[..TERMINALS].iter().map(|current| current * device.current_full_scale_a).sum();
     // docs/physics.md §2: C = (p² + q²)/(ωVq), R_p = Vp/(p² + q²), exactly
-    let capacitance_pf = 1e12 * total.norm_sqr() / (device.carrier_rad_s * device.carrier_v * total.im);
+    let capacitance_pf =
+        1e12 * total.norm_sqr() / (device.carrier_rad_s * device.carrier_v * total.im);
     let sheet_ohm = device.carrier_v * total.re / total.norm_sqr();
-    assert!((capacitance_pf - truth.capacitance_pf).abs() < 1e-9 && (sheet_ohm - truth.sheet_ohm).abs() < 1e-8);
+    assert!(
+        (capacitance_pf - truth.capacitance_pf).abs() < 1e-9
+            && (sheet_ohm - truth.sheet_ohm).abs() < 1e-8
+    );
     let [a, b, c, d, e, f] = [0, 1, 2, 3, 4, 5].map(|terminal| phasors[terminal].norm());
     let all = a + b + c + d + e + f;
     let (r_x, r_y) = ((c + d - a - b) / all, (a + d + f - b - c - e) / all);
-    assert!((r_x - truth.r_x).abs() < 1e-12 && (r_y - truth.r_y).abs() < 1e-12 && r_x > 0.0 && r_y < 0.0);
+    assert!(
+        (r_x - truth.r_x).abs() < 1e-12
+            && (r_y - truth.r_y).abs() < 1e-12
+            && r_x > 0.0
+            && r_y < 0.0
+    );
     let corners = [vec![-1, -1, 1, 1, 0, 0], vec![1, -1, -1, 1, 0, 0]];
     let timing = Timing { signs: Some(corners), ..timing() };
     let paper = Plant::new(&scene("[sheet]\nterminal_ohm = 500\n"), 0, &timing).unwrap().truth(0);
@@ -145,8 +181,12 @@ fn currents_follow_equations_1_and_4() {
 fn leakage_is_as_far_below_the_carrier_as_physics_says() {
     for (haptic_hz, db) in [(200.0, -17.1), (1000.0, -3.1)] {
         let text = format!("[carrier]\nhaptic_hz = {haptic_hz}\n[sensor]\nhaptic_leakage = true\n");
-        let scene =
-            Scene::parse(&format!("{BARE}{text}"), "s.toml", &[("pad.0.haptic_v_rms".into(), "350".into())]).unwrap();
+        let scene = Scene::parse(
+            &format!("{BARE}{text}"),
+            "s.toml",
+            &[("pad.0.haptic_v_rms".into(), "350".into())],
+        )
+        .unwrap();
         let (mut plant, mut samples) = (Plant::new(&scene, 0, &timing()).unwrap(), Vec::new());
         (0..50).for_each(|slot| plant.samples(slot, 0..500, &mut samples));
         let rows: &[[f64; CHANNELS]] = samples.as_chunks().0;
@@ -161,14 +201,21 @@ fn noise_has_its_stated_size_in_samples_and_phasors() {
     let mut noisy = plant("[sensor]\nnoise_ppm_rms = 100\n");
     let mut quiet = plant("");
     let (mut square, mut count, mut phasor_square) = (0.0, 0.0, 0.0);
-    let (mut with, mut without) = ([Complex::default(); CHANNELS - 1], [Complex::default(); CHANNELS - 1]);
+    let (mut with, mut without) =
+        ([Complex::default(); CHANNELS - 1], [Complex::default(); CHANNELS - 1]);
     for slot in 0..50 {
         let (a, b) = (window(&mut noisy, slot), window(&mut quiet, slot));
-        square += a.as_flattened().iter().zip(b.as_flattened()).map(|(a, b)| (a - b).powi(2)).sum::<f64>();
+        square += a
+            .as_flattened()
+            .iter()
+            .zip(b.as_flattened())
+            .map(|(a, b)| (a - b).powi(2))
+            .sum::<f64>();
         count += a.as_flattened().len() as f64;
         noisy.phasors(slot, &mut with);
         quiet.phasors(slot, &mut without);
-        phasor_square += with.iter().zip(&without).map(|(a, b)| (a - b).norm_sqr()).sum::<f64>() / 2.0;
+        phasor_square +=
+            with.iter().zip(&without).map(|(a, b)| (a - b).norm_sqr()).sum::<f64>() / 2.0;
     }
     assert!(((square / count).sqrt() / 100e-6 - 1.0).abs() < 0.01);
     let predicted = 100e-6 * (2.0 * 1.5 / 400.0f64).sqrt();
@@ -178,12 +225,18 @@ fn noise_has_its_stated_size_in_samples_and_phasors() {
 #[test]
 fn quantised_samples_are_codes_half_a_step_from_the_truth_and_stop_at_full_scale() {
     let (mut exact, mut coded) = (plant(""), plant("[sensor]\nquantisation_bits = 12\n"));
-    for (a, b) in window(&mut exact, 5).as_flattened().iter().zip(window(&mut coded, 5).as_flattened()) {
+    for (a, b) in
+        window(&mut exact, 5).as_flattened().iter().zip(window(&mut coded, 5).as_flattened())
+    {
         assert!((b * 2048.0).fract() == 0.0 && (a - b).abs() <= 0.5 / 2048.0);
     }
     let mut clipped = plant("[sensor]\nquantisation_bits = 12\nsense_full_scale_v = 2\n");
     let sense: Vec<f64> = window(&mut clipped, 0).iter().map(|row| row[SENSE]).collect();
-    assert!(sense.contains(&-1.0) && sense.contains(&(2047.0 / 2048.0)) && sense.iter().all(|s| s.abs() <= 1.0));
+    assert!(
+        sense.contains(&-1.0)
+            && sense.contains(&(2047.0 / 2048.0))
+            && sense.iter().all(|s| s.abs() <= 1.0)
+    );
 }
 
 #[test]
@@ -194,7 +247,13 @@ fn a_sweep_visits_every_combination_positions_first() {
     assert_eq!(plant.slots(), 3 * 2 * 2 * 4 * 2);
     let truths: Vec<_> = (0..plant.slots()).map(|slot| plant.truth(slot)).collect();
     let at = |slot: usize| {
-        (truths[slot].x_mm, truths[slot].y_mm, truths[slot].load_g, truths[slot].haptic_v_rms, truths[slot].group)
+        (
+            truths[slot].x_mm,
+            truths[slot].y_mm,
+            truths[slot].load_g,
+            truths[slot].haptic_v_rms,
+            truths[slot].group,
+        )
     };
     assert_eq!(at(0), (-380.0, -200.0, 20.0, 0.0, 0));
     assert_eq!(at(3), (0.0, -200.0, 20.0, 0.0, 0));
@@ -223,6 +282,9 @@ fn the_calibration_map_is_the_truth_without_mismatch_and_costs_the_run_nothing()
     let map = plant.calibration_map(3, 5, 50.0);
     assert_eq!((map.len(), map[0].x_mm, map[0].y_mm, map[5].y_mm), (15, -380.0, -200.0, -100.0));
     let (truth, here) = (plant.truth(0), &map[7]);
-    assert_eq!((here.x_mm, here.r_x, here.r_y, here.sheet_ohm), (0.0, truth.r_x, truth.r_y, truth.sheet_ohm));
+    assert_eq!(
+        (here.x_mm, here.r_x, here.r_y, here.sheet_ohm),
+        (0.0, truth.r_x, truth.r_y, truth.sheet_ohm)
+    );
     assert_eq!(evaluations(&plant)[1], ("sheet", 1));
 }

@@ -4,15 +4,16 @@
 mod common;
 
 use common::{
-    CHANNELS, PAD, SENSE, TERMINALS, assert_near, capacitance_f, demodulate, deviation_percent, force_noise_percent,
-    hann, plant, rectangle,
+    CHANNELS, PAD, SENSE, TERMINALS, assert_near, capacitance_f, demodulate, deviation_percent,
+    force_noise_percent, hann, plant, rectangle,
 };
 use hapticore_scene::{Complex, Plant};
 
 const SLOTS: usize = 400;
 
 /// The haptic voltage's own current: 200 Hz at 350 V, into sensors that the currents nearly fill.
-const LEAK: &str = "current_full_scale_ma = 0.5\nhaptic_leakage = true\n[carrier]\nhaptic_hz = 200\n";
+const LEAK: &str =
+    "current_full_scale_ma = 0.5\nhaptic_leakage = true\n[carrier]\nhaptic_hz = 200\n";
 
 /// A pad on a sheet, with these keys of `[sensor]`, and tables after them.
 fn with(sensor: &str) -> String {
@@ -24,8 +25,8 @@ fn total(phasors: &[Complex]) -> Complex {
     phasors[..TERMINALS].iter().sum()
 }
 
-/// The prototype has 0.031 and 1.6e-5 % at an unknown voltage (docs/physics.md §5); 0.106 and 2.8e-4 % were measured here, and the
-/// limits hold that.
+/// The prototype has 0.031 and 1.6e-5 % at an unknown voltage (docs/physics.md §5); 0.106 and
+/// 2.8e-4 % were measured here, and the limits hold that.
 #[test]
 fn a_hann_window_keeps_out_what_a_rectangular_one_lets_in() {
     let spread = |window| force_noise_percent(&mut plant(&with(LEAK)), SLOTS, window);
@@ -33,7 +34,8 @@ fn a_hann_window_keeps_out_what_a_rectangular_one_lets_in() {
     assert_near("Hann", spread(hann), 2.8e-4, 0.02);
 }
 
-/// The prototype's percentages (docs/physics.md §5); the lower limit, a tenth of them, was set after measuring.
+/// The prototype's percentages (docs/physics.md §5); the lower limit, a tenth of them, was set
+/// after measuring.
 #[test]
 fn codes_dithered_by_the_leakage_cost_less_than_physics_allows() {
     for (bits, percent) in [(8, 0.28), (10, 0.074), (12, 0.005), (14, 0.002), (16, 0.0006)] {
@@ -53,22 +55,30 @@ fn bias_percent(plant: &mut Plant) -> f64 {
     (0..SLOTS).map(error).sum::<f64>() / SLOTS as f64
 }
 
-/// The prototype has 0.27 % at 10 bits, 0.015 % at 12 (docs/physics.md §5). 0.14 and −0.054 % were measured here, then the limits set.
+/// The prototype has 0.27 % at 10 bits, 0.015 % at 12 (docs/physics.md §5). 0.14 and −0.054 % were
+/// measured here, then the limits set.
 #[test]
 fn without_dither_ten_samples_a_cycle_leave_a_bias_that_only_dither_averages_out() {
     for bits in [10, 12] {
-        let bias = |dither: &str| bias_percent(&mut plant(&with(&format!("{dither}quantisation_bits = {bits}\n"))));
+        let bias = |dither: &str| {
+            bias_percent(&mut plant(&with(&format!("{dither}quantisation_bits = {bits}\n"))))
+        };
         let (bare, dithered) = (bias(""), bias("dither_lsb_rms = 0.5\n"));
         println!("{bits} bits: {bare} %, dithered {dithered} %");
-        assert!(bare.abs() > 0.05 && dithered.abs() < bare.abs() / 3.0, "{bits} bits: {bare} %, dithered {dithered} %");
+        assert!(
+            bare.abs() > 0.05 && dithered.abs() < bare.abs() / 3.0,
+            "{bits} bits: {bare} %, dithered {dithered} %"
+        );
     }
 }
 
-/// The 0.0037 % of docs/physics.md §5 is the amplitude's. A force is the square of current over voltage, both of which the clock moves.
+/// The 0.0037 % of docs/physics.md §5 is the amplitude's. A force is the square of current over
+/// voltage, both of which the clock moves.
 #[test]
 fn a_nanosecond_of_jitter_costs_37_ppm_of_the_amplitude() {
     let mut plant = plant(&with("jitter_ns_rms = 1\n"));
-    let sampled: Vec<_> = (0..SLOTS).map(|slot| total(&demodulate(&mut plant, slot, hann)).norm()).collect();
+    let sampled: Vec<_> =
+        (0..SLOTS).map(|slot| total(&demodulate(&mut plant, slot, hann)).norm()).collect();
     assert_near("sampled", deviation_percent(&sampled), 0.0037, 0.1);
     let mut phasors = [Complex::default(); SENSE + 1];
     let mut amplitude = |slot| {
@@ -84,12 +94,14 @@ fn a_nanosecond_of_jitter_costs_37_ppm_of_the_amplitude() {
 #[test]
 fn white_noise_costs_what_the_formula_says() {
     let mut plant = plant(&with("noise_density_na_per_rthz = 10\n"));
-    let amperes = total(&demodulate(&mut plant, 0, hann)).norm() * plant.device().current_full_scale_a;
+    let amperes =
+        total(&demodulate(&mut plant, 0, hann)).norm() * plant.device().current_full_scale_a;
     let percent = 100.0 * 2.0 * 10e-9 * (6.0 * 1.5 / 200e-6f64).sqrt() / amperes;
     assert_near("force", force_noise_percent(&mut plant, SLOTS, hann), percent, 0.08);
 }
 
-/// The prototype has 0.31 % rms for one draw of a 1 % mismatch (docs/physics.md §5); over 40 draws 0.35 % was measured, which the limit holds.
+/// The prototype has 0.31 % rms for one draw of a 1 % mismatch (docs/physics.md §5); over 40 draws
+/// 0.35 % was measured, which the limit holds.
 #[test]
 fn a_mismatch_of_one_percent_costs_a_third_of_a_percent_of_force_over_the_map() {
     let map = "[[pad]]\nposition_mm = { raster = { nx = 41, ny = 25, margin_mm = 20 } }\n[sheet]\n[sensor]\n";
@@ -121,17 +133,22 @@ fn bandwidth_gain_and_crosstalk_change_amplitudes_as_they_say() {
         near(amplitudes("bandwidth_khz = 300\n")[n], bare[n] / Complex::new(1.0, 1.0 / 3.0));
         near(amplitudes("gain_error_percent = -2\n")[n], bare[n] * 0.98);
         let neighbours = if n > 0 { bare[n - 1] } else { Complex::default() };
-        let neighbours = neighbours + if n + 1 < TERMINALS { bare[n + 1] } else { Complex::default() };
+        let neighbours =
+            neighbours + if n + 1 < TERMINALS { bare[n + 1] } else { Complex::default() };
         near(amplitudes("crosstalk_percent = 0.5\n")[n], bare[n] + neighbours * 0.005);
     }
-    for sensor in ["bandwidth_khz = 300\n", "gain_error_percent = -2\n", "crosstalk_percent = 0.5\n"] {
+    for sensor in
+        ["bandwidth_khz = 300\n", "gain_error_percent = -2\n", "crosstalk_percent = 0.5\n"]
+    {
         near(amplitudes(sensor)[SENSE], bare[SENSE]);
     }
 }
 
 #[test]
 fn samples_carry_the_same_amplitudes_as_phasors() {
-    for sensor in ["bandwidth_khz = 300\n", "gain_error_percent = -2\n", "crosstalk_percent = 0.5\n"] {
+    for sensor in
+        ["bandwidth_khz = 300\n", "gain_error_percent = -2\n", "crosstalk_percent = 0.5\n"]
+    {
         let sampled = demodulate(&mut plant(&with(sensor)), 0, hann);
         let pairs = sampled.into_iter().zip(amplitudes(sensor));
         assert!(pairs.into_iter().all(|(a, b)| (a - b).norm() < 1e-12), "{sensor}");
@@ -146,7 +163,8 @@ fn noises_are_independent_of_each_other() {
         samples.as_chunks::<CHANNELS>().0.iter().map(|row| row[0]).collect::<Vec<_>>()
     };
     let bare = first("");
-    let noise = |sensor: &str| first(sensor).iter().zip(&bare).map(|(a, b)| a - b).collect::<Vec<_>>();
+    let noise =
+        |sensor: &str| first(sensor).iter().zip(&bare).map(|(a, b)| a - b).collect::<Vec<_>>();
     let adc = noise("noise_ppm_rms = 100\n");
     let jitter = noise("jitter_ns_rms = 100\n");
     let amplifier = noise("noise_density_na_per_rthz = 10\n");

@@ -5,7 +5,9 @@ mod common;
 
 use std::f64::consts::PI;
 
-use common::{CHANNELS, PAD, SENSE, TERMINALS, capacitance_f, demodulate, hann, plant, scene, timing};
+use common::{
+    CHANNELS, PAD, SENSE, TERMINALS, capacitance_f, demodulate, hann, plant, scene, timing,
+};
 use hapticore_scene::{Complex, Plant, Timing};
 
 /// Terminals of 1.7 kΩ give the paper's R_p of up to 500 Ω: τ is 0.16 µs.
@@ -24,7 +26,8 @@ fn currents(switching: &str) -> Vec<f64> {
 fn the_first_current_is_all_across_the_sheet_and_the_rest_decays_with_tau() {
     let mut plant = plant(&with("[switching]\n"));
     let (device, truth) = (plant.device(), plant.truth(0));
-    let (tau_s, full_scale_a) = (truth.sheet_ohm * truth.capacitance_pf * 1e-12, device.current_full_scale_a);
+    let (tau_s, full_scale_a) =
+        (truth.sheet_ohm * truth.capacitance_pf * 1e-12, device.current_full_scale_a);
     let (settling, settled) = (currents("[switching]\n"), currents(""));
     assert!((settling[0] * full_scale_a - device.carrier_v / truth.sheet_ohm).abs() < 1e-9);
     let transient: Vec<_> = settling.iter().zip(&settled).map(|(a, b)| a - b).collect();
@@ -34,7 +37,8 @@ fn the_first_current_is_all_across_the_sheet_and_the_rest_decays_with_tau() {
     assert!(transient[5].abs() < 1e-4 * settled.iter().copied().fold(0.0, f64::max));
 }
 
-/// What the trapezoid rule takes for the carrier's frequency: tan(ωh/2)/(ωh/2) of it. docs/physics.md §2 has the same percentages.
+/// What the trapezoid rule takes for the carrier's frequency: tan(ωh/2)/(ωh/2) of it.
+/// docs/physics.md §2 has the same percentages.
 #[test]
 fn trapezoids_read_a_capacitance_that_is_too_large_by_exactly_so_much() {
     for (steps, percent) in [(1, 3.4), (4, 0.21), (8, 0.051), (16, 0.013), (64, 0.0008)] {
@@ -48,7 +52,10 @@ fn trapezoids_read_a_capacitance_that_is_too_large_by_exactly_so_much() {
         plant.phasors(0, &mut phasors);
         let truth = plant.truth(0).capacitance_pf * 1e-12;
         let measured = 100.0 * (capacitance_f(&plant, &phasors) / truth - 1.0);
-        assert!((measured - expected).abs() < 1e-6 + 1e-3 * expected, "{steps}: {measured} %, {expected} %");
+        assert!(
+            (measured - expected).abs() < 1e-6 + 1e-3 * expected,
+            "{steps}: {measured} %, {expected} %"
+        );
     }
 }
 
@@ -78,15 +85,21 @@ fn samples_and_phasors_tell_of_the_same_transient() {
     }
 }
 
-/// τ = R_p·C is 40 ns here, so that Euler's steps of 15.6 ns are fine, and with a tenth of the capacitance are not.
+/// τ = R_p·C is 40 ns here, so that Euler's steps of 15.6 ns are fine, and with a tenth of the
+/// capacitance are not.
 #[test]
 fn euler_is_refused_where_a_step_is_longer_than_two_tau() {
     let text = |pf: f64| {
-        format!("[[pad]]\nposition_mm = [120, -60]\ncapacitance_pf = {pf}\n[sheet]\n[switching]\nrung = \"euler-64\"\n")
+        format!(
+            "[[pad]]\nposition_mm = [120, -60]\ncapacitance_pf = {pf}\n[sheet]\n[switching]\nrung = \"euler-64\"\n"
+        )
     };
     assert!(Plant::new(&scene(&text(318.0)), 0, &timing()).is_ok());
     let error = Plant::new(&scene(&text(31.8)), 0, &timing()).map(|_| ()).unwrap_err().to_string();
-    assert!(error.starts_with("s: switching.rung: expected steps of at most 2·R_p·C = "), "{error}");
+    assert!(
+        error.starts_with("s: switching.rung: expected steps of at most 2·R_p·C = "),
+        "{error}"
+    );
     assert!(error.ends_with("got 15.6 ns"), "{error}");
 }
 

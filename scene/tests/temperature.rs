@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A film that is warmer than at its calibration: everything that is computed from the sheet sees the same changed film.
+//! A film that is warmer than at its calibration: everything that is computed from the sheet sees
+//! the same changed film.
 
 mod common;
 
@@ -52,16 +53,24 @@ const ABOVE: [&str; 6] = [
 fn an_even_rise_is_a_film_of_more_resistance_for_sheet_shunt_and_coupling_alike() {
     for level in ["distance", "bilinear", "bicubic", "analytic", "grid-20-mm"] {
         for above in ABOVE {
-            let sheet = |more: &str| format!("{PADS}[sheet]\nterminal_ohm = 300\nrung = \"{level}\"\n{more}{above}");
+            let sheet = |more: &str| {
+                format!("{PADS}[sheet]\nterminal_ohm = 300\nrung = \"{level}\"\n{more}{above}")
+            };
             let [cold, warm, more] =
-                [sheet(""), sheet("") + TENTH, sheet("ohm_per_square = 165\n")].map(|text| see(&text));
-            assert!(difference(&warm, &more) < 1e-12, "{level}, {above}: {:e}", difference(&warm, &more));
+                [sheet(""), sheet("") + TENTH, sheet("ohm_per_square = 165\n")]
+                    .map(|text| see(&text));
+            assert!(
+                difference(&warm, &more) < 1e-12,
+                "{level}, {above}: {:e}",
+                difference(&warm, &more)
+            );
             assert!(difference(&warm, &cold) > 1e-3, "{level}, {above}: nothing changed");
         }
     }
 }
 
-/// Each of the three follows by itself: a shunt and a coupling on the cold film would be far off those on the warm one.
+/// Each of the three follows by itself: a shunt and a coupling on the cold film would be far off
+/// those on the warm one.
 #[test]
 fn what_shunt_and_coupling_change_is_not_that_of_the_cold_film() {
     for above in &ABOVE[1..] {
@@ -70,7 +79,10 @@ fn what_shunt_and_coupling_change_is_not_that_of_the_cold_film() {
         };
         let change = |film: &str| {
             let (with, without) = (sheet(film, above), sheet(film, ""));
-            with.iter().zip(&without).map(|((_, p), (_, q))| (p[0] / q[0] - 1.0).norm()).fold(0.0, f64::max)
+            with.iter()
+                .zip(&without)
+                .map(|((_, p), (_, q))| (p[0] / q[0] - 1.0).norm())
+                .fold(0.0, f64::max)
         };
         let (cold, warm) = (change(""), change("ohm_per_square = 165\n"));
         assert!((warm / cold - 1.0).abs() > 0.02, "{above}: {cold} and {warm}");
@@ -80,10 +92,14 @@ fn what_shunt_and_coupling_change_is_not_that_of_the_cold_film() {
 #[test]
 fn a_gradient_is_a_film_with_a_slope_and_patches_take_part() {
     const MESH: &str = "rung = \"grid-20-mm\"\nterminal_ohm = 300\n";
-    let patch =
-        |ohm: f64| format!("[[sheet.patch]]\ncentre_mm = [200, 50]\nsize_mm = [120, 80]\nohm_per_square = {ohm}\n");
+    let patch = |ohm: f64| {
+        format!(
+            "[[sheet.patch]]\ncentre_mm = [200, 50]\nsize_mm = [120, 80]\nohm_per_square = {ohm}\n"
+        )
+    };
     for above in ["", "[coupling]\n"] {
-        let sheet = |film: &str, rest: &str| see(&format!("{PADS}[sheet]\n{MESH}{film}{rest}{above}"));
+        let sheet =
+            |film: &str, rest: &str| see(&format!("{PADS}[sheet]\n{MESH}{film}{rest}{above}"));
         let cold = sheet("", "");
         let gradient = "[temperature]\ntempco_ppm_per_k = 4000\ngradient_k = [25, -10]\n";
         let (warm, sloped) = (sheet("", gradient), sheet("slope_percent = [10, -4]\n", ""));
@@ -91,11 +107,20 @@ fn a_gradient_is_a_film_with_a_slope_and_patches_take_part() {
         // 10 % more in the middle: the same slope is a smaller share of that.
         let (warm, sloped) = (
             sheet("", &format!("{gradient}rise_k = 25\n")),
-            sheet(&format!("ohm_per_square = 165\nslope_percent = [{}, {}]\n", 10.0 / 1.1, -4.0 / 1.1), ""),
+            sheet(
+                &format!(
+                    "ohm_per_square = 165\nslope_percent = [{}, {}]\n",
+                    10.0 / 1.1,
+                    -4.0 / 1.1
+                ),
+                "",
+            ),
         );
         assert!(difference(&warm, &sloped) < 1e-12);
-        let (warm, patched) =
-            (sheet("", &format!("{}{TENTH}", patch(300.0))), sheet("ohm_per_square = 165\n", &patch(330.0)));
+        let (warm, patched) = (
+            sheet("", &format!("{}{TENTH}", patch(300.0))),
+            sheet("ohm_per_square = 165\n", &patch(330.0)),
+        );
         assert!(difference(&warm, &patched) < 1e-12);
     }
 }
@@ -114,7 +139,11 @@ fn a_film_warms_up_over_time_in_steps() {
             let rise_k = (50.0 * truth.time_s / 0.5).round() * 0.5;
             let expected = 1.0 + 1e-3 * rise_k;
             if ohm == 0 {
-                assert!((truth.sheet_ohm / still.sheet_ohm / expected - 1.0).abs() < 1e-12, "{}", truth.time_s);
+                assert!(
+                    (truth.sheet_ohm / still.sheet_ohm / expected - 1.0).abs() < 1e-12,
+                    "{}",
+                    truth.time_s
+                );
             }
             moved = moved.max((truth.r_x - still.r_x).abs());
         }
@@ -140,7 +169,8 @@ fn a_rise_of_nothing_changes_no_bit() {
 fn what_cannot_be_is_refused_with_its_key() {
     let refused = |text: &str, expected: &str| {
         let text = format!("title = \"t\"\n{PADS}{text}");
-        let built = Scene::parse(&text, "s.toml", &[]).and_then(|scene| Plant::new(&scene, 0, &timing()));
+        let built =
+            Scene::parse(&text, "s.toml", &[]).and_then(|scene| Plant::new(&scene, 0, &timing()));
         let error = built.map(|_| ()).unwrap_err().to_string();
         assert!(error.contains(expected), "{error}");
     };
@@ -150,7 +180,10 @@ fn what_cannot_be_is_refused_with_its_key() {
         "temperature.tempco_ppm_per_k: expected a number from -100000 to 100000",
     );
     let gradient = "[temperature]\ntempco_ppm_per_k = 400\ngradient_k = [5, 0]\n";
-    refused(&format!("[sheet]\n{gradient}"), "temperature.gradient_k: expected a mesh as sheet.rung");
+    refused(
+        &format!("[sheet]\n{gradient}"),
+        "temperature.gradient_k: expected a mesh as sheet.rung",
+    );
     refused(
         &format!("[sheet]\nrung = \"grid-20-mm\"\n[shunt]\nnanofarad_per_m2 = 9\n{gradient}"),
         "temperature.gradient_k: expected a mesh as sheet.rung",

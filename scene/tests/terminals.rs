@@ -28,7 +28,8 @@ fn around(count: usize) -> String {
     format!("terminals_mm = [{}]", places.join(", "))
 }
 
-/// Channels are the terminals, the sensing and the haptic voltage, and samples carry the amplitudes of phasors.
+/// Channels are the terminals, the sensing and the haptic voltage, and samples carry the amplitudes
+/// of phasors.
 #[test]
 fn every_effect_follows_the_number_of_terminals() {
     for (count, sheet) in [(4, "terminals = 4".to_string()), (6, String::new())]
@@ -41,7 +42,10 @@ fn every_effect_follows_the_number_of_terminals() {
         plant.phasors(0, &mut phasors);
         let sampled = demodulate(&mut plant, 0, hann);
         assert_eq!(sampled.len(), count + 1);
-        assert!(sampled.iter().zip(&phasors).all(|(a, b)| (a - b).norm() < 1e-9 && b.norm() > 1e-4), "{count}");
+        assert!(
+            sampled.iter().zip(&phasors).all(|(a, b)| (a - b).norm() < 1e-9 && b.norm() > 1e-4),
+            "{count}"
+        );
         let mut samples = Vec::new();
         plant.samples(0, 0..50, &mut samples);
         assert_eq!(samples.len(), 50 * (count + 2));
@@ -60,16 +64,26 @@ fn places_of_the_usual_terminals_are_those_of_their_numbers() {
         phasors
     };
     assert_eq!(amplitudes(listed), amplitudes("terminals = 4"));
-    let six = "terminals_mm = [[-430, 250], [-430, -250], [430, -250], [430, 250], [0, -250], [0, 250]]";
+    let six =
+        "terminals_mm = [[-430, 250], [-430, -250], [430, -250], [430, 250], [0, -250], [0, 250]]";
     assert_eq!(amplitudes(six), amplitudes("terminals = 6"));
-    assert_eq!(amplitudes("terminals = 4\nterminal_ohm = [7, 7, 7, 7]"), amplitudes("terminals = 4\nterminal_ohm = 7"));
-    assert_ne!(amplitudes("terminals = 4\nterminal_ohm = [7, 8, 7, 7]"), amplitudes("terminals = 4\nterminal_ohm = 7"));
+    assert_eq!(
+        amplitudes("terminals = 4\nterminal_ohm = [7, 7, 7, 7]"),
+        amplitudes("terminals = 4\nterminal_ohm = 7")
+    );
+    assert_ne!(
+        amplitudes("terminals = 4\nterminal_ohm = [7, 8, 7, 7]"),
+        amplitudes("terminals = 4\nterminal_ohm = 7")
+    );
 }
 
 #[test]
 fn signs_of_the_papers_six_terminals_are_the_sides_that_they_are_on() {
     let places = plant(&all_on("")).terminals().to_vec();
-    assert_eq!(signs_by_place(&places, [860.0, 500.0]), [vec![-1, -1, 1, 1, 0, 0], vec![1, -1, -1, 1, -1, 1]]);
+    assert_eq!(
+        signs_by_place(&places, [860.0, 500.0]),
+        [vec![-1, -1, 1, 1, 0, 0], vec![1, -1, -1, 1, -1, 1]]
+    );
 }
 
 /// Where the third of the sheet on one side has no terminal, and where a half has none.

@@ -40,7 +40,13 @@ impl<'a> Flow<'a> {
     ///
     /// # Errors
     /// The folder cannot be written.
-    pub fn new(tools: &'a Tools, family: Family, top: &'a str, files: &[File], folder: &Path) -> Result<Flow<'a>> {
+    pub fn new(
+        tools: &'a Tools,
+        family: Family,
+        top: &'a str,
+        files: &[File],
+        folder: &Path,
+    ) -> Result<Flow<'a>> {
         fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
         for file in files {
             hapticore_files::write(&folder.join(&file.name), &file.text)?;
@@ -50,7 +56,8 @@ impl<'a> Flow<'a> {
         names.sort();
         let ending = |name: &String, ending: &str| name.ends_with(&format!(".{ending}"));
         let constraints = names.iter().find(|name| ending(name, family.constraints())).cloned();
-        let verilog = names.into_iter().filter(|name| ending(name, "v")).collect::<Vec<_>>().join(" ");
+        let verilog =
+            names.into_iter().filter(|name| ending(name, "v")).collect::<Vec<_>>().join(" ");
         Ok(Flow { tools, family, top, folder: folder.into(), verilog, constraints })
     }
 
@@ -104,7 +111,8 @@ impl<'a> Flow<'a> {
     pub fn place(&self, seed: u64) -> Result<Placed> {
         let (program, part) = self.family.place();
         let [constraints, routed] = self.family.options();
-        let (name, report, seeded) = (self.routed(seed), format!("placed-{seed}.json"), seed.to_string());
+        let (name, report, seeded) =
+            (self.routed(seed), format!("placed-{seed}.json"), seed.to_string());
         // Whether the clock is fast enough is for the report to say.
         let mut arguments = part.to_vec();
         arguments.extend([
@@ -129,7 +137,10 @@ impl<'a> Flow<'a> {
         }
         self.tools.run(program, &arguments, &self.folder)?;
         let report = self.json(&report)?;
-        Ok(Placed { timing: Timing { seed, mhz: fmax(&report)? }, used: used(self.family, &report)? })
+        Ok(Placed {
+            timing: Timing { seed, mhz: fmax(&report)? },
+            used: used(self.family, &report)?,
+        })
     }
 
     /// Places and routes with each of the seeds.
@@ -164,7 +175,8 @@ impl<'a> Flow<'a> {
     pub fn pack(&self, seed: u64) -> Result<(PathBuf, String)> {
         let (program, options, ending) = self.family.pack();
         let (routed, name) = (self.routed(seed), format!("{}.{ending}", self.top));
-        let arguments: Vec<_> = options.iter().copied().chain([routed.as_str(), name.as_str()]).collect();
+        let arguments: Vec<_> =
+            options.iter().copied().chain([routed.as_str(), name.as_str()]).collect();
         self.tools.run(program, &arguments, &self.folder)?;
         let path = self.folder.join(name);
         let bytes = fs::read(&path)?;
@@ -181,7 +193,8 @@ fn cells(family: Family, module: &Value) -> Cells {
     cells
 }
 
-/// The clock's Fmax after routing. nextpnr calls paths between two iCE40 multipliers a clock of their own; they are not.
+/// The clock's Fmax after routing. nextpnr calls paths between two iCE40 multipliers a clock of
+/// their own; they are not.
 fn fmax(report: &Value) -> Result<f64> {
     let clocks = report["fmax"].as_object().context("nextpnr's fmax")?;
     let real = clocks.iter().filter(|(name, _)| !name.contains("$PACKER_GND"));
@@ -194,7 +207,8 @@ fn fmax(report: &Value) -> Result<f64> {
 fn used(family: Family, report: &Value) -> Result<Used> {
     let of = |resource: &str| {
         let entry = &report["utilization"][resource];
-        let number = |field: &str| entry[field].as_u64().with_context(|| format!("nextpnr's {resource}"));
+        let number =
+            |field: &str| entry[field].as_u64().with_context(|| format!("nextpnr's {resource}"));
         Ok::<_, anyhow::Error>([number("used")?, number("available")?])
     };
     let [logic, multipliers, block_rams] = family.resources();
@@ -215,7 +229,8 @@ mod tests {
 
     #[test]
     fn cells_are_counted_by_what_they_are() {
-        let module = json!({"num_cells_by_type": {"SB_DFFESR": 3, "SB_DFF": 1, "SB_LUT4": 5, "divider": 2}});
+        let module =
+            json!({"num_cells_by_type": {"SB_DFFESR": 3, "SB_DFF": 1, "SB_LUT4": 5, "divider": 2}});
         let expected = Cells { luts: 5, registers: 4, ..Cells::default() };
         assert_eq!(cells(Family::Ice40, &module), expected);
     }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Proofs with SymbiYosys: a printed module with a checker of `synth/formal/` before its `endmodule`.
+//! Proofs with SymbiYosys: a printed module with a checker of `synth/formal/` before its
+//! `endmodule`.
 //!
-//! The checker sees the module's registers by the names that the model gives them, and the widths as parameters.
+//! The checker sees the module's registers by the names that the model gives them, and the widths
+//! as parameters.
 
 use crate::tools::{Tools, root};
 use anyhow::{Context, Result, bail};
@@ -42,7 +44,8 @@ pub struct Claim<'a> {
     pub checker: &'a str,
     /// The checker's parameters.
     pub parameters: Vec<(&'static str, u64)>,
-    /// What the checker is to know besides: `SMALL` where words are short enough for the solver to multiply.
+    /// What the checker is to know besides: `SMALL` where words are short enough for the solver to
+    /// multiply.
     pub defines: Vec<&'static str>,
 }
 
@@ -87,9 +90,14 @@ impl Claim<'_> {
                 let lines = log.lines().filter(|line| line.contains("Assert failed"));
                 let text = self.text()?;
                 for line in lines {
-                    let number =
-                        line.split("claim.sv:").nth(1).and_then(|rest| rest.split('.').next()?.parse::<usize>().ok());
-                    eprintln!("{line}\n    {}", number.and_then(|number| text.lines().nth(number - 1)).unwrap_or(""));
+                    let number = line
+                        .split("claim.sv:")
+                        .nth(1)
+                        .and_then(|rest| rest.split('.').next()?.parse::<usize>().ok());
+                    eprintln!(
+                        "{line}\n    {}",
+                        number.and_then(|number| text.lines().nth(number - 1)).unwrap_or("")
+                    );
                 }
                 Ok(Verdict::Unknown)
             }
@@ -115,7 +123,9 @@ fn live(module: &Module) -> HashSet<Node> {
             Op::Register(index) => open.push(module.registers[index].node),
             Op::Add(a, b) | Op::Sub(a, b) | Op::Mul(a, b) | Op::Concat(a, b) => open.extend([a, b]),
             Op::Less(a, b) | Op::Equal(a, b) | Op::And(a, b) | Op::Or(a, b) => open.extend([a, b]),
-            Op::Abs(a) | Op::Fit(a, ..) | Op::Scale(a) | Op::Bits(a, _) | Op::Not(a) => open.push(a),
+            Op::Abs(a) | Op::Fit(a, ..) | Op::Scale(a) | Op::Bits(a, _) | Op::Not(a) => {
+                open.push(a)
+            }
             Op::Select(bit, a, b) => open.extend([bit, a, b]),
             Op::Constant(_) | Op::Input(_) | Op::Data(_) | Op::Output(..) => (),
         }
@@ -131,7 +141,8 @@ fn resolve(module: &Module, node: Node) -> Node {
     }
 }
 
-/// The module with one operator changed, for each operator that matters: a proof that passes for any of them shows nothing.
+/// The module with one operator changed, for each operator that matters: a proof that passes for
+/// any of them shows nothing.
 pub fn mutants(module: &Module) -> Vec<(String, Module)> {
     let live = live(module);
     let change = |op: &Op| match *op {
@@ -140,10 +151,13 @@ pub fn mutants(module: &Module) -> Vec<(String, Module)> {
         Op::Less(a, b) => Some(Op::Less(b, a)),
         Op::And(a, b) => Some(Op::Or(a, b)),
         Op::Or(a, b) => Some(Op::And(a, b)),
-        Op::Select(bit, a, b) if resolve(module, a) != resolve(module, b) => Some(Op::Select(bit, b, a)),
+        Op::Select(bit, a, b) if resolve(module, a) != resolve(module, b) => {
+            Some(Op::Select(bit, b, a))
+        }
         _ => None,
     };
-    let wires = module.wires.iter().enumerate().filter(|(index, _)| live.contains(&Node(*index as u32)));
+    let wires =
+        module.wires.iter().enumerate().filter(|(index, _)| live.contains(&Node(*index as u32)));
     let mutant = |(index, op): (usize, Op)| {
         let mut mutant = module.clone();
         let name = format!("wire {index}, {:?}, as {op:?}", module.wires[index].op);

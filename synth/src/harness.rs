@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A core between shift registers.
 //!
-//! A core has more ports than a package has pins, and paths to pins would say nothing of it. Here every input comes out of a
-//! register and every output goes into one, so that what limits the clock lies within.
+//! A core has more ports than a package has pins, and paths to pins would say nothing of it. Here
+//! every input comes out of a register and every output goes into one, so that what limits the
+//! clock lies within.
 
 use hapticore_hdl::verilog::{Design, Direction, Port};
 use std::fmt::Write as _;
@@ -12,7 +13,9 @@ pub const TOP: &str = "harness";
 
 /// Bits of the registers around a core: those before it, those after.
 pub fn bits(design: &Design) -> (u64, u64) {
-    let of = |direction| design.ports.iter().filter(|port| port.direction == direction).map(width).sum::<u64>();
+    let of = |direction| {
+        design.ports.iter().filter(|port| port.direction == direction).map(width).sum::<u64>()
+    };
     (of(Direction::Input), of(Direction::Output))
 }
 
@@ -37,7 +40,8 @@ pub fn verilog(design: &Design) -> String {
             Direction::Input => (&mut next_input, "before"),
             Direction::Output => (&mut next_output, "results"),
         };
-        write!(text, ",\n        .{}({name}[{}:{next}])", port.name, *next + width(port) - 1).expect("a string grows");
+        write!(text, ",\n        .{}({name}[{}:{next}])", port.name, *next + width(port) - 1)
+            .expect("a string grows");
         *next += width(port);
     }
     let tail = format!(

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Isolation of pads, for all inputs: the netlist that the Verilog is printed from, run on what is known of each signal.
+//! Isolation of pads, for all inputs: the netlist that the Verilog is printed from, run on what is
+//! known of each signal.
 //!
-//! Think of two runs of the core that differ in what other pads' slots brought, in any way at all. Of a signal it is known
+//! Think of two runs of the core that differ in what other pads' slots brought, in any way at all.
+//! Of a signal it is known
 //!
 //! | [`Seen`] | in both runs |
 //! | --- | --- |
@@ -9,9 +11,10 @@
 //! | `Same` | it is some code, the same in both |
 //! | `Other` | it may differ: something of another pad reaches it |
 //!
-//! Every operator is followed conservatively, and control never depends on data, so that the schedule stays known. If no word
-//! and no flag of a pad's frame is ever `Other`, no other pad can change it. Once a round leaves the same knowledge as the round
-//! before, this holds for all rounds to come. Widths play no part: a run takes one pass over the clocks, not one over the codes.
+//! Every operator is followed conservatively, and control never depends on data, so that the
+//! schedule stays known. If no word and no flag of a pad's frame is ever `Other`, no other pad can
+//! change it. Once a round leaves the same knowledge as the round before, this holds for all rounds
+//! to come. Widths play no part: a run takes one pass over the clocks, not one over the codes.
 
 use hapticore_hdl::format::Format;
 use hapticore_hdl::interpretations::netlist::{Module, Netlist, Node, Op};
@@ -72,7 +75,11 @@ impl State {
         State {
             registers: vec![if module.resets { Known(0) } else { Other }; module.registers.len()],
             memories: module.memories.iter().map(|memory_| memory(&memory_.initial)).collect(),
-            within: module.instances.iter().map(|part| State::new(netlist, &netlist.modules[part.module])).collect(),
+            within: module
+                .instances
+                .iter()
+                .map(|part| State::new(netlist, &netlist.modules[part.module]))
+                .collect(),
         }
     }
 
@@ -103,7 +110,9 @@ impl State {
                         let within = &netlist.modules[part.module];
                         let given = part.inputs.iter().zip(&within.inputs);
                         let given: Vec<_> = given
-                            .map(|(node, port)| wires[node.0 as usize].to(format(module, *node), port.format))
+                            .map(|(node, port)| {
+                                wires[node.0 as usize].to(format(module, *node), port.format)
+                            })
                             .collect();
                         self.within[index].clock(netlist, within, &given)
                     });
@@ -115,7 +124,8 @@ impl State {
         }
         let at = |node: Node, to: Format| wires[node.0 as usize].to(format(module, node), to);
         let outputs = module.outputs.iter().map(|output| at(output.node, output.format)).collect();
-        let next = module.registers.iter().map(|register| at(register.node, register.format)).collect();
+        let next =
+            module.registers.iter().map(|register| at(register.node, register.format)).collect();
         for (memory, (words, data)) in module.memories.iter().zip(&mut self.memories) {
             *data = memory.address.map_or(*data, |address| read(words, wires[address.0 as usize]));
             if let Some((enable, address, word)) = memory.write {
@@ -176,7 +186,9 @@ fn operator(module: &Module, op: &Op, to: Format, wires: &[Seen]) -> Seen {
     let aligned = |a: Node, b: Node, code: &dyn Fn(i128, i128) -> i128| {
         let (from_a, from_b) = (format(module, a).frac, format(module, b).frac);
         let most = from_a.max(from_b);
-        seen(a).with(seen(b), |x, y| code(x << i32::from(most - from_a), y << i32::from(most - from_b)))
+        seen(a).with(seen(b), |x, y| {
+            code(x << i32::from(most - from_a), y << i32::from(most - from_b))
+        })
     };
     match *op {
         Op::Constant(code) => Known(code),
@@ -189,7 +201,8 @@ fn operator(module: &Module, op: &Op, to: Format, wires: &[Seen]) -> Seen {
         Op::Bits(a, low) => seen(a).with(Known(0), |a, _| wrapped(a >> low, to)),
         Op::Concat(high, low) => {
             let width = format(module, low).width;
-            seen(high).with(seen(low), |high, low| wrapped(high << width | low & ((1 << width) - 1), to))
+            seen(high)
+                .with(seen(low), |high, low| wrapped(high << width | low & ((1 << width) - 1), to))
         }
         Op::Less(a, b) => aligned(a, b, &|a, b| truth(a < b)),
         Op::Equal(a, b) => aligned(a, b, &|a, b| truth(a == b)),
@@ -210,11 +223,14 @@ fn operator(module: &Module, op: &Op, to: Format, wires: &[Seen]) -> Seen {
                 by => yes.either(no, by),
             }
         }
-        Op::Input(_) | Op::Register(_) | Op::Data(_) | Op::Output(..) => unreachable!("sources are the caller's"),
+        Op::Input(_) | Op::Register(_) | Op::Data(_) | Op::Output(..) => {
+            unreachable!("sources are the caller's")
+        }
     }
 }
 
-/// A known code stays known where nothing is rounded; elsewhere only that it is the same in both runs.
+/// A known code stays known where nothing is rounded; elsewhere only that it is the same in both
+/// runs.
 fn fit(seen: Seen, from: Format, to: Format, rounding: Rounding, overflow: Overflow) -> Seen {
     let Known(code) = seen else { return seen };
     let shift = i32::from(to.frac - from.frac);

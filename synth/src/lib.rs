@@ -18,7 +18,8 @@
 //! | [`sources`] | the Verilog that a report is about, and its hash |
 //! | [`vectors`] | what users without Rust test the Verilog with |
 //!
-//! `synth/run BOARD` is the command; `synth/formal/` and `tests/toolchain/formal.rs` hold the proofs.
+//! `synth/run BOARD` is the command; `synth/formal/` and `tests/toolchain/formal.rs` hold the
+//! proofs.
 
 pub mod flow;
 pub mod formal;

@@ -131,11 +131,18 @@ fn cores(args: &Args, seeds: u64) -> Result<bool> {
     Ok(true)
 }
 
-fn core(args: &Args, tools: &Tools, profile: &Profile, family: Family, seeds: u64) -> Result<CoreRow> {
+fn core(
+    args: &Args,
+    tools: &Tools,
+    profile: &Profile,
+    family: Family,
+    seeds: u64,
+) -> Result<CoreRow> {
     let design = hapticore_rtl::header::design(profile);
     let files = sources::files(&design);
     let folder = args.work.join(format!("{}-{family:?}", profile.name));
-    let cells = Flow::new(tools, family, design.top(), &files, &folder.join("bare"))?.synthesise()?;
+    let cells =
+        Flow::new(tools, family, design.top(), &files, &folder.join("bare"))?.synthesise()?;
     let mut harnessed = files.clone();
     harnessed.push(File { name: "harness.v".into(), text: harness::verilog(&design) });
     let flow = Flow::new(tools, family, harness::TOP, &harnessed, &folder.join("harness"))?;
@@ -143,7 +150,10 @@ fn core(args: &Args, tools: &Tools, profile: &Profile, family: Family, seeds: u6
     let placed = flow.place_all(seeds);
     let (timings, unplaced) = match placed {
         Ok(placed) => (placed.iter().map(|placed: &flow::Placed| placed.timing).collect(), None),
-        Err(error) if error.to_string().contains("Unable to place") || error.to_string().contains("no more") => {
+        Err(error)
+            if error.to_string().contains("Unable to place")
+                || error.to_string().contains("no more") =>
+        {
             (Vec::new(), Some("does not fit".into()))
         }
         Err(error) => return Err(error),

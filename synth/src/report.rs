@@ -126,12 +126,18 @@ pub fn median(timings: &[Timing]) -> f64 {
 
 /// What must hold on a board.
 pub fn limits(board: &Board, used: &Used, median_mhz: f64) -> Vec<Limit> {
-    let at_least =
-        |name: &str, measured: f64, limit: f64| Limit { name: name.into(), measured, limit, holds: measured >= limit };
+    let at_least = |name: &str, measured: f64, limit: f64| Limit {
+        name: name.into(),
+        measured,
+        limit,
+        holds: measured >= limit,
+    };
     let mut all = vec![at_least("median clock, MHz, at least", median_mhz, board.least_mhz)];
     let names = ["logic cells, at most", "multipliers, at most", "block RAMs, at most"];
     let measured = [used.logic[0], used.multipliers[0], used.block_rams[0]];
-    for ((name, measured), most) in names.into_iter().zip(measured).zip(board.most.into_iter().flatten()) {
+    for ((name, measured), most) in
+        names.into_iter().zip(measured).zip(board.most.into_iter().flatten())
+    {
         let (measured, limit) = (measured as f64, most as f64);
         all.push(Limit { name: name.into(), measured, limit, holds: measured <= limit });
     }
@@ -172,7 +178,8 @@ impl BoardReport {
         text += "| limit | measured | limit | holds |\n| --- | --- | --- | --- |\n";
         for Limit { name, measured, limit, holds } in &self.limits {
             let holds = if *holds { "yes" } else { "**no**" };
-            writeln!(text, "| {name} | {measured:.1} | {limit:.1} | {holds} |").expect("a string grows");
+            writeln!(text, "| {name} | {measured:.1} | {limit:.1} | {holds} |")
+                .expect("a string grows");
         }
         write!(
             text,
@@ -198,8 +205,14 @@ impl CoresReport {
         );
         for row in &self.rows {
             let clock = row.unplaced.clone().unwrap_or_else(|| mhz(&row.timings));
-            writeln!(text, "| {} | {} | {} | {clock} |", row.profile, row.part, columns(&row.cells))
-                .expect("a string grows");
+            writeln!(
+                text,
+                "| {} | {} | {} | {clock} |",
+                row.profile,
+                row.part,
+                columns(&row.cells)
+            )
+            .expect("a string grows");
         }
         text
     }
@@ -212,7 +225,8 @@ mod tests {
 
     #[test]
     fn the_median_is_a_timing() {
-        let timings = |all: &[f64]| all.iter().map(|&mhz| Timing { seed: 1, mhz }).collect::<Vec<_>>();
+        let timings =
+            |all: &[f64]| all.iter().map(|&mhz| Timing { seed: 1, mhz }).collect::<Vec<_>>();
         assert_eq!(median(&timings(&[3.0, 1.0, 2.0])), 2.0);
         assert_eq!(median(&timings(&[3.0, 1.0])), 1.0);
     }
@@ -222,7 +236,8 @@ mod tests {
         let used = |cells| Used { logic: [cells, 5280], multipliers: [8, 8], block_rams: [30, 30] };
         let board = board("icebreaker").unwrap();
         assert!(limits(board, &used(3960), 14.4).iter().all(|limit| limit.holds));
-        let broken = |used: &Used, mhz| limits(board, used, mhz).iter().filter(|limit| !limit.holds).count();
+        let broken =
+            |used: &Used, mhz| limits(board, used, mhz).iter().filter(|limit| !limit.holds).count();
         assert_eq!(broken(&used(3961), 14.4), 1);
         assert_eq!(broken(&used(3960), 14.3), 1);
     }

@@ -15,7 +15,11 @@ pub struct File {
 
 /// The files of a printed design.
 pub fn files(design: &Design) -> Vec<File> {
-    design.modules.iter().map(|file| File { name: format!("{}.v", file.name), text: file.text.clone() }).collect()
+    design
+        .modules
+        .iter()
+        .map(|file| File { name: format!("{}.v", file.name), text: file.text.clone() })
+        .collect()
 }
 
 /// The Verilog of a board's top and all within it, and its constraints.
@@ -30,19 +34,26 @@ pub fn hash(bytes: impl IntoIterator<Item = u8>) -> String {
     format!("{:016x}", bytes.into_iter().fold(0xcbf2_9ce4_8422_2325, step))
 }
 
-/// The hash of what tools read of files, whichever order the files come in: comments (`//` to the end of the line) and
-/// blank lines do not count.
+/// The hash of what tools read of files, whichever order the files come in: comments (`//` to the
+/// end of the line) and blank lines do not count.
 pub fn hash_of(files: &[File]) -> String {
-    let mut all: Vec<_> = files.iter().map(|file| format!("{}\0{}\0", file.name, code(&file.text))).collect();
+    let mut all: Vec<_> =
+        files.iter().map(|file| format!("{}\0{}\0", file.name, code(&file.text))).collect();
     all.sort();
     hash(all.concat().into_bytes())
 }
 
-/// The lines of a text without comments and what they leave blank. A line without a comment stays as it is.
+/// The lines of a text without comments and what they leave blank. A line without a comment stays
+/// as it is.
 fn code(text: &str) -> String {
-    let uncommented =
-        |line: &str| line.split_once("//").map_or(line.to_owned(), |(code, _)| code.trim_end().to_owned());
-    text.lines().map(uncommented).filter(|line| !line.trim().is_empty()).map(|line| line + "\n").collect()
+    let uncommented = |line: &str| {
+        line.split_once("//").map_or(line.to_owned(), |(code, _)| code.trim_end().to_owned())
+    };
+    text.lines()
+        .map(uncommented)
+        .filter(|line| !line.trim().is_empty())
+        .map(|line| line + "\n")
+        .collect()
 }
 
 #[cfg(test)]
@@ -70,9 +81,15 @@ mod tests {
         let plain = hash("module a;\n  wire b = c / d;\nendmodule\n");
         assert_eq!(
             plain,
-            hash("// Version 2\n\nmodule a; // all of it\n  wire b = c / d;\n  // e\n\nendmodule // a\n")
+            hash(
+                "// Version 2\n\nmodule a; // all of it\n  wire b = c / d;\n  // e\n\nendmodule // a\n"
+            )
         );
-        assert_ne!(plain, hash("module a;\n  wire b = c // d;\nendmodule\n"), "what a comment hides is missing");
+        assert_ne!(
+            plain,
+            hash("module a;\n  wire b = c // d;\nendmodule\n"),
+            "what a comment hides is missing"
+        );
         assert_ne!(plain, hash("module a;\n  wire b = c / e;\nendmodule\n"));
     }
 }

@@ -22,7 +22,8 @@ pub struct Board {
     pub family: Family,
     /// The clock that the median seed must reach.
     pub least_mhz: f64,
-    /// The most of logic cells, multipliers and block RAMs, where the part is small enough for it to matter.
+    /// The most of logic cells, multipliers and block RAMs, where the part is small enough for it
+    /// to matter.
     pub most: Option<[u64; 3]>,
 }
 
@@ -61,7 +62,9 @@ impl Family {
     pub fn synthesis(self, top: &str) -> String {
         match self {
             Family::Ice40 => {
-                format!("hierarchy -top {top}; proc; flatten; opt; share -aggressive; opt; synth_ice40 -dsp -top {top}")
+                format!(
+                    "hierarchy -top {top}; proc; flatten; opt; share -aggressive; opt; synth_ice40 -dsp -top {top}"
+                )
             }
             Family::Ecp5 => format!("synth_ecp5 -top {top}"),
         }
@@ -79,7 +82,10 @@ impl Family {
     pub fn place(self) -> (&'static str, &'static [&'static str]) {
         match self {
             Family::Ice40 => ("nextpnr-ice40", &["--up5k", "--package", "sg48", "--freq", "14.4"]),
-            Family::Ecp5 => ("nextpnr-ecp5", &["--85k", "--package", "CABGA381", "--speed", "6", "--freq", "100"]),
+            Family::Ecp5 => (
+                "nextpnr-ecp5",
+                &["--85k", "--package", "CABGA381", "--speed", "6", "--freq", "100"],
+            ),
         }
     }
 

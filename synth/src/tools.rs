@@ -61,14 +61,27 @@ impl Tools {
     ///
     /// # Errors
     /// It cannot be started, or fails; with the end of its output.
-    pub fn run<S: AsRef<str>>(&self, program: &str, arguments: &[S], folder: &Path) -> Result<String> {
+    pub fn run<S: AsRef<str>>(
+        &self,
+        program: &str,
+        arguments: &[S],
+        folder: &Path,
+    ) -> Result<String> {
         let arguments = arguments.iter().map(AsRef::as_ref);
         let output = self.command(program).args(arguments).current_dir(folder).output();
         let output = output.with_context(|| format!("{program} does not start"))?;
-        let log = format!("{}{}", String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+        let log = format!(
+            "{}{}",
+            String::from_utf8_lossy(&output.stdout),
+            String::from_utf8_lossy(&output.stderr)
+        );
         if !output.status.success() {
             let lines: Vec<_> = log.lines().collect();
-            bail!("{program} failed in {}:\n{}", folder.display(), lines[lines.len().saturating_sub(30)..].join("\n"));
+            bail!(
+                "{program} failed in {}:\n{}",
+                folder.display(),
+                lines[lines.len().saturating_sub(30)..].join("\n")
+            );
         }
         Ok(log)
     }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Clocks a second of the model and of Verilator -O3 on the printed Verilog, same profile, same stimulus, in one run.
+//! Clocks a second of the model and of Verilator -O3 on the printed Verilog, same profile, same
+//! stimulus, in one run.
 //!
-//! `cargo bench -p hapticore-tests --bench verilator`. Rounds alternate, figures are medians; the outputs of all clocks must
-//! have the same sum. Nothing here asserts a time, for the machine is never quiet: quote the ratio.
+//! `cargo bench -p hapticore-tests --bench verilator`. Rounds alternate, figures are medians; the
+//! outputs of all clocks must have the same sum. Nothing here asserts a time, for the machine is
+//! never quiet: quote the ratio.
 
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::verilog::Design;

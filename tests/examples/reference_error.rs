@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The reference's own error on every bundled scene, as a table in Markdown.
 //!
-//! `cargo run --release -p hapticore-tests --example reference_error [SLOTS]`: about so many slots of each scene, evenly spread
-//! over its cases (48).
+//! `cargo run --release -p hapticore-tests --example reference_error [SLOTS]`: about so many slots
+//! of each scene, evenly spread over its cases (48).
 
 use hapticore_scene::gallery;
 use hapticore_tests::reference_error::{HEAD, Measured, measure, table};
 use rayon::prelude::*;
 
 fn main() {
-    let slots = std::env::args().nth(1).map_or(48, |slots| slots.parse().expect("a number of slots"));
+    let slots =
+        std::env::args().nth(1).map_or(48, |slots| slots.parse().expect("a number of slots"));
     let of = |&(name, _): &(&'static str, &str)| (name, measure(name, slots));
     let measured: Vec<(&str, Measured)> = gallery::all().par_iter().map(of).collect();
     print!("{HEAD}");

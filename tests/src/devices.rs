@@ -44,7 +44,9 @@ pub struct Raster {
 impl Raster {
     /// A pad's `position_mm` in a scene.
     pub fn position(&self, size_mm: [f64; 2]) -> String {
-        let along = |k: usize, count: usize, size: f64| (size - 30.0) * (k as f64 / (count - 1) as f64 - 0.5);
+        let along = |k: usize, count: usize, size: f64| {
+            (size - 30.0) * (k as f64 / (count - 1) as f64 - 0.5)
+        };
         let place = |k: usize| {
             let (column, row) = (k % self.columns, k / self.columns);
             [along(column, self.columns, size_mm[0]), along(row, self.rows, size_mm[1])]
@@ -70,8 +72,9 @@ pub struct Found {
 }
 
 impl Device {
-    /// Device `number`: 100 to 1500 mm long, 1 to 2.5 times as long as high, with 4, 5, 6 and 8 terminals in turn, of which
-    /// four are at the corners, each 0 to 2 kΩ ± 5 %, and a film of 20 to 500 Ω/sq; every other one slopes by up to 20 %.
+    /// Device `number`: 100 to 1500 mm long, 1 to 2.5 times as long as high, with 4, 5, 6 and 8
+    /// terminals in turn, of which four are at the corners, each 0 to 2 kΩ ± 5 %, and a film of 20
+    /// to 500 Ω/sq; every other one slopes by up to 20 %.
     pub fn draw(number: usize) -> Device {
         let mut rng = Rng::with_seed(0xDE71CE + number as u64);
         let rounded = |x: f64| (10.0 * x).round() / 10.0;
@@ -81,8 +84,12 @@ impl Device {
         let mut terminals_mm = vec![[-right, top], [-right, -top], [right, -top], [right, top]];
         while terminals_mm.len() < [4, 5, 6, 8][number % 4] {
             let along = 0.9 * (rng.f64() - 0.5);
-            let edges =
-                [[along * width, top], [along * width, -top], [right, along * height], [-right, along * height]];
+            let edges = [
+                [along * width, top],
+                [along * width, -top],
+                [right, along * height],
+                [-right, along * height],
+            ];
             terminals_mm.push(edges[rng.usize(0..4)]);
         }
         let ohm = 2000.0 * rng.f64();
@@ -112,7 +119,8 @@ impl Device {
         );
         let level = if self.slope_percent == [0.0; 2] { "bicubic-fine" } else { self.mesh() };
         let slope = self.slope_percent;
-        writeln!(text, "slope_percent = {slope:?}\nrung = \"{level}\"").expect("a string takes all");
+        writeln!(text, "slope_percent = {slope:?}\nrung = \"{level}\"")
+            .expect("a string takes all");
         text
     }
 
@@ -128,8 +136,14 @@ impl Device {
 
     /// A line that names it.
     pub fn label(&self) -> String {
-        let Device { number, size_mm: [width, height], terminals_mm, ohm_per_square, terminal_ohm, slope_percent } =
-            self;
+        let Device {
+            number,
+            size_mm: [width, height],
+            terminals_mm,
+            ohm_per_square,
+            terminal_ohm,
+            slope_percent,
+        } = self;
         let [along, across] = slope_percent;
         format!(
             "#{number:<3} {width:6.1} × {height:6.1} mm, {} terminals behind {:4.0} Ω, {ohm_per_square:3.0} Ω/sq {along:+3.0} {across:+3.0} %",
@@ -155,8 +169,8 @@ impl Found {
     }
 }
 
-/// The measurements of a core of the profile, at `fixed`, of every slot of a scene with one pad, and what its calibration's report
-/// says.
+/// The measurements of a core of the profile, at `fixed`, of every slot of a scene with one pad,
+/// and what its calibration's report says.
 ///
 /// # Panics
 /// A scene or device that the profile cannot serve.
@@ -168,12 +182,18 @@ pub fn rows(profile: &Profile, scene: &str) -> (Vec<Row>, Residual) {
 ///
 /// # Panics
 /// As [`rows`].
-pub fn disturbed_rows(profile: &Profile, scene: &str, disturb: impl Fn(usize, &mut Signals)) -> (Vec<Row>, Residual) {
+pub fn disturbed_rows(
+    profile: &Profile,
+    scene: &str,
+    disturb: impl Fn(usize, &mut Signals),
+) -> (Vec<Row>, Residual) {
     let scene = Scene::parse(scene, "device", &[]).expect("a scene");
     let case = Case::new(&scene, 0, 0, profile, 0.0).expect("a case");
-    let mut maker = Maker::new(case.plant().expect("a plant"), &case.profile, scene.cases[0].sampled(), false);
+    let mut maker =
+        Maker::new(case.plant().expect("a plant"), &case.profile, scene.cases[0].sampled(), false);
     let at = (0, case.clock);
-    let mut session = Session::new(&case.profile, &case.device, Fidelity::Fixed, false, at).expect("a session");
+    let mut session =
+        Session::new(&case.profile, &case.device, Fidelity::Fixed, false, at).expect("a session");
     let row = |slot| {
         let truth = maker.plant().truth(slot);
         let (mut signals, _) = maker.signals(slot);
@@ -204,7 +224,8 @@ fn distance_mm(row: &Row, found: Quantities) -> f64 {
 /// As [`rows`].
 pub fn find(profile: &Profile, device: Device, places: &Raster) -> Found {
     let (rows, residual) = rows(profile, &device.scene(places));
-    let (invalid, valid): (Vec<_>, Vec<_>) = rows.iter().partition(|row| row.flags.contains("invalid"));
+    let (invalid, valid): (Vec<_>, Vec<_>) =
+        rows.iter().partition(|row| row.flags.contains("invalid"));
     let reference = |row: &Row| distance_mm(row, row.reference.expect("asked for").quantities);
     Found {
         device,

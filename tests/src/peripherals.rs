@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The blocks of a board, each alone with a trace: directed input, as its surroundings give it, and what no surroundings should.
+//! The blocks of a board, each alone with a trace: directed input, as its surroundings give it, and
+//! what no surroundings should.
 
 use fastrand::Rng;
 use hapticore_contract::profile::Profile;
@@ -38,7 +39,8 @@ fn alone<B: Block>(block: &B, clocks: usize, mut given: impl FnMut(&mut Rng) -> 
     let trace = Trace::record(block, design.ports.clone(), |_| {
         left = left.checked_sub(1)?;
         let given = given(&mut rng);
-        let code = |name: &&str| given.iter().find(|(of, _)| of == name).map_or(0, |(_, code)| *code);
+        let code =
+            |name: &&str| given.iter().find(|(of, _)| of == name).map_or(0, |(_, code)| *code);
         Some(B::Inputs::FIELDS.iter().map(|field| code(&field.name)).collect())
     });
     Alone { design, trace }
@@ -85,7 +87,8 @@ fn receiver(divisor: u64) -> Alone {
             let bit = divisor as usize + rng.usize(..3) - 1;
             let byte = rng.u8(..);
             let bits = (0..8).map(|k| i64::from(byte >> k & 1));
-            let frame: Vec<i64> = [0].into_iter().chain(bits).chain([i64::from(rng.u8(..8) != 0)]).collect();
+            let frame: Vec<i64> =
+                [0].into_iter().chain(bits).chain([i64::from(rng.u8(..8) != 0)]).collect();
             frame.iter().for_each(|&level| levels.extend(std::iter::repeat_n(level, bit)));
             levels.extend(std::iter::repeat_n(1, rng.usize(..3 * bit)));
             levels.extend(std::iter::repeat_n(0, rng.usize(..8) / 7 * rng.usize(..bit)));
@@ -138,7 +141,11 @@ fn command(block: &CommandRegisters, profile: &Profile, words: u16, rng: &mut Rn
         1..4 => rng.u16(..0x800),
         _ => rng.u16(..0x8000),
     };
-    let code = if rng.bool() { any(rng, data) } else { i64::from(octet(rng)) << (8 * rng.u8(..data.width / 8)) };
+    let code = if rng.bool() {
+        any(rng, data)
+    } else {
+        i64::from(octet(rng)) << (8 * rng.u8(..data.width / 8))
+    };
     let command = match rng.u8(..8) {
         0..3 => Command::Table { address, code },
         3 => [Command::ENABLE, Command::DISABLE, Command::RESET_ADC][rng.usize(..3)],
@@ -167,18 +174,25 @@ fn registers(block: &CommandRegisters, profile: Profile, words: u64) -> Alone {
         }
         let octet = if valid { bytes.remove(0) } else { octet(rng) };
         let shift = i64::from(shift.next(rng, 200) == 1 && rng.u8(..16) == 0);
-        vec![("valid", valid.into()), ("octet", octet.into()), ("shift", shift), ("answer", now(rng, 2))]
+        vec![
+            ("valid", valid.into()),
+            ("octet", octet.into()),
+            ("shift", shift),
+            ("answer", now(rng, 2)),
+        ]
     })
 }
 
-/// Frames, now and then too early, words for heartbeats, and times without frames in which these come.
+/// Frames, now and then too early, words for heartbeats, and times without frames in which these
+/// come.
 fn stream(block: &Stream, divisor: u64) -> Alone {
     let of = block.inputs();
     let packet = block.packet_clocks(divisor) as u32;
     // The first packet is a heartbeat, which comes after 2^14 clocks.
     let first = 20_000 + packet;
     let (mut enable, mut wait, mut index) = (Level { value: 0, left: first }, first, 0);
-    // Frames come without a pause until the next one's number is to be escaped, so that heartbeats with that number follow.
+    // Frames come without a pause until the next one's number is to be escaped, so that heartbeats
+    // with that number follow.
     let (mut number, mut hurries) = (0u8, false);
     let (mut place, mut data, mut pad) = (0, 0, 0);
     // Clocks until something is to be told just when the flags are sent, two bytes behind a frame.
@@ -186,7 +200,8 @@ fn stream(block: &Stream, divisor: u64) -> Alone {
     alone(block, 100_000 * divisor as usize, move |rng| {
         let enabled = enable.next(rng, 20 * packet);
         if index == 8 {
-            // In any clock of the packet before, as soon as it is gone, or later: while disabled, after some heartbeats.
+            // In any clock of the packet before, as soon as it is gone, or later: while disabled,
+            // after some heartbeats.
             let escapes = [END, ESC].contains(&number);
             hurries = !escapes && (hurries || enabled == 0 && rng.u8(..3) == 0);
             wait = match rng.u8(..4) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a core is given, clock by clock: the calibration through its port, then sets of ADC codes. And what a block alone is
-//! given, one operation after the other.
+//! What a core is given, clock by clock: the calibration through its port, then sets of ADC codes.
+//! And what a block alone is given, one operation after the other.
 
 use std::collections::VecDeque;
 use std::f64::consts::TAU;
@@ -40,7 +40,9 @@ impl Stimulus {
     /// The inputs of the next clock.
     pub fn next(&mut self, outputs: &[i64]) -> Option<Vec<i64>> {
         let inputs = match self.table.next() {
-            Some((address, word)) => self.constants.with_table(TablePort { write: 1, address, word }),
+            Some((address, word)) => {
+                self.constants.with_table(TablePort { write: 1, address, word })
+            }
             None => self.sample(outputs)?,
         };
         let mut codes = Vec::with_capacity(Inputs::FIELDS.len());
@@ -58,11 +60,14 @@ impl Stimulus {
         if strobe {
             self.codes = self.samples.next()?;
         }
-        if let Some((rng, _)) = self.recalibrate.as_mut().filter(|(_, slot)| self.clock.is_multiple_of(*slot)) {
+        if let Some((rng, _)) =
+            self.recalibrate.as_mut().filter(|(_, slot)| self.clock.is_multiple_of(*slot))
+        {
             self.constants = Inputs::map(self.formats, |format| anything(rng, format));
         }
         self.clock += 1;
-        let channel = Outputs::FIELDS.iter().position(|field| field.name == "channel").expect("a port");
+        let channel =
+            Outputs::FIELDS.iter().position(|field| field.name == "channel").expect("a port");
         let code = self.codes[outputs[channel] as usize];
         let inputs = Inputs { strobe: i64::from(strobe), code, ..self.constants };
         Some(match &mut self.disturb {
@@ -91,8 +96,9 @@ fn anything(rng: &mut Rng, format: Format) -> i64 {
     rng.i64(format.min_code() as i64..=format.max_code() as i64)
 }
 
-/// A corner, any code, one of two bits, or of ones, or one of any length with any number of zeros at its end: products of such codes are of
-/// every size, and halves, or what is next to them, come often where they are rounded.
+/// A corner, any code, one of two bits, or of ones, or one of any length with any number of zeros
+/// at its end: products of such codes are of every size, and halves, or what is next to them, come
+/// often where they are rounded.
 pub fn shaped(rng: &mut Rng, format: Format) -> i64 {
     match rng.u8(..8) {
         0 => corner(rng, format),
@@ -111,10 +117,12 @@ pub fn shaped(rng: &mut Rng, format: Format) -> i64 {
     }
 }
 
-/// Operations of a block alone: operands that hold while it works, a clock of `start`, and rest until some clocks after `done`.
-/// Where words stream in (`valid`, `index`), all of them one after the other; where there is a table of so many words, it is
-/// filled, and some of it is written anew before each operation. Operands are [`shaped`], or one of them is such that its product
-/// with another ends in a one, zeros and a one, next to a half. Where there is no `done`, the block is given so many clocks.
+/// Operations of a block alone: operands that hold while it works, a clock of `start`, and rest
+/// until some clocks after `done`. Where words stream in (`valid`, `index`), all of them one after
+/// the other; where there is a table of so many words, it is filled, and some of it is written anew
+/// before each operation. Operands are [`shaped`], or one of them is such that its product with
+/// another ends in a one, zeros and a one, next to a half. Where there is no `done`, the block is
+/// given so many clocks.
 ///
 /// # Panics
 /// Where the block has neither `start` nor `valid`.
@@ -134,7 +142,11 @@ pub fn operations<B: Block>(
     let (mut left, mut first, mut waiting) = (operations, true, 0);
     let mut alike = Rng::with_seed(!seed);
     move |outputs| {
-        waiting = if done.is_some_and(|done| outputs[done] == 1) { 0_u32 } else { waiting.saturating_sub(1) };
+        waiting = if done.is_some_and(|done| outputs[done] == 1) {
+            0_u32
+        } else {
+            waiting.saturating_sub(1)
+        };
         if script.is_empty() && waiting == 0 {
             left = left.checked_sub(1)?;
             waiting = if done.is_some() { 1 << 20 } else { clocks };
@@ -152,11 +164,18 @@ pub fn operations<B: Block>(
                 row
             };
             if let (Some(_), Some(word)) = (strobes[2], at("word")) {
-                let addresses: Vec<_> =
-                    if first { (0..words).collect() } else { (0..8).map(|_| rng.i64(0..words)).collect() };
+                let addresses: Vec<_> = if first {
+                    (0..words).collect()
+                } else {
+                    (0..8).map(|_| rng.i64(0..words)).collect()
+                };
                 for address in addresses {
                     let code = shaped(&mut rng, formats[word].1);
-                    script.push_back(with(&[(strobes[2], 1), (at("address"), address), (Some(word), code)]));
+                    script.push_back(with(&[
+                        (strobes[2], 1),
+                        (at("address"), address),
+                        (Some(word), code),
+                    ]));
                 }
             }
             first = false;
@@ -165,12 +184,19 @@ pub fn operations<B: Block>(
                 script.push_back(with(&[(strobes[0], 1)]));
             } else {
                 let (index, sum) = (at("index").expect("a port"), at("sum").expect("a port"));
-                // Now and then all of one sign and about one size: of words that are not saturated, the total is.
+                // Now and then all of one sign and about one size: of words that are not saturated,
+                // the total is.
                 let size = alike.bool().then(|| formats[sum].1.max_code() as i64 >> alike.u8(..12));
                 for word in 0..=words {
-                    let code =
-                        size.map_or_else(|| shaped(&mut rng, formats[sum].1), |size| size - alike.i64(0..=size / 4));
-                    script.push_back(with(&[(strobes[1], 1), (Some(index), word), (Some(sum), code)]));
+                    let code = size.map_or_else(
+                        || shaped(&mut rng, formats[sum].1),
+                        |size| size - alike.i64(0..=size / 4),
+                    );
+                    script.push_back(with(&[
+                        (strobes[1], 1),
+                        (Some(index), word),
+                        (Some(sum), code),
+                    ]));
                 }
             }
         }
@@ -178,7 +204,8 @@ pub fn operations<B: Block>(
     }
 }
 
-/// Now and then, makes one operand such that the lowest bits of its product with another, odd one are a one, zeros and a one.
+/// Now and then, makes one operand such that the lowest bits of its product with another, odd one
+/// are a one, zeros and a one.
 fn next_to_half(rng: &mut Rng, operands: &mut [i64], formats: &[(&str, Format)]) {
     let (a, b) = (rng.usize(..operands.len()), rng.usize(..operands.len()));
     let (width, low) = (formats[b].1.width.min(32), formats[b].1.min_code() as i64);
@@ -195,10 +222,15 @@ fn next_to_half(rng: &mut Rng, operands: &mut [i64], formats: &[(&str, Format)])
 /// Writes into the table while it is read, now and then.
 fn disturbed(inputs: Inputs<i64>, rng: &mut Rng, table: &Memory) -> Inputs<i64> {
     let write = i64::from(rng.u8(..16) == 0);
-    inputs.with_table(TablePort { write, address: rng.i64(0..table.words as i64), word: corner(rng, table.format) })
+    inputs.with_table(TablePort {
+        write,
+        address: rng.i64(0..table.words as i64),
+        word: corner(rng, table.format),
+    })
 }
 
-/// Slots of a scene's first case, each used for every pad of the profile in turn where the scene has fewer.
+/// Slots of a scene's first case, each used for every pad of the profile in turn where the scene
+/// has fewer.
 ///
 /// # Panics
 /// Where there is no such scene.
@@ -212,16 +244,25 @@ pub fn scene(profile: &Profile, name: &str, slots: usize) -> Stimulus {
         let Signals::Samples { codes, .. } = maker.sample(slot % last).0 else {
             unreachable!("it was asked for samples")
         };
-        codes.chunks_exact(channels).map(|set| set.iter().map(|&code| code.into()).collect()).collect::<Vec<Vec<i64>>>()
+        codes
+            .chunks_exact(channels)
+            .map(|set| set.iter().map(|&code| code.into()).collect())
+            .collect::<Vec<Vec<i64>>>()
     });
     let core = Core::new(profile);
     let formats = core.inputs();
-    let words: Vec<_> =
-        calibration.position.words.iter().map(|&word| formats.calibration.table.word.code_saturating(word)).collect();
+    let words: Vec<_> = calibration
+        .position
+        .words
+        .iter()
+        .map(|&word| formats.calibration.table.word.code_saturating(word))
+        .collect();
     Stimulus {
         constants: core.idle_inputs(&calibration),
         formats,
-        table: Box::new(words.into_iter().enumerate().map(|(address, word)| (address as i64, word))),
+        table: Box::new(
+            words.into_iter().enumerate().map(|(address, word)| (address as i64, word)),
+        ),
         samples: Box::new(samples),
         codes: vec![0; channels],
         clock: 0,
@@ -231,9 +272,10 @@ pub fn scene(profile: &Profile, name: &str, slots: usize) -> Stimulus {
     }
 }
 
-/// Tones in step with the carrier, of any phase, or all of one, and of no, small, full or clipped amplitude, other ones in each
-/// slot, as is the calibration; its tables as of [`random`]. Where random codes average out, these fill every word. In half of the
-/// slots they begin late: of a tone that lasts, a window's cosine adds nothing to the sum, whatever its sign.
+/// Tones in step with the carrier, of any phase, or all of one, and of no, small, full or clipped
+/// amplitude, other ones in each slot, as is the calibration; its tables as of [`random`]. Where
+/// random codes average out, these fill every word. In half of the slots they begin late: of a tone
+/// that lasts, a window's cosine adds nothing to the sum, whatever its sign.
 pub fn tones(profile: &Profile, seed: u64, slots: u64) -> Stimulus {
     let (mut rng, channels, adc) = (Rng::with_seed(!seed), profile.channels(), profile.formats.adc);
     let (samples, turns_per_sample) = (profile.slot.samples(), profile.turns_per_sample());
@@ -249,7 +291,11 @@ pub fn tones(profile: &Profile, seed: u64, slots: u64) -> Stimulus {
         }
         if slot % 4 == 3 {
             // All current at the terminals on the right: a ratio of one, the largest word there is.
-            tones.iter_mut().zip(&others).filter(|(_, other)| **other).for_each(|((_, level), _)| *level = 0.0);
+            tones
+                .iter_mut()
+                .zip(&others)
+                .filter(|(_, other)| **other)
+                .for_each(|((_, level), _)| *level = 0.0);
         }
         (0..samples).map(move |sample| {
             let turns = sample as f64 * turns_per_sample;
@@ -261,10 +307,15 @@ pub fn tones(profile: &Profile, seed: u64, slots: u64) -> Stimulus {
         })
     };
     let recalibrate = Some((Rng::with_seed(seed), samples * profile.clocks_per_sample));
-    Stimulus { samples: Box::new((0..slots).flat_map(slot)), recalibrate, ..random(profile, seed, 0) }
+    Stimulus {
+        samples: Box::new((0..slots).flat_map(slot)),
+        recalibrate,
+        ..random(profile, seed, 0)
+    }
 }
 
-/// Anything at all, corners more than their share: calibration, tables written while they are read, and codes.
+/// Anything at all, corners more than their share: calibration, tables written while they are read,
+/// and codes.
 pub fn random(profile: &Profile, seed: u64, slots: u64) -> Stimulus {
     let mut rng = Rng::with_seed(seed);
     let core = Core::new(profile);
@@ -272,12 +323,15 @@ pub fn random(profile: &Profile, seed: u64, slots: u64) -> Stimulus {
     let constants = Inputs::map(core.inputs(), |format| corner(&mut rng, format));
     let table: Vec<i64> = (0..memory.words).map(|_| corner(&mut rng, memory.format)).collect();
     let (channels, adc, disturb) = (profile.channels(), profile.formats.adc, (rng.fork(), memory));
-    let samples =
-        (0..slots * profile.slot.samples()).map(move |_| (0..channels).map(|_| corner(&mut rng, adc)).collect());
+    let samples = (0..slots * profile.slot.samples())
+        .map(move |_| (0..channels).map(|_| corner(&mut rng, adc)).collect());
     Stimulus {
-        constants: Inputs { strobe: 0, clear: 0, code: 0, ..constants }.with_table(TablePort::of(0)),
+        constants: Inputs { strobe: 0, clear: 0, code: 0, ..constants }
+            .with_table(TablePort::of(0)),
         formats: core.inputs(),
-        table: Box::new(table.into_iter().enumerate().map(|(address, word)| (address as i64, word))),
+        table: Box::new(
+            table.into_iter().enumerate().map(|(address, word)| (address as i64, word)),
+        ),
         samples: Box::new(samples),
         codes: vec![0; channels],
         clock: 0,

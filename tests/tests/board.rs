@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The Verilog of whole boards: a top with an ADC at its pins, which counts what its data sheet forbids, and a host at its
-//! serial line, which hears the frames that the clocked model gives.
+//! The Verilog of whole boards: a top with an ADC at its pins, which counts what its data sheet
+//! forbids, and a host at its serial line, which hears the frames that the clocked model gives.
 
 #[path = "../../model/tests/equality/device.rs"]
 #[allow(dead_code)]
@@ -38,7 +38,8 @@ const SLOTS: usize = 5;
 /// Commands while frames come.
 const STORM: usize = 16;
 
-/// The board's profile with slots just longer than a packet and small tables, so that Icarus comes to an end.
+/// The board's profile with slots just longer than a packet and small tables, so that Icarus comes
+/// to an end.
 fn shortened(target: Target) -> Profile {
     let mut profile = target.profile();
     profile.slot.open = 2;
@@ -54,7 +55,12 @@ fn shortened(target: Target) -> Profile {
 fn samples(profile: &Profile) -> Vec<i32> {
     let mut random = Random::new(SEED);
     let sights = [Sight::Tones, Sight::Tones, Sight::Noise, Sight::Broken, Sight::FullScale];
-    sights.iter().cycle().take(SLOTS).flat_map(|&sight| codes(profile, sight, &mut random)).collect()
+    sights
+        .iter()
+        .cycle()
+        .take(SLOTS)
+        .flat_map(|&sight| codes(profile, sight, &mut random))
+        .collect()
 }
 
 fn simulated(profile: &Profile, calibration: &Calibration, samples: &[i32]) -> Vec<Frame> {
@@ -100,8 +106,19 @@ impl Simulator {
                 "-Pboard_bench."
             }
             Simulator::Verilator => {
-                // The bench and rust-hdl's wrappers are not the printed core: their style is no matter here.
-                compiler.args(["--binary", "--timing", "-O3", "-CFLAGS", "-O2", "-Wno-lint", "-Wno-fatal", "-j", "2"]);
+                // The bench and rust-hdl's wrappers are not the printed core: their style is no
+                // matter here.
+                compiler.args([
+                    "--binary",
+                    "--timing",
+                    "-O3",
+                    "-CFLAGS",
+                    "-O2",
+                    "-Wno-lint",
+                    "-Wno-fatal",
+                    "-j",
+                    "2",
+                ]);
                 compiler.args(["--top-module", "board_bench", "--Mdir", ".", "-o", "bench"]);
                 "-G"
             }
@@ -127,8 +144,10 @@ fn bench(
     let mask = (1u32 << width) - 1;
     let top = target.top_of(profile).expect("the board serves the profile");
     fs::write(folder.join("top.v"), component::verilog(&top)).expect("a file");
-    fs::write(folder.join("bytes.hex"), hex(commands.iter().map(|&byte| byte.into()))).expect("a file");
-    fs::write(folder.join("codes.hex"), hex(samples.iter().map(|&code| code as u32 & mask))).expect("a file");
+    fs::write(folder.join("bytes.hex"), hex(commands.iter().map(|&byte| byte.into())))
+        .expect("a file");
+    fs::write(folder.join("codes.hex"), hex(samples.iter().map(|&code| code as u32 & mask)))
+        .expect("a file");
     let parameters = [
         ("BITS", width.to_string()),
         ("SAMPLES", (samples.len() / profile.channels()).to_string()),
@@ -138,7 +157,8 @@ fn bench(
         ("ACTIVE_LOW", u8::from(target == Target::Icebreaker).to_string()),
     ];
     let log = simulator.run(&parameters, folder);
-    let heard = fs::read_to_string(folder.join("heard.hex")).expect("the bench wrote what it heard");
+    let heard =
+        fs::read_to_string(folder.join("heard.hex")).expect("the bench wrote what it heard");
     (log, heard.lines().map(|line| u8::from_str_radix(line, 16).expect("a known byte")).collect())
 }
 
@@ -193,11 +213,13 @@ fn ulx3s_returns_over_its_line_the_frames_that_simulate_gives() {
     returns_what_simulate_gives(Target::Ulx3s, Simulator::Verilator);
 }
 
-/// Commands that change nothing, to be taken while frames come: a register's own code, with any bits in the bytes that the
-/// register has not, and words beyond the map.
+/// Commands that change nothing, to be taken while frames come: a register's own code, with any
+/// bits in the bytes that the register has not, and words beyond the map.
 fn storm(profile: &Profile, calibration: &Calibration) -> Vec<BoardCommand> {
-    let (mut random, gain) =
-        (Random::new(SEED), Register::Constant(Constant::ForceGain).format(&WordFormats::new(profile)));
+    let (mut random, gain) = (
+        Random::new(SEED),
+        Register::Constant(Constant::ForceGain).format(&WordFormats::new(profile)),
+    );
     let own = Core::new(profile).idle_inputs(calibration).calibration.force_gain;
     let any = |random: &mut Random| random.bits() as i64;
     let of_gain = |random: &mut Random| own | any(random) & 0xffff << gain.width;
@@ -212,8 +234,9 @@ fn storm(profile: &Profile, calibration: &Calibration) -> Vec<BoardCommand> {
     (0..STORM).map(one).collect()
 }
 
-/// The frames that a board's host hears, and the bytes that they came in, after it has sent the calibration: heartbeats that say so before them, nothing else,
-/// and no fault of the ADC's pins, whatever else the host then sends.
+/// The frames that a board's host hears, and the bytes that they came in, after it has sent the
+/// calibration: heartbeats that say so before them, nothing else, and no fault of the ADC's pins,
+/// whatever else the host then sends.
 fn heard(
     simulator: Simulator,
     (target, profile): (Target, &Profile),
@@ -231,18 +254,23 @@ fn heard(
     let commands = encode(&[commands.as_slice(), &storm].concat(), profile);
     let folder = tempfile::tempdir().expect("a folder");
     let (log, heard) = bench(simulator, (target, profile), &commands, samples, folder.path());
-    let log: Vec<_> = log.lines().filter(|line| !line.contains("$finish") && !line.starts_with("- ")).collect();
+    let log: Vec<_> =
+        log.lines().filter(|line| !line.contains("$finish") && !line.starts_with("- ")).collect();
     assert_eq!(log, [format!("faults 0, commands {}", setup.words().len())], "{target:?}");
     let told: Result<Vec<_>, _> = Decoder::new(profile).decode(heard.iter().copied()).collect();
     let told = told.expect("every packet is whole");
-    let mut heartbeats =
-        told.iter().filter_map(|told| if let Message::Heartbeat(heartbeat) = told { Some(heartbeat) } else { None });
+    let mut heartbeats = told.iter().filter_map(|told| {
+        if let Message::Heartbeat(heartbeat) = told { Some(heartbeat) } else { None }
+    });
     let last = heartbeats.next_back().expect("the board told that it was there");
     let before = (16 + last.status.commands - (prepared.len() % 16) as u8) % 16;
     assert_eq!(check(last, profile, calibration, (before, &prepared)), Ok(()), "{target:?}");
     let packets: Vec<_> = told.iter().filter_map(|told| told.frame()).collect();
     assert_eq!(packets.len(), SLOTS, "{target:?}");
-    assert!(packets.iter().any(|packet| packet.status.refused), "{target:?}: the ADC is not spoken to while enabled");
+    assert!(
+        packets.iter().any(|packet| packet.status.refused),
+        "{target:?}: the ADC is not spoken to while enabled"
+    );
     assert_eq!(
         packets[SLOTS - 1].status.commands,
         ((taken + STORM / 2) % 16) as u8,
@@ -259,10 +287,15 @@ fn every_port_of_a_top_has_one_pin_of_its_own() {
     for target in Target::ALL {
         let (name, text) = target.constraints();
         assert!(name.starts_with(target.name()), "{name}");
-        let locations = text.lines().filter(|line| line.contains("set_io") || line.contains("LOCATE"));
+        let locations =
+            text.lines().filter(|line| line.contains("set_io") || line.contains("LOCATE"));
         let mut pins: Vec<&str> =
             locations.map(|line| line.trim_end_matches(';').rsplit(' ').next().unwrap()).collect();
-        assert_eq!(pins.len(), 25, "{name}: thirteen ports of a bit, eight data lines and four pads");
+        assert_eq!(
+            pins.len(),
+            25,
+            "{name}: thirteen ports of a bit, eight data lines and four pads"
+        );
         pins.sort_unstable();
         pins.dedup();
         assert_eq!(pins.len(), 25, "{name}: a pin twice");

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The blocks of a board in lock-step with what is printed of them, and every fault that is planted in their text noticed.
+//! The blocks of a board in lock-step with what is printed of them, and every fault that is planted
+//! in their text noticed.
 //!
-//! Faults are those of `tests/tests/faults.rs`, at every place of every block; `board_faults/` lists those that change nothing.
-//! The iCEBreaker's blocks are tried always, those of all boards with `FAULTS=all`.
+//! Faults are those of `tests/tests/faults.rs`, at every place of every block; `board_faults/`
+//! lists those that change nothing. The iCEBreaker's blocks are tried always, those of all boards
+//! with `FAULTS=all`.
 
 use std::collections::BTreeSet;
 
@@ -24,7 +26,8 @@ fn none(target: Target) -> &'static str {
 /// Which faults of a block nobody notices, and how many there are.
 fn survivors(target: Target, Alone { design, trace }: &Alone) -> (Vec<String>, usize) {
     let planted = Planted::new(design);
-    let compiled = Verilated::new("alone", &design.ports, &planted.alone(design.top()), Start::Zero);
+    let compiled =
+        Verilated::new("alone", &design.ports, &planted.alone(design.top()), Start::Zero);
     let given = compiled.with_trace(trace.clone());
     assert_eq!(given.check(0), Ok(()), "{target:?}, {}", design.top());
     // Those of a block within are tried with that block.
@@ -47,7 +50,8 @@ fn faults_in_the_blocks_of_a_board_are_noticed() {
     for &target in targets {
         let found = two_at_a_time(&blocks(target), |block| survivors(target, block));
         let tried: usize = found.iter().map(|(_, tried)| tried).sum();
-        let missed: BTreeSet<&str> = found.iter().flat_map(|(missed, _)| missed).map(String::as_str).collect();
+        let missed: BTreeSet<&str> =
+            found.iter().flat_map(|(missed, _)| missed).map(String::as_str).collect();
         println!("{target:?}: {} of {tried} faults noticed", tried - missed.len());
         missed.iter().for_each(|fault| println!("not noticed: {fault}"));
         let none = campaign::equivalent(none(target));

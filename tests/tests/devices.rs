@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Positions on anyone's device: random sheets with random terminals, each calibrated as a user would, read by the integers of
-//! the core (`fixed`).
+//! Positions on anyone's device: random sheets with random terminals, each calibrated as a user
+//! would, read by the integers of the core (`fixed`).
 //!
-//! `DEVICES=300` takes so many devices, at all places, instead of a few at some, `PROFILE=small` another profile, whose figures are printed and not
-//! judged: `DEVICES=300 cargo test --release -p hapticore-tests --test devices -- --nocapture random`.
+//! `DEVICES=300` takes so many devices, at all places, instead of a few at some, `PROFILE=small`
+//! another profile, whose figures are printed and not judged: `DEVICES=300 cargo test --release -p
+//! hapticore-tests --test devices -- --nocapture random`.
 
 use std::env;
 
@@ -28,7 +29,8 @@ fn wrong_mm(device: &Device) -> f64 {
     f64::max(1.0, 0.002 * device.size_mm[0])
 }
 
-/// Whether a place is wrong without *invalid*, and the calibration's report does not name one as wrong.
+/// Whether a place is wrong without *invalid*, and the calibration's report does not name one as
+/// wrong.
 fn is_silently_wrong(found: &Found) -> bool {
     let limit = wrong_mm(&found.device);
     found.worst_mm() > limit && found.residual.worst_mm <= limit
@@ -53,15 +55,22 @@ fn profile(name: &str) -> Profile {
 #[test]
 fn positions_are_right_on_random_devices() {
     let asked = env::var("DEVICES").ok().map(|text| text.parse().expect("a number"));
-    let (count, places) = (asked.unwrap_or(DEVICES), Raster { every: if asked.is_some() { 1 } else { 7 }, ..PLACES });
+    let (count, places) =
+        (asked.unwrap_or(DEVICES), Raster { every: if asked.is_some() { 1 } else { 7 }, ..PLACES });
     let name = env::var("PROFILE").unwrap_or("standard".into());
     let profile = profile(&name);
-    let found = (0..count).into_par_iter().map(|number| find(&profile, Device::draw(number), &places));
+    let found =
+        (0..count).into_par_iter().map(|number| find(&profile, Device::draw(number), &places));
     let mut found: Vec<_> = found.collect();
     found.sort_by(|a, b| a.rms_mm().total_cmp(&b.rms_mm()));
     found.iter().rev().for_each(|found| println!("{}", line(found)));
     let at = |share: f64| found[((found.len() - 1) as f64 * share).round() as usize].rms_mm();
-    println!("{name}, {count} devices: median {:.4} mm rms, 90 % {:.4}, most {:.4}", at(0.5), at(0.9), at(1.0));
+    println!(
+        "{name}, {count} devices: median {:.4} mm rms, 90 % {:.4}, most {:.4}",
+        at(0.5),
+        at(0.9),
+        at(1.0)
+    );
     let wrong: Vec<_> = found.iter().filter(|found| is_silently_wrong(found)).map(line).collect();
     println!("wrong without a word: {}\n{}", wrong.len(), wrong.join("\n"));
     if name == "standard" {
@@ -69,7 +78,8 @@ fn positions_are_right_on_random_devices() {
     }
 }
 
-/// The same with every number of terminals that a sheet may have: the corners, as many as there are, and others anywhere.
+/// The same with every number of terminals that a sheet may have: the corners, as many as there
+/// are, and others anywhere.
 #[test]
 fn positions_are_right_with_three_to_sixteen_terminals() {
     let profile = profile("standard");
@@ -94,29 +104,38 @@ fn positions_are_right_with_three_to_sixteen_terminals() {
     for (terminals, found) in found.collect::<Vec<_>>() {
         println!("{}", line(&found));
         assert!(rms(&found.reference_mm) < 0.1, "{}", line(&found));
-        // Three corners tell so little about a pad near the fourth that the words of `standard` do not hold it.
+        // Three corners tell so little about a pad near the fourth that the words of `standard` do
+        // not hold it.
         assert!(terminals == 3 || !is_silently_wrong(&found), "{}", line(&found));
     }
 }
 
-/// A pad at many places of the paper's display, from its exact currents. A 16-bit ADC without noise of its own, which would be
-/// its dither, adds to that: with `carrier.rung = "samples"` `small` is at 0.2 mm rms, integers or not.
+/// A pad at many places of the paper's display, from its exact currents. A 16-bit ADC without noise
+/// of its own, which would be its dither, adds to that: with `carrier.rung = "samples"` `small` is
+/// at 0.2 mm rms, integers or not.
 #[test]
 fn positions_are_right_on_the_papers_display() {
     let places = DISPLAY_PLACES.position([860.0, 500.0]);
-    let scene = format!("{DISPLAY}[[pad]]\n{places}haptic_v_rms = 150\n[carrier]\nrung = \"phasor\"\n");
+    let scene =
+        format!("{DISPLAY}[[pad]]\n{places}haptic_v_rms = 150\n[carrier]\nrung = \"phasor\"\n");
     for (name, rms_mm, most_mm) in [("standard", 0.03, 0.4), ("small", 0.08, 0.6)] {
         let (rows, _) = rows(&profile(name), &scene);
         let errors: Vec<_> = rows.iter().map(error_mm).collect();
         let most = errors.iter().copied().fold(0.0, f64::max);
-        println!("{name}: {:.4} mm rms, {most:.3} mm at most over {} places", rms(&errors), errors.len());
+        println!(
+            "{name}: {:.4} mm rms, {most:.3} mm at most over {} places",
+            rms(&errors),
+            errors.len()
+        );
         assert!(rms(&errors) <= rms_mm && most <= most_mm, "{name}");
-        // The outermost places are at the pad's reach, which is where it may begin to lie over the edge.
+        // The outermost places are at the pad's reach, which is where it may begin to lie over the
+        // edge.
         let at_reach = |row: &Row| {
             let at = row.truth.expect("the plant knows").quantities;
             at.x_mm.abs() > 413.0 || at.y_mm.abs() > 233.0
         };
-        let unflagged = |row: &&Row| row.flags.is_empty() || row.flags == "at_edge" && at_reach(row);
+        let unflagged =
+            |row: &&Row| row.flags.is_empty() || row.flags == "at_edge" && at_reach(row);
         assert_eq!(rows.iter().filter(unflagged).count(), rows.len(), "{name}");
     }
 }
@@ -139,7 +158,8 @@ fn noise_mm(profile: &Profile) -> f64 {
     spread(|row| row.measured.x_mm).hypot(spread(|row| row.measured.y_mm))
 }
 
-/// Signs for all six terminals: the same noise of the currents is less noise of the position than with eqs. 2 and 3.
+/// Signs for all six terminals: the same noise of the currents is less noise of the position than
+/// with eqs. 2 and 3.
 #[test]
 fn positions_have_less_noise_than_with_the_papers_ratios() {
     let ours = profile("standard");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `hapticore-lockstep` takes anybody's Verilog: a copy of what is printed passes, one line changed is found.
+//! `hapticore-lockstep` takes anybody's Verilog: a copy of what is printed passes, one line changed
+//! is found.
 
 use std::fs;
 use std::path::Path;
@@ -7,8 +8,14 @@ use std::process::Command;
 
 use hapticore_tests::tools;
 
-/// What the command says of a copy of the printed core in which some text is replaced by another, and its exit status.
-fn run_example(simulator: &[&str], file: &str, printed: &str, instead: &str) -> (String, Option<i32>) {
+/// What the command says of a copy of the printed core in which some text is replaced by another,
+/// and its exit status.
+fn run_example(
+    simulator: &[&str],
+    file: &str,
+    printed: &str,
+    instead: &str,
+) -> (String, Option<i32>) {
     let folder = tempfile::tempdir().expect("a folder");
     let small = Path::new(env!("CARGO_MANIFEST_DIR")).join("../rtl/verilog/small");
     let mut command = Command::new(env!("CARGO_BIN_EXE_hapticore-lockstep"));
@@ -36,16 +43,21 @@ fn a_copy_of_the_printed_core_passes_and_a_changed_line_is_named() {
     let (text, status) = run_example(&[], "", "", "");
     assert_eq!(status, Some(0), "{text}");
     assert!(text.starts_with("small: ") && text.ends_with(" clocks equal\n"), "{text}");
-    let (text, status) = run_example(&["--icarus"], "hapticore.v", "assign carrier = ", "assign carrier = ~");
+    let (text, status) =
+        run_example(&["--icarus"], "hapticore.v", "assign carrier = ", "assign carrier = ~");
     assert_eq!(status, Some(1), "{text}");
     assert!(text.contains("hockey: clock ") && text.contains(": carrier: model 0x"), "{text}");
 }
 
 #[test]
 fn arguments_that_are_none_are_told() {
-    for (arguments, words) in [(&["small"][..], "usage: "), (&["none", "a.v"], "none"), (&["small", "no.v"], "no.v: ")]
+    for (arguments, words) in
+        [(&["small"][..], "usage: "), (&["none", "a.v"], "none"), (&["small", "no.v"], "no.v: ")]
     {
-        let output = Command::new(env!("CARGO_BIN_EXE_hapticore-lockstep")).args(arguments).output().expect("it runs");
+        let output = Command::new(env!("CARGO_BIN_EXE_hapticore-lockstep"))
+            .args(arguments)
+            .output()
+            .expect("it runs");
         assert_eq!(output.status.code(), Some(2), "{arguments:?}");
         let log = String::from_utf8_lossy(&output.stderr);
         assert!(log.contains(words), "{arguments:?}: {log}");

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A deliberate fault in a printed operator makes lock-step fail, and say at which clock, in which signal, with which values.
+//! A deliberate fault in a printed operator makes lock-step fail, and say at which clock, in which
+//! signal, with which values.
 //!
-//! Every shape of the printer that can be wrong is a place for a fault: its sign, its width, its rounding, its latency. For each
-//! module of the core and each of these kinds, the places are taken as they are printed, in three parts, and the first of each
-//! part is tried: in lock-step of the whole core, and of each block that computes alone, which meets thousands of operands in
-//! the time in which a core makes one frame.
+//! Every shape of the printer that can be wrong is a place for a fault: its sign, its width, its
+//! rounding, its latency. For each module of the core and each of these kinds, the places are taken
+//! as they are printed, in three parts, and the first of each part is tried: in lock-step of the
+//! whole core, and of each block that computes alone, which meets thousands of operands in the time
+//! in which a core makes one frame.
 //!
-//! Each of these faults must be noticed, but for those of `faults.txt`, each with the reason why it changes nothing; one of
-//! the list that is noticed after all, or is not tried, fails the test, too. `FAULTS=all` tries every place, and
-//! lists what is not noticed.
+//! Each of these faults must be noticed, but for those of `faults.txt`, each with the reason why it
+//! changes nothing; one of the list that is noticed after all, or is not tried, fails the test,
+//! too. `FAULTS=all` tries every place, and lists what is not noticed.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -40,11 +42,13 @@ type Alone = (String, Trace);
 
 fn alone<B: Block>(block: &B, operations: usize, words: i64, clocks: u32) -> Alone {
     let Design { modules, ports } = Design::of(block, "a test");
-    let trace = Trace::record(block, ports, stimulus::operations(block, 1, operations, words, clocks));
+    let trace =
+        Trace::record(block, ports, stimulus::operations(block, 1, operations, words, clocks));
     (modules.last().expect("a module").name.clone(), trace)
 }
 
-/// A block that counts clocks between strobes, which come too early, in time and late, and which forgets now and then.
+/// A block that counts clocks between strobes, which come too early, in time and late, and which
+/// forgets now and then.
 fn strobed(block: &Pace) -> Alone {
     let Design { modules, ports } = Design::of(block, "a test");
     let (mut rng, mut left, mut gap) = (fastrand::Rng::with_seed(1), 20_000, 0);
@@ -68,7 +72,12 @@ fn blocks(profile: &Profile) -> Vec<Alone> {
         alone(&currents, 1000, words, 3),
         alone(&HapticVoltage::new(profile), 20_000, words, 3),
         strobed(&Pace::new(profile)),
-        alone(&Ratio::new(profile, (amplitudes.x, amplitudes.corners), amplitudes.least), 800, 0, 3),
+        alone(
+            &Ratio::new(profile, (amplitudes.x, amplitudes.corners), amplitudes.least),
+            800,
+            0,
+            3,
+        ),
         alone(&Capacitance::new(profile, amplitudes.total), 30_000, 0, 3),
         alone(&Force::new(profile), 6000, 0, 3),
     ]
@@ -81,7 +90,10 @@ fn sample(planted: &Planted, all: bool) -> Vec<(usize, &Fault)> {
         groups.entry((&fault.module, fault.kind)).or_default().push((index + 1, fault));
     }
     let parts = |places: Vec<(usize, _)>| -> Vec<_> {
-        places.chunks(if all { 1 } else { places.len().div_ceil(PARTS) }).map(|part| part[0]).collect()
+        places
+            .chunks(if all { 1 } else { places.len().div_ceil(PARTS) })
+            .map(|part| part[0])
+            .collect()
     };
     groups.into_values().flat_map(parts).collect()
 }
@@ -93,7 +105,10 @@ fn within(design: &Design, module: &str, other: &str) -> bool {
     module == other || parents.any(|file| within(design, &file.name, other))
 }
 
-fn first_mismatch<'a>(mut traces: impl Iterator<Item = &'a CompiledTrace<'a>>, number: usize) -> Option<Mismatch> {
+fn first_mismatch<'a>(
+    mut traces: impl Iterator<Item = &'a CompiledTrace<'a>>,
+    number: usize,
+) -> Option<Mismatch> {
     traces.find_map(|trace| trace.check(number).err())
 }
 
@@ -104,16 +119,23 @@ fn faults_of_each_kind_in_each_module_are_noticed() {
     }
     let bench = Bench::new("small");
     let planted = Planted::new(&bench.design);
-    let of_core = |seed| (bench.design.top().to_owned(), bench.record(stimulus::tones(&bench.profile, seed, 8)));
+    let of_core = |seed| {
+        (bench.design.top().to_owned(), bench.record(stimulus::tones(&bench.profile, seed, 8)))
+    };
     let mut alone = blocks(&bench.profile);
     alone.push(of_core(1));
-    let compiled =
-        two_at_a_time(&alone, |(name, trace)| Verilated::new("alone", &trace.ports, &planted.alone(name), Start::Zero));
+    let compiled = two_at_a_time(&alone, |(name, trace)| {
+        Verilated::new("alone", &trace.ports, &planted.alone(name), Start::Zero)
+    });
     let core = compiled.last().expect("the core");
-    let mut traces: Vec<_> =
-        alone.into_iter().zip(&compiled).map(|((name, trace), compiled)| (name, compiled.with_trace(trace))).collect();
+    let mut traces: Vec<_> = alone
+        .into_iter()
+        .zip(&compiled)
+        .map(|((name, trace), compiled)| (name, compiled.with_trace(trace)))
+        .collect();
     // Positions that are found: of random codes there are few, and frames hold what was valid last.
-    let valid = (bench.design.top().to_owned(), bench.record(stimulus::scene(&bench.profile, "hockey", 8)));
+    let valid =
+        (bench.design.top().to_owned(), bench.record(stimulus::scene(&bench.profile, "hockey", 8)));
     let more = [2, 3, 4].map(of_core).into_iter().chain([valid]);
     traces.extend(more.map(|(name, trace)| (name, core.with_trace(trace))));
     assert_eq!(first_mismatch(traces.iter().map(|(_, trace)| trace), 0), None, "without a fault");
@@ -140,7 +162,10 @@ fn faults_of_each_kind_in_each_module_are_noticed() {
         found.len(),
         planted.faults.len()
     );
-    println!("{} of those not noticed change nothing (faults.txt)", passed_by.intersection(&none).count());
+    println!(
+        "{} of those not noticed change nothing (faults.txt)",
+        passed_by.intersection(&none).count()
+    );
     let survivors: Vec<_> = passed_by.difference(&none).collect();
     if all {
         survivors.iter().for_each(|fault| println!("not noticed: {fault}"));

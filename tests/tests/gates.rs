@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Clocked model = gates, every output at every clock: the whole core as Yosys makes it of the printed Verilog, in the cells of
-//! both FPGA families. What has no initial value in the cells starts with anything.
+//! Clocked model = gates, every output at every clock: the whole core as Yosys makes it of the
+//! printed Verilog, in the cells of both FPGA families. What has no initial value in the cells
+//! starts with anything.
 //!
-//! Clocks per core: slots of two scenes, and corners at random with tables that are written while they are read.
+//! Clocks per core: slots of two scenes, and corners at random with tables that are written while
+//! they are read.
 
 use std::fs;
 
@@ -31,7 +33,8 @@ fn gates_run_what_the_model_runs(family: &str, profile: &str) {
     }
     let bench = Bench::new(profile);
     let top = format!("{}_gate", bench.design.top());
-    let verilated = Verilated::new(&top, &bench.design.ports, &gates(&tools, family, &bench), Start::Anything);
+    let verilated =
+        Verilated::new(&top, &bench.design.ports, &gates(&tools, family, &bench), Start::Anything);
     let mut clocks = 0;
     for stimulus in [
         stimulus::scene(&bench.profile, "fig6", 3),

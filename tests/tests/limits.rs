@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What no flag tells: disturbances of a single window, and how far they put its frame off. `docs/limits.md` states it.
+//! What no flag tells: disturbances of a single window, and how far they put its frame off.
+//! `docs/limits.md` states it.
 //!
 //! `LIMITS=write cargo test -p hapticore-tests --test limits` makes the document anew.
 
@@ -27,7 +28,8 @@ frames are not affected: a host that must not act on one such frame takes the me
 | --- | --- | --- | --- | --- | --- |
 ";
 
-/// A disturbance of the codes of a window: its name, and what it does to a slot of channels with so many bits.
+/// A disturbance of the codes of a window: its name, and what it does to a slot of channels with so
+/// many bits.
 struct Disturbance {
     name: &'static str,
     disturb: fn(slot: usize, codes: &mut [i32], channels: usize, full_scale: i32),
@@ -42,7 +44,9 @@ const DISTURBANCES: [Disturbance; 3] = [
     },
     Disturbance {
         name: "one sample of the sensing voltage off by half of full scale",
-        disturb: |slot, codes, channels, full_scale| disturb(codes, channels, channels - 2, slot, full_scale / 2),
+        disturb: |slot, codes, channels, full_scale| {
+            disturb(codes, channels, channels - 2, slot, full_scale / 2)
+        },
     },
     Disturbance {
         name: "the carrier's phase jumps by half a turn",
@@ -58,7 +62,8 @@ const DISTURBANCES: [Disturbance; 3] = [
     },
 ];
 
-/// Moves a sample near the middle of the window through zero; with the slot's number its phase of the carrier changes.
+/// Moves a sample near the middle of the window through zero; with the slot's number its phase of
+/// the carrier changes.
 fn disturb(codes: &mut [i32], channels: usize, channel: usize, slot: usize, by: i32) {
     let middle = codes.len() / channels / 2 + slot / (channels - 2) % 10;
     let code = &mut codes[middle * channels + channel];
@@ -75,12 +80,17 @@ fn scene() -> String {
     )
 }
 
-/// How far rows without a flag are off at most: mm, percent of the capacitance, percent of the force.
+/// How far rows without a flag are off at most: mm, percent of the capacitance, percent of the
+/// force.
 fn worst(rows: &[Row]) -> [f64; 3] {
     let percent = |measured: f64, truth: f64| 100.0 * (measured / truth - 1.0).abs();
     let of = |row: &Row| {
         let (is, truth) = (row.measured, row.truth.expect("a plant").quantities);
-        [error_mm(row), percent(is.capacitance_pf, truth.capacitance_pf), percent(is.force_n, truth.force_n)]
+        [
+            error_mm(row),
+            percent(is.capacitance_pf, truth.capacitance_pf),
+            percent(is.force_n, truth.force_n),
+        ]
     };
     rows.iter()
         .filter(|row| row.flags.is_empty())
@@ -93,7 +103,10 @@ fn line(disturbance: &Disturbance, profile: &Profile, rows: &[Row]) -> String {
     let told = rows.iter().filter(|row| !row.flags.is_empty()).count();
     let Disturbance { name, .. } = disturbance;
     let share = 100.0 * told as f64 / rows.len() as f64;
-    format!("| {name} | `{}` | {position:.0} | {capacitance:.1} | {force:.1} | {share:.0} % |\n", profile.name)
+    format!(
+        "| {name} | `{}` | {position:.0} | {capacitance:.1} | {force:.1} | {share:.0} % |\n",
+        profile.name
+    )
 }
 
 #[test]
@@ -103,7 +116,10 @@ fn the_document_states_what_a_disturbed_window_does() {
         let (channels, full_scale) = (profile.channels(), 1 << (profile.formats.adc.width - 1));
         let (quiet, _) = disturbed_rows(&profile, &scene(), |_, _| ());
         let [position, capacitance, force] = worst(&quiet);
-        assert!(position < 1.0 && capacitance < 0.1 && force < 0.5, "undisturbed: {position} {capacitance} {force}");
+        assert!(
+            position < 1.0 && capacitance < 0.1 && force < 0.5,
+            "undisturbed: {position} {capacitance} {force}"
+        );
         assert!(quiet.iter().all(|row| row.flags.is_empty()), "undisturbed frames have no flags");
         for disturbance in &DISTURBANCES {
             let (rows, _) = disturbed_rows(&profile, &scene(), |slot, signals| {
@@ -116,5 +132,9 @@ fn the_document_states_what_a_disturbed_window_does() {
     if env::var("LIMITS").is_ok_and(|what| what == "write") {
         fs::write(DOCUMENT, &text).expect("docs/limits.md");
     }
-    assert_eq!(fs::read_to_string(DOCUMENT).expect("docs/limits.md"), text, "docs/limits.md is not fresh");
+    assert_eq!(
+        fs::read_to_string(DOCUMENT).expect("docs/limits.md"),
+        text,
+        "docs/limits.md is not fresh"
+    );
 }

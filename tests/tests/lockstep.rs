@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Clocked model = printed Verilog, every output at every clock: random input and whole scenes, in two simulators.
+//! Clocked model = printed Verilog, every output at every clock: random input and whole scenes, in
+//! two simulators.
 
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::verilog::Design;
@@ -16,7 +17,8 @@ fn verilator_runs_what_the_model_runs(profile: &str) {
         return;
     }
     let bench = Bench::new(profile);
-    let verilated = Verilated::new(bench.design.top(), &bench.design.ports, &bench.design.text(), Start::Zero);
+    let verilated =
+        Verilated::new(bench.design.top(), &bench.design.ports, &bench.design.text(), Start::Zero);
     let mut clocks = 0;
     for stimulus in [
         stimulus::scene(&bench.profile, "fig6", 16),
@@ -51,15 +53,20 @@ fn icarus_runs_what_the_model_runs() {
     }
     for name in ["small", "standard"] {
         let bench = Bench::new(name);
-        for stimulus in [stimulus::scene(&bench.profile, "hockey", 2), stimulus::random(&bench.profile, 3, 2)] {
-            if let Err(mismatch) = icarus::check(bench.design.top(), &bench.design.text(), &bench.record(stimulus)) {
+        for stimulus in
+            [stimulus::scene(&bench.profile, "hockey", 2), stimulus::random(&bench.profile, 3, 2)]
+        {
+            if let Err(mismatch) =
+                icarus::check(bench.design.top(), &bench.design.text(), &bench.record(stimulus))
+            {
                 panic!("{name}: {mismatch}");
             }
         }
     }
 }
 
-/// Squares of every pad in turn, and now and then `clear`: bundled profiles have one window, and print nothing of this.
+/// Squares of every pad in turn, and now and then `clear`: bundled profiles have one window, and
+/// print nothing of this.
 #[test]
 fn icarus_runs_a_mean_over_windows_as_the_model_does() {
     if !tools::have(&["iverilog", "vvp"]) {
@@ -68,7 +75,8 @@ fn icarus_runs_a_mean_over_windows_as_the_model_does() {
     let mut profile = Profile::bundled("small").expect("bundled");
     profile.haptic.windows = 4;
     let block = HapticVoltage::new(&profile);
-    let (last, sum, latency) = (2 * profile.demodulated() as i64, block.inputs().sum, block.latency() as usize);
+    let (last, sum, latency) =
+        (2 * profile.demodulated() as i64, block.inputs().sum, block.latency() as usize);
     let (mut rng, mut clocks, pads) = (fastrand::Rng::with_seed(6), 0.., profile.pads as usize);
     let design = Design::of(&block, "a test");
     let trace = Trace::record(&block, design.ports.clone(), move |_| {

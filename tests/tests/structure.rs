@@ -18,7 +18,16 @@ const IMPORTS: [(&str, &[&str]); 15] = [
     ("host/protocol", &["hapticore-contract", "hapticore-hdl"]),
     ("host", &["hapticore-contract", "hapticore-protocol", "hapticore-sheet"]),
     ("rtl", &["hapticore-contract", "hapticore-hdl", "hapticore-model", "hapticore-protocol"]),
-    ("synth", &["hapticore-contract", "hapticore-files", "hapticore-hdl", "hapticore-model", "hapticore-rtl"]),
+    (
+        "synth",
+        &[
+            "hapticore-contract",
+            "hapticore-files",
+            "hapticore-hdl",
+            "hapticore-model",
+            "hapticore-rtl",
+        ],
+    ),
     ("scene/sheet", &[]),
     ("scene", &["hapticore-sheet"]),
     ("cli/files", &[]),
@@ -54,11 +63,15 @@ const IMPORTS: [(&str, &[&str]); 15] = [
 /// What the tests of a crate use besides.
 ///
 /// Tests of boards take the host's side of the line, those of scenes its crosstalk cancellation.
-const DEVELOPMENT: [(&str, &[&str]); 3] =
-    [("model", &["hapticore-reference"]), ("rtl", &["hapticore-host"]), ("scene", &["hapticore-host"])];
+const DEVELOPMENT: [(&str, &[&str]); 3] = [
+    ("model", &["hapticore-reference"]),
+    ("rtl", &["hapticore-host"]),
+    ("scene", &["hapticore-host"]),
+];
 
-/// What a crate must not reach by any path of dependencies, tests included: the reference, and what it is made of, cannot see
-/// the core, and the core is built without the reference. A program beside a board links no core.
+/// What a crate must not reach by any path of dependencies, tests included: the reference, and what
+/// it is made of, cannot see the core, and the core is built without the reference. A program
+/// beside a board links no core.
 const UNREACHABLE: [(&str, bool, &str); 5] = [
     ("hapticore-host", true, "hapticore-model"),
     ("hapticore-reference", true, "hapticore-model"),
@@ -72,7 +85,8 @@ fn root() -> PathBuf {
 }
 
 fn read(path: impl AsRef<Path>) -> String {
-    fs::read_to_string(root().join(&path)).unwrap_or_else(|error| panic!("{}: {error}", path.as_ref().display()))
+    fs::read_to_string(root().join(&path))
+        .unwrap_or_else(|error| panic!("{}: {error}", path.as_ref().display()))
 }
 
 /// The Rust files below a folder.
@@ -83,7 +97,9 @@ fn sources(folder: &str) -> Vec<PathBuf> {
             let path = entry.path();
             match path.is_dir() {
                 true => folders.push(path),
-                false if path.extension().is_some_and(|extension| extension == "rs") => found.push(path),
+                false if path.extension().is_some_and(|extension| extension == "rs") => {
+                    found.push(path)
+                }
                 false => (),
             }
         }
@@ -96,17 +112,20 @@ fn manifests() -> BTreeMap<String, Table> {
     let workspace: Table = read("Cargo.toml").parse().expect("TOML");
     let members = workspace["workspace"]["members"].as_array().expect("a list of folders");
     let folders = members.iter().map(|folder| folder.as_str().expect("a folder").to_string());
-    folders.map(|folder| (folder.clone(), read(format!("{folder}/Cargo.toml")).parse().expect("TOML"))).collect()
+    folders
+        .map(|folder| (folder.clone(), read(format!("{folder}/Cargo.toml")).parse().expect("TOML")))
+        .collect()
 }
 
 fn name(manifest: &Table) -> &str {
     manifest["package"]["name"].as_str().expect("a name")
 }
 
-/// The workspace's crates in a table of a manifest: `dependencies`, `dev-dependencies`, `build-dependencies`, also those of one
-/// target alone.
+/// The workspace's crates in a table of a manifest: `dependencies`, `dev-dependencies`,
+/// `build-dependencies`, also those of one target alone.
 fn uses(manifest: &Table, kind: &str) -> BTreeSet<String> {
-    let targets = manifest.get("target").and_then(Value::as_table).into_iter().flat_map(Table::values);
+    let targets =
+        manifest.get("target").and_then(Value::as_table).into_iter().flat_map(Table::values);
     let tables = targets.filter_map(Value::as_table).chain([manifest]);
     let dependencies = tables.filter_map(|table| table.get(kind)?.as_table()).flatten();
     let real = |(name, value): (&String, &Value)| {
@@ -121,7 +140,9 @@ fn reached(manifests: &BTreeMap<String, Table>, from: &str, tests: bool) -> BTre
     let of = |crate_name: &str, tests: bool| -> BTreeSet<String> {
         let manifest = manifests.values().find(|manifest| name(manifest) == crate_name);
         let manifest = manifest.unwrap_or_else(|| panic!("no crate {crate_name}"));
-        let kinds = ["dependencies", "build-dependencies"].into_iter().chain(tests.then_some("dev-dependencies"));
+        let kinds = ["dependencies", "build-dependencies"]
+            .into_iter()
+            .chain(tests.then_some("dev-dependencies"));
         kinds.flat_map(|kind| uses(manifest, kind)).collect()
     };
     let (mut found, mut left) = (BTreeSet::new(), of(from, tests));
@@ -138,9 +159,13 @@ fn imports_run_one_way() {
     let manifests = manifests();
     for (folder, may_use) in IMPORTS {
         let manifest = &manifests[folder];
-        let expected = |list: &[&str]| list.iter().map(|name| name.to_string()).collect::<BTreeSet<_>>();
+        let expected =
+            |list: &[&str]| list.iter().map(|name| name.to_string()).collect::<BTreeSet<_>>();
         assert_eq!(uses(manifest, "dependencies"), expected(may_use), "{folder}/Cargo.toml");
-        let own = DEVELOPMENT.iter().find(|(tested, _)| *tested == folder).map_or(&[][..], |(_, uses)| uses);
+        let own = DEVELOPMENT
+            .iter()
+            .find(|(tested, _)| *tested == folder)
+            .map_or(&[][..], |(_, uses)| uses);
         let besides = &uses(manifest, "dev-dependencies") - &expected(may_use);
         assert_eq!(besides, expected(own), "{folder}/Cargo.toml, dev-dependencies");
     }
@@ -151,7 +176,10 @@ fn the_reference_cannot_see_the_core() {
     let manifests = manifests();
     for (from, tests, unreachable) in UNREACHABLE {
         let reached = reached(&manifests, from, tests);
-        assert!(!reached.contains(unreachable), "{from} reaches {unreachable}, by way of {reached:?}");
+        assert!(
+            !reached.contains(unreachable),
+            "{from} reaches {unreachable}, by way of {reached:?}"
+        );
     }
 }
 
@@ -180,7 +208,11 @@ fn every_source_names_its_licence() {
     for folder in ["model", "rtl", "synth", "scene", "waveforms", "host", "cli", "tests"] {
         for path in sources(folder) {
             let text = fs::read_to_string(&path).expect("a source");
-            assert!(text.starts_with("// SPDX-License-Identifier: MIT OR Apache-2.0"), "{}", path.display());
+            assert!(
+                text.starts_with("// SPDX-License-Identifier: MIT OR Apache-2.0"),
+                "{}",
+                path.display()
+            );
         }
     }
 }

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The vectors of `rtl/verilog/` notice faults: users who have no Rust see with `make sim` whether their Verilog is the model's.
+//! The vectors of `rtl/verilog/` notice faults: users who have no Rust see with `make sim` whether
+//! their Verilog is the model's.
 //!
-//! Faults are those of `tests/tests/faults.rs`, two hundred of them, one of each module and others spaced evenly over all places. Each must
-//! be noticed by `rtl/verilog/cocotb/bench.v`, or stand in `vectors.txt` under the reason why it changes nothing, or as open. Some are
-//! tried always, all with `FAULTS=all`.
+//! Faults are those of `tests/tests/faults.rs`, two hundred of them, one of each module and others
+//! spaced evenly over all places. Each must be noticed by `rtl/verilog/cocotb/bench.v`, or stand in
+//! `vectors.txt` under the reason why it changes nothing, or as open. Some are tried always, all
+//! with `FAULTS=all`.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -84,16 +86,23 @@ fn faults_in_the_printed_text_are_noticed_by_the_vectors() {
     let faults = Planted::with(&design, &|_| false).faults;
     let chosen = chosen(&faults);
     assert_eq!(chosen.len(), FAULTS);
-    let tried: Vec<_> = chosen.into_iter().step_by(if campaign::all() { 1 } else { EACH }).collect();
+    let tried: Vec<_> =
+        chosen.into_iter().step_by(if campaign::all() { 1 } else { EACH }).collect();
 
     let planted = Planted::with(&design, &|number| tried.contains(&number));
     let bench = compiled(&planted.verilog);
     assert!(passes(bench.path(), 0), "without a fault");
     let passed = two_at_a_time(&tried, |&number| passes(bench.path(), number));
     let survivors = tried.iter().zip(&passed).filter(|(_, passed)| **passed);
-    let survivors: BTreeSet<_> = survivors.map(|(&number, _)| faults[number - 1].to_string()).collect();
+    let survivors: BTreeSet<_> =
+        survivors.map(|(&number, _)| faults[number - 1].to_string()).collect();
     let survivors: BTreeSet<&str> = survivors.iter().map(String::as_str).collect();
-    println!("{} of {} faults noticed, of {} places", tried.len() - survivors.len(), tried.len(), faults.len());
+    println!(
+        "{} of {} faults noticed, of {} places",
+        tried.len() - survivors.len(),
+        tried.len(),
+        faults.len()
+    );
 
     let none = campaign::equivalent(NONE);
     let missed: Vec<_> = survivors.difference(&none).collect();

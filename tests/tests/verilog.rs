@@ -14,9 +14,16 @@ use hapticore_hdl::verilog::Design;
 use hapticore_rtl::header;
 
 fn committed(folder: &Path) -> BTreeMap<String, String> {
-    let files = fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display())).flatten();
+    let files = fs::read_dir(folder)
+        .unwrap_or_else(|error| panic!("{}: {error}", folder.display()))
+        .flatten();
     files
-        .map(|file| (file.file_name().into_string().expect("a name"), fs::read_to_string(file.path()).expect("a text")))
+        .map(|file| {
+            (
+                file.file_name().into_string().expect("a name"),
+                fs::read_to_string(file.path()).expect("a text"),
+            )
+        })
         .collect()
 }
 
@@ -24,13 +31,19 @@ fn printed(profile: &str) -> BTreeMap<String, String> {
     let profile = Profile::bundled(profile).expect("bundled");
     let design = header::design(&profile);
     let header = (header::NAME.to_owned(), header::of_core(&profile, &design));
-    design.modules.into_iter().map(|file| (format!("{}.v", file.name), file.text)).chain([header]).collect()
+    design
+        .modules
+        .into_iter()
+        .map(|file| (format!("{}.v", file.name), file.text))
+        .chain([header])
+        .collect()
 }
 
 #[test]
 fn the_committed_verilog_is_fresh() {
     for profile in ["small", "standard"] {
-        let folder: PathBuf = [env!("CARGO_MANIFEST_DIR"), "..", "rtl", "verilog", profile].iter().collect();
+        let folder: PathBuf =
+            [env!("CARGO_MANIFEST_DIR"), "..", "rtl", "verilog", profile].iter().collect();
         let (committed, printed) = (committed(&folder), printed(profile));
         let names = |files: &BTreeMap<String, String>| files.keys().cloned().collect::<Vec<_>>();
         let again = format!(
@@ -59,7 +72,11 @@ hapticore_hdl::block! {
 }
 
 impl Block for Keeper {
-    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+    fn clock<V: Interpretation>(
+        &self,
+        state: &mut State<Self, V>,
+        i: Inputs<Signal<V>>,
+    ) -> Outputs<Signal<V>> {
         let word = self.table.data(&mut state.submodules.table);
         self.table.read(&mut state.submodules.table, i.address);
         Outputs { word }

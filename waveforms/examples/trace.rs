@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Traces a made-up core into a folder: `cargo run -p hapticore-waveforms --example trace -- DIR`, then
-//! `gtkwave DIR/waves.gtkw`, to see what the viewer makes of it.
+//! Traces a made-up core into a folder: `cargo run -p hapticore-waveforms --example trace -- DIR`,
+//! then `gtkwave DIR/waves.gtkw`, to see what the viewer makes of it.
 
 #[path = "../tests/common/mod.rs"]
 mod common;

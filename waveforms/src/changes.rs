@@ -68,10 +68,18 @@ impl Codes {
     }
 
     /// Samples `probe` and writes what has changed since the last sample.
-    pub(crate) fn trace<W: Wave>(&mut self, probe: &impl Probe, wave: &mut Timed<W>) -> Result<(), Error> {
+    pub(crate) fn trace<W: Wave>(
+        &mut self,
+        probe: &impl Probe,
+        wave: &mut Timed<W>,
+    ) -> Result<(), Error> {
         self.now.clear();
         probe.sample(&mut self.now);
-        assert_eq!(self.now.len(), self.widths.len(), "a probe samples as many codes as it declares variables");
+        assert_eq!(
+            self.now.len(),
+            self.widths.len(),
+            "a probe samples as many codes as it declares variables"
+        );
         if self.last.is_empty() {
             // Other than any code, so that every first value is a change.
             self.last.extend(self.now.iter().map(|code| !code));
@@ -86,7 +94,8 @@ impl Codes {
     }
 }
 
-/// The physical truth: the signals that follow those of the probe. NaN, the value before any is set, is not written.
+/// The physical truth: the signals that follow those of the probe. NaN, the value before any is
+/// set, is not written.
 pub(crate) struct Truth {
     first: usize,
     now: Vec<f64>,

@@ -70,12 +70,20 @@ impl Signal {
         if scope.is_empty() {
             scope.push(TOP.into());
         }
-        let encoding = if states.is_empty() { Encoding::Code(format) } else { Encoding::State(format, states) };
+        let encoding = if states.is_empty() {
+            Encoding::Code(format)
+        } else {
+            Encoding::State(format, states)
+        };
         Signal { scope, name, encoding }
     }
 
     fn of_truth(truth: &TruthVariable) -> Self {
-        Signal { scope: vec![TRUTH.into()], name: truth.name.clone(), encoding: Encoding::Real(truth.unit.clone()) }
+        Signal {
+            scope: vec![TRUTH.into()],
+            name: truth.name.clone(),
+            encoding: Encoding::Real(truth.unit.clone()),
+        }
     }
 
     /// The path, its parts joined by dots.
@@ -103,7 +111,8 @@ pub struct Declarations {
 }
 
 impl Declarations {
-    /// The declarations of a probe's variables, then of the truth, then of a wire `clk` in the first scope if asked for.
+    /// The declarations of a probe's variables, then of the truth, then of a wire `clk` in the
+    /// first scope if asked for.
     ///
     /// # Errors
     /// A name, a width or a repeated path that a viewer would misread.
@@ -117,7 +126,11 @@ impl Declarations {
         let top = signals.first().map_or(TOP, |first| &first.scope[0]).to_string();
         signals.extend(truth.iter().map(Signal::of_truth));
         if clock_wire {
-            signals.push(Signal { scope: vec![top], name: "clk".into(), encoding: Encoding::Code(BIT) });
+            signals.push(Signal {
+                scope: vec![top],
+                name: "clk".into(),
+                encoding: Encoding::Code(BIT),
+            });
         }
         check(&signals)?;
         Ok(Declarations { timebase, signals })
@@ -133,7 +146,8 @@ impl Declarations {
         &self.signals
     }
 
-    /// A walk over the hierarchy that enters every scope once: own signals first, then the scopes within.
+    /// A walk over the hierarchy that enters every scope once: own signals first, then the scopes
+    /// within.
     pub fn walk(&self) -> Vec<Step> {
         let mut steps = Vec::new();
         self.descend(0, (0..self.signals.len()).collect(), &mut steps);
@@ -146,7 +160,8 @@ impl Declarations {
         steps.extend(own.into_iter().map(Step::Declare));
         while let Some(&first) = deeper.first() {
             let name = &self.signals[first].scope[depth];
-            let (inside, rest) = deeper.into_iter().partition(|&i| &self.signals[i].scope[depth] == name);
+            let (inside, rest) =
+                deeper.into_iter().partition(|&i| &self.signals[i].scope[depth] == name);
             steps.push(Step::Enter(name.clone()));
             self.descend(depth + 1, inside, steps);
             steps.push(Step::Leave);
@@ -162,7 +177,9 @@ fn check(signals: &[Signal]) -> Result<(), Error> {
         if let Some(name) = signal.scope.iter().chain([&signal.name]).find(|name| !is_name(name)) {
             return Err(Error::Name { path, name: name.clone() });
         }
-        if let Some(width) = signal.encoding.width().filter(|width| !(1..=MAX_WIDTH).contains(width)) {
+        if let Some(width) =
+            signal.encoding.width().filter(|width| !(1..=MAX_WIDTH).contains(width))
+        {
             return Err(Error::Width { path, width });
         }
         if !seen.insert(path) {
@@ -172,7 +189,8 @@ fn check(signals: &[Signal]) -> Result<(), Error> {
     Ok(())
 }
 
-/// Whether viewers take this for one plain name: dots, brackets and spaces have meanings of their own.
+/// Whether viewers take this for one plain name: dots, brackets and spaces have meanings of their
+/// own.
 fn is_name(name: &str) -> bool {
     name.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
         && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
@@ -195,7 +213,9 @@ mod tests {
     #[test]
     fn every_scope_is_entered_once_however_the_probe_orders_them() {
         let paths = [["a", "b", "x"].as_slice(), &["a", "y"], &["c"], &["a", "b", "z"]];
-        let declarations = declare(&paths.map(|path| variable(path, 1)), &[TruthVariable::new("force", "N")]).unwrap();
+        let declarations =
+            declare(&paths.map(|path| variable(path, 1)), &[TruthVariable::new("force", "N")])
+                .unwrap();
         let text: Vec<_> = declarations
             .walk()
             .iter()
@@ -214,7 +234,10 @@ mod tests {
             let error = declare(&[variable(&["core", bad], 1)], &[]).unwrap_err();
             assert!(matches!(error, Error::Name { .. }), "{bad}: {error}");
         }
-        assert!(matches!(declare(&[variable(&["core", "x"], 64)], &[]), Err(Error::Width { width: 64, .. })));
+        assert!(matches!(
+            declare(&[variable(&["core", "x"], 64)], &[]),
+            Err(Error::Width { width: 64, .. })
+        ));
         assert!(
             matches!(declare(&[variable(&["core", "clk"], 1)], &[]), Err(Error::Duplicate(path)) if path == "core.clk")
         );

@@ -25,7 +25,8 @@ pub(crate) mod flag {
     pub(crate) const FIXED_POINT: u64 = 1 << 30;
 }
 
-/// The least integer bits (the most leading zeros of a fraction) with which numbers are shown as fixed point.
+/// The least integer bits (the most leading zeros of a fraction) with which numbers are shown as
+/// fixed point.
 const LEAST_INTEGER_BITS: i16 = -8;
 
 /// The path as GTKWave spells it: with the bit range of a vector.
@@ -46,7 +47,9 @@ pub(crate) fn fixed_point(encoding: &Encoding, style: Style) -> Option<i8> {
 }
 
 fn is_fixed_point(format: Format) -> bool {
-    (1..63).contains(&format.frac) && format.width > 1 && format.integer_bits() >= LEAST_INTEGER_BITS
+    (1..63).contains(&format.frac)
+        && format.width > 1
+        && format.integer_bits() >= LEAST_INTEGER_BITS
 }
 
 /// A name that says what the values shown are worth, where the values alone do not.
@@ -77,7 +80,9 @@ fn radix(encoding: &Encoding, style: Style) -> u64 {
         (_, Style::Hex) => flag::HEX,
         (_, Style::Binary) => flag::BINARY,
         (Encoding::State(..), Style::Number) => flag::DECIMAL | flag::FILE_TRANSLATE,
-        (Encoding::Code(format) | Encoding::State(format, _), _) if format.signed => flag::DECIMAL | flag::SIGNED,
+        (Encoding::Code(format) | Encoding::State(format, _), _) if format.signed => {
+            flag::DECIMAL | flag::SIGNED
+        }
         _ => flag::DECIMAL,
     }
 }

@@ -25,7 +25,9 @@ pub enum Error {
         source: fst_writer::FstWriteError,
     },
     /// A scope or variable name that waveform viewers would misread.
-    #[error("signal \"{path}\": expected a name of letters, digits and '_' that starts with no digit, got \"{name}\"")]
+    #[error(
+        "signal \"{path}\": expected a name of letters, digits and '_' that starts with no digit, got \"{name}\""
+    )]
     Name {
         /// Full path of the signal.
         path: String,

@@ -6,8 +6,8 @@ use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use fst_writer::{
-    FstBodyWriter, FstFileType, FstHeaderWriter, FstInfo, FstScopeType, FstSignalId, FstSignalType, FstVarDirection,
-    FstVarType,
+    FstBodyWriter, FstFileType, FstHeaderWriter, FstInfo, FstScopeType, FstSignalId, FstSignalType,
+    FstVarDirection, FstVarType,
 };
 use hapticore_files::AtomicFile;
 
@@ -16,7 +16,8 @@ use crate::bits::digits;
 use crate::declarations::{Declarations, Signal, Step};
 use crate::wave::Wave;
 
-/// How many bytes of changes are held before they are compressed and written. More compresses better.
+/// How many bytes of changes are held before they are compressed and written. More compresses
+/// better.
 const SECTION_BYTES: usize = 32 << 20;
 
 /// An FST file being written.
@@ -42,7 +43,13 @@ impl FstFile {
     /// The folder cannot be written to.
     pub fn create(path: &Path) -> Result<Self, Error> {
         let partial = Some(AtomicFile::create(path).map_err(Error::io(path))?);
-        Ok(FstFile { body: None, variables: Vec::new(), section_bytes: SECTION_BYTES, partial, path: path.to_owned() })
+        Ok(FstFile {
+            body: None,
+            variables: Vec::new(),
+            section_bytes: SECTION_BYTES,
+            partial,
+            path: path.to_owned(),
+        })
     }
 
     /// Writes sections of about `bytes` bytes of changes.
@@ -51,12 +58,17 @@ impl FstFile {
     }
 
     fn header(&mut self, declarations: &Declarations) -> fst_writer::Result<()> {
-        let mut header = fst_writer::open_fst(self.partial.as_ref().expect(BEGUN).partial_path(), &info(declarations))?;
+        let mut header = fst_writer::open_fst(
+            self.partial.as_ref().expect(BEGUN).partial_path(),
+            &info(declarations),
+        )?;
         let mut variables = vec![None; declarations.signals().len()];
         for step in declarations.walk() {
             match step {
                 Step::Enter(name) => header.scope(name, "", FstScopeType::Module)?,
-                Step::Declare(index) => variables[index] = Some(declare(&mut header, &declarations.signals()[index])?),
+                Step::Declare(index) => {
+                    variables[index] = Some(declare(&mut header, &declarations.signals()[index])?)
+                }
                 Step::Leave => header.up_scope()?,
             }
         }
@@ -118,7 +130,10 @@ fn info(declarations: &Declarations) -> FstInfo {
     }
 }
 
-fn declare(header: &mut FstHeaderWriter<BufWriter<File>>, signal: &Signal) -> fst_writer::Result<Variable> {
+fn declare(
+    header: &mut FstHeaderWriter<BufWriter<File>>,
+    signal: &Signal,
+) -> fst_writer::Result<Variable> {
     let width = signal.encoding.width();
     let (encoding, kind) = match width {
         Some(width) => (FstSignalType::bit_vec(width.into()), FstVarType::Wire),

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! GTKWave save files: a view of one trace, ready to open.
 //!
-//! Codes are shown as the numbers they stand for, states by name, chosen signals as curves. The same save file opens the
-//! VCD and the FST of a run, from any working directory and wherever the folder is moved. Checked with GTKWave 3.3.118.
+//! Codes are shown as the numbers they stand for, states by name, chosen signals as curves. The
+//! same save file opens the VCD and the FST of a run, from any working directory and wherever the
+//! folder is moved. Checked with GTKWave 3.3.118.
 //!
-//! GTKWave leaves a fraction below 0.0001 out of a fixed-point number (0.00001 shows as 0, 2.00001 as 2; curves too). A
-//! format whose largest number is about that small is therefore shown as its raw code, with what one step is worth: `gain
-//! (2^-38)`; so are codes worth more than one.
+//! GTKWave leaves a fraction below 0.0001 out of a fixed-point number (0.00001 shows as 0, 2.00001
+//! as 2; curves too). A format whose largest number is about that small is therefore shown as its
+//! raw code, with what one step is worth: `gain (2^-38)`; so are codes worth more than one.
 
 use std::path::Path;
 
@@ -17,11 +18,13 @@ use crate::layout::{Row, Section, lay_out};
 use crate::tracer::Trace;
 use crate::view::{Style, View, ViewError};
 
-/// The width of the waves on a screen for the first zoom, in units of 200 pixels as GTKWave counts it.
+/// The width of the waves on a screen for the first zoom, in units of 200 pixels as GTKWave counts
+/// it.
 const SCREEN_FRAMES: f64 = 5.0;
 
-/// A folder that does not exist. GTKWave carries names over from the folder where the save file says it was saved to the
-/// one where it is found; a plain file name would be looked for in the working directory.
+/// A folder that does not exist. GTKWave carries names over from the folder where the save file
+/// says it was saved to the one where it is found; a plain file name would be looked for in the
+/// working directory.
 const FOLDER: &str = "/hapticore";
 
 /// A save file and the files it refers to.
@@ -34,21 +37,27 @@ pub struct SaveFile {
 }
 
 impl SaveFile {
-    /// The save file that shows `trace` as `view` says; opened alone, it opens the file `dump` beside it. Translation files
-    /// get names that start as that of `dump`.
+    /// The save file that shows `trace` as `view` says; opened alone, it opens the file `dump`
+    /// beside it. Translation files get names that start as that of `dump`.
     ///
     /// # Errors
     /// The view names a signal that the trace does not have.
     pub fn new(view: &View, trace: &Trace, dump: &str) -> Result<Self, ViewError> {
         let stem = dump.rsplit_once('.').map_or(dump, |(stem, _)| stem);
-        let mut printer = Printer { trace, stem, text: head(trace, dump), translations: Vec::new() };
+        let mut printer =
+            Printer { trace, stem, text: head(trace, dump), translations: Vec::new() };
         lay_out(view, &trace.declarations)?.iter().for_each(|section| printer.section(section));
-        let translations = printer.translations.into_iter().map(|(name, states)| (name, translation(states))).collect();
+        let translations = printer
+            .translations
+            .into_iter()
+            .map(|(name, states)| (name, translation(states)))
+            .collect();
         Ok(SaveFile { text: printer.text, translations })
     }
 }
 
-/// Writes the save file `path` and its translation files, for the waveform file `dump` in the same folder.
+/// Writes the save file `path` and its translation files, for the waveform file `dump` in the same
+/// folder.
 ///
 /// # Errors
 /// The view does not fit the trace, or a file cannot be written.
@@ -124,7 +133,8 @@ impl Printer<'_> {
         }
     }
 
-    /// The number, from 1, and name of the translation file of `states`; signals with the same states share one.
+    /// The number, from 1, and name of the translation file of `states`; signals with the same
+    /// states share one.
     fn translation(&mut self, signal: &Signal, states: States) -> (usize, String) {
         let known = self.translations.iter().position(|(_, known)| *known == states);
         let index = known.unwrap_or_else(|| {

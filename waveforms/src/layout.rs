@@ -41,7 +41,9 @@ pub(crate) fn lay_out(view: &View, declarations: &Declarations) -> Result<Vec<Se
     for group in &view.groups {
         let rows = layout.rows(group)?;
         match &group.name {
-            Some(name) => sections.push(Section { heading: name.clone(), closed: group.closed, rows }),
+            Some(name) => {
+                sections.push(Section { heading: name.clone(), closed: group.closed, rows })
+            }
             None => layout.by_scope(group.closed, rows, &mut sections),
         }
     }
@@ -69,10 +71,13 @@ impl Layout<'_> {
 
     fn signals(&self, entry: &Entry, optional: bool) -> Result<Vec<usize>, ViewError> {
         let pattern = entry.show.get_ref();
-        let fitting: Vec<_> = (0..self.paths.len()).filter(|&signal| fits(pattern, &self.paths[signal])).collect();
+        let fitting: Vec<_> =
+            (0..self.paths.len()).filter(|&signal| fits(pattern, &self.paths[signal])).collect();
         match fitting.len() {
             0 if !optional => Err(self.view.misfit(entry, "expected a signal of the trace")),
-            2.. if entry.alias.is_some() => Err(self.view.misfit(entry, "expected one signal for an alias")),
+            2.. if entry.alias.is_some() => {
+                Err(self.view.misfit(entry, "expected one signal for an alias"))
+            }
             1 if !pattern.contains('*') => Ok(fitting),
             _ => Ok(fitting.into_iter().filter(|signal| !self.shown.contains(signal)).collect()),
         }
@@ -80,7 +85,11 @@ impl Layout<'_> {
 
     fn row(&self, signal: usize, entry: &Entry) -> Row {
         let declared = &self.declarations.signals()[signal];
-        let usual = if matches!(declared.encoding, Encoding::Real(_)) { Style::Step } else { Style::Number };
+        let usual = if matches!(declared.encoding, Encoding::Real(_)) {
+            Style::Step
+        } else {
+            Style::Number
+        };
         Row {
             signal,
             style: entry.style.unwrap_or(usual),

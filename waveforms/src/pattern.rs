@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How views and tests name signals: a path in which `*` stands for any characters of one name and `**` for any scopes.
+//! How views and tests name signals: a path in which `*` stands for any characters of one name and
+//! `**` for any scopes.
 //!
-//! `core.demodulator.i` is one signal; `core.*.busy` the busy flags of the blocks of the core; `**.busy` all busy flags;
-//! `core.position.**` everything within a block.
+//! `core.demodulator.i` is one signal; `core.*.busy` the busy flags of the blocks of the core;
+//! `**.busy` all busy flags; `core.position.**` everything within a block.
 
 /// Whether `path` fits `pattern`.
 pub fn fits(pattern: &str, path: &str) -> bool {
-    let (pattern, path): (Vec<_>, Vec<_>) = (pattern.split('.').collect(), path.split('.').collect());
+    let (pattern, path): (Vec<_>, Vec<_>) =
+        (pattern.split('.').collect(), path.split('.').collect());
     names_fit(&pattern, &path)
 }
 
@@ -14,9 +16,9 @@ fn names_fit(pattern: &[&str], path: &[&str]) -> bool {
     match pattern {
         [] => path.is_empty(),
         ["**", rest @ ..] => (0..=path.len()).any(|skipped| names_fit(rest, &path[skipped..])),
-        [first, rest @ ..] => {
-            path.split_first().is_some_and(|(name, path)| name_fits(first, name) && names_fit(rest, path))
-        }
+        [first, rest @ ..] => path
+            .split_first()
+            .is_some_and(|(name, path)| name_fits(first, name) && names_fit(rest, path)),
     }
 }
 

@@ -8,8 +8,8 @@
 //! core.i           |0.5|-0.25  |0.5
 //! ```
 //!
-//! One column a clock, wide enough that every value fits where it holds. Codes are shown as the numbers they stand for, with
-//! as many decimals as tell neighbouring codes apart.
+//! One column a clock, wide enough that every value fits where it holds. Codes are shown as the
+//! numbers they stand for, with as many decimals as tell neighbouring codes apart.
 
 use std::ops::Range;
 
@@ -29,7 +29,10 @@ pub struct History {
 impl History {
     /// An empty history of the variables of `probe`.
     pub fn of(probe: &impl Probe) -> Self {
-        History { signals: probe.variables().into_iter().map(Signal::of).collect(), codes: Vec::new() }
+        History {
+            signals: probe.variables().into_iter().map(Signal::of).collect(),
+            codes: Vec::new(),
+        }
     }
 
     /// Keeps the codes after one clock.
@@ -49,7 +52,9 @@ impl History {
     /// The signals that fit each pattern, in the order of the patterns.
     fn find(&self, patterns: &[&str]) -> Vec<usize> {
         let fitting = |pattern: &&str| {
-            let found: Vec<_> = (0..self.signals.len()).filter(|&i| fits(pattern, &self.signals[i].path())).collect();
+            let found: Vec<_> = (0..self.signals.len())
+                .filter(|&i| fits(pattern, &self.signals[i].path()))
+                .collect();
             assert!(!found.is_empty(), "no signal fits \"{pattern}\"");
             found
         };
@@ -63,23 +68,35 @@ impl History {
 /// No signal fits one of the patterns.
 pub fn render(history: &History, patterns: &[&str], range: Range<usize>) -> String {
     let clocks = range.start..range.end.min(history.clocks());
-    let rows: Vec<_> = history.find(patterns).into_iter().map(|signal| Row::new(history, signal, &clocks)).collect();
+    let rows: Vec<_> = history
+        .find(patterns)
+        .into_iter()
+        .map(|signal| Row::new(history, signal, &clocks))
+        .collect();
     let last = clocks.end.saturating_sub(1).to_string().len() + 1;
     let column = rows.iter().map(Row::column).chain([last]).max().unwrap_or(last);
-    let label = rows.iter().map(|row| row.label.chars().count()).max().unwrap_or(0).max("clock".len());
+    let label =
+        rows.iter().map(|row| row.label.chars().count()).max().unwrap_or(0).max("clock".len());
     let ruler = clocks.map(|clock| format!("{clock:<column$}")).collect();
     let lines = rows.iter().map(|row| (row.label.as_str(), row.draw(column)));
-    std::iter::once(("clock", ruler)).chain(lines).map(|(name, wave): (_, String)| line(name, label, &wave)).collect()
+    std::iter::once(("clock", ruler))
+        .chain(lines)
+        .map(|(name, wave): (_, String)| line(name, label, &wave))
+        .collect()
 }
 
-/// Asserts that the waveforms are those of `expected`; indentation and blank lines around it do not matter.
+/// Asserts that the waveforms are those of `expected`; indentation and blank lines around it do not
+/// matter.
 ///
 /// # Panics
 /// They differ; the message shows both.
 #[track_caller]
 pub fn check(history: &History, patterns: &[&str], range: Range<usize>, expected: &str) {
     let got = render(history, patterns, range);
-    assert!(flush_left(&got) == flush_left(expected), "waveforms differ\nexpected:\n{expected}\ngot:\n{got}");
+    assert!(
+        flush_left(&got) == flush_left(expected),
+        "waveforms differ\nexpected:\n{expected}\ngot:\n{got}"
+    );
 }
 
 fn line(name: &str, label: usize, wave: &str) -> String {
@@ -101,13 +118,15 @@ impl Row {
     fn new(history: &History, signal: usize, clocks: &Range<usize>) -> Self {
         let Signal { encoding, .. } = &history.signals[signal];
         let codes: Vec<_> = clocks.clone().map(|clock| history.code(signal, clock)).collect();
-        let runs = codes.chunk_by(|a, b| a == b).map(|run| (value(encoding, run[0]), run.len())).collect();
+        let runs =
+            codes.chunk_by(|a, b| a == b).map(|run| (value(encoding, run[0]), run.len())).collect();
         Row { label: history.signals[signal].path(), bit: encoding.width() == Some(1), runs }
     }
 
     /// The narrowest column in which every value and its edge fit. A bit takes any.
     fn column(&self) -> usize {
-        let needs = |(value, clocks): &(String, usize)| (value.chars().count() + 1).div_ceil(*clocks);
+        let needs =
+            |(value, clocks): &(String, usize)| (value.chars().count() + 1).div_ceil(*clocks);
         self.runs.iter().filter(|_| !self.bit).map(needs).max().unwrap_or(1)
     }
 
@@ -146,7 +165,8 @@ pub fn number(format: Format, code: i64) -> String {
     text.trim_end_matches('0').trim_end_matches('.').to_string()
 }
 
-/// `code · 2^-frac` to so many decimals, in integers: an `f64` has not the bits of the widest codes.
+/// `code · 2^-frac` to so many decimals, in integers: an `f64` has not the bits of the widest
+/// codes.
 fn fixed_point(code: i64, frac: u32, decimals: usize) -> String {
     let one = 10u128.pow(decimals as u32);
     let scaled = (u128::from(code.unsigned_abs()) * one + (1 << (frac - 1))) >> frac;
@@ -161,7 +181,10 @@ mod tests {
     fn numbers_tell_neighbouring_codes_apart() {
         let s = Format::signed(18, 17);
         assert_eq!(number(s, 1 << 16), "0.5");
-        assert_eq!((number(s, -1), number(s, -2), number(s, 0)), ("-0.000008".into(), "-0.000015".into(), "0".into()));
+        assert_eq!(
+            (number(s, -1), number(s, -2), number(s, 0)),
+            ("-0.000008".into(), "-0.000015".into(), "0".into())
+        );
         assert_eq!(number(Format::signed(24, -3), -5), "-40");
         assert_eq!(number(Format::unsigned(18, 38), 1), "0.000000000004");
         let s = Format::signed(63, 40);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Clocks to ticks: the time axis of a waveform file.
 //!
-//! The tick is the coarsest decimal unit in which half a clock period is whole, so that 25 MHz counts in nanoseconds (40
-//! a clock). Where there is none (12 MHz), the tick is a picosecond and every time is rounded by itself: never more than
-//! half a tick off, however long the run.
+//! The tick is the coarsest decimal unit in which half a clock period is whole, so that 25 MHz
+//! counts in nanoseconds (40 a clock). Where there is none (12 MHz), the tick is a picosecond and
+//! every time is rounded by itself: never more than half a tick off, however long the run.
 
 use crate::Error;
 
@@ -31,7 +31,8 @@ impl Timebase {
         if !(1..=MOST_HZ).contains(&clock_hz) {
             return Err(Error::ClockFrequency(clock_hz));
         }
-        let whole = EXPONENTS.iter().find(|&&exponent| per_second(exponent).is_multiple_of(2 * clock_hz));
+        let whole =
+            EXPONENTS.iter().find(|&&exponent| per_second(exponent).is_multiple_of(2 * clock_hz));
         let half_period = whole.map(|&exponent| per_second(exponent) / (2 * clock_hz));
         Ok(Timebase { exponent: *whole.unwrap_or(&-12), clock_hz, half_period })
     }
@@ -71,7 +72,8 @@ mod tests {
 
     #[test]
     fn the_tick_is_the_coarsest_that_is_exact() {
-        let cases = [(25_000_000, -9, 40), (100_000_000, -9, 10), (200_000_000, -12, 5000), (1, -3, 1000)];
+        let cases =
+            [(25_000_000, -9, 40), (100_000_000, -9, 10), (200_000_000, -12, 5000), (1, -3, 1000)];
         for (hz, exponent, period) in cases {
             let base = Timebase::of_clock(hz).unwrap();
             assert_eq!((base.exponent(), base.ticks(1)), (exponent, period), "{hz} Hz");

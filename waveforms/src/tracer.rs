@@ -7,8 +7,9 @@
 //!   values    after clock 0, 1, 2, 3: what the registers hold until the next edge
 //! ```
 //!
-//! Outside the window a clock costs a comparison: the probe is not sampled. Inside, every variable is compared with its
-//! last value and only changes are written. Nothing is allocated per clock here.
+//! Outside the window a clock costs a comparison: the probe is not sampled. Inside, every variable
+//! is compared with its last value and only changes are written. Nothing is allocated per clock
+//! here.
 
 use std::ops::Range;
 
@@ -27,7 +28,8 @@ pub struct Settings {
     pub timebase: Timebase,
     /// The clocks to trace, counted from 0; all where `None`.
     pub window: Option<Range<u64>>,
-    /// Whether to add a wire `clk` to the first scope. It changes twice a clock, so a trace may double in size.
+    /// Whether to add a wire `clk` to the first scope. It changes twice a clock, so a trace may
+    /// double in size.
     pub clock_wire: bool,
 }
 
@@ -70,10 +72,16 @@ impl<W: Wave> Tracer<W> {
     ///
     /// # Errors
     /// A variable that a viewer would misread, or a file that cannot be written.
-    pub fn new(mut wave: W, probe: &impl Probe, truth: &[TruthVariable], settings: &Settings) -> Result<Self, Error> {
+    pub fn new(
+        mut wave: W,
+        probe: &impl Probe,
+        truth: &[TruthVariable],
+        settings: &Settings,
+    ) -> Result<Self, Error> {
         let variables = probe.variables();
         let codes = Codes::new(variables.iter().map(|variable| variable.format.width).collect());
-        let declarations = Declarations::new(variables, truth, settings.clock_wire, settings.timebase)?;
+        let declarations =
+            Declarations::new(variables, truth, settings.clock_wire, settings.timebase)?;
         wave.begin(&declarations)?;
         Ok(Tracer {
             wave: Timed::new(wave),
@@ -106,7 +114,8 @@ impl<W: Wave> Tracer<W> {
         outcome
     }
 
-    /// Passes over clocks that the simulation did without being looked at. The trace holds its values there.
+    /// Passes over clocks that the simulation did without being looked at. The trace holds its
+    /// values there.
     pub fn skip(&mut self, clocks: u64) {
         self.clock += clocks;
     }
@@ -127,7 +136,8 @@ impl<W: Wave> Tracer<W> {
     /// Completes the file and gives it its name.
     ///
     /// # Errors
-    /// The file cannot be written, now or at an earlier clock, or nothing was traced; then none is kept.
+    /// The file cannot be written, now or at an earlier clock, or nothing was traced; then none is
+    /// kept.
     pub fn finish(mut self) -> Result<Trace, Error> {
         if self.failed {
             return Err(Error::Incomplete);

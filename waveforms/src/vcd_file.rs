@@ -18,8 +18,8 @@ const LINE_BYTES: usize = 80;
 
 /// A VCD file being written.
 ///
-/// Changes are put together here, a line at a time: the `vcd` crate writes a vector digit by digit through the formatter,
-/// which takes eight times as long.
+/// Changes are put together here, a line at a time: the `vcd` crate writes a vector digit by digit
+/// through the formatter, which takes eight times as long.
 pub struct VcdFile {
     writer: Writer<BufWriter<File>>,
     variables: Vec<Variable>,
@@ -50,7 +50,12 @@ impl VcdFile {
     fn header(&mut self, declarations: &Declarations) -> std::io::Result<()> {
         self.writer.version("hapticore")?;
         self.writer.timescale(1, unit(declarations.timebase().exponent()))?;
-        self.variables = declarations.signals().iter().zip(0..).map(|(signal, id)| Variable::new(signal, id)).collect();
+        self.variables = declarations
+            .signals()
+            .iter()
+            .zip(0..)
+            .map(|(signal, id)| Variable::new(signal, id))
+            .collect();
         for step in declarations.walk() {
             match step {
                 Step::Enter(name) => self.writer.add_module(&name)?,
@@ -102,8 +107,8 @@ impl Variable {
         Variable { id, tail: tail.into_bytes().into(), scalar }
     }
 
-    /// Puts the line of one change into `line` and gives its length. Leading zeros are left out: readers extend a vector
-    /// on the left with zeros.
+    /// Puts the line of one change into `line` and gives its length. Leading zeros are left out:
+    /// readers extend a vector on the left with zeros.
     fn line(&self, bits: u64, line: &mut [u8; LINE_BYTES]) -> usize {
         let text = digits(bits);
         let digits = &text[bits.leading_zeros().min(63) as usize..];

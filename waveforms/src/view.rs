@@ -19,8 +19,8 @@
 //! signals = [{ show = "truth.*", as = "line", height = 3 }]
 //! ```
 //!
-//! `show` is a [pattern](crate::pattern). A signal that a group before has shown is not shown again by a pattern, only by
-//! its full path, so that a last group can hold the rest.
+//! `show` is a [pattern](crate::pattern). A signal that a group before has shown is not shown again
+//! by a pattern, only by its full path, so that a last group can hold the rest.
 
 use std::ops::Range;
 use std::path::Path;
@@ -153,7 +153,10 @@ impl View {
     /// # Errors
     /// The text is no view; unknown keys are errors too.
     pub fn parse(name: &str, text: &str) -> Result<Self, ViewError> {
-        let wrong = |error: toml::de::Error| ViewError::Text { view: name.into(), message: error.to_string() };
+        let wrong = |error: toml::de::Error| ViewError::Text {
+            view: name.into(),
+            message: error.to_string(),
+        };
         let Groups { groups } = toml::from_str(text).map_err(wrong)?;
         Ok(View { name: name.into(), groups, text: text.into() })
     }
@@ -174,7 +177,10 @@ impl View {
     pub fn bundled(name: &str) -> Result<Self, ViewError> {
         match BUNDLED.iter().find(|(known, _)| *known == name) {
             Some((_, text)) => View::parse(name, text),
-            None => Err(ViewError::Unknown { name: name.into(), known: View::names().collect::<Vec<_>>().join(", ") }),
+            None => Err(ViewError::Unknown {
+                name: name.into(),
+                known: View::names().collect::<Vec<_>>().join(", "),
+            }),
         }
     }
 
@@ -191,7 +197,12 @@ impl View {
     /// The error that `entry` does not fit a trace.
     pub(crate) fn misfit(&self, entry: &Entry, reason: &'static str) -> ViewError {
         let line = self.line(entry.show.span());
-        ViewError::Signal { view: self.name.clone(), line, signal: entry.show.get_ref().clone(), reason }
+        ViewError::Signal {
+            view: self.name.clone(),
+            line,
+            signal: entry.show.get_ref().clone(),
+            reason,
+        }
     }
 
     fn line(&self, span: Range<usize>) -> usize {

@@ -13,8 +13,8 @@ pub(crate) const BUFFER_BYTES: usize = 1 << 18;
 
 /// A waveform file being written. Signals are named by their index in the declarations.
 ///
-/// Calls come as: one `begin`; then times in rising order, each followed by its changes; then one `finish`. A file
-/// dropped before `finish` leaves nothing behind.
+/// Calls come as: one `begin`; then times in rising order, each followed by its changes; then one
+/// `finish`. A file dropped before `finish` leaves nothing behind.
 pub trait Wave {
     /// Writes the scopes and variables.
     ///

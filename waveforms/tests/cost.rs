@@ -68,11 +68,19 @@ fn cost_of_a_clock() {
     println!("| --- | --- | --- | --- | --- |");
     let outside = Settings { window: Some(0..1), ..settings() };
     for kind in [Kind::Vcd, Kind::Fst] {
-        for (changing, settings) in
-            [(0, &outside), (0, &settings()), (5, &settings()), (20, &settings()), (100, &settings())]
-        {
+        for (changing, settings) in [
+            (0, &outside),
+            (0, &settings()),
+            (5, &settings()),
+            (20, &settings()),
+            (100, &settings()),
+        ] {
             let (ns, bytes) = measure(kind, changing, settings);
-            let name = if settings == &outside { "outside the window".into() } else { changing.to_string() };
+            let name = if settings == &outside {
+                "outside the window".into()
+            } else {
+                changing.to_string()
+            };
             let (each, bytes) = (ns / VARIABLES as f64, bytes as f64 / CLOCKS as f64);
             println!("| {} | {name} | {ns:.1} | {each:.3} | {bytes:.1} |", kind.extension());
         }

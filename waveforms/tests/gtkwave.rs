@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! GTKWave itself opens what is written: every trace of a save file, with the numbers that were traced.
+//! GTKWave itself opens what is written: every trace of a save file, with the numbers that were
+//! traced.
 //!
 //! Needs `gtkwave` and `xvfb-run`; prints SKIPPED where they are not to be had.
 
@@ -76,7 +77,10 @@ fn check(kind: Kind) {
     let (shown, expected) = (shown(&dump, &path, CLOCK * 40), expected());
     assert_eq!(shown.len(), expected.len(), "{kind:?}: {shown:?}");
     for (shown, expected) in shown.iter().zip(&expected) {
-        assert!(shown.0 == expected.0 && same(&shown.1, &expected.1), "{kind:?}: {shown:?}, expected {expected:?}");
+        assert!(
+            shown.0 == expected.0 && same(&shown.1, &expected.1),
+            "{kind:?}: {shown:?}, expected {expected:?}"
+        );
     }
 }
 

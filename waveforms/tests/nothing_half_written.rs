@@ -13,7 +13,10 @@ use hapticore_waveforms::tracer::{Settings, Tracer};
 use hapticore_waveforms::wave::{Kind, Wave};
 
 fn names(folder: &Path) -> Vec<String> {
-    fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
+    fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect()
 }
 
 #[test]
@@ -22,11 +25,16 @@ fn a_dropped_trace_leaves_nothing_and_an_older_file_alone() {
         let folder = folder();
         let path = folder.path().join("waves");
         fs::write(&path, "older").unwrap();
-        let mut tracer = Tracer::new(kind.create(&path).unwrap(), &Fake { clock: 0 }, &truth(), &settings()).unwrap();
+        let mut tracer =
+            Tracer::new(kind.create(&path).unwrap(), &Fake { clock: 0 }, &truth(), &settings())
+                .unwrap();
         (0..1000).for_each(|clock| tracer.clock(&Fake { clock }).unwrap());
         assert_eq!(names(folder.path()).len(), 2, "a partial file");
         drop(tracer);
-        assert_eq!((names(folder.path()), fs::read_to_string(&path).unwrap()), (vec!["waves".into()], "older".into()));
+        assert_eq!(
+            (names(folder.path()), fs::read_to_string(&path).unwrap()),
+            (vec!["waves".into()], "older".into())
+        );
     }
 }
 
@@ -43,7 +51,9 @@ fn a_finished_trace_leaves_one_file() {
 fn a_folder_that_is_not_there_is_an_error_that_names_the_file() {
     let path = Path::new("no/such/folder/waves.vcd");
     for kind in [Kind::Vcd, Kind::Fst] {
-        let tracer = kind.create(path).and_then(|wave| Tracer::new(wave, &Fake { clock: 0 }, &[], &settings()));
+        let tracer = kind
+            .create(path)
+            .and_then(|wave| Tracer::new(wave, &Fake { clock: 0 }, &[], &settings()));
         assert!(tracer.err().unwrap().to_string().contains("no/such/folder/waves.vcd"));
     }
 }
@@ -92,7 +102,8 @@ impl Wave for Full {
 
 #[test]
 fn a_trace_with_a_hole_is_not_kept() {
-    let mut tracer = Tracer::new(Full { changes: 0 }, &Fake { clock: 0 }, &[], &settings()).unwrap();
+    let mut tracer =
+        Tracer::new(Full { changes: 0 }, &Fake { clock: 0 }, &[], &settings()).unwrap();
     let failures = (0..100).filter(|&clock| tracer.clock(&Fake { clock }).is_err()).count();
     assert_eq!(failures, 1);
     assert!(matches!(tracer.finish(), Err(Error::Incomplete)));

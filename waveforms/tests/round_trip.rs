@@ -20,8 +20,11 @@ struct Read(Waveform);
 impl Read {
     fn new(path: &Path) -> Self {
         let mut waveform = wellen::simple::read(path).unwrap();
-        let signals: Vec<_> =
-            waveform.hierarchy().all_vars().map(|var| waveform.hierarchy()[var].signal_ref()).collect();
+        let signals: Vec<_> = waveform
+            .hierarchy()
+            .all_vars()
+            .map(|var| waveform.hierarchy()[var].signal_ref())
+            .collect();
         waveform.load_signals(&signals);
         Read(waveform)
     }
@@ -34,7 +37,11 @@ impl Read {
     fn at(&self, path: &str, tick: u64) -> Option<String> {
         let names: Vec<_> = path.split('.').collect();
         let (name, scopes) = names.split_last().unwrap();
-        let var = self.0.hierarchy().lookup_var(scopes, name).unwrap_or_else(|| panic!("{path} is not in the file"));
+        let var = self
+            .0
+            .hierarchy()
+            .lookup_var(scopes, name)
+            .unwrap_or_else(|| panic!("{path} is not in the file"));
         let signal = self.0.get_signal(self.0.hierarchy()[var].signal_ref()).unwrap();
         let index = self.0.time_table().partition_point(|&time| time <= tick).checked_sub(1)?;
         let offset = signal.get_offset(index as u32)?;
@@ -51,14 +58,19 @@ impl Read {
         digits
     }
 
-    /// Checks every variable of the made-up core at every clock, just at it and just before the next.
+    /// Checks every variable of the made-up core at every clock, just at it and just before the
+    /// next.
     fn check_codes(&self, clocks: std::ops::Range<u64>, period: u64) {
         for clock in clocks {
             for (&(path, format, _), code) in VARIABLES.iter().zip((Fake { clock }).codes()) {
                 let width = usize::from(format.width);
                 let expected = &format!("{code:064b}")[64 - width..];
                 for tick in [clock * period, (clock + 1) * period - 1] {
-                    assert_eq!(self.code(path, format.width, tick), expected, "{path} at {tick}: {code} as {format}");
+                    assert_eq!(
+                        self.code(path, format.width, tick),
+                        expected,
+                        "{path} at {tick}: {code} as {format}"
+                    );
                 }
             }
         }
@@ -106,7 +118,11 @@ fn a_window_holds_its_clocks_and_no_others() {
         assert_eq!(read.last_tick(), 5600);
         let before = read.at("core.oscillator.sin", 3999).filter(|digits| !digits.starts_with('x'));
         assert_eq!(before, None, "nothing is known before the window");
-        assert_eq!(read.at("truth.error", 4000), Some((-1.5e-12).to_string()), "set long before the window");
+        assert_eq!(
+            read.at("truth.error", 4000),
+            Some((-1.5e-12).to_string()),
+            "set long before the window"
+        );
     });
 }
 

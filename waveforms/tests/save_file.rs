@@ -46,7 +46,8 @@ fn every_trace_is_in_the_file_with_its_width() {
         for shown in shown {
             let (path, range) = shown.split_once('[').unwrap_or((shown, "0:0]"));
             let names: Vec<_> = path.split('.').collect();
-            let var = &hierarchy[hierarchy.lookup_var(&names[..names.len() - 1], names[names.len() - 1]).unwrap()];
+            let var = &hierarchy
+                [hierarchy.lookup_var(&names[..names.len() - 1], names[names.len() - 1]).unwrap()];
             let width = if var.is_real(hierarchy) { 1 } else { var.length(hierarchy).unwrap() };
             assert_eq!(range, format!("{}:0]", width - 1), "{shown}");
         }
@@ -122,7 +123,14 @@ fn a_group_without_a_name_is_one_for_each_scope_of_what_is_left() {
     let headings: Vec<_> = body.lines().filter(|line| line.starts_with("-")).collect();
     assert_eq!(
         headings,
-        ["-First", "-First", "-core.demodulator", "-core.demodulator", "-core.position", "-core.position"]
+        [
+            "-First",
+            "-First",
+            "-core.demodulator",
+            "-core.demodulator",
+            "-core.position",
+            "-core.position"
+        ]
     );
     assert_eq!(traces(&body).iter().filter(|path| path.ends_with("valid")).count(), 1);
     assert!(body.contains("@c00200\n-core.position") && body.contains("@1400200\n-core.position"));
@@ -131,9 +139,15 @@ fn a_group_without_a_name_is_one_for_each_scope_of_what_is_left() {
 #[test]
 fn what_does_not_fit_the_trace_is_named_with_view_and_line() {
     let unknown = "[[group]]\nname = \"a\"\nsignals = [\n  { show = \"core.*.i\" },\n  { show = \"core.nothing\" },\n]";
-    assert_eq!(save_file(unknown).unwrap_err(), "mine.toml:5: expected a signal of the trace, got \"core.nothing\"");
+    assert_eq!(
+        save_file(unknown).unwrap_err(),
+        "mine.toml:5: expected a signal of the trace, got \"core.nothing\""
+    );
     let alias = "[[group]]\nsignals = [{ show = \"core.position.*\", alias = \"x\" }]";
-    assert_eq!(save_file(alias).unwrap_err(), "mine.toml:2: expected one signal for an alias, got \"core.position.*\"");
+    assert_eq!(
+        save_file(alias).unwrap_err(),
+        "mine.toml:2: expected one signal for an alias, got \"core.position.*\""
+    );
 }
 
 #[test]
@@ -147,7 +161,11 @@ fn states_are_translated_from_a_file_beside() {
     let folder = folder();
     let path = folder.path().join("waves.gtkw");
     gtkwave::save(&View::everything(), &traced(), "waves.fst", &path).unwrap();
-    let translation = fs::read_to_string(folder.path().join("waves.core.multiplexer.state.txt")).unwrap();
-    assert_eq!(translation, format!("0 {}\n1 {}\n2 {}\n3 {}\n", STATES[0], STATES[1], STATES[2], STATES[3]));
+    let translation =
+        fs::read_to_string(folder.path().join("waves.core.multiplexer.state.txt")).unwrap();
+    assert_eq!(
+        translation,
+        format!("0 {}\n1 {}\n2 {}\n3 {}\n", STATES[0], STATES[1], STATES[2], STATES[3])
+    );
     assert!(fs::read_to_string(path).unwrap().contains("[dumpfile] \"/hapticore/waves.fst\""));
 }

@@ -36,9 +36,12 @@ impl AtomicFile {
     /// The folder cannot be written to, or there is a folder of this name.
     pub fn create(path: &Path) -> io::Result<Self> {
         if path.is_dir() {
-            return Err(io::Error::other("expected a file to write, there is a folder of this name"));
+            return Err(io::Error::other(
+                "expected a file to write, there is a folder of this name",
+            ));
         }
-        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let folder =
+            path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         partial::clear(folder);
         let temporary = tempfile::Builder::new().prefix(partial::PREFIX).tempfile_in(folder)?;
         partial::lock_file(temporary.as_file());

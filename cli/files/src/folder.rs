@@ -7,8 +7,8 @@ use std::io;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
-/// Files in the making, for one folder. Dropped before [`AtomicFolder::persist`], they leave nothing behind, nor does a folder
-/// that was made for them.
+/// Files in the making, for one folder. Dropped before [`AtomicFolder::persist`], they leave
+/// nothing behind, nor does a folder that was made for them.
 ///
 /// ```
 /// # let root = tempfile::tempdir()?;
@@ -36,7 +36,8 @@ impl AtomicFolder {
     pub fn create(folder: &Path) -> io::Result<Self> {
         let missing = |path: &&Path| !path.as_os_str().is_empty() && !path.exists();
         let created = folder.ancestors().take_while(missing).map(Path::to_owned).collect();
-        let mut made = AtomicFolder { folder: folder.to_owned(), partial: None, lock: None, created };
+        let mut made =
+            AtomicFolder { folder: folder.to_owned(), partial: None, lock: None, created };
         fs::create_dir_all(folder)?;
         partial::clear(folder);
         made.partial = Some(tempfile::Builder::new().prefix(partial::PREFIX).tempdir_in(folder)?);
@@ -69,8 +70,9 @@ impl AtomicFolder {
         let mut paths = Vec::new();
         for name in names {
             let path = self.folder.join(&name);
-            fs::rename(self.partial_path().join(&name), &path)
-                .map_err(|error| io::Error::new(error.kind(), format!("{}: {error}", path.display())))?;
+            fs::rename(self.partial_path().join(&name), &path).map_err(|error| {
+                io::Error::new(error.kind(), format!("{}: {error}", path.display()))
+            })?;
             paths.push(path);
         }
         self.created.clear();

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Atomic writing: a file, or all files of a run, appear whole or not at all.
 //!
-//! What is not finished has a name that begins with [`PREFIX`], in the same folder, so that one rename finishes it, and is locked
-//! as long as its writer lives. A writer that is stopped takes it away; what a killed one leaves, the next one in the folder finds
-//! unlocked and clears.
+//! What is not finished has a name that begins with [`PREFIX`], in the same folder, so that one
+//! rename finishes it, and is locked as long as its writer lives. A writer that is stopped takes it
+//! away; what a killed one leaves, the next one in the folder finds unlocked and clears.
 //!
 //! ```
 //! # let folder = tempfile::tempdir()?;

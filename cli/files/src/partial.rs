@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a run has begun to write, under a name that says so: `.partial-…`, locked as long as the run lives.
+//! What a run has begun to write, under a name that says so: `.partial-…`, locked as long as the
+//! run lives.
 //!
-//! A run that is stopped takes it away itself. One that is killed cannot: the next run in the same folder finds it unlocked
-//! and clears it.
+//! A run that is stopped takes it away itself. One that is killed cannot: the next run in the same
+//! folder finds it unlocked and clears it.
 
 use std::fs::{self, File};
 use std::io;
@@ -34,7 +35,8 @@ pub(crate) fn lock_file(file: &File) {
     let _ = file.try_lock();
 }
 
-/// Removes what runs that are no more have left unfinished in a folder. What cannot be removed stays.
+/// Removes what runs that are no more have left unfinished in a folder. What cannot be removed
+/// stays.
 pub(crate) fn clear(folder: &Path) {
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     let partial = entries.filter(|entry| entry.file_name().to_string_lossy().starts_with(PREFIX));

@@ -11,7 +11,8 @@ use crate::inputs;
 /// Places in a row and rows of the raster that a simulated device is calibrated with.
 const RASTER: [usize; 2] = [121, 71];
 
-/// Loads, g, and haptic voltages, V rms, at which the friction of a simulated device is measured, as for the paper's Fig. 6.
+/// Loads, g, and haptic voltages, V rms, at which the friction of a simulated device is measured,
+/// as for the paper's Fig. 6.
 const LOADS_G: [f64; 2] = [20.0, 100.0];
 const HAPTIC_V_RMS: [f64; 8] = [0.0, 50.0, 100.0, 150.0, 200.0, 250.0, 300.0, 350.0];
 
@@ -29,7 +30,8 @@ pub fn of_plant(plant: &Plant, profile: &Profile) -> DeviceCalibration {
     // A pad goes no further: places beyond would be read as those at the edge.
     let map = plant.calibration_map(RASTER[0], RASTER[1], device.pad_diameter_mm / 2.0);
     let open_share = open_share(&map.iter().map(|point| point.shares.clone()).collect::<Vec<_>>());
-    let places = map.iter().map(|point| [point.x_mm, point.y_mm, point.r_x, point.r_y, point.sheet_ohm]);
+    let places =
+        map.iter().map(|point| [point.x_mm, point.y_mm, point.r_x, point.r_y, point.sheet_ohm]);
     DeviceCalibration {
         pads: plant.pad_names().len() as u64,
         terminals: Signs { x: profile.terminals.x.clone(), y: profile.terminals.y.clone() },

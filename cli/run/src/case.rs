@@ -77,7 +77,13 @@ impl<'a> Case<'a> {
     ///
     /// # Errors
     /// A case that the profile cannot serve.
-    pub fn new(scene: &'a Scene, index: usize, number: usize, profile: &Profile, start_s: f64) -> Result<Self> {
+    pub fn new(
+        scene: &'a Scene,
+        index: usize,
+        number: usize,
+        profile: &Profile,
+        start_s: f64,
+    ) -> Result<Self> {
         let device = &scene.cases[index].device;
         let signs = signs_by_place(&device.terminals_mm, [device.width_mm, device.height_mm]);
         let profile = buildable(for_terminals(profile, &signs)?)?;
@@ -136,7 +142,8 @@ impl<'a> Case<'a> {
     /// Runs the case; `progress` is called at each slot.
     ///
     /// # Errors
-    /// A calibration that the profile does not hold, a capture that cannot be written, an interruption.
+    /// A calibration that the profile does not hold, a capture that cannot be written, an
+    /// interruption.
     pub fn run(
         &self,
         settings: &Settings,
@@ -145,12 +152,19 @@ impl<'a> Case<'a> {
     ) -> Result<Outcome> {
         let at = (self.number, self.clock);
         let plant = self.plant()?;
-        let canceller = || Some(CrosstalkCanceller::calibrated(plant.nominal_sheet()?, &self.device));
+        let canceller =
+            || Some(CrosstalkCanceller::calibrated(plant.nominal_sheet()?, &self.device));
         let cancellers = canceller().zip(canceller()).map(<[_; 2]>::from);
-        let session = Session::new(&self.profile, &self.device, settings.fidelity, settings.errors, at)?
-            .with_cancellers(cancellers);
+        let session =
+            Session::new(&self.profile, &self.device, settings.fidelity, settings.errors, at)?
+                .with_cancellers(cancellers);
         let whole = settings.fidelity == Fidelity::Clock || recorder.is_some();
-        let mut maker = Maker::new(plant.metered(), &self.profile, self.scene.cases[self.index].sampled(), whole);
+        let mut maker = Maker::new(
+            plant.metered(),
+            &self.profile,
+            self.scene.cases[self.index].sampled(),
+            whole,
+        );
         let (sender, receiver) = sync_channel(AHEAD);
         thread::scope(|scope| {
             let maker = scope.spawn(move || {
@@ -182,7 +196,13 @@ fn consume(
         progress();
     }
     rows.extend(session.finish());
-    Ok(Outcome { rows, effects: Vec::new(), peak, errors: session.errors(), residual: session.residual() })
+    Ok(Outcome {
+        rows,
+        effects: Vec::new(),
+        peak,
+        errors: session.errors(),
+        residual: session.residual(),
+    })
 }
 
 /// What the record keeps of the plant's truth.
@@ -206,7 +226,8 @@ pub struct Maker {
 impl Maker {
     /// A maker of slots from a plant: with the samples of the blanking where `whole`.
     pub fn new(plant: Plant, profile: &Profile, sampled: bool, whole: bool) -> Self {
-        let (blanking, samples) = (profile.slot.blanking() as usize, profile.slot.samples() as usize);
+        let (blanking, samples) =
+            (profile.slot.blanking() as usize, profile.slot.samples() as usize);
         let digitiser = Digitiser::new(profile.formats.adc);
         Maker { plant, digitiser, sampled, blanking, samples, whole, fractions: Vec::new() }
     }
@@ -249,7 +270,8 @@ impl Maker {
     fn phasors(&mut self, slot: usize) -> (Signals, f64) {
         let mut found = vec![Complex::default(); self.plant.channels() - 1];
         let mean_square = self.plant.phasors(slot, &mut found);
-        let largest = found.iter().map(|phasor| phasor.norm()).fold((2.0 * mean_square).sqrt(), f64::max);
+        let largest =
+            found.iter().map(|phasor| phasor.norm()).fold((2.0 * mean_square).sqrt(), f64::max);
         let amplitudes = found.iter().map(|phasor| (phasor.re, phasor.im)).collect();
         (Signals::Phasors { amplitudes, mean_square }, largest)
     }

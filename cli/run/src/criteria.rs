@@ -52,7 +52,8 @@ fn measure_criterion(criterion: &Criterion, cases: &[CaseRows]) -> record::Crite
         pass: measured <= criterion.limit || !applicable,
         applicable,
         unit: criterion.unit.clone(),
-        baseline: baseline(criterion).map(|(name, of)| (name.to_string(), worst(&|rows| of(criterion, rows)))),
+        baseline: baseline(criterion)
+            .map(|(name, of)| (name.to_string(), worst(&|rows| of(criterion, rows)))),
     }
 }
 
@@ -89,12 +90,17 @@ fn baseline(criterion: &Criterion) -> Option<(&'static str, Baseline)> {
     match (criterion.measure, criterion.of) {
         (Measure::MaxPercentOfFullScale | Measure::InvalidPercent | Measure::JumpOff, _) => None,
         (Measure::MaxAbsError | Measure::RmsError, Quantity::PositionMm) => {
-            Some(("best affine fit", |criterion, rows| errors(criterion.measure, affine::distances(rows))))
+            Some(("best affine fit", |criterion, rows| {
+                errors(criterion.measure, affine::distances(rows))
+            }))
         }
-        (Measure::SpreadPercent | Measure::MaxPercentError, Quantity::ForceN | Quantity::CapacitancePf) => {
-            Some(("eq. 6 alone", |criterion, rows| value(criterion, rows, Estimate::Eq6)))
+        (
+            Measure::SpreadPercent | Measure::MaxPercentError,
+            Quantity::ForceN | Quantity::CapacitancePf,
+        ) => Some(("eq. 6 alone", |criterion, rows| value(criterion, rows, Estimate::Eq6))),
+        _ => {
+            Some(("floating point", |criterion, rows| value(criterion, rows, Estimate::Reference)))
         }
-        _ => Some(("floating point", |criterion, rows| value(criterion, rows, Estimate::Reference))),
     }
 }
 
@@ -110,11 +116,15 @@ fn value(criterion: &Criterion, rows: &[&Row], estimate: Estimate) -> f64 {
         Measure::MeanError => mean(pairs().map(|(estimated, truth)| estimated - truth)).abs(),
         Measure::MaxPercentError => {
             let true_ones = pairs().filter(|(_, truth)| *truth != 0.0);
-            greatest(true_ones.map(|(estimated, truth)| 100.0 * ((estimated - truth) / truth).abs()))
+            greatest(
+                true_ones.map(|(estimated, truth)| 100.0 * ((estimated - truth) / truth).abs()),
+            )
         }
         Measure::SpreadPercent => spread(rows.iter().map(|row| estimated(row, of, estimate))),
         Measure::IncreasesWith => rise(rows, of, criterion.with.unwrap_or(of), estimate),
-        Measure::InvalidPercent => 100.0 * mean(rows.iter().map(|row| f64::from(row.flags.contains("invalid")))),
+        Measure::InvalidPercent => {
+            100.0 * mean(rows.iter().map(|row| f64::from(row.flags.contains("invalid"))))
+        }
         Measure::MaxOff => {
             let expected = criterion.expected.unwrap_or(f64::NAN);
             greatest(rows.iter().map(|row| (estimated(row, of, estimate) - expected).abs()))
@@ -142,18 +152,24 @@ fn spread(values: impl Iterator<Item = f64> + Clone) -> f64 {
     100.0 * (highest - lowest) / mean(values)
 }
 
-/// The smallest step, negated, of the estimate between neighbouring values of `with`, load and voltage else equal.
+/// The smallest step, negated, of the estimate between neighbouring values of `with`, load and
+/// voltage else equal.
 fn rise(rows: &[&Row], of: Quantity, with: Quantity, estimate: Estimate) -> f64 {
     let key = |value: f64| (value * 1e6).round() as i64;
     let mut lines: BTreeMap<Vec<i64>, BTreeMap<i64, Vec<f64>>> = BTreeMap::new();
     for row in rows {
-        let others = [Quantity::LoadG, Quantity::HapticVRms].into_iter().filter(|other| *other != with);
-        let line = lines.entry(others.map(|other| key(truth(row, other, 0.0))).collect()).or_default();
+        let others =
+            [Quantity::LoadG, Quantity::HapticVRms].into_iter().filter(|other| *other != with);
+        let line =
+            lines.entry(others.map(|other| key(truth(row, other, 0.0))).collect()).or_default();
         line.entry(key(truth(row, with, 0.0))).or_default().push(estimated(row, of, estimate));
     }
     let overall = mean(rows.iter().map(|row| estimated(row, of, estimate)));
-    let means = lines.into_values().map(|line| line.into_values().map(|v| mean(v.into_iter())).collect::<Vec<_>>());
-    let falls = means.flat_map(|line| line.windows(2).map(|pair| pair[0] - pair[1]).collect::<Vec<_>>());
+    let means = lines
+        .into_values()
+        .map(|line| line.into_values().map(|v| mean(v.into_iter())).collect::<Vec<_>>());
+    let falls =
+        means.flat_map(|line| line.windows(2).map(|pair| pair[0] - pair[1]).collect::<Vec<_>>());
     100.0 * greatest(falls) / overall
 }
 

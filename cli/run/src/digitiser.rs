@@ -14,7 +14,11 @@ pub struct Digitiser {
 impl Digitiser {
     /// An ADC with codes of this format.
     pub fn new(adc: Format) -> Self {
-        Digitiser { scale: 1.0 / adc.lsb(), low: adc.min_code() as f64, high: adc.max_code() as f64 }
+        Digitiser {
+            scale: 1.0 / adc.lsb(),
+            low: adc.min_code() as f64,
+            high: adc.max_code() as f64,
+        }
     }
 
     /// The code of a fraction, and whether it is exactly that.

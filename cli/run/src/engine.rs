@@ -69,7 +69,9 @@ impl Slot {
     pub fn window(&self) -> &[i32] {
         match &self.signals {
             Signals::Samples { codes, blanking } => &codes[*blanking..],
-            Signals::Phasors { .. } => unreachable!("phasors are refused where a core needs samples"),
+            Signals::Phasors { .. } => {
+                unreachable!("phasors are refused where a core needs samples")
+            }
         }
     }
 
@@ -77,7 +79,9 @@ impl Slot {
     pub fn whole(&self) -> &[i32] {
         match &self.signals {
             Signals::Samples { codes, .. } => codes,
-            Signals::Phasors { .. } => unreachable!("phasors are refused where a core needs samples"),
+            Signals::Phasors { .. } => {
+                unreachable!("phasors are refused where a core needs samples")
+            }
         }
     }
 
@@ -85,7 +89,9 @@ impl Slot {
     pub fn frame<V: Interpretation>(&self, core: &mut FixedSimulation<V>) -> Frame {
         match &self.signals {
             Signals::Samples { .. } => core.slot(self.pad, self.window()),
-            Signals::Phasors { amplitudes, mean_square } => core.phasors(self.pad, amplitudes, *mean_square),
+            Signals::Phasors { amplitudes, mean_square } => {
+                core.phasors(self.pad, amplitudes, *mean_square)
+            }
         }
     }
 
@@ -93,7 +99,9 @@ impl Slot {
     pub fn refer(&self, reference: &mut Reference) -> Measurement {
         match &self.signals {
             Signals::Samples { .. } => reference.slot(self.pad, self.window()),
-            Signals::Phasors { amplitudes, mean_square } => reference.phasors(self.pad, amplitudes, *mean_square),
+            Signals::Phasors { amplitudes, mean_square } => {
+                reference.phasors(self.pad, amplitudes, *mean_square)
+            }
         }
     }
 }
@@ -110,11 +118,19 @@ pub trait Engine: Send {
 }
 
 /// A core of the profile at a fidelity.
-pub fn engine(fidelity: Fidelity, profile: &Arc<Profile>, calibration: &Calibration) -> Box<dyn Engine> {
+pub fn engine(
+    fidelity: Fidelity,
+    profile: &Arc<Profile>,
+    calibration: &Calibration,
+) -> Box<dyn Engine> {
     match fidelity {
         Fidelity::Float => Box::new(Float(Reference::new(profile, calibration))),
-        Fidelity::Fixed => Box::new(Fixed(FixedSimulation::new(profile, calibration), profile.clone())),
-        Fidelity::Clock => Box::new(Clock(ClockSimulation::new(profile, calibration), profile.clone())),
+        Fidelity::Fixed => {
+            Box::new(Fixed(FixedSimulation::new(profile, calibration), profile.clone()))
+        }
+        Fidelity::Clock => {
+            Box::new(Clock(ClockSimulation::new(profile, calibration), profile.clone()))
+        }
     }
 }
 

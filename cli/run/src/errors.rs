@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The rounding error of every signal of the estimator: a core beside the core that keeps each value unrounded, too.
+//! The rounding error of every signal of the estimator: a core beside the core that keeps each
+//! value unrounded, too.
 
 use hapticore_contract::calibration::Calibration;
 use hapticore_contract::profile::Profile;
@@ -24,7 +25,12 @@ impl Errors {
     pub fn new(profile: &Profile, calibration: &Calibration) -> Self {
         let core = FixedSimulation::new(profile, calibration);
         let variables = variables(core.state().0, "core");
-        Errors { core, largest: vec![0.0; variables.len()], values: Vec::with_capacity(variables.len()), variables }
+        Errors {
+            core,
+            largest: vec![0.0; variables.len()],
+            values: Vec::with_capacity(variables.len()),
+            variables,
+        }
     }
 
     /// Runs a slot and keeps the largest error of each signal.
@@ -33,7 +39,9 @@ impl Errors {
         let (core, cell) = self.core.state();
         self.values.clear();
         sample(core, cell, &mut self.values);
-        for ((largest, value), variable) in self.largest.iter_mut().zip(&self.values).zip(&self.variables) {
+        for ((largest, value), variable) in
+            self.largest.iter_mut().zip(&self.values).zip(&self.variables)
+        {
             *largest = largest.max((variable.format.real(value.code) - value.real).abs());
         }
     }

@@ -34,7 +34,8 @@ const LEAST: f64 = 0.005;
 pub fn warning(profile: &Profile, haptic_hz: f64, sample_rate_hz: f64) -> Option<String> {
     let off = |windows| error(profile, windows, haptic_hz, sample_rate_hz);
     let now = off(profile.haptic.windows);
-    let several = (1..=LONGEST_MEAN).map(|power| 1 << power).find(|&windows| off(windows) <= WORTH_A_WORD);
+    let several =
+        (1..=LONGEST_MEAN).map(|power| 1 << power).find(|&windows| off(windows) <= WORTH_A_WORD);
     let several = several.map_or(String::new(), |windows| {
         format!(", or the mean over {windows} windows of each pad (haptic.windows = {windows} in a profile)")
     });
@@ -52,13 +53,18 @@ pub fn warning(profile: &Profile, haptic_hz: f64, sample_rate_hz: f64) -> Option
     })
 }
 
-/// The largest error of the RMS over all phases, and frequencies so near, of the mean over so many of a pad's windows.
+/// The largest error of the RMS over all phases, and frequencies so near, of the mean over so many
+/// of a pad's windows.
 fn error(profile: &Profile, windows: u64, haptic_hz: f64, sample_rate_hz: f64) -> f64 {
     let window_s = profile.slot.integrate as f64 / sample_rate_hz;
     let frame_s = (profile.pads * profile.slot.samples()) as f64 / sample_rate_hz;
-    let at = |hz: f64| transform(profile.carrier.window, 2.0 * hz * window_s) * comb(windows, 2.0 * hz * frame_s) / 2.0;
+    let at = |hz: f64| {
+        transform(profile.carrier.window, 2.0 * hz * window_s) * comb(windows, 2.0 * hz * frame_s)
+            / 2.0
+    };
     // Over so many windows, the mean's error has several maxima within the tolerance.
-    let parts = (-POINTS..=POINTS).map(|point| 1.0 + TOLERANCE * f64::from(point) / f64::from(POINTS));
+    let parts =
+        (-POINTS..=POINTS).map(|point| 1.0 + TOLERANCE * f64::from(point) / f64::from(POINTS));
     parts.map(|part| at(part * haptic_hz)).fold(0.0, f64::max)
 }
 
@@ -94,30 +100,35 @@ pub struct Meter {
 }
 
 impl Meter {
-    /// Appends the codes of a slot, all channels of an instant after the other, the haptic voltage last.
+    /// Appends the codes of a slot, all channels of an instant after the other, the haptic voltage
+    /// last.
     pub fn append(&mut self, codes: &[i32], channels: usize) {
         let free = SAMPLES - self.codes.len();
         self.codes.extend(codes.iter().skip(channels - 1).step_by(channels).take(free));
     }
 
-    /// The frequency in periods a sample; the period is longer than was listened for where it is `Err`, which says for how long.
-    /// None where the voltage does not alternate.
+    /// The frequency in periods a sample; the period is longer than was listened for where it is
+    /// `Err`, which says for how long. None where the voltage does not alternate.
     pub fn frequency(&self, full_scale: f64) -> Option<Result<f64, f64>> {
         let count = self.codes.len() as f64;
         let mean = self.codes.iter().map(|code| f64::from(*code)).sum::<f64>() / count;
-        let square = self.codes.iter().map(|code| (f64::from(*code) - mean).powi(2)).sum::<f64>() / count;
+        let square =
+            self.codes.iter().map(|code| (f64::from(*code) - mean).powi(2)).sum::<f64>() / count;
         let rms = square.sqrt();
         if rms.is_nan() || rms < LEAST * full_scale {
             return None;
         }
         let rises = self.rises(mean, rms / 2.0);
         match (rises.first(), rises.last()) {
-            (Some(first), Some(last)) if last > first => Some(Ok((rises.len() - 1) as f64 / (last - first) as f64)),
+            (Some(first), Some(last)) if last > first => {
+                Some(Ok((rises.len() - 1) as f64 / (last - first) as f64))
+            }
             _ => Some(Err(count)),
         }
     }
 
-    /// Where the voltage rises through the mean, coming from `margin` below and going to `margin` above.
+    /// Where the voltage rises through the mean, coming from `margin` below and going to `margin`
+    /// above.
     fn rises(&self, mean: f64, margin: f64) -> Vec<usize> {
         let (mut low, mut at, mut rises) = (false, 0, Vec::new());
         for (index, code) in self.codes.iter().enumerate() {
@@ -166,7 +177,10 @@ mod tests {
         for window in [Window::Hann, Window::Rectangular] {
             for x in [1.5, 2.0, 2.3, 3.7] {
                 let (formula, sum) = (transform(window, x) / 2.0, by_sum(window, x));
-                assert!((formula - sum).abs() < 0.1 * formula + 1e-6, "{window:?} {x}: {formula} {sum}");
+                assert!(
+                    (formula - sum).abs() < 0.1 * formula + 1e-6,
+                    "{window:?} {x}: {formula} {sum}"
+                );
             }
         }
     }
@@ -191,7 +205,9 @@ mod tests {
             let frame = (pads * profile.slot.samples()) as f64;
             let mean_square = |phase: f64| {
                 let (mut sum, mut weights) = (0.0, 0.0);
-                for (window, n) in (0..windows).flat_map(|window| (0..1000).map(move |n| (window, n))) {
+                for (window, n) in
+                    (0..windows).flat_map(|window| (0..1000).map(move |n| (window, n)))
+                {
                     let w = 1.0 - (2.0 * PI * (f64::from(n) + 0.5) / 1000.0).cos();
                     let t = (window as f64 * frame + f64::from(n)) * 1e-6;
                     sum += w * 2.0 * (2.0 * PI * (hz * t + phase)).cos().powi(2);
@@ -199,8 +215,12 @@ mod tests {
                 }
                 sum / weights
             };
-            let by_sum = (0..100).map(|k| (mean_square(f64::from(k) / 100.0) - 1.0).abs() / 2.0).fold(0.0, f64::max);
-            let at = transform(Window::Hann, 2.0 * hz * 1e-3) * comb(windows, 2.0 * hz * frame * 1e-6) / 2.0;
+            let by_sum = (0..100)
+                .map(|k| (mean_square(f64::from(k) / 100.0) - 1.0).abs() / 2.0)
+                .fold(0.0, f64::max);
+            let at = transform(Window::Hann, 2.0 * hz * 1e-3)
+                * comb(windows, 2.0 * hz * frame * 1e-6)
+                / 2.0;
             assert!((at - by_sum).abs() < 1e-3, "{pads} pads, {windows} windows: {at} {by_sum}");
         }
     }
@@ -224,10 +244,16 @@ mod tests {
                 let suffices = |windows| warning(&profile(windows), hz, 1e6).is_none();
                 match named(&warning(&profile(1), hz, 1e6).expect("too short")) {
                     Some(windows) => {
-                        assert!(suffices(windows) && !suffices(windows / 2), "{windows} at {hz} Hz, {pads} pads");
+                        assert!(
+                            suffices(windows) && !suffices(windows / 2),
+                            "{windows} at {hz} Hz, {pads} pads"
+                        );
                         offered += 1;
                     }
-                    None => assert!((1..=LONGEST_MEAN).all(|power| !suffices(1 << power)), "{hz} Hz, {pads} pads"),
+                    None => assert!(
+                        (1..=LONGEST_MEAN).all(|power| !suffices(1 << power)),
+                        "{hz} Hz, {pads} pads"
+                    ),
                 }
             }
         }
@@ -238,7 +264,9 @@ mod tests {
     fn a_meter_finds_the_frequency() {
         let mut meter = Meter::default();
         for slot in 0..100 {
-            let sample = |n: i32| (30_000.0 * (2.0 * PI * 233.0e-6 * f64::from(slot * 1000 + n)).sin()) as i32 + 500;
+            let sample = |n: i32| {
+                (30_000.0 * (2.0 * PI * 233.0e-6 * f64::from(slot * 1000 + n)).sin()) as i32 + 500
+            };
             meter.append(&(0..1000).flat_map(|n| [1, 2, sample(n) + n % 7]).collect::<Vec<_>>(), 3);
         }
         let found = meter.frequency(131_072.0).unwrap().unwrap();

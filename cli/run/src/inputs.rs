@@ -56,7 +56,8 @@ pub fn buildable(profile: Profile) -> Result<Profile> {
 pub fn windowed(mut profile: Profile, scene: &Scene) -> Result<Profile> {
     if let Some(samples) = scene.window_samples {
         profile = profile.with_window(samples);
-        hapticore_model::check(&profile).with_context(|| format!("{}: window_samples", scene.name))?;
+        hapticore_model::check(&profile)
+            .with_context(|| format!("{}: window_samples", scene.name))?;
     }
     Ok(profile)
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Ctrl-C, SIGTERM, SIGHUP: a run is told to stop, so that it can take away what it has begun to write.
+//! Ctrl-C, SIGTERM, SIGHUP: a run is told to stop, so that it can take away what it has begun to
+//! write.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Runs of the core: scenes, captures and a lab's data in; records and calibrations out. It knows no command line and writes
-//! no report.
+//! Runs of the core: scenes, captures and a lab's data in; records and calibrations out. It knows
+//! no command line and writes no report.
 //!
 //! | module | does |
 //! | --- | --- |

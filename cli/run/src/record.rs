@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a run leaves: rows, criteria, effects. Everything written (CSV, JSON, HTML, the terminal's tables) is made from it.
+//! What a run leaves: rows, criteria, effects. Everything written (CSV, JSON, HTML, the terminal's
+//! tables) is made from it.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -24,7 +25,8 @@ pub struct Row {
     pub flags: String,
     /// What the plant knows, where there is one.
     pub truth: Option<Truth>,
-    /// The floating-point reference on the same samples, and eq. 6 alone, where they were asked for.
+    /// The floating-point reference on the same samples, and eq. 6 alone, where they were asked
+    /// for.
     pub reference: Option<Reference>,
 }
 
@@ -113,7 +115,8 @@ pub struct SignalError {
 pub struct Provenance {
     /// The version of this program.
     pub version: String,
-    /// The commit that it was built from, with `-modified` where the sources were; none where that is not known.
+    /// The commit that it was built from, with `-modified` where the sources were; none where that
+    /// is not known.
     pub commit: Option<String>,
     /// The command line, word by word.
     pub command: Vec<String>,
@@ -123,7 +126,8 @@ pub struct Provenance {
     pub set: Vec<(String, String)>,
     /// Each case as a scene of its own in TOML, with all that cases and `--set` set.
     pub resolved_scene: BTreeMap<String, String>,
-    /// The calibration file of a replay; none where the nominal device's was taken, or a scene was run.
+    /// The calibration file of a replay; none where the nominal device's was taken, or a scene was
+    /// run.
     pub calibration: Option<PathBuf>,
 }
 
@@ -136,7 +140,8 @@ pub struct Record {
     pub title: String,
     /// What it is about.
     pub summary: String,
-    /// Which figures to draw: `fig3`, `fig4`, `fig6`, `fig7`, `hockey`; any other gets the general ones.
+    /// Which figures to draw: `fig3`, `fig4`, `fig6`, `fig7`, `hockey`; any other gets the general
+    /// ones.
     pub figure: Option<String>,
     /// Name of the profile.
     pub profile: String,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Slots in, rows out: the core at its fidelity, the floating-point reference on the same samples, and rounding errors.
+//! Slots in, rows out: the core at its fidelity, the floating-point reference on the same samples,
+//! and rounding errors.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -28,7 +29,8 @@ pub struct Session {
 }
 
 impl Session {
-    /// A core of the profile for a device, just before its first slot. `case` is the number of the case in rows.
+    /// A core of the profile for a device, just before its first slot. `case` is the number of the
+    /// case in rows.
     ///
     /// # Errors
     /// A calibration that the profile's formats do not hold.
@@ -52,7 +54,8 @@ impl Session {
         })
     }
 
-    /// The same session, which takes out of its measurements, the core's and the reference's, what other pads did to them.
+    /// The same session, which takes out of its measurements, the core's and the reference's, what
+    /// other pads did to them.
     pub fn with_cancellers(mut self, cancellers: Option<[CrosstalkCanceller; 2]>) -> Self {
         let cancellers = cancellers.map_or([None, None], |both| both.map(Some));
         let [core, reference] = self.readouts;
@@ -104,7 +107,11 @@ impl Session {
         Reference {
             quantities,
             capacitance_eq6_pf: capacitance_pf,
-            force_eq6_n: if measurement.capacitance_pf > 0.0 { measurement.force_n * ratio * ratio } else { 0.0 },
+            force_eq6_n: if measurement.capacitance_pf > 0.0 {
+                measurement.force_n * ratio * ratio
+            } else {
+                0.0
+            },
         }
     }
 

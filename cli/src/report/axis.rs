@@ -104,14 +104,17 @@ impl Axis {
         let decades = low.floor() as i32..=high.ceil() as i32;
         let all = decades.flat_map(|d| mantissas.iter().map(move |m| (d, m * 10f64.powi(d))));
         let inside = all.filter(|(_, v)| (low..=high).contains(&v.log10()));
-        inside.map(|(d, v)| (v.log10(), number::fixed(v, usize::try_from(-d).unwrap_or(0)))).collect()
+        inside
+            .map(|(d, v)| (v.log10(), number::fixed(v, usize::try_from(-d).unwrap_or(0))))
+            .collect()
     }
 }
 
 /// Least and largest finite value, never equal.
 fn bounds(values: impl IntoIterator<Item = f64>) -> (f64, f64) {
     let finite = values.into_iter().filter(|v| v.is_finite());
-    let (low, high) = finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
+    let (low, high) =
+        finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
     if low > high {
         return (0.0, 1.0);
     }
@@ -137,7 +140,10 @@ mod tests {
     #[test]
     fn ticks_are_round() {
         assert_eq!(labels(&Axis::linear("", [0.0, 400.0])), ["0", "100", "200", "300", "400"]);
-        assert_eq!(labels(&Axis::linear("", [-0.11, 0.1])), ["−0.10", "−0.05", "0.00", "0.05", "0.10"]);
+        assert_eq!(
+            labels(&Axis::linear("", [-0.11, 0.1])),
+            ["−0.10", "−0.05", "0.00", "0.05", "0.10"]
+        );
         assert_eq!(labels(&Axis::log("", [0.03, 2.0])), ["0.05", "0.1", "0.2", "0.5", "1", "2"]);
     }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The page of a device's calibration: what the position table leaves of its places, and eq. 8 of the forces.
+//! The page of a device's calibration: what the position table leaves of its places, and eq. 8 of
+//! the forces.
 
 use super::axis::Axis;
 use super::fig3_maps::{error_legend, error_paint, grid, titled};
@@ -24,11 +25,16 @@ const NANO: f64 = 1e18;
 
 /// The page of a calibration.
 pub fn of_calibration(outcome: &Outcome) -> String {
-    let lines: String =
-        print::calibration_lines(outcome).iter().map(|line| format!("<li>{}</li>", escape(line))).collect();
-    let heading =
-        format!("<header>\n<h1>{TITLE}</h1>\n{}<ul>{lines}</ul>\n</header>\n", page::warnings(&outcome.warnings));
-    let figures: Vec<_> = [positions(outcome)].into_iter().chain(outcome.force.iter().flat_map(forces)).collect();
+    let lines: String = print::calibration_lines(outcome)
+        .iter()
+        .map(|line| format!("<li>{}</li>", escape(line)))
+        .collect();
+    let heading = format!(
+        "<header>\n<h1>{TITLE}</h1>\n{}<ul>{lines}</ul>\n</header>\n",
+        page::warnings(&outcome.warnings)
+    );
+    let figures: Vec<_> =
+        [positions(outcome)].into_iter().chain(outcome.force.iter().flat_map(forces)).collect();
     let figures: String = figures.iter().map(Figure::html).collect();
     let body = page::section("Figures", &format!("<div class=\"figures\">\n{figures}</div>\n"));
     page::document(TITLE, &(heading + &body))
@@ -46,9 +52,16 @@ fn positions(outcome: &Outcome) -> Figure {
 
 fn error_map(name: &str, found: &[Found], residual: &Residual) -> String {
     let error = |&([x, y], [a, b]): &Found| (x, y, (a - x).hypot(b - y));
-    let places: Vec<_> =
-        found.iter().map(error).map(|(x, y, error)| (x, y, if error.is_finite() { error } else { f64::MAX })).collect();
-    let what = format!("{} mm RMS, {} mm at most", number::short(residual.rms_mm), number::short(residual.worst_mm));
+    let places: Vec<_> = found
+        .iter()
+        .map(error)
+        .map(|(x, y, error)| (x, y, if error.is_finite() { error } else { f64::MAX }))
+        .collect();
+    let what = format!(
+        "{} mm RMS, {} mm at most",
+        number::short(residual.rms_mm),
+        number::short(residual.worst_mm)
+    );
     titled(name, &what, |about| map(about, (0.0, 0.0), &places, TILES, error_paint))
 }
 
@@ -57,7 +70,8 @@ fn forces(force: &Force) -> [Figure; 2] {
     let of = |load: Option<f64>| force.points.iter().filter(move |point| point.load_g == load);
     let series = |get: fn(&Point) -> (f64, f64)| {
         let dots = |(n, load): (usize, &Option<f64>)| {
-            let name = load.map_or("measurements".into(), |load| format!("{} g", number::chosen(load)));
+            let name =
+                load.map_or("measurements".into(), |load| format!("{} g", number::chosen(load)));
             Series::dots(&name, Paint::series(n), of(*load).map(get).collect())
         };
         loads.iter().enumerate().map(dots).collect::<Vec<_>>()
@@ -89,14 +103,23 @@ fn law(force: &Force, mut series: Vec<Series>) -> Figure {
         Axis::with_zero("F (N)", values),
         series,
     );
-    Figure::plot("Force and eq. 8", "The line is force_k times (C·V)², with the ends of its 95 % interval.", &plot)
+    Figure::plot(
+        "Force and eq. 8",
+        "The line is force_k times (C·V)², with the ends of its 95 % interval.",
+        &plot,
+    )
 }
 
 fn residuals(force: &Force, series: Vec<Series>) -> Figure {
     let noise_mn = 1e3 * force.noise_n;
-    let values = force.points.iter().map(|point| 1e3 * point.residual_n).chain([-noise_mn, noise_mn]);
-    let x = Axis::with_zero("haptic voltage (V RMS)", force.points.iter().map(|point| point.haptic_v_rms));
-    let plot = Plot::new("Measured force minus eq. 8", x, Axis::with_zero("ΔF (mN)", values), series);
+    let values =
+        force.points.iter().map(|point| 1e3 * point.residual_n).chain([-noise_mn, noise_mn]);
+    let x = Axis::with_zero(
+        "haptic voltage (V RMS)",
+        force.points.iter().map(|point| point.haptic_v_rms),
+    );
+    let plot =
+        Plot::new("Measured force minus eq. 8", x, Axis::with_zero("ΔF (mN)", values), series);
     let note = format!(
         "Measured force minus eq. 8. Standard deviation of the noise, estimated from these residuals: {} mN. A bend or step shows that eq. 8 does not apply there; the 95 % intervals are then too narrow.",
         number::short(noise_mn)
@@ -135,7 +158,13 @@ mod tests {
 
     #[test]
     fn the_page_is_well_formed_whatever_was_found() {
-        let point = Point { square: 1e-14, force_n: 0.1, residual_n: 1e-3, haptic_v_rms: 300.0, load_g: None };
+        let point = Point {
+            square: 1e-14,
+            force_n: 0.1,
+            residual_n: 1e-3,
+            haptic_v_rms: 300.0,
+            load_g: None,
+        };
         let lost = [([0.0, 0.0], [f64::NAN, 0.0]), ([9.0, 5.0], [9.1, 5.0])];
         for (points, found) in [(Vec::new(), Vec::new()), (vec![point], lost.to_vec())] {
             let page = of_calibration(&outcome(points, found));

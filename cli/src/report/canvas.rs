@@ -21,7 +21,8 @@ const TEXT: u32 = 46;
 pub type Area<'a> = plotters::drawing::DrawingArea<SVGBackend<'a>, plotters::coord::Shift>;
 
 /// A drawing area within a plot.
-pub type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
+pub type Chart<'a, 'b> =
+    ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
 
 /// Whether something was drawn.
 pub type Drawn = Result<(), Box<dyn Error>>;
@@ -40,6 +41,9 @@ pub fn text(paint: Paint, horizontal: HPos, vertical: VPos) -> TextStyle<'static
 /// A drawing as it stands in the page: classes instead of colours, its size left to the page.
 pub fn inline(drawing: &str, about: &str, width: u32, height: u32) -> String {
     let inner = drawing.split_once('\n').map_or("", |(_, rest)| rest);
-    let open = format!("<svg viewBox=\"0 0 {width} {height}\" role=\"img\" aria-label=\"{}\">\n", escape(about));
+    let open = format!(
+        "<svg viewBox=\"0 0 {width} {height}\" role=\"img\" aria-label=\"{}\">\n",
+        escape(about)
+    );
     open + &paint::to_classes(inner)
 }

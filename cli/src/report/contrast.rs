@@ -7,7 +7,8 @@ const STYLE: &str = include_str!("report.css");
 
 /// The colours of the light and of the dark mode by name.
 fn modes() -> [BTreeMap<&'static str, &'static str>; 2] {
-    let (light, dark) = STYLE.split_once("@media (prefers-color-scheme: dark)").expect("a dark mode");
+    let (light, dark) =
+        STYLE.split_once("@media (prefers-color-scheme: dark)").expect("a dark mode");
     let dark = dark.split_once(".k0 {").expect("classes after the colours").0;
     [light, dark].map(|text| {
         let pairs = text.split("--").filter_map(|part| part.split_once(": #"));
@@ -17,7 +18,9 @@ fn modes() -> [BTreeMap<&'static str, &'static str>; 2] {
 
 /// Relative luminance, as the accessibility guidelines define it.
 fn luminance(colour: &str) -> f64 {
-    let channel = |at: usize| f64::from(u8::from_str_radix(&colour[at..at + 2], 16).expect("hexadecimal")) / 255.0;
+    let channel = |at: usize| {
+        f64::from(u8::from_str_radix(&colour[at..at + 2], 16).expect("hexadecimal")) / 255.0
+    };
     let linear = |v: f64| {
         if v <= 0.04045 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) }
     };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Fig. 3: force and capacitance hardly depend on where the pad is. Spreads, profiles and the position's error; maps in `fig3_maps`.
+//! Fig. 3: force and capacitance hardly depend on where the pad is. Spreads, profiles and the
+//! position's error; maps in `fig3_maps`.
 
 use super::axis::Axis;
 use super::fig3_maps;
@@ -19,7 +20,8 @@ const SETTINGS: usize = 16;
 
 const CORE: (&str, Get) = ("core", |r| r.measured.force_n);
 const EQ6: (&str, Get) = ("eq. 6 alone", |r| r.reference.map_or(f64::NAN, |r| r.force_eq6_n));
-const REFERENCE: (&str, Get) = ("floating-point reference", |r| r.reference.map_or(f64::NAN, |r| r.quantities.force_n));
+const REFERENCE: (&str, Get) =
+    ("floating-point reference", |r| r.reference.map_or(f64::NAN, |r| r.quantities.force_n));
 const CORE_PF: Get = |r| r.measured.capacitance_pf;
 const EQ6_PF: Get = |r| r.reference.map_or(f64::NAN, |r| r.capacitance_eq6_pf);
 const REFERENCE_PF: Get = |r| r.reference.map_or(f64::NAN, |r| r.quantities.capacitance_pf);
@@ -30,7 +32,11 @@ pub fn figures(record: &Record) -> Vec<Figure> {
     let left_out = settings.split_off(settings.len().min(SETTINGS)).len();
     let mut figures = vec![
         spreads(&settings, "Spread of the force over the sheet", [EQ6.1, CORE.1, REFERENCE.1]),
-        spreads(&settings, "Spread of the capacitance over the sheet", [EQ6_PF, CORE_PF, REFERENCE_PF]),
+        spreads(
+            &settings,
+            "Spread of the capacitance over the sheet",
+            [EQ6_PF, CORE_PF, REFERENCE_PF],
+        ),
     ];
     figures.push(fig3_maps::force(&settings, left_out, CORE.1, EQ6.1));
     if let Some(worst) = worst(&settings) {
@@ -47,15 +53,20 @@ fn values(setting: &Setting, get: Get) -> Vec<f64> {
 
 /// A row of dots for each setting.
 fn spreads(settings: &[Setting], title: &str, [eq6, core, reference]: [Get; 3]) -> Figure {
-    let row = |get: Get| move |(n, s): (usize, &Setting)| (spread_percent(&values(s, get)), -(n as f64));
+    let row =
+        |get: Get| move |(n, s): (usize, &Setting)| (spread_percent(&values(s, get)), -(n as f64));
     let points = |get: Get| settings.iter().enumerate().map(row(get)).collect::<Vec<_>>();
     let all = [
         Series::dots(EQ6.0, Paint::series(1), points(eq6)).mark(Mark::Dots(11)),
         Series::rings(REFERENCE.0, Paint::INK, points(reference)).mark(Mark::Rings(15)),
         Series::dots(CORE.0, Paint::series(0), points(core)).mark(Mark::Dots(11)),
     ];
-    let series: Vec<_> = all.into_iter().filter(|s| s.points.iter().any(|p| p.0.is_finite())).collect();
-    let x = Axis::log("(largest − smallest) / mean (%)", series.iter().flat_map(|s| s.points.iter().map(|p| p.0)));
+    let series: Vec<_> =
+        all.into_iter().filter(|s| s.points.iter().any(|p| p.0.is_finite())).collect();
+    let x = Axis::log(
+        "(largest − smallest) / mean (%)",
+        series.iter().flat_map(|s| s.points.iter().map(|p| p.0)),
+    );
     let names = settings.iter().map(|s| s.name.clone()).collect();
     let mut plot = Plot::new(title, x, Axis::categories("", names), series);
     plot.height = 150 + 66 * u32::try_from(settings.len()).unwrap_or(8).clamp(2, 40);
@@ -64,7 +75,8 @@ fn spreads(settings: &[Setting], title: &str, [eq6, core, reference]: [Get; 3]) 
 
 /// The setting that needs the core most.
 fn worst<'a, 'b>(settings: &'a [Setting<'b>]) -> Option<&'a Setting<'b>> {
-    let need = |s: &Setting| spread_percent(&values(s, EQ6.1)).max(spread_percent(&values(s, CORE.1)));
+    let need =
+        |s: &Setting| spread_percent(&values(s, EQ6.1)).max(spread_percent(&values(s, CORE.1)));
     settings.iter().max_by(|a, b| need(a).total_cmp(&need(b)))
 }
 
@@ -78,7 +90,11 @@ fn along_x(setting: &Setting, get: Get) -> Vec<(f64, Vec<Point>)> {
     let mut chosen = vec![0, rows.len() / 2, rows.len().saturating_sub(1)];
     chosen.dedup();
     let profile = |row: i64| {
-        let at = setting.rows.iter().zip(&deviations).filter(|((_, t), _)| row_of(t.quantities.y_mm) == row);
+        let at = setting
+            .rows
+            .iter()
+            .zip(&deviations)
+            .filter(|((_, t), _)| row_of(t.quantities.y_mm) == row);
         let mut points: Vec<Point> = at.map(|((_, t), d)| (t.quantities.x_mm, *d)).collect();
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
         (row as f64 / 10.0, points)
@@ -107,12 +123,19 @@ fn profiles(setting: &Setting) -> Figure {
 fn magnified(setting: &Setting) -> Figure {
     let mut series = Vec::new();
     for (n, (y, points)) in along_x(setting, CORE.1).into_iter().enumerate() {
-        series.push(Series::dots(&format!("core, {}", height(y)), Paint::series([0, 2, 3][n % 3]), points));
+        series.push(Series::dots(
+            &format!("core, {}", height(y)),
+            Paint::series([0, 2, 3][n % 3]),
+            points,
+        ));
     }
     for (n, (_, points)) in along_x(setting, REFERENCE.1).into_iter().enumerate() {
         series.push(Series::line("", Paint::series([0, 2, 3][n % 3]), points).mark(Mark::Line(3)));
     }
-    if series.iter().any(|s| matches!(s.mark, Mark::Line(_)) && s.points.iter().any(|p| p.1.is_finite())) {
+    if series
+        .iter()
+        .any(|s| matches!(s.mark, Mark::Line(_)) && s.points.iter().any(|p| p.1.is_finite()))
+    {
         series.push(Series::line(REFERENCE.0, Paint::INK, vec![]));
     }
     let title = titled("Force along x, core only", setting);
@@ -140,8 +163,11 @@ fn deviations(about: &str, series: Vec<Series>) -> Plot {
 
 /// Which share of the slots stays below an error.
 fn position_errors(record: &Record, settings: &[Setting]) -> Figure {
-    let series: Vec<_> =
-        settings.iter().enumerate().map(|(n, s)| Series::line(&s.name, Paint::series(n), cumulative(s))).collect();
+    let series: Vec<_> = settings
+        .iter()
+        .enumerate()
+        .map(|(n, s)| Series::line(&s.name, Paint::series(n), cumulative(s)))
+        .collect();
     let errors = series.iter().flat_map(|s| s.points.iter().map(|p| p.0));
     let limit = select::limit(record, "mm", "position");
     let x = Axis::log("|Δ position| (mm)", errors.chain(limit));
@@ -149,8 +175,9 @@ fn position_errors(record: &Record, settings: &[Setting]) -> Figure {
     let mut plot = Plot::new("Share of the slots with a smaller position error", x, y, series);
     plot.breaks = limit.into_iter().collect();
     let rms = select::rms(settings.iter().flat_map(fig3_maps::position_errors));
-    let limit = limit
-        .map_or(String::new(), |l| format!(" The dotted line is the limit of the RMS error, {} mm.", number::short(l)));
+    let limit = limit.map_or(String::new(), |l| {
+        format!(" The dotted line is the limit of the RMS error, {} mm.", number::short(l))
+    });
     Figure::plot(
         "Distribution of the position error",
         &format!("{} mm RMS over all settings.{limit}", number::short(rms)),
@@ -159,7 +186,8 @@ fn position_errors(record: &Record, settings: &[Setting]) -> Figure {
 }
 
 fn cumulative(setting: &Setting) -> Vec<Point> {
-    let mut errors: Vec<_> = fig3_maps::position_errors(setting).into_iter().filter(|e| e.is_finite()).collect();
+    let mut errors: Vec<_> =
+        fig3_maps::position_errors(setting).into_iter().filter(|e| e.is_finite()).collect();
     errors.sort_by(f64::total_cmp);
     let count = errors.len() as f64;
     errors.into_iter().enumerate().map(|(n, e)| (e, 100.0 * (n + 1) as f64 / count)).collect()

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Fig. 3's maps: the force's deviation and the position's error over the sheet, a map for each setting.
+//! Fig. 3's maps: the force's deviation and the position's error over the sheet, a map for each
+//! setting.
 
 use super::figure::{Figure, box_swatch, key};
 use super::map::map;
@@ -19,9 +20,16 @@ const DEVIATION_STEPS: [f64; 5] = [0.05, 0.1, 0.2, 0.5, 2.0];
 const ERROR_STEPS: [f64; 5] = [0.2, 0.5, 1.0, 2.0, 5.0];
 
 /// Deviations of the force from its mean over the sheet, by the core and by eq. 6 alone.
-pub fn force(settings: &[Setting], left_out: usize, core: fn(&Row) -> f64, eq6: fn(&Row) -> f64) -> Figure {
+pub fn force(
+    settings: &[Setting],
+    left_out: usize,
+    core: fn(&Row) -> f64,
+    eq6: fn(&Row) -> f64,
+) -> Figure {
     let estimates = [("core", core), ("eq. 6 alone", eq6)];
-    let is_known = |get: fn(&Row) -> f64| settings.iter().any(|s| s.rows.iter().any(|(row, _)| get(row).is_finite()));
+    let is_known = |get: fn(&Row) -> f64| {
+        settings.iter().any(|s| s.rows.iter().any(|(row, _)| get(row).is_finite()))
+    };
     let estimates: Vec<_> = estimates.into_iter().filter(|(_, get)| is_known(*get)).collect();
     let most = TILES / (settings.len() * estimates.len()).max(1);
     let mut maps = String::new();
@@ -54,7 +62,8 @@ fn deviation_step(percent: f64) -> i32 {
 }
 
 fn deviation_legend() -> String {
-    let entry = |step: i32| key(&deviation_name(step), &box_swatch(&Paint::diverging(step).fill_class()));
+    let entry =
+        |step: i32| key(&deviation_name(step), &box_swatch(&Paint::diverging(step).fill_class()));
     (-DIVERGING..=DIVERGING).map(entry).collect()
 }
 
@@ -84,8 +93,12 @@ pub fn position_errors(setting: &Setting) -> Vec<f64> {
 
 fn error_map(setting: &Setting, most: usize) -> String {
     let errors = position_errors(setting);
-    let ideal = rms(setting.rows.iter().filter_map(|(r, t)| Some(position_error(&r.reference?.quantities, t))));
-    let ideal = if ideal.is_finite() { format!(" ({})", number::short(ideal)) } else { String::new() };
+    let ideal = rms(setting
+        .rows
+        .iter()
+        .filter_map(|(r, t)| Some(position_error(&r.reference?.quantities, t))));
+    let ideal =
+        if ideal.is_finite() { format!(" ({})", number::short(ideal)) } else { String::new() };
     let what = format!("{} mm{ideal}", number::short(rms(errors.iter().copied())));
     titled(&setting.name, &what, |about| {
         map(about, setting.half_sheet_mm, &places(setting, &errors), most, error_paint)
@@ -105,7 +118,9 @@ pub fn error_legend() -> String {
         (Some(from), Some(to)) => format!("{from} … {to}"),
         (Some(from), None) => format!("beyond {from}"),
     };
-    (0..SEQUENTIAL).map(|n| key(&name(n), &box_swatch(&Paint::sequential(n).fill_class()))).collect()
+    (0..SEQUENTIAL)
+        .map(|n| key(&name(n), &box_swatch(&Paint::sequential(n).fill_class())))
+        .collect()
 }
 
 fn places(setting: &Setting, values: &[f64]) -> Vec<(f64, f64, f64)> {
@@ -113,9 +128,11 @@ fn places(setting: &Setting, values: &[f64]) -> Vec<(f64, f64, f64)> {
     truths.zip(values).map(|(q, value)| (q.x_mm, q.y_mm, *value)).collect()
 }
 
-/// A map under the name of its setting and a line on what it shows; `svg` draws it, told what it is about.
+/// A map under the name of its setting and a line on what it shows; `svg` draws it, told what it is
+/// about.
 pub fn titled(name: &str, what: &str, svg: impl Fn(&str) -> String) -> String {
-    let lines = [name, what].into_iter().filter(|line| !line.is_empty()).map(escape).collect::<Vec<_>>();
+    let lines =
+        [name, what].into_iter().filter(|line| !line.is_empty()).map(escape).collect::<Vec<_>>();
     let about = format!("{name} {what}");
     format!("<div>\n<p>{}</p>\n{}</div>\n", lines.join("<br />"), svg(about.trim()))
 }

@@ -26,7 +26,8 @@ fn over_load(loads: &[Load]) -> Figure {
     let ranks: Vec<usize> = (0..most).step_by(stride).collect();
     let mut series = Vec::new();
     for (n, rank) in ranks.iter().enumerate() {
-        let at: Vec<Setting> = loads.iter().filter_map(|l| l.settings.get(*rank).cloned()).collect();
+        let at: Vec<Setting> =
+            loads.iter().filter_map(|l| l.settings.get(*rank).cloned()).collect();
         let paint = Paint::ramp(n, ranks.len());
         let volts = super::select::mean(at.iter().map(voltage));
         let tag = format!("{} V", number::fixed(volts, 0));
@@ -34,7 +35,12 @@ fn over_load(loads: &[Load]) -> Figure {
     }
     series.extend(keys(loads));
     let x = Axis::linear("load (g)", loads.iter().flat_map(|l| l.settings.iter().map(load)));
-    let plot = Plot::new("Capacitance over load at several haptic voltages", x, capacitance_axis(loads), series);
+    let plot = Plot::new(
+        "Capacitance over load at several haptic voltages",
+        x,
+        capacitance_axis(loads),
+        series,
+    );
     Figure::plot("Capacitance over load, by haptic voltage", "", &plot)
 }
 
@@ -42,25 +48,44 @@ fn over_voltage(loads: &[Load]) -> Figure {
     let mut series = Vec::new();
     for (n, load) in loads.iter().enumerate() {
         let tag = format!("{} g", number::fixed(load.load_g, 0));
-        series.extend(trio(&load.settings, Paint::series(n), &tag, |_, t| t.quantities.haptic_v_rms));
+        series
+            .extend(trio(&load.settings, Paint::series(n), &tag, |_, t| t.quantities.haptic_v_rms));
     }
     series.extend(keys(loads));
-    let plot = Plot::new("Capacitance over haptic voltage", voltage_axis(loads), capacitance_axis(loads), series);
+    let plot = Plot::new(
+        "Capacitance over haptic voltage",
+        voltage_axis(loads),
+        capacitance_axis(loads),
+        series,
+    );
     Figure::plot("Capacitance over haptic voltage, by load", "", &plot)
 }
 
 /// Truth as a line, the slots as dots, the reference's means as rings.
-pub fn trio(settings: &[Setting], paint: Paint, tag: &str, x: fn(&Row, &Truth) -> f64) -> [Series; 3] {
+pub fn trio(
+    settings: &[Setting],
+    paint: Paint,
+    tag: &str,
+    x: fn(&Row, &Truth) -> f64,
+) -> [Series; 3] {
     [
-        Series::line("", paint, means(settings, |r, t| (x(r, t), t.quantities.capacitance_pf))).tagged(tag),
-        Series::rings("", paint, means(settings, |r, t| (x(r, t), reference(r, |q| q.capacitance_pf)))),
+        Series::line("", paint, means(settings, |r, t| (x(r, t), t.quantities.capacitance_pf)))
+            .tagged(tag),
+        Series::rings(
+            "",
+            paint,
+            means(settings, |r, t| (x(r, t), reference(r, |q| q.capacitance_pf))),
+        ),
         Series::dots("", paint, slots(settings, |r, t| (x(r, t), r.measured.capacitance_pf))),
     ]
 }
 
 /// What line, dot and ring stand for, whatever their colour.
 pub fn keys(loads: &[Load]) -> Vec<Series> {
-    let mut keys = vec![Series::dots("measured", Paint::INK, vec![]), Series::line("true value", Paint::INK, vec![])];
+    let mut keys = vec![
+        Series::dots("measured", Paint::INK, vec![]),
+        Series::line("true value", Paint::INK, vec![]),
+    ];
     if rows(loads).any(|(row, _)| row.reference.is_some()) {
         keys.push(Series::rings("floating-point reference", Paint::INK, vec![]));
     }
@@ -89,17 +114,21 @@ fn error(loads: &[Load]) -> Figure {
     let percent = |value: f64, t: &Truth| 100.0 * (value / t.quantities.capacitance_pf - 1.0);
     let mut series = Vec::new();
     for (n, load) in loads.iter().enumerate() {
-        let point = |r: &Row, t: &Truth| (t.quantities.haptic_v_rms, percent(r.measured.capacitance_pf, t));
+        let point =
+            |r: &Row, t: &Truth| (t.quantities.haptic_v_rms, percent(r.measured.capacitance_pf, t));
         let name = format!("{} g", number::fixed(load.load_g, 0));
         series.push(Series::dots(&name, Paint::series(n), slots(&load.settings, point)));
-        let ideal = |r: &Row, t: &Truth| (t.quantities.haptic_v_rms, percent(reference(r, |q| q.capacitance_pf), t));
+        let ideal = |r: &Row, t: &Truth| {
+            (t.quantities.haptic_v_rms, percent(reference(r, |q| q.capacitance_pf), t))
+        };
         series.push(Series::line("", Paint::series(n), sweep::means(&load.settings, ideal)));
     }
     series.push(Series::line("floating-point reference", Paint::INK, vec![]));
     let values: Vec<_> = series.iter().flat_map(|s| s.points.iter().map(|p| p.1)).collect();
     let worst = extent(values.iter().map(|v| v.abs())).map_or(f64::NAN, |(_, high)| high);
     let y = Axis::with_zero("ΔC (%)", values);
-    let plot = Plot::new("Error of the capacitance over haptic voltage", voltage_axis(loads), y, series);
+    let plot =
+        Plot::new("Error of the capacitance over haptic voltage", voltage_axis(loads), y, series);
     Figure::plot(
         "Error of the capacitance",
         &format!("At most {} % of the true capacitance.", number::short(worst)),

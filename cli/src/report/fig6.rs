@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Fig. 6: friction departs from the square law, the capacitance rises suddenly, and eq. 8 follows both.
+//! Fig. 6: friction departs from the square law, the capacitance rises suddenly, and eq. 8 follows
+//! both.
 
 use super::axis::Axis;
 use super::fig4::{capacitance_axis, keys, trio, voltage_axis};
@@ -69,10 +70,17 @@ fn name(load: &Load) -> String {
 fn capacitance(loads: &[Load]) -> Figure {
     let mut series = Vec::new();
     for (n, load) in loads.iter().enumerate() {
-        series.extend(trio(&load.settings, Paint::series(n), &name(load), |_, t| t.quantities.haptic_v_rms));
+        series.extend(trio(&load.settings, Paint::series(n), &name(load), |_, t| {
+            t.quantities.haptic_v_rms
+        }));
     }
     series.extend(keys(loads));
-    let plot = Plot::new("Sensor output over haptic voltage", voltage_axis(loads), capacitance_axis(loads), series);
+    let plot = Plot::new(
+        "Sensor output over haptic voltage",
+        voltage_axis(loads),
+        capacitance_axis(loads),
+        series,
+    );
     Figure::plot("Sensor output over the haptic voltage", "", &plot)
 }
 
@@ -83,8 +91,16 @@ fn residual(record: &Record, loads: &[Load]) -> Figure {
     for (n, load) in loads.iter().enumerate() {
         let paint = Paint::series(n);
         series.push(Series::line("", paint.dashed(), means(&load.settings, |r, t| at(t, eq6(r)))));
-        series.push(Series::rings("", paint, means(&load.settings, |r, t| at(t, reference(r, |q| q.force_n)))));
-        series.push(Series::dots(&name(load), paint, slots(&load.settings, |r, t| at(t, r.measured.force_n))));
+        series.push(Series::rings(
+            "",
+            paint,
+            means(&load.settings, |r, t| at(t, reference(r, |q| q.force_n))),
+        ));
+        series.push(Series::dots(
+            &name(load),
+            paint,
+            slots(&load.settings, |r, t| at(t, r.measured.force_n)),
+        ));
     }
     let values: Vec<_> = series.iter().flat_map(|s| s.points.iter().map(|p| p.1)).collect();
     if record.rows.iter().any(|r| r.reference.is_some()) {
@@ -94,7 +110,8 @@ fn residual(record: &Record, loads: &[Load]) -> Figure {
     let limits = select::limit(record, "N", "").map_or(vec![], |limit| vec![-limit, limit]);
     let worst = extent(values.iter().map(|v| v.abs())).map_or(f64::NAN, |(_, high)| high);
     let y = Axis::with_zero("ΔF (N)", values.into_iter().chain(limits.iter().copied()));
-    let mut plot = Plot::new("Measured minus true force over haptic voltage", voltage_axis(loads), y, series);
+    let mut plot =
+        Plot::new("Measured minus true force over haptic voltage", voltage_axis(loads), y, series);
     plot.limits = limits;
     Figure::plot(
         "Force error of eq. 8",

@@ -34,10 +34,17 @@ impl Figure {
     pub fn html(&self) -> String {
         let class = if self.wide { " class=\"wide\"" } else { "" };
         let (title, note) = (escape(&self.title), escape(&self.note));
-        let legend =
-            if self.legend.is_empty() { String::new() } else { format!("<ul class=\"legend\">{}</ul>\n", self.legend) };
-        let note = if note.is_empty() { String::new() } else { format!("<p class=\"note\">{note}</p>\n") };
-        format!("<figure{class}>\n<figcaption>{title}</figcaption>\n{legend}{}{note}</figure>\n", self.body)
+        let legend = if self.legend.is_empty() {
+            String::new()
+        } else {
+            format!("<ul class=\"legend\">{}</ul>\n", self.legend)
+        };
+        let note =
+            if note.is_empty() { String::new() } else { format!("<p class=\"note\">{note}</p>\n") };
+        format!(
+            "<figure{class}>\n<figcaption>{title}</figcaption>\n{legend}{}{note}</figure>\n",
+            self.body
+        )
     }
 }
 
@@ -55,18 +62,23 @@ pub fn key(name: &str, swatch: &str) -> String {
 fn swatch(series: &Series) -> String {
     match series.mark {
         Mark::Line(_) => line_swatch(&series.paint.stroke_class()),
-        Mark::Dots(_) | Mark::Band => {
-            svg(&format!("<circle cx=\"14\" cy=\"7\" r=\"4\" class=\"{}\"/>", series.paint.fill_class()))
-        }
+        Mark::Dots(_) | Mark::Band => svg(&format!(
+            "<circle cx=\"14\" cy=\"7\" r=\"4\" class=\"{}\"/>",
+            series.paint.fill_class()
+        )),
         Mark::Rings(_) => {
             let class = series.paint.stroke_class();
-            svg(&format!("<circle cx=\"14\" cy=\"7\" r=\"5\" stroke-width=\"1.6\" class=\"{class}\"/>"))
+            svg(&format!(
+                "<circle cx=\"14\" cy=\"7\" r=\"5\" stroke-width=\"1.6\" class=\"{class}\"/>"
+            ))
         }
     }
 }
 
 fn line_swatch(class: &str) -> String {
-    svg(&format!("<line x1=\"1\" y1=\"7\" x2=\"27\" y2=\"7\" stroke-width=\"2.4\" class=\"small {class}\"/>"))
+    svg(&format!(
+        "<line x1=\"1\" y1=\"7\" x2=\"27\" y2=\"7\" stroke-width=\"2.4\" class=\"small {class}\"/>"
+    ))
 }
 
 /// A filled square for a step of a scale.

@@ -33,12 +33,20 @@ pub fn draw(root: &Area, chart: &Chart, plot: &Frame) -> Drawn {
     for (value, label) in plot.y.ticks() {
         let at = chart.backend_coord(&(x.0, value)).1;
         line(root, [(left, at), (right, at)], Paint::GRID, 2)?;
-        root.draw(&Text::new(label, (left - GAP, at), text(Paint::MUTED, HPos::Right, VPos::Center)))?;
+        root.draw(&Text::new(
+            label,
+            (left - GAP, at),
+            text(Paint::MUTED, HPos::Right, VPos::Center),
+        ))?;
     }
     for (value, label) in plot.x.ticks() {
         let at = chart.backend_coord(&(value, y.0)).0;
         line(root, [(at, bottom), (at, bottom + 8)], Paint::MUTED, 2)?;
-        root.draw(&Text::new(label, (at, bottom + GAP), text(Paint::MUTED, HPos::Center, VPos::Top)))?;
+        root.draw(&Text::new(
+            label,
+            (at, bottom + GAP),
+            text(Paint::MUTED, HPos::Center, VPos::Top),
+        ))?;
     }
     line(root, [(left, bottom), (right, bottom)], Paint::MUTED, 2)?;
     for at in inside(plot.limits.iter().map(|v| plot.y.place(*v)), y) {

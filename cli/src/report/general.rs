@@ -26,7 +26,8 @@ pub fn quantity_of_column(name: &str) -> Quantity {
     (found.label, found.axis, found.get)
 }
 
-/// Slots of a pad of which each has a dot of its own; more become a line of means and the band that they fill.
+/// Slots of a pad of which each has a dot of its own; more become a line of means and the band that
+/// they fill.
 const FEW: usize = 300;
 
 /// Means on the lines of a pad.
@@ -41,9 +42,11 @@ pub fn figures(record: &Record) -> Vec<Figure> {
 pub fn quantities(record: &Record) -> Vec<Quantity> {
     let some = |value: f64| value.is_finite() && value != 0.0;
     let measured = |get: Get| record.rows.iter().any(|r| some(get(&r.measured)));
-    let true_one = |get: Get| record.rows.iter().any(|r| r.truth.is_some_and(|t| some(get(&t.quantities))));
+    let true_one =
+        |get: Get| record.rows.iter().any(|r| r.truth.is_some_and(|t| some(get(&t.quantities))));
     let direction = quantity_of_column("direction").0;
-    let present = |(title, _, get): &Quantity| measured(*get) || (*title != direction && true_one(*get));
+    let present =
+        |(title, _, get): &Quantity| measured(*get) || (*title != direction && true_one(*get));
     let drawn = QUANTITIES.iter().filter(|quantity| !quantity.axis.is_empty());
     drawn.map(|quantity| quantity_of_column(quantity.name)).filter(present).collect()
 }
@@ -87,7 +90,11 @@ fn pads_series(record: &Record, get: Get) -> Vec<Series> {
         let points = points(record, *pad, |r| r.truth.map_or(f64::NAN, |t| get(&t.quantities)));
         Series::line("", Paint::INK, points).mark(Mark::Line(3))
     };
-    pads.iter().flat_map(measured).chain(pads.iter().filter_map(reference)).chain(pads.iter().map(truth)).collect()
+    pads.iter()
+        .flat_map(measured)
+        .chain(pads.iter().filter_map(reference))
+        .chain(pads.iter().map(truth))
+        .collect()
 }
 
 /// What was measured: dots, or where they are many their means and the band that they fill.
@@ -96,10 +103,17 @@ pub fn noisy(name: &str, paint: Paint, points: Vec<Point>) -> Vec<Series> {
         return vec![Series::dots(name, paint, points).mark(Mark::Dots(6))];
     }
     let (mut line, mut bands) = (Vec::new(), Vec::new());
-    for run in points.split(|point| !(point.0.is_finite() && point.1.is_finite())).filter(|run| !run.is_empty()) {
+    for run in points
+        .split(|point| !(point.0.is_finite() && point.1.is_finite()))
+        .filter(|run| !run.is_empty())
+    {
         let bins = run.chunks(points.len().div_ceil(BINS));
         let bins = bins.filter_map(|bin| {
-            Some((select::mean(bin.iter().map(|p| p.0)), bin, select::extent(bin.iter().map(|p| p.1))?))
+            Some((
+                select::mean(bin.iter().map(|p| p.0)),
+                bin,
+                select::extent(bin.iter().map(|p| p.1))?,
+            ))
         });
         let (mut high, mut low) = (Vec::new(), Vec::new());
         for (x, bin, extent) in bins {
@@ -130,7 +144,9 @@ pub fn difference_note(record: &Record, get: Get, axis: &str) -> String {
 /// What stands for truth and reference in the legend, where there are any.
 pub fn keys(record: &Record) -> Vec<Series> {
     let truth = record.rows.iter().any(|r| r.truth.is_some());
-    let few = select::pads(record).iter().any(|pad| record.rows.iter().filter(|r| r.pad == *pad).count() < FEW);
+    let few = select::pads(record)
+        .iter()
+        .any(|pad| record.rows.iter().filter(|r| r.pad == *pad).count() < FEW);
     let reference = few && record.rows.iter().any(|r| r.reference.is_some());
     let keys = [
         (truth, Series::line("true value", Paint::INK, Vec::new())),

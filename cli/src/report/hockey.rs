@@ -19,25 +19,39 @@ const BINS: u32 = 50;
 pub fn figures(record: &Record) -> Vec<Figure> {
     let [force, capacitance, voltage] = ["force_n", "capacitance_pf", "haptic_v_rms"]
         .map(|name| general::over_time(record, general::quantity_of_column(name)));
-    vec![trajectories(record), force, position_error(record), force_error(record, "force"), capacitance, voltage]
+    vec![
+        trajectories(record),
+        force,
+        position_error(record),
+        force_error(record, "force"),
+        capacitance,
+        voltage,
+    ]
 }
 
 fn trajectories(record: &Record) -> Figure {
     let pads = select::pads(record);
-    let true_place = |r: &Row| r.truth.map_or((f64::NAN, f64::NAN), |t| (t.quantities.x_mm, t.quantities.y_mm));
+    let true_place =
+        |r: &Row| r.truth.map_or((f64::NAN, f64::NAN), |t| (t.quantities.x_mm, t.quantities.y_mm));
     let place = |r: &Row| (r.measured.x_mm, r.measured.y_mm);
     let measured = |pad: &usize| {
         let name = select::pad_name(record, *pad);
-        Series::dots(&name, Paint::series(*pad), trajectory(record, *pad, place)).mark(Mark::Dots(8))
+        Series::dots(&name, Paint::series(*pad), trajectory(record, *pad, place))
+            .mark(Mark::Dots(8))
     };
-    let truth = |pad: &usize| Series::line("", Paint::INK, trajectory(record, *pad, true_place)).mark(Mark::Line(3));
+    let truth = |pad: &usize| {
+        Series::line("", Paint::INK, trajectory(record, *pad, true_place)).mark(Mark::Line(3))
+    };
     let half = map::half_sheet_mm(record);
     let mut series = vec![frame(half)];
     series.extend(pads.iter().map(measured));
     series.extend(pads.iter().map(truth));
     series.push(Series::line("true value", Paint::INK, vec![]));
     let points = || series.iter().flat_map(|s| s.points.iter());
-    let (x, y) = (side("x (mm)", half.0, points().map(|p| p.0)), side("y (mm)", half.1, points().map(|p| p.1)));
+    let (x, y) = (
+        side("x (mm)", half.0, points().map(|p| p.0)),
+        side("y (mm)", half.1, points().map(|p| p.1)),
+    );
     let ratio = y.1 / x.1;
     let mut plot = Plot::new("Trajectories of the pads over the sheet", x.0, y.0, series);
     plot.height = (120.0 + 1130.0 * ratio).clamp(400.0, 1400.0) as u32;
@@ -46,10 +60,12 @@ fn trajectories(record: &Record) -> Figure {
 
 /// The sheet's edge.
 fn frame((x, y): (f64, f64)) -> Series {
-    Series::line("", Paint::MUTED, vec![(-x, y), (x, y), (x, -y), (-x, -y), (-x, y)]).mark(Mark::Line(2))
+    Series::line("", Paint::MUTED, vec![(-x, y), (x, y), (x, -y), (-x, -y), (-x, y)])
+        .mark(Mark::Line(2))
 }
 
-/// An axis over the sheet, and further where a trajectory goes beyond its edge; half of what it shows.
+/// An axis over the sheet, and further where a trajectory goes beyond its edge; half of what it
+/// shows.
 fn side(title: &str, half: f64, values: impl Iterator<Item = f64>) -> (Axis, f64) {
     let reach = values.map(f64::abs).filter(|v| v.is_finite()).fold(half, f64::max);
     (Axis::exact(title, -reach, reach), reach)
@@ -69,12 +85,21 @@ fn position_error(record: &Record) -> Figure {
     for pad in select::pads(record) {
         let points = general::points(record, pad, error);
         let paint = Paint::series(pad);
-        series.push(Series::line(&select::pad_name(record, pad), paint, binned(&points, select::rms)));
-        series.push(Series::dots("", paint, binned(&points, |b| select::extent(b).map_or(f64::NAN, |e| e.1))));
+        series.push(Series::line(
+            &select::pad_name(record, pad),
+            paint,
+            binned(&points, select::rms),
+        ));
+        series.push(Series::dots(
+            "",
+            paint,
+            binned(&points, |b| select::extent(b).map_or(f64::NAN, |e| e.1)),
+        ));
     }
     series.push(Series::dots("largest error", Paint::INK, vec![]));
     let y = Axis::with_zero("|Δ position| (mm)", values);
-    let mut plot = Plot::new("Distance from the true position", general::time_axis(record), y, series);
+    let mut plot =
+        Plot::new("Distance from the true position", general::time_axis(record), y, series);
     plot.breaks = general::breaks(record);
     plot.limits.extend(select::limit(record, "mm", "position"));
     let limit = if plot.shows_limits() { " The limit applies to the RMS error." } else { "" };
@@ -93,14 +118,17 @@ fn binned(points: &[Point], value: impl Fn(Vec<f64>) -> f64) -> Vec<Point> {
     let bin = |time: f64| ((time - start) / width).floor().min(f64::from(BINS) - 1.0);
     let finite: Vec<_> = points.iter().filter(|p| p.0.is_finite()).copied().collect();
     let chunks = finite.chunk_by(|a, b| bin(a.0) == bin(b.0));
-    chunks.map(|c| (select::mean(c.iter().map(|p| p.0)), value(c.iter().map(|p| p.1).collect()))).collect()
+    chunks
+        .map(|c| (select::mean(c.iter().map(|p| p.0)), value(c.iter().map(|p| p.1).collect())))
+        .collect()
 }
 
 /// Measured less true force over time, and the limits of the criterion whose name has the word.
 pub fn force_error(record: &Record, word: &str) -> Figure {
     let error = |r: &Row| r.truth.map_or(f64::NAN, |t| r.measured.force_n - t.quantities.force_n);
     let values: Vec<_> = record.rows.iter().map(error).collect();
-    let note = format!("{} N RMS over all pads. ", number::short(select::rms(values.iter().copied())));
+    let note =
+        format!("{} N RMS over all pads. ", number::short(select::rms(values.iter().copied())));
     let line = |pad: usize| {
         let name = select::pad_name(record, pad);
         general::noisy(&name, Paint::series(pad), general::points(record, pad, error))

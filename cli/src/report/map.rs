@@ -32,36 +32,51 @@ type Cells = BTreeMap<(usize, usize), f64>;
 type Edges = Vec<f64>;
 
 /// A map of a sheet, given half its size; `most` bounds its tiles, `paint` gives a value's colour.
-pub fn map(about: &str, half: (f64, f64), places: &[Place], most: usize, paint: impl Fn(f64) -> Paint) -> String {
+pub fn map(
+    about: &str,
+    half: (f64, f64),
+    places: &[Place],
+    most: usize,
+    paint: impl Fn(f64) -> Paint,
+) -> String {
     let half = reach(half, places);
     let scale = WIDTH / (2.0 * half.0);
     let height = (2.0 * half.1 * scale) as u32;
     let (columns, rows) = edges(places, half, most);
     let cells = cells(places, &columns, &rows);
     let mut drawing = String::new();
-    let pixel = |x: f64, y: f64| (((x + half.0) * scale).round() as i32, ((half.1 - y) * scale).round() as i32);
+    let pixel = |x: f64, y: f64| {
+        (((x + half.0) * scale).round() as i32, ((half.1 - y) * scale).round() as i32)
+    };
     let draw = |drawing: &mut String| -> Result<(), Box<dyn Error>> {
         let root = SVGBackend::with_string(drawing, (WIDTH as u32, height)).into_drawing_area();
         for (row, from, to, paint) in runs(&cells, &paint) {
             let corners = [pixel(columns[from], rows[row + 1]), pixel(columns[to + 1], rows[row])];
             root.draw(&Rectangle::new(corners, paint.sentinel().filled()))?;
         }
-        root.draw(&Rectangle::new([pixel(-half.0, half.1), pixel(half.0, -half.1)], stroke(Paint::MUTED, 3)))?;
+        root.draw(&Rectangle::new(
+            [pixel(-half.0, half.1), pixel(half.0, -half.1)],
+            stroke(Paint::MUTED, 3),
+        ))?;
         root.present()?;
         Ok(())
     };
-    draw(&mut drawing).map_or_else(|e| e.to_string(), |()| inline(&drawing, about, WIDTH as u32, height))
+    draw(&mut drawing)
+        .map_or_else(|e| e.to_string(), |()| inline(&drawing, about, WIDTH as u32, height))
 }
 
 /// Half of what is drawn.
 fn reach(half: (f64, f64), places: &[Place]) -> (f64, f64) {
-    let reach = |values: &mut dyn Iterator<Item = f64>| values.filter(|v| v.is_finite()).fold(0.0, f64::max);
+    let reach = |values: &mut dyn Iterator<Item = f64>| {
+        values.filter(|v| v.is_finite()).fold(0.0, f64::max)
+    };
     let x = reach(&mut places.iter().map(|p| p.0.abs()));
     let y = reach(&mut places.iter().map(|p| p.1.abs()));
     (half.0.max(x), half.1.max(y))
 }
 
-/// Boundaries between the places where these form a raster of at most `most` tiles, else a raster of that many.
+/// Boundaries between the places where these form a raster of at most `most` tiles, else a raster
+/// of that many.
 fn edges(places: &[Place], half: (f64, f64), most: usize) -> (Edges, Edges) {
     let xs = distinct(places.iter().map(|p| p.0));
     let ys = distinct(places.iter().map(|p| p.1));
@@ -73,7 +88,8 @@ fn edges(places: &[Place], half: (f64, f64), most: usize) -> (Edges, Edges) {
 }
 
 fn distinct(values: impl Iterator<Item = f64>) -> Vec<f64> {
-    let mut rounded: Vec<_> = values.filter(|v| v.is_finite()).map(|v| (v * 10.0).round() / 10.0).collect();
+    let mut rounded: Vec<_> =
+        values.filter(|v| v.is_finite()).map(|v| (v * 10.0).round() / 10.0).collect();
     rounded.sort_by(f64::total_cmp);
     rounded.dedup();
     rounded
@@ -96,10 +112,13 @@ fn even(count: usize, half: f64) -> Edges {
 }
 
 fn cells(places: &[Place], columns: &[f64], rows: &[f64]) -> Cells {
-    let index =
-        |edges: &[f64], value: f64| edges.partition_point(|e| *e <= value).saturating_sub(1).min(edges.len() - 2);
+    let index = |edges: &[f64], value: f64| {
+        edges.partition_point(|e| *e <= value).saturating_sub(1).min(edges.len() - 2)
+    };
     let mut cells = Cells::new();
-    for (x, y, value) in places.iter().filter(|p| p.0.is_finite() && p.1.is_finite() && p.2.is_finite()) {
+    for (x, y, value) in
+        places.iter().filter(|p| p.0.is_finite() && p.1.is_finite() && p.2.is_finite())
+    {
         let worst = cells.entry((index(rows, *y), index(columns, *x))).or_insert(*value);
         if value.abs() > worst.abs() {
             *worst = *value;
@@ -127,8 +146,9 @@ mod tests {
 
     #[test]
     fn neighbours_of_one_colour_are_one_tile() {
-        let places: Vec<_> =
-            (0..24).flat_map(|x| (0..14).map(move |y| (f64::from(x), f64::from(y), f64::from(x / 12)))).collect();
+        let places: Vec<_> = (0..24)
+            .flat_map(|x| (0..14).map(move |y| (f64::from(x), f64::from(y), f64::from(x / 12))))
+            .collect();
         let svg = map("", HALF_SHEET_MM, &places, 1000, |v| Paint::diverging(v as i32));
         assert_eq!(svg.matches("<rect").count(), 2 * 14 + 1);
     }

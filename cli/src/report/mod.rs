@@ -65,8 +65,8 @@ fn figures(record: &Record) -> String {
     format!("<div class=\"figures\">\n{figures}</div>\n")
 }
 
-/// The figures of the scene; where it names none, or a capture left no truth to compare with, every quantity over what is swept or
-/// over time.
+/// The figures of the scene; where it names none, or a capture left no truth to compare with, every
+/// quantity over what is swept or over time.
 fn chosen(record: &Record) -> Vec<Figure> {
     let truth = record.rows.iter().any(|row| row.truth.is_some());
     match record.figure.as_deref().filter(|_| truth) {

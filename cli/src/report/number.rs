@@ -44,7 +44,11 @@ pub fn fixed(value: f64, decimals: usize) -> String {
 
 /// A number and its unit; a bare `1` is no unit.
 pub fn with_unit(number: &str, unit: &str) -> String {
-    if unit.is_empty() || unit == "1" || number == NONE { number.into() } else { format!("{number} {unit}") }
+    if unit.is_empty() || unit == "1" || number == NONE {
+        number.into()
+    } else {
+        format!("{number} {unit}")
+    }
 }
 
 /// A duration with an SI prefix: `12.3 ms`.
@@ -83,7 +87,10 @@ mod tests {
 
     #[test]
     fn times_take_a_prefix() {
-        assert_eq!([0.0, 2.5, 0.0123, 4.5e-6, 3e-9].map(seconds), ["0 s", "2.50 s", "12.3 ms", "4.50 µs", "3.00 ns"]);
+        assert_eq!(
+            [0.0, 2.5, 0.0123, 4.5e-6, 3e-9].map(seconds),
+            ["0 s", "2.50 s", "12.3 ms", "4.50 µs", "3.00 ns"]
+        );
     }
 
     #[test]

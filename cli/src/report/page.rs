@@ -36,11 +36,14 @@ pub fn document(title: &str, main: &str) -> String {
 /// Title, what ran, and what it is about.
 pub fn heading(record: &Record) -> String {
     let fact = |name: &str, value: &str| format!("<li>{name} <b>{}</b></li>", escape(value));
-    let facts = [("scene", &record.scene), ("profile", &record.profile), ("core", &record.fidelity)];
+    let facts =
+        [("scene", &record.scene), ("profile", &record.profile), ("core", &record.fidelity)];
     let facts: String = facts.iter().map(|(name, value)| fact(name, value)).collect();
     let (title, summary) = (escape(&record.title), escape(record.summary.trim()));
     let warnings = warnings(&record.warnings);
-    format!("<header>\n<h1>{title}</h1>\n<ul class=\"facts\">{facts}</ul>\n{warnings}<p>{summary}</p>\n</header>\n")
+    format!(
+        "<header>\n<h1>{title}</h1>\n<ul class=\"facts\">{facts}</ul>\n{warnings}<p>{summary}</p>\n</header>\n"
+    )
 }
 
 /// What its reader must know first.

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Colours that follow the reader's light or dark mode.
 //!
-//! `plotters` writes colours into every element. So it is given sentinels, which carry an index instead of a colour; afterwards each
-//! becomes a class, and `report.css` says what the index looks like in either mode.
+//! `plotters` writes colours into every element. So it is given sentinels, which carry an index
+//! instead of a colour; afterwards each becomes a class, and `report.css` says what the index looks
+//! like in either mode.
 
 use plotters::style::RGBColor;
 
@@ -74,7 +75,10 @@ impl Paint {
     /// The n-th of `count` lines in an order, from light to dark.
     pub fn ramp(n: usize, count: usize) -> Paint {
         let steps = SEQUENTIAL - 1;
-        Paint::solid(index(60, (n * steps).checked_div(count.saturating_sub(1)).unwrap_or(steps).min(steps)))
+        Paint::solid(index(
+            60,
+            (n * steps).checked_div(count.saturating_sub(1)).unwrap_or(steps).min(steps),
+        ))
     }
 
     /// The same, dashed.
@@ -148,7 +152,10 @@ mod tests {
     #[test]
     fn sentinels_become_classes() {
         let line = "<polyline fill=\"none\" opacity=\"1\" stroke=\"#0B01A5\" stroke-width=\"4\" points=\"1,2 \"/>";
-        assert_eq!(to_classes(line), "<polyline class=\"s k11 dash\" stroke-width=\"4\" points=\"1,2 \"/>\n");
+        assert_eq!(
+            to_classes(line),
+            "<polyline class=\"s k11 dash\" stroke-width=\"4\" points=\"1,2 \"/>\n"
+        );
         let text = "<text fill=\"#0000A5\">\n#ff0000\n</text>";
         assert_eq!(to_classes(text), "<text class=\"f k0\">\n#ff0000\n</text>\n");
     }

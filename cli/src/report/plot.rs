@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A plot of series over two axes, drawn by `plotters`.
 //!
-//! Drawn 1200 units wide, so that its text stays legible when a phone shows it at a third of that; the style sheet makes the text
-//! smaller where there is room.
+//! Drawn 1200 units wide, so that its text stays legible when a phone shows it at a third of that;
+//! the style sheet makes the text smaller where there is room.
 
 use std::error::Error;
 
@@ -51,7 +51,15 @@ pub struct Plot {
 impl Plot {
     /// A plot without limits and breaks, of the usual height.
     pub fn new(about: &str, x: Axis, y: Axis, series: Vec<Series>) -> Plot {
-        Plot { about: about.into(), x, y, series, limits: Vec::new(), breaks: Vec::new(), height: 720 }
+        Plot {
+            about: about.into(),
+            x,
+            y,
+            series,
+            limits: Vec::new(),
+            breaks: Vec::new(),
+            height: 720,
+        }
     }
 
     /// Whether any limit lies within what is drawn.
@@ -65,7 +73,9 @@ impl Plot {
         let mut drawing = String::new();
         match self.draw(&mut drawing) {
             Ok(()) => inline(&drawing, &self.about, WIDTH, self.height),
-            Err(error) => format!("<p class=\"note\">Not drawn: {}</p>\n", escape(&error.to_string())),
+            Err(error) => {
+                format!("<p class=\"note\">Not drawn: {}</p>\n", escape(&error.to_string()))
+            }
         }
     }
 
@@ -98,7 +108,8 @@ impl Plot {
     }
 
     fn label_width(&self) -> u32 {
-        let longest = self.y.ticks().iter().map(|(_, text)| text.chars().count()).max().unwrap_or(1);
+        let longest =
+            self.y.ticks().iter().map(|(_, text)| text.chars().count()).max().unwrap_or(1);
         u32::try_from(longest * CHARACTER + 24).unwrap_or(200)
     }
 
@@ -114,7 +125,10 @@ impl Plot {
         match series.mark {
             Mark::Line(width) => {
                 for run in runs {
-                    root.draw(&PathElement::new(thin_line(&run, self.column()), stroke(series.paint, width)))?;
+                    root.draw(&PathElement::new(
+                        thin_line(&run, self.column()),
+                        stroke(series.paint, width),
+                    ))?;
                 }
             }
             Mark::Band => {
@@ -124,7 +138,8 @@ impl Plot {
             }
             Mark::Dots(radius) | Mark::Rings(radius) => {
                 let rings = matches!(series.mark, Mark::Rings(_));
-                let style = if rings { stroke(series.paint, 3) } else { series.paint.sentinel().filled() };
+                let style =
+                    if rings { stroke(series.paint, 3) } else { series.paint.sentinel().filled() };
                 for at in thin_dots(&runs.concat(), self.dots_each()) {
                     root.draw(&Circle::new(at, radius, style))?;
                 }
@@ -146,9 +161,11 @@ impl Plot {
         (DOTS / series.max(1)).min(900)
     }
 
-    /// The points in units of the drawing, in runs between those that have no place within the axes.
+    /// The points in units of the drawing, in runs between those that have no place within the
+    /// axes.
     fn runs(&self, chart: &Chart, points: &[Point]) -> Vec<Vec<(i32, i32)>> {
-        let places: Vec<_> = points.iter().map(|(x, y)| (self.x.place(*x), self.y.place(*y))).collect();
+        let places: Vec<_> =
+            points.iter().map(|(x, y)| (self.x.place(*x), self.y.place(*y))).collect();
         let within = |(x, y): &(f64, f64)| self.x.shows(*x) && self.y.shows(*y);
         let runs = places.split(|place| !within(place)).filter(|run| !run.is_empty());
         runs.map(|run| run.iter().map(|place| chart.backend_coord(place)).collect()).collect()
@@ -165,7 +182,9 @@ impl Plot {
         }
         ends.sort_by_key(|((_, y), _, _)| *y);
         let heights: Vec<_> = ends.iter().map(|((_, y), _, _)| *y).collect();
-        for (((x, _), tag, paint), y) in ends.into_iter().zip(apart(&heights, i32::try_from(self.height)?)) {
+        for (((x, _), tag, paint), y) in
+            ends.into_iter().zip(apart(&heights, i32::try_from(self.height)?))
+        {
             root.draw(&Text::new(tag.clone(), (x + 22, y), text(paint, HPos::Left, VPos::Center)))?;
         }
         Ok(())

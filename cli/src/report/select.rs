@@ -90,8 +90,9 @@ pub fn rms(values: impl IntoIterator<Item = f64>) -> f64 {
 /// Least and largest finite value.
 pub fn extent(values: impl IntoIterator<Item = f64>) -> Option<(f64, f64)> {
     let finite = values.into_iter().filter(|v| v.is_finite());
-    finite
-        .fold(None, |extent, v| extent.map_or(Some((v, v)), |(low, high): (f64, f64)| Some((low.min(v), high.max(v)))))
+    finite.fold(None, |extent, v| {
+        extent.map_or(Some((v, v)), |(low, high): (f64, f64)| Some((low.min(v), high.max(v))))
+    })
 }
 
 /// Largest less least, in percent of the mean.

@@ -68,12 +68,14 @@ impl Series {
     }
 }
 
-/// At most about `most` of the points, on a raster of `width` × `height`: one per cell, the cells as fine as that allows.
+/// At most about `most` of the points, on a raster of `width` × `height`: one per cell, the cells
+/// as fine as that allows.
 pub fn thin_dots(points: &[(i32, i32)], most: usize) -> Vec<(i32, i32)> {
     let mut cell = 2;
     loop {
         let mut taken = HashSet::new();
-        let kept: Vec<_> = points.iter().copied().filter(|(x, y)| taken.insert((x / cell, y / cell))).collect();
+        let kept: Vec<_> =
+            points.iter().copied().filter(|(x, y)| taken.insert((x / cell, y / cell))).collect();
         if kept.len() <= most.max(1) {
             return kept;
         }
@@ -81,7 +83,8 @@ pub fn thin_dots(points: &[(i32, i32)], most: usize) -> Vec<(i32, i32)> {
     }
 }
 
-/// A line without the points that hardly show: of neighbours that share a column of `width`, the first, least, largest and last.
+/// A line without the points that hardly show: of neighbours that share a column of `width`, the
+/// first, least, largest and last.
 pub fn thin_line(points: &[(i32, i32)], width: i32) -> Vec<(i32, i32)> {
     let mut kept: Vec<(i32, i32)> = Vec::new();
     for column in points.chunk_by(|a, b| a.0 / width == b.0 / width) {
@@ -111,7 +114,8 @@ mod tests {
 
     #[test]
     fn a_line_keeps_its_peaks() {
-        let points: Vec<_> = (0..100_000).map(|i| (i / 100, if i == 50_050 { 900 } else { i % 7 })).collect();
+        let points: Vec<_> =
+            (0..100_000).map(|i| (i / 100, if i == 50_050 { 900 } else { i % 7 })).collect();
         let thin = thin_line(&points, 2);
         assert!(thin.len() <= 2000 + 4, "{}", thin.len());
         assert!(thin.contains(&(500, 900)));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Any sweep: every quantity over what is swept. Where only the place is swept, its error over the place.
+//! Any sweep: every quantity over what is swept. Where only the place is swept, its error over the
+//! place.
 
 use std::collections::BTreeMap;
 
@@ -52,24 +53,37 @@ fn lines<'a>(record: &'a Record, over: &str) -> Lines<'a> {
     lines
 }
 
-fn over_setting(record: &Record, (title, axis, get): Quantity, (key, name): (&str, &str)) -> Figure {
+fn over_setting(
+    record: &Record,
+    (title, axis, get): Quantity,
+    (key, name): (&str, &str),
+) -> Figure {
     let lines = lines(record, key);
     let (mut series, mut truths) = (Vec::new(), Vec::new());
     for (n, rows) in lines.values().take(LINES).enumerate() {
-        let at =
-            |value: &dyn Fn(&Row, &Truth) -> f64| rows.iter().map(|(r, t)| (t.set.get(key), value(r, t))).collect();
+        let at = |value: &dyn Fn(&Row, &Truth) -> f64| {
+            rows.iter().map(|(r, t)| (t.set.get(key), value(r, t))).collect()
+        };
         let paint = Paint::series(n);
         series.push(
-            Series::dots(&line_name(record, rows[0], key), paint, at(&|r, _| get(&r.measured))).mark(Mark::Dots(6)),
+            Series::dots(&line_name(record, rows[0], key), paint, at(&|r, _| get(&r.measured)))
+                .mark(Mark::Dots(6)),
         );
-        truths.push(Series::line("", paint, sorted(at(&|_, t| get(&t.quantities)))).mark(Mark::Line(3)));
+        truths.push(
+            Series::line("", paint, sorted(at(&|_, t| get(&t.quantities)))).mark(Mark::Line(3)),
+        );
     }
     series.extend(truths);
     let points = || series.iter().flat_map(|s| s.points.iter());
-    let (x, y) = (Axis::linear(name, points().map(|p| p.0)), Axis::linear(axis, points().map(|p| p.1)));
+    let (x, y) =
+        (Axis::linear(name, points().map(|p| p.0)), Axis::linear(axis, points().map(|p| p.1)));
     series.push(Series::line("true value", Paint::INK, Vec::new()));
     let left_out = lines.len().saturating_sub(LINES);
-    let more = if left_out > 0 { format!(" {left_out} further settings are not shown.") } else { String::new() };
+    let more = if left_out > 0 {
+        format!(" {left_out} further settings are not shown.")
+    } else {
+        String::new()
+    };
     let note = general::difference_note(record, get, axis) + &more;
     Figure::plot(title, note.trim(), &Plot::new(&format!("{title} over {name}"), x, y, series))
 }
@@ -111,5 +125,9 @@ fn error_over_x(record: &Record, (title, axis, get): Quantity) -> Figure {
     let rms = number::short(select::rms(points().map(|p| p.1)));
     let title = format!("{title}: measured minus true value");
     let note = format!("RMS error over all positions: {rms}.");
-    Figure::plot(&title, &note, &Plot::new(&format!("{title}, over x"), horizontal, vertical, series))
+    Figure::plot(
+        &title,
+        &note,
+        &Plot::new(&format!("{title}, over x"), horizontal, vertical, series),
+    )
 }

@@ -12,7 +12,12 @@ pub fn criteria(criteria: &[Criterion]) -> String {
         return String::new();
     }
     let rows = criteria.iter().map(criterion).collect::<String>();
-    verdict(criteria) + &table("Criteria", &["criterion", "", "#measured", "#limit (at most)", "for comparison"], &rows)
+    verdict(criteria)
+        + &table(
+            "Criteria",
+            &["criterion", "", "#measured", "#limit (at most)", "for comparison"],
+            &rows,
+        )
 }
 
 fn verdict(criteria: &[Criterion]) -> String {
@@ -60,7 +65,13 @@ pub fn effects(effects: &[Effect], wall_seconds: f64) -> String {
     let rows = effects.iter().map(|e| effect(e, wall_seconds)).collect::<String>();
     table(
         "Effects",
-        &["effect", "fidelity level", "difference from the next finer level", "#wall time", "#share of the run"],
+        &[
+            "effect",
+            "fidelity level",
+            "difference from the next finer level",
+            "#wall time",
+            "#share of the run",
+        ],
         &rows,
     )
 }
@@ -69,7 +80,13 @@ fn effect(effect: &Effect, wall_seconds: f64) -> String {
     row(&[
         ("", &escape(&effect.name)),
         ("", &escape(&effect.level)),
-        ("", &effect.finer.as_ref().map_or(String::new(), |(finer, percent)| escape(&print::off(*percent, finer)))),
+        (
+            "",
+            &effect
+                .finer
+                .as_ref()
+                .map_or(String::new(), |(finer, percent)| escape(&print::off(*percent, finer))),
+        ),
         ("number", &number::seconds(effect.seconds)),
         ("number", &share(effect.seconds / wall_seconds)),
     ])
@@ -81,7 +98,8 @@ fn share(share: f64) -> String {
     }
     let percent = 100.0 * share;
     let width = number::fixed(percent.clamp(0.0, 100.0), 1);
-    let text = if percent > 0.0 && percent < 0.1 { "< 0.1".into() } else { number::fixed(percent, 1) };
+    let text =
+        if percent > 0.0 && percent < 0.1 { "< 0.1".into() } else { number::fixed(percent, 1) };
     format!("{} %<span class=\"bar\"><span style=\"width:{width}%\"></span></span>", escape(&text))
 }
 
@@ -91,7 +109,11 @@ pub fn errors(errors: &[SignalError]) -> String {
         return String::new();
     }
     let rows = errors.iter().map(signal).collect::<String>();
-    table("Rounding errors", &["signal", "format", "#largest rounding error", "#in codes (LSB)"], &rows)
+    table(
+        "Rounding errors",
+        &["signal", "format", "#largest rounding error", "#in codes (LSB)"],
+        &rows,
+    )
 }
 
 fn signal(error: &SignalError) -> String {
@@ -111,15 +133,22 @@ pub fn run(record: &Record) -> String {
         ("wall time", number::seconds(record.wall_seconds)),
         ("wall time per second of device time", number::seconds(ratio)),
         ("finished slots", record.rows.len().to_string()),
-        ("slots with a flag set", record.rows.iter().filter(|r| !r.flags.is_empty()).count().to_string()),
+        (
+            "slots with a flag set",
+            record.rows.iter().filter(|r| !r.flags.is_empty()).count().to_string(),
+        ),
         ("number of pads", record.pads.len().to_string()),
         ("number of cases", record.cases.len().to_string()),
     ];
-    let rows = facts.iter().map(|(name, value)| row(&[("", *name), ("number", value)])).collect::<String>();
+    let rows = facts
+        .iter()
+        .map(|(name, value)| row(&[("", *name), ("number", value)]))
+        .collect::<String>();
     table("Run", &["", "#"], &rows)
 }
 
-/// A table in a container that scrolls on its own; a `#` before a head puts its column to the right.
+/// A table in a container that scrolls on its own; a `#` before a head puts its column to the
+/// right.
 fn table(label: &str, heads: &[&str], rows: &str) -> String {
     let head = |head: &&str| match head.strip_prefix('#') {
         Some(text) => format!("<th class=\"number\" scope=\"col\">{text}</th>"),
@@ -128,7 +157,8 @@ fn table(label: &str, heads: &[&str], rows: &str) -> String {
     let named = heads.iter().any(|h| h.len() > 1);
     let heads: String = heads.iter().map(head).collect();
     let heads = if named { format!("<thead><tr>{heads}</tr></thead>\n") } else { String::new() };
-    let open = format!("<div class=\"scroll\" role=\"region\" aria-label=\"{label}\" tabindex=\"0\">");
+    let open =
+        format!("<div class=\"scroll\" role=\"region\" aria-label=\"{label}\" tabindex=\"0\">");
     format!("{open}<table>\n{heads}<tbody>\n{rows}</tbody>\n</table></div>\n")
 }
 

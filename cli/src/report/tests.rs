@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Every figure on awkward runs: none, one row, no numbers, several cases, no truth, a great many rows.
+//! Every figure on awkward runs: none, one row, no numbers, several cases, no truth, a great many
+//! rows.
 
 use super::*;
 use hapticore_run::record::{Criterion, Effect, Quantities, Reference, Row, SignalError, Truth};
@@ -27,7 +28,12 @@ fn record(figure: Option<&str>, rows: Vec<Row>) -> Record {
             finer: Some(("<finer>".into(), 0.5)),
         }],
         criteria: vec![criterion(0.1), criterion(f64::NAN)],
-        errors: vec![SignalError { signal: "<s>".into(), format: "u1.0".into(), max_error: 1e-9, max_codes: 0.5 }],
+        errors: vec![SignalError {
+            signal: "<s>".into(),
+            format: "u1.0".into(),
+            max_error: 1e-9,
+            max_codes: 0.5,
+        }],
         simulated_seconds: 1.0,
         wall_seconds: 0.0,
         rows,
@@ -61,10 +67,19 @@ fn row(n: usize) -> Row {
     };
     let (load_g, point, group) = (20.0 * (n % 3) as f64, n, n % 48);
     let truth = Truth { quantities, load_g, point, group, ..Truth::default() };
-    let reference = Reference { quantities, capacitance_eq6_pf: 317.0 - (t * 0.1).sin(), force_eq6_n: 0.09 };
+    let reference =
+        Reference { quantities, capacitance_eq6_pf: 317.0 - (t * 0.1).sin(), force_eq6_n: 0.09 };
     let measured = Quantities { x_mm: quantities.x_mm + (t * 5.3).sin(), ..quantities };
     let (truth, reference) = (Some(truth), Some(reference));
-    Row { case: n % 97 / 60, time_s: t * 1e-3, pad: n % 4, measured, flags: String::new(), truth, reference }
+    Row {
+        case: n % 97 / 60,
+        time_s: t * 1e-3,
+        pad: n % 4,
+        measured,
+        flags: String::new(),
+        truth,
+        reference,
+    }
 }
 
 fn rows(count: usize) -> Vec<Row> {
@@ -75,7 +90,13 @@ fn rows(count: usize) -> Vec<Row> {
 
 fn without_numbers(mut row: Row) -> Row {
     let nan = f64::NAN;
-    row.measured = Quantities { x_mm: nan, y_mm: f64::INFINITY, capacitance_pf: nan, force_n: nan, ..row.measured };
+    row.measured = Quantities {
+        x_mm: nan,
+        y_mm: f64::INFINITY,
+        capacitance_pf: nan,
+        force_n: nan,
+        ..row.measured
+    };
     row.truth = row.truth.map(|t| Truth { quantities: row.measured, load_g: nan, ..t });
     row
 }
@@ -84,7 +105,8 @@ fn without_truth(row: Row) -> Row {
     Row { truth: None, reference: None, ..row }
 }
 
-/// The page is well-formed, holds no address and no script, bounds its size, and draws with classes alone.
+/// The page is well-formed, holds no address and no script, bounds its size, and draws with classes
+/// alone.
 fn check(record: &Record) -> String {
     let page = html(record);
     let options = roxmltree::ParsingOptions { allow_dtd: true, ..Default::default() };
@@ -92,7 +114,10 @@ fn check(record: &Record) -> String {
     let drawn = document.descendants().filter(|n| n.has_tag_name("svg"));
     for node in drawn.flat_map(|svg| svg.descendants()) {
         assert!(node.attribute("fill").or(node.attribute("stroke")).is_none(), "{node:?}");
-        assert!(!node.attributes().any(|a| a.value().contains("NaN") || a.value().contains("inf")), "{node:?}");
+        assert!(
+            !node.attributes().any(|a| a.value().contains("NaN") || a.value().contains("inf")),
+            "{node:?}"
+        );
     }
     for absent in ["http", "url(", "<script", "@import", "src=", "A5\""] {
         assert!(!page.contains(absent), "{absent}");
@@ -157,9 +182,13 @@ fn a_great_many_pads_and_cases_stay_small() {
 #[test]
 fn names_are_escaped() {
     let page = check(&record(Some("hockey"), rows(50)));
-    for escaped in
-        ["&lt;script&gt;", "a &lt;b&gt; &amp; &quot;c&quot;", "&lt;pad&gt;", "&lt;effect&gt;", "&lt;eq. 6&gt;"]
-    {
+    for escaped in [
+        "&lt;script&gt;",
+        "a &lt;b&gt; &amp; &quot;c&quot;",
+        "&lt;pad&gt;",
+        "&lt;effect&gt;",
+        "&lt;eq. 6&gt;",
+    ] {
         assert!(page.contains(escaped), "{escaped}");
     }
 }
@@ -167,27 +196,45 @@ fn names_are_escaped() {
 #[test]
 fn a_criterion_that_fails_is_told_in_words() {
     let page = check(&record(None, rows(1)));
-    assert!(page.contains("1 of 2 criteria passed") && page.contains("✗ fail") && page.contains("✓ pass"));
+    assert!(
+        page.contains("1 of 2 criteria passed")
+            && page.contains("✗ fail")
+            && page.contains("✓ pass")
+    );
 }
 
 /// A reference far beyond what is measured, as it is where a core saturates.
 fn with_reference_far_off(row: Row) -> Row {
-    let far = |q: Quantities| Quantities { capacitance_pf: 9.0 * q.capacitance_pf, force_n: 9.0 * q.force_n, ..q };
-    Row { reference: row.reference.map(|r| Reference { quantities: far(r.quantities), ..r }), ..row }
+    let far = |q: Quantities| Quantities {
+        capacitance_pf: 9.0 * q.capacitance_pf,
+        force_n: 9.0 * q.force_n,
+        ..q
+    };
+    Row {
+        reference: row.reference.map(|r| Reference { quantities: far(r.quantities), ..r }),
+        ..row
+    }
 }
 
 /// Every point of every drawing, with the drawing's size.
 fn drawn(page: &str) -> Vec<([f64; 2], [f64; 2])> {
     let options = roxmltree::ParsingOptions { allow_dtd: true, ..Default::default() };
     let document = roxmltree::Document::parse_with_options(page, options).expect("well-formed");
-    let numbers = |text: &str| text.split([',', ' ']).filter_map(|n| n.parse().ok()).collect::<Vec<f64>>();
+    let numbers =
+        |text: &str| text.split([',', ' ']).filter_map(|n| n.parse().ok()).collect::<Vec<f64>>();
     let mut points = Vec::new();
-    for svg in document.descendants().filter(|n| n.attribute("aria-label").is_some() && n.has_tag_name("svg")) {
+    for svg in document
+        .descendants()
+        .filter(|n| n.attribute("aria-label").is_some() && n.has_tag_name("svg"))
+    {
         let size = numbers(svg.attribute("viewBox").expect("a size"));
         for node in svg.descendants() {
-            let circle = ["cx", "cy"].map(|at| node.attribute(at).map_or(Vec::new(), numbers)).concat();
+            let circle =
+                ["cx", "cy"].map(|at| node.attribute(at).map_or(Vec::new(), numbers)).concat();
             let line = node.attribute("points").map_or(Vec::new(), numbers);
-            points.extend(circle.chunks(2).chain(line.chunks(2)).map(|p| ([p[0], p[1]], [size[2], size[3]])));
+            points.extend(
+                circle.chunks(2).chain(line.chunks(2)).map(|p| ([p[0], p[1]], [size[2], size[3]])),
+            );
         }
     }
     points
@@ -208,7 +255,8 @@ fn nothing_is_drawn_outside_of_its_plot() {
 
 #[test]
 fn a_sweep_is_drawn_over_what_is_swept() {
-    let swept = |keys: &[&'static str]| check(&Record { swept: keys.to_vec(), ..record(None, rows(90)) });
+    let swept =
+        |keys: &[&'static str]| check(&Record { swept: keys.to_vec(), ..record(None, rows(90)) });
     let page = swept(&["load_g", "haptic_v_rms"]);
     assert!(page.contains("over haptic voltage (V RMS)") && !page.contains("over time"));
     let page = swept(&["x_mm", "y_mm"]);
@@ -219,7 +267,11 @@ fn a_sweep_is_drawn_over_what_is_swept() {
 #[test]
 fn many_slots_are_a_line_and_a_band() {
     let [few, many] = [200, 5000].map(|count| check(&record(Some("hockey"), rows(count))));
-    assert!(!few.contains("<polygon") && many.contains("<polygon") && many.contains("each band the range"));
+    assert!(
+        !few.contains("<polygon")
+            && many.contains("<polygon")
+            && many.contains("each band the range")
+    );
 }
 
 #[test]

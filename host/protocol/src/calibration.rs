@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The words that make a calibrated sensor of a core: constants at its ports, and the words of its position table.
+//! The words that make a calibrated sensor of a core: constants at its ports, and the words of its
+//! position table.
 //!
-//! The one list of the constants: a board's registers, its start-up, `hapticore codes` and the vectors for users of the Verilog
-//! all follow it. A test of `hapticore-rtl` holds it equal to the core's ports.
+//! The one list of the constants: a board's registers, its start-up, `hapticore codes` and the
+//! vectors for users of the Verilog all follow it. A test of `hapticore-rtl` holds it equal to the
+//! core's ports.
 
 use hapticore_contract::calibration::Calibration;
 use hapticore_contract::profile::Profile;
@@ -33,7 +35,9 @@ impl Constant {
     pub const fn about(self) -> &'static str {
         match self {
             Constant::CapacitanceGain => "Calibration: picofarads at an admittance of one.",
-            Constant::ForceGain => "Calibration: newtons per square picofarad at full haptic mean square.",
+            Constant::ForceGain => {
+                "Calibration: newtons per square picofarad at full haptic mean square."
+            }
         }
     }
 
@@ -66,7 +70,10 @@ pub struct WordFormats {
 impl WordFormats {
     /// Those of a core of the profile.
     pub fn new(profile: &Profile) -> Self {
-        WordFormats { constants: Constant::ALL.map(|constant| constant.format(profile)), table: profile.formats.table }
+        WordFormats {
+            constants: Constant::ALL.map(|constant| constant.format(profile)),
+            table: profile.formats.table,
+        }
     }
 }
 
@@ -112,14 +119,24 @@ pub struct CalibrationWords {
 }
 
 impl CalibrationWords {
-    /// The words of a calibration for a core of a profile. Numbers beyond their formats saturate; [`Calibration::check`] tells.
+    /// The words of a calibration for a core of a profile. Numbers beyond their formats saturate;
+    /// [`Calibration::check`] tells.
     pub fn new(profile: &Profile, calibration: &Calibration) -> Self {
         let constants = Constant::ALL.map(|constant| {
             let format = constant.format(profile);
-            ConstantWord { constant, code: format.code_saturating(constant.value(calibration)), format }
+            ConstantWord {
+                constant,
+                code: format.code_saturating(constant.value(calibration)),
+                format,
+            }
         });
         let table_format = profile.formats.table;
-        let table = calibration.position.words.iter().map(|&real| table_format.code_saturating(real)).collect();
+        let table = calibration
+            .position
+            .words
+            .iter()
+            .map(|&real| table_format.code_saturating(real))
+            .collect();
         CalibrationWords { constants, table, table_format }
     }
 

@@ -11,10 +11,12 @@
 //!                                                         position table; other bits are ignored
 //! ```
 //!
-//! The CRC is CRC-16/IBM-3740 (polynomial 1021, initial value FFFF, hex) over the payload before escaping.
+//! The CRC is CRC-16/IBM-3740 (polynomial 1021, initial value FFFF, hex) over the payload before
+//! escaping.
 //!
-//! SLIP rather than COBS or a length: END is nowhere but at the end, so that a reader who has lost its place has it again after
-//! one END, for certain; and the sender needs no look ahead, so that no packet is buffered. Escapes cost on average 0.8 %.
+//! SLIP rather than COBS or a length: END is nowhere but at the end, so that a reader who has lost
+//! its place has it again after one END, for certain; and the sender needs no look ahead, so that
+//! no packet is buffered. Escapes cost on average 0.8 %.
 //!
 //! [`Register::ALL`]: crate::Register::ALL
 
@@ -55,8 +57,9 @@ pub mod flags {
     pub const REFUSED: u8 = 5;
     /// A frame was dropped since the packet before.
     pub const OVERRUN: u8 = 6;
-    /// The packet is no frame but a heartbeat, and the first four flags are others: [`CALIBRATED`], and from [`VERSION`] on
-    /// [`super::VERSION`]. That one is neither 0 nor 5, so that no flags of a heartbeat are END or ESC.
+    /// The packet is no frame but a heartbeat, and the first four flags are others: [`CALIBRATED`],
+    /// and from [`VERSION`] on [`super::VERSION`]. That one is neither 0 nor 5, so that no flags of
+    /// a heartbeat are END or ESC.
     pub const HEARTBEAT: u8 = 7;
     /// Of a heartbeat: since reset the last calibration register has been written.
     pub const CALIBRATED: u8 = 0;
@@ -70,8 +73,8 @@ pub const VERSION: u8 = 1;
 /// The format of a count of commands, and of a pad.
 pub const NIBBLE: Format = Format::unsigned(4, 0);
 
-/// The digest of a profile, as a board has it: equal for profiles that differ in their name alone, and else different but for
-/// chance (one in 65,536).
+/// The digest of a profile, as a board has it: equal for profiles that differ in their name alone,
+/// and else different but for chance (one in 65,536).
 ///
 /// FNV-1a of the profile as JSON-like text, folded to sixteen bits.
 ///
@@ -98,5 +101,7 @@ pub fn word_bytes(profile: &Profile) -> u64 {
 /// Bytes of a command's data, for a core whose calibration has these formats.
 pub fn data_bytes(formats: &WordFormats) -> u64 {
     let registers = Register::ALL.into_iter().map(|register| register.format(formats).width);
-    u64::from(registers.chain([formats.table.width]).max().expect("there are registers").div_ceil(8))
+    u64::from(
+        registers.chain([formats.table.width]).max().expect("there are registers").div_ceil(8),
+    )
 }

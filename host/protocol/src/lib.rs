@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The serial line between a board and its host, as both sides must know it.
 //!
-//! The gateware (`hapticore-rtl`) and the host library (`hapticore-host`) take every number of the line from here: what is
-//! written down once cannot differ between them. How either side encodes and decodes is its own, so that neither checks itself.
+//! The gateware (`hapticore-rtl`) and the host library (`hapticore-host`) take every number of the
+//! line from here: what is written down once cannot differ between them. How either side encodes
+//! and decodes is its own, so that neither checks itself.
 //!
 //! | module | holds |
 //! | --- | --- |

@@ -5,7 +5,8 @@ use crate::calibration::{Constant, WordFormats};
 use hapticore_hdl::format::Format;
 use std::fmt;
 
-/// A register that commands write: the constants of the calibration, in their order, then control and the ADC.
+/// A register that commands write: the constants of the calibration, in their order, then control
+/// and the ADC.
 ///
 /// ```
 /// # use hapticore_protocol::{Constant, Register};

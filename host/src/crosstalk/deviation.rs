@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a device's calibration found beyond the nominal sheet, over a raster and bilinear between: how much more both ratios of
-//! an isolated pad are, and how many times its R_p is the nominal one.
+//! What a device's calibration found beyond the nominal sheet, over a raster and bilinear between:
+//! how much more both ratios of an isolated pad are, and how many times its R_p is the nominal one.
 
 /// Deviations from the nominal sheet, over the places that a pad's centre reaches.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,7 +20,10 @@ impl Deviation {
 
     /// These at the raster's places: differences of r_x and r_y, quotient of R_p.
     pub fn with(self, columns: usize, places: Vec<[f64; 3]>) -> Self {
-        assert!(columns >= 2 && places.len() >= 2 * columns && places.len().is_multiple_of(columns), "whole rows");
+        assert!(
+            columns >= 2 && places.len() >= 2 * columns && places.len().is_multiple_of(columns),
+            "whole rows"
+        );
         Deviation { columns, places, ..self }
     }
 
@@ -30,7 +33,8 @@ impl Deviation {
             return [0.0, 0.0, 1.0];
         }
         let ([column, x], [row, y]) = (self.cell(0, x_mm), self.cell(1, y_mm));
-        let node = |column: f64, row: f64| self.places[row as usize * self.columns + column as usize];
+        let node =
+            |column: f64, row: f64| self.places[row as usize * self.columns + column as usize];
         let along = |row: f64| mix(node(column, row), node(column + 1.0, row), x);
         mix(along(row), along(row + 1.0), y)
     }

@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Crosstalk cancellation: takes out of a pad's measurement what the other pads did to it. It is a host's work, since it needs
-//! all pads' frames and the sheet's potential between any two places, which no core holds.
+//! Crosstalk cancellation: takes out of a pad's measurement what the other pads did to it. It is a
+//! host's work, since it needs all pads' frames and the sheet's potential between any two places,
+//! which no core holds.
 //!
-//! A frame says which ratios the terminals' currents had, and where an isolated pad would have been measured so. Wanted is the
-//! place x at which a pad among the others has them, r(x among others) = r(measured), by Newton's steps with the isolated pad's
-//! slopes from where it was measured; the capacitance follows from how much of the sum the others take. Others' own frames, a
-//! round old, are near enough: they enter in second order only.
+//! A frame says which ratios the terminals' currents had, and where an isolated pad would have been
+//! measured so. Wanted is the place x at which a pad among the others has them, r(x among others) =
+//! r(measured), by Newton's steps with the isolated pad's slopes from where it was measured; the
+//! capacitance follows from how much of the sum the others take. Others' own frames, a round old,
+//! are near enough: they enter in second order only.
 //!
-//! The sheet's potential is that of the nominal sheet ([`SheetModel`]), its film uniform; what an isolated pad has is that plus
-//! what the device's own calibration found beyond it, and the coupling is as much stronger as the calibration's R_p is larger.
+//! The sheet's potential is that of the nominal sheet ([`SheetModel`]), its film uniform; what an
+//! isolated pad has is that plus what the device's own calibration found beyond it, and the
+//! coupling is as much stronger as the calibration's R_p is larger.
 //!
-//! The force goes with the square of the capacitance, by eq. 8: it must have no memory beyond the slot.
+//! The force goes with the square of the capacitance, by eq. 8: it must have no memory beyond the
+//! slot.
 
 mod deviation;
 
@@ -37,7 +41,8 @@ impl From<&Quantities> for PadEstimate {
     }
 }
 
-/// Takes out of each pad's measurements what the others did to them, as far as their latest frames tell.
+/// Takes out of each pad's measurements what the others did to them, as far as their latest frames
+/// tell.
 ///
 /// ```
 /// use hapticore_host::{CrosstalkCanceller, NominalSheet, PadEstimate, Ratios, SheetModel, UniformSheet};
@@ -74,19 +79,22 @@ impl CrosstalkCanceller {
         CrosstalkCanceller { sheet: Box::new(sheet), deviation, latest: Vec::new() }
     }
 
-    /// For a device whose calibration is known; of the nominal sheet the places of its map are those that a pad reaches.
+    /// For a device whose calibration is known; of the nominal sheet the places of its map are
+    /// those that a pad reaches.
     pub fn calibrated(sheet: impl SheetModel + 'static, device: &DeviceCalibration) -> Self {
         CrosstalkCanceller::with_map(sheet, device.map.columns, &device.map.places)
     }
 
-    /// The same with a map `[x_mm, y_mm, r_x, r_y, sheet_ohm]` of whole rows, from one end of a pad's reach to the other.
+    /// The same with a map `[x_mm, y_mm, r_x, r_y, sheet_ohm]` of whole rows, from one end of a
+    /// pad's reach to the other.
     ///
     /// # Panics
     /// If the rows are not whole.
     pub fn with_map(sheet: impl SheetModel + 'static, columns: usize, places: &[[f64; 5]]) -> Self {
         let mut canceller = CrosstalkCanceller::nominal(sheet);
         let beyond = places.iter().map(|&[x_mm, y_mm, r_x, r_y, sheet_ohm]| {
-            let (nominal, ohm) = canceller.sheet.isolated(&PadEstimate { x_mm, y_mm, capacitance_pf: 1.0 });
+            let (nominal, ohm) =
+                canceller.sheet.isolated(&PadEstimate { x_mm, y_mm, capacitance_pf: 1.0 });
             [r_x - nominal[0], r_y - nominal[1], sheet_ohm / ohm]
         });
         let beyond = beyond.collect();
@@ -94,23 +102,34 @@ impl CrosstalkCanceller {
         canceller
     }
 
-    /// Corrects a pad's measurement: its place, its capacitance, and the force that goes with its square. Its ratios stay as
-    /// they were measured.
+    /// Corrects a pad's measurement: its place, its capacitance, and the force that goes with its
+    /// square. Its ratios stay as they were measured.
     pub fn apply(&mut self, pad: usize, measured: &mut Quantities) {
         self.latest.resize(self.latest.len().max(pad + 1), None);
-        let others: Vec<_> =
-            (0..self.latest.len()).filter(|other| *other != pad).filter_map(|n| self.latest[n]).collect();
+        let others: Vec<_> = (0..self.latest.len())
+            .filter(|other| *other != pad)
+            .filter_map(|n| self.latest[n])
+            .collect();
         let before = PadEstimate::from(&*measured);
         let isolated = self.cancel(before, [measured.r_x, measured.r_y], &others);
         self.latest[pad] = Some(isolated);
         if before.capacitance_pf > 0.0 {
             measured.force_n *= (isolated.capacitance_pf / before.capacitance_pf).powi(2);
         }
-        PadEstimate { x_mm: measured.x_mm, y_mm: measured.y_mm, capacitance_pf: measured.capacitance_pf } = isolated;
+        PadEstimate {
+            x_mm: measured.x_mm,
+            y_mm: measured.y_mm,
+            capacitance_pf: measured.capacitance_pf,
+        } = isolated;
     }
 
     /// The pad that has these ratios among those others, and is measured as `measured`.
-    pub fn cancel(&mut self, measured: PadEstimate, ratios: [f64; 2], others: &[PadEstimate]) -> PadEstimate {
+    pub fn cancel(
+        &mut self,
+        measured: PadEstimate,
+        ratios: [f64; 2],
+        others: &[PadEstimate],
+    ) -> PadEstimate {
         let mut pad = measured;
         self.hold(&mut pad);
         for _ in 0..STEPS {
@@ -131,14 +150,21 @@ impl CrosstalkCanceller {
     fn step(&mut self, pad: PadEstimate, change: [f64; 2]) -> [f64; 2] {
         let mut slope = |x_mm: f64, y_mm: f64| {
             let [low, high] = [-1.0, 1.0].map(|sign| {
-                let moved = PadEstimate { x_mm: pad.x_mm + sign * x_mm, y_mm: pad.y_mm + sign * y_mm, ..pad };
+                let moved = PadEstimate {
+                    x_mm: pad.x_mm + sign * x_mm,
+                    y_mm: pad.y_mm + sign * y_mm,
+                    ..pad
+                };
                 self.with_neighbours(moved, &[]).0
             });
             [0, 1].map(|n| (high[n] - low[n]) / (2.0 * SLOPE_MM))
         };
         let (by_x, by_y) = (slope(SLOPE_MM, 0.0), slope(0.0, SLOPE_MM));
         let det = by_x[0] * by_y[1] - by_x[1] * by_y[0];
-        [(change[0] * by_y[1] - change[1] * by_y[0]) / det, (change[1] * by_x[0] - change[0] * by_x[1]) / det]
+        [
+            (change[0] * by_y[1] - change[1] * by_y[0]) / det,
+            (change[1] * by_x[0] - change[0] * by_x[1]) / det,
+        ]
     }
 
     /// Holds a pad where slopes can be taken.
@@ -154,8 +180,8 @@ impl CrosstalkCanceller {
         self.sheet.with_neighbours(&self.as_coupled(pad), &others)
     }
 
-    /// A pad that is as coupled on the nominal sheet as this one is on the device's: only ωCG counts, so that where the
-    /// calibration has a larger R_p, a larger C does the same.
+    /// A pad that is as coupled on the nominal sheet as this one is on the device's: only ωCG
+    /// counts, so that where the calibration has a larger R_p, a larger C does the same.
     fn as_coupled(&self, pad: PadEstimate) -> PadEstimate {
         let [.., ohm] = self.deviation.at(pad.x_mm, pad.y_mm);
         PadEstimate { capacitance_pf: pad.capacitance_pf * ohm, ..pad }

@@ -33,7 +33,10 @@ impl DeviceCalibration {
     pub fn parse(text: &str, file: &str) -> Result<Self, DeviceError> {
         let read: DeviceCalibration = toml::from_str(text).map_err(|error| {
             let line = error.span().map_or(1, |span| text[..span.start].matches('\n').count() + 1);
-            DeviceError::Invalid(format!("{file}:{}", with_key(text, &format!("{line}: {}", error.message()))))
+            DeviceError::Invalid(format!(
+                "{file}:{}",
+                with_key(text, &format!("{line}: {}", error.message()))
+            ))
         })?;
         read.check().map_err(|message| DeviceError::Invalid(format!("{file}: {message}")))?;
         Ok(read)
@@ -63,7 +66,10 @@ impl DeviceCalibration {
             device.sense_full_scale_v,
             device.haptic_full_scale_v,
             device.force_k,
-            device.pad_diameter_mm.map(|mm| format!("pad_diameter_mm = {mm:?}\n")).unwrap_or_default(),
+            device
+                .pad_diameter_mm
+                .map(|mm| format!("pad_diameter_mm = {mm:?}\n"))
+                .unwrap_or_default(),
             self.map.columns,
             self.map.open_share
         );
@@ -87,7 +93,9 @@ impl Scales {
             ("pad_diameter_mm", self.pad_diameter_mm.unwrap_or(1.0)),
         ];
         let bad = values.into_iter().find(|(_, value)| !(value.is_finite() && *value > 0.0));
-        bad.map_or(Ok(()), |(key, value)| Err(format!("device.{key}: expected a number above 0, got {value}")))
+        bad.map_or(Ok(()), |(key, value)| {
+            Err(format!("device.{key}: expected a number above 0, got {value}"))
+        })
     }
 }
 
@@ -99,10 +107,15 @@ impl Raster {
         let places = self.places.len();
         if self.columns < 2 || !places.is_multiple_of(self.columns) || places / self.columns < 2 {
             let expected = "expected two whole rows or more of two columns or more";
-            return Err(format!("map.columns: {expected}, got {places} places in rows of {}", self.columns));
+            return Err(format!(
+                "map.columns: {expected}, got {places} places in rows of {}",
+                self.columns
+            ));
         }
         match self.places.iter().position(|place| place.iter().any(|number| !number.is_finite())) {
-            Some(index) => Err(format!("map.places: expected finite numbers, got {:?}", self.places[index])),
+            Some(index) => {
+                Err(format!("map.places: expected finite numbers, got {:?}", self.places[index]))
+            }
             None => Ok(()),
         }
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Device calibration: full scales, the force law, and a raster of places with what is measured there.
+//! Device calibration: full scales, the force law, and a raster of places with what is measured
+//! there.
 //!
 //! The file is TOML and holds nothing of a profile, so that one capture can be replayed with any:
 //!
@@ -31,7 +32,9 @@ use std::f64::consts::TAU;
 
 use crate::profile::{TerminalsError, for_terminals, serving};
 use crate::residual::Residual;
-use hapticore_contract::calibration::{Calibration, CalibrationError, Point, PositionError, PositionTable};
+use hapticore_contract::calibration::{
+    Calibration, CalibrationError, Point, PositionError, PositionTable,
+};
 use hapticore_contract::profile::Profile;
 use serde::Deserialize;
 
@@ -129,8 +132,9 @@ impl Scales {
 /// A terminal whose share of the current is below this at every place is open.
 pub const OPEN: f64 = 1e-4;
 
-/// The share of the ratios' denominator below which a terminal counts as open: half of the least that any has anywhere that is
-/// not open already. `shares` are those of each terminal, place by place.
+/// The share of the ratios' denominator below which a terminal counts as open: half of the least
+/// that any has anywhere that is not open already. `shares` are those of each terminal, place by
+/// place.
 pub fn open_share(shares: &[Vec<f64>]) -> f64 {
     let of = |terminal: usize| shares.iter().map(move |place| place[terminal]);
     let terminals = 0..shares.first().map_or(0, Vec::len);
@@ -159,7 +163,8 @@ pub enum DeviceWordsError {
 }
 
 impl DeviceCalibration {
-    /// What is left of the calibration's own places, looked up in the table that was fitted to them.
+    /// What is left of the calibration's own places, looked up in the table that was fitted to
+    /// them.
     pub fn residual(&self, calibration: &Calibration) -> Residual {
         Residual::of(found(&self.map.places, calibration).into_iter())
     }
@@ -179,14 +184,21 @@ impl DeviceCalibration {
     /// A number that the profile's formats cannot represent, a map that no position table fits.
     pub fn for_profile(&self, profile: &Profile) -> Result<Calibration, DeviceWordsError> {
         let device = &self.device;
-        let place = |&[x, y, r_x, r_y, sheet_ohm]: &[f64; 5]| Point { x, y, r_x, r_y, sheet: sheet_ohm / device.ohm() };
+        let place = |&[x, y, r_x, r_y, sheet_ohm]: &[f64; 5]| Point {
+            x,
+            y,
+            r_x,
+            r_y,
+            sheet: sheet_ohm / device.ohm(),
+        };
         let (_, places) = refine::refine(self.map.columns, &self.map.places);
         let points: Vec<_> = places.iter().map(place).collect();
         let table = PositionTable::fit(profile, &points).map_err(DeviceWordsError::Map)?;
         let calibration = Calibration {
             position: table.with_open_share(self.map.open_share),
             capacitance_gain: device.capacitance_gain(),
-            force_gain: device.force_k * 1e-24 * device.haptic_full_scale_v.powi(2) / profile.square_gain(),
+            force_gain: device.force_k * 1e-24 * device.haptic_full_scale_v.powi(2)
+                / profile.square_gain(),
         };
         calibration.check(profile)?;
         Ok(calibration)

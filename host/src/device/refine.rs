@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A finer raster from a coarser one: cubic through four neighbours along either axis. A map is fitted to it, so that each
-//! of its cells has points, however coarse the raster that was measured.
+//! A finer raster from a coarser one: cubic through four neighbours along either axis. A map is
+//! fitted to it, so that each of its cells has points, however coarse the raster that was measured.
 
 /// Columns and rows at least.
 const LEAST: [usize; 2] = [241, 141];
@@ -12,11 +12,14 @@ pub type Place = [f64; 5];
 pub fn refine(columns: usize, places: &[Place]) -> (usize, Vec<Place>) {
     let rows = places.len() / columns;
     let times = |points: usize, least: usize| (least - 1).div_ceil(points - 1).max(1);
-    let wide: Vec<Place> = places.chunks(columns).flat_map(|row| along(row, times(columns, LEAST[0]))).collect();
+    let wide: Vec<Place> =
+        places.chunks(columns).flat_map(|row| along(row, times(columns, LEAST[0]))).collect();
     let columns = wide.len() / rows;
     let column = |k: usize| wide.iter().skip(k).step_by(columns).copied().collect::<Vec<_>>();
-    let lines: Vec<Vec<Place>> = (0..columns).map(|k| along(&column(k), times(rows, LEAST[1]))).collect();
-    let fine = (0..lines[0].len()).flat_map(|row| lines.iter().map(move |line| line[row])).collect();
+    let lines: Vec<Vec<Place>> =
+        (0..columns).map(|k| along(&column(k), times(rows, LEAST[1]))).collect();
+    let fine =
+        (0..lines[0].len()).flat_map(|row| lines.iter().map(move |line| line[row])).collect();
     (columns, fine)
 }
 
@@ -31,7 +34,8 @@ fn along(line: &[Place], times: usize) -> Vec<Place> {
     (0..=(line.len() - 1) * times).map(step).collect()
 }
 
-/// A point of a line; beyond its ends as the parabola through the last three, or the line through two.
+/// A point of a line; beyond its ends as the parabola through the last three, or the line through
+/// two.
 fn point(line: &[Place], k: isize) -> Place {
     let last = line.len() as isize - 1;
     let beyond = |end: isize, inwards: isize| {
@@ -53,8 +57,10 @@ fn point(line: &[Place], k: isize) -> Place {
 fn cubic([a, b, c, d]: [Place; 4], t: f64) -> Place {
     std::array::from_fn(|n| {
         let slope = [(c[n] - a[n]) / 2.0, (d[n] - b[n]) / 2.0];
-        let (bend, twist) =
-            (3.0 * (c[n] - b[n]) - 2.0 * slope[0] - slope[1], 2.0 * (b[n] - c[n]) + slope[0] + slope[1]);
+        let (bend, twist) = (
+            3.0 * (c[n] - b[n]) - 2.0 * slope[0] - slope[1],
+            2.0 * (b[n] - c[n]) + slope[0] + slope[1],
+        );
         b[n] + t * (slope[0] + t * (bend + t * twist))
     })
 }
@@ -71,7 +77,10 @@ mod tests {
         assert!(columns >= LEAST[0] && fine.len() / columns >= LEAST[1]);
         for &[x, y, r_x, r_y, ohm] in &fine {
             let expected = place(x, y);
-            assert!([r_x, r_y, ohm].iter().zip(&expected[2..]).all(|(a, b)| (a - b).abs() < 1e-12), "{x} {y}");
+            assert!(
+                [r_x, r_y, ohm].iter().zip(&expected[2..]).all(|(a, b)| (a - b).abs() < 1e-12),
+                "{x} {y}"
+            );
         }
         assert!(coarse.iter().all(|place| fine.contains(place)));
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What core, reference, host and boards agree on: word lengths and timings, the words of a frame, the numbers of a calibration.
+//! What core, reference, host and boards agree on: word lengths and timings, the words of a frame,
+//! the numbers of a calibration.
 //!
 //! | module | holds |
 //! | --- | --- |
@@ -19,8 +20,9 @@
 //! | capacitance; force | pF; N |
 //! | times | clocks of the core, or samples of the ADC |
 //!
-//! Absent: blocks, clocks, files. A core of a profile is built by `hapticore-model`, whose `check` also asks the blocks; what a
-//! core should find follows from the equations in `hapticore-reference`. Neither is known here.
+//! Absent: blocks, clocks, files. A core of a profile is built by `hapticore-model`, whose `check`
+//! also asks the blocks; what a core should find follows from the equations in
+//! `hapticore-reference`. Neither is known here.
 //!
 //! A frame of a board with the bundled profile `small`, as numbers:
 //!
@@ -43,5 +45,6 @@ pub mod calibration;
 pub mod frame;
 pub mod profile;
 
-/// Number formats alone: who depends on the contract, as the reference does, sees nothing else of the hardware language.
+/// Number formats alone: who depends on the contract, as the reference does, sees nothing else of
+/// the hardware language.
 pub use hapticore_hdl::format;

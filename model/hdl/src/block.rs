@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Blocks: pure functions from (registers, inputs) to (next registers, outputs), and the state of their instances.
+//! Blocks: pure functions from (registers, inputs) to (next registers, outputs), and the state of
+//! their instances.
 //!
-//! A block is configuration: formats, counts, tables. What changes from cycle to cycle lies in its [`State`], one per
-//! instance and interpretation. [`block!`](crate::block!) declares ports, registers and submodules in one place; the
-//! behaviour is [`Block::clock`]. A block uses another by [`call!`](crate::call!), which the netlist turns into an instance.
+//! A block is configuration: formats, counts, tables. What changes from cycle to cycle lies in its
+//! [`State`], one per instance and interpretation. [`block!`](crate::block!) declares ports,
+//! registers and submodules in one place; the behaviour is [`Block::clock`]. A block uses another
+//! by [`call!`](crate::call!), which the netlist turns into an instance.
 
 use crate::bundle::{Bundle, Field};
 use crate::format::Format;
@@ -18,7 +20,8 @@ pub type Outputs<B, T> = <<B as Interface>::Outputs as Bundle>::Of<T>;
 /// The registers of a block, each field a `T`.
 pub type Registers<B, T> = <<B as Interface>::Registers as Bundle>::Of<T>;
 
-/// One way to interpret a block: values, memories, instances, names, and when a block may be skipped.
+/// One way to interpret a block: values, memories, instances, names, and when a block may be
+/// skipped.
 pub trait Interpretation: Storage {
     /// One cycle of a block within another; the netlist makes it an instance of a module.
     #[inline(always)]
@@ -58,12 +61,13 @@ impl<V: Interpretation> Signal<V> {
     }
 }
 
-/// The declaration of a block: its name, ports, registers and submodules. Made by [`block!`](crate::block!).
+/// The declaration of a block: its name, ports, registers and submodules. Made by
+/// [`block!`](crate::block!).
 pub trait Interface: Sized + 'static {
     /// Its name: of the Verilog module, too.
     const NAME: &'static str;
-    /// Whether its registers take zero at reset in hardware. Where they do not, no output depends on what they hold before
-    /// their first operands.
+    /// Whether its registers take zero at reset in hardware. Where they do not, no output depends
+    /// on what they hold before their first operands.
     const RESETS: bool = true;
     /// Its input ports.
     type Inputs: Bundle;
@@ -84,7 +88,8 @@ pub trait Interface: Sized + 'static {
 
 /// A block of hardware.
 pub trait Block: Interface {
-    /// One cycle: reads the registers and the inputs, gives the outputs, and replaces the registers.
+    /// One cycle: reads the registers and the inputs, gives the outputs, and replaces the
+    /// registers.
     fn clock<V: Interpretation>(
         &self,
         state: &mut State<Self, V>,
@@ -134,7 +139,8 @@ impl<B: Interface, V: Interpretation> State<B, V> {
     /// Replaces the registers.
     ///
     /// # Panics
-    /// In debug builds and where blocks are elaborated, where a register's format cannot represent its signal's.
+    /// In debug builds and where blocks are elaborated, where a register's format cannot represent
+    /// its signal's.
     #[inline(always)]
     pub fn store(&mut self, block: &B, next: Registers<B, Signal<V>>) {
         self.registers = widen::<B::Registers, V>(B::NAME, next, block.registers());
@@ -143,7 +149,11 @@ impl<B: Interface, V: Interpretation> State<B, V> {
 
 /// The values of signals in the formats declared for them, which must be able to represent theirs.
 #[inline(always)]
-pub fn widen<S: Bundle, V: Value>(block: &str, signals: S::Of<Signal<V>>, formats: S::Of<Format>) -> S::Of<V> {
+pub fn widen<S: Bundle, V: Value>(
+    block: &str,
+    signals: S::Of<Signal<V>>,
+    formats: S::Of<Format>,
+) -> S::Of<V> {
     if V::ELABORATES || cfg!(debug_assertions) {
         check_formats::<S, V>(block, signals, formats);
     }
@@ -156,10 +166,17 @@ pub fn widen<S: Bundle, V: Value>(block: &str, signals: S::Of<Signal<V>>, format
     })
 }
 
-fn check_formats<S: Bundle, V: Value>(block: &str, signals: S::Of<Signal<V>>, formats: S::Of<Format>) {
+fn check_formats<S: Bundle, V: Value>(
+    block: &str,
+    signals: S::Of<Signal<V>>,
+    formats: S::Of<Format>,
+) {
     S::each(S::zip(signals, formats), |field, (signal, format)| {
         let (name, given) = (field.name, signal.format);
-        assert!(format.holds(given), "{block}.{name} is declared {format}, which cannot represent every {given}");
+        assert!(
+            format.holds(given),
+            "{block}.{name} is declared {format}, which cannot represent every {given}"
+        );
     });
 }
 
@@ -189,7 +206,12 @@ pub trait Submodule {
     /// Its state at reset.
     fn reset_state<V: Interpretation>(&self) -> Self::State<V>;
     /// Shows a visitor what is in it.
-    fn visit<V: Interpretation>(&self, name: &'static str, state: &Self::State<V>, visitor: &mut impl Visitor<V>);
+    fn visit<V: Interpretation>(
+        &self,
+        name: &'static str,
+        state: &Self::State<V>,
+        visitor: &mut impl Visitor<V>,
+    );
 }
 
 impl<B: Block> Submodule for B {
@@ -199,10 +221,17 @@ impl<B: Block> Submodule for B {
         self.reset()
     }
 
-    fn visit<V: Interpretation>(&self, name: &'static str, state: &State<B, V>, visitor: &mut impl Visitor<V>) {
+    fn visit<V: Interpretation>(
+        &self,
+        name: &'static str,
+        state: &State<B, V>,
+        visitor: &mut impl Visitor<V>,
+    ) {
         visitor.enter(name);
         let registers = B::Registers::zip(self.registers(), state.registers);
-        B::Registers::each(registers, |field, (format, value)| visitor.register(field, format, value));
+        B::Registers::each(registers, |field, (format, value)| {
+            visitor.register(field, format, value)
+        });
         state.submodules.visit(self, visitor);
         visitor.leave();
     }
@@ -215,7 +244,12 @@ impl Submodule for Memory {
         V::words(self)
     }
 
-    fn visit<V: Interpretation>(&self, _name: &'static str, words: &V::Words, visitor: &mut impl Visitor<V>) {
+    fn visit<V: Interpretation>(
+        &self,
+        _name: &'static str,
+        words: &V::Words,
+        visitor: &mut impl Visitor<V>,
+    ) {
         visitor.memory(self, words);
     }
 }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Bundles: named groups of registers or ports, generic over what a field holds.
 //!
-//! The same struct holds formats, stored values or signals, and [`Bundle::map`] and [`Bundle::zip`] go between them.
-//! Names in Verilog, in waveforms and in equality checks all come from the one declaration. A bundle may contain another:
-//! its fields are then listed in the place of that field, under their own names, and a parent hands the whole group on.
+//! The same struct holds formats, stored values or signals, and [`Bundle::map`] and [`Bundle::zip`]
+//! go between them. Names in Verilog, in waveforms and in equality checks all come from the one
+//! declaration. A bundle may contain another: its fields are then listed in the place of that
+//! field, under their own names, and a parent hands the whole group on.
 //!
 //! ```
 //! use hapticore_hdl::bundle::Bundle;
@@ -41,7 +42,8 @@ pub struct Field {
     pub doc: &'static str,
 }
 
-/// A family of structs with the same named fields, each field of one type. Made by [`bundle!`](crate::bundle!).
+/// A family of structs with the same named fields, each field of one type. Made by
+/// [`bundle!`](crate::bundle!).
 pub trait Bundle: 'static {
     /// The struct whose fields hold a `T`.
     type Of<T: Copy>: Copy;
@@ -58,7 +60,9 @@ pub trait Bundle: 'static {
     /// Calls `f` with the declaration and the content of each field.
     fn each<T: Copy>(bundle: Self::Of<T>, mut f: impl FnMut(&'static Field, T)) {
         let mut fields = Self::FIELDS.iter();
-        Self::map(bundle, |content| f(fields.next().expect("as many declarations as fields"), content));
+        Self::map(bundle, |content| {
+            f(fields.next().expect("as many declarations as fields"), content)
+        });
     }
 }
 
@@ -213,13 +217,14 @@ macro_rules! bundle {
     (@zip $a:expr, $b:expr, $group:ident) => { <$group as $crate::bundle::Bundle>::zip($a, $b) };
 }
 
-/// `when!(bit => a, …, else b)`: the signal or bundle of the first bit that is set, or the last. Where every bit is known, one
-/// alternative is evaluated; elsewhere all are, and multiplexers choose. For alternatives that cost nothing to evaluate,
-/// `bit.select(a, b)` does.
+/// `when!(bit => a, …, else b)`: the signal or bundle of the first bit that is set, or the last.
+/// Where every bit is known, one alternative is evaluated; elsewhere all are, and multiplexers
+/// choose. For alternatives that cost nothing to evaluate, `bit.select(a, b)` does.
 ///
-/// It is a macro, not a function of closures, because those are not inlined and the registers then travel through memory
-/// (measured: half the clocks per second). Each alternative is written out twice, whatever their number: nested in one another,
-/// they would be written out three times a level.
+/// It is a macro, not a function of closures, because those are not inlined and the registers then
+/// travel through memory (measured: half the clocks per second). Each alternative is written out
+/// twice, whatever their number: nested in one another, they would be written out three times a
+/// level.
 #[macro_export]
 macro_rules! when {
     ($first:expr => $a:expr, $($bit:expr => $other:expr,)* else $b:expr $(,)?) => {{
@@ -248,9 +253,9 @@ macro_rules! when {
     }};
 }
 
-/// `next!(block, state, bit => a, …, else b)`: the registers of a block's state take the bundle of the first bit that is set,
-/// or the last. Interpretations that know every bit store within the branch, where the compiler sees which registers keep
-/// what they hold.
+/// `next!(block, state, bit => a, …, else b)`: the registers of a block's state take the bundle of
+/// the first bit that is set, or the last. Interpretations that know every bit store within the
+/// branch, where the compiler sees which registers keep what they hold.
 #[macro_export]
 macro_rules! next {
     ($block:expr, $state:expr, $first:expr => $a:expr, $($bit:expr => $other:expr,)* else $b:expr $(,)?) => {{

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How a block is declared: [`block!`](crate::block!), and [`call!`](crate::call!) for the blocks within.
+//! How a block is declared: [`block!`](crate::block!), and [`call!`](crate::call!) for the blocks
+//! within.
 
-/// Declares a block: configuration, submodules, ports and registers, each once, with the format beside the name.
+/// Declares a block: configuration, submodules, ports and registers, each once, with the format
+/// beside the name.
 ///
 /// ```
 /// use hapticore_hdl::block::{Block, Interface, Interpretation, State};
@@ -45,10 +47,12 @@
 /// assert_eq!(state.registers.sum, -300);
 /// ```
 ///
-/// The formats in `inputs(accumulator) { … }` are expressions in which `accumulator` is the block; a register that holds the
-/// state of a state machine is written `step in Step`, with [`States`](crate::states::States); a bundle within is written
-/// `group as Group: formats`. `struct Name("module", reset: false)` says that registers have no reset in hardware. The macro
-/// declares the configuration, the bundles `Inputs`, `Outputs` and `Registers`, and `Submodules`: one block per Rust module.
+/// The formats in `inputs(accumulator) { … }` are expressions in which `accumulator` is the block;
+/// a register that holds the state of a state machine is written `step in Step`, with
+/// [`States`](crate::states::States); a bundle within is written `group as Group: formats`. `struct
+/// Name("module", reset: false)` says that registers have no reset in hardware. The macro declares
+/// the configuration, the bundles `Inputs`, `Outputs` and `Registers`, and `Submodules`: one block
+/// per Rust module.
 #[macro_export]
 macro_rules! block {
     (
@@ -170,10 +174,16 @@ macro_rules! block {
     };
 }
 
-/// `call!(self.divider, state, inputs)`: one cycle of the block that is the submodule `divider`; its outputs.
+/// `call!(self.divider, state, inputs)`: one cycle of the block that is the submodule `divider`;
+/// its outputs.
 #[macro_export]
 macro_rules! call {
     ($block:ident.$part:ident, $state:expr, $inputs:expr) => {
-        $crate::block::Block::call(&$block.$part, stringify!($part), &mut $state.submodules.$part, $inputs)
+        $crate::block::Block::call(
+            &$block.$part,
+            stringify!($part),
+            &mut $state.submodules.$part,
+            $inputs,
+        )
     };
 }

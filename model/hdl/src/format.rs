@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Number formats: how the bits of a word are read as a number.
 //!
-//! `s18.17` is a signed word of 18 bits, 17 of them after the binary point; `u32.32` is unsigned and all fraction. The
-//! point may lie outside the word (`u18.38`), as calibrated constants need. Formats are run-time values, so that a sweep
-//! over word lengths needs no recompilation.
+//! `s18.17` is a signed word of 18 bits, 17 of them after the binary point; `u32.32` is unsigned
+//! and all fraction. The point may lie outside the word (`u18.38`), as calibrated constants need.
+//! Formats are run-time values, so that a sweep over word lengths needs no recompilation.
 
 use std::fmt;
 use std::str::FromStr;
@@ -28,7 +28,8 @@ pub struct Format {
     pub signed: bool,
     /// Bits in the word, sign included.
     pub width: u8,
-    /// Bits after the binary point; negative where the least significant bit is worth more than one.
+    /// Bits after the binary point; negative where the least significant bit is worth more than
+    /// one.
     pub frac: i8,
 }
 
@@ -74,8 +75,9 @@ impl Format {
         Format::unsigned(self.width, 0)
     }
 
-    /// This format, whose point is known to be there: said where it is asked for at every clock, for the compiler then knows
-    /// which formats have theirs at the same place, and need no aligning.
+    /// This format, whose point is known to be there: said where it is asked for at every clock,
+    /// for the compiler then knows which formats have theirs at the same place, and need no
+    /// aligning.
     #[inline(always)]
     pub const fn assume_frac(self, frac: i8) -> Self {
         debug_assert!(self.frac == frac);
@@ -94,7 +96,8 @@ impl Format {
         Format { frac: self.frac - by, ..self }
     }
 
-    /// The format of numbers of this one that are rounded to the steps of `to`, before those beyond `to` saturate.
+    /// The format of numbers of this one that are rounded to the steps of `to`, before those beyond
+    /// `to` saturate.
     ///
     /// ```
     /// # use hapticore_hdl::format::Format;
@@ -108,7 +111,8 @@ impl Format {
         Format { signed: self.signed, width: clip(width.max(i16::from(to.width))), frac: to.frac }
     }
 
-    /// Bits of the widest word that rounding to `to` takes: the number, the half step that is added to it, the result.
+    /// Bits of the widest word that rounding to `to` takes: the number, the half step that is added
+    /// to it, the result.
     pub fn rounding_width(self, to: Format) -> u8 {
         let half_step = i16::from(self.frac) - i16::from(to.frac);
         self.rounded(to).width.max(self.width).max(clip(half_step))
@@ -237,7 +241,9 @@ impl fmt::Debug for Format {
 /// assert_eq!(message, r#"expected a format such as "s18.17" or "u32.32" (at most 63 bits), got "s64.0""#);
 /// ```
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("expected a format such as \"s18.17\" or \"u32.32\" (at most {MAX_WIDTH} bits), got \"{0}\"")]
+#[error(
+    "expected a format such as \"s18.17\" or \"u32.32\" (at most {MAX_WIDTH} bits), got \"{0}\""
+)]
 pub struct FormatError(String);
 
 impl FromStr for Format {
@@ -293,14 +299,22 @@ mod tests {
         assert_eq!(s.join(u), Format::signed(5, 2));
         assert_eq!(s.sum(u), Format::signed(6, 2));
         assert_eq!(u.difference(u), Format::signed(4, 1));
-        assert_eq!(s.min_code() * s.min_code(), 64, "the square of the most negative code needs the whole product");
+        assert_eq!(
+            s.min_code() * s.min_code(),
+            64,
+            "the square of the most negative code needs the whole product"
+        );
         assert!(s.product(s).max_code() >= 64);
     }
 
     #[test]
     fn full_scale_and_ties() {
         let s = Format::signed(4, 0);
-        assert_eq!(s.code(7.5), None, "half way to the code above the largest rounds to even, out of the format");
+        assert_eq!(
+            s.code(7.5),
+            None,
+            "half way to the code above the largest rounds to even, out of the format"
+        );
         assert_eq!(s.code_saturating(9.0), 7);
         assert_eq!(s.code_saturating(f64::NAN), 0);
         assert_eq!(s.code(2.5), Some(2));

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A hardware language: fixed-point blocks that are written once and interpreted in several ways.
 //!
-//! A block is a pure function from (registers, inputs) to (next registers, outputs), generic over what the value of a signal
-//! is. Operators are exact and infer their format; every narrowing names its rounding and its overflow. The same text is
-//! simulated cycle by cycle, compared with real numbers, proved free of overflow, and printed as Verilog.
+//! A block is a pure function from (registers, inputs) to (next registers, outputs), generic over
+//! what the value of a signal is. Operators are exact and infer their format; every narrowing names
+//! its rounding and its overflow. The same text is simulated cycle by cycle, compared with real
+//! numbers, proved free of overflow, and printed as Verilog.
 //!
 //! | module | holds |
 //! | --- | --- |

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Memories: words with one read port and one write port, as a block RAM has them.
 //!
-//! The read port has a register: what is asked for in one clock is there in the next. A word that is read and written in
-//! the same clock reads as it was.
+//! The read port has a register: what is asked for in one clock is there in the next. A word that
+//! is read and written in the same clock reads as it was.
 
 use crate::format::Format;
 use crate::signal::{Signal, Value};
@@ -18,7 +18,12 @@ pub trait Storage: Value {
     /// What the read register of a memory holds.
     fn data(memory: &Memory, words: &mut Self::Words) -> Self;
     /// One clock of a memory: reads the old word at `address` into the read register, and writes.
-    fn access(memory: &Memory, words: &mut Self::Words, address: Signal<Self>, write: Option<Write<Self>>);
+    fn access(
+        memory: &Memory,
+        words: &mut Self::Words,
+        address: Signal<Self>,
+        write: Option<Write<Self>>,
+    );
 }
 
 /// What a read of a word gives that is written in the same cycle.
@@ -26,7 +31,8 @@ pub trait Storage: Value {
 pub enum Collision {
     /// The word as it was. A block RAM may need additional logic for that.
     OldWord,
-    /// Don't care: no block uses such a word. Test builds read a wrong one, so that using it is noticed.
+    /// Don't care: no block uses such a word. Test builds read a wrong one, so that using it is
+    /// noticed.
     DontCare,
 }
 
@@ -41,7 +47,8 @@ pub struct Memory {
     pub format: Format,
     /// What a word reads as that is written in the same cycle.
     pub collision: Collision,
-    /// Whether it shall be a block RAM although it is so small that synthesis would rather take registers.
+    /// Whether it shall be a block RAM although it is so small that synthesis would rather take
+    /// registers.
     pub block: bool,
     /// What it holds at reset, before rounding to its format; zero where there is nothing.
     pub initial: Arc<[f64]>,
@@ -61,10 +68,18 @@ pub struct Write<V> {
 impl Memory {
     /// A memory of zeros.
     pub fn new(name: &'static str, words: usize, format: Format) -> Self {
-        Memory { name, words, format, collision: Collision::OldWord, block: false, initial: Arc::new([]) }
+        Memory {
+            name,
+            words,
+            format,
+            collision: Collision::OldWord,
+            block: false,
+            initial: Arc::new([]),
+        }
     }
 
-    /// The memory, with read-during-write as "don't care": no block uses a word that was read while it was written.
+    /// The memory, with read-during-write as "don't care": no block uses a word that was read while
+    /// it was written.
     pub fn dont_care_on_collision(self) -> Self {
         Memory { collision: Collision::DontCare, ..self }
     }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What a simulation lets others look at: its variables by name, and their codes at this clock.
 //!
-//! Names, formats, units and state names come from the bundles that declare registers and ports. A probe only looks: it
-//! takes no part in the simulation, and costs nothing where nobody asks.
+//! Names, formats, units and state names come from the bundles that declare registers and ports. A
+//! probe only looks: it takes no part in the simulation, and costs nothing where nobody asks.
 
 use crate::block::{Block, Interpretation, State, Submodule, Visitor};
 use crate::bundle::Field;
@@ -42,7 +42,12 @@ pub fn variables<B: Block>(block: &B, name: &'static str) -> Vec<Variable> {
         }
         fn register(&mut self, field: &'static Field, format: Format, _value: i64) {
             let &Field { name, states, .. } = field;
-            self.found.push(Variable { scope: self.scope.clone(), name: name.into(), format, states });
+            self.found.push(Variable {
+                scope: self.scope.clone(),
+                name: name.into(),
+                format,
+                states,
+            });
         }
         fn leave(&mut self) {
             self.scope.pop();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! States of a state machine: an `enum` whose names reach the Verilog's legend and the waveform viewer.
+//! States of a state machine: an `enum` whose names reach the Verilog's legend and the waveform
+//! viewer.
 //!
 //! ```
 //! use hapticore_hdl::states::States;
@@ -20,7 +21,8 @@
 use crate::format::Format;
 use crate::signal::{Signal, Value, int};
 
-/// The states of a state machine, numbered from zero, which is the state at reset. Made by [`states!`](crate::states!).
+/// The states of a state machine, numbered from zero, which is the state at reset. Made by
+/// [`states!`](crate::states!).
 pub trait States: Copy + 'static {
     /// The states in the order of their codes.
     const ALL: &'static [Self];
@@ -71,7 +73,8 @@ macro_rules! states {
     };
 }
 
-/// Bytes of a name in `snake_case`. Used by [`states!`](crate::states!), as the two functions below.
+/// Bytes of a name in `snake_case`. Used by [`states!`](crate::states!), as the two functions
+/// below.
 pub const fn snake_length(name: &str) -> usize {
     let (mut index, mut length) = (1, name.len());
     while index < name.len() {

@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The proof that no signal of a core overflows where its format says that it cannot.
 //!
-//! The range interpretation runs the core through whole rounds of all pads, as many as there are windows in a mean, with every ADC code, every calibration and every table
-//! word anywhere in its format. Control is data-independent, so it is known exactly; data are intervals. Once the state
-//! after a round lies within the state before it, no further round can leave what has been seen, and the proof holds for
-//! all time. What relates several signals is beyond intervals: those places name an assumption, and tests hold the assumptions.
+//! The range interpretation runs the core through whole rounds of all pads, as many as there are
+//! windows in a mean, with every ADC code, every calibration and every table word anywhere in its
+//! format. Control is data-independent, so it is known exactly; data are intervals. Once the state
+//! after a round lies within the state before it, no further round can leave what has been seen,
+//! and the proof holds for all time. What relates several signals is beyond intervals: those places
+//! name an assumption, and tests hold the assumptions.
 
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::block::{self, Block, Submodule, Visitor};
 use hapticore_hdl::bundle::{Bundle, Field};
 use hapticore_hdl::format::{BIT, Format};
-use hapticore_hdl::interpretations::range::{Range, Violation, take_assumptions, take_violations, whole};
+use hapticore_hdl::interpretations::range::{
+    Range, Violation, take_assumptions, take_violations, whole,
+};
 use hapticore_hdl::signal::{Signal, bit, zero};
 use hapticore_model::blocks::core::{Core, Inputs};
 

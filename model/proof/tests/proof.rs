@@ -13,8 +13,9 @@ use hapticore_model::blocks::demodulator::Demodulator;
 use hapticore_model::parse_profile;
 use hapticore_proof::prove;
 
-/// What relates several signals, and where it is held: the tests of divider and square root run them over all codes of
-/// small widths, and every test build checks each of these narrowings at each clock.
+/// What relates several signals, and where it is held: the tests of divider and square root run
+/// them over all codes of small widths, and every test build checks each of these narrowings at
+/// each clock.
 const ASSUMPTIONS: [&str; 3] = [
     "a square is not negative",
     "the remainder of a division stays below its denominator",
@@ -35,7 +36,11 @@ fn no_signal_of_a_bundled_profile_can_overflow() {
             proof.registers.len()
         );
         assert!(proof.holds(), "{}: {:?}", profile.name, proof.violations.first());
-        assert_eq!(assumptions, ASSUMPTIONS, "{}: the assumptions that the proof relies on", profile.name);
+        assert_eq!(
+            assumptions, ASSUMPTIONS,
+            "{}: the assumptions that the proof relies on",
+            profile.name
+        );
     }
 }
 
@@ -62,15 +67,19 @@ fn one_sample_too_many_is_noticed() {
     let profile = Profile::bundled("standard").unwrap();
     let demodulator = Demodulator::new(&profile);
     let (adc, wave) = (whole(profile.formats.adc), whole(profile.formats.oscillator));
-    let product =
-        Signal { value: adc, format: profile.formats.adc } * Signal { value: wave, format: profile.formats.oscillator };
+    let product = Signal { value: adc, format: profile.formats.adc }
+        * Signal { value: wave, format: profile.formats.oscillator };
     let sum_of = |samples: u64| {
         take_violations();
         let mut sum: Signal<Range> = zero(demodulator.sum());
         (0..samples).for_each(|_| sum = demodulator.accumulate(bit(false), sum, product));
         take_violations().len()
     };
-    assert_eq!(sum_of(profile.slot.integrate), 0, "the sum holds a whole window of the worst samples");
+    assert_eq!(
+        sum_of(profile.slot.integrate),
+        0,
+        "the sum holds a whole window of the worst samples"
+    );
     let headroom = 1u64 << (64 - (profile.slot.integrate - 1).leading_zeros());
     assert!(sum_of(headroom + 1) > 0, "more than its guard bits are for overflows, and is seen to");
 }
@@ -78,17 +87,23 @@ fn one_sample_too_many_is_noticed() {
 #[test]
 fn a_register_one_bit_short_is_noticed() {
     take_violations();
-    let byte: Signal<Range> = Signal { value: whole(Format::unsigned(8, 0)), format: Format::unsigned(8, 0) };
+    let byte: Signal<Range> =
+        Signal { value: whole(Format::unsigned(8, 0)), format: Format::unsigned(8, 0) };
     (byte + int(1)).resize(Format::unsigned(8, 0), Proved);
     assert_eq!(take_violations().len(), 1);
 }
 
 /// A profile with one entry of its text replaced.
 fn with(profile: &str, key: &str, value: &str) -> Result<Profile, String> {
-    let text = hapticore_contract::profile::BUNDLED.iter().find(|(name, _)| *name == profile).expect("bundled").1;
+    let text = hapticore_contract::profile::BUNDLED
+        .iter()
+        .find(|(name, _)| *name == profile)
+        .expect("bundled")
+        .1;
     let is_key = |line: &&str| line.split('=').next().is_some_and(|word| word.trim() == key);
     let line = text.lines().find(is_key).unwrap_or_else(|| panic!("{profile} has {key}"));
-    parse_profile(&text.replace(line, &format!("{key} = {value}"))).map_err(|error| error.to_string())
+    parse_profile(&text.replace(line, &format!("{key} = {value}")))
+        .map_err(|error| error.to_string())
 }
 
 const FORMATS: [&str; 14] = [
@@ -114,7 +129,8 @@ fn tried(key: &str) -> [usize; 2] {
     for sign in ['s', 'u'] {
         for width in [1, 4, 13, 18, 24, 30, 63] {
             for frac in [-3, 0, 3, width / 2, width - 2, width - 1, width, width + 20] {
-                let Ok(mut profile) = with("small", key, &format!("\"{sign}{width}.{frac}\"")) else {
+                let Ok(mut profile) = with("small", key, &format!("\"{sign}{width}.{frac}\""))
+                else {
                     refused += 1;
                     continue;
                 };
@@ -123,7 +139,11 @@ fn tried(key: &str) -> [usize; 2] {
                 profile.position.steps = 1;
                 Netlist::of(&Core::new(&profile));
                 let violations = prove(&profile).violations;
-                assert!(violations.is_empty(), "{key} {sign}{width}.{frac}: {:?}", violations.first());
+                assert!(
+                    violations.is_empty(),
+                    "{key} {sign}{width}.{frac}: {:?}",
+                    violations.first()
+                );
             }
         }
     }
@@ -133,12 +153,15 @@ fn tried(key: &str) -> [usize; 2] {
 #[test]
 fn any_profile_that_is_accepted_elaborates_and_is_proved() {
     // One lane of every other key beside one of the rest.
-    let lane = |first: usize| FORMATS.iter().skip(first).step_by(2).map(|key| tried(key)).collect::<Vec<_>>();
+    let lane = |first: usize| {
+        FORMATS.iter().skip(first).step_by(2).map(|key| tried(key)).collect::<Vec<_>>()
+    };
     let lanes = thread::scope(|scope| {
         let other = scope.spawn(|| lane(1));
         [lane(0), other.join().expect("every profile is proved")]
     });
-    let [accepted, refused] = [0, 1].map(|which| lanes.iter().flatten().map(|counts| counts[which]).sum::<usize>());
+    let [accepted, refused] =
+        [0, 1].map(|which| lanes.iter().flatten().map(|counts| counts[which]).sum::<usize>());
     println!("{accepted} accepted, {refused} refused");
     assert!(accepted > 50 && refused > 50);
 }
@@ -147,13 +170,21 @@ fn any_profile_that_is_accepted_elaborates_and_is_proved() {
 fn bad_profiles_say_what_was_expected() {
     for (key, value, words) in [
         ("clocks_per_sample", "12", "clocks_per_sample: expected 13 to 65536, got 12"),
-        ("integrate", "501", "slot.integrate: expected five samples of each of 100 periods, got 501"),
+        (
+            "integrate",
+            "501",
+            "slot.integrate: expected five samples of each of 100 periods, got 501",
+        ),
         ("periods", "200", "carrier.periods: expected 2 to 166, got 200"),
         ("amplitude", "140000", "carrier.amplitude: expected 32767 to 65535, got 140000"),
         ("settle", "5", "slot.settle: expected more than"),
         // Longer than the estimator alone, but not than the read-out of polyphase sums before it.
         ("settle", "35", "slot.settle: expected more than"),
-        ("settle", "346", "slot.settle: expected whole periods of five samples before the window, got 351"),
+        (
+            "settle",
+            "346",
+            "slot.settle: expected whole periods of five samples before the window, got 351",
+        ),
         ("iq", "\"u14.13\"", "formats.iq: expected a signed format, got u14.13"),
         ("iq", "\"14.13\"", "expected a format such as \"s18.17\""),
         ("x", "[1, 1, 1, 1, 0, 0]", "terminals.x: expected both signs"),

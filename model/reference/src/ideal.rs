@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Fidelity `float`: a slot's measurement in floating point, from the codes of its window or from phasors.
+//! Fidelity `float`: a slot's measurement in floating point, from the codes of its window or from
+//! phasors.
 //!
 //! ```text
 //! i_k = 2/Σw · Σ w·x_k·cos φ,   q_k = 2/Σw · Σ w·x_k·sin φ,   a_k = √(i_k² + q_k²)          (a full-scale tone gives one)
@@ -8,8 +9,8 @@
 //! m = 1/Σw · Σ w·h², the mean of the pad's last N once there are as many,   F = gain · C² · m · square_gain (eq. 8)
 //! ```
 //!
-//! Amplitudes enter results as quotients only, so that the core's tone gain cancels; its square gain does not, and a measurement's
-//! mean square holds it, as a frame's does. Nothing saturates.
+//! Amplitudes enter results as quotients only, so that the core's tone gain cancels; its square
+//! gain does not, and a measurement's mean square holds it, as a frame's does. Nothing saturates.
 
 use hapticore_contract::calibration::Calibration;
 use hapticore_contract::frame::{Flags, Measurement};
@@ -115,42 +116,59 @@ impl<T: Real> Reference<T> {
         }
     }
 
-    /// The measurement of a slot: `codes` are those of its window, a sample after the other: terminals, sensing voltage, haptic
-    /// voltage.
+    /// The measurement of a slot: `codes` are those of its window, a sample after the other:
+    /// terminals, sensing voltage, haptic voltage.
     ///
     /// # Panics
     /// Where `codes` is not one code per channel and sample, or there is no such pad.
     pub fn slot(&mut self, pad: usize, codes: &[i32]) -> Measurement<T> {
-        assert_eq!(codes.len(), self.window.len() * self.channels, "one code a channel and sample of the window");
+        assert_eq!(
+            codes.len(),
+            self.window.len() * self.channels,
+            "one code a channel and sample of the window"
+        );
         let mean_square = match self.channels {
             8 => self.demodulate::<8>(codes),
             _ => self.demodulate::<0>(codes),
         };
         let [low, high] = self.full_scale;
-        let clipped = codes.iter().fold(false, |clipped, &code| clipped | (code == low) | (code == high));
+        let clipped =
+            codes.iter().fold(false, |clipped, &code| clipped | (code == low) | (code == high));
         let phasors = std::mem::take(&mut self.sums);
         let measurement = self.estimate(pad, &phasors, mean_square, clipped);
         self.sums = phasors;
         measurement
     }
 
-    /// The measurement of a slot with these phasors (in phase, quadrature; fractions of full scale) of the terminals and the
-    /// sensing voltage, and this mean square of the haptic voltage (full scales squared).
+    /// The measurement of a slot with these phasors (in phase, quadrature; fractions of full scale)
+    /// of the terminals and the sensing voltage, and this mean square of the haptic voltage (full
+    /// scales squared).
     ///
     /// # Panics
     /// Where `phasors` is not one a terminal and one more, or there is no such pad.
-    pub fn phasors(&mut self, pad: usize, phasors: &[(f64, f64)], mean_square: f64) -> Measurement<T> {
-        assert_eq!(phasors.len(), self.signs.len() + 1, "a phasor a terminal, and the sensing voltage's");
+    pub fn phasors(
+        &mut self,
+        pad: usize,
+        phasors: &[(f64, f64)],
+        mean_square: f64,
+    ) -> Measurement<T> {
+        assert_eq!(
+            phasors.len(),
+            self.signs.len() + 1,
+            "a phasor a terminal, and the sensing voltage's"
+        );
         let phasors: Vec<_> = phasors.iter().map(|&(i, q)| [i, q].map(real)).collect();
         self.estimate(pad, &phasors, real(mean_square), false)
     }
 
-    /// The capacitance of the last slot by eq. 6 alone, in picofarads: what it is without the sheet's resistance.
+    /// The capacitance of the last slot by eq. 6 alone, in picofarads: what it is without the
+    /// sheet's resistance.
     pub fn capacitance_eq6(&self) -> T {
         self.held[self.last].eq6
     }
 
-    /// Phasors into `sums`; gives the mean square. `N` is the number of channels where that is known as this is compiled.
+    /// Phasors into `sums`; gives the mean square. `N` is the number of channels where that is
+    /// known as this is compiled.
     #[inline(always)]
     fn demodulate<const N: usize>(&mut self, codes: &[i32]) -> T {
         let channels = if N == 0 { self.channels } else { N };
@@ -170,14 +188,21 @@ impl<T: Real> Reference<T> {
         mean_square
     }
 
-    fn estimate(&mut self, pad: usize, phasors: &[[T; 2]], mean_square: T, clipped: bool) -> Measurement<T> {
+    fn estimate(
+        &mut self,
+        pad: usize,
+        phasors: &[[T; 2]],
+        mean_square: T,
+        clipped: bool,
+    ) -> Measurement<T> {
         let mean_square = self.mean_square(pad, mean_square * self.square_gain);
         let solution = self.solve(pad, phasors, mean_square);
         self.last = pad;
         if solution.valid {
             self.held[pad] = solution.values;
         }
-        let flags = Flags { clipped, saturated: false, invalid: !solution.valid, lost: solution.lost };
+        let flags =
+            Flags { clipped, saturated: false, invalid: !solution.valid, lost: solution.lost };
         Measurement { mean_square, flags, ..self.held[pad].measurement }
     }
 
@@ -188,18 +213,24 @@ impl<T: Real> Reference<T> {
             last.remove(0);
         }
         last.push(newest);
-        if last.len() == self.windows { sum(last.iter().copied()) / real(self.windows as f64) } else { newest }
+        if last.len() == self.windows {
+            sum(last.iter().copied()) / real(self.windows as f64)
+        } else {
+            newest
+        }
     }
 
     /// Eqs. 2, 3, 6 and 8 and the sheet's resistance.
     fn solve(&self, pad: usize, phasors: &[[T; 2]], mean_square: T) -> Solution<T> {
         let (terminals, sense) = phasors.split_at(self.signs.len());
         let amplitudes = terminals.iter().map(magnitude);
-        let (mut x, mut y, mut corners, mut least) = (T::zero(), T::zero(), T::zero(), T::infinity());
+        let (mut x, mut y, mut corners, mut least) =
+            (T::zero(), T::zero(), T::zero(), T::infinity());
         for (amplitude, &[sign_x, sign_y]) in amplitudes.zip(&self.signs) {
             x = x + sign_x * amplitude;
             y = y + sign_y * amplitude;
-            corners = corners + if sign_x.is_zero() && sign_y.is_zero() { T::zero() } else { amplitude };
+            corners =
+                corners + if sign_x.is_zero() && sign_y.is_zero() { T::zero() } else { amplitude };
             least = amplitude.min(least);
         }
         let of_all = |part: usize| sum(terminals.iter().map(|phasor| phasor[part]));
@@ -210,7 +241,8 @@ impl<T: Real> Reference<T> {
         let drop = if self.sheet_correction { total * sheet } else { T::zero() };
         let left = sense * sense - drop * drop;
         let capacitance_pf = real::<T>(self.calibration.capacitance_gain) * total / left.sqrt();
-        let force_n = real::<T>(self.calibration.force_gain) * capacitance_pf * capacitance_pf * mean_square;
+        let force_n =
+            real::<T>(self.calibration.force_gain) * capacitance_pf * capacitance_pf * mean_square;
         let flags = Flags::default();
         Solution {
             values: Held {
@@ -261,7 +293,10 @@ fn window<T: Real>(profile: &Profile) -> Vec<WindowedCarrier<T>> {
         let step = (profile.slot.blanking() + m) * profile.carrier.periods % samples;
         let (sine, cosine) = (T::TAU() * count(step) / count(samples)).sin_cos();
         let scale = count(2) * window_at(m) / total / full;
-        WindowedCarrier { carrier: [cosine, sine].map(|wave| scale * wave), square: window_at(m) / total / full / full }
+        WindowedCarrier {
+            carrier: [cosine, sine].map(|wave| scale * wave),
+            square: window_at(m) / total / full / full,
+        }
     };
     (0..samples).map(windowed).collect()
 }
@@ -270,6 +305,17 @@ fn window<T: Real>(profile: &Profile) -> Vec<WindowedCarrier<T>> {
 fn nothing<T: Real>(pad: usize) -> Held<T> {
     let [r_x, r_y, x_mm, y_mm, sheet, capacitance_pf, force_n, mean_square] = [T::zero(); 8];
     let flags = Flags::default();
-    let measurement = Measurement { pad, r_x, r_y, x_mm, y_mm, sheet, capacitance_pf, force_n, mean_square, flags };
+    let measurement = Measurement {
+        pad,
+        r_x,
+        r_y,
+        x_mm,
+        y_mm,
+        sheet,
+        capacitance_pf,
+        force_n,
+        mean_square,
+        flags,
+    };
     Held { measurement, eq6: T::zero() }
 }

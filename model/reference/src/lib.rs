@@ -6,14 +6,16 @@
 //! | [`Reference`] | the equation in floating point: `f64`, or any [`Real`] | any core: the difference is what word lengths cost |
 //! | [`rounded`] | the exact value, rounded where and how the blocks' docs say | the clocked core: equal to the bit |
 //!
-//! Absent: the core. This crate depends on the contract alone (profiles, frames, calibrations, number formats), so that it cannot share
-//! a line with a block or with the signals of the hardware language: its rounding, roots, division, tables and sums are its own.
+//! Absent: the core. This crate depends on the contract alone (profiles, frames, calibrations,
+//! number formats), so that it cannot share a line with a block or with the signals of the hardware
+//! language: its rounding, roots, division, tables and sums are its own.
 //!
-//! What `f64` rounds is itself measured: [`Reference::with_precision`] takes a type with more bits, and
-//! `cargo run --release -p hapticore-tests --example reference_error` prints the difference on every quantity of every bundled
-//! scene beside a derived bound.
+//! What `f64` rounds is itself measured: [`Reference::with_precision`] takes a type with more bits,
+//! and `cargo run --release -p hapticore-tests --example reference_error` prints the difference on
+//! every quantity of every bundled scene beside a derived bound.
 //!
-//! Units are those of the contract: fractions of full scale, mm, pF, N. A slot of one pad, from phasors:
+//! Units are those of the contract: fractions of full scale, mm, pF, N. A slot of one pad, from
+//! phasors:
 //!
 //! ```
 //! use hapticore_contract::calibration::{Calibration, Point, PositionTable};

@@ -17,8 +17,9 @@
 //! | admittance  | profile     | –           | saturates, flagged                       |
 //! | capacitance | profile     | pF          | saturates, flagged                       |
 //!
-//! One multiplier serves all four products; it works on codes as integers, so that their points need not agree, and a step
-//! takes as long as it does. Latency: 7 products + square root + divider + 3 clocks from `start` to `done`.
+//! One multiplier serves all four products; it works on codes as integers, so that their points
+//! need not agree, and a step takes as long as it does. Latency: 7 products + square root + divider
+//! + 3 clocks from `start` to `done`.
 
 use super::divider::{self, Divider};
 use super::multiplier::{self, Multiplier};
@@ -114,7 +115,8 @@ impl Capacitance {
     /// As [`Capacitance::new`].
     ///
     /// # Errors
-    /// An admittance whose dividend no word of the model holds, a capacitance to which none can be rounded.
+    /// An admittance whose dividend no word of the model holds, a capacitance to which none can be
+    /// rounded.
     pub fn try_new(profile: &Profile, amplitude: Format) -> Result<Self, ProfileError> {
         let f = &profile.formats;
         let (sheet, admittance, gain) = (profile.sheet(), f.admittance, f.capacitance_gain);
@@ -176,18 +178,25 @@ impl Capacitance {
         i: &Inputs<Signal<V>>,
         admittance: Signal<V>,
     ) -> (Signal<V>, Signal<V>) {
-        let [total, sense, drop, admittance] = [i.total, i.sense, r.drop, admittance].map(Signal::integer);
+        let [total, sense, drop, admittance] =
+            [i.total, i.sense, r.drop, admittance].map(Signal::integer);
         let sheet = if self.correct { i.sheet } else { zero(self.sheet) }.integer();
         use Step::*;
         let at = |step: Step| r.step.at(step);
-        let left = at(Load).select(total, at(Sense).select(sense, at(Square).select(drop, admittance)));
-        let right = at(Load).select(sheet, at(Sense).select(sense, at(Square).select(drop, i.gain.integer())));
+        let left =
+            at(Load).select(total, at(Sense).select(sense, at(Square).select(drop, admittance)));
+        let right = at(Load)
+            .select(sheet, at(Sense).select(sense, at(Square).select(drop, i.gain.integer())));
         (left, right)
     }
 
     /// v² − (a·R)², held at zero from below, and whether nothing is left.
     #[inline(always)]
-    fn radicand<V: Interpretation>(&self, r: &Registers<Signal<V>>, product: Signal<V>) -> (Signal<V>, Signal<V>) {
+    fn radicand<V: Interpretation>(
+        &self,
+        r: &Registers<Signal<V>>,
+        product: Signal<V>,
+    ) -> (Signal<V>, Signal<V>) {
         let drop = product.as_code(self.amplitude.product(self.amplitude));
         let left = (r.square - drop).named("left_over").resize(r.square.format, Saturate);
         (left, left.equals(zero(left.format)))
@@ -198,17 +207,26 @@ impl Capacitance {
         &self,
         r: Registers<Signal<V>>,
         i: Inputs<Signal<V>>,
-        (product, nothing_left, sqrt_done, divided): (Signal<V>, Signal<V>, Signal<V>, divider::Outputs<Signal<V>>),
+        (product, nothing_left, sqrt_done, divided): (
+            Signal<V>,
+            Signal<V>,
+            Signal<V>,
+            divider::Outputs<Signal<V>>,
+        ),
     ) -> Registers<Signal<V>> {
         use Step::*;
         let at = |step: Step| r.step.at(step);
-        let (drop, drop_held) = product.as_code(self.amplitude.product(self.sheet)).saturate(self.amplitude, HalfEven);
+        let (drop, drop_held) =
+            product.as_code(self.amplitude.product(self.sheet)).saturate(self.amplitude, HalfEven);
         let square = product.as_code(self.amplitude.product(self.amplitude));
-        let (result, held) = product.as_code(self.gain_product()).saturate(r.capacitance.format, HalfEven);
+        let (result, held) =
+            product.as_code(self.gain_product()).saturate(r.capacitance.format, HalfEven);
         let (left, right) = self.operands(&r, &i, divided.quotient);
         let waits = (at(SquareRoot) & !sqrt_done) | (at(Divide) & !divided.done);
         let onward = at(Finish).select(Idle.signal(), r.step + int(1));
-        let saturated = (at(Drop) & drop_held) | (at(Divide) & divided.done & divided.saturated) | (at(Finish) & held);
+        let saturated = (at(Drop) & drop_held)
+            | (at(Divide) & divided.done & divided.saturated)
+            | (at(Finish) & held);
         Registers {
             step: waits.select(r.step, onward).resize(r.step.format, Wrap),
             multiplier_busy: bit(false),
@@ -228,24 +246,37 @@ impl Capacitance {
 
 impl Block for Capacitance {
     #[inline(always)]
-    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+    fn clock<V: Interpretation>(
+        &self,
+        state: &mut State<Self, V>,
+        i: Inputs<Signal<V>>,
+    ) -> Outputs<Signal<V>> {
         let r = state.load(self);
         let Registers { done, capacitance, invalid, saturated, .. } = r;
         let outputs = Outputs { done, capacitance, invalid, saturated };
         if (i.start | !r.step.at(Step::Idle) | r.done).can_skip() {
             return outputs;
         }
-        let inputs = multiplier::Inputs { enable: !r.step.at(Step::Idle), left: r.left, right: r.right };
+        let inputs =
+            multiplier::Inputs { enable: !r.step.at(Step::Idle), left: r.left, right: r.right };
         let product = call!(self.multiplier, state, inputs).product;
         let (radicand, nothing_left) = self.radicand(&r, product);
         let inputs = sqrt::Inputs { start: r.sqrt_start, radicand };
         let sqrt = call!(self.sqrt, state, inputs);
-        let inputs = divider::Inputs { start: r.divide, numerator: i.total, denominator: sqrt.sqrt };
+        let inputs =
+            divider::Inputs { start: r.divide, numerator: i.total, denominator: sqrt.sqrt };
         let divided = call!(self.divider, state, inputs);
         let idle = Registers { sqrt_start: bit(false), divide: bit(false), done: bit(false), ..r };
-        let begin = Registers { step: Step::Load.signal(), multiplier_busy: bit(false), saturated: bit(false), ..idle };
+        let begin = Registers {
+            step: Step::Load.signal(),
+            multiplier_busy: bit(false),
+            saturated: bit(false),
+            ..idle
+        };
         let waits = Registers { multiplier_busy: bit(true), ..idle };
-        let advance = self.multiplier.ready(r.multiplier_busy) | r.step.at(Step::SquareRoot) | r.step.at(Step::Divide);
+        let advance = self.multiplier.ready(r.multiplier_busy)
+            | r.step.at(Step::SquareRoot)
+            | r.step.at(Step::Divide);
         let results = (product, nothing_left, sqrt.done, divided);
         next!(self, state,
             i.start => begin,

@@ -6,7 +6,8 @@
 //!            └ pad, closed      code ──┘      calibration ──┘
 //! ```
 //!
-//! The answer to `channel` is expected as `code` one clock later. Pads are selected by `pad` and `closed`, break before make.
+//! The answer to `channel` is expected as `code` one clock later. Pads are selected by `pad` and
+//! `closed`, break before make.
 
 use super::demodulator::{self, Demodulator};
 use super::estimator::{self, Calibration, Estimator, FramePort};
@@ -106,11 +107,15 @@ impl Core {
     }
 
     /// The inputs of a core with a calibration, as codes, while nothing happens.
-    pub fn idle_inputs(&self, calibration: &hapticore_contract::calibration::Calibration) -> Inputs<i64> {
+    pub fn idle_inputs(
+        &self,
+        calibration: &hapticore_contract::calibration::Calibration,
+    ) -> Inputs<i64> {
         let formats = self.inputs();
         let mut inputs = Inputs::map(formats, |_| 0);
         let (gains, formats) = (&mut inputs.calibration, formats.calibration);
-        gains.capacitance_gain = formats.capacitance_gain.code_saturating(calibration.capacitance_gain);
+        gains.capacitance_gain =
+            formats.capacitance_gain.code_saturating(calibration.capacitance_gain);
         gains.force_gain = formats.force_gain.code_saturating(calibration.force_gain);
         inputs
     }
@@ -135,7 +140,8 @@ impl Core {
         &self.estimator
     }
 
-    /// From now on interpretations of codes have positions at once, without their clocks, from a position table of these codes.
+    /// From now on interpretations of codes have positions at once, without their clocks, from a
+    /// position table of these codes.
     pub(crate) fn place_at_once(&mut self, table: Vec<i64>) {
         self.estimator.place_at_once(table);
     }
@@ -148,12 +154,17 @@ impl Core {
 
 impl Block for Core {
     #[inline(always)]
-    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+    fn clock<V: Interpretation>(
+        &self,
+        state: &mut State<Self, V>,
+        i: Inputs<Signal<V>>,
+    ) -> Outputs<Signal<V>> {
         let inputs = multiplexer::Inputs { strobe: i.strobe, clear: i.clear };
         let slot = call!(self.multiplexer, state, inputs);
         let inputs = pace::Inputs { strobe: i.strobe, clear: i.clear };
         let pace = call!(self.pace, state, inputs);
-        let inputs = oscillator::Inputs { sample: slot.sample, restart: slot.restart, first: slot.first };
+        let inputs =
+            oscillator::Inputs { sample: slot.sample, restart: slot.restart, first: slot.first };
         let oscillator = call!(self.oscillator, state, inputs);
         let inputs = demodulator::Inputs {
             start: oscillator.ready & slot.integrate,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Currents: amplitudes of every channel and of the sum over all terminals, and the sums of eqs. 2 and 3.
+//! Currents: amplitudes of every channel and of the sum over all terminals, and the sums of eqs. 2
+//! and 3.
 //!
 //! ```text
 //! a_k = √(i_k² + q_k²),   a = √((Σ i_k)² + (Σ q_k)²),   x = Σ ±a_k,   y = Σ ±a_k,   corners = Σ a_k of those in x or y
@@ -16,11 +17,13 @@
 //! | amplitude       | total's | full scale     | cannot (range proof) |
 //! | x, y, corners   | exact   | full scale     | cannot (range proof) |
 //!
-//! Words may be moved up together, so that small currents keep their bits: see `currents/block_floating.rs`. x, y and corners then count what the
-//! largest current makes of a word's step; total and sensing voltage are at one point again.
+//! Words may be moved up together, so that small currents keep their bits: see
+//! `currents/block_floating.rs`. x, y and corners then count what the largest current makes of a
+//! word's step; total and sensing voltage are at one point again.
 //!
-//! Latency: (terminals + 2) · (6 products + square root + 1) + 1 clocks from the last sum (the mean square's) to `done`. Source: paper,
-//! eqs. 2–5; the sum is that of all terminals' complex currents, for the corners alone carry only a part (docs/physics.md §1).
+//! Latency: (terminals + 2) · (6 products + square root + 1) + 1 clocks from the last sum (the mean
+//! square's) to `done`. Source: paper, eqs. 2–5; the sum is that of all terminals' complex
+//! currents, for the corners alone carry only a part (docs/physics.md §1).
 
 mod block_floating;
 
@@ -33,7 +36,9 @@ use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format};
 use hapticore_hdl::memory::{Memory, Write};
-use hapticore_hdl::signal::{Assumed, Exact, Floor, HalfEven, Proved, Signal, Wrap, bit, int, zero};
+use hapticore_hdl::signal::{
+    Assumed, Exact, Floor, HalfEven, Proved, Signal, Wrap, bit, int, zero,
+};
 use hapticore_hdl::states::States;
 use hapticore_hdl::{block, call, states, when};
 
@@ -154,8 +159,8 @@ impl Currents {
         let power = Format::unsigned(2 * part.width, 2 * part.frac);
         let sqrt = SquareRoot::new(power, part.frac);
         let amplitude = sqrt.sqrt();
-        let words =
-            Memory::new("words", (2 * terminals + 4).next_power_of_two() as usize, wide).dont_care_on_collision();
+        let words = Memory::new("words", (2 * terminals + 4).next_power_of_two() as usize, wide)
+            .dont_care_on_collision();
         Ok(Currents {
             words,
             multiplier: Multiplier::new(part.integer(), part.integer(), profile.multiplier),
@@ -208,7 +213,9 @@ impl Currents {
 
     /// Clocks from the last sum to `done`.
     pub fn latency(&self) -> u64 {
-        (self.terminals + 2) * (6 * self.multiplier.latency() + self.sqrt.latency() + 1) + 1 + self.block_latency()
+        (self.terminals + 2) * (6 * self.multiplier.latency() + self.sqrt.latency() + 1)
+            + 1
+            + self.block_latency()
     }
 
     /// The in-phase or quadrature word of a sum, and whether it is saturated.
@@ -218,7 +225,8 @@ impl Currents {
         sum.scaled(-self.shift).saturate(self.wide(), rounding)
     }
 
-    /// A sum arrives: its word goes into the memory, and with the last the loop over channels begins.
+    /// A sum arrives: its word goes into the memory, and with the last the loop over channels
+    /// begins.
     #[inline(always)]
     fn accept_sum<V: Interpretation>(
         &self,
@@ -265,15 +273,20 @@ impl Currents {
         let (more, held) = self.add_terminal(&r);
         let sqrt_done = (at(SquareRoot) & sqrt.done).named("sqrt_done");
         let r = when!(sqrt_done => self.sum_up(r, sqrt.sqrt), else r);
-        let total = |total: Signal<V>| if self.block == 0 { total } else { self.narrow_total(total) };
-        let (in_phase, quadrature) = (all.select(total(r.total_i), word), all.select(total(r.total_q), word));
+        let total =
+            |total: Signal<V>| if self.block == 0 { total } else { self.narrow_total(total) };
+        let (in_phase, quadrature) =
+            (all.select(total(r.total_i), word), all.select(total(r.total_q), word));
         let part = at(InPhase).select(in_phase, at(Quadrature).select(quadrature, r.part));
         let after = if self.block == 0 { Idle } else { Restore }.signal();
         let following = at(SquareRoot).select(r.step, r.step + int(1));
         Registers {
-            step: sqrt_done.select(all.select(after, Read.signal()), following).resize(r.step.format, Wrap),
+            step: sqrt_done
+                .select(all.select(after, Read.signal()), following)
+                .resize(r.step.format, Wrap),
             multiplier_busy: bit(false),
-            // The totals change places with every addition: one adder, one register that takes its result.
+            // The totals change places with every addition: one adder, one register that takes its
+            // result.
             total_i: adds.select(r.total_q, r.total_i),
             total_q: when!(adds => more, else r.total_q),
             part,
@@ -296,13 +309,19 @@ impl Currents {
 
     /// An amplitude is there: of a terminal, of the sensing voltage, and last of the total.
     #[inline(always)]
-    fn sum_up<V: Interpretation>(&self, r: Registers<Signal<V>>, amplitude: Signal<V>) -> Registers<Signal<V>> {
+    fn sum_up<V: Interpretation>(
+        &self,
+        r: Registers<Signal<V>>,
+        amplitude: Signal<V>,
+    ) -> Registers<Signal<V>> {
         let opening = r.channel.is(0);
         let terminal = r.channel.less_than(int(self.terminals));
         let smaller = opening | (terminal & amplitude.less_than(r.least));
         let negative = (-amplitude).named("negative");
         let with = |sum: Signal<V>, sign: &dyn Fn(usize) -> i8| {
-            let plus = self.is_selected(r.channel, |k| sign(k) > 0).select(amplitude, zero(amplitude.format));
+            let plus = self
+                .is_selected(r.channel, |k| sign(k) > 0)
+                .select(amplitude, zero(amplitude.format));
             let more = self.is_selected(r.channel, |k| sign(k) < 0).select(negative, plus);
             (opening.select(zero(sum.format), sum) + more).resize(sum.format, Proved)
         };
@@ -320,16 +339,33 @@ impl Currents {
     }
 
     /// Whether the channel is one of the terminals that `choose` names.
-    fn is_selected<V: Interpretation>(&self, channel: Signal<V>, choose: impl Fn(usize) -> bool) -> Signal<V> {
+    fn is_selected<V: Interpretation>(
+        &self,
+        channel: Signal<V>,
+        choose: impl Fn(usize) -> bool,
+    ) -> Signal<V> {
         let chosen = (0..self.terminals).filter(|&k| choose(k as usize));
         chosen.map(|k| channel.is(k)).reduce(|a, b| a | b).unwrap_or(bit(false))
     }
 
     #[inline(always)]
-    fn results<V: Interpretation>(&self, r: &Registers<Signal<V>>, total: Signal<V>) -> Outputs<Signal<V>> {
+    fn results<V: Interpretation>(
+        &self,
+        r: &Registers<Signal<V>>,
+        total: Signal<V>,
+    ) -> Outputs<Signal<V>> {
         let Registers { done, x, y, corners, least, .. } = *r;
         if self.block == 0 {
-            return Outputs { done, total, sense: r.sense, x, y, corners, least, saturated: r.saturated };
+            return Outputs {
+                done,
+                total,
+                sense: r.sense,
+                x,
+                y,
+                corners,
+                least,
+                saturated: r.saturated,
+            };
         }
         let ((total, beyond), (sense, too)) = (self.rounded(r.whole), self.rounded(r.sense));
         Outputs { done, total, sense, x, y, corners, least, saturated: r.saturated | beyond | too }
@@ -337,8 +373,16 @@ impl Currents {
 
     /// The total's amplitude, to be moved back.
     #[inline(always)]
-    fn whole<V: Interpretation>(&self, r: &Registers<Signal<V>>, amplitude: Signal<V>) -> Signal<V> {
-        if self.block == 0 { r.whole } else { amplitude.scaled(self.down()).resize(r.whole.format, Proved) }
+    fn whole<V: Interpretation>(
+        &self,
+        r: &Registers<Signal<V>>,
+        amplitude: Signal<V>,
+    ) -> Signal<V> {
+        if self.block == 0 {
+            r.whole
+        } else {
+            amplitude.scaled(self.down()).resize(r.whole.format, Proved)
+        }
     }
 
     /// A cycle on the way from words to results.
@@ -355,7 +399,8 @@ impl Currents {
         if self.block == 0 {
             return when!(advance => self.step(r, data.align_point(r.part.format), product, sqrt), else waits);
         }
-        let aligns = r.step.at_least(Step::AlignRead.signal()) & r.step.less_than(Step::Restore.signal());
+        let aligns =
+            r.step.at_least(Step::AlignRead.signal()) & r.step.less_than(Step::Restore.signal());
         let restores = r.step.at(Step::Restore);
         when!(aligns => self.align(r, data), else when!(restores => self.restore(r), else when!(advance => self.step(r, self.narrow(data), product, sqrt), else waits)))
     }
@@ -363,7 +408,11 @@ impl Currents {
 
 impl Block for Currents {
     #[inline(always)]
-    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+    fn clock<V: Interpretation>(
+        &self,
+        state: &mut State<Self, V>,
+        i: Inputs<Signal<V>>,
+    ) -> Outputs<Signal<V>> {
         let r = state.load(self);
         // The last root, the total's, stays until the next slot's first.
         let inputs = sqrt::Inputs { start: r.sqrt_start, radicand: r.power };
@@ -375,7 +424,8 @@ impl Block for Currents {
             return outputs;
         }
         let (word, held) = self.word(i.sum);
-        let inputs = multiplier::Inputs { enable: busy, left: r.part.integer(), right: r.part.integer() };
+        let inputs =
+            multiplier::Inputs { enable: busy, left: r.part.integer(), right: r.part.integer() };
         let product = call!(self.multiplier, state, inputs).product;
         let of_channel = i.index.less_than(int(2 * (self.terminals + 1))).named("of_channel");
         let data = self.words.data(&mut state.submodules.words);
@@ -399,7 +449,11 @@ impl Block for Currents {
         } else {
             let (moved, keeps) = self.moved(&r);
             let here = r.channel.concat(r.quadrature).bits(0, self.words.address().width);
-            (arrived | keeps, keeps.select(here, place), when!(keeps => moved.resize(word.format, Proved), else word))
+            (
+                arrived | keeps,
+                keeps.select(here, place),
+                when!(keeps => moved.resize(word.format, Proved), else word),
+            )
         };
         state.store(self, Registers { arrived, place, word, ..next });
         outputs

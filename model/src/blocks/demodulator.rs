@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Lock-in demodulator: every channel's in-phase and quadrature sums over a window, and the haptic voltage's mean square.
+//! Lock-in demodulator: every channel's in-phase and quadrature sums over a window, and the haptic
+//! voltage's mean square.
 //!
 //! ```text
 //! i_k = Σ x_k[n] · (w[n] · cos φ[n]),   q_k = Σ x_k[n] · (w[n] · sin φ[n]),   m = Σ h[n] · (w[n] · h[n])
@@ -11,19 +12,22 @@
 //!                                 └─(+)─[sum]─[sums: one word per channel and phase]
 //! ```
 //!
-//! One multiplier serves all: three products apply the window (w·cos, w·sin, w·h), two for each channel and one for h follow. What has
-//! been made in a clock is stored in the next; the first channel takes its windowed_lo on their way to their memory.
+//! One multiplier serves all: three products apply the window (w·cos, w·sin, w·h), two for each
+//! channel and one for h follow. What has been made in a clock is stored in the next; the first
+//! channel takes the windowed words on their way to their memory.
 //!
 //! | signal   | format               | unit               | overflow            |
 //! | windowed | ADC's and oscillator's, joined | full scale | cannot (range proof) |
 //! | sum      | exact                | full scale · samples | cannot (range proof) |
 //!
-//! What rounding leaves of w·cos and w·sin is carried to the next sample's, so that the sums of the words are those of the
-//! products to half a word, wherever one stops: rounding has no share at low frequencies. w·h is rounded half even.
-//! A carrier with five samples per period may have its sums by phase instead: see `demodulator/polyphase.rs`.
+//! What rounding leaves of w·cos and w·sin is carried to the next sample's, so that the sums of the
+//! words are those of the products to half a word, wherever one stops: rounding has no share at low
+//! frequencies. w·h is rounded half even. A carrier with five samples per period may have its sums
+//! by phase instead: see `demodulator/polyphase.rs`.
 //!
-//! q is positive where the channel lags. The answer to `channel` is expected one cycle later as `code`. Latency: products + 3
-//! clocks from `start` to the last sum. Source: paper, eqs. 1 and 5, detected synchronously; docs/physics.md §5 for the window.
+//! q is positive where the channel lags. The answer to `channel` is expected one cycle later as
+//! `code`. Latency: products + 3 clocks from `start` to the last sum. Source: paper, eqs. 1 and 5,
+//! detected synchronously; docs/physics.md §5 for the window.
 
 mod polyphase;
 
@@ -143,14 +147,19 @@ impl Demodulator {
     pub fn try_new(profile: &Profile) -> Result<Self, ProfileError> {
         let (adc, oscillator) = (profile.formats.adc, profile.formats.oscillator);
         let channels = profile.demodulated();
-        let polyphase = (profile.carrier.method == Method::Polyphase).then(|| Polyphase::new(profile));
+        let polyphase =
+            (profile.carrier.method == Method::Polyphase).then(|| Polyphase::new(profile));
         // Of products with nothing to join, two more are looked at.
-        let products = if polyphase.is_some() { profile.slot.integrate + 2 } else { profile.slot.integrate };
+        let products =
+            if polyphase.is_some() { profile.slot.integrate + 2 } else { profile.slot.integrate };
         let growth = 64 - (products - 1).leading_zeros() as u8;
         let operand = if polyphase.is_some() { polyphase::OPERAND } else { adc.join(oscillator) };
-        let product = if polyphase.is_some() { polyphase::PRODUCT } else { operand.product(operand) };
-        let sum =
-            Format::signed(product.width - u8::from(product.signed) + growth + u8::from(!product.signed), product.frac);
+        let product =
+            if polyphase.is_some() { polyphase::PRODUCT } else { operand.product(operand) };
+        let sum = Format::signed(
+            product.width - u8::from(product.signed) + growth + u8::from(!product.signed),
+            product.frac,
+        );
         fits("slot.integrate", "a sum over the window", sum.width)?;
         let sums = 2 * channels + 1;
         let words = polyphase.as_ref().map_or(sums, |polyphase| polyphase.words());
@@ -158,10 +167,15 @@ impl Demodulator {
         Ok(Demodulator {
             // In one clock whatever its width: products keep pace with the channels.
             multiplier: Multiplier::new(operand.integer(), operand.integer(), MAX_WIDTH),
-            windowed_lo: Memory::new("windowed_lo", WINDOWING.next_power_of_two() as usize, operand)
-                .dont_care_on_collision()
-                .in_block(),
-            sums: Memory::new("sums", words.next_power_of_two() as usize, sum).dont_care_on_collision(),
+            windowed_lo: Memory::new(
+                "windowed_lo",
+                WINDOWING.next_power_of_two() as usize,
+                operand,
+            )
+            .dont_care_on_collision()
+            .in_block(),
+            sums: Memory::new("sums", words.next_power_of_two() as usize, sum)
+                .dont_care_on_collision(),
             channels,
             adc,
             oscillator,
@@ -199,7 +213,9 @@ impl Demodulator {
 
     /// Clocks from `start` to the last sum's `valid`.
     pub fn latency(&self) -> u64 {
-        self.steps() + 1 + if self.polyphase.is_some() { polyphase::read_out(self.channels) } else { 0 }
+        self.steps()
+            + 1
+            + if self.polyphase.is_some() { polyphase::read_out(self.channels) } else { 0 }
     }
 
     /// The fewest clocks from one sample to the next: the last code is asked for while it is there.
@@ -209,7 +225,8 @@ impl Demodulator {
     }
 
     pub(super) fn steps(&self) -> u64 {
-        PIPELINE + if self.polyphase.is_some() { self.channels + 2 } else { WINDOWING + self.sums() }
+        PIPELINE
+            + if self.polyphase.is_some() { self.channels + 2 } else { WINDOWING + self.sums() }
     }
 
     /// The haptic code's share of the window: its product with the window.
@@ -218,17 +235,23 @@ impl Demodulator {
         product.quantize(self.adc, HalfEven, Proved)
     }
 
-    /// The local oscillator at a sample, windowed: the product to the nearest word, with what the samples before have left
-    /// over; and what it leaves to the next. So rounding has no share at low frequencies.
+    /// The local oscillator at a sample, windowed: the product to the nearest word, with what the
+    /// samples before have left over; and what it leaves to the next. So rounding has no share at
+    /// low frequencies.
     #[inline(always)]
-    pub fn carry<V: Interpretation>(&self, product: Signal<V>, residue: Signal<V>) -> (Signal<V>, Signal<V>) {
+    pub fn carry<V: Interpretation>(
+        &self,
+        product: Signal<V>,
+        residue: Signal<V>,
+    ) -> (Signal<V>, Signal<V>) {
         let sum = (product + residue).named("carried");
         let word = sum.quantize(self.oscillator, Floor, Proved).golden(&[product], |of| of[0]);
         let rest = sum.bits(0, residue.format.width).scaled(-residue.format.frac);
         (word, rest.golden(&[], |_| 0.0))
     }
 
-    /// What is left over before a window's first sample: half a word, so that words are the nearest.
+    /// What is left over before a window's first sample: half a word, so that words are the
+    /// nearest.
     #[inline(always)]
     pub fn fresh_residue<V: Interpretation>(&self) -> Signal<V> {
         let format = self.residue();
@@ -253,7 +276,12 @@ impl Demodulator {
 
     /// A sum with one more product; a window's first product begins it.
     #[inline(always)]
-    pub fn accumulate<V: Interpretation>(&self, first: Signal<V>, sum: Signal<V>, product: Signal<V>) -> Signal<V> {
+    pub fn accumulate<V: Interpretation>(
+        &self,
+        first: Signal<V>,
+        sum: Signal<V>,
+        product: Signal<V>,
+    ) -> Signal<V> {
         let before = first.select(zero(sum.format), sum).named("so_far");
         (before + product).named("accumulated").resize(sum.format, Proved)
     }
@@ -271,8 +299,8 @@ impl Demodulator {
     fn channel<V: Interpretation>(&self, r: &Registers<Signal<V>>) -> Signal<V> {
         let format = self.channel.as_uint();
         let ahead = (r.step - int(WINDOWING - 1)).bits(1, format.width);
-        let of_channels =
-            r.step.at_least(int(WINDOWING - 1)) & r.step.less_than(int(WINDOWING - 1 + 2 * self.channels));
+        let of_channels = r.step.at_least(int(WINDOWING - 1))
+            & r.step.less_than(int(WINDOWING - 1 + 2 * self.channels));
         of_channels.select(ahead, code(self.channels as i64, format))
     }
 
@@ -285,19 +313,26 @@ impl Demodulator {
         window_word: Signal<V>,
     ) -> (Signal<V>, Signal<V>) {
         let windowing = r.step.less_than(int(WINDOWING)).named("windowing");
-        let [code, window, cosine, sine] = [i.code, i.window, i.cosine, i.sine].map(|a| a.align_point(r.left.format));
+        let [code, window, cosine, sine] =
+            [i.code, i.window, i.cosine, i.sine].map(|a| a.align_point(r.left.format));
         let wave = r.step.is(0).select(cosine, r.step.is(1).select(sine, code));
         let windowed = r.step.less_than(int(WINDOWING + PIPELINE)).select(r.windowed, window_word);
         (windowing.select(window, code), windowing.select(wave, windowed))
     }
 
-    /// Stores the windowed local oscillator of the cycle before, and asks for that of the next step.
+    /// Stores the windowed local oscillator of the cycle before, and asks for that of the next
+    /// step.
     #[inline(always)]
-    fn windowed_lo<V: Interpretation>(&self, r: &Registers<Signal<V>>, words: &mut V::Words) -> Signal<V> {
+    fn windowed_lo<V: Interpretation>(
+        &self,
+        r: &Registers<Signal<V>>,
+        words: &mut V::Words,
+    ) -> Signal<V> {
         let format = self.windowed_lo.format.assume_frac(self.operand.frac);
         let window_word = Signal { format, ..self.windowed_lo.data(words) };
         let place = (r.step - int(WINDOWING)).bits(0, Format::counter(WINDOWING - 1).width);
-        let enable = r.busy & r.step.at_least(int(WINDOWING)) & r.step.less_than(int(2 * WINDOWING));
+        let enable =
+            r.busy & r.step.at_least(int(WINDOWING)) & r.step.less_than(int(2 * WINDOWING));
         let haptic = r.step.is(WINDOWING - 1 + 2 * self.channels);
         let sine = (r.step - int(WINDOWING - 1)).bits(0, 1);
         let wanted = haptic.concat(sine & !haptic);
@@ -305,10 +340,14 @@ impl Demodulator {
         window_word
     }
 
-    /// While there are windowed_lo to be made, the one that the product is: of cosine, sine, and the haptic code. The residues of
-    /// cosine and sine change places with each.
+    /// While there are windowed_lo to be made, the one that the product is: of cosine, sine, and
+    /// the haptic code. The residues of cosine and sine change places with each.
     #[inline(always)]
-    fn windowed<V: Interpretation>(&self, r: Registers<Signal<V>>, product: Signal<V>) -> Registers<Signal<V>> {
+    fn windowed<V: Interpretation>(
+        &self,
+        r: Registers<Signal<V>>,
+        product: Signal<V>,
+    ) -> Registers<Signal<V>> {
         let of_wave = (r.step.is(PIPELINE) | r.step.is(PIPELINE + 1)).named("of_wave");
         let of_haptic = r.step.is(PIPELINE + WINDOWING - 1);
         let residue = r.first.select(self.fresh_residue(), r.residue);
@@ -323,7 +362,11 @@ impl Demodulator {
     }
 
     #[inline(always)]
-    fn begin<V: Interpretation>(&self, r: Registers<Signal<V>>, i: Inputs<Signal<V>>) -> Registers<Signal<V>> {
+    fn begin<V: Interpretation>(
+        &self,
+        r: Registers<Signal<V>>,
+        i: Inputs<Signal<V>>,
+    ) -> Registers<Signal<V>> {
         let clipped = i.first.select(bit(false), r.clipped);
         // Polyphase: a window's first five samples begin the sums of their phases.
         let fresh = i.first | (r.fresh & !i.phase.is(0));
@@ -351,9 +394,11 @@ impl Demodulator {
         (sum, summed): (Signal<V>, Signal<V>),
     ) -> Registers<Signal<V>> {
         let (left, right) = self.operands(&r, &i, window_word);
-        let uses_code = r.step.at_least(int(WINDOWING - 1)) & r.step.less_than(int(WINDOWING + self.sums()));
+        let uses_code =
+            r.step.at_least(int(WINDOWING - 1)) & r.step.less_than(int(WINDOWING + self.sums()));
         let end = r.step.is(self.steps() - 1);
-        let windowing = r.step.at_least(int(PIPELINE)) & r.step.less_than(int(PIPELINE + WINDOWING));
+        let windowing =
+            r.step.at_least(int(PIPELINE)) & r.step.less_than(int(PIPELINE + WINDOWING));
         let r = when!(windowing => self.windowed(r, product), else r);
         Registers {
             busy: !end,
@@ -372,13 +417,24 @@ impl Demodulator {
 
 impl Block for Demodulator {
     #[inline(always)]
-    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+    fn clock<V: Interpretation>(
+        &self,
+        state: &mut State<Self, V>,
+        i: Inputs<Signal<V>>,
+    ) -> Outputs<Signal<V>> {
         if let Some(polyphase) = &self.polyphase {
             return self.clock_polyphase(polyphase, state, i);
         }
         let r = state.load(self);
         let channel = self.channel(&r);
-        let outputs = Outputs { channel, valid: r.valid, index: r.index, sum: r.sum, pad: r.pad, clipped: r.clipped };
+        let outputs = Outputs {
+            channel,
+            valid: r.valid,
+            index: r.index,
+            sum: r.sum,
+            pad: r.pad,
+            clipped: r.clipped,
+        };
         if (i.start | r.busy | r.summed).can_skip() {
             return outputs;
         }
@@ -388,7 +444,8 @@ impl Block for Demodulator {
             (in_range & r.busy, from_end.bits(0, self.index.width))
         };
         let ((summed, index), (_, next_index)) = (place(0), place(1));
-        let inputs = multiplier::Inputs { enable: r.busy, left: r.left.integer(), right: r.right.integer() };
+        let inputs =
+            multiplier::Inputs { enable: r.busy, left: r.left.integer(), right: r.right.integer() };
         let product = call!(self.multiplier, state, inputs).product;
         let product = product.scaled(-2 * r.left.format.frac);
         let so_far = Signal { format: self.sum(), ..self.sums.data(&mut state.submodules.sums) };

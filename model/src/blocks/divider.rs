@@ -13,8 +13,9 @@
 //! | quotient  | saturates, and says so                                                   |
 //! | remainder | cannot: it stays below the denominator (assumed; verified exhaustively) |
 //!
-//! A zero denominator gives a saturated quotient; the caller says what that means. Latency: quotient width + 4 clocks from
-//! `start` to `done`. Source: restoring division, Parhami, Computer Arithmetic, §13.
+//! A zero denominator gives a saturated quotient; the caller says what that means. Latency:
+//! quotient width + 4 clocks from `start` to `done`. Source: restoring division, Parhami, Computer
+//! Arithmetic, §13.
 
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format};
@@ -68,9 +69,13 @@ impl Divider {
     /// A divider for these unsigned formats.
     ///
     /// # Panics
-    /// Where the quotient has fewer fractional bits than the numerator has beyond the denominator's.
+    /// Where the quotient has fewer fractional bits than the numerator has beyond the
+    /// denominator's.
     pub fn new(numerator: Format, denominator: Format, quotient: Format) -> Self {
-        assert!(!(numerator.signed || denominator.signed || quotient.signed), "a divider is unsigned");
+        assert!(
+            !(numerator.signed || denominator.signed || quotient.signed),
+            "a divider is unsigned"
+        );
         let pad = quotient.frac - numerator.frac + denominator.frac;
         assert!(pad >= 0, "{numerator} / {denominator} has more fractional bits than {quotient}");
         let width = (numerator.width + pad as u8).max(quotient.width + 1);
@@ -86,17 +91,26 @@ impl Divider {
 
     /// The registers when a division begins: the dividend's high bits are the first remainder.
     #[inline(always)]
-    fn begin<V: Interpretation>(&self, r: Registers<Signal<V>>, i: Inputs<Signal<V>>) -> Registers<Signal<V>> {
+    fn begin<V: Interpretation>(
+        &self,
+        r: Registers<Signal<V>>,
+        i: Inputs<Signal<V>>,
+    ) -> Registers<Signal<V>> {
         let numerator = i.numerator.resize(self.dividend, Proved);
         let width = self.quotient.width;
-        let (remainder, tail) = (numerator.bits(width, self.dividend.width - width), numerator.bits(0, width));
+        let (remainder, tail) =
+            (numerator.bits(width, self.dividend.width - width), numerator.bits(0, width));
         Registers { busy: bit(true), count: int(0), remainder, tail, ..r }
     }
 
-    /// If the high bits already reach the denominator, the quotient does not fit: it is known already, and zeros keep the
-    /// remainder below even so.
+    /// If the high bits already reach the denominator, the quotient does not fit: it is known
+    /// already, and zeros keep the remainder below even so.
     #[inline(always)]
-    fn check<V: Interpretation>(&self, r: Registers<Signal<V>>, i: Inputs<Signal<V>>) -> Registers<Signal<V>> {
+    fn check<V: Interpretation>(
+        &self,
+        r: Registers<Signal<V>>,
+        i: Inputs<Signal<V>>,
+    ) -> Registers<Signal<V>> {
         let over = r.remainder.at_least(i.denominator.integer()).named("too_large");
         let (remainder, tail) = (over.select(int(0), r.remainder), over.select(int(0), r.tail));
         Registers { count: r.count.increment(), remainder, tail, over, ..r }
@@ -119,16 +133,25 @@ impl Divider {
         }
     }
 
-    /// Whether the quotient is rounded up: twice the remainder is past the denominator, or just there and the quotient odd.
+    /// Whether the quotient is rounded up: twice the remainder is past the denominator, or just
+    /// there and the quotient odd.
     #[inline(always)]
-    fn round<V: Interpretation>(&self, r: Registers<Signal<V>>, rest: Signal<V>) -> Registers<Signal<V>> {
+    fn round<V: Interpretation>(
+        &self,
+        r: Registers<Signal<V>>,
+        rest: Signal<V>,
+    ) -> Registers<Signal<V>> {
         let up = !rest.msb() & (!rest.is(0) | r.tail.bits(0, 1));
         Registers { count: r.count.increment(), up, ..r }
     }
 
     /// The rounded quotient.
     #[inline(always)]
-    fn finish<V: Interpretation>(&self, r: Registers<Signal<V>>, i: Inputs<Signal<V>>) -> Registers<Signal<V>> {
+    fn finish<V: Interpretation>(
+        &self,
+        r: Registers<Signal<V>>,
+        i: Inputs<Signal<V>>,
+    ) -> Registers<Signal<V>> {
         let (rounded, over) = (r.tail + r.up).saturate(self.quotient.integer(), Exact);
         let most = code(self.quotient.max_code() as i64, self.quotient.integer());
         let saturated = over | r.over;
@@ -158,7 +181,11 @@ impl Divider {
 
 impl Block for Divider {
     #[inline(always)]
-    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+    fn clock<V: Interpretation>(
+        &self,
+        state: &mut State<Self, V>,
+        i: Inputs<Signal<V>>,
+    ) -> Outputs<Signal<V>> {
         let r = state.load(self);
         let outputs = Outputs { done: r.done, quotient: r.quotient, saturated: r.saturated };
         if (i.start | r.busy | r.done).can_skip() {

@@ -6,8 +6,9 @@
 //!      └ haptic voltage ───────────────────────────────┘
 //! ```
 //!
-//! One slot is in flight at a time, so that nothing of one pad can meet anything of another; the profile's blanking is longer
-//! than the latency. Latency: the sum of the stages', from the last sum to the last word.
+//! One slot is in flight at a time, so that nothing of one pad can meet anything of another; the
+//! profile's blanking is longer than the latency. Latency: the sum of the stages', from the last
+//! sum to the last word.
 
 use super::capacitance::{self, Capacitance};
 use super::currents::{self, Currents};
@@ -131,7 +132,8 @@ impl Estimator {
 
     /// The formats of the calibration.
     fn calibration(&self) -> Calibration<Format> {
-        let (capacitance_gain, force_gain) = (self.capacitance.inputs().gain, self.force_estimator.inputs().gain);
+        let (capacitance_gain, force_gain) =
+            (self.capacitance.inputs().gain, self.force_estimator.inputs().gain);
         Calibration { capacitance_gain, force_gain, table: self.position.inputs().table }
     }
 
@@ -140,7 +142,17 @@ impl Estimator {
     fn frame(&self) -> FramePort<Format> {
         let frames::Outputs { valid, index, word, done } = self.frames.outputs();
         let (pad, clipped) = (self.pad(), BIT);
-        FramePort { valid, index, frame: word, done, pad, clipped, saturated: BIT, invalid: BIT, lost: BIT }
+        FramePort {
+            valid,
+            index,
+            frame: word,
+            done,
+            pad,
+            clipped,
+            saturated: BIT,
+            invalid: BIT,
+            lost: BIT,
+        }
     }
 
     /// Clocks from the last sum to the last word.
@@ -174,7 +186,11 @@ impl Estimator {
 
 impl Block for Estimator {
     #[inline(always)]
-    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+    fn clock<V: Interpretation>(
+        &self,
+        state: &mut State<Self, V>,
+        i: Inputs<Signal<V>>,
+    ) -> Outputs<Signal<V>> {
         let r = state.load(self);
         if (i.valid | r.busy | i.calibration.table.write | i.clear).can_skip() {
             return self.quiet(r);
@@ -226,7 +242,11 @@ impl Block for Estimator {
             mean_square: haptic.mean_square,
         };
         let frames = call!(self.frames, state, inputs);
-        let held = currents.saturated | haptic.saturated | position.saturated | capacitance.saturated | force.saturated;
+        let held = currents.saturated
+            | haptic.saturated
+            | position.saturated
+            | capacitance.saturated
+            | force.saturated;
         let held = held.named("any_saturated");
         let busy = valid | (r.busy & !frames.done);
         state.store(self, Registers { busy, pad, clipped: valid.select(i.clipped, r.clipped) });

@@ -13,8 +13,8 @@
 //! | square, energy | profile | pF²  | saturates, flagged |
 //! | force          | profile | N    | saturates, flagged |
 //!
-//! One multiplier serves all three products, on codes as integers; a step takes as long as it does. Latency: 9 steps and a
-//! clock from `start` to `done`.
+//! One multiplier serves all three products, on codes as integers; a step takes as long as it does.
+//! Latency: 9 steps and a clock from `start` to `done`.
 
 use super::multiplier::{self, Multiplier};
 use crate::check::{built, rounds};
@@ -94,12 +94,24 @@ impl Force {
     /// A format to which no word of the model can be rounded.
     pub fn try_new(profile: &Profile) -> Result<Self, ProfileError> {
         let f = &profile.formats;
-        let (capacitance, mean_square, square, gain) = (f.capacitance, f.mean_square, f.square, f.force_gain);
+        let (capacitance, mean_square, square, gain) =
+            (f.capacitance, f.mean_square, f.square, f.force_gain);
         let left = Format::unsigned(capacitance.width.max(square.width), 0);
         let right = Format::unsigned(capacitance.width.max(mean_square.width).max(gain.width), 0);
         let multiplier = Multiplier::new(left, right, profile.multiplier);
-        let force = Force { multiplier, capacitance, mean_square, square, gain, force: f.force, left, right };
-        for (field, (product, to)) in ["square", "square", "force"].into_iter().zip(force.products()) {
+        let force = Force {
+            multiplier,
+            capacitance,
+            mean_square,
+            square,
+            gain,
+            force: f.force,
+            left,
+            right,
+        };
+        for (field, (product, to)) in
+            ["square", "square", "force"].into_iter().zip(force.products())
+        {
             rounds(&format!("formats.{field}"), product, to)?;
         }
         Ok(force)
@@ -131,9 +143,12 @@ impl Force {
         let at = |step: Step| r.step.at(step);
         let narrowed = self.products().map(|(of, to)| product.as_code(of).saturate(to, HalfEven));
         let [(square, square_held), (energy, energy_held), (force, force_held)] = narrowed;
-        let [capacitance, mean_square, gain] = [i.capacitance, i.mean_square, i.gain].map(Signal::integer);
+        let [capacitance, mean_square, gain] =
+            [i.capacitance, i.mean_square, i.gain].map(Signal::integer);
         let factor = at(NarrowSquare).select(square, energy);
-        let saturated = (at(NarrowSquare) & square_held) | (at(NarrowEnergy) & energy_held) | (at(Finish) & force_held);
+        let saturated = (at(NarrowSquare) & square_held)
+            | (at(NarrowEnergy) & energy_held)
+            | (at(Finish) & force_held);
         Registers {
             step: at(Finish).select(Idle.signal(), r.step + int(1)).resize(r.step.format, Wrap),
             multiplier_busy: bit(false),
@@ -149,18 +164,29 @@ impl Force {
 
 impl Block for Force {
     #[inline(always)]
-    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+    fn clock<V: Interpretation>(
+        &self,
+        state: &mut State<Self, V>,
+        i: Inputs<Signal<V>>,
+    ) -> Outputs<Signal<V>> {
         let r = state.load(self);
-        let outputs = Outputs { done: r.done, haptic_force: r.haptic_force, saturated: r.saturated };
+        let outputs =
+            Outputs { done: r.done, haptic_force: r.haptic_force, saturated: r.saturated };
         if (i.start | !r.step.at(Step::Idle) | r.done).can_skip() {
             return outputs;
         }
-        let inputs = multiplier::Inputs { enable: !r.step.at(Step::Idle), left: r.left, right: r.right };
+        let inputs =
+            multiplier::Inputs { enable: !r.step.at(Step::Idle), left: r.left, right: r.right };
         let product = call!(self.multiplier, state, inputs).product;
         let advance = self.multiplier.ready(r.multiplier_busy);
         let idle = Registers { done: bit(false), ..r };
         let waits = Registers { multiplier_busy: bit(true), ..idle };
-        let begin = Registers { step: Step::Load.signal(), multiplier_busy: bit(false), saturated: bit(false), ..idle };
+        let begin = Registers {
+            step: Step::Load.signal(),
+            multiplier_busy: bit(false),
+            saturated: bit(false),
+            ..idle
+        };
         next!(self, state,
             i.start => begin,
             r.step.at(Step::Idle) => idle,

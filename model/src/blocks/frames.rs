@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Frames: a slot's results as words one after the other; where they are invalid, the pad's last valid ones.
+//! Frames: a slot's results as words one after the other; where they are invalid, the pad's last
+//! valid ones.
 //!
 //! ```text
 //! results ─(one by one)─┬──(valid ?)── word
 //!                       └─[held: fields of every pad]─┘
 //! ```
 //!
-//! Words are codes as integers, in the formats of [`Field::format`]. The haptic mean square is always valid and never held.
-//! Latency: fields + 2 clocks from `start` to the last word. Source: docs/decisions.md §6 (invalid: last value held).
+//! Words are codes as integers, in the formats of [`Field::format`]. The haptic mean square is
+//! always valid and never held. Latency: fields + 2 clocks from `start` to the last word. Source:
+//! docs/decisions.md §6 (invalid: last value held).
 
 use hapticore_contract::frame::Field;
 use hapticore_contract::profile::Profile;
@@ -104,7 +106,8 @@ impl Frames {
     /// The result that is the field `index`, as an integer.
     #[inline(always)]
     fn result<V: Interpretation>(&self, i: &Inputs<Signal<V>>, index: Signal<V>) -> Signal<V> {
-        let fields = [i.r_x, i.r_y, i.x, i.y, i.sheet, i.capacitance, i.haptic_force, i.mean_square];
+        let fields =
+            [i.r_x, i.r_y, i.x, i.y, i.sheet, i.capacitance, i.haptic_force, i.mean_square];
         let word = |k: usize| fields[k].integer().resize(self.word(), Proved);
         // A tree of multiplexers, a level for each bit of the index.
         let pair = |k: usize| index.bits(0, 1).select(word(2 * k + 1), word(2 * k));
@@ -115,7 +118,11 @@ impl Frames {
 
 impl Block for Frames {
     #[inline(always)]
-    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+    fn clock<V: Interpretation>(
+        &self,
+        state: &mut State<Self, V>,
+        i: Inputs<Signal<V>>,
+    ) -> Outputs<Signal<V>> {
         let r = state.load(self);
         let outputs = Outputs { valid: r.valid, index: r.index, word: r.word, done: r.done };
         if (i.start | r.busy | r.valid).can_skip() {
@@ -139,7 +146,8 @@ impl Block for Frames {
             word: emits.select(word, r.word),
             done: emits & end,
         };
-        let begin = Registers { busy: bit(true), count: int(0), valid: bit(false), done: bit(false), ..r };
+        let begin =
+            Registers { busy: bit(true), count: int(0), valid: bit(false), done: bit(false), ..r };
         next!(self, state, i.start => begin, else working);
         outputs
     }

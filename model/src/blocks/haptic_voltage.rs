@@ -15,11 +15,12 @@
 //! | mean_square | profile | full scale²      | saturates, flagged |
 //! | total       | exact   | full scale²      | cannot             |
 //!
-//! A haptic voltage whose period is longer than the window is read by its phase; windows that are spread evenly over whole
-//! periods are right in the mean. Until a pad has had N windows since reset or `clear` its last one alone counts.
+//! A haptic voltage whose period is longer than the window is read by its phase; windows that are
+//! spread evenly over whole periods are right in the mean. Until a pad has had N windows since
+//! reset or `clear` its last one alone counts.
 //!
-//! Latency: one clock; with N > 1, N + 3, which the currents' outlasts. Source: paper, eq. 7 (the force follows the square);
-//! docs/physics.md §3 (the gap follows the RMS).
+//! Latency: one clock; with N > 1, N + 3, which the currents' outlasts. Source: paper, eq. 7 (the
+//! force follows the square); docs/physics.md §3 (the gap follows the RMS).
 
 use super::demodulator::Demodulator;
 use crate::check::{built, rounds};
@@ -89,14 +90,16 @@ impl HapticVoltage {
     /// The haptic voltage of a profile.
     ///
     /// # Errors
-    /// A mean square to which no word of the model can be rounded; sums as [`Demodulator::try_new`].
+    /// A mean square to which no word of the model can be rounded; sums as
+    /// [`Demodulator::try_new`].
     pub fn try_new(profile: &Profile) -> Result<Self, ProfileError> {
         let demodulator = Demodulator::try_new(profile)?;
         let (windows, square) = (profile.haptic.windows, profile.formats.mean_square);
         let (pad, shift) = (Format::counter(profile.pads - 1), profile.square_shift());
         rounds("formats.mean_square", demodulator.sum().scaled(-shift), square)?;
         Ok(HapticVoltage {
-            squares: Memory::new("squares", (windows as usize) << pad.width, square).dont_care_on_collision(),
+            squares: Memory::new("squares", (windows as usize) << pad.width, square)
+                .dont_care_on_collision(),
             windows,
             shift,
             sums: demodulator.sums(),
@@ -113,7 +116,11 @@ impl HapticVoltage {
 
     /// The window's squares are there: with one window these are the result.
     #[inline(always)]
-    fn accept<V: Interpretation>(&self, r: Registers<Signal<V>>, i: Inputs<Signal<V>>) -> Registers<Signal<V>> {
+    fn accept<V: Interpretation>(
+        &self,
+        r: Registers<Signal<V>>,
+        i: Inputs<Signal<V>>,
+    ) -> Registers<Signal<V>> {
         let (newest, saturated) = i.sum.scaled(-self.shift).saturate(r.newest.format, HalfEven);
         if self.windows == 1 {
             return Registers { mean_square: newest, saturated, ..r };
@@ -134,12 +141,20 @@ impl HapticVoltage {
 
     /// A clock of the sum over the pad's windows: the newest is written, then all are read.
     #[inline(always)]
-    fn add<V: Interpretation>(&self, r: Registers<Signal<V>>, data: Signal<V>) -> Registers<Signal<V>> {
+    fn add<V: Interpretation>(
+        &self,
+        r: Registers<Signal<V>>,
+        data: Signal<V>,
+    ) -> Registers<Signal<V>> {
         let most = code(self.squares.format.max_code() as i64, self.squares.format);
         let adds = r.count.at_least(int(2));
         let total = (r.total + data).resize(r.total.format, Wrap);
         let ends = r.count.is(self.windows + 1);
-        let mean = total.scaled(-(self.windows.ilog2() as i8)).quantize(r.mean_square.format, HalfEven, Proved);
+        let mean = total.scaled(-(self.windows.ilog2() as i8)).quantize(
+            r.mean_square.format,
+            HalfEven,
+            Proved,
+        );
         let held = r.filled.select(data, r.newest).at_least(most);
         Registers {
             busy: !ends,
@@ -153,7 +168,12 @@ impl HapticVoltage {
 
     /// One clock of the memory: the newest square goes in, and then all of the pad's come out.
     #[inline(always)]
-    fn access<V: Interpretation>(&self, state: &mut State<Self, V>, r: &Registers<Signal<V>>, pad: Signal<V>) {
+    fn access<V: Interpretation>(
+        &self,
+        state: &mut State<Self, V>,
+        r: &Registers<Signal<V>>,
+        pad: Signal<V>,
+    ) {
         let writes = r.busy & r.count.is(0);
         let read = (r.count - int(1)).bits(0, r.round.format.width);
         let write = Write { enable: writes, address: pad.concat(r.round), data: r.newest };
@@ -163,7 +183,11 @@ impl HapticVoltage {
 
 impl Block for HapticVoltage {
     #[inline(always)]
-    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+    fn clock<V: Interpretation>(
+        &self,
+        state: &mut State<Self, V>,
+        i: Inputs<Signal<V>>,
+    ) -> Outputs<Signal<V>> {
         let r = state.load(self);
         let outputs = Outputs { mean_square: r.mean_square, saturated: r.saturated };
         if (i.valid | r.busy | i.clear).can_skip() {
@@ -176,7 +200,8 @@ impl Block for HapticVoltage {
         }
         let data = self.squares.data(&mut state.submodules.squares);
         self.access(state, &r, i.pad);
-        let next = when!(squares => self.accept(r, i), else when!(r.busy => self.add(r, data), else r));
+        let next =
+            when!(squares => self.accept(r, i), else when!(r.busy => self.add(r, data), else r));
         let cleared = Registers { round: int(0), filled: bit(false), ..next };
         state.store(self, when!(i.clear => cleared, else next));
         outputs

@@ -10,7 +10,8 @@
 //! | count  | counter of a slot         | wraps to zero at the end, by compare |
 //! | pad    | counter of the pads       | wraps to zero at the end, by compare |
 //!
-//! `clear` abandons the slot under way: no pad is driven, and the next strobe is the first of the first pad's slot.
+//! `clear` abandons the slot under way: no pad is driven, and the next strobe is the first of the
+//! first pad's slot.
 //!
 //! Latency: one clock from a strobe to its `sample`; the flags then hold until the next strobe.
 
@@ -84,8 +85,9 @@ impl Multiplexer {
     #[inline(always)]
     fn advance<V: Interpretation>(&self, r: Registers<Signal<V>>) -> Registers<Signal<V>> {
         let end = r.count.is(self.end - 1);
-        let step =
-            |at_end: Signal<V>, from: Signal<V>| at_end.select(int(0), from + int(1)).resize(from.format, Proved);
+        let step = |at_end: Signal<V>, from: Signal<V>| {
+            at_end.select(int(0), from + int(1)).resize(from.format, Proved)
+        };
         let count = step(end, r.count);
         let following = step(r.next.is(self.pads - 1), r.next);
         Registers {
@@ -104,7 +106,11 @@ impl Multiplexer {
 
 impl Block for Multiplexer {
     #[inline(always)]
-    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+    fn clock<V: Interpretation>(
+        &self,
+        state: &mut State<Self, V>,
+        i: Inputs<Signal<V>>,
+    ) -> Outputs<Signal<V>> {
         let r = state.load(self);
         let Registers { sample, restart, integrate, first, last, pad, closed, .. } = r;
         let outputs = Outputs { sample, restart, integrate, first, last, pad, closed };

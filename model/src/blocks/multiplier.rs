@@ -6,9 +6,10 @@
 //!       └─halves─(× each of right's halves)─[partial products]─(Σ)─[product]      elsewhere
 //! ```
 //!
-//! A product wider than a hardware multiplier takes several of them and an adder tree; in one clock that is the slowest path
-//! of the core (ECP5, 26 × 26 bits: 14 ns), so that the partial products have registers. Operands are codes as integers and
-//! follow one another clock by clock. Its registers have no reset, as those within hardware multipliers have none.
+//! A product wider than a hardware multiplier takes several of them and an adder tree; in one clock
+//! that is the slowest path of the core (ECP5, 26 × 26 bits: 14 ns), so that the partial products
+//! have registers. Operands are codes as integers and follow one another clock by clock. Its
+//! registers have no reset, as those within hardware multipliers have none.
 //!
 //! | signal   | overflow             |
 //! | partials | cannot: exact        |
@@ -51,8 +52,8 @@ block! {
 }
 
 impl Multiplier {
-    /// A multiplier of two integer formats on a part whose hardware multipliers take words of `hardware` bits, both signed or
-    /// both unsigned.
+    /// A multiplier of two integer formats on a part whose hardware multipliers take words of
+    /// `hardware` bits, both signed or both unsigned.
     ///
     /// # Panics
     /// Where a format is no integer's.
@@ -84,7 +85,8 @@ impl Multiplier {
         if self.low == [0, 0] { 1 } else { 2 }
     }
 
-    /// Whether a step that lasts as long as a product ends with this clock; `multiplier_busy` says that one has gone by.
+    /// Whether a step that lasts as long as a product ends with this clock; `multiplier_busy` says
+    /// that one has gone by.
     #[inline(always)]
     pub fn ready<V: Interpretation>(&self, multiplier_busy: Signal<V>) -> Signal<V> {
         if self.latency() == 1 { bit(true) } else { multiplier_busy }
@@ -96,18 +98,29 @@ impl Multiplier {
         self.left.product(self.right).assume_frac(0)
     }
 
-    /// An operand as a multiple of `2^low` and the rest: where numbers are not rounded, what the multiple leaves of it.
+    /// An operand as a multiple of `2^low` and the rest: where numbers are not rounded, what the
+    /// multiple leaves of it.
     #[inline(always)]
     fn halves<V: Interpretation>(operand: Signal<V>, low: u8) -> (Signal<V>, Signal<V>) {
         let Format { signed, width, .. } = operand.format;
-        let high = operand.quantize(Format { signed, width: width - low, frac: -(low as i8) }, Floor, Proved);
-        let rest = operand.bits(0, low).golden(&[operand, high, int(1 << low)], |of| of[0] - of[1] / of[2] * of[2]);
+        let high = operand.quantize(
+            Format { signed, width: width - low, frac: -(low as i8) },
+            Floor,
+            Proved,
+        );
+        let rest = operand
+            .bits(0, low)
+            .golden(&[operand, high, int(1 << low)], |of| of[0] - of[1] / of[2] * of[2]);
         (high, rest)
     }
 
     /// The partial products of the operands.
     #[inline(always)]
-    fn partials<V: Interpretation>(&self, i: Inputs<Signal<V>>, r: Registers<Signal<V>>) -> Registers<Signal<V>> {
+    fn partials<V: Interpretation>(
+        &self,
+        i: Inputs<Signal<V>>,
+        r: Registers<Signal<V>>,
+    ) -> Registers<Signal<V>> {
         let split = |operand: Signal<V>, low: u8| match low {
             0 => (operand, None),
             _ => {
@@ -115,7 +128,8 @@ impl Multiplier {
                 (high, Some(rest))
             }
         };
-        let ((left, left_low), (right, right_low)) = (split(i.left, self.low[0]), split(i.right, self.low[1]));
+        let ((left, left_low), (right, right_low)) =
+            (split(i.left, self.low[0]), split(i.right, self.low[1]));
         Registers {
             high_high: left * right,
             high_low: right_low.map_or(r.high_low, |low| left * low),
@@ -139,7 +153,11 @@ impl Multiplier {
 
 impl Block for Multiplier {
     #[inline(always)]
-    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+    fn clock<V: Interpretation>(
+        &self,
+        state: &mut State<Self, V>,
+        i: Inputs<Signal<V>>,
+    ) -> Outputs<Signal<V>> {
         let r = state.load(self);
         let outputs = Outputs { product: r.product };
         if i.enable.can_skip() {

@@ -14,14 +14,16 @@
 //! | quadrant, phase      | 2 bits, 0 … N/4−1 | 1/4, 1/N turn  | counts modulo N                     |
 //! | cosine, sine, window | profile           | full amplitude | the profile's amplitude stands for one |
 //!
-//! A phase counts modulo the window's samples, so that the quarter wave has an entry for each phase that there is, and no
-//! other: none is truncated. The bit that the window's halving drops is carried to the next sample. The phase begins anew
-//! with each slot, so that every slot sees the same carrier.
+//! A phase counts modulo the window's samples, so that the quarter wave has an entry for each phase
+//! that there is, and no other: none is truncated. The bit that the window's halving drops is
+//! carried to the next sample. The phase begins anew with each slot, so that every slot sees the
+//! same carrier.
 //!
-//! A polyphase demodulator needs the window and the number of the phase only: the table then holds half a window, whose other
-//! half is its mirror image, and the carrier is one of five constants.
+//! A polyphase demodulator needs the window and the number of the phase only: the table then holds
+//! half a window, whose other half is its mirror image, and the carrier is one of five constants.
 //!
-//! Latency: 4 clocks from `sample` to `ready`, polyphase 2. Source: paper, eq. 5; Harris, Proc. IEEE 66 (1978) 51, for the window.
+//! Latency: 4 clocks from `sample` to `ready`, polyphase 2. Source: paper, eq. 5; Harris, Proc.
+//! IEEE 66 (1978) 51, for the window.
 
 use hapticore_contract::profile::{Method, Profile, Window};
 use hapticore_hdl::block::{Block, Interpretation, State};
@@ -106,7 +108,9 @@ type Phase<V> = [Signal<V>; 2];
 /// The sine of a quarter turn, an entry for each step of a window's part.
 fn quarter_wave(profile: &Profile) -> Vec<f64> {
     let quarter = profile.slot.integrate / 4;
-    (0..=quarter).map(|k| profile.amplitude() * (TAU / 4.0 * k as f64 / quarter as f64).sin()).collect()
+    (0..=quarter)
+        .map(|k| profile.amplitude() * (TAU / 4.0 * k as f64 / quarter as f64).sin())
+        .collect()
 }
 
 /// The first half of the window, its middle among it.
@@ -141,7 +145,8 @@ impl Oscillator {
             quarter: Memory::table("quarter", magnitude(format), table),
             samples: profile.slot.integrate,
             polyphase,
-            carrier: [0.0, 1.0, 2.0].map(|k| format.code_saturating((TAU * k / PHASES as f64).cos())),
+            carrier: [0.0, 1.0, 2.0]
+                .map(|k| format.code_saturating((TAU * k / PHASES as f64).cos())),
             step: [profile.carrier.periods / quarter, profile.carrier.periods % quarter],
             window: profile.carrier.window,
             amplitude: profile.carrier.amplitude as i64,
@@ -176,7 +181,11 @@ impl Oscillator {
 
     /// A phase further on by a step.
     #[inline(always)]
-    fn advance<V: Interpretation>(&self, [quadrant, phase]: Phase<V>, [quadrants, steps]: [u64; 2]) -> Phase<V> {
+    fn advance<V: Interpretation>(
+        &self,
+        [quadrant, phase]: Phase<V>,
+        [quadrants, steps]: [u64; 2],
+    ) -> Phase<V> {
         let sum = phase + int(steps);
         let over = sum.at_least(int(self.steps()));
         let rest = (sum - int(self.steps())).resize(phase.format, Wrap);
@@ -187,13 +196,20 @@ impl Oscillator {
 
     /// (1 − cos) / 2 and what the halving drops, or one throughout.
     #[inline(always)]
-    fn window_value<V: Interpretation>(&self, cosine: Signal<V>, residue: Signal<V>) -> (Signal<V>, Signal<V>) {
+    fn window_value<V: Interpretation>(
+        &self,
+        cosine: Signal<V>,
+        residue: Signal<V>,
+    ) -> (Signal<V>, Signal<V>) {
         let one = code(self.amplitude, magnitude(self.wave));
         let twice = (one - cosine).named("twice");
         let sum = twice + residue.scaled(-self.wave.frac);
         match self.window {
             Window::Hann => {
-                let half = sum.scaled(-1).quantize(cosine.format, Floor, Proved).golden(&[twice], |of| of[0] / 2.0);
+                let half = sum
+                    .scaled(-1)
+                    .quantize(cosine.format, Floor, Proved)
+                    .golden(&[twice], |of| of[0] / 2.0);
                 (half, sum.bits(0, 1))
             }
             Window::Rectangular => (one, residue),
@@ -202,7 +218,11 @@ impl Oscillator {
 
     /// The phase of the clock's look-up: the sine of (φ + ¼) is the cosine.
     #[inline(always)]
-    fn address_phase<V: Interpretation>(&self, r: &Registers<Signal<V>>, i: &Inputs<Signal<V>>) -> Phase<V> {
+    fn address_phase<V: Interpretation>(
+        &self,
+        r: &Registers<Signal<V>>,
+        i: &Inputs<Signal<V>>,
+    ) -> Phase<V> {
         let begins = i.sample & i.first;
         let of = |carrier: Signal<V>, window: Signal<V>| {
             let begun = begins.select(int(0), window);
@@ -220,8 +240,9 @@ impl Oscillator {
         r: Registers<Signal<V>>,
         i: Inputs<Signal<V>>,
     ) -> Registers<Signal<V>> {
-        let next =
-            |anew: Signal<V>, count: Signal<V>, last: u64| (anew | count.is(last)).select(int(0), count.increment());
+        let next = |anew: Signal<V>, count: Signal<V>, last: u64| {
+            (anew | count.is(last)).select(int(0), count.increment())
+        };
         Registers {
             step: Step::LookUp.signal(),
             phase: next(i.restart, r.phase, PHASES - 1),
@@ -230,7 +251,8 @@ impl Oscillator {
         }
     }
 
-    /// Polyphase: the word of the window's place, or of its mirror image, is looked up; one cycle later it is there.
+    /// Polyphase: the word of the window's place, or of its mirror image, is looked up; one cycle
+    /// later it is there.
     #[inline(always)]
     fn clock_polyphase<V: Interpretation>(
         &self,
@@ -239,8 +261,13 @@ impl Oscillator {
     ) -> Outputs<Signal<V>> {
         let r = state.load(self);
         let window = self.quarter.data(&mut state.submodules.quarter).resize(self.wave, Proved);
-        let outputs =
-            Outputs { ready: r.ready, cosine: self.carrier(r.phase), sine: zero(self.wave), window, phase: r.phase };
+        let outputs = Outputs {
+            ready: r.ready,
+            cosine: self.carrier(r.phase),
+            sine: zero(self.wave),
+            window,
+            phase: r.phase,
+        };
         let busy = !r.step.at(Step::Idle);
         if (i.sample | busy | r.ready).can_skip() {
             return outputs;
@@ -263,7 +290,11 @@ impl Oscillator {
 
     /// A sample begins: phases start anew where they should.
     #[inline(always)]
-    fn begin<V: Interpretation>(&self, r: Registers<Signal<V>>, i: Inputs<Signal<V>>) -> Registers<Signal<V>> {
+    fn begin<V: Interpretation>(
+        &self,
+        r: Registers<Signal<V>>,
+        i: Inputs<Signal<V>>,
+    ) -> Registers<Signal<V>> {
         let anew = |bit: Signal<V>, phase: Signal<V>| bit.select(int(0), phase);
         Registers {
             step: Step::LookUp.signal(),
@@ -316,12 +347,22 @@ impl Oscillator {
 
 impl Block for Oscillator {
     #[inline(always)]
-    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+    fn clock<V: Interpretation>(
+        &self,
+        state: &mut State<Self, V>,
+        i: Inputs<Signal<V>>,
+    ) -> Outputs<Signal<V>> {
         if self.polyphase {
             return self.clock_polyphase(state, i);
         }
         let r = state.load(self);
-        let outputs = Outputs { ready: r.ready, cosine: r.cosine, sine: r.sine, window: r.window, phase: bit(false) };
+        let outputs = Outputs {
+            ready: r.ready,
+            cosine: r.cosine,
+            sine: r.sine,
+            window: r.window,
+            phase: bit(false),
+        };
         let busy = !r.step.at(Step::Idle);
         if (i.sample | busy | r.ready).can_skip() {
             return outputs;

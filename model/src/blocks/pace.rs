@@ -9,8 +9,9 @@
 //! | signal | format        | overflow                 |
 //! | left   | counter P − 1 | held at zero, by compare |
 //!
-//! P is `clocks_per_sample`: the demodulator serves all channels in them, and a sample that comes earlier breaks into the one
-//! before. `overrun` stays from the strobe that was too early until `clear` or a reset. Latency: one clock.
+//! P is `clocks_per_sample`: the demodulator serves all channels in them, and a sample that comes
+//! earlier breaks into the one before. `overrun` stays from the strobe that was too early until
+//! `clear` or a reset. Latency: one clock.
 
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::block;
@@ -49,7 +50,11 @@ impl Pace {
 
 impl Block for Pace {
     #[inline(always)]
-    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+    fn clock<V: Interpretation>(
+        &self,
+        state: &mut State<Self, V>,
+        i: Inputs<Signal<V>>,
+    ) -> Outputs<Signal<V>> {
         let r = state.load(self);
         let none = r.left.is(0);
         let outputs = Outputs { overrun: r.overrun };

@@ -13,7 +13,8 @@
 //! | signal          | format  | unit | overflow                                      |
 //! | r_x, r_y, share | profile | –    | cannot: a numerator is at most its denominator |
 //!
-//! A zero denominator gives `invalid`. Latency: 3 · (divider + 1) + 1 clocks from `start` to `done`.
+//! A zero denominator gives `invalid`. Latency: 3 · (divider + 1) + 1 clocks from `start` to
+//! `done`.
 
 use super::divider::{self, Divider};
 use crate::check::{built, fits};
@@ -83,7 +84,8 @@ const fn magnitude(ratio: Format) -> Format {
 }
 
 impl Ratio {
-    /// The ratios of a profile; `sums` are the formats of the numerators and of the denominator, `least` that of an amplitude.
+    /// The ratios of a profile; `sums` are the formats of the numerators and of the denominator,
+    /// `least` that of an amplitude.
     ///
     /// # Panics
     /// Where [`Ratio::try_new`] fails.
@@ -95,7 +97,11 @@ impl Ratio {
     ///
     /// # Errors
     /// A ratio whose dividend no word of the model holds.
-    pub fn try_new(profile: &Profile, (sums, corners): (Format, Format), least: Format) -> Result<Self, ProfileError> {
+    pub fn try_new(
+        profile: &Profile,
+        (sums, corners): (Format, Format),
+        least: Format,
+    ) -> Result<Self, ProfileError> {
         let ratio = profile.formats.ratio;
         let divider = Divider::new(Format { signed: false, ..sums }, corners, magnitude(ratio));
         fits("formats.ratio", "the dividend of a ratio", divider.dividend.width)?;
@@ -120,12 +126,17 @@ impl Ratio {
         i: Inputs<Signal<V>>,
         divided: divider::Outputs<Signal<V>>,
     ) -> Registers<Signal<V>> {
-        let [x, y, share] = [Step::X, Step::Y, Step::Share].map(|step| divided.done & r.step.at(step));
+        let [x, y, share] =
+            [Step::X, Step::Y, Step::Share].map(|step| divided.done & r.step.at(step));
         let numerator = r.step.at(Step::X).select(i.x, i.y).named("numerator");
         let negative = numerator.less_than(int(0));
-        let ratio = negative.select(-divided.quotient, divided.quotient).resize(r.r_x.format, Proved);
+        let ratio =
+            negative.select(-divided.quotient, divided.quotient).resize(r.r_x.format, Proved);
         Registers {
-            step: x.select(Step::Y.signal(), y.select(Step::Share.signal(), share.select(Step::Idle.signal(), r.step))),
+            step: x.select(
+                Step::Y.signal(),
+                y.select(Step::Share.signal(), share.select(Step::Idle.signal(), r.step)),
+            ),
             divide: x | y,
             // That of x comes first, and moves on: one value, one register that takes it.
             r_x: y.select(r.r_y, r.r_x),
@@ -138,14 +149,25 @@ impl Ratio {
 
 impl Block for Ratio {
     #[inline(always)]
-    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+    fn clock<V: Interpretation>(
+        &self,
+        state: &mut State<Self, V>,
+        i: Inputs<Signal<V>>,
+    ) -> Outputs<Signal<V>> {
         let r = state.load(self);
         let numerator = r.step.at(Step::X).select(i.x, i.y).abs();
-        let numerator = r.step.at(Step::Share).select(i.least.resize(numerator.format, Proved), numerator);
+        let numerator =
+            r.step.at(Step::Share).select(i.least.resize(numerator.format, Proved), numerator);
         let inputs = divider::Inputs { start: r.divide, numerator, denominator: i.corners };
         // The last quotient, the share, stays until the next slot's first.
         let divided = call!(self.divider, state, inputs);
-        let outputs = Outputs { done: r.done, r_x: r.r_x, r_y: r.r_y, share: divided.quotient, invalid: r.invalid };
+        let outputs = Outputs {
+            done: r.done,
+            r_x: r.r_x,
+            r_y: r.r_y,
+            share: divided.quotient,
+            invalid: r.invalid,
+        };
         if (i.start | !r.step.at(Step::Idle) | r.done).can_skip() {
             return outputs;
         }

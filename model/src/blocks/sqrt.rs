@@ -13,8 +13,8 @@
 //! | sqrt      | cannot: it has half the radicand's integer bits, and one more              |
 //! | remainder | cannot: it is at most twice the partial root (assumed; verified exhaustively) |
 //!
-//! Latency: half the radicand's width + 2 clocks from `start` to `done`. Source: digit-by-digit square root, Parhami, Computer
-//! Arithmetic, §21.
+//! Latency: half the radicand's width + 2 clocks from `start` to `done`. Source: digit-by-digit
+//! square root, Parhami, Computer Arithmetic, §21.
 
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format};
@@ -62,7 +62,10 @@ impl SquareRoot {
     /// # Panics
     /// Where the radicand has more than twice as many fractional bits.
     pub fn new(radicand: Format, frac: i8) -> Self {
-        assert!(!radicand.signed && radicand.frac <= 2 * frac, "√{radicand} has more fractional bits than {frac}");
+        assert!(
+            !radicand.signed && radicand.frac <= 2 * frac,
+            "√{radicand} has more fractional bits than {frac}"
+        );
         let digits = ((radicand.integer_bits() + 1) / 2 + i16::from(frac)) as u8;
         SquareRoot { radicand, digits, frac }
     }
@@ -85,13 +88,26 @@ impl SquareRoot {
     }
 
     #[inline(always)]
-    fn begin<V: Interpretation>(&self, r: Registers<Signal<V>>, i: Inputs<Signal<V>>) -> Registers<Signal<V>> {
+    fn begin<V: Interpretation>(
+        &self,
+        r: Registers<Signal<V>>,
+        i: Inputs<Signal<V>>,
+    ) -> Registers<Signal<V>> {
         let radicand = i.radicand.resize(self.padded(), Proved);
         let tail = radicand.bits(0, self.padded().width);
-        Registers { busy: bit(true), count: int(0), radicand, tail, remainder: int(0), partial: int(0), ..r }
+        Registers {
+            busy: bit(true),
+            count: int(0),
+            radicand,
+            tail,
+            remainder: int(0),
+            partial: int(0),
+            ..r
+        }
     }
 
-    /// One more digit: with root n so far, the next is set where 4n + 1 still goes into the remainder.
+    /// One more digit: with root n so far, the next is set where 4n + 1 still goes into the
+    /// remainder.
     #[inline(always)]
     fn step<V: Interpretation>(&self, r: Registers<Signal<V>>) -> Registers<Signal<V>> {
         let width = self.padded().width;
@@ -119,7 +135,11 @@ impl SquareRoot {
 
 impl Block for SquareRoot {
     #[inline(always)]
-    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+    fn clock<V: Interpretation>(
+        &self,
+        state: &mut State<Self, V>,
+        i: Inputs<Signal<V>>,
+    ) -> Outputs<Signal<V>> {
         let r = state.load(self);
         let outputs = Outputs { done: r.done, sqrt: r.sqrt };
         if (i.start | r.busy | r.done).can_skip() {

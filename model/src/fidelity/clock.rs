@@ -20,8 +20,8 @@ pub struct ClockSimulation {
     state: State,
 }
 
-/// What changes from clock to clock: apart from what does not, so that the compiler need not look at formats again after
-/// every word that is written.
+/// What changes from clock to clock: apart from what does not, so that the compiler need not look
+/// at formats again after every word that is written.
 struct State {
     core: block::State<Core, i64>,
     channel: usize,
@@ -41,12 +41,19 @@ impl ClockSimulation {
             core,
             clocks_per_sample: profile.clocks_per_sample,
             channels: profile.channels(),
-            state: State { core: state, channel: 0, gathered: Gathered::default(), frame: None, clocks: 0 },
+            state: State {
+                core: state,
+                channel: 0,
+                gathered: Gathered::default(),
+                frame: None,
+                clocks: 0,
+            },
         }
     }
 
-    /// The clocks of samples that follow one another: of each the codes of every channel, in the order terminals, sensing
-    /// voltage, haptic voltage. Of the frames that are finished meanwhile, the last is kept.
+    /// The clocks of samples that follow one another: of each the codes of every channel, in the
+    /// order terminals, sensing voltage, haptic voltage. Of the frames that are finished meanwhile,
+    /// the last is kept.
     ///
     /// # Panics
     /// Where `codes` has not one code per channel per sample.
@@ -56,7 +63,8 @@ impl ClockSimulation {
         self.state.samples(&self.core, &self.inputs, self.clocks_per_sample, samples);
     }
 
-    /// As [`ClockSimulation::samples`] for one of them, with a look at the simulation after each clock.
+    /// As [`ClockSimulation::samples`] for one of them, with a look at the simulation after each
+    /// clock.
     ///
     /// # Panics
     /// Where `codes` has not one code a channel.
@@ -93,7 +101,13 @@ impl ClockSimulation {
 impl State {
     /// Not inlined: what it borrows is then known to be apart.
     #[inline(never)]
-    fn samples(&mut self, core: &Core, inputs: &Inputs<Signal<i64>>, clocks: u64, samples: ChunksExact<'_, i32>) {
+    fn samples(
+        &mut self,
+        core: &Core,
+        inputs: &Inputs<Signal<i64>>,
+        clocks: u64,
+        samples: ChunksExact<'_, i32>,
+    ) {
         for codes in samples {
             for count in 0..clocks {
                 let inputs = self.inputs_for_cycle(inputs, count == 0, codes);
@@ -111,7 +125,12 @@ impl State {
 
     /// The inputs of a clock: the code is that of the channel that was asked for.
     #[inline(always)]
-    fn inputs_for_cycle(&self, inputs: &Inputs<Signal<i64>>, strobe: bool, codes: &[i32]) -> Inputs<Signal<i64>> {
+    fn inputs_for_cycle(
+        &self,
+        inputs: &Inputs<Signal<i64>>,
+        strobe: bool,
+        codes: &[i32],
+    ) -> Inputs<Signal<i64>> {
         let code = Signal { value: i64::from(codes[self.channel]), format: inputs.code.format };
         Inputs { strobe: bit(strobe), code, ..*inputs }
     }

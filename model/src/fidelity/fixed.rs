@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Fidelity `fixed`: the frames that `clock` gives, to the bit, without stepping the clocks of every sample.
+//! Fidelity `fixed`: the frames that `clock` gives, to the bit, without stepping the clocks of
+//! every sample.
 //!
-//! A window's sums are made sample by sample with the demodulator's own arithmetic; the local oscillator is the same for
-//! every slot, and so is asked once. The estimator then runs through its clocks, a few hundred a slot: of codes the position's
-//! program has its results at once. As it is generic over the interpretation, the same run, with the program's clocks, gives the rounding
+//! A window's sums are made sample by sample with the demodulator's own arithmetic; the local
+//! oscillator is the same for every slot, and so is asked once. The estimator then runs through its
+//! clocks, a few hundred a slot: of codes the position's program has its results at once. As it is
+//! generic over the interpretation, the same run, with the program's clocks, gives the rounding
 //! error of every signal ([`Shadow`](hapticore_hdl::interpretations::shadow::Shadow)).
 
 use super::tone::Response;
@@ -46,7 +48,9 @@ impl<V: Interpretation> FixedSimulation<V> {
         let mut core = Core::new(profile);
         if V::DECIDES {
             let words = calibration.position.words.iter();
-            core.place_at_once(words.map(|&word| profile.formats.table.code_saturating(word)).collect());
+            core.place_at_once(
+                words.map(|&word| profile.formats.table.code_saturating(word)).collect(),
+            );
         }
         let constants = signals::<CoreInputs, V>(core.idle_inputs(calibration), core.inputs());
         let sums = vec![zero(core.demodulator().sum()); core.demodulator().sums() as usize];
@@ -72,22 +76,33 @@ impl<V: Interpretation> FixedSimulation<V> {
     /// The frame of a slot: `codes` are those of its window, a sample after the other.
     ///
     /// # Panics
-    /// Where `codes` is not one code per channel and sample, or the estimator does not finish within its latency.
+    /// Where `codes` is not one code per channel and sample, or the estimator does not finish
+    /// within its latency.
     pub fn slot(&mut self, pad: usize, codes: &[i32]) -> Frame {
-        assert_eq!(codes.len(), self.window() * self.channels, "one code a channel and sample of the window");
+        assert_eq!(
+            codes.len(),
+            self.window() * self.channels,
+            "one code a channel and sample of the window"
+        );
         self.demodulate(codes);
         let clipped = self.clipped(codes);
         self.estimate(pad, clipped)
     }
 
-    /// The frame of a slot whose samples nobody made: from the amplitudes of the terminals and of the sensing voltage, in
-    /// phase and a quarter turn ahead of the carrier, and the haptic voltage's mean square, all of full scale. The ADC's
-    /// rounding is absent, so that [`slot`](FixedSimulation::slot) of the same tones' samples differs by it.
+    /// The frame of a slot whose samples nobody made: from the amplitudes of the terminals and of
+    /// the sensing voltage, in phase and a quarter turn ahead of the carrier, and the haptic
+    /// voltage's mean square, all of full scale. The ADC's rounding is absent, so that
+    /// [`slot`](FixedSimulation::slot) of the same tones' samples differs by it.
     ///
     /// # Panics
-    /// Where `amplitudes` is not one a demodulated channel, or the estimator does not finish within its latency.
+    /// Where `amplitudes` is not one a demodulated channel, or the estimator does not finish within
+    /// its latency.
     pub fn phasors(&mut self, pad: usize, amplitudes: &[(f64, f64)], mean_square: f64) -> Frame {
-        assert_eq!(amplitudes.len(), self.channels - 1, "an amplitude a terminal, and the sensing voltage's");
+        assert_eq!(
+            amplitudes.len(),
+            self.channels - 1,
+            "an amplitude a terminal, and the sensing voltage's"
+        );
         let format = self.core.demodulator().sum();
         let (square, mut clipped) = self.response.square(mean_square);
         for (channel, amplitude) in amplitudes.iter().enumerate() {
@@ -100,12 +115,17 @@ impl<V: Interpretation> FixedSimulation<V> {
         self.estimate(pad, clipped)
     }
 
-    /// The sums of a window, as numbers: in phase and quadrature of each channel, then of the haptic voltage's squares.
+    /// The sums of a window, as numbers: in phase and quadrature of each channel, then of the
+    /// haptic voltage's squares.
     ///
     /// # Panics
     /// Where `codes` is not one code per channel and sample.
     pub fn sums(&mut self, codes: &[i32]) -> Vec<f64> {
-        assert_eq!(codes.len(), self.window() * self.channels, "one code a channel and sample of the window");
+        assert_eq!(
+            codes.len(),
+            self.window() * self.channels,
+            "one code a channel and sample of the window"
+        );
         self.demodulate(codes);
         self.sums.iter().map(|&sum| sum.format.real(V::code(sum))).collect()
     }
@@ -139,9 +159,12 @@ impl<V: Interpretation> FixedSimulation<V> {
         let mut sums = [zero(demodulator.sum()); 5];
         let (samples, local) = (codes.chunks_exact(5 * self.channels), self.local.chunks_exact(5));
         for (samples, local) in samples.zip(local) {
-            for ((sum, codes), local) in sums.iter_mut().zip(samples.chunks_exact(self.channels)).zip(local) {
+            for ((sum, codes), local) in
+                sums.iter_mut().zip(samples.chunks_exact(self.channels)).zip(local)
+            {
                 let code = demodulator.raised(raw(codes[channel], adc));
-                *sum = demodulator.add(*sum, code * demodulator.window_word(self.wave(local.window)));
+                *sum =
+                    demodulator.add(*sum, code * demodulator.window_word(self.wave(local.window)));
             }
         }
         sums
@@ -168,7 +191,8 @@ impl<V: Interpretation> FixedSimulation<V> {
         if demodulator.polyphase().is_some() {
             for (codes, local) in codes.chunks_exact(self.channels).zip(&self.local) {
                 let code = demodulator.magnitude(raw(codes[channel], adc));
-                let share = demodulator.share(demodulator.window_word(self.wave(local.window)) * code);
+                let share =
+                    demodulator.share(demodulator.window_word(self.wave(local.window)) * code);
                 sum = demodulator.add(sum, code * share);
             }
             return sum;
@@ -181,7 +205,8 @@ impl<V: Interpretation> FixedSimulation<V> {
         sum
     }
 
-    /// The format of a sum within the loop: with the point of its products, so that nothing is aligned there.
+    /// The format of a sum within the loop: with the point of its products, so that nothing is
+    /// aligned there.
     fn running_sum(&self) -> Format {
         let (sum, product) = (self.core.demodulator().sum(), self.adc.product(self.oscillator));
         Format { width: sum.width - (sum.frac - product.frac) as u8, frac: product.frac, ..sum }
@@ -210,8 +235,8 @@ impl<V: Interpretation> FixedSimulation<V> {
     }
 }
 
-/// The frame that an estimator makes of a window's sums. Not inlined: what it borrows is then known to be apart, and formats
-/// need not be looked at again after every word that is written.
+/// The frame that an estimator makes of a window's sums. Not inlined: what it borrows is then known
+/// to be apart, and formats need not be looked at again after every word that is written.
 ///
 /// # Panics
 /// Where it does not finish within its latency.
@@ -225,7 +250,12 @@ fn run<V: Interpretation>(
     let mut gathered = Gathered::default();
     for clock in 0..sums.len() + estimator.latency() as usize {
         let inputs = match sums.get(clock) {
-            Some(&sum) => Inputs { valid: bit(true), index: code(clock as i64, quiet.index.format), sum, ..*quiet },
+            Some(&sum) => Inputs {
+                valid: bit(true),
+                index: code(clock as i64, quiet.index.format),
+                sum,
+                ..*quiet
+            },
             None => *quiet,
         };
         let frame = estimator.clock(state, inputs).frames;
@@ -285,11 +315,16 @@ fn local<V: Interpretation>(core: &Core, profile: &Profile) -> Vec<Local<V>> {
         let out = oscillator.clock(&mut state, quiet);
         if sample >= profile.slot.blanking() {
             if demodulator.polyphase().is_some() {
-                local.push(Local { cosine: out.cosine.value, sine: out.sine.value, window: out.window.value });
+                local.push(Local {
+                    cosine: out.cosine.value,
+                    sine: out.sine.value,
+                    window: out.window.value,
+                });
                 continue;
             }
-            let [(cosine, of_cosine), (sine, of_sine)] = [(out.cosine, residues[0]), (out.sine, residues[1])]
-                .map(|(wave, residue)| demodulator.carry(out.window * wave, residue));
+            let [(cosine, of_cosine), (sine, of_sine)] =
+                [(out.cosine, residues[0]), (out.sine, residues[1])]
+                    .map(|(wave, residue)| demodulator.carry(out.window * wave, residue));
             residues = [of_cosine, of_sine];
             local.push(Local { cosine: cosine.value, sine: sine.value, window: out.window.value });
         }

@@ -16,7 +16,10 @@ use hapticore_hdl::format::Format;
 use hapticore_hdl::signal::{self, Signal, Value, constant};
 
 /// The signals of a bundle of constants.
-pub(crate) fn signals<S: Bundle, V: Value>(codes: S::Of<i64>, formats: S::Of<Format>) -> S::Of<Signal<V>> {
+pub(crate) fn signals<S: Bundle, V: Value>(
+    codes: S::Of<i64>,
+    formats: S::Of<Format>,
+) -> S::Of<Signal<V>> {
     S::map(S::zip(codes, formats), |(code, format)| signal::code(code, format))
 }
 
@@ -39,8 +42,13 @@ impl Gathered {
     #[inline(always)]
     fn frame<V: Value>(self, last: estimator::FramePort<Signal<V>>) -> Frame {
         let set = |flag: Signal<V>| V::code(flag) != 0;
-        let [clipped, saturated, invalid, lost] = [last.clipped, last.saturated, last.invalid, last.lost].map(set);
-        Frame { pad: V::code(last.pad) as usize, codes: self.codes, flags: Flags { clipped, saturated, invalid, lost } }
+        let [clipped, saturated, invalid, lost] =
+            [last.clipped, last.saturated, last.invalid, last.lost].map(set);
+        Frame {
+            pad: V::code(last.pad) as usize,
+            codes: self.codes,
+            flags: Flags { clipped, saturated, invalid, lost },
+        }
     }
 }
 
@@ -59,8 +67,13 @@ fn calibrated<V: Interpretation>(core: &Core, calibration: &Calibration) -> Stat
     state
 }
 
-/// A clock of a core where nobody waits for it: out of line, so that all who call it share what is large.
+/// A clock of a core where nobody waits for it: out of line, so that all who call it share what is
+/// large.
 #[inline(never)]
-fn clock<V: Interpretation>(core: &Core, state: &mut State<Core, V>, inputs: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+fn clock<V: Interpretation>(
+    core: &Core,
+    state: &mut State<Core, V>,
+    inputs: Inputs<Signal<V>>,
+) -> Outputs<Signal<V>> {
     core.clock(state, inputs)
 }

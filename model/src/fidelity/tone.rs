@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A window's sums from amplitudes: what a demodulator would sum up of tones that no ADC has rounded.
+//! A window's sums from amplitudes: what a demodulator would sum up of tones that no ADC has
+//! rounded.
 //!
 //! ```text
 //! x[n] = p·cos φ[n] − q·sin φ[n]  ⇒  i = p·Σ cos φ·(w·cos) − q·Σ sin φ·(w·cos),   q likewise with (w·sin);   m = h̄²·Σ w
 //! ```
 //!
-//! The sums are linear in p and q, so that four numbers of the local oscillator, found once, stand for the window's samples.
-//! Quantisation is absent here, and so is whatever a window passes of the haptic voltage.
+//! The sums are linear in p and q, so that four numbers of the local oscillator, found once, stand
+//! for the window's samples. Quantisation is absent here, and so is whatever a window passes of the
+//! haptic voltage.
 
 use std::f64::consts::TAU;
 
@@ -48,7 +50,10 @@ impl Response {
         let amplitude = p.hypot(q);
         let held = (self.full_scale / amplitude).min(1.0);
         let [of_p, of_q] = self.tones;
-        ([0, 1].map(|phase| held * (p * of_p[phase] + q * of_q[phase])), amplitude >= self.full_scale)
+        (
+            [0, 1].map(|phase| held * (p * of_p[phase] + q * of_q[phase])),
+            amplitude >= self.full_scale,
+        )
     }
 
     /// The sum of squares of a sine of this mean square, saturated, and whether it was.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Random operations of a block: their results and their clocks, and the comparison that tells all when it fails.
+//! Random operations of a block: their results and their clocks, and the comparison that tells all
+//! when it fails.
 
 use super::harness::{Bench, operations, show};
 use super::random::Random;
@@ -23,7 +24,12 @@ impl<B: Block, V: Interpretation> Bench<B, V> {
         let held = with::<B::Inputs>(inputs, "start", 0);
         let begun = self.clock;
         while field::<B::Outputs>(outputs, "done") == 0 {
-            assert!(self.clock - begun < 100_000, "{} does not finish\n{}", B::NAME, show::<B::Inputs>(inputs));
+            assert!(
+                self.clock - begun < 100_000,
+                "{} does not finish\n{}",
+                B::NAME,
+                show::<B::Inputs>(inputs)
+            );
             outputs = self.clock(held);
         }
         (outputs, self.clock - begun)
@@ -69,13 +75,18 @@ pub fn check<B: Block, const N: usize>(
     }
 }
 
-/// Holds that a block which starts and finishes takes as many clocks as it says, whatever its operands.
+/// Holds that a block which starts and finishes takes as many clocks as it says, whatever its
+/// operands.
 pub fn check_latency<B: Block>(block: B, latency: u64) {
     check_latency_of(block, latency, |inputs| inputs);
 }
 
 /// As [`check_latency`], for a block that takes only some operands.
-pub fn check_latency_of<B: Block>(block: B, latency: u64, legal: impl Fn(Inputs<B, i64>) -> Inputs<B, i64>) {
+pub fn check_latency_of<B: Block>(
+    block: B,
+    latency: u64,
+    legal: impl Fn(Inputs<B, i64>) -> Inputs<B, i64>,
+) {
     let (mut bench, operations) = (Bench::new(block), (CLOCKS / latency).clamp(100, 4000));
     for inputs in cases(&bench.block, operations, 1).map(legal) {
         let (_, clocks) = bench.operate(inputs);
@@ -84,7 +95,11 @@ pub fn check_latency_of<B: Block>(block: B, latency: u64, legal: impl Fn(Inputs<
 }
 
 /// Random inputs of a block, corners among them.
-pub fn cases<B: Block>(block: &B, count: u64, seed: u64) -> impl Iterator<Item = Inputs<B, i64>> + use<B> {
+pub fn cases<B: Block>(
+    block: &B,
+    count: u64,
+    seed: u64,
+) -> impl Iterator<Item = Inputs<B, i64>> + use<B> {
     let formats = block.inputs();
     let mut random = Random::new(seed);
     (0..operations(count)).map(move |_| B::Inputs::map(formats, |format| random.word(format)))

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What word lengths cost on clean tones: the deviation of fixed point from floating point on the same codes, beside the
-//! deviation that the word lengths predict.
+//! What word lengths cost on clean tones: the deviation of fixed point from floating point on the
+//! same codes, beside the deviation that the word lengths predict.
 //!
 //!   q(f) = lsb / √12                                     the deviation of rounding to f
 //!   ε² = carrier² + 2 q(iq)² / (g a)²           of an amplitude a, relative; g the tone gain
 //!   q(iq) 2^-by where words are moved up by bits; the total's and the sensing voltage's amplitudes then add q(total)
 //!   carrier = 2 q(oscillator) / √N                       the local oscillator's words, of N samples
 //!
-//! Onward, δr = Σ (±1 − r) δa / Σ a; a position follows its table's slope; capacitance and force add their words' own q.
+//! Onward, δr = Σ (±1 − r) δa / Σ a; a position follows its table's slope; capacitance and force
+//! add their words' own q.
 
 use crate::device::{Tones, calibration, tone_codes};
 use crate::random::Random;
@@ -33,7 +34,8 @@ fn norm(terms: &[f64]) -> f64 {
     terms.iter().map(|term| term * term).sum::<f64>().sqrt()
 }
 
-/// A pad, its currents' phases spread wider than a sheet would, so that their errors have little in common.
+/// A pad, its currents' phases spread wider than a sheet would, so that their errors have little in
+/// common.
 fn spread_tones(profile: &Profile, random: &mut Random) -> Tones {
     let phase = random.unit();
     let mut phasors: Vec<_> = (0..profile.terminals.x.len())
@@ -43,20 +45,28 @@ fn spread_tones(profile: &Profile, random: &mut Random) -> Tones {
     Tones { phasors, haptic: random.between(0.5, 0.9) }
 }
 
-/// The relative deviation of an amplitude from the local oscillator's words, one error for each sample of the window.
+/// The relative deviation of an amplitude from the local oscillator's words, one error for each
+/// sample of the window.
 fn carrier(profile: &Profile) -> f64 {
     q(profile.formats.oscillator) * 2.0 / (profile.slot.integrate as f64).sqrt()
 }
 
-/// The deviation of a position: of its ratios and of the table's words, by the slope of the place over the ratios, and of the
-/// words of the place itself.
-fn position(profile: &Profile, calibration: &Calibration, ideal: &Measurement, of_ratio: [f64; 2]) -> f64 {
+/// The deviation of a position: of its ratios and of the table's words, by the slope of the place
+/// over the ratios, and of the words of the place itself.
+fn position(
+    profile: &Profile,
+    calibration: &Calibration,
+    ideal: &Measurement,
+    of_ratio: [f64; 2],
+) -> f64 {
     let f = &profile.formats;
     let x = |dx: f64, dy: f64| calibration.position.look_up(ideal.r_x + dx, ideal.r_y + dy).x;
     let step = 1e-3;
-    let slopes = [x(step, 0.0) - x(-step, 0.0), x(0.0, step) - x(0.0, -step)].map(|rise| rise / (2.0 * step));
-    // The measured ratio and what is left of it; nine coefficients, each by its weight (0.3 in all); three rows' values
-    // likewise (0.55). Errors of the weights, whose sum is one, count by how much neighbours differ: next to nothing.
+    let slopes = [x(step, 0.0) - x(-step, 0.0), x(0.0, step) - x(0.0, -step)]
+        .map(|rise| rise / (2.0 * step));
+    // The measured ratio and what is left of it; nine coefficients, each by its weight (0.3 in
+    // all); three rows' values likewise (0.55). Errors of the weights, whose sum is one, count by
+    // how much neighbours differ: next to nothing.
     let words = q(f.table) * norm(&[1.0, 1.0, 0.3, 0.55]);
     let along = |axis: usize| slopes[axis] * norm(&[of_ratio[axis], words]);
     let cells = (profile.position.columns - 2) as f64;
@@ -66,7 +76,12 @@ fn position(profile: &Profile, calibration: &Calibration, ideal: &Measurement, o
 }
 
 /// The deviations of [`NAMES`] that the word lengths predict.
-fn predict(profile: &Profile, calibration: &Calibration, tones: &Tones, ideal: &Measurement) -> [f64; 5] {
+fn predict(
+    profile: &Profile,
+    calibration: &Calibration,
+    tones: &Tones,
+    ideal: &Measurement,
+) -> [f64; 5] {
     let (f, g) = (&profile.formats, profile.tone_gain());
     let (terminals, sense) = tones.phasors.split_at(profile.terminals.x.len());
     let carrier = carrier(profile);
@@ -78,20 +93,25 @@ fn predict(profile: &Profile, calibration: &Calibration, tones: &Tones, ideal: &
     let relative = |word: f64, words: f64, a: f64| norm(&[carrier, word * words.sqrt() / (g * a)]);
     let given = |a: f64| if f.block_shift > 0 { q(f.total) / (g * a) } else { 0.0 };
     let ratio = |signs: &[i8], r: f64| {
-        let corner = |&(a, _): &(f64, f64), sign: i8| (f64::from(sign) - r) * a * relative(of_terminals, 2.0, a);
+        let corner = |&(a, _): &(f64, f64), sign: i8| {
+            (f64::from(sign) - r) * a * relative(of_terminals, 2.0, a)
+        };
         let others = profile.terminals.x.iter().zip(&profile.terminals.y);
-        let corners = terminals.iter().zip(signs).zip(others).filter(|&(_, (&x, &y))| x != 0 || y != 0);
-        let (terms, sum) = corners.fold((Vec::new(), 0.0), |(mut terms, sum), ((current, &sign), _)| {
-            terms.push(corner(current, sign));
-            (terms, sum + current.0)
-        });
+        let corners =
+            terminals.iter().zip(signs).zip(others).filter(|&(_, (&x, &y))| x != 0 || y != 0);
+        let (terms, sum) =
+            corners.fold((Vec::new(), 0.0), |(mut terms, sum), ((current, &sign), _)| {
+                terms.push(corner(current, sign));
+                (terms, sum + current.0)
+            });
         norm(&[norm(&terms) / sum, q(f.ratio)])
     };
     let of_ratio = [ratio(&profile.terminals.x, ideal.r_x), ratio(&profile.terminals.y, ideal.r_y)];
     let total = ideal.capacitance_pf / calibration.capacitance_gain * sense[0].0;
     let admittance = ideal.capacitance_pf / calibration.capacitance_gain;
     // The total's own word has fewer bits than a terminal's, by as many as their number has.
-    let narrowed = if f.block_shift > 0 { f64::from(1 << (2 * terminals.len().ilog2() + 2)) } else { 1.0 };
+    let narrowed =
+        if f.block_shift > 0 { f64::from(1 << (2 * terminals.len().ilog2() + 2)) } else { 1.0 };
     let words = terminals.len() as f64 + narrowed;
     let capacitance = norm(&[
         relative(of_terminals, words, total),
@@ -105,10 +125,12 @@ fn predict(profile: &Profile, calibration: &Calibration, tones: &Tones, ideal: &
     let square = ideal.capacitance_pf.powi(2);
     let mean_square = norm(&[
         q(f.mean_square) / ideal.mean_square,
-        2.0 * norm(&[q(f.adc), q(f.oscillator)]) / (profile.slot.integrate as f64 * ideal.mean_square).sqrt(),
+        2.0 * norm(&[q(f.adc), q(f.oscillator)])
+            / (profile.slot.integrate as f64 * ideal.mean_square).sqrt(),
     ]);
-    let gain =
-        f.force_gain.lsb() * (calibration.force_gain / f.force_gain.lsb()).round() / calibration.force_gain - 1.0;
+    let gain = f.force_gain.lsb() * (calibration.force_gain / f.force_gain.lsb()).round()
+        / calibration.force_gain
+        - 1.0;
     let force = norm(&[
         2.0 * capacitance,
         q(f.square) / square,
@@ -133,7 +155,10 @@ fn deviate(ideal: &Measurement, fixed: &Measurement) -> [f64; 5] {
 
 #[test]
 fn deviations_are_those_of_the_word_lengths() {
-    let mut table = format!("{:10} {:12} {:>10} {:>10} {:>6}\n", "profile", "rms of", "predicted", "measured", "ratio");
+    let mut table = format!(
+        "{:10} {:12} {:>10} {:>10} {:>6}\n",
+        "profile", "rms of", "predicted", "measured", "ratio"
+    );
     let mut within = true;
     for (seed, profile) in (0..).zip(Profile::all()) {
         let calibration = calibration(&profile);
@@ -156,7 +181,10 @@ fn deviations_are_those_of_the_word_lengths() {
         for (name, square) in NAMES.iter().zip(squares) {
             let [predicted, measured] = square.map(|square| (square / SLOTS as f64).sqrt());
             let ratio = measured / predicted;
-            table += &format!("{:10} {name:12} {predicted:10.2e} {measured:10.2e} {ratio:6.2}\n", profile.name);
+            table += &format!(
+                "{:10} {name:12} {predicted:10.2e} {measured:10.2e} {ratio:6.2}\n",
+                profile.name
+            );
             within &= ratio < MORE && ratio > 1.0 / LESS;
         }
     }

@@ -22,7 +22,9 @@ fn shortened(mut profile: Profile) -> Profile {
         let profile = profile.with_window(samples);
         hapticore_model::check(&profile).is_ok().then_some(profile)
     };
-    (0..1000).find_map(|periods| with_settle(98 + 5 * periods)).expect("a slot longer than the estimator takes")
+    (0..1000)
+        .find_map(|periods| with_settle(98 + 5 * periods))
+        .expect("a slot longer than the estimator takes")
 }
 
 /// A calibration such as a sheet has: ratios that saturate towards its edges.
@@ -44,7 +46,8 @@ pub fn calibration(profile: &Profile) -> Calibration {
     calibration
 }
 
-/// The tones of a slot: amplitudes and phases (turns) of the terminals and the sensing voltage, and the haptic amplitude.
+/// The tones of a slot: amplitudes and phases (turns) of the terminals and the sensing voltage, and
+/// the haptic amplitude.
 #[derive(Debug, Clone)]
 pub struct Tones {
     pub phasors: Vec<(f64, f64)>,
@@ -71,15 +74,23 @@ pub enum Sight {
 }
 
 impl Sight {
-    pub const ALL: [Sight; 7] =
-        [Sight::Tones, Sight::Silence, Sight::Noise, Sight::Broken, Sight::NoVoltage, Sight::Whisper, Sight::FullScale];
+    pub const ALL: [Sight; 7] = [
+        Sight::Tones,
+        Sight::Silence,
+        Sight::Noise,
+        Sight::Broken,
+        Sight::NoVoltage,
+        Sight::Whisper,
+        Sight::FullScale,
+    ];
 }
 
 /// A pad somewhere on the sheet.
 pub fn tones(profile: &Profile, random: &mut Random) -> Tones {
     let terminals = profile.terminals.x.len();
     let phase = random.unit();
-    let current = |random: &mut Random| (random.between(0.04, 0.14), phase + random.between(-0.02, 0.02));
+    let current =
+        |random: &mut Random| (random.between(0.04, 0.14), phase + random.between(-0.02, 0.02));
     let mut phasors: Vec<_> = (0..terminals).map(|_| current(random)).collect();
     phasors.push((random.between(0.7, 0.9), random.unit()));
     Tones { phasors, haptic: random.between(0.1, 0.9) }
@@ -101,7 +112,9 @@ pub fn codes(profile: &Profile, sight: Sight, random: &mut Random) -> Vec<i32> {
     let channels = profile.channels();
     let mut tones = tones(profile, random);
     match sight {
-        Sight::Broken => tones.phasors[random.below(profile.terminals.x.len() as u64) as usize].0 = 0.0,
+        Sight::Broken => {
+            tones.phasors[random.below(profile.terminals.x.len() as u64) as usize].0 = 0.0
+        }
         Sight::NoVoltage => tones.phasors.last_mut().expect("there are channels").0 = 0.0,
         _ => (),
     }
@@ -109,9 +122,9 @@ pub fn codes(profile: &Profile, sight: Sight, random: &mut Random) -> Vec<i32> {
         Sight::Silence => vec![0; channels],
         Sight::Noise => (0..channels).map(|_| random.word(adc) as i32).collect(),
         Sight::Whisper => (0..channels).map(|_| random.below(5) as i32 - 2).collect(),
-        Sight::FullScale => {
-            (0..channels).map(|k| if (n + k as u64).is_multiple_of(3) { -half } else { half - 1 }).collect()
-        }
+        Sight::FullScale => (0..channels)
+            .map(|k| if (n + k as u64).is_multiple_of(3) { -half } else { half - 1 })
+            .collect(),
         _ => tone_codes(profile, &tones, n),
     };
     (0..profile.slot.samples()).flat_map(sample).collect()

@@ -27,7 +27,10 @@ impl<B: Block, V: Interpretation> Bench<B, V> {
     /// Runs one clock and returns the outputs.
     pub fn clock(&mut self, inputs: Inputs<B, i64>) -> Outputs<B, i64> {
         let with_formats = B::Inputs::zip(inputs, self.block.inputs());
-        let signals = B::Inputs::map(with_formats, |(code, format)| Signal { value: V::raw(code, format), format });
+        let signals = B::Inputs::map(with_formats, |(code, format)| Signal {
+            value: V::raw(code, format),
+            format,
+        });
         self.clock += 1;
         let outputs = self.block.clock(&mut self.state, signals);
         B::Outputs::map(outputs, V::code)

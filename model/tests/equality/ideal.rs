@@ -20,25 +20,33 @@ fn phasor((amplitude, turns): (f64, f64)) -> (f64, f64) {
 fn the_square_root_form_gives_the_capacitance_back() {
     let profile = Profile::bundled("standard").expect("bundled");
     let calibration = calibration(&profile);
-    let (mut reference, mut random) = (Reference::<f64>::new(&profile, &calibration), Random::new(1));
+    let (mut reference, mut random) =
+        (Reference::<f64>::new(&profile, &calibration), Random::new(1));
     for _ in 0..1000 {
-        let shares: Vec<f64> = tones(&profile, &mut random).phasors.iter().map(|&(share, _)| share).collect();
+        let shares: Vec<f64> =
+            tones(&profile, &mut random).phasors.iter().map(|&(share, _)| share).collect();
         let (voltage, terminals) = shares.split_last().expect("there are channels");
         let sum: f64 = terminals.iter().sum();
-        let signed =
-            |signs: &[i8]| -> f64 { signs.iter().zip(terminals).map(|(&s, share)| f64::from(s) * share).sum() };
+        let signed = |signs: &[i8]| -> f64 {
+            signs.iter().zip(terminals).map(|(&s, share)| f64::from(s) * share).sum()
+        };
         let corners: f64 = terminals.iter().sum();
-        let (r_x, r_y) = (signed(&profile.terminals.x) / corners, signed(&profile.terminals.y) / corners);
+        let (r_x, r_y) =
+            (signed(&profile.terminals.x) / corners, signed(&profile.terminals.y) / corners);
         let sheet = calibration.position.look_up(r_x, r_y).sheet;
         let admittance = random.between(0.1, 2.0);
         let behind = (1.0 + (admittance * sheet).powi(2)).sqrt();
         let current = admittance * voltage / behind;
         let turn = random.unit();
-        let mut phasors: Vec<_> = terminals.iter().map(|share| phasor((share / sum * current, turn))).collect();
+        let mut phasors: Vec<_> =
+            terminals.iter().map(|share| phasor((share / sum * current, turn))).collect();
         phasors.push(phasor((*voltage, random.unit())));
         let measurement = reference.phasors(0, &phasors, 0.25);
         let expected = 800.0 * admittance;
-        assert!(close(measurement.capacitance_pf, expected, 1e-12), "{measurement:?} of {expected} pF");
+        assert!(
+            close(measurement.capacitance_pf, expected, 1e-12),
+            "{measurement:?} of {expected} pF"
+        );
         assert!(close(reference.capacitance_eq6(), expected / behind, 1e-12), "eq. 6 reads low");
         assert!(close(measurement.mean_square, 0.25 * profile.square_gain(), 1e-15));
         assert!(close(
@@ -54,14 +62,17 @@ fn the_square_root_form_gives_the_capacitance_back() {
 fn a_window_of_codes_reads_as_its_phasors() {
     for (seed, profile) in (0..).zip(Profile::all()) {
         let calibration = calibration(&profile);
-        let (mut reference, mut random) = (Reference::<f64>::new(&profile, &calibration), Random::new(seed));
+        let (mut reference, mut random) =
+            (Reference::<f64>::new(&profile, &calibration), Random::new(seed));
         for _ in 0..20 {
             let tones = tones(&profile, &mut random);
             let window = profile.slot.blanking()..profile.slot.samples();
             let codes: Vec<i32> = window.flat_map(|n| tone_codes(&profile, &tones, n)).collect();
             let phasors: Vec<_> = tones.phasors.iter().map(|&tone| phasor(tone)).collect();
-            let (of_codes, of_phasors) = (reference.slot(0, &codes), reference.phasors(1, &phasors, 0.0));
-            // Without dither a period's samples repeat, and so do their roundings: half a step is the bound.
+            let (of_codes, of_phasors) =
+                (reference.slot(0, &codes), reference.phasors(1, &phasors, 0.0));
+            // Without dither a period's samples repeat, and so do their roundings: half a step is
+            // the bound.
             let step = 0.5f64.powi(profile.formats.adc.frac.into()) / 0.04;
             assert!((of_codes.r_x - of_phasors.r_x).abs() < step, "{tones:?}");
             assert!(close(of_codes.capacitance_pf, of_phasors.capacitance_pf, step), "{tones:?}");
@@ -72,10 +83,12 @@ fn a_window_of_codes_reads_as_its_phasors() {
 #[test]
 fn what_is_invalid_holds_the_last_of_its_pad() {
     let profile = Profile::bundled("small").expect("bundled");
-    let (mut reference, mut random) = (Reference::<f64>::new(&profile, &calibration(&profile)), Random::new(7));
+    let (mut reference, mut random) =
+        (Reference::<f64>::new(&profile, &calibration(&profile)), Random::new(7));
     let mut slot = |pad: usize, sight: Sight| {
         let codes = device::codes(&profile, sight, &mut random);
-        let measurement = reference.slot(pad, &codes[profile.slot.blanking() as usize * profile.channels()..]);
+        let measurement =
+            reference.slot(pad, &codes[profile.slot.blanking() as usize * profile.channels()..]);
         (measurement, reference.capacitance_eq6())
     };
     let (valid, eq6) = slot(2, Sight::Tones);
@@ -84,7 +97,10 @@ fn what_is_invalid_holds_the_last_of_its_pad() {
     for sight in [Sight::Silence, Sight::NoVoltage] {
         let (held, held_eq6) = slot(2, sight);
         assert!(held.flags.invalid, "{sight:?}");
-        assert_eq!((held.r_x, held.x_mm, held.capacitance_pf), (valid.r_x, valid.x_mm, valid.capacitance_pf));
+        assert_eq!(
+            (held.r_x, held.x_mm, held.capacitance_pf),
+            (valid.r_x, valid.x_mm, valid.capacitance_pf)
+        );
         assert_eq!(held_eq6, eq6);
     }
     assert_eq!(slot(3, Sight::Silence).0.capacitance_pf, 0.0, "a pad that never was");

@@ -33,11 +33,22 @@ fn skipping_changes_no_bit_on_any_clock() {
                 let differs = |((variable, a), (_, b)): &_| -> Option<String> {
                     let (a, b): (&i64, &NeverSkips) = (a, b);
                     let variable: &hapticore_hdl::probe::Variable = variable;
-                    (*a != b.0)
-                        .then(|| format!("{}.{}: {a} skipping, {} never", variable.scope.join("."), variable.name, b.0))
+                    (*a != b.0).then(|| {
+                        format!(
+                            "{}.{}: {a} skipping, {} never",
+                            variable.scope.join("."),
+                            variable.name,
+                            b.0
+                        )
+                    })
                 };
                 let list: Vec<String> = pairs.filter_map(|pair| differs(&pair)).collect();
-                panic!("clock {}\n{}\n{}", skips.clock, show::<core::Inputs>(inputs), list.join("\n"));
+                panic!(
+                    "clock {}\n{}\n{}",
+                    skips.clock,
+                    show::<core::Inputs>(inputs),
+                    list.join("\n")
+                );
             }
             got
         });
@@ -55,11 +66,19 @@ pub fn assert_same_outputs<B: Block>(
     B::Outputs::each(B::Outputs::zip(got, expected), |_, (a, b)| same &= a == b);
     let (got, expected) = (show::<B::Outputs>(got), show::<B::Outputs>(expected));
     let inputs = show::<B::Inputs>(inputs);
-    assert!(same, "{}, clock {clock}\ninputs:    {inputs}\ngot:       {got}\nreference: {expected}", B::NAME);
+    assert!(
+        same,
+        "{}, clock {clock}\ninputs:    {inputs}\ngot:       {got}\nreference: {expected}",
+        B::NAME
+    );
 }
 
 /// Clocks a core through its calibration and some slots of everything that an ADC may see.
-pub fn drive_core(profile: &Profile, slots: u64, mut clock: impl FnMut(core::Inputs<i64>) -> core::Outputs<i64>) {
+pub fn drive_core(
+    profile: &Profile,
+    slots: u64,
+    mut clock: impl FnMut(core::Inputs<i64>) -> core::Outputs<i64>,
+) {
     let core = Core::new(profile);
     let calibration = calibration(profile);
     let constants = core.idle_inputs(&calibration);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! An interpreter of netlists: what the captured graph does, clock by clock, with arithmetic of its own.
+//! An interpreter of netlists: what the captured graph does, clock by clock, with arithmetic of its
+//! own.
 //!
-//! Codes are `i128`, so that no word is short of bits; a wire that leaves its format is a failure at once.
+//! Codes are `i128`, so that no word is short of bits; a wire that leaves its format is a failure
+//! at once.
 
 use hapticore_hdl::format::Format;
 use hapticore_hdl::interpretations::netlist::{Module, Named, Netlist, Node, Op, Ram};
@@ -22,7 +24,11 @@ impl State {
         State {
             registers: vec![0; module.registers.len()],
             memories: module.memories.iter().map(words).collect(),
-            instances: module.instances.iter().map(|i| State::new(netlist, &netlist.modules[i.module])).collect(),
+            instances: module
+                .instances
+                .iter()
+                .map(|i| State::new(netlist, &netlist.modules[i.module]))
+                .collect(),
         }
     }
 
@@ -38,19 +44,34 @@ impl State {
                 Op::Output(index, port) => {
                     let instance = &module.instances[index];
                     let run = || {
-                        let inputs: Vec<i128> = instance.inputs.iter().map(|node| wires[node.0 as usize]).collect();
-                        self.instances[index].clock(netlist, &netlist.modules[instance.module], &inputs)
+                        let inputs: Vec<i128> =
+                            instance.inputs.iter().map(|node| wires[node.0 as usize]).collect();
+                        self.instances[index].clock(
+                            netlist,
+                            &netlist.modules[instance.module],
+                            &inputs,
+                        )
                     };
                     instances[index].get_or_insert_with(run)[port]
                 }
-                ref op => {
-                    evaluate(op, wire.format, &|node| (wires[node.0 as usize], module.wires[node.0 as usize].format))
-                }
+                ref op => evaluate(op, wire.format, &|node| {
+                    (wires[node.0 as usize], module.wires[node.0 as usize].format)
+                }),
             };
-            assert!(holds(wire.format, code), "{}: {:?} gives {code}, beyond {}", module.name, wire.op, wire.format);
+            assert!(
+                holds(wire.format, code),
+                "{}: {:?} gives {code}, beyond {}",
+                module.name,
+                wire.op,
+                wire.format
+            );
             wires.push(code);
         }
-        assert!(instances.iter().all(Option::is_some), "{}: every instance has an output", module.name);
+        assert!(
+            instances.iter().all(Option::is_some),
+            "{}: every instance has an output",
+            module.name
+        );
         self.advance(module, &wires);
         module.outputs.iter().map(|port| wires[port.node.0 as usize]).collect()
     }
@@ -74,7 +95,13 @@ impl State {
     }
 
     /// Every register by its path, in no particular order.
-    pub fn registers(&self, netlist: &Netlist, module: &Module, path: &str, into: &mut Vec<(String, i128)>) {
+    pub fn registers(
+        &self,
+        netlist: &Netlist,
+        module: &Module,
+        path: &str,
+        into: &mut Vec<(String, i128)>,
+    ) {
         let own = module.registers.iter().zip(&self.registers);
         into.extend(own.map(|(named, &code)| (format!("{path}.{}", named.name), code)));
         for (instance, state) in module.instances.iter().zip(&self.instances) {
@@ -121,12 +148,14 @@ fn evaluate(op: &Op, to: Format, of: &dyn Fn(Node) -> (i128, Format)) -> i128 {
         Op::Or(a, b) => of(a).0 | of(b).0,
         Op::Not(a) => 1 - of(a).0,
         Op::Select(bit, a, b) => at_point(if of(bit).0 != 0 { a } else { b }),
-        Op::Input(_) | Op::Register(_) | Op::Data(_) | Op::Output(..) => unreachable!("known to the module"),
+        Op::Input(_) | Op::Register(_) | Op::Data(_) | Op::Output(..) => {
+            unreachable!("known to the module")
+        }
     }
 }
 
-/// The code in another format. A narrowing that cannot overflow keeps the low bits, as its wire does; where nobody looks at the
-/// wire (an operation that is not under way), it may.
+/// The code in another format. A narrowing that cannot overflow keeps the low bits, as its wire
+/// does; where nobody looks at the wire (an operation that is not under way), it may.
 fn fit((code, from): (i128, Format), to: Format, rounding: Rounding, overflow: Overflow) -> i128 {
     let drop = i32::from(from.frac) - i32::from(to.frac);
     let rounded = match rounding {

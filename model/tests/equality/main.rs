@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Equality of whole cores: with the rounded reference, of the readings of a core with each other. What is held of one block
-//! alone stands with the block, in `model/src/blocks/`.
+//! Equality of whole cores: with the rounded reference, of the readings of a core with each other.
+//! What is held of one block alone stands with the block, in `model/src/blocks/`.
 //!
 //! | tests | hold |
 //! | --- | --- |

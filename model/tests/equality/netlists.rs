@@ -28,10 +28,12 @@ fn the_netlist_runs_as_the_clocked_model_does() {
         let netlist = Netlist::of(&core);
         let mut state = State::new(&netlist, netlist.top());
         let mut bench = Bench::new(core);
-        let names: Vec<String> = bench.registers().map(|(v, _)| v.scope.join(".") + "." + &v.name).collect();
+        let names: Vec<String> =
+            bench.registers().map(|(v, _)| v.scope.join(".") + "." + &v.name).collect();
         let mut order = None;
         drive_core(&profile, SLOTS, |inputs| {
-            let codes: Vec<i128> = flat::<core::Inputs>(inputs).into_iter().map(i128::from).collect();
+            let codes: Vec<i128> =
+                flat::<core::Inputs>(inputs).into_iter().map(i128::from).collect();
             let outputs = state.clock(&netlist, netlist.top(), &codes);
             let mut outputs = outputs.into_iter().map(|code| code as i64);
             let got = core::Outputs::map(bench.clock(inputs), |code| code);
@@ -43,7 +45,8 @@ fn the_netlist_runs_as_the_clocked_model_does() {
     }
 }
 
-/// Holds that the registers are the same; `order` is where each of the bench's lies among the state's.
+/// Holds that the registers are the same; `order` is where each of the bench's lies among the
+/// state's.
 fn compare_registers(
     netlist: &Netlist,
     state: &State,
@@ -53,7 +56,9 @@ fn compare_registers(
 ) {
     let mut interpreted = Vec::new();
     state.registers(netlist, netlist.top(), netlist.top().name, &mut interpreted);
-    let place = |name: &String| interpreted.iter().position(|(other, _)| other == name).expect("the same registers");
+    let place = |name: &String| {
+        interpreted.iter().position(|(other, _)| other == name).expect("the same registers")
+    };
     let order = order.get_or_insert_with(|| names.iter().map(place).collect());
     let mut codes = Vec::new();
     hapticore_hdl::probe::sample(&bench.block, &bench.state, &mut codes);

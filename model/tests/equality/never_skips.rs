@@ -83,8 +83,17 @@ impl Storage for NeverSkips {
     fn data(memory: &Memory, words: &mut Self::Words) -> Self {
         NeverSkips(i64::data(memory, words))
     }
-    fn access(memory: &Memory, words: &mut Self::Words, address: Signal<Self>, write: Option<Write<Self>>) {
-        let write = write.map(|w| Write { enable: inner(w.enable), address: inner(w.address), data: inner(w.data) });
+    fn access(
+        memory: &Memory,
+        words: &mut Self::Words,
+        address: Signal<Self>,
+        write: Option<Write<Self>>,
+    ) {
+        let write = write.map(|w| Write {
+            enable: inner(w.enable),
+            address: inner(w.address),
+            data: inner(w.data),
+        });
         i64::access(memory, words, inner(address), write);
     }
 }

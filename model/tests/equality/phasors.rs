@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A window's sums from amplitudes against those from the same tones' samples: what is between them is the ADC's rounding.
+//! A window's sums from amplitudes against those from the same tones' samples: what is between them
+//! is the ADC's rounding.
 
 use crate::device::{Tones, calibration, tone_codes, tones};
 use crate::random::Random;
@@ -7,7 +8,8 @@ use hapticore_contract::profile::Profile;
 use hapticore_model::fidelity::fixed::FixedSimulation;
 use std::f64::consts::TAU;
 
-/// Samples in a period of the haptic voltage, so that its ripple falls between the lobes of every window.
+/// Samples in a period of the haptic voltage, so that its ripple falls between the lobes of every
+/// window.
 const HAPTIC_PERIOD: u64 = 50;
 const SLOTS: usize = 20;
 /// By how much a difference may be more than the ADC's rounding lets expect.
@@ -24,8 +26,8 @@ fn window(profile: &Profile, tones: &Tones) -> Vec<i32> {
     (profile.slot.blanking()..profile.slot.samples()).flat_map(sample).collect()
 }
 
-/// What lies between two amplitudes: rounding that repeats with each period, lsb/√12 in each of its samples, and the
-/// in-phase and quadrature words' own on either side.
+/// What lies between two amplitudes: rounding that repeats with each period, lsb/√12 in each of its
+/// samples, and the in-phase and quadrature words' own on either side.
 fn rounding(profile: &Profile) -> f64 {
     let (mut common, mut rest) = (profile.slot.integrate, profile.carrier.periods);
     while rest != 0 {
@@ -47,8 +49,11 @@ fn check(profile: &Profile, random: &mut Random) {
     let mut told = FixedSimulation::<i64>::new(profile, &calibration);
     for _ in 0..SLOTS {
         let tones = tones(profile, random);
-        let phasors: Vec<_> =
-            tones.phasors.iter().map(|&(a, turns)| (a * (TAU * turns).cos(), -a * (TAU * turns).sin())).collect();
+        let phasors: Vec<_> = tones
+            .phasors
+            .iter()
+            .map(|&(a, turns)| (a * (TAU * turns).cos(), -a * (TAU * turns).sin()))
+            .collect();
         let from_samples = sampled.slot(0, &window(profile, &tones)).measurement(profile);
         let from_phasors = told.phasors(0, &phasors, 0.5 * tones.haptic * tones.haptic);
         let from_phasors = from_phasors.measurement(profile);
@@ -58,14 +63,17 @@ fn check(profile: &Profile, random: &mut Random) {
         let expected = rounding(profile) * (terminals.sqrt() / total + 1.0);
         let off = |a: f64, b: f64| (a - b).abs();
         let capacitance = off(from_samples.capacitance_pf, from_phasors.capacitance_pf);
-        let allowed = MORE * expected * from_phasors.capacitance_pf + 2.0 * profile.formats.capacitance.lsb();
+        let allowed =
+            MORE * expected * from_phasors.capacitance_pf + 2.0 * profile.formats.capacitance.lsb();
         assert!(capacitance < allowed, "{}: capacitance {capacitance} pF, {allowed}", profile.name);
         let square = off(from_samples.mean_square, from_phasors.mean_square);
-        let allowed = MORE * 2.0 * rounding_of(profile, HAPTIC_PERIOD) + 2.0 * profile.formats.mean_square.lsb();
+        let allowed = MORE * 2.0 * rounding_of(profile, HAPTIC_PERIOD)
+            + 2.0 * profile.formats.mean_square.lsb();
         assert!(square < allowed, "{}: mean square {square}, {allowed}", profile.name);
         let ratio = off(from_samples.r_x, from_phasors.r_x);
         let corners: f64 = tones.phasors.iter().take(4).map(|(a, _)| a).sum();
-        let allowed = MORE * 2.0 * rounding(profile) * 2.0 / corners + 2.0 * profile.formats.ratio.lsb();
+        let allowed =
+            MORE * 2.0 * rounding(profile) * 2.0 / corners + 2.0 * profile.formats.ratio.lsb();
         assert!(ratio < allowed, "{}: r_x {ratio}, {allowed}", profile.name);
     }
 }
@@ -82,7 +90,11 @@ fn amplitudes_beyond_full_scale_are_held_and_flagged() {
         let mut core = FixedSimulation::<i64>::new(&profile, &calibration(&profile));
         let mut phasors = vec![(0.0, 0.1); profile.channels() - 1];
         assert!(!core.phasors(0, &phasors, 0.1).flags.clipped, "{}", profile.name);
-        assert!(core.phasors(0, &phasors, 0.6).flags.clipped, "{}: the haptic voltage", profile.name);
+        assert!(
+            core.phasors(0, &phasors, 0.6).flags.clipped,
+            "{}: the haptic voltage",
+            profile.name
+        );
         phasors[2] = (3.0, -4.0);
         assert!(core.phasors(0, &phasors, 0.1).flags.clipped, "{}: a current", profile.name);
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Random words that know where circuits break: at full scale, around zero, at powers of two, in short words.
+//! Random words that know where circuits break: at full scale, around zero, at powers of two, in
+//! short words.
 
 use hapticore_hdl::format::Format;
 
@@ -39,7 +40,8 @@ impl Random {
         let low = if format.signed { -(1i64 << bits) } else { 0 };
         let high = (1i64 << bits) - 1;
         let code = match self.below(8) {
-            0 => [low, low + 1, -1, 0, 1, high / 2, high / 2 + 1, high - 1, high][self.below(9) as usize],
+            0 => [low, low + 1, -1, 0, 1, high / 2, high / 2 + 1, high - 1, high]
+                [self.below(9) as usize],
             1 | 2 => {
                 let length = self.below(u64::from(bits) + 1);
                 let short = self.below(1 << length) as i64;

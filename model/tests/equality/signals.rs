@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Operations on small formats: the clocked interpretation is the exact rational, rounded as named; the real interpretation is the number
-//! itself; the range interpretation holds whatever happens within its operands' ranges.
+//! Operations on small formats: the clocked interpretation is the exact rational, rounded as named;
+//! the real interpretation is the number itself; the range interpretation holds whatever happens
+//! within its operands' ranges.
 
 use hapticore_hdl::format::Format;
 use hapticore_hdl::interpretations::range::{Range, take_violations, whole};
@@ -15,7 +16,11 @@ fn exact(a: Signal<i64>) -> Exact {
 }
 
 fn formats() -> impl Strategy<Value = Format> {
-    (any::<bool>(), 1u8..10, -3i8..6).prop_map(|(signed, width, frac)| Format { signed, width, frac })
+    (any::<bool>(), 1u8..10, -3i8..6).prop_map(|(signed, width, frac)| Format {
+        signed,
+        width,
+        frac,
+    })
 }
 
 /// A signal of some format.
@@ -66,9 +71,14 @@ fn fits(format: Format) -> bool {
     format.width <= 40
 }
 
-fn binary<V: Value>(a: Signal<V>, b: Signal<V>, f: fn(Signal<V>, Signal<V>) -> Signal<V>) -> Signal<V> {
+fn binary<V: Value>(
+    a: Signal<V>,
+    b: Signal<V>,
+    f: fn(Signal<V>, Signal<V>) -> Signal<V>,
+) -> Signal<V> {
     let aligned = a.format.join(b.format);
-    let fits = fits(a.format.product(b.format)) && fits(Format { width: aligned.width + 1, ..aligned });
+    let fits =
+        fits(a.format.product(b.format)) && fits(Format { width: aligned.width + 1, ..aligned });
     if fits { f(a, b) } else { a }
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Whole slots: frames of fidelities `fixed` and `clock`, and of the estimator by itself, are those of the reference.
+//! Whole slots: frames of fidelities `fixed` and `clock`, and of the estimator by itself, are those
+//! of the reference.
 
 use crate::device::{self, Sight, calibration, short_profiles};
 use crate::harness::{Bench, operations, show};
@@ -71,14 +72,24 @@ fn frames_of_any_sums_are_the_reference() {
     }
 }
 
-fn calibrate(bench: &mut Bench<Estimator>, profile: &Profile, calibration: &Calibration) -> estimator::Inputs<i64> {
+fn calibrate(
+    bench: &mut Bench<Estimator>,
+    profile: &Profile,
+    calibration: &Calibration,
+) -> estimator::Inputs<i64> {
     let f = &profile.formats;
     let zero = estimator::Inputs::map(bench.block.inputs(), |_| 0);
     for (address, &word) in (0..).zip(&calibration.position.words) {
         let table = TablePort { write: 1, address, word: f.table.code_saturating(word) };
-        bench.clock(estimator::Inputs { calibration: estimator::Calibration { table, ..zero.calibration }, ..zero });
+        bench.clock(estimator::Inputs {
+            calibration: estimator::Calibration { table, ..zero.calibration },
+            ..zero
+        });
     }
-    estimator::Inputs { calibration: Core::new(profile).idle_inputs(calibration).calibration, ..zero }
+    estimator::Inputs {
+        calibration: Core::new(profile).idle_inputs(calibration).calibration,
+        ..zero
+    }
 }
 
 fn check_sums(
@@ -90,7 +101,8 @@ fn check_sums(
 ) {
     let format = bench.block.inputs().sum;
     let smaller = random.below(u64::from(format.width) / 3);
-    let sums: Vec<i64> = (0..=2 * profile.demodulated()).map(|_| random.word(format) >> smaller).collect();
+    let sums: Vec<i64> =
+        (0..=2 * profile.demodulated()).map(|_| random.word(format) >> smaller).collect();
     let (pad, clipped) = (random.below(profile.pads) as i64, random.below(2) as i64);
     for (index, &sum) in (0..).zip(&sums) {
         bench.clock(estimator::Inputs { valid: 1, index, sum, pad, clipped, ..constants });
@@ -104,8 +116,10 @@ fn check_sums(
         (out.done == 1).then_some(out)
     });
     let out = done.expect("a frame finishes");
-    let [clipped, saturated, invalid, lost] = [out.clipped, out.saturated, out.invalid, out.lost].map(|flag| flag != 0);
-    let frame = Frame { pad: out.pad as usize, codes, flags: Flags { clipped, saturated, invalid, lost } };
+    let [clipped, saturated, invalid, lost] =
+        [out.clipped, out.saturated, out.invalid, out.lost].map(|flag| flag != 0);
+    let frame =
+        Frame { pad: out.pad as usize, codes, flags: Flags { clipped, saturated, invalid, lost } };
     let of = |code: i64| Exact::of(code, format);
     let (square, phases) = sums.split_last().expect("there are sums");
     let phases = phases.chunks(2).map(|iq| [of(iq[0]), of(iq[1])]).collect();

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a window makes of tones that are not the carrier's, beside the same window and carrier in floating point.
+//! What a window makes of tones that are not the carrier's, beside the same window and carrier in
+//! floating point.
 //!
 //! ```text
 //! h[n] = w_i[n] − j·w_q[n],   H(f) = Σ h[n] e^(2πj f n),   response(f) = (|H(f)| + |H(−f)|) / (|H(f_c)| + |H(−f_c)|)
 //! ```
 //!
-//! w_i and w_q are what a code adds to the core's sums, found by giving it one; the response is that of the worst phase,
-//! relative to a tone on the carrier f_c. Reserve: how many times larger than the carrier's a tone may be that moves the
-//! force by 1 %, its amplitude by half of that.
+//! w_i and w_q are what a code adds to the core's sums, found by giving it one; the response is
+//! that of the worst phase, relative to a tone on the carrier f_c. Reserve: how many times larger
+//! than the carrier's a tone may be that moves the force by 1 %, its amplitude by half of that.
 
 use hapticore_contract::calibration::{Calibration, Point, PositionTable};
 use hapticore_contract::profile::Profile;
@@ -21,7 +22,8 @@ const POINTS_PER_BIN: usize = 16;
 const FLOOR: f64 = -110.0;
 /// The reserve is looked at from here to there, Hz.
 const RESERVE: [f64; 2] = [50.0, 20e3];
-/// The amplitude of the tone whose undithered rounding is looked at, in codes, and of how many phases.
+/// The amplitude of the tone whose undithered rounding is looked at, in codes, and of how many
+/// phases.
 const QUIET: f64 = 256.0;
 const PHASES: usize = 256;
 /// The bundled profiles and the sample rates of their boards.
@@ -35,7 +37,8 @@ type Pair = [f64; 2];
 pub struct Measured {
     pub profile: Profile,
     pub rate_hz: f64,
-    /// By how much the response exceeds that of floating point at most, where it is above the floor.
+    /// By how much the response exceeds that of floating point at most, where it is above the
+    /// floor.
     pub excess: f64,
     pub excess_hz: f64,
     /// The response to a constant; none where nothing is left of it.
@@ -56,10 +59,13 @@ fn measure(profile: Profile, rate_hz: f64) -> Measured {
     let mut core = FixedSimulation::new(&profile, &calibration(&profile));
     let (fixed, float) = (windowed_carrier(&profile, &mut core), ideal(&profile));
     let carrier = profile.carrier.periods as usize * POINTS_PER_BIN;
-    let [fixed_db, float_db] = [&fixed, &float].map(|windowed_carrier| response(windowed_carrier, carrier));
-    let hz = |k: usize| k as f64 * rate_hz / (POINTS_PER_BIN as f64 * profile.slot.integrate as f64);
+    let [fixed_db, float_db] =
+        [&fixed, &float].map(|windowed_carrier| response(windowed_carrier, carrier));
+    let hz =
+        |k: usize| k as f64 * rate_hz / (POINTS_PER_BIN as f64 * profile.slot.integrate as f64);
     let over = |k: usize| fixed_db[k].max(FLOOR) - float_db[k].max(FLOOR);
-    let worst = (0..fixed_db.len()).max_by(|&a, &b| over(a).total_cmp(&over(b))).expect("frequencies");
+    let worst =
+        (0..fixed_db.len()).max_by(|&a, &b| over(a).total_cmp(&over(b))).expect("frequencies");
     let band = |response: &[f64]| {
         let within = (0..response.len()).filter(|&k| (RESERVE[0]..=RESERVE[1]).contains(&hz(k)));
         20.0 * 0.005f64.log10() - within.map(|k| response[k]).fold(f64::NEG_INFINITY, f64::max)
@@ -77,15 +83,24 @@ fn measure(profile: Profile, rate_hz: f64) -> Measured {
 }
 
 /// The sums of the first channel but for what they are of silence.
-fn sums(profile: &Profile, core: &mut FixedSimulation, code: impl Fn(usize, usize) -> i32) -> Vec<Pair> {
+fn sums(
+    profile: &Profile,
+    core: &mut FixedSimulation,
+    code: impl Fn(usize, usize) -> i32,
+) -> Vec<Pair> {
     let channels = profile.channels();
-    let codes: Vec<i32> =
-        (0..profile.slot.integrate as usize * channels).map(|k| code(k / channels, k % channels)).collect();
+    let codes: Vec<i32> = (0..profile.slot.integrate as usize * channels)
+        .map(|k| code(k / channels, k % channels))
+        .collect();
     core.sums(&codes)[..2 * (channels - 1)].chunks(2).map(|pair| [pair[0], pair[1]]).collect()
 }
 
 /// The response to a constant of a third of full scale, in dB; none where not a bit of it is left.
-fn constant(profile: &Profile, core: &mut FixedSimulation, windowed_carrier: &[Pair]) -> Option<f64> {
+fn constant(
+    profile: &Profile,
+    core: &mut FixedSimulation,
+    windowed_carrier: &[Pair],
+) -> Option<f64> {
     let code = profile.formats.adc.max_code() as i32 / 3;
     let silence = sums(profile, core, |_, _| 0)[0];
     let read = sums(profile, core, |_, _| code)[0];
@@ -94,16 +109,21 @@ fn constant(profile: &Profile, core: &mut FixedSimulation, windowed_carrier: &[P
     (left > 0.0).then(|| 20.0 * (2.0 * left / carrier).log10())
 }
 
-/// What a code of one adds to the sums, by the sample where it is: an impulse in each channel at a sample of its own.
+/// What a code of one adds to the sums, by the sample where it is: an impulse in each channel at a
+/// sample of its own.
 fn windowed_carrier(profile: &Profile, core: &mut FixedSimulation) -> Vec<Pair> {
     let (samples, channels) = (profile.slot.integrate as usize, profile.channels() - 1);
     let impulse = 1i32 << (profile.formats.adc.width - 2);
     let silence = sums(profile, core, |_, _| 0)[0];
     let mut windowed_carrier = Vec::new();
     for first in (0..samples).step_by(channels) {
-        let of = sums(profile, core, |n, channel| if channel < channels && n == first + channel { impulse } else { 0 });
-        windowed_carrier
-            .extend(of.iter().map(|sum| [0, 1].map(|part| (sum[part] - silence[part]) / f64::from(impulse))));
+        let of = sums(profile, core, |n, channel| {
+            if channel < channels && n == first + channel { impulse } else { 0 }
+        });
+        windowed_carrier.extend(
+            of.iter()
+                .map(|sum| [0, 1].map(|part| (sum[part] - silence[part]) / f64::from(impulse))),
+        );
     }
     windowed_carrier.truncate(samples);
     windowed_carrier
@@ -113,7 +133,8 @@ fn windowed_carrier(profile: &Profile, core: &mut FixedSimulation) -> Vec<Pair> 
 fn ideal(profile: &Profile) -> Vec<Pair> {
     let (samples, periods) = (profile.slot.integrate, profile.carrier.periods);
     let window = |m: u64| (PI * m as f64 / samples as f64).sin().powi(2);
-    let phase = |m: u64| TAU * ((profile.slot.blanking() + m) * periods % samples) as f64 / samples as f64;
+    let phase =
+        |m: u64| TAU * ((profile.slot.blanking() + m) * periods % samples) as f64 / samples as f64;
     (0..samples).map(|m| [window(m) * phase(m).cos(), window(m) * phase(m).sin()]).collect()
 }
 
@@ -141,7 +162,8 @@ fn amplitude(windowed_carrier: &[Pair], frequency: usize) -> f64 {
 fn bias(profile: &Profile, core: &mut FixedSimulation, windowed_carrier: &[Pair]) -> f64 {
     let (first, channels) = (profile.slot.blanking(), profile.channels());
     let turn = profile.turns_per_sample();
-    let wave = |n: usize, phase: f64| QUIET * (TAU * ((first + n as u64) as f64 * turn - phase)).cos();
+    let wave =
+        |n: usize, phase: f64| QUIET * (TAU * ((first + n as u64) as f64 * turn - phase)).cos();
     let silence = sums(profile, core, |_, _| 0)[0];
     let mut squares = 0.0;
     for block in 0..PHASES / (channels - 1) {

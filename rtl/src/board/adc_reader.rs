@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! ADC reader: eight channels, sampled together, each on a data line of its own, at the core's clock.
+//! ADC reader: eight channels, sampled together, each on a data line of its own, at the core's
+//! clock.
 //!
-//! For an AD7606C-16 or -18 in its serial software mode with eight DOUT lines. C clocks are a conversion's, W the word's
-//! bits, P a sample's; a set is read while the next one is being converted.
+//! For an AD7606C-16 or -18 in its serial software mode with eight DOUT lines. C clocks are a
+//! conversion's, W the word's bits, P a sample's; a set is read while the next one is being
+//! converted.
 //!
 //! ```text
 //! clock   0        C     C+1  C+2        C+W  C+W+1       then, in the core:
@@ -14,26 +16,29 @@
 //! store                         C+W … C+W+7                one word per clock, channel 0 first; `strobe` follows
 //! ```
 //!
-//! The ADC puts out the first bit at CS, each other one after a *rising* edge of SCLK, and holds it until the next. Rising edges
-//! leave the FPGA with the edge of the core's clock that also captures the bit before: a bit has a whole clock less the
-//! output's delay, the ADC's access time and the input's set-up (40 ns less about 5 + 15 + 2 ns at 25 MHz), and the hold
-//! is the output's delay and more. Falling edges, half a clock away, move nothing; SDI, which the ADC latches with them, changes
-//! with the core's clock and so has half a clock on either side.
+//! The ADC puts out the first bit at CS, each other one after a *rising* edge of SCLK, and holds it
+//! until the next. Rising edges leave the FPGA with the edge of the core's clock that also captures
+//! the bit before: a bit has a whole clock less the output's delay, the ADC's access time and the
+//! input's set-up (40 ns less about 5 + 15 + 2 ns at 25 MHz), and the hold is the output's delay
+//! and more. Falling edges, half a clock away, move nothing; SDI, which the ADC latches with them,
+//! changes with the core's clock and so has half a clock on either side.
 //!
-//! A word for a register of the ADC (16 bits over SDI) is sent while nothing is enabled; it lies with the command that brought
-//! it, and `shift` moves that on; what the ADC answers on its first data line comes in behind it. While `shift` is low, SDI is.
+//! A word for a register of the ADC (16 bits over SDI) is sent while nothing is enabled; it lies
+//! with the command that brought it, and `shift` moves that on; what the ADC answers on its first
+//! data line comes in behind it. While `shift` is low, SDI is.
 //!
-//! Once it is no longer enabled, the reader starts no conversion, but reads the set of one that it has started, without
-//! a strobe: CS and SCLK end as they always do.
+//! Once it is no longer enabled, the reader starts no conversion, but reads the set of one that it
+//! has started, without a strobe: CS and SCLK end as they always do.
 //!
 //! | signal     | format     | overflow                  |
 //! | phase      | counter P  | wraps at P, by compare    |
 //! | line_a … h | u W−1      | shifted out, meant        |
 //!
-//! Words go to a memory that the board owns (two sets: one is stored while the core reads the other). Latency: C + W + 8
-//! clocks from CONVST to `strobe`. Nothing waits for the ADC, so nothing can hang.
-//! Source: data sheets of the AD7606 family, serial interface ("MSB at CS, the others at the rising edges of SCLK") and register
-//! map; [`Parameters`] holds the times that the schedule asks of the ADC.
+//! Words go to a memory that the board owns (two sets: one is stored while the core reads the
+//! other). Latency: C + W + 8 clocks from CONVST to `strobe`. Nothing waits for the ADC, so nothing
+//! can hang. Source: data sheets of the AD7606 family, serial interface ("MSB at CS, the others at
+//! the rising edges of SCLK") and register map; [`Parameters`] holds the times that the schedule
+//! asks of the ADC.
 
 use super::bits::{flag, next, read_as, word};
 use super::parameters::Parameters;
@@ -140,9 +145,14 @@ impl AdcReader {
         u64::from(self.code.width)
     }
 
-    /// One clock of the schedule. What is set while `phase` is t is there from clock t of the chart on.
+    /// One clock of the schedule. What is set while `phase` is t is there from clock t of the chart
+    /// on.
     #[inline(always)]
-    fn step<V: Interpretation>(&self, r: Registers<Signal<V>>, i: &Inputs<Signal<V>>) -> Registers<Signal<V>> {
+    fn step<V: Interpretation>(
+        &self,
+        r: Registers<Signal<V>>,
+        i: &Inputs<Signal<V>>,
+    ) -> Registers<Signal<V>> {
         let at = |clock: u64| r.phase.is(clock % self.period);
         let (cs, first) = (self.conversion, self.conversion + 1);
         let pulses = first - self.latency;
@@ -158,11 +168,16 @@ impl AdcReader {
             selected: flag(r.selected, at(cs) & reads, done),
             run: flag(r.run, at(pulses) & reads, over(pulses)),
             capture: flag(r.capture, at(first), at(first + self.bits() - 1)),
-            unload: flag(r.unload, r.capture & at(first + self.bits() - 1) & !r.configuring, stored),
+            unload: flag(
+                r.unload,
+                r.capture & at(first + self.bits() - 1) & !r.configuring,
+                stored,
+            ),
             index: r.unload.select(stored.select(int(0), next(r.index)), int(0)),
             filling: stored.select(!r.filling, r.filling),
             strobe: stored & i.enable,
-            // BUSY has risen in clock 0 or 1, and passes two registers: so does its fall, which is due by the end of clock C.
+            // BUSY has risen in clock 0 or 1, and passes two registers: so does its fall, which is
+            // due by the end of clock C.
             began: at(4).select(r.busy, r.began),
             late: at(cs + 3).select(r.busy | !r.began, r.late),
             configuring: r.configuring & !done,
@@ -170,17 +185,27 @@ impl AdcReader {
         }
     }
 
-    /// The data lines' words: shifted in bit by bit, then along from channel to channel. The last bits come straight from the
-    /// pins, so that storing begins a clock earlier than the words are complete.
+    /// The data lines' words: shifted in bit by bit, then along from channel to channel. The last
+    /// bits come straight from the pins, so that storing begins a clock earlier than the words are
+    /// complete.
     #[inline(always)]
-    fn lines<V: Interpretation>(&self, r: Registers<Signal<V>>, i: &Inputs<Signal<V>>) -> Registers<Signal<V>> {
-        let lines = [r.line_a, r.line_b, r.line_c, r.line_d, r.line_e, r.line_f, r.line_g, r.line_h];
+    fn lines<V: Interpretation>(
+        &self,
+        r: Registers<Signal<V>>,
+        i: &Inputs<Signal<V>>,
+    ) -> Registers<Signal<V>> {
+        let lines =
+            [r.line_a, r.line_b, r.line_c, r.line_d, r.line_e, r.line_f, r.line_g, r.line_h];
         let line = |k: usize| {
             if k as u64 >= self.channels {
                 return zero(self.line());
             }
             let shifted = lines[k].concat(i.dout.bits(k as u8, 1)).bits(0, self.line().width);
-            if k as u64 + 1 == self.channels { shifted } else { r.unload.select(lines[k + 1], shifted) }
+            if k as u64 + 1 == self.channels {
+                shifted
+            } else {
+                r.unload.select(lines[k + 1], shifted)
+            }
         };
         let tail = r.index.is(0).select(i.dout, bit(false).concat(r.tail));
         Registers {
@@ -199,7 +224,11 @@ impl AdcReader {
 
     /// Nothing enabled: a register of the ADC may be written.
     #[inline(always)]
-    fn rest<V: Interpretation>(&self, r: Registers<Signal<V>>, i: &Inputs<Signal<V>>) -> Registers<Signal<V>> {
+    fn rest<V: Interpretation>(
+        &self,
+        r: Registers<Signal<V>>,
+        i: &Inputs<Signal<V>>,
+    ) -> Registers<Signal<V>> {
         let no = bit(false);
         Registers {
             phase: int(0),
@@ -235,7 +264,11 @@ impl AdcReader {
 
 impl Block for AdcReader {
     #[inline(always)]
-    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+    fn clock<V: Interpretation>(
+        &self,
+        state: &mut State<Self, V>,
+        i: Inputs<Signal<V>>,
+    ) -> Outputs<Signal<V>> {
         let r = state.load(self);
         let running = i.enable | r.active | r.selected | r.unload | r.configuring;
         let next = when!(running => self.step(r, &i), else self.rest(r, &i));

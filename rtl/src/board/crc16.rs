@@ -6,8 +6,9 @@
 //! crc' = (crc « 8) ⊕ (y « 12) ⊕ (y « 5) ⊕ y            polynomial x¹⁶ + x¹² + x⁵ + 1
 //! ```
 //!
-//! Begins at all ones, most significant bit first; after the two bytes of a packet's own CRC it is zero. Functions, not a
-//! block: the state lies with whoever sends or receives. Source: ITU-T V.41; the catalogue's check value is 29b1 (hex).
+//! Begins at all ones, most significant bit first; after the two bytes of a packet's own CRC it is
+//! zero. Functions, not a block: the state lies with whoever sends or receives. Source: ITU-T V.41;
+//! the catalogue's check value is 29b1 (hex).
 
 use super::bits::{word, xor};
 use hapticore_hdl::format::Format;
@@ -44,7 +45,9 @@ mod tests {
     fn it_is_the_catalogue_s() {
         let theirs = crc::Crc::<u16>::new(&crc::CRC_16_IBM_3740);
         for text in ["123456789", "", "a", "\u{0}\u{0}", "END and ESC are \u{c0}\u{db}"] {
-            let ours = text.bytes().fold(begin::<i64>(), |crc, byte| with(crc, int(u64::from(byte)).bits(0, 8)));
+            let ours = text
+                .bytes()
+                .fold(begin::<i64>(), |crc, byte| with(crc, int(u64::from(byte)).bits(0, 8)));
             assert_eq!(ours.value, i64::from(theirs.checksum(text.as_bytes())), "{text:?}");
         }
     }
@@ -52,6 +55,9 @@ mod tests {
     #[test]
     fn its_own_bytes_make_it_zero() {
         let all = [0x31, 0x32, 0x33, 0x34, 0x35, 0x36, 0x37, 0x38, 0x39, 0x29, 0xb1];
-        assert_eq!(all.into_iter().fold(begin::<i64>(), |crc, byte| with(crc, int(byte).bits(0, 8))).value, 0);
+        assert_eq!(
+            all.into_iter().fold(begin::<i64>(), |crc, byte| with(crc, int(byte).bits(0, 8))).value,
+            0
+        );
     }
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Framing: how packets lie in the bytes of the serial line, as [`hapticore_protocol`] says for both sides of it.
+//! Framing: how packets lie in the bytes of the serial line, as [`hapticore_protocol`] says for
+//! both sides of it.
 
 use crate::codes::word_formats;
 use hapticore_hdl::format::Format;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Boards: the core's peripherals as blocks like its own, and what stands between them and the pins of a real board.
+//! Boards: the core's peripherals as blocks like its own, and what stands between them and the pins
+//! of a real board.
 //!
 //! | module | does |
 //! | --- | --- |

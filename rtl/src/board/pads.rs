@@ -10,8 +10,8 @@
 //! | select | one bit a pad | –                       |
 //! | dead   | counter       | held at zero, by compare |
 //!
-//! Latency: one clock to open; one to close, where none was closed in the `dead` clocks before. Outputs are registers, so that
-//! no line glitches. Source: docs/decisions.md §6.
+//! Latency: one clock to open; one to close, where none was closed in the `dead` clocks before.
+//! Outputs are registers, so that no line glitches. Source: docs/decisions.md §6.
 
 use super::bits::{previous, word};
 use hapticore_hdl::block;
@@ -53,7 +53,11 @@ impl Pads {
 
 impl Block for Pads {
     #[inline(always)]
-    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+    fn clock<V: Interpretation>(
+        &self,
+        state: &mut State<Self, V>,
+        i: Inputs<Signal<V>>,
+    ) -> Outputs<Signal<V>> {
         let r = state.load(self);
         let wanted = word((0..self.pads).map(|pad| i.closed & i.serve.is(pad)));
         let open = r.select.is(0);

@@ -29,13 +29,18 @@ pub struct ParametersError {
 /// Holds a number within a range.
 fn within(field: &'static str, got: u64, least: u64, most: u64) -> Result<(), ParametersError> {
     let expected = || format!("{least} to {most}");
-    (least..=most).contains(&got).then_some(()).ok_or_else(|| ParametersError { field, expected: expected(), got })
+    (least..=most).contains(&got).then_some(()).ok_or_else(|| ParametersError {
+        field,
+        expected: expected(),
+        got,
+    })
 }
 
 impl Parameters {
     /// From a conversion's start until its codes may be read: 0.55 µs and the delay of BUSY.
     const CONVERSION_MOST_NS: u64 = 600;
-    /// From a conversion's start until its codes may replace those before, which are then still being read.
+    /// From a conversion's start until its codes may replace those before, which are then still
+    /// being read.
     const CONVERSION_LEAST_NS: u64 = 500;
     /// Clocks of a write of an ADC's register, without the wait before it.
     const WRITE_CLOCKS: u64 = 22;
@@ -82,7 +87,12 @@ impl Parameters {
         within("clocks_per_sample", period, bits + channels - 1, 1 << 16)?;
         within("sclk_latency", self.sclk_latency, 0, self.conversion())?;
         let least = period + Self::CONVERSION_LEAST_NS * self.clock_hz / 1_000_000_000;
-        within("clocks from a conversion to the end of its reading", self.conversion() + bits + 1, 1, least)?;
+        within(
+            "clocks from a conversion to the end of its reading",
+            self.conversion() + bits + 1,
+            1,
+            least,
+        )?;
         within("clocks of a conversion", self.conversion(), 1, period - 2)
     }
 }

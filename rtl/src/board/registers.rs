@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Registers: commands in, over the serial line: calibration, the position table's words, the ADC's registers, on and off.
+//! Registers: commands in, over the serial line: calibration, the position table's words, the ADC's
+//! registers, on and off.
 //!
 //! ```text
 //! bytes ─(unescape)─┬─[place, data: as they come]─┬─ registers
@@ -12,10 +13,10 @@
 //! | count    | counter D + 5            | held at its end, which no command reaches |
 //! | commands | u4                       | wraps, meant                              |
 //!
-//! Nothing is written before a command's END has come with the right length and CRC; all else is refused, says so for a clock,
-//! and changes nothing. So is a command for the ADC while the board is enabled. The data of a command for the ADC leave at
-//! one end of their register while the ADC's answer comes in at the other. Latency: two clocks from the byte END. Source:
-//! [`super::framing`].
+//! Nothing is written before a command's END has come with the right length and CRC; all else is
+//! refused, says so for a clock, and changes nothing. So is a command for the ADC while the board
+//! is enabled. The data of a command for the ADC leave at one end of their register while the ADC's
+//! answer comes in at the other. Latency: two clocks from the byte END. Source: [`super::framing`].
 
 use super::bits::{next, read_as};
 use super::crc16;
@@ -101,12 +102,21 @@ impl CommandRegisters {
     /// The registers of a core with this calibration, whose position table has so many words.
     pub fn new(calibration: Calibration<Format>, words: u64) -> Self {
         let bytes = data_bytes(&calibration);
-        CommandRegisters { calibration, words, data: Format::unsigned(8 * bytes as u8, 0), length: bytes + AROUND }
+        CommandRegisters {
+            calibration,
+            words,
+            data: Format::unsigned(8 * bytes as u8, 0),
+            length: bytes + AROUND,
+        }
     }
 
     /// A byte that is no END: part of a command, or the escape before one.
     #[inline(always)]
-    fn part<V: Interpretation>(&self, r: Registers<Signal<V>>, byte: Signal<V>) -> Registers<Signal<V>> {
+    fn part<V: Interpretation>(
+        &self,
+        r: Registers<Signal<V>>,
+        byte: Signal<V>,
+    ) -> Registers<Signal<V>> {
         let is = |value: u8| byte.is(value.into());
         let (escape, known) = (is(ESC) & !r.escaped, is(ESC_END) | is(ESC_ESC));
         let meant = is(ESC_END).select(code(END.into(), BYTE), code(ESC.into(), BYTE));
@@ -117,7 +127,9 @@ impl CommandRegisters {
         let shifted = r.place.concat(r.data).concat(byte);
         let taken = Registers {
             escaped: bit(false),
-            count: bad.select(int(self.length + 1), full.select(r.count, next(r.count))).resize(r.count.format, Wrap),
+            count: bad
+                .select(int(self.length + 1), full.select(r.count, next(r.count)))
+                .resize(r.count.format, Wrap),
             crc: crc16::with(r.crc, byte),
             place: payload.select(shifted.bits(self.data.width, 16), r.place),
             data: payload.select(shifted.bits(0, self.data.width), r.data),
@@ -147,7 +159,10 @@ impl CommandRegisters {
             here.select(read_as(r.data, before.format), before)
         };
         Registers {
-            capacitance_gain: write(Register::Constant(Constant::CapacitanceGain), r.capacitance_gain),
+            capacitance_gain: write(
+                Register::Constant(Constant::CapacitanceGain),
+                r.capacitance_gain,
+            ),
             force_gain: write(Register::Constant(Constant::ForceGain), r.force_gain),
             control: write(Register::Control, r.control),
             calibrated: r.calibrated | (r.act & self.is(&r, Register::LAST_CONSTANT)),
@@ -164,10 +179,15 @@ impl CommandRegisters {
 
 impl Block for CommandRegisters {
     #[inline(always)]
-    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+    fn clock<V: Interpretation>(
+        &self,
+        state: &mut State<Self, V>,
+        i: Inputs<Signal<V>>,
+    ) -> Outputs<Signal<V>> {
         let r = state.load(self);
         let table = self.calibration.table;
-        // The CRC begins anew with a command's first octet: a register is zero at reset, a CRC is not at its beginning.
+        // The CRC begins anew with a command's first octet: a register is zero at reset, a CRC is
+        // not at its beginning.
         let crc = r.count.is(0).select(crc16::begin(), r.crc);
         let data = i.shift.select(r.data.concat(i.answer).bits(0, self.data.width), r.data);
         let quiet = Registers { act: bit(false), refused: bit(false), data, ..self.written(r) };
@@ -182,7 +202,11 @@ impl Block for CommandRegisters {
             force_gain: r.force_gain,
             enable: r.control.bits(Control::ENABLE, 1),
             adc_reset: r.control.bits(Control::ADC_RESET, 1),
-            table: TablePort { write: r.act & of_table, address, word: read_as(r.data, table.word) },
+            table: TablePort {
+                write: r.act & of_table,
+                address,
+                word: read_as(r.data, table.word),
+            },
             adc_write: r.act & self.is(&r, Register::Adc),
             sdi: r.data.bits(ADC_WORD - 1, 1),
             commands: r.commands,

@@ -9,10 +9,11 @@
 //! | x      | s W.W−1 (carrier)   | full scale | –                            |
 //! | rest   | u W                 | –          | wraps, meant: that is a pulse |
 //!
-//! First order: over any stretch of clocks the sum of pulses differs from the sum of `(x + 1) / 2` by less than one, so the mean
-//! over a sample of 25 clocks is within 4 % of full scale and that over a window of thousands within parts per million. The
-//! error repeats with the carrier, whose slots are all alike, and capacitance is a ratio to the voltage that is sensed, so
-//! that its share in band cancels. A second order would need 40 cells and a limiter for carriers near full scale.
+//! First order: over any stretch of clocks the sum of pulses differs from the sum of `(x + 1) / 2`
+//! by less than one, so the mean over a sample of 25 clocks is within 4 % of full scale and that
+//! over a window of thousands within parts per million. The error repeats with the carrier, whose
+//! slots are all alike, and capacitance is a ratio to the voltage that is sensed, so that its share
+//! in band cancels. A second order would need 40 cells and a limiter for carriers near full scale.
 //! Latency: one clock. Source: Schreier and Temes, Understanding Delta-Sigma Data Converters, §2.
 
 use super::bits::read_as;
@@ -54,7 +55,11 @@ impl SigmaDelta {
 
 impl Block for SigmaDelta {
     #[inline(always)]
-    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+    fn clock<V: Interpretation>(
+        &self,
+        state: &mut State<Self, V>,
+        i: Inputs<Signal<V>>,
+    ) -> Outputs<Signal<V>> {
         let r = state.load(self);
         let width = self.carrier.width;
         let half = code::<V>(1 << (width - 1), self.rest());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Stream: frames out over the serial line, each a packet with its sequence number and CRC; heartbeats while disabled.
+//! Stream: frames out over the serial line, each a packet with its sequence number and CRC;
+//! heartbeats while disabled.
 //!
 //! ```text
 //! frame words ──────────┐
@@ -17,19 +18,23 @@
 //! | left   | counter 3   | reloaded, by compare              |
 //! | pause  | u BEAT + 1  | held at zero while anything is sent or the board is enabled; its top bit ends the pause |
 //!
-//! A heartbeat is a packet whose words are those that have been written into registers. A word that is to be kept for it waits
-//! for the words of a frame to be through, and while one is written none is read: the line rests for a clock. A heartbeat
-//! whose words are being sent then ends at once, too short for a packet: bytes of the word before and of this one would
-//! otherwise stand side by side, under a CRC that is right.
+//! A heartbeat is a packet whose words are those that have been written into registers. A word that
+//! is to be kept for it waits for the words of a frame to be through, and while one is written none
+//! is read: the line rests for a clock. A heartbeat whose words are being sent then ends at once,
+//! too short for a packet: bytes of the word before and of this one would otherwise stand side by
+//! side, under a CRC that is right.
 //!
-//! A frame that comes while one is being sent is dropped whole, takes its number along, and sets a flag in the next packet. A
-//! packet's own number is its first byte, gone long before another frame can come.
-//! What happened since the packet before (late, refused, overrun) is kept until it is told. Latency: (8·B + 6)·10·D clocks
-//! for a packet, and as much again for each byte that is escaped. Source: [`super::framing`].
+//! A frame that comes while one is being sent is dropped whole, takes its number along, and sets a
+//! flag in the next packet. A packet's own number is its first byte, gone long before another frame
+//! can come. What happened since the packet before (late, refused, overrun) is kept until it is
+//! told. Latency: (8·B + 6)·10·D clocks for a packet, and as much again for each byte that is
+//! escaped. Source: [`super::framing`].
 
 use super::bits::{flag, next, previous, word as bits_side_by_side};
 use super::crc16;
-use super::framing::{END, ESC, ESC_END, ESC_ESC, NIBBLE, PLACE, Register, STATUS_BYTES, VERSION, digest, word_bytes};
+use super::framing::{
+    END, ESC, ESC_END, ESC_ESC, NIBBLE, PLACE, Register, STATUS_BYTES, VERSION, digest, word_bytes,
+};
 use super::uart::BYTE;
 use super::uart::transmitter::{self, Transmitter};
 use hapticore_contract::frame::Field;
@@ -122,12 +127,15 @@ fn as_word(bits: u16, word: Format) -> i32 {
 }
 
 impl Stream {
-    /// The stream of a profile's frames, with so many clocks per bit, and of a board whose commands bring so much data.
+    /// The stream of a profile's frames, with so many clocks per bit, and of a board whose commands
+    /// bring so much data.
     pub fn new(profile: &Profile, divisor: u64, data: Format) -> Self {
         let format = Field::word(profile);
         let mut initial = vec![0.0; 2 * WORDS as usize];
-        initial[WORDS as usize + Register::Control.number()] = f64::from(as_word(digest(profile), format));
-        let words = Memory { initial: initial.into(), ..Memory::new("words", 2 * WORDS as usize, format) };
+        initial[WORDS as usize + Register::Control.number()] =
+            f64::from(as_word(digest(profile), format));
+        let words =
+            Memory { initial: initial.into(), ..Memory::new("words", 2 * WORDS as usize, format) };
         Stream {
             words: words.dont_care_on_collision(),
             data,
@@ -139,10 +147,16 @@ impl Stream {
 
     /// The formats of a frame.
     fn frames(&self) -> FramePort<Format> {
-        FramePort { index: Format::counter(WORDS - 1), frame: self.words.format, pad: self.pad, ..FramePort::of(BIT) }
+        FramePort {
+            index: Format::counter(WORDS - 1),
+            frame: self.words.format,
+            pad: self.pad,
+            ..FramePort::of(BIT)
+        }
     }
 
-    /// Clocks of a packet without escapes, from a frame's last word to the end of its last stop bit.
+    /// Clocks of a packet without escapes, from a frame's last word to the end of its last stop
+    /// bit.
     pub fn packet_clocks(&self, divisor: u64) -> u64 {
         (STATUS_BYTES + WORDS * self.bytes + TRAILER_BYTES) * 10 * divisor + 1
     }
@@ -156,8 +170,16 @@ impl Stream {
             (1..).zip(rest).fold(*first, |other, (left, byte)| r.left.is(left).select(*byte, other))
         };
         let words: Vec<_> = (0..self.bytes).map(|left| wide.bits(8 * left as u8, 8)).collect();
-        let flags =
-            bits_side_by_side([r.clipped, r.saturated, r.invalid, r.lost, r.late, r.refused, r.overrun, r.heartbeat]);
+        let flags = bits_side_by_side([
+            r.clipped,
+            r.saturated,
+            r.invalid,
+            r.lost,
+            r.late,
+            r.refused,
+            r.overrun,
+            r.heartbeat,
+        ]);
         let pad = r.pad.resize(NIBBLE, Wrap);
         let status = pick(&[flags, r.commands.concat(pad), r.number]);
         // The CRC takes its own high byte in as it is sent; what is left is the low byte, moved up.
@@ -168,12 +190,19 @@ impl Stream {
 
     /// What is written: a frame's word, or, between frames, the one that is kept for heartbeats.
     #[inline(always)]
-    fn write<V: Interpretation>(&self, r: &Registers<Signal<V>>, i: &Inputs<Signal<V>>, taking: Signal<V>) -> Write<V> {
+    fn write<V: Interpretation>(
+        &self,
+        r: &Registers<Signal<V>>,
+        i: &Inputs<Signal<V>>,
+        taking: Signal<V>,
+    ) -> Write<V> {
         let (format, address) = (self.words.format, self.words.address());
         let kept = i.data.resize(Format::unsigned(format.width, 0), Wrap).as_code(format);
         Write {
             enable: i.frames.valid.select(taking, r.keep),
-            address: (!i.frames.valid).concat(i.frames.valid.select(i.frames.index, i.place)).as_code(address),
+            address: (!i.frames.valid)
+                .concat(i.frames.valid.select(i.frames.index, i.place))
+                .as_code(address),
             data: i.frames.valid.select(i.frames.frame, kept),
         }
     }
@@ -189,13 +218,20 @@ impl Stream {
 
 impl Block for Stream {
     #[inline(always)]
-    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+    fn clock<V: Interpretation>(
+        &self,
+        state: &mut State<Self, V>,
+        i: Inputs<Signal<V>>,
+    ) -> Outputs<Signal<V>> {
         let r = state.load(self);
         let taking = (i.frames.valid & i.frames.index.is(0)).select(!r.busy, r.taking);
         let data = self.words.data(&mut state.submodules.words);
         let write = self.write(&r, &i, taking);
-        // A word is never read while it is written, and in plain sight: the block RAM then needs no logic for that case.
-        let address = write.enable.select(next(write.address), r.heartbeat.concat(r.group.bits(0, PLACE.width)));
+        // A word is never read while it is written, and in plain sight: the block RAM then needs no
+        // logic for that case.
+        let address = write
+            .enable
+            .select(next(write.address), r.heartbeat.concat(r.group.bits(0, PLACE.width)));
         self.words.access(&mut state.submodules.words, address, write);
 
         let byte = self.byte(&r, data);
@@ -214,8 +250,10 @@ impl Block for Stream {
         let heartbeat = r.pause.msb() & !r.busy & !i.enable & !i.frames.valid;
         let begin = frame | heartbeat;
         let (group, left) = self.advance(&r);
-        let cut = (write.enable & !i.frames.valid & r.busy & r.heartbeat & !r.group.msb()).named("cuts");
-        let onward = |end, next: Signal<V>, now: Signal<V>| cut.select(int(end), sent.select(next, now));
+        let cut =
+            (write.enable & !i.frames.valid & r.busy & r.heartbeat & !r.group.msb()).named("cuts");
+        let onward =
+            |end, next: Signal<V>, now: Signal<V>| cut.select(int(end), sent.select(next, now));
         let take = |now: Signal<V>, held: Signal<V>| begin.select(now, held);
         state.store(
             self,
@@ -223,8 +261,10 @@ impl Block for Stream {
                 taking,
                 busy: flag(r.busy, begin, sent & at_end),
                 heartbeat: take(heartbeat, r.heartbeat),
-                group: take(int(STATUS), onward(TRAILER, group, r.group)).resize(r.group.format, Wrap),
-                left: take(int(STATUS_BYTES - 1), onward(0, left, r.left)).resize(r.left.format, Wrap),
+                group: take(int(STATUS), onward(TRAILER, group, r.group))
+                    .resize(r.group.format, Wrap),
+                left: take(int(STATUS_BYTES - 1), onward(0, left, r.left))
+                    .resize(r.left.format, Wrap),
                 escaped: transmitter.taken.select(escape, r.escaped),
                 crc: take(crc16::begin(), sent.select(crc16::with(r.crc, byte), r.crc)),
                 number: i.frames.done.select(next(r.number), r.number),
@@ -239,7 +279,9 @@ impl Block for Stream {
                 overrun: flag(r.overrun, i.frames.done & !taking, told),
                 keep: flag(r.keep, i.keep, !i.frames.valid),
                 wrote: write.enable,
-                pause: (i.enable | r.busy).select(int(0), next(r.pause)).resize(r.pause.format, Wrap),
+                pause: (i.enable | r.busy)
+                    .select(int(0), next(r.pause))
+                    .resize(r.pause.format, Wrap),
             },
         );
         Outputs { tx: transmitter.tx }

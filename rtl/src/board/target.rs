@@ -6,7 +6,8 @@
 //! | ULX3S | ECP5 85F, CABGA381 | 25 MHz | standard | gp and gn 0 … 6 | gp 9, gp and gn 7 … 8 |
 //! | iCEBreaker | iCE40UP5K, SG48 | 12 MHz | small | PMOD 1A and 1B | PMOD 2 |
 //!
-//! A pin is written once, on the top's signal; constraints are read off the top. Sources: the boards' schematics.
+//! A pin is written once, on the top's signal; constraints are read off the top. Sources: the
+//! boards' schematics.
 
 use super::parameters::{Parameters, ParametersError};
 use super::top::{Primitive, Top};
@@ -35,11 +36,15 @@ impl FromStr for Target {
     type Err = TargetError;
 
     fn from_str(text: &str) -> Result<Self, TargetError> {
-        Target::ALL.into_iter().find(|target| target.name() == text).ok_or_else(|| TargetError(text.into()))
+        Target::ALL
+            .into_iter()
+            .find(|target| target.name() == text)
+            .ok_or_else(|| TargetError(text.into()))
     }
 }
 
-/// Puts the top's ports on pins: each port's from its least significant bit, with what else is to be said of each.
+/// Puts the top's ports on pins: each port's from its least significant bit, with what else is to
+/// be said of each.
 macro_rules! locate {
     ($top:ident: $($port:ident $pins:expr $(=> $also:literal)?;)*) => {
         $(for (bit, pin) in $pins.into_iter().enumerate() {
@@ -126,7 +131,8 @@ impl Target {
         let mut text = String::new();
         match self {
             Target::Ulx3s => {
-                // No FREQUENCY: the tool is told what to aim at, which is more than the board's clock.
+                // No FREQUENCY: the tool is told what to aim at, which is more than the board's
+                // clock.
                 for Pin { port, site, also } in pins {
                     let _ = writeln!(text, "LOCATE COMP \"{port}\" SITE \"{site}\";");
                     let _ = writeln!(text, "IOBUF PORT \"{port}\" IO_TYPE=LVCMOS33{also};");
@@ -213,7 +219,8 @@ impl Probe for Pins {
         for PinConstraint { index, constraint } in signal.constraints() {
             match constraint {
                 Constraint::Location(site) => {
-                    let port = if signal.bits() == 1 { name.into() } else { format!("{name}[{index}]") };
+                    let port =
+                        if signal.bits() == 1 { name.into() } else { format!("{name}[{index}]") };
                     self.0.push(Pin { port, site, also: String::new() });
                 }
                 Constraint::Custom(also) => {

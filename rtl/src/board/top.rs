@@ -7,9 +7,9 @@
 //!                                sclk_run ─ DDR output ─ sclk: high, then low, in a clock with a pulse; else high
 //! ```
 //!
-//! The kernel here only wires: what computes is in blocks. The reset is the FPGA's loading of registers with their initial
-//! values, then 255 clocks (the ADC's full reset takes 3.2 µs); loading itself takes long enough for all supplies. Lamps and
-//! button may be active low.
+//! The kernel here only wires: what computes is in blocks. The reset is the FPGA's loading of
+//! registers with their initial values, then 255 clocks (the ADC's full reset takes 3.2 µs);
+//! loading itself takes long enough for all supplies. Lamps and button may be active low.
 
 use super::whole;
 use rust_hdl_core::prelude::*;
@@ -31,8 +31,8 @@ crate::component! {
 pub enum Primitive {
     /// Lattice ECP5's ODDRX1F: three clocks late (its simulation model has three registers).
     Oddrx1f,
-    /// Lattice iCE40's SB_IO with a DDR output: the second half of a clock is what is there in the middle of it, so that there
-    /// is no latency.
+    /// Lattice iCE40's SB_IO with a DDR output: the second half of a clock is what is there in the
+    /// middle of it, so that there is no latency.
     SbIo,
 }
 
@@ -47,7 +47,9 @@ impl Primitive {
 
     fn verilog(self) -> &'static str {
         match self {
-            Primitive::Oddrx1f => "ODDRX1F output_cell (.D0(1'b1), .D1(~run), .SCLK(clock), .RST(1'b0), .Q(sclk));",
+            Primitive::Oddrx1f => {
+                "ODDRX1F output_cell (.D0(1'b1), .D1(~run), .SCLK(clock), .RST(1'b0), .Q(sclk));"
+            }
             Primitive::SbIo => {
                 "SB_IO #(.PIN_TYPE(6'b0100_00)) output_cell (\n    .PACKAGE_PIN(sclk), .OUTPUT_CLK(clock), .D_OUT_0(1'b1), .D_OUT_1(~run)\n);"
             }
@@ -55,7 +57,8 @@ impl Primitive {
     }
 }
 
-/// SCLK's output cell. It has no model in rust-hdl, whose clocks have no halves: [`crate::board`]'s tests run its Verilog.
+/// SCLK's output cell. It has no model in rust-hdl, whose clocks have no halves: [`crate::board`]'s
+/// tests run its Verilog.
 pub struct SclkOutput {
     /// The core's clock.
     pub clock: Signal<In, Clock>,
@@ -69,7 +72,12 @@ pub struct SclkOutput {
 impl SclkOutput {
     /// With this primitive.
     pub fn new(primitive: Primitive) -> Self {
-        SclkOutput { clock: Signal::default(), run: Signal::default(), sclk: Signal::default(), primitive }
+        SclkOutput {
+            clock: Signal::default(),
+            run: Signal::default(),
+            sclk: Signal::default(),
+            primitive,
+        }
     }
 }
 

@@ -9,8 +9,9 @@
 //! | count    | counter D − 1 | reloaded, by compare |
 //! | position | counter 9     | reloaded, by compare |
 //!
-//! A bit takes D clocks, the divisor. The receiver looks at the middle of each bit and drops a byte without a stop bit; the
-//! line passes two registers first. Latency: 10·D clocks a byte. Source: the usual asynchronous serial line (EIA-232 character).
+//! A bit takes D clocks, the divisor. The receiver looks at the middle of each bit and drops a byte
+//! without a stop bit; the line passes two registers first. Latency: 10·D clocks a byte. Source:
+//! the usual asynchronous serial line (EIA-232 character).
 
 use super::bits::{next, previous};
 use hapticore_hdl::block::{Block, Interpretation, State};
@@ -86,7 +87,11 @@ pub mod receiver {
 
     impl Block for Receiver {
         #[inline(always)]
-        fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+        fn clock<V: Interpretation>(
+            &self,
+            state: &mut State<Self, V>,
+            i: Inputs<Signal<V>>,
+        ) -> Outputs<Signal<V>> {
             let r = state.load(self);
             let quiet = Registers { valid: bit(false), ..r };
             let counting = Registers { count: previous(r.count), ..quiet };
@@ -139,7 +144,13 @@ pub mod transmitter {
         /// The start bit.
         #[inline(always)]
         fn begin<V: Interpretation>(&self, i: &Inputs<Signal<V>>) -> Registers<Signal<V>> {
-            Registers { low: i.valid, busy: i.valid, count: int(self.divisor - 1), position: int(0), octet: i.octet }
+            Registers {
+                low: i.valid,
+                busy: i.valid,
+                count: int(self.divisor - 1),
+                position: int(0),
+                octet: i.octet,
+            }
         }
 
         /// The end of a bit: ones follow the last, and so the stop bit is one.
@@ -157,7 +168,11 @@ pub mod transmitter {
 
     impl Block for Transmitter {
         #[inline(always)]
-        fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+        fn clock<V: Interpretation>(
+            &self,
+            state: &mut State<Self, V>,
+            i: Inputs<Signal<V>>,
+        ) -> Outputs<Signal<V>> {
             let r = state.load(self);
             let counting = Registers { count: previous(r.count), ..r };
             let busy = when!(r.count.is(0) => self.advance(r), else counting);

@@ -7,11 +7,12 @@
 //! rx ─ receiver ─ registers ─ calibration ┘ └ pads ─ select
 //! ```
 //!
-//! Ports are pins; what they need of a device (the clock pulses of SCLK, the reset) is the top's. Codes are numbered as the
-//! ADC's channels: the terminals, the sensing voltage, the haptic voltage. Until a host enables it, the board converts
-//! nothing, no pad is driven, and the stream tells heartbeats; enabling it begins the first pad's slot. Disabling abandons the
-//! slot under way; a frame that the core is already computing is still told.
-//! Latency: that of the reader, the core and the stream, one after the other.
+//! Ports are pins; what they need of a device (the clock pulses of SCLK, the reset) is the top's.
+//! Codes are numbered as the ADC's channels: the terminals, the sensing voltage, the haptic
+//! voltage. Until a host enables it, the board converts nothing, no pad is driven, and the stream
+//! tells heartbeats; enabling it begins the first pad's slot. Disabling abandons the slot under
+//! way; a frame that the core is already computing is still told. Latency: that of the reader, the
+//! core and the stream, one after the other.
 
 use super::adc_reader::{self, AdcReader};
 use super::pads::{self, Pads};
@@ -127,18 +128,28 @@ fn core_inputs<V: Interpretation>(
 
 impl Block for Board {
     #[inline(always)]
-    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+    fn clock<V: Interpretation>(
+        &self,
+        state: &mut State<Self, V>,
+        i: Inputs<Signal<V>>,
+    ) -> Outputs<Signal<V>> {
         let r = state.load(self);
         let bytes = call!(self.receiver, state, receiver::Inputs { rx: i.rx });
         let answer = i.dout.bits(0, 1);
-        let inputs = registers::Inputs { valid: bytes.valid, octet: bytes.octet, shift: r.shift, answer };
-        let registers = call!(self.registers, state, inputs);
         let inputs =
-            adc_reader::Inputs { enable: registers.enable, busy: i.busy, dout: i.dout, write: registers.adc_write };
+            registers::Inputs { valid: bytes.valid, octet: bytes.octet, shift: r.shift, answer };
+        let registers = call!(self.registers, state, inputs);
+        let inputs = adc_reader::Inputs {
+            enable: registers.enable,
+            busy: i.busy,
+            dout: i.dout,
+            write: registers.adc_write,
+        };
         let adc = call!(self.adc_reader, state, inputs);
         // The reader cannot ask the registers in the same clock that it is told by them.
         let shift = adc.shift;
-        let inputs = core_inputs(&registers, adc.strobe, self.codes.data(&mut state.submodules.codes));
+        let inputs =
+            core_inputs(&registers, adc.strobe, self.codes.data(&mut state.submodules.codes));
         let core = call!(self.core, state, inputs);
         let write = Write { enable: adc.store, address: adc.address, data: adc.code };
         self.codes.access(&mut state.submodules.codes, adc.bank.concat(core.channel), write);

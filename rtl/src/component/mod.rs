@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Blocks as rust-hdl components, for anybody's rust-hdl design.
 //!
-//! [`component!`](crate::component!) makes a component of any block: a port for each field of its bundles, besides `clock` and
-//! a synchronous `reset`. In rust-hdl's simulator it steps the clocked model; in rust-hdl's Verilog it is the printed
-//! modules. So no block is written twice, and what rust-hdl's own expressions would get wrong is not written in them.
-//! rust-hdl has widths in types and the model has them in profiles, so that a component names its ports' widths once, where
-//! they are used ([`declaration`] writes that for any block):
+//! [`component!`](crate::component!) makes a component of any block: a port for each field of its
+//! bundles, besides `clock` and a synchronous `reset`. In rust-hdl's simulator it steps the clocked
+//! model; in rust-hdl's Verilog it is the printed modules. So no block is written twice, and what
+//! rust-hdl's own expressions would get wrong is not written in them. rust-hdl has widths in types
+//! and the model has them in profiles, so that a component names its ports' widths once, where they
+//! are used ([`declaration`] writes that for any block):
 //!
 //! ```
 //! use hapticore_model::blocks::multiplexer::Multiplexer;
@@ -25,8 +26,8 @@
 //! # Ok::<(), hapticore_contract::profile::ProfileError>(())
 //! ```
 //!
-//! Words are `Bits`, those of signed formats in two's complement: rust-hdl's `Signed` overflows the stack at its most negative
-//! code. Names and widths are checked when a component is made.
+//! Words are `Bits`, those of signed formats in two's complement: rust-hdl's `Signed` overflows the
+//! stack at its most negative code. Names and widths are checked when a component is made.
 
 mod simulated;
 
@@ -69,16 +70,20 @@ impl<const N: usize> Word for Bits<N> {
     }
 }
 
-/// The Verilog of a rust-hdl design in which components stand, each printed module once. The top module is `top`.
+/// The Verilog of a rust-hdl design in which components stand, each printed module once. The top
+/// module is `top`.
 ///
 /// # Panics
-/// Where rust-hdl finds an open or doubly driven signal, or two components bring different modules of one name.
+/// Where rust-hdl finds an open or doubly driven signal, or two components bring different modules
+/// of one name.
 pub fn verilog<U: Block>(design: &U) -> String {
     let text = generate_verilog(design);
     let mut seen = BTreeMap::new();
     let mut kept = String::new();
     for module in text.split_inclusive("endmodule") {
-        let name = module.split_once("\nmodule ").map(|(_, rest)| rest.split([' ', '(', '#']).next().unwrap_or(rest));
+        let name = module
+            .split_once("\nmodule ")
+            .map(|(_, rest)| rest.split([' ', '(', '#']).next().unwrap_or(rest));
         let body = module.split_once("\nmodule ").map_or(module, |(_, body)| body);
         match name.and_then(|name| seen.insert(name.to_owned(), body.to_owned())) {
             None => kept.push_str(module),
@@ -88,8 +93,9 @@ pub fn verilog<U: Block>(design: &U) -> String {
     kept
 }
 
-/// The declaration of a block's component, to be put into a design: [`component!`](crate::component!) with the names and the
-/// widths that this block has. `path` is where its type is, `name` what the component is to be called.
+/// The declaration of a block's component, to be put into a design:
+/// [`component!`](crate::component!) with the names and the widths that this block has. `path` is
+/// where its type is, `name` what the component is to be called.
 pub fn declaration<B: hapticore_hdl::block::Block>(block: &B, path: &str, name: &str) -> String {
     let design = Design::of(block, "a rust-hdl component");
     let ports = |direction: Direction| {

@@ -28,7 +28,9 @@ impl<B: Block> Simulated<B> {
         let design = Design::of(&block, "a rust-hdl component");
         let of = |direction: Direction| {
             let ports = design.ports.iter().filter(move |port| port.direction == direction);
-            ports.map(|port| (port.name.as_str(), usize::from(port.format.width))).collect::<Vec<_>>()
+            ports
+                .map(|port| (port.name.as_str(), usize::from(port.format.width)))
+                .collect::<Vec<_>>()
         };
         assert_eq!(of(Direction::Input), inputs, "the inputs of {}", B::NAME);
         assert_eq!(of(Direction::Output), outputs, "the outputs of {}", B::NAME);
@@ -42,7 +44,8 @@ impl<B: Block> Simulated<B> {
         }
     }
 
-    /// What the outputs are, the inputs being these. At an edge of the clock the registers are replaced first.
+    /// What the outputs are, the inputs being these. At an edge of the clock the registers are
+    /// replaced first.
     pub fn update(&mut self, edge: bool, reset: bool, inputs: &[u64]) -> &[u64] {
         if edge {
             match reset {
@@ -53,7 +56,8 @@ impl<B: Block> Simulated<B> {
             }
         }
         if edge || !self.settled || self.inputs != inputs {
-            // What the outputs are before the next edge depends on the inputs, too: a clock that is not kept tells.
+            // What the outputs are before the next edge depends on the inputs, too: a clock that is
+            // not kept tells.
             self.outputs = clock(&self.block, &mut self.state.clone(), inputs);
             self.inputs.copy_from_slice(inputs);
             self.settled = true;
@@ -63,7 +67,9 @@ impl<B: Block> Simulated<B> {
 
     /// An instance of the printed module, and all modules printed.
     pub fn hdl(&self) -> Verilog {
-        let names = ["clock", "reset"].into_iter().chain(self.design.ports.iter().map(|port| port.name.as_str()));
+        let names = ["clock", "reset"]
+            .into_iter()
+            .chain(self.design.ports.iter().map(|port| port.name.as_str()));
         let connections: Vec<_> = names.map(|name| format!("    .{name}({name})")).collect();
         let code = format!("{} block (\n{}\n);", self.design.top(), connections.join(",\n"));
         Verilog::Wrapper(Wrapper { code, cores: self.design.text() })
@@ -73,7 +79,10 @@ impl<B: Block> Simulated<B> {
 /// One clock, from bits to bits.
 fn clock<B: Block>(block: &B, state: &mut State<B, i64>, inputs: &[u64]) -> Vec<u64> {
     let mut inputs = inputs.iter();
-    let read = |format: Format| Signal { value: code(*inputs.next().expect("a word a port"), format), format };
+    let read = |format: Format| Signal {
+        value: code(*inputs.next().expect("a word a port"), format),
+        format,
+    };
     let outputs = block.clock(state, B::Inputs::map(block.inputs(), read));
     let mut words = Vec::new();
     B::Outputs::each(B::Outputs::zip(outputs, block.outputs()), |_, (signal, format)| {

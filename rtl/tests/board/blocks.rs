@@ -45,7 +45,8 @@ fn no_two_pads_are_ever_closed_nor_one_right_after_another() {
 #[test]
 fn a_pad_closes_a_clock_after_it_is_wanted() {
     let mut bench = Bench::new(Pads::new(3, 2));
-    let run: Vec<i64> = (0..4).map(|_| bench.clock(pads::Inputs { serve: 2, closed: 1 }).select).collect();
+    let run: Vec<i64> =
+        (0..4).map(|_| bench.clock(pads::Inputs { serve: 2, closed: 1 }).select).collect();
     assert_eq!(run, [0, 4, 4, 4]);
     assert_eq!(bench.clock(pads::Inputs { serve: 2, closed: 0 }).select, 4);
     assert_eq!(bench.clock(pads::Inputs { serve: 2, closed: 0 }).select, 0);
@@ -104,8 +105,9 @@ fn bytes_cross_the_line_although_the_clocks_differ() {
 #[test]
 fn a_glitch_and_a_break_are_no_bytes() {
     let mut receiver = Bench::new(receiver::Receiver::new(12));
-    let mut hear =
-        |rx: i64, clocks: u64| (0..clocks).filter(|_| receiver.clock(receiver::Inputs { rx }).valid != 0).count();
+    let mut hear = |rx: i64, clocks: u64| {
+        (0..clocks).filter(|_| receiver.clock(receiver::Inputs { rx }).valid != 0).count()
+    };
     assert_eq!(hear(1, 50) + hear(0, 4) + hear(1, 200), 0, "shorter than half a start bit");
     assert_eq!(hear(0, 119) + hear(1, 100), 0, "no stop bit");
 }
@@ -116,13 +118,17 @@ fn the_transmitter_is_heard_and_takes_a_byte_each_ten_bits() {
     let mut host = Host::new(7);
     let mut taken = Vec::new();
     for clock in 0..1_000u64 {
-        let outputs = transmitter.clock(transmitter::Inputs { valid: 1, octet: taken.len() as i64 * 37 % 256 });
+        let outputs = transmitter
+            .clock(transmitter::Inputs { valid: 1, octet: taken.len() as i64 * 37 % 256 });
         host.clock(outputs.tx);
         if outputs.taken != 0 {
             taken.push(clock);
         }
     }
-    assert!(taken.windows(2).all(|pair| pair[1] - pair[0] == 71), "ten bits of seven clocks, and one to take it");
+    assert!(
+        taken.windows(2).all(|pair| pair[1] - pair[0] == 71),
+        "ten bits of seven clocks, and one to take it"
+    );
     let expected: Vec<u8> = (0..host.heard.len()).map(|k| (k * 37 % 256) as u8).collect();
     assert_eq!(host.heard, expected);
     assert!(expected.len() >= 13);

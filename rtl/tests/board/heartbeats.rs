@@ -23,7 +23,8 @@ const REGISTERS: [Register; 2] =
 fn a_heartbeat_tells_words_that_were_written_or_ends_early() {
     for profile in Profile::all() {
         let mut random = Random::new(11);
-        let data = CommandRegisters::new(Core::new(&profile).inputs().calibration, 100).outputs().data;
+        let data =
+            CommandRegisters::new(Core::new(&profile).inputs().calibration, 100).outputs().data;
         let stream = Stream::new(&profile, DIVISOR, data);
         let quiet = stream::Inputs::map(stream.inputs(), |_| 0);
         let (mut bench, mut host) = (Bench::new(stream), Host::new(DIVISOR));
@@ -31,17 +32,21 @@ fn a_heartbeat_tells_words_that_were_written_or_ends_early() {
         for _ in 0..3_000_000 {
             let keep = wait == 0;
             if keep {
-                (place, word, wait) = (random.below(2), random.word(data), COMMAND + random.below(10 * COMMAND));
+                (place, word, wait) =
+                    (random.below(2), random.word(data), COMMAND + random.below(10 * COMMAND));
                 written[place as usize].push(word as u64);
             }
             wait -= 1;
-            let inputs = stream::Inputs { keep: keep.into(), place: place as i64, data: word, ..quiet };
+            let inputs =
+                stream::Inputs { keep: keep.into(), place: place as i64, data: word, ..quiet };
             host.clock(bench.clock(inputs).tx);
         }
         let ends = host.heard.iter().filter(|byte| **byte == END).count();
         let mut whole = 0;
         for told in Decoder::new(&profile).decode(host.heard) {
-            let Ok(Message::Heartbeat(heartbeat)) = told else { panic!("{}: {told:?}", profile.name) };
+            let Ok(Message::Heartbeat(heartbeat)) = told else {
+                panic!("{}: {told:?}", profile.name)
+            };
             whole += 1;
             for (register, written) in REGISTERS.into_iter().zip(&written) {
                 let (told, bits) = heartbeat.register(register).expect("heartbeats tell it");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The board and its peripherals, clock by clock, against the model's core and against what they say of themselves.
+//! The board and its peripherals, clock by clock, against the model's core and against what they
+//! say of themselves.
 
 #[path = "../../../model/tests/equality/device.rs"]
 #[allow(dead_code)]

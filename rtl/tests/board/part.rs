@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The registers of an AD7606C behind its serial port, and what the part refuses.
 //!
-//! A word over SDI is 16 bits: zero, read, six bits of address, eight of data. While the part converts (ADC mode) it takes
-//! nothing but a read, which puts it into register mode; there it takes reads and writes, and puts the register that was read
-//! out during the next word. A write to address 0 leaves register mode. Source: data sheet AD7606C-16 (register map); the
-//! public drivers `drivers/adc/ad7606` of Analog Devices' no-OS and of Linux.
+//! A word over SDI is 16 bits: zero, read, six bits of address, eight of data. While the part
+//! converts (ADC mode) it takes nothing but a read, which puts it into register mode; there it
+//! takes reads and writes, and puts the register that was read out during the next word. A write to
+//! address 0 leaves register mode. Source: data sheet AD7606C-16 (register map); the public drivers
+//! `drivers/adc/ad7606` of Analog Devices' no-OS and of Linux.
 
 /// A word over SDI that reads.
 const READ: u16 = 0x4000;
@@ -63,12 +64,14 @@ impl Part {
         (ranges.try_into().expect("four"), self.registers[BANDWIDTH])
     }
 
-    /// What the first data line puts out during the next word of register mode. The upper byte is not specified.
+    /// What the first data line puts out during the next word of register mode. The upper byte is
+    /// not specified.
     pub fn answer(&self) -> u16 {
         0xa500 | self.read.map_or(0x5a, |address| u16::from(self.registers[address]))
     }
 
-    /// A read of codes, or a word for a register: sixteen bits, each as it was at a falling edge of SCLK, or another number.
+    /// A read of codes, or a word for a register: sixteen bits, each as it was at a falling edge of
+    /// SCLK, or another number.
     ///
     /// # Errors
     /// What the part refuses, and why.
@@ -133,7 +136,10 @@ fn the_part_takes_what_its_data_sheet_says_and_nothing_else() {
     let mut part = Part::new(0x31);
     assert!(part.word(&bits(0x0218)).is_err() && part.lines() == 2, "ADC mode takes no write");
     assert!(part.word(&[0; 18]).is_ok() && !part.register_mode(), "a read of codes is no word");
-    assert!(part.word(&bits(0x6f00)).is_ok() && part.register_mode(), "a read enters register mode");
+    assert!(
+        part.word(&bits(0x6f00)).is_ok() && part.register_mode(),
+        "a read enters register mode"
+    );
     assert_eq!(part.answer() & 0xff, 0x31, "and is answered during the next word");
     assert!(part.word(&bits(0x0218)).is_ok() && part.lines() == 8);
     for refused in [0x2f00, 0x3000, 0x03ff, 0x0284, 0x8000, 0x4000] {
@@ -141,5 +147,8 @@ fn the_part_takes_what_its_data_sheet_says_and_nothing_else() {
     }
     assert!(part.word(&bits(0x0218)[1..]).is_err(), "15 bits");
     assert!(part.word(&bits(0)).is_ok() && !part.register_mode(), "zero leaves register mode");
-    assert_eq!(part.commands, [0x0218, 0x6f00, 0x0218, 0x2f00, 0x3000, 0x03ff, 0x0284, 0x8000, 0x4000, 0]);
+    assert_eq!(
+        part.commands,
+        [0x0218, 0x6f00, 0x0218, 0x2f00, 0x3000, 0x03ff, 0x0284, 0x8000, 0x4000, 0]
+    );
 }

@@ -52,7 +52,11 @@ pub struct Adc {
 
 impl Adc {
     /// An ADC of `bits` on a board with these parameters.
-    pub fn new(samples: impl IntoIterator<Item = Vec<i32>>, bits: u8, parameters: &Parameters) -> Self {
+    pub fn new(
+        samples: impl IntoIterator<Item = Vec<i32>>,
+        bits: u8,
+        parameters: &Parameters,
+    ) -> Self {
         let (conversion, latency) = (parameters.conversion() - 1, parameters.sclk_latency);
         let setup = SETUP_US * parameters.clock_hz / 1_000_000;
         let before = Outputs {
@@ -152,7 +156,8 @@ impl Adc {
             }
             self.conversions += 1;
             self.converting = self.samples.pop_front().unwrap_or_else(|| vec![0; 8]);
-            self.left = if self.health == Health::Slow { self.conversion + 3 } else { self.conversion };
+            self.left =
+                if self.health == Health::Slow { self.conversion + 3 } else { self.conversion };
         }
     }
 
@@ -169,7 +174,10 @@ impl Adc {
         if self.ready > 0 {
             self.wrong.push("spoken to before it was ready after its reset");
         }
-        if !self.part.register_mode() && self.sdi.iter().all(|&bit| bit == 0) && self.bit != self.bits {
+        if !self.part.register_mode()
+            && self.sdi.iter().all(|&bit| bit == 0)
+            && self.bit != self.bits
+        {
             self.wrong.push("a read of another length than the word's");
         }
         self.wrong.extend(self.part.word(&self.sdi).err());
@@ -226,7 +234,8 @@ impl Host {
             bits.push(tx != 0);
             if bits.len() == 9 {
                 assert!(bits[8], "a byte ends with a stop bit");
-                self.heard.push(bits[..8].iter().rev().fold(0, |byte, &bit| byte << 1 | u8::from(bit)));
+                self.heard
+                    .push(bits[..8].iter().rev().fold(0, |byte, &bit| byte << 1 | u8::from(bit)));
                 self.hearing = None;
             }
         }

@@ -21,7 +21,8 @@ use hapticore_rtl::board::{Board, Parameters};
 
 /// Clocks the block with any inputs, from reset, until its registers can be nothing new.
 fn prove<B: Block>(block: &B) {
-    let inputs = B::Inputs::map(block.inputs(), |format: Format| Signal { value: whole(format), format });
+    let inputs =
+        B::Inputs::map(block.inputs(), |format: Format| Signal { value: whole(format), format });
     let mut state = block.reset::<Range>();
     let mut seen: Vec<Range> = Vec::new();
     take_violations();
@@ -55,8 +56,10 @@ fn no_signal_of_a_peripheral_can_overflow() {
         prove(&Pads::new(profile.pads, parameters.dead()));
         prove(&Receiver::new(parameters.divisor()));
         prove(&Transmitter::new(parameters.divisor()));
-        let registers =
-            CommandRegisters::new(core.inputs().calibration, core.estimator().position().table().words as u64);
+        let registers = CommandRegisters::new(
+            core.inputs().calibration,
+            core.estimator().position().table().words as u64,
+        );
         prove(&Stream::new(&profile, parameters.divisor(), registers.outputs().data));
         prove(&registers);
         let board = Board::new(&profile, &parameters).expect("bundled profiles fit");

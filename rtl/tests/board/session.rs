@@ -136,10 +136,14 @@ fn over_the_line_come_the_frames_of_the_core() {
             assert_eq!(packet.status.commands, commands.len() as u8 % 16);
         }
         assert_eq!(expected.len(), 9);
-        assert!(expected.iter().any(|frame| frame.flags.lost) && expected.iter().any(|frame| frame.flags.invalid));
+        assert!(
+            expected.iter().any(|frame| frame.flags.lost)
+                && expected.iter().any(|frame| frame.flags.invalid)
+        );
         assert_eq!(session.adc.wrong, Vec::<&str>::new(), "{}", profile.name);
         assert_eq!(session.adc.part.lines(), 8, "{}: eight data lines", profile.name);
-        let (pads, opened): (Vec<i64>, Vec<i64>) = session.closed.iter().partition(|&&select| select != 0);
+        let (pads, opened): (Vec<i64>, Vec<i64>) =
+            session.closed.iter().partition(|&&select| select != 0);
         assert_eq!(pads[..8], [1, 2, 4, 8, 1, 2, 4, 8], "pads in turn");
         assert!(opened.len() >= pads.len(), "and none between two");
     }
@@ -164,7 +168,11 @@ fn a_damaged_command_changes_nothing_and_is_told() {
     }
     session.host.send(good[..5].iter().copied().chain(good.last().copied()));
     session.run(5_000);
-    assert_eq!(session.bench.clock(Inputs { dout: 0, busy: 0, rx: 1 }).enabled, 0, "none of them enables");
+    assert_eq!(
+        session.bench.clock(Inputs { dout: 0, busy: 0, rx: 1 }).enabled,
+        0,
+        "none of them enables"
+    );
     session.send(&commands[20..]);
     let refusals = session.heartbeats.iter().filter(|heartbeat| heartbeat.status.refused).count();
     assert!((1..=5).contains(&refusals), "told once each, or several together: {refusals}");
@@ -187,7 +195,8 @@ fn a_late_or_absent_adc_is_told_and_hangs_nothing() {
         assert!(session.packets(3)[2].status.late, "{health:?}");
         session.adc.health = Health::Well;
         assert!(!session.packets(5)[4].status.late, "{health:?} and over");
-        let lamp = |session: &mut Session| session.bench.clock(Inputs { dout: 0, busy: 0, rx: 1 }).late;
+        let lamp =
+            |session: &mut Session| session.bench.clock(Inputs { dout: 0, busy: 0, rx: 1 }).late;
         assert_eq!(lamp(&mut session), 1, "the lamp stays on");
         session.send(&[Command::DISABLE]);
         session.run(50);
@@ -204,12 +213,19 @@ fn a_line_too_slow_drops_whole_frames_and_says_so() {
     session.send(&start(&profile, &calibration));
     let packets = session.packets(4);
     let expected = simulated(&profile, &calibration, &samples);
-    assert!(packets.windows(2).any(|pair| pair[1].status.sequence > pair[0].status.sequence + 1), "some are dropped");
+    assert!(
+        packets.windows(2).any(|pair| pair[1].status.sequence > pair[0].status.sequence + 1),
+        "some are dropped"
+    );
     for pair in packets.windows(2) {
         assert!(pair[0].status.overrun || pair[1].status.overrun, "and that is said: {pair:?}");
     }
     for packet in &packets {
-        assert_eq!(packet.frame, expected[usize::from(packet.status.sequence) - 1], "those that come are whole");
+        assert_eq!(
+            packet.frame,
+            expected[usize::from(packet.status.sequence) - 1],
+            "those that come are whole"
+        );
     }
 }
 

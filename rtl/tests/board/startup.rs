@@ -37,14 +37,30 @@ fn heartbeat(session: &mut Session) -> Heartbeat {
 fn a_prepared_board_tells_what_it_is_and_has_set_up_its_adc() {
     let profile = small();
     let setup = AdcSetup {
-        ranges: [Range::V5, Range::V5, Range::V5, Range::V5, Range::V5, Range::V5, Range::V10, Range::V2_5],
+        ranges: [
+            Range::V5,
+            Range::V5,
+            Range::V5,
+            Range::V5,
+            Range::V5,
+            Range::V5,
+            Range::V10,
+            Range::V2_5,
+        ],
     };
     let (mut session, commands) = prepared(&profile, 0x31, &setup);
     let told = heartbeat(&mut session);
     assert_eq!(check(&told, &profile, &calibration(&profile), (0, &commands)), Ok(()));
-    assert_eq!((told.version, told.digest(), told.adc_answer()), (framing::VERSION, digest(&profile), 0x31));
+    assert_eq!(
+        (told.version, told.digest(), told.adc_answer()),
+        (framing::VERSION, digest(&profile), 0x31)
+    );
     assert_eq!(session.adc.wrong, Vec::<&str>::new());
-    assert_eq!(session.adc.part.inputs(), ([0x11, 0x11, 0x11, 0x03], 0xff), "ranges, and 220 kHz everywhere");
+    assert_eq!(
+        session.adc.part.inputs(),
+        ([0x11, 0x11, 0x11, 0x03], 0xff),
+        "ranges, and 220 kHz everywhere"
+    );
     assert_eq!((session.adc.part.lines(), session.adc.part.register_mode()), (8, false));
     assert_eq!(session.adc.part.commands.len(), setup.words().len());
     assert_eq!(session.adc.conversions, 0);
@@ -57,22 +73,38 @@ fn a_board_that_is_not_as_it_should_be_is_not_enabled() {
     for id in [0x14, 0x00, 0xff] {
         let (mut session, commands) = prepared(&profile, id, &AdcSetup::default());
         let told = heartbeat(&mut session);
-        assert_eq!(check(&told, &profile, &calibration, (0, &commands)), Err(StartupError::Adc(id)));
+        assert_eq!(
+            check(&told, &profile, &calibration, (0, &commands)),
+            Err(StartupError::Adc(id))
+        );
     }
     let (mut session, mut commands) = prepared(&profile, 0x22, &AdcSetup::default());
     let told = heartbeat(&mut session);
-    assert_eq!(check(&told, &profile, &calibration, (0, &commands)), Ok(()), "as users of the AD7606C-16 report it");
+    assert_eq!(
+        check(&told, &profile, &calibration, (0, &commands)),
+        Ok(()),
+        "as users of the AD7606C-16 report it"
+    );
     let other = Profile { pads: 3, ..profile.clone() };
     let error = check(&told, &other, &calibration, (0, &commands)).expect_err("another profile");
     assert!(matches!(error, StartupError::Profile { .. }), "{error}");
-    let error = check(&told, &profile, &calibration, (0, &commands[1..])).expect_err("a command more");
+    let error =
+        check(&told, &profile, &calibration, (0, &commands[1..])).expect_err("a command more");
     assert!(matches!(error, StartupError::Commands { .. }), "{error}");
     let wrong = Command::Register(Register::Constant(Constant::ForceGain), 5);
     session.send(&[wrong]);
     commands.push(wrong);
-    let error = check(&heartbeat(&mut session), &profile, &calibration, (0, &commands)).expect_err("another scale");
+    let error = check(&heartbeat(&mut session), &profile, &calibration, (0, &commands))
+        .expect_err("another scale");
     assert!(
-        matches!(error, StartupError::Register { register: Register::Constant(Constant::ForceGain), got: 5, .. }),
+        matches!(
+            error,
+            StartupError::Register {
+                register: Register::Constant(Constant::ForceGain),
+                got: 5,
+                ..
+            }
+        ),
         "{error}"
     );
 }
@@ -112,7 +144,8 @@ fn whenever_a_board_is_disabled_and_enabled_again_its_first_frame_is_whole() {
         session.send(&[Command::DISABLE]);
         if random.below(2) == 0 {
             let words = AdcSetup::default().words();
-            let set_up: Vec<_> = words.iter().map(|&word| Command::Register(Register::Adc, word)).collect();
+            let set_up: Vec<_> =
+                words.iter().map(|&word| Command::Register(Register::Adc, word)).collect();
             session.send(&set_up);
             commanded += words.len();
         }
@@ -121,9 +154,20 @@ fn whenever_a_board_is_disabled_and_enabled_again_its_first_frame_is_whole() {
         session.send(&[Command::ENABLE]);
         let packet = session.packets(heard + 1)[heard];
         let of_slot = &samples[from..from + profile.slot.samples() as usize];
-        assert_eq!(packet.frame, simulated(&profile, &calibration, of_slot)[0], "round {round}, from sample {from}");
-        assert!(!(packet.status.late || packet.status.refused || packet.status.overrun), "round {round}: {packet:?}");
-        assert_eq!(session.adc.part.commands.len(), commanded, "round {round}: nothing else was commanded");
+        assert_eq!(
+            packet.frame,
+            simulated(&profile, &calibration, of_slot)[0],
+            "round {round}, from sample {from}"
+        );
+        assert!(
+            !(packet.status.late || packet.status.refused || packet.status.overrun),
+            "round {round}: {packet:?}"
+        );
+        assert_eq!(
+            session.adc.part.commands.len(),
+            commanded,
+            "round {round}: nothing else was commanded"
+        );
     }
     assert_eq!(session.adc.wrong, Vec::<&str>::new());
 }

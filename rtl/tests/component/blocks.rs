@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Components: the model in rust-hdl's simulator, and the printed modules in rust-hdl's Verilog, alike at every clock.
+//! Components: the model in rust-hdl's simulator, and the printed modules in rust-hdl's Verilog,
+//! alike at every clock.
 
 use crate::harness::{Design, Ports, have_icarus, mismatch, simulated};
 use hapticore_contract::profile::Profile;
@@ -35,7 +36,8 @@ component! {
     }
 }
 
-/// A divider twice, and a modulator that has a say in when one of them starts: in a kernel of rust-hdl's.
+/// A divider twice, and a modulator that has a say in when one of them starts: in a kernel of
+/// rust-hdl's.
 #[derive(LogicBlock)]
 struct Pair {
     clock: Signal<In, Clock>,
@@ -97,8 +99,10 @@ impl Logic for Pair {
 }
 
 impl Design for Pair {
-    const PORTS: (Ports, Ports) =
-        (&[("reset", 1), ("start", 1), ("a", 8), ("b", 8)], &[("done", 1), ("once", 9), ("twice", 9), ("pulse", 1)]);
+    const PORTS: (Ports, Ports) = (
+        &[("reset", 1), ("start", 1), ("a", 8), ("b", 8)],
+        &[("done", 1), ("once", 9), ("twice", 9), ("pulse", 1)],
+    );
     const CLOCKED: bool = true;
     const UNKNOWN: usize = 1;
 
@@ -111,7 +115,12 @@ impl Design for Pair {
 
     fn get(&self) -> Vec<u64> {
         let bit = |bit: bool| u64::from(bit);
-        vec![bit(self.done.val()), self.once.val().to_u64(), self.twice.val().to_u64(), bit(self.pulse.val())]
+        vec![
+            bit(self.done.val()),
+            self.once.val().to_u64(),
+            self.twice.val().to_u64(),
+            bit(self.pulse.val()),
+        ]
     }
 
     fn clock(&mut self, high: bool) {
@@ -176,10 +185,13 @@ fn any_block_has_a_component() {
     // As it stands at the top of this file.
     let declared = component::declaration(&Multiplexer::new(&profile), "Multiplexer", "Turns");
     let words = |text: &str| text.split_whitespace().map(str::to_owned).collect::<Vec<_>>();
-    let here = include_str!("blocks.rs").replace("    /// Serves the pads of the small profile.\n", "");
-    let here = words(&here[here.find("component! {\n    pub struct Turns").expect("declared above")..]);
+    let here =
+        include_str!("blocks.rs").replace("    /// Serves the pads of the small profile.\n", "");
+    let here =
+        words(&here[here.find("component! {\n    pub struct Turns").expect("declared above")..]);
     assert!(here.starts_with(&words(&declared)), "{declared}");
-    // Blocks whose ports have names that Verilog or rust-hdl would not take would not come this far.
+    // Blocks whose ports have names that Verilog or rust-hdl would not take would not come this
+    // far.
     let core = Core::new(&profile);
     for text in [
         component::declaration(&core, "Core", "Sensor"),

@@ -35,7 +35,8 @@ pub fn have_icarus() -> bool {
     there
 }
 
-/// The outputs that rust-hdl's simulation gives, inputs after inputs; each a clock where there is one.
+/// The outputs that rust-hdl's simulation gives, inputs after inputs; each a clock where there is
+/// one.
 pub fn simulated<D: Design>(design: &mut D, inputs: &[Vec<u64>]) -> Vec<Vec<u64>> {
     design.connect_all();
     let settle = |design: &mut D| assert!(simulate(design, 100), "the design settles");
@@ -58,14 +59,21 @@ pub fn printed<D: Design>(verilog: &str, inputs: &[Vec<u64>]) -> Vec<Vec<u64>> {
     fs::write(path("top.v"), verilog).expect("a file");
     fs::write(path("bench.v"), bench::<D>(inputs)).expect("a file");
     let run = |program: &str, arguments: &[&str]| {
-        let output = Command::new(program).args(arguments).current_dir(folder.path()).output().expect("a program");
+        let output = Command::new(program)
+            .args(arguments)
+            .current_dir(folder.path())
+            .output()
+            .expect("a program");
         assert!(output.status.success(), "{program}: {}", String::from_utf8_lossy(&output.stderr));
         String::from_utf8(output.stdout).expect("text")
     };
     run("iverilog", &["-g2005", "-s", "bench", "-o", "bench", "bench.v", "top.v"]);
     let log = run("vvp", &["bench"]);
-    let words =
-        |line: &str| line.split_whitespace().map(|word| u64::from_str_radix(word, 16).expect("a known word")).collect();
+    let words = |line: &str| {
+        line.split_whitespace()
+            .map(|word| u64::from_str_radix(word, 16).expect("a known word"))
+            .collect()
+    };
     log.lines().skip(D::UNKNOWN).map(words).collect()
 }
 
@@ -73,7 +81,10 @@ pub fn printed<D: Design>(verilog: &str, inputs: &[Vec<u64>]) -> Vec<Vec<u64>> {
 fn bench<D: Design>(inputs: &[Vec<u64>]) -> String {
     let (ins, outs) = D::PORTS;
     let declare = |kind: &str, ports: &[(&str, usize)]| -> String {
-        ports.iter().map(|(name, width)| format!("    {kind} [{}:0] {name};\n", width - 1)).collect()
+        ports
+            .iter()
+            .map(|(name, width)| format!("    {kind} [{}:0] {name};\n", width - 1))
+            .collect()
     };
     let names = ins.iter().chain(outs).map(|(name, _)| format!(".{name}({name})"));
     let clocked = D::CLOCKED.then_some(".clock(clock)".to_string());
@@ -83,8 +94,11 @@ fn bench<D: Design>(inputs: &[Vec<u64>]) -> String {
     let steps: String = inputs
         .iter()
         .map(|words| {
-            let set: String =
-                ins.iter().zip(words).map(|((name, width), word)| format!("{name} = {width}'h{word:x}; ")).collect();
+            let set: String = ins
+                .iter()
+                .zip(words)
+                .map(|((name, width), word)| format!("{name} = {width}'h{word:x}; "))
+                .collect();
             let show = format!("$display(\"{}\", {});", format.join(" "), shown.join(", "));
             format!("        clock = 0; {set}#1 {show} clock = 1; #1;\n")
         })
@@ -105,5 +119,8 @@ pub fn mismatch<D: Design>(mut design: D, inputs: &[Vec<u64>]) -> Option<String>
     let both = simulated.iter().zip(&printed);
     let at = both.into_iter().position(|(simulated, printed)| simulated != printed)?;
     let given = &inputs[at + D::UNKNOWN];
-    Some(format!("step {at}, inputs {given:x?}: simulated {:x?}, printed {:x?}", simulated[at], printed[at]))
+    Some(format!(
+        "step {at}, inputs {given:x?}: simulated {:x?}, printed {:x?}",
+        simulated[at], printed[at]
+    ))
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Where rust-hdl 0.46's simulation and its Verilog disagree in silence. Each must be seen by the harness: these are tests of
-//! it, and the reason why no arithmetic of this project is written in rust-hdl's kernels.
+//! Where rust-hdl 0.46's simulation and its Verilog disagree in silence. Each must be seen by the
+//! harness: these are tests of it, and the reason why no arithmetic of this project is written in
+//! rust-hdl's kernels.
 
 use crate::harness::{Design, Ports, have_icarus, mismatch};
 use rust_hdl_core::prelude::*;
@@ -161,5 +162,9 @@ fn the_most_negative_code_overflows_the_stack() {
     let alone = ["--exact", "traps::widen_the_most_negative", "--ignored", "--nocapture"];
     let output = Command::new(tests).args(alone).output().expect("it runs");
     let log = String::from_utf8_lossy(&output.stderr);
-    assert!(!output.status.success() && log.contains("overflowed its stack"), "{}: {log}", output.status);
+    assert!(
+        !output.status.success() && log.contains("overflowed its stack"),
+        "{}: {log}",
+        output.status
+    );
 }

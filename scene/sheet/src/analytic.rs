@@ -2,13 +2,14 @@
 //! The exact split: Neumann functions tied together by the terminals.
 //!
 //! A unit current into the pad at p leaves as w_i through the terminals, so that the potential is
-//! φ(r) = R_s·[N(r, p) − Σ w_j·N(r, t_j)] + c. Every terminal is grounded through R_i, φ(t_i) = R_i·w_i, and Σ w = 1:
+//! φ(r) = R_s·[N(r, p) − Σ w_j·N(r, t_j)] + c. Every terminal is grounded through R_i, φ(t_i) =
+//! R_i·w_i, and Σ w = 1:
 //!
 //!   ⎡ R_s·N(t_i, t_j) + R_i·δ_ij   −1 ⎤ ⎡ w ⎤   ⎡ R_s·N(t_i, p) ⎤
 //!   ⎣ 1 … 1                         0 ⎦ ⎣ c ⎦ = ⎣ 1             ⎦,    R_p = R_s·N(p, p) + c − Σ w_j·R_s·N(t_j, p)
 //!
-//! An open terminal's row says w_i = 0. The matrix is inverted once. A disc of even current has the split of its centre;
-//! only N(p, p) sees its size, through R_eff = R·e^(−1/4).
+//! An open terminal's row says w_i = 0. The matrix is inverted once. A disc of even current has the
+//! split of its centre; only N(p, p) sees its size, through R_eff = R·e^(−1/4).
 
 use crate::MOST_TERMINALS;
 use crate::few::Few;
@@ -44,9 +45,11 @@ impl Analytic {
     /// R_s·N from a position to each terminal, Ω, then the border's 1.
     fn to_terminals(&self, at: [f64; 2]) -> Bordered {
         let sheet = &self.sheet;
-        let ohm = |there| sheet.ohm_per_square * self.neumann.at(there, at, sheet.terminal_radius_m);
+        let ohm =
+            |there| sheet.ohm_per_square * self.neumann.at(there, at, sheet.terminal_radius_m);
         let terminals = sheet.terminals_m.iter().zip(&sheet.terminal_ohm);
-        let known = terminals.map(|(there, series)| if series.is_finite() { ohm(*there) } else { 0.0 });
+        let known =
+            terminals.map(|(there, series)| if series.is_finite() { ohm(*there) } else { 0.0 });
         known.chain([1.0]).collect()
     }
 
@@ -58,7 +61,8 @@ impl Analytic {
         Source { at, known, unknown }
     }
 
-    /// Potential at one place for a unit current into another, Ω; where both are the same, that of the pad's own disc.
+    /// Potential at one place for a unit current into another, Ω; where both are the same, that of
+    /// the pad's own disc.
     pub fn between(&self, a: &Source, b: &Source) -> f64 {
         let free = self.sheet.ohm_per_square * self.neumann.at(a.at, b.at, self.sheet.disc_m());
         let terminals = self.sheet.terminals();
@@ -66,7 +70,8 @@ impl Analytic {
     }
 }
 
-/// A place on the sheet: R_s·N to the terminals, and the shares and the constant for a current into it.
+/// A place on the sheet: R_s·N to the terminals, and the shares and the constant for a current into
+/// it.
 pub struct Source {
     at: [f64; 2],
     known: Bordered,
@@ -83,7 +88,8 @@ impl Source {
 fn bordered(sheet: &UniformSheet, neumann: &Neumann) -> Square<f64> {
     let border = sheet.terminals();
     let ohm = |i: usize, j: usize| {
-        let between = neumann.at(sheet.terminals_m[i], sheet.terminals_m[j], sheet.terminal_radius_m);
+        let between =
+            neumann.at(sheet.terminals_m[i], sheet.terminals_m[j], sheet.terminal_radius_m);
         sheet.ohm_per_square * between + if i == j { sheet.terminal_ohm[i] } else { 0.0 }
     };
     let closed = |terminal: usize| terminal < border && sheet.terminal_ohm[terminal].is_finite();

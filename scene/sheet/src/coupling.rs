@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Coupled pads: the currents of all pads where one has the sensing voltage and the others are capacitors to ground.
+//! Coupled pads: the currents of all pads where one has the sensing voltage and the others are
+//! capacitors to ground.
 //!
 //!   I_k/(jωC_k) + Σ_l G_kl·I_l = V_k,   V = (V_s, 0, 0, …),   terminal i gets Σ_k w_i(x_k)·I_k
 //!
@@ -8,15 +9,16 @@
 use crate::linear::solve;
 use num_complex::Complex64;
 
-/// Places of all pads, the first one's first: on the sheet, as far out as `reach_mm`, and none nearer to the first than a pad's
-/// diameter; whether one was.
+/// Places of all pads, the first one's first: on the sheet, as far out as `reach_mm`, and none
+/// nearer to the first than a pad's diameter; whether one was.
 pub fn apart(
     first: [f64; 2],
     others: impl Iterator<Item = [f64; 2]>,
     reach_mm: [f64; 2],
     diameter_mm: f64,
 ) -> (Vec<[f64; 2]>, bool) {
-    let on_sheet = |[x, y]: [f64; 2]| [x.clamp(-reach_mm[0], reach_mm[0]), y.clamp(-reach_mm[1], reach_mm[1])];
+    let on_sheet =
+        |[x, y]: [f64; 2]| [x.clamp(-reach_mm[0], reach_mm[0]), y.clamp(-reach_mm[1], reach_mm[1])];
     let mut places = vec![on_sheet(first)];
     let mut touching = false;
     for place in others.map(on_sheet) {
@@ -37,7 +39,8 @@ pub fn apart(
 
 /// Currents of all pads where the first one has 1 V: the first column of the inverse.
 pub fn answered(ohm: Vec<Vec<Complex64>>) -> Vec<Complex64> {
-    let driven = (0..ohm.len()).map(|k| vec![Complex64::from(f64::from(u8::from(k == 0)))]).collect();
+    let driven =
+        (0..ohm.len()).map(|k| vec![Complex64::from(f64::from(u8::from(k == 0)))]).collect();
     solve(ohm, driven).into_iter().flatten().collect()
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A few values, how many of which is known at run time only: held in place, so that neither slot nor sample allocates, and
-//! copied as they are.
+//! A few values, how many of which is known at run time only: held in place, so that neither slot
+//! nor sample allocates, and copied as they are.
 
 use std::ops::{Deref, DerefMut};
 
@@ -37,7 +37,8 @@ impl<T: Copy + Default, const MOST: usize> Few<T, MOST> {
         Few::of(from.len(), |values| values[..from.len()].copy_from_slice(from))
     }
 
-    /// All there may be, the default where there is none: a loop over these and a shorter row has the row's length.
+    /// All there may be, the default where there is none: a loop over these and a shorter row has
+    /// the row's length.
     #[inline]
     pub fn padded(&self) -> [T; MOST] {
         self.values

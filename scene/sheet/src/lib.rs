@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The potential of a uniform resistive sheet, in SI units and `f64`: how it splits the current of a pad among its terminals,
-//! and what pads on it do to each other. The simulation of devices and the host of a real one both use it.
+//! The potential of a uniform resistive sheet, in SI units and `f64`: how it splits the current of
+//! a pad among its terminals, and what pads on it do to each other. The simulation of devices and
+//! the host of a real one both use it.
 //!
 //! | module | holds |
 //! | --- | --- |

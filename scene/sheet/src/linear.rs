@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The small dense systems that tie terminals and pads together, real or complex. Written out, since a library that chooses
-//! its instructions by the processor rounds differently from one machine to the next.
+//! The small dense systems that tie terminals and pads together, real or complex. Written out,
+//! since a library that chooses its instructions by the processor rounds differently from one
+//! machine to the next.
 
 use std::ops::{Div, Mul, Sub};
 
 use num_complex::Complex64;
 
 /// A number that a system can be of.
-pub trait Scalar: Copy + From<f64> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> {
+pub trait Scalar:
+    Copy + From<f64> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
+{
     /// Its magnitude: the largest of a column is the pivot.
     fn size(self) -> f64;
 }
@@ -28,7 +31,9 @@ impl Scalar for Complex64 {
 pub fn solve<T: Scalar>(mut a: Vec<Vec<T>>, mut b: Vec<Vec<T>>) -> Vec<Vec<T>> {
     for pivot in 0..a.len() {
         let rows = pivot..a.len();
-        let largest = rows.max_by(|i, j| a[*i][pivot].size().total_cmp(&a[*j][pivot].size())).unwrap_or(pivot);
+        let largest = rows
+            .max_by(|i, j| a[*i][pivot].size().total_cmp(&a[*j][pivot].size()))
+            .unwrap_or(pivot);
         a.swap(pivot, largest);
         b.swap(pivot, largest);
         let scale = T::from(1.0) / a[pivot][pivot];
@@ -36,8 +41,14 @@ pub fn solve<T: Scalar>(mut a: Vec<Vec<T>>, mut b: Vec<Vec<T>>) -> Vec<Vec<T>> {
         let (a_row, b_row) = (a[pivot].clone(), b[pivot].clone());
         for row in (0..a.len()).filter(|row| *row != pivot) {
             let factor = a[row][pivot];
-            a[row].iter_mut().zip(&a_row).for_each(|(value, known)| *value = *value - factor * *known);
-            b[row].iter_mut().zip(&b_row).for_each(|(value, known)| *value = *value - factor * *known);
+            a[row]
+                .iter_mut()
+                .zip(&a_row)
+                .for_each(|(value, known)| *value = *value - factor * *known);
+            b[row]
+                .iter_mut()
+                .zip(&b_row)
+                .for_each(|(value, known)| *value = *value - factor * *known);
         }
     }
     b
@@ -68,7 +79,8 @@ impl<T: Scalar> Square<T> {
 
     /// The inverse of a matrix that is not singular.
     pub fn invert(&self) -> Self {
-        let unit = Square::of(self.order, |row, column| T::from(f64::from(u8::from(row == column))));
+        let unit =
+            Square::of(self.order, |row, column| T::from(f64::from(u8::from(row == column))));
         let [matrix, unit] = [self, &unit].map(|square| square.rows().map(<[T]>::to_vec).collect());
         let inverse = solve(matrix, unit);
         Square::of(self.order, |row, column| inverse[row][column])

@@ -24,7 +24,8 @@ pub trait SheetModel: Send {
     /// Both ratios of an isolated pad, and the resistance R_p that it sees, Ω.
     fn isolated(&mut self, pad: &PadEstimate) -> ([f64; 2], f64);
 
-    /// Both ratios of a pad among others, and the amplitude of the sum of all terminals' currents, in any unit.
+    /// Both ratios of a pad among others, and the amplitude of the sum of all terminals' currents,
+    /// in any unit.
     fn with_neighbours(&mut self, pad: &PadEstimate, others: &[PadEstimate]) -> ([f64; 2], f64);
 
     /// How far from the sheet's centre a pad's centre may be, mm.
@@ -93,15 +94,21 @@ impl SheetModel for NominalSheet {
 
     fn with_neighbours(&mut self, pad: &PadEstimate, others: &[PadEstimate]) -> ([f64; 2], f64) {
         let place = |pad: &PadEstimate| [pad.x_mm, pad.y_mm];
-        let (places, _) = apart(place(pad), others.iter().map(place), self.reach_mm, self.pad_diameter_mm);
+        let (places, _) =
+            apart(place(pad), others.iter().map(place), self.reach_mm, self.pad_diameter_mm);
         let apart: Vec<_> = places.iter().map(|[x, y]| self.analytic.source(*x, *y)).collect();
-        let mut ohm = symmetric(apart.len(), |k, l| self.analytic.between(&apart[k], &apart[l]).into());
+        let mut ohm =
+            symmetric(apart.len(), |k, l| self.analytic.between(&apart[k], &apart[l]).into());
         let pads: Vec<_> = std::iter::once(pad).chain(others).collect();
         let sources: Vec<_> = pads.iter().map(|pad| self.source(pad)).collect();
         (0..pads.len()).for_each(|k| ohm[k][k] = self.own_ohm(pads[k], &sources[k]));
         let currents = answered(ohm);
         let into = |terminal: usize| -> Complex64 {
-            sources.iter().zip(&currents).map(|(source, current)| current * source.shares()[terminal]).sum()
+            sources
+                .iter()
+                .zip(&currents)
+                .map(|(source, current)| current * source.shares()[terminal])
+                .sum()
         };
         let into: Vec<_> = (0..sources[0].shares().len()).map(into).collect();
         let amplitudes: Vec<_> = into.iter().map(|current| current.norm()).collect();

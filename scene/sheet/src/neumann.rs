@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Neumann function of an insulated rectangle: the potential at one place for a unit current fed in at another and taken
-//! out evenly, per ohm per square.
+//! Neumann function of an insulated rectangle: the potential at one place for a unit current fed in
+//! at another and taken out evenly, per ohm per square.
 //!
 //!   N = g₀/b − (1/4π) Σ_m Σ_X Σ_± ln(1 − 2e^(−πX/b)·cos θ± + e^(−2πX/b)),   X ∈ {|Δ|, 2a−|Δ|, s, 2a−s} + 2ma
 //!   Δ = x−x′, s = x+x′, θ± = π(y±y′)/b, g₀ = (x²+x′²)/2a − max(x, x′) + a/3
 //!
-//! Each logarithm's argument is (1−e)² + 4e·sin²(θ/2), which does not cancel near the source; the product of all is taken
-//! before one logarithm. What is cut off after M images is 3.8e-6, 8e-11, 2e-15 for M = 1, 2, 3. Source: docs/physics.md §1.
+//! Each logarithm's argument is (1−e)² + 4e·sin²(θ/2), which does not cancel near the source; the
+//! product of all is taken before one logarithm. What is cut off after M images is 3.8e-6, 8e-11,
+//! 2e-15 for M = 1, 2, 3. Source: docs/physics.md §1.
 
 use std::f64::consts::PI;
 
@@ -35,14 +36,16 @@ impl Neumann {
         Neumann { a, b, images, next: (-2.0 * PI * a / b).exp() }
     }
 
-    /// N at `p` for a source at `q`. Where an image of `q` falls on `p` itself, their distance is taken as `near`: the
-    /// radius of a terminal, or R·e^(−1/4) for a disc of even current averaged over itself.
+    /// N at `p` for a source at `q`. Where an image of `q` falls on `p` itself, their distance is
+    /// taken as `near`: the radius of a terminal, or R·e^(−1/4) for a disc of even current averaged
+    /// over itself.
     pub fn at(&self, p: [f64; 2], q: [f64; 2], near: f64) -> f64 {
         let (larger, smaller) = (p[0].max(q[0]), p[0].min(q[0]));
         let half_sine = |y: f64| (y * PI / (2.0 * self.b)).sin().powi(2);
         let angles = [half_sine(p[1] + q[1]), half_sine(p[1] - q[1])];
         let (delta, sum) = (larger - smaller, larger + smaller);
-        let decay = [delta, 2.0 * self.a - delta, sum, 2.0 * self.a - sum].map(|x| (-PI * x / self.b).exp());
+        let decay = [delta, 2.0 * self.a - delta, sum, 2.0 * self.a - sum]
+            .map(|x| (-PI * x / self.b).exp());
         self.slope(p[0], q[0]) / self.b - self.product(decay, angles, near).ln() / (4.0 * PI)
     }
 
@@ -60,8 +63,10 @@ impl Neumann {
         let mut product = 1.0;
         for m in 0..self.images {
             let image = self.next.powi(m);
-            product *=
-                decay.iter().map(|e| factor(e * image, angles[0]) * factor(e * image, angles[1])).product::<f64>();
+            product *= decay
+                .iter()
+                .map(|e| factor(e * image, angles[0]) * factor(e * image, angles[1]))
+                .product::<f64>();
         }
         product
     }

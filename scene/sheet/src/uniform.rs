@@ -49,7 +49,8 @@ impl UniformSheet {
         [self.size_m[0] / 2.0 + x_mm * 1e-3, self.size_m[1] / 2.0 + y_mm * 1e-3]
     }
 
-    /// R·e^(−1/4): a disc of even current has, on average over itself, the potential of a ring of this radius.
+    /// R·e^(−1/4): a disc of even current has, on average over itself, the potential of a ring of
+    /// this radius.
     pub fn disc_m(&self) -> f64 {
         self.pad_radius_m * (-0.25f64).exp()
     }

@@ -3,8 +3,8 @@
 //!
 //!   I_i = w_i·jωC/(1 + jωC·R_p)·V      (eqs. 1 and 4; w_i is the share of terminal i)
 //!
-//! The sensing voltage is V·cos ωt with t = 0 at each slot's first sample; the haptic voltage is √2·V_h·sin ω_h·t with t
-//! since the start of the case.
+//! The sensing voltage is V·cos ωt with t = 0 at each slot's first sample; the haptic voltage is
+//! √2·V_h·sin ω_h·t with t since the start of the case.
 //!
 //! | level | what the `float` and `fixed` cores are given | error |
 //! | --- | --- | --- |
@@ -32,8 +32,15 @@ pub(crate) const CARRIER: &str = "carrier";
 pub(crate) const SAMPLES: &str = "samples";
 
 pub(super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
-    let level = |word, cost_ns| Level::new(word, cost_ns, |setting| Effect::Channels(Box::new(Carrier::new(setting))));
-    Spec::with_levels(CARRIER, root.table("carrier")?, vec![level("phasor", 100.0), level(SAMPLES, 4e3)], "phasor")
+    let level = |word, cost_ns| {
+        Level::new(word, cost_ns, |setting| Effect::Channels(Box::new(Carrier::new(setting))))
+    };
+    Spec::with_levels(
+        CARRIER,
+        root.table("carrier")?,
+        vec![level("phasor", 100.0), level(SAMPLES, 4e3)],
+        "phasor",
+    )
 }
 
 struct Carrier {
@@ -43,7 +50,10 @@ struct Carrier {
 
 impl Carrier {
     fn new(setting: &Setting) -> Self {
-        Carrier { device: setting.device.clone(), turns_per_sample: 1.0 / setting.timing.samples_per_period }
+        Carrier {
+            device: setting.device.clone(),
+            turns_per_sample: 1.0 / setting.timing.samples_per_period,
+        }
     }
 
     /// Of the terminals' currents, then of the sensing voltage.
@@ -73,7 +83,8 @@ impl ChannelEffect for Carrier {
         let amplitudes = self.amplitudes(pad).padded();
         let (inphase, quadrature) = (amplitudes.map(|a| a.re), amplitudes.map(|a| a.im));
         let haptic = pad.haptic_v_rms * std::f64::consts::SQRT_2 / self.device.haptic_full_scale_v;
-        let mut carrier = Rotor::new(self.turns_per_sample * run.range.start as f64, self.turns_per_sample);
+        let mut carrier =
+            Rotor::new(self.turns_per_sample * run.range.start as f64, self.turns_per_sample);
         let mut slow = haptic_rotor(&self.device, run);
         run.rows(samples, |row| {
             let now = carrier.turn();

@@ -19,7 +19,8 @@ pub(crate) enum Effect {
 /// Acts on the pad, once per slot.
 pub(crate) trait PadEffect: Send {
     fn act(&mut self, pad: &mut Pad);
-    /// Why the level cannot be used on a pad that it has acted on, as for [`ChannelEffect::refuses`].
+    /// Why the level cannot be used on a pad that it has acted on, as for
+    /// [`ChannelEffect::refuses`].
     fn refuses(&self, _: &Pad) -> Option<String> {
         None
     }
@@ -40,7 +41,8 @@ pub(crate) trait ChannelEffect: Send {
     fn phasors(&mut self, pad: &Pad, phasors: &mut Phasors);
     /// On the samples of a run, one [row](Run::rows) of channels per sample instant.
     fn samples(&mut self, pad: &Pad, run: &Run, samples: &mut [f64]);
-    /// Why the level cannot be used on a pad: asked before a run where the level says that it has [limits](Rung::limited).
+    /// Why the level cannot be used on a pad: asked before a run where the level says that it has
+    /// [limits](Rung::limited).
     fn refuses(&self, _: &Pad) -> Option<String> {
         None
     }
@@ -77,8 +79,9 @@ pub(crate) struct Run {
 }
 
 impl Run {
-    /// Lets `act` see each row of channels. A device's number of channels is known at run time only; for the usual ones the
-    /// compiler gets it as a constant, so that what `act` does to a row unrolls.
+    /// Lets `act` see each row of channels. A device's number of channels is known at run time
+    /// only; for the usual ones the compiler gets it as a constant, so that what `act` does to a
+    /// row unrolls.
     #[inline]
     pub fn rows(&self, samples: &mut [f64], mut act: impl FnMut(&mut [f64])) {
         match self.channels {

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `[hand]`: the pad hangs on the finger by a spring and a damper, and the finger is what follows the pad's trajectory.
+//! `[hand]`: the pad hangs on the finger by a spring and a damper, and the finger is what follows
+//! the pad's trajectory.
 //!
 //!   m·v̇ = k(x_h − x) + c(v_h − v) + push − friction
 //!
-//! Without the table the pad itself follows its trajectory. A pad's `push_x_n` and `push_y_n` push it besides; with a `stiffness_n_per_m`
-//! and a `damping_n_s_per_m` of 0 they alone move it. The friction that the finger works against is `[friction]`'s, which also
-//! takes the steps. Source: docs/physics.md §4, 300 N/m, 3 N·s/m, 0.05 kg.
+//! Without the table the pad itself follows its trajectory. A pad's `push_x_n` and `push_y_n` push
+//! it besides; with a `stiffness_n_per_m` and a `damping_n_s_per_m` of 0 they alone move it. The
+//! friction that the finger works against is `[friction]`'s, which also takes the steps. Source:
+//! docs/physics.md §4, 300 N/m, 3 N·s/m, 0.05 kg.
 
 use super::effect::{Effect, PadEffect};
 use super::pad::{Finger, Pad};

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Effects: what the plant does beyond the ideal, each in a module of its own and switched on by its table.
+//! Effects: what the plant does beyond the ideal, each in a module of its own and switched on by
+//! its table.
 //!
-//! Once per slot the effects on the pad run in the order of [`EFFECTS`], each changing the [`Pad`]; then those that see all
-//! pads at once; then the effects on the channels turn it into phasors or samples. An effect whose table (or key, for the
-//! sensor chain) is absent yields no [`Spec`], so the plant holds nothing of it. To add an effect: one file with a `read`, one
-//! line in the list.
+//! Once per slot the effects on the pad run in the order of [`EFFECTS`], each changing the [`Pad`];
+//! then those that see all pads at once; then the effects on the channels turn it into phasors or
+//! samples. An effect whose table (or key, for the sensor chain) is absent yields no [`Spec`], so
+//! the plant holds nothing of it. To add an effect: one file with a `read`, one line in the list.
 
 pub(crate) mod carrier;
 pub(crate) mod coupling;

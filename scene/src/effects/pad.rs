@@ -23,7 +23,8 @@ pub(crate) struct Pad {
     /// Haptic voltage at the pad.
     pub haptic_v_rms: f64,
     pub capacitance_f: f64,
-    /// Electrostatic attraction summed over the pad, N; where no effect says otherwise that of an even gap, eq. 7.
+    /// Electrostatic attraction summed over the pad, N; where no effect says otherwise that of an
+    /// even gap, eq. 7.
     pub attraction_n: f64,
     /// Haptic force, N, where an effect says it; else eq. 8 with the true capacitance and voltage.
     pub force_n: Option<f64>,
@@ -41,9 +42,11 @@ pub(crate) struct Pad {
     pub film: FilmChange,
     /// Share of the current through each terminal; real where the sheet is all there is.
     pub split: PerTerminal<Complex64>,
-    /// What the pad sees of the sheet, Ω: the combined resistance R_p, or an impedance where an effect makes it one.
+    /// What the pad sees of the sheet, Ω: the combined resistance R_p, or an impedance where an
+    /// effect makes it one.
     pub sheet_ohm: Complex64,
-    /// Current into each terminal per volt of sensing, S, where an effect says it; else each one's share of jωC/(1 + jωC·R_p).
+    /// Current into each terminal per volt of sensing, S, where an effect says it; else each one's
+    /// share of jωC/(1 + jωC·R_p).
     pub transfer: Option<PerTerminal<Complex64>>,
     /// The pad reaches over the sheet's edge: it is taken as lying at the edge.
     pub over_edge: bool,
@@ -51,8 +54,8 @@ pub(crate) struct Pad {
     pub touching: bool,
 }
 
-/// What has become of a film: R_s(x, y)·(1 + rise + slope_x·x/width + slope_y·y/height), x and y from the sheet's middle.
-/// What several effects do to it adds up.
+/// What has become of a film: R_s(x, y)·(1 + rise + slope_x·x/width + slope_y·y/height), x and y
+/// from the sheet's middle. What several effects do to it adds up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct FilmChange {
     /// In the middle, as a fraction.
@@ -69,7 +72,8 @@ impl FilmChange {
 impl Pad {
     /// The haptic voltage at the pad, were its capacitance this.
     pub fn haptic_v_at(&self, capacitance_f: f64) -> f64 {
-        self.supply.map_or(self.source_v_rms, |supply| self.source_v_rms * supply.share(capacitance_f))
+        self.supply
+            .map_or(self.source_v_rms, |supply| self.source_v_rms * supply.share(capacitance_f))
     }
 
     /// The haptic force as an effect says, or else by eq. 8.

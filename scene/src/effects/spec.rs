@@ -28,7 +28,8 @@ pub(crate) struct Level {
     word: &'static str,
     /// What a run says: the word, and its numbers where it has some.
     pub label: String,
-    /// What a slot costs, as the `speed` example measured it, ns: an error budget takes the cheapest level that fits.
+    /// What a slot costs, as the `speed` example measured it, ns: an error budget takes the
+    /// cheapest level that fits.
     pub cost_ns: f64,
     /// There are scenes that it refuses, so that it has to be asked before a run.
     pub limited: bool,
@@ -48,7 +49,11 @@ pub(crate) struct Setting<'a> {
 
 impl Level {
     /// A level that a scene asks for by `word`.
-    pub fn new(word: &'static str, cost_ns: f64, build: impl Fn(&Setting) -> Effect + Send + Sync + 'static) -> Self {
+    pub fn new(
+        word: &'static str,
+        cost_ns: f64,
+        build: impl Fn(&Setting) -> Effect + Send + Sync + 'static,
+    ) -> Self {
         Level { word, label: word.to_string(), cost_ns, limited: false, build: Arc::new(build) }
     }
 
@@ -74,8 +79,8 @@ impl Spec {
         Some(Spec { name, levels, chosen: 0, named: true })
     }
 
-    /// An effect with levels, from the coarsest to the finest, of which `table` names one as `rung`; `usual` where it does
-    /// not.
+    /// An effect with levels, from the coarsest to the finest, of which `table` names one as
+    /// `rung`; `usual` where it does not.
     pub fn with_levels(
         name: &'static str,
         table: Option<&Table>,

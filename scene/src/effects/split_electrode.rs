@@ -3,10 +3,12 @@
 //!
 //!   F₁,₂ = W/2·(1 ∓ e/x_c),   Δx = Σa_i·x_i/Σa_i − Σx_i/2,   x_i = ∓x_c,   a_i ∝ C_i      (CoP and eq. 10)
 //!
-//! A push off the centre, a pad's `eccentricity_mm`, presses one electrode more than the other; its gap closes further, and
-//! eq. 10 reads a part of e. `mismatch_percent` is by how much the left electrode is larger than the right one: it reads as a
-//! constant offset. The centres lie a quarter of the pad's diameter off its own. Each electrode has gaps of its own, at the level of
-//! `[gap]`. The truth's direction is Δx over half the sheet's width, as the ratios of eq. 10 are. Source: docs/physics.md §4.
+//! A push off the centre, a pad's `eccentricity_mm`, presses one electrode more than the other; its
+//! gap closes further, and eq. 10 reads a part of e. `mismatch_percent` is by how much the left
+//! electrode is larger than the right one: it reads as a constant offset. The centres lie a quarter
+//! of the pad's diameter off its own. Each electrode has gaps of its own, at the level of `[gap]`.
+//! The truth's direction is Δx over half the sheet's width, as the ratios of eq. 10 are. Source:
+//! docs/physics.md §4.
 
 use super::effect::{Effect, PadEffect};
 use super::gap;
@@ -24,8 +26,14 @@ pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneE
     let mismatch = 0.01 * table.number_or("mismatch_percent", Limits::within(-50.0, 50.0), 0.0)?;
     let build = move |setting: &Setting| {
         let electrodes = [gap.build(setting), gap.build(setting)];
-        let (centre_mm, half_width_mm) = (setting.device.electrode_offset_mm(), 0.5 * setting.device.width_mm);
-        Effect::Pad(Box::new(SplitElectrode { gaps: electrodes, mismatch, centre_mm, half_width_mm }))
+        let (centre_mm, half_width_mm) =
+            (setting.device.electrode_offset_mm(), 0.5 * setting.device.width_mm);
+        Effect::Pad(Box::new(SplitElectrode {
+            gaps: electrodes,
+            mismatch,
+            centre_mm,
+            half_width_mm,
+        }))
     };
     Spec::with_levels("halves", Some(table), vec![Level::new("gaps", 1e3, build)], "gaps")
 }
@@ -41,7 +49,8 @@ struct SplitElectrode {
 impl SplitElectrode {
     fn for_both(&mut self, pad: &mut Pad, mut act: impl FnMut(&mut dyn PadEffect, &mut Pad)) {
         let lean = pad.eccentricity_mm / self.centre_mm;
-        let sides = [-1.0, 1.0].map(|side| Pad { load_g: pad.load_g * (1.0 + side * lean), ..pad.clone() });
+        let sides =
+            [-1.0, 1.0].map(|side| Pad { load_g: pad.load_g * (1.0 + side * lean), ..pad.clone() });
         let mut electrodes = sides;
         for (gap, electrode) in self.gaps.iter_mut().zip(&mut electrodes) {
             if let Effect::Pad(gap) = gap {

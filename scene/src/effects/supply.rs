@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `[supply]`: what lies between the haptic voltage's source and the pad, so that the pad's voltage falls as its capacitance
-//! grows.
+//! `[supply]`: what lies between the haptic voltage's source and the pad, so that the pad's voltage
+//! falls as its capacitance grows.
 //!
 //!   V_h = V_source / |1 + jω_h(R_lim + jω_hL)(C + C_par)|
 //!
@@ -8,9 +8,9 @@
 //! | --- | --- | --- |
 //! | `steady` | amplitudes | none once R_lim·(C + C_par), a quarter of a millisecond, has passed |
 //!
-//! `limiting_kohm` is the resistor that keeps the current harmless, `transformer_h` the inductance of the winding that adds
-//! the sensing voltage, `parasitic_pf` the capacitance of cable and pad to ground. Source: docs/physics.md §3; the inductance is no one's
-//! measurement, hence 0.
+//! `limiting_kohm` is the resistor that keeps the current harmless, `transformer_h` the inductance
+//! of the winding that adds the sensing voltage, `parasitic_pf` the capacitance of cable and pad to
+//! ground. Source: docs/physics.md §3; the inductance is no one's measurement, hence 0.
 
 use std::f64::consts::TAU;
 
@@ -30,7 +30,8 @@ pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneE
         rad_s: TAU * device.haptic_hz,
     };
     let pad_m2 = device.pad_area_m2;
-    let steady = Level::new("steady", 20.0, move |_| Effect::Pad(Box::new(Supplied { supply, pad_m2 })));
+    let steady =
+        Level::new("steady", 20.0, move |_| Effect::Pad(Box::new(Supplied { supply, pad_m2 })));
     Spec::with_levels("supply", Some(table), vec![steady], "steady")
 }
 
@@ -44,7 +45,8 @@ impl PadEffect for Supplied {
     fn act(&mut self, pad: &mut Pad) {
         pad.supply = Some(self.supply);
         pad.haptic_v_rms = pad.haptic_v_at(pad.capacitance_f);
-        pad.attraction_n = (pad.capacitance_f * pad.haptic_v_rms).powi(2) / (2.0 * EPSILON_0 * self.pad_m2);
+        pad.attraction_n =
+            (pad.capacitance_f * pad.haptic_v_rms).powi(2) / (2.0 * EPSILON_0 * self.pad_m2);
     }
 }
 
@@ -55,7 +57,12 @@ mod tests {
     /// docs/physics.md §3, Fig. 7: 343 V where the pad has some 440 pF, 333 V where it has 760 pF.
     #[test]
     fn three_hundred_kilohms_drop_350_v_to_343_v_and_333_v() {
-        let supply = Supply { limiting_ohm: 300e3, transformer_h: 0.0, parasitic_f: 100e-12, rad_s: TAU * 200.0 };
+        let supply = Supply {
+            limiting_ohm: 300e3,
+            transformer_h: 0.0,
+            parasitic_f: 100e-12,
+            rad_s: TAU * 200.0,
+        };
         let at = |capacitance_f: f64| 350.0 * supply.share(capacitance_f);
         assert!(
             (at(440e-12) - 343.0).abs() < 0.1 && (at(760e-12) - 333.0).abs() < 0.1,
@@ -67,7 +74,12 @@ mod tests {
 
     #[test]
     fn a_transformer_raises_the_voltage_towards_its_resonance() {
-        let supply = Supply { limiting_ohm: 300e3, transformer_h: 100.0, parasitic_f: 0.0, rad_s: TAU * 200.0 };
+        let supply = Supply {
+            limiting_ohm: 300e3,
+            transformer_h: 100.0,
+            parasitic_f: 0.0,
+            rad_s: TAU * 200.0,
+        };
         let without = Supply { transformer_h: 0.0, ..supply };
         assert!(supply.share(400e-12) > without.share(400e-12));
         assert_eq!(without.share(0.0), 1.0);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `[switching]`: the pad that a slot serves gets the sensing voltage at the slot's first sample, uncharged, so that its
-//! current takes some τ = R_p·C to settle: 0.05 to 0.4 µs, 0.01 % after 9.2 τ.
+//! `[switching]`: the pad that a slot serves gets the sensing voltage at the slot's first sample,
+//! uncharged, so that its current takes some τ = R_p·C to settle: 0.05 to 0.4 µs, 0.01 % after 9.2
+//! τ.
 //!
 //!   i(t) = Re{Y·V·[e^(jωt) + e^(−t/τ)/(jωτ)]},   Y = jωC/(1 + jωτ)
 //!
@@ -10,7 +11,8 @@
 //! | `euler-64` | the same explicitly; refused where a step is longer than 2τ, since it would diverge | first order in the step |
 //! | `settling` | the closed form | none, at any rate |
 //!
-//! What it changes is added to the carrier's steady state: the deviation d(t) from e^(jωt) is the same at each terminal.
+//! What it changes is added to the carrier's steady state: the deviation d(t) from e^(jωt) is the
+//! same at each terminal.
 
 use std::f64::consts::TAU;
 
@@ -41,9 +43,10 @@ const NOTHING: f64 = 1e-30;
 pub(super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
     let Some(table) = root.table("switching")? else { return Ok(None) };
     if root.table("sheet")?.is_none() {
-        return Err(
-            table.error("", "expected a [sheet] too, since without its resistance nothing takes time to settle")
-        );
+        return Err(table.error(
+            "",
+            "expected a [sheet] too, since without its resistance nothing takes time to settle",
+        ));
     }
     let level = |word, method, steps, cost_ns| {
         Level::new(word, cost_ns, move |setting| {
@@ -86,7 +89,11 @@ impl Switching {
         let j_omega_tau = Complex64::new(0.0, self.device.carrier_rad_s * tau_s);
         if self.method == Method::Exact {
             let decay = |n: usize| (-(n as f64) / (self.device.sample_rate_hz * tau_s)).exp();
-            return (0..end).map(decay).take_while(|left| *left > NOTHING).map(|left| left / j_omega_tau).collect();
+            return (0..end)
+                .map(decay)
+                .take_while(|left| *left > NOTHING)
+                .map(|left| left / j_omega_tau)
+                .collect();
         }
         let step_s = 1.0 / (self.device.sample_rate_hz * self.steps as f64);
         let mut source = Rotor::new(0.0, self.device.carrier_rad_s * step_s / TAU);
@@ -99,7 +106,10 @@ impl Switching {
             let now = source.turn();
             charged = match self.method {
                 Method::Euler => charged + (before - charged) * (step_s / tau_s),
-                _ => (charged * (2.0 * tau_s - step_s) + (before + now) * step_s) / (2.0 * tau_s + step_s),
+                _ => {
+                    (charged * (2.0 * tau_s - step_s) + (before + now) * step_s)
+                        / (2.0 * tau_s + step_s)
+                }
             };
             before = now;
         }
@@ -111,7 +121,8 @@ impl ChannelEffect for Switching {
     fn phasors(&mut self, pad: &Pad, phasors: &mut Phasors) {
         let Timing { window_start, window_samples, samples_per_period, .. } = self.timing;
         let deviation = self.deviation(pad, window_start + window_samples);
-        let mut carrier = Rotor::new(-(window_start as f64) / samples_per_period, -1.0 / samples_per_period);
+        let mut carrier =
+            Rotor::new(-(window_start as f64) / samples_per_period, -1.0 / samples_per_period);
         let mut hann = Rotor::new(0.0, 1.0 / window_samples as f64);
         // The current is (A·d + its conjugate)/2: a demodulator sums both under its window.
         let [mut with, mut against] = [Complex64::ZERO; 2];
@@ -120,7 +131,9 @@ impl ChannelEffect for Switching {
             with += weight * d;
             against += weight * d.conj();
         }
-        for (phasor, amplitude) in phasors.carrier.iter_mut().zip(pad.terminal_amplitudes(&self.device)) {
+        for (phasor, amplitude) in
+            phasors.carrier.iter_mut().zip(pad.terminal_amplitudes(&self.device))
+        {
             *phasor += amplitude * with + amplitude.conj() * against;
         }
     }
@@ -134,7 +147,9 @@ impl ChannelEffect for Switching {
         run.rows(&mut samples[..until], |row| {
             let Some(d) = deviation.next() else { return };
             let terminals = Run::terminals(row).iter_mut();
-            terminals.zip(&amplitudes).for_each(|(sample, amplitude)| *sample += (amplitude * d).re);
+            terminals
+                .zip(&amplitudes)
+                .for_each(|(sample, amplitude)| *sample += (amplitude * d).re);
         });
     }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `[temperature]`: the sheet's film is warmer than it was when the device was calibrated, and resists more, or less.
+//! `[temperature]`: the sheet's film is warmer than it was when the device was calibrated, and
+//! resists more, or less.
 //!
 //!   R_s(x, y) = R_s·[1 + α·(ΔT + g_x·x/width + g_y·y/height)]      (x and y from the sheet's middle)
 //!
@@ -11,18 +12,21 @@
 //! step_k = 0.05                   # of ΔT, where it moves: what is computed from the sheet is renewed so often
 //! ```
 //!
-//! Split, R_p, shunt and coupling follow, and so does the truth; calibrations and what the host knows are of the film without the
-//! rise. Resistances in series with the terminals stay as they are: without any an even rise moves no position, with them it does,
-//! by 3.9 mm rms for 20 K of 400 ppm/K and 500 Ω at each terminal, 5.2 mm for 1670 Ω. A gradient of 20 K from left to right moves
-//! positions by 4.0 mm rms (`minimal-sheet`).
+//! Split, R_p, shunt and coupling follow, and so does the truth; calibrations and what the host
+//! knows are of the film without the rise. Resistances in series with the terminals stay as they
+//! are: without any an even rise moves no position, with them it does, by 3.9 mm rms for 20 K of
+//! 400 ppm/K and 500 Ω at each terminal, 5.2 mm for 1670 Ω. A gradient of 20 K from left to right
+//! moves positions by 4.0 mm rms (`minimal-sheet`).
 //!
-//! α is a property of the film that somebody has to measure, so it has no default: films differ even in its sign. ITO that was
-//! sputtered with a dc magnetron has +123 to +868 ppm/K between 150 K and 250 K, less the more oxygen there was (I. Prasaja,
-//! thesis, Universitas Indonesia, 1999); thermometers of ITO on alumina have −2313 ppm/K from room temperature to 400 °C (Wang,
-//! Zhang and Ding, IEEE INEC 2016).
+//! α is a property of the film that somebody has to measure, so it has no default: films differ
+//! even in its sign. ITO that was sputtered with a dc magnetron has +123 to +868 ppm/K between 150
+//! K and 250 K, less the more oxygen there was (I. Prasaja, thesis, Universitas Indonesia, 1999);
+//! thermometers of ITO on alumina have −2313 ppm/K from room temperature to 400 °C (Wang, Zhang and
+//! Ding, IEEE INEC 2016).
 //!
-//! A step of ΔT is a step of α·`step_k` in R_s, 20 ppm at 400 ppm/K: the film deviates by at most half of that. With a
-//! gradient the film is not uniform, so that `[sheet]` needs a level of a mesh, and no `[shunt]`. Every step builds the sheet's table anew.
+//! A step of ΔT is a step of α·`step_k` in R_s, 20 ppm at 400 ppm/K: the film deviates by at most
+//! half of that. With a gradient the film is not uniform, so that `[sheet]` needs a level of a
+//! mesh, and no `[shunt]`. Every step builds the sheet's table anew.
 
 use super::effect::{Effect, PadEffect};
 use super::pad::{FilmChange, Pad};
@@ -38,14 +42,16 @@ const MOST_CHANGE: f64 = 0.9;
 pub(super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
     let Some(table) = root.table("temperature")? else { return Ok(None) };
     let Some(sheet) = root.table("sheet")? else {
-        return Err(table.error("", "expected a [sheet] too, since its film is what the temperature changes"));
+        return Err(table
+            .error("", "expected a [sheet] too, since its film is what the temperature changes"));
     };
     let temperature = Temperature::read(table)?;
     if temperature.gradient_k != [0.0; 2] {
         let meshed = sheet.text("rung")?.is_some_and(|level| level.starts_with("grid"));
         if !meshed || root.table("shunt")?.is_some() {
             let expected = "expected a mesh as sheet.rung, such as \"grid-5-mm\", and no [shunt]";
-            return Err(table.error("gradient_k", format!("{expected}, since a gradient leaves no film even")));
+            return Err(table
+                .error("gradient_k", format!("{expected}, since a gradient leaves no film even")));
         }
     }
     let label = temperature.label();
@@ -64,8 +70,13 @@ struct Temperature {
 impl Temperature {
     fn read(table: &Table) -> Result<Temperature, SceneError> {
         let ppm = Limits::within(-1e5, 1e5);
-        let tempco = table.require("tempco_ppm_per_k", &ppm.to_string(), table.number("tempco_ppm_per_k", ppm)?)?;
-        let rise_k = Stimulus::read(table, "rise_k", Limits::within(-1e3, 1e3))?.unwrap_or(Stimulus::Constant(0.0));
+        let tempco = table.require(
+            "tempco_ppm_per_k",
+            &ppm.to_string(),
+            table.number("tempco_ppm_per_k", ppm)?,
+        )?;
+        let rise_k = Stimulus::read(table, "rise_k", Limits::within(-1e3, 1e3))?
+            .unwrap_or(Stimulus::Constant(0.0));
         let temperature = Temperature {
             per_k: 1e-6 * tempco,
             gradient_k: table.pair("gradient_k", Limits::within(-1e3, 1e3))?.unwrap_or_default(),
@@ -73,14 +84,19 @@ impl Temperature {
             rise_k,
         };
         if temperature.rise_k.points() > 1 {
-            return Err(table.error("rise_k", "expected a temperature over time, not a sweep; a case can set another"));
+            return Err(table.error(
+                "rise_k",
+                "expected a temperature over time, not a sweep; a case can set another",
+            ));
         }
         let change = temperature.largest_change();
         match change <= MOST_CHANGE {
             true => Ok(temperature),
             false => Err(table.error(
                 "tempco_ppm_per_k",
-                format!("expected a film that changes by at most {MOST_CHANGE} of itself, got {change}"),
+                format!(
+                    "expected a film that changes by at most {MOST_CHANGE} of itself, got {change}"
+                ),
             )),
         }
     }

@@ -30,23 +30,36 @@ fn first_line(message: &str) -> String {
     line.chars().take(160).flat_map(char::escape_debug).filter(|c| *c != '\\').collect()
 }
 
-fn table(path: &str, place: Place, from: &DeTable<'_>, at: &dyn Fn(usize) -> Place) -> Result<Table, SceneError> {
+fn table(
+    path: &str,
+    place: Place,
+    from: &DeTable<'_>,
+    at: &dyn Fn(usize) -> Place,
+) -> Result<Table, SceneError> {
     let mut table = Table::new(path, place);
     for (key, value) in from {
         let child = join(path, key.get_ref());
-        table.insert(key.get_ref(), Node { place: at(key.span().start), ..node(&child, value, at)? });
+        table.insert(
+            key.get_ref(),
+            Node { place: at(key.span().start), ..node(&child, value, at)? },
+        );
     }
     Ok(table)
 }
 
-fn node(path: &str, from: &Spanned<DeValue<'_>>, at: &dyn Fn(usize) -> Place) -> Result<Node, SceneError> {
+fn node(
+    path: &str,
+    from: &Spanned<DeValue<'_>>,
+    at: &dyn Fn(usize) -> Place,
+) -> Result<Node, SceneError> {
     let place = at(from.span().start);
     let value = match from.get_ref() {
         DeValue::String(text) => Value::Text(text.to_string()),
-        DeValue::Integer(whole) => Value::Integer(
-            i64::from_str_radix(whole.as_str(), whole.radix())
-                .map_err(|_| SceneError::new(place.clone(), path, "expected an integer of at most 64 bits"))?,
-        ),
+        DeValue::Integer(whole) => {
+            Value::Integer(i64::from_str_radix(whole.as_str(), whole.radix()).map_err(|_| {
+                SceneError::new(place.clone(), path, "expected an integer of at most 64 bits")
+            })?)
+        }
         DeValue::Float(number) => Value::Number(number.as_str().parse().unwrap_or(f64::NAN)),
         DeValue::Boolean(flag) => Value::Flag(*flag),
         DeValue::Datetime(date) => Value::Text(date.to_string()),

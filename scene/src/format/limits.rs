@@ -28,7 +28,9 @@ impl Limits {
 
     /// Whether a finite `value` lies in the range.
     pub fn holds(&self, value: f64) -> bool {
-        value.is_finite() && value <= self.high && if self.open { value > self.low } else { value >= self.low }
+        value.is_finite()
+            && value <= self.high
+            && if self.open { value > self.low } else { value >= self.low }
     }
 }
 
@@ -39,7 +41,9 @@ impl fmt::Display for Limits {
             (false, false) => write!(f, "a finite number"),
             (true, false) => write!(f, "a number {from} {}", self.low),
             (false, true) => write!(f, "a number of at most {}", self.high),
-            (true, true) if self.open => write!(f, "a number above {} and at most {}", self.low, self.high),
+            (true, true) if self.open => {
+                write!(f, "a number above {} and at most {}", self.low, self.high)
+            }
             (true, true) => write!(f, "a number from {} to {}", self.low, self.high),
         }
     }

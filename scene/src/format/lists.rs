@@ -9,8 +9,14 @@ impl Table {
     /// A list of texts.
     pub fn texts(&self, key: &'static str) -> Result<Option<Vec<String>>> {
         let Some(node) = self.get(key) else { return Ok(None) };
-        let text = |item: &Node| if let Value::Text(text) = &item.value { Some(text.clone()) } else { None };
-        let texts = if let Value::List(list) = &node.value { list.iter().map(text).collect() } else { None };
+        let text = |item: &Node| {
+            if let Value::Text(text) = &item.value { Some(text.clone()) } else { None }
+        };
+        let texts = if let Value::List(list) = &node.value {
+            list.iter().map(text).collect()
+        } else {
+            None
+        };
         match texts {
             Some(texts) => Ok(Some(texts)),
             None => self.wrong(key, "a list of texts", &node.value),
@@ -24,7 +30,8 @@ impl Table {
             Value::List(list) if !list.is_empty() => list,
             other => return self.wrong(key, format_args!("a list, each {limits}"), other),
         };
-        let number = |item: &Node| match item.value.number().filter(|number| limits.holds(*number)) {
+        let number = |item: &Node| match item.value.number().filter(|number| limits.holds(*number))
+        {
             Some(number) => Ok(number),
             None => self.wrong(key, format_args!("a list, each {limits}"), &item.value),
         };
@@ -35,18 +42,23 @@ impl Table {
     pub fn pair(&self, key: &'static str, limits: Limits) -> Result<Option<[f64; 2]>> {
         let Some(numbers) = self.numbers(key, limits)? else { return Ok(None) };
         let pair = numbers.as_slice().try_into();
-        pair.map(Some).map_err(|_| self.error(key, format!("expected two numbers, got {}", numbers.len())))
+        pair.map(Some)
+            .map_err(|_| self.error(key, format!("expected two numbers, got {}", numbers.len())))
     }
 
     /// A list of pairs, not empty.
     pub fn pairs(&self, key: &'static str) -> Result<Option<Vec<[f64; 2]>>> {
         let Some(node) = self.get(key) else { return Ok(None) };
         let pair = |item: &Node| match &item.value {
-            Value::List(list) if list.len() == 2 => Some([list[0].value.number()?, list[1].value.number()?]),
+            Value::List(list) if list.len() == 2 => {
+                Some([list[0].value.number()?, list[1].value.number()?])
+            }
             _ => None,
         };
         let pairs = match &node.value {
-            Value::List(list) if !list.is_empty() => list.iter().map(pair).collect::<Option<Vec<_>>>(),
+            Value::List(list) if !list.is_empty() => {
+                list.iter().map(pair).collect::<Option<Vec<_>>>()
+            }
             _ => None,
         };
         match pairs.filter(|pairs| pairs.iter().flatten().all(|number| number.is_finite())) {
@@ -68,7 +80,9 @@ impl Table {
         list.iter().try_for_each(table)?;
         Ok(list
             .iter()
-            .filter_map(|item| if let Value::Table(table) = &item.value { Some(table) } else { None })
+            .filter_map(
+                |item| if let Value::Table(table) = &item.value { Some(table) } else { None },
+            )
             .collect())
     }
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The scene format: TOML read into a tree that remembers lines, and typed access that remembers which keys are known.
+//! The scene format: TOML read into a tree that remembers lines, and typed access that remembers
+//! which keys are known.
 
 mod document;
 mod limits;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Overrides: `sheet.terminal_ohm = 500`, from a case of the scene or from `--set`.
 //!
-//! A key is dotted; a list is entered by index or, where its tables have names, by name: `pad.0.load_g`,
-//! `pad.mallet.load_g`. Tables on the way are made where they are missing, so that an override can switch an effect on;
-//! setting an effect's table or an optional key to `false` takes it away.
+//! A key is dotted; a list is entered by index or, where its tables have names, by name:
+//! `pad.0.load_g`, `pad.mallet.load_g`. Tables on the way are made where they are missing, so that
+//! an override can switch an effect on; setting an effect's table or an optional key to `false`
+//! takes it away.
 
 use super::document::parse_one;
 use super::tree::{Node, Table, Value, join};
@@ -27,7 +28,9 @@ pub(crate) fn apply(root: &mut Table, key: &str, node: Node) -> Result<(), Scene
         if parts.peek().is_none() {
             return here.put(part, node).ok_or_else(|| fail(format!("there is no {part} here")));
         }
-        here = here.enter(part, &place).ok_or_else(|| fail(format!("there is no {part} that could be entered")))?;
+        here = here
+            .enter(part, &place)
+            .ok_or_else(|| fail(format!("there is no {part} that could be entered")))?;
     }
     Ok(())
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Typed access to a table. Every key asked for becomes a known key; when all is read, a key nobody asked for is an error.
+//! Typed access to a table. Every key asked for becomes a known key; when all is read, a key nobody
+//! asked for is an error.
 
 use super::limits::Limits;
 use super::tree::{Table, Value};
@@ -8,7 +9,12 @@ use crate::error::{Place, SceneError};
 pub(super) type Result<T> = std::result::Result<T, SceneError>;
 
 impl Table {
-    pub(super) fn wrong<T>(&self, key: &str, expected: impl std::fmt::Display, got: &Value) -> Result<T> {
+    pub(super) fn wrong<T>(
+        &self,
+        key: &str,
+        expected: impl std::fmt::Display,
+        got: &Value,
+    ) -> Result<T> {
         Err(self.error(key, format!("expected {expected}, got {got}")))
     }
 
@@ -38,9 +44,14 @@ impl Table {
     }
 
     /// One of a list of words, as `rung` takes; the word itself comes back from the list.
-    pub fn choice(&self, key: &'static str, words: &[&'static str]) -> Result<Option<&'static str>> {
+    pub fn choice(
+        &self,
+        key: &'static str,
+        words: &[&'static str],
+    ) -> Result<Option<&'static str>> {
         let Some(node) = self.get(key) else { return Ok(None) };
-        let found = words.iter().find(|word| matches!(&node.value, Value::Text(text) if text == *word));
+        let found =
+            words.iter().find(|word| matches!(&node.value, Value::Text(text) if text == *word));
         match found {
             Some(word) => Ok(Some(word)),
             None => self.wrong(key, format_args!("one of {}", quoted(words)), &node.value),
@@ -62,7 +73,10 @@ impl Table {
     pub fn whole(&self, key: &'static str, low: u64, high: u64) -> Result<Option<u64>> {
         let Some(node) = self.get(key) else { return Ok(None) };
         match node.value {
-            Value::Integer(whole) if (low..=high).contains(&u64::try_from(whole).unwrap_or(u64::MAX)) && whole >= 0 => {
+            Value::Integer(whole)
+                if (low..=high).contains(&u64::try_from(whole).unwrap_or(u64::MAX))
+                    && whole >= 0 =>
+            {
                 Ok(Some(whole.unsigned_abs()))
             }
             ref other => self.wrong(key, format_args!("an integer from {low} to {high}"), other),
@@ -78,7 +92,8 @@ impl Table {
         }
     }
 
-    /// The first key, by line, that nobody asked for is an error; so in every table below that somebody read.
+    /// The first key, by line, that nobody asked for is an error; so in every table below that
+    /// somebody read.
     pub fn refuse_unknown(&self) -> Result<()> {
         match self.unknown().into_iter().min_by_key(|error| match error.place {
             Place::Override => 0,
@@ -98,14 +113,18 @@ impl Table {
                 _ if !used.get() => {
                     let known = self.known.borrow();
                     errors.push(match known.iter().find(|known| lacks_unit(key, known)) {
-                        Some(known) => self.error(key, format!("expected {known}, since a key names its unit")),
-                        None => self.error(key, format!("unknown key, expected one of {}", quoted(&known))),
+                        Some(known) => {
+                            self.error(key, format!("expected {known}, since a key names its unit"))
+                        }
+                        None => self
+                            .error(key, format!("unknown key, expected one of {}", quoted(&known))),
                     });
                 }
                 Value::Table(table) => errors.extend(table.unknown()),
                 Value::List(list) => {
-                    let tables =
-                        list.iter().filter_map(|item| if let Value::Table(t) = &item.value { Some(t) } else { None });
+                    let tables = list.iter().filter_map(|item| {
+                        if let Value::Table(t) = &item.value { Some(t) } else { None }
+                    });
                     errors.extend(tables.flat_map(Table::unknown));
                 }
                 _ => {}

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A scene as a tree: values that know where they were written, and tables that remember which of their keys were read.
+//! A scene as a tree: values that know where they were written, and tables that remember which of
+//! their keys were read.
 
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
@@ -31,7 +32,10 @@ impl Node {
         let value = match &self.value {
             Value::Table(table) => Value::Table(table.moved_to(path)),
             Value::List(list) => Value::List(
-                list.iter().enumerate().map(|(n, item)| item.moved_to(&join(path, &n.to_string()))).collect(),
+                list.iter()
+                    .enumerate()
+                    .map(|(n, item)| item.moved_to(&join(path, &n.to_string())))
+                    .collect(),
             ),
             plain => plain.clone(),
         };
@@ -139,12 +143,15 @@ impl Table {
         &mut self.entries.entry(key.to_string()).or_insert_with(|| (missing(), Cell::new(false))).0
     }
 
-    /// Puts `node` at `key`; at the top of a scene a table is merged into the table already there, so that
-    /// `set = { sheet = { terminal_ohm = 500 } }` changes one key only.
+    /// Puts `node` at `key`; at the top of a scene a table is merged into the table already there,
+    /// so that `set = { sheet = { terminal_ohm = 500 } }` changes one key only.
     pub fn merge(&mut self, key: &str, node: Node) {
         let top = self.path.is_empty();
         match (self.entries.get_mut(key), node) {
-            (Some((Node { value: Value::Table(old), .. }, _)), Node { value: Value::Table(new), .. }) if top => {
+            (
+                Some((Node { value: Value::Table(old), .. }, _)),
+                Node { value: Value::Table(new), .. },
+            ) if top => {
                 old.entries.extend(new.entries);
             }
             (_, node) => self.insert(key, node),
@@ -161,7 +168,8 @@ impl Table {
         self.entries.iter().map(|(key, (node, _))| (key.as_str(), node))
     }
 
-    /// The value at `key`, if it is there; `false` counts as absent, which is how an override takes a key away.
+    /// The value at `key`, if it is there; `false` counts as absent, which is how an override takes
+    /// a key away.
     pub fn get(&self, key: &'static str) -> Option<&Node> {
         self.ask(key).filter(|node| !matches!(node.value, Value::Flag(false)))
     }
@@ -180,7 +188,11 @@ impl Table {
     /// An error about `key`, placed where the key is, or where its table is if it is missing.
     pub fn error(&self, key: &str, message: impl Into<String>) -> SceneError {
         let place = self.entries.get(key).map_or(&self.place, |(node, _)| &node.place);
-        SceneError::new(place.clone(), if key.is_empty() { self.path.clone() } else { join(&self.path, key) }, message)
+        SceneError::new(
+            place.clone(),
+            if key.is_empty() { self.path.clone() } else { join(&self.path, key) },
+            message,
+        )
     }
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Every effect that a scene can name: what it adds to the scene, what takes it away, and which other one it needs.
+//! Every effect that a scene can name: what it adds to the scene, what takes it away, and which
+//! other one it needs.
 
 use std::fmt::Write;
 
@@ -13,7 +14,12 @@ pub struct Part {
     needs: Option<&'static str>,
 }
 
-const fn part(name: &'static str, key: &'static str, value: &'static str, needs: Option<&'static str>) -> Part {
+const fn part(
+    name: &'static str,
+    key: &'static str,
+    value: &'static str,
+    needs: Option<&'static str>,
+) -> Part {
     Part { name, key, value, needs }
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What several tests share: scenes of one pad, an ideal demodulator and the exact inversion of docs/physics.md §2.
+//! What several tests share: scenes of one pad, an ideal demodulator and the exact inversion of
+//! docs/physics.md §2.
 #![allow(dead_code, reason = "each test file uses a part")]
 
 pub mod every;
@@ -15,11 +16,19 @@ pub const SENSE: usize = 6;
 
 /// A window of 200 µs, 20 periods of the carrier, from the slot's first sample on.
 pub fn timing() -> Timing {
-    Timing { pads: 4, slot_samples: 200, window_start: 0, window_samples: 200, samples_per_period: 10.0, signs: None }
+    Timing {
+        pads: 4,
+        slot_samples: 200,
+        window_start: 0,
+        window_samples: 200,
+        samples_per_period: 10.0,
+        signs: None,
+    }
 }
 
 pub fn scene(text: &str) -> Scene {
-    Scene::parse(&format!("title = \"t\"\n{text}"), "s.toml", &[]).unwrap_or_else(|error| panic!("{error}"))
+    Scene::parse(&format!("title = \"t\"\n{text}"), "s.toml", &[])
+        .unwrap_or_else(|error| panic!("{error}"))
 }
 
 pub fn plant(text: &str) -> Plant {
@@ -69,7 +78,8 @@ pub fn demodulate(plant: &mut Plant, slot: usize, window: Window) -> Vec<Complex
 /// C = |I|²/(ω·Im(I·V*)), the I/Q inversion of docs/physics.md §2 for any phase of V, in F.
 pub fn capacitance_f(plant: &Plant, phasors: &[Complex]) -> f64 {
     let device = plant.device();
-    let total: Complex = phasors[..TERMINALS].iter().map(|current| current * device.current_full_scale_a).sum();
+    let total: Complex =
+        phasors[..TERMINALS].iter().map(|current| current * device.current_full_scale_a).sum();
     let volt = phasors[SENSE] * device.sense_full_scale_v;
     total.norm_sqr() / (device.carrier_rad_s * (total * volt.conj()).im)
 }
@@ -87,10 +97,14 @@ pub fn force_noise_percent(plant: &mut Plant, slots: usize, window: Window) -> f
 
 pub fn deviation_percent(values: &[f64]) -> f64 {
     let mean = values.iter().sum::<f64>() / values.len() as f64;
-    let square = values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / values.len() as f64;
+    let square =
+        values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / values.len() as f64;
     100.0 * square.sqrt() / mean
 }
 
 pub fn assert_near(what: &str, got: f64, expected: f64, relative: f64) {
-    assert!((got / expected - 1.0).abs() <= relative, "{what}: got {got:e}, expected {expected:e} ± {relative}");
+    assert!(
+        (got / expected - 1.0).abs() <= relative,
+        "{what}: got {got:e}, expected {expected:e} ± {relative}"
+    );
 }

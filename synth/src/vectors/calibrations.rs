@@ -44,7 +44,8 @@ impl Set {
         if self != Set::Constants {
             let words = (0..).zip(&sheet.table);
             let is_flat = matches!(self, Set::Flat(_));
-            let mut code = |word: i64| if is_flat { word } else { code(word, sheet.table_format, noise) };
+            let mut code =
+                |word: i64| if is_flat { word } else { code(word, sheet.table_format, noise) };
             written.extend(words.map(|(address, &word)| (address.to_string(), code(word))));
         }
         written
@@ -77,9 +78,12 @@ fn sheet(profile: &Profile, set: Set) -> Calibration {
         let (u, v) = ((k % columns) as f64 / 20.0 - 1.0, (k / columns) as f64 / 12.0 - 1.0);
         let r_x = u * (0.95 - 0.2 * u * u) * (1.0 - 0.15 * v * v);
         let r_y = v * (0.9 - 0.2 * v * v) * (1.0 - 0.3 * u * u);
-        let before = Point { x: 400.0 * u, y: 220.0 * v, r_x, r_y, sheet: 0.05 + 0.02 * u * u + 0.01 * v };
+        let before =
+            Point { x: 400.0 * u, y: 220.0 * v, r_x, r_y, sheet: 0.05 + 0.02 * u * u + 0.01 * v };
         match set {
-            Set::Behind => Point { x: 80.0 - 500.0 * u, y: 300.0 * v, r_x, r_y, sheet: 0.2 - 0.9 * u * v },
+            Set::Behind => {
+                Point { x: 80.0 - 500.0 * u, y: 300.0 * v, r_x, r_y, sheet: 0.2 - 0.9 * u * v }
+            }
             Set::Flat(code) => Point { sheet: code as f64 / 32_768.0, ..before },
             _ => before,
         }

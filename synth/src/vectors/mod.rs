@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Vectors for users of the Verilog who have no Rust: calibrations, slots of samples, and the frames and pins that follow.
+//! Vectors for users of the Verilog who have no Rust: calibrations, slots of samples, and the
+//! frames and pins that follow.
 //!
-//! `rtl/verilog/vectors/` holds them for the small profile; `synth/run vectors` makes them, a test holds them fresh. The
-//! first slots are pads somewhere on a sheet, a carrier of five samples per period with some noise; the others are what breaks a
-//! careless core. No plant is behind them. `tests/tests/vectors.rs` holds that they notice faults.
+//! `rtl/verilog/vectors/` holds them for the small profile; `synth/run vectors` makes them, a test
+//! holds them fresh. The first slots are pads somewhere on a sheet, a carrier of five samples per
+//! period with some noise; the others are what breaks a careless core. No plant is behind them.
+//! `tests/tests/vectors.rs` holds that they notice faults.
 //!
 //! | file | holds |
 //! | --- | --- |
@@ -33,8 +35,9 @@ pub const PROFILE: &str = "small";
 /// Clocks after the last sample: longer than a frame takes.
 const REST: u64 = 10_000;
 
-/// Slots, what is written for their frames, and what their numbers begin with. Those with numbers above 12 were found among
-/// thousands drawn so, as the ones that notice faults that others do not: a sum whose bits end just so, say.
+/// Slots, what is written for their frames, and what their numbers begin with. Those with numbers
+/// above 12 were found among thousands drawn so, as the ones that notice faults that others do not:
+/// a sum whose bits end just so, say.
 const SLOTS: [(Slot, Option<Set>, u32); 32] = [
     (Slot::Any, Some(Set::Sheet), 1000),
     (Slot::Pad, None, 1),
@@ -126,12 +129,16 @@ impl Bench {
 
     fn clock(&mut self, inputs: Inputs<i64>) {
         let formats = self.core.inputs();
-        let signals = Inputs::map(Inputs::zip(inputs, formats), |(value, format)| Signal { value, format });
+        let signals =
+            Inputs::map(Inputs::zip(inputs, formats), |(value, format)| Signal { value, format });
         let o = Outputs::map(self.core.clock(&mut self.state, signals), |signal| signal.value);
         self.asked = o.channel;
         let f = o.frames;
         if f.valid == 1 {
-            line(&mut self.frames, &[f.pad, f.index, f.frame, f.clipped, f.saturated, f.invalid, f.lost]);
+            line(
+                &mut self.frames,
+                &[f.pad, f.index, f.frame, f.clipped, f.saturated, f.invalid, f.lost],
+            );
         }
         let pins = [o.serve, o.closed, o.carrier, f.done, o.overrun];
         if pins != self.pins {
@@ -166,10 +173,12 @@ impl Bench {
     }
 }
 
-/// A slot. What is written for its frame comes when the frame before is out, but long before its own is computed.
+/// A slot. What is written for its frame comes when the frame before is out, but long before its
+/// own is computed.
 fn slot(bench: &mut Bench, profile: &Profile, slot: Slot, set: Option<Set>, noise: &mut Noise) {
     let usual = profile.clocks_per_sample;
-    let (tones, blanking, samples) = (slot.tones(noise), profile.slot.blanking(), profile.slot.samples());
+    let (tones, blanking, samples) =
+        (slot.tones(noise), profile.slot.blanking(), profile.slot.samples());
     let (mut clocks, writing) = (usual, if bench.row == 0 { 0 } else { samples - 20 });
     for sample in 0..slot.samples(samples) {
         if sample == writing {

@@ -31,7 +31,8 @@ pub enum Slot {
     Loud,
     /// Tones of one phase at full scale, one of the full size of a sum.
     Alike(i64),
-    /// Tones of any phase and size that begin within the window: its two halves no longer cancel what is not in phase.
+    /// Tones of any phase and size that begin within the window: its two halves no longer cancel
+    /// what is not in phase.
     Late,
     /// A constant behind each code.
     Offset,
@@ -43,13 +44,15 @@ pub enum Slot {
     FullScale,
     /// Currents of a few codes.
     Whisper,
-    /// Currents of which three have the sign that the others do not: next to nothing is their total.
+    /// Currents of which three have the sign that the others do not: next to nothing is their
+    /// total.
     Cancelling,
     /// Currents whose amplitudes have a power of two for a sum: ratios lie halfway.
     PowerSum,
     /// A pad with haptic codes whose products with the window lie halfway.
     Halfway,
-    /// A pad, but a strobe comes a clock too early, some come late, and the slot is abandoned before its end.
+    /// A pad, but a strobe comes a clock too early, some come late, and the slot is abandoned
+    /// before its end.
     Abandoned,
 }
 
@@ -66,13 +69,15 @@ pub struct Tone {
     onset: u64,
 }
 
-/// Terminals within a third of each other, so that most places are found, and anything at the other channels.
+/// Terminals within a third of each other, so that most places are found, and anything at the other
+/// channels.
 fn any(noise: &mut Noise) -> [Tone; CHANNELS] {
     let (turn, size) = (noise.below(5), 1 + noise.below(4) * noise.below(60));
     let (late, apart) = (noise.below(2) * noise.below(400), noise.below(4) == 0);
     let offset = noise.below(4) / 3 * (noise.below(8000) - 4000);
     std::array::from_fn(|channel| {
-        let share = if channel < 6 { size + noise.below(2 + size as u32 / 3) } else { noise.below(200) };
+        let share =
+            if channel < 6 { size + noise.below(2 + size as u32 / 3) } else { noise.below(200) };
         let lag = turn + i64::from(channel < 6) + if apart { noise.below(5) } else { 0 };
         Tone { size: SHARE * share, lag: lag % 5, offset, onset: late as u64 }
     })
@@ -88,10 +93,13 @@ impl Slot {
             7 => of(4 + noise.below(50), 0),
             _ => of(4 + noise.below(7), 1),
         });
-        let with =
-            |change: &mut dyn FnMut(usize, Tone) -> Tone| std::array::from_fn(|channel| change(channel, pad[channel]));
+        let with = |change: &mut dyn FnMut(usize, Tone) -> Tone| {
+            std::array::from_fn(|channel| change(channel, pad[channel]))
+        };
         match self {
-            Slot::Faint => with(&mut |k, tone| if k < 6 { of(1 + tone.size / SHARE / 8, tone.lag) } else { tone }),
+            Slot::Faint => with(&mut |k, tone| {
+                if k < 6 { of(1 + tone.size / SHARE / 8, tone.lag) } else { tone }
+            }),
             Slot::OpenTerminal => with(&mut |k, tone| if k == 2 { of(0, 0) } else { tone }),
             Slot::NoVoltage => with(&mut |k, tone| if k == 6 { of(0, 0) } else { tone }),
             // Of `small`: 3 and 4 are on the right, 1 and 2 on the left.
@@ -104,11 +112,16 @@ impl Slot {
             Slot::Any => any(noise),
             Slot::Loud => with(&mut |_, _| of(64 + noise.below(128), noise.below(5))),
             Slot::Alike(lag) => with(&mut |_, _| of(256, lag)),
-            Slot::Late => {
-                with(&mut |_, _| Tone { onset: noise.below(400) as u64, ..of(1 + noise.below(70), noise.below(5)) })
+            Slot::Late => with(&mut |_, _| Tone {
+                onset: noise.below(400) as u64,
+                ..of(1 + noise.below(70), noise.below(5))
+            }),
+            Slot::Offset => {
+                with(&mut |_, tone| Tone { offset: 4 * noise.below(6000) - 12_000, ..tone })
             }
-            Slot::Offset => with(&mut |_, tone| Tone { offset: 4 * noise.below(6000) - 12_000, ..tone }),
-            Slot::Whisper => with(&mut |k, tone| if k < 6 { small(3 + noise.below(5)) } else { tone }),
+            Slot::Whisper => {
+                with(&mut |k, tone| if k < 6 { small(3 + noise.below(5)) } else { tone })
+            }
             Slot::Cancelling => with(&mut |k, tone| match k {
                 0..6 if k % 2 == 0 => small(10_240 + noise.below(300)),
                 0..6 => small(-10_240),
@@ -131,16 +144,28 @@ impl Slot {
     }
 
     /// The codes of the channels at a sample of the window.
-    pub fn codes(self, tones: &[Tone; CHANNELS], sample: u64, noise: &mut Noise) -> [i64; CHANNELS] {
+    pub fn codes(
+        self,
+        tones: &[Tone; CHANNELS],
+        sample: u64,
+        noise: &mut Noise,
+    ) -> [i64; CHANNELS] {
         std::array::from_fn(|channel| {
             let Tone { size, lag, offset, onset } = tones[channel];
             let code = match self {
                 Slot::Silence => 0,
-                Slot::FullScale if (sample as usize + channel).is_multiple_of(3) => i64::from(i16::MIN),
+                Slot::FullScale if (sample as usize + channel).is_multiple_of(3) => {
+                    i64::from(i16::MIN)
+                }
                 Slot::FullScale => i64::from(i16::MAX),
                 Slot::Halfway if channel == CHANNELS - 1 => (noise.below(7) - 3) << 13,
                 _ if sample < onset => 0,
-                _ => CARRIER[(sample as usize + 5 - lag as usize) % 5] * size / 32_768 + offset + noise.below(8) - 4,
+                _ => {
+                    CARRIER[(sample as usize + 5 - lag as usize) % 5] * size / 32_768
+                        + offset
+                        + noise.below(8)
+                        - 4
+                }
             };
             code.clamp(i16::MIN.into(), i16::MAX.into())
         })

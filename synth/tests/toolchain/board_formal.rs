@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Proofs of a board's blocks, at the parameters of the boards that one can buy; that what they speak of can happen; and that
-//! they can fail.
+//! Proofs of a board's blocks, at the parameters of the boards that one can buy; that what they
+//! speak of can happen; and that they can fail.
 
 use hapticore_contract::frame::Field;
 use hapticore_contract::profile::Profile;
@@ -83,7 +83,11 @@ fn no_two_pads_of_a_board_are_closed() {
         let (pads, dead) = (target.profile().pads, target.parameters().dead());
         let verilog = print(Netlist::of(&Pads::new(pads, dead)).top());
         let parameters = [("PADS", pads), ("DEAD", dead)];
-        assert_eq!(verdict(&tools, &verilog, "pads", &parameters, Mode::Prove(4)), Verdict::Holds, "{target:?}");
+        assert_eq!(
+            verdict(&tools, &verilog, "pads", &parameters, Mode::Prove(4)),
+            Verdict::Holds,
+            "{target:?}"
+        );
     }
 }
 
@@ -95,20 +99,37 @@ fn registers(target: Target) -> (String, Known) {
     let core = Core::new(&target.profile());
     let words = core.estimator().position().table().words as u64;
     let address = u64::from(core.inputs().calibration.table.address.width);
-    let verilog = print(Netlist::of(&CommandRegisters::new(core.inputs().calibration, words)).top());
-    (verilog, vec![("DATA", data_bytes(&core.inputs().calibration)), ("WORDS", words), ("ADDRESS", address)])
+    let verilog =
+        print(Netlist::of(&CommandRegisters::new(core.inputs().calibration, words)).top());
+    (
+        verilog,
+        vec![
+            ("DATA", data_bytes(&core.inputs().calibration)),
+            ("WORDS", words),
+            ("ADDRESS", address),
+        ],
+    )
 }
 
 /// The stream of a board with its transmitter, and what goes into that, as `line`.
 fn stream(target: Target) -> (String, Known) {
     let (profile, core) = (target.profile(), Core::new(&target.profile()));
     let data = CommandRegisters::new(core.inputs().calibration, 1).outputs().data;
-    let text = Design::of(&Stream::new(&profile, target.parameters().divisor(), data), "a formal check").text();
-    let line = text.split_once(".octet(").and_then(|(_, rest)| rest.split_once("),\n")).expect("a transmitter").0;
+    let text =
+        Design::of(&Stream::new(&profile, target.parameters().divisor(), data), "a formal check")
+            .text();
+    let line = text
+        .split_once(".octet(")
+        .and_then(|(_, rest)| rest.split_once("),\n"))
+        .expect("a transmitter")
+        .0;
     let line = format!("    wire [7:0] line = {line};\nendmodule");
     let (module, rest) = text.rsplit_once("endmodule").expect("a module");
     let width = Field::word(&profile).width;
-    (format!("{module}{line}{rest}"), vec![("BYTES", word_bytes(&profile)), ("WIDTH", width.into())])
+    (
+        format!("{module}{line}{rest}"),
+        vec![("BYTES", word_bytes(&profile)), ("WIDTH", width.into())],
+    )
 }
 
 fn transmitter(target: Target) -> (String, Known) {
@@ -123,7 +144,9 @@ fn board(target: Target) -> (String, Known) {
     let (top, _) = design.modules.split_last().expect("modules");
     let within = Netlist::of(&board);
     let names = design.modules.iter().map(|file| file.name.as_str());
-    let blocks = names.zip(&within.modules).filter(|(name, _)| top.text.contains(&format!("\n    {name} u_")));
+    let blocks = names
+        .zip(&within.modules)
+        .filter(|(name, _)| top.text.contains(&format!("\n    {name} u_")));
     let hollow = |(name, module): (&str, &Module)| {
         let of = |ports: &[Named], with: &dyn Fn(u8, &str) -> String| -> String {
             ports.iter().map(|port| with(port.format.width - 1, port.name)).collect()
@@ -131,23 +154,36 @@ fn board(target: Target) -> (String, Known) {
         let inputs = of(&module.inputs, &|high, name| format!(", input wire [{high}:0] {name}"));
         let outputs = of(&module.outputs, &|high, name| format!(", output wire [{high}:0] {name}"));
         let any = |high, name: &str| {
-            format!("    (* anyseq *) wire [{high}:0] any_{name};\n    assign {name} = any_{name};\n")
+            format!(
+                "    (* anyseq *) wire [{high}:0] any_{name};\n    assign {name} = any_{name};\n"
+            )
         };
         let anything = of(&module.outputs, &any);
-        format!("module {name} (input wire clock, input wire reset{inputs}{outputs});\n{anything}endmodule\n")
+        format!(
+            "module {name} (input wire clock, input wire reset{inputs}{outputs});\n{anything}endmodule\n"
+        )
     };
     (blocks.map(hollow).collect::<String>() + &top.text, Known::new())
 }
 
-/// The claims of a block of every board hold for ever, and what they speak of happens within so many clocks.
+/// The claims of a block of every board hold for ever, and what they speak of happens within so
+/// many clocks.
 fn proves(name: &'static str, block: fn(Target) -> (String, Known), cover: u64) {
     let Some(tools) = Tools::or_skip() else { return };
     for target in Target::ALL {
         let (verilog, known) = block(target);
-        assert_eq!(verdict(&tools, &verilog, name, &known, Mode::Prove(4)), Verdict::Holds, "{target:?}, {known:?}");
+        assert_eq!(
+            verdict(&tools, &verilog, name, &known, Mode::Prove(4)),
+            Verdict::Holds,
+            "{target:?}, {known:?}"
+        );
     }
     let (verilog, known) = block(Target::Icebreaker);
-    assert_eq!(verdict(&tools, &verilog, name, &known, Mode::Cover(cover)), Verdict::Holds, "{name}: it happens");
+    assert_eq!(
+        verdict(&tools, &verilog, name, &known, Mode::Cover(cover)),
+        Verdict::Holds,
+        "{name}: it happens"
+    );
 }
 
 #[test]
@@ -171,19 +207,29 @@ fn sdi_rests_while_the_adc_is_read() {
 }
 
 /// Each change of a printed text, and what the checker says within so many clocks.
-fn broken(name: &'static str, (verilog, known): (String, Known), mode: Mode, changes: &[(&str, &str)]) {
+fn broken(
+    name: &'static str,
+    (verilog, known): (String, Known),
+    mode: Mode,
+    changes: &[(&str, &str)],
+) {
     let Some(tools) = Tools::or_skip() else { return };
     for (printed, instead) in changes {
         let changed = verilog.replace(printed, instead);
         assert_ne!(changed, verilog, "{printed} is printed");
-        assert_ne!(verdict(&tools, &changed, name, &known, mode), Verdict::Holds, "{name}: {instead}");
+        assert_ne!(
+            verdict(&tools, &changed, name, &known, mode),
+            Verdict::Holds,
+            "{name}: {instead}"
+        );
     }
 }
 
 #[test]
 fn changed_blocks_are_noticed() {
     let ice = Target::Icebreaker;
-    let changes = [("crc == 16'd0", "crc[15:1] == 15'd0"), ("place_q[2:0] == 3'd1", "place_q[1:0] == 2'd1")];
+    let changes =
+        [("crc == 16'd0", "crc[15:1] == 15'd0"), ("place_q[2:0] == 3'd1", "place_q[1:0] == 2'd1")];
     broken("registers", registers(ice), Mode::Prove(4), &changes);
     let changes = [
         ("8'd220", "8'd221"),
@@ -191,12 +237,28 @@ fn changed_blocks_are_noticed() {
         ("& heartbeat) & (~group[3])", "& heartbeat) & group[3]"),
     ];
     broken("stream", stream(ice), Mode::Prove(4), &changes);
-    broken("transmitter", transmitter(ice), Mode::Prove(4), &[("position == 4'd9", "position == 4'd8")]);
-    broken("board", board(ice), Mode::Prove(4), &[("registers_sdi & adc_reader_shift", "registers_sdi & shift")]);
+    broken(
+        "transmitter",
+        transmitter(ice),
+        Mode::Prove(4),
+        &[("position == 4'd9", "position == 4'd8")],
+    );
+    broken(
+        "board",
+        board(ice),
+        Mode::Prove(4),
+        &[("registers_sdi & adc_reader_shift", "registers_sdi & shift")],
+    );
 }
 
 #[test]
 fn assumptions_that_contradict_each_other_are_noticed() {
-    let contradiction = "    always @(*) assume (octet == 8'd1 && octet == 8'd2);\n    assign enable =";
-    broken("registers", registers(Target::Icebreaker), Mode::Cover(12), &[("    assign enable =", contradiction)]);
+    let contradiction =
+        "    always @(*) assume (octet == 8'd1 && octet == 8'd2);\n    assign enable =";
+    broken(
+        "registers",
+        registers(Target::Icebreaker),
+        Mode::Cover(12),
+        &[("    assign enable =", contradiction)],
+    );
 }

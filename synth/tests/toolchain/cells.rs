@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The models of cells that netlists are simulated with: a design with every shape of memory and product, beside its gates.
+//! The models of cells that netlists are simulated with: a design with every shape of memory and
+//! product, beside its gates.
 
 use hapticore_synth::tools::{Tools, root};
 use std::fmt::Write as _;
@@ -9,13 +10,19 @@ use std::path::Path;
 /// Memories: address bits and width of a word. On ECP5 these become ports of 4 to 36 bits.
 const MEMORIES: [(u32, u32); 5] = [(12, 4), (11, 9), (10, 18), (9, 36), (8, 23)];
 /// Products: widths, and whether each factor is signed.
-const PRODUCTS: [(u32, bool, u32, bool); 5] =
-    [(18, true, 18, true), (16, false, 16, false), (16, true, 15, false), (22, true, 20, true), (9, false, 18, true)];
+const PRODUCTS: [(u32, bool, u32, bool); 5] = [
+    (18, true, 18, true),
+    (16, false, 16, false),
+    (16, true, 15, false),
+    (22, true, 20, true),
+    (9, false, 18, true),
+];
 
 /// The design, of modules that look like printed ones.
 fn design() -> String {
-    let mut text =
-        String::from("module mixture (input clock, input [63:0] a, input [63:0] b, output reg [63:0] sum);\n");
+    let mut text = String::from(
+        "module mixture (input clock, input [63:0] a, input [63:0] b, output reg [63:0] sum);\n",
+    );
     let mut sums = String::new();
     for (k, (bits, width)) in MEMORIES.into_iter().enumerate() {
         let (address, word, last) = (bits - 1, width - 1, (1_u32 << bits) - 1);
@@ -47,10 +54,13 @@ fn design() -> String {
         write!(sums, " + product_{k}").expect("a string grows");
     }
     let sums = sums.replace(", 0'd0", "");
-    text + &format!("    initial sum = 0;\n    always @(posedge clock) sum <= 0{sums};\nendmodule\n")
+    text + &format!(
+        "    initial sum = 0;\n    always @(posedge clock) sum <= 0{sums};\nendmodule\n"
+    )
 }
 
-/// Random input to both; addresses that meet are more than frequent. With `wrong`, a write goes to the gates alone.
+/// Random input to both; addresses that meet are more than frequent. With `wrong`, a write goes to
+/// the gates alone.
 fn bench(wrong: bool) -> String {
     let gate_a = if wrong { "{a[63] | (clock_number == 500), a[62:0]}" } else { "a" };
     format!(
@@ -86,7 +96,10 @@ fn check(family: &str) {
     let log = simulate(&tools, folder.path(), false);
     assert!(log.contains("EQUAL"), "{family}: {log}");
     let log = simulate(&tools, folder.path(), true);
-    assert!(log.contains("clock ") && !log.contains("EQUAL"), "{family}, with a write that only the gates see: {log}");
+    assert!(
+        log.contains("clock ") && !log.contains("EQUAL"),
+        "{family}, with a write that only the gates see: {log}"
+    );
 }
 
 #[test]

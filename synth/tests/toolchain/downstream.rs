@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What users of the Verilog find in `rtl/verilog/` works: the Makefile, the cocotb test and the FuseSoC core.
+//! What users of the Verilog find in `rtl/verilog/` works: the Makefile, the cocotb test and the
+//! FuseSoC core.
 
 use hapticore_synth::tools::{Tools, root};
 use std::fs;
@@ -71,7 +72,8 @@ fn fusesoc_lints_and_simulates() {
     let Some(tools) = Tools::or_skip() else { return };
     let folder = users_copy();
     let run = |target: &str, flags: &[&str]| {
-        let mut arguments = vec!["--cores-root", ".", "run", "--work-root", target, "--target", target];
+        let mut arguments =
+            vec!["--cores-root", ".", "run", "--work-root", target, "--target", target];
         arguments.extend(flags);
         arguments.push("hapticore:hapticore:core");
         tools.run("fusesoc", &arguments, folder.path()).unwrap()

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The reports of boards are what the tools give: synthesis and the first seed again, to the byte of the bitstream.
+//! The reports of boards are what the tools give: synthesis and the first seed again, to the byte
+//! of the bitstream.
 
 use hapticore_synth::flow::Flow;
 use hapticore_synth::report::BoardReport;
@@ -10,13 +11,14 @@ use std::fs;
 
 fn check(name: &str) {
     let path = root().join(format!("synth/reports/{name}.json"));
-    let text =
-        fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}: synth/run {name}", path.display()));
+    let text = fs::read_to_string(&path)
+        .unwrap_or_else(|error| panic!("{}: {error}: synth/run {name}", path.display()));
     let Some(tools) = Tools::or_skip() else { return };
     let report: BoardReport = serde_json::from_str(&text).expect("a report");
     let board = board(name).expect("a board");
     let folder = tempfile::tempdir().expect("a folder");
-    let flow = Flow::new(&tools, board.family, TOP, &sources::board(board.target), folder.path()).expect("a folder");
+    let flow = Flow::new(&tools, board.family, TOP, &sources::board(board.target), folder.path())
+        .expect("a folder");
     assert_eq!(flow.synthesise().expect("a netlist"), report.cells, "synth/run {name}");
     let placed = flow.place(1).expect("a placement");
     assert_eq!((placed.timing, placed.used), (report.timings[0], report.used), "synth/run {name}");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Proofs for all inputs: division and square root are right, no two pads are closed. And that the proofs can fail.
+//! Proofs for all inputs: division and square root are right, no two pads are closed. And that the
+//! proofs can fail.
 
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::block::Block;
@@ -24,7 +25,8 @@ fn widths(format: Format) -> u64 {
 }
 
 fn of_divider(module: &Module) -> Parameters {
-    let [numerator, denominator] = ["numerator", "denominator"].map(|name| format_of(&module.inputs, name));
+    let [numerator, denominator] =
+        ["numerator", "denominator"].map(|name| format_of(&module.inputs, name));
     let quotient = format_of(&module.outputs, "quotient");
     let zeros = quotient.frac - numerator.frac + denominator.frac;
     let latency = Divider::new(numerator, denominator, quotient).latency();
@@ -33,15 +35,26 @@ fn of_divider(module: &Module) -> Parameters {
 }
 
 fn sqrt_parameters(module: &Module) -> Parameters {
-    let (radicand, sqrt) = (format_of(&module.inputs, "radicand"), format_of(&module.outputs, "sqrt"));
+    let (radicand, sqrt) =
+        (format_of(&module.inputs, "radicand"), format_of(&module.outputs, "sqrt"));
     let zeros = 2 * sqrt.frac - radicand.frac;
     let latency = SquareRoot::new(radicand, sqrt.frac).latency();
-    vec![("R", widths(radicand)), ("DIGITS", widths(sqrt) - 1), ("PAD", zeros as u64), ("LATENCY", latency)]
+    vec![
+        ("R", widths(radicand)),
+        ("DIGITS", widths(sqrt) - 1),
+        ("PAD", zeros as u64),
+        ("LATENCY", latency),
+    ]
 }
 
 fn of_multiplexer(profile: &Profile) -> Parameters {
     let slot = &profile.slot;
-    vec![("OPEN", slot.open), ("BEGIN", slot.open + slot.settle), ("SLOT", slot.samples()), ("PADS", profile.pads)]
+    vec![
+        ("OPEN", slot.open),
+        ("BEGIN", slot.open + slot.settle),
+        ("SLOT", slot.samples()),
+        ("PADS", profile.pads),
+    ]
 }
 
 /// The only module of a block that has no others within.
@@ -49,12 +62,20 @@ fn module<B: Block>(block: &B) -> Module {
     Netlist::of(block).top().clone()
 }
 
-fn verdict(tools: &Tools, module: &Module, parameters: &Parameters, small: bool, mode: Mode) -> Verdict {
+fn verdict(
+    tools: &Tools,
+    module: &Module,
+    parameters: &Parameters,
+    small: bool,
+    mode: Mode,
+) -> Verdict {
     let folder = tempfile::tempdir().expect("a folder");
     let (verilog, parameters) = (print(module), parameters.clone());
     let defines = if small { vec!["SMALL"] } else { Vec::new() };
     let claim = Claim { verilog: &verilog, checker: module.name, parameters, defines };
-    claim.check(tools, mode, folder.path()).unwrap_or_else(|error| panic!("{}: {error}", module.name))
+    claim
+        .check(tools, mode, folder.path())
+        .unwrap_or_else(|error| panic!("{}: {error}", module.name))
 }
 
 fn holds(tools: &Tools, module: &Module, parameters: &Parameters, small: bool) {
@@ -62,7 +83,8 @@ fn holds(tools: &Tools, module: &Module, parameters: &Parameters, small: bool) {
     assert_eq!(found, Verdict::Holds, "{} with {parameters:?}", module.name);
 }
 
-/// Every changed operator breaks the claim within so many clocks after reset, but for those that `harmless` knows.
+/// Every changed operator breaks the claim within so many clocks after reset, but for those that
+/// `harmless` knows.
 fn breaks(tools: &Tools, module: &Module, parameters: &Parameters, clocks: u64, harmless: usize) {
     let all = mutants(module);
     assert!(all.len() > 3, "there are operators to change");
@@ -71,14 +93,23 @@ fn breaks(tools: &Tools, module: &Module, parameters: &Parameters, clocks: u64, 
         (found != Verdict::Broken).then(|| name.clone())
     };
     let survivors: Vec<_> = all.iter().filter_map(survives).collect();
-    assert!(survivors.len() <= harmless, "{} of {}: nobody notices {survivors:#?}", module.name, all.len());
+    assert!(
+        survivors.len() <= harmless,
+        "{} of {}: nobody notices {survivors:#?}",
+        module.name,
+        all.len()
+    );
 }
 
 fn of_profiles(name: &str) -> Vec<Module> {
     let netlists = Profile::all().into_iter().map(|profile| Netlist::of(&Core::new(&profile)));
     let mut found: Vec<Module> = Vec::new();
-    for module in netlists.flat_map(|netlist| netlist.modules).filter(|module| module.name == name) {
-        if !found.iter().any(|known| known.inputs == module.inputs && known.outputs == module.outputs) {
+    for module in netlists.flat_map(|netlist| netlist.modules).filter(|module| module.name == name)
+    {
+        if !found
+            .iter()
+            .any(|known| known.inputs == module.inputs && known.outputs == module.outputs)
+        {
             found.push(module);
         }
     }
@@ -135,7 +166,12 @@ fn no_two_pads_are_closed_and_a_break_comes_before() {
         holds(&tools, &module(&Multiplexer::new(&profile)), &of_multiplexer(&profile), false);
     }
     for (pads, dead) in [(4, 250), (1, 1), (7, 12)] {
-        holds(&tools, &module(&Pads::new(pads, dead)), &vec![("PADS", pads), ("DEAD", dead)], false);
+        holds(
+            &tools,
+            &module(&Pads::new(pads, dead)),
+            &vec![("PADS", pads), ("DEAD", dead)],
+            false,
+        );
     }
 }
 

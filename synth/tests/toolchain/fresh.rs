@@ -16,16 +16,22 @@ fn read(path: &str) -> String {
 
 #[test]
 fn the_table_of_cores_is_of_the_cores_that_are_printed() {
-    let report: CoresReport = serde_json::from_str(&read("synth/reports/cores.json")).expect("a report");
+    let report: CoresReport =
+        serde_json::from_str(&read("synth/reports/cores.json")).expect("a report");
     assert_eq!(read("synth/reports/cores.md"), report.markdown(), "synth/run cores");
     let mut rows = report.rows.iter();
     for profile in Profile::all() {
         let hash = sources::hash_of(&sources::files(&hapticore_rtl::header::design(&profile)));
         for family in Family::ALL {
             let row = rows.next().expect("a row for each profile and family");
-            let (found, expected) = ((&row.profile, row.part.as_str()), (&profile.name, family.part()));
+            let (found, expected) =
+                ((&row.profile, row.part.as_str()), (&profile.name, family.part()));
             assert_eq!(found, expected);
-            assert_eq!(row.sources, hash, "{}: the Verilog has changed: run synth/run cores", profile.name);
+            assert_eq!(
+                row.sources, hash,
+                "{}: the Verilog has changed: run synth/run cores",
+                profile.name
+            );
         }
     }
     assert!(rows.next().is_none());
@@ -46,11 +52,16 @@ fn the_fusesoc_core_names_every_file_of_its_profiles() {
         let folder = root().join("rtl/verilog").join(profile);
         let there: BTreeSet<_> = fs::read_dir(folder)
             .expect("a folder")
-            .map(|entry| format!("{profile}/{}", entry.expect("a file").file_name().to_string_lossy()))
+            .map(|entry| {
+                format!("{profile}/{}", entry.expect("a file").file_name().to_string_lossy())
+            })
             .collect();
-        let named = core.lines().filter_map(|line| line.trim().strip_prefix("- ")?.split(" : ").next());
-        let named: BTreeSet<_> =
-            named.filter(|name| name.starts_with(&format!("{profile}/"))).map(String::from).collect();
+        let named =
+            core.lines().filter_map(|line| line.trim().strip_prefix("- ")?.split(" : ").next());
+        let named: BTreeSet<_> = named
+            .filter(|name| name.starts_with(&format!("{profile}/")))
+            .map(String::from)
+            .collect();
         assert_eq!(named, there, "rtl/verilog/hapticore.core");
     }
 }
@@ -67,7 +78,11 @@ fn the_scripts_do_what_the_reports_say() {
         let (place, options) = board.family.place();
         assert!(script.contains(place) && script.contains(&options.join(" ")), "{}: {place}", name);
         let (pack, options, _) = board.family.pack();
-        assert!(script.contains(&words(&format!("{pack} {}", options.join(" ")))), "{}: {pack}", name);
+        assert!(
+            script.contains(&words(&format!("{pack} {}", options.join(" ")))),
+            "{}: {pack}",
+            name
+        );
     }
 }
 
@@ -79,7 +94,10 @@ fn reports_of_boards_say_what_they_measured() {
         let report: BoardReport = serde_json::from_str(&read(&path)).expect("a report");
         assert_eq!(read(&path.replace(".json", ".md")), report.markdown(), "synth/run {}", name);
         let hash = sources::hash_of(&sources::board(board.target));
-        assert_eq!(report.sources, hash, "{name}: the Verilog or the pins have changed: run synth/run {name}");
+        assert_eq!(
+            report.sources, hash,
+            "{name}: the Verilog or the pins have changed: run synth/run {name}"
+        );
         assert_eq!(report.timings.len(), 5, "five seeds");
         assert_eq!(report.median_mhz, median(&report.timings));
         assert_eq!(report.limits, limits(&board, &report.used, report.median_mhz));

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Nothing of one pad's slot can change another's frame, whatever the inputs; and what would let it is found.
+//! Nothing of one pad's slot can change another's frame, whatever the inputs; and what would let it
+//! is found.
 
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::interpretations::netlist::{Module, Named, Netlist, Op};
 use hapticore_model::blocks::core::Core;
 use hapticore_synth::isolation::{Seen, State};
 
-/// A profile with slots as short as they may be: what happens within does not depend on their length.
+/// A profile with slots as short as they may be: what happens within does not depend on their
+/// length.
 fn short(mut profile: Profile) -> Profile {
     let samples = 4 * profile.samples_per_period().round() as u64;
     profile = profile.with_window(samples);
@@ -14,7 +16,12 @@ fn short(mut profile: Profile) -> Profile {
     profile.slot.settle = 0;
     while hapticore_model::check(&profile).is_err() {
         profile.slot.settle += 1;
-        assert!(profile.slot.settle < 10_000, "{}: {:?}", profile.name, hapticore_model::check(&profile));
+        assert!(
+            profile.slot.settle < 10_000,
+            "{}: {:?}",
+            profile.name,
+            hapticore_model::check(&profile)
+        );
     }
     profile
 }
@@ -34,13 +41,14 @@ enum Found {
     Open,
 }
 
-/// Follows the core for three rounds. Of the codes, those in the slots of `pad` are the same in both runs; the others are
-/// not, nor any in the pad's own slots if `own` is not set.
+/// Follows the core for three rounds. Of the codes, those in the slots of `pad` are the same in
+/// both runs; the others are not, nor any in the pad's own slots if `own` is not set.
 fn follow(netlist: &Netlist, profile: &Profile, pad: u64, own: bool) -> Found {
     let top: &Module = netlist.top();
     let mut state = State::new(netlist, top);
     state.calibrate(netlist, top, "map", "words");
-    let (strobe, code, write) = (place(&top.inputs, "strobe"), place(&top.inputs, "code"), place(&top.inputs, "write"));
+    let (strobe, code, write) =
+        (place(&top.inputs, "strobe"), place(&top.inputs, "code"), place(&top.inputs, "write"));
     let output = |name: &str| place(&top.outputs, name);
     let (valid, whose) = (output("valid"), output("pad"));
     let mut inputs = vec![Seen::Same; top.inputs.len()];
@@ -51,11 +59,15 @@ fn follow(netlist: &Netlist, profile: &Profile, pad: u64, own: bool) -> Found {
         for slot in 0..profile.pads {
             inputs[code] = if slot == pad && own { Seen::Same } else { Seen::Other };
             for clock in 0..profile.slot.samples() * profile.clocks_per_sample {
-                inputs[strobe] = Seen::Known(i64::from(clock.is_multiple_of(profile.clocks_per_sample)));
+                inputs[strobe] =
+                    Seen::Known(i64::from(clock.is_multiple_of(profile.clocks_per_sample)));
                 let outputs = state.clock(netlist, top, &inputs);
                 for schedule in ["valid", "index", "done", "pad", "serve", "closed", "channel"] {
                     let seen = outputs[output(schedule)];
-                    assert!(matches!(seen, Seen::Known(_)), "the schedule is known: {schedule} is {seen:?}");
+                    assert!(
+                        matches!(seen, Seen::Known(_)),
+                        "the schedule is known: {schedule} is {seen:?}"
+                    );
                 }
                 if outputs[valid] == Seen::Known(1) && outputs[whose] == Seen::Known(pad as i64) {
                     words += 1;
@@ -83,7 +95,12 @@ fn no_pad_reaches_anothers_frame() {
         for pad in 0..profile.pads {
             // The last pad's third frame comes after the third round.
             let frames = if pad == profile.pads - 1 { 2 } else { 3 };
-            assert_eq!(follow(&netlist, &profile, pad, true), Found::Own(8 * frames), "{}, pad {pad}", profile.name);
+            assert_eq!(
+                follow(&netlist, &profile, pad, true),
+                Found::Own(8 * frames),
+                "{}, pad {pad}",
+                profile.name
+            );
         }
     }
 }
@@ -125,7 +142,8 @@ fn keep(module: &mut Module) -> bool {
 
 /// Words held for a pad lie where every pad's do.
 fn mix(module: &mut Module) -> bool {
-    let inputs: Vec<_> = module.inputs.iter().filter(|input| input.name == "pad").map(|input| input.node).collect();
+    let inputs: Vec<_> =
+        module.inputs.iter().filter(|input| input.name == "pad").map(|input| input.node).collect();
     for node in &inputs {
         module.wires[node.0 as usize].op = Op::Constant(0);
     }
@@ -136,7 +154,10 @@ fn mix(module: &mut Module) -> bool {
 fn a_leak_is_found() {
     let profile = short(Profile::bundled("small").expect("bundled"));
     let netlist = netlist(&profile);
-    let leaks = [("demodulator", changed(&netlist, "demodulator", keep)), ("frames", changed(&netlist, "frames", mix))];
+    let leaks = [
+        ("demodulator", changed(&netlist, "demodulator", keep)),
+        ("frames", changed(&netlist, "frames", mix)),
+    ];
     for (name, leak) in leaks {
         let found = follow(&leak, &profile, 1, true);
         assert!(matches!(found, Found::Reached(..)), "{name}: {found:?}");

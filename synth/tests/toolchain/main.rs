@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What the tools make of the printed Verilog: proofs, cells, bitstreams, and the checks that users run.
+//! What the tools make of the printed Verilog: proofs, cells, bitstreams, and the checks that users
+//! run.
 //!
 //! One program: one to link instead of eight.
 

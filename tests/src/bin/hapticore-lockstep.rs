@@ -15,9 +15,11 @@ const USAGE: &str = "usage: hapticore-lockstep [--icarus] PROFILE FILE.v…\n\
 fn arguments(mut given: Vec<String>) -> Result<(Simulator, String, String), String> {
     let icarus = given.first().is_some_and(|first| first == "--icarus");
     let files = given.split_off(usize::from(icarus));
-    let (profile, files) = files.split_first().filter(|(_, files)| !files.is_empty()).ok_or(USAGE)?;
+    let (profile, files) =
+        files.split_first().filter(|(_, files)| !files.is_empty()).ok_or(USAGE)?;
     Profile::bundled(profile).map_err(|error| error.to_string())?;
-    let read = |path: &String| std::fs::read_to_string(path).map_err(|error| format!("{path}: {error}"));
+    let read =
+        |path: &String| std::fs::read_to_string(path).map_err(|error| format!("{path}: {error}"));
     let verilog: Result<String, String> = files.iter().map(read).collect();
     Ok((if icarus { Simulator::Icarus } else { Simulator::Verilator }, profile.clone(), verilog?))
 }

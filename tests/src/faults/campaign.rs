@@ -9,7 +9,8 @@ pub fn all() -> bool {
     std::env::var("FAULTS").is_ok_and(|which| which == "all")
 }
 
-/// The faults of a list, each as it is displayed on a line of its own under the reason (`#`) why it changes nothing.
+/// The faults of a list, each as it is displayed on a line of its own under the reason (`#`) why it
+/// changes nothing.
 pub fn equivalent(list: &str) -> BTreeSet<&str> {
     list.lines().filter(|line| !line.is_empty() && !line.starts_with('#')).collect()
 }

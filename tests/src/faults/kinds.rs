@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Kinds of faults: shapes of the printer (`rtl/src/verilog/{expression,fit}.rs`) and what becomes of them.
+//! Kinds of faults: shapes of the printer (`rtl/src/verilog/{expression,fit}.rs`) and what becomes
+//! of them.
 
 use std::sync::LazyLock;
 
@@ -8,7 +9,8 @@ use regex::{Captures, Regex};
 /// What is wrong.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Kind {
-    /// An operand is extended with zeros, taken as unsigned, added instead of subtracted, or the other way round.
+    /// An operand is extended with zeros, taken as unsigned, added instead of subtracted, or the
+    /// other way round.
     Sign,
     /// A word is a bit narrower, above or below, or wraps where it should be saturated.
     Width,
@@ -44,7 +46,11 @@ struct Rule {
 
 /// Each shape with what becomes of it, or nothing where it only looks like it.
 static RULES: LazyLock<Vec<Rule>> = LazyLock::new(|| {
-    let rule = |kind, shape, instead| Rule { kind, shape: Regex::new(shape).expect("an expression"), instead };
+    let rule = |kind, shape, instead| Rule {
+        kind,
+        shape: Regex::new(shape).expect("an expression"),
+        instead,
+    };
     vec![
         rule(Kind::Sign, r"\{\{(\d+)\{(\w+)\[\d+\]\}\}, (\w+)", |c| {
             (c[2] == c[3]).then(|| format!("{{{{{}{{1'b0}}}}, {}", &c[1], &c[3]))
@@ -54,8 +60,12 @@ static RULES: LazyLock<Vec<Rule>> = LazyLock::new(|| {
         rule(Kind::Sign, r" \+ ", |_| Some(" - ".into())),
         rule(Kind::Sign, r" - ", |_| Some(" + ".into())),
         rule(Kind::Rounding, r" \+ \{\d+'d0, \w+\[\d+\] & [^}]*\}", |_| Some(String::new())),
-        rule(Kind::Rounding, r"(\+ \{\d+'d0, \w+\[\d+\]) & [^}]*\}", |c| Some(format!("{}}}", &c[1]))),
-        rule(Kind::Width, r"\(\w+\[\d+:\d+\] == \{\d+\{\w+\[\d+\]\}\}\) \?", |_| Some("1'b1 ?".into())),
+        rule(Kind::Rounding, r"(\+ \{\d+'d0, \w+\[\d+\]) & [^}]*\}", |c| {
+            Some(format!("{}}}", &c[1]))
+        }),
+        rule(Kind::Width, r"\(\w+\[\d+:\d+\] == \{\d+\{\w+\[\d+\]\}\}\) \?", |_| {
+            Some("1'b1 ?".into())
+        }),
         rule(Kind::Width, r"\(\|\w+\[[\d:]+\]\) \?", |_| Some("1'b0 ?".into())),
         rule(Kind::Width, r"\w+\[\d+\] (\? \d+'d0 :)", |c| Some(format!("1'b0 {}", &c[1]))),
         rule(Kind::Latency, r" < ", |_| Some(" <= ".into())),
@@ -72,7 +82,8 @@ pub fn variants(expression: &str) -> Vec<Variant> {
         let faulty = |captures: Captures| {
             let whole = captures.get(0).expect("a match");
             let instead = (rule.instead)(&captures)?;
-            let text = format!("{}{instead}{}", &expression[..whole.start()], &expression[whole.end()..]);
+            let text =
+                format!("{}{instead}{}", &expression[..whole.start()], &expression[whole.end()..]);
             Some(Variant {
                 kind: rule.kind,
                 printed: whole.as_str().trim().into(),
@@ -102,7 +113,11 @@ mod tests {
         check(Kind::Sign, "left * right", "left * $unsigned(right)");
         check(Kind::Sign, "a - b", "a + b");
         check(Kind::Rounding, "p[30:15] + {15'd0, p[14] & (p[15] | (|p[13:0]))}", "p[30:15]");
-        check(Kind::Rounding, "p[30:15] + {15'd0, p[14] & (p[15] | (|p[13:0]))}", "p[30:15] + {15'd0, p[14]}");
+        check(
+            Kind::Rounding,
+            "p[30:15] + {15'd0, p[14] & (p[15] | (|p[13:0]))}",
+            "p[30:15] + {15'd0, p[14]}",
+        );
         check(Kind::Width, "(f[22:15] == {8{f[22]}}) ? f[15:0] : r", "1'b1 ? f[15:0] : r");
         check(Kind::Width, "(|f[18:17]) ? {17{1'b1}} : f[16:0]", "1'b0 ? {17{1'b1}} : f[16:0]");
         check(Kind::Width, "c[15] ? 15'd0 : c[14:0]", "1'b0 ? 15'd0 : c[14:0]");

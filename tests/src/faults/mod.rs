@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Deliberate faults in printed Verilog, to see that lock-step notices them.
 //!
-//! A [`Planted`] design holds every fault at once, each beside what was printed, and `+fault=N` on the command line of the
-//! simulator wakes number N: one compilation serves them all. Without a fault it is the printed design.
+//! A [`Planted`] design holds every fault at once, each beside what was printed, and `+fault=N` on
+//! the command line of the simulator wakes number N: one compilation serves them all. Without a
+//! fault it is the printed design.
 //!
 //! | file | does |
 //! | --- | --- |

@@ -27,19 +27,22 @@ impl Planted {
         Planted::with(design, &|_| true)
     }
 
-    /// As [`Planted::new`], with the same numbers, but only these are written: so it compiles and runs in a fraction of the time.
+    /// As [`Planted::new`], with the same numbers, but only these are written: so it compiles and
+    /// runs in a fraction of the time.
     pub fn with(design: &Design, written: &dyn Fn(usize) -> bool) -> Planted {
         let mut faults = Vec::new();
         let plant = |file: &File| Module::new(file, &mut faults, written).planted(&file.text);
         Planted { verilog: design.modules.iter().map(plant).collect(), faults }
     }
 
-    /// The Verilog of one module with those within it, as `alone`: Verilator takes no port with the name of the top module.
+    /// The Verilog of one module with those within it, as `alone`: Verilator takes no port with the
+    /// name of the top module.
     ///
     /// # Panics
     /// Where there is no such module.
     pub fn alone(&self, module: &str) -> String {
-        let (before, rest) = self.verilog.split_once(&format!("module {module} (")).expect("a module");
+        let (before, rest) =
+            self.verilog.split_once(&format!("module {module} (")).expect("a module");
         let (within, _) = rest.split_once("endmodule").expect("a module's end");
         format!("{before}module alone ({within}endmodule\n")
     }
@@ -60,11 +63,13 @@ struct Module<'a> {
 }
 
 /// What wakes a fault.
-const HEAD: &str = "\n    integer fault;\n    initial if (!$value$plusargs(\"fault=%d\", fault)) fault = 0;\n";
+const HEAD: &str =
+    "\n    integer fault;\n    initial if (!$value$plusargs(\"fault=%d\", fault)) fault = 0;\n";
 
 impl<'a> Module<'a> {
     fn new(file: &'a File, faults: &'a mut Vec<Fault>, written: &'a dyn Fn(usize) -> bool) -> Self {
-        let port = Regex::new(r"output wire ((?:signed )?(?:\[\d+:0\] )?)(\w+)").expect("an expression");
+        let port =
+            Regex::new(r"output wire ((?:signed )?(?:\[\d+:0\] )?)(\w+)").expect("an expression");
         let ranges = port.captures_iter(&file.text).map(|c| (c[2].into(), c[1].into())).collect();
         Module {
             name: &file.name,
@@ -79,7 +84,8 @@ impl<'a> Module<'a> {
 
     fn planted(&mut self, text: &str) -> String {
         let (head, body) = text.split_once("\n);\n").expect("a head");
-        let head = head.lines().filter(|line| !line.starts_with("//")).collect::<Vec<_>>().join("\n");
+        let head =
+            head.lines().filter(|line| !line.starts_with("//")).collect::<Vec<_>>().join("\n");
         let mut text = format!("{head}\n);\n{HEAD}");
         for statement in statements(body) {
             text += &self.statement(statement);
@@ -106,14 +112,16 @@ impl<'a> Module<'a> {
 
     /// A number for a fault, where it is written.
     fn number(&mut self, name: &str, kind: Kind, printed: &str, instead: &str) -> Option<usize> {
-        let [module, name, printed, instead] = [self.name, name, printed, instead].map(str::to_owned);
+        let [module, name, printed, instead] =
+            [self.name, name, printed, instead].map(str::to_owned);
         self.faults.push(Fault { module, name, kind, printed, instead });
         let number = self.faults.len();
         (self.written)(number).then_some(number)
     }
 
     fn numbered(&mut self, name: &str, variants: Vec<Variant>) -> Vec<(usize, String)> {
-        let mut number = |v: Variant| Some((self.number(name, v.kind, &v.printed, &v.instead)?, v.text));
+        let mut number =
+            |v: Variant| Some((self.number(name, v.kind, &v.printed, &v.instead)?, v.text));
         variants.into_iter().filter_map(&mut number).collect()
     }
 
@@ -138,10 +146,13 @@ impl<'a> Module<'a> {
 
     /// A register for the value of the clock before, and the value with that fault.
     fn late(&mut self, range: &str, name: &str) -> (String, String) {
-        let Some(number) = self.number(name, Kind::Latency, name, "the same of the clock before") else {
+        let Some(number) = self.number(name, Kind::Latency, name, "the same of the clock before")
+        else {
             return (String::new(), format!("{name}_true"));
         };
-        let register = format!("reg {range}{name}_late;\nalways @(posedge clock) {name}_late <= {name}_true;\n");
+        let register = format!(
+            "reg {range}{name}_late;\nalways @(posedge clock) {name}_late <= {name}_true;\n"
+        );
         (register, format!("fault == {number} ? {name}_late : {name}_true"))
     }
 
@@ -154,15 +165,18 @@ impl<'a> Module<'a> {
 
     fn register(&mut self, name: &str, value: &str) -> String {
         let numbered = self.numbered(name, variants(value));
-        let faulty =
-            numbered.into_iter().map(|(number, value)| format!("if (fault == {number}) {name} <= {value}; else "));
+        let faulty = numbered
+            .into_iter()
+            .map(|(number, value)| format!("if (fault == {number}) {name} <= {value}; else "));
         faulty.collect::<String>() + &format!("{name} <= {value};")
     }
 
     fn condition(&mut self, value: &str, rest: &str) -> String {
         let numbered = self.numbered(&format!("if ({value})"), variants(value));
-        let faulty: String =
-            numbered.into_iter().map(|(number, value)| format!("fault == {number} ? ({value}) : ")).collect();
+        let faulty: String = numbered
+            .into_iter()
+            .map(|(number, value)| format!("fault == {number} ? ({value}) : "))
+            .collect();
         let (before, behind) = rest.split_once('\n').expect("two sides");
         format!("{before} ({faulty}({value})) {behind}")
     }
@@ -175,11 +189,14 @@ impl<'a> Module<'a> {
         // A port that has an input's name has `_out` behind it, its wire has not.
         let driven = |(port, wire): &(&str, &str)| {
             let name = wire.strip_prefix(&self.instance).and_then(|rest| rest.strip_prefix('_'));
-            let output = name.is_some_and(|name| *port == name || port.strip_suffix("_out") == Some(name));
+            let output =
+                name.is_some_and(|name| *port == name || port.strip_suffix("_out") == Some(name));
             output && self.driven.contains(*wire)
         };
         let port = code.strip_prefix('.').and_then(|rest| rest.split_once('('));
-        let port = port.map(|(port, wire)| (port, wire.trim_end_matches(',').trim_end_matches(')'))).filter(driven);
+        let port = port
+            .map(|(port, wire)| (port, wire.trim_end_matches(',').trim_end_matches(')')))
+            .filter(driven);
         if port.is_some() { code.replace(')', "_true)") } else { code }
     }
 }

@@ -37,8 +37,14 @@ static SHAPES: LazyLock<Vec<(Regex, Reading)>> = LazyLock::new(|| {
             range: c[1].into(),
             name: c[2].into(),
         }),
-        (r"(?s)^assign (\w+) =\s+(.*);$", |c| Statement::Output { name: c[1].into(), value: c[2].into() }),
-        (r"(?s)^(\w+(?:\[.*\])?) <=\s+(.*);$", |c| Statement::Register { name: c[1].into(), value: c[2].into() }),
+        (r"(?s)^assign (\w+) =\s+(.*);$", |c| Statement::Output {
+            name: c[1].into(),
+            value: c[2].into(),
+        }),
+        (r"(?s)^(\w+(?:\[.*\])?) <=\s+(.*);$", |c| Statement::Register {
+            name: c[1].into(),
+            value: c[2].into(),
+        }),
         (r"^((?:end else )?if) \((.*)\) (begin|\w+\[.*;)$", |c| Statement::Condition {
             value: c[2].into(),
             rest: format!("{}\n{}", &c[1], &c[3]),
@@ -50,8 +56,8 @@ static SHAPES: LazyLock<Vec<(Regex, Reading)>> = LazyLock::new(|| {
 /// The text of a module, below its ports, as statements.
 ///
 /// # Panics
-/// Where a line computes something in a shape that is not known here, so that no operator is left out unseen. (What stands in
-/// the port list of an instance is left out.)
+/// Where a line computes something in a shape that is not known here, so that no operator is left
+/// out unseen. (What stands in the port list of an instance is left out.)
 pub fn statements(module: &str) -> Vec<Statement> {
     let mut all = Vec::new();
     let mut open = String::new();
@@ -80,7 +86,8 @@ fn read(code: &str) -> Statement {
     if code.starts_with("wire unused") || code.starts_with("if (reset)") {
         return Statement::Other(code.into());
     }
-    let found = SHAPES.iter().find_map(|(shape, of)| shape.captures(code).map(|captures| of(&captures)));
+    let found =
+        SHAPES.iter().find_map(|(shape, of)| shape.captures(code).map(|captures| of(&captures)));
     found.unwrap_or_else(|| {
         let plain = ["for (", "."].iter().any(|start| code.starts_with(start));
         assert!(
@@ -93,8 +100,10 @@ fn read(code: &str) -> Statement {
 
 /// What a module's wire `unused` names: `name[high:low]`, or a name.
 pub fn unused(module: &str) -> HashSet<String> {
-    let list = module.split_once("wire unused = &{1'b0, ").and_then(|(_, rest)| rest.split_once('}'));
-    list.map(|(list, _)| list.split(',').map(|part| part.trim().to_owned()).collect()).unwrap_or_default()
+    let list =
+        module.split_once("wire unused = &{1'b0, ").and_then(|(_, rest)| rest.split_once('}'));
+    list.map(|(list, _)| list.split(',').map(|part| part.trim().to_owned()).collect())
+        .unwrap_or_default()
 }
 
 #[cfg(test)]
@@ -104,9 +113,18 @@ mod tests {
     #[test]
     fn statements_are_told_apart() {
         let module = "    wire signed [3:0] a =\n        b ? c\n        : d; // s4.0\n    wire e; // u1.0\n    x <= a + b;\n    if (e) begin\n    assign y = x;\n    wire unused = &{1'b0, a[3], b};\n";
-        let [a, b, c, d, e, f] = &statements(module)[..] else { panic!("{:?}", statements(module)) };
+        let [a, b, c, d, e, f] = &statements(module)[..] else {
+            panic!("{:?}", statements(module))
+        };
         let text = str::to_owned;
-        assert_eq!(*a, Statement::Wire { range: text("signed [3:0] "), name: text("a"), value: text("b ? c\n: d") });
+        assert_eq!(
+            *a,
+            Statement::Wire {
+                range: text("signed [3:0] "),
+                name: text("a"),
+                value: text("b ? c\n: d")
+            }
+        );
         assert_eq!(*b, Statement::Driven { range: text(""), name: text("e") });
         assert_eq!(*c, Statement::Register { name: text("x"), value: text("a + b") });
         assert_eq!(*d, Statement::Condition { value: text("e"), rest: text("if\nbegin") });

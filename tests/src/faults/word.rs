@@ -3,8 +3,8 @@
 //!
 //! - A bit that the module's wire `unused` names, or a zero that is printed as one, is not missed.
 //! - An extension that does not reach the bits that are needed has no sign to lose.
-//! - Of a sum whose upper bits are not needed, the rest may be the same with the other sign: modulo 2^n, half of the range may
-//!   be added or subtracted.
+//! - Of a sum whose upper bits are not needed, the rest may be the same with the other sign: modulo
+//!   2^n, half of the range may be added or subtracted.
 //! - A product of unsigned words has no sign to lose.
 
 use std::collections::HashSet;
@@ -30,7 +30,14 @@ impl<'a> Word<'a> {
         let top = range.split(['[', ':']).nth(1).and_then(|top| top.parse().ok()).unwrap_or(0);
         let dead = |bit: u8| unused.iter().any(|part| has(part, name, bit));
         let above = (0..=top).rev().take_while(|&bit| dead(bit)).count() as u8;
-        Word { name, value, signed: range.starts_with("signed"), top, above, lowest_unused: dead(0) }
+        Word {
+            name,
+            value,
+            signed: range.starts_with("signed"),
+            top,
+            above,
+            lowest_unused: dead(0),
+        }
     }
 
     /// What drives it, with each of its faults.
@@ -54,7 +61,8 @@ impl<'a> Word<'a> {
         let Word { name, top, .. } = *self;
         let mut all = Vec::new();
         if top > 0 && self.above == 0 && !self.value.starts_with("{1'd0, ") {
-            let sign = if self.signed { format!("{name}_true[{}]", top - 1) } else { "1'b0".into() };
+            let sign =
+                if self.signed { format!("{name}_true[{}]", top - 1) } else { "1'b0".into() };
             all.push(format!("{{{sign}, {name}_true[{}:0]}}", top - 1));
         }
         if top > 0 && !self.lowest_unused && !self.value.ends_with("'d0}") {
@@ -67,7 +75,9 @@ impl<'a> Word<'a> {
 /// Whether a part of the wire `unused`, `name[high:low]` or `name[bit]`, has this bit.
 fn has(part: &str, name: &str, bit: u8) -> bool {
     let bits = part.strip_prefix(name).and_then(|rest| rest.strip_prefix('[')?.strip_suffix(']'));
-    let Some((high, low)) = bits.map(|bits| bits.split_once(':').unwrap_or((bits, bits))) else { return false };
+    let Some((high, low)) = bits.map(|bits| bits.split_once(':').unwrap_or((bits, bits))) else {
+        return false;
+    };
     matches!((low.parse::<u8>(), high.parse::<u8>()), (Ok(low), Ok(high)) if (low..=high).contains(&bit))
 }
 
@@ -78,7 +88,12 @@ mod tests {
     fn check(range: &str, value: &str, unused: &str, expected: &[&str]) {
         let unused = HashSet::from([unused.to_owned()]);
         let word = Word::new(range, "w", value, &unused);
-        let found: Vec<_> = word.variants().into_iter().map(|variant| variant.instead).chain(word.narrow()).collect();
+        let found: Vec<_> = word
+            .variants()
+            .into_iter()
+            .map(|variant| variant.instead)
+            .chain(word.narrow())
+            .collect();
         assert_eq!(found, expected, "{range}{value}");
     }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Lock-step of Verilog that somebody else has written, or changed: the model's traces against any files with the core's ports.
+//! Lock-step of Verilog that somebody else has written, or changed: the model's traces against any
+//! files with the core's ports.
 
 use super::verilator::{Start, Verilated};
 use super::{Bench, Mismatch, icarus};
@@ -14,7 +15,8 @@ pub enum Simulator {
     Icarus,
 }
 
-/// What the core is given, by name: a scene, random codes and calibrations, tones that fill every word.
+/// What the core is given, by name: a scene, random codes and calibrations, tones that fill every
+/// word.
 fn stimuli(bench: &Bench, simulator: Simulator) -> Vec<(&'static str, Stimulus)> {
     let profile = &bench.profile;
     let hockey = |slots| ("the scene hockey", stimulus::scene(profile, "hockey", slots));
@@ -26,16 +28,22 @@ fn stimuli(bench: &Bench, simulator: Simulator) -> Vec<(&'static str, Stimulus)>
     }
 }
 
-/// Runs Verilog with the ports of a profile's core, as text, on the model's traces: how many clocks were equal.
+/// Runs Verilog with the ports of a profile's core, as text, on the model's traces: how many clocks
+/// were equal.
 ///
 /// # Errors
 /// The first output that differs, and what the core was given.
 ///
 /// # Panics
 /// Where a tool fails, as with Verilog that it does not take.
-pub fn check(bench: &Bench, verilog: &str, simulator: Simulator) -> Result<usize, (&'static str, Mismatch)> {
+pub fn check(
+    bench: &Bench,
+    verilog: &str,
+    simulator: Simulator,
+) -> Result<usize, (&'static str, Mismatch)> {
     let (top, ports) = (bench.design.top(), &bench.design.ports);
-    let verilated = (simulator == Simulator::Verilator).then(|| Verilated::new(top, ports, verilog, Start::Zero));
+    let verilated = (simulator == Simulator::Verilator)
+        .then(|| Verilated::new(top, ports, verilog, Start::Zero));
     let mut clocks = 0;
     for (name, stimulus) in stimuli(bench, simulator) {
         let trace = bench.record(stimulus);

@@ -24,7 +24,10 @@ pub fn check(top: &str, verilog: &str, trace: &Trace) -> Result<(), Mismatch> {
     fs::write(at("design.v"), verilog).expect("written");
     fs::write(at("bench.v"), bench(top, &trace.ports)).expect("written");
     fs::write(at("trace.hex"), vectors(trace)).expect("written");
-    run(Command::new("iverilog").args(["-g2005", "-o", "bench", "design.v", "bench.v"]), folder.path());
+    run(
+        Command::new("iverilog").args(["-g2005", "-o", "bench", "design.v", "bench.v"]),
+        folder.path(),
+    );
     verdict(&run(Command::new("vvp").arg("bench"), folder.path()), trace)
 }
 
@@ -54,7 +57,10 @@ fn bench(top: &str, ports: &[Port]) -> String {
             let _ = writeln!(read, "            got = $fscanf(file, \"%h\", model_{name});");
             let _ = writeln!(compare, "            if ({name} !== model_{name}) begin");
             let log = format!("\"mismatch %0d {name} 0x%0h 0x%0h\", clocks, model_{name}, {name}");
-            let _ = writeln!(compare, "                $display({log});\n                $finish(0);\n            end");
+            let _ = writeln!(
+                compare,
+                "                $display({log});\n                $finish(0);\n            end"
+            );
         }
     }
     include_str!("icarus.v")

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Lock-step: a block's clocked model runs once and leaves a [`Trace`], every input and output at every clock; then its Verilog
-//! runs on the same inputs in a simulator, which stops at the first output that differs.
+//! Lock-step: a block's clocked model runs once and leaves a [`Trace`], every input and output at
+//! every clock; then its Verilog runs on the same inputs in a simulator, which stops at the first
+//! output that differs.
 //!
 //! | file | runs the Verilog in |
 //! | --- | --- |
@@ -49,7 +50,13 @@ fn verdict(log: &str, trace: &Trace) -> Result<(), Mismatch> {
             ["mismatch", clock, signal, model, verilog] => {
                 let clock: usize = clock.parse().expect("a clock");
                 let [signal, model, verilog] = [signal, model, verilog].map(str::to_owned);
-                return Err(Mismatch { clock, signal, model, verilog, inputs: trace.inputs(clock) });
+                return Err(Mismatch {
+                    clock,
+                    signal,
+                    model,
+                    verilog,
+                    inputs: trace.inputs(clock),
+                });
             }
             ["equal", clocks] => {
                 assert_eq!(clocks.parse(), Ok(trace.clocks()), "the simulator ran all clocks");

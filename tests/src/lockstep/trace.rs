@@ -15,8 +15,8 @@ pub struct Trace {
 }
 
 impl Trace {
-    /// Runs a block's clocked model from reset. The stimulus is told the outputs of the clock before, and gives the codes of
-    /// the inputs, or nothing at its end.
+    /// Runs a block's clocked model from reset. The stimulus is told the outputs of the clock
+    /// before, and gives the codes of the inputs, or nothing at its end.
     ///
     /// # Panics
     /// Where a code is not one of its port's format.
@@ -41,7 +41,9 @@ impl Trace {
                 Signal { value, format }
             });
             outputs.clear();
-            B::Outputs::each(block.clock(&mut state, signals), |_, signal| outputs.push(signal.value));
+            B::Outputs::each(block.clock(&mut state, signals), |_, signal| {
+                outputs.push(signal.value)
+            });
             codes.extend(&outputs);
         }
         Trace { ports, codes }
@@ -59,7 +61,11 @@ impl Trace {
 
     /// The inputs of a clock, by name.
     pub fn inputs(&self, clock: usize) -> String {
-        let inputs = self.ports.iter().zip(self.row(clock)).filter(|(port, _)| port.direction == Direction::Input);
+        let inputs = self
+            .ports
+            .iter()
+            .zip(self.row(clock))
+            .filter(|(port, _)| port.direction == Direction::Input);
         inputs.map(|(port, code)| format!("{} {code}", port.name)).collect::<Vec<_>>().join(", ")
     }
 

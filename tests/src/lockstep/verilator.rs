@@ -25,11 +25,11 @@ pub enum Speed {
 /// What a design holds before its first clock, where it does not say.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Start {
-    /// Zero, as registers of both FPGA families do. For printed Verilog: a register that starts with anything may write into a
-    /// memory at the clock that resets it.
+    /// Zero, as registers of both FPGA families do. For printed Verilog: a register that starts
+    /// with anything may write into a memory at the clock that resets it.
     Zero,
-    /// What Verilator makes up, the same at each run. For gates, whose registers say what they start with: read registers of
-    /// memories, inputs that a cell leaves open.
+    /// What Verilator makes up, the same at each run. For gates, whose registers say what they
+    /// start with: read registers of memories, inputs that a cell leaves open.
     Anything,
 }
 
@@ -39,7 +39,8 @@ pub struct Program {
 }
 
 impl Program {
-    /// Compiles a design given as Verilog text with `main`, the C++ around it, in which the design is the class `Vtop`.
+    /// Compiles a design given as Verilog text with `main`, the C++ around it, in which the design
+    /// is the class `Vtop`.
     ///
     /// # Panics
     /// Where a tool fails.
@@ -50,7 +51,15 @@ impl Program {
         let mut verilate = Command::new("verilator");
         let unknown = if speed == Speed::Run { "fast" } else { "unique" };
         verilate.args(["--cc", "-O3", "--x-assign", unknown, "--x-initial", unknown, "--noassert"]);
-        verilate.args(["-Wno-fatal", "-Wno-lint", "-Wno-style", "--top-module", top, "--prefix", "Vtop"]);
+        verilate.args([
+            "-Wno-fatal",
+            "-Wno-lint",
+            "-Wno-style",
+            "--top-module",
+            top,
+            "--prefix",
+            "Vtop",
+        ]);
         run(verilate.arg("--exe").arg(program.at("main.cpp")).arg("design.v"), &program.at(""));
         let optimise = if speed == Speed::Run { "-O3 -march=native" } else { "-O1" };
         let mut make = Command::new("make");
@@ -82,7 +91,10 @@ impl Verilated {
     /// # Panics
     /// Where a tool fails.
     pub fn new(top: &str, ports: &[Port], verilog: &str, start: Start) -> Verilated {
-        Verilated { program: Program::compile(top, &main(top, ports), verilog, Speed::Compile), start }
+        Verilated {
+            program: Program::compile(top, &main(top, ports), verilog, Speed::Compile),
+            start,
+        }
     }
 
     /// Runs a trace; the first mismatch, if there is one.
@@ -117,7 +129,9 @@ impl CompiledTrace<'_> {
         let Verilated { program, start } = self.verilated;
         let random = if *start == Start::Zero { 0 } else { 2 };
         let mut command = Command::new(program.path());
-        command.arg(self.file.path()).args(["+verilator+seed+1", &format!("+verilator+rand+reset+{random}")]);
+        command
+            .arg(self.file.path())
+            .args(["+verilator+seed+1", &format!("+verilator+rand+reset+{random}")]);
         verdict(&run(command.arg(format!("+fault={fault}")), &program.at("")), &self.trace)
     }
 }
@@ -130,7 +144,10 @@ fn main(top: &str, ports: &[Port]) -> String {
         let _ = match port.direction {
             Direction::Input => writeln!(give, "    top->{name} = row[{index}] & {mask}ull;"),
             Direction::Output => {
-                writeln!(compare, "    differ(clock, \"{name}\", row[{index}] & {mask}ull, top->{name} & {mask}ull);")
+                writeln!(
+                    compare,
+                    "    differ(clock, \"{name}\", row[{index}] & {mask}ull, top->{name} & {mask}ull);"
+                )
             }
         };
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How far the reference's `f64` can be from the equations, to first order in `u = 2^-53`: each operation rounds by `u` of its
-//! result, and what an operation makes of an operand's error is its condition number.
+//! How far the reference's `f64` can be from the equations, to first order in `u = 2^-53`: each
+//! operation rounds by `u` of its result, and what an operation makes of an operand's error is its
+//! condition number.
 //!
 //! | result | bound, in units of `u` | why |
 //! | --- | --- | --- |
@@ -15,8 +16,9 @@
 //! | V | half of m's, and 3, of V | `m = Σ w·h²/Σw` has `2n + 16` and 32 of `Σ h²/Σ w·h²` |
 //! | F | `2δ_C + δ_m + 5` of F | eq. 8 |
 //!
-//! The sums of n terms are bounded by n roundings though they behave as √n of them, so that a sum over 1000 samples is found
-//! well within its bound. What is bounded tightly is all that follows the sums.
+//! The sums of n terms are bounded by n roundings though they behave as √n of them, so that a sum
+//! over 1000 samples is found well within its bound. What is bounded tightly is all that follows
+//! the sums.
 
 use hapticore_contract::calibration::Calibration;
 use hapticore_contract::frame::Measurement;
@@ -26,7 +28,8 @@ use std::f64::consts::{PI, SQRT_2, TAU};
 
 /// One rounding of an `f64`, of its result.
 const U: f64 = 1.0 / (1u64 << 53) as f64;
-/// Roundings of a spline's value: weights, nine products, their sum; and of the place at which it is taken.
+/// Roundings of a spline's value: weights, nine products, their sum; and of the place at which it
+/// is taken.
 const SPLINE: f64 = 32.0;
 /// Roundings of a place, of the table's range.
 const PLACE: f64 = 6.0;
@@ -65,15 +68,19 @@ impl Sums {
 
     fn of_samples(profile: &Profile, codes: &[i32]) -> Sums {
         let (n, channels) = (profile.slot.integrate, profile.channels());
-        let turns = |m: u64| ((profile.slot.blanking() + m) * profile.carrier.periods % n) as f64 / n as f64;
+        let turns = |m: u64| {
+            ((profile.slot.blanking() + m) * profile.carrier.periods % n) as f64 / n as f64
+        };
         let window = |m: u64| match profile.carrier.window {
             Window::Hann => (PI * m as f64 / n as f64).sin().powi(2),
             Window::Rectangular => 1.0,
         };
         let weights: Vec<_> = (0..n).map(|m| (window(m), (TAU * turns(m)).sin_cos())).collect();
-        let (total, lsb) = (weights.iter().map(|weight| weight.0).sum::<f64>(), profile.formats.adc.lsb());
+        let (total, lsb) =
+            (weights.iter().map(|weight| weight.0).sum::<f64>(), profile.formats.adc.lsb());
         let sum = |channel: usize, of: &dyn Fn(f64, (f64, f64), f64) -> f64| -> f64 {
-            let samples = codes.iter().skip(channel).step_by(channels).map(|&code| f64::from(code) * lsb);
+            let samples =
+                codes.iter().skip(channel).step_by(channels).map(|&code| f64::from(code) * lsb);
             samples.zip(&weights).map(|(x, &(w, wave))| of(x, wave, w)).sum::<f64>() / total
         };
         let roundings = 2.0 * n as f64;
@@ -83,14 +90,17 @@ impl Sums {
             let (weighted, plain) = (part(&|x, _, w| w * x.abs()), part(&|x, _, _| x.abs()));
             ([i, q], SQRT_2 * ((roundings + 8.0) * weighted + 32.0 * plain) + 4.0 * i.hypot(q))
         };
-        let (squares, plain) = (sum(channels - 1, &|x, _, w| w * x * x), sum(channels - 1, &|x, _, _| x * x));
-        let mean_square = Rough { value: squares, error: (roundings + 16.0) * squares + 32.0 * plain };
+        let (squares, plain) =
+            (sum(channels - 1, &|x, _, w| w * x * x), sum(channels - 1, &|x, _, _| x * x));
+        let mean_square =
+            Rough { value: squares, error: (roundings + 16.0) * squares + 32.0 * plain };
         Sums { phasors: (0..channels - 1).map(phasor).collect(), mean_square }
     }
 }
 
-/// The bounds of a slot's quantities, in the order of [`super::QUANTITIES`]; the sheet's resistance and the haptic voltage in full
-/// scales. None at a place where the ratios do not tell places apart.
+/// The bounds of a slot's quantities, in the order of [`super::QUANTITIES`]; the sheet's resistance
+/// and the haptic voltage in full scales. None at a place where the ratios do not tell places
+/// apart.
 pub fn bounds(
     profile: &Profile,
     calibration: &Calibration,
@@ -104,10 +114,15 @@ pub fn bounds(
     let condition = calibration.position.condition(measurement.x_mm, measurement.y_mm)?;
     let position = profile.formats.position;
     let range = position.real(position.max_code() as i64);
-    let moved = |by: [f64; 2]| by[0].abs() * (ratios[0] + SPLINE) + by[1].abs() * (ratios[1] + SPLINE);
+    let moved =
+        |by: [f64; 2]| by[0].abs() * (ratios[0] + SPLINE) + by[1].abs() * (ratios[1] + SPLINE);
     let place = condition.place.map(|by| moved(by) + PLACE * range);
-    let sheet = Rough { value: measurement.sheet, error: moved(condition.sheet) + SPLINE * measurement.sheet.abs() };
-    let (total, sense) = (total(terminals), Rough { value: sense[0].0[0].hypot(sense[0].0[1]), error: sense[0].1 });
+    let sheet = Rough {
+        value: measurement.sheet,
+        error: moved(condition.sheet) + SPLINE * measurement.sheet.abs(),
+    };
+    let (total, sense) =
+        (total(terminals), Rough { value: sense[0].0[0].hypot(sense[0].0[1]), error: sense[0].1 });
     let eq6 = total.share() + sense.share() + 4.0;
     let capacitance = total.share() + under_square_root(profile, total, sense, sheet) / 2.0 + 5.0;
     let mean_square = sums.mean_square.share() + profile.haptic.windows as f64;
@@ -127,7 +142,10 @@ pub fn bounds(
 
 fn ratios(profile: &Profile, terminals: &[([f64; 2], f64)], ratios: [f64; 2]) -> [f64; 2] {
     let signs = profile.terminals.x.iter().zip(&profile.terminals.y);
-    let counted = signs.zip(terminals).filter(|((x, y), _)| **x != 0 || **y != 0).map(|(_, terminal)| terminal);
+    let counted = signs
+        .zip(terminals)
+        .filter(|((x, y), _)| **x != 0 || **y != 0)
+        .map(|(_, terminal)| terminal);
     let (mut sum, mut error, mut count) = (0.0, 0.0, 0.0);
     for ([i, q], of_one) in counted {
         (sum, error, count) = (sum + i.hypot(*q), error + of_one, count + 1.0);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The reference's own error: its `f64` against the same equations in double-double, on every quantity of a scene's slots, and a
-//! bound that is derived for each slot (`bound.rs`).
+//! The reference's own error: its `f64` against the same equations in double-double, on every
+//! quantity of a scene's slots, and a bound that is derived for each slot (`bound.rs`).
 //!
-//! Double-double is `xprec`'s `Df64`, of 104 bits or more in every operation that the reference uses; a test asks it. (`twofloat`
-//! 0.8.4 was tried: its quotients have 53 bits and its sines 66.) Codes, phasors and the calibration's numbers are taken as
-//! they are by both, so that the difference is the rounding of the evaluation alone.
+//! Double-double is `xprec`'s `Df64`, of 104 bits or more in every operation that the reference
+//! uses; a test asks it. (`twofloat` 0.8.4 was tried: its quotients have 53 bits and its sines 66.)
+//! Codes, phasors and the calibration's numbers are taken as they are by both, so that the
+//! difference is the rounding of the evaluation alone.
 
 mod bound;
 
@@ -98,10 +99,17 @@ impl Cores {
     }
 }
 
-fn read<T: Real>(reference: &mut Reference<T>, widened: fn(T) -> Df64, units: &Units, slot: &Slot) -> Read {
+fn read<T: Real>(
+    reference: &mut Reference<T>,
+    widened: fn(T) -> Df64,
+    units: &Units,
+    slot: &Slot,
+) -> Read {
     let measurement = match &slot.signals {
         Signals::Samples { .. } => reference.slot(slot.pad, slot.window()),
-        Signals::Phasors { amplitudes, mean_square } => reference.phasors(slot.pad, amplitudes, *mean_square),
+        Signals::Phasors { amplitudes, mean_square } => {
+            reference.phasors(slot.pad, amplitudes, *mean_square)
+        }
     };
     let measurement = measurement.map(widened);
     Read {
@@ -110,7 +118,8 @@ fn read<T: Real>(reference: &mut Reference<T>, widened: fn(T) -> Df64, units: &U
     }
 }
 
-/// Physical units; the conversion is none of the reference's, and has double-double's rounding alone.
+/// Physical units; the conversion is none of the reference's, and has double-double's rounding
+/// alone.
 struct Units {
     ohm: f64,
     haptic_v: f64,
@@ -119,12 +128,26 @@ struct Units {
 
 impl Units {
     fn new(profile: &Profile, scales: &Scales) -> Self {
-        Units { ohm: scales.ohm(), haptic_v: scales.haptic_full_scale_v, square_gain: profile.square_gain() }
+        Units {
+            ohm: scales.ohm(),
+            haptic_v: scales.haptic_full_scale_v,
+            square_gain: profile.square_gain(),
+        }
     }
 
     fn quantities(&self, r: &Measurement<Df64>, eq6: Df64) -> [Df64; QUANTITIES.len()] {
         let haptic_v = (r.mean_square / self.square_gain).sqrt() * self.haptic_v;
-        [r.r_x, r.r_y, r.x_mm, r.y_mm, r.capacitance_pf, eq6, r.sheet * self.ohm, haptic_v, r.force_n]
+        [
+            r.r_x,
+            r.r_y,
+            r.x_mm,
+            r.y_mm,
+            r.capacitance_pf,
+            eq6,
+            r.sheet * self.ohm,
+            haptic_v,
+            r.force_n,
+        ]
     }
 
     fn of_bounds(&self, mut bounds: [f64; QUANTITIES.len()]) -> [f64; QUANTITIES.len()] {
@@ -133,7 +156,8 @@ impl Units {
     }
 }
 
-/// The errors over at most about `slots` slots of a bundled scene, evenly spread over its cases, with the scene's own profile.
+/// The errors over at most about `slots` slots of a bundled scene, evenly spread over its cases,
+/// with the scene's own profile.
 ///
 /// # Panics
 /// Where there is no such scene.
@@ -165,15 +189,23 @@ impl Measured {
             let [single, double, exact] = cores.read(&units, &slot);
             self.contradictions += usize::from(double.measurement.flags != exact.measurement.flags);
             let own = [double.quantities[EQ6], double.quantities[HAPTIC]].map(f64::from);
-            let bounds = bounds(&case.profile, &calibration, &slot.signals, own, &double.measurement);
+            let bounds =
+                bounds(&case.profile, &calibration, &slot.signals, own, &double.measurement);
             match bounds.filter(|_| !double.measurement.flags.invalid) {
-                Some(bounds) => self.add([single, double, exact].map(|read| read.quantities), units.of_bounds(bounds)),
+                Some(bounds) => self.add(
+                    [single, double, exact].map(|read| read.quantities),
+                    units.of_bounds(bounds),
+                ),
                 None => self.left_out += 1,
             }
         }
     }
 
-    fn add(&mut self, [single, double, exact]: [[Df64; QUANTITIES.len()]; 3], bounds: [f64; QUANTITIES.len()]) {
+    fn add(
+        &mut self,
+        [single, double, exact]: [[Df64; QUANTITIES.len()]; 3],
+        bounds: [f64; QUANTITIES.len()],
+    ) {
         self.slots += 1;
         for (k, errors) in self.errors.iter_mut().enumerate() {
             let error = |got: Df64| f64::from((got - exact[k]).abs());
@@ -184,7 +216,8 @@ impl Measured {
 
 impl Errors {
     fn add(&mut self, value: f64, [double, single]: [f64; 2], bound: f64) {
-        // A quantity that is zero, such as the force without a haptic voltage, has no error and a bound of zero.
+        // A quantity that is zero, such as the force without a haptic voltage, has no error and a
+        // bound of zero.
         let share = |error: f64| if error == 0.0 { 0.0 } else { error / bound };
         self.value = self.value.max(value.abs());
         self.error = self.error.max(double);

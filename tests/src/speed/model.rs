@@ -15,7 +15,10 @@ use super::{Lap, ROTATED, Workload, moved};
 pub fn run(core: &Core, workload: &Workload) -> Lap {
     let mut state = core.reset();
     for &(address, word) in &workload.table {
-        core.clock(&mut state, signals(core, workload.constants.with_table(TablePort { write: 1, address, word })));
+        core.clock(
+            &mut state,
+            signals(core, workload.constants.with_table(TablePort { write: 1, address, word })),
+        );
     }
     let start = Instant::now();
     let sum = timed(core, &mut state, workload);

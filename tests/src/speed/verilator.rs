@@ -21,13 +21,18 @@ pub struct Verilated {
 }
 
 impl Verilated {
-    /// Compiles a core as fast as Verilator and the C++ compiler can make it, and leaves the workload beside it.
+    /// Compiles a core as fast as Verilator and the C++ compiler can make it, and leaves the
+    /// workload beside it.
     ///
     /// # Panics
     /// Where a tool fails.
     pub fn new(design: &Design, workload: &Workload) -> Verilated {
-        let program = Program::compile(design.top(), &main(design, workload), &design.text(), Speed::Run);
-        let table = workload.table.iter().flat_map(|&(address, word)| [address.to_le_bytes(), word.to_le_bytes()]);
+        let program =
+            Program::compile(design.top(), &main(design, workload), &design.text(), Speed::Run);
+        let table = workload
+            .table
+            .iter()
+            .flat_map(|&(address, word)| [address.to_le_bytes(), word.to_le_bytes()]);
         let samples = workload.samples.iter().flat_map(|code| code.to_le_bytes());
         fs::write(program.at("table.bin"), table.flatten().collect::<Vec<u8>>()).expect("written");
         fs::write(program.at("samples.bin"), samples.collect::<Vec<u8>>()).expect("written");
@@ -40,7 +45,10 @@ impl Verilated {
     /// Where the program fails.
     pub fn run(&self) -> Lap {
         let mut command = Command::new(self.program.path());
-        let log = run(command.args(["table.bin", "samples.bin", &self.passes.to_string()]), &self.program.at(""));
+        let log = run(
+            command.args(["table.bin", "samples.bin", &self.passes.to_string()]),
+            &self.program.at(""),
+        );
         let (seconds, sum) = log.trim().split_once(' ').expect("a time and a sum");
         Lap { seconds: seconds.parse().expect("a time"), sum: sum.parse().expect("a sum") }
     }
@@ -48,7 +56,9 @@ impl Verilated {
 
 /// The program around the core.
 fn main(design: &Design, workload: &Workload) -> String {
-    let width = |name: &str| design.ports.iter().find(|port| port.name == name).expect("a port").format.width;
+    let width = |name: &str| {
+        design.ports.iter().find(|port| port.name == name).expect("a port").format.width
+    };
     let mask = |name: &str| format!("{:#x}", bits(-1, width(name)));
     include_str!("verilator.cpp")
         .replace("@TOP@", design.top())

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The recording that `hapticore-host` is tested and shown with: what the host of a simulated iCEBreaker heard of `hockey`.
+//! The recording that `hapticore-host` is tested and shown with: what the host of a simulated
+//! iCEBreaker heard of `hockey`.
 //!
-//! Made anew by `RECORD=write cargo test --profile checked -p hapticore-tests --test board icebreaker_returns`.
+//! Made anew by `RECORD=write cargo test --profile checked -p hapticore-tests --test board
+//! icebreaker_returns`.
 
 use super::SLOTS;
 use hapticore_contract::profile::Profile;
@@ -13,7 +15,8 @@ use std::process::Command;
 /// So many bytes of the end: heartbeats, the first of them from its middle on, then the frames.
 pub const BYTES: usize = 400;
 
-/// Of the calibration's raster every tenth place along either axis: what reads frames needs its ends only.
+/// Of the calibration's raster every tenth place along either axis: what reads frames needs its
+/// ends only.
 const THINNED: usize = 10;
 
 fn file(name: &str) -> PathBuf {
@@ -46,14 +49,21 @@ fn frames(profile: &Profile) -> String {
     command.args(["simulate", "hockey", "--profile", &profile.name, "--out"]).arg(folder.path());
     assert!(command.output().expect("a run").status.success());
     let text = fs::read_to_string(folder.path().join("frames.csv")).expect("frames");
-    let columns = |line: &str| line.split(',').take(COLUMNS.len()).collect::<Vec<_>>().join(",") + "\n";
+    let columns =
+        |line: &str| line.split(',').take(COLUMNS.len()).collect::<Vec<_>>().join(",") + "\n";
     text.lines().take(1 + SLOTS).map(columns).collect()
 }
 
 fn thinned(device: &DeviceCalibration) -> DeviceCalibration {
     let columns = device.map.columns;
-    let is_kept = |k: usize| (k % columns).is_multiple_of(THINNED) && (k / columns).is_multiple_of(THINNED);
-    let places = device.map.places.iter().enumerate().filter(|(k, _)| is_kept(*k)).map(|(_, place)| *place);
-    let map = Raster { columns: columns.div_ceil(THINNED), places: places.collect(), ..device.map.clone() };
+    let is_kept =
+        |k: usize| (k % columns).is_multiple_of(THINNED) && (k / columns).is_multiple_of(THINNED);
+    let places =
+        device.map.places.iter().enumerate().filter(|(k, _)| is_kept(*k)).map(|(_, place)| *place);
+    let map = Raster {
+        columns: columns.div_ceil(THINNED),
+        places: places.collect(),
+        ..device.map.clone()
+    };
     DeviceCalibration { map, ..device.clone() }
 }

@@ -28,17 +28,29 @@ fn a_header_that_is_wrong() {
     csv("i1,i1,i3,i4,i5,i6,v_sense,v_haptic\n", &["bad.csv:1", "i1", "twice"]);
     csv(&format!("{ROW}\n"), &["bad.csv:1", "columns i1", "\"1\""]);
     csv(&format!("# bits = 33\n{HEADER}\n"), &["bad.csv:1", "bits", "2 to 32", "\"33\""]);
-    csv(&format!("# sample_rate_hz = fast\n{HEADER}\n"), &["bad.csv:1", "sample_rate_hz", "\"fast\""]);
-    csv(&format!("# sample_rate_hz = 500000\n{HEADER}\n{ROW}\n"), &["bad.csv", "sample_rate_hz", "1000000", "500000"]);
+    csv(
+        &format!("# sample_rate_hz = fast\n{HEADER}\n"),
+        &["bad.csv:1", "sample_rate_hz", "\"fast\""],
+    );
+    csv(
+        &format!("# sample_rate_hz = 500000\n{HEADER}\n{ROW}\n"),
+        &["bad.csv", "sample_rate_hz", "1000000", "500000"],
+    );
 }
 
 #[test]
 fn numbers_that_are_none() {
     for bad in ["NaN", "1.5", "", "99999999999999999999", "131072", "-131073", "0x10"] {
         let row = ROW.replace('3', bad);
-        csv(&format!("{HEADER}\n{ROW}\n{row}\n"), &["bad.csv:3", "i3", "integer code", &format!("\"{bad}\"")]);
+        csv(
+            &format!("{HEADER}\n{ROW}\n{row}\n"),
+            &["bad.csv:3", "i3", "integer code", &format!("\"{bad}\"")],
+        );
     }
-    csv(&format!("# bits = 8\n{HEADER}\n{}\n", ROW.replace('2', "128")), &["bad.csv:3", "i2", "-128 to 127"]);
+    csv(
+        &format!("# bits = 8\n{HEADER}\n{}\n", ROW.replace('2', "128")),
+        &["bad.csv:3", "i2", "-128 to 127"],
+    );
     csv(&format!("{HEADER}\n{}\n", ROW.replace(",0", ",x")), &["bad.csv:2", "pad", "\"x\""]);
 }
 
@@ -70,7 +82,11 @@ fn files_that_are_not_there_or_of_another_kind() {
     refuse(folder.path(), &["replay", "none.csv"], &["none.csv"]);
     refuse(folder.path(), &["replay", "none.mp3"], &["none.mp3", ".csv or .wav"]);
     for name in ["bad.wav", "empty.wav"] {
-        fs::write(folder.path().join(name), if name == "bad.wav" { "no waves here, only text" } else { "" }).unwrap();
+        fs::write(
+            folder.path().join(name),
+            if name == "bad.wav" { "no waves here, only text" } else { "" },
+        )
+        .unwrap();
         refuse(folder.path(), &["replay", name], &[name, "expected a WAV file"]);
     }
 }
@@ -78,7 +94,10 @@ fn files_that_are_not_there_or_of_another_kind() {
 #[test]
 fn wav_files_that_are_cut_short_or_too_fine() {
     let folder = tempfile::tempdir().unwrap();
-    finish(folder.path(), &["simulate", "hockey", "--capture", "h.wav", "--set", "duration_s=0.01"]);
+    finish(
+        folder.path(),
+        &["simulate", "hockey", "--capture", "h.wav", "--set", "duration_s=0.01"],
+    );
     let whole = fs::read(folder.path().join("h.wav")).unwrap();
     for length in [20, 60, 1000, whole.len() / 2, whole.len() - 1] {
         fs::write(folder.path().join("h.wav"), &whole[..length]).unwrap();
@@ -104,9 +123,18 @@ fn calibrations_that_are_none() {
         sense_full_scale_v = 8\nhaptic_full_scale_v = 600\nforce_k = 9.6e12\n[map]\n";
     calibration("", &["c.toml:1", "missing field"]);
     calibration("pads = 1\ncolour = 3\n", &["c.toml:2: colour"]);
-    calibration(&format!("pads = 0\n{DEVICE}columns = 2\nplaces = []\n"), &["c.toml", "pads", "1 to 256", "0"]);
-    calibration(&format!("pads = 1\n{DEVICE}columns = 2\nplaces = []\n"), &["c.toml", "map.columns"]);
+    calibration(
+        &format!("pads = 0\n{DEVICE}columns = 2\nplaces = []\n"),
+        &["c.toml", "pads", "1 to 256", "0"],
+    );
+    calibration(
+        &format!("pads = 1\n{DEVICE}columns = 2\nplaces = []\n"),
+        &["c.toml", "map.columns"],
+    );
     let nan = "[nan, 0.0, 0.0, 0.0, 0.0], ".repeat(4);
-    calibration(&format!("pads = 1\n{DEVICE}columns = 2\nplaces = [{nan}]\n"), &["c.toml", "map.places", "finite"]);
+    calibration(
+        &format!("pads = 1\n{DEVICE}columns = 2\nplaces = [{nan}]\n"),
+        &["c.toml", "map.places", "finite"],
+    );
     refuse(folder.path(), &["replay", "c.csv", "--calibration", "none.toml"], &["none.toml"]);
 }

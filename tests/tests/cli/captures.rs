@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Captures: what `simulate` saved, `replay` reads to the same frames; what another program wrote is read as meant.
+//! Captures: what `simulate` saved, `replay` reads to the same frames; what another program wrote
+//! is read as meant.
 
 use std::f64::consts::TAU;
 use std::fs;
@@ -20,7 +21,8 @@ fn check(scene: &str, capture: &str, args: &[&str], replay: &[&str]) {
     let simulate = [&["simulate", scene, "--capture", capture, "--out", "sim"], args].concat();
     finish(folder.path(), &simulate);
     expect(folder.path(), &[&["replay", capture, "--out", "rep"], replay].concat(), 0);
-    let [sim, rep] = ["sim", "rep"].map(|name| measured(&folder.path().join(name).join("frames.csv")));
+    let [sim, rep] =
+        ["sim", "rep"].map(|name| measured(&folder.path().join(name).join("frames.csv")));
     assert!(!sim.is_empty());
     assert!(sim == rep, "{scene}, {capture}: the same frames");
 }
@@ -39,14 +41,18 @@ fn a_wav_capture_replays_to_the_frames_of_the_simulation() {
 
 #[test]
 fn a_capture_of_another_profile_and_one_case_replays() {
-    let raster = ["--case", "500-ohm", "--profile", "small", "--set", "pad.0.position_mm.raster.nx=2"];
+    let raster =
+        ["--case", "500-ohm", "--profile", "small", "--set", "pad.0.position_mm.raster.nx=2"];
     check("fig3", "edge.wav", &raster, &["--profile", "small"]);
 }
 
 #[test]
 fn samples_after_the_last_whole_slot_are_reported_and_left_out() {
     let folder = tempfile::tempdir().unwrap();
-    finish(folder.path(), &["simulate", "hockey", "--capture", "h.csv", "--set", "duration_s=0.02"]);
+    finish(
+        folder.path(),
+        &["simulate", "hockey", "--capture", "h.csv", "--set", "duration_s=0.02"],
+    );
     let text = fs::read_to_string(folder.path().join("h.csv")).unwrap();
     let kept = 3 + 2 * 1700 + 77;
     let cut: String = text.split_inclusive('\n').take(kept).collect();
@@ -61,7 +67,8 @@ const CURRENTS: [f64; 6] = [0.05, 0.06, 0.08, 0.07, 0.04, 0.03];
 const SENSE: f64 = 0.625;
 const HAPTIC: f64 = 0.5;
 
-/// Writes three slots of sines, currents a quarter turn ahead of the voltage, as CSV of 18 bits and as WAV of 16 bits.
+/// Writes three slots of sines, currents a quarter turn ahead of the voltage, as CSV of 18 bits and
+/// as WAV of 16 bits.
 const SCRIPT: &str = "
 import math, struct, wave
 currents, sense, haptic = [CURRENTS], SENSE, HAPTIC
@@ -96,7 +103,8 @@ fn captures_written_by_another_program_are_read_as_meant() {
     }
 }
 
-/// Against the equations, worked out here; the nominal device has 4 mA, 8 V and 600 V at full scale.
+/// Against the equations, worked out here; the nominal device has 4 mA, 8 V and 600 V at full
+/// scale.
 fn check_sines(frames: &Table) {
     let near = |name: &str, expected: f64, tolerance: f64| {
         for got in frames.numbers(name) {
@@ -110,7 +118,12 @@ fn check_sines(frames: &Table) {
     near("r_x", (c + d - a - b) / total, 2e-4);
     near("r_y", (a + d + top - b - c - bottom) / total, 2e-4);
     near("haptic_v_rms", 600.0 * HAPTIC / 2f64.sqrt(), 0.05);
-    let (current, voltage, sheet) = (4e-3 * CURRENTS.iter().sum::<f64>(), 8.0 * SENSE, frames.numbers("sheet_ohm")[0]);
+    let (current, voltage, sheet) =
+        (4e-3 * CURRENTS.iter().sum::<f64>(), 8.0 * SENSE, frames.numbers("sheet_ohm")[0]);
     let drop = current * sheet;
-    near("capacitance_pf", 1e12 * current / (TAU * 101e3 * (voltage * voltage - drop * drop).sqrt()), 0.1);
+    near(
+        "capacitance_pf",
+        1e12 * current / (TAU * 101e3 * (voltage * voltage - drop * drop).sqrt()),
+        0.1,
+    );
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `hapticore codes`: whichever way they are printed, codes make the sensor of a core that `replay` has.
+//! `hapticore codes`: whichever way they are printed, codes make the sensor of a core that `replay`
+//! has.
 
 use std::fs;
 use std::path::Path;
@@ -17,12 +18,28 @@ use hapticore_tests::tools::{have, run};
 use crate::{Table, expect, finish, refuse};
 
 /// A device with four terminals and one pad, and samples of it.
-const DEVICE: [&str; 8] =
-    ["simulate", "minimal-sheet", "--set", "sheet.terminals=4", "--profile", "small", "--waves", "none"];
+const DEVICE: [&str; 8] = [
+    "simulate",
+    "minimal-sheet",
+    "--set",
+    "sheet.terminals=4",
+    "--profile",
+    "small",
+    "--waves",
+    "none",
+];
 const SLOTS: usize = 3;
 
 fn text(folder: &Path, format: &str) -> String {
-    let args = ["codes", "--profile", "small", "--calibration", "c.csv.calibration.toml", "--format", format];
+    let args = [
+        "codes",
+        "--profile",
+        "small",
+        "--calibration",
+        "c.csv.calibration.toml",
+        "--format",
+        format,
+    ];
     String::from_utf8(expect(folder, &args, 0).stdout).unwrap()
 }
 
@@ -38,7 +55,8 @@ fn from_csv(text: &str) -> Codes {
     let rows = text.lines().filter(|line| !line.starts_with('#')).skip(1);
     for row in rows.map(|line| line.split(',').collect::<Vec<_>>()) {
         let [name, address, code, value, format] = row[..] else { panic!("{row:?}") };
-        let (code, format): (i64, hapticore_hdl::format::Format) = (code.parse().unwrap(), format.parse().unwrap());
+        let (code, format): (i64, hapticore_hdl::format::Format) =
+            (code.parse().unwrap(), format.parse().unwrap());
         assert_eq!(value.parse::<f64>().unwrap(), format.real(code), "{row:?}");
         match address {
             "" => codes.constants.push((name.into(), code)),
@@ -55,7 +73,9 @@ fn from_header(text: &str) -> Codes {
     let number = |text: &str| text.parse::<i64>().ok();
     let words = |line: &str| line.split_whitespace().map(String::from).collect::<Vec<_>>();
     let mut constants = Vec::new();
-    for line in text.lines().map(words).filter(|line| line.first().is_some_and(|word| word == "#define")) {
+    for line in
+        text.lines().map(words).filter(|line| line.first().is_some_and(|word| word == "#define"))
+    {
         let name = line[1].trim_start_matches("HAPTICORE_").to_lowercase();
         constants.extend(line.get(2).and_then(|code| number(code)).map(|code| (name, code)));
     }
@@ -66,7 +86,8 @@ fn from_header(text: &str) -> Codes {
     Codes { constants, table }
 }
 
-/// A core that is written to through its ports, as a host does, and then given samples: the words of its frames.
+/// A core that is written to through its ports, as a host does, and then given samples: the words
+/// of its frames.
 fn frames(profile: &Profile, codes: &Codes, samples: &[Vec<i64>]) -> Vec<[i64; 8]> {
     let core = Core::new(profile);
     let formats = core.inputs();
@@ -77,7 +98,8 @@ fn frames(profile: &Profile, codes: &Codes, samples: &[Vec<i64>]) -> Vec<[i64; 8
     });
     let (mut state, mut asked, mut frames) = (core.reset(), 0, Vec::new());
     let mut clock = |inputs: Inputs<i64>, asked: &mut i64| {
-        let signals = Inputs::map(Inputs::zip(inputs, formats), |(value, format)| Signal { value, format });
+        let signals =
+            Inputs::map(Inputs::zip(inputs, formats), |(value, format)| Signal { value, format });
         let outputs = Outputs::map(core.clock(&mut state, signals), |signal| signal.value);
         *asked = outputs.channel;
         let port = outputs.frames;
@@ -89,11 +111,15 @@ fn frames(profile: &Profile, codes: &Codes, samples: &[Vec<i64>]) -> Vec<[i64; 8
         }
     };
     for (address, &word) in codes.table.iter().enumerate() {
-        clock(constants.with_table(TablePort { write: 1, address: address as i64, word }), &mut asked);
+        clock(
+            constants.with_table(TablePort { write: 1, address: address as i64, word }),
+            &mut asked,
+        );
     }
     for row in samples {
         for step in 0..profile.clocks_per_sample {
-            let inputs = Inputs { strobe: i64::from(step == 0), code: row[asked as usize], ..constants };
+            let inputs =
+                Inputs { strobe: i64::from(step == 0), code: row[asked as usize], ..constants };
             clock(inputs, &mut asked);
         }
     }
@@ -109,19 +135,24 @@ fn a_core_given_the_printed_codes_measures_what_replay_does() {
     let rows = capture.lines().filter(|line| !line.starts_with('#')).skip(1);
     let mut profile = Profile::bundled("small").unwrap();
     let rows = rows.take(SLOTS * profile.slot.samples() as usize);
-    let samples: Vec<Vec<i64>> = rows.map(|line| line.split(',').map(|code| code.parse().unwrap()).collect()).collect();
+    let samples: Vec<Vec<i64>> =
+        rows.map(|line| line.split(',').map(|code| code.parse().unwrap()).collect()).collect();
     expect(folder.path(), &["replay", "c.csv", "--profile", "small", "--out", "r"], 0);
     let replayed = Table::read(&folder.path().join("r/frames.csv"));
 
     let codes = from_csv(&text(folder.path(), "csv"));
     assert_eq!(codes.constants.len(), 2, "{:?}", codes.constants);
     assert_eq!(from_header(&text(folder.path(), "c")), codes);
-    (profile.terminals.x, profile.terminals.y, profile.pads) = (vec![-1, -1, 1, 1], vec![1, -1, -1, 1], 1);
+    (profile.terminals.x, profile.terminals.y, profile.pads) =
+        (vec![-1, -1, 1, 1], vec![1, -1, -1, 1], 1);
     let frames = frames(&profile, &codes, &samples);
     assert_eq!(frames.len(), SLOTS);
-    for (name, field) in
-        [("r_x", Field::RatioX), ("y_mm", Field::Y), ("capacitance_pf", Field::Capacitance), ("force_n", Field::Force)]
-    {
+    for (name, field) in [
+        ("r_x", Field::RatioX),
+        ("y_mm", Field::Y),
+        ("capacitance_pf", Field::Capacitance),
+        ("force_n", Field::Force),
+    ] {
         let lsb = field.format(&profile).lsb();
         let got: Vec<f64> = frames.iter().map(|frame| frame[field as usize] as f64 * lsb).collect();
         assert_eq!(got[..], replayed.numbers(name)[..SLOTS], "{name}");
@@ -159,7 +190,8 @@ fn verilog_reads_the_same_codes() {
     assert_eq!(read[..codes.table.len()], codes.table);
     // A constant without sign fills the word: it is the same bits.
     let modulus = 1i64 << width.parse::<u8>().unwrap();
-    let constants: Vec<_> = read[codes.table.len()..].iter().map(|code| code.rem_euclid(modulus)).collect();
+    let constants: Vec<_> =
+        read[codes.table.len()..].iter().map(|code| code.rem_euclid(modulus)).collect();
     assert_eq!(constants, codes.constants.iter().map(|(_, code)| *code).collect::<Vec<_>>());
 }
 
@@ -182,7 +214,11 @@ fn a_host_in_c_has_the_same_codes() {
     }
     fs::write(folder.path().join("codes.h"), text(folder.path(), "c")).unwrap();
     fs::write(folder.path().join("host.c"), HOST).unwrap();
-    run(Command::new("gcc").args(["-std=c99", "-Wall", "-Wextra", "-Werror", "-o", "host", "host.c"]), folder.path());
+    run(
+        Command::new("gcc")
+            .args(["-std=c99", "-Wall", "-Wextra", "-Werror", "-o", "host", "host.c"]),
+        folder.path(),
+    );
     let log = run(&mut Command::new(folder.path().join("host")), folder.path());
     let numbers: Vec<i64> = log.lines().map(|line| line.parse().unwrap()).collect();
     let codes = from_csv(&text(folder.path(), "csv"));
@@ -197,7 +233,12 @@ fn codes_say_what_they_are_of_and_are_refused_where_they_cannot_be() {
     finish(folder.path(), &[&DEVICE[..], &["--capture", "c.csv"]].concat());
     for format in ["csv", "readmemh", "c"] {
         let text = text(folder.path(), format);
-        for word in ["hapticore 0.", "Profile small (digest ", "4 terminals and 1 pads", "c.csv.calibration.toml"] {
+        for word in [
+            "hapticore 0.",
+            "Profile small (digest ",
+            "4 terminals and 1 pads",
+            "c.csv.calibration.toml",
+        ] {
             assert!(text.contains(word), "{format}: {word}");
         }
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Flags and warnings that a run promises: open terminals, pads at the edge, pads that touch, slow haptic voltages.
+//! Flags and warnings that a run promises: open terminals, pads at the edge, pads that touch, slow
+//! haptic voltages.
 
 use std::fs;
 use std::path::Path;
@@ -17,21 +18,32 @@ fn simulate(folder: &Path, scene: &str, args: &[&str]) -> Table {
     frames(folder, "o")
 }
 
-/// Each of the six terminals in turn loses its contact after the device was calibrated, wherever the pad is.
+/// Each of the six terminals in turn loses its contact after the device was calibrated, wherever
+/// the pad is.
 #[test]
 fn a_terminal_that_opens_after_calibration_is_told_in_every_frame() {
     let folder = tempfile::tempdir().unwrap();
     for profile in ["standard", "small"] {
         let common = ["simulate", "minimal-sheet", "--profile", profile, "--waves", "none"];
-        finish(folder.path(), &[&common[..], &["--out", "whole", "--capture", "whole.wav"]].concat());
-        let lost = |table: &Table| table.column("flags").iter().filter(|flags| flags.contains("lost")).count();
+        finish(
+            folder.path(),
+            &[&common[..], &["--out", "whole", "--capture", "whole.wav"]].concat(),
+        );
+        let lost = |table: &Table| {
+            table.column("flags").iter().filter(|flags| flags.contains("lost")).count()
+        };
         assert_eq!(lost(&frames(folder.path(), "whole")), 0, "{profile}");
         for terminal in 1..=6 {
             let open = format!("sheet.open=[{terminal}]");
-            finish(folder.path(), &[&common[..], &["--set", &open, "--out", "o", "--capture", "open.wav"]].concat());
-            let replay = ["replay", "open.wav", "--calibration", "whole.wav.calibration.toml", "--out", "r"];
+            finish(
+                folder.path(),
+                &[&common[..], &["--set", &open, "--out", "o", "--capture", "open.wav"]].concat(),
+            );
+            let replay =
+                ["replay", "open.wav", "--calibration", "whole.wav.calibration.toml", "--out", "r"];
             expect(folder.path(), &[&replay[..], &["--profile", profile]].concat(), 0);
-            // Once after a calibration of the whole device, and once although the device was calibrated so.
+            // Once after a calibration of the whole device, and once although the device was
+            // calibrated so.
             for run in ["r", "o"] {
                 let table = frames(folder.path(), run);
                 assert_eq!(lost(&table), table.rows.len(), "{profile}, terminal {terminal}, {run}");
@@ -43,11 +55,18 @@ fn a_terminal_that_opens_after_calibration_is_told_in_every_frame() {
 #[test]
 fn pads_over_the_edge_are_told() {
     let folder = tempfile::tempdir().unwrap();
-    for (place, expected) in [("400, 0", ""), ("425, 0", "at_edge"), ("0, -240", "at_edge"), ("-430, 250", "at_edge")] {
-        let scene =
-            format!("[[pad]]\nposition_mm = [{place}]\nover_edge = true\n[sheet]\n[carrier]\nrung = \"samples\"\n");
+    for (place, expected) in
+        [("400, 0", ""), ("425, 0", "at_edge"), ("0, -240", "at_edge"), ("-430, 250", "at_edge")]
+    {
+        let scene = format!(
+            "[[pad]]\nposition_mm = [{place}]\nover_edge = true\n[sheet]\n[carrier]\nrung = \"samples\"\n"
+        );
         let table = simulate(folder.path(), &scene, &[]);
-        assert!(table.column("flags").iter().all(|flags| *flags == expected), "{place}: {:?}", table.column("flags"));
+        assert!(
+            table.column("flags").iter().all(|flags| *flags == expected),
+            "{place}: {:?}",
+            table.column("flags")
+        );
         let truth = if expected.is_empty() { "0" } else { "1" };
         assert!(table.column("true_over_edge").iter().all(|over| *over == truth), "{place}");
     }
@@ -61,18 +80,28 @@ fn pads_that_touch_are_told() {
         position_mm = { line = { from_mm = [60, 0], to_mm = [10, 0], period_s = 0.1 } }\n\
         [sheet]\n[coupling]\n[carrier]\nrung = \"phasor\"\n";
     let table = simulate(folder.path(), scene, &[]);
-    let told = |name: &str, is: fn(&str) -> bool| table.column(name).into_iter().map(is).collect::<Vec<_>>();
-    let (told, truth) = (told("flags", |flags| flags.contains("touching")), told("true_touching", |flag| flag == "1"));
+    let told = |name: &str, is: fn(&str) -> bool| {
+        table.column(name).into_iter().map(is).collect::<Vec<_>>()
+    };
+    let (told, truth) = (
+        told("flags", |flags| flags.contains("touching")),
+        told("true_touching", |flag| flag == "1"),
+    );
     let differ = told.iter().zip(&truth).filter(|(told, truth)| told != truth).count();
     assert!(truth.contains(&true) && truth.contains(&false), "{truth:?}");
-    // A pad's place is a slot old where the other's is read, and pads that touch shift each other's.
+    // A pad's place is a slot old where the other's is read, and pads that touch shift each
+    // other's.
     assert!(differ <= 4 && told.last() == Some(&true), "{told:?}\n{truth:?}");
 }
 
 #[test]
 fn a_mean_over_windows_reads_a_slow_haptic_voltage() {
     let folder = tempfile::tempdir().unwrap();
-    let text = hapticore_contract::profile::BUNDLED.iter().find(|(name, _)| *name == "standard").unwrap().1;
+    let text = hapticore_contract::profile::BUNDLED
+        .iter()
+        .find(|(name, _)| *name == "standard")
+        .unwrap()
+        .1;
     for windows in [1, 16] {
         let own = text
             .replace("name = \"standard\"", "name = \"mine\"")

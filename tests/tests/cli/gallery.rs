@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The bundled scenes, whole: their criteria hold at every fidelity, `fixed` is `clock` on every frame, and nothing depends on
-//! the number of threads.
+//! The bundled scenes, whole: their criteria hold at every fidelity, `fixed` is `clock` on every
+//! frame, and nothing depends on the number of threads.
 
 use std::collections::HashMap;
 use std::fs;
@@ -20,12 +20,16 @@ fn simulate(folder: &Path, scene: &str, core: &str) -> Value {
     let output = expect(folder, &["simulate", scene, "--core", core, "--out", core, "--json"], 0);
     let summary: Value = serde_json::from_slice(&output.stdout).expect("JSON");
     let written = fs::read_to_string(folder.join(core).join("summary.json")).unwrap();
-    assert_eq!(summary, serde_json::from_str::<Value>(&written).unwrap(), "what is printed is what is written");
+    assert_eq!(
+        summary,
+        serde_json::from_str::<Value>(&written).unwrap(),
+        "what is printed is what is written"
+    );
     summary
 }
 
-/// Frames with a flag for which the true places give no reason: pads whose reach is not at the sheet's edge, pads that are not
-/// near each other, or any other flag.
+/// Frames with a flag for which the true places give no reason: pads whose reach is not at the
+/// sheet's edge, pads that are not near each other, or any other flag.
 fn unexpected_flags(table: &Table, summary: &Value) -> Vec<String> {
     const REACH_MM: f64 = 15.0;
     const NEAR_MM: f64 = 2.0;
@@ -44,8 +48,9 @@ fn unexpected_flags(table: &Table, summary: &Value) -> Vec<String> {
         let touching = others
             .map(|(_, other)| (at[0] - other[0]).hypot(at[1] - other[1]))
             .any(|distance| distance < 2.0 * REACH_MM + NEAR_MM);
-        let expected =
-            |flag: &str| matches!(flag, "") || flag == "at_edge" && at_edge || flag == "touching" && touching;
+        let expected = |flag: &str| {
+            matches!(flag, "") || flag == "at_edge" && at_edge || flag == "touching" && touching
+        };
         if !flags[k].split('+').all(expected) {
             unexpected.push(format!("frame {k}, pad {} at {at:?}: {}", pads[k], flags[k]));
         }
@@ -58,11 +63,15 @@ fn check(scene: &str) {
     let mut summary = Value::Null;
     for core in ["float", "fixed", "clock"] {
         summary = simulate(folder.path(), scene, core);
-        for key in ["scene", "profile", "fidelity", "effects", "simulated_seconds", "wall_seconds"] {
+        for key in ["scene", "profile", "fidelity", "effects", "simulated_seconds", "wall_seconds"]
+        {
             assert!(!summary[key].is_null(), "{scene}: {key}");
         }
         for criterion in summary["criteria"].as_array().expect("criteria") {
-            println!("{scene} {core}: {} {} of {}", criterion["name"], criterion["measured"], criterion["limit"]);
+            println!(
+                "{scene} {core}: {} {} of {}",
+                criterion["name"], criterion["measured"], criterion["limit"]
+            );
             assert_eq!(criterion["pass"], true, "{scene} {core}: {criterion}");
             assert_eq!(criterion["applicable"], true, "{scene} {core}: {criterion}");
         }
@@ -78,7 +87,9 @@ fn check(scene: &str) {
     let flagged = unexpected_flags(&table, &summary);
     assert!(flagged.is_empty(), "{scene}: {}", flagged.join("\n"));
     let report = fs::read_to_string(folder.path().join("fixed/report.html")).unwrap();
-    assert!(report.contains("<svg") && !report.contains("src=\"http") && !report.contains("<script"));
+    assert!(
+        report.contains("<svg") && !report.contains("src=\"http") && !report.contains("<script")
+    );
 }
 
 #[test]
@@ -92,7 +103,10 @@ fn results_do_not_depend_on_the_number_of_threads() {
     let folder = tempfile::tempdir().unwrap();
     let run = |threads: &str| {
         let args = ["simulate", "fig3", "--set", "pad.0.position_mm.raster.nx=4", "--out", threads];
-        let output = crate::command(folder.path(), &args).env("RAYON_NUM_THREADS", threads).output().unwrap();
+        let output = crate::command(folder.path(), &args)
+            .env("RAYON_NUM_THREADS", threads)
+            .output()
+            .unwrap();
         let log = String::from_utf8_lossy(&output.stderr);
         assert!(output.status.code().is_some_and(|code| code < 2), "{log}");
         fs::read(folder.path().join(threads).join("frames.csv")).unwrap()
@@ -130,7 +144,10 @@ fn rounding_moves_the_force_by_little() {
         for (profile, percent) in [("small", 0.5), ("standard", 0.05)] {
             let measured = force_error(folder.path(), scene, profile) / FORCE_FULL_SCALE_N * 100.0;
             println!("{scene} {profile}: {measured:.4} % of {FORCE_FULL_SCALE_N} N");
-            assert!(measured <= percent, "{scene} {profile}: {measured} % of full scale, at most {percent}");
+            assert!(
+                measured <= percent,
+                "{scene} {profile}: {measured} % of full scale, at most {percent}"
+            );
         }
     });
 }

@@ -34,7 +34,12 @@ fn command(folder: &Path, args: &[&str]) -> Command {
 fn expect(folder: &Path, args: &[&str], code: i32) -> Output {
     let output = hapticore(folder, args);
     let log = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(code), "{args:?}: {log}{}", String::from_utf8_lossy(&output.stdout));
+    assert_eq!(
+        output.status.code(),
+        Some(code),
+        "{args:?}: {log}{}",
+        String::from_utf8_lossy(&output.stdout)
+    );
     output
 }
 
@@ -46,7 +51,8 @@ fn finish(folder: &Path, args: &[&str]) -> Output {
     output
 }
 
-/// Runs the command and expects it to refuse: exit code 2, one line on standard error that holds all of `words`, and no folder.
+/// Runs the command and expects it to refuse: exit code 2, one line on standard error that holds
+/// all of `words`, and no folder.
 fn refuse(folder: &Path, args: &[&str], words: &[&str]) {
     let args = [args, &["--out", "results"]].concat();
     let output = expect(folder, &args, 2);
@@ -66,14 +72,19 @@ struct Table {
 
 impl Table {
     fn read(path: &Path) -> Table {
-        let text = fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+        let text =
+            fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
         let split = |line: &str| line.split(',').map(ToString::to_string).collect::<Vec<_>>();
         let mut lines = text.lines();
         Table { names: split(lines.next().expect("a header")), rows: lines.map(split).collect() }
     }
 
     fn column(&self, name: &str) -> Vec<&str> {
-        let index = self.names.iter().position(|known| known == name).unwrap_or_else(|| panic!("no column {name}"));
+        let index = self
+            .names
+            .iter()
+            .position(|known| known == name)
+            .unwrap_or_else(|| panic!("no column {name}"));
         self.rows.iter().map(|row| row[index].as_str()).collect()
     }
 

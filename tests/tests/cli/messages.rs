@@ -12,11 +12,15 @@ use crate::{expect, refuse};
 fn scenes_lists_every_bundled_scene() {
     let folder = tempfile::tempdir().unwrap();
     let text = String::from_utf8(expect(folder.path(), &["scenes"], 0).stdout).unwrap();
-    let json: Value = serde_json::from_slice(&expect(folder.path(), &["scenes", "--json"], 0).stdout).unwrap();
+    let json: Value =
+        serde_json::from_slice(&expect(folder.path(), &["scenes", "--json"], 0).stdout).unwrap();
     for (index, (name, _)) in gallery::all().iter().enumerate() {
         assert!(text.contains(name));
         assert_eq!(json[index]["name"], *name);
-        assert!(!json[index]["effects"].as_array().unwrap().is_empty() && json[index]["title"].is_string());
+        assert!(
+            !json[index]["effects"].as_array().unwrap().is_empty()
+                && json[index]["title"].is_string()
+        );
     }
 }
 
@@ -27,7 +31,16 @@ fn a_criterion_that_fails_is_exit_code_1_and_the_results_are_there() {
     fs::write(folder.path().join("strict.toml"), scene).unwrap();
     let log = expect(
         folder.path(),
-        &["simulate", "strict.toml", "--set", "dwell_slots=1", "--waves", "none", "--out", "out/strict"],
+        &[
+            "simulate",
+            "strict.toml",
+            "--set",
+            "dwell_slots=1",
+            "--waves",
+            "none",
+            "--out",
+            "out/strict",
+        ],
         1,
     )
     .stdout;
@@ -35,7 +48,11 @@ fn a_criterion_that_fails_is_exit_code_1_and_the_results_are_there() {
     for name in ["frames.csv", "summary.json", "report.html"] {
         assert!(folder.path().join("out/strict").join(name).exists(), "{name}");
     }
-    assert_eq!(fs::read_dir(folder.path().join("out/strict")).unwrap().count(), 3, "nothing else stays behind");
+    assert_eq!(
+        fs::read_dir(folder.path().join("out/strict")).unwrap().count(),
+        3,
+        "nothing else stays behind"
+    );
 }
 
 #[test]
@@ -44,7 +61,9 @@ fn a_run_says_first_which_effects_are_on() {
     let log = expect(folder.path(), &["simulate", "fig6", "--set", "dwell_slots=1"], 0).stdout;
     let log = String::from_utf8(log).unwrap();
     let line = log.lines().find(|line| line.starts_with("effects:")).expect("a line of effects");
-    for effect in ["sheet bicubic", "gap static", "friction coulomb", "carrier samples", "sensor.noise"] {
+    for effect in
+        ["sheet bicubic", "gap static", "friction coulomb", "carrier samples", "sensor.noise"]
+    {
         assert!(line.contains(effect), "{effect} in {line}");
     }
 }
@@ -55,7 +74,10 @@ fn bad_input_is_one_line() {
     let refuse = |args: &[&str], words: &[&str]| refuse(folder.path(), args, words);
     refuse(&["simulate", "fig5"], &["fig3", "hockey", "\"fig5\""]);
     refuse(&["simulate", "none.toml"], &["none.toml"]);
-    refuse(&["simulate", "fig6", "--set", "sheet.rung=marble"], &["fig6.toml", "--set sheet.rung", "marble"]);
+    refuse(
+        &["simulate", "fig6", "--set", "sheet.rung=marble"],
+        &["fig6.toml", "--set sheet.rung", "marble"],
+    );
     refuse(&["simulate", "fig6", "--profile", "huge"], &["standard", "\"huge\""]);
     refuse(&["simulate", "fig3", "--case", "best"], &["--case", "rest", "\"best\""]);
     refuse(&["simulate", "fig3", "--capture", "c.csv"], &["--capture", "one case", "--case"]);
@@ -64,10 +86,17 @@ fn bad_input_is_one_line() {
         &["simulate", "fig6", "--core", "clock", "--set", "carrier.rung=phasor"],
         &["fig6", "carrier.rung", "--set carrier.rung=samples"],
     );
-    refuse(&["simulate", "fig6", "--waves", "vcd", "--waves-window", "7..8"], &["--waves-window", "s"]);
+    refuse(
+        &["simulate", "fig6", "--waves", "vcd", "--waves-window", "7..8"],
+        &["--waves-window", "s"],
+    );
     fs::write(folder.path().join("bad.toml"), "name = \"x\"\npads = \"four\"\n").unwrap();
     refuse(&["simulate", "fig6", "--profile", "bad.toml"], &["bad.toml:2: pads", "four"]);
-    fs::write(folder.path().join("scene.toml"), "title = \"x\"\n[[pad]]\nposition_mm = [0, 0]\ncolour = 1\n").unwrap();
+    fs::write(
+        folder.path().join("scene.toml"),
+        "title = \"x\"\n[[pad]]\nposition_mm = [0, 0]\ncolour = 1\n",
+    )
+    .unwrap();
     refuse(&["simulate", "scene.toml"], &["scene.toml:4: ", "colour"]);
     fs::write(folder.path().join("file"), "").unwrap();
     let log = expect(folder.path(), &["simulate", "fig6", "--out", "file"], 2).stderr;
@@ -86,11 +115,23 @@ fn a_bad_scene_is_one_line_that_names_line_and_key() {
     };
     for (added, place) in [
         ("[magnet]\nrung = \"a\"", "bad.toml:4: magnet: unknown key"),
-        ("[gap]\nrung = \"marble\"", "bad.toml:5: gap.rung: expected one of \"static\", \"quasi-static\""),
+        (
+            "[gap]\nrung = \"marble\"",
+            "bad.toml:5: gap.rung: expected one of \"static\", \"quasi-static\"",
+        ),
         ("load = 20", "bad.toml:4: pad.0.load: expected load_g, since a key names its unit"),
-        ("[gap]\ninsulator_um = -8", "bad.toml:5: gap.insulator_um: expected a number above 0, got -8"),
-        ("load_g = { timeline = [] }", "bad.toml:4: pad.0.load_g.timeline: expected a list of pairs"),
-        ("load_g = { timeline = [[0, 1], [1, 2], [0, 1]] }", "bad.toml:4: pad.0.load_g.timeline: expected times that"),
+        (
+            "[gap]\ninsulator_um = -8",
+            "bad.toml:5: gap.insulator_um: expected a number above 0, got -8",
+        ),
+        (
+            "load_g = { timeline = [] }",
+            "bad.toml:4: pad.0.load_g.timeline: expected a list of pairs",
+        ),
+        (
+            "load_g = { timeline = [[0, 1], [1, 2], [0, 1]] }",
+            "bad.toml:4: pad.0.load_g.timeline: expected times that",
+        ),
         (
             "[gap]\nrung = \"tr-bdf2\"\nstep_us = 1500",
             "bad.toml:6: gap.step_us: expected at most 1000, since near the fold",
@@ -98,7 +139,10 @@ fn a_bad_scene_is_one_line_that_names_line_and_key() {
     ] {
         refuse(&format!("{PAD}{added}\n"), place);
     }
-    refuse(&PAD.replace("[0, 0]", "[500, 0]"), "bad.toml:3: pad.0.position_mm: expected the pad's centre within");
+    refuse(
+        &PAD.replace("[0, 0]", "[500, 0]"),
+        "bad.toml:3: pad.0.position_mm: expected the pad's centre within",
+    );
     for nonsense in ["%&@\u{0}\u{1b}[2J ", "[[[[", "é\n"] {
         refuse(&nonsense.repeat((1 << 20) / nonsense.len()), "bad.toml:1: ");
     }
@@ -108,7 +152,11 @@ fn a_bad_scene_is_one_line_that_names_line_and_key() {
 fn phasors_alone_do_for_slots() {
     let folder = tempfile::tempdir().unwrap();
     for core in ["float", "fixed"] {
-        expect(folder.path(), &["simulate", "fig6", "--core", core, "--set", "carrier.rung=phasor", "--errors"], 0);
+        expect(
+            folder.path(),
+            &["simulate", "fig6", "--core", core, "--set", "carrier.rung=phasor", "--errors"],
+            0,
+        );
     }
 }
 
@@ -116,8 +164,18 @@ fn phasors_alone_do_for_slots() {
 #[cfg(unix)]
 fn an_interrupted_run_leaves_nothing() {
     let folder = tempfile::tempdir().unwrap();
-    let args = ["simulate", "hockey", "--core", "clock", "--set", "duration_s=600", "--capture", "big.csv"];
-    let mut run = crate::command(folder.path(), &args).stdout(std::process::Stdio::null()).spawn().unwrap();
+    let args = [
+        "simulate",
+        "hockey",
+        "--core",
+        "clock",
+        "--set",
+        "duration_s=600",
+        "--capture",
+        "big.csv",
+    ];
+    let mut run =
+        crate::command(folder.path(), &args).stdout(std::process::Stdio::null()).spawn().unwrap();
     std::thread::sleep(std::time::Duration::from_millis(700));
     assert!(folder.path().join("out").exists(), "the run has begun");
     std::process::Command::new("kill").args(["-INT", &run.id().to_string()]).status().unwrap();

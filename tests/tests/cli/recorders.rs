@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Captures as other recorders write them: whatever the file is like, the same signal gives the same measurements, or a reason.
+//! Captures as other recorders write them: whatever the file is like, the same signal gives the
+//! same measurements, or a reason.
 //!
-//! The files are put together here byte by byte, after the formats' documents, without the command's own writers.
+//! The files are put together here byte by byte, after the formats' documents, without the
+//! command's own writers.
 
 use std::fs;
 use std::io::Write;
@@ -52,18 +54,32 @@ impl Wav {
         let block = (channels * self.bytes) as u16;
         let mut format = [0xfffe_u16, channels as u16].map(u16::to_le_bytes).concat();
         format.extend([self.rate, self.rate * u32::from(block)].map(u32::to_le_bytes).concat());
-        format.extend([block, 8 * self.bytes as u16, 22, self.valid, 0, 0, self.tag].map(u16::to_le_bytes).concat());
+        format.extend(
+            [block, 8 * self.bytes as u16, 22, self.valid, 0, 0, self.tag]
+                .map(u16::to_le_bytes)
+                .concat(),
+        );
         format.extend([0, 0, 0, 0, 0x10, 0, 0x80, 0, 0, 0xaa, 0, 0x38, 0x9b, 0x71]);
-        let body = [b"WAVE".to_vec(), self.before.clone(), chunk(b"fmt ", &format), chunk(b"data", samples)].concat();
+        let body = [
+            b"WAVE".to_vec(),
+            self.before.clone(),
+            chunk(b"fmt ", &format),
+            chunk(b"data", samples),
+        ]
+        .concat();
         chunk(b"RIFF", &body)
     }
 
     /// The file of the signal, its codes at the top of their containers.
     fn integers(&self, signal: &[[f64; CHANNELS]]) -> Vec<u8> {
-        let (full, shift) = (f64::from(1u32 << (self.valid - 1)), 8 * self.bytes - usize::from(self.valid));
+        let (full, shift) =
+            (f64::from(1u32 << (self.valid - 1)), 8 * self.bytes - usize::from(self.valid));
         let code = |part: &f64| ((part * full).round() as i64) << shift;
-        let samples: Vec<u8> =
-            signal.iter().flatten().flat_map(|part| code(part).to_le_bytes()[..self.bytes].to_vec()).collect();
+        let samples: Vec<u8> = signal
+            .iter()
+            .flatten()
+            .flat_map(|part| code(part).to_le_bytes()[..self.bytes].to_vec())
+            .collect();
         self.file(CHANNELS, &samples)
     }
 }
@@ -73,15 +89,20 @@ fn replay(folder: &Path, args: &[&str]) -> Table {
     Table::read(&folder.join("o/frames.csv"))
 }
 
-/// Against the measurements of a CSV capture of integer codes of so many bits, finer ones than the ADC's 18 rounded to these, half to even.
-/// Floats and volts are compared at 24 bits: a code may then be rounded otherwise.
+/// Against the measurements of a CSV capture of integer codes of so many bits, finer ones than the
+/// ADC's 18 rounded to these, half to even. Floats and volts are compared at 24 bits: a code may
+/// then be rounded otherwise.
 fn same(folder: &Path, args: &[&str], bits: u16) {
     let power = |bits: u16| f64::from(bits).exp2();
     let (full, coarser) = (power(bits - 1), power(bits.saturating_sub(18)));
     let tolerance = if bits == 24 { 1e-4 } else { 1e-12 };
     let text: String = signal(3, 1000.0)
         .iter()
-        .map(|row| row.map(|part| format!("{}", ((part * full).round() / coarser).round_ties_even())).join(",") + "\n")
+        .map(|row| {
+            row.map(|part| format!("{}", ((part * full).round() / coarser).round_ties_even()))
+                .join(",")
+                + "\n"
+        })
         .collect();
     fs::write(
         folder.join("plain.csv"),
@@ -93,7 +114,10 @@ fn same(folder: &Path, args: &[&str], bits: u16) {
     assert_eq!(got.rows.len(), 3, "{args:?}");
     for name in ["r_x", "r_y", "capacitance_pf", "haptic_v_rms"] {
         for (got, expected) in got.numbers(name).iter().zip(expected.numbers(name)) {
-            assert!((got / expected - 1.0).abs() < tolerance, "{args:?}: {name}: {got}, expected {expected}");
+            assert!(
+                (got / expected - 1.0).abs() < tolerance,
+                "{args:?}: {name}: {got}, expected {expected}"
+            );
         }
     }
 }
@@ -103,7 +127,11 @@ fn wav_of_any_width_is_read_as_meant() {
     let folder = tempfile::tempdir().unwrap();
     let signal = signal(3, 1000.0);
     for (bytes, valid) in [(2, 16), (3, 24), (4, 24), (4, 32), (3, 18), (4, 20)] {
-        fs::write(folder.path().join("c.wav"), Wav { bytes, valid, ..Wav::default() }.integers(&signal)).unwrap();
+        fs::write(
+            folder.path().join("c.wav"),
+            Wav { bytes, valid, ..Wav::default() }.integers(&signal),
+        )
+        .unwrap();
         same(folder.path(), &["c.wav"], valid);
     }
 }
@@ -112,10 +140,17 @@ fn wav_of_any_width_is_read_as_meant() {
 fn wav_of_floats_and_with_chunks_of_odd_size_is_read_as_meant() {
     let folder = tempfile::tempdir().unwrap();
     let signal = signal(3, 1000.0);
-    let singles: Vec<u8> = signal.iter().flatten().flat_map(|part| (*part as f32).to_le_bytes()).collect();
-    let doubles: Vec<u8> = signal.iter().flatten().flat_map(|part| (10.0 * part).to_le_bytes()).collect();
-    let float =
-        |bytes| Wav { tag: 3, bytes, valid: 8 * bytes as u16, before: chunk(b"LIST", b"odd"), ..Wav::default() };
+    let singles: Vec<u8> =
+        signal.iter().flatten().flat_map(|part| (*part as f32).to_le_bytes()).collect();
+    let doubles: Vec<u8> =
+        signal.iter().flatten().flat_map(|part| (10.0 * part).to_le_bytes()).collect();
+    let float = |bytes| Wav {
+        tag: 3,
+        bytes,
+        valid: 8 * bytes as u16,
+        before: chunk(b"LIST", b"odd"),
+        ..Wav::default()
+    };
     fs::write(folder.path().join("f.wav"), float(4).file(CHANNELS, &singles)).unwrap();
     same(folder.path(), &["f.wav"], 24);
     fs::write(folder.path().join("v.wav"), float(8).file(CHANNELS, &doubles)).unwrap();
@@ -128,10 +163,14 @@ fn wav_of_floats_and_with_chunks_of_odd_size_is_read_as_meant() {
 #[test]
 fn codes_at_the_bottom_of_their_samples_are_refused_until_they_are_named() {
     let folder = tempfile::tempdir().unwrap();
-    let codes = signal(3, 1000.0).into_iter().flatten().map(|part| (part * 8_388_608.0).round() as i32);
+    let codes =
+        signal(3, 1000.0).into_iter().flatten().map(|part| (part * 8_388_608.0).round() as i32);
     let bytes: Vec<u8> = codes.flat_map(i32::to_le_bytes).collect();
-    fs::write(folder.path().join("b.wav"), Wav { bytes: 4, valid: 24, ..Wav::default() }.file(CHANNELS, &bytes))
-        .unwrap();
+    fs::write(
+        folder.path().join("b.wav"),
+        Wav { bytes: 4, valid: 24, ..Wav::default() }.file(CHANNELS, &bytes),
+    )
+    .unwrap();
     refuse(folder.path(), &["replay", "b.wav"], &["b.wav: sample 1: i1", "--bits 24"]);
     same(folder.path(), &["b.wav", "--bits", "24"], 24);
 }
@@ -141,14 +180,22 @@ fn rf64_is_read_and_a_length_that_riff_cannot_hold_is_not() {
     let folder = tempfile::tempdir().unwrap();
     let mut file = Wav::default().integers(&signal(3, 1000.0));
     let samples = 3 * SLOT * CHANNELS * 3;
-    let sizes = [(file.len() + 28) as u64, samples as u64, (3 * SLOT) as u64].map(u64::to_le_bytes).concat();
+    let sizes = [(file.len() + 28) as u64, samples as u64, (3 * SLOT) as u64]
+        .map(u64::to_le_bytes)
+        .concat();
     let data = file.len() - samples - 4;
     file[data..data + 4].copy_from_slice(&[0xff; 4]);
-    let head =
-        [b"RF64".to_vec(), vec![0xff; 4], b"WAVE".to_vec(), chunk(b"ds64", &[sizes, vec![0; 4]].concat())].concat();
+    let head = [
+        b"RF64".to_vec(),
+        vec![0xff; 4],
+        b"WAVE".to_vec(),
+        chunk(b"ds64", &[sizes, vec![0; 4]].concat()),
+    ]
+    .concat();
     fs::write(folder.path().join("l.wav"), [head, file[12..].to_vec()].concat()).unwrap();
     same(folder.path(), &["l.wav"], 24);
-    // A file of more than 4 GiB, all but its head a hole, whose head is of RIFF: its size has wrapped.
+    // A file of more than 4 GiB, all but its head a hole, whose head is of RIFF: its size has
+    // wrapped.
     let path = folder.path().join("w.wav");
     fs::write(&path, Wav::default().integers(&signal(1, 1000.0))).unwrap();
     fs::File::options().write(true).open(&path).unwrap().set_len((1 << 32) + 100_000).unwrap();
@@ -171,7 +218,13 @@ fn sigmf_is_read_as_meant_or_refused_with_the_reason() {
     };
     let data = |bytes: Vec<u8>| fs::write(folder.path().join("c.sigmf-data"), bytes).unwrap();
     meta("ri16_le", "");
-    data(signal.iter().flatten().flat_map(|part| ((part * 32_768.0).round() as i16).to_le_bytes()).collect());
+    data(
+        signal
+            .iter()
+            .flatten()
+            .flat_map(|part| ((part * 32_768.0).round() as i16).to_le_bytes())
+            .collect(),
+    );
     same(folder.path(), &["c.sigmf-meta"], 16);
     meta("rf32_be", "");
     data(signal.iter().flatten().flat_map(|part| (*part as f32).to_be_bytes()).collect());
@@ -204,16 +257,24 @@ fn csv_in_volts_with_a_map_of_its_columns_is_read_as_meant() {
     )
     .unwrap();
     same(folder.path(), &["named.csv", "--channels", MAP], 24);
-    let refuse = |args: &[&str], words: &[&str]| refuse(folder.path(), &[&["replay"], args].concat(), words);
-    refuse(&["scope.csv", "--channels", MAP], &["scope.csv:1: i1", "integer code", "--full-scale-v"]);
+    let refuse =
+        |args: &[&str], words: &[&str]| refuse(folder.path(), &[&["replay"], args].concat(), words);
+    refuse(
+        &["scope.csv", "--channels", MAP],
+        &["scope.csv:1: i1", "integer code", "--full-scale-v"],
+    );
     refuse(&["scope.csv", "--channels", "i1,i2"], &["scope.csv:1", "--channels", "got 9"]);
-    refuse(&["scope.csv", "--channels", &MAP.replace("i2", "i1")], &["--channels", "i1 comes twice"]);
+    refuse(
+        &["scope.csv", "--channels", &MAP.replace("i2", "i1")],
+        &["--channels", "i1 comes twice"],
+    );
     refuse(&["scope.csv", "--channels", &MAP.replace("i2", "_")], &["--channels", "i2 is missing"]);
 }
 
 fn piped(folder: &Path, args: &[&str], bytes: &[u8]) -> Output {
     let mut run = crate::command(folder, &[&["replay", "-", "--out", "o"], args].concat());
-    let mut run = run.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let mut run =
+        run.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     run.stdin.take().unwrap().write_all(bytes).unwrap();
     run.wait_with_output().unwrap()
 }
@@ -230,11 +291,15 @@ fn standard_input_is_read_to_the_same_frames() {
     let output = piped(folder.path(), &[], &wav);
     assert_eq!(output.status.code(), Some(0), "{output:?}");
     assert!(Table::read(&folder.path().join("o/frames.csv")).rows == expected);
-    let output = piped(folder.path(), &["--channels", MAP, "--full-scale-v", "10"], volts().as_bytes());
+    let output =
+        piped(folder.path(), &["--channels", MAP, "--full-scale-v", "10"], volts().as_bytes());
     assert_eq!(output.status.code(), Some(0), "{output:?}");
     assert_eq!(Table::read(&folder.path().join("o/frames.csv")).rows.len(), 3);
     let output = piped(folder.path(), &[], b"");
-    assert!(String::from_utf8_lossy(&output.stderr).contains("standard input:1: expected a header"), "{output:?}");
+    assert!(
+        String::from_utf8_lossy(&output.stderr).contains("standard input:1: expected a header"),
+        "{output:?}"
+    );
 }
 
 #[test]
@@ -246,9 +311,15 @@ fn what_a_capture_cannot_mean_is_refused() {
         refuse(folder.path(), &["replay", "c.csv"], words);
     };
     let row = "1,2,3,4,5,6,7,8,0\n";
-    csv(format!("{header}{row}# sample_rate_hz = 500000\n{row}"), &["c.csv:3: sample_rate_hz", "before the header"]);
+    csv(
+        format!("{header}{row}# sample_rate_hz = 500000\n{row}"),
+        &["c.csv:3: sample_rate_hz", "before the header"],
+    );
     csv(format!("{header}{}", row.replace(",0\n", ",-1\n")), &["c.csv:2: pad", "\"-1\""]);
-    csv(format!("{header}{}", row.repeat(SLOT - 1)), &["c.csv", "one slot at least, 1700, got 1699"]);
+    csv(
+        format!("{header}{}", row.repeat(SLOT - 1)),
+        &["c.csv", "one slot at least, 1700, got 1699"],
+    );
     let mut bytes = vec![0u8; 9 * 3 * SLOT];
     bytes[24..27].copy_from_slice(&[0xff; 3]);
     let wav = |file: &Wav, bytes: &[u8], words: &[&str]| {
@@ -268,21 +339,45 @@ fn what_a_capture_cannot_mean_is_refused() {
 #[test]
 fn a_capture_without_calibration_says_so() {
     let folder = tempfile::tempdir().unwrap();
-    finish(folder.path(), &["simulate", "hockey", "--set", "duration_s=0.02", "--waves", "none", "--capture", "h.wav"]);
+    finish(
+        folder.path(),
+        &[
+            "simulate",
+            "hockey",
+            "--set",
+            "duration_s=0.02",
+            "--waves",
+            "none",
+            "--capture",
+            "h.wav",
+        ],
+    );
     let output = expect(folder.path(), &["replay", "h.wav", "--out", "o"], 0);
     assert!(output.stderr.is_empty(), "{output:?}");
     fs::rename(folder.path().join("h.wav.calibration.toml"), folder.path().join("c.toml")).unwrap();
     let output = expect(folder.path(), &["replay", "h.wav", "--out", "o", "--json"], 0);
     let log = String::from_utf8(output.stderr).unwrap();
-    assert!(log.contains("warning: h.wav: NO CALIBRATION") && log.contains("--calibration"), "{log}");
+    assert!(
+        log.contains("warning: h.wav: NO CALIBRATION") && log.contains("--calibration"),
+        "{log}"
+    );
     let summary = String::from_utf8(output.stdout).unwrap();
-    assert!(summary.contains("NO CALIBRATION") && summary.contains("\"calibration\": null"), "{summary}");
-    assert!(fs::read_to_string(folder.path().join("o/report.html")).unwrap().contains("NO CALIBRATION"));
+    assert!(
+        summary.contains("NO CALIBRATION") && summary.contains("\"calibration\": null"),
+        "{summary}"
+    );
+    assert!(
+        fs::read_to_string(folder.path().join("o/report.html")).unwrap().contains("NO CALIBRATION")
+    );
     // A calibration whose numbers the profile does not hold is named, with its field.
     let text = fs::read_to_string(folder.path().join("c.toml")).unwrap();
     let force = text.lines().find(|line| line.starts_with("force_k")).unwrap();
     fs::write(folder.path().join("c.toml"), text.replace(force, "force_k = 9.6e30")).unwrap();
-    refuse(folder.path(), &["replay", "h.wav", "--calibration", "c.toml"], &["c.toml", "force gain"]);
+    refuse(
+        folder.path(),
+        &["replay", "h.wav", "--calibration", "c.toml"],
+        &["c.toml", "force gain"],
+    );
 }
 
 #[test]
@@ -290,9 +385,15 @@ fn a_slow_haptic_voltage_in_a_capture_is_told() {
     let folder = tempfile::tempdir().unwrap();
     let log = |hz: f64| {
         fs::write(folder.path().join("c.wav"), Wav::default().integers(&signal(40, hz))).unwrap();
-        String::from_utf8(expect(folder.path(), &["replay", "c.wav", "--out", "o", "--pads", "1"], 0).stderr).unwrap()
+        String::from_utf8(
+            expect(folder.path(), &["replay", "c.wav", "--out", "o", "--pads", "1"], 0).stderr,
+        )
+        .unwrap()
     };
     assert!(!log(1000.0).contains("haptic_v_rms"));
     let slow = log(150.0);
-    assert!(slow.contains("haptic_v_rms") && slow.contains("150") && slow.contains("6668 samples"), "{slow}");
+    assert!(
+        slow.contains("haptic_v_rms") && slow.contains("150") && slow.contains("6668 samples"),
+        "{slow}"
+    );
 }

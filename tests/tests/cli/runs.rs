@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a run is made of and where it goes: keys that are set, criteria that do not apply, folders, frames, the summary.
+//! What a run is made of and where it goes: keys that are set, criteria that do not apply, folders,
+//! frames, the summary.
 
 use std::fs;
 use std::path::Path;
@@ -15,7 +16,8 @@ fn summary(folder: &Path) -> Value {
 /// `simulate fig6` with keys set; its summary.
 fn fig6(folder: &Path, set: &[&str]) -> Value {
     let set = set.iter().flat_map(|key| ["--set", key]);
-    let args: Vec<_> = ["simulate", "fig6", "--waves", "none", "--out", "o"].into_iter().chain(set).collect();
+    let args: Vec<_> =
+        ["simulate", "fig6", "--waves", "none", "--out", "o"].into_iter().chain(set).collect();
     finish(folder, &args);
     summary(&folder.join("o"))
 }
@@ -23,15 +25,29 @@ fn fig6(folder: &Path, set: &[&str]) -> Value {
 #[test]
 fn keys_of_the_whole_scene_can_be_set() {
     let folder = tempfile::tempdir().unwrap();
-    let set = ["seed=5", "title=mine", "figure=fig4", "record=[\"frames\"]", "profile=small", "window_samples=1200"];
+    let set = [
+        "seed=5",
+        "title=mine",
+        "figure=fig4",
+        "record=[\"frames\"]",
+        "profile=small",
+        "window_samples=1200",
+    ];
     let summary = fig6(folder.path(), &set);
     let values = ["seed", "title", "figure", "profile"].map(|key| summary[key].clone());
-    assert_eq!(values, [5.into(), "mine".into(), "fig4".into(), "small".into()].map(|value: Value| value));
+    assert_eq!(
+        values,
+        [5.into(), "mine".into(), "fig4".into(), "small".into()].map(|value: Value| value)
+    );
     let seconds = summary["simulated_seconds"].as_f64().unwrap();
     let other = fig6(folder.path(), &["profile=small"])["simulated_seconds"].as_f64().unwrap();
     assert!(seconds != other, "the window is another: {seconds} s, {other} s");
     refuse(folder.path(), &["simulate", "fig6", "--set", "sed=5"], &["--set sed", "unknown key"]);
-    refuse(folder.path(), &["simulate", "fig6", "--set", "seed=five"], &["--set seed", "an integer", "five"]);
+    refuse(
+        folder.path(),
+        &["simulate", "fig6", "--set", "seed=five"],
+        &["--set seed", "an integer", "five"],
+    );
 }
 
 #[test]
@@ -47,11 +63,16 @@ fn a_seed_makes_another_noise() {
 #[test]
 fn a_criterion_whose_condition_never_occurs_is_not_applicable() {
     let folder = tempfile::tempdir().unwrap();
-    let output = expect(folder.path(), &["simulate", "fig6", "--set", "pad.0.load_g=50", "--out", "o"], 0);
+    let output =
+        expect(folder.path(), &["simulate", "fig6", "--set", "pad.0.load_g=50", "--out", "o"], 0);
     let log = String::from_utf8(output.stdout).unwrap();
-    assert!(log.contains("not applicable") && !log.contains("NaN") && !log.contains("FAIL"), "{log}");
+    assert!(
+        log.contains("not applicable") && !log.contains("NaN") && !log.contains("FAIL"),
+        "{log}"
+    );
     let criteria = summary(&folder.path().join("o"))["criteria"].clone();
-    let applicable: Vec<_> = criteria.as_array().unwrap().iter().map(|one| one["applicable"].clone()).collect();
+    let applicable: Vec<_> =
+        criteria.as_array().unwrap().iter().map(|one| one["applicable"].clone()).collect();
     assert_eq!(applicable, [true, true, false, false]);
     let report = fs::read_to_string(folder.path().join("o/report.html")).unwrap();
     assert!(report.contains("2 of 2 criteria passed. 2 not applicable"), "the report says so");
@@ -70,7 +91,8 @@ fn no_run_overwrites_another() {
     finish(folder.path(), &[&short[..], &["--core", "float"]].concat());
     expect(folder.path(), &["replay", "hockey.wav"], 0);
     expect(folder.path(), &["replay", "hockey.wav", "--core", "clock"], 0);
-    let mut names: Vec<_> = fs::read_dir(folder.path().join("out")).unwrap().map(|e| e.unwrap().file_name()).collect();
+    let mut names: Vec<_> =
+        fs::read_dir(folder.path().join("out")).unwrap().map(|e| e.unwrap().file_name()).collect();
     names.sort();
     let expected = [
         "hockey-duration_s=0.02",
@@ -87,7 +109,10 @@ fn no_run_overwrites_another() {
 fn waves_of_an_earlier_run_do_not_stay() {
     let folder = tempfile::tempdir().unwrap();
     let run = |waves: &str| {
-        finish(folder.path(), &["simulate", "fig6", "--set", "dwell_slots=1", "--waves", waves, "--out", "o"]);
+        finish(
+            folder.path(),
+            &["simulate", "fig6", "--set", "dwell_slots=1", "--waves", waves, "--out", "o"],
+        );
         let mut names: Vec<String> = Vec::new();
         for entry in fs::read_dir(folder.path().join("o")).unwrap().flatten() {
             names.push(entry.file_name().into_string().unwrap());
@@ -99,8 +124,14 @@ fn waves_of_an_earlier_run_do_not_stay() {
     fs::write(folder.path().join("o/notes.txt"), "mine").unwrap();
     fs::write(folder.path().join("o/waves.txt"), "mine, too").unwrap();
     let names = run("fst");
-    assert!(names.contains(&"waves.fst".to_string()) && !names.contains(&"waves.vcd".to_string()), "{names:?}");
-    assert_eq!(run("none"), ["frames.csv", "notes.txt", "report.html", "summary.json", "waves.txt"]);
+    assert!(
+        names.contains(&"waves.fst".to_string()) && !names.contains(&"waves.vcd".to_string()),
+        "{names:?}"
+    );
+    assert_eq!(
+        run("none"),
+        ["frames.csv", "notes.txt", "report.html", "summary.json", "waves.txt"]
+    );
 }
 
 #[test]
@@ -113,7 +144,11 @@ fn a_capture_does_not_take_the_place_of_what_the_run_writes() {
         ("d.csv", ["d.csv", "there is a folder of this name"]),
         ("none/c.csv", ["none/c.csv", "No such file"]),
     ] {
-        refuse(folder.path(), &["simulate", "hockey", "--set", "duration_s=0.02", "--capture", capture], &words);
+        refuse(
+            folder.path(),
+            &["simulate", "hockey", "--set", "duration_s=0.02", "--capture", capture],
+            &words,
+        );
     }
 }
 
@@ -145,14 +180,27 @@ fn frames_name_case_and_settings() {
     );
     let (load, volts) = (table.numbers("set_load_g"), table.numbers("set_haptic_v_rms"));
     assert_eq!((load[0], volts[0], load[143], volts[143]), (20.0, 0.0, 100.0, 350.0));
-    assert_eq!(table.numbers("point"), (0..144).map(|slot| f64::from(slot / 2)).collect::<Vec<_>>());
+    assert_eq!(
+        table.numbers("point"),
+        (0..144).map(|slot| f64::from(slot / 2)).collect::<Vec<_>>()
+    );
 }
 
 #[test]
 fn a_summary_tells_how_to_repeat_the_run() {
     let folder = tempfile::tempdir().unwrap();
-    let set = ["--set", "pad.0.position_mm.raster.nx=3", "--set", "sheet.terminal_ohm=300", "--set", "seed=9"];
-    finish(folder.path(), &[&["simulate", "fig3", "--case", "500-ohm", "--out", "o"], &set[..]].concat());
+    let set = [
+        "--set",
+        "pad.0.position_mm.raster.nx=3",
+        "--set",
+        "sheet.terminal_ohm=300",
+        "--set",
+        "seed=9",
+    ];
+    finish(
+        folder.path(),
+        &[&["simulate", "fig3", "--case", "500-ohm", "--out", "o"], &set[..]].concat(),
+    );
     let first = summary(&folder.path().join("o"));
     assert_eq!(first["version"], env!("CARGO_PKG_VERSION"));
     assert_eq!(
@@ -160,7 +208,8 @@ fn a_summary_tells_how_to_repeat_the_run() {
         (Some(9), serde_json::json!(["sheet.terminal_ohm", "300"]))
     );
     assert_eq!(first["command"].as_array().unwrap()[1..3], ["simulate", "fig3"]);
-    let commit = first["commit"].as_str().expect("built from a repository").trim_end_matches("-modified");
+    let commit =
+        first["commit"].as_str().expect("built from a repository").trim_end_matches("-modified");
     assert!(commit.len() == 40 && commit.bytes().all(|byte| byte.is_ascii_hexdigit()), "{commit}");
     let scene = first["resolved_scene"]["500-ohm"].as_str().expect("the case as a scene");
     assert!(scene.contains("terminal_ohm = 300") && !scene.contains("[[case]]"), "{scene}");
@@ -169,14 +218,17 @@ fn a_summary_tells_how_to_repeat_the_run() {
     let again = summary(&folder.path().join("a"));
     let names = |summary: &Value| {
         let criteria = summary["criteria"].as_array().unwrap();
-        criteria.iter().map(|one| (one["name"].clone(), one["measured"].clone())).collect::<Vec<_>>()
+        criteria
+            .iter()
+            .map(|one| (one["name"].clone(), one["measured"].clone()))
+            .collect::<Vec<_>>()
     };
     let frames = |name: &str| {
         let table = Table::read(&folder.path().join(name).join("frames.csv"));
         table.rows.into_iter().map(|row| row[..21].to_vec()).collect::<Vec<_>>()
     };
-    let [x, y] =
-        [frames("o"), frames("a")].map(|rows| rows.into_iter().map(|row| row[12..].to_vec()).collect::<Vec<_>>());
+    let [x, y] = [frames("o"), frames("a")]
+        .map(|rows| rows.into_iter().map(|row| row[12..].to_vec()).collect::<Vec<_>>());
     assert!(x == y, "the same truth");
     assert_eq!(names(&first).len(), names(&again).len(), "the same criteria");
 }
@@ -187,13 +239,23 @@ fn a_haptic_voltage_too_slow_for_the_window_is_told_with_its_cure() {
     let run = |set: &[&str]| {
         let set = set.iter().flat_map(|key| ["--set", key]);
         let args = ["simulate", "fig6", "--waves", "none", "--out", "o", "--set", "dwell_slots=1"];
-        String::from_utf8(finish(folder.path(), &args.into_iter().chain(set).collect::<Vec<_>>()).stderr).unwrap()
+        String::from_utf8(
+            finish(folder.path(), &args.into_iter().chain(set).collect::<Vec<_>>()).stderr,
+        )
+        .unwrap()
     };
     assert_eq!(run(&[]), "", "1 kHz is quick enough");
     let log = run(&["carrier.haptic_hz=200"]);
-    assert!(log.starts_with("warning: haptic_v_rms") && log.contains("5000 samples (window_samples"), "{log}");
+    assert!(
+        log.starts_with("warning: haptic_v_rms") && log.contains("5000 samples (window_samples"),
+        "{log}"
+    );
     assert!(summary(&folder.path().join("o"))["warnings"][0].as_str().unwrap().contains("200 Hz"));
-    assert!(fs::read_to_string(folder.path().join("o/report.html")).unwrap().contains("class=\"warning\""));
+    assert!(
+        fs::read_to_string(folder.path().join("o/report.html"))
+            .unwrap()
+            .contains("class=\"warning\"")
+    );
     assert_eq!(run(&["carrier.haptic_hz=200", "window_samples=5000"]), "", "the cure");
     assert_eq!(run(&["carrier.haptic_hz=200", "pad.0.haptic_v_rms=0"]), "", "nothing alternates");
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Standard output that is closed or full, signals, full disks: nothing is lost, nothing stays behind, every message says where.
+//! Standard output that is closed or full, signals, full disks: nothing is lost, nothing stays
+//! behind, every message says where.
 #![cfg(unix)]
 
 use std::fs;
@@ -14,7 +15,12 @@ const SHORT: &str = "simulate hockey --set duration_s=0.02 --waves none --out o"
 /// Runs a line of shell in which `$H` is the command.
 fn shell(folder: &Path, line: &str) -> Output {
     let command = env!("CARGO_BIN_EXE_hapticore-command");
-    Command::new("sh").args(["-c", line]).env("H", command).current_dir(folder).output().expect("a shell")
+    Command::new("sh")
+        .args(["-c", line])
+        .env("H", command)
+        .current_dir(folder)
+        .output()
+        .expect("a shell")
 }
 
 fn frames(folder: &Path) -> usize {
@@ -25,7 +31,11 @@ fn frames(folder: &Path) -> usize {
 fn a_reader_that_goes_loses_no_run() {
     let folder = tempfile::tempdir().unwrap();
     let args = SHORT.split(' ').collect::<Vec<_>>();
-    let mut run = crate::command(folder.path(), &args).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let mut run = crate::command(folder.path(), &args)
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
     drop(run.stdout.take());
     let output = run.wait_with_output().unwrap();
     assert!(output.status.code().is_some_and(|code| code < 2), "{output:?}");
@@ -38,11 +48,18 @@ fn a_full_standard_output_is_an_error_and_loses_no_run() {
     for line in [&format!("$H {SHORT}"), "$H scenes", "$H scenes --json", "$H hdl --out v"] {
         let output = shell(folder.path(), &format!("{line} > /dev/full"));
         let log = String::from_utf8_lossy(&output.stderr);
-        assert!(output.status.code() == Some(2) && log.starts_with("error: standard output: "), "{line}: {output:?}");
+        assert!(
+            output.status.code() == Some(2) && log.starts_with("error: standard output: "),
+            "{line}: {output:?}"
+        );
     }
     assert_eq!(frames(folder.path()), 11);
     let output = shell(folder.path(), "$H simulate fig5 2> /dev/full");
-    assert_eq!(output.status.code(), Some(2), "a full standard error does not change how a run ends");
+    assert_eq!(
+        output.status.code(),
+        Some(2),
+        "a full standard error does not change how a run ends"
+    );
 }
 
 fn partials(folder: &Path) -> usize {
@@ -52,7 +69,16 @@ fn partials(folder: &Path) -> usize {
 
 /// Starts a long run, sends it a signal when it writes, and gives how it ended.
 fn signalled(folder: &Path, signal: &str) -> Option<i32> {
-    let args = ["simulate", "hockey", "--core", "clock", "--set", "duration_s=600", "--capture", "big.csv"];
+    let args = [
+        "simulate",
+        "hockey",
+        "--core",
+        "clock",
+        "--set",
+        "duration_s=600",
+        "--capture",
+        "big.csv",
+    ];
     let mut run = crate::command(folder, &args).stdout(Stdio::null()).spawn().unwrap();
     while partials(folder) == 0 {
         std::thread::sleep(Duration::from_millis(20));
@@ -67,7 +93,11 @@ fn a_run_that_is_told_to_stop_leaves_nothing() {
     for signal in ["-TERM", "-HUP"] {
         let folder = tempfile::tempdir().unwrap();
         assert_eq!(signalled(folder.path(), signal), Some(130), "{signal}");
-        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0, "{signal}: nothing stays behind");
+        assert_eq!(
+            fs::read_dir(folder.path()).unwrap().count(),
+            0,
+            "{signal}: nothing stays behind"
+        );
     }
 }
 
@@ -75,13 +105,36 @@ fn a_run_that_is_told_to_stop_leaves_nothing() {
 fn what_a_killed_run_left_is_cleared_and_what_a_living_one_writes_is_not() {
     let folder = tempfile::tempdir().unwrap();
     assert_eq!(signalled(folder.path(), "-KILL"), None);
-    let out = fs::read_dir(folder.path().join("out")).unwrap().flatten().next().expect("its folder").path();
+    let out = fs::read_dir(folder.path().join("out"))
+        .unwrap()
+        .flatten()
+        .next()
+        .expect("its folder")
+        .path();
     assert_eq!((partials(folder.path()), partials(&out)), (1, 1), "a killed run cannot clear up");
-    let args = ["simulate", "hockey", "--core", "clock", "--set", "duration_s=600", "--capture", "other.csv"];
+    let args = [
+        "simulate",
+        "hockey",
+        "--core",
+        "clock",
+        "--set",
+        "duration_s=600",
+        "--capture",
+        "other.csv",
+    ];
     let mut living = crate::command(folder.path(), &args).stdout(Stdio::null()).spawn().unwrap();
     std::thread::sleep(Duration::from_millis(1500));
-    let short =
-        ["simulate", "hockey", "--waves", "none", "--set", "duration_s=0.02", "--capture", "short.csv", "--out"];
+    let short = [
+        "simulate",
+        "hockey",
+        "--waves",
+        "none",
+        "--set",
+        "duration_s=0.02",
+        "--capture",
+        "short.csv",
+        "--out",
+    ];
     let output = crate::hapticore(folder.path(), &[&short[..], &[out.to_str().unwrap()]].concat());
     assert!(output.status.code().is_some_and(|code| code < 2), "{output:?}");
     assert_eq!((partials(folder.path()), partials(&out)), (1, 1), "those of the run that lives");
@@ -94,8 +147,9 @@ fn what_a_killed_run_left_is_cleared_and_what_a_living_one_writes_is_not() {
 #[test]
 fn a_full_disk_is_an_error_that_names_the_file() {
     let folder = tempfile::tempdir().unwrap();
-    let limited =
-        |blocks: u32, args: &str| shell(folder.path(), &format!("trap '' XFSZ; ulimit -f {blocks}; exec $H {args}"));
+    let limited = |blocks: u32, args: &str| {
+        shell(folder.path(), &format!("trap '' XFSZ; ulimit -f {blocks}; exec $H {args}"))
+    };
     for (blocks, args, name) in [
         (8, SHORT.replace("0.02", "2"), "o/frames.csv: "),
         (200, SHORT.replace("--waves none", "--waves vcd"), "waves.vcd: "),
@@ -113,8 +167,11 @@ fn a_full_disk_is_an_error_that_names_the_file() {
 #[test]
 fn a_replay_that_waits_for_standard_input_can_be_stopped() {
     let folder = tempfile::tempdir().unwrap();
-    let mut run =
-        crate::command(folder.path(), &["replay", "-"]).stdin(Stdio::piped()).stderr(Stdio::null()).spawn().unwrap();
+    let mut run = crate::command(folder.path(), &["replay", "-"])
+        .stdin(Stdio::piped())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
     let input = run.stdin.take();
     std::thread::sleep(Duration::from_millis(500));
     Command::new("kill").args(["-TERM", &run.id().to_string()]).status().unwrap();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Devices with another sheet and other terminals than the paper's: they run, and a run says where positions are off.
+//! Devices with another sheet and other terminals than the paper's: they run, and a run says where
+//! positions are off.
 
 use std::fs;
 
@@ -27,38 +28,66 @@ fn bundled_profiles_take_the_terminals_of_the_device() {
         let (fixed, clock) = (run("fixed", "fixed"), run("clock", "clock"));
         assert_eq!(fixed, clock, "{terminals} terminals");
         let table = Table::read(&folder.path().join("fixed/frames.csv"));
-        assert!(table.column("flags").iter().all(|flags| !flags.contains("lost")), "{terminals} terminals");
+        assert!(
+            table.column("flags").iter().all(|flags| !flags.contains("lost")),
+            "{terminals} terminals"
+        );
         let force = table.numbers("force_n").into_iter().zip(table.numbers("true_force_n"));
-        force.for_each(|(force, truth)| assert!((force / truth - 1.0).abs() < 0.02, "{terminals}: {force} {truth} N"));
+        force.for_each(|(force, truth)| {
+            assert!((force / truth - 1.0).abs() < 0.02, "{terminals}: {force} {truth} N")
+        });
     }
 }
 
 #[test]
 fn a_capture_of_four_terminals_is_replayed_as_it_was_simulated() {
     let folder = tempfile::tempdir().unwrap();
-    let args = ["simulate", "minimal-sheet", "--set", "sheet.terminals=4", "--waves", "none", "--out", "o"];
+    let args = [
+        "simulate",
+        "minimal-sheet",
+        "--set",
+        "sheet.terminals=4",
+        "--waves",
+        "none",
+        "--out",
+        "o",
+    ];
     finish(folder.path(), &[&args[..], &["--capture", "c.wav"]].concat());
     expect(folder.path(), &["replay", "c.wav", "--out", "r"], 0);
-    let [simulated, replayed] =
-        ["o", "r"].map(|run| Table::read(&folder.path().join(run).join("frames.csv")).numbers("capacitance_pf"));
+    let [simulated, replayed] = ["o", "r"].map(|run| {
+        Table::read(&folder.path().join(run).join("frames.csv")).numbers("capacitance_pf")
+    });
     assert_eq!(simulated, replayed);
 }
 
 #[test]
 fn a_profile_of_ones_own_keeps_its_number_of_terminals() {
     let folder = tempfile::tempdir().unwrap();
-    let text = hapticore_contract::profile::BUNDLED.iter().find(|(name, _)| *name == "standard").unwrap().1;
-    fs::write(folder.path().join("mine.toml"), text.replace("name = \"standard\"", "name = \"mine\"")).unwrap();
+    let text = hapticore_contract::profile::BUNDLED
+        .iter()
+        .find(|(name, _)| *name == "standard")
+        .unwrap()
+        .1;
+    fs::write(
+        folder.path().join("mine.toml"),
+        text.replace("name = \"standard\"", "name = \"mine\""),
+    )
+    .unwrap();
     let set = ["--set", "sheet.terminals=4", "--profile", "mine.toml"];
     let words = ["profile mine", "terminals.x", "expected 4 signs", "got 6"];
     refuse(folder.path(), &[&["simulate", "minimal-sheet"], &set[..]].concat(), &words);
 }
 
-/// A scene and a profile are all that a device of eight terminals needs: no line of the program names them.
+/// A scene and a profile are all that a device of eight terminals needs: no line of the program
+/// names them.
 #[test]
 fn eight_terminals_need_a_profile_and_a_scene_alone() {
     let folder = tempfile::tempdir().unwrap();
-    let text = hapticore_contract::profile::BUNDLED.iter().find(|(name, _)| *name == "standard").unwrap().1;
+    let text = hapticore_contract::profile::BUNDLED
+        .iter()
+        .find(|(name, _)| *name == "standard")
+        .unwrap()
+        .1;
     let own = |line: &str| match line.split_once('=').map_or("", |(key, _)| key.trim()) {
         "name" => "name = \"mine\"\n".to_string(),
         "clocks_per_sample" => "clocks_per_sample = 42\n".to_string(),
@@ -74,8 +103,18 @@ fn eight_terminals_need_a_profile_and_a_scene_alone() {
                  measure = \"rms_error\"\nof = \"position_mm\"\nlimit = 0.1\n";
     fs::write(folder.path().join("eight.toml"), scene).unwrap();
     let run = |core: &str| {
-        let args =
-            ["simulate", "eight.toml", "--profile", "mine.toml", "--waves", "none", "--core", core, "--out", core];
+        let args = [
+            "simulate",
+            "eight.toml",
+            "--profile",
+            "mine.toml",
+            "--waves",
+            "none",
+            "--core",
+            core,
+            "--out",
+            core,
+        ];
         expect(folder.path(), &args, 0);
         fs::read(folder.path().join(core).join("frames.csv")).unwrap()
     };
@@ -88,20 +127,27 @@ fn eight_terminals_need_a_profile_and_a_scene_alone() {
 fn a_position_table_that_does_not_fit_its_sheet_is_told() {
     let folder = tempfile::tempdir().unwrap();
     let log = |args: &[&str]| String::from_utf8(finish(folder.path(), args).stderr).unwrap();
-    let fits = log(&["simulate", "minimal-sheet", "--waves", "none", "--out", "o", "--capture", "c.wav"]);
+    let fits =
+        log(&["simulate", "minimal-sheet", "--waves", "none", "--out", "o", "--capture", "c.wav"]);
     assert!(!fits.contains("the position table"), "860 × 500 mm: {fits}");
     // Places that were written down 4 mm too far to either side, in turn: no table fits these.
     let text = fs::read_to_string(folder.path().join("c.wav.calibration.toml")).unwrap();
     let (head, places) = text.split_once("places = [").unwrap();
     let mut by = 4.0;
-    let moved = places.lines().map(|line| match line.strip_prefix('[').and_then(|place| place.split_once(',')) {
-        Some((x, rest)) => {
-            by = -by;
-            format!("[{},{rest}\n", x.parse::<f64>().unwrap() + by)
+    let moved = places.lines().map(|line| {
+        match line.strip_prefix('[').and_then(|place| place.split_once(',')) {
+            Some((x, rest)) => {
+                by = -by;
+                format!("[{},{rest}\n", x.parse::<f64>().unwrap() + by)
+            }
+            None => format!("{line}\n"),
         }
-        None => format!("{line}\n"),
     });
-    fs::write(folder.path().join("off.toml"), format!("{head}places = [{}", moved.collect::<String>())).unwrap();
+    fs::write(
+        folder.path().join("off.toml"),
+        format!("{head}places = [{}", moved.collect::<String>()),
+    )
+    .unwrap();
     let off = log(&["replay", "c.wav", "--calibration", "off.toml", "--out", "r"]);
     assert!(off.contains("the position table does not fit this device: "), "{off}");
     let summary = fs::read_to_string(folder.path().join("o/summary.json")).unwrap();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `docs/tutorial.md` as its readers follow it: its files written, its commands run, in their order, in an empty folder.
+//! `docs/tutorial.md` as its readers follow it: its files written, its commands run, in their
+//! order, in an empty folder.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -40,7 +41,9 @@ fn path_to_hapticore(folder: &Path) -> PathBuf {
     let bin = folder.join("bin");
     fs::create_dir(&bin).unwrap();
     fs::hard_link(env!("CARGO_BIN_EXE_hapticore-command"), bin.join("hapticore"))
-        .or_else(|_| fs::copy(env!("CARGO_BIN_EXE_hapticore-command"), bin.join("hapticore")).map(|_| ()))
+        .or_else(|_| {
+            fs::copy(env!("CARGO_BIN_EXE_hapticore-command"), bin.join("hapticore")).map(|_| ())
+        })
         .unwrap();
     bin
 }
@@ -53,7 +56,8 @@ struct Reader {
 
 impl Reader {
     fn new() -> Reader {
-        let reader = Reader { bin: tempfile::tempdir().unwrap(), desk: tempfile::tempdir().unwrap() };
+        let reader =
+            Reader { bin: tempfile::tempdir().unwrap(), desk: tempfile::tempdir().unwrap() };
         path_to_hapticore(reader.bin.path());
         reader
     }
@@ -77,7 +81,12 @@ impl Reader {
             Block::Commands(commands) => {
                 let output = self.run(commands);
                 let log = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
-                assert!(output.status.success(), "{commands}\n{}{}", log(&output.stdout), log(&output.stderr));
+                assert!(
+                    output.status.success(),
+                    "{commands}\n{}{}",
+                    log(&output.stdout),
+                    log(&output.stderr)
+                );
             }
         }
     }
@@ -107,10 +116,15 @@ fn the_tutorial_works_from_an_empty_folder() {
         assert!(error < 0.1, "slot {slot}: {error} mm");
         assert!((at("capacitance_pf") / CAPACITANCE_PF - 1.0).abs() < 1e-3, "slot {slot}");
         assert!((at("force_n") / FORCE_N - 1.0).abs() < 0.03, "slot {slot}");
-        assert_eq!((frames.column("pad")[slot], frames.column("flags")[slot]), (["0", "1"][slot % 2], ""));
+        assert_eq!(
+            (frames.column("pad")[slot], frames.column("flags")[slot]),
+            (["0", "1"][slot % 2], "")
+        );
     }
     // The last command must be able to fail.
-    let Some(Block::Commands(compare)) = blocks.last() else { panic!("the tutorial ends with its comparison") };
+    let Some(Block::Commands(compare)) = blocks.last() else {
+        panic!("the tutorial ends with its comparison")
+    };
     let bench = fs::read_to_string(reader.at("bench.txt")).unwrap();
     assert_eq!(bench.lines().count(), PADS_MM.len(), "{bench}");
     fs::write(reader.at("bench.txt"), bench.replacen("350.00", "350.01", 1)).unwrap();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Waveforms of a run: another program's reader finds the frames in them, and the bundled view fits the core.
+//! Waveforms of a run: another program's reader finds the frames in them, and the bundled view fits
+//! the core.
 
 use std::fs;
 use std::path::Path;
@@ -27,7 +28,8 @@ fn signal(waves: &Waveform, path: &str) -> SignalRef {
     let names: Vec<_> = path.split('.').collect();
     let (name, scopes) = names.split_last().expect("a path");
     let hierarchy = waves.hierarchy();
-    hierarchy[hierarchy.lookup_var(scopes, name).unwrap_or_else(|| panic!("no signal {path}"))].signal_ref()
+    hierarchy[hierarchy.lookup_var(scopes, name).unwrap_or_else(|| panic!("no signal {path}"))]
+        .signal_ref()
 }
 
 fn code(value: &SignalValueRef, signed: bool) -> i64 {
@@ -44,7 +46,8 @@ fn at(values: &[(u32, i64)], time: u32) -> i64 {
 
 /// The frames in the waves: codes of all fields.
 fn frames(waves: &mut Waveform) -> Vec<Vec<i64>> {
-    let [valid, index] = ["valid", "index"].map(|name| values(waves, &format!("core.estimator.frames.{name}"), false));
+    let [valid, index] = ["valid", "index"]
+        .map(|name| values(waves, &format!("core.estimator.frames.{name}"), false));
     let word = values(waves, "core.estimator.frames.word", true);
     let mut frames = Vec::new();
     let end = waves.time_table().len() as u32;
@@ -62,7 +65,8 @@ fn check(kind: &str, args: &[&str], first: usize) {
     let common = ["simulate", "hockey", "--waves", kind, "--out", "o", "--set", "duration_s=0.03"];
     finish(folder.path(), &[&common, args].concat());
     let out = folder.path().join("o");
-    let mut waves = wellen::simple::read(out.join(format!("waves.{kind}"))).expect("waves that others read");
+    let mut waves =
+        wellen::simple::read(out.join(format!("waves.{kind}"))).expect("waves that others read");
     let frames = frames(&mut waves);
     assert!(frames.len() >= 2, "two frames at least");
     compare(&frames, &Table::read(&out.join("frames.csv")), first);
@@ -98,7 +102,8 @@ fn compare_truth(waves: &mut Waveform, table: &Table, first: usize) {
     let valid = values(waves, "core.estimator.frames.valid", false);
     let index = values(waves, "core.estimator.frames.index", false);
     let end = waves.time_table().len() as u32;
-    let starts: Vec<u32> = (0..end).filter(|time| at(&valid, *time) == 1 && at(&index, *time) == 0).collect();
+    let starts: Vec<u32> =
+        (0..end).filter(|time| at(&valid, *time) == 1 && at(&index, *time) == 0).collect();
     for (name, column) in [("x_mm", "true_x_mm"), ("capacitance_pf", "true_capacitance_pf")] {
         let signal = signal(waves, &format!("truth.{name}"));
         waves.load_signals(&[signal]);
@@ -106,7 +111,12 @@ fn compare_truth(waves: &mut Waveform, table: &Table, first: usize) {
         for (slot, time) in starts.iter().enumerate() {
             let (_, value) = &changes[changes.partition_point(|(when, _)| when <= time) - 1];
             let SignalValueRef::Real(value) = value else { panic!("truth.{name} is a real") };
-            assert_eq!(*value, table.numbers(column)[first + slot], "truth.{name} of slot {}", first + slot);
+            assert_eq!(
+                *value,
+                table.numbers(column)[first + slot],
+                "truth.{name} of slot {}",
+                first + slot
+            );
         }
     }
 }
@@ -114,13 +124,24 @@ fn compare_truth(waves: &mut Waveform, table: &Table, first: usize) {
 #[test]
 fn a_window_that_makes_a_large_file_is_told() {
     let folder = tempfile::tempdir().unwrap();
-    let args =
-        ["simulate", "hockey", "--waves", "vcd", "--waves-window", "0..99", "--set", "duration_s=0.12", "--out", "o"];
+    let args = [
+        "simulate",
+        "hockey",
+        "--waves",
+        "vcd",
+        "--waves-window",
+        "0..99",
+        "--set",
+        "duration_s=0.12",
+        "--out",
+        "o",
+    ];
     let output = finish(folder.path(), &args);
     let log = String::from_utf8(output.stderr).unwrap();
     let written = fs::metadata(folder.path().join("o/waves.vcd")).unwrap().len() as f64 / 1e6;
     assert!(
-        log.contains("warning: waves: 0 to 0.1190 s, 2975000 clocks, about ") && log.contains("--waves fst"),
+        log.contains("warning: waves: 0 to 0.1190 s, 2975000 clocks, about ")
+            && log.contains("--waves fst"),
         "{log}"
     );
     let told: f64 = log.split("about ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
@@ -145,18 +166,23 @@ fn the_waves_hold_the_frames_of_the_run() {
 
 #[test]
 fn a_window_later_in_the_run_holds_its_frames() {
-    // The frames of slots 6 and 7 come after 11.9 and 13.6 ms and the time that an estimate takes, that of slot 5 before the window.
+    // The frames of slots 6 and 7 come after 11.9 and 13.6 ms and the time that an estimate takes,
+    // that of slot 5 before the window.
     check("fst", &["--waves-window", "0.0109..0.0145", "--core", "clock"], 6);
 }
 
 #[test]
 fn every_pattern_of_the_bundled_view_finds_signals_of_the_core() {
     let core = Core::new(&Profile::bundled("standard").unwrap());
-    let paths: Vec<_> = variables(&core, "core").iter().map(|v| format!("{}.{}", v.scope.join("."), v.name)).collect();
+    let paths: Vec<_> = variables(&core, "core")
+        .iter()
+        .map(|v| format!("{}.{}", v.scope.join("."), v.name))
+        .collect();
     for group in View::bundled("slot").unwrap().groups {
         for entry in group.signals {
             let pattern = entry.show.get_ref();
-            let found = pattern.starts_with("truth") || paths.iter().any(|path| fits(pattern, path));
+            let found =
+                pattern.starts_with("truth") || paths.iter().any(|path| fits(pattern, path));
             assert!(found, "no signal fits {pattern}");
         }
     }

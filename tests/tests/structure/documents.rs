@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Documents: links, anchors, cited sections and named files exist, and nothing cites a document that is not here.
+//! Documents: links, anchors, cited sections and named files exist, and nothing cites a document
+//! that is not here.
 
 mod markdown;
 
@@ -14,8 +15,10 @@ use markdown::Document;
 const ELSEWHERE: [&str; 5] = [".git", ".tools", "target", "out", "node_modules"];
 
 /// Files that people write, by the end of their name; others hold data.
-const TEXTS: [&str; 14] =
-    [".md", ".rs", ".toml", ".v", ".sv", ".py", ".sh", ".core", ".cpp", ".css", "Makefile", "run", "test", "tools"];
+const TEXTS: [&str; 14] = [
+    ".md", ".rs", ".toml", ".v", ".sv", ".py", ".sh", ".core", ".cpp", ".css", "Makefile", "run",
+    "test", "tools",
+];
 
 /// Every file of the project whose name ends like this, relative to its root.
 fn files(ends: &[&str]) -> Vec<PathBuf> {
@@ -36,8 +39,10 @@ fn files(ends: &[&str]) -> Vec<PathBuf> {
 }
 
 fn documents() -> Vec<(PathBuf, Document)> {
-    let documents: Vec<_> =
-        files(&[".md"]).into_iter().map(|path| (path.clone(), Document::new(&read(path)))).collect();
+    let documents: Vec<_> = files(&[".md"])
+        .into_iter()
+        .map(|path| (path.clone(), Document::new(&read(path))))
+        .collect();
     assert!(documents.len() > 10, "documents are found");
     documents
 }
@@ -58,7 +63,11 @@ fn resolved(path: &Path) -> PathBuf {
 /// What is wrong with a relative link of a document; nothing where it leads somewhere.
 fn broken(from: &Path, link: &str) -> Option<String> {
     let (file, anchor) = link.split_once('#').unwrap_or((link, ""));
-    let to = if file.is_empty() { from.to_owned() } else { resolved(&from.parent().expect("a folder").join(file)) };
+    let to = if file.is_empty() {
+        from.to_owned()
+    } else {
+        resolved(&from.parent().expect("a folder").join(file))
+    };
     if !root().join(&to).exists() {
         return Some(format!("{}: ({link}) leads to no file", from.display()));
     }
@@ -84,7 +93,12 @@ fn every_link_and_anchor_resolves() {
 fn a_broken_link_is_found() {
     let from = Path::new("docs/boards.md");
     assert_eq!(broken(from, "boards.md#the-serial-line"), None);
-    for link in ["no-such-page.md", "boards.md#no-such-heading", "#no-such-heading", "../docs/no-such-page.md"] {
+    for link in [
+        "no-such-page.md",
+        "boards.md#no-such-heading",
+        "#no-such-heading",
+        "../docs/no-such-page.md",
+    ] {
         assert!(broken(from, link).is_some(), "{link}");
     }
 }
@@ -101,8 +115,9 @@ fn every_cited_section_exists() {
         root().join(document).exists() && Document::new(&read(document)).sections.contains(section)
     };
     let missing = cited.iter().filter(|(document, section, _)| !exists(document, section));
-    let errors: Vec<_> =
-        missing.map(|(document, section, path)| format!("{} cites {document} §{section}", path.display())).collect();
+    let errors: Vec<_> = missing
+        .map(|(document, section, path)| format!("{} cites {document} §{section}", path.display()))
+        .collect();
     assert!(errors.is_empty(), "{}", errors.join("\n"));
     assert!(!cited.is_empty(), "citations are found");
 }
@@ -115,7 +130,9 @@ fn documents_name_files_that_exist() {
         let folder = path.parent().expect("a folder").to_owned();
         for name in &document.paths {
             let first = Path::new(name).components().next().expect("a name");
-            let Some(base) = [Path::new(""), &folder].into_iter().find(|base| root().join(base).join(first).is_dir())
+            let Some(base) = [Path::new(""), &folder]
+                .into_iter()
+                .find(|base| root().join(base).join(first).is_dir())
             else {
                 continue; // of somebody's own folder, as in an example
             };
@@ -133,10 +150,18 @@ fn documents_name_files_that_exist() {
 #[test]
 fn architecture_lists_the_crates_of_the_workspace() {
     let manifest = read("Cargo.toml");
-    let list = manifest.split_once("members = [").and_then(|(_, rest)| rest.split_once(']')).expect("members").0;
-    let members: BTreeSet<_> = list.split(',').map(|name| name.trim().trim_matches('"').to_string()).collect();
+    let list = manifest
+        .split_once("members = [")
+        .and_then(|(_, rest)| rest.split_once(']'))
+        .expect("members")
+        .0;
+    let members: BTreeSet<_> =
+        list.split(',').map(|name| name.trim().trim_matches('"').to_string()).collect();
     let architecture = read("ARCHITECTURE.md");
-    let table = architecture.split("\n## ").find(|section| section.starts_with("Crates\n")).expect("a table of crates");
+    let table = architecture
+        .split("\n## ")
+        .find(|section| section.starts_with("Crates\n"))
+        .expect("a table of crates");
     let crates = table.split("**API boundaries.**").next().expect("a text");
     let rows = crates.lines().filter_map(|line| line.strip_prefix("| `")?.split_once('`'));
     let listed: BTreeSet<_> = rows.map(|(folder, _)| folder.to_string()).collect();
@@ -158,7 +183,8 @@ fn nothing_cites_a_document_that_is_not_here() {
     for path in files(&TEXTS) {
         for (number, line) in read(&path).lines().enumerate() {
             let words = line.split(|c: char| !c.is_ascii_alphanumeric() && c != '_' && c != '.');
-            let cited = words.map(|word| word.trim_end_matches('.')).find(|word| ABSENT.contains(word));
+            let cited =
+                words.map(|word| word.trim_end_matches('.')).find(|word| ABSENT.contains(word));
             errors.extend(cited.map(|word| format!("{}:{}: {word}", path.display(), number + 1)));
         }
     }

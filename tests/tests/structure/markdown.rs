@@ -38,9 +38,11 @@ impl Document {
         }
         for (number, span) in line.split('`').enumerate() {
             match number % 2 {
-                0 => {
-                    self.links.extend(span.split("](").skip(1).filter_map(|rest| Some(rest.split_once(')')?.0.into())))
-                }
+                0 => self.links.extend(
+                    span.split("](")
+                        .skip(1)
+                        .filter_map(|rest| Some(rest.split_once(')')?.0.into())),
+                ),
                 _ => self.paths.extend(Some(span).filter(|span| is_path(span)).map(str::to_string)),
             }
         }
@@ -79,7 +81,10 @@ pub fn citations(text: &str) -> Vec<(String, u32)> {
         loop {
             let digits = rest.len() - rest.trim_start_matches(|c: char| c.is_ascii_digit()).len();
             cited.extend(rest[..digits].parse().ok().map(|number| (format!("{name}.md"), number)));
-            match rest[digits..].strip_prefix(", §").or_else(|| rest[digits..].strip_prefix(" and §")) {
+            match rest[digits..]
+                .strip_prefix(", §")
+                .or_else(|| rest[digits..].strip_prefix(" and §"))
+            {
                 Some(next) if digits > 0 => rest = next,
                 _ => break,
             }
@@ -92,9 +97,18 @@ pub fn citations(text: &str) -> Vec<(String, u32)> {
 fn headings_links_paths_and_citations_are_read() {
     let text = "# A `b` (c)\n## 1. One, two\n# A `b` (c)\n[x](y.md#z) and [`p/q.rs`](p/q.rs)\n```\n[no](no)\n```\n";
     let document = Document::new(text);
-    assert!(["a-b-c", "1-one-two", "a-b-c-1"].iter().all(|anchor| document.anchors.contains(*anchor)));
+    assert!(
+        ["a-b-c", "1-one-two", "a-b-c-1"].iter().all(|anchor| document.anchors.contains(*anchor))
+    );
     assert_eq!(document.links, ["y.md#z", "p/q.rs"]);
     assert_eq!((document.paths, document.sections), (vec!["p/q.rs".to_string()], [1].into()));
     let cited = citations("(docs/physics.md §1, §2); docs/boards.md; docs/decisions.md §9.");
-    assert_eq!(cited, [("docs/physics.md".into(), 1), ("docs/physics.md".into(), 2), ("docs/decisions.md".into(), 9)]);
+    assert_eq!(
+        cited,
+        [
+            ("docs/physics.md".into(), 1),
+            ("docs/physics.md".into(), 2),
+            ("docs/decisions.md".into(), 9)
+        ]
+    );
 }

@@ -78,10 +78,12 @@ impl Probe for Fake {
     }
 }
 
-/// Traces `clocks` clocks of the simulation into `folder/waves.*`; truth 0 is set from the start, truth 1 from clock 5.
+/// Traces `clocks` clocks of the simulation into `folder/waves.*`; truth 0 is set from the start,
+/// truth 1 from clock 5.
 pub fn trace(folder: &Path, kind: Kind, settings: &Settings, clocks: u64) -> (PathBuf, Trace) {
     let path = folder.join("waves").with_extension(kind.extension());
-    let mut tracer = Tracer::new(kind.create(&path).unwrap(), &Fake { clock: 0 }, &truth(), settings).unwrap();
+    let mut tracer =
+        Tracer::new(kind.create(&path).unwrap(), &Fake { clock: 0 }, &truth(), settings).unwrap();
     for clock in 0..clocks {
         tracer.set_truth(0, true_x(clock));
         if clock >= 5 {

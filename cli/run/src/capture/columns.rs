@@ -48,16 +48,22 @@ impl Columns {
                     None => bail!("expected {}, got \"{name}\"", wanted(adc)),
                 },
             };
-            ensure!(column == Column::LeftOut || !columns.contains(&column), "column {name} comes twice");
+            ensure!(
+                column == Column::LeftOut || !columns.contains(&column),
+                "column {name} comes twice"
+            );
             columns.push(column);
         }
         match (0..channels.len()).find(|channel| !columns.contains(&Column::Channel(*channel))) {
-            Some(missing) => bail!("column {} is missing: expected {}", channels[missing], wanted(adc)),
+            Some(missing) => {
+                bail!("column {} is missing: expected {}", channels[missing], wanted(adc))
+            }
             None => Ok(Columns { columns, names: names.to_vec(), channels: channels.len() }),
         }
     }
 
-    /// Columns of a file without names: as described, else the channels in order and perhaps the pad.
+    /// Columns of a file without names: as described, else the channels in order and perhaps the
+    /// pad.
     ///
     /// # Errors
     /// There are more or fewer than these.

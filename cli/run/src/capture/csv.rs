@@ -8,8 +8,9 @@
 //! -12,4,55,3,0,-1,81920,17,0
 //! ```
 //!
-//! Columns may come in any order, `pad` may be missing. With `# full_scale_v = 10` samples are not codes but volts at the ADC, 10
-//! of them at the end of its range. Every row ends with the end of a line, so that a file that was cut short is known for one.
+//! Columns may come in any order, `pad` may be missing. With `# full_scale_v = 10` samples are not
+//! codes but volts at the ADC, 10 of them at the end of its range. Every row ends with the end of a
+//! line, so that a file that was cut short is known for one.
 
 use std::io::{BufRead, Write};
 use std::path::Path;
@@ -79,7 +80,8 @@ impl Reader {
         loop {
             self.line.clear();
             self.number += 1;
-            let read = self.input.bytes.read_line(&mut self.line).map_err(|error| self.error(error))?;
+            let read =
+                self.input.bytes.read_line(&mut self.line).map_err(|error| self.error(error))?;
             if read == 0 {
                 return Ok(false);
             }
@@ -102,13 +104,22 @@ impl Reader {
             return Ok(());
         }
         if self.columns.is_some() {
-            bail!(self.error(format!("{key}: expected before the header, where it holds for all rows")));
+            bail!(
+                self.error(format!(
+                    "{key}: expected before the header, where it holds for all rows"
+                ))
+            );
         }
-        let above_0 = || value.parse().ok().filter(|number: &f64| number.is_finite() && *number > 0.0);
+        let above_0 =
+            || value.parse().ok().filter(|number: &f64| number.is_finite() && *number > 0.0);
         let expected = |what: &str| self.error(format!("{key}: expected {what}, got \"{value}\""));
         match key {
-            "sample_rate_hz" => self.sample_rate_hz = Some(above_0().ok_or_else(|| expected("a number above 0"))?),
-            "full_scale_v" => self.full_scale_v = Some(above_0().ok_or_else(|| expected("a number above 0"))?),
+            "sample_rate_hz" => {
+                self.sample_rate_hz = Some(above_0().ok_or_else(|| expected("a number above 0"))?)
+            }
+            "full_scale_v" => {
+                self.full_scale_v = Some(above_0().ok_or_else(|| expected("a number above 0"))?)
+            }
             _ => {
                 let bits = value.parse().ok().filter(|bits| (2..=MOST_BITS).contains(bits));
                 self.bits = bits.ok_or_else(|| expected(&format!("2 to {MOST_BITS}")))?;
@@ -119,13 +130,15 @@ impl Reader {
 
     fn read_header(&mut self, described: Option<&[String]>) -> Result<()> {
         let line = self.line.trim_start_matches('\u{feff}').trim().to_string();
-        let fields: Vec<String> = line.split(',').map(|name| name.trim().trim_matches('"').to_string()).collect();
+        let fields: Vec<String> =
+            line.split(',').map(|name| name.trim().trim_matches('"').to_string()).collect();
         let columns = match described {
             Some(_) => Columns::counted(fields.len(), described, self.adc),
             None => Columns::named(&fields, self.adc),
         };
         self.columns = Some(columns.map_err(|error| self.error(format!("{error:#}")))?);
-        self.pending = described.is_some() && fields.iter().all(|field| field.parse::<f64>().is_ok());
+        self.pending =
+            described.is_some() && fields.iter().all(|field| field.parse::<f64>().is_ok());
         Ok(())
     }
 
@@ -140,7 +153,11 @@ impl Reader {
         let code = field.parse::<i64>().ok().filter(|code| (-most..most).contains(code));
         let message = || {
             let volts = field.contains('.') && field.parse::<f64>().is_ok();
-            let cure = if volts { "; for volts say how many are full scale: --full-scale-v 10" } else { "" };
+            let cure = if volts {
+                "; for volts say how many are full scale: --full-scale-v 10"
+            } else {
+                ""
+            };
             let last = most - 1;
             self.error(format!(
                 "{name}: expected an integer code from -{most} to {last} ({bits} bits), got \"{field}\"{cure}"
@@ -153,9 +170,13 @@ impl Reader {
         let (mut fields, mut pad) = (0, None);
         for field in self.line.trim().split(',').map(str::trim) {
             match columns.columns.get(fields) {
-                Some(Column::Channel(channel)) => fractions[*channel] = self.fraction(&columns.names[fields], field)?,
+                Some(Column::Channel(channel)) => {
+                    fractions[*channel] = self.fraction(&columns.names[fields], field)?
+                }
                 Some(Column::Pad) => {
-                    let expected = || self.error(format!("pad: expected the number of a pad, got \"{field}\""));
+                    let expected = || {
+                        self.error(format!("pad: expected the number of a pad, got \"{field}\""))
+                    };
                     pad = Some(field.parse().ok().and_then(columns::pad).with_context(expected)?);
                 }
                 _ => (),
@@ -167,7 +188,11 @@ impl Reader {
             bail!(self.error(format!("expected {expected} columns, got {fields}")));
         }
         if !self.line.ends_with('\n') {
-            bail!(self.error("expected the end of the line, got the end of the file: it is cut short"));
+            bail!(
+                self.error(
+                    "expected the end of the line, got the end of the file: it is cut short"
+                )
+            );
         }
         Ok(pad)
     }
@@ -203,12 +228,20 @@ impl Source for Reader {
 
     fn notes(&self) -> Vec<String> {
         let adc = self.adc.format.width;
-        let finer = if self.full_scale_v.is_some() { "volts".into() } else { format!("codes of {} bits", self.bits) };
+        let finer = if self.full_scale_v.is_some() {
+            "volts".into()
+        } else {
+            format!("codes of {} bits", self.bits)
+        };
         let notes = [
             (self.rounded, format!("{finer} were rounded to the {adc} bits of the profile's ADC")),
             (self.clipped, "samples beyond full scale were clipped".to_string()),
         ];
-        notes.into_iter().filter(|(is, _)| *is).map(|(_, note)| format!("{}: {note}", self.input.name)).collect()
+        notes
+            .into_iter()
+            .filter(|(is, _)| *is)
+            .map(|(_, note)| format!("{}: {note}", self.input.name))
+            .collect()
     }
 }
 
@@ -223,8 +256,11 @@ impl Writer {
     pub fn create(path: &Path, adc: Adc, sample_rate_hz: f64) -> Result<Self> {
         let mut partial = PartialFile::create(path)?;
         let channels = adc.channels();
-        let header =
-            format!("# sample_rate_hz = {sample_rate_hz}\n# bits = {}\n{},pad\n", adc.format.width, channels.join(","));
+        let header = format!(
+            "# sample_rate_hz = {sample_rate_hz}\n# bits = {}\n{},pad\n",
+            adc.format.width,
+            channels.join(",")
+        );
         partial.file.write_all(header.as_bytes()).with_context(|| path.display().to_string())?;
         Ok(Writer { partial, channels: channels.len() })
     }

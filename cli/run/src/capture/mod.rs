@@ -40,7 +40,10 @@ fn kind(path: &Path) -> Result<Kind> {
                 path.display()
             )
         }
-        _ => bail!("{}: expected a capture whose name ends in .csv or .wav (or .sigmf-meta)", path.display()),
+        _ => bail!(
+            "{}: expected a capture whose name ends in .csv or .wav (or .sigmf-meta)",
+            path.display()
+        ),
     }
 }
 
@@ -73,7 +76,9 @@ pub fn create(path: &Path, adc: Adc, sample_rate_hz: f64) -> Result<Box<dyn Reco
     Ok(match kind(path)? {
         Kind::Csv => Box::new(csv::Writer::create(path, adc, sample_rate_hz)?),
         Kind::Wav => Box::new(wav::write::Writer::create(path, adc, sample_rate_hz)?),
-        Kind::Sigmf => bail!("{}: expected a capture whose name ends in .csv or .wav", path.display()),
+        Kind::Sigmf => {
+            bail!("{}: expected a capture whose name ends in .csv or .wav", path.display())
+        }
     })
 }
 

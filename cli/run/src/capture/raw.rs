@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Samples as bytes, a sample instant after the other: what WAV and SigMF files are behind their heads.
+//! Samples as bytes, a sample instant after the other: what WAV and SigMF files are behind their
+//! heads.
 //!
-//! Any sample becomes a fraction of full scale, and that a code of the ADC, rounded half to even where the ADC has fewer bits.
+//! Any sample becomes a fraction of full scale, and that a code of the ADC, rounded half to even
+//! where the ADC has fewer bits.
 
 use std::io::{ErrorKind, Read};
 
@@ -40,11 +42,17 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// Integers of so many bytes with codes of `bits`: at the bottom where they are described, else at the top.
+    /// Integers of so many bytes with codes of `bits`: at the bottom where they are described, else
+    /// at the top.
     ///
     /// # Errors
     /// More bits than the bytes have.
-    pub fn integer(bytes: usize, bits: u32, described: Option<u8>, big_endian: bool) -> Result<Self> {
+    pub fn integer(
+        bytes: usize,
+        bits: u32,
+        described: Option<u8>,
+        big_endian: bool,
+    ) -> Result<Self> {
         let container = 8 * bytes as u32;
         let (bits, shift) = match described {
             Some(bits) => (u32::from(bits), 0),
@@ -60,7 +68,12 @@ impl Layout {
 
     /// Floats of so many bytes.
     pub fn float(bytes: usize, full_scale_v: Option<f64>, big_endian: bool) -> Self {
-        Layout { bytes, big_endian, encoding: Encoding::Float, full_scale: full_scale_v.unwrap_or(1.0) }
+        Layout {
+            bytes,
+            big_endian,
+            encoding: Encoding::Float,
+            full_scale: full_scale_v.unwrap_or(1.0),
+        }
     }
 
     /// The number that a sample's bytes are.
@@ -113,7 +126,14 @@ pub struct Reader {
 
 impl Reader {
     /// A reader of what follows a head.
-    pub fn new(input: Input, adc: Adc, layout: Layout, columns: Columns, rate: f64, instants: Option<u64>) -> Self {
+    pub fn new(
+        input: Input,
+        adc: Adc,
+        layout: Layout,
+        columns: Columns,
+        rate: f64,
+        instants: Option<u64>,
+    ) -> Self {
         let buffer = vec![0; layout.bytes * columns.columns.len()];
         Reader {
             input,
@@ -140,7 +160,9 @@ impl Reader {
         while filled < self.buffer.len() {
             match self.input.bytes.read(&mut self.buffer[filled..]) {
                 Ok(0) => match self.instants {
-                    Some(all) => bail!("{file}: sample {at}: expected {all} samples, the file is cut short"),
+                    Some(all) => {
+                        bail!("{file}: sample {at}: expected {all} samples, the file is cut short")
+                    }
                     None if filled == 0 => return Ok(false),
                     None => bail!("{file}: sample {at}: the file is cut short"),
                 },
@@ -175,7 +197,12 @@ impl Source for Reader {
                 continue;
             }
             let bytes = &self.buffer[index * self.layout.bytes..][..self.layout.bytes];
-            let place = || format!("{}: sample {}: {}", self.input.name, self.instant, self.columns.names[index]);
+            let place = || {
+                format!(
+                    "{}: sample {}: {}",
+                    self.input.name, self.instant, self.columns.names[index]
+                )
+            };
             let number = self.layout.number(bytes).with_context(place)?;
             match column {
                 Column::Channel(channel) => codes[start + channel] = self.code(number),
@@ -206,8 +233,15 @@ impl Source for Reader {
         let notes = [
             (self.rounded, format!("{finer} were rounded to the {adc} bits of the profile's ADC")),
             (self.clipped, "samples beyond full scale were clipped".to_string()),
-            (self.instants.is_none(), "the file names no length: it was read to its end".to_string()),
+            (
+                self.instants.is_none(),
+                "the file names no length: it was read to its end".to_string(),
+            ),
         ];
-        notes.into_iter().filter(|(is, _)| *is).map(|(_, note)| format!("{}: {note}", self.input.name)).collect()
+        notes
+            .into_iter()
+            .filter(|(is, _)| *is)
+            .map(|(_, note)| format!("{}: {note}", self.input.name))
+            .collect()
     }
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Captures as SigMF (<https://sigmf.org>, version 1.2): `NAME.sigmf-meta` says what the samples in `NAME.sigmf-data` are.
+//! Captures as SigMF (<https://sigmf.org>, version 1.2): `NAME.sigmf-meta` says what the samples in
+//! `NAME.sigmf-data` are.
 //!
-//! Taken are real samples, interleaved, in one piece: `ri16_le`, `ri32_le`, `rf32_le`, `rf64_le` and their `_be`.
+//! Taken are real samples, interleaved, in one piece: `ri16_le`, `ri32_le`, `rf32_le`, `rf64_le`
+//! and their `_be`.
 
 use std::path::Path;
 
@@ -18,16 +20,21 @@ use hapticore_host::text::read;
 pub fn open(path: &Path, adc: Adc, described: &Described) -> Result<Reader> {
     let (meta, data) = (path.with_extension("sigmf-meta"), path.with_extension("sigmf-data"));
     let file = meta.display().to_string();
-    let value: Value =
-        serde_json::from_str(&read(&meta)?).map_err(|error| anyhow!("{file}: expected JSON: {error}"))?;
+    let value: Value = serde_json::from_str(&read(&meta)?)
+        .map_err(|error| anyhow!("{file}: expected JSON: {error}"))?;
     let head = Head::read(&value).with_context(|| file.clone())?;
-    let layout = layout(&head.datatype, described).with_context(|| format!("{file}: core:datatype"))?;
+    let layout =
+        layout(&head.datatype, described).with_context(|| format!("{file}: core:datatype"))?;
     let columns = Columns::counted(head.channels, described.channels.as_deref(), adc)
         .with_context(|| format!("{file}: core:num_channels"))?;
     let input = input::file(&data)?;
     let block = (layout.bytes * head.channels) as u64;
     let length = input.length.context("expected a file").with_context(|| input.name.clone())?;
-    ensure!(length % block == 0, "{}: expected whole samples of {block} bytes: it is cut short", input.name);
+    ensure!(
+        length % block == 0,
+        "{}: expected whole samples of {block} bytes: it is cut short",
+        input.name
+    );
     Ok(Reader::new(input, adc, layout, columns, head.sample_rate_hz, Some(length / block)))
 }
 
@@ -50,10 +57,16 @@ impl Head {
             );
         }
         let segments = value["captures"].as_array().map_or(&[][..], Vec::as_slice);
-        ensure!(segments.len() <= 1, "captures: expected samples in one piece, got {} segments", segments.len());
+        ensure!(
+            segments.len() <= 1,
+            "captures: expected samples in one piece, got {} segments",
+            segments.len()
+        );
         let start = segments.first().map_or(0, |segment| whole(segment, "core:sample_start"));
         ensure!(start == 0, "captures: core:sample_start: expected 0, got {start}");
-        for (of, key) in [(segments.first(), "core:header_bytes"), (Some(global), "core:trailing_bytes")] {
+        for (of, key) in
+            [(segments.first(), "core:header_bytes"), (Some(global), "core:trailing_bytes")]
+        {
             let bytes = of.map_or(0, |of| whole(of, key));
             ensure!(bytes == 0, "{key}: expected a file of samples alone, got {bytes}");
         }
@@ -74,7 +87,9 @@ fn layout(datatype: &str, described: &Described) -> Result<Layout> {
         "ri32" => Layout::integer(4, 32, described.bits, big_endian),
         "rf32" => Ok(Layout::float(4, described.full_scale_v, big_endian)),
         "rf64" => Ok(Layout::float(8, described.full_scale_v, big_endian)),
-        _ if datatype.starts_with('c') => bail!("expected real samples of the ADC, got complex ones ({datatype})"),
+        _ if datatype.starts_with('c') => {
+            bail!("expected real samples of the ADC, got complex ones ({datatype})")
+        }
         _ => bail!("expected ri16, ri32, rf32 or rf64 with _le or _be, got {datatype}"),
     }
 }

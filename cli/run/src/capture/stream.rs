@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What all kinds of captures have in common: rows that are read, slots that are written, and the ADC that they are of.
+//! What all kinds of captures have in common: rows that are read, slots that are written, and the
+//! ADC that they are of.
 
 use anyhow::Result;
 use hapticore_hdl::format::Format;
 
 /// A capture being read, sample instant by sample instant.
 pub trait Source {
-    /// Reads the next row of codes, one a channel in the order of the ADC, appended to `codes`. `None` at the end.
+    /// Reads the next row of codes, one a channel in the order of the ADC, appended to `codes`.
+    /// `None` at the end.
     ///
     /// # Errors
     /// The file is no capture; the message names file, line or sample, and what was expected.

@@ -19,7 +19,10 @@ fn fit(rows: &[&Row], axis: usize) -> [f64; 3] {
     for row in rows {
         let terms = terms(row);
         for (equation, term) in normal.iter_mut().zip(terms) {
-            equation.iter_mut().zip(terms.into_iter().chain([place(row)[axis]])).for_each(|(sum, t)| *sum += term * t);
+            equation
+                .iter_mut()
+                .zip(terms.into_iter().chain([place(row)[axis]]))
+                .for_each(|(sum, t)| *sum += term * t);
         }
     }
     solve(normal)
@@ -28,7 +31,8 @@ fn fit(rows: &[&Row], axis: usize) -> [f64; 3] {
 /// Gauss–Jordan elimination with pivoting; what is not determined is zero.
 fn solve(mut rows: [[f64; 4]; 3]) -> [f64; 3] {
     for column in 0..3 {
-        let pivot = (column..3).max_by(|&a, &b| rows[a][column].abs().total_cmp(&rows[b][column].abs()));
+        let pivot =
+            (column..3).max_by(|&a, &b| rows[a][column].abs().total_cmp(&rows[b][column].abs()));
         rows.swap(column, pivot.expect("a range that is not empty"));
         let pivot = rows[column];
         if pivot[column].abs() < 1e-12 {

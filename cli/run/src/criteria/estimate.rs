@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The value of a quantity in a row: as the core, the reference and eq. 6 alone estimate it, and as the plant has it.
+//! The value of a quantity in a row: as the core, the reference and eq. 6 alone estimate it, and as
+//! the plant has it.
 
 use hapticore_scene::Quantity;
 
@@ -22,7 +23,9 @@ pub fn estimated(row: &Row, of: Quantity, estimate: Estimate) -> f64 {
         (Estimate::Core, _) => quantity(&row.measured, of),
         (Estimate::Reference, Some(reference)) => quantity(&reference.quantities, of),
         (Estimate::Eq6, Some(reference)) if of == Quantity::ForceN => reference.force_eq6_n,
-        (Estimate::Eq6, Some(reference)) if of == Quantity::CapacitancePf => reference.capacitance_eq6_pf,
+        (Estimate::Eq6, Some(reference)) if of == Quantity::CapacitancePf => {
+            reference.capacitance_eq6_pf
+        }
         _ => f64::NAN,
     }
 }
@@ -46,7 +49,8 @@ fn quantity(quantities: &Quantities, of: Quantity) -> f64 {
 mod tests {
     use super::*;
 
-    /// A scene knows the truth of what a host measures: either has a list of its own, for neither may know the other.
+    /// A scene knows the truth of what a host measures: either has a list of its own, for neither
+    /// may know the other.
     #[test]
     fn what_a_frame_measures_is_what_a_scene_knows() {
         let known: Vec<_> = Quantity::measured().map(Quantity::name).collect();

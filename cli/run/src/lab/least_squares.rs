@@ -3,7 +3,8 @@
 //!
 //!   y_i = Σ β_k·x_ik + ε_i,   ε independent and normal, all of one unknown variance; x without error
 //!
-//! σ² = Σ r²/(n − p) of the residuals r, and β_k ± t(0.975; n − p)·σ·√((XᵀX)⁻¹)_kk with Student's t.
+//! σ² = Σ r²/(n − p) of the residuals r, and β_k ± t(0.975; n − p)·σ·√((XᵀX)⁻¹)_kk with Student's
+//! t.
 
 use serde::Serialize;
 use statrs::distribution::{ContinuousCDF, StudentsT};
@@ -11,7 +12,8 @@ use statrs::distribution::{ContinuousCDF, StudentsT};
 /// The share of intervals that hold the truth.
 pub const CONFIDENCE: f64 = 0.95;
 
-/// Columns whose normal matrix, their lengths taken out, has a smaller determinant are not told apart.
+/// Columns whose normal matrix, their lengths taken out, has a smaller determinant are not told
+/// apart.
 const ALIKE: f64 = 1e-4;
 
 /// A number with its 95 % confidence interval.
@@ -63,13 +65,16 @@ impl<const P: usize> Fit<P> {
             return Err(Unfit::Zero(zero));
         }
         let sum = |f: &dyn Fn(&Row<P>) -> f64| rows.iter().map(f).sum::<f64>();
-        let normal: [[f64; P]; P] =
-            std::array::from_fn(|i| std::array::from_fn(|k| sum(&|(x, _)| x[i] / lengths[i] * x[k] / lengths[k])));
+        let normal: [[f64; P]; P] = std::array::from_fn(|i| {
+            std::array::from_fn(|k| sum(&|(x, _)| x[i] / lengths[i] * x[k] / lengths[k]))
+        });
         let inverse = inverse(normal).ok_or(Unfit::Alike)?;
         let products: [f64; P] = std::array::from_fn(|k| sum(&|(x, y)| x[k] / lengths[k] * y));
-        let solve = |i: usize| (0..P).map(|k| inverse[i][k] * products[k]).sum::<f64>() / lengths[i];
+        let solve =
+            |i: usize| (0..P).map(|k| inverse[i][k] * products[k]).sum::<f64>() / lengths[i];
         let values: [f64; P] = std::array::from_fn(solve);
-        let residual = |(x, y): &Row<P>| y - x.iter().zip(values).map(|(x, value)| x * value).sum::<f64>();
+        let residual =
+            |(x, y): &Row<P>| y - x.iter().zip(values).map(|(x, value)| x * value).sum::<f64>();
         let residuals: Vec<_> = rows.iter().map(residual).collect();
         let freedom = (rows.len() - P) as f64;
         let noise = (residuals.iter().map(|r| r * r).sum::<f64>() / freedom).sqrt();
@@ -97,7 +102,8 @@ fn student(freedom: f64) -> f64 {
 
 /// Of a matrix with ones on its diagonal; none where its columns are alike.
 fn inverse<const P: usize>(mut a: [[f64; P]; P]) -> Option<[[f64; P]; P]> {
-    let mut b: [[f64; P]; P] = std::array::from_fn(|i| std::array::from_fn(|k| f64::from(u8::from(i == k))));
+    let mut b: [[f64; P]; P] =
+        std::array::from_fn(|i| std::array::from_fn(|k| f64::from(u8::from(i == k))));
     let mut determinant = 1.0;
     for pivot in 0..P {
         let scale = a[pivot][pivot];
@@ -126,7 +132,8 @@ mod tests {
 
     #[test]
     fn a_line_through_three_points_as_by_hand() {
-        // y = 1, 2, 4 at x = 1, 2, 3: β = 17/14, σ² = (21 − 17²/14)/2, t(0.975; 2) = 4.3027 of any table.
+        // y = 1, 2, 4 at x = 1, 2, 3: β = 17/14, σ² = (21 − 17²/14)/2, t(0.975; 2) = 4.3027 of any
+        // table.
         let fit = Fit::of(&[([1.0], 1.0), ([2.0], 2.0), ([3.0], 4.0)]).unwrap();
         let noise = ((21.0 - 289.0 / 14.0) / 2.0f64).sqrt();
         let [Estimate { value, interval: [low, high] }] = fit.estimates;
@@ -137,14 +144,19 @@ mod tests {
     #[test]
     fn two_coefficients_come_back_and_their_residuals_are_orthogonal_to_both() {
         let rows: Vec<_> = (0..9)
-            .map(|k| ([1.0, f64::from(k)], 3.0 - 0.5 * f64::from(k) + [0.1, -0.1, 0.0][k as usize % 3]))
+            .map(|k| {
+                ([1.0, f64::from(k)], 3.0 - 0.5 * f64::from(k) + [0.1, -0.1, 0.0][k as usize % 3])
+            })
             .collect();
         let fit = Fit::of(&rows).unwrap();
         for k in 0..2 {
             let product: f64 = rows.iter().zip(&fit.residuals).map(|((x, _), r)| x[k] * r).sum();
             assert!(product.abs() < 1e-12, "{product}");
         }
-        assert!((fit.estimates[0].value - 3.0).abs() < 0.1 && (fit.estimates[1].value + 0.5).abs() < 0.02);
+        assert!(
+            (fit.estimates[0].value - 3.0).abs() < 0.1
+                && (fit.estimates[1].value + 0.5).abs() < 0.02
+        );
     }
 
     #[test]

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Loads: friction under known loads and voltages, from which come k of eq. 8 and, where the capacitance was measured otherwise,
-//! too, the scale of the currents.
+//! Loads: friction under known loads and voltages, from which come k of eq. 8 and, where the
+//! capacitance was measured otherwise, too, the scale of the currents.
 //!
 //!   F = k·(C·V)²                          from `force_n`, or from `friction_n` less μ·m·g where μ is known
 //!   friction = k·(C·V)² + μ·m·g           where μ is not: both are fitted
@@ -110,8 +110,12 @@ impl Loads {
                 "{}:1: expected a column load_g with friction_n: what friction would be without voltage is not known",
                 table.file
             ),
-            (Some(_), Some(_), _) => bail!("{}:1: expected force_n or friction_n, got both", table.file),
-            (None, None, _) => bail!("{}:1: expected a column force_n, or friction_n and load_g", table.file),
+            (Some(_), Some(_), _) => {
+                bail!("{}:1: expected force_n or friction_n, got both", table.file)
+            }
+            (None, None, _) => {
+                bail!("{}:1: expected a column force_n, or friction_n and load_g", table.file)
+            }
         };
         let haptic = table.column("haptic_v_rms")?;
         let reference = optional("capacitance_pf")?;
@@ -127,7 +131,12 @@ impl Loads {
                 .chain(load.map(|column| (column, "load_g")))
                 .find(|(column, _)| row.at(*column) < 0.0);
             if let Some((column, name)) = negative {
-                bail!("{}:{}: {name}: expected a number not below 0, got {}", table.file, row.line, row.at(column));
+                bail!(
+                    "{}:{}: {name}: expected a number not below 0, got {}",
+                    table.file,
+                    row.line,
+                    row.at(column)
+                );
             }
             Ok(Load {
                 haptic_v_rms: row.at(haptic),
@@ -152,21 +161,31 @@ impl Loads {
         self.check(setup)?;
         let current_scale = self.current_scale()?;
         let scale = current_scale.map_or(1.0, |scale| scale.value);
-        let capacitance_f =
-            |load: &Load| PICO * load.sensed_pf.map_or(load.reference_pf.unwrap_or(0.0), |pf| pf * scale);
+        let capacitance_f = |load: &Load| {
+            PICO * load.sensed_pf.map_or(load.reference_pf.unwrap_or(0.0), |pf| pf * scale)
+        };
         let square = |load: &Load| (capacitance_f(load) * load.haptic_v_rms).powi(2);
         let weight = |load: &Load| load.load_g.map_or(0.0, |load| KILO * load * setup.gravity_m_s2);
         let squares: Vec<_> = self.loads.iter().map(square).collect();
         self.check_squares(&squares)?;
         let (force_k, mu, residuals, noise_n) = if self.friction && setup.mu.is_none() {
-            let rows: Vec<_> = self.loads.iter().map(|load| ([square(load), weight(load)], load.newtons)).collect();
-            let Fit { estimates: [k, mu], residuals, noise } = Fit::of(&rows).map_err(|why| self.unfit(why))?;
+            let rows: Vec<_> = self
+                .loads
+                .iter()
+                .map(|load| ([square(load), weight(load)], load.newtons))
+                .collect();
+            let Fit { estimates: [k, mu], residuals, noise } =
+                Fit::of(&rows).map_err(|why| self.unfit(why))?;
             (k, Some(mu), residuals, noise)
         } else {
             let mu = if self.friction { setup.mu.unwrap_or(0.0) } else { 0.0 };
-            let rows: Vec<_> =
-                self.loads.iter().map(|load| ([square(load)], load.newtons - mu * weight(load))).collect();
-            let Fit { estimates: [k], residuals, noise } = Fit::of(&rows).map_err(|why| self.unfit(why))?;
+            let rows: Vec<_> = self
+                .loads
+                .iter()
+                .map(|load| ([square(load)], load.newtons - mu * weight(load)))
+                .collect();
+            let Fit { estimates: [k], residuals, noise } =
+                Fit::of(&rows).map_err(|why| self.unfit(why))?;
             (k, None, residuals, noise)
         };
         let [low, high] = force_k.interval;
@@ -199,10 +218,15 @@ impl Loads {
             "{file}: haptic_v_rms: all are 0: force_k is seen with voltage only; expected several, up to the highest that is used"
         );
         if let Some(first) = self.loads[0].load_g {
-            let alike =
-                self.loads.iter().all(|load| load.load_g.is_some_and(|load| (load - first).abs() <= ALIKE * first));
-            let needs =
-                if self.friction && setup.mu.is_none() { "they do not tell friction from load, and " } else { "" };
+            let alike = self
+                .loads
+                .iter()
+                .all(|load| load.load_g.is_some_and(|load| (load - first).abs() <= ALIKE * first));
+            let needs = if self.friction && setup.mu.is_none() {
+                "they do not tell friction from load, and "
+            } else {
+                ""
+            };
             ensure!(
                 !alike,
                 "{file}: load_g: all loads are alike ({first} g): {needs}k of one load need not be that of others; expected two loads at least, such as 20 g and 100 g"
@@ -233,9 +257,13 @@ impl Loads {
 
     fn unfit(&self, why: Unfit) -> anyhow::Error {
         match why {
-            Unfit::Few(least) => anyhow!("{}: too few measurements: expected {least} at least", self.file),
+            Unfit::Few(least) => {
+                anyhow!("{}: too few measurements: expected {least} at least", self.file)
+            }
             Unfit::Zero(0) => anyhow!("{}: capacitances are all 0", self.file),
-            Unfit::Zero(_) => anyhow!("{}: load_g: all are 0: they do not tell friction from load", self.file),
+            Unfit::Zero(_) => {
+                anyhow!("{}: load_g: all are 0: they do not tell friction from load", self.file)
+            }
             Unfit::Alike => anyhow!(
                 "{}: load_g and (C·V)² rise together: they do not tell μ from force_k; expected several voltages under each load, or mu in the setup",
                 self.file
@@ -264,7 +292,8 @@ impl Sensed {
         };
         let place = (table.has("x_mm") && table.has("y_mm"))
             .then(|| Ok::<_, anyhow::Error>([table.column("x_mm")?, table.column("y_mm")?]));
-        let currents = names.iter().map(|name: &String| table.column(name)).collect::<Result<_>>()?;
+        let currents =
+            names.iter().map(|name: &String| table.column(name)).collect::<Result<_>>()?;
         Ok(Some(Sensed { currents, sense: table.column("v_sense")?, place: place.transpose()? }))
     }
 
@@ -276,7 +305,8 @@ impl Sensed {
         sheet_ohm: &impl Fn([f64; 2]) -> f64,
     ) -> Result<f64> {
         let current: f64 = self.currents.iter().map(|column| row.at(*column)).sum();
-        let drop = current * sheet_ohm(self.place.map_or([0.0; 2], |place| place.map(|column| row.at(column))));
+        let drop = current
+            * sheet_ohm(self.place.map_or([0.0; 2], |place| place.map(|column| row.at(column))));
         let sense = row.at(self.sense);
         ensure!(
             current >= 0.0 && sense > drop.abs(),

@@ -35,7 +35,9 @@ use serde::Serialize;
 use crate::inputs::buildable;
 use crate::record::Provenance;
 use hapticore_host::residual::LIMIT_MM;
-use hapticore_host::{DeviceCalibration, Found, Raster, Residual, Scales, Signs, found, open_share};
+use hapticore_host::{
+    DeviceCalibration, Found, Raster, Residual, Scales, Signs, found, open_share,
+};
 use loads::{Force, Loads};
 use places::{Place, Places};
 use scattered::{Row, Values};
@@ -89,7 +91,10 @@ impl Data {
         for path in paths {
             let file = path.display();
             if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml")) {
-                ensure!(setup.replace(Setup::read(path)?).is_none(), "{file}: expected one setup, got two");
+                ensure!(
+                    setup.replace(Setup::read(path)?).is_none(),
+                    "{file}: expected one setup, got two"
+                );
                 continue;
             }
             let table = Table::read(path)?;
@@ -104,9 +109,11 @@ impl Data {
         }
         let missing = |what: &str| anyhow!("DATA: expected {what}, got none");
         Ok(Data {
-            setup: setup
-                .ok_or_else(|| missing("a setup, a file of the device's full scales and rates that ends in .toml"))?,
-            places: places.ok_or_else(|| missing("places, a CSV file of x_mm, y_mm, i1 …, v_sense"))?,
+            setup: setup.ok_or_else(|| {
+                missing("a setup, a file of the device's full scales and rates that ends in .toml")
+            })?,
+            places: places
+                .ok_or_else(|| missing("places, a CSV file of x_mm, y_mm, i1 …, v_sense"))?,
             loads,
         })
     }
@@ -127,18 +134,33 @@ pub fn calibrate(data: &Data, profile: &Profile) -> Result<(DeviceCalibration, O
     let (sheet, from) = resistances(&places, setup, uniform.as_ref());
     warnings.extend((from == Resistance::Unknown).then(|| no_resistance(&places.file)));
     let nearest = |at: [f64; 2]| nearest(&places.places, &sheet, at);
-    let force = data.loads.as_ref().map(|table| Loads::of(table, setup, nearest)?.fit(setup)).transpose()?;
+    let force = data
+        .loads
+        .as_ref()
+        .map(|table| Loads::of(table, setup, nearest)?.fit(setup))
+        .transpose()?;
     let force_k = force.as_ref().map(|force| force.force_k.value).or(setup.force_k);
     let force_k = force_k.ok_or_else(|| {
-        anyhow!("DATA: expected loads, a CSV file of haptic_v_rms and force_n, or force_k in the setup")
+        anyhow!(
+            "DATA: expected loads, a CSV file of haptic_v_rms and force_n, or force_k in the setup"
+        )
     })?;
-    let scale = force.as_ref().and_then(|force| force.current_scale).map_or(1.0, |scale| scale.value);
+    let scale =
+        force.as_ref().and_then(|force| force.current_scale).map_or(1.0, |scale| scale.value);
     warnings.extend((!(SCALES[0]..SCALES[1]).contains(&scale)).then(|| far_off(scale)));
-    let sheet: Vec<_> = sheet.iter().map(|ohm| if from == Resistance::Currents { ohm / scale } else { *ohm }).collect();
+    let sheet: Vec<_> = sheet
+        .iter()
+        .map(|ohm| if from == Resistance::Currents { ohm / scale } else { *ohm })
+        .collect();
     let shares = |place: &Place| Places::shares(&place.siemens, [&signs.x, &signs.y]);
     let open_share = open_share(&places.places.iter().map(shares).collect::<Vec<_>>());
-    let measured =
-        Measured { rows: rows(&places, &sheet, &signs), columns, open_share, uniform: uniform.as_ref(), signs: &signs };
+    let measured = Measured {
+        rows: rows(&places, &sheet, &signs),
+        columns,
+        open_share,
+        uniform: uniform.as_ref(),
+        signs: &signs,
+    };
     let mut device = DeviceCalibration {
         pads: setup.pads,
         map: Raster { columns: 0, places: Vec::new(), open_share: 0.0 },
@@ -146,7 +168,8 @@ pub fn calibrate(data: &Data, profile: &Profile) -> Result<(DeviceCalibration, O
         terminals: signs.clone(),
     };
     let profile = buildable(device.profile(profile)?)?;
-    let (measured, held_out) = measured.best(&device, &profile).with_context(|| places.file.clone())?;
+    let (measured, held_out) =
+        measured.best(&device, &profile).with_context(|| places.file.clone())?;
     device.map = measured.raster().with_context(|| places.file.clone())?;
     let calibration = device.for_profile(&profile).with_context(|| places.file.clone())?;
     let found = [found(&measured.rows, &calibration), held_out];
@@ -177,7 +200,8 @@ enum Resistance {
     Unknown,
 }
 
-/// The sheet's resistance at each place: measured, from currents with their phases, or that of a uniform film.
+/// The sheet's resistance at each place: measured, from currents with their phases, or that of a
+/// uniform film.
 fn resistances(places: &Places, setup: &Setup, uniform: Option<&Plant>) -> (Vec<f64>, Resistance) {
     let all = || places.places.iter();
     let film = setup.sheet.as_ref().and_then(|sheet| sheet.ohm_per_square);
@@ -265,7 +289,9 @@ impl Measured<'_> {
     /// The places as a raster: as they are, or brought onto one.
     fn raster(&self) -> Result<Raster> {
         match self.columns {
-            Some(columns) => Ok(Raster { columns, places: self.rows.clone(), open_share: self.open_share }),
+            Some(columns) => {
+                Ok(Raster { columns, places: self.rows.clone(), open_share: self.open_share })
+            }
             None => self.scattered(&self.rows),
         }
     }
@@ -282,26 +308,35 @@ impl Measured<'_> {
             let [r_x, r_y] = Places::ratios(siemens, [&self.signs.x, &self.signs.y]);
             [r_x, r_y, 0.0]
         };
-        uniform.measurements(places).iter().map(|measurement| values(&measurement.siemens)).collect()
+        uniform
+            .measurements(places)
+            .iter()
+            .map(|measurement| values(&measurement.siemens))
+            .collect()
     }
 
-    /// With the uniform sheet or without, whichever finds places better that are held out; and these.
+    /// With the uniform sheet or without, whichever finds places better that are held out; and
+    /// these.
     fn best(self, device: &DeviceCalibration, profile: &Profile) -> Result<(Self, Vec<Found>)> {
         let without = Measured { uniform: None, ..self.clone() };
         let found = without.hold_out(device, profile);
         let rms_mm = |found: &Vec<Found>| Residual::of(found.iter().copied()).rms_mm;
         match self.uniform.and_then(|_| self.hold_out(device, profile).ok()) {
-            Some(with) if found.as_ref().map_or(true, |found| rms_mm(&with) < rms_mm(found)) => Ok((self, with)),
+            Some(with) if found.as_ref().map_or(true, |found| rms_mm(&with) < rms_mm(found)) => {
+                Ok((self, with))
+            }
             _ => Ok((without, found?)),
         }
     }
 
-    /// Every other place, looked up in a table that was made from the others: of a raster the white squares of its board.
+    /// Every other place, looked up in a table that was made from the others: of a raster the white
+    /// squares of its board.
     fn hold_out(&self, device: &DeviceCalibration, profile: &Profile) -> Result<Vec<Found>> {
         let columns = self.columns.unwrap_or(self.rows.len());
         let is_kept = |index: &usize| (index / columns + index % columns).is_multiple_of(2);
         let (kept, held): (Vec<_>, Vec<_>) = (0..self.rows.len()).partition(is_kept);
-        let [kept, held] = [kept, held].map(|half| half.into_iter().map(|index| self.rows[index]).collect::<Vec<_>>());
+        let [kept, held] = [kept, held]
+            .map(|half| half.into_iter().map(|index| self.rows[index]).collect::<Vec<_>>());
         let from = DeviceCalibration { map: self.scattered(&kept)?, ..device.clone() };
         let calibration = from.for_profile(profile).context("with every other place held out")?;
         Ok(found(&held, &calibration))

@@ -64,7 +64,10 @@ struct Columns {
 
 /// Whether a table is one of places.
 pub fn is(table: &Table) -> bool {
-    table.has("x_mm") && table.has("y_mm") && (table.has("i1") || table.has("i1_re")) && !table.has("haptic_v_rms")
+    table.has("x_mm")
+        && table.has("y_mm")
+        && (table.has("i1") || table.has("i1_re"))
+        && !table.has("haptic_v_rms")
 }
 
 impl Columns {
@@ -85,8 +88,12 @@ impl Columns {
         let pair = |k: usize| {
             Ok(match form {
                 Form::Amplitudes => (table.column(&format!("i{k}"))?, None),
-                Form::Polar => (table.column(&format!("i{k}"))?, Some(table.column(&format!("i{k}_deg"))?)),
-                Form::Rectangular => (table.column(&format!("i{k}_re"))?, Some(table.column(&format!("i{k}_im"))?)),
+                Form::Polar => {
+                    (table.column(&format!("i{k}"))?, Some(table.column(&format!("i{k}_deg"))?))
+                }
+                Form::Rectangular => {
+                    (table.column(&format!("i{k}_re"))?, Some(table.column(&format!("i{k}_im"))?))
+                }
             })
         };
         Ok(Columns {
@@ -114,7 +121,10 @@ impl Columns {
         for k in 0..self.currents.len() {
             let (number, current) = (k + 1, self.current(row, k));
             if self.form != Form::Rectangular && row.at(self.currents[k].0) < 0.0 {
-                bail!("{place}: i{number}: expected an amplitude, not below 0, got {}", row.at(self.currents[k].0));
+                bail!(
+                    "{place}: i{number}: expected an amplitude, not below 0, got {}",
+                    row.at(self.currents[k].0)
+                );
             }
             let got = current.norm();
             ensure!(
@@ -135,9 +145,16 @@ impl Places {
     /// Columns or numbers that are not as above; data that no table of positions can be made from.
     pub fn of(table: &Table, full_scale_a: f64) -> Result<Places> {
         let columns = Columns::of(table)?;
-        let places = table.rows().iter().map(|row| columns.place(table, row, full_scale_a)).collect::<Result<_>>()?;
-        let places =
-            Places { file: table.file.clone(), places: averaged(places), phases: columns.form != Form::Amplitudes };
+        let places = table
+            .rows()
+            .iter()
+            .map(|row| columns.place(table, row, full_scale_a))
+            .collect::<Result<_>>()?;
+        let places = Places {
+            file: table.file.clone(),
+            places: averaged(places),
+            phases: columns.form != Form::Amplitudes,
+        };
         places.check()?;
         Ok(places)
     }
@@ -174,9 +191,13 @@ impl Places {
 
     /// The ratios of currents, with these signs.
     pub fn ratios(siemens: &[Complex], signs: [&[i8]; 2]) -> [f64; 2] {
-        let currents = || siemens.iter().map(|siemens| siemens.norm()).zip(signs[0].iter().zip(signs[1]));
+        let currents =
+            || siemens.iter().map(|siemens| siemens.norm()).zip(signs[0].iter().zip(signs[1]));
         let sum = Places::denominator(siemens, signs);
-        [0, 1].map(|axis| currents().map(|(current, (x, y))| current * f64::from([*x, *y][axis])).sum::<f64>() / sum)
+        [0, 1].map(|axis| {
+            currents().map(|(current, (x, y))| current * f64::from([*x, *y][axis])).sum::<f64>()
+                / sum
+        })
     }
 
     /// The currents, as shares of the ratios' denominator.
@@ -187,18 +208,24 @@ impl Places {
 
     /// The sum of the currents that have a sign.
     fn denominator(siemens: &[Complex], signs: [&[i8]; 2]) -> f64 {
-        let currents = siemens.iter().map(|siemens| siemens.norm()).zip(signs[0].iter().zip(signs[1]));
+        let currents =
+            siemens.iter().map(|siemens| siemens.norm()).zip(signs[0].iter().zip(signs[1]));
         currents.filter(|(_, (x, y))| (**x, **y) != (0, 0)).map(|(current, _)| current).sum()
     }
 
-    /// Brings the places into the order of a raster, row by row; places in a row, or none where they are no raster.
+    /// Brings the places into the order of a raster, row by row; places in a row, or none where
+    /// they are no raster.
     pub fn raster(&mut self) -> Option<usize> {
-        let [xs, ys] = [0, 1].map(|axis| distinct(self.places.iter().map(|place| place.at_mm[axis])));
+        let [xs, ys] =
+            [0, 1].map(|axis| distinct(self.places.iter().map(|place| place.at_mm[axis])));
         if xs.len() * ys.len() != self.places.len() {
             return None;
         }
-        let index = |values: &[f64], value: f64| values.iter().rposition(|first| *first <= value).unwrap_or(0);
-        let cell = |place: &Place| index(&ys, place.at_mm[1]) * xs.len() + index(&xs, place.at_mm[0]);
+        let index = |values: &[f64], value: f64| {
+            values.iter().rposition(|first| *first <= value).unwrap_or(0)
+        };
+        let cell =
+            |place: &Place| index(&ys, place.at_mm[1]) * xs.len() + index(&xs, place.at_mm[0]);
         self.places.sort_by_key(cell);
         let whole = self.places.iter().enumerate().all(|(number, place)| cell(place) == number);
         whole.then_some(xs.len())
@@ -210,7 +237,8 @@ pub fn total(place: &Place) -> f64 {
     place.siemens.iter().map(|siemens| siemens.norm()).sum()
 }
 
-/// The first of each run of values that a raster's line has, ascending: nearer ones than a thousandth of all are one.
+/// The first of each run of values that a raster's line has, ascending: nearer ones than a
+/// thousandth of all are one.
 fn distinct(values: impl Iterator<Item = f64>) -> Vec<f64> {
     let mut values: Vec<_> = values.collect();
     values.sort_by(f64::total_cmp);
@@ -235,7 +263,11 @@ fn averaged(mut places: Vec<Place>) -> Vec<Place> {
             at_mm: same[0].at_mm,
             siemens: (0..same[0].siemens.len()).map(siemens).collect(),
             sense_v: same.iter().map(|place| place.sense_v).sum::<f64>() / count,
-            sheet_ohm: same.iter().map(|place| place.sheet_ohm).sum::<Option<f64>>().map(|sum| sum / count),
+            sheet_ohm: same
+                .iter()
+                .map(|place| place.sheet_ohm)
+                .sum::<Option<f64>>()
+                .map(|sum| sum / count),
         }
     };
     places.chunk_by(|a, b| key(a) == key(b)).map(mean).collect()

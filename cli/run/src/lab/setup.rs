@@ -127,13 +127,20 @@ impl Setup {
             ("haptic_full_scale_v", self.haptic_full_scale_v),
             ("gravity_m_s2", self.gravity_m_s2),
         ];
-        numbers.extend([("mu", self.mu), ("force_k", self.force_k)].iter().filter_map(|(key, x)| Some((*key, (*x)?))));
+        numbers.extend(
+            [("mu", self.mu), ("force_k", self.force_k)]
+                .iter()
+                .filter_map(|(key, x)| Some((*key, (*x)?))),
+        );
         if let Some(sheet) = &self.sheet {
-            numbers.extend([("sheet.width_mm", sheet.width_mm), ("sheet.height_mm", sheet.height_mm)]);
+            numbers
+                .extend([("sheet.width_mm", sheet.width_mm), ("sheet.height_mm", sheet.height_mm)]);
             numbers.push(("sheet.pad_diameter_mm", sheet.pad_diameter_mm));
         }
         let bad = numbers.into_iter().find(|(_, value)| !(value.is_finite() && *value > 0.0));
-        bad.map_or(Ok(()), |(key, value)| Err(anyhow!("{key}: expected a number above 0, got {value}")))
+        bad.map_or(Ok(()), |(key, value)| {
+            Err(anyhow!("{key}: expected a number above 0, got {value}"))
+        })
     }
 
     /// The signs of so many terminals in the ratios.
@@ -143,7 +150,10 @@ impl Setup {
     pub fn signs(&self, terminals: usize) -> Result<Signs> {
         let Terminals { x, y, places_mm } = &self.terminals;
         let count = |key: &str, got: usize| {
-            ensure!(got == terminals, "terminals.{key}: expected {terminals}, as the places have currents, got {got}");
+            ensure!(
+                got == terminals,
+                "terminals.{key}: expected {terminals}, as the places have currents, got {got}"
+            );
             Ok(())
         };
         places_mm.as_ref().map_or(Ok(()), |places| count("places_mm", places.len()))?;
@@ -160,7 +170,9 @@ impl Setup {
                 let usual = Profile::bundled("standard")?.terminals;
                 Ok(Signs { x: usual.x, y: usual.y })
             }
-            _ => Err(anyhow!("terminals: expected x and y, signs of {terminals} terminals, or places_mm and [sheet]")),
+            _ => Err(anyhow!(
+                "terminals: expected x and y, signs of {terminals} terminals, or places_mm and [sheet]"
+            )),
         }
     }
 }

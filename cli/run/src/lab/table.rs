@@ -30,10 +30,14 @@ impl Table {
     pub fn read(path: &Path) -> Result<Table> {
         let file = path.display().to_string();
         let mut builder = csv::ReaderBuilder::new();
-        let mut reader =
-            builder.comment(Some(b'#')).trim(csv::Trim::All).from_path(path).with_context(|| file.clone())?;
+        let mut reader = builder
+            .comment(Some(b'#'))
+            .trim(csv::Trim::All)
+            .from_path(path)
+            .with_context(|| file.clone())?;
         let header = reader.headers().with_context(|| file.clone())?;
-        let names: Vec<String> = header.iter().map(|name| name.trim_start_matches('\u{feff}').to_lowercase()).collect();
+        let names: Vec<String> =
+            header.iter().map(|name| name.trim_start_matches('\u{feff}').to_lowercase()).collect();
         if let Some(twice) = names.iter().enumerate().find(|(k, name)| names[..*k].contains(name)) {
             bail!("{file}:1: {} comes twice", twice.1);
         }
@@ -43,7 +47,9 @@ impl Table {
             let line = record.position().map_or(0, csv::Position::line);
             let number = |(text, name): (&str, &String)| {
                 let number = text.parse().ok().filter(|number: &f64| number.is_finite());
-                number.ok_or_else(|| anyhow!("{}:{line}: {name}: expected a number, got \"{text}\"", table.file))
+                number.ok_or_else(|| {
+                    anyhow!("{}:{line}: {name}: expected a number, got \"{text}\"", table.file)
+                })
             };
             let numbers = record.iter().zip(&table.names).map(number).collect::<Result<_>>()?;
             table.rows.push(Row { line, numbers });
@@ -62,7 +68,9 @@ impl Table {
     /// It has no such column.
     pub fn column(&self, name: &str) -> Result<usize> {
         let found = self.names.iter().position(|known| known == name);
-        found.ok_or_else(|| anyhow!("{}:1: expected a column {name}, got {}", self.file, self.names.join(", ")))
+        found.ok_or_else(|| {
+            anyhow!("{}:1: expected a column {name}, got {}", self.file, self.names.join(", "))
+        })
     }
 
     /// Data rows with their line numbers.

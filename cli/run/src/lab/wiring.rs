@@ -18,7 +18,8 @@ use super::setup::Setup;
 use crate::inputs;
 use hapticore_host::Signs;
 
-/// A current that is so much better correlated with another terminal's on the uniform sheet is not of its own.
+/// A current that is so much better correlated with another terminal's on the uniform sheet is not
+/// of its own.
 const BETTER: f64 = 0.05;
 
 /// A share counts as falling towards its terminal's side from this correlation on.
@@ -42,14 +43,20 @@ pub fn check(places: &Places, setup: &Setup, signs: &Signs, uniform: Option<&Pla
 /// # Errors
 /// A sheet that cannot be.
 pub fn uniform_sheet(setup: &Setup) -> Result<Option<Plant>> {
-    let (Some(sheet), Some(terminals)) = (&setup.sheet, &setup.terminals.places_mm) else { return Ok(None) };
+    let (Some(sheet), Some(terminals)) = (&setup.sheet, &setup.terminals.places_mm) else {
+        return Ok(None);
+    };
     let mut scene = String::from("title = \"a uniform sheet\"\n[[pad]]\nposition_mm = [0, 0]\n");
     let _ = writeln!(
         scene,
         "[device]\nwidth_mm = {:?}\nheight_mm = {:?}\npad_diameter_mm = {:?}",
         sheet.width_mm, sheet.height_mm, sheet.pad_diameter_mm
     );
-    let _ = writeln!(scene, "[sheet]\nterminals_mm = {terminals:?}\nterminal_ohm = {:?}", sheet.terminal_ohm);
+    let _ = writeln!(
+        scene,
+        "[sheet]\nterminals_mm = {terminals:?}\nterminal_ohm = {:?}",
+        sheet.terminal_ohm
+    );
     let _ = sheet.ohm_per_square.map(|ohm| writeln!(scene, "ohm_per_square = {ohm:?}"));
     let fail = |error| anyhow!("the setup's sheet and terminals.places_mm: {error}");
     let scene = Scene::parse(&scene, "sheet", &[]).map_err(fail)?;
@@ -83,14 +90,16 @@ fn check_polarity(places: &Places) -> Result<()> {
 fn check_order(places: &Places, model: &[PadMeasurement], setup: &Setup) -> Result<()> {
     let expected = |k: usize| {
         let share = move |measurement: &PadMeasurement| {
-            measurement.siemens[k].norm() / measurement.siemens.iter().map(|s| s.norm()).sum::<f64>()
+            measurement.siemens[k].norm()
+                / measurement.siemens.iter().map(|s| s.norm()).sum::<f64>()
         };
         model.iter().map(share).collect::<Vec<_>>()
     };
     let expected: Vec<_> = (0..places.terminals()).map(expected).collect();
     let best = |k: usize| {
         let measured = shares(places, k);
-        let near: Vec<_> = expected.iter().map(|expected| correlation(&measured, expected)).collect();
+        let near: Vec<_> =
+            expected.iter().map(|expected| correlation(&measured, expected)).collect();
         let best = (0..near.len()).max_by(|a, b| near[*a].total_cmp(&near[*b])).unwrap_or(k);
         if near[best] - near[k] > BETTER { best } else { k }
     };
@@ -106,7 +115,9 @@ fn check_order(places: &Places, model: &[PadMeasurement], setup: &Setup) -> Resu
         match best[best[k]] == k {
             true if k < best[k] => told.push(format!("i{a} and i{b} are swapped")),
             true => (),
-            false => told.push(format!("i{a} reads as i{b}'s terminal at {:?} mm would", at(best[k]))),
+            false => {
+                told.push(format!("i{a} reads as i{b}'s terminal at {:?} mm would", at(best[k])))
+            }
         }
     }
     let mirrored = |axis: usize| {
@@ -116,10 +127,9 @@ fn check_order(places: &Places, model: &[PadMeasurement], setup: &Setup) -> Resu
         };
         (0..best.len()).all(|k| at(best[k]) == mirror(at(k)))
     };
-    let hint = [0, 1]
-        .into_iter()
-        .find(|axis| mirrored(*axis))
-        .map_or(String::new(), |axis| format!(" (or {} of the places runs the other way)", ["x_mm", "y_mm"][axis]));
+    let hint = [0, 1].into_iter().find(|axis| mirrored(*axis)).map_or(String::new(), |axis| {
+        format!(" (or {} of the places runs the other way)", ["x_mm", "y_mm"][axis])
+    });
     bail!(
         "{}: {}{hint}: their shares of the current go over the sheet as each other's would on a uniform sheet",
         places.file,
@@ -131,7 +141,8 @@ fn check_order(places: &Places, model: &[PadMeasurement], setup: &Setup) -> Resu
 fn check_sides(places: &Places, signs: &Signs) -> Result<()> {
     for (axis, (signs, name)) in [(&signs.x, "x"), (&signs.y, "y")].into_iter().enumerate() {
         let along: Vec<_> = places.places.iter().map(|place| place.at_mm[axis]).collect();
-        let falls = |k: &usize| f64::from(signs[*k]) * correlation(&shares(places, *k), &along) < FALLS;
+        let falls =
+            |k: &usize| f64::from(signs[*k]) * correlation(&shares(places, *k), &along) < FALLS;
         let wrong: Vec<_> = (0..places.terminals()).filter(falls).collect();
         ensure!(
             wrong.is_empty(),
@@ -161,6 +172,8 @@ fn list(terminals: &[usize], one: &str, more: &str) -> String {
 fn correlation(a: &[f64], b: &[f64]) -> f64 {
     let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
     let (mean_a, mean_b) = (mean(a), mean(b));
-    let sum = |f: &dyn Fn(f64, f64) -> f64| a.iter().zip(b).map(|(a, b)| f(a - mean_a, b - mean_b)).sum::<f64>();
+    let sum = |f: &dyn Fn(f64, f64) -> f64| {
+        a.iter().zip(b).map(|(a, b)| f(a - mean_a, b - mean_b)).sum::<f64>()
+    };
     sum(&|a, b| a * b) / (sum(&|a, _| a * a) * sum(&|_, b| b * b)).sqrt()
 }

@@ -5,9 +5,9 @@
 //! scalars of x │ scalars of y │ r_x: rows of columns │ r_y: likewise │ R: fewer rows and columns
 //! ```
 //!
-//! A quadratic B-spline over n cells has n + 2 coefficients; those of cell k are k, k + 1 and k + 2, and coefficient k + 1 has
-//! its centre in the middle of cell k. The number of cells is odd along either axis, so that a coefficient lies in the
-//! middle of the table.
+//! A quadratic B-spline over n cells has n + 2 coefficients; those of cell k are k, k + 1 and k +
+//! 2, and coefficient k + 1 has its centre in the middle of cell k. The number of cells is odd
+//! along either axis, so that a coefficient lies in the middle of the table.
 
 use crate::profile::Profile;
 use hapticore_hdl::format::Format;
@@ -49,7 +49,8 @@ pub enum Scalar {
     Pitch,
     /// Less the place of the table's middle, by the range of a position.
     Origin,
-    /// Of x alone: half the share of the ratios' denominator below which a terminal's current is that of an open one.
+    /// Of x alone: half the share of the ratios' denominator below which a terminal's current is
+    /// that of an open one.
     Open,
 }
 
@@ -81,7 +82,8 @@ impl Layout {
     pub const GAIN: f64 = 16.0;
     /// A place of one, as a fraction, is so many cells from the table's middle.
     pub const CELLS: f64 = 32.0;
-    /// Normalised ratios at the place found and measured ones agree within `2^-TOLERANCE_BITS`, or there is no such place.
+    /// Normalised ratios at the place found and measured ones agree within `2^-TOLERANCE_BITS`, or
+    /// there is no such place.
     pub const TOLERANCE_BITS: u8 = 9;
     /// The longest Newton step of a look-up, in cells.
     pub const STEP_CELLS: f64 = 4.0;
@@ -89,10 +91,14 @@ impl Layout {
     /// The layout of a profile.
     pub fn new(profile: &Profile) -> Self {
         let position = &profile.position;
-        Layout { ratios: [position.columns as usize, position.rows as usize], shift: position.resistance_shift }
+        Layout {
+            ratios: [position.columns as usize, position.rows as usize],
+            shift: position.resistance_shift,
+        }
     }
 
-    /// Cells of a surface along an axis: those of the resistance reach at least as far as the ratios'.
+    /// Cells of a surface along an axis: those of the resistance reach at least as far as the
+    /// ratios'.
     pub fn cells(&self, surface: Surface, axis: Axis) -> usize {
         let cells = self.ratios[axis as usize] - 2;
         match surface {
@@ -129,7 +135,8 @@ impl Layout {
 
     /// Words in all.
     pub fn words(&self) -> usize {
-        let [columns, rows] = [Axis::X, Axis::Y].map(|axis| self.coefficients(Surface::Resistance, axis));
+        let [columns, rows] =
+            [Axis::X, Axis::Y].map(|axis| self.coefficients(Surface::Resistance, axis));
         self.surface(Surface::Resistance) + columns * rows
     }
 

@@ -7,7 +7,8 @@ use nalgebra_sparse::{CooMatrix, CscMatrix};
 
 /// A table whose entries are sought.
 pub struct Fit {
-    /// Of each entry the others that it meets, with the normal equations' coefficients: few, as interpolation is local.
+    /// Of each entry the others that it meets, with the normal equations' coefficients: few, as
+    /// interpolation is local.
     normal: Vec<Vec<(usize, f64)>>,
     right: DMatrix<f64>,
 }
@@ -38,7 +39,8 @@ impl Fit {
         }
     }
 
-    /// The entries: a row each, a column a layer. None where what was asked does not settle them all.
+    /// The entries: a row each, a column a layer. None where what was asked does not settle them
+    /// all.
     pub fn solve(self) -> Option<DMatrix<f64>> {
         let entries = self.normal.len();
         let mut normal = CooMatrix::new(entries, entries);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Calibration: the numbers that make a core of a profile into the sensor of a device.
 //!
-//! It is made from points at which ratios and place are both known: a simulation of the device, or a measurement. Numbers
-//! are in the core's own units: fractions of full scale, millimetres, picofarads, newtons.
+//! It is made from points at which ratios and place are both known: a simulation of the device, or
+//! a measurement. Numbers are in the core's own units: fractions of full scale, millimetres,
+//! picofarads, newtons.
 
 mod layout;
 mod least_squares;

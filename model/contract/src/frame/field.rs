@@ -48,7 +48,8 @@ impl Field {
         Field::MeanSquare,
     ];
 
-    /// The format of the field. Ratios are rounded to the width of the widest other word: frames are no wider for them.
+    /// The format of the field. Ratios are rounded to the width of the widest other word: frames
+    /// are no wider for them.
     pub fn format(self, profile: &Profile) -> Format {
         let f = &profile.formats;
         match self {

@@ -50,8 +50,8 @@ pub struct Measurement<T = f64> {
     pub capacitance_pf: T,
     /// Haptic force of eq. 8, N.
     pub force_n: T,
-    /// The mean square of the haptic voltage, in full scales squared (a constant at full scale gives
-    /// [`Profile::square_gain`]).
+    /// The mean square of the haptic voltage, in full scales squared (a constant at full scale
+    /// gives [`Profile::square_gain`]).
     pub mean_square: T,
     /// What to think of it.
     pub flags: Flags,

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The ranges of a profile's values, by themselves and against each other.
 //!
-//! Absent: whether a core's signals and clocks suffice, which only its blocks know (`hapticore_model::check`).
+//! Absent: whether a core's signals and clocks suffice, which only its blocks know
+//! (`hapticore_model::check`).
 
 use super::{Method, Profile, ProfileError};
 use crate::calibration::Layout;
@@ -19,9 +20,11 @@ fn within(field: &str, value: u64, low: u64, high: u64) -> Check {
 }
 
 impl Profile {
-    /// Checks every value against its range, and values against each other; [`Profile::parse`] has done so.
+    /// Checks every value against its range, and values against each other; [`Profile::parse`] has
+    /// done so.
     ///
-    /// Whether a core can be built is asked of the core: `hapticore_model::check`, which begins with this.
+    /// Whether a core can be built is asked of the core: `hapticore_model::check`, which begins
+    /// with this.
     ///
     /// # Errors
     /// The first value that is out of its range, with its key.
@@ -37,7 +40,12 @@ impl Profile {
     fn check_terminals(&self) -> Check {
         let (x, y) = (&self.terminals.x, &self.terminals.y);
         within("terminals.x", x.len() as u64, 3, 16)?;
-        ensure(y.len() == x.len(), "terminals.y", format_args!("{} signs, as terminals.x has", x.len()), y.len())?;
+        ensure(
+            y.len() == x.len(),
+            "terminals.y",
+            format_args!("{} signs, as terminals.x has", x.len()),
+            y.len(),
+        )?;
         for (field, signs) in [("terminals.x", x), ("terminals.y", y)] {
             ensure(
                 signs.iter().all(|sign| (-1..=1).contains(sign)),
@@ -45,15 +53,36 @@ impl Profile {
                 "signs -1, 0 or 1",
                 format_args!("{signs:?}"),
             )?;
-            ensure(signs.contains(&1) && signs.contains(&-1), field, "both signs", format_args!("{signs:?}"))?;
+            ensure(
+                signs.contains(&1) && signs.contains(&-1),
+                field,
+                "both signs",
+                format_args!("{signs:?}"),
+            )?;
         }
-        ensure(x != y, "terminals.y", "signs other than those of terminals.x", format_args!("{y:?}"))
+        ensure(
+            x != y,
+            "terminals.y",
+            "signs other than those of terminals.x",
+            format_args!("{y:?}"),
+        )
     }
 
     fn check_slot(&self) -> Check {
-        let (samples, periods, windows) = (self.slot.integrate, self.carrier.periods, self.haptic.windows);
-        within("clocks_per_sample", self.clocks_per_sample, self.least_clocks_per_sample(), 1 << 16)?;
-        ensure(windows.is_power_of_two() && windows <= 64, "haptic.windows", "a power of two, 64 at most", windows)?;
+        let (samples, periods, windows) =
+            (self.slot.integrate, self.carrier.periods, self.haptic.windows);
+        within(
+            "clocks_per_sample",
+            self.clocks_per_sample,
+            self.least_clocks_per_sample(),
+            1 << 16,
+        )?;
+        ensure(
+            windows.is_power_of_two() && windows <= 64,
+            "haptic.windows",
+            "a power of two, 64 at most",
+            windows,
+        )?;
         within("slot.open", self.slot.open, 1, 1 << 20)?;
         within("slot.settle", self.slot.settle, 0, 1 << 20)?;
         within("slot.integrate", samples, 8, 1 << 16)?;
@@ -61,30 +90,51 @@ impl Profile {
         let most = self.formats.oscillator.max_code() as u64;
         within("carrier.amplitude", self.carrier.amplitude, most / 2, most)?;
         match self.carrier.method {
-            Method::Products => {
-                ensure(samples.is_multiple_of(4), "slot.integrate", "a multiple of four samples", samples)
-            }
+            Method::Products => ensure(
+                samples.is_multiple_of(4),
+                "slot.integrate",
+                "a multiple of four samples",
+                samples,
+            ),
             Method::Polyphase => self.check_polyphase(),
         }
     }
 
-    /// Five sums of the window's values, one per phase of the carrier, must be the same: what a constant makes of them then
-    /// leaves nothing.
+    /// Five sums of the window's values, one per phase of the carrier, must be the same: what a
+    /// constant makes of them then leaves nothing.
     fn check_polyphase(&self) -> Check {
         let samples = self.slot.integrate;
-        let expected = format_args!("five samples of each of {} periods", self.carrier.periods).to_string();
+        let expected =
+            format_args!("five samples of each of {} periods", self.carrier.periods).to_string();
         ensure(samples == 5 * self.carrier.periods, "slot.integrate", expected, samples)?;
         let begins = self.slot.blanking();
-        ensure(begins.is_multiple_of(5), "slot.settle", "whole periods of five samples before the window", begins)?;
+        ensure(
+            begins.is_multiple_of(5),
+            "slot.settle",
+            "whole periods of five samples before the window",
+            begins,
+        )?;
         let f = &self.formats;
-        ensure(f.adc == Format::signed(16, 15), "formats.adc", "s16.15, with carrier.method polyphase", f.adc)?;
+        ensure(
+            f.adc == Format::signed(16, 15),
+            "formats.adc",
+            "s16.15, with carrier.method polyphase",
+            f.adc,
+        )?;
         let waves = Format::signed(17, 16);
-        ensure(f.oscillator == waves, "formats.oscillator", "s17.16, with carrier.method polyphase", f.oscillator)
+        ensure(
+            f.oscillator == waves,
+            "formats.oscillator",
+            "s17.16, with carrier.method polyphase",
+            f.oscillator,
+        )
     }
 
     fn check_position(&self) -> Check {
         let position = &self.position;
-        for (field, side) in [("position.columns", position.columns), ("position.rows", position.rows)] {
+        for (field, side) in
+            [("position.columns", position.columns), ("position.rows", position.rows)]
+        {
             within(field, side, 5, 2 * Layout::CELLS as u64 + 1)?;
             ensure(!side.is_multiple_of(2), field, "an odd number", side)?;
         }
@@ -96,7 +146,12 @@ impl Profile {
         ensure(as_wide, "formats.position", "as many bits as formats.table", f.position)?;
         let words = Layout::new(self).words();
         let most = f.table.max_code().min(1 << 14) as usize;
-        ensure(words <= most, "position.columns", format!("a table of {most} words at most"), format_args!("{words}"))
+        ensure(
+            words <= most,
+            "position.columns",
+            format!("a table of {most} words at most"),
+            format_args!("{words}"),
+        )
     }
 
     fn check_formats(&self) -> Check {
@@ -114,14 +169,29 @@ impl Profile {
         }
         for (name, format) in [("adc", f.adc), ("oscillator", f.oscillator), ("table", f.table)] {
             let fraction = format.integer_bits() == 0 && (4..=24).contains(&format.width);
-            ensure(fraction, &format!("formats.{name}"), "a fraction of 4 to 24 bits, such as s18.17", format)?;
+            ensure(
+                fraction,
+                &format!("formats.{name}"),
+                "a fraction of 4 to 24 bits, such as s18.17",
+                format,
+            )?;
         }
         for (name, format) in [("iq", f.iq), ("total", f.total)] {
             let sound = (4..=30).contains(&format.width) && format.frac >= 0;
-            ensure(sound, &format!("formats.{name}"), "4 to 30 bits with a point among them", format)?;
+            ensure(
+                sound,
+                &format!("formats.{name}"),
+                "4 to 30 bits with a point among them",
+                format,
+            )?;
         }
         let wide = f.iq.width + f.block_shift.min(63);
-        ensure(wide <= 40, "formats.block_shift", format_args!("at most 40 bits with those of iq, {}", f.iq), wide)?;
+        ensure(
+            wide <= 40,
+            "formats.block_shift",
+            format_args!("at most 40 bits with those of iq, {}", f.iq),
+            wide,
+        )?;
         let same_point = f.total.frac == f.iq.frac && f.total.width >= f.iq.width;
         let moved = f.block_shift > 0 && f.total.frac <= f.iq.frac;
         let expected = format_args!("the point of iq, {}, and no fewer bits", f.iq);
@@ -129,8 +199,18 @@ impl Profile {
         let squared = f.block_shift == 0 || f.total.width <= 28;
         ensure(squared, "formats.total", "28 bits at most, with formats.block_shift", f.total)?;
         let fine = f.ratio.frac + 1 >= f.table.frac;
-        ensure(fine, "formats.ratio", format_args!("half of which is as fine as table, {}", f.table), f.ratio)?;
-        ensure(f.ratio.integer_bits() == 1, "formats.ratio", "one integer bit, such as s20.18", f.ratio)?;
+        ensure(
+            fine,
+            "formats.ratio",
+            format_args!("half of which is as fine as table, {}", f.table),
+            f.ratio,
+        )?;
+        ensure(
+            f.ratio.integer_bits() == 1,
+            "formats.ratio",
+            "one integer bit, such as s20.18",
+            f.ratio,
+        )?;
         ensure((4..=30).contains(&f.ratio.width), "formats.ratio", "4 to 30 bits", f.ratio)?;
         let sound = (8..=28).contains(&f.position.width) && f.position.frac >= 0;
         ensure(sound, "formats.position", "8 to 28 bits with a point among them", f.position)?;
@@ -146,6 +226,11 @@ impl Profile {
 
     fn check_unsigned(&self, format: Format, name: &str) -> Check {
         let holds = !format.signed && format.width <= 28 && (-16..=48).contains(&format.frac);
-        ensure(holds, &format!("formats.{name}"), "an unsigned format of at most 28 bits, such as u18.8", format)
+        ensure(
+            holds,
+            &format!("formats.{name}"),
+            "an unsigned format of at most 28 bits, such as u18.8",
+            format,
+        )
     }
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Profiles: word lengths, counts and timings of a core, at run time. The one place where a width is written.
+//! Profiles: word lengths, counts and timings of a core, at run time. The one place where a width
+//! is written.
 //!
-//! A profile is TOML. `small`, `standard` and `fine` are bundled; [`Profile::parse`] reads any other, and nothing needs to
-//! be compiled again.
+//! A profile is TOML. `small`, `standard` and `fine` are bundled; [`Profile::parse`] reads any
+//! other, and nothing needs to be compiled again.
 
 mod check;
 
@@ -30,7 +31,8 @@ pub struct Profile {
     pub pads: u64,
     /// Clocks of the core from one ADC sample to the next.
     pub clocks_per_sample: u64,
-    /// The width of the words that a hardware multiplier of the part takes; wider products take two clocks.
+    /// The width of the words that a hardware multiplier of the part takes; wider products take two
+    /// clocks.
     pub multiplier: u8,
     /// The current sensors.
     pub terminals: Terminals,
@@ -75,10 +77,12 @@ pub struct Slot {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Carrier {
-    /// Periods in a window. With no divisor in common with the window's samples every sample meets another phase, so that
-    /// harmonics of the carrier stay off it and undithered rounding averages out.
+    /// Periods in a window. With no divisor in common with the window's samples every sample meets
+    /// another phase, so that harmonics of the carrier stay off it and undithered rounding averages
+    /// out.
     pub periods: u64,
-    /// The code that stands for one: of the carrier's words where a sample is multiplied by them, else of the window's.
+    /// The code that stands for one: of the carrier's words where a sample is multiplied by them,
+    /// else of the window's.
     pub amplitude: u64,
     /// How a channel's in-phase and quadrature sums are made.
     pub method: Method,
@@ -92,8 +96,8 @@ pub struct Carrier {
 pub enum Method {
     /// Each sample times the windowed cosine and sine: any number of periods.
     Products,
-    /// Each sample times the window, summed by phase of a carrier of five samples per period; cosine and sine are applied to
-    /// the five sums at the end of the window.
+    /// Each sample times the window, summed by phase of a carrier of five samples per period;
+    /// cosine and sine are applied to the five sums at the end of the window.
     Polyphase,
 }
 
@@ -111,7 +115,8 @@ pub enum Window {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Position {
-    /// Coefficients of a ratio's spline along the long edges; an odd number, so that one lies in the middle.
+    /// Coefficients of a ratio's spline along the long edges; an odd number, so that one lies in
+    /// the middle.
     pub columns: u64,
     /// Coefficients along the short edges, likewise.
     pub rows: u64,
@@ -156,8 +161,9 @@ pub struct Formats {
     pub iq: Format,
     /// In-phase and quadrature words of the sum over all terminals.
     pub total: Format,
-    /// Bits by which in-phase and quadrature words may be moved up, those of all terminals together, so that the largest
-    /// fills its word; 0 leaves the point where it is. `total` is then the format of the amplitudes that are given on.
+    /// Bits by which in-phase and quadrature words may be moved up, those of all terminals
+    /// together, so that the largest fills its word; 0 leaves the point where it is. `total` is
+    /// then the format of the amplitudes that are given on.
     pub block_shift: u8,
     /// The ratios of eqs. 2 and 3.
     pub ratio: Format,
@@ -208,12 +214,16 @@ pub enum ProfileError {
 impl ProfileError {
     /// A value of `field` other than what is expected.
     pub fn value(field: &str, expected: impl Display, got: impl Display) -> Self {
-        ProfileError::Value { field: field.into(), expected: expected.to_string(), got: got.to_string() }
+        ProfileError::Value {
+            field: field.into(),
+            expected: expected.to_string(),
+            got: got.to_string(),
+        }
     }
 }
 
-/// What an in-phase wave has for one under [`Method::Polyphase`]: its five values are integers over 2^16, and this is the
-/// first of them.
+/// What an in-phase wave has for one under [`Method::Polyphase`]: its five values are integers over
+/// 2^16, and this is the first of them.
 pub const POLYPHASE_GAIN: f64 = 57230.0 / 65536.0;
 
 /// The bundled profiles: their names and texts.
@@ -243,7 +253,9 @@ impl Profile {
     /// Where the text is no profile, or a value is out of its range; the message names line or key.
     pub fn parse(text: &str) -> Result<Profile, ProfileError> {
         let profile: Profile = toml::from_str(text).map_err(|error| {
-            let line = error.span().map_or(1, |span| text[..span.start.min(text.len())].matches('\n').count() + 1);
+            let line = error
+                .span()
+                .map_or(1, |span| text[..span.start.min(text.len())].matches('\n').count() + 1);
             ProfileError::Syntax(format!("{line}: {}", error.message().replace('\n', " ")))
         })?;
         profile.check_values()?;
@@ -270,7 +282,10 @@ impl Profile {
 
     /// All bundled profiles.
     pub fn all() -> Vec<Profile> {
-        BUNDLED.iter().map(|(_, text)| Profile::parse(text).expect("bundled profiles are tested")).collect()
+        BUNDLED
+            .iter()
+            .map(|(_, text)| Profile::parse(text).expect("bundled profiles are tested"))
+            .collect()
     }
 
     /// Channels that are demodulated: the terminals and the sensing voltage.
@@ -283,7 +298,8 @@ impl Profile {
         self.terminals.x.len() + 2
     }
 
-    /// The fewest clocks from one sample to the next: in them a core asks for the code of every channel and has used the last.
+    /// The fewest clocks from one sample to the next: in them a core asks for the code of every
+    /// channel and has used the last.
     ///
     /// ```
     /// use hapticore_contract::profile::Profile;
@@ -340,7 +356,8 @@ impl Profile {
         1.0 / self.turns_per_sample()
     }
 
-    /// The profile with a window of another length, its carrier as near to what it was as whole periods are.
+    /// The profile with a window of another length, its carrier as near to what it was as whole
+    /// periods are.
     ///
     /// ```
     /// use hapticore_contract::profile::Profile;
@@ -372,18 +389,21 @@ impl Profile {
         Format::unsigned(word.width - 1, word.frac)
     }
 
-    /// The format of the amplitudes of total current and sensing voltage: of the square root of two squares of a total's word, one
-    /// more bit than the word without its sign and one for the square root's rounding.
+    /// The format of the amplitudes of total current and sensing voltage: of the square root of two
+    /// squares of a total's word, one more bit than the word without its sign and one for the
+    /// square root's rounding.
     pub fn amplitude_format(&self) -> Format {
         Format::unsigned(self.formats.total.width + 1, self.formats.total.frac)
     }
 
-    /// Bits by which the demodulator's sums are scaled down, so that a full-scale tone is a little below one.
+    /// Bits by which the demodulator's sums are scaled down, so that a full-scale tone is a little
+    /// below one.
     pub fn sum_shift(&self) -> i8 {
         shift(self.slot.integrate as f64 * self.carrier.window.mean() / 2.0)
     }
 
-    /// Bits by which the sum of squares is scaled down, so that a full-scale square wave is a little below one.
+    /// Bits by which the sum of squares is scaled down, so that a full-scale square wave is a
+    /// little below one.
     pub fn square_shift(&self) -> i8 {
         shift(self.slot.integrate as f64 * self.carrier.window.mean())
     }
@@ -394,7 +414,8 @@ impl Profile {
             Method::Products => self.amplitude(),
             Method::Polyphase => POLYPHASE_GAIN,
         };
-        self.slot.integrate as f64 * self.window_mean() * wave / 2.0 * 2f64.powi(-i32::from(self.sum_shift()))
+        self.slot.integrate as f64 * self.window_mean() * wave / 2.0
+            * 2f64.powi(-i32::from(self.sum_shift()))
     }
 
     /// What the mean square's word is for a constant at full scale.

@@ -16,7 +16,8 @@ pub struct Codes {
 /// The code of `a` with the point where `to` has it, which is never further left than in `a`.
 #[inline(always)]
 fn align(a: Signal<i64>, to: Format) -> i64 {
-    // Mostly there is nothing to move; a branch that a loop can be rid of is cheaper than a shift that it cannot.
+    // Mostly there is nothing to move; a branch that a loop can be rid of is cheaper than a shift
+    // that it cannot.
     if to.frac == a.format.frac { a.value } else { a.value << (to.frac - a.format.frac) }
 }
 
@@ -24,7 +25,8 @@ fn align(a: Signal<i64>, to: Format) -> i64 {
 #[inline(always)]
 fn round(code: i64, drop: u32, rounding: Rounding) -> i64 {
     match rounding {
-        // Adding just under a half, and one more where the result would be odd, makes every tie even.
+        // Adding just under a half, and one more where the result would be odd, makes every tie
+        // even.
         Rounding::HalfEven => (code + (1 << (drop - 1)) - 1 + ((code >> drop) & 1)) >> drop,
         Rounding::Floor => code >> drop,
         Rounding::Exact => unreachable!("checked by Signal::fit"),
@@ -44,7 +46,10 @@ fn limit(code: i64, to: Format, overflow: Overflow) -> i64 {
         Overflow::Saturate => code.clamp(min(to), max(to)),
         Overflow::Wrap => wrap(code, to),
         Overflow::Proved | Overflow::Assumed(_) => {
-            debug_assert!(code >= min(to) && code <= max(to), "{code} does not fit {to}, which is declared impossible");
+            debug_assert!(
+                code >= min(to) && code <= max(to),
+                "{code} does not fit {to}, which is declared impossible"
+            );
             code
         }
     }
@@ -180,9 +185,12 @@ impl Storage for i64 {
         if let Some(write) = write
             && write.enable.value != 0
         {
-            if cfg!(debug_assertions) && memory.collision == Collision::DontCare && write.address.value == address.value
+            if cfg!(debug_assertions)
+                && memory.collision == Collision::DontCare
+                && write.address.value == address.value
             {
-                // No block is to use this word: test builds read another, so that using it is noticed.
+                // No block is to use this word: test builds read another, so that using it is
+                // noticed.
                 words.data = mirrored(words.data, memory.format);
             }
             words.words[write.address.value as usize] = align(write.data, memory.format);
@@ -214,14 +222,18 @@ mod tests {
     #[test]
     fn ties_go_to_even_on_both_sides_of_zero() {
         let quarter = Format::signed(8, 2);
-        let rounded = |code| signal(code, quarter).quantize(Format::signed(8, 0), HalfEven, Saturate).value;
+        let rounded =
+            |code| signal(code, quarter).quantize(Format::signed(8, 0), HalfEven, Saturate).value;
         assert_eq!([-10, -6, -5, -2, -1, 2, 3, 6, 10].map(rounded), [-2, -2, -1, 0, 0, 0, 1, 2, 2]);
     }
 
     #[test]
     fn narrowings_do_what_they_are_named_for() {
         let (wide, narrow) = (Format::signed(8, 0), Format::signed(4, 0));
-        assert_eq!([-128, -9, 7, 100].map(|c| signal(c, wide).resize(narrow, Saturate).value), [-8, -8, 7, 7]);
+        assert_eq!(
+            [-128, -9, 7, 100].map(|c| signal(c, wide).resize(narrow, Saturate).value),
+            [-8, -8, 7, 7]
+        );
         assert_eq!([-9, 8, 23].map(|c| signal(c, wide).resize(narrow, Wrap).value), [7, -8, 7]);
         assert_eq!(signal(-1, Format::signed(8, 1)).quantize(wide, Floor, Wrap).value, -1);
         assert_eq!(signal(-128, wide).abs().value, 128);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The netlist interpretation: a value is a node of a graph, and a block within a block is an instance of a module.
+//! The netlist interpretation: a value is a node of a graph, and a block within a block is an
+//! instance of a module.
 //!
-//! [`Netlist::of`] elaborates a block once, checking every format on the way, and gives its modules, instances before
-//! the modules that hold them. Blocks of the same configuration share one module.
+//! [`Netlist::of`] elaborates a block once, checking every format on the way, and gives its
+//! modules, instances before the modules that hold them. Blocks of the same configuration share one
+//! module.
 
 use crate::block::{Block, Inputs, Interpretation, Outputs, State, widen};
 use crate::bundle::{Bundle, Field};
@@ -208,7 +210,9 @@ fn read<B: Block>(block: &B, state: &mut State<B, Node>) -> usize {
     let (inputs, input_ports) = ports::<B::Inputs>(block.inputs(), Op::Input);
     let (registers, _) = ports::<B::Registers>(block.registers(), Op::Register);
     state.registers = registers;
-    let signals = B::Inputs::map(B::Inputs::zip(inputs, block.inputs()), |(value, format)| Signal { value, format });
+    let signals = B::Inputs::map(B::Inputs::zip(inputs, block.inputs()), |(value, format)| {
+        Signal { value, format }
+    });
     let outputs = widen::<B::Outputs, Node>(B::NAME, block.clock(state, signals), block.outputs());
     READER.with_borrow_mut(|reader| {
         let mut module = reader.open.pop().expect("opened above").module;
@@ -230,10 +234,12 @@ impl Netlist {
     /// Elaborates a block.
     ///
     /// # Panics
-    /// Where a width is beyond [`MAX_WIDTH`], or a register, port or memory is given what its format does not hold.
+    /// Where a width is beyond [`MAX_WIDTH`], or a register, port or memory is given what its
+    /// format does not hold.
     pub fn of<B: Block>(block: &B) -> Netlist {
         READER.with_borrow_mut(|reader| *reader = Reader::default());
-        // The state's own constants need a module to lie in; they are replaced by registers as each block is read.
+        // The state's own constants need a module to lie in; they are replaced by registers as each
+        // block is read.
         READER.with_borrow_mut(|reader| reader.open.push(Open::default()));
         read(block, &mut block.reset());
         READER.with_borrow_mut(|reader| Netlist { modules: std::mem::take(reader).done })
@@ -315,7 +321,12 @@ impl Value for Node {
 
     fn select(bit: Self, a: Signal<Self>, b: Signal<Self>, to: Format) -> Self {
         if let Some(code) = settled(bit) {
-            return Self::quantize(if code == 1 { a } else { b }, to, Rounding::Exact, Overflow::Proved);
+            return Self::quantize(
+                if code == 1 { a } else { b },
+                to,
+                Rounding::Exact,
+                Overflow::Proved,
+            );
         }
         if a.value == b.value && a.format == b.format {
             return Self::quantize(a, to, Rounding::Exact, Overflow::Proved);
@@ -343,7 +354,12 @@ impl Storage for Node {
         wire(Op::Data(ram(memory, words)), memory.format)
     }
 
-    fn access(memory: &Memory, words: &mut Option<usize>, address: Signal<Self>, write: Option<Write<Self>>) {
+    fn access(
+        memory: &Memory,
+        words: &mut Option<usize>,
+        address: Signal<Self>,
+        write: Option<Write<Self>>,
+    ) {
         let index = ram(memory, words);
         let write = write.map(|write| {
             let data = write.data.resize(memory.format, Overflow::Proved);
@@ -351,7 +367,11 @@ impl Storage for Node {
         });
         with_module(|open| {
             let ram = &mut open.module.memories[index];
-            assert!(ram.address.is_none(), "{} has one read port, and is accessed once a clock", memory.name);
+            assert!(
+                ram.address.is_none(),
+                "{} has one read port, and is accessed once a clock",
+                memory.name
+            );
             ram.address = Some(address.value);
             ram.write = write;
         });
@@ -374,7 +394,10 @@ impl Interpretation for Node {
             open.module.instances.len() - 1
         });
         let (nodes, _) = ports::<B::Outputs>(block.outputs(), |port| Op::Output(index, port));
-        B::Outputs::map(B::Outputs::zip(nodes, block.outputs()), |(value, format)| Signal { value, format })
+        B::Outputs::map(B::Outputs::zip(nodes, block.outputs()), |(value, format)| Signal {
+            value,
+            format,
+        })
     }
 
     fn name(a: Signal<Self>, name: &'static str) -> Signal<Self> {
@@ -391,7 +414,15 @@ fn ram(memory: &Memory, index: &mut Option<usize>) -> usize {
         with_module(|open| {
             let &Memory { name, format, collision, block, .. } = memory;
             let initial = memory.codes();
-            open.module.memories.push(Ram { name, format, collision, block, initial, address: None, write: None });
+            open.module.memories.push(Ram {
+                name,
+                format,
+                collision,
+                block,
+                initial,
+                address: None,
+                write: None,
+            });
             open.module.memories.len() - 1
         })
     })

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The range interpretation: a value is the interval of codes that a signal may take.
 //!
-//! Control (counters, steps, addresses) is known exactly, so its intervals are points and the interpretation follows the one
-//! schedule that the core has; data spread over every input in their stated ranges. A narrowing that says it cannot
-//! overflow is checked at every clock; what does not hold is kept as a [`Violation`].
+//! Control (counters, steps, addresses) is known exactly, so its intervals are points and the
+//! interpretation follows the one schedule that the core has; data spread over every input in their
+//! stated ranges. A narrowing that says it cannot overflow is checked at every clock; what does not
+//! hold is kept as a [`Violation`].
 
 use crate::block::{Block, Inputs, Interpretation, Outputs, State};
 use crate::format::Format;
@@ -20,7 +21,8 @@ pub struct Range {
     pub high: i128,
 }
 
-/// A narrowing that is declared not to overflow, and a range that does; or an address beyond the words of a memory.
+/// A narrowing that is declared not to overflow, and a range that does; or an address beyond the
+/// words of a memory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Violation {
     /// The range before the narrowing, in codes of the narrowed format; or of the address.
@@ -182,7 +184,10 @@ impl Value for Range {
     #[inline(never)]
     fn concat(high: Signal<Self>, low: Signal<Self>, _to: Format) -> Self {
         let shift = low.format.width;
-        Range { low: (high.value.low << shift) | low.value.low, high: (high.value.high << shift) | low.value.high }
+        Range {
+            low: (high.value.low << shift) | low.value.low,
+            high: (high.value.high << shift) | low.value.high,
+        }
     }
 
     #[inline(never)]
@@ -239,14 +244,22 @@ impl Storage for Range {
     type Words = (Vec<Range>, Range);
 
     fn words(memory: &Memory) -> Self::Words {
-        (memory.codes().into_iter().map(|code| Range::point(code.into())).collect(), Range::point(0))
+        (
+            memory.codes().into_iter().map(|code| Range::point(code.into())).collect(),
+            Range::point(0),
+        )
     }
 
     fn data(_memory: &Memory, words: &mut Self::Words) -> Self {
         words.1
     }
 
-    fn access(memory: &Memory, words: &mut Self::Words, address: Signal<Self>, write: Option<Write<Self>>) {
+    fn access(
+        memory: &Memory,
+        words: &mut Self::Words,
+        address: Signal<Self>,
+        write: Option<Write<Self>>,
+    ) {
         let within = |address: Range| {
             let last = memory.words as i128 - 1;
             if address.low < 0 || address.high > last {
@@ -267,7 +280,8 @@ impl Storage for Range {
 }
 
 impl Interpretation for Range {
-    /// Out of line: a proof runs few clocks, and a core in intervals in one piece takes long to compile.
+    /// Out of line: a proof runs few clocks, and a core in intervals in one piece takes long to
+    /// compile.
     #[inline(never)]
     fn instance<B: Block>(
         block: &B,

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The real interpretation: a value is an `f64` that is never rounded to a word length.
 //!
-//! What is meant stays: a phase wraps, a table address is a floor, a comparison decides. What word length costs goes: no
-//! rounding, no saturation, tables as their ideal functions.
+//! What is meant stays: a phase wraps, a table address is a floor, a comparison decides. What word
+//! length costs goes: no rounding, no saturation, tables as their ideal functions.
 
 use crate::block::Interpretation;
 use crate::format::Format;
@@ -56,8 +56,10 @@ impl Value for Real {
 
     fn quantize(a: Signal<Self>, to: Format, rounding: Rounding, overflow: Overflow) -> Self {
         let lsb = to.lsb();
-        let real = if rounding == Rounding::Floor { (a.value.0 / lsb).floor() * lsb } else { a.value.0 };
-        // Saturation of an unsigned word to zero from below is a decision that the circuit needs, not a word length's.
+        let real =
+            if rounding == Rounding::Floor { (a.value.0 / lsb).floor() * lsb } else { a.value.0 };
+        // Saturation of an unsigned word to zero from below is a decision that the circuit needs,
+        // not a word length's.
         let floor = overflow == Overflow::Saturate && !to.signed && a.format.signed;
         match overflow {
             Overflow::Wrap => Real(wrap(real, to)),
@@ -131,7 +133,12 @@ impl Storage for Real {
         Real(words.data)
     }
 
-    fn access(_memory: &Memory, words: &mut Reals, address: Signal<Self>, write: Option<Write<Self>>) {
+    fn access(
+        _memory: &Memory,
+        words: &mut Reals,
+        address: Signal<Self>,
+        write: Option<Write<Self>>,
+    ) {
         words.data = words.words.get(address.value.0 as usize).copied().unwrap_or(0.0);
         if let Some(write) = write
             && write.enable.value.0 != 0.0

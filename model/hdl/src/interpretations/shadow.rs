@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The shadow interpretation: the clocked and the real value of every signal side by side. Control follows the clocked one, so
-//! that both run through the same clocks, and their difference is the rounding error of the signal.
+//! The shadow interpretation: the clocked and the real value of every signal side by side. Control
+//! follows the clocked one, so that both run through the same clocks, and their difference is the
+//! rounding error of the signal.
 
 use super::real::{Real, Reals};
 use crate::block::Interpretation;
@@ -67,7 +68,8 @@ impl Value for Shadow {
     fn quantize(a: Signal<Self>, to: Format, rounding: Rounding, overflow: Overflow) -> Self {
         let fitted = i64::quantize(code(a), to, rounding, overflow);
         match (rounding, overflow) {
-            // A floor is a decision: the fraction that it leaves stays with the code's side of a cell's edge.
+            // A floor is a decision: the fraction that it leaves stays with the code's side of a
+            // cell's edge.
             (Rounding::Floor, _) => Shadow { code: fitted, real: to.real(fitted) },
             (_, Overflow::Wrap) => both(fitted, nearest_turn(a.value.real, to.real(fitted), to)),
             _ => both(fitted, Real::quantize(real(a), to, rounding, overflow)),
@@ -139,7 +141,12 @@ impl Storage for Shadow {
         both(i64::data(memory, &mut words.codes), Real(words.reals.data))
     }
 
-    fn access(memory: &Memory, words: &mut Shadows, address: Signal<Self>, write: Option<Write<Self>>) {
+    fn access(
+        memory: &Memory,
+        words: &mut Shadows,
+        address: Signal<Self>,
+        write: Option<Write<Self>>,
+    ) {
         i64::access(memory, &mut words.codes, code(address), write.map(|w| map_write(w, code)));
         let index = Signal { value: Real(address.value.code as f64), format: address.format };
         let write = write.map(|w| Write { address: follow(w.address), ..map_write(w, real) });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Signals: what blocks compute with. A signal has a format and a value, and what a value *is* depends on the
-//! interpretation.
+//! Signals: what blocks compute with. A signal has a format and a value, and what a value *is*
+//! depends on the interpretation.
 //!
 //! | interpretation | a value is | gives |
 //! | --- | --- | --- |
@@ -10,8 +10,8 @@
 //! | [`Range`](crate::interpretations::range::Range) | an interval of codes | a proof that nothing overflows |
 //! | [`Node`](crate::interpretations::netlist::Node) | a node of a graph | the netlist that is printed as Verilog |
 //!
-//! Operators are exact and infer their format. Only [`Signal::quantize`] and [`Signal::resize`] narrow, and they name their
-//! rounding and their overflow.
+//! Operators are exact and infer their format. Only [`Signal::quantize`] and [`Signal::resize`]
+//! narrow, and they name their rounding and their overflow.
 //!
 //! ```
 //! use hapticore_hdl::format::Format;
@@ -36,7 +36,8 @@ pub type Clocked = i64;
 pub enum Rounding {
     /// To the nearest code, ties to the even one.
     HalfEven,
-    /// Towards minus infinity. Meant, as in a table address: interpretations without rounding follow it too.
+    /// Towards minus infinity. Meant, as in a table address: interpretations without rounding
+    /// follow it too.
     Floor,
     /// There are none: the new format has as many fractional bits.
     Exact,
@@ -51,8 +52,9 @@ pub enum Overflow {
     Wrap,
     /// It cannot happen; the interpretation as ranges proves it.
     Proved,
-    /// It cannot happen for the reason named, which relates several signals and so is beyond intervals. Test builds check it
-    /// at each clock; those of the divider and the square root are verified for all codes of small widths, too.
+    /// It cannot happen for the reason named, which relates several signals and so is beyond
+    /// intervals. Test builds check it at each clock; those of the divider and the square root are
+    /// verified for all codes of small widths, too.
     Assumed(&'static str),
 }
 
@@ -68,9 +70,11 @@ pub struct Signal<V> {
     pub format: Format,
 }
 
-/// What a signal's value may be: the arithmetic of an interpretation. Every operation is told the exact format of its result.
+/// What a signal's value may be: the arithmetic of an interpretation. Every operation is told the
+/// exact format of its result.
 pub trait Value: Copy + std::fmt::Debug + 'static {
-    /// Whether formats are checked at every register and port as it runs (elsewhere only in debug builds).
+    /// Whether formats are checked at every register and port as it runs (elsewhere only in debug
+    /// builds).
     const ELABORATES: bool = false;
 
     /// Whether every bit is known as it runs.
@@ -118,8 +122,9 @@ pub trait Value: Copy + std::fmt::Debug + 'static {
         Self::select(Self::less(most, a), most, a, a.format)
     }
 
-    /// In interpretations without rounding: the golden model `ideal` of the operands. In all others: `a` itself. With it a
-    /// block that approximates (a table) or works digit by digit (a division) says what it approximates.
+    /// In interpretations without rounding: the golden model `ideal` of the operands. In all
+    /// others: `a` itself. With it a block that approximates (a table) or works digit by digit (a
+    /// division) says what it approximates.
     #[inline(always)]
     fn golden(a: Self, _operands: &[Signal<Self>], _ideal: fn(&[f64]) -> f64) -> Self {
         a
@@ -156,8 +161,8 @@ pub fn int<V: Value>(value: u64) -> Signal<V> {
     code(value as i64, Format::counter(value))
 }
 
-/// A constant by its number, which need not be a code: interpretations without rounding have it as it is. Not for a block's
-/// clock, where [`code`] is quicker.
+/// A constant by its number, which need not be a code: interpretations without rounding have it as
+/// it is. Not for a block's clock, where [`code`] is quicker.
 #[inline(always)]
 pub fn constant<V: Value>(real: f64, format: Format) -> Signal<V> {
     Signal { value: V::literal(real, format), format }
@@ -188,16 +193,22 @@ pub fn decides<V: Value>(_signal: &Signal<V>) -> bool {
 }
 
 impl<V: Value> Signal<V> {
-    /// The signal narrowed to the format `to`: what is lost below its least significant bit and beyond its range is named.
+    /// The signal narrowed to the format `to`: what is lost below its least significant bit and
+    /// beyond its range is named.
     #[inline(always)]
     pub fn quantize(self, to: Format, rounding: Rounding, overflow: Overflow) -> Self {
         if V::ELABORATES || cfg!(debug_assertions) {
-            assert!(rounding != Exact || to.frac >= self.format.frac, "{} → {to} is not exact", self.format);
+            assert!(
+                rounding != Exact || to.frac >= self.format.frac,
+                "{} → {to} is not exact",
+                self.format
+            );
         }
         Signal { value: V::quantize(self, to, rounding, overflow), format: to }
     }
 
-    /// The same number in the format `to`, which has no fewer fractional bits; what is lost beyond its range is named.
+    /// The same number in the format `to`, which has no fewer fractional bits; what is lost beyond
+    /// its range is named.
     ///
     /// # Panics
     /// In debug builds and where blocks are elaborated, where `to` has fewer fractional bits.
@@ -212,8 +223,9 @@ impl<V: Value> Signal<V> {
         (self + int(1)).resize(self.format, Wrap)
     }
 
-    /// The same number in a format that can represent its own: an interpretation as codes aligns it once, here, and not at
-    /// every operation that it meets others in. To all others it is the signal as it was.
+    /// The same number in a format that can represent its own: an interpretation as codes aligns it
+    /// once, here, and not at every operation that it meets others in. To all others it is the
+    /// signal as it was.
     #[inline(always)]
     pub fn align_point(self, to: Format) -> Self {
         if V::DECIDES { self.resize(to, Proved) } else { self }
@@ -224,11 +236,14 @@ impl<V: Value> Signal<V> {
     pub fn saturate(self, to: Format, rounding: Rounding) -> (Self, Self) {
         let rounded = self.quantize(self.format.rounded(to), rounding, Proved);
         let limited = rounded.resize(to, Saturate);
-        let saturated = rounded.beyond(to).golden(&[limited, rounded], |of| f64::from(u8::from(of[0] != of[1])));
+        let saturated = rounded
+            .beyond(to)
+            .golden(&[limited, rounded], |of| f64::from(u8::from(of[0] != of[1])));
         (limited, saturated)
     }
 
-    /// Whether the code, read as one of `to`, is not this number: bits from its sign up are not all alike.
+    /// Whether the code, read as one of `to`, is not this number: bits from its sign up are not all
+    /// alike.
     #[inline(always)]
     fn beyond(self, to: Format) -> Self {
         let Format { signed, width, .. } = self.format;
@@ -255,7 +270,8 @@ impl<V: Value> Signal<V> {
         self.scaled(self.format.frac)
     }
 
-    /// The number whose code in the format `to` this integer is: the low bits of it, where it has more.
+    /// The number whose code in the format `to` this integer is: the low bits of it, where it has
+    /// more.
     #[inline(always)]
     pub fn as_code(self, to: Format) -> Self {
         self.resize(to.integer(), Wrap).scaled(-to.frac)

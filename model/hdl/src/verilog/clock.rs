@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What registers take at a clock, as a designer would write it: alternatives that several registers share become `if … else`,
-//! and a register that keeps its value is not mentioned.
+//! What registers take at a clock, as a designer would write it: alternatives that several
+//! registers share become `if … else`, and a register that keeps its value is not mentioned.
 
 use super::expression::broken;
 use super::scope::Scope;
@@ -25,13 +25,18 @@ impl Scope<'_> {
         let Some(bit) = self.shared_condition(&nexts) else {
             return nexts.iter().map(|next| self.assignment(next, indent)).collect();
         };
-        let decided = |scope: &Self, next: &Next| scope.alternatives(next.node).is_some_and(|(own, ..)| own == bit);
-        let (branched, others): (Vec<Next>, Vec<Next>) = nexts.into_iter().partition(|next| decided(self, next));
+        let decided = |scope: &Self, next: &Next| {
+            scope.alternatives(next.node).is_some_and(|(own, ..)| own == bit)
+        };
+        let (branched, others): (Vec<Next>, Vec<Next>) =
+            nexts.into_iter().partition(|next| decided(self, next));
         let mut text = self.statements(others, indent);
         let side = |scope: &Self, set: bool| -> Vec<Next> {
             branched
                 .iter()
-                .map(|next| scope.sides(next).expect("they are branched")[usize::from(!set)].clone())
+                .map(|next| {
+                    scope.sides(next).expect("they are branched")[usize::from(!set)].clone()
+                })
                 .collect()
         };
         let (set, unset) = (side(self, true), side(self, false));
@@ -46,7 +51,8 @@ impl Scope<'_> {
         *op == next.own && self.format(next.node).frac == next.format.frac
     }
 
-    /// What the register takes in either case. A point that was moved after the choice moves in both.
+    /// What the register takes in either case. A point that was moved after the choice moves in
+    /// both.
     fn sides(&self, next: &Next) -> Option<[Next; 2]> {
         let (_, a, b) = self.alternatives(next.node)?;
         let moved = self.format(self.source(next.node)).frac - self.format(next.node).frac;
@@ -63,7 +69,10 @@ impl Scope<'_> {
     fn shared_condition(&self, nexts: &[Next]) -> Option<Node> {
         let mut counts: Vec<(Node, usize)> = Vec::new();
         for next in nexts {
-            let Some(((bit, ..), sides)) = self.alternatives(next.node).zip(self.sides(next)) else { continue };
+            let Some(((bit, ..), sides)) = self.alternatives(next.node).zip(self.sides(next))
+            else {
+                continue;
+            };
             let weight = if sides.iter().any(|side| self.keeps(side)) { 2 } else { 1 };
             match counts.iter_mut().find(|(known, _)| *known == bit) {
                 Some((_, count)) => *count += weight,
@@ -89,7 +98,8 @@ fn alternatives(condition: &str, operand: &str, set: &str, unset: &str, indent: 
     }
     let inner = format!("{:width$}if (", "", width = indent + 4);
     let close = format!("\n{:width$}end\n", "", width = indent + 4);
-    let alone = unset.starts_with(&inner) && unset.find(&close).is_some_and(|at| at + close.len() == unset.len());
+    let alone = unset.starts_with(&inner)
+        && unset.find(&close).is_some_and(|at| at + close.len() == unset.len());
     if alone {
         let pulled: Vec<&str> = unset.lines().map(|line| &line[4..]).collect();
         return text + " else " + pulled.join("\n").trim_start() + "\n";

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Names of wires that the block does not name: made of what they compute, so that they change only where that does.
+//! Names of wires that the block does not name: made of what they compute, so that they change only
+//! where that does.
 //!
-//! `phase_plus_1`, `not_ready`, `sum_is_0`; where that would be long, the kind of the operation and four digits of a hash of
-//! everything below it: `choice_3fa2`.
+//! `phase_plus_1`, `not_ready`, `sum_is_0`; where that would be long, the kind of the operation and
+//! four digits of a hash of everything below it: `choice_3fa2`.
 
 use crate::interpretations::netlist::{Module, Node, Op};
 use std::hash::{Hash, Hasher};
@@ -118,7 +119,9 @@ fn operands(module: &Module, op: &Op, hashes: &[u64]) -> String {
         Op::Fit(a, rounding, overflow) => format!("{} {rounding:?} {overflow:?}", of(a)),
         Op::Bits(a, low) => format!("{} {low}", of(a)),
         Op::Select(bit, a, b) => format!("{} {} {}", of(bit), of(a), of(b)),
-        Op::Add(a, b) | Op::Sub(a, b) | Op::Mul(a, b) | Op::Concat(a, b) => format!("{} {}", of(a), of(b)),
+        Op::Add(a, b) | Op::Sub(a, b) | Op::Mul(a, b) | Op::Concat(a, b) => {
+            format!("{} {}", of(a), of(b))
+        }
         Op::Less(a, b) | Op::Equal(a, b) => format!("{} {}", of(a), of(b)),
         Op::And(a, b) => format!("{} & {}", of(a), of(b)),
         Op::Or(a, b) => format!("{} | {}", of(a), of(b)),

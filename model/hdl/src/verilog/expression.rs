@@ -16,7 +16,8 @@ pub fn bits(code: u64, width: u8) -> String {
     format!("{width}'h{:0digits$x}", code & mask, digits = usize::from(width).div_ceil(4))
 }
 
-/// An expression as it stands behind `=`, on the same line or with its alternatives one below the other.
+/// An expression as it stands behind `=`, on the same line or with its alternatives one below the
+/// other.
 pub fn broken(text: &Text, indent: usize) -> String {
     if text.kind != Kind::Select || text.text.len() < 80 {
         return format!(" {}", text.text);
@@ -34,18 +35,33 @@ impl Scope<'_> {
         let op = self.module.wires[node.0 as usize].op.clone();
         let to = self.format(node);
         let text = match op {
-            Op::Constant(_) | Op::Input(_) | Op::Register(_) | Op::Data(_) | Op::Output(..) | Op::Scale(_) => return,
+            Op::Constant(_)
+            | Op::Input(_)
+            | Op::Register(_)
+            | Op::Data(_)
+            | Op::Output(..)
+            | Op::Scale(_) => return,
             Op::Add(a, b) => self.binary(a, "+", b, to),
             Op::Sub(a, b) => self.binary(a, "-", b, to),
             Op::Mul(a, b) => return self.product(node, a, b),
             Op::Abs(a) => self.magnitude(a),
             Op::Fit(a, rounding, overflow) => self.fit(node, a, rounding, overflow),
             Op::Bits(a, low) => self.bits(a, low, to.width),
-            Op::Concat(a, b) => Text::atom(format!("{{{}, {}}}", self.whole(a).text, self.whole(b).text)),
+            Op::Concat(a, b) => {
+                Text::atom(format!("{{{}, {}}}", self.whole(a).text, self.whole(b).text))
+            }
             Op::Less(a, b) => self.less(a, b),
             Op::Equal(a, b) => self.equal(a, b),
-            Op::And(a, b) => Text::operation(format!("{} & {}", self.whole(a).operand(), self.whole(b).operand())),
-            Op::Or(a, b) => Text::operation(format!("{} | {}", self.whole(a).operand(), self.whole(b).operand())),
+            Op::And(a, b) => Text::operation(format!(
+                "{} & {}",
+                self.whole(a).operand(),
+                self.whole(b).operand()
+            )),
+            Op::Or(a, b) => Text::operation(format!(
+                "{} | {}",
+                self.whole(a).operand(),
+                self.whole(b).operand()
+            )),
             Op::Not(a) => Text::operation(format!("~{}", self.whole(a).operand())),
             Op::Select(bit, a, b) => self.select(bit, a, b, to),
         };
@@ -67,7 +83,10 @@ impl Scope<'_> {
         if above > 0 && format.signed {
             let id = self.id(node);
             let name = self.slice(id, format.width - 1, 0);
-            parts = vec![format!("{{{above}{{{}}}}}", self.slice(id, format.width - 1, format.width - 1)), name];
+            parts = vec![
+                format!("{{{above}{{{}}}}}", self.slice(id, format.width - 1, format.width - 1)),
+                name,
+            ];
         } else if above > 0 {
             parts.insert(0, format!("{above}'d0"));
         }

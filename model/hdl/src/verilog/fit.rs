@@ -18,7 +18,11 @@ impl Scope<'_> {
         if overflow == Overflow::Saturate {
             let width = from.width + shift;
             let text = self.extended(a, width, to.frac);
-            let id = if shift == 0 { self.id(a) } else { self.declare("shifted", width, from.signed, &text, "") };
+            let id = if shift == 0 {
+                self.id(a)
+            } else {
+                self.declare("shifted", width, from.signed, &text, "")
+            };
             self.held(id, to)
         } else if from.width + shift <= to.width {
             self.extended(a, to.width, to.frac)
@@ -38,7 +42,13 @@ impl Scope<'_> {
     }
 
     /// Without the `drop` low bits.
-    fn narrowed(&mut self, a: Node, (drop, rounding): (u8, Rounding), to: Format, overflow: Overflow) -> Text {
+    fn narrowed(
+        &mut self,
+        a: Node,
+        (drop, rounding): (u8, Rounding),
+        to: Format,
+        overflow: Overflow,
+    ) -> Text {
         let id = self.id(a);
         let id = self.at_least(id, drop + 1);
         let (kept, signed) = (self.width(id) - drop, self.signed(id));
@@ -47,14 +57,20 @@ impl Scope<'_> {
         let width = if overflow == Overflow::Saturate { exact } else { exact.min(to.width) };
         let floor = self.floor(id, drop, width);
         let text = match rounding {
-            Rounding::HalfEven => Text::operation(format!("{floor} + {}", self.round_up(id, drop, width))),
+            Rounding::HalfEven => {
+                Text::operation(format!("{floor} + {}", self.round_up(id, drop, width)))
+            }
             _ => Text::atom(floor),
         };
         if overflow != Overflow::Saturate && width == to.width {
             return text;
         }
         let rounded = self.declare("rounded", width, signed, &text, "");
-        if overflow == Overflow::Saturate { self.held(rounded, to) } else { self.stretched(rounded, to.width) }
+        if overflow == Overflow::Saturate {
+            self.held(rounded, to)
+        } else {
+            self.stretched(rounded, to.width)
+        }
     }
 
     /// `width` bits above the dropped ones, with at most one bit of sign in front.
@@ -76,7 +92,11 @@ impl Scope<'_> {
             2 => format!("({odd} | {})", self.slice(id, 0, 0)),
             _ => format!("({odd} | (|{}))", self.slice(id, drop - 2, 0)),
         };
-        if width == 1 { format!("({half} & {above})") } else { format!("{{{}'d0, {half} & {above}}}", width - 1) }
+        if width == 1 {
+            format!("({half} & {above})")
+        } else {
+            format!("{{{}'d0, {half} & {above}}}", width - 1)
+        }
     }
 
     /// With its sign in front.
@@ -99,14 +119,19 @@ impl Scope<'_> {
 
     fn held_signed(&mut self, id: Id, width: u8) -> Text {
         let top = self.width(id) - 1;
-        let (sign, above, low) =
-            (self.slice(id, top, top), self.slice(id, top, width - 1), self.slice(id, width - 1, 0));
+        let (sign, above, low) = (
+            self.slice(id, top, top),
+            self.slice(id, top, width - 1),
+            self.slice(id, width - 1, 0),
+        );
         let fits = format!("({above} == {{{}{{{sign}}}}})", top + 2 - width);
-        let limit = if width == 1 { sign } else { format!("{{{sign}, {{{}{{~{sign}}}}}}}", width - 1) };
+        let limit =
+            if width == 1 { sign } else { format!("{{{sign}, {{{}{{~{sign}}}}}}}", width - 1) };
         Text { text: format!("{fits} ? {low} : {limit}"), kind: Kind::Select }
     }
 
-    /// Bits of an unsigned code; all ones where any above is set. With a zero in front for a signed format.
+    /// Bits of an unsigned code; all ones where any above is set. With a zero in front for a signed
+    /// format.
     fn held_unsigned(&mut self, id: Id, width: u8, signed: bool) -> Text {
         let top = self.width(id) - 1;
         let (above, low) = (self.slice(id, top, width), self.slice(id, width - 1, 0));

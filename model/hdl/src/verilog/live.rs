@@ -43,7 +43,9 @@ impl Live {
                 self.memories[index] = true;
                 let ram = &module.memories[index];
                 open.extend(ram.address);
-                open.extend(ram.write.iter().flat_map(|&(enable, address, word)| [enable, address, word]));
+                open.extend(
+                    ram.write.iter().flat_map(|&(enable, address, word)| [enable, address, word]),
+                );
             }
             ref op => open.extend(operands(op)),
         }

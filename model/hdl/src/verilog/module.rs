@@ -11,12 +11,24 @@ use crate::memory::Collision;
 use std::fmt::Write;
 
 /// The text of a module.
-pub fn print(netlist: &Netlist, modules: &[String], module: &Module, name: &str, heading: &Heading) -> String {
+pub fn print(
+    netlist: &Netlist,
+    modules: &[String],
+    module: &Module,
+    name: &str,
+    heading: &Heading,
+) -> String {
     let ports = ports(module);
     let mut names = Names::default();
     ports.iter().for_each(|port| names.reserve(&port.name));
-    let mut printer =
-        Printer { scope: Scope::new(module, names), netlist, modules, ports, registers: vec![], memories: vec![] };
+    let mut printer = Printer {
+        scope: Scope::new(module, names),
+        netlist,
+        modules,
+        ports,
+        registers: vec![],
+        memories: vec![],
+    };
     let mut text = printer.head(name, heading);
     text += &printer.declarations();
     printer.wires();
@@ -28,11 +40,17 @@ pub fn print(netlist: &Netlist, modules: &[String], module: &Module, name: &str,
     }
     text += &users.concat();
     let mut unused = printer.scope.unused();
-    if !(module.resets && printer.registers.iter().any(Option::is_some)) && module.instances.is_empty() {
+    if !(module.resets && printer.registers.iter().any(Option::is_some))
+        && module.instances.is_empty()
+    {
         unused.push("reset".into());
     }
     if !unused.is_empty() {
-        let _ = write!(text, "\n    // Unused bits.\n    wire unused = &{{1'b0, {}}};\n", folded(&unused));
+        let _ = write!(
+            text,
+            "\n    // Unused bits.\n    wire unused = &{{1'b0, {}}};\n",
+            folded(&unused)
+        );
     }
     text.replace(BREAK, " ") + "\nendmodule\n\n`default_nettype wire\n"
 }
@@ -70,7 +88,8 @@ impl Printer<'_> {
     fn head(&mut self, name: &str, heading: &Heading) -> String {
         self.name_registers();
         let Module { path, .. } = self.scope.module;
-        let mut text = heading.text(name, path, std::ptr::eq(self.scope.module, self.netlist.top()));
+        let mut text =
+            heading.text(name, path, std::ptr::eq(self.scope.module, self.netlist.top()));
         text += "`default_nettype none\n\n";
         let _ = write!(text, "module {name} (\n    input wire clock,\n    input wire reset");
         let mut comment = String::new();
@@ -91,14 +110,20 @@ impl Printer<'_> {
         self.registers.iter().flatten().any(|(name, output)| *output && name == port)
     }
 
-    /// A register that is an output under its own name is the port; another whose name is taken gets `_q`.
+    /// A register that is an output under its own name is the port; another whose name is taken
+    /// gets `_q`.
     fn name_registers(&mut self) {
         let module = self.scope.module;
         for (index, register) in module.registers.iter().enumerate() {
             let named = self.scope.live.registers[index].then(|| {
-                let node = |port: &&Named| module.wires[port.node.0 as usize].op == Op::Register(index);
-                let output = module.outputs.iter().find(|port| port.name == register.name).filter(node);
-                let free = self.ports.iter().any(|p| p.direction == Direction::Output && p.name == register.name);
+                let node =
+                    |port: &&Named| module.wires[port.node.0 as usize].op == Op::Register(index);
+                let output =
+                    module.outputs.iter().find(|port| port.name == register.name).filter(node);
+                let free = self
+                    .ports
+                    .iter()
+                    .any(|p| p.direction == Direction::Output && p.name == register.name);
                 match output {
                     Some(_) if free => (register.name.to_owned(), true),
                     _ if self.scope.names.has(register.name) => {
@@ -111,7 +136,8 @@ impl Printer<'_> {
         }
     }
 
-    /// Registers, memories, and what comes out of instances; each wire that stands for one of them gets its name.
+    /// Registers, memories, and what comes out of instances; each wire that stands for one of them
+    /// gets its name.
     fn declarations(&mut self) -> String {
         let module = self.scope.module;
         let mut text = String::new();
@@ -122,9 +148,12 @@ impl Printer<'_> {
                 let _ = writeln!(text, "    reg {range}{name}; // {}{about}", register.format);
             }
         }
-        self.memories = module.memories.iter().map(|ram| self.scope.names.unique(ram.name)).collect();
+        self.memories =
+            module.memories.iter().map(|ram| self.scope.names.unique(ram.name)).collect();
         let memories = self.memories.clone();
-        for (index, ram) in module.memories.iter().enumerate().filter(|(index, _)| self.scope.live.memories[*index]) {
+        for (index, ram) in
+            module.memories.iter().enumerate().filter(|(index, _)| self.scope.live.memories[*index])
+        {
             let (range, name, words) =
                 (range(ram.format.width, ram.format.signed), &memories[index], ram.initial.len());
             if ram.collision == Collision::DontCare && ram.write.is_some() {
@@ -133,7 +162,12 @@ impl Printer<'_> {
             if ram.block {
                 text += "    (* ram_style = \"block\" *)\n";
             }
-            let _ = writeln!(text, "    reg {range}{name} [0:{}]; // {words} words {}", words - 1, ram.format);
+            let _ = writeln!(
+                text,
+                "    reg {range}{name} [0:{}]; // {words} words {}",
+                words - 1,
+                ram.format
+            );
             let _ = writeln!(text, "    reg {range}{name}_word; // its read register");
         }
         for (index, wire) in module.wires.iter().enumerate() {
@@ -176,7 +210,9 @@ impl Printer<'_> {
             }
         }
         for instance in &module.instances {
-            for (&node, port) in instance.inputs.iter().zip(&self.netlist.modules[instance.module].inputs) {
+            for (&node, port) in
+                instance.inputs.iter().zip(&self.netlist.modules[instance.module].inputs)
+            {
                 self.scope.hint(node, format!("{}_{}", instance.name, port.name));
             }
         }
@@ -215,7 +251,9 @@ impl Printer<'_> {
         let module = self.scope.module;
         let live = |index: &usize| self.scope.live.memories[*index];
         let live: Vec<usize> = (0..module.memories.len()).filter(live).collect();
-        live.into_iter().map(|index| self.memory(&module.memories[index], &self.memories[index].clone())).collect()
+        live.into_iter()
+            .map(|index| self.memory(&module.memories[index], &self.memories[index].clone()))
+            .collect()
     }
 
     fn memory(&mut self, ram: &Ram, name: &str) -> String {
@@ -226,7 +264,11 @@ impl Printer<'_> {
             let _ = writeln!(text, "        if ({enable}) {name}[{address}] <= {word};");
         }
         if let Some(address) = ram.address {
-            let _ = writeln!(text, "        {name}_word <= {name}[{}];", self.scope.whole(address).text);
+            let _ = writeln!(
+                text,
+                "        {name}_word <= {name}[{}];",
+                self.scope.whole(address).text
+            );
         }
         text + "    end\n"
     }
@@ -243,10 +285,15 @@ impl Printer<'_> {
             return resets;
         }
         if !self.scope.module.resets {
-            return format!("\n    always @(posedge clock) begin\n{}    end\n", self.scope.statements(nexts, 8));
+            return format!(
+                "\n    always @(posedge clock) begin\n{}    end\n",
+                self.scope.statements(nexts, 8)
+            );
         }
         let steps = self.scope.statements(nexts, 12);
-        let reset = format!("        if (reset) begin\n{resets}        end else begin\n{steps}        end\n");
+        let reset = format!(
+            "        if (reset) begin\n{resets}        end else begin\n{steps}        end\n"
+        );
         format!("\n    always @(posedge clock) begin\n{reset}    end\n")
     }
 
@@ -266,7 +313,8 @@ impl Printer<'_> {
 
 /// What a comment says of a port or register besides its format.
 fn about(about: &str, states: &[&str]) -> String {
-    let states: Vec<String> = states.iter().enumerate().map(|(code, name)| format!("{code} {name}")).collect();
+    let states: Vec<String> =
+        states.iter().enumerate().map(|(code, name)| format!("{code} {name}")).collect();
     let about = if about.is_empty() { String::new() } else { format!("  {about}") };
     if states.is_empty() { about } else { format!("{about}  {}", states.join(", ")) }
 }
@@ -281,8 +329,14 @@ fn initial(ram: &Ram, name: &str) -> String {
         let _ = writeln!(text, "        for (i = 0; i < {words}; i = i + 1) {name}[i] = {zero};");
     } else {
         for (start, row) in ram.initial.chunks(4).enumerate() {
-            let word = |(n, &word): (usize, &i64)| format!("{name}[{}] = {};", 4 * start + n, bits(word as u64, width));
-            let _ = writeln!(text, "        {}", row.iter().enumerate().map(word).collect::<Vec<_>>().join(" "));
+            let word = |(n, &word): (usize, &i64)| {
+                format!("{name}[{}] = {};", 4 * start + n, bits(word as u64, width))
+            };
+            let _ = writeln!(
+                text,
+                "        {}",
+                row.iter().enumerate().map(word).collect::<Vec<_>>().join(" ")
+            );
         }
     }
     text + "    end\n\n"

@@ -5,14 +5,16 @@ use super::{Direction, Port};
 use crate::interpretations::netlist::{Module, Named, Netlist};
 use std::collections::HashSet;
 
-/// What a signal may not be called, although it might be: the words of Verilog (IEEE 1364-2005, annex B), ...
+/// What a signal may not be called, although it might be: the words of Verilog (IEEE 1364-2005,
+/// annex B), ...
 const VERILOG: &str = "\
     always and assign begin buf case cell config deassign default design disable edge else end event for force \
     forever fork function generate if initial inout input instance integer join large library medium module nand \
     negedge nor not or output parameter posedge primitive real reg release repeat scalared signed small strong0 \
     strong1 supply0 supply1 table task time tri unsigned use vectored wait wand weak0 weak1 while wire wor xnor \
     xor";
-/// ... those that SystemVerilog has besides (IEEE 1800-2017, annex B), for most tools read the one as the other, ...
+/// ... those that SystemVerilog has besides (IEEE 1800-2017, annex B), for most tools read the one
+/// as the other, ...
 const SYSTEM_VERILOG: &str = "\
     alias assert assume before bit bins break byte chandle checker class constraint context continue cover cross \
     dist do enum expect export extends extern final global iff implies import inside int interface intersect local \
@@ -22,7 +24,8 @@ const SYSTEM_VERILOG: &str = "\
 /// ... and what every module has.
 const OWN: [&str; 3] = ["clock", "reset", "unused"];
 
-/// The names of a netlist's modules: the blocks' behind a prefix, with a number where several differ.
+/// The names of a netlist's modules: the blocks' behind a prefix, with a number where several
+/// differ.
 pub fn of_modules(netlist: &Netlist) -> Vec<String> {
     let mut names = Names { taken: HashSet::new() };
     netlist.modules.iter().map(|module| names.unique(&prefixed(module.name))).collect()
@@ -40,12 +43,15 @@ pub fn ports(module: &Module) -> Vec<Port> {
     let mut names = Names::default();
     let mut port = |named: &Named, direction: Direction| {
         let name = match direction {
-            Direction::Output if names.taken.contains(named.name) => names.unique(&format!("{}_out", named.name)),
+            Direction::Output if names.taken.contains(named.name) => {
+                names.unique(&format!("{}_out", named.name))
+            }
             _ => names.unique(named.name),
         };
         Port { name, direction, format: named.format, states: named.states, about: named.about }
     };
-    let mut all: Vec<Port> = module.inputs.iter().map(|named| port(named, Direction::Input)).collect();
+    let mut all: Vec<Port> =
+        module.inputs.iter().map(|named| port(named, Direction::Input)).collect();
     all.extend(module.outputs.iter().map(|named| port(named, Direction::Output)));
     all
 }
@@ -66,7 +72,9 @@ impl Names {
     /// The name, with a number where it is taken.
     pub fn unique(&mut self, name: &str) -> String {
         let numbered = (2..).map(|n| format!("{name}_{n}"));
-        let free = std::iter::once(name.to_owned()).chain(numbered).find(|name| !self.taken.contains(name));
+        let free = std::iter::once(name.to_owned())
+            .chain(numbered)
+            .find(|name| !self.taken.contains(name));
         let free = free.expect("there are numbers enough");
         self.taken.insert(free.clone());
         free

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A module while it is printed: which wires have a declaration, which text stands for the others, which bits are needed.
+//! A module while it is printed: which wires have a declaration, which text stands for the others,
+//! which bits are needed.
 
 use super::describe;
 use super::live::Live;
@@ -126,13 +127,15 @@ impl<'a> Scope<'a> {
         }
     }
 
-    /// Keeps the text of a wire; declares it where several need it, where it has a name, or where it is long.
+    /// Keeps the text of a wire; declares it where several need it, where it has a name, or where
+    /// it is long.
     pub fn keep(&mut self, node: Node, text: Text, alone: bool) {
         let index = node.0 as usize;
         let named = self.module.wires[index].name.is_some();
         let plain = text.kind == Kind::Atom && !text.text.contains('{');
         let shared = self.live.uses[index] > 1 && !plain;
-        let declare = alone || named || shared || (text.text.len() > LONG && text.kind != Kind::Select);
+        let declare =
+            alone || named || shared || (text.text.len() > LONG && text.kind != Kind::Select);
         self.texts[index] = Some(text);
         if declare {
             self.id(node);
@@ -164,25 +167,44 @@ impl<'a> Scope<'a> {
     /// What to call the bit that says that a register is in a state.
     fn state(&self, node: Node) -> Option<String> {
         let Op::Equal(a, b) = self.module.wires[node.0 as usize].op else { return None };
-        let Op::Register(index) = self.module.wires[self.source(a).0 as usize].op else { return None };
+        let Op::Register(index) = self.module.wires[self.source(a).0 as usize].op else {
+            return None;
+        };
         let Named { name, states, .. } = self.module.registers[index];
         let code = self.constant(b)?;
-        Some(states.get(code as usize).map_or(format!("{name}_is_{code}"), |state| format!("{name}_is_{state}")))
+        Some(
+            states
+                .get(code as usize)
+                .map_or(format!("{name}_is_{code}"), |state| format!("{name}_is_{state}")),
+        )
     }
 
     /// Declares a wire.
-    pub fn declare(&mut self, name: &str, width: u8, signed: bool, text: &Text, comment: &str) -> Id {
+    pub fn declare(
+        &mut self,
+        name: &str,
+        width: u8,
+        signed: bool,
+        text: &Text,
+        comment: &str,
+    ) -> Id {
         let name = self.names.unique(name);
         let range = range(width, signed);
         let note = if comment.is_empty() { String::new() } else { format!(" // {comment}") };
-        self.body.push(format!("    wire {range}{name} ={};{note}", super::expression::broken(text, 8)));
+        self.body
+            .push(format!("    wire {range}{name} ={};{note}", super::expression::broken(text, 8)));
         self.identifier(name, width, signed)
     }
 
     /// Bits of an identifier.
     pub fn slice(&mut self, id: Id, high: u8, low: u8) -> String {
         let declared = &mut self.declared[id.0];
-        assert!(low <= high && high < declared.width, "{}[{high}:{low}] of {} bits", declared.name, declared.width);
+        assert!(
+            low <= high && high < declared.width,
+            "{}[{high}:{low}] of {} bits",
+            declared.name,
+            declared.width
+        );
         declared.used |= (u64::MAX >> (63 - (high - low))) << low;
         let name = &declared.name;
         match (high - low + 1 == declared.width, high == low) {
@@ -236,7 +258,10 @@ impl<'a> Scope<'a> {
             let mut low = 0;
             while low < width {
                 let needed = |bit: u8| used >> bit & 1 == 1;
-                let high = (low..width).take_while(|&bit| needed(bit) == needed(low)).last().expect("its first");
+                let high = (low..width)
+                    .take_while(|&bit| needed(bit) == needed(low))
+                    .last()
+                    .expect("its first");
                 if !needed(low) {
                     all.push(self.slice(Id(index), high, low));
                 }

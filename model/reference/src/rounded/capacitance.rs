@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Capacitance, with the sheet's resistance taken out (docs/physics.md §2, the √ form), or by eq. 6 alone (R taken for zero).
+//! Capacitance, with the sheet's resistance taken out (docs/physics.md §2, the √ form), or by eq. 6
+//! alone (R taken for zero).
 //!
 //! ```text
 //! drop = [a · R],   left = max(v² − drop², 0),   invalid where v² ≤ drop²
@@ -21,15 +22,21 @@ pub struct Capacitance {
     pub saturated: bool,
 }
 
-/// The format of an amplitude: of the square root of two squares of a total's word, one more bit than the word without its sign
-/// and one for the square root's rounding.
+/// The format of an amplitude: of the square root of two squares of a total's word, one more bit
+/// than the word without its sign and one for the square root's rounding.
 fn amplitude(profile: &Profile) -> Format {
     let total = profile.formats.total;
     Format { signed: false, width: total.width + 1, frac: total.frac }
 }
 
 /// The capacitance for amplitudes of current and sensing voltage, and the sheet's resistance.
-pub fn capacitance(profile: &Profile, total: Exact, sense: Exact, sheet: Exact, gain: Exact) -> Capacitance {
+pub fn capacitance(
+    profile: &Profile,
+    total: Exact,
+    sense: Exact,
+    sheet: Exact,
+    gain: Exact,
+) -> Capacitance {
     let f = &profile.formats;
     let sheet = if profile.capacitance.sheet_correction { sheet } else { Exact::ZERO };
     let drop = round(total * sheet, amplitude(profile));

@@ -44,23 +44,28 @@ pub(super) fn growth(profile: &Profile, share: f64) -> f64 {
     profile.slot.integrate as f64 * mean * share
 }
 
-/// Words of 2^-B of a word's step, moved up together by as many bits, B at most, as leave the largest its sign: by how many,
-/// and the words.
+/// Words of 2^-B of a word's step, moved up together by as many bits, B at most, as leave the
+/// largest its sign: by how many, and the words.
 fn moved(profile: &Profile, words: &[[Exact; 2]]) -> (i8, Vec<[Exact; 2]>) {
     let (iq, most) = (profile.formats.iq, profile.formats.block_shift as i8);
     let one = Exact::new(1, i32::from(iq.width) - 1 - i32::from(iq.frac));
-    let fits = |by: i8| words.iter().flatten().all(|word| word.scaled(by) < one && word.scaled(by) >= -one);
+    let fits = |by: i8| {
+        words.iter().flatten().all(|word| word.scaled(by) < one && word.scaled(by) >= -one)
+    };
     let by = (0..=most).rev().find(|&by| fits(by)).expect("words are within full scale");
     (by, words.iter().map(|word| word.map(|part| round(part.scaled(by), iq).value)).collect())
 }
 
-/// The currents where the words of the terminals have one exponent, and those of the sensing voltage another.
+/// The currents where the words of the terminals have one exponent, and those of the sensing
+/// voltage another.
 ///
-/// Amplitudes of terminals count 2^-by; that of the total is rounded by as many bits as the terminals' number has, and both it
-/// and the sensing voltage's are brought back: ⌊a / 2^by⌋ in a word's step, then to the nearest of those given on.
+/// Amplitudes of terminals count 2^-by; that of the total is rounded by as many bits as the
+/// terminals' number has, and both it and the sensing voltage's are brought back: ⌊a / 2^by⌋ in a
+/// word's step, then to the nearest of those given on.
 fn block_currents(profile: &Profile, sums: &[[Exact; 2]], shift: i8) -> Currents {
     let f = &profile.formats;
-    let wide = Format { width: f.iq.width + f.block_shift, frac: f.iq.frac + f.block_shift as i8, ..f.iq };
+    let wide =
+        Format { width: f.iq.width + f.block_shift, frac: f.iq.frac + f.block_shift as i8, ..f.iq };
     let mut saturated = false;
     let mut kept = |part: Exact| {
         let down = Exact::new(part.scaled(wide.frac).floor(), -i32::from(wide.frac));
@@ -68,7 +73,8 @@ fn block_currents(profile: &Profile, sums: &[[Exact; 2]], shift: i8) -> Currents
         saturated |= rounded.held;
         rounded.value
     };
-    let words: Vec<[Exact; 2]> = sums.iter().map(|sum| sum.map(|part| kept(part.scaled(-shift)))).collect();
+    let words: Vec<[Exact; 2]> =
+        sums.iter().map(|sum| sum.map(|part| kept(part.scaled(-shift)))).collect();
     let (terminals, sense) = words.split_at(profile.terminals.x.len());
     let ((by, terminals), (by_sense, sense)) = (moved(profile, terminals), moved(profile, sense));
     let amplitude = |[i, q]: [Exact; 2]| round_sqrt(i * i + q * q, f.iq.frac);
@@ -98,7 +104,8 @@ fn numerators(profile: &Profile, amplitudes: &[Exact]) -> [Exact; 3] {
     })
 }
 
-/// The currents from a window's sums: in phase and quadrature of the terminals and the sensing voltage.
+/// The currents from a window's sums: in phase and quadrature of the terminals and the sensing
+/// voltage.
 pub fn currents(profile: &Profile, sums: &[[Exact; 2]]) -> Currents {
     let f = &profile.formats;
     let smaller = match profile.carrier.method {
@@ -115,19 +122,30 @@ pub fn currents(profile: &Profile, sums: &[[Exact; 2]]) -> Currents {
         saturated |= rounded.held;
         rounded.value
     };
-    let words: Vec<[Exact; 2]> = sums.iter().map(|sum| sum.map(|part| held(part.scaled(-shift), f.iq))).collect();
+    let words: Vec<[Exact; 2]> =
+        sums.iter().map(|sum| sum.map(|part| held(part.scaled(-shift), f.iq))).collect();
     let (terminals, sense) = words.split_at(profile.terminals.x.len());
     let mut add = |sum: Exact, word: Exact| held(sum + word, f.total);
-    let total = terminals.iter().fold([Exact::ZERO; 2], |[i, q], word| [add(i, word[0]), add(q, word[1])]);
+    let total =
+        terminals.iter().fold([Exact::ZERO; 2], |[i, q], word| [add(i, word[0]), add(q, word[1])]);
     let amplitude = |[i, q]: [Exact; 2]| round_sqrt(i * i + q * q, f.total.frac);
     let amplitudes: Vec<Exact> = terminals.iter().map(|&word| amplitude(word)).collect();
     let total = amplitude(total);
     let [x, y, corners] = numerators(profile, &amplitudes);
-    Currents { total, sense: amplitude(sense[0]), x, y, corners, least: least(&amplitudes), saturated }
+    Currents {
+        total,
+        sense: amplitude(sense[0]),
+        x,
+        y,
+        corners,
+        least: least(&amplitudes),
+        saturated,
+    }
 }
 
 /// The least of the terminals' amplitudes.
 fn least(amplitudes: &[Exact]) -> Exact {
-    let smaller = |least: Exact, &amplitude: &Exact| if amplitude < least { amplitude } else { least };
+    let smaller =
+        |least: Exact, &amplitude: &Exact| if amplitude < least { amplitude } else { least };
     amplitudes.iter().skip(1).fold(amplitudes[0], smaller)
 }

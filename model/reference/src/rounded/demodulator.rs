@@ -35,7 +35,8 @@ fn combined(profile: &Profile, sums: [Exact; PHASES]) -> [Exact; 2] {
         Window::Rectangular => 1.0,
     };
     let largest = 2.0 * mean * profile.slot.integrate as f64 / PHASES as f64;
-    let dropped = (0..).find(|&bits| largest <= 2f64.powi(bits + 1)).expect("a window is finite") as i8;
+    let dropped =
+        (0..).find(|&bits| largest <= 2f64.powi(bits + 1)).expect("a window is finite") as i8;
     let integer = Format { signed: true, width: 30, frac: 0 };
     [f64::cos, f64::sin].map(|wave| {
         let factor = |p: usize| round_real(57230.0 * wave(TAU * p as f64 / PHASES as f64), integer);
@@ -58,10 +59,15 @@ fn demodulate_by_phase(profile: &Profile, carrier: &[Sample], codes: &[i32]) -> 
             sums[m % PHASES] = sums[m % PHASES] + sample.window * (x(k) + Exact::new(1, 0));
         }
         let h = x(channels - 1).magnitude();
-        square = square + h * round(sample.window * h, Format { signed: false, width: 16, frac: 16 }).value;
+        square = square
+            + h * round(sample.window * h, Format { signed: false, width: 16, frac: 16 }).value;
         clipped |= codes.iter().any(|&code| code == -32768 || code == 32767);
     }
-    Sums { phases: phases.into_iter().map(|sums| combined(profile, sums)).collect(), square, clipped }
+    Sums {
+        phases: phases.into_iter().map(|sums| combined(profile, sums)).collect(),
+        square,
+        clipped,
+    }
 }
 
 /// The sums over `codes`, a sample after the other, against the carrier at those samples.
@@ -71,7 +77,8 @@ pub fn demodulate(profile: &Profile, carrier: &[Sample], codes: &[i32]) -> Sums 
     }
     let adc = profile.formats.adc;
     let channels = profile.terminals.x.len() + 2;
-    let mut sums = Sums { phases: vec![[Exact::ZERO; 2]; channels - 1], square: Exact::ZERO, clipped: false };
+    let mut sums =
+        Sums { phases: vec![[Exact::ZERO; 2]; channels - 1], square: Exact::ZERO, clipped: false };
     let local = windowed_lo(profile, carrier);
     for ((codes, sample), [cosine, sine]) in codes.chunks_exact(channels).zip(carrier).zip(local) {
         let x = |k: usize| Exact::of(codes[k].into(), adc);
@@ -82,7 +89,9 @@ pub fn demodulate(profile: &Profile, carrier: &[Sample], codes: &[i32]) -> Sums 
         let h = x(channels - 1);
         sums.square = sums.square + h * round(sample.window * h, adc).value;
         let full_scale = 1i64 << (adc.width - 1);
-        sums.clipped |= codes.iter().any(|&code| i64::from(code) == -full_scale || i64::from(code) == full_scale - 1);
+        sums.clipped |= codes
+            .iter()
+            .any(|&code| i64::from(code) == -full_scale || i64::from(code) == full_scale - 1);
     }
     sums
 }

@@ -33,11 +33,14 @@ pub struct Squares {
 impl Squares {
     /// Those of a profile's pads, none yet.
     pub fn new(profile: &Profile) -> Self {
-        Squares { windows: profile.haptic.windows as usize, pads: vec![Vec::new(); profile.pads as usize] }
+        Squares {
+            windows: profile.haptic.windows as usize,
+            pads: vec![Vec::new(); profile.pads as usize],
+        }
     }
 
-    /// The mean over the pad's last windows with this one, which alone counts until there are as many; of several windows each at
-    /// full scale counts as saturated.
+    /// The mean over the pad's last windows with this one, which alone counts until there are as
+    /// many; of several windows each at full scale counts as saturated.
     pub fn mean(&mut self, profile: &Profile, pad: usize, newest: Rounded) -> Rounded {
         let last = &mut self.pads[pad];
         if last.len() == self.windows {

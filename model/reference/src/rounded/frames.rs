@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The words of frames, of which ratios are rounded to the width of the widest other one: what is invalid is the pad's last valid; the mean square, the last word, is always its own.
+//! The words of frames, of which ratios are rounded to the width of the widest other one: what is
+//! invalid is the pad's last valid; the mean square, the last word, is always its own.
 
 use super::{Exact, round};
 use hapticore_contract::format::Format;
@@ -22,7 +23,11 @@ impl Frames {
         let position = f.position;
         let sheet = Format { signed: false, width: f.table.width - 1, ..f.table };
         let others = [position, position, sheet, f.capacitance, f.force, f.mean_square];
-        let widest = others.iter().map(|format| format.width + u8::from(!format.signed)).max().expect("others");
+        let widest = others
+            .iter()
+            .map(|format| format.width + u8::from(!format.signed))
+            .max()
+            .expect("others");
         let width = f.ratio.width.min(widest);
         let ratio = Format::signed(width, width as i8 - 2);
         let [x, y, sheet, capacitance, force, mean_square] = others;
@@ -32,7 +37,8 @@ impl Frames {
 
     /// The codes of a frame with these values.
     pub fn words(&mut self, pad: usize, values: [Exact; WORDS], invalid: bool) -> [i64; WORDS] {
-        let mut words = std::array::from_fn(|k| round(values[k], self.formats[k]).value.code(self.formats[k]));
+        let mut words =
+            std::array::from_fn(|k| round(values[k], self.formats[k]).value.code(self.formats[k]));
         if invalid {
             words[..WORDS - 1].copy_from_slice(&self.held[pad][..WORDS - 1]);
         }

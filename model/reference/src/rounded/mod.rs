@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The rounded reference: each block's result as "the exact value, rounded so", and a slot's frame from all of them.
+//! The rounded reference: each block's result as "the exact value, rounded so", and a slot's frame
+//! from all of them.
 //!
-//! One function a block, taking and giving [`Exact`] numbers; equality with the clocked model is to the bit.
+//! One function a block, taking and giving [`Exact`] numbers; equality with the clocked model is to
+//! the bit.
 
 mod capacitance;
 mod currents;
@@ -44,9 +46,12 @@ impl Slots {
         let f = &profile.formats;
         let oscillator = Oscillator::new(profile);
         let blanking = profile.slot.blanking();
-        let words: Vec<Exact> = calibration.position.words.iter().map(|&word| round_real(word, f.table)).collect();
+        let words: Vec<Exact> =
+            calibration.position.words.iter().map(|&word| round_real(word, f.table)).collect();
         Slots {
-            carrier: (0..profile.slot.integrate).map(|m| oscillator.sample(blanking + m, m)).collect(),
+            carrier: (0..profile.slot.integrate)
+                .map(|m| oscillator.sample(blanking + m, m))
+                .collect(),
             position: Position::new(profile, &words),
             capacitance_gain: round_real(calibration.capacitance_gain, f.capacitance_gain),
             force_gain: round_real(calibration.force_gain, f.force_gain),
@@ -70,14 +75,26 @@ impl Slots {
         let place = self.position.place([ratio.r_x, ratio.r_y]);
         let lost = self.position.any_open(ratio.share);
         let sheet = place.sheet;
-        let capacitance = capacitance(p, currents.total, currents.sense, sheet, self.capacitance_gain);
+        let capacitance =
+            capacitance(p, currents.total, currents.sense, sheet, self.capacitance_gain);
         let mean_square = self.squares.mean(p, pad, mean_square(p, sums.square));
         let force = force(p, capacitance.capacitance, mean_square.value, self.force_gain);
-        let saturated =
-            currents.saturated | place.saturated | capacitance.saturated | mean_square.held | force.saturated;
+        let saturated = currents.saturated
+            | place.saturated
+            | capacitance.saturated
+            | mean_square.held
+            | force.saturated;
         let invalid = ratio.invalid | place.invalid | capacitance.invalid;
-        let values =
-            [ratio.r_x, ratio.r_y, place.x, place.y, sheet, capacitance.capacitance, force.force, mean_square.value];
+        let values = [
+            ratio.r_x,
+            ratio.r_y,
+            place.x,
+            place.y,
+            sheet,
+            capacitance.capacitance,
+            force.force,
+            mean_square.value,
+        ];
         let codes = self.frames.words(pad, values, invalid);
         Frame { pad, codes, flags: Flags { clipped: sums.clipped, saturated, invalid, lost } }
     }

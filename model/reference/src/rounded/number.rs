@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Exact numbers, and how a word departs from them: to the nearest code, ties to even, saturated.
 //!
-//! An `f64` would do up to 2^53; squares of the widest words have 62 bits. So numbers are `mantissa · 2^exponent` with an
-//! `i128`, which holds every sum and product of the core exactly.
+//! An `f64` would do up to 2^53; squares of the widest words have 62 bits. So numbers are `mantissa
+//! · 2^exponent` with an `i128`, which holds every sum and product of the core exactly.
 
 use hapticore_contract::format::Format;
 use std::cmp::Ordering;
@@ -59,7 +59,8 @@ impl Exact {
     pub fn code(self, format: Format) -> i64 {
         let rounded = round(self, format);
         assert!(rounded.value == self, "{format} does not hold {self:?}");
-        i64::try_from(rounded.value.over(-i32::from(format.frac))).expect("a code has at most 63 bits")
+        i64::try_from(rounded.value.over(-i32::from(format.frac)))
+            .expect("a code has at most 63 bits")
     }
 
     /// The number times `2^by`.
@@ -172,8 +173,8 @@ pub fn round_quotient(n: Exact, d: Exact, to: Format) -> Rounded {
     if d == 0 { hold(i128::MAX, to) } else { hold(nearest(n, d), to) }
 }
 
-/// `√x` with `frac` fractional bits, `x` having at most twice as many. `f64::sqrt` would round twice; here the
-/// integers decide: `√x` is past `n + ½` where `x` is past `n² + n`.
+/// `√x` with `frac` fractional bits, `x` having at most twice as many. `f64::sqrt` would round
+/// twice; here the integers decide: `√x` is past `n + ½` where `x` is past `n² + n`.
 ///
 /// ```
 /// use hapticore_reference::rounded::{Exact, round_sqrt};
@@ -202,7 +203,10 @@ mod tests {
     fn ties_go_to_even_and_words_saturate() {
         let to = Format::signed(4, 0);
         let halves = |halves: i128| round(Exact::new(halves, -1), to).value.real();
-        assert_eq!([-5, -3, -1, 1, 3, 5, 100, -100].map(halves), [-2.0, -2.0, 0.0, 0.0, 2.0, 2.0, 7.0, -8.0]);
+        assert_eq!(
+            [-5, -3, -1, 1, 3, 5, 100, -100].map(halves),
+            [-2.0, -2.0, 0.0, 0.0, 2.0, 2.0, 7.0, -8.0]
+        );
         assert_eq!(round_real(2.5, to).real(), 2.0);
         assert_eq!(round_real(-0.75, to).real(), -1.0);
         assert!(round(Exact::new(15, -1), to).held, "7.5 rounds to 8");
@@ -216,6 +220,9 @@ mod tests {
         );
         let to = Format::unsigned(4, 0);
         let quotient = |n, d| round_quotient(Exact::new(n, 0), Exact::new(d, 0), to).value.real();
-        assert_eq!([quotient(3, 2), quotient(5, 2), quotient(7, 3), quotient(1, 0)], [2.0, 2.0, 2.0, 15.0]);
+        assert_eq!(
+            [quotient(3, 2), quotient(5, 2), quotient(7, 3), quotient(1, 0)],
+            [2.0, 2.0, 2.0, 15.0]
+        );
     }
 }

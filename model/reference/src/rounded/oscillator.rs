@@ -57,7 +57,9 @@ impl Oscillator {
         let one = i128::from(profile.carrier.amplitude);
         for m in 0..oscillator.samples {
             let cosine = oscillator.wave(m + oscillator.samples / 4).code(format);
-            oscillator.cosine_sums.push(oscillator.cosine_sums[m as usize] + one - i128::from(cosine));
+            oscillator
+                .cosine_sums
+                .push(oscillator.cosine_sums[m as usize] + one - i128::from(cosine));
         }
         oscillator
     }
@@ -79,7 +81,11 @@ impl Oscillator {
             return Sample { cosine, sine: Exact::ZERO, window: self.window_at(m) };
         }
         let phase = n % self.samples * self.periods;
-        Sample { cosine: self.wave(phase + self.samples / 4), sine: self.wave(phase), window: self.window_at(m) }
+        Sample {
+            cosine: self.wave(phase + self.samples / 4),
+            sine: self.wave(phase),
+            window: self.window_at(m),
+        }
     }
 
     fn window_at(&self, m: u64) -> Exact {
@@ -90,7 +96,10 @@ impl Oscillator {
         match self.window {
             Window::Hann if self.polyphase => {
                 let turns = (m % self.samples) as f64 / self.samples as f64;
-                round_real(self.amplitude * (PI * turns.min(1.0 - turns)).sin().powi(2), self.format)
+                round_real(
+                    self.amplitude * (PI * turns.min(1.0 - turns)).sin().powi(2),
+                    self.format,
+                )
             }
             Window::Hann => {
                 let code = total(m + 1).div_euclid(2) - total(m).div_euclid(2);
@@ -101,7 +110,8 @@ impl Oscillator {
     }
 }
 
-/// The local oscillator over the samples of a window: w cos φ and w sin φ, what rounding leaves over carried on.
+/// The local oscillator over the samples of a window: w cos φ and w sin φ, what rounding leaves
+/// over carried on.
 pub fn windowed_lo(profile: &Profile, samples: &[Sample]) -> Vec<[Exact; 2]> {
     let frac = profile.formats.oscillator.frac;
     let half = Exact::new(1, -1);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Position and sheet resistance from the ratios: the measured splines, inverted by Newton steps of rounded words.
+//! Position and sheet resistance from the ratios: the measured splines, inverted by Newton steps of
+//! rounded words.
 //!
 //! ```text
 //! [·]: to a word's W − 1 fractional bits, halves upwards, saturated
@@ -64,7 +65,8 @@ pub struct Position {
     open: Exact,
 }
 
-/// Along one axis: the cell, counted from the middle one, and three weights of the value and of the slope.
+/// Along one axis: the cell, counted from the middle one, and three weights of the value and of the
+/// slope.
 struct Along {
     cell: i128,
     value: [Exact; 3],
@@ -88,10 +90,17 @@ impl Position {
     pub fn new(profile: &Profile, words: &[Exact]) -> Self {
         let position = &profile.position;
         let sides = [position.columns as usize, position.rows as usize];
-        let coarse = sides.map(|side| ((side - 2).div_ceil(1 << position.resistance_shift) | 1) + 2);
+        let coarse =
+            sides.map(|side| ((side - 2).div_ceil(1 << position.resistance_shift) | 1) + 2);
         let axis = |k: usize| {
             let of = &words[k * SCALARS..];
-            Axis { gain: of[0], centre: of[1], start: [of[2], of[3], of[4]], pitch: of[5], origin: of[6] }
+            Axis {
+                gain: of[0],
+                centre: of[1],
+                start: [of[2], of[3], of[4]],
+                pitch: of[5],
+                origin: of[6],
+            }
         };
         let mut rest = words[2 * SCALARS..].iter().copied();
         let mut take = |[columns, rows]: [usize; 2]| Coefficients {
@@ -190,7 +199,8 @@ impl Position {
 
     /// Of a surface the value, not rounded, and the rounded slopes along u and v.
     fn rows(&self, table: &Coefficients, [u, v]: &[Along; 2]) -> [Exact; 3] {
-        let first = [(u.cell, 0), (v.cell, 1)].map(|(cell, axis)| (cell + (table.cells[axis] - 1) / 2) as usize);
+        let first = [(u.cell, 0), (v.cell, 1)]
+            .map(|(cell, axis)| (cell + (table.cells[axis] - 1) / 2) as usize);
         let dot = |a: &[Exact], b: &[Exact; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
         let rows = [0, 1, 2].map(|k| {
             let at = (first[1] + k) * table.columns + first[0];
@@ -198,7 +208,11 @@ impl Position {
         });
         let values = rows.map(|row| self.word(dot(row, &u.value)));
         let slopes = rows.map(|row| self.word(dot(row, &u.slope)));
-        [dot(&values, &v.value), self.word(dot(&slopes, &v.value)), self.word(dot(&values, &v.slope))]
+        [
+            dot(&values, &v.value),
+            self.word(dot(&slopes, &v.value)),
+            self.word(dot(&values, &v.slope)),
+        ]
     }
 
     /// A Newton step from a place, and whether that place's ratios are others than those measured.
@@ -213,11 +227,13 @@ impl Position {
         let ([x_u, x_v], [y_u, y_v]) = ([x[1], negative(x[2])], [negative(y[1]), y[2]]);
         let determinant = self.word((x_u * y_v + x_v * negative(y_u)).scaled(2));
         let moves = [y_v * e_x + x_v * e_y, y_u * e_x + x_u * e_y];
-        let stepped = [0, 1].map(|k| self.clamp(self.word(place[k] + self.quotient(moves[k], determinant)), k));
+        let stepped = [0, 1]
+            .map(|k| self.clamp(self.word(place[k] + self.quotient(moves[k], determinant)), k));
         (stepped, beyond(off[0]) | beyond(off[1]))
     }
 
-    /// Over a positive determinant the quotient of so many digits; else as far as they go, by the sign.
+    /// Over a positive determinant the quotient of so many digits; else as far as they go, by the
+    /// sign.
     fn quotient(&self, by: Exact, determinant: Exact) -> Exact {
         let digits = (i32::from(self.word.width) - 3).min(16);
         let (half, most) = (determinant * power(-digits), 1i128 << (digits - 1));

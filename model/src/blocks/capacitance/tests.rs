@@ -22,10 +22,15 @@ fn capacitances_have_the_sheet_taken_out() {
         let cases = cases(&bench.block, MILLION / 6, seed).map(plausible);
         check(&mut bench, cases, |i| {
             let [total, sense] = [i.total, i.sense].map(|code| Exact::of(code, amplitude));
-            let (sheet, gain) = (Exact::of(i.sheet, profile.sheet()), Exact::of(i.gain, f.capacitance_gain));
+            let (sheet, gain) =
+                (Exact::of(i.sheet, profile.sheet()), Exact::of(i.gain, f.capacitance_gain));
             let expected = rounded::capacitance(&profile, total, sense, sheet, gain);
             let code = expected.capacitance.code(f.capacitance);
-            [("capacitance", code), ("invalid", expected.invalid.into()), ("saturated", expected.saturated.into())]
+            [
+                ("capacitance", code),
+                ("invalid", expected.invalid.into()),
+                ("saturated", expected.saturated.into()),
+            ]
         });
     }
 }

@@ -18,6 +18,11 @@ fn latency_is_the_clocks_measured() {
         bench.clock(Inputs { strobe: 1, ..quiet });
         let measured = (1..10_000).find(|_| bench.clock(quiet).frames.done == 1);
         let latency = bench.block.latency();
-        assert_eq!(measured, Some(latency), "{}: clocks from the last strobe to the last word", profile.name);
+        assert_eq!(
+            measured,
+            Some(latency),
+            "{}: clocks from the last strobe to the last word",
+            profile.name
+        );
     }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Block-floating words: those of all terminals are moved up by as many bits as the largest leaves, those of the sensing
-//! voltage by as many as theirs leave; at the end total and sensing voltage are moved back to one point.
+//! Block-floating words: those of all terminals are moved up by as many bits as the largest leaves,
+//! those of the sensing voltage by as many as theirs leave; at the end total and sensing voltage
+//! are moved back to one point.
 //!
 //! ```text
 //! sum ─(floor, saturate)─[words: wide]─(least number of unused bits of all)─[limit]
@@ -8,8 +9,9 @@
 //! [total, sense] ─(» their limits, round half even)─ total, sense
 //! ```
 //!
-//! Every word takes the same clocks, however far it is moved. Position is a ratio of terminals: it needs no point.
-//! Latency: B + 3 clocks a word, of 2 · terminals + 2 words, twice; B clocks of moving back; B the profile's `block_shift`.
+//! Every word takes the same clocks, however far it is moved. Position is a ratio of terminals: it
+//! needs no point. Latency: B + 3 clocks a word, of 2 · terminals + 2 words, twice; B clocks of
+//! moving back; B the profile's `block_shift`.
 
 use super::{Currents, Registers, Step};
 use hapticore_hdl::block::Interpretation;
@@ -35,7 +37,8 @@ impl Currents {
         wide(self.iq, self.block)
     }
 
-    /// Bits by which a total's word is rounded before it is squared, so that it has no more than a terminal's.
+    /// Bits by which a total's word is rounded before it is squared, so that it has no more than a
+    /// terminal's.
     #[inline(always)]
     pub(super) fn down(&self) -> i8 {
         Format::counter(self.terminals).width as i8
@@ -50,7 +53,11 @@ impl Currents {
 
     /// A clock before the loop over channels: words are looked at one after the other, then moved.
     #[inline(always)]
-    pub(super) fn align<V: Interpretation>(&self, r: Registers<Signal<V>>, word: Signal<V>) -> Registers<Signal<V>> {
+    pub(super) fn align<V: Interpretation>(
+        &self,
+        r: Registers<Signal<V>>,
+        word: Signal<V>,
+    ) -> Registers<Signal<V>> {
         use Step::*;
         let at = |step: Step| r.step.at(step);
         let most = u64::from(self.block);
@@ -59,7 +66,8 @@ impl Currents {
         let shifted = r.long.scaled(1).resize(r.long.format, Wrap);
         let shifts = at(AlignMove) & (moving | !r.aligning);
         let ends = at(AlignKeep);
-        // With the last word of the terminals the limits change places, as with that of the sensing voltage.
+        // With the last word of the terminals the limits change places, as with that of the sensing
+        // voltage.
         let sense = r.channel.is(self.terminals);
         let before_sense = r.channel.is(self.terminals - 1);
         let swaps = ends & r.quadrature & (before_sense | sense);
@@ -69,7 +77,10 @@ impl Currents {
         let next = (ends & r.quadrature).select(sense.select(int(0), further), r.channel);
         let following = at(AlignMove).select(
             r.count.is(most - 1).select(AlignKeep.signal(), AlignMove.signal()),
-            ends.select((r.quadrature & sense & r.aligning).select(Read.signal(), AlignRead.signal()), r.step + int(1)),
+            ends.select(
+                (r.quadrature & sense & r.aligning).select(Read.signal(), AlignRead.signal()),
+                r.step + int(1),
+            ),
         );
         let counted = at(AlignMove).select(r.count + int(1), int(0));
         Registers {
@@ -87,7 +98,10 @@ impl Currents {
 
     /// The word that is kept of a moved one, and whether this is the clock to keep it.
     #[inline(always)]
-    pub(super) fn moved<V: Interpretation>(&self, r: &Registers<Signal<V>>) -> (Signal<V>, Signal<V>) {
+    pub(super) fn moved<V: Interpretation>(
+        &self,
+        r: &Registers<Signal<V>>,
+    ) -> (Signal<V>, Signal<V>) {
         let word = r.long.quantize(self.iq, HalfEven, Saturate);
         (word.scaled(-(self.block as i8)), r.step.at(Step::AlignKeep) & r.aligning)
     }
@@ -107,7 +121,10 @@ impl Currents {
 
     /// A clock of moving total and sensing voltage back.
     #[inline(always)]
-    pub(super) fn restore<V: Interpretation>(&self, r: Registers<Signal<V>>) -> Registers<Signal<V>> {
+    pub(super) fn restore<V: Interpretation>(
+        &self,
+        r: Registers<Signal<V>>,
+    ) -> Registers<Signal<V>> {
         let halved = |amplitude: Signal<V>, limit: Signal<V>| {
             let half = amplitude.scaled(-1);
             let half = half.quantize(amplitude.format, Floor, Proved).golden(&[half], |of| of[0]);
@@ -126,13 +143,19 @@ impl Currents {
 
     /// An amplitude as it is given out, and whether it is saturated.
     #[inline(always)]
-    pub(super) fn rounded<V: Interpretation>(&self, amplitude: Signal<V>) -> (Signal<V>, Signal<V>) {
+    pub(super) fn rounded<V: Interpretation>(
+        &self,
+        amplitude: Signal<V>,
+    ) -> (Signal<V>, Signal<V>) {
         amplitude.saturate(self.given, HalfEven)
     }
 
     /// What alignment begins with.
     #[inline(always)]
-    pub(super) fn unaligned<V: Interpretation>(&self, r: Registers<Signal<V>>) -> Registers<Signal<V>> {
+    pub(super) fn unaligned<V: Interpretation>(
+        &self,
+        r: Registers<Signal<V>>,
+    ) -> Registers<Signal<V>> {
         let most = int(u64::from(self.block));
         Registers { limit: most, count: int(0), quadrature: bit(false), aligning: bit(false), ..r }
     }

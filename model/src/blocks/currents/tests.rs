@@ -18,7 +18,8 @@ fn currents_are_amplitudes_and_their_sums() {
 }
 
 fn check_currents(bench: &mut Bench<Currents>, profile: &Profile, random: &mut Random) {
-    let (sum, amplitude, sums) = (bench.block.inputs().sum, bench.block.amplitude(), bench.block.sums());
+    let (sum, amplitude, sums) =
+        (bench.block.inputs().sum, bench.block.amplitude(), bench.block.sums());
     let count = 2 * profile.demodulated();
     let smaller = random.below(u64::from(sum.width) / 2);
     let codes: Vec<i64> = (0..count).map(|_| random.word(sum) >> smaller).collect();
@@ -27,8 +28,10 @@ fn check_currents(bench: &mut Bench<Currents>, profile: &Profile, random: &mut R
     }
     bench.clock(Inputs { valid: 1, index: count as i64, sum: 0 });
     let quiet = Inputs { valid: 0, index: 0, sum: 0 };
-    let out = (0..10_000).map(|_| bench.clock(quiet)).find(|out| out.done == 1).expect("currents finish");
-    let words: Vec<[Exact; 2]> = codes.chunks(2).map(|iq| [0, 1].map(|part| Exact::of(iq[part], sum))).collect();
+    let out =
+        (0..10_000).map(|_| bench.clock(quiet)).find(|out| out.done == 1).expect("currents finish");
+    let words: Vec<[Exact; 2]> =
+        codes.chunks(2).map(|iq| [0, 1].map(|part| Exact::of(iq[part], sum))).collect();
     let expected = rounded::currents(profile, &words);
     let reference = Outputs {
         done: 1,
@@ -52,6 +55,10 @@ fn latency_is_the_clocks_measured() {
         }
         let quiet = Inputs { valid: 0, index: 0, sum: 0 };
         let measured = (1..10_000).find(|_| bench.clock(quiet).done == 1);
-        assert_eq!(measured, Some(bench.block.latency()), "clocks from the last sum (the mean square's) to done");
+        assert_eq!(
+            measured,
+            Some(bench.block.latency()),
+            "clocks from the last sum (the mean square's) to done"
+        );
     }
 }

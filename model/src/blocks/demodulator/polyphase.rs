@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Polyphase sums: a sum a channel and phase of a carrier with five samples per period; its cosine and sine come last.
+//! Polyphase sums: a sum a channel and phase of a carrier with five samples per period; its cosine
+//! and sine come last.
 //!
 //! ```text
 //! S_p = Σ w[n]·(x[n] + 1) over the samples of phase p,   i = Σ c_p·S_p,   q = Σ s_p·S_p      (c_p, s_p: 16 bits and a sign)
@@ -10,10 +11,12 @@
 //!                     16 bits of a sum, c_p or s_p ─(×)─[product]─(+)─[sum]─ i, q
 //! ```
 //!
-//! Both factors of a product are unsigned, as one hardware multiplier of 16 × 16 bits takes them. Codes are moved up by one
-//! full scale for that, which leaves nothing in i and q: the window windows all phases alike, and the c_p, as the s_p, have no
-//! sum. A sum is multiplied 16 bits after 16 bits; a negative c_p takes what is missing to 16 ones instead, and what that adds
-//! is known. Where i and q are formed costs no time that anybody waits for: the next pad has yet to settle.
+//! Both factors of a product are unsigned, as one hardware multiplier of 16 × 16 bits takes them.
+//! Codes are moved up by one full scale for that, which leaves nothing in i and q: the window
+//! windows all phases alike, and the c_p, as the s_p, have no sum. A sum is multiplied 16 bits
+//! after 16 bits; a negative c_p takes what is missing to 16 ones instead, and what that adds is
+//! known. Where i and q are formed costs no time that anybody waits for: the next pad has yet to
+//! settle.
 //!
 //! | signal  | format          | unit                 | overflow             |
 //! | operand | u16             | –                    | cannot (range proof) |
@@ -44,9 +47,11 @@ const LIMB: u8 = 16;
 /// Clocks of a product of the read-out: address, operands, product, sum.
 const BEATS: u64 = 4;
 
-/// Cosine and sine of the five phases, times 57230: of all even numbers below 2^16 that one for which these are nearest to
-/// whole numbers, the cosines' sum zero, and the negative ones' sum a multiple of four.
-const WAVES: [[i64; PHASES as usize]; 2] = [[57230, 17685, -46300, -46300, 17685], [0, 54429, 33639, -33639, -54429]];
+/// Cosine and sine of the five phases, times 57230: of all even numbers below 2^16 that one for
+/// which these are nearest to whole numbers, the cosines' sum zero, and the negative ones' sum a
+/// multiple of four.
+const WAVES: [[i64; PHASES as usize]; 2] =
+    [[57230, 17685, -46300, -46300, 17685], [0, 54429, 33639, -33639, -54429]];
 /// What the waves have for one.
 pub(crate) const GAIN: f64 = 57230.0 / 65536.0;
 
@@ -67,7 +72,8 @@ pub(crate) struct Polyphase {
 impl Polyphase {
     /// That of a profile.
     pub fn new(profile: &Profile) -> Self {
-        let most = 2.0 * profile.carrier.window.mean() * profile.slot.integrate as f64 / PHASES as f64;
+        let most =
+            2.0 * profile.carrier.window.mean() * profile.slot.integrate as f64 / PHASES as f64;
         let width = 31 + most.log2().ceil() as u8;
         let channel_bits = Format::counter(profile.demodulated()).width;
         Polyphase { dropped: width.saturating_sub(2 * LIMB), channel_bits }
@@ -75,7 +81,10 @@ impl Polyphase {
 
     /// By what a sample of the window joins the in-phase and quadrature results.
     pub fn waves(&self, sample: usize) -> [f64; 2] {
-        WAVES.map(|wave| wave[sample % PHASES as usize] as f64 * 2f64.powi(-i32::from(LIMB) - i32::from(self.dropped)))
+        WAVES.map(|wave| {
+            wave[sample % PHASES as usize] as f64
+                * 2f64.powi(-i32::from(LIMB) - i32::from(self.dropped))
+        })
     }
 
     /// Words of the sums: for each phase a channel, and the sum of squares beside the first.
@@ -84,8 +93,8 @@ impl Polyphase {
     }
 }
 
-/// The wave's magnitude by which a phase's sum is multiplied for the in-phase or the quadrature part, and whether it is
-/// negative.
+/// The wave's magnitude by which a phase's sum is multiplied for the in-phase or the quadrature
+/// part, and whether it is negative.
 #[inline(always)]
 fn wave<V: Interpretation>(part: Signal<V>, tap: Signal<V>) -> (Signal<V>, Signal<V>) {
     let of = |part: usize| {
@@ -136,7 +145,8 @@ impl Demodulator {
                     let tap = int(tap);
                     let (magnitude, negative) = wave(part, tap);
                     let product = self.limb(polyphase, phase, high, negative) * magnitude;
-                    sum = self.add(self.carried(sum, tap, high, part), product.scaled(-PRODUCT.frac));
+                    sum =
+                        self.add(self.carried(sum, tap, high, part), product.scaled(-PRODUCT.frac));
                 }
             }
             sum
@@ -154,13 +164,14 @@ impl Demodulator {
     ) -> Signal<V> {
         let upper = sum.bits(polyphase.dropped + LIMB, LIMB);
         let whole = sum.scaled(sum.format.frac - polyphase.dropped as i8);
-        let lower = sum.bits(polyphase.dropped, LIMB).golden(&[whole, upper], |of| of[0] - of[1] * 65536.0);
+        let lower =
+            sum.bits(polyphase.dropped, LIMB).golden(&[whole, upper], |of| of[0] - of[1] * 65536.0);
         let limb = high.select(upper, lower).named("limb");
         negative.select((int(65535) - limb).resize(OPERAND, Proved), limb)
     }
 
-    /// What a product of the read-out is added to: nothing, the sum of the lower halves' products less what negative waves
-    /// add, or the sum so far.
+    /// What a product of the read-out is added to: nothing, the sum of the lower halves' products
+    /// less what negative waves add, or the sum so far.
     #[inline(always)]
     fn carried<V: Interpretation>(
         &self,
@@ -171,7 +182,9 @@ impl Demodulator {
     ) -> Signal<V> {
         let format = self.sum();
         let shifted = sum.scaled(-(LIMB as i8));
-        let above = shifted.quantize(Format::unsigned(18, format.frac), Floor, Wrap).golden(&[shifted], |of| of[0]);
+        let above = shifted
+            .quantize(Format::unsigned(18, format.frac), Floor, Wrap)
+            .golden(&[shifted], |of| of[0]);
         let added = |part: usize| WAVES[part].iter().filter(|&&wave| wave < 0).sum::<i64>() << LIMB;
         let [cosine, sine] = [0, 1].map(|part| code(added(part), format));
         let carried = (above + part.select(sine, cosine)).named("carried").resize(format, Proved);
@@ -184,7 +197,8 @@ impl Demodulator {
         (sum + product).named("accumulated").resize(self.sum(), Proved)
     }
 
-    /// The operands of a sample's products: haptic code and window, each channel and the window, haptic code and its share.
+    /// The operands of a sample's products: haptic code and window, each channel and the window,
+    /// haptic code and its share.
     #[inline(always)]
     fn sample_operands<V: Interpretation>(
         &self,
@@ -193,7 +207,10 @@ impl Demodulator {
     ) -> (Signal<V>, Signal<V>) {
         let haptic = r.step.is(0) | r.step.is(self.channels + 1);
         let left = haptic.select(self.magnitude(i.code), self.raised(i.code));
-        let right = r.step.is(self.channels + 1).select(r.windowed.scaled(-WINDOW.frac), self.window_word(i.window));
+        let right = r
+            .step
+            .is(self.channels + 1)
+            .select(r.windowed.scaled(-WINDOW.frac), self.window_word(i.window));
         (left.integer(), right.integer())
     }
 
@@ -226,7 +243,8 @@ impl Demodulator {
         }
     }
 
-    /// A clock of the read-out: a product takes four, a result twice as many products as there are phases.
+    /// A clock of the read-out: a product takes four, a result twice as many products as there are
+    /// phases.
     #[inline(always)]
     fn read<V: Interpretation>(
         &self,
@@ -255,7 +273,10 @@ impl Demodulator {
             tap: after(square.select(int(0), tap).resize(r.tap.format, Proved), r.tap),
             high: after(high & !square, r.high),
             part: after(part & !square, r.part),
-            channel: after(square.select(int(0), channel).resize(r.channel.format, Proved), r.channel),
+            channel: after(
+                square.select(int(0), channel).resize(r.channel.format, Proved),
+                r.channel,
+            ),
             left: loads.select(self.limb(polyphase, word, r.high, negative), r.left),
             right: loads.select(magnitude, r.right),
             sum: end.select(sum, r.sum),
@@ -278,20 +299,30 @@ impl Demodulator {
         let haptic = code(self.channels as i64, self.channel.as_uint());
         let asked = r.step.resize(self.channel.as_uint(), Wrap);
         let channel = (r.busy & r.step.less_than(int(self.channels))).select(asked, haptic);
-        let outputs =
-            Outputs { channel, valid: r.valid, index: self.result(&r), sum: r.sum, pad: r.pad, clipped: r.clipped };
+        let outputs = Outputs {
+            channel,
+            valid: r.valid,
+            index: self.result(&r),
+            sum: r.sum,
+            pad: r.pad,
+            clipped: r.clipped,
+        };
         if (i.start | r.busy | r.summed | r.reading | r.valid).can_skip() {
             return outputs;
         }
-        let inputs = multiplier::Inputs { enable: r.busy | r.reading, left: r.left, right: r.right };
+        let inputs =
+            multiplier::Inputs { enable: r.busy | r.reading, left: r.left, right: r.right };
         let product = call!(self.multiplier, state, inputs).product;
         let word = Signal { format: self.sum(), ..self.sums.data(&mut state.submodules.sums) };
         let square = r.channel.is(self.channels);
         let begun = r.step.is(self.steps() - 1).select(r.first, r.fresh) & !r.reading;
         let so_far = begun.select(zero(word.format), word);
-        let so_far = (r.reading & !square).select(self.carried(r.sum, r.tap, r.high, r.part), so_far).named("so_far");
+        let so_far = (r.reading & !square)
+            .select(self.carried(r.sum, r.tap, r.high, r.part), so_far)
+            .named("so_far");
         let sum = self.add(so_far, product.scaled(-PRODUCT.frac));
-        // The place of the sum that the product after the next belongs to, and of that which this belongs to.
+        // The place of the sum that the product after the next belongs to, and of that which this
+        // belongs to.
         let place = |ahead: u64| self.place(polyphase, &r, ahead);
         let reads = r.tap.concat(r.channel);
         let address = r.reading.select(reads, place(1));
@@ -314,9 +345,15 @@ impl Demodulator {
         r.index.bits(0, Format::counter(self.sums() - 1).width)
     }
 
-    /// Where the sum of a product lies, whose step is `ahead` after this one; anywhere where there is none.
+    /// Where the sum of a product lies, whose step is `ahead` after this one; anywhere where there
+    /// is none.
     #[inline(always)]
-    fn place<V: Interpretation>(&self, polyphase: &Polyphase, r: &Registers<Signal<V>>, ahead: u64) -> Signal<V> {
+    fn place<V: Interpretation>(
+        &self,
+        polyphase: &Polyphase,
+        r: &Registers<Signal<V>>,
+        ahead: u64,
+    ) -> Signal<V> {
         // The first channel's product is the second; it joins its sum two steps later.
         let channel = (r.step - int(PIPELINE + 1 - ahead)).bits(0, polyphase.channel_bits);
         let square = channel.is(self.channels);

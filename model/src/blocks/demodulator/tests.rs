@@ -17,17 +17,24 @@ fn sums_are_those_of_the_products() {
         while left > 0 {
             let samples = 1 + random.below(random.clone().below(profile.slot.integrate) + 1);
             // By phase, each sum has a sample at least.
-            let samples = if profile.carrier.method == Method::Polyphase { samples.max(5) } else { samples };
+            let samples =
+                if profile.carrier.method == Method::Polyphase { samples.max(5) } else { samples };
             left -= samples as i64;
             check_window(&mut bench, &profile, samples, &mut random);
         }
     }
 }
 
-fn check_window(bench: &mut Bench<Demodulator>, profile: &Profile, samples: u64, random: &mut Random) {
+fn check_window(
+    bench: &mut Bench<Demodulator>,
+    profile: &Profile,
+    samples: u64,
+    random: &mut Random,
+) {
     let (adc, lo) = (profile.formats.adc, profile.formats.oscillator);
     let sum = bench.block.sum();
-    let (mut all_codes, mut carrier, mut channel, mut sums) = (Vec::new(), Vec::new(), 0, Vec::new());
+    let (mut all_codes, mut carrier, mut channel, mut sums) =
+        (Vec::new(), Vec::new(), 0, Vec::new());
     let mut clipped = 0;
     for m in 0..samples {
         let codes: Vec<i64> = (0..profile.channels()).map(|_| random.word(adc)).collect();
@@ -39,10 +46,25 @@ fn check_window(bench: &mut Bench<Demodulator>, profile: &Profile, samples: u64,
         let [first, last] = [m == 0, m == samples - 1].map(i64::from);
         for clock in 0..bench.block.least_clocks_per_sample() + random.below(3) {
             let (start, code) = (i64::from(clock == 0), codes[channel as usize]);
-            let out = bench.clock(Inputs { start, first, last, pad: 0, code, cosine, sine, window, phase });
+            let out = bench.clock(Inputs {
+                start,
+                first,
+                last,
+                pad: 0,
+                code,
+                cosine,
+                sine,
+                window,
+                phase,
+            });
             (channel, clipped) = (out.channel, out.clipped);
             if out.valid == 1 {
-                assert_eq!(out.index, sums.len() as i64, "clock {}: sums in their order", bench.clock);
+                assert_eq!(
+                    out.index,
+                    sums.len() as i64,
+                    "clock {}: sums in their order",
+                    bench.clock
+                );
                 sums.push(out.sum);
             }
         }
@@ -61,7 +83,11 @@ fn check_window(bench: &mut Bench<Demodulator>, profile: &Profile, samples: u64,
     let expected = rounded::demodulate(profile, &carrier, &all_codes);
     let parts = expected.phases.iter().flatten().chain([&expected.square]);
     let reference: Vec<i64> = parts.map(|part| part.code(sum)).collect();
-    assert_eq!(sums, reference, "clock {}: {samples} samples {all_codes:?} with {carrier:?}", bench.clock);
+    assert_eq!(
+        sums, reference,
+        "clock {}: {samples} samples {all_codes:?} with {carrier:?}",
+        bench.clock
+    );
     assert_eq!(clipped != 0, expected.clipped, "clock {}: clipped, of {all_codes:?}", bench.clock);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Quotients: the nearest codes, for all operands of small dividers and for random ones of wide; the clocks they take.
+//! Quotients: the nearest codes, for all operands of small dividers and for random ones of wide;
+//! the clocks they take.
 
 use super::{Divider, Inputs, Outputs};
 use crate::support::{Bench, MILLION, cases, check, check_latency};
@@ -15,18 +16,21 @@ fn quotients_are_the_nearest_codes() {
         ("u12.4", "u9.7", "u7.3"),
     ];
     for (seed, (numerator, denominator, quotient)) in (0..).zip(formats) {
-        let [n, d, q] = [numerator, denominator, quotient].map(|text| text.parse::<Format>().expect("a format"));
+        let [n, d, q] = [numerator, denominator, quotient]
+            .map(|text| text.parse::<Format>().expect("a format"));
         let mut bench = Bench::new(Divider::new(n, d, q));
         let cases = cases(&bench.block, MILLION / 4, seed);
         check(&mut bench, cases, |i| {
-            let quotient = round_quotient(Exact::of(i.numerator, n), Exact::of(i.denominator, d), q);
+            let quotient =
+                round_quotient(Exact::of(i.numerator, n), Exact::of(i.denominator, d), q);
             [("quotient", quotient.value.code(q)), ("saturated", quotient.held.into())]
         });
     }
 }
 
 fn check_divider(numerator: &str, denominator: &str, quotient: &str) {
-    let [n, d, q] = [numerator, denominator, quotient].map(|text| text.parse::<Format>().expect("a format"));
+    let [n, d, q] =
+        [numerator, denominator, quotient].map(|text| text.parse::<Format>().expect("a format"));
     let mut bench = Bench::new(Divider::new(n, d, q));
     let pairs = (0..1 << n.width).flat_map(|n| (0..1 << d.width).map(move |d| (n, d)));
     for (numerator, denominator) in pairs {
@@ -39,7 +43,12 @@ fn check_divider(numerator: &str, denominator: &str, quotient: &str) {
 }
 
 /// Divides, and looks at every register on every clock.
-fn divide(bench: &mut Bench<Divider>, numerator: i64, denominator: i64, case: &str) -> Outputs<i64> {
+fn divide(
+    bench: &mut Bench<Divider>,
+    numerator: i64,
+    denominator: i64,
+    case: &str,
+) -> Outputs<i64> {
     let mut start = 1;
     loop {
         let out = bench.clock(Inputs { start, numerator, denominator });
@@ -51,7 +60,11 @@ fn divide(bench: &mut Bench<Divider>, numerator: i64, denominator: i64, case: &s
         let r = &bench.state.registers;
         // In the clock after the start it is looked at whether the quotient fits.
         let below = r.count == 0 || r.remainder < denominator || r.over == 1;
-        assert!(below, "clock {}, {case}: the remainder {} is below the denominator", bench.clock, r.remainder);
+        assert!(
+            below,
+            "clock {}, {case}: the remainder {} is below the denominator",
+            bench.clock, r.remainder
+        );
     }
 }
 

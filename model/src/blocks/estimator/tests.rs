@@ -16,6 +16,10 @@ fn latency_is_the_clocks_measured() {
             bench.clock(Inputs { valid: 1, index, sum: 1 << 20, ..quiet });
         }
         let measured = (1..10_000).find(|_| bench.clock(quiet).frames.done == 1);
-        assert_eq!(measured, Some(bench.block.latency()), "clocks from the last sum to the last word");
+        assert_eq!(
+            measured,
+            Some(bench.block.latency()),
+            "clocks from the last sum to the last word"
+        );
     }
 }

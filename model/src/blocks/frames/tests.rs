@@ -17,9 +17,21 @@ fn frames_hold_what_was_last_valid_of_their_pad() {
         for _ in 0..operations(MILLION / 3) {
             let codes = Field::ALL.map(|field| random.word(field.format(&profile)));
             let [r_x, r_y, x, y, sheet, capacitance, force, mean_square] = codes;
-            let (pad, invalid) = (random.word(formats.pad) % profile.pads as i64, random.below(2) as i64);
-            let quiet =
-                Inputs { start: 0, pad, invalid, r_x, r_y, x, y, sheet, capacitance, haptic_force: force, mean_square };
+            let (pad, invalid) =
+                (random.word(formats.pad) % profile.pads as i64, random.below(2) as i64);
+            let quiet = Inputs {
+                start: 0,
+                pad,
+                invalid,
+                r_x,
+                r_y,
+                x,
+                y,
+                sheet,
+                capacitance,
+                haptic_force: force,
+                mean_square,
+            };
             bench.clock(Inputs { start: 1, ..quiet });
             let mut words = [0; Field::ALL.len()];
             let take = |out: &Outputs<i64>| {
@@ -29,9 +41,14 @@ fn frames_hold_what_was_last_valid_of_their_pad() {
                 out.done == 1
             };
             (0..100).map(|_| bench.clock(quiet)).find(take).expect("a frame finishes");
-            let values: [Exact; 8] = std::array::from_fn(|k| Exact::of(codes[k], Field::ALL[k].format(&profile)));
+            let values: [Exact; 8] =
+                std::array::from_fn(|k| Exact::of(codes[k], Field::ALL[k].format(&profile)));
             let expected = reference.words(pad as usize, values, invalid == 1);
-            assert_eq!(words, expected, "clock {}: got, reference of {codes:?}, invalid {invalid}", bench.clock);
+            assert_eq!(
+                words, expected,
+                "clock {}: got, reference of {codes:?}, invalid {invalid}",
+                bench.clock
+            );
         }
     }
 }

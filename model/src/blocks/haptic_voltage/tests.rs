@@ -33,7 +33,8 @@ fn mean_squares_of_several_windows_are_the_mean_of_the_pads_last() {
         let mut profile = Profile::bundled("small").expect("bundled");
         profile.haptic.windows = windows;
         let block = HapticVoltage::new(&profile);
-        let (format, last, latency) = (block.inputs().sum, 2 * profile.demodulated() as i64, block.latency());
+        let (format, last, latency) =
+            (block.inputs().sum, 2 * profile.demodulated() as i64, block.latency());
         let (mut bench, mut random) = (Bench::new(block), Random::new(seed));
         let mut reference = rounded::Squares::new(&profile);
         for round in 0..20 * windows {
@@ -53,7 +54,11 @@ fn mean_squares_of_several_windows_are_the_mean_of_the_pads_last() {
                 let expected = reference.mean(&profile, pad as usize, newest);
                 let mean_square = expected.value.code(profile.formats.mean_square);
                 let expected = Outputs { mean_square, saturated: expected.held.into() };
-                assert_eq!(bench.clock(inputs), expected, "{windows} windows, round {round}, pad {pad}");
+                assert_eq!(
+                    bench.clock(inputs),
+                    expected,
+                    "{windows} windows, round {round}, pad {pad}"
+                );
             }
         }
     }

@@ -16,18 +16,30 @@ fn waves_are_those_of_the_table_at_the_phase() {
         let format = profile.formats.oscillator;
         let (mut since_restart, mut since_first) = (0, 0);
         for sample in 0..operations(MILLION / 6) {
-            let [restart, first] = [1500, 700].map(|one_in| sample == 0 || random.below(one_in) == 0);
+            let [restart, first] =
+                [1500, 700].map(|one_in| sample == 0 || random.below(one_in) == 0);
             since_restart = if restart { 0 } else { since_restart + 1 };
             since_first = if first { 0 } else { since_first + 1 };
             bench.clock(Inputs { sample: 1, restart: restart.into(), first: first.into() });
             let quiet = Inputs { sample: 0, restart: 0, first: 0 };
-            (0..4).map(|_| bench.clock(quiet)).find(|out| out.ready == 1).expect("ready after four clocks");
+            (0..4)
+                .map(|_| bench.clock(quiet))
+                .find(|out| out.ready == 1)
+                .expect("ready after four clocks");
             let out = bench.clock(quiet);
             let Sample { cosine, sine, window } = reference.sample(since_restart, since_first);
             let [cosine, sine, window] = [cosine, sine, window].map(|wave| wave.code(format));
-            let phase = if profile.carrier.method == Method::Polyphase { since_restart as i64 % 5 } else { 0 };
+            let phase = if profile.carrier.method == Method::Polyphase {
+                since_restart as i64 % 5
+            } else {
+                0
+            };
             let expected = Outputs { ready: 0, cosine, sine, window, phase };
-            assert_eq!(out, expected, "clock {}: sample {since_restart}, of the window {since_first}", bench.clock);
+            assert_eq!(
+                out, expected,
+                "clock {}: sample {since_restart}, of the window {since_first}",
+                bench.clock
+            );
         }
     }
 }

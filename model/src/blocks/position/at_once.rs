@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The program's results without its clocks, for fidelity `fixed`: most of a slot's clocks are the program's, and two in three of
-//! those wait for products.
+//! The program's results without its clocks, for fidelity `fixed`: most of a slot's clocks are the
+//! program's, and two in three of those wait for products.
 //!
-//! Instructions are as `instruction.rs` says, on raw codes. `fixed` and `clock` are held to be equal to the bit.
+//! Instructions are as `instruction.rs` says, on raw codes. `fixed` and `clock` are held to be
+//! equal to the bit.
 
 use super::instruction::{
-    CHECK, COUNT, Index, Instruction, LOW, OPEN, Operation, SCALARS, SHARE, SLOT_BITS, SURFACE, WRAP,
+    CHECK, COUNT, Index, Instruction, LOW, OPEN, Operation, SCALARS, SHARE, SLOT_BITS, SURFACE,
+    WRAP,
 };
 use super::{Position, Program};
 use hapticore_contract::calibration::{Layout, Surface};
 use hapticore_hdl::format::Format;
 
-/// The scratch memory, as many words as an instruction can name: a run has a copy of its own, without an allocation.
+/// The scratch memory, as many words as an instruction can name: a run has a copy of its own,
+/// without an allocation.
 type Scratch = [i64; 1 << SLOT_BITS];
 
 /// A program, its constants and a calibration's words.
@@ -146,11 +149,15 @@ impl Run<'_> {
                 self.sum += word * self.scratch[slot];
             }
             Operation::LoadDigit => {
-                self.quotient = (self.quotient << 1 | i64::from(self.sum >= 0)) & ((1 << self.of.program.digits()) - 1);
+                self.quotient = (self.quotient << 1 | i64::from(self.sum >= 0))
+                    & ((1 << self.of.program.digits()) - 1);
                 self.left = self.scratch[slot];
             }
             Operation::Store => self.store(slot, option),
-            Operation::Base => self.base = (self.sum >> bits) as usize & (self.of.table.len().next_power_of_two() - 1),
+            Operation::Base => {
+                self.base =
+                    (self.sum >> bits) as usize & (self.of.table.len().next_power_of_two() - 1)
+            }
             Operation::Input => self.scratch[slot] = self.input(option),
             Operation::Output => self.output(),
             Operation::Set => self.set(instruction),
@@ -237,12 +244,14 @@ mod tests {
 
     /// Numbers without a pattern.
     fn random(state: &mut u64) -> i64 {
-        *state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        *state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         *state as i64 >> (*state >> 58)
     }
 
     fn code(state: &mut u64, format: Format) -> i64 {
-        random(state).rem_euclid((format.max_code() - format.min_code() + 1) as i64) + format.min_code() as i64
+        random(state).rem_euclid((format.max_code() - format.min_code() + 1) as i64)
+            + format.min_code() as i64
     }
 
     /// Any words: of these tables few have a place for any ratios, and much saturates.
@@ -252,16 +261,24 @@ mod tests {
             let (mut state, position) = (seed, Position::new(&profile));
             let f = &profile.formats;
             for _ in 0..20 {
-                let table: Vec<_> = (0..position.table().words).map(|_| code(&mut state, f.table)).collect();
+                let table: Vec<_> =
+                    (0..position.table().words).map(|_| code(&mut state, f.table)).collect();
                 let words: Vec<_> = table.iter().map(|&word| Exact::of(word, f.table)).collect();
-                let (at_once, reference) = (AtOnce::new(&position, table), Reference::new(&profile, &words));
+                let (at_once, reference) =
+                    (AtOnce::new(&position, table), Reference::new(&profile, &words));
                 for _ in 0..50 {
-                    let [r_x, r_y, share] = [f.ratio, f.ratio, position.share()].map(|format| code(&mut state, format));
+                    let [r_x, r_y, share] =
+                        [f.ratio, f.ratio, position.share()].map(|format| code(&mut state, format));
                     let placed = at_once.run([r_x, r_y, share]);
                     let expected = reference.place([r_x, r_y].map(|code| Exact::of(code, f.ratio)));
                     let lost = reference.any_open(Exact::of(share, position.share()));
                     let [x, y] = [expected.x, expected.y].map(|mm| mm.code(f.position));
-                    assert_eq!(placed.outputs, [x, y, expected.sheet.code(profile.sheet())], "{}", profile.name);
+                    assert_eq!(
+                        placed.outputs,
+                        [x, y, expected.sheet.code(profile.sheet())],
+                        "{}",
+                        profile.name
+                    );
                     assert_eq!(
                         [placed.invalid, placed.saturated, placed.lost],
                         [expected.invalid, expected.saturated, lost]

@@ -8,7 +8,8 @@
 //!       operation   –        target (bits 7 … 0)      Surfaces, Repeat, Pass, Found
 //! ```
 
-/// What an instruction does. `left` is the multiplier's left operand, `slot` a word of the scratch memory.
+/// What an instruction does. `left` is the multiplier's left operand, `slot` a word of the scratch
+/// memory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Operation {
     /// left ← slot
@@ -23,21 +24,23 @@ pub enum Operation {
     MultiplyTable,
     /// A digit of the quotient is set where sum ≥ 0; left ← slot, or the one after it where sum < 0
     LoadDigit,
-    /// slot ← sum, rounded and saturated, or with [`WRAP`] not saturated; [`CHECK`] compares it with the tolerance, [`OPEN`]
-    /// with zero; sum ← 0
+    /// slot ← sum, rounded and saturated, or with [`WRAP`] not saturated; [`CHECK`] compares it
+    /// with the tolerance, [`OPEN`] with zero; sum ← 0
     Store,
     /// base ← sum, as an integer
     Base,
-    /// slot ← half of the surface's ratio, or with [`SHARE`] of the least current's share; with [`LOW`] what rounding left
+    /// slot ← half of the surface's ratio, or with [`SHARE`] of the least current's share; with
+    /// [`LOW`] what rounding left
     Input,
     /// x, y or R, by the surface ← sum; sum ← 0
     Output,
-    /// With [`COUNT`] the counter takes the value, with [`SURFACE`] the surface is that of r_x, with [`SCALARS`] base ← the
-    /// surface's scalars
+    /// With [`COUNT`] the counter takes the value, with [`SURFACE`] the surface is that of r_x,
+    /// with [`SCALARS`] base ← the surface's scalars
     Set,
     /// Where the counter is not zero: one less, and on at the target
     Repeat,
-    /// For the surface of r_x: that of r_y follows, and on at the target; after that of r_y again that of r_x, or R when found
+    /// For the surface of r_x: that of r_y follows, and on at the target; after that of r_y again
+    /// that of r_x, or R when found
     Surfaces,
     /// One step more; on at the target while there are steps left
     Pass,
@@ -49,8 +52,13 @@ pub enum Operation {
 
 impl Operation {
     /// Those that wait until all products are in the sum.
-    pub const WAITING: [Operation; 5] =
-        [Operation::Base, Operation::LoadDigit, Operation::LoadQuotient, Operation::Output, Operation::Store];
+    pub const WAITING: [Operation; 5] = [
+        Operation::Base,
+        Operation::LoadDigit,
+        Operation::LoadQuotient,
+        Operation::Output,
+        Operation::Store,
+    ];
 
     /// The name of the signal that says it is this one.
     pub const fn name(self) -> &'static str {
@@ -161,7 +169,11 @@ impl Instruction {
     pub fn code(&self) -> u16 {
         let operation = (self.operation as u16) << (BITS - OPERATION_BITS);
         let index = (self.slot.1 as u16) << (SLOT_BITS + OPTION_BITS);
-        operation | index | u16::from(self.slot.0) << OPTION_BITS | u16::from(self.option) | u16::from(self.target)
+        operation
+            | index
+            | u16::from(self.slot.0) << OPTION_BITS
+            | u16::from(self.option)
+            | u16::from(self.target)
     }
 
     /// Whether it waits until all products are in the sum.

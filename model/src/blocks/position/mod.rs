@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Position and sheet resistance from the ratios: the measured forward map, inverted by Newton steps.
+//! Position and sheet resistance from the ratios: the measured forward map, inverted by Newton
+//! steps.
 //!
 //! ```text
 //! r_x = X(u, v),  r_y = Y(u, v)                 splines of what was read at known places; u, v in cells of the table
@@ -7,12 +8,13 @@
 //! x = origin_x + u · pitch_x,  y likewise,  R = R(u, v)
 //! ```
 //!
-//! The forward map is smooth; its inverse is not (at an insulated edge the ratios stand still while the pad moves on), so that
-//! the former is tabulated, as quadratic B-splines. Ratios are normalised to the table's, by a centre and a gain: those of a
-//! sheet whose terminals have large resistances in series span a hundredth of the range.
+//! The forward map is smooth; its inverse is not (at an insulated edge the ratios stand still while
+//! the pad moves on), so that the former is tabulated, as quadratic B-splines. Ratios are
+//! normalised to the table's, by a centre and a gain: those of a sheet whose terminals have large
+//! resistances in series span a hundredth of the range.
 //!
-//! A slot has tens of thousands of clocks for a thousand products, so that one multiplier and one adder do them all, by a
-//! program (`program.rs`) of instructions (`instruction.rs`) in a memory:
+//! A slot has tens of thousands of clocks for a thousand products, so that one multiplier and one
+//! adder do them all, by a program (`program.rs`) of instructions (`instruction.rs`) in a memory:
 //!
 //! ```text
 //! program ─[instruction]─┬─ base + option ─ table ───┐
@@ -27,8 +29,9 @@
 //! | x, y          | profile         | mm                         | saturate, flagged                                      |
 //! | R             | a word's, unsigned | full scales, voltage / current | saturates at zero and at the top               |
 //!
-//! `invalid` where the last step began at a place that does not have the normalised ratios, to `2^-TOLERANCE_BITS`. Control
-//! does not depend on data. Latency: [`Position::latency`]. Source: Nakamura & Yamamoto 2016, eqs. 2 and 3, for the ratios.
+//! `invalid` where the last step began at a place that does not have the normalised ratios, to
+//! `2^-TOLERANCE_BITS`. Control does not depend on data. Latency: [`Position::latency`]. Source:
+//! Nakamura & Yamamoto 2016, eqs. 2 and 3, for the ratios.
 
 mod at_once;
 mod instruction;
@@ -187,10 +190,12 @@ impl Position {
         let layout = Layout::new(profile);
         let word = profile.formats.table;
         let program = Program::new(word);
-        let codes = program.instructions.iter().map(|instruction| instruction.code().into()).collect();
+        let codes =
+            program.instructions.iter().map(|instruction| instruction.code().into()).collect();
         let constants = program::constants(&layout, word);
         let table = Memory::new("words", layout.words(), word).dont_care_on_collision();
-        let scratch = Memory::new("scratch", constants.len(), word).dont_care_on_collision().in_block();
+        let scratch =
+            Memory::new("scratch", constants.len(), word).dont_care_on_collision().in_block();
         let multiplier = Multiplier::new(word.integer(), word.integer(), profile.multiplier);
         let wait = 1 + multiplier.latency();
         Position {
@@ -198,7 +203,8 @@ impl Position {
             digits: program.digits(),
             wait,
             program: Memory::table("instructions", Format::unsigned(instruction::BITS, 0), codes),
-            // A slot whose table is written meanwhile gives a frame of neither calibration in any case.
+            // A slot whose table is written meanwhile gives a frame of neither calibration in any
+            // case.
             table,
             scratch: Memory { initial: constants.into(), ..scratch },
             multiplier,
@@ -216,7 +222,8 @@ impl Position {
         self.clocks + 2
     }
 
-    /// From now on interpretations of codes have their results in the clock after `start`, with a table of these codes.
+    /// From now on interpretations of codes have their results in the clock after `start`, with a
+    /// table of these codes.
     pub(crate) fn place_at_once(&mut self, table: Vec<i64>) {
         self.at_once = Some(AtOnce::new(self, table));
     }
@@ -256,7 +263,11 @@ impl Position {
 
 impl Block for Position {
     #[inline(always)]
-    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+    fn clock<V: Interpretation>(
+        &self,
+        state: &mut State<Self, V>,
+        i: Inputs<Signal<V>>,
+    ) -> Outputs<Signal<V>> {
         let r = state.load(self);
         let Registers { done, x, y, sheet, invalid, lost, saturated, .. } = r;
         let outputs = Outputs { done, x, y, sheet, invalid, lost, saturated };
@@ -308,7 +319,8 @@ impl Position {
     #[inline(always)]
     fn decode<V: Interpretation>(&self, r: &Registers<Signal<V>>) -> Decoded<V> {
         let word = r.instruction;
-        let operation = word.bits(instruction::BITS - instruction::OPERATION_BITS, instruction::OPERATION_BITS);
+        let operation =
+            word.bits(instruction::BITS - instruction::OPERATION_BITS, instruction::OPERATION_BITS);
         let option = word.bits(0, instruction::OPTION_BITS);
         let is = |other: Operation| operation.is(other as u64).named(other.name());
         let waiting = Operation::WAITING.map(is).into_iter().reduce(|a, b| a | b);
@@ -359,12 +371,17 @@ impl Position {
         self.table.access(&mut state.submodules.table, address, write);
         let enable = now.does(Operation::Store) | now.does(Operation::Input);
         let data = self.stored(r, i, now, result);
-        self.scratch.access(&mut state.submodules.scratch, now.slot, Write { enable, address: now.slot, data });
+        self.scratch.access(
+            &mut state.submodules.scratch,
+            now.slot,
+            Write { enable, address: now.slot, data },
+        );
         self.program.read(&mut state.submodules.program, self.fetch(r, now));
         let (now, next) = (r.pending.bits(0, 1), r.pending.bits(1, 1));
         // A product of two clocks goes on in the second.
         let enable = if self.multiplier.latency() == 1 { now } else { now | next };
-        let inputs = multiplier::Inputs { enable, left: r.factor.integer(), right: r.word.integer() };
+        let inputs =
+            multiplier::Inputs { enable, left: r.factor.integer(), right: r.word.integer() };
         let product = call!(self.multiplier, state, inputs).product;
         let factor = r.tables.select(of_table, r.left);
         Read { instruction, word, factor, product: product.scaled(-2 * self.word.frac) }
@@ -405,7 +422,8 @@ impl Position {
         let target = r.instruction.bits(0, instruction::TARGET_BITS);
         let target = target.resize(r.fetched.format, Wrap);
         let following = r.fetched.increment();
-        let on = self.jumps(r, now).select(target, (now.done | r.bubble).select(following, r.fetched));
+        let on =
+            self.jumps(r, now).select(target, (now.done | r.bubble).select(following, r.fetched));
         let ends = now.does(Operation::End);
         (r.running & !ends).select(on, int(0)).named("fetch")
     }
@@ -424,7 +442,8 @@ impl Position {
         (repeats | other | again | found).named("jumps")
     }
 
-    /// The registers that compute: what was read goes to the multiplier, and its products into the sum.
+    /// The registers that compute: what was read goes to the multiplier, and its products into the
+    /// sum.
     #[inline(always)]
     fn compute<V: Interpretation>(
         &self,
@@ -463,13 +482,20 @@ impl Position {
     }
 
     #[inline(always)]
-    fn next_base<V: Interpretation>(&self, r: &Registers<Signal<V>>, now: &Decoded<V>) -> Signal<V> {
-        let scalars = r.surface.bits(0, 1).concat(code(0, Format::counter(Layout::SCALARS as u64 - 1)));
+    fn next_base<V: Interpretation>(
+        &self,
+        r: &Registers<Signal<V>>,
+        now: &Decoded<V>,
+    ) -> Signal<V> {
+        let scalars =
+            r.surface.bits(0, 1).concat(code(0, Format::counter(Layout::SCALARS as u64 - 1)));
         let sets = now.does(Operation::Set) & now.has(SCALARS);
         let from_sum = r.sum.bits(self.word.frac as u8, r.base.format.width);
-        // Halves of a wide product have wider ranges than the whole: what cannot be is ruled out once more.
+        // Halves of a wide product have wider ranges than the whole: what cannot be is ruled out
+        // once more.
         let last = code(self.table.words as i64 - 3, r.base.format);
-        let from_sum = if self.multiplier.latency() == 1 { from_sum } else { from_sum.at_most(last) };
+        let from_sum =
+            if self.multiplier.latency() == 1 { from_sum } else { from_sum.at_most(last) };
         let kept = now.does(Operation::Base).select(from_sum, r.base);
         sets.select(scalars.resize(r.base.format, Proved), kept)
     }
@@ -479,10 +505,13 @@ impl Position {
     fn of_digits<V: Interpretation>(&self, r: &Registers<Signal<V>>) -> Signal<V> {
         let bits = r.quotient.format.width;
         let coded = (!r.quotient.msb()).concat(r.quotient.bits(0, bits - 1));
-        let quotient = Format::signed(bits, i8::try_from(bits + 2).expect("sixteen digits at most"));
-        let step = code(1, Format::unsigned(1, i8::try_from(bits).expect("sixteen digits at most")));
+        let quotient =
+            Format::signed(bits, i8::try_from(bits + 2).expect("sixteen digits at most"));
+        let step =
+            code(1, Format::unsigned(1, i8::try_from(bits).expect("sixteen digits at most")));
         let rest = r.sum - self.half();
-        // What the remainder, over the determinant in `left`, leaves; nothing where the quotient is at full scale.
+        // What the remainder, over the determinant in `left`, leaves; nothing where the quotient is
+        // at full scale.
         coded.as_code(quotient).golden(&[coded.as_code(quotient), rest, r.left, step], |of| {
             let rest = of[1] / of[2].abs();
             if rest.abs() < 4.0 * of[3] { of[0] + rest / 8.0 } else { of[0] }
@@ -503,10 +532,10 @@ impl Position {
         let value = r.instruction.bits(instruction::OPTION_BITS, 4);
         let less = (r.count - int(1)).resize(r.count.format, Wrap);
         let counted = (does(Operation::Repeat) & !r.count.is(0)).select(less, r.count);
-        let following = r
-            .surface
-            .at(Spline::RX)
-            .select(Spline::RY.signal(), self.found(r).select(Spline::Resistance.signal(), Spline::RX.signal()));
+        let following = r.surface.at(Spline::RX).select(
+            Spline::RY.signal(),
+            self.found(r).select(Spline::Resistance.signal(), Spline::RX.signal()),
+        );
         let surface = does(Operation::Surfaces).select(following, r.surface);
         let on = now.done | r.bubble;
         let more = r.waited.increment();

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The position's program, and the words of its scratch memory.
 //!
-//! All words are fractions; `[·]` is a stored word, rounded to the nearest (halves upwards) and saturated. A place u is in
-//! cells from the table's middle, by 32. The marks at the right say what a line has made.
+//! All words are fractions; `[·]` is a stored word, rounded to the nearest (halves upwards) and
+//! saturated. A place u is in cells from the table's middle, by 32. The marks at the right say what
+//! a line has made.
 
-use super::instruction::{CHECK, COUNT, Index, Instruction, LOW, OPEN, Operation, SCALARS, SHARE, SURFACE, Slot, WRAP};
+use super::instruction::{
+    CHECK, COUNT, Index, Instruction, LOW, OPEN, Operation, SCALARS, SHARE, SURFACE, Slot, WRAP,
+};
 use Operation::{
-    Base, End, Found, Input, Load, LoadCell, LoadDigit, LoadQuotient, Multiply, MultiplyTable, Output, Pass, Repeat,
-    Set, Store, Surfaces,
+    Base, End, Found, Input, Load, LoadCell, LoadDigit, LoadQuotient, Multiply, MultiplyTable,
+    Output, Pass, Repeat, Set, Store, Surfaces,
 };
 use hapticore_contract::calibration::{Axis, Layout, Scalar, Surface};
 use hapticore_hdl::format::Format;
@@ -24,7 +27,8 @@ const fn at(slot: u8) -> Slot {
     Slot(slot, Index::None)
 }
 
-// Constants: powers of two for the digits of a quotient, then single ones, then those of a surface or axis.
+// Constants: powers of two for the digits of a quotient, then single ones, then those of a surface
+// or axis.
 const POWERS: Slot = at(0);
 const HALF: Slot = at(16);
 const LESS_HALF: Slot = at(17);
@@ -101,11 +105,16 @@ pub(super) fn constants(layout: &Layout, word: Format) -> Vec<f64> {
     singles.into_iter().for_each(|(slot, value)| set(slot, value));
     for (k, axis) in [Axis::X, Axis::Y].into_iter().enumerate() {
         let k = k as u8;
-        set(MARGIN.word(k), 1.0 - layout.cells(Surface::RatioX, axis) as f64 / (2.0 * Layout::CELLS));
+        set(
+            MARGIN.word(k),
+            1.0 - layout.cells(Surface::RatioX, axis) as f64 / (2.0 * Layout::CELLS),
+        );
         set(SIGN_U.word(k), if axis == Axis::X { 0.5 } else { -0.5 });
         set(SIGN_V.word(k), if axis == Axis::X { -0.5 } else { 0.5 });
     }
-    for (k, surface) in [Surface::RatioX, Surface::RatioY, Surface::Resistance].into_iter().enumerate() {
+    for (k, surface) in
+        [Surface::RatioX, Surface::RatioY, Surface::Resistance].into_iter().enumerate()
+    {
         let columns = layout.coefficients(surface, Axis::X);
         set(COLUMNS.word(k as u8), code(columns * Layout::CELLS as usize));
         set(LESS_MIDDLE.word(k as u8), -code(layout.middle(surface)));
@@ -201,7 +210,8 @@ impl Program {
         Program { instructions: w.instructions, digits }
     }
 
-    /// Clocks from the first instruction to the last, where a product takes so many from its operands' clock.
+    /// Clocks from the first instruction to the last, where a product takes so many from its
+    /// operands' clock.
     ///
     /// Control does not depend on data, so that following it is enough.
     pub fn clocks(&self, steps: u64, product: u64) -> u64 {
@@ -212,7 +222,8 @@ impl Program {
             at += 1;
             let jumps = match instruction.operation {
                 Set => {
-                    count = if instruction.option & COUNT != 0 { instruction.slot.0 } else { count };
+                    count =
+                        if instruction.option & COUNT != 0 { instruction.slot.0 } else { count };
                     surface = if instruction.option & SURFACE != 0 { 0 } else { surface };
                     false
                 }
@@ -286,7 +297,8 @@ fn start(w: &mut Writer) {
     clamp(w);
 }
 
-/// A place held within the table: saturation holds u + margin at the top, and u − margin at the bottom.
+/// A place held within the table: saturation holds u + margin at the top, and u − margin at the
+/// bottom.
 fn clamp(w: &mut Writer) {
     let (place, margin) = (PLACE.of_surface(), MARGIN.of_surface());
     w.products(HALF, &[place, place, margin, margin]);
@@ -298,11 +310,13 @@ fn clamp(w: &mut Writer) {
     w.store(place); //                                                               u
 }
 
-/// The B-spline's weights, and those of its slope per cell, from t: twice the place from the middle of its cell.
+/// The B-spline's weights, and those of its slope per cell, from t: twice the place from the middle
+/// of its cell.
 ///
 ///   ⅛(1 − t)², ¾ − ¼t², ⅛(1 + t)²  and  ½(t − 1), −t, ½(t + 1)
 ///
-/// The middle one is what the rounded others leave of one, so that their errors count by how much neighbours differ.
+/// The middle one is what the rounded others leave of one, so that their errors count by how much
+/// neighbours differ.
 fn weights(w: &mut Writer) {
     let place = PLACE.of_surface();
     let ([before, middle, after], [fall, turn, rise]) = (WEIGHTS, SLOPE_WEIGHTS);
@@ -355,7 +369,8 @@ fn along_v(w: &mut Writer, weights: [Slot; 3], rows: Slot) {
     (0..3).for_each(|k| w.products(weights[k].word(1), &[rows.word(2 - k as u8)]));
 }
 
-/// The surface's value is the sum; where all steps are done, this was the resistance: the jump's place.
+/// The surface's value is the sum; where all steps are done, this was the resistance: the jump's
+/// place.
 fn column(w: &mut Writer) -> u8 {
     along_v(w, WEIGHTS, VALUES);
     let found = w.next_address();
@@ -371,9 +386,12 @@ fn residual(w: &mut Writer) {
     w.store(ERROR.of_surface());
 }
 
-/// The surface's row of the matrix of cofactors: those of X are −X_v, X_u, those of Y are Y_v, −Y_u.
+/// The surface's row of the matrix of cofactors: those of X are −X_v, X_u, those of Y are Y_v,
+/// −Y_u.
 fn slopes(w: &mut Writer) {
-    for (weights, rows, sign, place) in [(WEIGHTS, SLOPES, SIGN_U, 1), (SLOPE_WEIGHTS, VALUES, SIGN_V, 0)] {
+    for (weights, rows, sign, place) in
+        [(WEIGHTS, SLOPES, SIGN_U, 1), (SLOPE_WEIGHTS, VALUES, SIGN_V, 0)]
+    {
         along_v(w, weights, rows);
         w.store(SPARE);
         w.products(sign.of_surface(), &[SPARE, SPARE]);

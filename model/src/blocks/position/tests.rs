@@ -8,7 +8,8 @@ use crate::support::{Bench, MILLION, cases, check, check_latency_of};
 use hapticore_contract::profile::Profile;
 use hapticore_reference::rounded::{self, Exact};
 
-/// Half of the tables are a device's, and half are any words, of which few have a place for any ratios.
+/// Half of the tables are a device's, and half are any words, of which few have a place for any
+/// ratios.
 #[test]
 fn places_are_those_of_the_rounded_newton_steps() {
     for (seed, profile) in (0..).zip(Profile::all().into_iter().chain(Profile::all())) {
@@ -16,11 +17,18 @@ fn places_are_those_of_the_rounded_newton_steps() {
         let block = Position::new(&profile);
         let (mut random, share) = (Random::new(seed), block.inputs().share);
         let any = (0..block.table().words).map(|_| random.word(f.table)).collect();
-        let of_device = calibration(&profile).position.words.into_iter().map(|word| f.table.code_saturating(word));
+        let of_device = calibration(&profile)
+            .position
+            .words
+            .into_iter()
+            .map(|word| f.table.code_saturating(word));
         let words: Vec<i64> = if seed < 3 { of_device.collect() } else { any };
         let mut bench = Bench::new(block);
         for (address, &word) in words.iter().enumerate() {
-            bench.clock(Inputs { table: TablePort { write: 1, address: address as i64, word }, ..no_place() });
+            bench.clock(Inputs {
+                table: TablePort { write: 1, address: address as i64, word },
+                ..no_place()
+            });
         }
         let words: Vec<Exact> = words.into_iter().map(|word| Exact::of(word, f.table)).collect();
         let quiet = |i: Inputs<i64>| Inputs { table: TablePort { write: 0, ..i.table }, ..i };
@@ -32,7 +40,14 @@ fn places_are_those_of_the_rounded_newton_steps() {
             let sheet = place.sheet.code(profile.sheet());
             let (invalid, saturated) = (place.invalid.into(), place.saturated.into());
             let lost = reference.any_open(Exact::of(i.share, share)).into();
-            [("x", x), ("y", y), ("sheet", sheet), ("invalid", invalid), ("lost", lost), ("saturated", saturated)]
+            [
+                ("x", x),
+                ("y", y),
+                ("sheet", sheet),
+                ("invalid", invalid),
+                ("lost", lost),
+                ("saturated", saturated),
+            ]
         });
     }
 }

@@ -26,9 +26,11 @@ fn ratios_are_those_of_eqs_2_and_3() {
             let [total, sense] = [Exact::ZERO; 2];
             let corners = Exact::of(i.corners, corners);
             let (x, y, least) = (of(i.x), of(i.y), Exact::of(i.least, least));
-            let currents = rounded::Currents { total, sense, x, y, corners, least, saturated: false };
+            let currents =
+                rounded::Currents { total, sense, x, y, corners, least, saturated: false };
             let expected = rounded::ratio(&profile, &currents);
-            let [r_x, r_y, share] = [expected.r_x, expected.r_y, expected.share].map(|r| r.code(ratio));
+            let [r_x, r_y, share] =
+                [expected.r_x, expected.r_y, expected.share].map(|r| r.code(ratio));
             [("r_x", r_x), ("r_y", r_y), ("share", share), ("invalid", expected.invalid.into())]
         });
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Square roots: the nearest codes, for all radicands of small formats and for random ones of wide; the clocks they take.
+//! Square roots: the nearest codes, for all radicands of small formats and for random ones of wide;
+//! the clocks they take.
 
 use super::{Inputs, Outputs, SquareRoot};
 use crate::support::{Bench, MILLION, cases, check, check_latency, within};
@@ -8,11 +9,15 @@ use hapticore_reference::rounded::{Exact, round_sqrt};
 
 #[test]
 fn square_roots_are_the_nearest_codes() {
-    for (seed, (radicand, frac)) in (0..).zip([("u52.46", 23), ("u60.52", 26), ("u11.4", 5), ("u13.-2", 3)]) {
+    for (seed, (radicand, frac)) in
+        (0..).zip([("u52.46", 23), ("u60.52", 26), ("u11.4", 5), ("u13.-2", 3)])
+    {
         let radicand = radicand.parse::<Format>().expect("a format");
         let mut bench = Bench::new(SquareRoot::new(radicand, frac));
         let (cases, root) = (cases(&bench.block, MILLION / 4, seed), bench.block.sqrt());
-        check(&mut bench, cases, |i| [("sqrt", round_sqrt(Exact::of(i.radicand, radicand), frac).code(root))]);
+        check(&mut bench, cases, |i| {
+            [("sqrt", round_sqrt(Exact::of(i.radicand, radicand), frac).code(root))]
+        });
     }
 }
 
@@ -37,7 +42,10 @@ fn take_root(bench: &mut Bench<SquareRoot>, radicand: i64) -> Outputs<i64> {
         start = 0;
         bench.check_registers();
         let r = &bench.state.registers;
-        assert!(within(r.remainder, Format::unsigned(62, 0)) && r.remainder <= 2 * r.partial, "√{radicand}");
+        assert!(
+            within(r.remainder, Format::unsigned(62, 0)) && r.remainder <= 2 * r.partial,
+            "√{radicand}"
+        );
     }
 }
 
@@ -50,9 +58,15 @@ fn every_root_of_up_to_16_bits() {
 
 #[test]
 fn every_root_with_odd_and_even_integer_bits() {
-    for (radicand, frac) in
-        [("u9.8", 4), ("u10.8", 4), ("u11.7", 4), ("u8.3", 5), ("u8.-1", 2), ("u8.-2", 2), ("u7.9", 5)]
-    {
+    for (radicand, frac) in [
+        ("u9.8", 4),
+        ("u10.8", 4),
+        ("u11.7", 4),
+        ("u8.3", 5),
+        ("u8.-1", 2),
+        ("u8.-2", 2),
+        ("u7.9", 5),
+    ] {
         check_root(radicand, frac);
     }
 }

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `[coupling]`: what the other pads do to the one that a slot serves.
 //!
-//! Only the selected pad has the sensing voltage, but every pad lies on the sheet, and for the carrier the others are
-//! capacitors to ground. Where the selected pad's current lifts the sheet, they draw some of it away:
+//! Only the selected pad has the sensing voltage, but every pad lies on the sheet, and for the
+//! carrier the others are capacitors to ground. Where the selected pad's current lifts the sheet,
+//! they draw some of it away:
 //!
 //!   I_k/(jωC_k) + Σ_l G_kl·I_l = V_k,   V = (V_s, 0, 0, …),   terminal i gets Σ_k w_i(x_k)·I_k
 //!
-//! G_kl is the sheet's potential at pad k for a unit current into pad l; G_kk is R_p. Four pads shift a position by some
-//! tenths of a millimetre at 318 pF and by millimetres at 760 pF (docs/physics.md §1), since amplitudes are of second order in ωCG.
+//! G_kl is the sheet's potential at pad k for a unit current into pad l; G_kk is R_p. Four pads
+//! shift a position by some tenths of a millimetre at 318 pF and by millimetres at 760 pF
+//! (docs/physics.md §1), since amplitudes are of second order in ωCG.
 //!
 //! | level | what | error | four pads |
 //! | --- | --- | --- | --- |
@@ -40,17 +42,27 @@ const SPACING_M: f64 = 0.01;
 pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneError> {
     let Some(table) = root.table("coupling")? else { return Ok(None) };
     let Some(sheet) = root.table("sheet")? else {
-        return Err(table.error("", "expected a [sheet] too, since pads are coupled through its resistance"));
+        return Err(table
+            .error("", "expected a [sheet] too, since pads are coupled through its resistance"));
     };
     let sheet = Sheet::read(sheet, device)?;
     let siemens_per_m2 = shunt::screened(root, device)?.map(|(_, siemens_per_m2)| siemens_per_m2);
     let level = |word, cost_ns, once| {
         let field = OfSheet::new(sheet.clone(), move |sheet| field(sheet, siemens_per_m2));
         Level::new(word, cost_ns, move |setting| {
-            Effect::Pads(Box::new(Coupling { field: Following::new(&field), once, device: setting.device.clone() }))
+            Effect::Pads(Box::new(Coupling {
+                field: Following::new(&field),
+                once,
+                device: setting.device.clone(),
+            }))
         })
     };
-    Spec::with_levels("coupling", Some(table), vec![level("once", 3.6e3, true), level("full", 4.6e3, false)], "full")
+    Spec::with_levels(
+        "coupling",
+        Some(table),
+        vec![level("once", 3.6e3, true), level("full", 4.6e3, false)],
+        "full",
+    )
 }
 
 /// The field of a sheet, with a shunt of ωc or none.
@@ -58,7 +70,9 @@ fn field(sheet: &Sheet, siemens_per_m2: Option<f64>) -> Box<dyn Field> {
     match siemens_per_m2 {
         Some(siemens_per_m2) => Box::new(Screened::new(sheet, siemens_per_m2)),
         None if sheet.film.is_uniform() => Box::new(Analytic::new(sheet)),
-        None => Box::new(Network::new(sheet, Mesh::new(sheet.size_m, SPACING_M), Correction::Peaceman)),
+        None => {
+            Box::new(Network::new(sheet, Mesh::new(sheet.size_m, SPACING_M), Correction::Peaceman))
+        }
     }
 }
 
@@ -86,14 +100,16 @@ impl PadsEffect for Coupling {
             ohm[k][k] = one.admittance(self.device.carrier_rad_s).inv();
         }
         let currents = if self.once { answered_once(&ohm) } else { answered(ohm) };
-        let into =
-            |terminal: usize| pads.iter().zip(&currents).map(|(pad, current)| pad.split[terminal] * current).sum();
+        let into = |terminal: usize| {
+            pads.iter().zip(&currents).map(|(pad, current)| pad.split[terminal] * current).sum()
+        };
         let transfer: PerTerminal<Complex64> = (0..pad.split.len()).map(into).collect();
         pad.transfer = Some(transfer);
     }
 }
 
-/// The same where each other pad answers the first one's current alone, and the first one takes no notice.
+/// The same where each other pad answers the first one's current alone, and the first one takes no
+/// notice.
 fn answered_once(ohm: &[Vec<Complex64>]) -> Vec<Complex64> {
     let first = ohm[0][0].inv();
     (0..ohm.len()).map(|k| if k == 0 { first } else { -ohm[k][0] / ohm[k][k] * first }).collect()
@@ -101,21 +117,24 @@ fn answered_once(ohm: &[Vec<Complex64>]) -> Vec<Complex64> {
 
 impl Field for Analytic {
     fn ohm(&self, places_mm: &[[f64; 2]]) -> Vec<Vec<Complex64>> {
-        let sources: Vec<analytic::Source> = places_mm.iter().map(|[x, y]| self.source(*x, *y)).collect();
+        let sources: Vec<analytic::Source> =
+            places_mm.iter().map(|[x, y]| self.source(*x, *y)).collect();
         symmetric(sources.len(), |k, l| self.between(&sources[k], &sources[l]).into())
     }
 }
 
 impl Field for Screened {
     fn ohm(&self, places_mm: &[[f64; 2]]) -> Vec<Vec<Complex64>> {
-        let sources: Vec<shunt::Source> = places_mm.iter().map(|[x, y]| self.source(*x, *y)).collect();
+        let sources: Vec<shunt::Source> =
+            places_mm.iter().map(|[x, y]| self.source(*x, *y)).collect();
         symmetric(sources.len(), |k, l| self.between(&sources[k], &sources[l]))
     }
 }
 
 impl Field for Network {
     fn ohm(&self, places_mm: &[[f64; 2]]) -> Vec<Vec<Complex64>> {
-        let potentials: Vec<_> = places_mm.iter().map(|place| self.potential_around(*place)).collect();
+        let potentials: Vec<_> =
+            places_mm.iter().map(|place| self.potential_around(*place)).collect();
         symmetric(places_mm.len(), |k, l| self.read(&potentials[l], places_mm[k]).into())
     }
 }

@@ -39,7 +39,8 @@ pub(crate) fn placements(count: usize, margin_mm: f64) -> Vec<[[f64; 2]; 4]> {
     ];
     let mut placements = Vec::new();
     while placements.len() < count {
-        let places: [[f64; 2]; 4] = std::array::from_fn(|_| [x.sample(&mut random), y.sample(&mut random)]);
+        let places: [[f64; 2]; 4] =
+            std::array::from_fn(|_| [x.sample(&mut random), y.sample(&mut random)]);
         let near = |a: &[f64; 2], b: &[f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]) < 30.0;
         if (0..4).all(|k| (0..k).all(|l| !near(&places[k], &places[l]))) {
             placements.push(places);
@@ -54,7 +55,12 @@ fn eqs_2_and_3() -> Ratios {
 }
 
 /// Where an isolated pad would read these ratios: Newton's steps on the exact map.
-pub(crate) fn place_of(exact: &impl Solver, ratios: &Ratios, [r_x, r_y]: [f64; 2], from: [f64; 2]) -> [f64; 2] {
+pub(crate) fn place_of(
+    exact: &impl Solver,
+    ratios: &Ratios,
+    [r_x, r_y]: [f64; 2],
+    from: [f64; 2],
+) -> [f64; 2] {
     let read = |[x, y]: [f64; 2]| {
         let [a, b] = ratios.of_amplitudes(&exact.split(x, y).share);
         [a - r_x, b - r_y]
@@ -74,13 +80,14 @@ pub(crate) fn place_of(exact: &impl Solver, ratios: &Ratios, [r_x, r_y]: [f64; 2
             (columns[0][0] * here[1] - columns[0][1] * here[0]) / det,
         ];
         let reach = device().reach_mm();
-        at = [0, 1].map(|axis| (at[axis] - step[axis].clamp(-5.0, 5.0)).clamp(-reach[axis], reach[axis]));
+        at = [0, 1]
+            .map(|axis| (at[axis] - step[axis].clamp(-5.0, 5.0)).clamp(-reach[axis], reach[axis]));
     }
     at
 }
 
-/// Mean, 95th percentile and greatest shift of the first of four pads, mm; least and greatest change of its force by the
-/// amplitude of the sum, percent.
+/// Mean, 95th percentile and greatest shift of the first of four pads, mm; least and greatest
+/// change of its force by the amplitude of the sum, percent.
 fn shifts(picofarad: f64, margin_mm: f64) -> ([f64; 3], [f64; 2]) {
     let exact = Analytic::new(&sheet(0.0));
     let ratios = eqs_2_and_3();
@@ -101,8 +108,8 @@ fn shifts(picofarad: f64, margin_mm: f64) -> ([f64; 3], [f64; 2]) {
     ([mean, shifts[shifts.len() * 95 / 100], shifts[shifts.len() - 1]], force)
 }
 
-/// docs/physics.md §1: the prototype's pad positions are not known; 50 mm off the edges gives its figures, found by
-/// trying margins; the limits were set after that.
+/// docs/physics.md §1: the prototype's pad positions are not known; 50 mm off the edges gives its
+/// figures, found by trying margins; the limits were set after that.
 #[test]
 fn four_pads_shift_a_position_as_physics_says() {
     let near = |got: [f64; 3], expected: [f64; 3]| {
@@ -115,8 +122,8 @@ fn four_pads_shift_a_position_as_physics_says() {
     assert!((low + 3.1).abs() < 0.5 && (high + 0.9).abs() < 0.1, "force {low} to {high} %");
 }
 
-/// The prototype has 6.4 mm, the paper's authors "a few millimeters" (docs/physics.md §1); 11.5 mm was measured before
-/// the limits were set.
+/// The prototype has 6.4 mm, the paper's authors "a few millimeters" (docs/physics.md §1); 11.5 mm
+/// was measured before the limits were set.
 #[test]
 fn up_to_the_edges_a_position_shifts_by_a_centimetre() {
     let [_, _, most] = shifts(760.0, 20.0).0;
@@ -160,7 +167,10 @@ fn potentials_are_reciprocal_and_a_mesh_has_them_too() {
     assert!((exact.between(&a, &b) - exact.between(&b, &a)).abs() < 1e-9);
     let [solved, meshed] = [Field::ohm(&exact, &places), Field::ohm(&mesh, &places)];
     for (k, l) in [(0, 1), (0, 2), (1, 2)] {
-        assert!((solved[k][l] - meshed[k][l]).norm() < 2e-3 * solved[k][l].norm(), "{solved:?} {meshed:?}");
+        assert!(
+            (solved[k][l] - meshed[k][l]).norm() < 2e-3 * solved[k][l].norm(),
+            "{solved:?} {meshed:?}"
+        );
     }
 }
 
@@ -172,6 +182,9 @@ fn pads_that_touch_or_lie_on_each_other_are_flagged_and_finite() {
         coupling(false).act(&mut first, &[second]);
         assert_eq!(first.touching, touching, "{distance} mm");
         let total: Complex64 = first.transfer.unwrap().iter().sum();
-        assert!((0.8..1.0).contains(&(total.norm() / first.admittance(device().carrier_rad_s).norm())), "{total}");
+        assert!(
+            (0.8..1.0).contains(&(total.norm() / first.admittance(device().carrier_rad_s).norm())),
+            "{total}"
+        );
     }
 }

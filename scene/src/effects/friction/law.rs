@@ -5,9 +5,10 @@
 //!   Dahl       ż = v − σ₀|v|z/f_c,          F = σ₀z
 //!   LuGre      ż = v − σ₀|v|z/g(v),         F = σ₀z + σ₁ż,   g = f_c + (f_s − f_c)·e^(−(v/v_s)²)
 //!
-//! with f_c = μ(N + F_e). All take the pad's velocity v implicitly, so that any step is stable: A·v = b − F(v), with
-//! A = m/h + c + kh and b what drives the pad. The bristles' z⁺ = (z + hv)/(1 + hσ₀|v|/g) is linear in v once |v| is known, so
-//! that one number is sought. Source: docs/physics.md §4; Canudas de Wit et al., 1995.
+//! with f_c = μ(N + F_e). All take the pad's velocity v implicitly, so that any step is stable: A·v
+//! = b − F(v), with A = m/h + c + kh and b what drives the pad. The bristles' z⁺ = (z + hv)/(1 +
+//! hσ₀|v|/g) is linear in v once |v| is known, so that one number is sought. Source:
+//! docs/physics.md §4; Canudas de Wit et al., 1995.
 
 pub(super) type Vector = [f64; 2];
 
@@ -71,20 +72,32 @@ impl Law {
     pub fn step(self, surface: &Surface, from: Motion, drive: Drive) -> Motion {
         match self {
             Law::Stiction => stiction(surface, from, drive),
-            Law::Dahl => bristles(&Surface { stiction: 1.0, bristle_n_s_per_m: 0.0, ..*surface }, from, drive),
+            Law::Dahl => bristles(
+                &Surface { stiction: 1.0, bristle_n_s_per_m: 0.0, ..*surface },
+                from,
+                drive,
+            ),
             Law::LuGre => bristles(surface, from, drive),
         }
     }
 
     /// The friction of a pad that moves as it is told.
-    pub fn follow(self, surface: &Surface, from: Motion, velocity_m_s: Vector, step_s: f64, sliding_n: f64) -> Motion {
+    pub fn follow(
+        self,
+        surface: &Surface,
+        from: Motion,
+        velocity_m_s: Vector,
+        step_s: f64,
+        sliding_n: f64,
+    ) -> Motion {
         let speed = length(velocity_m_s);
         let surface = match self {
             Law::Dahl => Surface { stiction: 1.0, bristle_n_s_per_m: 0.0, ..*surface },
             _ => *surface,
         };
         if self == Law::Stiction {
-            let friction_n = if speed > 0.0 { scaled(sliding_n / speed, velocity_m_s) } else { [0.0; 2] };
+            let friction_n =
+                if speed > 0.0 { scaled(sliding_n / speed, velocity_m_s) } else { [0.0; 2] };
             return Motion { velocity_m_s, friction_n, ..from };
         }
         let keep = surface.keep(step_s, speed, sliding_n);
@@ -113,7 +126,8 @@ fn bristles(surface: &Surface, from: Motion, drive: Drive) -> Motion {
         let left = add(drive.push_n, -bristle, from.bristle_m);
         scaled(1.0 / (drive.mobility_n_s_per_m + stiffness * keep * drive.step_s), left)
     };
-    let most = (length(drive.push_n) + stiffness * length(from.bristle_m)) / drive.mobility_n_s_per_m;
+    let most =
+        (length(drive.push_n) + stiffness * length(from.bristle_m)) / drive.mobility_n_s_per_m;
     let speed = agreeing(most, |speed| length(velocity(speed)));
     let keep = surface.keep(drive.step_s, speed, drive.sliding_n);
     surface.bristled(from, velocity(speed), keep, drive.step_s)
@@ -124,7 +138,11 @@ impl Surface {
     fn keep(&self, step_s: f64, speed: f64, sliding_n: f64) -> f64 {
         let stribeck = (-(speed / self.stribeck_m_s).powi(2)).exp();
         let level_n = sliding_n * (1.0 + (self.stiction - 1.0) * stribeck);
-        if level_n > 0.0 { level_n / (level_n + step_s * self.bristle_n_per_m * speed) } else { 0.0 }
+        if level_n > 0.0 {
+            level_n / (level_n + step_s * self.bristle_n_per_m * speed)
+        } else {
+            0.0
+        }
     }
 
     fn bristled(&self, from: Motion, velocity_m_s: Vector, keep: f64, step_s: f64) -> Motion {
@@ -135,7 +153,8 @@ impl Surface {
     }
 }
 
-/// The speed s in 0 ..= `most` at which f(s) = s, where f(0) ≥ 0 and f(most) ≤ most: regula falsi (Illinois), which keeps a bracket.
+/// The speed s in 0 ..= `most` at which f(s) = s, where f(0) ≥ 0 and f(most) ≤ most: regula falsi
+/// (Illinois), which keeps a bracket.
 fn agreeing(most: f64, f: impl Fn(f64) -> f64) -> f64 {
     let (mut low, mut high) = ((0.0, f(0.0)), (most, f(most) - most));
     if low.1 == 0.0 || high.1 >= 0.0 {

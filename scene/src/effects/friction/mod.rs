@@ -8,13 +8,14 @@
 //! | `dahl` | besides, bristles that bend before they slide |
 //! | `lugre` | besides, the Stribeck fall of sliding friction and the bristles' damping |
 //!
-//! The step's error in the pad's place is 1.4, 16 and 150 µm at 10 µs, 100 µs and 1 ms, of a finger that swings 30 mm twice a
-//! second; the prototype has 1.8, 18 and 180 µm (docs/physics.md §4).
+//! The step's error in the pad's place is 1.4, 16 and 150 µm at 10 µs, 100 µs and 1 ms, of a finger
+//! that swings 30 mm twice a second; the prototype has 1.8, 18 and 180 µm (docs/physics.md §4).
 //!
-//! Without the table the force is eq. 8 with the true capacitance and voltage, which for an even gap is the same. μ is
-//! `device.mu`: 0.12, or 0.065 where the loop has to agree with the paper's K = 600. The haptic force is what friction can do
-//! because of the voltage, whether the pad slides or sticks; how much it does is the truth's `friction_n`. With `[hand]` the
-//! pad lags behind its trajectory; a step is `step_us`, 100 µs. Source: docs/physics.md §3, §4.
+//! Without the table the force is eq. 8 with the true capacitance and voltage, which for an even
+//! gap is the same. μ is `device.mu`: 0.12, or 0.065 where the loop has to agree with the paper's K
+//! = 600. The haptic force is what friction can do because of the voltage, whether the pad slides
+//! or sticks; how much it does is the truth's `friction_n`. With `[hand]` the pad lags behind its
+//! trajectory; a step is `step_us`, 100 µs. Source: docs/physics.md §3, §4.
 
 mod law;
 mod moving;
@@ -42,10 +43,13 @@ pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneE
     };
     let step_s = 1e-6 * table.number_or("step_us", Limits::within(1.0, 1000.0), 100.0)?;
     let mu = device.mu;
-    let mut levels = vec![Level::new("coulomb", 20.0, move |_| Effect::Pad(Box::new(Coulomb { mu })))];
+    let mut levels =
+        vec![Level::new("coulomb", 20.0, move |_| Effect::Pad(Box::new(Coulomb { mu })))];
     for (word, law, cost_ns) in LAWS {
         let device = device.clone();
-        let build = move |_: &Setting| Effect::Pad(Box::new(Moving::new(law, surface, step_s, device.clone())));
+        let build = move |_: &Setting| {
+            Effect::Pad(Box::new(Moving::new(law, surface, step_s, device.clone())))
+        };
         levels.push(Level::new(word, cost_ns, build));
     }
     let usual = if root.table("hand")?.is_some() { "lugre" } else { "coulomb" };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Pads that move against friction, from slot to slot: as their trajectory says, or hanging on the finger that follows it.
+//! Pads that move against friction, from slot to slot: as their trajectory says, or hanging on the
+//! finger that follows it.
 //!
 //! Between slots the finger moves evenly, and load, attraction and push are linear.
 
@@ -41,7 +42,14 @@ impl Moving {
         let at_m = [1e-3 * pad.x_mm, 1e-3 * pad.y_mm];
         let sliding_n = self.device.mu * (self.device.weight_n(pad.load_g) + pad.attraction_n);
         let motion = Motion::default();
-        Track { time_s: pad.time_s, finger_m: at_m, pad_m: at_m, push_n: pad.push_n, sliding_n, motion }
+        Track {
+            time_s: pad.time_s,
+            finger_m: at_m,
+            pad_m: at_m,
+            push_n: pad.push_n,
+            sliding_n,
+            motion,
+        }
     }
 
     fn advance(&self, from: Track, to: Track, finger: Option<Finger>) -> Track {
@@ -73,7 +81,9 @@ impl Moving {
         let damped = add(spring, finger.damping_n_s_per_m, finger_m_s);
         let drive = Drive {
             step_s,
-            mobility_n_s_per_m: inertia + finger.damping_n_s_per_m + finger.stiffness_n_per_m * step_s,
+            mobility_n_s_per_m: inertia
+                + finger.damping_n_s_per_m
+                + finger.stiffness_n_per_m * step_s,
             push_n: add(damped, inertia, to.motion.velocity_m_s),
             sliding_n: to.sliding_n,
         };
@@ -97,10 +107,13 @@ impl PadEffect for Moving {
         let now = self.now(pad);
         let track = self.pads[pad.index].map_or(now, |from| self.advance(from, now, pad.finger));
         self.pads[pad.index] = Some(track);
-        let [half_mm, reach_mm] =
-            [[self.device.width_mm, self.device.height_mm].map(|mm| mm / 2.0), self.device.reach_mm()];
+        let [half_mm, reach_mm] = [
+            [self.device.width_mm, self.device.height_mm].map(|mm| mm / 2.0),
+            self.device.reach_mm(),
+        ];
         let at_mm = track.pad_m.map(|m| 1e3 * m);
-        pad.over_edge |= [0, 1].into_iter().any(|axis| at_mm[axis].abs() > reach_mm[axis] + SLACK_MM);
+        pad.over_edge |=
+            [0, 1].into_iter().any(|axis| at_mm[axis].abs() > reach_mm[axis] + SLACK_MM);
         [pad.x_mm, pad.y_mm] = [0, 1].map(|axis| at_mm[axis].clamp(-half_mm[axis], half_mm[axis]));
         pad.split = ideal_split(pad.x_mm, pad.y_mm, &self.device);
         pad.friction_n = super::law::length(track.motion.friction_n);

@@ -3,7 +3,8 @@
 
 use super::law::*;
 
-const SURFACE: Surface = Surface { stiction: 1.2, stribeck_m_s: 0.01, bristle_n_per_m: 1e5, bristle_n_s_per_m: 300.0 };
+const SURFACE: Surface =
+    Surface { stiction: 1.2, stribeck_m_s: 0.01, bristle_n_per_m: 1e5, bristle_n_s_per_m: 300.0 };
 
 /// The finger of docs/physics.md §4.
 const STIFFNESS: f64 = 300.0;
@@ -44,8 +45,8 @@ fn swing(time_s: f64) -> f64 {
     0.03 * (2.0 * std::f64::consts::TAU * time_s).sin()
 }
 
-/// docs/physics.md §4: the prototype has 1.8, 18 and 180 µm at 10 µs, 100 µs and 1 ms, of a motion that is not known.
-/// The range was set after measuring on this swing.
+/// docs/physics.md §4: the prototype has 1.8, 18 and 180 µm at 10 µs, 100 µs and 1 ms, of a motion
+/// that is not known. The range was set after measuring on this swing.
 #[test]
 fn the_error_of_a_step_falls_in_proportion() {
     for law in ALL {
@@ -56,9 +57,17 @@ fn the_error_of_a_step_falls_in_proportion() {
             places(step_s).iter().zip(&exact).map(off).fold(0.0, f64::max)
         };
         let errors = [1e-5, 1e-4, 1e-3].map(error);
-        println!("{law:?}: {:.2} {:.1} {:.0} µm", errors[0] * 1e6, errors[1] * 1e6, errors[2] * 1e6);
+        println!(
+            "{law:?}: {:.2} {:.1} {:.0} µm",
+            errors[0] * 1e6,
+            errors[1] * 1e6,
+            errors[2] * 1e6
+        );
         for (error, physics) in errors.into_iter().zip([1.8e-6, 18e-6, 180e-6]) {
-            assert!((0.7..1.0).contains(&(error / physics)), "{law:?}: {errors:?}, prototype 1.8, 18, 180 µm");
+            assert!(
+                (0.7..1.0).contains(&(error / physics)),
+                "{law:?}: {errors:?}, prototype 1.8, 18, 180 µm"
+            );
         }
     }
 }
@@ -85,7 +94,11 @@ fn dahls_bristles_bend_as_the_closed_form_says() {
         motion = Law::Dahl.follow(&SURFACE, motion, [speed, 0.0], step_s, sliding_n);
         let bent = SURFACE.bristle_n_per_m * speed * step_s * f64::from(n);
         let closed = sliding_n * (1.0 - (-bent / sliding_n).exp());
-        assert!((motion.friction_n[0] - closed).abs() < 4e-4 * sliding_n, "{n}: {} {closed}", motion.friction_n[0]);
+        assert!(
+            (motion.friction_n[0] - closed).abs() < 4e-4 * sliding_n,
+            "{n}: {} {closed}",
+            motion.friction_n[0]
+        );
     }
     assert!((motion.friction_n[0] / sliding_n - 1.0).abs() < 0.01);
 }
@@ -94,9 +107,14 @@ fn dahls_bristles_bend_as_the_closed_form_says() {
 fn lugre_slides_steadily_on_stribecks_curve() {
     for speed in [1e-3, 5e-3, 2e-2, 0.2] {
         let mut motion = Motion::default();
-        (0..20_000).for_each(|_| motion = Law::LuGre.follow(&SURFACE, motion, [0.0, -speed], 1e-4, 0.6));
+        (0..20_000)
+            .for_each(|_| motion = Law::LuGre.follow(&SURFACE, motion, [0.0, -speed], 1e-4, 0.6));
         let stribeck = 0.6 * (1.0 + 0.2 * (-(speed / 0.01f64).powi(2)).exp());
-        assert!((motion.friction_n[1] / stribeck + 1.0).abs() < 1e-9, "{speed}: {:?}", motion.friction_n);
+        assert!(
+            (motion.friction_n[1] / stribeck + 1.0).abs() < 1e-9,
+            "{speed}: {:?}",
+            motion.friction_n
+        );
     }
 }
 
@@ -104,9 +122,15 @@ fn lugre_slides_steadily_on_stribecks_curve() {
 fn nothing_rests_and_nothing_presses_without_harm() {
     for law in ALL {
         let still = pulled(law, |_| 0.02, 0.6, 1e-4, 1e-3, 0.1);
-        assert!(still.iter().all(|[place, friction]| *place == 0.02 && *friction == 0.0), "{law:?}: v = 0");
+        assert!(
+            still.iter().all(|[place, friction]| *place == 0.02 && *friction == 0.0),
+            "{law:?}: v = 0"
+        );
         let weightless = pulled(law, swing, 0.0, 1e-4, 1e-3, 1.0);
-        assert!(weightless.iter().all(|[place, friction]| place.is_finite() && *friction == 0.0), "{law:?}: N = 0");
+        assert!(
+            weightless.iter().all(|[place, friction]| place.is_finite() && *friction == 0.0),
+            "{law:?}: N = 0"
+        );
         let free = pulled(law, |_| 0.0, 0.0, 1e-4, 1e-3, 0.1);
         assert!(free.iter().all(|state| *state == [0.0; 2]), "{law:?}: v = 0 and N = 0");
     }
@@ -116,7 +140,8 @@ fn nothing_rests_and_nothing_presses_without_harm() {
 #[test]
 fn friction_has_no_preferred_direction() {
     for law in ALL {
-        let drive = |push_n| Drive { step_s: 1e-4, mobility_n_s_per_m: 503.0, push_n, sliding_n: 0.6 };
+        let drive =
+            |push_n| Drive { step_s: 1e-4, mobility_n_s_per_m: 503.0, push_n, sliding_n: 0.6 };
         let along = law.step(&SURFACE, Motion::default(), drive([10.0, 0.0]));
         let across = law.step(&SURFACE, Motion::default(), drive([6.0, -8.0]));
         let speed = along.velocity_m_s[0];
@@ -125,13 +150,15 @@ fn friction_has_no_preferred_direction() {
     }
 }
 
-/// The explicit method for comparison (docs/physics.md §4): the largest error of friction against the semi-implicit step.
+/// The explicit method for comparison (docs/physics.md §4): the largest error of friction against
+/// the semi-implicit step.
 fn explicit_error(step_s: f64) -> f64 {
     let slope = |[x, v, z]: [f64; 3], time_s: f64| {
         let g = 0.6 * (1.0 + 0.2 * (-(v / 0.01f64).powi(2)).exp());
         let rate = v - 1e5 * v.abs() * z / g;
         let finger_v = (swing(time_s + 1e-7) - swing(time_s - 1e-7)) / 2e-7;
-        let force = STIFFNESS * (swing(time_s) - x) + DAMPING * (finger_v - v) - 1e5 * z - 300.0 * rate;
+        let force =
+            STIFFNESS * (swing(time_s) - x) + DAMPING * (finger_v - v) - 1e5 * z - 300.0 * rate;
         [v, force / MASS, rate]
     };
     let ahead = |at: [f64; 3], h: f64, k: [f64; 3]| std::array::from_fn(|n| at[n] + h * k[n]);
@@ -143,7 +170,8 @@ fn explicit_error(step_s: f64) -> f64 {
         let b = slope(ahead(at, 0.5 * step_s, a), time_s + 0.5 * step_s);
         let c = slope(ahead(at, 0.5 * step_s, b), time_s + 0.5 * step_s);
         let d = slope(ahead(at, step_s, c), time_s + step_s);
-        at = std::array::from_fn(|n| at[n] + step_s / 6.0 * (a[n] + 2.0 * b[n] + 2.0 * c[n] + d[n]));
+        at =
+            std::array::from_fn(|n| at[n] + step_s / 6.0 * (a[n] + 2.0 * b[n] + 2.0 * c[n] + d[n]));
         if (n + 1).is_multiple_of(each) {
             let rate = slope(at, time_s + step_s)[2];
             let error = (1e5 * at[2] + 300.0 * rate - exact[(n + 1) / each - 1][1]).abs();

@@ -8,8 +8,9 @@
 //! | trapezoid | 2 | stable, rings after a jump |
 //! | TR-BDF2, γ = 2 − √2 (Bank et al., 1985) | 2 | stable, damps: the reference |
 //!
-//! An implicit stage of length θ asks for g = a + θ·v, v = b + θ·g̈, z = e + θ·ż. As g alone decides v and z, it is one
-//! equation in g, solved by Newton's steps within a bracket. Source: docs/physics.md §3.
+//! An implicit stage of length θ asks for g = a + θ·v, v = b + θ·g̈, z = e + θ·ż. As g alone
+//! decides v and z, it is one equation in g, solved by Newton's steps within a bracket. Source:
+//! docs/physics.md §3.
 
 use super::law::{Drive, Law, Sloped, State, root};
 
@@ -25,7 +26,14 @@ pub(super) enum Method {
 impl Method {
     /// The state a step later; `drive` at a fraction of the step.
     #[inline]
-    pub fn step(self, law: &Law, rest_m: f64, from: State, step_s: f64, drive: impl Fn(f64) -> Drive) -> State {
+    pub fn step(
+        self,
+        law: &Law,
+        rest_m: f64,
+        from: State,
+        step_s: f64,
+        drive: impl Fn(f64) -> Drive,
+    ) -> State {
         match self {
             Method::SemiImplicit => semi_implicit(law, rest_m, from, step_s, drive(1.0)),
             Method::ImplicitEuler => stage(law, rest_m, from, from, step_s, drive(1.0)),
@@ -37,22 +45,36 @@ impl Method {
 
 fn semi_implicit(law: &Law, rest_m: f64, from: State, step_s: f64, drive: Drive) -> State {
     let share = step_s / law.creep_s;
-    let opening =
-        law.relaxed(from.gap_m, rest_m, drive).value + law.creeping(from.gap_m, rest_m, from.creep_m, share).value;
+    let opening = law.relaxed(from.gap_m, rest_m, drive).value
+        + law.creeping(from.gap_m, rest_m, from.creep_m, share).value;
     let damping = 1.0 + step_s * law.film(from.gap_m).value / law.inertia_kg_m2;
     let speed_m_s = (from.speed_m_s + step_s * opening / law.inertia_kg_m2) / damping;
     settled(rest_m, from.creep_m, share, from.gap_m + step_s * speed_m_s, speed_m_s)
 }
 
-/// Where it would close the gap, it has overshot: then implicit Euler, for a start from closed throws the patch open again.
-fn trapezoid(law: &Law, rest_m: f64, from: State, step_s: f64, drive: impl Fn(f64) -> Drive) -> State {
+/// Where it would close the gap, it has overshot: then implicit Euler, for a start from closed
+/// throws the patch open again.
+fn trapezoid(
+    law: &Law,
+    rest_m: f64,
+    from: State,
+    step_s: f64,
+    drive: impl Fn(f64) -> Drive,
+) -> State {
     let base = ahead(from, law.rates(from, rest_m, drive(0.0)), 0.5 * step_s);
     let to = stage(law, rest_m, base, from, 0.5 * step_s, drive(1.0));
     if to.gap_m > 0.0 { to } else { stage(law, rest_m, from, from, step_s, drive(1.0)) }
 }
 
-/// The trapezoid over γ of the step, then a backward difference over the whole, both with the same θ; closed, as above.
-fn tr_bdf2(law: &Law, rest_m: f64, from: State, step_s: f64, drive: impl Fn(f64) -> Drive) -> State {
+/// The trapezoid over γ of the step, then a backward difference over the whole, both with the same
+/// θ; closed, as above.
+fn tr_bdf2(
+    law: &Law,
+    rest_m: f64,
+    from: State,
+    step_s: f64,
+    drive: impl Fn(f64) -> Drive,
+) -> State {
     const GAMMA: f64 = 2.0 - std::f64::consts::SQRT_2;
     const MIDDLE: f64 = 1.0 / (GAMMA * (2.0 - GAMMA));
     let theta = 0.5 * GAMMA * step_s;
@@ -65,7 +87,11 @@ fn tr_bdf2(law: &Law, rest_m: f64, from: State, step_s: f64, drive: impl Fn(f64)
         creep_m: mix(middle.creep_m, from.creep_m),
     };
     let to = stage(law, rest_m, base, middle, theta, drive(1.0));
-    if middle.gap_m.min(to.gap_m) > 0.0 { to } else { stage(law, rest_m, from, from, step_s, drive(1.0)) }
+    if middle.gap_m.min(to.gap_m) > 0.0 {
+        to
+    } else {
+        stage(law, rest_m, from, from, step_s, drive(1.0))
+    }
 }
 
 /// Explicitly ahead by θ.
@@ -88,17 +114,23 @@ fn stage(law: &Law, rest_m: f64, base: State, near: State, theta_s: f64, drive: 
         let (film, opening) = (law.film(gap_m), law.relaxed(gap_m, rest_m, drive));
         let creeping = law.creeping(gap_m, rest_m, base.creep_m, share);
         Sloped {
-            value: opening.value + creeping.value - film.value * speed - inertia * (speed - base.speed_m_s),
-            slope: opening.slope + creeping.slope - film.slope * speed - (film.value + inertia) / theta_s,
+            value: opening.value + creeping.value
+                - film.value * speed
+                - inertia * (speed - base.speed_m_s),
+            slope: opening.slope + creeping.slope
+                - film.slope * speed
+                - (film.value + inertia) / theta_s,
         }
     };
-    let top = 2.0 * (rest_m + law.insulator_m) + base.gap_m.abs() + law.contact_pa / law.spring_pa_per_m;
+    let top =
+        2.0 * (rest_m + law.insulator_m) + base.gap_m.abs() + law.contact_pa / law.spring_pa_per_m;
     let gap_m = root(0.0, top, near.gap_m, excess);
     let speed_m_s = (gap_m - base.gap_m) / theta_s;
     settled(rest_m, base.creep_m, share, gap_m, speed_m_s)
 }
 
-/// The state at a gap, its creep brought along implicitly; a gap that would be negative is closed, and still.
+/// The state at a gap, its creep brought along implicitly; a gap that would be negative is closed,
+/// and still.
 #[inline]
 fn settled(rest_m: f64, crept_m: f64, share: f64, gap_m: f64, speed_m_s: f64) -> State {
     let creep_m = (crept_m + share * (rest_m - gap_m)) / (1.0 + share);

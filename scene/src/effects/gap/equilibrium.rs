@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Where a patch rests once its rubber has relaxed: the largest gap at which no pressure is left, the branch that starts open.
+//! Where a patch rests once its rubber has relaxed: the largest gap at which no pressure is left,
+//! the branch that starts open.
 //!
-//! Without contact the balance is a cubic in h = g + d, so its largest root, and the fold where it vanishes, have a closed
-//! form: V_PI = √(8κh₀³/27ε₀). The contact only adds pressure, so the root with it lies above the cubic's, where the
-//! balance falls steadily: bisection cannot miss it. Past the fold the contact alone holds the patch. Source: docs/physics.md §3.
+//! Without contact the balance is a cubic in h = g + d, so its largest root, and the fold where it
+//! vanishes, have a closed form: V_PI = √(8κh₀³/27ε₀). The contact only adds pressure, so the root
+//! with it lies above the cubic's, where the balance falls steadily: bisection cannot miss it. Past
+//! the fold the contact alone holds the patch. Source: docs/physics.md §3.
 
 use super::law::{Drive, Law, root};
 

@@ -4,8 +4,9 @@
 //!   m·g̈ + c(g)·ġ = κ(g₀ − g) + k₁(g₀ − g − z) + p₀·e^(−g/λ) − ½ε₀V²/(g+d)² − W/S
 //!   ż = (g₀ − g − z)/τ,   c(g) = 1.5·η·R²/(g+g_v)³
 //!
-//! z is the part of the compression that the rubber has crept after; relaxed, z = g₀ − g. The film is Stefan's for a disc of
-//! the patch's area: 1.5πηR⁴ over the area πR². Source: docs/physics.md §3.
+//! z is the part of the compression that the rubber has crept after; relaxed, z = g₀ − g. The film
+//! is Stefan's for a disc of the patch's area: 1.5πηR⁴ over the area πR². Source: docs/physics.md
+//! §3.
 
 use crate::device::EPSILON_0;
 
@@ -73,12 +74,16 @@ impl Law {
         let height = gap_m + self.insulator_m;
         let attraction = drive.pull_n / (height * height);
         Sloped {
-            value: self.spring_pa_per_m * (rest_m - gap_m) + contact - attraction - drive.pressure_pa,
-            slope: -self.spring_pa_per_m - contact / self.contact_decay_m + 2.0 * attraction / height,
+            value: self.spring_pa_per_m * (rest_m - gap_m) + contact
+                - attraction
+                - drive.pressure_pa,
+            slope: -self.spring_pa_per_m - contact / self.contact_decay_m
+                + 2.0 * attraction / height,
         }
     }
 
-    /// Pressure of the rubber that has not crept yet, with z brought along implicitly: z = (crept + share·x)/(1 + share).
+    /// Pressure of the rubber that has not crept yet, with z brought along implicitly: z = (crept +
+    /// share·x)/(1 + share).
     #[inline]
     pub fn creeping(&self, gap_m: f64, rest_m: f64, crept_m: f64, share: f64) -> Sloped {
         let spring = self.creep_spring_pa_per_m / (1.0 + share);
@@ -97,21 +102,27 @@ impl Law {
     #[inline]
     pub fn rates(&self, state: State, rest_m: f64, drive: Drive) -> (f64, f64) {
         let State { gap_m, speed_m_s, creep_m } = state;
-        let opening = self.relaxed(gap_m, rest_m, drive).value + self.creeping(gap_m, rest_m, creep_m, 0.0).value;
+        let opening = self.relaxed(gap_m, rest_m, drive).value
+            + self.creeping(gap_m, rest_m, creep_m, 0.0).value;
         let acceleration = (opening - self.film(gap_m).value * speed_m_s) / self.inertia_kg_m2;
         (acceleration, (rest_m - gap_m - creep_m) / self.creep_s)
     }
 }
 
-/// Root of a function that is positive at `low` and negative at `high`, to the last bits; `low` or `high` where it has none.
-/// Newton's steps from `at`, halving the bracket wherever one would leave it.
+/// Root of a function that is positive at `low` and negative at `high`, to the last bits; `low` or
+/// `high` where it has none. Newton's steps from `at`, halving the bracket wherever one would leave
+/// it.
 #[inline]
 pub(super) fn root(mut low: f64, mut high: f64, mut at: f64, f: impl Fn(f64) -> Sloped) -> f64 {
     for _ in 0..100 {
         let Sloped { value, slope } = f(at);
         *(if value >= 0.0 { &mut low } else { &mut high }) = at;
         let newton = at - value / slope;
-        let next = if slope < 0.0 && newton >= low && newton <= high { newton } else { 0.5 * (low + high) };
+        let next = if slope < 0.0 && newton >= low && newton <= high {
+            newton
+        } else {
+            0.5 * (low + high)
+        };
         if (next - at).abs() <= 1e-15 * high {
             return next;
         }

@@ -87,8 +87,8 @@ impl Gap {
         Gap { rubber, motion, step_s, sine_rad_s, pads: Vec::new(), rested: None }
     }
 
-    /// Voltage at the pad and relaxed gaps. Behind a supply the voltage falls as the capacitance rises, and that rises with
-    /// the voltage: there is one voltage that agrees, found by halving.
+    /// Voltage at the pad and relaxed gaps. Behind a supply the voltage falls as the capacitance
+    /// rises, and that rises with the voltage: there is one voltage that agrees, found by halving.
     fn at_rest(&self, pad: &Pad) -> (f64, Vec<f64>) {
         let pressure_pa = self.rubber.pa_per_g * pad.load_g;
         let gaps = |volt: f64| self.rubber.equilibrium_m(Drive::new(volt, pressure_pa));
@@ -121,7 +121,8 @@ impl Gap {
     fn begin(&self, pad: &Pad) -> Moving {
         let pressure_pa = self.rubber.pa_per_g * pad.load_g;
         let gaps = self.rubber.equilibrium_m(Drive::new(0.0, pressure_pa));
-        let still = |(gap_m, rest_m): (f64, &f64)| State { gap_m, speed_m_s: 0.0, creep_m: rest_m - gap_m };
+        let still =
+            |(gap_m, rest_m): (f64, &f64)| State { gap_m, speed_m_s: 0.0, creep_m: rest_m - gap_m };
         let patches = gaps.zip(&self.rubber.rest_m).map(still).collect();
         Moving { time_s: 0.0, source_v_rms: pad.source_v_rms, pressure_pa, patches }
     }
@@ -137,7 +138,10 @@ impl Gap {
                 let mix = |from: f64, to: f64| from + (to - from) * along;
                 let square = seen * mix(moving.source_v_rms.powi(2), pad.source_v_rms.powi(2));
                 let now = self.instant(square, moving.time_s + along * span_s);
-                Drive { pull_n: 0.5 * EPSILON_0 * now, pressure_pa: mix(moving.pressure_pa, pressure_pa) }
+                Drive {
+                    pull_n: 0.5 * EPSILON_0 * now,
+                    pressure_pa: mix(moving.pressure_pa, pressure_pa),
+                }
             };
             for (patch, rest) in moving.patches.iter_mut().zip(&self.rubber.rest_m) {
                 *patch = self.step(*patch, *rest, span_s / steps, drive);
@@ -162,7 +166,8 @@ impl Gap {
 
     /// The square of the voltage at a time, from its mean.
     fn instant(&self, mean_square: f64, time_s: f64) -> f64 {
-        self.sine_rad_s.map_or(mean_square, |rad_s| 2.0 * mean_square * (rad_s * time_s).sin().powi(2))
+        self.sine_rad_s
+            .map_or(mean_square, |rad_s| 2.0 * mean_square * (rad_s * time_s).sin().powi(2))
     }
 
     fn set_results(&self, pad: &mut Pad, volt: f64, gaps_m: impl Iterator<Item = f64> + Clone) {

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A patch without inertia, c(g)·ġ = the pressure that opens it: the film's resistance is some 10⁴ times the inertia's.
+//! A patch without inertia, c(g)·ġ = the pressure that opens it: the film's resistance is some 10⁴
+//! times the inertia's.
 //!
-//! Linearly implicit (Rosenbrock's first): δ = h·F/(c − h·F′), one evaluation a step and no iteration. Where attraction wins,
-//! F′ > 0, or where the film changes within the step, the step is cut: a gap changes by at most a share of itself. That is
-//! what passes the fold and the closure. Source: docs/physics.md §3.
+//! Linearly implicit (Rosenbrock's first): δ = h·F/(c − h·F′), one evaluation a step and no
+//! iteration. Where attraction wins, F′ > 0, or where the film changes within the step, the step is
+//! cut: a gap changes by at most a share of itself. That is what passes the fold and the closure.
+//! Source: docs/physics.md §3.
 
 use super::law::{Drive, Law, Sloped, State};
 
@@ -17,7 +19,8 @@ pub(super) fn advance(law: &Law, rest_m: f64, mut at: State, span_s: f64, drive:
         let share = left_s / law.creep_s;
         let creeping = law.creeping(at.gap_m, rest_m, at.creep_m, share);
         let opening = law.relaxed(at.gap_m, rest_m, drive);
-        let opening = Sloped { value: opening.value + creeping.value, slope: opening.slope + creeping.slope };
+        let opening =
+            Sloped { value: opening.value + creeping.value, slope: opening.slope + creeping.slope };
         let step_s = longest(law, at.gap_m, opening).min(left_s);
         at = step(law, rest_m, at, step_s, opening);
         left_s -= step_s;

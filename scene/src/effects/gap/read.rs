@@ -12,7 +12,8 @@ use crate::effects::spec::{Level, Setting, Spec};
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
 
-/// Heights g₀ + d of eight patches of equal area, µm: fitted to the paper's Fig. 7 (docs/physics.md §3).
+/// Heights g₀ + d of eight patches of equal area, µm: fitted to the paper's Fig. 7 (docs/physics.md
+/// §3).
 const REST_UM: [f64; 8] = [13.0, 14.5, 16.0, 17.5, 19.106, 19.585, 26.0, 34.0];
 
 /// Viscosity of air, Pa·s.
@@ -47,9 +48,14 @@ pub(in super::super) fn read(root: &Table, device: &Device) -> Result<Option<Spe
         let step_us = asked_us.unwrap_or(usual_step_us(motion));
         check_step(table, motion, step_us)?;
         let rubber = rubber.clone();
-        let build =
-            move |_: &Setting| Effect::Pad(Box::new(Gap::new(rubber.clone(), motion, step_us * 1e-6, sine_rad_s)));
-        let label = if motion == Motion::Static { word.to_string() } else { format!("{word} {step_us} µs") };
+        let build = move |_: &Setting| {
+            Effect::Pad(Box::new(Gap::new(rubber.clone(), motion, step_us * 1e-6, sine_rad_s)))
+        };
+        let label = if motion == Motion::Static {
+            word.to_string()
+        } else {
+            format!("{word} {step_us} µs")
+        };
         levels.push(Level::new(word, cost_ns, build).labelled(label));
     }
     Spec::with_levels("gap", Some(table), levels, "static")
@@ -61,25 +67,30 @@ fn usual_step_us(motion: Motion) -> f64 {
 
 fn check_step(table: &Table, motion: Motion, step_us: f64) -> Result<(), SceneError> {
     let (longest_us, reason) = match motion {
-        Motion::Dynamic(Method::SemiImplicit) => (LONGEST_SEMI_IMPLICIT_US, "a longer step bounces off the contact"),
+        Motion::Dynamic(Method::SemiImplicit) => {
+            (LONGEST_SEMI_IMPLICIT_US, "a longer step bounces off the contact")
+        }
         _ => (LONGEST_US, "near the fold a longer step pulls in seconds too early or too late"),
     };
     if step_us <= longest_us {
         return Ok(());
     }
-    Err(table.error("step_us", format!("expected at most {longest_us}, since {reason}, got {step_us}")))
+    Err(table
+        .error("step_us", format!("expected at most {longest_us}, since {reason}, got {step_us}")))
 }
 
 fn read_rubber(table: &Table, device: &Device) -> Result<Rubber, SceneError> {
     let thickness_um = table.number_or("insulator_um", Limits::POSITIVE, 16.0)?;
     let permittivity = table.number_or("insulator_permittivity", Limits::within(1.0, 1e5), 3.2)?;
     let insulator_um = thickness_um / permittivity;
-    let rest_um = table.numbers("rest_um", Limits::above(insulator_um, 1e4))?.unwrap_or(REST_UM.to_vec());
+    let rest_um =
+        table.numbers("rest_um", Limits::above(insulator_um, 1e4))?.unwrap_or(REST_UM.to_vec());
     let patch_m2 = device.pad_area_m2 / rest_um.len() as f64;
     let spring_pa_per_m = table.number_or("spring_pa_per_m", Limits::POSITIVE, 5e8)?;
     let law = Law {
         spring_pa_per_m,
-        creep_spring_pa_per_m: spring_pa_per_m * table.number_or("creep_share", Limits::NOT_NEGATIVE, 0.35)?,
+        creep_spring_pa_per_m: spring_pa_per_m
+            * table.number_or("creep_share", Limits::NOT_NEGATIVE, 0.35)?,
         creep_s: table.number_or("creep_s", Limits::POSITIVE, 1.5)?,
         contact_pa: table.number_or("contact_pa", Limits::NOT_NEGATIVE, 2e5)?,
         contact_decay_m: 1e-6 * table.number_or("contact_decay_um", Limits::POSITIVE, 0.5)?,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `sensor.bandwidth_khz`: the current sensors are low-passes of first order, 1/(1 + jf/f_b), which makes the carrier smaller
-//! and later: by 5 % and 18° where f_b is three times the carrier. In steady state, as the carrier itself; the haptic
-//! current is a hundred times slower and passes.
+//! `sensor.bandwidth_khz`: the current sensors are low-passes of first order, 1/(1 + jf/f_b), which
+//! makes the carrier smaller and later: by 5 % and 18° where f_b is three times the carrier. In
+//! steady state, as the carrier itself; the haptic current is a hundred times slower and passes.
 
 use num_complex::Complex64;
 
@@ -37,9 +37,11 @@ impl ChannelEffect for Bandwidth {
     }
 
     fn samples(&mut self, pad: &Pad, run: &Run, samples: &mut [f64]) {
-        let change = (self.passes - 1.0) * (self.device.carrier_v / self.device.current_full_scale_a);
+        let change =
+            (self.passes - 1.0) * (self.device.carrier_v / self.device.current_full_scale_a);
         let change = pad.transfer(&self.device).map(|siemens| siemens * change).padded();
-        let mut carrier = Rotor::new(self.turns_per_sample * run.range.start as f64, self.turns_per_sample);
+        let mut carrier =
+            Rotor::new(self.turns_per_sample * run.range.start as f64, self.turns_per_sample);
         run.rows(samples, |row| {
             let now = carrier.turn();
             let terminals = Run::terminals(row).iter_mut();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `sensor.crosstalk_percent`: each current channel gets so much of its neighbours' currents, in the order of the terminals.
-//! −60 dB between channels is 0.1 %.
+//! `sensor.crosstalk_percent`: each current channel gets so much of its neighbours' currents, in
+//! the order of the terminals. −60 dB between channels is 0.1 %.
 
 use std::ops::{Add, Mul};
 
@@ -12,7 +12,9 @@ use crate::error::SceneError;
 use crate::format::{Limits, Table};
 
 pub(in super::super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
-    let Some(percent) = super::key(root, "crosstalk_percent", Limits::within(0.0, 50.0))? else { return Ok(None) };
+    let Some(percent) = super::key(root, "crosstalk_percent", Limits::within(0.0, 50.0))? else {
+        return Ok(None);
+    };
     let build = move |_: &Setting| Effect::Channels(Box::new(Crosstalk(percent / 100.0)));
     Ok(Spec::new("sensor.crosstalk", format!("{percent} %"), build))
 }
@@ -25,7 +27,8 @@ impl Crosstalk {
         for n in 0..terminals.len() {
             let own = terminals[n];
             let neighbours = [before, terminals.get(n + 1).copied()];
-            terminals[n] = neighbours.into_iter().flatten().fold(own, |sum, other| sum + other * self.0);
+            terminals[n] =
+                neighbours.into_iter().flatten().fold(own, |sum, other| sum + other * self.0);
             before = Some(own);
         }
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `sensor.gain_mismatch_percent`: each current sensor's gain is off by its own constant factor, drawn with the seed.
-//! 1 % costs 0.31 % rms of force over the map (docs/physics.md §5).
+//! `sensor.gain_mismatch_percent`: each current sensor's gain is off by its own constant factor,
+//! drawn with the seed. 1 % costs 0.31 % rms of force over the map (docs/physics.md §5).
 
 use super::super::effect::{ChannelEffect, Effect, Phasors, Run};
 use super::super::pad::Pad;
@@ -12,7 +12,10 @@ use crate::random::{Purpose, normals};
 use crate::terminals::PerTerminal;
 
 pub(in super::super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
-    let Some(percent) = super::key(root, "gain_mismatch_percent", Limits::within(0.0, 50.0))? else { return Ok(None) };
+    let Some(percent) = super::key(root, "gain_mismatch_percent", Limits::within(0.0, 50.0))?
+    else {
+        return Ok(None);
+    };
     Ok(Spec::new("sensor.gain", format!("{percent} %"), move |setting| {
         Effect::Channels(Box::new(Gain::new(percent, setting)))
     }))

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `sensor.jitter_ns_rms`: the ADC samples all channels at once, a random time off: by δ it reads x + δ·dx/dt of the carrier.
-//! 1 ns costs 0.0037 % of force (docs/physics.md §5).
+//! `sensor.jitter_ns_rms`: the ADC samples all channels at once, a random time off: by δ it reads x
+//! + δ·dx/dt of the carrier. 1 ns costs 0.0037 % of force (docs/physics.md §5).
 //!
-//! Amplitudes A get what a Hann window over the slot's N samples leaves of it, jωA·δ̄ − jωA*·δ̿: δ̄ is the window's mean of δ
-//! and δ̿ that of δ·e^(−2jωt), of variance σ²·NENBW/N each.
+//! Amplitudes A get what a Hann window over the slot's N samples leaves of it, jωA·δ̄ − jωA*·δ̿: δ̄
+//! is the window's mean of δ and δ̿ that of δ·e^(−2jωt), of variance σ²·NENBW/N each.
 
 use std::f64::consts::TAU;
 
@@ -22,7 +22,9 @@ use crate::rotor::Rotor;
 use crate::terminals::MOST_CHANNELS;
 
 pub(in super::super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
-    let Some(ns) = super::key(root, "jitter_ns_rms", Limits::within(0.0, 1e3))? else { return Ok(None) };
+    let Some(ns) = super::key(root, "jitter_ns_rms", Limits::within(0.0, 1e3))? else {
+        return Ok(None);
+    };
     let build = move |setting: &Setting| Effect::Channels(Box::new(Jitter::new(ns, setting)));
     Ok(Spec::new("sensor.jitter", format!("{ns} ns"), build))
 }
@@ -68,12 +70,18 @@ impl ChannelEffect for Jitter {
 
     fn samples(&mut self, pad: &Pad, run: &Run, samples: &mut [f64]) {
         let amplitudes = self.amplitudes(pad).padded();
-        let mut random = self.source.stream(run.slot as u64, Purpose::SampleJitter { from: run.range.start as u64 });
-        let mut carrier = Rotor::new(self.turns_per_sample * run.range.start as f64, self.turns_per_sample);
+        let mut random = self
+            .source
+            .stream(run.slot as u64, Purpose::SampleJitter { from: run.range.start as u64 });
+        let mut carrier =
+            Rotor::new(self.turns_per_sample * run.range.start as f64, self.turns_per_sample);
         run.rows(samples, |row| {
             let slope = carrier.turn() * (self.sigma * normal(&mut random));
             let driven = row.len() - 1; // the haptic voltage is slow
-            row[..driven].iter_mut().zip(&amplitudes).for_each(|(sample, amplitude)| *sample -= (amplitude * slope).im);
+            row[..driven]
+                .iter_mut()
+                .zip(&amplitudes)
+                .for_each(|(sample, amplitude)| *sample -= (amplitude * slope).im);
         });
     }
 }

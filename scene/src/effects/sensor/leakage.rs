@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `sensor.haptic_leakage`: the haptic voltage drives a current of its own into the terminals, eq. 1's second term,
-//! −17 dB (200 Hz, 350 V) to −3 dB (1 kHz) of the carrier's at 5 V. It shifts no phasor, since a demodulator's window
-//! rejects it, but takes ADC range and dithers the codes (docs/physics.md §5).
+//! `sensor.haptic_leakage`: the haptic voltage drives a current of its own into the terminals, eq.
+//! 1's second term, −17 dB (200 Hz, 350 V) to −3 dB (1 kHz) of the carrier's at 5 V. It shifts no
+//! phasor, since a demodulator's window rejects it, but takes ADC range and dithers the codes
+//! (docs/physics.md §5).
 
 use std::f64::consts::{SQRT_2, TAU};
 
@@ -15,7 +16,8 @@ use crate::format::Table;
 
 pub(in super::super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
     let on = root.table("sensor")?.map_or(Ok(false), |table| table.flag("haptic_leakage"))?;
-    let build = |setting: &Setting| Effect::Channels(Box::new(Leakage { device: setting.device.clone() }));
+    let build =
+        |setting: &Setting| Effect::Channels(Box::new(Leakage { device: setting.device.clone() }));
     Ok(if on { Spec::new("sensor.leakage", "steady state", build) } else { None })
 }
 
@@ -28,12 +30,16 @@ impl ChannelEffect for Leakage {
 
     fn samples(&mut self, pad: &Pad, run: &Run, samples: &mut [f64]) {
         let volt = pad.haptic_v_rms * SQRT_2;
-        let total = pad.admittance(TAU * self.device.haptic_hz) * volt / self.device.current_full_scale_a;
+        let total =
+            pad.admittance(TAU * self.device.haptic_hz) * volt / self.device.current_full_scale_a;
         let mut rotor = haptic_rotor(&self.device, run);
         let shares = pad.split.map(|share| share.re).padded();
         run.rows(samples, |row| {
             let now = (total * rotor.turn()).im;
-            Run::terminals(row).iter_mut().zip(&shares).for_each(|(sample, share)| *sample += now * share);
+            Run::terminals(row)
+                .iter_mut()
+                .zip(&shares)
+                .for_each(|(sample, share)| *sample += now * share);
         });
     }
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `[sensor]`: what the sensor chain adds between the currents and the ADC's codes. Each key switches on one effect.
+//! `[sensor]`: what the sensor chain adds between the currents and the ADC's codes. Each key
+//! switches on one effect.
 //!
 //! | key | effect | realistic |
 //! | --- | --- | --- |

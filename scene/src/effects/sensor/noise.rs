@@ -7,9 +7,10 @@
 //! | `noise_density_na_per_rthz` | the currents | density·√(half the sample rate, or π/2·`bandwidth_khz` where that is given) |
 //! | `dither_lsb_rms` | every channel | codes of `quantisation_bits` |
 //!
-//! A run's noise follows from seed, case, slot and first sample alone, so that leaving one run out changes no other.
-//! Amplitudes get what a Hann window over the slot's N samples passes: σ·√(2·1.5/N) in each of both parts, so that a force
-//! has the relative noise 2n·√(6·NENBW/T)/|I| of docs/physics.md §5.
+//! A run's noise follows from seed, case, slot and first sample alone, so that leaving one run out
+//! changes no other. Amplitudes get what a Hann window over the slot's N samples passes:
+//! σ·√(2·1.5/N) in each of both parts, so that a force has the relative noise 2n·√(6·NENBW/T)/|I|
+//! of docs/physics.md §5.
 
 use std::f64::consts::PI;
 
@@ -29,8 +30,11 @@ pub(super) const HANN_NENBW: f64 = 1.5;
 
 /// Reads `sensor.noise_ppm_rms`: ADC noise on every channel.
 pub(in super::super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
-    let Some(ppm) = super::key(root, "noise_ppm_rms", Limits::within(0.0, 1e6))? else { return Ok(None) };
-    let build = move |setting: &Setting| Noise::effect([ppm * 1e-6; MOST_CHANNELS], Origin::Adc, setting);
+    let Some(ppm) = super::key(root, "noise_ppm_rms", Limits::within(0.0, 1e6))? else {
+        return Ok(None);
+    };
+    let build =
+        move |setting: &Setting| Noise::effect([ppm * 1e-6; MOST_CHANNELS], Origin::Adc, setting);
     Ok(Spec::new(NOISE, format!("{ppm} ppm"), build))
 }
 
@@ -40,14 +44,16 @@ pub(crate) const NOISE: &str = "sensor.noise";
 /// Reads `sensor.noise_density_na_per_rthz`: noise of the current sensors.
 pub(in super::super) fn read_density(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
     let density = super::key(root, "noise_density_na_per_rthz", Limits::within(0.0, 1e6))?;
-    let (Some(na), bandwidth_khz) = (density, super::key(root, "bandwidth_khz", Limits::POSITIVE)?) else {
+    let (Some(na), bandwidth_khz) = (density, super::key(root, "bandwidth_khz", Limits::POSITIVE)?)
+    else {
         return Ok(None);
     };
     let build = move |setting: &Setting| {
         let half_rate_hz = setting.device.sample_rate_hz / 2.0;
         let enbw_hz = bandwidth_khz.map_or(half_rate_hz, |khz| PI / 2.0 * 1e3 * khz);
         let mut sigma = [0.0; MOST_CHANNELS];
-        sigma[..setting.device.terminals()].fill(1e-9 * na * enbw_hz.sqrt() / setting.device.current_full_scale_a);
+        sigma[..setting.device.terminals()]
+            .fill(1e-9 * na * enbw_hz.sqrt() / setting.device.current_full_scale_a);
         Noise::effect(sigma, Origin::Amplifier, setting)
     };
     Ok(Spec::new("sensor.noise_density", format!("{na} nA/√Hz"), build))
@@ -55,12 +61,19 @@ pub(in super::super) fn read_density(root: &Table, _: &Device) -> Result<Option<
 
 /// Reads `sensor.dither_lsb_rms`: noise before quantisation.
 pub(in super::super) fn read_dither(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
-    let Some(lsb) = super::key(root, "dither_lsb_rms", Limits::within(0.0, 1e3))? else { return Ok(None) };
+    let Some(lsb) = super::key(root, "dither_lsb_rms", Limits::within(0.0, 1e3))? else {
+        return Ok(None);
+    };
     let Some(codes) = super::quantisation::codes(root)? else {
         let table = root.table("sensor")?.unwrap_or(root);
-        return Err(table.error("dither_lsb_rms", "expected quantisation_bits too, since dither is counted in codes"));
+        return Err(table.error(
+            "dither_lsb_rms",
+            "expected quantisation_bits too, since dither is counted in codes",
+        ));
     };
-    let build = move |setting: &Setting| Noise::effect([lsb / codes; MOST_CHANNELS], Origin::Dither, setting);
+    let build = move |setting: &Setting| {
+        Noise::effect([lsb / codes; MOST_CHANNELS], Origin::Dither, setting)
+    };
     Ok(Spec::new("sensor.dither", format!("{lsb} LSB"), build))
 }
 
@@ -77,7 +90,13 @@ struct Noise {
 impl Noise {
     fn effect(sigma: [f64; MOST_CHANNELS], origin: Origin, setting: &Setting) -> Effect {
         let (window_samples, haptic) = (setting.timing.window_samples, setting.device.haptic());
-        Effect::Channels(Box::new(Noise { sigma, haptic, origin, window_samples, source: Source::new(setting) }))
+        Effect::Channels(Box::new(Noise {
+            sigma,
+            haptic,
+            origin,
+            window_samples,
+            source: Source::new(setting),
+        }))
     }
 }
 
@@ -94,9 +113,12 @@ impl ChannelEffect for Noise {
 
     fn samples(&mut self, _: &Pad, run: &Run, samples: &mut [f64]) {
         let from = run.range.start as u64;
-        let mut random = self.source.stream(run.slot as u64, Purpose::SampleNoise { origin: self.origin, from });
+        let mut random =
+            self.source.stream(run.slot as u64, Purpose::SampleNoise { origin: self.origin, from });
         run.rows(samples, |row| {
-            row.iter_mut().zip(&self.sigma).for_each(|(sample, sigma)| *sample += sigma * normal(&mut random));
+            row.iter_mut()
+                .zip(&self.sigma)
+                .for_each(|(sample, sigma)| *sample += sigma * normal(&mut random));
         });
     }
 }

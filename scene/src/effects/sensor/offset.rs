@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `sensor.offset_percent`: each ADC channel's constant offset, drawn with the seed. A demodulator over whole periods
-//! does not see it; the mean square of the haptic voltage does.
+//! `sensor.offset_percent`: each ADC channel's constant offset, drawn with the seed. A demodulator
+//! over whole periods does not see it; the mean square of the haptic voltage does.
 
 use super::super::effect::{ChannelEffect, Effect, Phasors, Run};
 use super::super::pad::Pad;
@@ -12,7 +12,9 @@ use crate::random::{Purpose, normals};
 use crate::terminals::MOST_CHANNELS;
 
 pub(in super::super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
-    let Some(percent) = super::key(root, "offset_percent", Limits::within(0.0, 50.0))? else { return Ok(None) };
+    let Some(percent) = super::key(root, "offset_percent", Limits::within(0.0, 50.0))? else {
+        return Ok(None);
+    };
     let build = move |setting: &Setting| Effect::Channels(Box::new(Offset::new(percent, setting)));
     Ok(Spec::new("sensor.offset", format!("{percent} %"), build))
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `sensor.quantisation_bits`: samples become codes of so many bits, full scale ±1, half to even, clipped at full scale.
-//! Amplitudes stay exact: quantisation is a matter of samples.
+//! `sensor.quantisation_bits`: samples become codes of so many bits, full scale ±1, half to even,
+//! clipped at full scale. Amplitudes stay exact: quantisation is a matter of samples.
 
 use super::super::effect::{ChannelEffect, Effect, Phasors, Run};
 use super::super::pad::Pad;
@@ -9,7 +9,8 @@ use crate::device::Device;
 use crate::error::SceneError;
 use crate::format::Table;
 
-/// Adding and taking away 1.5·2^52 rounds an f64 of up to 2^51 to an integer, half to even, in two additions.
+/// Adding and taking away 1.5·2^52 rounds an f64 of up to 2^51 to an integer, half to even, in two
+/// additions.
 const ROUNDER: f64 = 6_755_399_441_055_744.0;
 
 pub(in super::super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
@@ -21,7 +22,8 @@ pub(in super::super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, S
 
 /// Codes per full scale, where there are codes.
 pub(super) fn codes(root: &Table) -> Result<Option<f64>, SceneError> {
-    let bits = root.table("sensor")?.map_or(Ok(None), |table| table.whole("quantisation_bits", 2, 32))?;
+    let bits =
+        root.table("sensor")?.map_or(Ok(None), |table| table.whole("quantisation_bits", 2, 32))?;
     Ok(bits.map(|bits| (1u64 << (bits - 1)) as f64))
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `sensor.gain_error_percent`: all current sensors' gain is off by the same, so that capacitances are off by as much and
-//! forces by twice that; positions do not see it.
+//! `sensor.gain_error_percent`: all current sensors' gain is off by the same, so that capacitances
+//! are off by as much and forces by twice that; positions do not see it.
 
 use super::super::effect::{ChannelEffect, Effect, Phasors, Run};
 use super::super::pad::Pad;
@@ -10,7 +10,9 @@ use crate::error::SceneError;
 use crate::format::{Limits, Table};
 
 pub(in super::super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
-    let Some(percent) = super::key(root, "gain_error_percent", Limits::within(-50.0, 50.0))? else { return Ok(None) };
+    let Some(percent) = super::key(root, "gain_error_percent", Limits::within(-50.0, 50.0))? else {
+        return Ok(None);
+    };
     let build = move |_: &Setting| Effect::Channels(Box::new(Scale(1.0 + percent / 100.0)));
     Ok(Spec::new("sensor.scale", format!("{percent} %"), build))
 }
@@ -23,6 +25,8 @@ impl ChannelEffect for Scale {
     }
 
     fn samples(&mut self, _: &Pad, run: &Run, samples: &mut [f64]) {
-        run.rows(samples, |row| Run::terminals(row).iter_mut().for_each(|sample| *sample *= self.0));
+        run.rows(samples, |row| {
+            Run::terminals(row).iter_mut().for_each(|sample| *sample *= self.0)
+        });
     }
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Identities that hold on any sheet, over random devices of three to sixteen terminals anywhere along the edge.
+//! Identities that hold on any sheet, over random devices of three to sixteen terminals anywhere
+//! along the edge.
 
 use std::fmt::Write;
 
@@ -54,8 +55,10 @@ impl Drawn {
             }
         }
         let ohm: Vec<f64> = (0..terminals).map(|_| within(&mut random, 0.0, 2000.0)).collect();
-        let mut scene =
-            format!("title = \"{terminals} terminals\"\n[device]\nwidth_mm = {}\nheight_mm = {}\n", size[0], size[1]);
+        let mut scene = format!(
+            "title = \"{terminals} terminals\"\n[device]\nwidth_mm = {}\nheight_mm = {}\n",
+            size[0], size[1]
+        );
         let film = within(&mut random, 20.0, 500.0);
         write!(
             scene,
@@ -73,11 +76,13 @@ impl Drawn {
         Sheet::read(root.table("sheet").unwrap().unwrap(), &device).unwrap()
     }
 
-    /// A plant with pads at the first of the places, of different capacitances, and what else is on.
+    /// A plant with pads at the first of the places, of different capacitances, and what else is
+    /// on.
     fn plant(&self, pads: usize, more: &str) -> Plant {
         let mut scene = self.scene.clone() + more;
         for (n, place) in self.places_mm.iter().take(pads).enumerate() {
-            write!(scene, "[[pad]]\nposition_mm = {place:?}\ncapacitance_pf = {}\n", 318 + 200 * n).unwrap();
+            write!(scene, "[[pad]]\nposition_mm = {place:?}\ncapacitance_pf = {}\n", 318 + 200 * n)
+                .unwrap();
         }
         let timing = Timing {
             pads,
@@ -87,16 +92,19 @@ impl Drawn {
             samples_per_period: 10.0,
             signs: None,
         };
-        Plant::new(&Scene::parse(&scene, "s.toml", &[]).unwrap(), 0, &timing).unwrap_or_else(|error| panic!("{error}"))
+        Plant::new(&Scene::parse(&scene, "s.toml", &[]).unwrap(), 0, &timing)
+            .unwrap_or_else(|error| panic!("{error}"))
     }
 }
 
 fn drawn() -> impl Iterator<Item = (usize, Drawn)> {
-    (LEAST_TERMINALS..=MOST_TERMINALS)
-        .flat_map(|terminals| (0..DEVICES).map(move |number| (terminals, Drawn::new(terminals, number))))
+    (LEAST_TERMINALS..=MOST_TERMINALS).flat_map(|terminals| {
+        (0..DEVICES).map(move |number| (terminals, Drawn::new(terminals, number)))
+    })
 }
 
-/// Kirchhoff: the terminals' currents are the pad's, jωC/(1 + jωC·R_p) of a volt, and no terminal feeds current in.
+/// Kirchhoff: the terminals' currents are the pad's, jωC/(1 + jωC·R_p) of a volt, and no terminal
+/// feeds current in.
 #[test]
 fn currents_of_all_terminals_sum_to_the_pads() {
     for (terminals, device) in drawn() {
@@ -106,8 +114,13 @@ fn currents_of_all_terminals_sum_to_the_pads() {
             assert_eq!(measurement.siemens.len(), terminals);
             let total: Complex64 = measurement.siemens.iter().sum();
             let expected = capacitive / (capacitive * measurement.sheet_ohm + 1.0);
-            assert!((total / expected - 1.0).norm() < 1e-9, "{}: {total} for {expected}", device.scene);
-            let shares: Vec<Complex64> = measurement.siemens.iter().map(|siemens| siemens / total).collect();
+            assert!(
+                (total / expected - 1.0).norm() < 1e-9,
+                "{}: {total} for {expected}",
+                device.scene
+            );
+            let shares: Vec<Complex64> =
+                measurement.siemens.iter().map(|siemens| siemens / total).collect();
             assert!(
                 shares.iter().all(|share| share.re > -1e-9 && share.im.abs() < 1e-9),
                 "{}: {shares:?}",
@@ -123,21 +136,30 @@ fn currents_of_all_terminals_sum_to_the_pads() {
 fn ratios_lie_within_one_and_shares_are_of_one() {
     for (terminals, device) in drawn() {
         for point in device.plant(1, "").calibration_map(9, 7, 15.0) {
-            assert!(point.r_x.abs() <= 1.0 && point.r_y.abs() <= 1.0, "{}: {point:?}", device.scene);
+            assert!(
+                point.r_x.abs() <= 1.0 && point.r_y.abs() <= 1.0,
+                "{}: {point:?}",
+                device.scene
+            );
             assert_eq!(point.shares.len(), terminals);
-            assert!(point.shares.iter().sum::<f64>() > 1.0 - 1e-9, "those without a sign come on top: {point:?}");
+            assert!(
+                point.shares.iter().sum::<f64>() > 1.0 - 1e-9,
+                "those without a sign come on top: {point:?}"
+            );
         }
     }
 }
 
-/// What a current into one place lifts another by is the same the other way round, though neither formula is symmetric.
+/// What a current into one place lifts another by is the same the other way round, though neither
+/// formula is symmetric.
 #[test]
 fn potentials_between_two_places_are_reciprocal() {
     for (_, device) in drawn() {
         let exact = Analytic::new(&device.sheet());
         let sources: Vec<_> = device.places_mm.iter().map(|[x, y]| exact.source(*x, *y)).collect();
         for pair in sources.windows(2) {
-            let [there, back] = [exact.between(&pair[0], &pair[1]), exact.between(&pair[1], &pair[0])];
+            let [there, back] =
+                [exact.between(&pair[0], &pair[1]), exact.between(&pair[1], &pair[0])];
             assert!(
                 (there - back).abs() < 1e-9 * exact.between(&pair[0], &pair[0]),
                 "{}: {there} and {back}",
@@ -147,7 +169,8 @@ fn potentials_between_two_places_are_reciprocal() {
     }
 }
 
-/// Two coupled pads, 1 V on the selected one: Z·I = V has one Z_12 that explains what the terminals get in both slots.
+/// Two coupled pads, 1 V on the selected one: Z·I = V has one Z_12 that explains what the terminals
+/// get in both slots.
 #[test]
 fn two_coupled_pads_are_a_reciprocal_two_port() {
     for (terminals, device) in drawn() {
@@ -158,7 +181,8 @@ fn two_coupled_pads_are_a_reciprocal_two_port() {
             let mut phasors = vec![Complex64::ZERO; terminals + 1];
             plant.phasors(slot, &mut phasors);
             let truth = plant.truth(slot);
-            let own = 1.0 / Complex64::new(0.0, of.carrier_rad_s * truth.capacitance_pf * 1e-12) + truth.sheet_ohm;
+            let own = 1.0 / Complex64::new(0.0, of.carrier_rad_s * truth.capacitance_pf * 1e-12)
+                + truth.sheet_ohm;
             (own, phasors[..terminals].iter().sum::<Complex64>() * scale, truth.touching)
         };
         let ((a, sum_a, touching), (b, sum_b, _)) = (slot(0), slot(1));

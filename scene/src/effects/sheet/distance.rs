@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The paper's picture: the sheet as a star of strips, R_i = R_in + R_s·(distance to terminal i)/(width of the pad).
-//! R_p is their parallel combination. At the sheet's middle it gives 311 Ω for the paper's device.
+//! The paper's picture: the sheet as a star of strips, R_i = R_in + R_s·(distance to terminal
+//! i)/(width of the pad). R_p is their parallel combination. At the sheet's middle it gives 311 Ω
+//! for the paper's device.
 
 use super::geometry::Sheet;
 use super::split::{Solver, Split};
@@ -27,7 +28,8 @@ impl Solver for Distance {
     fn split(&self, x_mm: f64, y_mm: f64) -> Split {
         let at = self.sheet.place_m(x_mm, y_mm);
         let terminals = 0..self.sheet.terminals();
-        let each: PerTerminal<f64> = terminals.map(|terminal| self.conductance(at, terminal)).collect();
+        let each: PerTerminal<f64> =
+            terminals.map(|terminal| self.conductance(at, terminal)).collect();
         let sum: f64 = each.iter().sum();
         Split { share: each.map(|conductance| conductance / sum), ohm: 1.0 / sum }
     }

@@ -39,18 +39,28 @@ impl Film {
     /// The same everywhere.
     #[cfg(test)]
     pub fn uniform(ohm_per_square: f64) -> Film {
-        Film { ohm_per_square, slope_per_m: [0.0; 2], middle_m: [0.0; 2], patches: Vec::new(), change_per_m: [0.0; 2] }
+        Film {
+            ohm_per_square,
+            slope_per_m: [0.0; 2],
+            middle_m: [0.0; 2],
+            patches: Vec::new(),
+            change_per_m: [0.0; 2],
+        }
     }
 
     pub fn read(table: &Table, size_m: [f64; 2]) -> Result<Film, SceneError> {
-        let slope_percent = table.pair("slope_percent", Limits::within(-90.0, 90.0))?.unwrap_or_default();
+        let slope_percent =
+            table.pair("slope_percent", Limits::within(-90.0, 90.0))?.unwrap_or_default();
         let middle_m = size_m.map(|size| size / 2.0);
         let patches = table.tables("patch")?;
         Ok(Film {
             ohm_per_square: table.number_or("ohm_per_square", Limits::POSITIVE, 150.0)?,
             slope_per_m: [0, 1].map(|axis| slope_percent[axis] / 100.0 / size_m[axis]),
             middle_m,
-            patches: patches.into_iter().map(|patch| Patch::read(patch, middle_m)).collect::<Result<_, _>>()?,
+            patches: patches
+                .into_iter()
+                .map(|patch| Patch::read(patch, middle_m))
+                .collect::<Result<_, _>>()?,
             change_per_m: [0.0; 2],
         })
     }
@@ -58,7 +68,8 @@ impl Film {
     /// The film of a sheet of this size after a change.
     pub fn changed(&self, change: FilmChange, size_m: [f64; 2]) -> Film {
         let risen = 1.0 + change.rise;
-        let patch = |patch: &Patch| Patch { ohm_per_square: patch.ohm_per_square * risen, ..patch.clone() };
+        let patch =
+            |patch: &Patch| Patch { ohm_per_square: patch.ohm_per_square * risen, ..patch.clone() };
         Film {
             ohm_per_square: self.ohm_per_square * risen,
             patches: self.patches.iter().map(patch).collect(),
@@ -88,11 +99,18 @@ impl Film {
 
 impl Patch {
     fn read(table: &Table, middle_m: [f64; 2]) -> Result<Patch, SceneError> {
-        let centre_mm = table.require("centre_mm", "[x, y]", table.pair("centre_mm", Limits::ANY)?)?;
-        let size_mm = table.require("size_mm", "[width, height]", table.pair("size_mm", Limits::POSITIVE)?)?;
+        let centre_mm =
+            table.require("centre_mm", "[x, y]", table.pair("centre_mm", Limits::ANY)?)?;
+        let size_mm = table.require(
+            "size_mm",
+            "[width, height]",
+            table.pair("size_mm", Limits::POSITIVE)?,
+        )?;
         let ohm = table.number("ohm_per_square", Limits::POSITIVE)?;
-        let side =
-            |sign: f64| [0, 1].map(|axis| middle_m[axis] + 1e-3 * (centre_mm[axis] + sign * size_mm[axis] / 2.0));
+        let side = |sign: f64| {
+            [0, 1]
+                .map(|axis| middle_m[axis] + 1e-3 * (centre_mm[axis] + sign * size_mm[axis] / 2.0))
+        };
         Ok(Patch {
             low_m: side(-1.0),
             high_m: side(1.0),

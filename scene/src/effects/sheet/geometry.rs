@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What `[sheet]` says, in SI units: sizes, resistances, and where the terminals are and what they are in series with.
+//! What `[sheet]` says, in SI units: sizes, resistances, and where the terminals are and what they
+//! are in series with.
 
 use super::film::Film;
 use crate::device::Device;
@@ -59,7 +60,8 @@ impl Sheet {
         self.size_m.map(|size| 1e3 * (size / 2.0 - self.pad_radius_m))
     }
 
-    /// R·e^(−1/4): a disc of even current has, on average over itself, the potential of a ring of this radius.
+    /// R·e^(−1/4): a disc of even current has, on average over itself, the potential of a ring of
+    /// this radius.
     pub fn disc_m(&self) -> f64 {
         self.pad_radius_m * (-0.25f64).exp()
     }
@@ -72,20 +74,25 @@ fn terminals_m(device: &Device) -> Vec<[f64; 2]> {
     device.terminals_mm.iter().map(place).collect()
 }
 
-/// Resistance in series with each of so many terminals: `terminal_ohm`, none where shorted, infinite where open.
+/// Resistance in series with each of so many terminals: `terminal_ohm`, none where shorted,
+/// infinite where open.
 fn series(table: &Table, count: usize) -> Result<Vec<f64>, SceneError> {
     let mut ohm = each(table, count)?;
     for (key, value) in [("shorted", 0.0), ("open", OPEN)] {
         for number in table.numbers(key, Limits::within(1.0, count as f64))?.unwrap_or_default() {
             if number.fract() != 0.0 {
-                return Err(table.error(key, format!("expected numbers of terminals, 1 to {count}, got {number}")));
+                return Err(table.error(
+                    key,
+                    format!("expected numbers of terminals, 1 to {count}, got {number}"),
+                ));
             }
             ohm[number as usize - 1] = value;
         }
     }
     match ohm.iter().any(|ohm| ohm.is_finite()) {
         true => Ok(ohm),
-        false => Err(table.error("open", "expected a terminal that is not open, since the current has to leave")),
+        false => Err(table
+            .error("open", "expected a terminal that is not open, since the current has to leave")),
     }
 }
 
@@ -100,8 +107,12 @@ fn each(table: &Table, count: usize) -> Result<Vec<f64>, SceneError> {
         true => Ok(list),
         false => {
             let got = list.len();
-            Err(table
-                .error(KEY, format!("expected a number, or one for each of {count} terminals, got a list of {got}")))
+            Err(table.error(
+                KEY,
+                format!(
+                    "expected a number, or one for each of {count} terminals, got a list of {got}"
+                ),
+            ))
         }
     }
 }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Finite differences: a table of the split over a mesh from rim to rim, for non-uniform sheets.
 //!
-//! By reciprocity the share of a terminal is a field over the pad's place, solved once for all places. It is level at the
-//! insulated rim, and so is its spline. R_p needs a solution for each place: it comes from a mesh of 10 mm or coarser (finer on
-//! sheets that would have less than fourteen cells across), at every fourth node along either axis, with the pad's radius put in place of the node's as for terminals. What varies
-//! quickly, near terminals and corners, a uniform sheet has too: what is solved for is the ratio to its exact R_p.
+//! By reciprocity the share of a terminal is a field over the pad's place, solved once for all
+//! places. It is level at the insulated rim, and so is its spline. R_p needs a solution for each
+//! place: it comes from a mesh of 10 mm or coarser (finer on sheets that would have less than
+//! fourteen cells across), at every fourth node along either axis, with the pad's radius put in
+//! place of the node's as for terminals. What varies quickly, near terminals and corners, a uniform
+//! sheet has too: what is solved for is the ratio to its exact R_p.
 
 use std::f64::consts::PI;
 
@@ -44,7 +46,8 @@ impl Grid {
         let node = |column, row| network.share(mesh.node(column, row));
         let share = Spline::level(axes(&mesh, 0, 1), sheet.terminals(), node);
         let own_m = own_spacing_m(sheet, spacing_m);
-        let other = (own_m != spacing_m).then(|| Network::new(sheet, Mesh::new(sheet.size_m, own_m), correction));
+        let other = (own_m != spacing_m)
+            .then(|| Network::new(sheet, Mesh::new(sheet.size_m, own_m), correction));
         Grid { share, ohm: own(sheet, &other.unwrap_or(network)) }
     }
 }

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The sheet as a mesh of resistors, and its terminals as nodes of it.
 //!
-//! A conductance of the mesh is (width of the strip that it stands for)/(its length·R_s), half as wide along the rim. Currents
-//! sum to zero at every node, second order in the spacing. A terminal that is a single node acts as if it had the radius
-//! r₀ = e^(−γ)/4·√(h_x² + h_y²), 0.1986h on a square mesh, and so refinement would not converge: f·R_s/2π·ln(r₀/a_t) in series
-//! puts that right (Peaceman, 1978), f = 4 at a corner and 2 on an edge, for only so much of a circle lies on the sheet.
+//! A conductance of the mesh is (width of the strip that it stands for)/(its length·R_s), half as
+//! wide along the rim. Currents sum to zero at every node, second order in the spacing. A terminal
+//! that is a single node acts as if it had the radius r₀ = e^(−γ)/4·√(h_x² + h_y²), 0.1986h on a
+//! square mesh, and so refinement would not converge: f·R_s/2π·ln(r₀/a_t) in series puts that right
+//! (Peaceman, 1978), f = 4 at a corner and 2 on an edge, for only so much of a circle lies on the
+//! sheet.
 //!
-//! That resistance is negative where the mesh is finer than the terminal, and such a matrix need not be positive definite. So
-//! the matrix that is factored has a positive dummy g to ground at every terminal; the difference is folded in as a current
-//! s_i into the node (Woodbury), which covers open and shorted terminals too. With K_ij = (A⁻¹)_ij between terminals:
+//! That resistance is negative where the mesh is finer than the terminal, and such a matrix need
+//! not be positive definite. So the matrix that is factored has a positive dummy g to ground at
+//! every terminal; the difference is folded in as a current s_i into the node (Woodbury), which
+//! covers open and shorted terminals too. With K_ij = (A⁻¹)_ij between terminals:
 //!
 //!   φ_i = φ⁰_i + Σ K_ij·s_j,   w_i = g·φ_i − s_i,   R_i·w_i = φ_i   ⇒   R_i·s_i − (g·R_i − 1)·Σ K_ij·s_j = (g·R_i − 1)·φ⁰_i
 
@@ -40,14 +43,16 @@ pub(crate) enum Correction {
 /// A mesh of nodes from rim to rim.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Mesh {
-    /// Along x and y; twice an odd number, so that the edges' middles are nodes and the rest divides by four.
+    /// Along x and y; twice an odd number, so that the edges' middles are nodes and the rest
+    /// divides by four.
     pub cells: [usize; 2],
     pub step_m: [f64; 2],
 }
 
 impl Mesh {
     pub fn new(size_m: [f64; 2], spacing_m: f64) -> Self {
-        let cells = size_m.map(|size| 4 * ((size / spacing_m - 2.0) / 4.0).round().max(1.0) as usize + 2);
+        let cells =
+            size_m.map(|size| 4 * ((size / spacing_m - 2.0) / 4.0).round().max(1.0) as usize + 2);
         Mesh { cells, step_m: [0, 1].map(|axis| size_m[axis] / cells[axis] as f64) }
     }
 
@@ -65,13 +70,16 @@ impl Mesh {
 
     /// Column and row of the node nearest to a place.
     pub fn nearest(&self, place_m: [f64; 2]) -> [usize; 2] {
-        [0, 1].map(|axis| ((place_m[axis] / self.step_m[axis]).round() as usize).min(self.cells[axis]))
+        [0, 1].map(|axis| {
+            ((place_m[axis] / self.step_m[axis]).round() as usize).min(self.cells[axis])
+        })
     }
 
     /// The four nodes around a place in mm from the middle, and the weight of each.
     fn around(&self, place_mm: [f64; 2]) -> [(usize, f64); 4] {
-        let axes =
-            [0, 1].map(|axis| Axis::symmetric(5e2 * self.step_m[axis] * self.cells[axis] as f64, self.cells[axis] + 1));
+        let axes = [0, 1].map(|axis| {
+            Axis::symmetric(5e2 * self.step_m[axis] * self.cells[axis] as f64, self.cells[axis] + 1)
+        });
         let ((column, x), (row, y)) = (axes[0].locate(place_mm[0]), axes[1].locate(place_mm[1]));
         [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(right, up)| {
             let along = |t: f64, step: usize| if step == 1 { t } else { 1.0 - t };
@@ -81,7 +89,8 @@ impl Mesh {
 
     /// How many rims a node lies on.
     fn rims(&self, [column, row]: [usize; 2]) -> i32 {
-        i32::from(column == 0 || column == self.cells[0]) + i32::from(row == 0 || row == self.cells[1])
+        i32::from(column == 0 || column == self.cells[0])
+            + i32::from(row == 0 || row == self.cells[1])
     }
 
     /// Radius of a ring that has the potential of a node which feeds current into the mesh.
@@ -93,14 +102,18 @@ impl Mesh {
     fn conductances(&self, sheet: &Sheet) -> Vec<(usize, usize, f64)> {
         let [columns, rows] = self.cells;
         let mut list = Vec::with_capacity(2 * self.nodes());
-        for (column, row) in (0..=rows).flat_map(|row| (0..=columns).map(move |column| (column, row))) {
+        for (column, row) in
+            (0..=rows).flat_map(|row| (0..=columns).map(move |column| (column, row)))
+        {
             for (axis, [c, r]) in [[column + 1, row], [column, row + 1]].into_iter().enumerate() {
                 if c > columns || r > rows {
                     continue;
                 }
                 let across = [row, column][axis];
                 let width = if across == 0 || across == [rows, columns][axis] { 0.5 } else { 1.0 };
-                let ohm = 0.5 * (sheet.film.at(self.place_m(column, row)) + sheet.film.at(self.place_m(c, r)));
+                let ohm = 0.5
+                    * (sheet.film.at(self.place_m(column, row))
+                        + sheet.film.at(self.place_m(c, r)));
                 let siemens = width * self.step_m[1 - axis] / (self.step_m[axis] * ohm);
                 list.push((self.node(column, row), self.node(c, r), siemens));
             }
@@ -125,7 +138,8 @@ pub(crate) struct Network {
 impl Network {
     pub fn new(sheet: &Sheet, mesh: Mesh, correction: Correction) -> Self {
         let places: Vec<_> = sheet.terminals_m.iter().map(|place| mesh.nearest(*place)).collect();
-        let terminals: Vec<_> = places.iter().map(|[column, row]| mesh.node(*column, *row)).collect();
+        let terminals: Vec<_> =
+            places.iter().map(|[column, row]| mesh.node(*column, *row)).collect();
         let dummy = 1.0 / sheet.film.ohm_per_square;
         let factor = factor(&mesh, &mesh.conductances(sheet), &terminals, dummy);
         let mut fields = Mat::zeros(mesh.nodes(), terminals.len());
@@ -154,7 +168,8 @@ impl Network {
         self.potential_of(&[(node, 1.0)])
     }
 
-    /// Potential of every node for a unit current into a place in mm from the middle, shared by the nodes around it.
+    /// Potential of every node for a unit current into a place in mm from the middle, shared by the
+    /// nodes around it.
     pub fn potential_around(&self, place_mm: [f64; 2]) -> Col<f64> {
         self.potential_of(&self.mesh.around(place_mm))
     }
@@ -180,16 +195,24 @@ impl Network {
     }
 }
 
-fn factor(mesh: &Mesh, conductances: &[(usize, usize, f64)], terminals: &[usize], dummy: f64) -> Llt<usize, f64> {
+fn factor(
+    mesh: &Mesh,
+    conductances: &[(usize, usize, f64)],
+    terminals: &[usize],
+    dummy: f64,
+) -> Llt<usize, f64> {
     let mut entries = Vec::with_capacity(3 * conductances.len() + terminals.len());
     for &(a, b, siemens) in conductances {
         entries.extend([Triplet::new(a, a, siemens), Triplet::new(b, b, siemens)]);
         entries.push(Triplet::new(a.max(b), a.min(b), -siemens));
     }
     entries.extend(terminals.iter().map(|node| Triplet::new(*node, *node, dummy)));
-    let matrix = SparseColMat::<usize, f64>::try_new_from_triplets(mesh.nodes(), mesh.nodes(), &entries);
+    let matrix =
+        SparseColMat::<usize, f64>::try_new_from_triplets(mesh.nodes(), mesh.nodes(), &entries);
     let matrix = matrix.expect("every entry lies within the matrix");
-    matrix.sp_cholesky(Side::Lower).expect("conductances and dummies are positive, and the mesh is connected")
+    matrix
+        .sp_cholesky(Side::Lower)
+        .expect("conductances and dummies are positive, and the mesh is connected")
 }
 
 /// s and w by φ⁰, as the module says.
@@ -199,9 +222,13 @@ fn fold(between: &Square<f64>, series: &[f64], dummy: f64) -> (Square<f64>, Squa
     let weight = |ohm: &f64| if ohm.is_finite() { [*ohm, dummy * ohm - 1.0] } else { [1.0, dummy] };
     let weights: Vec<_> = series.iter().map(weight).collect();
     let delta = |i: usize, j: usize| f64::from(i == j);
-    let inverse = Square::of(count, |i, j| weights[i][0] * delta(i, j) - weights[i][1] * between.at(i, j)).invert();
+    let inverse =
+        Square::of(count, |i, j| weights[i][0] * delta(i, j) - weights[i][1] * between.at(i, j))
+            .invert();
     let extra = Square::of(count, |i, j| inverse.at(i, j) * weights[j][1]);
-    let lifted = |i: usize, j: usize| delta(i, j) + (0..count).map(|k| between.at(i, k) * extra.at(k, j)).sum::<f64>();
+    let lifted = |i: usize, j: usize| {
+        delta(i, j) + (0..count).map(|k| between.at(i, k) * extra.at(k, j)).sum::<f64>()
+    };
     let share = Square::of(count, |i, j| dummy * lifted(i, j) - extra.at(i, j));
     (extra, share)
 }

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `[sheet]`: how the resistive sheet splits a pad's current among the terminals, and its resistance R_p at the pad.
+//! `[sheet]`: how the resistive sheet splits a pad's current among the terminals, and its
+//! resistance R_p at the pad.
 //!
-//! Three to sixteen terminals are where `terminals_mm` says. Without it terminals 1 to 4 are the corners top left, bottom left,
-//! bottom right, top right (the signs of eqs. 2 and 3); 5 and 6 are the middles of the bottom and the top edge, of the left and
-//! the right one with `middles = "short"`, or where `terminal_5_mm` and `terminal_6_mm` say; `terminals = 4` leaves both away.
-//! Each is a patch of radius `terminal_radius_mm` behind `terminal_ohm`, a number or a list of one for each; those listed in
-//! `shorted` have no resistance, those in `open` no current. The radius is not the paper's: 1.7 mm gives the R_p of docs/physics.md §1,
-//! 73 to 190 Ω, mean 143 Ω, for pads 20 mm off the edges. On a mesh a terminal is the node nearest to its place.
+//! Three to sixteen terminals are where `terminals_mm` says. Without it terminals 1 to 4 are the
+//! corners top left, bottom left, bottom right, top right (the signs of eqs. 2 and 3); 5 and 6 are
+//! the middles of the bottom and the top edge, of the left and the right one with `middles =
+//! "short"`, or where `terminal_5_mm` and `terminal_6_mm` say; `terminals = 4` leaves both away.
+//! Each is a patch of radius `terminal_radius_mm` behind `terminal_ohm`, a number or a list of one
+//! for each; those listed in `shorted` have no resistance, those in `open` no current. The radius
+//! is not the paper's: 1.7 mm gives the R_p of docs/physics.md §1, 73 to 190 Ω, mean 143 Ω, for
+//! pads 20 mm off the edges. On a mesh a terminal is the node nearest to its place.
 //!
 //! | level | what | look-up | error of the split, rms / max | build |
 //! | --- | --- | --- | --- | --- |
@@ -21,10 +24,12 @@
 //! | `grid-2.5-mm` | | 100 ns | 3.9e-6 / 1.9e-4 | 0.2 s |
 //! | `grid-1.25-mm` | | 170 ns | 9.7e-7 / 4.7e-5 | 0.9 s |
 //!
-//! A table may have `table_columns` × `table_rows` of its own. Grids are the only levels for a non-uniform film.
-//! Errors are over pads 20 mm off the edges; at the edges, in front of terminals 5 and 6, the table's reach 2e-4.
+//! A table may have `table_columns` × `table_rows` of its own. Grids are the only levels for a
+//! non-uniform film. Errors are over pads 20 mm off the edges; at the edges, in front of terminals
+//! 5 and 6, the table's reach 2e-4.
 //!
-//! Without the table the sheet is ideal: no resistance, and corner currents that are bilinear in the position.
+//! Without the table the sheet is ideal: no resistance, and corner currents that are bilinear in
+//! the position.
 
 pub(crate) mod analytic;
 mod distance;
@@ -55,8 +60,13 @@ use crate::format::Table;
 use crate::terminals::PerTerminal;
 
 /// Levels of a uniform sheet, and what a look-up costs, ns.
-const UNIFORM_LEVELS: [(&str, f64); 5] =
-    [("distance", 70.0), ("bilinear", 20.0), ("bicubic", 60.0), ("bicubic-fine", 61.0), ("analytic", 400.0)];
+const UNIFORM_LEVELS: [(&str, f64); 5] = [
+    ("distance", 70.0),
+    ("bilinear", 20.0),
+    ("bicubic", 60.0),
+    ("bicubic-fine", 61.0),
+    ("analytic", 400.0),
+];
 
 /// Levels of any sheet: their spacing in mm, and what a look-up costs, ns.
 const GRID_LEVELS: [(&str, f64, f64); 5] = [
@@ -79,11 +89,13 @@ pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneE
         .collect();
     let word = table.choice("rung", &words)?;
     if !uniform || word.is_some_and(|word| word.starts_with("grid")) {
-        let levels = GRID_LEVELS.map(|(word, mm, cost_ns)| level(&sheet, word, cost_ns, move |sheet| grid(sheet, mm)));
+        let levels = GRID_LEVELS
+            .map(|(word, mm, cost_ns)| level(&sheet, word, cost_ns, move |sheet| grid(sheet, mm)));
         Spec::with_levels("sheet", Some(table), levels.into(), "grid-5-mm")
     } else {
-        let levels = UNIFORM_LEVELS
-            .map(|(word, cost_ns)| level(&sheet, word, cost_ns, move |sheet| exact_or_table(word, sheet)));
+        let levels = UNIFORM_LEVELS.map(|(word, cost_ns)| {
+            level(&sheet, word, cost_ns, move |sheet| exact_or_table(word, sheet))
+        });
         Spec::with_levels("sheet", Some(table), levels.into(), "bicubic")
     }
 }
@@ -97,14 +109,20 @@ fn level(
     let sheet = sheet.clone();
     let label = match table_of(word) {
         Some([columns, rows]) => {
-            format!("{word} {} × {}", sheet.table[0].unwrap_or(columns), sheet.table[1].unwrap_or(rows))
+            format!(
+                "{word} {} × {}",
+                sheet.table[0].unwrap_or(columns),
+                sheet.table[1].unwrap_or(rows)
+            )
         }
         None => word.to_string(),
     };
     let reach_mm = sheet.reach_mm();
     let solver = OfSheet::new(sheet, build);
-    Level::new(word, cost_ns, move |_| Effect::Pad(Box::new(OnSheet { solver: Following::new(&solver), reach_mm })))
-        .labelled(label)
+    Level::new(word, cost_ns, move |_| {
+        Effect::Pad(Box::new(OnSheet { solver: Following::new(&solver), reach_mm }))
+    })
+    .labelled(label)
 }
 
 /// Columns and rows of a level that is a table of the analytic solution.
@@ -147,13 +165,18 @@ impl PadEffect for OnSheet {
     }
 }
 
-/// The split of an ideal sheet: corner currents bilinear in the position, so that r_x and r_y are proportional to x and y.
-/// Only a device without `[sheet]` has it, and so the corners as its first terminals; where there is one, it says the split.
+/// The split of an ideal sheet: corner currents bilinear in the position, so that r_x and r_y are
+/// proportional to x and y. Only a device without `[sheet]` has it, and so the corners as its first
+/// terminals; where there is one, it says the split.
 pub(crate) fn ideal_split(x_mm: f64, y_mm: f64, device: &Device) -> PerTerminal<Complex64> {
     let (u, v) = (x_mm / device.width_mm + 0.5, y_mm / device.height_mm + 0.5);
     let corners = [(1.0 - u) * v, (1.0 - u) * (1.0 - v), u * (1.0 - v), u * v];
     Few::of(device.terminals(), |shares| {
-        shares.iter_mut().zip(corners).take(device.terminals()).for_each(|(share, corner)| *share = corner.into());
+        shares
+            .iter_mut()
+            .zip(corners)
+            .take(device.terminals())
+            .for_each(|(share, corner)| *share = corner.into());
     })
 }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Several values at each of many nodes, in one allocation.
 //!
-//! How many values a node has follows from the number of terminals, which is known at run time only. They are kept four to a
-//! lane, so that the loops of a look-up have a fixed length whatever that number is.
+//! How many values a node has follows from the number of terminals, which is known at run time
+//! only. They are kept four to a lane, so that the loops of a look-up have a fixed length whatever
+//! that number is.
 
 use crate::few::Few;
 use crate::terminals::MOST_TERMINALS;

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A bicubic spline of several values over a rectangle, from its nodes and the slopes at its rim.
 //!
-//! The spline is kept as coefficients c of B-splines, so that a look-up is a weighted sum of four by four of them:
+//! The spline is kept as coefficients c of B-splines, so that a look-up is a weighted sum of four
+//! by four of them:
 //!
 //!   f(i + t) = [(1−t)³ c_(i−1) + (3t³−6t²+4) c_i + (−3t³+3t²+3t+1) c_(i+1) + t³ c_(i+2)]/6
 //!
-//! The weights sum to one, hence what sums to one at the nodes does so everywhere. The error falls with the fourth power of
-//! the spacing, a ninth of what four-point interpolation of the same nodes leaves.
+//! The weights sum to one, hence what sums to one at the nodes does so everywhere. The error falls
+//! with the fourth power of the spacing, a ninth of what four-point interpolation of the same nodes
+//! leaves.
 
 use super::nodes::{Lane, Nodes, Values};
 
@@ -40,11 +42,15 @@ impl Axis {
         (interval, at - interval as f64)
     }
 
-    /// A function as a spline takes it: its values at the nodes, and before and after those its slopes per spacing.
+    /// A function as a spline takes it: its values at the nodes, and before and after those its
+    /// slopes per spacing.
     fn ask(&self, index: usize, f: impl Fn(f64) -> Values) -> Values {
         const STEP_MM: f64 = 0.02;
         let slope = |at: f64| {
-            let rise = f(at + STEP_MM).into_iter().zip(f(at - STEP_MM)).map(|(after, before)| after - before);
+            let rise = f(at + STEP_MM)
+                .into_iter()
+                .zip(f(at - STEP_MM))
+                .map(|(after, before)| after - before);
             rise.map(|value| value * self.spacing_mm() / (2.0 * STEP_MM)).collect()
         };
         match index {
@@ -74,7 +80,9 @@ pub(crate) struct Spline {
 impl Spline {
     /// Through a function of so many values at the nodes, with its slopes at the rim.
     pub fn of(axes: [Axis; 2], values: usize, f: impl Fn(f64, f64) -> Values) -> Self {
-        Spline::filtered(axes, values, |column, row| axes[0].ask(column, |x| axes[1].ask(row, |y| f(x, y))))
+        Spline::filtered(axes, values, |column, row| {
+            axes[0].ask(column, |x| axes[1].ask(row, |y| f(x, y)))
+        })
     }
 
     /// Through values at the nodes, level at the rim: what is insulated there.
@@ -87,7 +95,8 @@ impl Spline {
         Spline::filtered(axes, values, sample)
     }
 
-    /// Through values at the nodes, with the slopes at the rim that a parabola through three of them has.
+    /// Through values at the nodes, with the slopes at the rim that a parabola through three of
+    /// them has.
     pub fn free(axes: [Axis; 2], values: usize, node: impl Fn(usize, usize) -> Values) -> Self {
         let along = |n: usize, axis: usize, f: &dyn Fn(usize) -> Values| {
             let last = axes[axis].nodes - 1;
@@ -101,7 +110,9 @@ impl Spline {
                 n => f(n - 1),
             }
         };
-        Spline::filtered(axes, values, |column, row| along(column, 0, &|x| along(row, 1, &|y| node(x, y))))
+        Spline::filtered(axes, values, |column, row| {
+            along(column, 0, &|x| along(row, 1, &|y| node(x, y)))
+        })
     }
 
     fn filtered(axes: [Axis; 2], values: usize, sample: impl Fn(usize, usize) -> Values) -> Self {
@@ -111,7 +122,8 @@ impl Spline {
         let (lanes, list) = (coefficients.lanes, &mut coefficients.list);
         for lane in 0..lanes {
             (0..rows).for_each(|row| filter(list, row * columns * lanes + lane, lanes, columns));
-            (0..columns).for_each(|column| filter(list, column * lanes + lane, columns * lanes, rows));
+            (0..columns)
+                .for_each(|column| filter(list, column * lanes + lane, columns * lanes, rows));
         }
         Spline { axes, coefficients }
     }
@@ -121,7 +133,8 @@ impl Spline {
         let (column, across) = self.axes[0].weights(x_mm);
         let (row, up) = self.axes[1].weights(y_mm);
         let first = [0, 1, 2, 3].map(|step| (row + step) * (self.axes[0].nodes + 2) + column);
-        self.coefficients.weighted(first, &up.map(|weight_y| across.map(|weight_x| weight_x * weight_y)))
+        self.coefficients
+            .weighted(first, &up.map(|weight_y| across.map(|weight_x| weight_x * weight_y)))
     }
 }
 
@@ -130,9 +143,11 @@ fn add(a: Lane, factor: f64, b: Lane) -> Lane {
     std::array::from_fn(|n| a[n] + factor * b[n])
 }
 
-/// Turns values between two end slopes into B-spline coefficients, in place: a lane of `count` nodes from `first`, `stride` apart.
+/// Turns values between two end slopes into B-spline coefficients, in place: a lane of `count`
+/// nodes from `first`, `stride` apart.
 ///
-/// (c_(i−1) + 4c_i + c_(i+1))/6 = f_i inside, (c_1 − c_(−1))/2 = f′ at the ends: tridiagonal once the ends are folded in.
+/// (c_(i−1) + 4c_i + c_(i+1))/6 = f_i inside, (c_1 − c_(−1))/2 = f′ at the ends: tridiagonal once
+/// the ends are folded in.
 fn filter(values: &mut [Lane], first: usize, stride: usize, count: usize) {
     let at = |n: usize| first + n * stride;
     let last = count - 2;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Tables of the analytic split over the places a pad's centre can be.
 //!
-//! Errors are largest in front of the terminals at the edges' middles. They fall with the second power of the spacing for
-//! the bilinear table and with the fourth for the bicubic one.
+//! Errors are largest in front of the terminals at the edges' middles. They fall with the second
+//! power of the spacing for the bilinear table and with the fourth for the bicubic one.
 
 use super::analytic::Analytic;
 use super::geometry::Sheet;
@@ -21,7 +21,9 @@ pub(super) struct Bicubic(Spline);
 impl Bicubic {
     pub fn new(sheet: &Sheet, nodes: [usize; 2]) -> Self {
         let exact = Analytic::new(sheet);
-        Bicubic(Spline::of(axes(sheet, nodes), sheet.terminals() + 1, |x, y| exact.split(x, y).node()))
+        Bicubic(Spline::of(axes(sheet, nodes), sheet.terminals() + 1, |x, y| {
+            exact.split(x, y).node()
+        }))
     }
 }
 
@@ -41,8 +43,13 @@ impl Bilinear {
     pub fn new(sheet: &Sheet, nodes: [usize; 2]) -> Self {
         let (exact, axes) = (Analytic::new(sheet), axes(sheet, nodes));
         let columns = axes[0].nodes;
-        let node = |n: usize| exact.split(axes[0].node_mm(n % columns), axes[1].node_mm(n / columns)).node();
-        Bilinear { axes, nodes: Nodes::new(sheet.terminals() + 1, (0..columns * axes[1].nodes).map(node)) }
+        let node = |n: usize| {
+            exact.split(axes[0].node_mm(n % columns), axes[1].node_mm(n / columns)).node()
+        };
+        Bilinear {
+            axes,
+            nodes: Nodes::new(sheet.terminals() + 1, (0..columns * axes[1].nodes).map(node)),
+        }
     }
 }
 
@@ -53,8 +60,11 @@ impl Solver for Bilinear {
         let below = row * self.axes[0].nodes + column;
         let above = below + self.axes[0].nodes;
         let values = self.nodes.gather(|lane| {
-            let [a, b, c, d] = [below, below + 1, above, above + 1].map(|node| self.nodes.lane(node, lane));
-            let mix = |n: usize| (1.0 - y) * ((1.0 - x) * a[n] + x * b[n]) + y * ((1.0 - x) * c[n] + x * d[n]);
+            let [a, b, c, d] =
+                [below, below + 1, above, above + 1].map(|node| self.nodes.lane(node, lane));
+            let mix = |n: usize| {
+                (1.0 - y) * ((1.0 - x) * a[n] + x * b[n]) + y * ((1.0 - x) * c[n] + x * d[n])
+            };
             std::array::from_fn(mix)
         });
         Split::of_node(&values)

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Sheets of three to sixteen terminals anywhere on the edge: balance, reciprocity, symmetry, and all levels against the exact one.
+//! Sheets of three to sixteen terminals anywhere on the edge: balance, reciprocity, symmetry, and
+//! all levels against the exact one.
 
 use super::analytic::Analytic;
 use super::grid::Grid;
 use super::tests::{MARGIN_MM, assert_near, difference, places, sheet};
 use super::*;
 
-/// So many terminals, m from the bottom left corner: the corners first, then places along the long edges, mirrored in the
-/// sheet's middle; of three and five, two corners and the right edge's middle, and the bottom edge's too.
+/// So many terminals, m from the bottom left corner: the corners first, then places along the long
+/// edges, mirrored in the sheet's middle; of three and five, two corners and the right edge's
+/// middle, and the bottom edge's too.
 fn terminals_m(count: usize) -> Vec<[f64; 2]> {
     let corners = [[0.0, 0.5], [0.0, 0.0], [0.86, 0.0], [0.86, 0.5]];
     let odd = |from: &[[f64; 2]]| from.iter().copied().chain([[0.86, 0.25]]).collect();
@@ -32,15 +34,20 @@ const COUNTS: [usize; 5] = [3, 4, 5, 8, 16];
 fn shares_of_any_number_of_terminals_sum_to_one_at_every_level() {
     for count in COUNTS {
         let sheet = sheet_of(count, 300.0);
-        let mut levels: Vec<_> = UNIFORM_LEVELS.map(|(word, _)| exact_or_table(word, &sheet)).into();
+        let mut levels: Vec<_> =
+            UNIFORM_LEVELS.map(|(word, _)| exact_or_table(word, &sheet)).into();
         levels.push(grid(&sheet, 10.0));
-        for (level, [x, y]) in
-            levels.iter().flat_map(|level| places(15.0).into_iter().step_by(7).map(move |at| (level, at)))
+        for (level, [x, y]) in levels
+            .iter()
+            .flat_map(|level| places(15.0).into_iter().step_by(7).map(move |at| (level, at)))
         {
             let split = level.split(x, y);
             assert_eq!(split.share.len(), count);
             assert_near("sum", &[split.share.iter().sum::<f64>()], &[1.0], 1e-9);
-            assert!(split.ohm > 0.0 && split.share.iter().all(|share| *share > -1e-3), "{count}: {split:?}");
+            assert!(
+                split.ohm > 0.0 && split.share.iter().all(|share| *share > -1e-3),
+                "{count}: {split:?}"
+            );
         }
     }
 }
@@ -60,24 +67,31 @@ fn symmetric_sheets_have_symmetric_shares() {
     for count in [4, 8, 16] {
         let sheet = sheet_of(count, 0.0);
         let mirror = |[x, y]: [f64; 2]| {
-            let there = |at: &[f64; 2]| (at[0] - 0.86 + x).abs() < 1e-9 && (at[1] - 0.5 + y).abs() < 1e-9;
+            let there =
+                |at: &[f64; 2]| (at[0] - 0.86 + x).abs() < 1e-9 && (at[1] - 0.5 + y).abs() < 1e-9;
             sheet.terminals_m.iter().position(there).unwrap()
         };
         let exact = Analytic::new(&sheet);
         for [x, y] in places(15.0).into_iter().step_by(11) {
             let (share, mirrored) = (exact.split(x, y).share, exact.split(-x, -y).share);
-            let mirrored: Vec<f64> = sheet.terminals_m.iter().map(|at| mirrored[mirror(*at)]).collect();
+            let mirrored: Vec<f64> =
+                sheet.terminals_m.iter().map(|at| mirrored[mirror(*at)]).collect();
             assert_near("mirrored", &share, &mirrored, 1e-9);
         }
     }
 }
 
-/// The terminals of 3, 4 and 5 are nodes of every mesh; of 8 and 16, most are up to half a spacing off.
+/// The terminals of 3, 4 and 5 are nodes of every mesh; of 8 and 16, most are up to half a spacing
+/// off.
 #[test]
 fn tables_and_meshes_approach_the_exact_split_of_any_number_of_terminals() {
-    for (count, limits) in
-        COUNTS.into_iter().zip([[2e-6, 1e-4], [2e-6, 1e-4], [2e-6, 1e-4], [2e-6, 3e-3], [2e-6, 3e-3]])
-    {
+    for (count, limits) in COUNTS.into_iter().zip([
+        [2e-6, 1e-4],
+        [2e-6, 1e-4],
+        [2e-6, 1e-4],
+        [2e-6, 3e-3],
+        [2e-6, 3e-3],
+    ]) {
         let sheet = sheet_of(count, 0.0);
         let exact = Analytic::new(&sheet);
         let [table, mesh] = [

@@ -32,7 +32,9 @@ pub(crate) fn sheet(terminal_ohm: f64) -> Sheet {
 }
 
 pub(crate) fn places(margin_mm: f64) -> Vec<[f64; 2]> {
-    let along = |n: usize, of: usize, size: f64| (size / 2.0 - margin_mm) * (2.0 * n as f64 / (of - 1) as f64 - 1.0);
+    let along = |n: usize, of: usize, size: f64| {
+        (size / 2.0 - margin_mm) * (2.0 * n as f64 / (of - 1) as f64 - 1.0)
+    };
     (0..81 * 47).map(|n| [along(n % 81, 81, 860.0), along(n / 81, 47, 500.0)]).collect()
 }
 
@@ -47,7 +49,11 @@ fn corners(split: &Split) -> f64 {
 /// Least, mean and greatest.
 pub(crate) fn range(values: impl Iterator<Item = f64> + Clone) -> [f64; 3] {
     let count = values.clone().count() as f64;
-    [values.clone().fold(f64::MAX, f64::min), values.clone().sum::<f64>() / count, values.fold(f64::MIN, f64::max)]
+    [
+        values.clone().fold(f64::MAX, f64::min),
+        values.clone().sum::<f64>() / count,
+        values.fold(f64::MIN, f64::max),
+    ]
 }
 
 pub(crate) fn assert_near(name: &str, got: &[f64], expected: &[f64], tolerance: f64) {
@@ -61,22 +67,29 @@ pub(crate) fn split_error(level: &impl Solver, margin_mm: f64) -> [f64; 2] {
 }
 
 /// Rms and maximum of the shares' difference.
-pub(crate) fn difference(level: &(impl Solver + ?Sized), exact: &impl Solver, margin_mm: f64) -> [f64; 2] {
+pub(crate) fn difference(
+    level: &(impl Solver + ?Sized),
+    exact: &impl Solver,
+    margin_mm: f64,
+) -> [f64; 2] {
     let exact = splits(exact, margin_mm);
     let pairs = splits(level, margin_mm).into_iter().zip(exact);
-    let errors: Vec<f64> =
-        pairs.flat_map(|(a, b)| a.share.into_iter().zip(b.share).map(|(a, b)| (a - b).abs())).collect();
+    let errors: Vec<f64> = pairs
+        .flat_map(|(a, b)| a.share.into_iter().zip(b.share).map(|(a, b)| (a - b).abs()))
+        .collect();
     [
         (errors.iter().map(|e| e * e).sum::<f64>() / errors.len() as f64).sqrt(),
         errors.iter().copied().fold(0.0, f64::max),
     ]
 }
 
-/// Least squares of (x, y) on the monomials of (r_x, r_y) up to a degree: rms and maximum of the distance left, mm.
+/// Least squares of (x, y) on the monomials of (r_x, r_y) up to a degree: rms and maximum of the
+/// distance left, mm.
 fn fit_error(points: &[([f64; 2], [f64; 2])], degree: i32) -> [f64; 2] {
     let powers = (0..=degree).flat_map(|p| (0..=degree - p).map(move |q| (p, q)));
-    let mut columns: Vec<Vec<f64>> =
-        powers.map(|(p, q)| points.iter().map(|(r, _)| r[0].powi(p) * r[1].powi(q)).collect()).collect();
+    let mut columns: Vec<Vec<f64>> = powers
+        .map(|(p, q)| points.iter().map(|(r, _)| r[0].powi(p) * r[1].powi(q)).collect())
+        .collect();
     let mut left = [0, 1].map(|axis| points.iter().map(|(_, x)| x[axis]).collect::<Vec<f64>>());
     while let Some(pivot) = columns.pop() {
         let norm: f64 = pivot.iter().map(|v| v * v).sum();
@@ -86,46 +99,63 @@ fn fit_error(points: &[([f64; 2], [f64; 2])], degree: i32) -> [f64; 2] {
         }
     }
     let squares = left[0].iter().zip(&left[1]).map(|(x, y)| x * x + y * y);
-    [(squares.clone().sum::<f64>() / points.len() as f64).sqrt(), squares.fold(0.0, f64::max).sqrt()]
+    [
+        (squares.clone().sum::<f64>() / points.len() as f64).sqrt(),
+        squares.fold(0.0, f64::max).sqrt(),
+    ]
 }
 
-/// Truncation error after so many images (docs/physics.md §1): that of the shares; N itself errs by the first images left out,
-/// (2/π)·e^(−2πaM/b) at most, which is from corner to corner.
+/// Truncation error after so many images (docs/physics.md §1): that of the shares; N itself errs by
+/// the first images left out, (2/π)·e^(−2πaM/b) at most, which is from corner to corner.
 #[test]
 fn truncation_falls_with_each_image_as_predicted() {
     let size = [0.86, 0.5];
     let shares = |images| Analytic::with(&sheet(0.0), Neumann::new(size, images));
     for (images, physics) in [(1, 3.8e-6), (2, 8e-11), (3, 2e-15)] {
         let [_, most] = difference(&shares(images), &shares(6), MARGIN_MM);
-        assert!((0.5..1.0).contains(&(most / physics)), "{images} images: {most:e}, prototype {physics:e}");
+        assert!(
+            (0.5..1.0).contains(&(most / physics)),
+            "{images} images: {most:e}, prototype {physics:e}"
+        );
         let left_out = 2.0 / PI * (-2.0 * PI * f64::from(images) * size[0] / size[1]).exp();
-        let [cut, exact] = [images, 6].map(|images| Neumann::new(size, images).at([0.0; 2], [1e-4; 2], 1e-3));
-        assert!(((cut - exact) / left_out).abs() < 1.0 + 1e-14 / left_out, "{images} images: {:e}", cut - exact);
+        let [cut, exact] =
+            [images, 6].map(|images| Neumann::new(size, images).at([0.0; 2], [1e-4; 2], 1e-3));
+        assert!(
+            ((cut - exact) / left_out).abs() < 1.0 + 1e-14 / left_out,
+            "{images} images: {:e}",
+            cut - exact
+        );
     }
 }
 
-/// Places of rings in a pad's disc, each for as much of its area: `within` says where in its share of the area a ring runs.
+/// Places of rings in a pad's disc, each for as much of its area: `within` says where in its share
+/// of the area a ring runs.
 fn disc([x_mm, y_mm]: [f64; 2], within: f64) -> impl Iterator<Item = [f64; 2]> {
     const RINGS: usize = 8;
     const ON_A_RING: usize = 24;
     (0..RINGS * ON_A_RING).map(move |n| {
         let radius_mm = 15.0 * (((n / ON_A_RING) as f64 + within) / RINGS as f64).sqrt();
-        let (sin, cos) = (std::f64::consts::TAU * (n % ON_A_RING) as f64 / ON_A_RING as f64).sin_cos();
+        let (sin, cos) =
+            (std::f64::consts::TAU * (n % ON_A_RING) as f64 / ON_A_RING as f64).sin_cos();
         [x_mm + radius_mm * cos, y_mm + radius_mm * sin]
     })
 }
 
 /// Centres of discs that lie on the sheet and off the terminals.
-const DISCS_MM: [[f64; 2]; 5] = [[0.0, 0.0], [120.0, -60.0], [-300.0, 150.0], [405.0, 40.0], [40.0, 225.0]];
+const DISCS_MM: [[f64; 2]; 5] =
+    [[0.0, 0.0], [120.0, -60.0], [-300.0, 150.0], [405.0, 40.0], [40.0, 225.0]];
 
-/// docs/physics.md §1: the shares are harmonic in the pad's position, so that their mean over a disc is the centre's.
+/// docs/physics.md §1: the shares are harmonic in the pad's position, so that their mean over a
+/// disc is the centre's.
 #[test]
 fn an_even_disc_has_exactly_the_split_of_its_centre() {
     for terminal_ohm in [0.0, 300.0] {
         let exact = Analytic::new(&sheet(terminal_ohm));
         for at in DISCS_MM {
             let splits: Vec<Split> = disc(at, 0.5).map(|[x, y]| exact.split(x, y)).collect();
-            let mean = |terminal: usize| splits.iter().map(|s| s.share[terminal]).sum::<f64>() / splits.len() as f64;
+            let mean = |terminal: usize| {
+                splits.iter().map(|s| s.share[terminal]).sum::<f64>() / splits.len() as f64
+            };
             let varies = splits.iter().map(|s| s.share[0]).fold(0.0, f64::max) - mean(0);
             assert!(varies > 1e-4, "{at:?}: {varies}, over the disc shares differ");
             let mean: [f64; TERMINALS] = std::array::from_fn(mean);
@@ -134,15 +164,17 @@ fn an_even_disc_has_exactly_the_split_of_its_centre() {
     }
 }
 
-/// The potential of an even disc in its mean over itself is that of a ring of R·e^(−1/4); two sets of rings, so that no two
-/// places are the same, are 0.013 Ω off (measured, before the limit was set); R instead of R·e^(−1/4) would be 6 Ω off.
+/// The potential of an even disc in its mean over itself is that of a ring of R·e^(−1/4); two sets
+/// of rings, so that no two places are the same, are 0.013 Ω off (measured, before the limit was
+/// set); R instead of R·e^(−1/4) would be 6 Ω off.
 #[test]
 fn resistance_sees_the_disc() {
     let exact = Analytic::new(&sheet(0.0));
     for at in DISCS_MM {
-        let [from, to] =
-            [0.25, 0.75].map(|within| disc(at, within).map(|[x, y]| exact.source(x, y)).collect::<Vec<_>>());
-        let sum: f64 = from.iter().map(|a| to.iter().map(|b| exact.between(a, b)).sum::<f64>()).sum();
+        let [from, to] = [0.25, 0.75]
+            .map(|within| disc(at, within).map(|[x, y]| exact.source(x, y)).collect::<Vec<_>>());
+        let sum: f64 =
+            from.iter().map(|a| to.iter().map(|b| exact.between(a, b)).sum::<f64>()).sum();
         let mean = sum / (from.len() * to.len()) as f64;
         assert_near("R_p", &[mean], &[exact.split(at[0], at[1]).ohm], 0.02);
     }
@@ -152,7 +184,9 @@ fn resistance_sees_the_disc() {
 fn shares_sum_to_one_and_mirror_at_every_level() {
     let sheet = sheet(300.0);
     let levels = UNIFORM_LEVELS.map(|(word, _)| exact_or_table(word, &sheet));
-    for (level, [x, y]) in levels.iter().flat_map(|level| places(15.0).into_iter().map(move |place| (level, place))) {
+    for (level, [x, y]) in
+        levels.iter().flat_map(|level| places(15.0).into_iter().map(move |place| (level, place)))
+    {
         let (split, mirrored) = (level.split(x, y), level.split(-x, -y));
         assert!((split.share.iter().sum::<f64>() - 1.0).abs() < 1e-11);
         let mirrored = [2, 3, 0, 1, 5, 4].map(|terminal| mirrored.share[terminal]);
@@ -164,7 +198,11 @@ fn shares_sum_to_one_and_mirror_at_every_level() {
 fn a_sheet_on_its_side_is_the_same_sheet() {
     let flat = sheet(0.0);
     let turn = |[x, y]: [f64; 2]| [y, x];
-    let upright = Sheet { size_m: turn(flat.size_m), terminals_m: TERMINALS_M.map(turn).to_vec(), ..flat.clone() };
+    let upright = Sheet {
+        size_m: turn(flat.size_m),
+        terminals_m: TERMINALS_M.map(turn).to_vec(),
+        ..flat.clone()
+    };
     let (flat, upright) = (Analytic::new(&flat), Analytic::new(&upright));
     for [x, y] in places(15.0) {
         let (a, b) = (flat.split(x, y), upright.split(y, x));
@@ -208,11 +246,13 @@ fn affine_to_septic_fits_leave_69_16_9_and_5_mm() {
 fn the_papers_500_ohm_take_1_7_kiloohm_at_each_of_six_terminals_and_narrow_r_x() {
     let exact = splits(&Analytic::new(&sheet(1700.0)), MARGIN_MM);
     assert_near("R_p", &range(exact.iter().map(|split| split.ohm)), &[418.0, 443.0, 500.0], 1.0);
-    let r_x = exact.iter().map(|s| (s.share[2] + s.share[3] - s.share[0] - s.share[1]) / corners(s));
+    let r_x =
+        exact.iter().map(|s| (s.share[2] + s.share[3] - s.share[0] - s.share[1]) / corners(s));
     assert_near("r_x", &range(r_x)[2..], &[0.227], 0.01);
 }
 
-/// The prototype's figures (docs/physics.md §1), except for the bilinear rms: 5.4e-5 was measured, the prototype has 4.5e-5.
+/// The prototype's figures (docs/physics.md §1), except for the bilinear rms: 5.4e-5 was measured,
+/// the prototype has 4.5e-5.
 #[test]
 fn bicubic_and_distance_err_as_measured() {
     let [rms, most] = split_error(&Bilinear::new(&sheet(0.0), [64, 37]), MARGIN_MM);

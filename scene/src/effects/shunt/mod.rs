@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `[shunt]`: the capacitance between the sheet and the panel behind it, which takes a part of the current and turns the
-//! terminals' phases: 9 nF/m² by −12°, 22 nF/m² by −28° (docs/physics.md §1).
+//! `[shunt]`: the capacitance between the sheet and the panel behind it, which takes a part of the
+//! current and turns the terminals' phases: 9 nF/m² by −12°, 22 nF/m² by −28° (docs/physics.md §1).
 //!
 //! ```toml
 //! [shunt]
@@ -12,8 +12,8 @@
 //! | `table` | the exact solution with a spline of its series, 32 × 19 | 3e-6 of the current | 0.8 µs | 40 ms |
 //! | `series` | the exact solution, 100 modes | 3e-7 | 28 µs | – |
 //!
-//! The change against the sheet alone is added to what `[sheet]` says, at any of its levels; it is that of a uniform film, so no
-//! other is accepted.
+//! The change against the sheet alone is added to what `[sheet]` says, at any of its levels; it is
+//! that of a uniform film, so no other is accepted.
 
 mod screen;
 #[cfg(test)]
@@ -44,7 +44,8 @@ pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneE
     let level = |word, cost_ns, nodes| {
         let (sheet, siemens_per_m2) = sheet.clone();
         let reach_mm = sheet.reach_mm();
-        let screening = OfSheet::new(sheet, move |sheet| Screening::new(sheet, siemens_per_m2, nodes));
+        let screening =
+            OfSheet::new(sheet, move |sheet| Screening::new(sheet, siemens_per_m2, nodes));
         Level::new(word, cost_ns, move |_| {
             Effect::Pad(Box::new(Shunt { screening: Following::new(&screening), reach_mm }))
         })
@@ -60,12 +61,16 @@ pub(super) fn screened(root: &Table, device: &Device) -> Result<Option<(Sheet, f
     let nanofarad = table.number("nanofarad_per_m2", limits)?;
     let nanofarad = table.require("nanofarad_per_m2", &limits.to_string(), nanofarad)?;
     let Some(sheet) = root.table("sheet")? else {
-        return Err(table.error("", "expected a [sheet] too, since that is what the capacitance lies across"));
+        return Err(table
+            .error("", "expected a [sheet] too, since that is what the capacitance lies across"));
     };
     let sheet = Sheet::read(sheet, device)?;
     match sheet.film.is_uniform() {
         true => Ok(Some((sheet, 1e-9 * nanofarad * device.carrier_rad_s))),
-        false => Err(table.error("", "expected a uniform film, without sheet.slope_percent and sheet.patch")),
+        false => {
+            Err(table
+                .error("", "expected a uniform film, without sheet.slope_percent and sheet.patch"))
+        }
     }
 }
 

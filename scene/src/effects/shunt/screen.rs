@@ -6,8 +6,9 @@
 //!   D = Σ_n (ε_n/b)·cos(nπy/b)·cos(nπy′/b)·[f(√(κ_n² + jωcR_s)) − f(κ_n)],   κ_n = nπ/b,   ε_0 = 1, else 2
 //!   f(k) = cosh(k·x_<)·cosh(k·(a − x_>))/(k·sinh ka),   for n = 0 without shunt g₀ = (x²+x′²)/2a − max(x, x′) + a/3
 //!
-//! The singularity is all in the sheet's own function, so that the terms fall as 1/n³. Terminals tie it together as they do
-//! without shunt, but no border is needed: what the terminals do not get, the panel does.
+//! The singularity is all in the sheet's own function, so that the terms fall as 1/n³. Terminals
+//! tie it together as they do without shunt, but no border is needed: what the terminals do not
+//! get, the panel does.
 
 use std::f64::consts::PI;
 
@@ -82,10 +83,16 @@ impl Screened {
     /// The same where D is known.
     pub fn source_of(&self, x_mm: f64, y_mm: f64, screens: &Screens) -> Source {
         let at = self.sheet.place_m(x_mm, y_mm);
-        let known = (0..self.sheet.terminals()).map(|n| match self.sheet.terminal_ohm[n].is_finite() {
-            true => self.scaled(self.sheet.terminals_m[n], at, self.sheet.terminal_radius_m, screens[n]),
-            false => Complex64::ZERO,
-        });
+        let known =
+            (0..self.sheet.terminals()).map(|n| match self.sheet.terminal_ohm[n].is_finite() {
+                true => self.scaled(
+                    self.sheet.terminals_m[n],
+                    at,
+                    self.sheet.terminal_radius_m,
+                    screens[n],
+                ),
+                false => Complex64::ZERO,
+            });
         let known: PerTerminal<Complex64> = known.collect();
         let share = self.inverse.rows().map(|row| product(row, &known)).collect();
         Source { at, known, share }
@@ -98,7 +105,8 @@ impl Screened {
 
     /// The pad's own disc's, where D is known.
     pub fn own(&self, source: &Source, screens: &Screens) -> Complex64 {
-        let free = self.scaled(source.at, source.at, self.sheet.disc_m(), screens[self.sheet.terminals()]);
+        let free =
+            self.scaled(source.at, source.at, self.sheet.disc_m(), screens[self.sheet.terminals()]);
         free - product(&source.known, &source.share)
     }
 
@@ -124,7 +132,16 @@ impl Screened {
         };
         let apart = angle((p[0] - q[0]).abs());
         let reaches = |(n, _): &(usize, &Complex64)| *n as f64 * apart < NEPERS;
-        (first + self.modes.iter().enumerate().skip(1).take_while(reaches).map(term).sum::<Complex64>()) / b
+        (first
+            + self
+                .modes
+                .iter()
+                .enumerate()
+                .skip(1)
+                .take_while(reaches)
+                .map(term)
+                .sum::<Complex64>())
+            / b
     }
 }
 

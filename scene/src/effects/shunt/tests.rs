@@ -19,8 +19,8 @@ fn phases_deg(nanofarad: f64) -> [f64; 2] {
     [sums.sum::<f64>() / sources.len() as f64, most]
 }
 
-/// The prototype has −12° and −28° (docs/physics.md §1): those are of the terminal that lags most, the sum lags less. Limits are
-/// around what was measured, −11.8° and −28.4°.
+/// The prototype has −12° and −28° (docs/physics.md §1): those are of the terminal that lags most,
+/// the sum lags less. Limits are around what was measured, −11.8° and −28.4°.
 #[test]
 fn terminals_lag_by_up_to_12_and_28_degrees() {
     let [sum, most] = phases_deg(9.0);
@@ -31,7 +31,8 @@ fn terminals_lag_by_up_to_12_and_28_degrees() {
 
 #[test]
 fn a_vanishing_shunt_changes_nothing() {
-    let (screened, exact) = (Screened::new(&sheet(300.0), siemens(1e-4)), Analytic::new(&sheet(300.0)));
+    let (screened, exact) =
+        (Screened::new(&sheet(300.0), siemens(1e-4)), Analytic::new(&sheet(300.0)));
     for [x, y] in places(15.0).into_iter().step_by(7) {
         let (source, split) = (screened.source(x, y), exact.split(x, y));
         assert!(source.share.iter().zip(split.share).all(|(a, b)| (a - b).norm() < 1e-6));
@@ -39,14 +40,18 @@ fn a_vanishing_shunt_changes_nothing() {
     }
 }
 
-/// What leaves through the terminals and the panel is what went in: jωc·∫φ dA = 1 − Σw, by reciprocity of φ.
+/// What leaves through the terminals and the panel is what went in: jωc·∫φ dA = 1 − Σw, by
+/// reciprocity of φ.
 #[test]
 fn no_current_is_lost() {
     let screened = Screened::new(&sheet(0.0), siemens(22.0));
     let source = screened.source(-120.0, 70.0);
     let [columns, rows] = [86, 50]; // cells of 10 mm, by their middles
-    let cell = |n: usize| screened.source(-425.0 + 10.0 * (n % columns) as f64, -245.0 + 10.0 * (n / columns) as f64);
-    let integral: Complex64 = (0..columns * rows).map(|n| screened.between(&cell(n), &source) * 1e-4).sum();
+    let cell = |n: usize| {
+        screened.source(-425.0 + 10.0 * (n % columns) as f64, -245.0 + 10.0 * (n / columns) as f64)
+    };
+    let integral: Complex64 =
+        (0..columns * rows).map(|n| screened.between(&cell(n), &source) * 1e-4).sum();
     let shunted = integral * Complex64::new(0.0, siemens(22.0));
     let lost = Complex64::ONE - source.share.iter().sum::<Complex64>();
     assert!((shunted - lost).norm() < 2e-4, "{shunted} {lost}");

@@ -34,7 +34,9 @@ fn lab(noise: &mut Noise, friction: bool) -> Loads {
             let press_n = if friction { MU * load_g * 1e-2 } else { 0.0 };
             measurements.push(Load {
                 haptic_v_rms,
-                newtons: press_n + K * (1e-12 * capacitance_pf * haptic_v_rms).powi(2) + sd_n * noise.normal(),
+                newtons: press_n
+                    + K * (1e-12 * capacitance_pf * haptic_v_rms).powi(2)
+                    + sd_n * noise.normal(),
                 load_g: Some(load_g),
                 reference_pf: Some(capacitance_pf),
                 sensed_pf: None,
@@ -44,7 +46,8 @@ fn lab(noise: &mut Noise, friction: bool) -> Loads {
     Loads { file: "loads.csv".into(), loads: measurements, friction }
 }
 
-/// A lab whose bridge has noise of 0.5 pF, and whose currents' full scale is not what the setup says.
+/// A lab whose bridge has noise of 0.5 pF, and whose currents' full scale is not what the setup
+/// says.
 fn with_currents(noise: &mut Noise) -> Loads {
     let mut lab = lab(noise, false);
     for load in &mut lab.loads {
@@ -54,11 +57,16 @@ fn with_currents(noise: &mut Noise) -> Loads {
     lab
 }
 
-fn coverage(seed: u64, lab: impl Fn(&mut Noise) -> Loads, of: impl Fn(&Force) -> (Estimate, f64)) -> f64 {
+fn coverage(
+    seed: u64,
+    lab: impl Fn(&mut Noise) -> Loads,
+    of: impl Fn(&Force) -> (Estimate, f64),
+) -> f64 {
     let setup: Setup = toml::from_str(SETUP).unwrap();
     let mut noise = Noise::of(seed);
     let holds = (0..LABS).filter(|_| {
-        let (Estimate { interval: [low, high], .. }, truth) = of(&lab(&mut noise).fit(&setup).unwrap());
+        let (Estimate { interval: [low, high], .. }, truth) =
+            of(&lab(&mut noise).fit(&setup).unwrap());
         (low..=high).contains(&truth)
     });
     holds.count() as f64 / f64::from(LABS)
@@ -68,7 +76,10 @@ fn coverage(seed: u64, lab: impl Fn(&mut Noise) -> Loads, of: impl Fn(&Force) ->
 fn intervals_hold_the_truth_as_often_as_they_say() {
     for (what, share) in [
         ("force_k", coverage(SEED, |noise| lab(noise, false), |force| (force.force_k, K))),
-        ("force_k beside mu", coverage(SEED + 1, |noise| lab(noise, true), |force| (force.force_k, K))),
+        (
+            "force_k beside mu",
+            coverage(SEED + 1, |noise| lab(noise, true), |force| (force.force_k, K)),
+        ),
         ("mu", coverage(SEED + 2, |noise| lab(noise, true), |force| (force.mu.unwrap(), MU))),
         ("scale", coverage(SEED + 3, with_currents, |force| (force.current_scale.unwrap(), SCALE))),
     ] {

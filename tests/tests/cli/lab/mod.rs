@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `hapticore calibrate`: from what a lab measures to a calibration that is right, or to a word on what is missing.
+//! `hapticore calibrate`: from what a lab measures to a calibration that is right, or to a word on
+//! what is missing.
 
 mod coverage;
 mod refusals;
@@ -15,10 +16,15 @@ use hapticore_scene::{Complex, ForcePoint, Plant, Scene, Timing};
 use crate::refuse;
 
 /// A sheet with a terminal at each corner.
-pub const SHEET: [&str; 4] =
-    ["device.width_mm=300", "device.height_mm=200", "device.pad_diameter_mm=20", "sheet.terminals=4"];
+pub const SHEET: [&str; 4] = [
+    "device.width_mm=300",
+    "device.height_mm=200",
+    "device.pad_diameter_mm=20",
+    "sheet.terminals=4",
+];
 
-/// Full scales and rates of the scenes' device under `standard`, and where the terminals of [`SHEET`] are.
+/// Full scales and rates of the scenes' device under `standard`, and where the terminals of
+/// [`SHEET`] are.
 pub const SETUP: &str = "pads = 1
 sample_rate_hz = 1e6
 carrier_hz = 101e3
@@ -60,7 +66,11 @@ impl Noise {
 
 /// The device of a bundled scene with keys set.
 pub fn plant(scene: &str, set: &[&str]) -> Plant {
-    let set: Vec<_> = set.iter().map(|key| key.split_once('=').unwrap()).map(|(a, b)| (a.into(), b.into())).collect();
+    let set: Vec<_> = set
+        .iter()
+        .map(|key| key.split_once('=').unwrap())
+        .map(|(a, b)| (a.into(), b.into()))
+        .collect();
     let text = hapticore_scene::gallery::find(scene).unwrap();
     let scene = Scene::parse(text, scene, &set).unwrap();
     let profile = hapticore_contract::profile::Profile::bundled("standard").unwrap();
@@ -70,13 +80,20 @@ pub fn plant(scene: &str, set: &[&str]) -> Plant {
 
 /// A raster of so many columns and rows over a sheet, as far as a pad of 20 mm goes.
 pub fn raster([columns, rows]: [usize; 2], half_mm: [f64; 2]) -> Vec<[f64; 2]> {
-    let along = |k: usize, count: usize, half: f64| half * (2.0 * k as f64 / (count - 1) as f64 - 1.0);
-    let place = |k: usize| [along(k % columns, columns, half_mm[0]), along(k / columns, rows, half_mm[1])];
+    let along =
+        |k: usize, count: usize, half: f64| half * (2.0 * k as f64 / (count - 1) as f64 - 1.0);
+    let place =
+        |k: usize| [along(k % columns, columns, half_mm[0]), along(k / columns, rows, half_mm[1])];
     (0..columns * rows).map(place).collect()
 }
 
 /// What a plant's terminals read at places, each with noise of so many parts.
-pub fn measurements(plant: &Plant, places: &[[f64; 2]], parts: f64, noise: &mut Noise) -> Vec<Measurement> {
+pub fn measurements(
+    plant: &Plant,
+    places: &[[f64; 2]],
+    parts: f64,
+    noise: &mut Noise,
+) -> Vec<Measurement> {
     let sense_v = plant.device().carrier_v;
     let mut noisy = |current: Complex| current * (1.0 + parts * noise.normal());
     let of = |(read, place): (hapticore_scene::PadMeasurement, &[f64; 2])| Measurement {
@@ -91,8 +108,10 @@ pub fn measurements(plant: &Plant, places: &[[f64; 2]], parts: f64, noise: &mut 
 pub fn places_csv(measurements: &[Measurement], phases: bool) -> String {
     let terminals = measurements.first().map_or(4, |measurement| measurement.currents_a.len());
     let mut text = String::from("# measured in a test\nx_mm, y_mm, v_sense");
-    (1..=terminals)
-        .for_each(|k| write!(text, ", i{k}{}", if phases { format!(", i{k}_deg") } else { String::new() }).unwrap());
+    (1..=terminals).for_each(|k| {
+        write!(text, ", i{k}{}", if phases { format!(", i{k}_deg") } else { String::new() })
+            .unwrap()
+    });
     for Measurement { at_mm: [x, y], currents_a, sense_v } in measurements {
         write!(text, "\n{x}, {y}, {sense_v}").unwrap();
         for current in currents_a {
@@ -120,7 +139,8 @@ pub fn forces(k: f64, noise_n: f64, noise: &mut Noise) -> Vec<ForcePoint> {
         for step in 0..8 {
             let haptic_v_rms = 50.0 * f64::from(step);
             let capacitance_pf = 320.0 + 0.5 * load_g + 0.1 * haptic_v_rms;
-            let force_n = k * (1e-12 * capacitance_pf * haptic_v_rms).powi(2) + noise_n * noise.normal();
+            let force_n =
+                k * (1e-12 * capacitance_pf * haptic_v_rms).powi(2) + noise_n * noise.normal();
             points.push(ForcePoint { load_g, haptic_v_rms, capacitance_pf, force_n });
         }
     }
@@ -139,7 +159,8 @@ impl Files<'_> {
     /// Those of [`SHEET`], measured at a raster, without noise.
     pub fn new(folder: &Path) -> Files<'_> {
         let plant = plant("minimal-sheet", &SHEET);
-        let measurements = measurements(&plant, &raster([13, 9], [140.0, 90.0]), 0.0, &mut Noise::of(1));
+        let measurements =
+            measurements(&plant, &raster([13, 9], [140.0, 90.0]), 0.0, &mut Noise::of(1));
         Files {
             places: places_csv(&measurements, true),
             loads: loads_csv(&forces(9.6e12, 2e-3, &mut Noise::of(2))),
@@ -149,7 +170,9 @@ impl Files<'_> {
     }
 
     pub fn write(&self) {
-        for (name, text) in [("places.csv", &self.places), ("loads.csv", &self.loads), ("device.toml", &self.setup)] {
+        for (name, text) in
+            [("places.csv", &self.places), ("loads.csv", &self.loads), ("device.toml", &self.setup)]
+        {
             fs::write(self.folder.join(name), text).unwrap();
         }
     }

@@ -3,7 +3,9 @@
 
 use hapticore_scene::{Complex, Plant};
 
-use super::{Files, Measurement, Noise, SETUP, SHEET, TERMINALS, measurements, places_csv, plant, raster};
+use super::{
+    Files, Measurement, Noise, SETUP, SHEET, TERMINALS, measurements, places_csv, plant, raster,
+};
 
 fn measured(plant: &Plant) -> Vec<Measurement> {
     measurements(plant, &raster([13, 9], [140.0, 90.0]), 1e-3, &mut Noise::of(7))
@@ -11,7 +13,12 @@ fn measured(plant: &Plant) -> Vec<Measurement> {
 
 fn refused(setup: &str, measurements: &[Measurement], phases: bool, words: &[&str]) {
     let folder = tempfile::tempdir().unwrap();
-    Files { places: places_csv(measurements, phases), setup: setup.into(), ..Files::new(folder.path()) }.refused(words);
+    Files {
+        places: places_csv(measurements, phases),
+        setup: setup.into(),
+        ..Files::new(folder.path())
+    }
+    .refused(words);
 }
 
 #[test]
@@ -28,10 +35,20 @@ fn swapped_terminals_are_named() {
         }
         let mut turned = all.clone();
         turned.iter_mut().for_each(|measurement| measurement.currents_a.rotate_left(1));
-        refused(&setup, &turned, false, &["i1 reads as i2's terminal at [-150.0, -100.0] mm", "i4 reads as i1's"]);
+        refused(
+            &setup,
+            &turned,
+            false,
+            &["i1 reads as i2's terminal at [-150.0, -100.0] mm", "i4 reads as i1's"],
+        );
         let mut mirrored = all.clone();
         mirrored.iter_mut().for_each(|measurement| measurement.at_mm[0] *= -1.0);
-        refused(&setup, &mirrored, false, &["i1 and i4 are swapped", "or x_mm of the places runs the other way"]);
+        refused(
+            &setup,
+            &mirrored,
+            false,
+            &["i1 and i4 are swapped", "or x_mm of the places runs the other way"],
+        );
     }
 }
 
@@ -55,7 +72,9 @@ fn of_six_terminals_the_middle_ones_too() {
 fn signs_alone_see_swaps_across_an_axis() {
     let setup = format!("{SETUP}[terminals]\nx = [-1, -1, 1, 1]\ny = [1, -1, -1, 1]\n");
     let all = measured(&plant("minimal-sheet", &SHEET));
-    for ((a, b), name) in [((1, 2), "terminals.x"), ((0, 1), "terminals.y"), ((0, 2), "terminals.x")] {
+    for ((a, b), name) in
+        [((1, 2), "terminals.x"), ((0, 1), "terminals.y"), ((0, 2), "terminals.x")]
+    {
         let mut swapped = all.clone();
         swapped.iter_mut().for_each(|measurement| measurement.currents_a.swap(a, b));
         let message = format!("i{} and i{} are on the other side than {name} says", a + 1, b + 1);

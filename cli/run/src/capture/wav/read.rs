@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The head of a WAV file, chunk by chunk. Nothing is asked for twice, so that it may come through a pipe.
+//! The head of a WAV file, chunk by chunk. Nothing is asked for twice, so that it may come through
+//! a pipe.
 
 use std::io::{self, Read};
 
@@ -27,8 +28,10 @@ struct Head {
 pub fn open(mut input: Input, adc: Adc, described: &Described) -> Result<Reader> {
     let name = input.name.clone();
     ensure!(input.length != Some(0), "{name}: expected a WAV file, got an empty file");
-    let (head, length) = read_head(&mut input).map_err(|error| anyhow!("{name}: expected a WAV file: {error:#}"))?;
-    let columns = Columns::counted(head.channels, described.channels.as_deref(), adc).with_context(|| name.clone())?;
+    let (head, length) =
+        read_head(&mut input).map_err(|error| anyhow!("{name}: expected a WAV file: {error:#}"))?;
+    let columns = Columns::counted(head.channels, described.channels.as_deref(), adc)
+        .with_context(|| name.clone())?;
     let layout = layout(&head, described).with_context(|| name.clone())?;
     let block = head.block_bytes as u64;
     if let Some(length) = length {
@@ -37,15 +40,29 @@ pub fn open(mut input: Input, adc: Adc, described: &Described) -> Result<Reader>
             "{name}: expected whole samples of {block} bytes, got {length} bytes: it is cut short"
         );
     }
-    Ok(Reader::new(input, adc, layout, columns, f64::from(head.sample_rate), length.map(|length| length / block)))
+    Ok(Reader::new(
+        input,
+        adc,
+        layout,
+        columns,
+        f64::from(head.sample_rate),
+        length.map(|length| length / block),
+    ))
 }
 
 fn layout(head: &Head, described: &Described) -> Result<Layout> {
     let bytes = head.block_bytes / head.channels;
-    ensure!(bytes * head.channels == head.block_bytes, "expected whole bytes a sample, got {} bits", head.bits);
+    ensure!(
+        bytes * head.channels == head.block_bytes,
+        "expected whole bytes a sample, got {} bits",
+        head.bits
+    );
     match head.tag {
         PCM if (2..=4).contains(&bytes) => {
-            ensure!(described.full_scale_v.is_none(), "--full-scale-v: expected floats in volts, got integer codes");
+            ensure!(
+                described.full_scale_v.is_none(),
+                "--full-scale-v: expected floats in volts, got integer codes"
+            );
             Layout::integer(bytes, head.bits, described.bits, false)
         }
         FLOAT if bytes == 4 || bytes == 8 => {
@@ -95,10 +112,16 @@ fn samples_bytes(input: &Input, size: u32, large: Option<u64>) -> Result<Option<
 }
 
 fn format(body: &[u8]) -> Result<Head> {
-    let u16_at =
-        |at: usize| body.get(at..at + 2).map(|b| u16::from_le_bytes([b[0], b[1]])).context("its format is cut short");
-    let u32_at = |at: usize| Ok::<u32, anyhow::Error>(u32::from(u16_at(at)?) | u32::from(u16_at(at + 2)?) << 16);
-    let (channels, block_bytes, bits) = (usize::from(u16_at(2)?), usize::from(u16_at(12)?), u32::from(u16_at(14)?));
+    let u16_at = |at: usize| {
+        body.get(at..at + 2)
+            .map(|b| u16::from_le_bytes([b[0], b[1]]))
+            .context("its format is cut short")
+    };
+    let u32_at = |at: usize| {
+        Ok::<u32, anyhow::Error>(u32::from(u16_at(at)?) | u32::from(u16_at(at + 2)?) << 16)
+    };
+    let (channels, block_bytes, bits) =
+        (usize::from(u16_at(2)?), usize::from(u16_at(12)?), u32::from(u16_at(14)?));
     ensure!(channels > 0 && block_bytes > 0, "it has no channels");
     let mut head = Head { tag: u16_at(0)?, channels, sample_rate: u32_at(4)?, block_bytes, bits };
     if head.tag == EXTENSIBLE {

@@ -18,7 +18,8 @@ use super::format::{ELSEWHERE, EXTENSIBLE, GUID, PCM};
 /// Bytes before the samples.
 const HEAD_BYTES: u64 = 12 + 8 + 28 + 8 + 40 + 8;
 
-/// The most bytes of samples that sizes of 32 bits hold, with the head and a byte that makes their number even.
+/// The most bytes of samples that sizes of 32 bits hold, with the head and a byte that makes their
+/// number even.
 const MOST_BYTES: u64 = ELSEWHERE as u64 - HEAD_BYTES - 1;
 
 /// A WAV capture being written.
@@ -47,9 +48,13 @@ impl Writer {
             "{}: expected a whole sample rate for WAV, got {sample_rate_hz} Hz",
             path.display()
         );
-        let format = Format { channels: adc.channels().len() as u16, rate, bytes: u16::from(bits / 8) };
+        let format =
+            Format { channels: adc.channels().len() as u16, rate, bytes: u16::from(bits / 8) };
         let mut partial = PartialFile::create(path)?;
-        partial.file.write_all(&format.head(0, MOST_BYTES)).with_context(|| path.display().to_string())?;
+        partial
+            .file
+            .write_all(&format.head(0, MOST_BYTES))
+            .with_context(|| path.display().to_string())?;
         let shift = u32::from(bits - adc.format.width);
         Ok(Writer { partial, format, shift, written: 0, most: MOST_BYTES })
     }
@@ -97,13 +102,16 @@ impl Format {
         head.extend(b"WAVE");
         head.extend(if large { b"ds64" } else { b"JUNK" });
         head.extend(28u32.to_le_bytes());
-        let sizes = [riff, samples, samples / u64::from(block)].map(|size| if large { size } else { 0 });
+        let sizes =
+            [riff, samples, samples / u64::from(block)].map(|size| if large { size } else { 0 });
         sizes.iter().for_each(|size| head.extend(size.to_le_bytes()));
         head.extend(0u32.to_le_bytes());
         head.extend(b"fmt ");
         head.extend(40u32.to_le_bytes());
         [EXTENSIBLE, self.channels].iter().for_each(|word| head.extend(word.to_le_bytes()));
-        [self.rate, self.rate * u32::from(block)].iter().for_each(|word| head.extend(word.to_le_bytes()));
+        [self.rate, self.rate * u32::from(block)]
+            .iter()
+            .for_each(|word| head.extend(word.to_le_bytes()));
         let bits = 8 * self.bytes;
         [block, bits, 22, bits].iter().for_each(|word| head.extend(word.to_le_bytes()));
         head.extend(0u32.to_le_bytes());
@@ -128,7 +136,8 @@ mod tests {
         (0..800).map(|n| n * 163 - 65_536).collect()
     }
 
-    /// Writes a capture whose sizes are of 64 bits beyond `most` bytes; its bytes, and the codes that are read back.
+    /// Writes a capture whose sizes are of 64 bits beyond `most` bytes; its bytes, and the codes
+    /// that are read back.
     fn round_trip(most: u64) -> (Vec<u8>, Vec<i32>) {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("c.wav");
@@ -151,6 +160,9 @@ mod tests {
         let (rf64, read) = round_trip(2399);
         assert_eq!((&rf64[..4], &rf64[12..16], read), (&b"RF64"[..], &b"ds64"[..], codes()));
         let of_64_bits = |at: usize| u64::from_le_bytes(rf64[at..at + 8].try_into().unwrap());
-        assert_eq!([of_64_bits(20), of_64_bits(28), of_64_bits(36)], [rf64.len() as u64 - 8, 2400, 100]);
+        assert_eq!(
+            [of_64_bits(20), of_64_bits(28), of_64_bits(36)],
+            [rf64.len() as u64 - 8, 2400, 100]
+        );
     }
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Fitting a position table to points of known place.
 //!
-//! Splines by least squares with a little smoothness, which settles coefficients that no point does.
+//! Splines by least squares with a little smoothness, which settles coefficients that no point
+//! does.
 
 use super::PositionTable;
 use crate::calibration::layout::{Axis, Layout, Scalar, Surface};
@@ -46,7 +47,9 @@ pub enum PositionError {
         got: f64,
     },
     /// The table's cells are larger than its words can say.
-    #[error("expected cells of less than {most} mm, got {got:.0} mm: choose a table with more columns or rows")]
+    #[error(
+        "expected cells of less than {most} mm, got {got:.0} mm: choose a table with more columns or rows"
+    )]
     Coarse {
         /// The table's words represent cells smaller than this, mm.
         most: f64,
@@ -54,22 +57,26 @@ pub enum PositionError {
         got: f64,
     },
     /// Ratios do not tell places apart.
-    #[error("expected ratios that tell the places apart: finite, and different wherever the places are")]
+    #[error(
+        "expected ratios that tell the places apart: finite, and different wherever the places are"
+    )]
     Ambiguous,
 }
 
 /// How much smoothness counts against nearness: it settles coefficients that no point does.
 const SMOOTHNESS: f64 = 1e-7;
-/// By how much of a cell the table reaches beyond the points, so that noise at their edge does not end at the table's.
+/// By how much of a cell the table reaches beyond the points, so that noise at their edge does not
+/// end at the table's.
 const BEYOND: f64 = 0.25;
 /// The largest coefficient of a normalised ratio.
 const FULL: f64 = 0.97;
 
 impl PositionTable {
-    /// Fits points, which may lie anywhere; the table spans the rectangle about them and a little more.
+    /// Fits points, which may lie anywhere; the table spans the rectangle about them and a little
+    /// more.
     ///
-    /// Ratios are fitted by least squares, a point counting as much as its place depends on them (the norm of J⁻¹, from a first
-    /// fit in which all count alike).
+    /// Ratios are fitted by least squares, a point counting as much as its place depends on them
+    /// (the norm of J⁻¹, from a first fit in which all count alike).
     ///
     /// ```
     /// use hapticore_contract::calibration::{Point, PositionError, PositionTable};
@@ -84,10 +91,12 @@ impl PositionTable {
     /// ```
     ///
     /// # Errors
-    /// Where the points span no area or one beyond the words' range, or their ratios do not tell places apart.
+    /// Where the points span no area or one beyond the words' range, or their ratios do not tell
+    /// places apart.
     pub fn fit(profile: &Profile, points: &[Point]) -> Result<PositionTable, PositionError> {
-        let finite =
-            |point: &Point| [point.x, point.y, point.r_x, point.r_y, point.sheet].iter().all(|x| x.is_finite());
+        let finite = |point: &Point| {
+            [point.x, point.y, point.r_x, point.r_y, point.sheet].iter().all(|x| x.is_finite())
+        };
         if !points.iter().all(finite) {
             return Err(PositionError::Ambiguous);
         }
@@ -105,19 +114,25 @@ impl PositionTable {
         table.span(profile, points)?;
         let places: Vec<_> = points.iter().map(|point| table.place([point.x, point.y])).collect();
         table.fit_ratios(&places, points, &vec![1.0; points.len()])?;
-        let importance = places.iter().map(|&place| table.sensitivity(place)).collect::<Option<Vec<_>>>();
+        let importance =
+            places.iter().map(|&place| table.sensitivity(place)).collect::<Option<Vec<_>>>();
         let importance = importance.ok_or(PositionError::Ambiguous)?;
         table.fit_ratios(&places, points, &importance)?;
         table.fit_resistance(&places, points)?;
         table.scale(profile.formats.table);
         table.fit_start(&places, points)?;
         table.set_words(profile);
-        if table.words.iter().all(|word| word.is_finite()) { Ok(table) } else { Err(PositionError::Ambiguous) }
+        if table.words.iter().all(|word| word.is_finite()) {
+            Ok(table)
+        } else {
+            Err(PositionError::Ambiguous)
+        }
     }
 
     /// The table's rectangle, in numbers that its words hold.
     fn span(&mut self, profile: &Profile, points: &[Point]) -> Result<(), PositionError> {
-        let extents = [|point: &Point| point.x, |point: &Point| point.y].map(|of| extent(points.iter().map(of)));
+        let extents = [|point: &Point| point.x, |point: &Point| point.y]
+            .map(|of| extent(points.iter().map(of)));
         let [width, height] = extents.map(|[low, high]| high - low);
         let area = width > 0.0 && height > 0.0 && points.len() >= 4;
         if !area {
@@ -141,7 +156,8 @@ impl PositionTable {
         Ok(())
     }
 
-    /// Centres and gains that take the coefficients into the words' range, as words of the table hold them.
+    /// Centres and gains that take the coefficients into the words' range, as words of the table
+    /// hold them.
     fn scale(&mut self, word: Format) {
         let rounded = |x: f64| word.real(word.code_saturating(x));
         for (ratio, scale) in self.ratios.iter().zip(&mut self.scales) {
@@ -156,7 +172,8 @@ impl PositionTable {
         let mut fit = Fit::new(3, 2);
         for (place, point) in places.iter().zip(points) {
             let [r_x, r_y] = self.normalised([point.r_x, point.r_y]);
-            let from_middle = [place[0] - self.cells(Axis::X) / 2.0, place[1] - self.cells(Axis::Y) / 2.0];
+            let from_middle =
+                [place[0] - self.cells(Axis::X) / 2.0, place[1] - self.cells(Axis::Y) / 2.0];
             fit.ask(&[(0, 1.0), (1, r_x), (2, r_y)], &from_middle, 1.0);
         }
         let found = fit.solve().ok_or(PositionError::Ambiguous)?;
@@ -168,8 +185,10 @@ impl PositionTable {
     fn set_words(&mut self, profile: &Profile) {
         let range = range(profile);
         for axis in [Axis::X, Axis::Y] {
-            let ([origin, pitch], [centre, gain]) = (self.geometry[axis as usize], self.scales[axis as usize]);
-            let [constant, of_x, of_y] = self.start[axis as usize].map(|guess| guess / Layout::CELLS / 4.0);
+            let ([origin, pitch], [centre, gain]) =
+                (self.geometry[axis as usize], self.scales[axis as usize]);
+            let [constant, of_x, of_y] =
+                self.start[axis as usize].map(|guess| guess / Layout::CELLS / 4.0);
             let scalars = [
                 (Scalar::Gain, gain / Layout::GAIN),
                 (Scalar::Centre, centre / 2.0),
@@ -179,18 +198,28 @@ impl PositionTable {
                 (Scalar::Pitch, pitch * Layout::CELLS / 2.0 / range),
                 (Scalar::Origin, -origin / range),
             ];
-            scalars.into_iter().for_each(|(scalar, word)| self.words[self.layout.scalar(scalar, axis)] = word);
+            scalars
+                .into_iter()
+                .for_each(|(scalar, word)| self.words[self.layout.scalar(scalar, axis)] = word);
         }
         for (surface, k) in [(Surface::RatioX, 0), (Surface::RatioY, 1)] {
             let [centre, gain] = self.scales[k];
             let words = self.ratios[k].iter().map(|ratio| (ratio - centre) * gain);
-            self.words.splice(range_of(self.layout.surface(surface), self.ratios[k].len()), words.collect::<Vec<_>>());
+            self.words.splice(
+                range_of(self.layout.surface(surface), self.ratios[k].len()),
+                words.collect::<Vec<_>>(),
+            );
         }
         let from = self.layout.surface(Surface::Resistance);
         self.words[from..].copy_from_slice(&self.resistance);
     }
 
-    fn fit_ratios(&mut self, places: &[[f64; 2]], points: &[Point], importance: &[f64]) -> Result<(), PositionError> {
+    fn fit_ratios(
+        &mut self,
+        places: &[[f64; 2]],
+        points: &[Point],
+        importance: &[f64],
+    ) -> Result<(), PositionError> {
         let surface = Surface::RatioX;
         let size = self.size(surface);
         let mut fit = Fit::new(size[0] * size[1], 2);
@@ -205,7 +234,11 @@ impl PositionTable {
         Ok(())
     }
 
-    fn fit_resistance(&mut self, places: &[[f64; 2]], points: &[Point]) -> Result<(), PositionError> {
+    fn fit_resistance(
+        &mut self,
+        places: &[[f64; 2]],
+        points: &[Point],
+    ) -> Result<(), PositionError> {
         let surface = Surface::Resistance;
         let size = self.size(surface);
         let mut fit = Fit::new(size[0] * size[1], 1);
@@ -219,12 +252,14 @@ impl PositionTable {
         Ok(())
     }
 
-    /// How many millimetres a place moves with its ratios: the norm of J⁻¹. None where it does not depend on them.
+    /// How many millimetres a place moves with its ratios: the norm of J⁻¹. None where it does not
+    /// depend on them.
     fn sensitivity(&self, place: [f64; 2]) -> Option<f64> {
         let [[_, xu, xv], [_, yu, yv]] = self.at(place);
         let [[_, along], [_, across]] = self.geometry;
         let determinant = xu * yv - xv * yu;
-        let norm = ((along * yv).hypot(along * xv).hypot(across * xu)).hypot(across * yu) / determinant.abs();
+        let norm = ((along * yv).hypot(along * xv).hypot(across * xu)).hypot(across * yu)
+            / determinant.abs();
         norm.is_finite().then_some(norm)
     }
 
@@ -232,7 +267,11 @@ impl PositionTable {
     pub fn errors<'a>(&'a self, points: &'a [Point]) -> impl Iterator<Item = f64> + 'a {
         points.iter().map(|point| {
             let found = self.look_up(point.r_x, point.r_y);
-            if found.is_valid() { (found.x - point.x).hypot(found.y - point.y) } else { f64::INFINITY }
+            if found.is_valid() {
+                (found.x - point.x).hypot(found.y - point.y)
+            } else {
+                f64::INFINITY
+            }
         })
     }
 }
@@ -255,7 +294,11 @@ fn extent(values: impl Iterator<Item = f64>) -> [f64; 2] {
 /// Asks that second differences along rows and columns be small.
 fn smooth(fit: &mut Fit, [columns, rows]: [usize; 2], layers: usize, importance: f64) {
     let mut bend = |at: usize, step: usize| {
-        fit.ask(&[(at - step, 1.0), (at, -2.0), (at + step, 1.0)], &[0.0, 0.0][..layers], importance);
+        fit.ask(
+            &[(at - step, 1.0), (at, -2.0), (at + step, 1.0)],
+            &[0.0, 0.0][..layers],
+            importance,
+        );
     };
     for at in 0..columns * rows {
         let (column, row) = (at % columns, at / columns);
@@ -287,23 +330,35 @@ mod tests {
         assert!(fit(&raster(9, 9, 0.1)).is_ok());
         assert!(matches!(fit(&raster(9, 1, 0.1)), Err(PositionError::Area { .. })));
         assert!(matches!(fit(&[]), Err(PositionError::Area { .. })));
-        let far: Vec<_> = raster(9, 9, 0.1).into_iter().map(|point| Point { x: point.x + 2000.0, ..point }).collect();
+        let far: Vec<_> = raster(9, 9, 0.1)
+            .into_iter()
+            .map(|point| Point { x: point.x + 2000.0, ..point })
+            .collect();
         assert!(matches!(fit(&far), Err(PositionError::Range { .. })));
-        assert_eq!(fit(&raster(9, 9, 0.0)), Err(PositionError::Ambiguous), "the same ratios everywhere");
+        assert_eq!(
+            fit(&raster(9, 9, 0.0)),
+            Err(PositionError::Ambiguous),
+            "the same ratios everywhere"
+        );
         assert_eq!(fit(&raster(9, 9, f64::NAN)), Err(PositionError::Ambiguous));
     }
 
-    /// Terminals with large resistances in series leave ratios that hardly differ, and others that do not have their middle at
-    /// zero.
+    /// Terminals with large resistances in series leave ratios that hardly differ, and others that
+    /// do not have their middle at zero.
     #[test]
     fn words_span_their_range_whatever_the_ratios_span() {
         for (r, offset) in [(0.1, 0.0), (0.01, 0.3), (0.005, -0.6)] {
-            let shifted = |point: Point| Point { r_x: point.r_x + offset, r_y: point.r_y - offset, ..point };
+            let shifted =
+                |point: Point| Point { r_x: point.r_x + offset, r_y: point.r_y - offset, ..point };
             let points: Vec<_> = raster(9, 9, r).into_iter().map(shifted).collect();
             let table = fit(&points).expect("a table");
-            let coefficients = &table.words[table.layout.surface(Surface::RatioX)..][..table.ratios[0].len()];
+            let coefficients =
+                &table.words[table.layout.surface(Surface::RatioX)..][..table.ratios[0].len()];
             let [low, high] = extent(coefficients.iter().copied());
-            assert!(low > -1.0 && high < 1.0 && high - low > 0.3, "{low} to {high} of ratios rising by {r}");
+            assert!(
+                low > -1.0 && high < 1.0 && high - low > 0.3,
+                "{low} to {high} of ratios rising by {r}"
+            );
             let worst = table.errors(&points).fold(0.0, f64::max);
             assert!(worst < 1e-5, "{worst} mm");
         }

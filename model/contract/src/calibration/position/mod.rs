@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The position table: splines of what is read over the sheet, and the place for a pair of ratios, by Newton steps.
+//! The position table: splines of what is read over the sheet, and the place for a pair of ratios,
+//! by Newton steps.
 
 mod fit;
 
@@ -47,7 +48,8 @@ impl<T: Real> Found<T> {
     }
 }
 
-/// How what is looked up depends on the ratios, to first order: what an error of a ratio makes of it.
+/// How what is looked up depends on the ratios, to first order: what an error of a ratio makes of
+/// it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Condition {
     /// Millimetres per unit of r_x and of r_y: those of x, then those of y.
@@ -71,8 +73,8 @@ type Slopes<T> = [[T; 3]; 2];
 type Term<T> = (usize, T, [T; 2]);
 
 impl PositionTable {
-    /// The table, with the share of the ratios' denominator below which a terminal's current counts as that of an open one; of
-    /// a table as it is fitted none does.
+    /// The table, with the share of the ratios' denominator below which a terminal's current counts
+    /// as that of an open one; of a table as it is fitted none does.
     #[must_use]
     pub fn with_open_share(mut self, share: f64) -> Self {
         self.open_share = share;
@@ -80,7 +82,8 @@ impl PositionTable {
         self
     }
 
-    /// The share of the ratios' denominator below which a terminal's current counts as that of an open one.
+    /// The share of the ratios' denominator below which a terminal's current counts as that of an
+    /// open one.
     pub fn open_share(&self) -> f64 {
         self.open_share
     }
@@ -99,11 +102,15 @@ impl PositionTable {
 
     /// What a cell of the ratios' splines is of one of the surface's.
     fn cell(&self, surface: Surface) -> f64 {
-        if surface == Surface::Resistance { 2f64.powi(-i32::from(self.layout.shift())) } else { 1.0 }
+        if surface == Surface::Resistance {
+            2f64.powi(-i32::from(self.layout.shift()))
+        } else {
+            1.0
+        }
     }
 
-    /// The nine coefficients about a place: each one's number, and its weight in the value and in the slopes along u and v, in
-    /// cells of the surface.
+    /// The nine coefficients about a place: each one's number, and its weight in the value and in
+    /// the slopes along u and v, in cells of the surface.
     fn terms<T: Real>(&self, surface: Surface, place: [T; 2]) -> [Term<T>; 9] {
         let size = self.size(surface);
         let [(column, across), (row, down)] = [Axis::X, Axis::Y].map(|axis| {
@@ -154,7 +161,8 @@ impl PositionTable {
         Found { x, y, sheet, residual }
     }
 
-    /// How what is found at a place depends on the ratios; None where the ratios do not tell places apart.
+    /// How what is found at a place depends on the ratios; None where the ratios do not tell places
+    /// apart.
     pub fn condition(&self, x_mm: f64, y_mm: f64) -> Option<Condition> {
         let place = self.place([x_mm, y_mm]);
         let [[_, xu, xv], [_, yu, yv]] = self.at(place);
@@ -179,7 +187,8 @@ impl PositionTable {
     fn first_guess<T: Real>(&self, ratios: [T; 2]) -> [T; 2] {
         let [r_x, r_y] = self.normalised(ratios);
         [Axis::X, Axis::Y].map(|axis| {
-            let ([constant, of_x, of_y], cells) = (self.start[axis as usize].map(real::<T>), self.cells(axis));
+            let ([constant, of_x, of_y], cells) =
+                (self.start[axis as usize].map(real::<T>), self.cells(axis));
             clamp(constant + of_x * r_x + of_y * r_y + real(cells / 2.0), 0.0, cells)
         })
     }
@@ -230,7 +239,11 @@ fn slopes<T: Real>(terms: &[Term<T>; 9], coefficients: &[f64]) -> [T; 3] {
 fn basis<T: Real>(place: T, cells: usize) -> (usize, [[T; 2]; 3]) {
     let cell = clamp(place.floor(), 0.0, cells as f64 - 1.0);
     let (f, one, two, half) = (place - cell, T::one(), real::<T>(2.0), real::<T>(0.5));
-    let weights = [[(one - f) * (one - f) / two, f - one], [half + f * (one - f), one - two * f], [f * f / two, f]];
+    let weights = [
+        [(one - f) * (one - f) / two, f - one],
+        [half + f * (one - f), one - two * f],
+        [f * f / two, f],
+    ];
     (cell.to_usize().unwrap_or(0), weights)
 }
 
@@ -239,7 +252,8 @@ mod tests {
     use super::*;
     use crate::profile::Profile;
 
-    /// A sheet whose ratios rise less towards its edges, and whose resistance is not the same everywhere.
+    /// A sheet whose ratios rise less towards its edges, and whose resistance is not the same
+    /// everywhere.
     fn table() -> PositionTable {
         let profile = Profile::bundled("standard").expect("bundled");
         let point = |k: usize| {
@@ -247,7 +261,8 @@ mod tests {
             let (r_x, r_y) = ((1.2 * u).sin() * (1.0 - 0.1 * v * v), 0.8 * v.sin());
             Point { x: 400.0 * u, y: 220.0 * v, r_x, r_y, sheet: 0.05 + 0.02 * u * u + 0.01 * v }
         };
-        PositionTable::fit(&profile, &(0..41 * 25).map(point).collect::<Vec<_>>()).expect("a raster")
+        PositionTable::fit(&profile, &(0..41 * 25).map(point).collect::<Vec<_>>())
+            .expect("a raster")
     }
 
     #[test]
@@ -259,9 +274,18 @@ mod tests {
             let condition = table.condition(at.x, at.y).expect("a place");
             let near = |got: f64, expected: f64| (got - expected).abs() < 1e-4 * got.abs().max(1.0);
             for (k, moved) in moved.iter().enumerate() {
-                assert!(near(condition.place[0][k], (moved.x - at.x) / h), "{condition:?}, {moved:?}");
-                assert!(near(condition.place[1][k], (moved.y - at.y) / h), "{condition:?}, {moved:?}");
-                assert!(near(condition.sheet[k], (moved.sheet - at.sheet) / h), "{condition:?}, {moved:?}");
+                assert!(
+                    near(condition.place[0][k], (moved.x - at.x) / h),
+                    "{condition:?}, {moved:?}"
+                );
+                assert!(
+                    near(condition.place[1][k], (moved.y - at.y) / h),
+                    "{condition:?}, {moved:?}"
+                );
+                assert!(
+                    near(condition.sheet[k], (moved.sheet - at.sheet) / h),
+                    "{condition:?}, {moved:?}"
+                );
             }
         }
     }

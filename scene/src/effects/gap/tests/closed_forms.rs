@@ -31,32 +31,40 @@ fn a_squeezed_film_takes_stefans_time() {
     for method in [Method::Trapezoid, Method::TrBdf2] {
         let mut at = State { gap_m: from_m - 0.7e-6, speed_m_s: 0.0, creep_m: 0.0 };
         for _ in 0..10_000 {
-            at = method.step(&law, REST_M, at, stefan_s / 10_000.0, |_| Drive { pull_n: 0.0, pressure_pa });
+            at = method.step(&law, REST_M, at, stefan_s / 10_000.0, |_| Drive {
+                pull_n: 0.0,
+                pressure_pa,
+            });
         }
         let off = (at.gap_m + 0.7e-6) / to_m - 1.0;
         assert!(off.abs() < 1e-5, "{method:?}: {off:e}");
     }
 }
 
-/// t → πc/(κ√(1.5ε)), c at the fold; the path to the fold and from it adds a share that falls as √ε.
-/// docs/physics.md §3 has the form; the limits were set after measuring.
+/// t → πc/(κ√(1.5ε)), c at the fold; the path to the fold and from it adds a share that falls as
+/// √ε. docs/physics.md §3 has the form; the limits were set after measuring.
 #[test]
 fn delay_above_the_fold_tends_to_the_closed_form() {
     let law = Law { inertia_kg_m2: 1e-3, ..bare() };
     let fold = law.film(19.66e-6 * 2.0 / 3.0 - 5e-6).value / 5e8;
     let excess = |epsilon: f64| {
-        let volt = (8.0 * 5e8 * 19.66e-6f64.powi(3) / (27.0 * ROUNDED_EPSILON_0)).sqrt() * (1.0 + epsilon);
+        let volt =
+            (8.0 * 5e8 * 19.66e-6f64.powi(3) / (27.0 * ROUNDED_EPSILON_0)).sqrt() * (1.0 + epsilon);
         let pull_n = 0.5 * ROUNDED_EPSILON_0 * volt * volt;
         let (mut at, mut time_s, step_s) = (at_rest(&law), 0.0, 20e-6);
         while at.gap_m > 4e-6 {
-            at = Method::TrBdf2.step(&law, REST_M, at, step_s, |_| Drive { pull_n, pressure_pa: 0.0 });
+            at = Method::TrBdf2
+                .step(&law, REST_M, at, step_s, |_| Drive { pull_n, pressure_pa: 0.0 });
             time_s += step_s;
         }
         time_s / (PI * fold / (1.5 * epsilon).sqrt()) - 1.0
     };
     let [near, nearer, nearest] = [1e-4, 1e-5, 1e-6].map(excess);
     println!("off by {near:e} {nearer:e} {nearest:e}");
-    assert!(nearest.abs() < 2e-4 && nearer.abs() < 6e-4 && near.abs() < 2e-3, "{near:e} {nearer:e} {nearest:e}");
+    assert!(
+        nearest.abs() < 2e-4 && nearer.abs() < 6e-4 && near.abs() < 2e-3,
+        "{near:e} {nearer:e} {nearest:e}"
+    );
 }
 
 #[test]

@@ -25,17 +25,26 @@ fn capacitance_pf(pad: &Rubber, volt: f64, load_g: f64) -> f64 {
 #[test]
 fn capacitance_at_rest_is_353_to_373_pf_from_20_to_50_g() {
     let at = |load_g| capacitance_pf(&pad(), 0.0, load_g);
-    assert!((at(20.0) - 353.0).abs() < 0.5 && (at(50.0) - 373.0).abs() < 0.5, "{} {}", at(20.0), at(50.0));
+    assert!(
+        (at(20.0) - 353.0).abs() < 0.5 && (at(50.0) - 373.0).abs() < 0.5,
+        "{} {}",
+        at(20.0),
+        at(50.0)
+    );
 }
 
 #[test]
 fn every_patch_is_in_balance_wherever_it_floats() {
     let pad = pad();
-    for (rest_m, step) in pad.rest_m.iter().flat_map(|rest| (0..60).map(move |step| (*rest, step))) {
+    for (rest_m, step) in pad.rest_m.iter().flat_map(|rest| (0..60).map(move |step| (*rest, step)))
+    {
         let drive = Drive::new(10.0 * f64::from(step), 300.0);
         let gap_m = equilibrium(&pad.law, rest_m, drive);
         let balance = pad.law.relaxed(gap_m, rest_m, drive);
-        assert!(balance.value.abs() < 1e-6 && balance.slope < 0.0, "{rest_m} {drive:?}: {balance:?} at {gap_m}");
+        assert!(
+            balance.value.abs() < 1e-6 && balance.slope < 0.0,
+            "{rest_m} {drive:?}: {balance:?} at {gap_m}"
+        );
     }
 }
 
@@ -55,7 +64,8 @@ fn the_branch_is_the_open_one_up_to_the_fold() {
 fn capacitance_rises_with_load_and_voltage() {
     let pad = pad();
     for load_g in [0.0, 20.0, 50.0, 100.0] {
-        let rising: Vec<f64> = (0..80).map(|step| capacitance_pf(&pad, 10.0 * f64::from(step), load_g)).collect();
+        let rising: Vec<f64> =
+            (0..80).map(|step| capacitance_pf(&pad, 10.0 * f64::from(step), load_g)).collect();
         assert!(rising.windows(2).all(|pair| pair[0] <= pair[1]), "{load_g} g: {rising:?}");
         assert!(capacitance_pf(&pad, 300.0, load_g) < capacitance_pf(&pad, 300.0, load_g + 10.0));
     }

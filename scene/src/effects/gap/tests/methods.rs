@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Each method against the reference: the order at which its error falls, the table of docs/physics.md §3, and what it must survive.
+//! Each method against the reference: the order at which its error falls, the table of
+//! docs/physics.md §3, and what it must survive.
 
 use super::*;
 
@@ -25,13 +26,19 @@ fn step_of_400_v(time_s: f64) -> f64 {
 #[test]
 fn each_error_falls_at_its_methods_order() {
     let law = law(AIR_PA_S);
-    for (by, order, to_volt) in ALL.into_iter().zip([1, 1, 1, 2, 2]).zip([300.0, 400.0, 400.0, 400.0, 400.0]).map(flat)
+    for (by, order, to_volt) in
+        ALL.into_iter().zip([1, 1, 1, 2, 2]).zip([300.0, 400.0, 400.0, 400.0, 400.0]).map(flat)
     {
         let exact = run(by, &law, swell(to_volt), 1e-6, 1e-3, 0.1);
-        let error = |step_s: f64| capacitance_error(&run(by, &law, swell(to_volt), step_s, 1e-3, 0.1), &exact);
+        let error = |step_s: f64| {
+            capacitance_error(&run(by, &law, swell(to_volt), step_s, 1e-3, 0.1), &exact)
+        };
         let [coarse, fine] = [error(1e-4), error(5e-5)];
         let measured = (coarse / fine).log2();
-        assert!((measured - f64::from(order)).abs() < 0.1, "{by:?}: {coarse:e} {fine:e}, order {measured}");
+        assert!(
+            (measured - f64::from(order)).abs() < 0.1,
+            "{by:?}: {coarse:e} {fine:e}, order {measured}"
+        );
     }
 }
 
@@ -39,8 +46,9 @@ fn flat(((by, order), volt): ((By, i32), f64)) -> (By, i32, f64) {
     (by, order, volt)
 }
 
-/// The prototype's errors (docs/physics.md §3), within a factor of 1.3: its film constant is 1.24 times that of a disc of an eighth of the pad.
-/// The factor was set after measuring errors of 1.2 to 1.27 times the prototype's; a trapezoid at 1 ms rings to 0.81, the prototype's to 0.38.
+/// The prototype's errors (docs/physics.md §3), within a factor of 1.3: its film constant is 1.24
+/// times that of a disc of an eighth of the pad. The factor was set after measuring errors of 1.2
+/// to 1.27 times the prototype's; a trapezoid at 1 ms rings to 0.81, the prototype's to 0.38.
 #[test]
 fn errors_of_0_to_400_to_0_v_are_those_of_the_table() {
     let law = law(AIR_PA_S);
@@ -57,27 +65,41 @@ fn errors_of_0_to_400_to_0_v_are_those_of_the_table() {
     ] {
         let error = capacitance_error(&run(by, step_s), &exact);
         println!("{by:?} {step_s:e}: {error:.1e}, prototype {physics:.1e}");
-        assert!((physics..1.3 * physics).contains(&error), "{by:?} {step_s:e}: {error:e}, prototype {physics:e}");
+        assert!(
+            (physics..1.3 * physics).contains(&error),
+            "{by:?} {step_s:e}: {error:e}, prototype {physics:e}"
+        );
     }
     let ringing = capacitance_error(&run(By::Dynamic(Method::Trapezoid), 1e-3), &exact);
     let explicit = capacitance_error(&run(By::Rk4, 2e-7), &exact);
-    println!("trapezoid at 1 ms {ringing:.2}, prototype 0.38; RK4 at 0.2 µs {explicit:.1e}, prototype 1e-9");
+    println!(
+        "trapezoid at 1 ms {ringing:.2}, prototype 0.38; RK4 at 0.2 µs {explicit:.1e}, prototype 1e-9"
+    );
     assert!(ringing > 0.38 && explicit < 1e-9);
 }
 
 #[test]
 fn explicit_steps_diverge_after_closure_from_half_a_microsecond_on() {
-    let gap = |step_s: f64| run(By::Rk4, &law(AIR_PA_S), |_| 400.0, step_s, 1e-3, 0.02).last().unwrap().gap_m;
+    let gap = |step_s: f64| {
+        run(By::Rk4, &law(AIR_PA_S), |_| 400.0, step_s, 1e-3, 0.02).last().unwrap().gap_m
+    };
     let closed = equilibrium(&law(AIR_PA_S), REST_M, Drive::new(400.0, 0.0));
-    assert!((gap(2e-7) / closed - 1.0).abs() < 0.3 && !gap(5e-7).is_finite(), "{} {}", gap(2e-7), gap(5e-7));
+    assert!(
+        (gap(2e-7) / closed - 1.0).abs() < 0.3 && !gap(5e-7).is_finite(),
+        "{} {}",
+        gap(2e-7),
+        gap(5e-7)
+    );
 }
 
-/// Inertia matters little: a patch without it is within the prototype's 8e-4 (docs/physics.md §3) as long as nothing pulls in.
+/// Inertia matters little: a patch without it is within the prototype's 8e-4 (docs/physics.md §3)
+/// as long as nothing pulls in.
 #[test]
 fn leaving_inertia_out_costs_less_than_the_models_floor() {
     let law = law(AIR_PA_S);
     let run = |by, step_s| run(by, &law, swell(300.0), step_s, 1e-3, 0.1);
-    let floor = capacitance_error(&run(By::QuasiStatic, 1e-6), &run(By::Dynamic(Method::TrBdf2), 1e-5));
+    let floor =
+        capacitance_error(&run(By::QuasiStatic, 1e-6), &run(By::Dynamic(Method::TrBdf2), 1e-5));
     println!("without inertia: {floor:.1e}");
     assert!(floor > 1e-7 && floor < 8e-4, "{floor:e}");
 }
@@ -87,12 +109,14 @@ fn no_gap_is_negative_or_no_number_up_to_600_v_and_back() {
     let volt = |time_s: f64| if time_s < 0.05 { 600.0 } else { 0.0 };
     for (film_pa_s, by) in [AIR_PA_S, 1e-6].into_iter().flat_map(|film| ALL.map(|by| (film, by))) {
         let law = law(film_pa_s);
-        let steps: &[f64] = if by.is(Method::SemiImplicit) { &[1e-5, 2e-4] } else { &[1e-5, 1e-4, 1e-3] };
+        let steps: &[f64] =
+            if by.is(Method::SemiImplicit) { &[1e-5, 2e-4] } else { &[1e-5, 1e-4, 1e-3] };
         for &step_s in steps {
             let states = run(by, &law, volt, step_s, step_s, 2.0);
             let least = states.iter().map(|state| state.gap_m).fold(f64::INFINITY, f64::min);
             let closed = equilibrium(&law, REST_M, Drive::new(600.0, 0.0));
-            let deepest = if by.is(Method::SemiImplicit) || step_s > 1e-4 { 0.0 } else { 0.75 * closed };
+            let deepest =
+                if by.is(Method::SemiImplicit) || step_s > 1e-4 { 0.0 } else { 0.75 * closed };
             assert!(
                 least >= deepest && states.iter().all(|state| state.gap_m.is_finite()),
                 "{by:?} {step_s} {least:e}"
@@ -109,8 +133,12 @@ fn a_patch_without_load_lifts_off_from_contact_and_comes_to_rest() {
         let law = Law { creep_spring_pa_per_m: 1.75e8, creep_s: 0.05, ..law(AIR_PA_S) };
         let closed = State { gap_m: 0.0, speed_m_s: 0.0, creep_m: 0.0 };
         let free = |at: State| by.step(&law, at, 1e-4, |_| Drive::new(0.0, 0.0));
-        let states: Vec<State> = std::iter::successors(Some(closed), |at| Some(free(*at))).take(10_000).collect();
-        let over = states.iter().map(|state| state.gap_m / at_rest(&law).gap_m - 1.0).fold(f64::NEG_INFINITY, f64::max);
+        let states: Vec<State> =
+            std::iter::successors(Some(closed), |at| Some(free(*at))).take(10_000).collect();
+        let over = states
+            .iter()
+            .map(|state| state.gap_m / at_rest(&law).gap_m - 1.0)
+            .fold(f64::NEG_INFINITY, f64::max);
         let rest = states.last().unwrap().gap_m / at_rest(&law).gap_m - 1.0;
         assert!(rest.abs() < 1e-6 && over < 0.1, "{by:?}: {rest:e} {over}");
     }

@@ -17,7 +17,8 @@ const ROUNDED_EPSILON_0: f64 = 8.854e-12;
 /// g₀ of the single patch of docs/physics.md §3: h₀ = 19.66 µm.
 const REST_M: f64 = 14.66e-6;
 
-/// The patch of docs/physics.md §3 without creep, an eighth of the pad over a film of this viscosity.
+/// The patch of docs/physics.md §3 without creep, an eighth of the pad over a film of this
+/// viscosity.
 fn law(film_pa_s: f64) -> Law {
     Law {
         spring_pa_per_m: 5e8,
@@ -82,12 +83,21 @@ fn at_rest(law: &Law) -> State {
 }
 
 /// The patch's states every `every_s`, its voltage given over time.
-fn run(by: By, law: &Law, volt: impl Fn(f64) -> f64, step_s: f64, every_s: f64, until_s: f64) -> Vec<State> {
+fn run(
+    by: By,
+    law: &Law,
+    volt: impl Fn(f64) -> f64,
+    step_s: f64,
+    every_s: f64,
+    until_s: f64,
+) -> Vec<State> {
     const INSIDE: f64 = 1e-6; // so that a step of the voltage on the grid falls between two steps of time
     let steps_each = (every_s / step_s).round() as usize;
     let mut at = at_rest(law);
     let step = |n: usize| {
-        let drive = |fraction: f64| Drive::new(volt((n as f64 + fraction.clamp(INSIDE, 1.0 - INSIDE)) * step_s), 0.0);
+        let drive = |fraction: f64| {
+            Drive::new(volt((n as f64 + fraction.clamp(INSIDE, 1.0 - INSIDE)) * step_s), 0.0)
+        };
         at = by.step(law, at, step_s, drive);
         (n + 1).is_multiple_of(steps_each).then_some(at)
     };
@@ -97,5 +107,8 @@ fn run(by: By, law: &Law, volt: impl Fn(f64) -> f64, step_s: f64, every_s: f64, 
 /// The largest relative difference of capacitance.
 fn capacitance_error(got: &[State], exact: &[State]) -> f64 {
     let height = |state: &State| state.gap_m + 5e-6;
-    got.iter().zip(exact).map(|(got, exact)| (height(exact) / height(got) - 1.0).abs()).fold(0.0, f64::max)
+    got.iter()
+        .zip(exact)
+        .map(|(got, exact)| (height(exact) / height(got) - 1.0).abs())
+        .fold(0.0, f64::max)
 }

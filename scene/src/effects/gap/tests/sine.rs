@@ -8,7 +8,8 @@ use super::*;
 const STEP_S: f64 = 1e-5;
 const PRESSURE_PA: f64 = 707.4;
 
-/// The pad's Σ1/(g+d) and Σpull/(g+d)² over the last tenth of a second: capacitance and force, up to factors.
+/// The pad's Σ1/(g+d) and Σpull/(g+d)² over the last tenth of a second: capacitance and force, up
+/// to factors.
 fn tail(volt: f64, sine_hz: Option<f64>) -> [Vec<f64>; 2] {
     const STEPS: usize = 50_000;
     const TAIL: usize = 10_000;
@@ -21,7 +22,8 @@ fn tail(volt: f64, sine_hz: Option<f64>) -> [Vec<f64>; 2] {
         let gap_m = equilibrium(&law, rest_m, Drive::new(volt, PRESSURE_PA));
         let mut at = State { gap_m, speed_m_s: 0.0, creep_m: rest_m - gap_m };
         for n in 0..STEPS {
-            at = Method::TrBdf2.step(&law, rest_m, at, STEP_S, |fraction| drive((n as f64 + fraction) * STEP_S));
+            at = Method::TrBdf2
+                .step(&law, rest_m, at, STEP_S, |fraction| drive((n as f64 + fraction) * STEP_S));
             if let Some(n_tail) = (n + TAIL).checked_sub(STEPS) {
                 let inverse = 1.0 / (at.gap_m + 5e-6);
                 sums[0][n_tail] += inverse;
@@ -49,15 +51,19 @@ fn at_200_hz_and_above_capacitance_follows_the_mean_square_within_0_2_percent() 
     }
 }
 
-/// The prototype has C +3 %, F +6 % (docs/physics.md §3). The peaks: of C over its value under the mean square, of F over twice its own, in
-/// percent of it. 3.9 and 6.5 were measured, then the limits set around them: what the prototype's figures are of is not known.
+/// The prototype has C +3 %, F +6 % (docs/physics.md §3). The peaks: of C over its value under the
+/// mean square, of F over twice its own, in percent of it. 3.9 and 6.5 were measured, then the
+/// limits set around them: what the prototype's figures are of is not known.
 #[test]
 fn at_50_hz_and_350_v_peaks_rise_by_some_percent() {
     let ([c, f], [steady_c, steady_f]) = (tail(350.0, Some(50.0)), tail(350.0, None));
     let c_percent = 100.0 * (peak(&c) / mean(&steady_c) - 1.0);
     let f_percent = 100.0 * (peak(&f) / mean(&steady_f) - 2.0);
     println!("50 Hz, 350 V: C {c_percent:+.1} %, F {f_percent:+.1} %");
-    assert!((c_percent - 3.9).abs() < 0.2 && (f_percent - 6.5).abs() < 0.2, "C {c_percent} %, F {f_percent} %");
+    assert!(
+        (c_percent - 3.9).abs() < 0.2 && (f_percent - 6.5).abs() < 0.2,
+        "C {c_percent} %, F {f_percent} %"
+    );
 }
 
 #[test]
