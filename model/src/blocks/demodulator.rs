@@ -16,6 +16,15 @@
 //! channel and one for h follow. What has been made in a clock is stored in the next; the first
 //! channel takes the windowed words on their way to their memory.
 //!
+//! ```text
+//! step        0      1      2      3      4      5      6     …  2N+3  2N+4  2N+5      N channels besides h
+//! channel     h      h      x0     x0     x1     x1     x2    …                        asked for; its code comes one cycle later
+//! operands    w·cos  w·sin  w·h    x0·c   x0·s   x1·c   x1·s  …  h·v                   registers after this step
+//! product                   w·cos  w·sin  w·h    x0·c   x0·s  …        …     h·v
+//! windowed                  c      s      v                                            in memory two steps later
+//! sum                                            i0     q0    …        …     m         given out, and stored, one cycle later
+//! ```
+//!
 //! | signal   | format               | unit               | overflow            |
 //! | windowed | ADC's and oscillator's, joined | full scale | cannot (range proof) |
 //! | sum      | exact                | full scale · samples | cannot (range proof) |
@@ -340,8 +349,8 @@ impl Demodulator {
         window_word
     }
 
-    /// While there are windowed_lo to be made, the one that the product is: of cosine, sine, and
-    /// the haptic code. The residues of cosine and sine change places with each.
+    /// While products apply the window: the word of this product, of cosine, sine or the haptic
+    /// code. The residues of cosine and sine change places with each.
     #[inline(always)]
     fn windowed<V: Interpretation>(
         &self,
