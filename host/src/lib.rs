@@ -6,8 +6,9 @@
 //! way, it sends a device's calibration to the board.
 //!
 //! ```text
-//! board ── bytes ─ Decoder ─ Packet ─ Readout ─┬─ Units ─ CrosstalkCanceller ─ Placement ── Quantities, flags
-//!       └─ bytes ─ encode ─ Command ─ startup ─┴─ DeviceCalibration ── mine.toml
+//! board ─ bytes ─ Decoder ─ Packet ─ Readout ─ Quantities, flags
+//!   │                                     ├─ Units, CrosstalkCanceller, Placement
+//!   └─ bytes ─ encode ─ Command ─ startup ┴─ DeviceCalibration ─ mine.toml
 //! ```
 //!
 //! | module | does |
@@ -38,7 +39,8 @@
 //! let mut decoder = Decoder::new(&profile);
 //! let bytes = std::fs::read("recordings/hockey.bin")?;
 //! let frames = decoder.decode(bytes).filter_map(|message| message.ok()?.frame());
-//! let forces: Vec<f64> = frames.map(|packet| readout.convert(&packet.frame.measurement(&profile)).0.force_n).collect();
+//! let measurements = frames.map(|packet| packet.frame.measurement(&profile));
+//! let forces: Vec<f64> = measurements.map(|slot| readout.convert(&slot).0.force_n).collect();
 //! assert_eq!(forces.len(), 5);
 //! assert!(forces.iter().all(|newton| (0.0..0.5).contains(newton)));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
