@@ -4,6 +4,7 @@
 
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::verilog::Design;
+use hapticore_host::profile::for_terminals;
 use hapticore_model::blocks::haptic_voltage::HapticVoltage;
 use hapticore_tests::lockstep::verilator::{Start, Verilated};
 use hapticore_tests::lockstep::{Bench, Trace, icarus};
@@ -61,6 +62,29 @@ fn icarus_runs_what_the_model_runs() {
             {
                 panic!("{name}: {mismatch}");
             }
+        }
+    }
+}
+
+/// A core of so many terminals, the signs of which differ along both axes.
+fn with_terminals(terminals: usize) -> Bench {
+    let small = Profile::bundled("small").expect("bundled");
+    let sign = |period: usize| move |n: usize| if n / period % 2 == 0 { 1 } else { -1 };
+    let signs = [1, 2].map(|period| (0..terminals).map(sign(period)).collect());
+    Bench::of(for_terminals(&small, &signs).expect("3 to 16 terminals"))
+}
+
+#[test]
+fn icarus_runs_what_the_model_runs_of_other_numbers_of_terminals() {
+    if !tools::have(&["iverilog", "vvp"]) {
+        return;
+    }
+    for terminals in [3, 8, 16] {
+        let bench = with_terminals(terminals);
+        assert_eq!(bench.profile.channels(), terminals + 2);
+        let trace = bench.record(stimulus::random(&bench.profile, 4, 1));
+        if let Err(mismatch) = icarus::check(bench.design.top(), &bench.design.text(), &trace) {
+            panic!("{terminals} terminals: {mismatch}");
         }
     }
 }

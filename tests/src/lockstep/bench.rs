@@ -24,7 +24,14 @@ impl Bench {
     /// # Panics
     /// Where there is no such profile.
     pub fn new(profile: &str) -> Bench {
-        let profile = Profile::bundled(profile).expect("bundled");
+        Bench::of(Profile::bundled(profile).expect("bundled"))
+    }
+
+    /// The core of any profile that is accepted.
+    ///
+    /// # Panics
+    /// Where no core can be built of it.
+    pub fn of(profile: Profile) -> Bench {
         let core = Core::new(&profile);
         Bench { design: Design::of(&core, "a test"), core, profile }
     }
