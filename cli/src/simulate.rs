@@ -12,7 +12,7 @@ use hapticore_run::criteria::{self, CaseRows};
 use hapticore_run::record::{Effect, Provenance, Record, Row};
 use hapticore_run::{errors, haptic, inputs};
 use hapticore_scene::{Figure, Quantity, Record as Wanted, Scene, Timing};
-use hapticore_waveforms::wave::Kind;
+use hapticore_waveforms::kind::Kind;
 use rayon::prelude::*;
 
 use crate::args::{SimulateArgs, Waves};

@@ -17,10 +17,11 @@ use hapticore_model::fidelity::clock::ClockSimulation;
 use hapticore_scene::Truth;
 use hapticore_waveforms::declarations::TruthVariable;
 use hapticore_waveforms::gtkwave;
+use hapticore_waveforms::kind::Kind;
 use hapticore_waveforms::timebase::Timebase;
 use hapticore_waveforms::tracer::{Settings, Tracer};
 use hapticore_waveforms::view::View;
-use hapticore_waveforms::wave::{Kind, Wave};
+use hapticore_waveforms::wave::Wave;
 
 use crate::print::number;
 use crate::progress;

@@ -39,6 +39,13 @@ impl Quantity {
     }
 }
 
+impl Units {
+    /// A slot's measurement in physical units.
+    pub fn quantities(&self, measurement: &Measurement) -> Quantities {
+        Quantities::measured(self, measurement)
+    }
+}
+
 /// The quantity of a column.
 pub fn quantity(name: &str) -> Option<&'static Quantity> {
     QUANTITIES.iter().find(|quantity| quantity.name == name)

@@ -2,7 +2,6 @@
 //! Units: the core's numbers in volts, ohms, picofarads, millimetres and newtons.
 
 use crate::device::Scales;
-use crate::quantities::Quantities;
 use hapticore_contract::frame::{Flags, Measurement};
 use hapticore_contract::profile::Profile;
 
@@ -34,11 +33,6 @@ impl Units {
             haptic_v: scales.haptic_full_scale_v,
             square_gain: profile.square_gain(),
         }
-    }
-
-    /// A slot's measurement in physical units.
-    pub fn quantities(&self, measurement: &Measurement) -> Quantities {
-        Quantities::measured(self, measurement)
     }
 
     pub(crate) fn sheet_ohm(&self, measurement: &Measurement) -> f64 {

@@ -3,7 +3,7 @@
 //!
 //! The contract's [`Profile::check_values`] holds the ranges that a profile states of itself. Two
 //! questions are left that only blocks answer: whether every signal fits a word of the model
-//! ([`MAX_WIDTH`]), which each says as it is built, and whether the clocks between two windows
+//! ([`MAX_WIDTH`](hapticore_hdl::format::MAX_WIDTH)), which each says as it is built, and whether the clocks between two windows
 //! suffice.
 
 use crate::blocks::core::Core;
@@ -11,14 +11,11 @@ use crate::blocks::demodulator::POLYPHASE_GAIN;
 use crate::blocks::position::Position;
 use hapticore_contract::calibration::Layout;
 use hapticore_contract::profile::{self, Profile, ProfileError};
-use hapticore_hdl::format::{Format, MAX_WIDTH};
 
 // What the contract says of the core's behaviour, and what the blocks do.
 const _: () = assert!(POLYPHASE_GAIN == profile::POLYPHASE_GAIN);
 const _: () = assert!(Position::TOLERANCE_BITS == Layout::TOLERANCE_BITS);
 const _: () = assert!(Position::STEP_CELLS == Layout::STEP_CELLS);
-
-type Check = Result<(), ProfileError>;
 
 /// Reads a profile that a core can be built from: [`Profile::parse`], then [`check`].
 ///
@@ -46,33 +43,15 @@ pub fn parse_profile(text: &str) -> Result<Profile, ProfileError> {
 ///
 /// # Errors
 /// The first value that does not allow it: field, range and value.
-pub fn check(profile: &Profile) -> Check {
+pub fn check(profile: &Profile) -> Result<(), ProfileError> {
     Core::try_new(profile).map(drop)
-}
-
-/// Whether a word of a block is one of the model's; a field of the profile makes it as wide as it
-/// is.
-pub(crate) fn fits(field: &str, word: &str, width: u8) -> Check {
-    if width <= MAX_WIDTH {
-        return Ok(());
-    }
-    Err(ProfileError::value(field, format_args!("{word} of at most {MAX_WIDTH} bits"), width))
-}
-
-/// Whether words of the model suffice to round a signal to the format of a field.
-pub(crate) fn rounds(field: &str, signal: Format, to: Format) -> Check {
-    fits(field, "what is rounded to it", signal.rounding_width(to))
-}
-
-/// A block of a profile that has been checked.
-pub(crate) fn built<B>(block: Result<B, ProfileError>) -> B {
-    block.unwrap_or_else(|error| panic!("{error}"))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::blocks::demodulator::Demodulator;
+    use hapticore_hdl::format::Format;
 
     #[test]
     fn a_core_can_be_built_of_every_bundled_profile() {

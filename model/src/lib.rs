@@ -31,6 +31,7 @@
 extern crate self as hapticore_model;
 
 pub mod blocks;
+mod buildable;
 mod check;
 pub mod fidelity;
 #[cfg(test)]

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Synthesis, placement and packing of one design, in a folder of its own.
 
-use crate::report::{Cells, ModuleCells, Timing, Used};
+use crate::cells::Cells;
+use crate::report::{ModuleCells, Timing, Used};
 use crate::sources::{File, hash};
 use crate::target::Family;
 use crate::tools::Tools;

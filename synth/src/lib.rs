@@ -14,6 +14,7 @@
 //! | [`flow`] | synthesis, placement and packing of one design |
 //! | [`harness`] | a core between shift registers, so that it can be placed without a board |
 //! | [`isolation`] | proof that no pad can change another's frame |
+//! | [`cells`] | cells of an FPGA, counted by what they are |
 //! | [`report`] | what is committed in `synth/reports/`, as JSON and as text |
 //! | [`sources`] | the Verilog that a report is about, and its hash |
 //! | [`vectors`] | what users without Rust test the Verilog with |
@@ -21,6 +22,7 @@
 //! `synth/run BOARD` is the command; `synth/formal/` and `tests/toolchain/formal.rs` hold the
 //! proofs.
 
+pub mod cells;
 pub mod flow;
 pub mod formal;
 pub mod harness;

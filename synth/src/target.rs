@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! FPGA families, and boards with what must hold on each.
 
-use crate::report::Cells;
+use crate::cells::Cells;
 use hapticore_rtl::board::target::Target;
 
 /// An FPGA family, as the part of it that our boards have.

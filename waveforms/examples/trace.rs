@@ -7,8 +7,8 @@ mod common;
 
 use std::path::Path;
 
+use hapticore_waveforms::kind::Kind;
 use hapticore_waveforms::view::View;
-use hapticore_waveforms::wave::Kind;
 use hapticore_waveforms::{Error, gtkwave};
 
 fn main() -> Result<(), Error> {

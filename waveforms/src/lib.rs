@@ -4,6 +4,7 @@
 //! | module | holds |
 //! | --- | --- |
 //! | [`tracer`] | follows a [`Probe`](hapticore_hdl::probe::Probe) clock by clock and writes what changed |
+//! | [`kind`] | the formats of files, each made by its name |
 //! | [`wave`] | what a waveform file can do: the one trait behind both formats |
 //! | [`vcd_file`], [`fst_file`] | the two formats |
 //! | [`declarations`] | the signals of a trace: paths, formats, scopes |
@@ -23,6 +24,7 @@ mod display;
 mod error;
 pub mod fst_file;
 pub mod gtkwave;
+pub mod kind;
 mod layout;
 pub mod pattern;
 pub mod text;

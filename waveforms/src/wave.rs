@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What a waveform file can do.
 
-use std::path::Path;
-
 use crate::Error;
 use crate::declarations::Declarations;
-use crate::fst_file::FstFile;
-use crate::vcd_file::VcdFile;
 
 /// How much of a file is gathered before it goes to the file system.
 pub(crate) const BUFFER_BYTES: usize = 1 << 18;
@@ -54,35 +50,5 @@ impl<W: Wave + ?Sized> Wave for Box<W> {
 
     fn finish(&mut self) -> Result<(), Error> {
         (**self).finish()
-    }
-}
-
-/// The file formats.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
-    /// Value change dump: text that every viewer reads.
-    Vcd,
-    /// GTKWave's own: compressed, some tens of times smaller.
-    Fst,
-}
-
-impl Kind {
-    /// A file of this format that will be called `path`.
-    ///
-    /// # Errors
-    /// The folder cannot be written to.
-    pub fn create(self, path: &Path) -> Result<Box<dyn Wave>, Error> {
-        Ok(match self {
-            Kind::Vcd => Box::new(VcdFile::create(path)?),
-            Kind::Fst => Box::new(FstFile::create(path)?),
-        })
-    }
-
-    /// The usual ending of a file name, without the dot.
-    pub fn extension(self) -> &'static str {
-        match self {
-            Kind::Vcd => "vcd",
-            Kind::Fst => "fst",
-        }
     }
 }

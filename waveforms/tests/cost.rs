@@ -10,8 +10,8 @@ use std::time::Instant;
 use common::{folder, settings};
 use hapticore_hdl::format::Format;
 use hapticore_hdl::probe::{Probe, Variable};
+use hapticore_waveforms::kind::Kind;
 use hapticore_waveforms::tracer::{Settings, Tracer};
-use hapticore_waveforms::wave::Kind;
 
 const VARIABLES: usize = 100;
 const CLOCKS: u64 = if cfg!(debug_assertions) { 2_000 } else { 200_000 };

@@ -12,8 +12,8 @@ use std::process::Command;
 
 use common::{Fake, VARIABLES, folder, settings, trace, true_x};
 use hapticore_waveforms::gtkwave::save;
+use hapticore_waveforms::kind::Kind;
 use hapticore_waveforms::view::View;
-use hapticore_waveforms::wave::Kind;
 
 const CLOCK: u64 = 101;
 

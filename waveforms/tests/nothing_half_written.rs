@@ -9,8 +9,9 @@ use std::path::Path;
 use common::{Fake, folder, settings, truth};
 use hapticore_waveforms::Error;
 use hapticore_waveforms::declarations::Declarations;
+use hapticore_waveforms::kind::Kind;
 use hapticore_waveforms::tracer::{Settings, Tracer};
-use hapticore_waveforms::wave::{Kind, Wave};
+use hapticore_waveforms::wave::Wave;
 
 fn names(folder: &Path) -> Vec<String> {
     fs::read_dir(folder)

@@ -7,8 +7,8 @@ use std::path::Path;
 
 use common::{Fake, VARIABLES, folder, settings, trace, true_x};
 use hapticore_waveforms::fst_file::FstFile;
+use hapticore_waveforms::kind::Kind;
 use hapticore_waveforms::tracer::{Settings, Tracer};
-use hapticore_waveforms::wave::Kind;
 use wellen::SignalValueRef;
 use wellen::simple::Waveform;
 

@@ -7,9 +7,9 @@ use std::fs;
 
 use common::{STATES, folder, settings, trace};
 use hapticore_waveforms::gtkwave::{self, SaveFile};
+use hapticore_waveforms::kind::Kind;
 use hapticore_waveforms::tracer::Trace;
 use hapticore_waveforms::view::View;
-use hapticore_waveforms::wave::Kind;
 
 fn traced() -> Trace {
     trace(folder().path(), Kind::Vcd, &settings(), 300).1

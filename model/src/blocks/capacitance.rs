@@ -24,7 +24,7 @@
 use super::divider::{self, Divider};
 use super::multiplier::{self, Multiplier};
 use super::sqrt::{self, SquareRoot};
-use crate::check::{built, fits, rounds};
+use crate::buildable::{built, fits, rounds};
 use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format};

@@ -15,7 +15,7 @@ use super::multiplexer::{self, Multiplexer};
 use super::oscillator::{self, Oscillator};
 use super::pace::{self, Pace};
 use super::position::TablePort;
-use crate::check::built;
+use crate::buildable::built;
 use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::bundle::Bundle;

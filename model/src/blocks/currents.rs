@@ -31,7 +31,7 @@ use self::block_floating::wide;
 use super::demodulator::Demodulator;
 use super::multiplier::{self, Multiplier};
 use super::sqrt::{self, SquareRoot};
-use crate::check::{built, rounds};
+use crate::buildable::{built, rounds};
 use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format};

@@ -42,7 +42,7 @@ mod polyphase;
 
 pub(crate) use self::polyphase::{GAIN as POLYPHASE_GAIN, Polyphase};
 use super::multiplier::{self, Multiplier};
-use crate::check::{built, fits};
+use crate::buildable::{built, fits};
 use hapticore_contract::profile::{Method, Profile, ProfileError};
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format, MAX_WIDTH};

@@ -17,7 +17,7 @@ use super::frames::{self, Frames};
 use super::haptic_voltage::{self, HapticVoltage};
 use super::position::{self, Position, TablePort};
 use super::ratio::{self, Ratio};
-use crate::check::built;
+use crate::buildable::built;
 use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::bundle::Bundle;

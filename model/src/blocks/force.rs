@@ -17,7 +17,7 @@
 //! Latency: 9 steps and a clock from `start` to `done`.
 
 use super::multiplier::{self, Multiplier};
-use crate::check::{built, rounds};
+use crate::buildable::{built, rounds};
 use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format};

@@ -23,7 +23,7 @@
 //! force follows the square); docs/physics.md §3 (the gap follows the RMS).
 
 use super::demodulator::Demodulator;
-use crate::check::{built, rounds};
+use crate::buildable::{built, rounds};
 use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format};

@@ -17,7 +17,7 @@
 //! `done`.
 
 use super::divider::{self, Divider};
-use crate::check::{built, fits};
+use crate::buildable::{built, fits};
 use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format};

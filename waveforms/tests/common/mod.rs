@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 use hapticore_hdl::format::{BIT, Format};
 use hapticore_hdl::probe::{Probe, Variable};
 use hapticore_waveforms::declarations::TruthVariable;
+use hapticore_waveforms::kind::Kind;
 use hapticore_waveforms::tracer::{Settings, Trace, Tracer};
-use hapticore_waveforms::wave::Kind;
 
 pub const STATES: &[&str] = &["IDLE", "SETTLE", "INTEGRATE", "READ"];
 

@@ -2,8 +2,8 @@
 //! What registers take at a clock, as a designer would write it: alternatives that several
 //! registers share become `if … else`, and a register that keeps its value is not mentioned.
 
-use super::expression::broken;
 use super::scope::Scope;
+use super::text::broken;
 use crate::format::Format;
 use crate::interpretations::netlist::{Node, Op};
 use std::fmt::Write;

@@ -1,33 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Operations as Verilog expressions, every operand at the width and sign of its operation.
 
-use super::scope::{Id, Kind, Scope, Text};
+use super::scope::{Id, Scope};
+use super::text::{BREAK, Kind, Text, literal};
 use crate::format::Format;
 use crate::interpretations::netlist::{Node, Op};
-
-/// A sized constant: negative codes as the bits they are.
-pub fn literal(code: i64, width: u8) -> String {
-    if code < 0 { bits(code as u64, width) } else { format!("{width}'d{code}") }
-}
-
-/// A sized constant by its bits.
-pub fn bits(code: u64, width: u8) -> String {
-    let mask = u64::MAX >> (64 - u32::from(width));
-    format!("{width}'h{:0digits$x}", code & mask, digits = usize::from(width).div_ceil(4))
-}
-
-/// An expression as it stands behind `=`, on the same line or with its alternatives one below the
-/// other.
-pub fn broken(text: &Text, indent: usize) -> String {
-    if text.kind != Kind::Select || text.text.len() < 80 {
-        return format!(" {}", text.text);
-    }
-    let line = format!("\n{:indent$}", "");
-    line.clone() + &text.text.replace(BREAK, &line)
-}
-
-/// A space where a line may end: before the other alternative.
-pub const BREAK: char = '\u{b}';
 
 impl Scope<'_> {
     /// The text of a wire, put where it belongs.

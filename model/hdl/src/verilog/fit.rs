@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Changes of format: rounding, then overflow.
 
-use super::scope::{Id, Kind, Scope, Text};
+use super::scope::{Id, Scope};
+use super::text::{Kind, Text};
 use crate::format::Format;
 use crate::interpretations::netlist::Node;
 use crate::signal::{Overflow, Rounding};

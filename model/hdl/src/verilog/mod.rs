@@ -26,6 +26,7 @@ mod live;
 mod module;
 mod names;
 mod scope;
+mod text;
 
 use crate::block::Block;
 use crate::format::Format;

@@ -2,9 +2,9 @@
 //! A module as text: head, ports, registers, wires, memories, instances, clock.
 
 use super::clock::Next;
-use super::expression::{BREAK, bits, literal};
 use super::names::{Names, ports};
 use super::scope::{Scope, range};
+use super::text::{BREAK, bits, literal};
 use super::{Direction, Heading, Port};
 use crate::interpretations::netlist::{Module, Named, Netlist, Node, Op, Ram};
 use crate::memory::Collision;

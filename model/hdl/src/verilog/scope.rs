@@ -5,43 +5,9 @@
 use super::describe;
 use super::live::Live;
 use super::names::Names;
+use super::text::{Kind, Text, broken, literal};
 use crate::format::Format;
 use crate::interpretations::netlist::{Module, Named, Node, Op};
-
-/// An expression in Verilog; its width and sign are those of the wire it stands for.
-#[derive(Debug, Clone)]
-pub struct Text {
-    /// Verilog text of the expression.
-    pub text: String,
-    /// Precedence class of the expression.
-    pub kind: Kind,
-}
-
-/// How an expression binds.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
-    /// A name, a literal, a concatenation.
-    Atom,
-    /// `c ? a : b`.
-    Select,
-    /// With any other operator.
-    Operation,
-}
-
-impl Text {
-    pub fn atom(text: impl Into<String>) -> Text {
-        Text { text: text.into(), kind: Kind::Atom }
-    }
-
-    pub fn operation(text: String) -> Text {
-        Text { text, kind: Kind::Operation }
-    }
-
-    /// The text as an operand, in parentheses where needed.
-    pub fn operand(&self) -> String {
-        if self.kind == Kind::Atom { self.text.clone() } else { format!("({})", self.text) }
-    }
-}
 
 /// An identifier of the module.
 pub struct Declared {
@@ -161,7 +127,7 @@ impl<'a> Scope<'a> {
 
     fn literal(&self, node: Node) -> String {
         let code = self.constant(node).expect("a wire has a text before it is needed");
-        super::expression::literal(code, self.format(node).width)
+        literal(code, self.format(node).width)
     }
 
     /// What to call the bit that says that a register is in a state.
@@ -191,8 +157,7 @@ impl<'a> Scope<'a> {
         let name = self.names.unique(name);
         let range = range(width, signed);
         let note = if comment.is_empty() { String::new() } else { format!(" // {comment}") };
-        self.body
-            .push(format!("    wire {range}{name} ={};{note}", super::expression::broken(text, 8)));
+        self.body.push(format!("    wire {range}{name} ={};{note}", broken(text, 8)));
         self.identifier(name, width, signed)
     }
 
