@@ -69,7 +69,7 @@ fn icarus_runs_what_the_model_runs() {
 /// A core of so many terminals, the signs of which differ along both axes.
 fn with_terminals(terminals: usize) -> Bench {
     let small = Profile::bundled("small").expect("bundled");
-    let sign = |period: usize| move |n: usize| if n / period % 2 == 0 { 1 } else { -1 };
+    let sign = |period: usize| move |n: usize| if (n / period).is_multiple_of(2) { 1 } else { -1 };
     let signs = [1, 2].map(|period| (0..terminals).map(sign(period)).collect());
     Bench::of(for_terminals(&small, &signs).expect("3 to 16 terminals"))
 }
