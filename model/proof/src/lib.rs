@@ -5,8 +5,7 @@
 //! windows in a mean, with every ADC code, every calibration and every table word anywhere in its
 //! format. Control is data-independent, so it is known exactly; data are intervals. Once the state
 //! after a round lies within the state before it, no further round can leave what has been seen,
-//! and the proof holds for all time. Words that feed back into themselves are widened first, as
-//! they would grow for ever. What relates several signals is beyond intervals: those places
+//! and the proof holds for all time. What relates several signals is beyond intervals: those places
 //! name an assumption, and tests hold the assumptions.
 
 use hapticore_contract::profile::Profile;
@@ -14,7 +13,7 @@ use hapticore_hdl::block::{self, Block, Submodule, Visitor};
 use hapticore_hdl::bundle::{Bundle, Field};
 use hapticore_hdl::format::{BIT, Format};
 use hapticore_hdl::interpretations::range::{
-    Range, Violation, take_assumptions, take_violations, whole, widen_growing_words,
+    Range, Violation, take_assumptions, take_violations, whole,
 };
 use hapticore_hdl::signal::{Signal, bit, zero};
 use hapticore_model::blocks::core::{Core, Inputs};
@@ -46,9 +45,6 @@ impl Proof {
 /// Rounds after which a proof that has not closed is given up.
 const MOST_ROUNDS: u64 = 6;
 
-/// Rounds after which a word that still grows is widened to its format: the state of a filter.
-const EXACT_ROUNDS: u64 = 3;
-
 /// Tries to prove a profile's core.
 pub fn prove(profile: &Profile) -> Proof {
     let core = Core::new(profile);
@@ -58,14 +54,12 @@ pub fn prove(profile: &Profile) -> Proof {
     run.any_tables();
     let (mut before, mut closed, mut rounds) = (run.state(), false, 0);
     while !closed && rounds < MOST_ROUNDS {
-        widen_growing_words(rounds >= EXACT_ROUNDS);
         (0..profile.haptic.windows).for_each(|_| run.round());
         rounds += 1;
         let after = run.state();
         closed = rounds > 1 && before.holds(&after);
         before = after;
     }
-    widen_growing_words(false);
     let registers = before.registers;
     Proof {
         violations: take_violations(),

@@ -10,7 +10,7 @@ use crate::block::{Block, Inputs, Interpretation, Outputs, State};
 use crate::format::Format;
 use crate::memory::{Memory, Storage, Write};
 use crate::signal::{Overflow, Rounding, Signal, Value};
-use std::cell::{Cell, RefCell};
+use std::cell::RefCell;
 
 /// The value of the range interpretation: `low ..= high`, in codes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -34,14 +34,6 @@ pub struct Violation {
 thread_local! {
     static VIOLATIONS: RefCell<Vec<Violation>> = const { RefCell::new(Vec::new()) };
     static ASSUMPTIONS: RefCell<Vec<&'static str>> = const { RefCell::new(Vec::new()) };
-    static WIDENS: Cell<bool> = const { Cell::new(false) };
-}
-
-/// Whether, on this thread, a word of a memory that grows takes the whole range of its format at
-/// once. A filter's state grows by less at every round and never stops; so a proof closes. What is
-/// proved of wider ranges holds for narrower ones.
-pub fn widen_growing_words(on: bool) {
-    WIDENS.set(on);
 }
 
 /// The violations found since the last call, on this thread.
@@ -282,9 +274,7 @@ impl Storage for Range {
         let surely = write.enable.value.low == 1 && write.address.value.is_point();
         let place = within(write.address.value);
         for word in &mut words.0[place.low as usize..=place.high as usize] {
-            let next = if surely { data } else { word.join(data) };
-            let grows = WIDENS.get() && !word.holds(next);
-            *word = if grows { whole(memory.format) } else { next };
+            *word = if surely { data } else { word.join(data) };
         }
     }
 }
@@ -312,37 +302,4 @@ impl Interpretation for Range {
 fn read(words: &[Range], address: Range) -> Range {
     let within = &words[address.low as usize..=address.high as usize];
     within.iter().copied().reduce(Range::join).expect("an address means a word")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::signal::{HalfEven, bit, int, zero};
-
-    /// The ranges of a low-pass's state, y' = (7·y + x)/8, after each of some rounds.
-    fn low_pass(rounds: usize, widens: bool) -> Vec<Range> {
-        let word = Format::unsigned(8, 0);
-        let memory = Memory::new("state", 1, word);
-        let mut words = Range::words(&memory);
-        let x = Signal { value: whole(word), format: word };
-        widen_growing_words(widens);
-        let mut round = || {
-            let before = Signal { value: words.0[0], format: word };
-            let after = (before * int(7) + x).scaled(-3).quantize(word, HalfEven, Overflow::Proved);
-            let write = Write { enable: bit(true), address: zero(memory.address()), data: after };
-            memory.access(&mut words, zero(memory.address()), write);
-            words.0[0]
-        };
-        let ranges = (0..rounds).map(|_| round()).collect();
-        widen_growing_words(false);
-        ranges
-    }
-
-    #[test]
-    fn the_state_of_a_low_pass_grows_round_by_round_or_is_widened_and_stays() {
-        take_violations();
-        assert!(low_pass(6, false).windows(2).all(|pair| pair[1].high > pair[0].high));
-        assert!(low_pass(6, true).into_iter().all(|range| range == Range { low: 0, high: 255 }));
-        assert_eq!(take_violations(), [], "a convex sum stays within its format");
-    }
 }
