@@ -186,6 +186,8 @@ pub trait Submodules<B, V: Interpretation>: Clone {
     fn reset(block: &B) -> Self;
     /// Shows a visitor each block within.
     fn visit(&self, block: &B, visitor: &mut impl Visitor<V>);
+    /// Lets `edit` change what each block and memory within holds.
+    fn edit(&mut self, block: &B, edit: &mut impl Edit<V>);
 }
 
 /// The states within a block that has no other block or memory.
@@ -197,6 +199,7 @@ impl<B, V: Interpretation> Submodules<B, V> for NoSubmodules<V> {
         NoSubmodules(PhantomData)
     }
     fn visit(&self, _block: &B, _visitor: &mut impl Visitor<V>) {}
+    fn edit(&mut self, _block: &B, _edit: &mut impl Edit<V>) {}
 }
 
 /// What may be within a block: another block, or a memory.
@@ -212,6 +215,8 @@ pub trait Submodule {
         state: &Self::State<V>,
         visitor: &mut impl Visitor<V>,
     );
+    /// Lets `edit` change what it holds.
+    fn edit<V: Interpretation>(&self, state: &mut Self::State<V>, edit: &mut impl Edit<V>);
 }
 
 impl<B: Block> Submodule for B {
@@ -235,6 +240,12 @@ impl<B: Block> Submodule for B {
         state.submodules.visit(self, visitor);
         visitor.leave();
     }
+
+    fn edit<V: Interpretation>(&self, state: &mut State<B, V>, edit: &mut impl Edit<V>) {
+        let registers = B::Registers::zip(self.registers(), state.registers);
+        state.registers = B::Registers::map(registers, |(format, value)| edit.word(format, value));
+        state.submodules.edit(self, edit);
+    }
 }
 
 impl Submodule for Memory {
@@ -252,6 +263,10 @@ impl Submodule for Memory {
     ) {
         visitor.memory(self, words);
     }
+
+    fn edit<V: Interpretation>(&self, words: &mut V::Words, edit: &mut impl Edit<V>) {
+        edit.memory(self, words);
+    }
 }
 
 /// Looks at every register of a hierarchy.
@@ -264,4 +279,12 @@ pub trait Visitor<V: Interpretation> {
     fn memory(&mut self, _memory: &Memory, _words: &V::Words) {}
     /// The instance ends.
     fn leave(&mut self);
+}
+
+/// Changes what a hierarchy holds, in the order in which a [`Visitor`] sees it.
+pub trait Edit<V: Interpretation> {
+    /// What a register shall hold.
+    fn word(&mut self, format: Format, value: V) -> V;
+    /// The words of a memory, and what it reads.
+    fn memory(&mut self, memory: &Memory, words: &mut V::Words);
 }

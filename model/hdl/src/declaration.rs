@@ -170,6 +170,10 @@ macro_rules! block {
             fn visit(&self, block: &$name, visitor: &mut impl $crate::block::Visitor<V>) {
                 $(<$part_type as $crate::block::Submodule>::visit::<V>(&block.$part, stringify!($part), &self.$part, visitor);)*
             }
+
+            fn edit(&mut self, block: &$name, edit: &mut impl $crate::block::Edit<V>) {
+                $(<$part_type as $crate::block::Submodule>::edit::<V>(&block.$part, &mut self.$part, edit);)*
+            }
         }
     };
 }

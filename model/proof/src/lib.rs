@@ -5,16 +5,21 @@
 //! windows in a mean, with every ADC code, every calibration and every table word anywhere in its
 //! format. Control is data-independent, so it is known exactly; data are intervals. Once the state
 //! after a round lies within the state before it, no further round can leave what has been seen,
-//! and the proof holds for all time. What relates several signals is beyond intervals: those places
-//! name an assumption, and tests hold the assumptions.
+//! and the proof holds for all time. A word that still grows, as a filter's does, is widened to its
+//! whole format on that side (Cousot and Cousot, 1977), and the next round is run from there. What
+//! relates several signals is beyond intervals: those places name an assumption, and tests hold
+//! the assumptions.
+
+use std::slice;
 
 use hapticore_contract::profile::Profile;
-use hapticore_hdl::block::{self, Block, Submodule, Visitor};
+use hapticore_hdl::block::{Block, Edit, State, Submodule, Visitor};
 use hapticore_hdl::bundle::{Bundle, Field};
 use hapticore_hdl::format::{BIT, Format};
 use hapticore_hdl::interpretations::range::{
     Range, Violation, take_assumptions, take_violations, whole,
 };
+use hapticore_hdl::memory::Memory;
 use hapticore_hdl::signal::{Signal, bit, zero};
 use hapticore_model::blocks::core::{Core, Inputs};
 
@@ -42,39 +47,59 @@ impl Proof {
     }
 }
 
+/// Rounds after which words that still grow are widened: what starts at reset has filled by then.
+const FILLED: u64 = 2;
+
 /// Rounds after which a proof that has not closed is given up.
-const MOST_ROUNDS: u64 = 6;
+const MOST_ROUNDS: u64 = 8;
 
 /// Tries to prove a profile's core.
 pub fn prove(profile: &Profile) -> Proof {
     let core = Core::new(profile);
-    let mut run = Run { profile, inputs: any_inputs(&core), state: core.reset(), core, clocks: 0 };
+    let mut state = core.reset();
+    let mut run = Run { profile, inputs: any_inputs(&core), core: &core, clocks: 0 };
     take_violations();
     take_assumptions();
-    run.any_tables();
-    let (mut before, mut closed, mut rounds) = (run.state(), false, 0);
-    while !closed && rounds < MOST_ROUNDS {
-        (0..profile.haptic.windows).for_each(|_| run.round());
-        rounds += 1;
-        let after = run.state();
-        closed = rounds > 1 && before.holds(&after);
-        before = after;
-    }
-    let registers = before.registers;
+    run.any_tables(&mut state);
+    let windows = profile.haptic.windows;
+    let (closed, rounds) = close(&core, &mut state, |state| {
+        (0..windows).for_each(|_| run.round(state));
+    });
     Proof {
         violations: take_violations(),
         assumptions: take_assumptions(),
         closed,
         rounds,
         clocks: run.clocks,
-        registers,
+        registers: Snapshot::of(&core, &state).registers,
     }
+}
+
+/// Runs rounds until the state after one lies within the state before it: whether that was reached,
+/// and how many rounds it took.
+pub fn close<B: Block>(
+    block: &B,
+    state: &mut State<B, Range>,
+    mut round: impl FnMut(&mut State<B, Range>),
+) -> (bool, u64) {
+    let mut before = Snapshot::of(block, state);
+    for rounds in 1..=MOST_ROUNDS {
+        round(state);
+        if rounds > FILLED {
+            before.widen(block, state);
+        }
+        let after = Snapshot::of(block, state);
+        if rounds > 1 && before.holds(&after) {
+            return (true, rounds);
+        }
+        before = after;
+    }
+    (false, MOST_ROUNDS)
 }
 
 struct Run<'a> {
     profile: &'a Profile,
-    core: Core,
-    state: block::State<Core, Range>,
+    core: &'a Core,
     inputs: Inputs<Signal<Range>>,
     clocks: u64,
 }
@@ -90,44 +115,38 @@ fn any_inputs(core: &Core) -> Inputs<Signal<Range>> {
 
 impl Run<'_> {
     /// Every word that the format allows, at every address.
-    fn any_tables(&mut self) {
+    fn any_tables(&self, state: &mut State<Core, Range>) {
         let maybe = Signal { value: Range { low: 0, high: 1 }, format: BIT };
         let words = self.core.estimator().position().table().words as i128;
         let mut inputs = self.inputs;
         let table = &mut inputs.calibration.table;
         (table.write, table.address.value) = (maybe, Range { low: 0, high: words - 1 });
-        self.run(inputs);
-        self.run(self.inputs);
+        self.run(state, inputs);
+        self.run(state, self.inputs);
     }
 
     /// A slot of every pad, and clocks enough for the last frame to be finished.
-    fn round(&mut self) {
+    fn round(&mut self, state: &mut State<Core, Range>) {
         for _ in 0..self.profile.pads * self.profile.slot.samples() {
-            self.clock(true);
-            (1..self.profile.clocks_per_sample).for_each(|_| self.clock(false));
+            self.clock(state, true);
+            (1..self.profile.clocks_per_sample).for_each(|_| self.clock(state, false));
         }
-        (0..self.core.latency()).for_each(|_| self.clock(false));
+        (0..self.core.latency()).for_each(|_| self.clock(state, false));
     }
 
-    fn clock(&mut self, strobe: bool) {
-        self.run(Inputs { strobe: bit(strobe), ..self.inputs });
+    fn clock(&mut self, state: &mut State<Core, Range>, strobe: bool) {
+        self.run(state, Inputs { strobe: bit(strobe), ..self.inputs });
         self.clocks += 1;
     }
 
     /// The core in intervals is some megabytes of instructions: once is enough.
     #[inline(never)]
-    fn run(&mut self, inputs: Inputs<Signal<Range>>) {
-        self.core.clock(&mut self.state, inputs);
-    }
-
-    fn state(&self) -> Snapshot {
-        let mut state = Snapshot::default();
-        self.core.visit("core", &self.state, &mut state);
-        state
+    fn run(&self, state: &mut State<Core, Range>, inputs: Inputs<Signal<Range>>) {
+        self.core.clock(state, inputs);
     }
 }
 
-/// Everything that a core keeps from clock to clock.
+/// Everything that a block keeps from clock to clock.
 #[derive(Default)]
 struct Snapshot {
     scope: Vec<&'static str>,
@@ -136,6 +155,18 @@ struct Snapshot {
 }
 
 impl Snapshot {
+    fn of<B: Block>(block: &B, state: &State<B, Range>) -> Snapshot {
+        let mut snapshot = Snapshot::default();
+        block.visit(B::NAME, state, &mut snapshot);
+        snapshot
+    }
+
+    /// Widens what `state` holds beyond this.
+    fn widen<B: Block>(&self, block: &B, state: &mut State<B, Range>) {
+        let (registers, words) = (self.registers.iter(), self.words.iter());
+        block.edit(state, &mut Widen { registers, words });
+    }
+
     fn holds(&self, other: &Snapshot) -> bool {
         let registers = self.registers.iter().zip(&other.registers).all(|(a, b)| a.2.holds(b.2));
         registers && self.words.iter().zip(&other.words).all(|(a, b)| a.holds(*b))
@@ -151,7 +182,7 @@ impl Visitor<Range> for Snapshot {
         self.registers.push((format!("{}.{}", self.scope.join("."), field.name), format, value));
     }
 
-    fn memory(&mut self, _memory: &hapticore_hdl::memory::Memory, words: &(Vec<Range>, Range)) {
+    fn memory(&mut self, _memory: &Memory, words: &(Vec<Range>, Range)) {
         self.words.extend(&words.0);
         self.words.push(words.1);
     }
@@ -159,4 +190,30 @@ impl Visitor<Range> for Snapshot {
     fn leave(&mut self) {
         self.scope.pop();
     }
+}
+
+/// The state before a round, against which the state after it is widened.
+struct Widen<'a> {
+    registers: slice::Iter<'a, (String, Format, Range)>,
+    words: slice::Iter<'a, Range>,
+}
+
+impl Edit<Range> for Widen<'_> {
+    fn word(&mut self, format: Format, value: Range) -> Range {
+        widened(format, self.registers.next().map(|(.., range)| range), value)
+    }
+
+    fn memory(&mut self, memory: &Memory, (words, read): &mut (Vec<Range>, Range)) {
+        for word in words.iter_mut().chain([read]) {
+            *word = widened(memory.format, self.words.next(), *word);
+        }
+    }
+}
+
+/// Both ranges joined, and on a side where `after` exceeds `before` the whole format.
+fn widened(format: Format, before: Option<&Range>, after: Range) -> Range {
+    let before = *before.expect("a state has the words that it had");
+    let low = if after.low < before.low { format.min_code() } else { before.low };
+    let high = if after.high > before.high { format.max_code() } else { before.high };
+    Range { low, high }
 }

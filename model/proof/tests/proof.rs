@@ -4,14 +4,16 @@
 use std::thread;
 
 use hapticore_contract::profile::Profile;
+use hapticore_hdl::block;
+use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::Format;
 use hapticore_hdl::interpretations::netlist::Netlist;
 use hapticore_hdl::interpretations::range::{Range, take_violations, whole};
-use hapticore_hdl::signal::{Proved, Signal, bit, int, zero};
+use hapticore_hdl::signal::{HalfEven, Proved, Signal, bit, int, zero};
 use hapticore_model::blocks::core::Core;
 use hapticore_model::blocks::demodulator::Demodulator;
 use hapticore_model::parse_profile;
-use hapticore_proof::prove;
+use hapticore_proof::{close, prove};
 
 /// What relates several signals, and where it is held: the tests of divider and square root run
 /// them over all codes of small widths, and every test build checks each of these narrowings at
@@ -53,6 +55,62 @@ fn a_mean_over_windows_cannot_overflow() {
         let proof = prove(&profile);
         assert!(proof.holds(), "{windows} windows: {:?}", proof.violations.first());
     }
+}
+
+block! {
+    /// A first-order low-pass, written in two ways.
+    struct LowPass("low_pass") {
+        by_difference: bool,
+    }
+    submodules {}
+    inputs(low_pass) {
+        x: BYTE,
+    }
+    outputs(low_pass) {
+        y: BYTE,
+    }
+    registers(low_pass) {
+        y: BYTE,
+    }
+}
+
+const BYTE: Format = Format::unsigned(8, 0);
+
+impl Block for LowPass {
+    fn clock<V: Interpretation>(
+        &self,
+        state: &mut State<Self, V>,
+        i: Inputs<Signal<V>>,
+    ) -> Outputs<Signal<V>> {
+        let r = state.load(self);
+        let next = if self.by_difference {
+            r.y + (i.x - r.y).scaled(-4)
+        } else {
+            (r.y * int(15) + i.x).scaled(-4)
+        };
+        state.store(self, Registers { y: next.quantize(BYTE, HalfEven, Proved) });
+        Outputs { y: r.y }
+    }
+}
+
+/// Whether a filter's state closes without a violation, and after how many rounds.
+fn filtered(by_difference: bool) -> (bool, u64) {
+    let filter = LowPass { by_difference };
+    let mut state = filter.reset();
+    take_violations();
+    let (closed, rounds) = close(&filter, &mut state, |state| {
+        filter.clock(state, Inputs { x: Signal { value: whole(BYTE), format: BYTE } });
+    });
+    (closed && take_violations().is_empty(), rounds)
+}
+
+/// A filter's state grows for ever unless it is widened. y + (x − y)/16 stays within its format
+/// just as well, but intervals do not know that both y are the same.
+#[test]
+fn a_filter_is_proved_where_its_state_stands_once() {
+    let (proved, rounds) = filtered(false);
+    assert!(proved && rounds <= 5, "{rounds} rounds");
+    assert!(!filtered(true).0, "the difference exceeds the format in intervals");
 }
 
 #[test]
