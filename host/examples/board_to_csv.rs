@@ -6,14 +6,9 @@ use std::error::Error;
 use std::io::{self, BufReader, Read, Write};
 
 /// Converts until the bytes end; damaged packets are told on standard error.
-pub fn convert(
-    profile: &str,
-    calibration: &str,
-    bytes: impl Read,
-    csv: impl Write,
-) -> Result<(), Box<dyn Error>> {
-    let device = DeviceCalibration::read(calibration.as_ref())?;
-    let profile = device.profile(&profile::load(profile)?)?;
+pub fn convert(files: [&str; 2], bytes: impl Read, csv: impl Write) -> Result<(), Box<dyn Error>> {
+    let device = DeviceCalibration::read(files[1].as_ref())?;
+    let profile = device.profile(&profile::load(files[0])?)?;
     let (mut decoder, mut readout) = (Decoder::new(&profile), Readout::new(&profile, &device));
     let mut clock = SlotClock::new(&profile, device.device.sample_rate_hz, 0.0);
     let mut csv = csv::Writer::from_writer(csv);
@@ -21,13 +16,8 @@ pub fn convert(
     for byte in BufReader::new(bytes).bytes() {
         match decoder.push(byte?) {
             Some(Ok(Message::Frame(packet))) => {
-                let (measured, flags) = readout.convert(&packet.frame.measurement(&profile));
-                let time_and_pad = [clock.time_of(packet.status.sequence), packet.frame.pad as f64];
-                let numbers = time_and_pad
-                    .into_iter()
-                    .chain(measured.values())
-                    .map(|number| number.to_string());
-                csv.write_record(numbers.chain([flags]))?;
+                let time_s = clock.time_of(packet.status.sequence);
+                csv.write_record(readout.row(time_s, &packet.frame.measurement(&profile)))?;
                 csv.flush()?;
             }
             Some(Err(damage)) => eprintln!("{damage}"),
@@ -39,9 +29,7 @@ pub fn convert(
 
 #[allow(dead_code, reason = "tests include this file for `convert`")]
 fn main() -> Result<(), Box<dyn Error>> {
-    let mut args = std::env::args().skip(1);
-    let (Some(profile), Some(calibration)) = (args.next(), args.next()) else {
-        return Err("expected PROFILE and CALIBRATION".into());
-    };
-    convert(&profile, &calibration, io::stdin().lock(), io::stdout().lock())
+    let files: Vec<String> = std::env::args().skip(1).collect();
+    let [profile, calibration] = &files[..] else { return Err("expected two files".into()) };
+    convert([profile, calibration], io::stdin().lock(), io::stdout().lock())
 }

@@ -8,6 +8,7 @@ use crate::quantities::{QUANTITIES, Quantities};
 use crate::units::{Units, flag_names};
 use hapticore_contract::frame::Measurement;
 use hapticore_contract::profile::Profile;
+use std::array;
 
 /// The columns of `frames.csv`: time and pad, the [`QUANTITIES`], the flags.
 pub const COLUMNS: [&str; QUANTITIES.len() + 3] = {
@@ -71,5 +72,19 @@ impl Readout {
             .chain(self.placement.flags(measurement.pad, at_mm))
             .collect();
         (measured, flags.join("+"))
+    }
+
+    /// A measurement as a row of `frames.csv`, in the order of [`COLUMNS`].
+    ///
+    /// # Panics
+    /// If the device has no such pad.
+    pub fn row(&mut self, time_s: f64, measurement: &Measurement) -> [String; COLUMNS.len()] {
+        let (measured, flags) = self.convert(measurement);
+        let numbers = measured.values().map(|number| number.to_string());
+        let mut words = [time_s.to_string(), measurement.pad.to_string()]
+            .into_iter()
+            .chain(numbers)
+            .chain([flags]);
+        array::from_fn(|_| words.next().expect("a word for each column"))
     }
 }

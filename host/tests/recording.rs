@@ -21,7 +21,7 @@ fn expected() -> String {
 
 fn converted(bytes: impl Read) -> String {
     let mut csv = Vec::new();
-    convert("small", CALIBRATION, bytes, &mut csv).expect("a conversion");
+    convert(["small", CALIBRATION], bytes, &mut csv).expect("a conversion");
     String::from_utf8(csv).expect("text")
 }
 
@@ -77,6 +77,6 @@ fn a_pipe_that_closes_ends_the_conversion() {
         }
     }
     let error =
-        convert("small", CALIBRATION, Endless(endless), Closed(2)).expect_err("a closed pipe");
+        convert(["small", CALIBRATION], Endless(endless), Closed(2)).expect_err("a closed pipe");
     assert!(error.to_string().contains("pipe"), "{error}");
 }

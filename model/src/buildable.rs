@@ -17,8 +17,3 @@ pub(crate) fn fits(field: &str, word: &str, width: u8) -> Result<(), ProfileErro
 pub(crate) fn rounds(field: &str, signal: Format, to: Format) -> Result<(), ProfileError> {
     fits(field, "what is rounded to it", signal.rounding_width(to))
 }
-
-/// A block of a profile that has been checked.
-pub(crate) fn built<B>(block: Result<B, ProfileError>) -> B {
-    block.unwrap_or_else(|error| panic!("{error}"))
-}

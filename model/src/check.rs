@@ -66,7 +66,7 @@ mod tests {
             for terminals in 3..=16 {
                 (profile.terminals.x, profile.terminals.y) =
                     (vec![1; terminals], vec![-1; terminals]);
-                let least = Demodulator::new(&profile).least_clocks_per_sample();
+                let least = Demodulator::try_new(&profile).unwrap().least_clocks_per_sample();
                 assert_eq!(
                     least,
                     profile.least_clocks_per_sample(),

@@ -62,24 +62,27 @@ fn strobed(block: &Pace) -> Alone {
 
 /// The blocks that compute, each alone.
 fn blocks(profile: &Profile) -> Vec<Alone> {
-    let (currents, position, words) =
-        (Currents::new(profile), Position::new(profile), 2 * (profile.channels() as i64 - 1));
+    let (currents, position, words) = (
+        Currents::try_new(profile).unwrap(),
+        Position::new(profile),
+        2 * (profile.channels() as i64 - 1),
+    );
     let amplitudes = currents.outputs();
     vec![
         // As long as polyphase sums take to be read out.
-        alone(&Demodulator::new(profile), 500, 0, 640),
+        alone(&Demodulator::try_new(profile).unwrap(), 500, 0, 640),
         alone(&position, 600, position.table().words as i64, 3),
         alone(&currents, 1000, words, 3),
-        alone(&HapticVoltage::new(profile), 20_000, words, 3),
+        alone(&HapticVoltage::try_new(profile).unwrap(), 20_000, words, 3),
         strobed(&Pace::new(profile)),
         alone(
-            &Ratio::new(profile, (amplitudes.x, amplitudes.corners), amplitudes.least),
+            &Ratio::try_new(profile, (amplitudes.x, amplitudes.corners), amplitudes.least).unwrap(),
             800,
             0,
             3,
         ),
-        alone(&Capacitance::new(profile, amplitudes.total), 30_000, 0, 3),
-        alone(&Force::new(profile), 6000, 0, 3),
+        alone(&Capacitance::try_new(profile, amplitudes.total).unwrap(), 30_000, 0, 3),
+        alone(&Force::try_new(profile).unwrap(), 6000, 0, 3),
     ]
 }
 

@@ -98,7 +98,7 @@ fn icarus_runs_a_mean_over_windows_as_the_model_does() {
     }
     let mut profile = Profile::bundled("small").expect("bundled");
     profile.haptic.windows = 4;
-    let block = HapticVoltage::new(&profile);
+    let block = HapticVoltage::try_new(&profile).unwrap();
     let (last, sum, latency) =
         (2 * profile.demodulated() as i64, block.inputs().sum, block.latency() as usize);
     let (mut rng, mut clocks, pads) = (fastrand::Rng::with_seed(6), 0.., profile.pads as usize);

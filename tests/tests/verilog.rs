@@ -9,7 +9,6 @@ use hapticore_contract::profile::Profile;
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::Format;
 use hapticore_hdl::memory::Memory;
-use hapticore_hdl::signal::Signal;
 use hapticore_hdl::verilog::Design;
 use hapticore_rtl::header;
 
@@ -72,11 +71,7 @@ hapticore_hdl::block! {
 }
 
 impl Block for Keeper {
-    fn clock<V: Interpretation>(
-        &self,
-        state: &mut State<Self, V>,
-        i: Inputs<Signal<V>>,
-    ) -> Outputs<Signal<V>> {
+    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
         let word = self.table.data(&mut state.submodules.table);
         self.table.read(&mut state.submodules.table, i.address);
         Outputs { word }

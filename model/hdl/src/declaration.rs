@@ -31,7 +31,7 @@
 /// }
 ///
 /// impl Block for Accumulator {
-///     fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: Inputs<Signal<V>>) -> Outputs<Signal<V>> {
+///     fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
 ///         let r = state.load(self);
 ///         let sum = (r.sum + i.sample).resize(self.sum, hapticore_hdl::signal::Wrap);
 ///         state.store(self, Registers { sum: i.enable.select(sum, r.sum) });
@@ -51,8 +51,8 @@
 /// a register that holds the state of a state machine is written `step in Step`, with
 /// [`States`](crate::states::States); a bundle within is written `group as Group: formats`. `struct
 /// Name("module", reset: false)` says that registers have no reset in hardware. The macro declares
-/// the configuration, the bundles `Inputs`, `Outputs` and `Registers`, and `Submodules`: one block
-/// per Rust module.
+/// the configuration, the bundles `Inputs`, `Outputs` and `Registers`, their signals `In<V>`,
+/// `Out<V>` and `Regs<V>`, and `Submodules`: one block per Rust module.
 #[macro_export]
 macro_rules! block {
     (
@@ -92,6 +92,15 @@ macro_rules! block {
             /// Registers: the state of one instance.
             pub struct Registers { $($(#[doc = $reg_doc])* $reg $(in $reg_states)? $(as $reg_group)?),* }
         }
+        /// The input ports as signals.
+        #[allow(dead_code)]
+        pub type In<V> = Inputs<$crate::signal::Signal<V>>;
+        /// The output ports as signals.
+        #[allow(dead_code)]
+        pub type Out<V> = Outputs<$crate::signal::Signal<V>>;
+        /// The registers as signals.
+        #[allow(dead_code)]
+        pub type Regs<V> = Registers<$crate::signal::Signal<V>>;
         $crate::block!(@submodules $name { $($part: $part_type),* });
 
         impl $name {

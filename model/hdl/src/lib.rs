@@ -54,11 +54,7 @@
 //! }
 //!
 //! impl Block for Accumulator {
-//!     fn clock<V: Interpretation>(
-//!         &self,
-//!         state: &mut State<Self, V>,
-//!         i: Inputs<Signal<V>>,
-//!     ) -> Outputs<Signal<V>> {
+//!     fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
 //!         let r = state.load(self);
 //!         let (sum, saturated) = (r.sum + i.sample.scaled(-1)).saturate(self.sum, HalfEven);
 //!         let added = Registers { sum, saturated };

@@ -77,11 +77,7 @@ block! {
 const BYTE: Format = Format::unsigned(8, 0);
 
 impl Block for LowPass {
-    fn clock<V: Interpretation>(
-        &self,
-        state: &mut State<Self, V>,
-        i: Inputs<Signal<V>>,
-    ) -> Outputs<Signal<V>> {
+    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
         let r = state.load(self);
         let next = if self.by_difference {
             r.y + (i.x - r.y).scaled(-4)
@@ -123,7 +119,7 @@ fn every_register_stays_within_its_format() {
 #[test]
 fn one_sample_too_many_is_noticed() {
     let profile = Profile::bundled("standard").unwrap();
-    let demodulator = Demodulator::new(&profile);
+    let demodulator = Demodulator::try_new(&profile).unwrap();
     let (adc, wave) = (whole(profile.formats.adc), whole(profile.formats.oscillator));
     let product = Signal { value: adc, format: profile.formats.adc }
         * Signal { value: wave, format: profile.formats.oscillator };

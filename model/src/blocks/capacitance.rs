@@ -24,7 +24,7 @@
 use super::divider::{self, Divider};
 use super::multiplier::{self, Multiplier};
 use super::sqrt::{self, SquareRoot};
-use crate::buildable::{built, fits, rounds};
+use crate::buildable::{fits, rounds};
 use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format};
@@ -106,14 +106,6 @@ const fn square(amplitude: Format) -> Format {
 impl Capacitance {
     /// The capacitance of a profile, for amplitudes of a format.
     ///
-    /// # Panics
-    /// Where [`Capacitance::try_new`] fails.
-    pub fn new(profile: &Profile, amplitude: Format) -> Self {
-        built(Self::try_new(profile, amplitude))
-    }
-
-    /// As [`Capacitance::new`].
-    ///
     /// # Errors
     /// An admittance whose dividend no word of the model holds, a capacitance to which none can be
     /// rounded.
@@ -174,8 +166,8 @@ impl Capacitance {
     #[inline(always)]
     fn operands<V: Interpretation>(
         &self,
-        r: &Registers<Signal<V>>,
-        i: &Inputs<Signal<V>>,
+        r: &Regs<V>,
+        i: &In<V>,
         admittance: Signal<V>,
     ) -> (Signal<V>, Signal<V>) {
         let [total, sense, drop, admittance] =
@@ -194,7 +186,7 @@ impl Capacitance {
     #[inline(always)]
     fn radicand<V: Interpretation>(
         &self,
-        r: &Registers<Signal<V>>,
+        r: &Regs<V>,
         product: Signal<V>,
     ) -> (Signal<V>, Signal<V>) {
         let drop = product.as_code(self.amplitude.product(self.amplitude));
@@ -205,15 +197,15 @@ impl Capacitance {
     #[inline(always)]
     fn step<V: Interpretation>(
         &self,
-        r: Registers<Signal<V>>,
-        i: Inputs<Signal<V>>,
+        r: Regs<V>,
+        i: In<V>,
         (product, nothing_left, sqrt_done, divided): (
             Signal<V>,
             Signal<V>,
             Signal<V>,
-            divider::Outputs<Signal<V>>,
+            divider::Out<V>,
         ),
-    ) -> Registers<Signal<V>> {
+    ) -> Regs<V> {
         use Step::*;
         let at = |step: Step| r.step.at(step);
         let (drop, drop_held) =
@@ -246,11 +238,7 @@ impl Capacitance {
 
 impl Block for Capacitance {
     #[inline(always)]
-    fn clock<V: Interpretation>(
-        &self,
-        state: &mut State<Self, V>,
-        i: Inputs<Signal<V>>,
-    ) -> Outputs<Signal<V>> {
+    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
         let r = state.load(self);
         let Registers { done, capacitance, invalid, saturated, .. } = r;
         let outputs = Outputs { done, capacitance, invalid, saturated };

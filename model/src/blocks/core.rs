@@ -15,12 +15,10 @@ use super::multiplexer::{self, Multiplexer};
 use super::oscillator::{self, Oscillator};
 use super::pace::{self, Pace};
 use super::position::TablePort;
-use crate::buildable::built;
 use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::BIT;
-use hapticore_hdl::signal::Signal;
 use hapticore_hdl::{block, call};
 
 block! {
@@ -71,7 +69,7 @@ impl Core {
     /// # Panics
     /// Where one of its blocks cannot be.
     pub fn new(profile: &Profile) -> Self {
-        built(Self::of_blocks(profile))
+        Self::of_blocks(profile).unwrap_or_else(|error| panic!("{error}"))
     }
 
     /// The core of a profile that need not have been checked.
@@ -154,11 +152,7 @@ impl Core {
 
 impl Block for Core {
     #[inline(always)]
-    fn clock<V: Interpretation>(
-        &self,
-        state: &mut State<Self, V>,
-        i: Inputs<Signal<V>>,
-    ) -> Outputs<Signal<V>> {
+    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
         let inputs = multiplexer::Inputs { strobe: i.strobe, clear: i.clear };
         let slot = call!(self.multiplexer, state, inputs);
         let inputs = pace::Inputs { strobe: i.strobe, clear: i.clear };

@@ -31,7 +31,7 @@ use self::block_floating::wide;
 use super::demodulator::Demodulator;
 use super::multiplier::{self, Multiplier};
 use super::sqrt::{self, SquareRoot};
-use crate::buildable::{built, rounds};
+use crate::buildable::rounds;
 use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format};
@@ -135,14 +135,6 @@ const SQUARE: &str = "a square is not negative";
 impl Currents {
     /// The currents of a profile.
     ///
-    /// # Panics
-    /// Where [`Currents::try_new`] fails.
-    pub fn new(profile: &Profile) -> Self {
-        built(Self::try_new(profile))
-    }
-
-    /// The currents of a profile.
-    ///
     /// # Errors
     /// I/Q words to which no word of the model can be rounded; sums as [`Demodulator::try_new`].
     pub fn try_new(profile: &Profile) -> Result<Self, ProfileError> {
@@ -228,12 +220,7 @@ impl Currents {
     /// A sum arrives: its word goes into the memory, and with the last the loop over channels
     /// begins.
     #[inline(always)]
-    fn accept_sum<V: Interpretation>(
-        &self,
-        r: Registers<Signal<V>>,
-        i: Inputs<Signal<V>>,
-        held: Signal<V>,
-    ) -> Registers<Signal<V>> {
+    fn accept_sum<V: Interpretation>(&self, r: Regs<V>, i: In<V>, held: Signal<V>) -> Regs<V> {
         let of_channel = i.index.less_than(int(2 * (self.terminals + 1)));
         let begin = if self.block == 0 { Step::Read } else { Step::AlignRead }.signal();
         let r = if self.block == 0 { r } else { self.unaligned(r) };
@@ -250,7 +237,7 @@ impl Currents {
 
     /// A total with a terminal's word more, and whether it is saturated.
     #[inline(always)]
-    fn add_terminal<V: Interpretation>(&self, r: &Registers<Signal<V>>) -> (Signal<V>, Signal<V>) {
+    fn add_terminal<V: Interpretation>(&self, r: &Regs<V>) -> (Signal<V>, Signal<V>) {
         (r.total_i + r.part).named("with_terminal").saturate(self.total, Exact)
     }
 
@@ -258,11 +245,11 @@ impl Currents {
     #[inline(always)]
     fn step<V: Interpretation>(
         &self,
-        r: Registers<Signal<V>>,
+        r: Regs<V>,
         word: Signal<V>,
         product: Signal<V>,
-        sqrt: sqrt::Outputs<Signal<V>>,
-    ) -> Registers<Signal<V>> {
+        sqrt: sqrt::Out<V>,
+    ) -> Regs<V> {
         use Step::*;
         let at = |step: Step| r.step.at(step);
         let all = r.channel.is(self.terminals + 1);
@@ -309,11 +296,7 @@ impl Currents {
 
     /// An amplitude is there: of a terminal, of the sensing voltage, and last of the total.
     #[inline(always)]
-    fn sum_up<V: Interpretation>(
-        &self,
-        r: Registers<Signal<V>>,
-        amplitude: Signal<V>,
-    ) -> Registers<Signal<V>> {
+    fn sum_up<V: Interpretation>(&self, r: Regs<V>, amplitude: Signal<V>) -> Regs<V> {
         let opening = r.channel.is(0);
         let terminal = r.channel.less_than(int(self.terminals));
         let smaller = opening | (terminal & amplitude.less_than(r.least));
@@ -349,35 +332,18 @@ impl Currents {
     }
 
     #[inline(always)]
-    fn results<V: Interpretation>(
-        &self,
-        r: &Registers<Signal<V>>,
-        total: Signal<V>,
-    ) -> Outputs<Signal<V>> {
-        let Registers { done, x, y, corners, least, .. } = *r;
+    fn results<V: Interpretation>(&self, r: &Regs<V>, total: Signal<V>) -> Out<V> {
+        let Registers { done, sense, x, y, corners, least, saturated, .. } = *r;
         if self.block == 0 {
-            return Outputs {
-                done,
-                total,
-                sense: r.sense,
-                x,
-                y,
-                corners,
-                least,
-                saturated: r.saturated,
-            };
+            return Outputs { done, total, sense, x, y, corners, least, saturated };
         }
-        let ((total, beyond), (sense, too)) = (self.rounded(r.whole), self.rounded(r.sense));
-        Outputs { done, total, sense, x, y, corners, least, saturated: r.saturated | beyond | too }
+        let ((total, beyond), (sense, too)) = (self.rounded(r.whole), self.rounded(sense));
+        Outputs { done, total, sense, x, y, corners, least, saturated: saturated | beyond | too }
     }
 
     /// The total's amplitude, to be moved back.
     #[inline(always)]
-    fn whole<V: Interpretation>(
-        &self,
-        r: &Registers<Signal<V>>,
-        amplitude: Signal<V>,
-    ) -> Signal<V> {
+    fn whole<V: Interpretation>(&self, r: &Regs<V>, amplitude: Signal<V>) -> Signal<V> {
         if self.block == 0 {
             r.whole
         } else {
@@ -389,11 +355,11 @@ impl Currents {
     #[inline(always)]
     fn busy<V: Interpretation>(
         &self,
-        r: Registers<Signal<V>>,
+        r: Regs<V>,
         data: Signal<V>,
         product: Signal<V>,
-        sqrt: sqrt::Outputs<Signal<V>>,
-    ) -> Registers<Signal<V>> {
+        sqrt: sqrt::Out<V>,
+    ) -> Regs<V> {
         let waits = Registers { multiplier_busy: bit(true), ..r };
         let advance = self.multiplier.ready(r.multiplier_busy) | r.step.at(Step::SquareRoot);
         if self.block == 0 {
@@ -408,11 +374,7 @@ impl Currents {
 
 impl Block for Currents {
     #[inline(always)]
-    fn clock<V: Interpretation>(
-        &self,
-        state: &mut State<Self, V>,
-        i: Inputs<Signal<V>>,
-    ) -> Outputs<Signal<V>> {
+    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
         let r = state.load(self);
         // The last root, the total's, stays until the next slot's first.
         let inputs = sqrt::Inputs { start: r.sqrt_start, radicand: r.power };

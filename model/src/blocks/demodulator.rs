@@ -42,7 +42,7 @@ mod polyphase;
 
 pub(crate) use self::polyphase::{GAIN as POLYPHASE_GAIN, Polyphase};
 use super::multiplier::{self, Multiplier};
-use crate::buildable::{built, fits};
+use crate::buildable::fits;
 use hapticore_contract::profile::{Method, Profile, ProfileError};
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format, MAX_WIDTH};
@@ -143,14 +143,6 @@ const PIPELINE: u64 = 2;
 impl Demodulator {
     /// The demodulator of a profile.
     ///
-    /// # Panics
-    /// Where [`Demodulator::try_new`] fails.
-    pub fn new(profile: &Profile) -> Self {
-        built(Self::try_new(profile))
-    }
-
-    /// The demodulator of a profile.
-    ///
     /// # Errors
     /// A window whose sums no word of the model holds.
     pub fn try_new(profile: &Profile) -> Result<Self, ProfileError> {
@@ -173,18 +165,14 @@ impl Demodulator {
         let sums = 2 * channels + 1;
         let words = polyphase.as_ref().map_or(sums, |polyphase| polyphase.words());
         let steps = if polyphase.is_some() { channels + 2 } else { WINDOWING + sums } + PIPELINE;
+        let memory = |name, words: u64, format| {
+            Memory::new(name, words.next_power_of_two() as usize, format).dont_care_on_collision()
+        };
         Ok(Demodulator {
             // In one clock whatever its width: products keep pace with the channels.
             multiplier: Multiplier::new(operand.integer(), operand.integer(), MAX_WIDTH),
-            windowed_lo: Memory::new(
-                "windowed_lo",
-                WINDOWING.next_power_of_two() as usize,
-                operand,
-            )
-            .dont_care_on_collision()
-            .in_block(),
-            sums: Memory::new("sums", words.next_power_of_two() as usize, sum)
-                .dont_care_on_collision(),
+            windowed_lo: memory("windowed_lo", WINDOWING, operand).in_block(),
+            sums: memory("sums", words, sum),
             channels,
             adc,
             oscillator,
@@ -305,7 +293,7 @@ impl Demodulator {
 
     /// The channel whose code the next clock's operand needs.
     #[inline(always)]
-    fn channel<V: Interpretation>(&self, r: &Registers<Signal<V>>) -> Signal<V> {
+    fn channel<V: Interpretation>(&self, r: &Regs<V>) -> Signal<V> {
         let format = self.channel.as_uint();
         let ahead = (r.step - int(WINDOWING - 1)).bits(1, format.width);
         let of_channels = r.step.at_least(int(WINDOWING - 1))
@@ -317,8 +305,8 @@ impl Demodulator {
     #[inline(always)]
     fn operands<V: Interpretation>(
         &self,
-        r: &Registers<Signal<V>>,
-        i: &Inputs<Signal<V>>,
+        r: &Regs<V>,
+        i: &In<V>,
         window_word: Signal<V>,
     ) -> (Signal<V>, Signal<V>) {
         let windowing = r.step.less_than(int(WINDOWING)).named("windowing");
@@ -332,11 +320,7 @@ impl Demodulator {
     /// Stores the windowed local oscillator of the cycle before, and asks for that of the next
     /// step.
     #[inline(always)]
-    fn windowed_lo<V: Interpretation>(
-        &self,
-        r: &Registers<Signal<V>>,
-        words: &mut V::Words,
-    ) -> Signal<V> {
+    fn windowed_lo<V: Interpretation>(&self, r: &Regs<V>, words: &mut V::Words) -> Signal<V> {
         let format = self.windowed_lo.format.assume_frac(self.operand.frac);
         let window_word = Signal { format, ..self.windowed_lo.data(words) };
         let place = (r.step - int(WINDOWING)).bits(0, Format::counter(WINDOWING - 1).width);
@@ -352,11 +336,7 @@ impl Demodulator {
     /// While products apply the window: the word of this product, of cosine, sine or the haptic
     /// code. The residues of cosine and sine change places with each.
     #[inline(always)]
-    fn windowed<V: Interpretation>(
-        &self,
-        r: Registers<Signal<V>>,
-        product: Signal<V>,
-    ) -> Registers<Signal<V>> {
+    fn windowed<V: Interpretation>(&self, r: Regs<V>, product: Signal<V>) -> Regs<V> {
         let of_wave = (r.step.is(PIPELINE) | r.step.is(PIPELINE + 1)).named("of_wave");
         let of_haptic = r.step.is(PIPELINE + WINDOWING - 1);
         let residue = r.first.select(self.fresh_residue(), r.residue);
@@ -371,11 +351,7 @@ impl Demodulator {
     }
 
     #[inline(always)]
-    fn begin<V: Interpretation>(
-        &self,
-        r: Registers<Signal<V>>,
-        i: Inputs<Signal<V>>,
-    ) -> Registers<Signal<V>> {
+    fn begin<V: Interpretation>(&self, r: Regs<V>, i: In<V>) -> Regs<V> {
         let clipped = i.first.select(bit(false), r.clipped);
         // Polyphase: a window's first five samples begin the sums of their phases.
         let fresh = i.first | (r.fresh & !i.phase.is(0));
@@ -396,12 +372,12 @@ impl Demodulator {
     #[inline(always)]
     fn step<V: Interpretation>(
         &self,
-        r: Registers<Signal<V>>,
-        i: Inputs<Signal<V>>,
+        r: Regs<V>,
+        i: In<V>,
         index: Signal<V>,
         (product, window_word): (Signal<V>, Signal<V>),
         (sum, summed): (Signal<V>, Signal<V>),
-    ) -> Registers<Signal<V>> {
+    ) -> Regs<V> {
         let (left, right) = self.operands(&r, &i, window_word);
         let uses_code =
             r.step.at_least(int(WINDOWING - 1)) & r.step.less_than(int(WINDOWING + self.sums()));
@@ -426,11 +402,7 @@ impl Demodulator {
 
 impl Block for Demodulator {
     #[inline(always)]
-    fn clock<V: Interpretation>(
-        &self,
-        state: &mut State<Self, V>,
-        i: Inputs<Signal<V>>,
-    ) -> Outputs<Signal<V>> {
+    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
         if let Some(polyphase) = &self.polyphase {
             return self.clock_polyphase(polyphase, state, i);
         }

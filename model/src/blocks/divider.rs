@@ -91,11 +91,7 @@ impl Divider {
 
     /// The registers when a division begins: the dividend's high bits are the first remainder.
     #[inline(always)]
-    fn begin<V: Interpretation>(
-        &self,
-        r: Registers<Signal<V>>,
-        i: Inputs<Signal<V>>,
-    ) -> Registers<Signal<V>> {
+    fn begin<V: Interpretation>(&self, r: Regs<V>, i: In<V>) -> Regs<V> {
         let numerator = i.numerator.resize(self.dividend, Proved);
         let width = self.quotient.width;
         let (remainder, tail) =
@@ -106,11 +102,7 @@ impl Divider {
     /// If the high bits already reach the denominator, the quotient does not fit: it is known
     /// already, and zeros keep the remainder below even so.
     #[inline(always)]
-    fn check<V: Interpretation>(
-        &self,
-        r: Registers<Signal<V>>,
-        i: Inputs<Signal<V>>,
-    ) -> Registers<Signal<V>> {
+    fn check<V: Interpretation>(&self, r: Regs<V>, i: In<V>) -> Regs<V> {
         let over = r.remainder.at_least(i.denominator.integer()).named("too_large");
         let (remainder, tail) = (over.select(int(0), r.remainder), over.select(int(0), r.tail));
         Registers { count: r.count.increment(), remainder, tail, over, ..r }
@@ -118,12 +110,7 @@ impl Divider {
 
     /// One more bit of the quotient, which follows what is left of the numerator's.
     #[inline(always)]
-    fn step<V: Interpretation>(
-        &self,
-        r: Registers<Signal<V>>,
-        rest: Signal<V>,
-        shifted: Signal<V>,
-    ) -> Registers<Signal<V>> {
+    fn step<V: Interpretation>(&self, r: Regs<V>, rest: Signal<V>, shifted: Signal<V>) -> Regs<V> {
         let fits = (!rest.msb()).named("fits");
         Registers {
             count: r.count.increment(),
@@ -136,22 +123,14 @@ impl Divider {
     /// Whether the quotient is rounded up: twice the remainder is past the denominator, or just
     /// there and the quotient odd.
     #[inline(always)]
-    fn round<V: Interpretation>(
-        &self,
-        r: Registers<Signal<V>>,
-        rest: Signal<V>,
-    ) -> Registers<Signal<V>> {
+    fn round<V: Interpretation>(&self, r: Regs<V>, rest: Signal<V>) -> Regs<V> {
         let up = !rest.msb() & (!rest.is(0) | r.tail.bits(0, 1));
         Registers { count: r.count.increment(), up, ..r }
     }
 
     /// The rounded quotient.
     #[inline(always)]
-    fn finish<V: Interpretation>(
-        &self,
-        r: Registers<Signal<V>>,
-        i: Inputs<Signal<V>>,
-    ) -> Registers<Signal<V>> {
+    fn finish<V: Interpretation>(&self, r: Regs<V>, i: In<V>) -> Regs<V> {
         let (rounded, over) = (r.tail + r.up).saturate(self.quotient.integer(), Exact);
         let most = code(self.quotient.max_code() as i64, self.quotient.integer());
         let saturated = over | r.over;
@@ -164,11 +143,11 @@ impl Divider {
     #[inline(always)]
     fn work<V: Interpretation>(
         &self,
-        r: Registers<Signal<V>>,
-        i: Inputs<Signal<V>>,
+        r: Regs<V>,
+        i: In<V>,
         rest: Signal<V>,
         shifted: Signal<V>,
-    ) -> Registers<Signal<V>> {
+    ) -> Regs<V> {
         let at = |count: u64| r.count.is(count);
         let width = u64::from(self.quotient.width);
         when!(at(0) => self.check(r, i),
@@ -181,11 +160,7 @@ impl Divider {
 
 impl Block for Divider {
     #[inline(always)]
-    fn clock<V: Interpretation>(
-        &self,
-        state: &mut State<Self, V>,
-        i: Inputs<Signal<V>>,
-    ) -> Outputs<Signal<V>> {
+    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
         let r = state.load(self);
         let outputs = Outputs { done: r.done, quotient: r.quotient, saturated: r.saturated };
         if (i.start | r.busy | r.done).can_skip() {

@@ -17,7 +17,6 @@ use super::frames::{self, Frames};
 use super::haptic_voltage::{self, HapticVoltage};
 use super::position::{self, Position, TablePort};
 use super::ratio::{self, Ratio};
-use crate::buildable::built;
 use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::bundle::Bundle;
@@ -101,14 +100,6 @@ block! {
 impl Estimator {
     /// The estimator of a profile.
     ///
-    /// # Panics
-    /// Where [`Estimator::try_new`] fails.
-    pub fn new(profile: &Profile) -> Self {
-        built(Self::try_new(profile))
-    }
-
-    /// The estimator of a profile.
-    ///
     /// # Errors
     /// The first of its blocks that cannot be.
     pub fn try_new(profile: &Profile) -> Result<Self, ProfileError> {
@@ -141,18 +132,8 @@ impl Estimator {
     #[inline(always)]
     fn frame(&self) -> FramePort<Format> {
         let frames::Outputs { valid, index, word, done } = self.frames.outputs();
-        let (pad, clipped) = (self.pad(), BIT);
-        FramePort {
-            valid,
-            index,
-            frame: word,
-            done,
-            pad,
-            clipped,
-            saturated: BIT,
-            invalid: BIT,
-            lost: BIT,
-        }
+        let (pad, [clipped, saturated, invalid, lost]) = (self.pad(), [BIT; 4]);
+        FramePort { valid, index, frame: word, done, pad, clipped, saturated, invalid, lost }
     }
 
     /// Clocks from the last sum to the last word.
@@ -186,11 +167,7 @@ impl Estimator {
 
 impl Block for Estimator {
     #[inline(always)]
-    fn clock<V: Interpretation>(
-        &self,
-        state: &mut State<Self, V>,
-        i: Inputs<Signal<V>>,
-    ) -> Outputs<Signal<V>> {
+    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
         let r = state.load(self);
         if (i.valid | r.busy | i.calibration.table.write | i.clear).can_skip() {
             return self.quiet(r);
@@ -269,7 +246,7 @@ impl Block for Estimator {
 impl Estimator {
     /// The outputs while nothing is under way: no frame, and so nothing about one.
     #[inline(always)]
-    fn quiet<V: Interpretation>(&self, r: Registers<Signal<V>>) -> Outputs<Signal<V>> {
+    fn quiet<V: Interpretation>(&self, r: Regs<V>) -> Out<V> {
         let nothing = FramePort::map(self.frame(), zero);
         Outputs { frames: FramePort { pad: r.pad, clipped: r.clipped, ..nothing } }
     }

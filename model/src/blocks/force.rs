@@ -17,7 +17,7 @@
 //! Latency: 9 steps and a clock from `start` to `done`.
 
 use super::multiplier::{self, Multiplier};
-use crate::buildable::{built, rounds};
+use crate::buildable::rounds;
 use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format};
@@ -82,39 +82,23 @@ block! {
 impl Force {
     /// The force estimator of a profile.
     ///
-    /// # Panics
-    /// Where [`Force::try_new`] fails.
-    pub fn new(profile: &Profile) -> Self {
-        built(Self::try_new(profile))
-    }
-
-    /// The force estimator of a profile.
-    ///
     /// # Errors
     /// A format to which no word of the model can be rounded.
     pub fn try_new(profile: &Profile) -> Result<Self, ProfileError> {
         let f = &profile.formats;
-        let (capacitance, mean_square, square, gain) =
-            (f.capacitance, f.mean_square, f.square, f.force_gain);
+        let (capacitance, mean_square, square) = (f.capacitance, f.mean_square, f.square);
+        let (gain, force) = (f.force_gain, f.force);
         let left = Format::unsigned(capacitance.width.max(square.width), 0);
         let right = Format::unsigned(capacitance.width.max(mean_square.width).max(gain.width), 0);
         let multiplier = Multiplier::new(left, right, profile.multiplier);
-        let force = Force {
-            multiplier,
-            capacitance,
-            mean_square,
-            square,
-            gain,
-            force: f.force,
-            left,
-            right,
-        };
+        let block =
+            Force { multiplier, capacitance, mean_square, square, gain, force, left, right };
         for (field, (product, to)) in
-            ["square", "square", "force"].into_iter().zip(force.products())
+            ["square", "square", "force"].into_iter().zip(block.products())
         {
             rounds(&format!("formats.{field}"), product, to)?;
         }
-        Ok(force)
+        Ok(block)
     }
 
     /// The products square, energy and force, and the formats to which they are rounded.
@@ -133,12 +117,7 @@ impl Force {
     }
 
     #[inline(always)]
-    fn step<V: Interpretation>(
-        &self,
-        r: Registers<Signal<V>>,
-        i: Inputs<Signal<V>>,
-        product: Signal<V>,
-    ) -> Registers<Signal<V>> {
+    fn step<V: Interpretation>(&self, r: Regs<V>, i: In<V>, product: Signal<V>) -> Regs<V> {
         use Step::*;
         let at = |step: Step| r.step.at(step);
         let narrowed = self.products().map(|(of, to)| product.as_code(of).saturate(to, HalfEven));
@@ -164,14 +143,10 @@ impl Force {
 
 impl Block for Force {
     #[inline(always)]
-    fn clock<V: Interpretation>(
-        &self,
-        state: &mut State<Self, V>,
-        i: Inputs<Signal<V>>,
-    ) -> Outputs<Signal<V>> {
+    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
         let r = state.load(self);
-        let outputs =
-            Outputs { done: r.done, haptic_force: r.haptic_force, saturated: r.saturated };
+        let Registers { done, haptic_force, saturated, .. } = r;
+        let outputs = Outputs { done, haptic_force, saturated };
         if (i.start | !r.step.at(Step::Idle) | r.done).can_skip() {
             return outputs;
         }

@@ -105,7 +105,7 @@ impl Frames {
 
     /// The result that is the field `index`, as an integer.
     #[inline(always)]
-    fn result<V: Interpretation>(&self, i: &Inputs<Signal<V>>, index: Signal<V>) -> Signal<V> {
+    fn result<V: Interpretation>(&self, i: &In<V>, index: Signal<V>) -> Signal<V> {
         let fields =
             [i.r_x, i.r_y, i.x, i.y, i.sheet, i.capacitance, i.haptic_force, i.mean_square];
         let word = |k: usize| fields[k].integer().resize(self.word(), Proved);
@@ -118,11 +118,7 @@ impl Frames {
 
 impl Block for Frames {
     #[inline(always)]
-    fn clock<V: Interpretation>(
-        &self,
-        state: &mut State<Self, V>,
-        i: Inputs<Signal<V>>,
-    ) -> Outputs<Signal<V>> {
+    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
         let r = state.load(self);
         let outputs = Outputs { valid: r.valid, index: r.index, word: r.word, done: r.done };
         if (i.start | r.busy | r.valid).can_skip() {

@@ -23,7 +23,7 @@
 //! force follows the square); docs/physics.md §3 (the gap follows the RMS).
 
 use super::demodulator::Demodulator;
-use crate::buildable::{built, rounds};
+use crate::buildable::rounds;
 use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format};
@@ -81,14 +81,6 @@ block! {
 impl HapticVoltage {
     /// The haptic voltage of a profile.
     ///
-    /// # Panics
-    /// Where [`HapticVoltage::try_new`] fails.
-    pub fn new(profile: &Profile) -> Self {
-        built(Self::try_new(profile))
-    }
-
-    /// The haptic voltage of a profile.
-    ///
     /// # Errors
     /// A mean square to which no word of the model can be rounded; sums as
     /// [`Demodulator::try_new`].
@@ -116,11 +108,7 @@ impl HapticVoltage {
 
     /// The window's squares are there: with one window these are the result.
     #[inline(always)]
-    fn accept<V: Interpretation>(
-        &self,
-        r: Registers<Signal<V>>,
-        i: Inputs<Signal<V>>,
-    ) -> Registers<Signal<V>> {
+    fn accept<V: Interpretation>(&self, r: Regs<V>, i: In<V>) -> Regs<V> {
         let (newest, saturated) = i.sum.scaled(-self.shift).saturate(r.newest.format, HalfEven);
         if self.windows == 1 {
             return Registers { mean_square: newest, saturated, ..r };
@@ -141,11 +129,7 @@ impl HapticVoltage {
 
     /// A clock of the sum over the pad's windows: the newest is written, then all are read.
     #[inline(always)]
-    fn add<V: Interpretation>(
-        &self,
-        r: Registers<Signal<V>>,
-        data: Signal<V>,
-    ) -> Registers<Signal<V>> {
+    fn add<V: Interpretation>(&self, r: Regs<V>, data: Signal<V>) -> Regs<V> {
         let most = code(self.squares.format.max_code() as i64, self.squares.format);
         let adds = r.count.at_least(int(2));
         let total = (r.total + data).resize(r.total.format, Wrap);
@@ -168,12 +152,7 @@ impl HapticVoltage {
 
     /// One clock of the memory: the newest square goes in, and then all of the pad's come out.
     #[inline(always)]
-    fn access<V: Interpretation>(
-        &self,
-        state: &mut State<Self, V>,
-        r: &Registers<Signal<V>>,
-        pad: Signal<V>,
-    ) {
+    fn access<V: Interpretation>(&self, state: &mut State<Self, V>, r: &Regs<V>, pad: Signal<V>) {
         let writes = r.busy & r.count.is(0);
         let read = (r.count - int(1)).bits(0, r.round.format.width);
         let write = Write { enable: writes, address: pad.concat(r.round), data: r.newest };
@@ -183,11 +162,7 @@ impl HapticVoltage {
 
 impl Block for HapticVoltage {
     #[inline(always)]
-    fn clock<V: Interpretation>(
-        &self,
-        state: &mut State<Self, V>,
-        i: Inputs<Signal<V>>,
-    ) -> Outputs<Signal<V>> {
+    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
         let r = state.load(self);
         let outputs = Outputs { mean_square: r.mean_square, saturated: r.saturated };
         if (i.valid | r.busy | i.clear).can_skip() {

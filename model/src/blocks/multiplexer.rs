@@ -83,7 +83,7 @@ impl Multiplexer {
 
     /// What a strobe makes of the registers.
     #[inline(always)]
-    fn advance<V: Interpretation>(&self, r: Registers<Signal<V>>) -> Registers<Signal<V>> {
+    fn advance<V: Interpretation>(&self, r: Regs<V>) -> Regs<V> {
         let end = r.count.is(self.end - 1);
         let step = |at_end: Signal<V>, from: Signal<V>| {
             at_end.select(int(0), from + int(1)).resize(from.format, Proved)
@@ -106,11 +106,7 @@ impl Multiplexer {
 
 impl Block for Multiplexer {
     #[inline(always)]
-    fn clock<V: Interpretation>(
-        &self,
-        state: &mut State<Self, V>,
-        i: Inputs<Signal<V>>,
-    ) -> Outputs<Signal<V>> {
+    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
         let r = state.load(self);
         let Registers { sample, restart, integrate, first, last, pad, closed, .. } = r;
         let outputs = Outputs { sample, restart, integrate, first, last, pad, closed };

@@ -116,11 +116,7 @@ impl Multiplier {
 
     /// The partial products of the operands.
     #[inline(always)]
-    fn partials<V: Interpretation>(
-        &self,
-        i: Inputs<Signal<V>>,
-        r: Registers<Signal<V>>,
-    ) -> Registers<Signal<V>> {
+    fn partials<V: Interpretation>(&self, i: In<V>, r: Regs<V>) -> Regs<V> {
         let split = |operand: Signal<V>, low: u8| match low {
             0 => (operand, None),
             _ => {
@@ -141,7 +137,7 @@ impl Multiplier {
 
     /// Sum of the partial products, aligned.
     #[inline(always)]
-    fn sum<V: Interpretation>(&self, r: &Registers<Signal<V>>) -> Signal<V> {
+    fn sum<V: Interpretation>(&self, r: &Regs<V>) -> Signal<V> {
         let whole = |sum: Signal<V>| sum.resize(self.product(), Proved);
         match self.low {
             [0, _] => whole(r.high_high + r.high_low),
@@ -153,11 +149,7 @@ impl Multiplier {
 
 impl Block for Multiplier {
     #[inline(always)]
-    fn clock<V: Interpretation>(
-        &self,
-        state: &mut State<Self, V>,
-        i: Inputs<Signal<V>>,
-    ) -> Outputs<Signal<V>> {
+    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
         let r = state.load(self);
         let outputs = Outputs { product: r.product };
         if i.enable.can_skip() {

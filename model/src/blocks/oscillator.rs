@@ -218,11 +218,7 @@ impl Oscillator {
 
     /// The phase of the clock's look-up: the sine of (φ + ¼) is the cosine.
     #[inline(always)]
-    fn address_phase<V: Interpretation>(
-        &self,
-        r: &Registers<Signal<V>>,
-        i: &Inputs<Signal<V>>,
-    ) -> Phase<V> {
+    fn address_phase<V: Interpretation>(&self, r: &Regs<V>, i: &In<V>) -> Phase<V> {
         let begins = i.sample & i.first;
         let of = |carrier: Signal<V>, window: Signal<V>| {
             let begun = begins.select(int(0), window);
@@ -235,11 +231,7 @@ impl Oscillator {
 
     /// Polyphase: a sample begins, with the next phase and the next place in the window.
     #[inline(always)]
-    fn begin_polyphase<V: Interpretation>(
-        &self,
-        r: Registers<Signal<V>>,
-        i: Inputs<Signal<V>>,
-    ) -> Registers<Signal<V>> {
+    fn begin_polyphase<V: Interpretation>(&self, r: Regs<V>, i: In<V>) -> Regs<V> {
         let next = |anew: Signal<V>, count: Signal<V>, last: u64| {
             (anew | count.is(last)).select(int(0), count.increment())
         };
@@ -254,20 +246,12 @@ impl Oscillator {
     /// Polyphase: the word of the window's place, or of its mirror image, is looked up; one cycle
     /// later it is there.
     #[inline(always)]
-    fn clock_polyphase<V: Interpretation>(
-        &self,
-        state: &mut State<Self, V>,
-        i: Inputs<Signal<V>>,
-    ) -> Outputs<Signal<V>> {
+    fn clock_polyphase<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
         let r = state.load(self);
         let window = self.quarter.data(&mut state.submodules.quarter).resize(self.wave, Proved);
-        let outputs = Outputs {
-            ready: r.ready,
-            cosine: self.carrier(r.phase),
-            sine: zero(self.wave),
-            window,
-            phase: r.phase,
-        };
+        let Registers { ready, phase, .. } = r;
+        let (cosine, sine) = (self.carrier(phase), zero(self.wave));
+        let outputs = Outputs { ready, cosine, sine, window, phase };
         let busy = !r.step.at(Step::Idle);
         if (i.sample | busy | r.ready).can_skip() {
             return outputs;
@@ -290,11 +274,7 @@ impl Oscillator {
 
     /// A sample begins: phases start anew where they should.
     #[inline(always)]
-    fn begin<V: Interpretation>(
-        &self,
-        r: Registers<Signal<V>>,
-        i: Inputs<Signal<V>>,
-    ) -> Registers<Signal<V>> {
+    fn begin<V: Interpretation>(&self, r: Regs<V>, i: In<V>) -> Regs<V> {
         let anew = |bit: Signal<V>, phase: Signal<V>| bit.select(int(0), phase);
         Registers {
             step: Step::LookUp.signal(),
@@ -311,10 +291,10 @@ impl Oscillator {
     #[inline(always)]
     fn step<V: Interpretation>(
         &self,
-        r: Registers<Signal<V>>,
+        r: Regs<V>,
         magnitude: Signal<V>,
         negative: Signal<V>,
-    ) -> Registers<Signal<V>> {
+    ) -> Regs<V> {
         use Step::*;
         let at = |step: Step| r.step.at(step);
         let end = at(Sine);
@@ -347,11 +327,7 @@ impl Oscillator {
 
 impl Block for Oscillator {
     #[inline(always)]
-    fn clock<V: Interpretation>(
-        &self,
-        state: &mut State<Self, V>,
-        i: Inputs<Signal<V>>,
-    ) -> Outputs<Signal<V>> {
+    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
         if self.polyphase {
             return self.clock_polyphase(state, i);
         }

@@ -17,7 +17,7 @@ use hapticore_contract::profile::Profile;
 use hapticore_hdl::block;
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format};
-use hapticore_hdl::signal::{Signal, int};
+use hapticore_hdl::signal::int;
 
 block! {
     /// The check of the samples' distance.
@@ -50,11 +50,7 @@ impl Pace {
 
 impl Block for Pace {
     #[inline(always)]
-    fn clock<V: Interpretation>(
-        &self,
-        state: &mut State<Self, V>,
-        i: Inputs<Signal<V>>,
-    ) -> Outputs<Signal<V>> {
+    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
         let r = state.load(self);
         let none = r.left.is(0);
         let outputs = Outputs { overrun: r.overrun };

@@ -17,11 +17,11 @@
 //! `done`.
 
 use super::divider::{self, Divider};
-use crate::buildable::{built, fits};
+use crate::buildable::fits;
 use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format};
-use hapticore_hdl::signal::{Proved, Signal, bit, int};
+use hapticore_hdl::signal::{Proved, bit, int};
 use hapticore_hdl::states::States;
 use hapticore_hdl::{block, call, next, states};
 
@@ -87,14 +87,6 @@ impl Ratio {
     /// The ratios of a profile; `sums` are the formats of the numerators and of the denominator,
     /// `least` that of an amplitude.
     ///
-    /// # Panics
-    /// Where [`Ratio::try_new`] fails.
-    pub fn new(profile: &Profile, sums: (Format, Format), least: Format) -> Self {
-        built(Self::try_new(profile, sums, least))
-    }
-
-    /// As [`Ratio::new`].
-    ///
     /// # Errors
     /// A ratio whose dividend no word of the model holds.
     pub fn try_new(
@@ -120,12 +112,7 @@ impl Ratio {
     }
 
     #[inline(always)]
-    fn step<V: Interpretation>(
-        &self,
-        r: Registers<Signal<V>>,
-        i: Inputs<Signal<V>>,
-        divided: divider::Outputs<Signal<V>>,
-    ) -> Registers<Signal<V>> {
+    fn step<V: Interpretation>(&self, r: Regs<V>, i: In<V>, divided: divider::Out<V>) -> Regs<V> {
         let [x, y, share] =
             [Step::X, Step::Y, Step::Share].map(|step| divided.done & r.step.at(step));
         let numerator = r.step.at(Step::X).select(i.x, i.y).named("numerator");
@@ -149,11 +136,7 @@ impl Ratio {
 
 impl Block for Ratio {
     #[inline(always)]
-    fn clock<V: Interpretation>(
-        &self,
-        state: &mut State<Self, V>,
-        i: Inputs<Signal<V>>,
-    ) -> Outputs<Signal<V>> {
+    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
         let r = state.load(self);
         let numerator = r.step.at(Step::X).select(i.x, i.y).abs();
         let numerator =
@@ -161,13 +144,8 @@ impl Block for Ratio {
         let inputs = divider::Inputs { start: r.divide, numerator, denominator: i.corners };
         // The last quotient, the share, stays until the next slot's first.
         let divided = call!(self.divider, state, inputs);
-        let outputs = Outputs {
-            done: r.done,
-            r_x: r.r_x,
-            r_y: r.r_y,
-            share: divided.quotient,
-            invalid: r.invalid,
-        };
+        let Registers { done, r_x, r_y, invalid, .. } = r;
+        let outputs = Outputs { done, r_x, r_y, share: divided.quotient, invalid };
         if (i.start | !r.step.at(Step::Idle) | r.done).can_skip() {
             return outputs;
         }

@@ -18,7 +18,7 @@
 
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format};
-use hapticore_hdl::signal::{Assumed, Proved, Signal, bit, int};
+use hapticore_hdl::signal::{Assumed, Proved, bit, int};
 use hapticore_hdl::{block, next, when};
 
 block! {
@@ -88,11 +88,7 @@ impl SquareRoot {
     }
 
     #[inline(always)]
-    fn begin<V: Interpretation>(
-        &self,
-        r: Registers<Signal<V>>,
-        i: Inputs<Signal<V>>,
-    ) -> Registers<Signal<V>> {
+    fn begin<V: Interpretation>(&self, r: Regs<V>, i: In<V>) -> Regs<V> {
         let radicand = i.radicand.resize(self.padded(), Proved);
         let tail = radicand.bits(0, self.padded().width);
         Registers {
@@ -109,7 +105,7 @@ impl SquareRoot {
     /// One more digit: with root n so far, the next is set where 4n + 1 still goes into the
     /// remainder.
     #[inline(always)]
-    fn step<V: Interpretation>(&self, r: Registers<Signal<V>>) -> Registers<Signal<V>> {
+    fn step<V: Interpretation>(&self, r: Regs<V>) -> Regs<V> {
         let width = self.padded().width;
         let shifted = r.remainder.concat(r.tail.bits(width - 2, 2)).named("shifted");
         let trial = r.partial.concat(bit(false)).concat(bit(true));
@@ -126,7 +122,7 @@ impl SquareRoot {
 
     /// The rounded root: up where the remainder is past n, for (n + ½)² = n² + n + ¼.
     #[inline(always)]
-    fn finish<V: Interpretation>(&self, r: Registers<Signal<V>>) -> Registers<Signal<V>> {
+    fn finish<V: Interpretation>(&self, r: Regs<V>) -> Regs<V> {
         let rounded = r.partial + r.partial.less_than(r.remainder);
         let sqrt = rounded.scaled(-self.sqrt().frac).golden(&[r.radicand], |of| of[0].sqrt());
         Registers { busy: bit(false), done: bit(true), sqrt, ..r }
@@ -135,11 +131,7 @@ impl SquareRoot {
 
 impl Block for SquareRoot {
     #[inline(always)]
-    fn clock<V: Interpretation>(
-        &self,
-        state: &mut State<Self, V>,
-        i: Inputs<Signal<V>>,
-    ) -> Outputs<Signal<V>> {
+    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
         let r = state.load(self);
         let outputs = Outputs { done: r.done, sqrt: r.sqrt };
         if (i.start | r.busy | r.done).can_skip() {

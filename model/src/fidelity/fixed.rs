@@ -10,8 +10,8 @@
 
 use super::tone::Response;
 use super::{Gathered, calibrated, signals};
-use crate::blocks::core::{Core, Inputs as CoreInputs};
-use crate::blocks::estimator::{Estimator, Inputs};
+use crate::blocks::core::{self, Core};
+use crate::blocks::estimator::{Estimator, In, Inputs};
 use crate::blocks::oscillator::Inputs as Sample;
 use hapticore_contract::calibration::Calibration;
 use hapticore_contract::frame::Frame;
@@ -38,7 +38,7 @@ pub struct FixedSimulation<V: Interpretation = i64> {
     channels: usize,
     local: Vec<Local<V>>,
     response: Response,
-    quiet: Inputs<Signal<V>>,
+    quiet: In<V>,
     sums: Vec<Signal<V>>,
 }
 
@@ -52,7 +52,7 @@ impl<V: Interpretation> FixedSimulation<V> {
                 words.map(|&word| profile.formats.table.code_saturating(word)).collect(),
             );
         }
-        let constants = signals::<CoreInputs, V>(core.idle_inputs(calibration), core.inputs());
+        let constants = signals::<core::Inputs, V>(core.idle_inputs(calibration), core.inputs());
         let sums = vec![zero(core.demodulator().sum()); core.demodulator().sums() as usize];
         let local = local(&core, profile);
         FixedSimulation {
@@ -244,7 +244,7 @@ impl<V: Interpretation> FixedSimulation<V> {
 fn run<V: Interpretation>(
     estimator: &Estimator,
     state: &mut State<Estimator, V>,
-    quiet: &Inputs<Signal<V>>,
+    quiet: &In<V>,
     sums: &[Signal<V>],
 ) -> Frame {
     let mut gathered = Gathered::default();
@@ -276,7 +276,7 @@ fn raw<V: Interpretation>(code: i32, adc: Format) -> Signal<V> {
 }
 
 /// The estimator's inputs between sums.
-fn quiet<V: Interpretation>(core: &Core, constants: CoreInputs<Signal<V>>) -> Inputs<Signal<V>> {
+fn quiet<V: Interpretation>(core: &Core, constants: core::In<V>) -> In<V> {
     let zeros = Inputs::map(core.estimator().inputs(), zero);
     Inputs { calibration: constants.calibration, ..zeros }
 }

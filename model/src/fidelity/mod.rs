@@ -5,7 +5,7 @@ pub mod clock;
 pub mod fixed;
 mod tone;
 
-use crate::blocks::core::{Core, Inputs, Outputs};
+use crate::blocks::core::{Core, In, Inputs, Out};
 use crate::blocks::estimator;
 use crate::blocks::position::TablePort;
 use hapticore_contract::calibration::Calibration;
@@ -70,10 +70,6 @@ fn calibrated<V: Interpretation>(core: &Core, calibration: &Calibration) -> Stat
 /// A clock of a core where nobody waits for it: out of line, so that all who call it share what is
 /// large.
 #[inline(never)]
-fn clock<V: Interpretation>(
-    core: &Core,
-    state: &mut State<Core, V>,
-    inputs: Inputs<Signal<V>>,
-) -> Outputs<Signal<V>> {
+fn clock<V: Interpretation>(core: &Core, state: &mut State<Core, V>, inputs: In<V>) -> Out<V> {
     core.clock(state, inputs)
 }

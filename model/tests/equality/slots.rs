@@ -63,7 +63,7 @@ fn frames_of_any_sums_are_the_reference() {
     for (seed, profile) in (0..).zip(short_profiles()) {
         let calibration = calibration(&profile);
         let mut reference = Slots::new(&profile, &calibration);
-        let mut bench = Bench::new(Estimator::new(&profile));
+        let mut bench = Bench::new(Estimator::try_new(&profile).unwrap());
         let constants = calibrate(&mut bench, &profile, &calibration);
         let mut random = Random::new(seed);
         for _ in 0..operations(6_000) {

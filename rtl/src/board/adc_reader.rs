@@ -45,7 +45,7 @@ use super::parameters::Parameters;
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format};
-use hapticore_hdl::signal::{Signal, bit, int, zero};
+use hapticore_hdl::signal::{bit, int, zero};
 use hapticore_hdl::{block, when};
 
 block! {
@@ -148,11 +148,7 @@ impl AdcReader {
     /// One clock of the schedule. What is set while `phase` is t is there from clock t of the chart
     /// on.
     #[inline(always)]
-    fn step<V: Interpretation>(
-        &self,
-        r: Registers<Signal<V>>,
-        i: &Inputs<Signal<V>>,
-    ) -> Registers<Signal<V>> {
+    fn step<V: Interpretation>(&self, r: Regs<V>, i: &In<V>) -> Regs<V> {
         let at = |clock: u64| r.phase.is(clock % self.period);
         let (cs, first) = (self.conversion, self.conversion + 1);
         let pulses = first - self.latency;
@@ -189,11 +185,7 @@ impl AdcReader {
     /// bits come straight from the pins, so that storing begins a clock earlier than the words are
     /// complete.
     #[inline(always)]
-    fn lines<V: Interpretation>(
-        &self,
-        r: Registers<Signal<V>>,
-        i: &Inputs<Signal<V>>,
-    ) -> Registers<Signal<V>> {
+    fn lines<V: Interpretation>(&self, r: Regs<V>, i: &In<V>) -> Regs<V> {
         let lines =
             [r.line_a, r.line_b, r.line_c, r.line_d, r.line_e, r.line_f, r.line_g, r.line_h];
         let line = |k: usize| {
@@ -224,11 +216,7 @@ impl AdcReader {
 
     /// Nothing enabled: a register of the ADC may be written.
     #[inline(always)]
-    fn rest<V: Interpretation>(
-        &self,
-        r: Registers<Signal<V>>,
-        i: &Inputs<Signal<V>>,
-    ) -> Registers<Signal<V>> {
+    fn rest<V: Interpretation>(&self, r: Regs<V>, i: &In<V>) -> Regs<V> {
         let no = bit(false);
         Registers {
             phase: int(0),
@@ -264,11 +252,7 @@ impl AdcReader {
 
 impl Block for AdcReader {
     #[inline(always)]
-    fn clock<V: Interpretation>(
-        &self,
-        state: &mut State<Self, V>,
-        i: Inputs<Signal<V>>,
-    ) -> Outputs<Signal<V>> {
+    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
         let r = state.load(self);
         let running = i.enable | r.active | r.selected | r.unload | r.configuring;
         let next = when!(running => self.step(r, &i), else self.rest(r, &i));

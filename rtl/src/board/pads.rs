@@ -17,7 +17,7 @@ use super::bits::{previous, word};
 use hapticore_hdl::block;
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format};
-use hapticore_hdl::signal::{Signal, int};
+use hapticore_hdl::signal::int;
 
 block! {
     /// The switches of the pads.
@@ -53,11 +53,7 @@ impl Pads {
 
 impl Block for Pads {
     #[inline(always)]
-    fn clock<V: Interpretation>(
-        &self,
-        state: &mut State<Self, V>,
-        i: Inputs<Signal<V>>,
-    ) -> Outputs<Signal<V>> {
+    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
         let r = state.load(self);
         let wanted = word((0..self.pads).map(|pad| i.closed & i.serve.is(pad)));
         let open = r.select.is(0);

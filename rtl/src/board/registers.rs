@@ -112,11 +112,7 @@ impl CommandRegisters {
 
     /// A byte that is no END: part of a command, or the escape before one.
     #[inline(always)]
-    fn part<V: Interpretation>(
-        &self,
-        r: Registers<Signal<V>>,
-        byte: Signal<V>,
-    ) -> Registers<Signal<V>> {
+    fn part<V: Interpretation>(&self, r: Regs<V>, byte: Signal<V>) -> Regs<V> {
         let is = |value: u8| byte.is(value.into());
         let (escape, known) = (is(ESC) & !r.escaped, is(ESC_END) | is(ESC_ESC));
         let meant = is(ESC_END).select(code(END.into(), BYTE), code(ESC.into(), BYTE));
@@ -141,7 +137,7 @@ impl CommandRegisters {
 
     /// END: the command counts, or it does not.
     #[inline(always)]
-    fn end<V: Interpretation>(&self, r: Registers<Signal<V>>) -> Registers<Signal<V>> {
+    fn end<V: Interpretation>(&self, r: Regs<V>) -> Regs<V> {
         let forbidden = self.is(&r, Register::Adc) & r.control.bits(Control::ENABLE, 1);
         let good = r.count.is(self.length) & r.crc.is(0) & !r.escaped & !forbidden;
         // END twice is nothing, not a command: a sender may clear the line with it.
@@ -153,7 +149,7 @@ impl CommandRegisters {
 
     /// The registers that a command writes.
     #[inline(always)]
-    fn written<V: Interpretation>(&self, r: Registers<Signal<V>>) -> Registers<Signal<V>> {
+    fn written<V: Interpretation>(&self, r: Regs<V>) -> Regs<V> {
         let write = |register: Register, before: Signal<V>| {
             let here = r.act & self.is(&r, register);
             here.select(read_as(r.data, before.format), before)
@@ -172,18 +168,14 @@ impl CommandRegisters {
 
     /// Whether the place is this register.
     #[inline(always)]
-    fn is<V: Interpretation>(&self, r: &Registers<Signal<V>>, register: Register) -> Signal<V> {
+    fn is<V: Interpretation>(&self, r: &Regs<V>, register: Register) -> Signal<V> {
         r.place.msb() & r.place.bits(0, PLACE.width).is(register.number() as u64)
     }
 }
 
 impl Block for CommandRegisters {
     #[inline(always)]
-    fn clock<V: Interpretation>(
-        &self,
-        state: &mut State<Self, V>,
-        i: Inputs<Signal<V>>,
-    ) -> Outputs<Signal<V>> {
+    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
         let r = state.load(self);
         let table = self.calibration.table;
         // The CRC begins anew with a command's first octet: a register is zero at reset, a CRC is

@@ -20,7 +20,7 @@ use super::bits::read_as;
 use hapticore_hdl::block;
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format};
-use hapticore_hdl::signal::{Signal, code};
+use hapticore_hdl::signal::code;
 
 block! {
     /// The sigma-delta modulator of the carrier.
@@ -55,11 +55,7 @@ impl SigmaDelta {
 
 impl Block for SigmaDelta {
     #[inline(always)]
-    fn clock<V: Interpretation>(
-        &self,
-        state: &mut State<Self, V>,
-        i: Inputs<Signal<V>>,
-    ) -> Outputs<Signal<V>> {
+    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
         let r = state.load(self);
         let width = self.carrier.width;
         let half = code::<V>(1 << (width - 1), self.rest());

@@ -163,7 +163,7 @@ impl Stream {
 
     /// The byte of the packet that is due.
     #[inline(always)]
-    fn byte<V: Interpretation>(&self, r: &Registers<Signal<V>>, data: Signal<V>) -> Signal<V> {
+    fn byte<V: Interpretation>(&self, r: &Regs<V>, data: Signal<V>) -> Signal<V> {
         let wide = data.resize(Format::signed(8 * self.bytes as u8, 0), Wrap);
         let pick = |bytes: &[Signal<V>]| {
             let (first, rest) = bytes.split_first().expect("a group has bytes");
@@ -190,12 +190,7 @@ impl Stream {
 
     /// What is written: a frame's word, or, between frames, the one that is kept for heartbeats.
     #[inline(always)]
-    fn write<V: Interpretation>(
-        &self,
-        r: &Registers<Signal<V>>,
-        i: &Inputs<Signal<V>>,
-        taking: Signal<V>,
-    ) -> Write<V> {
+    fn write<V: Interpretation>(&self, r: &Regs<V>, i: &In<V>, taking: Signal<V>) -> Write<V> {
         let (format, address) = (self.words.format, self.words.address());
         let kept = i.data.resize(Format::unsigned(format.width, 0), Wrap).as_code(format);
         Write {
@@ -209,7 +204,7 @@ impl Stream {
 
     /// Where the packet goes on after a byte: the bytes of a group are counted down.
     #[inline(always)]
-    fn advance<V: Interpretation>(&self, r: &Registers<Signal<V>>) -> (Signal<V>, Signal<V>) {
+    fn advance<V: Interpretation>(&self, r: &Regs<V>) -> (Signal<V>, Signal<V>) {
         let last = r.left.is(0);
         let of_next = r.group.is(WORDS - 1).select(int(TRAILER_BYTES - 1), int(self.bytes - 1));
         (last.select(next(r.group), r.group), last.select(of_next, previous(r.left)))
@@ -218,11 +213,7 @@ impl Stream {
 
 impl Block for Stream {
     #[inline(always)]
-    fn clock<V: Interpretation>(
-        &self,
-        state: &mut State<Self, V>,
-        i: Inputs<Signal<V>>,
-    ) -> Outputs<Signal<V>> {
+    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
         let r = state.load(self);
         let taking = (i.frames.valid & i.frames.index.is(0)).select(!r.busy, r.taking);
         let data = self.words.data(&mut state.submodules.words);

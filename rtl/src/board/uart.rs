@@ -16,7 +16,7 @@
 use super::bits::{next, previous};
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format};
-use hapticore_hdl::signal::{Signal, bit, int};
+use hapticore_hdl::signal::{bit, int};
 use hapticore_hdl::{block, when};
 
 /// The format of a byte.
@@ -65,13 +65,13 @@ pub mod receiver {
 
         /// Waits for a start bit.
         #[inline(always)]
-        fn wait<V: Interpretation>(&self, r: Registers<Signal<V>>) -> Registers<Signal<V>> {
+        fn wait<V: Interpretation>(&self, r: Regs<V>) -> Regs<V> {
             Registers { busy: r.low, count: int(self.divisor / 2), position: int(0), ..r }
         }
 
         /// The middle of a bit.
         #[inline(always)]
-        fn sample<V: Interpretation>(&self, r: Registers<Signal<V>>) -> Registers<Signal<V>> {
+        fn sample<V: Interpretation>(&self, r: Regs<V>) -> Regs<V> {
             let (start, stop) = (r.position.is(0), r.position.is(STOP));
             let shifted = (!r.low).concat(r.octet.bits(1, 7));
             Registers {
@@ -87,11 +87,7 @@ pub mod receiver {
 
     impl Block for Receiver {
         #[inline(always)]
-        fn clock<V: Interpretation>(
-            &self,
-            state: &mut State<Self, V>,
-            i: Inputs<Signal<V>>,
-        ) -> Outputs<Signal<V>> {
+        fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
             let r = state.load(self);
             let quiet = Registers { valid: bit(false), ..r };
             let counting = Registers { count: previous(r.count), ..quiet };
@@ -143,7 +139,7 @@ pub mod transmitter {
 
         /// The start bit.
         #[inline(always)]
-        fn begin<V: Interpretation>(&self, i: &Inputs<Signal<V>>) -> Registers<Signal<V>> {
+        fn begin<V: Interpretation>(&self, i: &In<V>) -> Regs<V> {
             Registers {
                 low: i.valid,
                 busy: i.valid,
@@ -155,7 +151,7 @@ pub mod transmitter {
 
         /// The end of a bit: ones follow the last, and so the stop bit is one.
         #[inline(always)]
-        fn advance<V: Interpretation>(&self, r: Registers<Signal<V>>) -> Registers<Signal<V>> {
+        fn advance<V: Interpretation>(&self, r: Regs<V>) -> Regs<V> {
             Registers {
                 low: !r.octet.bits(0, 1),
                 busy: !r.position.is(STOP),
@@ -168,11 +164,7 @@ pub mod transmitter {
 
     impl Block for Transmitter {
         #[inline(always)]
-        fn clock<V: Interpretation>(
-            &self,
-            state: &mut State<Self, V>,
-            i: Inputs<Signal<V>>,
-        ) -> Outputs<Signal<V>> {
+        fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
             let r = state.load(self);
             let counting = Registers { count: previous(r.count), ..r };
             let busy = when!(r.count.is(0) => self.advance(r), else counting);

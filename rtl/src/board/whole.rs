@@ -117,10 +117,10 @@ impl Board {
 /// The core's inputs: what has been calibrated, and a set of codes.
 #[inline(always)]
 fn core_inputs<V: Interpretation>(
-    registers: &registers::Outputs<Signal<V>>,
+    registers: &registers::Out<V>,
     strobe: Signal<V>,
     code: Signal<V>,
-) -> core::Inputs<Signal<V>> {
+) -> core::In<V> {
     let registers::Outputs { capacitance_gain, force_gain, table, .. } = *registers;
     let calibration = Calibration { capacitance_gain, force_gain, table };
     core::Inputs { strobe, clear: !registers.enable, code, calibration }
@@ -128,11 +128,7 @@ fn core_inputs<V: Interpretation>(
 
 impl Block for Board {
     #[inline(always)]
-    fn clock<V: Interpretation>(
-        &self,
-        state: &mut State<Self, V>,
-        i: Inputs<Signal<V>>,
-    ) -> Outputs<Signal<V>> {
+    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
         let r = state.load(self);
         let bytes = call!(self.receiver, state, receiver::Inputs { rx: i.rx });
         let answer = i.dout.bits(0, 1);

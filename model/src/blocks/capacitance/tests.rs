@@ -11,9 +11,9 @@ use hapticore_reference::rounded::{self, Exact};
 fn capacitances_have_the_sheet_taken_out() {
     for (seed, mut profile) in (0..).zip(Profile::all().into_iter().chain(Profile::all())) {
         profile.capacitance.sheet_correction = seed < 3;
-        let amplitude = Currents::new(&profile).amplitude();
+        let amplitude = Currents::try_new(&profile).unwrap().amplitude();
         let f = &profile.formats;
-        let mut bench = Bench::new(Capacitance::new(&profile, amplitude));
+        let mut bench = Bench::new(Capacitance::try_new(&profile, amplitude).unwrap());
         // Every other current is below the voltage, as a real one is; else most would saturate.
         let plausible = |i: Inputs<i64>| match i.total % 2 {
             0 => Inputs { total: i.total / 4, sense: i.sense.max(i.total / 3), ..i },
@@ -40,7 +40,9 @@ fn latency_is_the_clocks_measured() {
     for mut profile in Profile::all() {
         for sheet_correction in [true, false] {
             profile.capacitance.sheet_correction = sheet_correction;
-            let block = Capacitance::new(&profile, Currents::new(&profile).amplitude());
+            let block =
+                Capacitance::try_new(&profile, Currents::try_new(&profile).unwrap().amplitude())
+                    .unwrap();
             check_latency(block.clone(), block.latency());
         }
     }

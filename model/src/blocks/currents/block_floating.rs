@@ -13,7 +13,7 @@
 //! needs no point. Latency: B + 3 clocks a word, of 2 · terminals + 2 words, twice; B clocks of
 //! moving back; B the profile's `block_shift`.
 
-use super::{Currents, Registers, Step};
+use super::{Currents, Registers, Regs, Step};
 use hapticore_hdl::block::Interpretation;
 use hapticore_hdl::format::Format;
 use hapticore_hdl::signal::{Floor, HalfEven, Proved, Saturate, Signal, Wrap, bit, int};
@@ -53,11 +53,7 @@ impl Currents {
 
     /// A clock before the loop over channels: words are looked at one after the other, then moved.
     #[inline(always)]
-    pub(super) fn align<V: Interpretation>(
-        &self,
-        r: Registers<Signal<V>>,
-        word: Signal<V>,
-    ) -> Registers<Signal<V>> {
+    pub(super) fn align<V: Interpretation>(&self, r: Regs<V>, word: Signal<V>) -> Regs<V> {
         use Step::*;
         let at = |step: Step| r.step.at(step);
         let most = u64::from(self.block);
@@ -98,10 +94,7 @@ impl Currents {
 
     /// The word that is kept of a moved one, and whether this is the clock to keep it.
     #[inline(always)]
-    pub(super) fn moved<V: Interpretation>(
-        &self,
-        r: &Registers<Signal<V>>,
-    ) -> (Signal<V>, Signal<V>) {
+    pub(super) fn moved<V: Interpretation>(&self, r: &Regs<V>) -> (Signal<V>, Signal<V>) {
         let word = r.long.quantize(self.iq, HalfEven, Saturate);
         (word.scaled(-(self.block as i8)), r.step.at(Step::AlignKeep) & r.aligning)
     }
@@ -121,10 +114,7 @@ impl Currents {
 
     /// A clock of moving total and sensing voltage back.
     #[inline(always)]
-    pub(super) fn restore<V: Interpretation>(
-        &self,
-        r: Registers<Signal<V>>,
-    ) -> Registers<Signal<V>> {
+    pub(super) fn restore<V: Interpretation>(&self, r: Regs<V>) -> Regs<V> {
         let halved = |amplitude: Signal<V>, limit: Signal<V>| {
             let half = amplitude.scaled(-1);
             let half = half.quantize(amplitude.format, Floor, Proved).golden(&[half], |of| of[0]);
@@ -152,10 +142,7 @@ impl Currents {
 
     /// What alignment begins with.
     #[inline(always)]
-    pub(super) fn unaligned<V: Interpretation>(
-        &self,
-        r: Registers<Signal<V>>,
-    ) -> Registers<Signal<V>> {
+    pub(super) fn unaligned<V: Interpretation>(&self, r: Regs<V>) -> Regs<V> {
         let most = int(u64::from(self.block));
         Registers { limit: most, count: int(0), quadrature: bit(false), aligning: bit(false), ..r }
     }

@@ -10,7 +10,8 @@ use hapticore_reference::rounded::{self, Exact};
 #[test]
 fn currents_are_amplitudes_and_their_sums() {
     for (seed, profile) in (0..).zip(Profile::all()) {
-        let (mut bench, mut random) = (Bench::new(Currents::new(&profile)), Random::new(seed));
+        let (mut bench, mut random) =
+            (Bench::new(Currents::try_new(&profile).unwrap()), Random::new(seed));
         for _ in 0..operations(MILLION / 20) {
             check_currents(&mut bench, &profile, &mut random);
         }
@@ -49,7 +50,7 @@ fn check_currents(bench: &mut Bench<Currents>, profile: &Profile, random: &mut R
 #[test]
 fn latency_is_the_clocks_measured() {
     for profile in Profile::all() {
-        let mut bench = Bench::new(Currents::new(&profile));
+        let mut bench = Bench::new(Currents::try_new(&profile).unwrap());
         for index in 0..=2 * profile.demodulated() as i64 {
             bench.clock(Inputs { valid: 1, index, sum: 1000 * index });
         }

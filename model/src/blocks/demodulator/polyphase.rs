@@ -23,7 +23,7 @@
 //! | S_p     | exact           | full scale · samples | cannot (range proof) |
 //! | i, q    | 2^-dropped S_p  | full scale · samples | cannot (range proof) |
 
-use super::{Demodulator, Inputs, Outputs, PIPELINE, Registers};
+use super::{Demodulator, In, Out, Outputs, PIPELINE, Registers, Regs};
 use crate::blocks::multiplier;
 use crate::blocks::oscillator::PHASES;
 use hapticore_contract::profile::Profile;
@@ -200,11 +200,7 @@ impl Demodulator {
     /// The operands of a sample's products: haptic code and window, each channel and the window,
     /// haptic code and its share.
     #[inline(always)]
-    fn sample_operands<V: Interpretation>(
-        &self,
-        r: &Registers<Signal<V>>,
-        i: &Inputs<Signal<V>>,
-    ) -> (Signal<V>, Signal<V>) {
+    fn sample_operands<V: Interpretation>(&self, r: &Regs<V>, i: &In<V>) -> (Signal<V>, Signal<V>) {
         let haptic = r.step.is(0) | r.step.is(self.channels + 1);
         let left = haptic.select(self.magnitude(i.code), self.raised(i.code));
         let right = r
@@ -218,12 +214,12 @@ impl Demodulator {
     #[inline(always)]
     fn sample<V: Interpretation>(
         &self,
-        r: Registers<Signal<V>>,
-        i: Inputs<Signal<V>>,
+        r: Regs<V>,
+        i: In<V>,
         product: Signal<V>,
         sum: Signal<V>,
         index: Signal<V>,
-    ) -> Registers<Signal<V>> {
+    ) -> Regs<V> {
         let (left, right) = self.sample_operands(&r, &i);
         let end = r.step.is(self.steps() - 1);
         let windows = r.step.is(PIPELINE);
@@ -249,10 +245,10 @@ impl Demodulator {
     fn read<V: Interpretation>(
         &self,
         polyphase: &Polyphase,
-        r: Registers<Signal<V>>,
+        r: Regs<V>,
         word: Signal<V>,
         sum: Signal<V>,
-    ) -> Registers<Signal<V>> {
+    ) -> Regs<V> {
         let square = r.channel.is(self.channels);
         let (magnitude, negative) = wave(r.part, r.tap);
         let end = r.beat.is(BEATS - 1);
@@ -293,8 +289,8 @@ impl Demodulator {
         &self,
         polyphase: &Polyphase,
         state: &mut State<Demodulator, V>,
-        i: Inputs<Signal<V>>,
-    ) -> Outputs<Signal<V>> {
+        i: In<V>,
+    ) -> Out<V> {
         let r = state.load(self);
         let haptic = code(self.channels as i64, self.channel.as_uint());
         let asked = r.step.resize(self.channel.as_uint(), Wrap);
@@ -341,7 +337,7 @@ impl Demodulator {
 
     /// The index of a result.
     #[inline(always)]
-    fn result<V: Interpretation>(&self, r: &Registers<Signal<V>>) -> Signal<V> {
+    fn result<V: Interpretation>(&self, r: &Regs<V>) -> Signal<V> {
         r.index.bits(0, Format::counter(self.sums() - 1).width)
     }
 
@@ -351,7 +347,7 @@ impl Demodulator {
     fn place<V: Interpretation>(
         &self,
         polyphase: &Polyphase,
-        r: &Registers<Signal<V>>,
+        r: &Regs<V>,
         ahead: u64,
     ) -> Signal<V> {
         // The first channel's product is the second; it joins its sum two steps later.

@@ -12,7 +12,8 @@ use hapticore_reference::rounded::{self, Exact, Sample};
 #[test]
 fn sums_are_those_of_the_products() {
     for (seed, profile) in (0..).zip(Profile::all()) {
-        let (mut bench, mut random) = (Bench::new(Demodulator::new(&profile)), Random::new(seed));
+        let (mut bench, mut random) =
+            (Bench::new(Demodulator::try_new(&profile).unwrap()), Random::new(seed));
         let mut left = operations(MILLION / 3) as i64;
         while left > 0 {
             let samples = 1 + random.below(random.clone().below(profile.slot.integrate) + 1);
@@ -94,7 +95,7 @@ fn check_window(
 #[test]
 fn latency_is_the_clocks_measured() {
     for profile in Profile::all() {
-        let mut bench = Bench::new(Demodulator::new(&profile));
+        let mut bench = Bench::new(Demodulator::try_new(&profile).unwrap());
         let quiet = Inputs::map(bench.block.inputs(), |_| 0);
         bench.clock(Inputs { start: 1, first: 1, last: 1, ..quiet });
         let last = (1..2000).filter(|_| bench.clock(quiet).valid == 1).last();

@@ -9,7 +9,7 @@ use hapticore_hdl::bundle::Bundle;
 #[test]
 fn latency_is_the_clocks_measured() {
     for profile in Profile::all() {
-        let mut bench = Bench::new(Estimator::new(&profile));
+        let mut bench = Bench::new(Estimator::try_new(&profile).unwrap());
         let quiet = Inputs::map(bench.block.inputs(), |_| 0);
         let sums = 2 * profile.demodulated() as i64;
         for index in 0..=sums {

@@ -10,7 +10,7 @@ use hapticore_reference::rounded::{self, Exact};
 fn forces_are_those_of_eq_8() {
     for (seed, profile) in (0..).zip(Profile::all()) {
         let f = &profile.formats;
-        let mut bench = Bench::new(Force::new(&profile));
+        let mut bench = Bench::new(Force::try_new(&profile).unwrap());
         let cases = cases(&bench.block, MILLION / 3, seed);
         check(&mut bench, cases, |i| {
             let capacitance = Exact::of(i.capacitance, f.capacitance);
@@ -28,7 +28,7 @@ fn forces_are_those_of_eq_8() {
 #[test]
 fn latency_is_the_clocks_measured() {
     for profile in Profile::all() {
-        let block = Force::new(&profile);
+        let block = Force::try_new(&profile).unwrap();
         check_latency(block.clone(), block.latency());
     }
 }

@@ -10,7 +10,8 @@ use hapticore_reference::rounded::{self, Exact};
 #[test]
 fn mean_squares_are_the_last_sum() {
     for (seed, profile) in (0..).zip(Profile::all()) {
-        let (mut bench, mut random) = (Bench::new(HapticVoltage::new(&profile)), Random::new(seed));
+        let (mut bench, mut random) =
+            (Bench::new(HapticVoltage::try_new(&profile).unwrap()), Random::new(seed));
         let (format, last) = (bench.block.inputs().sum, 2 * profile.demodulated() as i64);
         let mut reference = Outputs { mean_square: 0, saturated: 0 };
         for _ in 0..operations(MILLION / 3) {
@@ -32,7 +33,7 @@ fn mean_squares_of_several_windows_are_the_mean_of_the_pads_last() {
     for (seed, windows) in (0..).zip([2, 4, 64]) {
         let mut profile = Profile::bundled("small").expect("bundled");
         profile.haptic.windows = windows;
-        let block = HapticVoltage::new(&profile);
+        let block = HapticVoltage::try_new(&profile).unwrap();
         let (format, last, latency) =
             (block.inputs().sum, 2 * profile.demodulated() as i64, block.latency());
         let (mut bench, mut random) = (Bench::new(block), Random::new(seed));

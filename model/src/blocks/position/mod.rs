@@ -229,12 +229,7 @@ impl Position {
     }
 
     /// The registers in the clock after `start`, without the program's clocks.
-    fn placed<V: Interpretation>(
-        &self,
-        at_once: &AtOnce,
-        r: Registers<Signal<V>>,
-        i: &Inputs<Signal<V>>,
-    ) -> Registers<Signal<V>> {
+    fn placed<V: Interpretation>(&self, at_once: &AtOnce, r: Regs<V>, i: &In<V>) -> Regs<V> {
         let placed = at_once.run([i.r_x, i.r_y, i.share].map(V::code));
         let [x, y, sheet] = placed.outputs;
         let flag = |set: bool| bit(set);
@@ -263,11 +258,7 @@ impl Position {
 
 impl Block for Position {
     #[inline(always)]
-    fn clock<V: Interpretation>(
-        &self,
-        state: &mut State<Self, V>,
-        i: Inputs<Signal<V>>,
-    ) -> Outputs<Signal<V>> {
+    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
         let r = state.load(self);
         let Registers { done, x, y, sheet, invalid, lost, saturated, .. } = r;
         let outputs = Outputs { done, x, y, sheet, invalid, lost, saturated };
@@ -317,7 +308,7 @@ impl Position {
     }
 
     #[inline(always)]
-    fn decode<V: Interpretation>(&self, r: &Registers<Signal<V>>) -> Decoded<V> {
+    fn decode<V: Interpretation>(&self, r: &Regs<V>) -> Decoded<V> {
         let word = r.instruction;
         let operation =
             word.bits(instruction::BITS - instruction::OPERATION_BITS, instruction::OPERATION_BITS);
@@ -346,7 +337,7 @@ impl Position {
 
     /// The sum as a word, and whether it was saturated.
     #[inline(always)]
-    fn result<V: Interpretation>(&self, r: &Registers<Signal<V>>) -> (Signal<V>, Signal<V>) {
+    fn result<V: Interpretation>(&self, r: &Regs<V>) -> (Signal<V>, Signal<V>) {
         let (word, held) = r.sum.saturate(self.word, Floor);
         let rounded = word.golden(&[r.sum, self.half()], |of| (of[0] - of[1]).clamp(-1.0, 1.0));
         (rounded.named("result"), held.named("held"))
@@ -357,8 +348,8 @@ impl Position {
     fn read<V: Interpretation>(
         &self,
         state: &mut State<Self, V>,
-        r: &Registers<Signal<V>>,
-        i: &Inputs<Signal<V>>,
+        r: &Regs<V>,
+        i: &In<V>,
         now: &Decoded<V>,
         result: Signal<V>,
     ) -> Read<V> {
@@ -391,8 +382,8 @@ impl Position {
     #[inline(always)]
     fn stored<V: Interpretation>(
         &self,
-        r: &Registers<Signal<V>>,
-        i: &Inputs<Signal<V>>,
+        r: &Regs<V>,
+        i: &In<V>,
         now: &Decoded<V>,
         result: Signal<V>,
     ) -> Signal<V> {
@@ -418,7 +409,7 @@ impl Position {
 
     /// Where the next instruction but one lies.
     #[inline(always)]
-    fn fetch<V: Interpretation>(&self, r: &Registers<Signal<V>>, now: &Decoded<V>) -> Signal<V> {
+    fn fetch<V: Interpretation>(&self, r: &Regs<V>, now: &Decoded<V>) -> Signal<V> {
         let target = r.instruction.bits(0, instruction::TARGET_BITS);
         let target = target.resize(r.fetched.format, Wrap);
         let following = r.fetched.increment();
@@ -429,12 +420,12 @@ impl Position {
     }
 
     #[inline(always)]
-    fn found<V: Interpretation>(&self, r: &Registers<Signal<V>>) -> Signal<V> {
+    fn found<V: Interpretation>(&self, r: &Regs<V>) -> Signal<V> {
         r.step.is(self.steps)
     }
 
     #[inline(always)]
-    fn jumps<V: Interpretation>(&self, r: &Registers<Signal<V>>, now: &Decoded<V>) -> Signal<V> {
+    fn jumps<V: Interpretation>(&self, r: &Regs<V>, now: &Decoded<V>) -> Signal<V> {
         let repeats = now.does(Operation::Repeat) & !r.count.is(0);
         let other = now.does(Operation::Surfaces) & r.surface.at(Spline::RX);
         let again = now.does(Operation::Pass) & !r.step.is(self.steps - 1);
@@ -445,12 +436,7 @@ impl Position {
     /// The registers that compute: what was read goes to the multiplier, and its products into the
     /// sum.
     #[inline(always)]
-    fn compute<V: Interpretation>(
-        &self,
-        r: Registers<Signal<V>>,
-        read: &Read<V>,
-        now: &Decoded<V>,
-    ) -> Registers<Signal<V>> {
+    fn compute<V: Interpretation>(&self, r: Regs<V>, read: &Read<V>, now: &Decoded<V>) -> Regs<V> {
         let does = |operation: Operation| now.does(operation);
         let (digit, quotient) = (does(Operation::LoadDigit), does(Operation::LoadQuotient));
         let loads = does(Operation::Load) | does(Operation::LoadCell) | digit | quotient;
@@ -482,11 +468,7 @@ impl Position {
     }
 
     #[inline(always)]
-    fn next_base<V: Interpretation>(
-        &self,
-        r: &Registers<Signal<V>>,
-        now: &Decoded<V>,
-    ) -> Signal<V> {
+    fn next_base<V: Interpretation>(&self, r: &Regs<V>, now: &Decoded<V>) -> Signal<V> {
         let scalars =
             r.surface.bits(0, 1).concat(code(0, Format::counter(Layout::SCALARS as u64 - 1)));
         let sets = now.does(Operation::Set) & now.has(SCALARS);
@@ -502,7 +484,7 @@ impl Position {
 
     /// The quotient of its digits, of which a set bit is +1 and another −1, as a place.
     #[inline(always)]
-    fn of_digits<V: Interpretation>(&self, r: &Registers<Signal<V>>) -> Signal<V> {
+    fn of_digits<V: Interpretation>(&self, r: &Regs<V>) -> Signal<V> {
         let bits = r.quotient.format.width;
         let coded = (!r.quotient.msb()).concat(r.quotient.bits(0, bits - 1));
         let quotient =
@@ -522,11 +504,11 @@ impl Position {
     #[inline(always)]
     fn follow<V: Interpretation>(
         &self,
-        next: Registers<Signal<V>>,
-        r: &Registers<Signal<V>>,
+        next: Regs<V>,
+        r: &Regs<V>,
         now: &Decoded<V>,
         instruction: Signal<V>,
-    ) -> Registers<Signal<V>> {
+    ) -> Regs<V> {
         let does = |operation: Operation| now.does(operation);
         let set = does(Operation::Set);
         let value = r.instruction.bits(instruction::OPTION_BITS, 4);
@@ -558,12 +540,12 @@ impl Position {
     #[inline(always)]
     fn give_out<V: Interpretation>(
         &self,
-        next: Registers<Signal<V>>,
-        r: &Registers<Signal<V>>,
+        next: Regs<V>,
+        r: &Regs<V>,
         now: &Decoded<V>,
         result: Signal<V>,
         held: Signal<V>,
-    ) -> Registers<Signal<V>> {
+    ) -> Regs<V> {
         let output = now.does(Operation::Output);
         let (of_x, of_y) = (output & r.surface.at(Spline::RX), output & r.surface.at(Spline::RY));
         let position = result.integer().as_code(r.x.format);

@@ -16,10 +16,10 @@ fn bounded(i: Inputs<i64>) -> Inputs<i64> {
 #[test]
 fn ratios_are_those_of_eqs_2_and_3() {
     for (seed, profile) in (0..).zip(Profile::all()) {
-        let currents = Currents::new(&profile);
+        let currents = Currents::try_new(&profile).unwrap();
         let ((sums, corners), least) = (currents.sums(), currents.least());
         let ratio = profile.formats.ratio;
-        let mut bench = Bench::new(Ratio::new(&profile, (sums, corners), least));
+        let mut bench = Bench::new(Ratio::try_new(&profile, (sums, corners), least).unwrap());
         let cases = cases(&bench.block, MILLION / 3, seed).map(bounded);
         check(&mut bench, cases, |i| {
             let of = |code| Exact::of(code, sums);
@@ -39,8 +39,8 @@ fn ratios_are_those_of_eqs_2_and_3() {
 #[test]
 fn latency_is_the_clocks_measured() {
     for profile in Profile::all() {
-        let currents = Currents::new(&profile);
-        let block = Ratio::new(&profile, currents.sums(), currents.least());
+        let currents = Currents::try_new(&profile).unwrap();
+        let block = Ratio::try_new(&profile, currents.sums(), currents.least()).unwrap();
         check_latency_of(block.clone(), block.latency(), bounded);
     }
 }
