@@ -43,7 +43,7 @@ pub struct Word<F> {
 pub struct WordError {
     /// The word's format.
     pub word: Format,
-    /// The type's.
+    /// The format of the type that was asked for.
     pub got: Format,
 }
 

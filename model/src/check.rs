@@ -20,7 +20,7 @@ const _: () = assert!(Position::STEP_CELLS == Layout::STEP_CELLS);
 /// Reads a profile that a core can be built from: [`Profile::parse`], then [`check`].
 ///
 /// # Errors
-/// As either.
+/// As [`Profile::parse`], and as [`check`].
 pub fn parse_profile(text: &str) -> Result<Profile, ProfileError> {
     let profile = Profile::parse(text)?;
     check(&profile)?;

@@ -4,7 +4,7 @@
 //! | module | does |
 //! | --- | --- |
 //! | [`board`] | the peripherals of a board and the board itself, as blocks like those of the core |
-//! | [`codes`] | what makes a calibration's sensor of a core |
+//! | [`codes`] | which port of the core takes which word of a calibration |
 //! | [`mod@component`] | any block as a rust-hdl component |
 //! | [`header`] | prints the core of a profile, and what a bench of it must know |
 

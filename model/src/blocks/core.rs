@@ -22,7 +22,7 @@ use hapticore_hdl::format::BIT;
 use hapticore_hdl::{block, call};
 
 block! {
-    /// The core.
+    /// The core: from ADC codes to frames, and the pad to be driven.
     pub struct Core("hapticore") {}
     submodules {
         multiplexer: Multiplexer,

@@ -23,7 +23,7 @@ use hapticore_hdl::signal::{Assumed, Exact, Proved, Signal, bit, code, int};
 use hapticore_hdl::{block, next, when};
 
 block! {
-    /// A divider.
+    /// A divider that gives a bit of the quotient in each clock.
     pub struct Divider("divider") {
         numerator: Format,
         denominator: Format,

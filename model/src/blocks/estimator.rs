@@ -60,7 +60,7 @@ bundle! {
 }
 
 block! {
-    /// The estimator.
+    /// The estimator: makes a frame of a window's sums.
     pub struct Estimator("estimator") {
         pads: u64,
     }

@@ -23,7 +23,7 @@ use hapticore_hdl::signal::{Floor, Proved, Signal, bit, int};
 use hapticore_hdl::{block, next};
 
 block! {
-    /// A multiplier.
+    /// A multiplier of codes as integers, in one clock or two.
     pub struct Multiplier("multiplier", reset: false) {
         left: Format,
         right: Format,

@@ -31,7 +31,7 @@ use hapticore_model::blocks::core::{self, Core};
 use hapticore_model::blocks::estimator::Calibration;
 
 block! {
-    /// The board.
+    /// The board: the core with its converters, commands and packets.
     pub struct Board("board") {}
     submodules {
         receiver: Receiver,

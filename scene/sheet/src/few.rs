@@ -28,7 +28,7 @@ impl<T: Copy + Default, const MOST: usize> Few<T, MOST> {
         few
     }
 
-    /// These values.
+    /// A list of these values.
     ///
     /// # Panics
     /// If there are more than there may be.

@@ -36,7 +36,7 @@ impl Input {
     }
 }
 
-/// A file.
+/// A file to read a capture from.
 ///
 /// # Errors
 /// It cannot be opened.

@@ -66,7 +66,7 @@ pub enum Op {
 pub struct Wire {
     /// The operation that drives the node.
     pub op: Op,
-    /// Number format.
+    /// The format in which its bits are read.
     pub format: Format,
     /// Its name, where the block gave it one.
     pub name: Option<&'static str>,
@@ -77,7 +77,7 @@ pub struct Wire {
 pub struct Named {
     /// Its name in the bundle.
     pub name: &'static str,
-    /// Number format.
+    /// The format in which its bits are read.
     pub format: Format,
     /// The names of its codes, where it is a state.
     pub states: &'static [&'static str],

@@ -17,9 +17,9 @@ pub struct Point {
     pub x: f64,
     /// Millimetres from the middle, along the short edges.
     pub y: f64,
-    /// Eq. 2.
+    /// Ratio of eq. 2 that is read at the place.
     pub r_x: f64,
-    /// Eq. 3.
+    /// Ratio of eq. 3 that is read at the place.
     pub r_y: f64,
     /// The sheet's resistance at the place, in full scales of voltage per current.
     pub sheet: f64,
