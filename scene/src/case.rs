@@ -43,6 +43,8 @@ pub struct Case {
     /// What the host knows of the device, where it takes out of measurements what other pads did to
     /// them: the effects that split a current, on a film that is even.
     pub(crate) nominal: Option<Vec<Spec>>,
+    /// The case as it was when the device was calibrated, where that is not as it is now.
+    pub(crate) calibrated: Option<Box<Case>>,
 }
 
 /// How long a case lasts.
@@ -128,6 +130,7 @@ impl Case {
             effects,
             budget_percent,
             nominal,
+            calibrated: None,
         })
     }
 }

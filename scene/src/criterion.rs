@@ -42,8 +42,9 @@ pub enum Measure {
     /// How far from the expected time the estimate jumps: where a pad's measurement rises most from
     /// one slot to the next, by five times its mean change at least.
     JumpOff,
-    /// How far from the expected haptic voltage the estimate leaves the square law: where it first
-    /// is a quarter more, per volt squared, than it is up to 100 V.
+    /// How far from the expected haptic voltage the estimate leaves its law at low voltages: where
+    /// it first is a quarter more than up to 100 V. A force goes with the square of the voltage, so
+    /// that is per volt squared; any other quantity does not depend on it.
     DepartureOff,
 }
 

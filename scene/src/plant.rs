@@ -130,6 +130,28 @@ impl Plant {
         Ok(())
     }
 
+    /// The plant as it was when the device was calibrated; none where it has not changed since.
+    ///
+    /// ```
+    /// # use hapticore_scene::{Plant, Scene, Timing};
+    /// # let timing = Timing {
+    /// #     pads: 4, slot_samples: 1700, window_start: 700, window_samples: 1000, samples_per_period: 10.0, signs: None,
+    /// # };
+    /// let text = "title = \"t\"\n[[pad]]\nposition_mm = [0, 0]\n[device]\nmu = 0.3\n\
+    ///             [calibration]\nset = { \"device.mu\" = 0.12 }\n";
+    /// let plant = Plant::new(&Scene::parse(text, "worn.toml", &[])?, 0, &timing)?;
+    /// let before = plant.as_calibrated()?.expect("it has changed");
+    /// assert_eq!((plant.device().mu, before.device().mu), (0.3, 0.12));
+    /// # Ok::<(), hapticore_scene::SceneError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Plant::new`].
+    pub fn as_calibrated(&self) -> Result<Option<Plant>, SceneError> {
+        let Some(case) = &self.case.calibrated else { return Ok(None) };
+        Plant::of_case((**case).clone(), self.seed, self.index, &self.timing).map(Some)
+    }
+
     /// The nominal sheet that a host of this device takes crosstalk out by; none where the case
     /// does not ask for it.
     pub fn nominal_sheet(&self) -> Option<NominalSheet> {

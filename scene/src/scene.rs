@@ -34,6 +34,9 @@
 //! name = "500-ohm"
 //! set = { "sheet.terminal_ohm" = 500 }
 //!
+//! [calibration]                   # the device as it was calibrated, where it has changed since
+//! set = { "device.mu" = 0.12 }    # keys as in a case's `set`; false takes one away
+//!
 //! [[criterion]]                   # see `criterion`
 //! ```
 
@@ -41,7 +44,7 @@ use crate::case::Case;
 use crate::criterion::Criterion;
 use crate::error::SceneError;
 use crate::format::{self, Table};
-use crate::variant::{is_whole, variants};
+use crate::variant::{calibrated, is_whole, variants};
 
 /// How a report draws the scene, after the paper's figures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -138,10 +141,21 @@ impl Scene {
             // What belongs to the whole scene has been read, and no case can have changed it.
             let of_cases = overrides.iter().filter(|(key, _)| !is_whole(key)).cloned();
             override_all(&mut tree, &of_cases.collect::<Vec<_>>())?;
-            scene.cases.push(Case::read(&tree, &variant.name)?);
-            tree.refuse_unknown()?;
+            scene.cases.push(Scene::read_case(&tree, &variant.name)?);
         }
         Ok(scene)
+    }
+
+    fn read_case(tree: &Table, name: &str) -> Result<Case, SceneError> {
+        let mut case = Case::read(tree, name)?;
+        if let Some(then) = calibrated(tree)? {
+            let then_case = Case::read(&then, name)?;
+            then.refuse_unknown()?;
+            case.nominal.clone_from(&then_case.nominal);
+            case.calibrated = Some(Box::new(then_case));
+        }
+        tree.refuse_unknown()?;
+        Ok(case)
     }
 
     fn read_head(root: &Table, name: &str, cases: &[String]) -> Result<Scene, SceneError> {

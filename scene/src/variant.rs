@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `[[case]]`: the variants of a scene before they are read, each a name and the keys that it sets.
+//! `[[case]]`: the variants of a scene before they are read, each a name and the keys that it sets;
+//! and `[calibration]`, the keys that were different when the device was calibrated.
 
 use crate::error::SceneError;
-use crate::format::{Node, Table};
+use crate::format::{self, Node, Table};
 
 /// Keys that belong to the scene as a whole, so that a case cannot set them.
 const WHOLE: [&str; 9] = [
@@ -50,16 +51,29 @@ pub(crate) fn variants(root: &Table) -> Result<Vec<Variant>, SceneError> {
 impl Variant {
     fn read(table: &Table) -> Result<Variant, SceneError> {
         let name = table.require("name", "text", table.text("name")?)?;
-        let mut set = Vec::new();
-        for (key, node) in table.table("set")?.into_iter().flat_map(Table::all) {
-            if is_whole(key) {
-                return Err(table.error(
-                    "set",
-                    format!("{key} belongs to the whole scene, a case cannot set it"),
-                ));
-            }
-            set.push((key.to_string(), node.moved_to(key)));
-        }
-        Ok(Variant { name, set })
+        Ok(Variant { name, set: read_set(table)? })
     }
+}
+
+/// The keys that `set` of a case or of `[calibration]` names, each with its value.
+fn read_set(table: &Table) -> Result<Vec<(String, Node)>, SceneError> {
+    let mut set = Vec::new();
+    for (key, node) in table.table("set")?.into_iter().flat_map(Table::all) {
+        if is_whole(key) {
+            let message = format!("{key} belongs to the whole scene, a case cannot set it");
+            return Err(table.error("set", message));
+        }
+        set.push((key.to_string(), node.moved_to(key)));
+    }
+    Ok(set)
+}
+
+/// A case as it was when the device was calibrated; none where the scene has no `[calibration]`.
+pub(crate) fn calibrated(case: &Table) -> Result<Option<Table>, SceneError> {
+    let Some(calibration) = case.table("calibration")? else { return Ok(None) };
+    let set = read_set(calibration)?;
+    let mut then = case.clone();
+    then.remove("calibration");
+    set.into_iter().try_for_each(|(key, node)| format::apply(&mut then, &key, node))?;
+    Ok(Some(then))
 }

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use hapticore_scene::{Complex, Plant, Scene, Timing, Truth, gallery};
+use hapticore_scene::{Complex, Measure, Plant, Scene, Timing, Truth, gallery};
 
 /// Terminals of the bundled scenes' devices.
 const TERMINALS: usize = 6;
@@ -101,7 +101,7 @@ fn fig3_leaves_an_ideal_core_a_force_spread_below_a_third_of_the_tightest_criter
     let tightest = scene
         .criteria
         .iter()
-        .filter(|c| c.of.name() == "force_n")
+        .filter(|c| c.of.name() == "force_n" && c.measure == Measure::SpreadPercent)
         .map(|c| c.limit)
         .fold(f64::MAX, f64::min);
     for case in 0..scene.cases.len() {

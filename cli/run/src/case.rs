@@ -90,7 +90,8 @@ impl<'a> Case<'a> {
         let plant = Plant::new(scene, index, &timing(&profile))?;
         let pads = plant.pad_names().len();
         let profile = Arc::new(serving(&profile, pads));
-        let device = calibrate::of_plant(&plant, &profile);
+        let calibrated = plant.as_calibrated()?;
+        let device = calibrate::of_plant(calibrated.as_ref().unwrap_or(&plant), &profile);
         let clock = SlotClock::new(&profile, device.device.sample_rate_hz, start_s);
         Ok(Case { scene, index, number, profile, device, slots: plant.slots(), clock })
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Fig. 3: force and capacitance hardly depend on where the pad is. Spreads, profiles and the
-//! position's error; maps in `fig3_maps`.
+//! Fig. 3: force and capacitance hardly depend on where the pad is. The paper's own form, the sum
+//! over position with a line for each load; then spreads, profiles and the position's error; maps in
+//! `fig3_maps`.
 
 use super::axis::Axis;
 use super::fig3_maps;
@@ -10,7 +11,9 @@ use super::paint::Paint;
 use super::plot::Plot;
 use super::select::{self, Setting, deviation_percent, settings, spread_percent};
 use super::series::{Mark, Point, Series};
-use hapticore_run::record::{Record, Row};
+use super::sweep::{Load, loads};
+use hapticore_run::record::{Record, Row, Truth};
+use std::collections::BTreeMap;
 
 /// How a value is got from a slot.
 type Get = fn(&Row) -> f64;
@@ -30,14 +33,15 @@ const REFERENCE_PF: Get = |r| r.reference.map_or(f64::NAN, |r| r.quantities.capa
 pub fn figures(record: &Record) -> Vec<Figure> {
     let mut settings = settings(record);
     let left_out = settings.split_off(settings.len().min(SETTINGS)).len();
-    let mut figures = vec![
+    let mut figures = sums(record).unwrap_or_default();
+    figures.extend([
         spreads(&settings, "Spread of the force over the sheet", [EQ6.1, CORE.1, REFERENCE.1]),
         spreads(
             &settings,
             "Spread of the capacitance over the sheet",
             [EQ6_PF, CORE_PF, REFERENCE_PF],
         ),
-    ];
+    ]);
     figures.push(fig3_maps::force(&settings, left_out, CORE.1, EQ6.1));
     if let Some(worst) = worst(&settings) {
         figures.extend([profiles(worst), magnified(worst)]);
@@ -45,6 +49,50 @@ pub fn figures(record: &Record) -> Vec<Figure> {
     figures.push(fig3_maps::position(&settings));
     figures.push(position_errors(record, &settings));
     figures
+}
+
+/// As the paper draws it: the sum of the currents over the position, in the middle row, a line for
+/// each load; none where no case has several loads.
+fn sums(record: &Record) -> Option<Vec<Figure>> {
+    let mut by_case: BTreeMap<usize, Vec<Load>> = BTreeMap::new();
+    for load in loads(record) {
+        let case = load.settings.first()?.rows.first()?.0.case;
+        by_case.entry(case).or_default().push(load);
+    }
+    Some(by_case.values().filter(|loads| loads.len() > 1).map(|loads| sum(loads)).collect())
+}
+
+fn sum(loads: &[Load]) -> Figure {
+    let mut series = Vec::new();
+    for (n, load) in loads.iter().enumerate() {
+        let paint = Paint::series(n);
+        let tag = format!("{} g", number::fixed(load.load_g, 0));
+        let of =
+            |get: Get| load.settings.first().map_or(vec![], |setting| middle_row(setting, get));
+        series.push(Series::line("", paint, of(EQ6_PF)).tagged(&tag));
+        series.push(Series::dots("", paint, of(CORE_PF)));
+    }
+    series.push(Series::line("sum of the currents, as a capacitance by eq. 6", Paint::INK, vec![]));
+    series.push(Series::dots("core, corrected for the sheet", Paint::INK, vec![]));
+    let points = || series.iter().flat_map(|s| s.points.iter());
+    let x = Axis::linear("x (mm)", points().map(|p| p.0));
+    let y = Axis::with_zero("C (pF)", points().map(|p| p.1));
+    let title = "Sum of the currents over position, by load";
+    Figure::plot(title, "Along the middle of the sheet.", &Plot::new(title, x, y, series))
+}
+
+/// A value along x, in the row nearest to the middle of the sheet.
+fn middle_row(setting: &Setting, get: Get) -> Vec<Point> {
+    let y = |t: &Truth| t.quantities.y_mm.abs();
+    let nearest = setting.rows.iter().map(|(_, t)| y(t)).fold(f64::INFINITY, f64::min);
+    let first = setting.rows.iter().find(|(_, t)| y(t) <= nearest + 0.1);
+    let Some((_, first)) = first else { return vec![] };
+    let row = first.quantities.y_mm;
+    let same = |t: &Truth| (t.quantities.y_mm - row).abs() < 0.1;
+    let at = setting.rows.iter().filter(|(_, t)| same(t));
+    let mut points: Vec<Point> = at.map(|(r, t)| (t.quantities.x_mm, get(r))).collect();
+    points.sort_by(|a, b| a.0.total_cmp(&b.0));
+    points
 }
 
 fn values(setting: &Setting, get: Get) -> Vec<f64> {

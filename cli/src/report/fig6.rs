@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Fig. 6: friction departs from the square law, the capacitance rises suddenly, and eq. 8 follows
-//! both.
+//! both. The paper's panels first: friction over the voltage, capacitance over the voltage, and the
+//! increment of friction over C·V.
 
 use super::axis::Axis;
 use super::fig4::{capacitance_axis, keys, trio, voltage_axis};
@@ -11,15 +12,72 @@ use super::plot::Plot;
 use super::select::{self, extent};
 use super::series::{Point, Series};
 use super::sweep::{Load, loads, means, reference, slots};
-use hapticore_run::record::{Record, Row, Truth};
+use hapticore_run::record::{Quantities, Record, Row, Truth};
 
 /// The square law is fitted up to this voltage, where the paper's data still follow it.
 const SQUARE_LAW_TO_V: f64 = 150.0;
 
-/// Force over the voltage squared, capacitance over voltage, and the force error of eq. 8.
+/// Friction and capacitance over voltage, the increment over C·V, the force over the voltage
+/// squared, and the force error of eq. 8.
 pub fn figures(record: &Record) -> Vec<Figure> {
     let loads = loads(record);
-    vec![force(&loads), capacitance(&loads), residual(record, &loads)]
+    let has_friction = record.rows.iter().any(|row| row.truth.is_some_and(|t| t.friction_n > 0.0));
+    let panel_a = has_friction.then(|| friction(&loads));
+    let others = [capacitance(&loads), increment(&loads), force(&loads), residual(record, &loads)];
+    panel_a.into_iter().chain(others).collect()
+}
+
+/// Panel a: what the load's friction is without a voltage, and what the voltage adds.
+fn friction(loads: &[Load]) -> Figure {
+    let volt = |t: &Truth| t.quantities.haptic_v_rms;
+    let mut series = Vec::new();
+    for (n, load) in loads.iter().enumerate() {
+        let paint = Paint::series(n);
+        let of_load = |t: &Truth| t.friction_n - t.quantities.force_n;
+        let truth = means(&load.settings, |_, t| (volt(t), t.friction_n));
+        let offset = means(&load.settings, |_, t| (volt(t), of_load(t)));
+        let measured = slots(&load.settings, |r, t| (volt(t), of_load(t) + r.measured.force_n));
+        series.push(Series::line("", paint.dashed(), offset));
+        series.push(Series::line("", paint, truth).tagged(&name(load)));
+        series.push(Series::dots("", paint, measured));
+    }
+    series.push(Series::dots("of the load, and measured F added", Paint::INK, vec![]));
+    series.push(Series::line("true friction", Paint::INK, vec![]));
+    series.push(Series::line("of the load alone", Paint::INK.dashed(), vec![]));
+    let y = Axis::with_zero("friction (N)", ordinates(&series));
+    let plot = Plot::new("Friction over haptic voltage", voltage_axis(loads), y, series);
+    Figure::plot("Friction over the haptic voltage", "", &plot)
+}
+
+/// Panel c: the increment of friction over C·V, whose square eq. 8 scales by one k.
+fn increment(loads: &[Load]) -> Figure {
+    let nanocoulomb = |q: &Quantities| 1e-3 * q.capacitance_pf * q.haptic_v_rms;
+    let mut series = Vec::new();
+    for (n, load) in loads.iter().enumerate() {
+        let at = |r: &Row, t: &Truth| (nanocoulomb(&r.measured), t.quantities.force_n);
+        series.push(Series::dots(&name(load), Paint::series(n), slots(&load.settings, at)));
+    }
+    let all = || {
+        loads.iter().flat_map(|load| {
+            slots(&load.settings, |r, _| (nanocoulomb(&r.measured).powi(2), r.measured.force_n))
+        })
+    };
+    let most = extent(all().map(|p| p.0.sqrt())).map_or(0.0, |(_, most)| most);
+    let k = slope_through_origin(all());
+    let curve = (0..=100).map(|n| most * f64::from(n) / 100.0).map(|x| (x, k * x * x));
+    series.push(Series::line("eq. 8: k·(C·V)²", Paint::INK, curve.collect()));
+    let x = Axis::with_zero(
+        "C·V, measured (nC)",
+        series.iter().flat_map(|s| s.points.iter().map(|p| p.0)),
+    );
+    let y = Axis::with_zero("increment of friction (N)", ordinates(&series));
+    let plot = Plot::new("Increment of friction over C·V", x, y, series);
+    let note = format!("k = {} N/nC², one for all loads.", number::short(k));
+    Figure::plot("Increment of friction over C·V", &note, &plot)
+}
+
+fn ordinates(series: &[Series]) -> impl Iterator<Item = f64> {
+    series.iter().flat_map(|s| s.points.iter().map(|p| p.1))
 }
 
 fn kilovolts_squared(truth: &Truth) -> f64 {
@@ -56,10 +114,16 @@ fn forces(load: &Load, paint: Paint) -> [Series; 4] {
     ]
 }
 
-/// Least squares through the origin, over the points that the square law holds for.
+/// The slope over the points that the square law holds for.
 fn slope(points: &[Point]) -> f64 {
-    let low = points.iter().filter(|(x, y)| x * 1e3 <= SQUARE_LAW_TO_V.powi(2) && y.is_finite());
-    let (xy, xx) = low.fold((0.0, 0.0), |(xy, xx), (x, y)| (xy + x * y, xx + x * x));
+    let holds = |point: &&Point| point.0 * 1e3 <= SQUARE_LAW_TO_V.powi(2);
+    slope_through_origin(points.iter().filter(holds).copied())
+}
+
+/// Least squares through the origin.
+fn slope_through_origin(points: impl Iterator<Item = Point>) -> f64 {
+    let finite = points.filter(|(x, y)| x.is_finite() && y.is_finite());
+    let (xy, xx) = finite.fold((0.0, 0.0), |(xy, xx), (x, y)| (xy + x * y, xx + x * x));
     xy / xx
 }
 

@@ -6,6 +6,7 @@ mod captures;
 mod codes;
 mod flags;
 mod gallery;
+mod knobs;
 mod lab;
 mod messages;
 mod recorders;

@@ -3,7 +3,7 @@
 //!
 //! | level | what |
 //! | --- | --- |
-//! | `coulomb` | F_h = μ·ΣF_e, the attraction summed over the patches of the gap; the pad goes where it is told |
+//! | `coulomb` | F_h = μ·ΣF_e, the attraction summed over the patches of the gap, and μN of the load; the pad goes where it is told |
 //! | `stiction` | besides, friction μ(N + F_e) that sticks and slides |
 //! | `dahl` | besides, bristles that bend before they slide |
 //! | `lugre` | besides, the Stribeck fall of sliding friction and the bristles' damping |
@@ -14,7 +14,7 @@
 //! Without the table the force is eq. 8 with the true capacitance and voltage, which for an even
 //! gap is the same. μ is `device.mu`: 0.12, or 0.065 where the loop has to agree with the paper's K
 //! = 600. The haptic force is what friction can do because of the voltage, whether the pad slides
-//! or sticks; how much it does is the truth's `friction_n`. With `[hand]` the pad lags behind its
+//! or sticks; how much it does is the truth's `friction_n`, by `coulomb` as if the pad slid. With `[hand]` the pad lags behind its
 //! trajectory; a step is `step_us`, 100 µs. Source: docs/physics.md §3, §4.
 
 mod law;
@@ -42,9 +42,9 @@ pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneE
         bristle_n_s_per_m: table.number_or("bristle_n_s_per_m", Limits::NOT_NEGATIVE, 300.0)?,
     };
     let step_s = 1e-6 * table.number_or("step_us", Limits::within(1.0, 1000.0), 100.0)?;
-    let mu = device.mu;
-    let mut levels =
-        vec![Level::new("coulomb", 20.0, move |_| Effect::Pad(Box::new(Coulomb { mu })))];
+    let (mu, newton_per_g) = (device.mu, device.weight_n(1.0));
+    let coulomb = move |_: &Setting| Effect::Pad(Box::new(Coulomb { mu, newton_per_g }));
+    let mut levels = vec![Level::new("coulomb", 20.0, coulomb)];
     for (word, law, cost_ns) in LAWS {
         let device = device.clone();
         let build = move |_: &Setting| {
@@ -58,11 +58,14 @@ pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneE
 
 struct Coulomb {
     mu: f64,
+    newton_per_g: f64,
 }
 
 impl PadEffect for Coulomb {
     fn act(&mut self, pad: &mut Pad) {
-        pad.force_n = Some(self.mu * pad.attraction_n);
+        let force_n = self.mu * pad.attraction_n;
+        pad.force_n = Some(force_n);
+        pad.friction_n = self.mu * self.newton_per_g * pad.load_g + force_n;
     }
 }
 
