@@ -196,6 +196,7 @@ fn still(
         split: ideal_split(at[0], at[1], device),
         sheet_ohm: 0.0.into(),
         transfer: None,
+        leakage_of_others_a: None,
         over_edge: at[0].abs() > reach_mm[0] + SLACK_MM || at[1].abs() > reach_mm[1] + SLACK_MM,
         touching: false,
     }

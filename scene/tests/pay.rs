@@ -41,11 +41,11 @@ fn evaluations(parts: &[&Part]) -> Vec<(&'static str, u64)> {
 /// An effect on a pad acts once a slot, on each pad where pads are coupled; one on all pads once;
 /// one on the channels on amplitudes and on samples.
 fn expected(parts: &[&Part]) -> Vec<(&'static str, u64)> {
-    let coupled = parts.iter().any(|part| part.name == "coupling");
+    let coupled = parts.iter().any(|part| ["coupling", "sensor.others"].contains(&part.name));
     let each = |name: &str| match name {
-        "coupling" => 1,
+        "coupling" | "sensor.others" => 1,
         "carrier" | "switching" => 2,
-        name if name.starts_with("sensor.") => 2,
+        name if name.starts_with("sensor.") && name != "sensor.inductance" => 2,
         _ => 1 + u64::from(coupled),
     };
     names(parts).into_iter().map(|name| (name, SLOTS as u64 * each(name))).collect()
@@ -132,7 +132,7 @@ fn allocations(parts: &[&Part]) -> u64 {
 
 #[test]
 fn a_slot_allocates_nothing_but_for_transients_and_coupled_pads() {
-    const ALLOCATE: [&str; 2] = ["coupling", "switching"];
+    const ALLOCATE: [&str; 3] = ["coupling", "sensor.others", "switching"];
     for one in optional() {
         let with =
             parts(|part| part.name == "carrier" || part.name == one.name || one.needs(part.name));

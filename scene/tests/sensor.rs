@@ -174,3 +174,93 @@ fn noises_are_independent_of_each_other() {
         assert!(correlation.abs() < 0.25, "{correlation}");
     }
 }
+
+/// docs/physics.md §7: of full scale, 0.25 of the pad's own haptic current, 0.87 of the others', and
+/// 0.25 of the carrier on one terminal: too much for the ADC, where the pad alone is well within.
+#[test]
+fn haptic_currents_of_four_pads_in_a_corner_clip() {
+    let pads: String = [[-415, 235], [-375, 235], [-415, 195], [-375, 195]]
+        .map(|[x, y]| {
+            format!("[[pad]]\nposition_mm = [{x}, {y}]\nhaptic_v_rms = 350\ncapacitance_pf = 760\n")
+        })
+        .concat();
+    let peak = |sensor: &str| {
+        let text = format!(
+            "dwell_slots = 20\n{pads}[sheet]\n[sensor]\ncurrent_full_scale_ma = 4\n{sensor}"
+        );
+        let mut plant = Plant::new(&common::scene(&text), 0, &common::timing()).unwrap();
+        let mut samples = Vec::new();
+        (0..20).for_each(|round| plant.samples(4 * round + 1, 0..200, &mut samples));
+        samples.chunks_exact(CHANNELS).map(|row| row[0].abs()).fold(0.0, f64::max)
+    };
+    let carrier = peak("");
+    let own = peak("haptic_leakage = true\n") - carrier;
+    let all = peak("haptic_leakage = true\nhaptic_leakage_of_others = true\n");
+    println!("carrier {carrier:.3}, own {own:.3}, with all {all:.3} of full scale");
+    assert_near("carrier", carrier, 0.25, 0.1);
+    assert_near("own", own, 0.25, 0.1);
+    assert_eq!(all, 1.0, "clipped");
+    let one =
+        "haptic_leakage = true\nhaptic_leakage_of_others = true\n[carrier]\nhaptic_hz = 100\n";
+    let tenth = peak(one) - carrier;
+    println!("a tenth of the haptic currents {tenth:.4}");
+    assert_near("all haptic currents at a tenth of the frequency", tenth, 0.112, 0.1);
+}
+
+/// docs/physics.md §7: behind a pole at 300 kHz noise sampled at 1 MS/s has a lag-1 correlation of
+/// 0.15, and 18 % more of it at the carrier.
+#[test]
+fn noise_of_sensors_with_a_pole_is_coloured() {
+    let noisy = |bandwidth: &str| {
+        plant(&format!(
+            "dwell_slots = 2000\n[[pad]]\nposition_mm = [120, -60]\n[sheet]\n[sensor]\n\
+             noise_density_na_per_rthz = 100\n{bandwidth}"
+        ))
+    };
+    let (mut white, mut coloured) = (noisy(""), noisy("bandwidth_khz = 300\n"));
+    let variance = |plant: &mut Plant| {
+        let found: Vec<Complex> = (0..2000)
+            .flat_map(|slot| demodulate(plant, slot, hann)[..TERMINALS].to_vec())
+            .collect();
+        let mean = |terminal: usize| {
+            found.iter().skip(terminal).step_by(TERMINALS).sum::<Complex>() / 2000.0
+        };
+        let means: Vec<Complex> = (0..TERMINALS).map(mean).collect();
+        let off =
+            found.iter().enumerate().map(|(n, phasor)| (phasor - means[n % TERMINALS]).norm_sqr());
+        off.sum::<f64>() / found.len() as f64
+    };
+    assert_near(
+        "density at the carrier",
+        variance(&mut coloured) / variance(&mut white),
+        1.184,
+        0.03,
+    );
+    let phasors = |plant: &mut Plant| {
+        let amplitude = |slot| {
+            let mut found = [Complex::default(); SENSE + 1];
+            plant.phasors(slot, &mut found);
+            found[0]
+        };
+        let all: Vec<Complex> = (0..2000).map(amplitude).collect();
+        let mean = all.iter().sum::<Complex>() / 2000.0;
+        all.iter().map(|one| (one - mean).norm_sqr()).sum::<f64>()
+    };
+    let ratio = phasors(&mut coloured) / phasors(&mut white);
+    assert_near("the same of amplitudes", ratio, 1.184, 0.05);
+}
+
+/// docs/physics.md §7: 3.5 % of force between 318 and 760 pF.
+#[test]
+fn an_inductance_before_the_pad_makes_a_large_capacitance_larger() {
+    let force = |sensor: &str, pf: f64| {
+        let text = format!(
+            "[[pad]]\nposition_mm = [0, 0]\ncapacitance_pf = {pf}\n[sheet]\n[sensor]\n{sensor}"
+        );
+        let mut phasors = [Complex::default(); SENSE + 1];
+        plant(&text).phasors(0, &mut phasors);
+        total(&phasors).norm_sqr()
+    };
+    let more = |pf| force("series_inductance_mh = 0.1\n", pf) / force("", pf);
+    assert_near("from 318 to 760 pF", 100.0 * (more(760.0) / more(318.0) - 1.0), 3.5, 0.05);
+}

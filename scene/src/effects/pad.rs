@@ -48,6 +48,9 @@ pub(crate) struct Pad {
     /// Current into each terminal per volt of sensing, S, where an effect says it; else each one's
     /// share of jωC/(1 + jωC·R_p).
     pub transfer: Option<PerTerminal<Complex64>>,
+    /// What the haptic voltages of the other pads drive into each terminal, A (peak, in phase with
+    /// the haptic voltage's sine), where an effect says it.
+    pub leakage_of_others_a: Option<PerTerminal<Complex64>>,
     /// The pad reaches over the sheet's edge: it is taken as lying at the edge.
     pub over_edge: bool,
     /// The pad lies on another one: both are taken as touching.

@@ -24,7 +24,7 @@ const fn part(
 }
 
 /// In the order in which they act.
-pub const PARTS: [Part; 22] = [
+pub const PARTS: [Part; 24] = [
     part("supply", "supply", "", None),
     part("gap", "gap", "rung = \"tr-bdf2\"", None),
     part("halves", "halves", "mismatch_percent = 3", Some("gap")),
@@ -33,7 +33,9 @@ pub const PARTS: [Part; 22] = [
     part("temperature", "temperature", "tempco_ppm_per_k = 400\nrise_k = 15", Some("sheet")),
     part("sheet", "sheet", "", None),
     part("shunt", "shunt", "nanofarad_per_m2 = 9", Some("sheet")),
+    part("sensor.inductance", "series_inductance_mh", "0.1", None),
     part("coupling", "coupling", "", Some("sheet")),
+    part("sensor.others", "haptic_leakage_of_others", "true", Some("sensor.leakage")),
     part("carrier", "carrier", "rung = \"samples\"", None),
     part("switching", "switching", "", Some("sheet")),
     part("sensor.leakage", "haptic_leakage", "true", None),

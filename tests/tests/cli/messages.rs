@@ -27,7 +27,7 @@ fn scenes_lists_every_bundled_scene() {
 #[test]
 fn a_criterion_that_fails_is_exit_code_1_and_the_results_are_there() {
     let folder = tempfile::tempdir().unwrap();
-    let scene = gallery::find("fig6").unwrap().replace("limit = 0.1", "limit = 1e-9");
+    let scene = gallery::find("fig6").unwrap().replace("limit = 0.03", "limit = 1e-9");
     fs::write(folder.path().join("strict.toml"), scene).unwrap();
     let log = expect(
         folder.path(),

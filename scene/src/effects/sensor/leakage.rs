@@ -6,6 +6,8 @@
 
 use std::f64::consts::{SQRT_2, TAU};
 
+use num_complex::Complex64;
+
 use super::super::carrier::haptic_rotor;
 use super::super::effect::{ChannelEffect, Effect, Phasors, Run};
 use super::super::pad::Pad;
@@ -13,6 +15,7 @@ use super::super::spec::{Setting, Spec};
 use crate::device::Device;
 use crate::error::SceneError;
 use crate::format::Table;
+use crate::terminals::PerTerminal;
 
 pub(in super::super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
     let on = root.table("sensor")?.map_or(Ok(false), |table| table.flag("haptic_leakage"))?;
@@ -40,6 +43,22 @@ impl ChannelEffect for Leakage {
                 .iter_mut()
                 .zip(&shares)
                 .for_each(|(sample, share)| *sample += now * share);
+        });
+        if let Some(currents) = &pad.leakage_of_others_a {
+            self.add_others(currents, run, samples);
+        }
+    }
+}
+
+impl Leakage {
+    /// What flows from the pads that the slot does not serve.
+    fn add_others(&self, currents: &PerTerminal<Complex64>, run: &Run, samples: &mut [f64]) {
+        let currents = currents.map(|ampere| ampere / self.device.current_full_scale_a).padded();
+        let mut rotor = haptic_rotor(&self.device, run);
+        run.rows(samples, |row| {
+            let now = rotor.turn();
+            let terminals = Run::terminals(row).iter_mut();
+            terminals.zip(&currents).for_each(|(sample, current)| *sample += (current * now).im);
         });
     }
 }

@@ -5,12 +5,14 @@
 //! | key | effect | realistic |
 //! | --- | --- | --- |
 //! | `haptic_leakage` | the haptic voltage's own current, eq. 1's second term | true |
+//! | `haptic_leakage_of_others` | the same of the pads that the slot does not serve | true |
+//! | `series_inductance_mh` | between where the sensing voltage is measured and the pad | 0.1 |
 //! | `bandwidth_khz` | the current sensors' low-pass of first order | 300 to 3000 |
 //! | `jitter_ns_rms` | a random time off at each sample | 0.1 |
 //! | `crosstalk_percent` | of the neighbouring terminals' currents | 0.01 to 0.1 |
 //! | `gain_error_percent` | all terminals' gain | 0.1 to 1 |
 //! | `gain_mismatch_percent` | each terminal's gain, standard deviation | 0.1 to 1 |
-//! | `noise_density_na_per_rthz` | white noise of the current sensors | 0.1 to 1 |
+//! | `noise_density_na_per_rthz` | noise of the current sensors: white, or behind `bandwidth_khz` | 0.1 to 1 |
 //! | `offset_percent` | each channel's offset, of full scale, standard deviation | 0.01 |
 //! | `noise_ppm_rms` | white noise per sample, millionths of full scale | 18 (AD7606C-16, 92 dB) |
 //! | `dither_lsb_rms` | noise before the codes, in codes | 0.5 |
@@ -21,10 +23,12 @@
 pub(super) mod bandwidth;
 pub(super) mod crosstalk;
 pub(super) mod gain;
+pub(super) mod inductance;
 pub(super) mod jitter;
 pub(super) mod leakage;
 pub(super) mod noise;
 pub(super) mod offset;
+pub(super) mod others;
 pub(super) mod quantisation;
 pub(super) mod scale;
 
