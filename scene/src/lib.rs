@@ -56,7 +56,7 @@
 //! | --- | --- |
 //! | `error`, `format` | messages with file, line and key; TOML as a tree that knows which keys were read |
 //! | `terminals`, `device`, `ratios` | where the terminals are, sizes and full scales, signs of the ratios |
-//! | `stimulus`, `trajectory`, `pad` | what a pad does over a sweep or over time |
+//! | `stimulus`, `trajectory`, `pad`, `drive` | what a pad does over a sweep or over time |
 //! | `effects` | one file or folder for each effect; `effects::EFFECTS` is the list of all |
 //! | `case`, `scene`, `criterion`, `quantity` | a scene as it is read |
 //! | `plant`, `budget`, `nominal` | a case at work; errors of the fidelity levels; the sheet as its host knows it |
@@ -67,6 +67,7 @@ mod budget;
 mod case;
 mod criterion;
 mod device;
+mod drive;
 mod effects;
 mod error;
 mod few;

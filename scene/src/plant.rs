@@ -3,7 +3,8 @@
 //!
 //! Slot s serves pad s mod pads. Its sample n is taken at (s·slot_samples + n)/sample rate; the
 //! carrier starts afresh at n = 0. A pad is held for the whole slot as it is in the middle of the
-//! slot's window. Effects may have a state: ask for slots in rising order.
+//! slot's window. Effects may have a state, which moves through all of time, whichever pad is
+//! served: ask for slots in rising order.
 
 use std::ops::Range;
 
@@ -11,12 +12,14 @@ use num_complex::Complex64;
 
 use crate::case::{Case, Length};
 use crate::device::Device;
+use crate::drive::PadDrive;
 use crate::effects::{EffectCost, Effects, Pad, Phasors, Run, Setting};
 use crate::error::{Place, SceneError};
 use crate::nominal::NominalSheet;
 use crate::pad::resting;
 use crate::ratios::{self, Ratios};
 use crate::scene::Scene;
+use crate::stimulus::Moment;
 use crate::timing::Timing;
 use crate::trajectory::raster;
 use crate::truth::{ForcePoint, MapPoint, PadMeasurement, Truth};
@@ -100,8 +103,8 @@ impl Plant {
         let now = (None, resting([0.0; 2], 0.0, 0.0, &device));
         let ratios = ratios::of_device(&device, timing.signs.as_ref());
         let ratios = ratios.map_err(|message| SceneError::new(Place::File, "profile", message))?;
-        let plant =
-            Plant { effects, ratios, case, device, timing: timing.clone(), seed, index, now };
+        let timing = timing.clone();
+        let plant = Plant { effects, ratios, case, device, timing, seed, index, now };
         plant.check_limited_levels()?;
         Ok(plant)
     }
@@ -115,9 +118,10 @@ impl Plant {
         let mut effects = self.fresh_effects();
         let slots = self.slots();
         for slot in (0..slots).step_by(slots.div_ceil(ASKED).max(1)) {
-            for (index, plan) in self.case.pads.iter().enumerate() {
-                let mut pad = plan.at(index, self.point(slot), self.time_s(slot), &self.device);
-                effects.on_pad(&mut pad);
+            for index in 0..self.case.pads.len() {
+                let drive = self.drive(index);
+                let mut pad = drive.pad(Moment::at(self.time_s(slot)));
+                effects.on_pad(&mut pad, &drive);
                 if let Some((n, why)) = effects.refusal(&pad) {
                     return Err(SceneError::new(
                         Place::File,
@@ -246,7 +250,7 @@ impl Plant {
             friction_n: pad.friction_n,
             direction: pad.direction,
             load_g: pad.load_g,
-            set: self.case.pads[pad.index].set(point, pad.time_s),
+            set: self.drive(pad.index).set(Moment::at(pad.time_s)),
             over_edge: pad.over_edge,
             touching: pad.touching,
         }
@@ -373,6 +377,7 @@ impl Plant {
         ((slot * self.timing.slot_samples) as f64 + middle) / self.device.sample_rate_hz
     }
 
+    /// The point of the sweep in a slot.
     fn point(&self, slot: usize) -> usize {
         match self.case.length {
             Length::Sweep { dwell_slots, .. } => slot / self.case.pads.len() / dwell_slots,
@@ -387,20 +392,37 @@ impl Plant {
         }
         let time_s = self.time_s(slot);
         let index = slot % self.case.pads.len();
-        self.now = (Some(slot), self.alone(index, slot, time_s));
+        self.now = (Some(slot), self.alone(index, time_s));
         if self.effects.joins_pads() {
             let others: Vec<_> =
                 (0..self.case.pads.len()).filter(|other| *other != index).collect();
             let others: Vec<_> =
-                others.into_iter().map(|other| self.alone(other, slot, time_s)).collect();
+                others.into_iter().map(|other| self.alone(other, time_s)).collect();
             self.effects.on_pads(&mut self.now.1, &others);
         }
     }
 
     /// A pad as if it were the only one.
-    fn alone(&mut self, index: usize, slot: usize, time_s: f64) -> Pad {
-        let mut pad = self.case.pads[index].at(index, self.point(slot), time_s, &self.device);
-        self.effects.on_pad(&mut pad);
+    fn alone(&mut self, index: usize, time_s: f64) -> Pad {
+        let drive = drive(&self.case, &self.timing, &self.device, index);
+        let mut pad = drive.pad(Moment::at(time_s));
+        self.effects.on_pad(&mut pad, &drive);
         pad
     }
+
+    /// What is done to a pad.
+    fn drive(&self, index: usize) -> PadDrive<'_> {
+        drive(&self.case, &self.timing, &self.device, index)
+    }
+}
+
+fn drive<'a>(case: &'a Case, timing: &Timing, device: &'a Device, index: usize) -> PadDrive<'a> {
+    let point_s = match case.length {
+        Length::Sweep { dwell_slots, .. } => {
+            (dwell_slots * case.pads.len() * timing.slot_samples) as f64 / device.sample_rate_hz
+        }
+        Length::Time { .. } => f64::INFINITY,
+    };
+    let plan = &case.pads[index];
+    PadDrive { index, plan, point_s, device, lean_per_mm: 0.0 }
 }
