@@ -5,7 +5,7 @@
 mod common;
 
 use common::ode::{Ode, REST_UM};
-use hapticore_scene::{Plant, Scene, Timing, Truth};
+use hapticore_scene::{DriveError, Plant, Scene, Timing, Truth};
 
 /// Slots of 1.7 ms whose middle is 1.2 ms after their start.
 fn timing() -> Timing {
@@ -271,6 +271,66 @@ fn a_slot_that_nobody_asked_for_before_is_as_it_is_for_those_who_ask_for_all() {
             assert_eq!(bits(&some.truth(slot)), bits(&all[slot]), "{text}");
         }
     }
+}
+
+/// Set just before the slot that sees it, or all ahead, or twice.
+#[test]
+fn a_drive_that_is_set_has_the_bits_of_the_same_steps_in_the_scene() {
+    let mut draw = Draw(3);
+    for (n, effects) in STATES.into_iter().enumerate() {
+        let steps = draw.steps(0.14);
+        let text = |volt: &str| {
+            format!(
+                "duration_s = 0.15\n{}{}{effects}",
+                pads(volt, 1),
+                "[carrier]\nhaptic_hz = 200\n"
+            )
+        };
+        let scenes = truths(&text(&timeline(&steps)));
+        let mut plant = plant(&text("123"));
+        let mut left = steps.iter().peekable();
+        for (slot, scenes) in scenes.iter().enumerate() {
+            let ahead_s = if n % 2 == 0 { 0.0 } else { 1.0 };
+            while let Some([time_s, volt]) =
+                left.next_if(|[time_s, _]| *time_s <= scenes.time_s + ahead_s)
+            {
+                plant.set_drive(0, *time_s, *volt).unwrap();
+                if n % 3 == 0 {
+                    let again_s = time_s + 1e-6;
+                    plant.set_drive(0, again_s, *volt).unwrap();
+                }
+            }
+            let driven = plant.truth(slot);
+            assert_eq!(bits(&driven), bits(scenes), "{effects}");
+            assert_eq!((driven.haptic_v_rms, driven.set), (scenes.haptic_v_rms, scenes.set));
+        }
+    }
+}
+
+#[test]
+fn what_has_been_seen_cannot_be_driven_anew() {
+    let mut plant = plant(&format!("duration_s = 0.1\n{}{}", pads("100", 1), gap(GAP)));
+    plant.set_drive(1, 0.05, 200.0).unwrap();
+    let seen_s = plant.truth(10).time_s;
+    let refused = |result: Result<(), DriveError>| result.unwrap_err().to_string();
+    assert_eq!(
+        refused(plant.set_drive(0, seen_s - 1e-9, 1.0)),
+        format!("expected a time of {seen_s} s or later, got {} s", seen_s - 1e-9)
+    );
+    assert_eq!(
+        refused(plant.set_drive(1, 0.04, 1.0)),
+        "expected a time of 0.05 s or later, got 0.04 s"
+    );
+    assert_eq!(refused(plant.set_drive(2, 0.06, 1.0)), "expected a pad below 2, got 2");
+    for volt in [-1.0, f64::NAN, 2e5] {
+        assert!(matches!(plant.set_drive(0, 0.06, volt), Err(DriveError::Voltage(_))));
+    }
+    assert!(plant.set_drive(0, f64::NAN, 1.0).is_err());
+    assert_eq!(plant.truth(12).haptic_v_rms, 100.0, "the scene's, where nothing was set");
+    plant.set_drive(0, 0.06, 50.0).unwrap();
+    plant.set_drive(0, 0.06, 70.0).unwrap();
+    assert_eq!(plant.truth(40).haptic_v_rms, 70.0, "the later of two at one time");
+    assert_eq!(plant.truth(41).haptic_v_rms, 200.0);
 }
 
 /// A point of a sweep begins with its first slot, for all pads.
