@@ -45,6 +45,7 @@
 //! | --- | --- |
 //! | read a scene, choose its fidelity by an error budget | [`Scene`], [`Case`], [`SceneError`] |
 //! | run a case: truth, phasors, ADC samples, calibrations | [`Plant`], [`Truth`], [`Timing`], [`EffectCost`] |
+//! | drive a pad by a controller or a recording | [`Plant::set_drive`], [`DriveError`] |
 //! | know the display that a scene describes | [`Device`], [`signs_by_place`] |
 //! | name a quantity, its unit and its truth | [`Quantity`] |
 //! | know what a scene claims | [`Criterion`], [`Measure`] |
@@ -56,7 +57,7 @@
 //! | --- | --- |
 //! | `error`, `format` | messages with file, line and key; TOML as a tree that knows which keys were read |
 //! | `terminals`, `device`, `ratios` | where the terminals are, sizes and full scales, signs of the ratios |
-//! | `stimulus`, `trajectory`, `pad` | what a pad does over a sweep or over time |
+//! | `stimulus`, `trajectory`, `pad`, `drive` | what a pad does over a sweep or over time, or is made to do |
 //! | `effects` | one file or folder for each effect; `effects::EFFECTS` is the list of all |
 //! | `case`, `scene`, `criterion`, `quantity` | a scene as it is read |
 //! | `plant`, `budget`, `nominal` | a case at work; errors of the fidelity levels; the sheet as its host knows it |
@@ -67,6 +68,7 @@ mod budget;
 mod case;
 mod criterion;
 mod device;
+mod drive;
 mod effects;
 mod error;
 mod few;
@@ -91,6 +93,7 @@ pub use budget::LevelDeviation;
 pub use case::Case;
 pub use criterion::{Criterion, Measure, Per, Where};
 pub use device::Device;
+pub use drive::DriveError;
 pub use effects::EffectCost;
 pub use error::{Place, SceneError};
 pub use nominal::NominalSheet;

@@ -21,7 +21,7 @@ impl NominalSheet {
     /// A pad that the sheet alone has acted on.
     fn on_sheet(&mut self, pad: &PadEstimate) -> Pad {
         let mut pad = pad_of_frame([pad.x_mm, pad.y_mm], pad.capacitance_pf, &self.device);
-        self.effects.on_pad(&mut pad);
+        self.effects.on_resting_pad(&mut pad);
         pad
     }
 }

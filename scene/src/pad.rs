@@ -7,8 +7,8 @@ use crate::effects::sheet::ideal_split;
 use crate::effects::{FilmChange, Pad};
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
-use crate::stimulus::Stimulus;
-use crate::trajectory::{SLACK_MM, Trajectory};
+use crate::stimulus::{Moment, Stimulus};
+use crate::trajectory::{SLACK_MM, Trajectory, next_multiple};
 use crate::truth::Setpoint;
 
 /// Capacitance of a pad that neither names one nor has a gap, pF: 5 kΩ at 100 kHz.
@@ -104,32 +104,89 @@ impl PadPlan {
     }
 
     /// What the pad is set to.
-    pub fn set(&self, point: usize, time_s: f64) -> Setpoint {
-        let load = point / self.trajectory.points();
-        let haptic = load / self.load_g.points();
-        let capacitance = haptic / self.haptic_v_rms.points();
-        let eccentricity = capacitance / self.capacitance_pf.points();
-        let [x_mm, y_mm] = self.trajectory.at(point, time_s);
+    pub fn set(&self, point: usize, moment: Moment) -> Setpoint {
+        let [x_mm, y_mm] = self.trajectory.at(point, moment.time_s);
+        let [load, haptic, capacitance, eccentricity] = self.swept_values(point);
         Setpoint {
             x_mm,
             y_mm,
-            load_g: self.load_g.at(load, time_s),
-            haptic_v_rms: self.haptic_v_rms.at(haptic, time_s),
-            capacitance_pf: self.capacitance_pf.at(capacitance, time_s),
-            eccentricity_mm: self.eccentricity_mm.at(eccentricity, time_s),
+            load_g: self.load_g.at(load, moment),
+            haptic_v_rms: self.haptic_v_rms.at(haptic, moment),
+            capacitance_pf: self.capacitance_pf.at(capacitance, moment),
+            eccentricity_mm: self.eccentricity_mm.at(eccentricity, moment),
         }
     }
 
-    /// The pad before any effect: an even gap on an ideal sheet.
-    pub fn at(&self, index: usize, point: usize, time_s: f64, device: &Device) -> Pad {
-        let set = self.set(point, time_s);
-        let push_n = [0, 1].map(|axis| self.push_n[axis].at(0, time_s));
-        let (place, capacitance_f) = ([set.x_mm, set.y_mm], 1e-12 * set.capacitance_pf);
-        Pad {
-            eccentricity_mm: set.eccentricity_mm,
-            push_n,
-            ..still(index, time_s, place, set.load_g, set.haptic_v_rms, capacitance_f, device)
+    /// Load, haptic voltage and eccentricity of what the pad is set to: what moves its gap.
+    pub fn set_of_gap(&self, point: usize, moment: Moment) -> [f64; 3] {
+        let [load, haptic, _, eccentricity] = self.swept_values(point);
+        [
+            self.load_g.at(load, moment),
+            self.haptic_v_rms.at(haptic, moment),
+            self.eccentricity_mm.at(eccentricity, moment),
+        ]
+    }
+
+    /// Which value of load, haptic voltage, capacitance and eccentricity a point of the sweep has,
+    /// up to multiples of their numbers.
+    fn swept_values(&self, point: usize) -> [usize; 4] {
+        if point == 0 {
+            return [0; 4];
         }
+        let load = point / self.trajectory.points();
+        let haptic = load / self.load_g.points();
+        let capacitance = haptic / self.haptic_v_rms.points();
+        [load, haptic, capacitance, capacitance / self.capacitance_pf.points()]
+    }
+
+    /// What pushes the pad besides its finger, N.
+    pub fn push_n(&self, moment: Moment) -> [f64; 2] {
+        [0, 1].map(|axis| self.push_n[axis].at(0, moment))
+    }
+
+    /// When the source's voltage next steps or turns.
+    pub fn next_voltage_event_s(&self, after_s: f64) -> f64 {
+        self.haptic_v_rms.next_event_s(after_s)
+    }
+
+    /// When next what presses the pad steps or turns, or a sweep sets load, voltage or eccentricity
+    /// anew, whose points last `point_s` each.
+    pub fn next_pressure_event_s(&self, after_s: f64, point_s: f64) -> f64 {
+        let pressing = [&self.load_g, &self.eccentricity_mm];
+        let set_anew = if pressing.into_iter().chain([&self.haptic_v_rms]).any(|s| s.points() > 1) {
+            next_multiple(point_s * self.trajectory.points() as f64, after_s)
+        } else {
+            f64::INFINITY
+        };
+        pressing.into_iter().map(|s| s.next_event_s(after_s)).fold(set_anew, f64::min)
+    }
+
+    /// When next the pad turns back or is placed anew, or what pushes it or its capacitance steps
+    /// or turns.
+    pub fn next_motion_event_s(&self, after_s: f64, point_s: f64, least_s: f64) -> f64 {
+        let [x, y] = &self.push_n;
+        let placed =
+            if self.points() > 1 { next_multiple(point_s, after_s) } else { f64::INFINITY };
+        let stimuli = [x, y, &self.capacitance_pf].map(|stimulus| stimulus.next_event_s(after_s));
+        stimuli
+            .into_iter()
+            .fold(placed.min(self.trajectory.next_turn_s(after_s, least_s)), f64::min)
+    }
+}
+
+/// The pad before any effect: an even gap on an ideal sheet.
+pub(crate) fn pad_as_set(
+    index: usize,
+    time_s: f64,
+    set: &Setpoint,
+    push_n: [f64; 2],
+    device: &Device,
+) -> Pad {
+    let (place, capacitance_f) = ([set.x_mm, set.y_mm], 1e-12 * set.capacitance_pf);
+    Pad {
+        eccentricity_mm: set.eccentricity_mm,
+        push_n,
+        ..still(index, time_s, place, set.load_g, set.haptic_v_rms, capacitance_f, device)
     }
 }
 

@@ -3,7 +3,8 @@
 //!
 //! Slot s serves pad s mod pads. Its sample n is taken at (s·slot_samples + n)/sample rate; the
 //! carrier starts afresh at n = 0. A pad is held for the whole slot as it is in the middle of the
-//! slot's window. Effects may have a state: ask for slots in rising order.
+//! slot's window. Effects may have a state, which moves through all of time, whichever pad is
+//! served: ask for slots in rising order.
 
 use std::ops::Range;
 
@@ -11,12 +12,14 @@ use num_complex::Complex64;
 
 use crate::case::{Case, Length};
 use crate::device::Device;
+use crate::drive::{DriveError, HeldVoltage, PadDrive};
 use crate::effects::{EffectCost, Effects, Pad, Phasors, Run, Setting};
 use crate::error::{Place, SceneError};
 use crate::nominal::NominalSheet;
 use crate::pad::resting;
 use crate::ratios::{self, Ratios};
 use crate::scene::Scene;
+use crate::stimulus::Moment;
 use crate::timing::Timing;
 use crate::trajectory::raster;
 use crate::truth::{ForcePoint, MapPoint, PadMeasurement, Truth};
@@ -47,6 +50,10 @@ pub struct Plant {
     index: usize,
     ratios: Ratios,
     effects: Effects,
+    /// Voltages set in place of the scene's, for each pad; none where nobody has set one.
+    held: Vec<HeldVoltage>,
+    /// The latest time that was asked for.
+    latest_s: f64,
     /// The slot last asked for, so that truth, phasors and samples of a slot are of one evaluation.
     now: (Option<usize>, Pad),
 }
@@ -100,8 +107,9 @@ impl Plant {
         let now = (None, resting([0.0; 2], 0.0, 0.0, &device));
         let ratios = ratios::of_device(&device, timing.signs.as_ref());
         let ratios = ratios.map_err(|message| SceneError::new(Place::File, "profile", message))?;
+        let (timing, held) = (timing.clone(), Vec::new());
         let plant =
-            Plant { effects, ratios, case, device, timing: timing.clone(), seed, index, now };
+            Plant { effects, ratios, case, device, timing, seed, index, held, latest_s: 0.0, now };
         plant.check_limited_levels()?;
         Ok(plant)
     }
@@ -115,9 +123,10 @@ impl Plant {
         let mut effects = self.fresh_effects();
         let slots = self.slots();
         for slot in (0..slots).step_by(slots.div_ceil(ASKED).max(1)) {
-            for (index, plan) in self.case.pads.iter().enumerate() {
-                let mut pad = plan.at(index, self.point(slot), self.time_s(slot), &self.device);
-                effects.on_pad(&mut pad);
+            for index in 0..self.case.pads.len() {
+                let drive = self.drive(index);
+                let mut pad = drive.pad(Moment::at(self.time_s(slot)));
+                effects.on_pad(&mut pad, &drive);
                 if let Some((n, why)) = effects.refusal(&pad) {
                     return Err(SceneError::new(
                         Place::File,
@@ -225,6 +234,50 @@ impl Plant {
         self.effects.costs()
     }
 
+    /// Sets a pad's haptic voltage at its source: from `time_s` on it is this, until it is set
+    /// again, whatever the scene says. A controller or a recording drives the plant so, slot by
+    /// slot; load and position stay the scene's.
+    ///
+    /// Times of a pad do not fall, and none is before the middle of the window of a slot that has
+    /// been asked for. Several may be set ahead.
+    ///
+    /// ```
+    /// # use hapticore_scene::{Plant, Scene, Timing};
+    /// # let text = "title = \"t\"\nduration_s = 0.5\n[[pad]]\nposition_mm = [0, 0]\nload_g = 50\n\
+    /// #     [gap]\nrung = \"tr-bdf2\"\n[friction]\n";
+    /// # let scene = Scene::parse(text, "t.toml", &[])?;
+    /// # let timing = Timing {
+    /// #     pads: 4, slot_samples: 1700, window_start: 700, window_samples: 1000, samples_per_period: 10.0, signs: None,
+    /// # };
+    /// let mut plant = Plant::new(&scene, 0, &timing)?;
+    /// let (slot_s, target_n, mut volt) = (1.7e-3, 0.3, 0.0);
+    /// let mut force_n = 0.0;
+    /// for slot in 0..plant.slots() {
+    ///     force_n = plant.truth(slot).force_n; // or what a core makes of the slot's samples
+    ///     volt = (volt + 30.0 * (target_n - force_n)).max(0.0);
+    ///     plant.set_drive(0, (slot + 1) as f64 * slot_s, volt)?; // at the end of the slot
+    /// }
+    /// assert!((force_n - target_n).abs() < 0.02, "{force_n}");
+    /// assert!(plant.set_drive(0, 0.1, volt).is_err()); // what has happened cannot be changed
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// No such pad, a time that is past, a voltage outside 0 to 100 kV.
+    pub fn set_drive(
+        &mut self,
+        pad: usize,
+        time_s: f64,
+        haptic_v_rms: f64,
+    ) -> Result<(), DriveError> {
+        let pads = self.case.pads.len();
+        if pad >= pads {
+            return Err(DriveError::NoPad { pad, pads });
+        }
+        self.held.resize_with(pads, HeldVoltage::default);
+        self.held[pad].set(time_s, haptic_v_rms, self.latest_s)
+    }
+
     /// The plant in a slot.
     pub fn truth(&mut self, slot: usize) -> Truth {
         self.look(slot);
@@ -246,7 +299,7 @@ impl Plant {
             friction_n: pad.friction_n,
             direction: pad.direction,
             load_g: pad.load_g,
-            set: self.case.pads[pad.index].set(point, pad.time_s),
+            set: self.drive(pad.index).set(Moment::at(pad.time_s)),
             over_edge: pad.over_edge,
             touching: pad.touching,
         }
@@ -373,6 +426,7 @@ impl Plant {
         ((slot * self.timing.slot_samples) as f64 + middle) / self.device.sample_rate_hz
     }
 
+    /// The point of the sweep in a slot.
     fn point(&self, slot: usize) -> usize {
         match self.case.length {
             Length::Sweep { dwell_slots, .. } => slot / self.case.pads.len() / dwell_slots,
@@ -387,20 +441,47 @@ impl Plant {
         }
         let time_s = self.time_s(slot);
         let index = slot % self.case.pads.len();
-        self.now = (Some(slot), self.alone(index, slot, time_s));
+        self.latest_s = self.latest_s.max(time_s);
+        self.now = (Some(slot), self.alone(index, time_s));
         if self.effects.joins_pads() {
             let others: Vec<_> =
                 (0..self.case.pads.len()).filter(|other| *other != index).collect();
             let others: Vec<_> =
-                others.into_iter().map(|other| self.alone(other, slot, time_s)).collect();
+                others.into_iter().map(|other| self.alone(other, time_s)).collect();
             self.effects.on_pads(&mut self.now.1, &others);
         }
     }
 
     /// A pad as if it were the only one.
-    fn alone(&mut self, index: usize, slot: usize, time_s: f64) -> Pad {
-        let mut pad = self.case.pads[index].at(index, self.point(slot), time_s, &self.device);
-        self.effects.on_pad(&mut pad);
+    fn alone(&mut self, index: usize, time_s: f64) -> Pad {
+        let drive = drive(&self.case, &self.timing, &self.device, &self.held, index);
+        let mut pad = drive.pad(Moment::at(time_s));
+        self.effects.on_pad(&mut pad, &drive);
+        if let Some(held) = self.held.get_mut(index) {
+            held.forget(time_s);
+        }
         pad
     }
+
+    /// What is done to a pad.
+    fn drive(&self, index: usize) -> PadDrive<'_> {
+        drive(&self.case, &self.timing, &self.device, &self.held, index)
+    }
+}
+
+fn drive<'a>(
+    case: &'a Case,
+    timing: &Timing,
+    device: &'a Device,
+    held: &'a [HeldVoltage],
+    index: usize,
+) -> PadDrive<'a> {
+    let point_s = match case.length {
+        Length::Sweep { dwell_slots, .. } => {
+            (dwell_slots * case.pads.len() * timing.slot_samples) as f64 / device.sample_rate_hz
+        }
+        Length::Time { .. } => f64::INFINITY,
+    };
+    let plan = &case.pads[index];
+    PadDrive { index, plan, point_s, held: held.get(index), device, lean_per_mm: 0.0 }
 }

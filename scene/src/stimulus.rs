@@ -18,12 +18,43 @@ use crate::format::{Limits, Table, Value};
 /// The most points of one sweep.
 const MOST_POINTS: u64 = 1_000_000;
 
+/// A moment at which something may step: just before, or with the step made.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Moment {
+    pub time_s: f64,
+    before: bool,
+}
+
+impl Moment {
+    /// What steps at this time has stepped.
+    pub fn at(time_s: f64) -> Moment {
+        Moment { time_s, before: false }
+    }
+
+    /// What steps at this time has not stepped yet.
+    pub fn before(time_s: f64) -> Moment {
+        Moment { time_s, before: true }
+    }
+
+    /// Whether what happens at `event_s` has happened.
+    pub fn is_past(self, event_s: f64) -> bool {
+        event_s < self.time_s || (event_s == self.time_s && !self.before)
+    }
+}
+
+/// Points of time and value, and those times at which the value steps or its slope changes.
+#[derive(Clone, Debug)]
+pub(crate) struct Timeline {
+    points: Vec<[f64; 2]>,
+    events_s: Vec<f64>,
+}
+
 /// One quantity of a pad over sweep points or time.
 #[derive(Clone, Debug)]
 pub(crate) enum Stimulus {
     Constant(f64),
     Sweep(Vec<f64>),
-    Timeline(Vec<[f64; 2]>),
+    Timeline(Timeline),
     Sine { mean: f64, amplitude: f64, frequency_hz: f64, phase_turns: f64 },
 }
 
@@ -49,7 +80,9 @@ impl Stimulus {
         );
         let (key, stimulus) = match all {
             (Some(sweep), None, None) => ("sweep", Stimulus::Sweep(sweep)),
-            (None, Some(timeline), None) => ("timeline", Stimulus::Timeline(timeline)),
+            (None, Some(points), None) => {
+                ("timeline", Stimulus::Timeline(Timeline::read(form, points)?))
+            }
             (None, None, Some(sine)) => ("sine", sine),
             _ => {
                 return Err(
@@ -57,11 +90,6 @@ impl Stimulus {
                 );
             }
         };
-        if let Stimulus::Timeline(points) = &stimulus
-            && points.windows(2).any(|pair| pair[1][0] < pair[0][0])
-        {
-            return Err(form.error("timeline", "expected times that do not fall"));
-        }
         match stimulus.extremes().into_iter().find(|value| !limits.holds(*value)) {
             Some(value) => Err(form.error(key, format!("expected {limits}, got {value}"))),
             None => Ok(stimulus),
@@ -100,7 +128,9 @@ impl Stimulus {
         match self {
             Stimulus::Constant(value) => vec![*value],
             Stimulus::Sweep(values) => values.clone(),
-            Stimulus::Timeline(points) => points.iter().map(|point| point[1]).collect(),
+            Stimulus::Timeline(Timeline { points, .. }) => {
+                points.iter().map(|point| point[1]).collect()
+            }
             Stimulus::Sine { mean, amplitude, .. } => {
                 vec![mean - amplitude.abs(), mean + amplitude.abs()]
             }
@@ -117,28 +147,56 @@ impl Stimulus {
         matches!(self, Stimulus::Timeline(_) | Stimulus::Sine { .. })
     }
 
-    /// The value at a sweep's point and a time.
-    pub fn at(&self, point: usize, time_s: f64) -> f64 {
+    /// The value at a sweep's point and a moment.
+    #[inline]
+    pub fn at(&self, point: usize, moment: Moment) -> f64 {
         match self {
             Stimulus::Constant(value) => *value,
             Stimulus::Sweep(values) => values[point % values.len()],
-            Stimulus::Timeline(points) => interpolate(points, time_s),
+            Stimulus::Timeline(timeline) => timeline.at(moment),
             Stimulus::Sine { mean, amplitude, frequency_hz, phase_turns } => {
-                mean + amplitude * (TAU * (frequency_hz * time_s + phase_turns)).sin()
+                mean + amplitude * (TAU * (frequency_hz * moment.time_s + phase_turns)).sin()
             }
         }
     }
+
+    /// When the value next steps, or turns from one slope to another; infinite where it never does.
+    pub fn next_event_s(&self, after_s: f64) -> f64 {
+        let Stimulus::Timeline(Timeline { events_s, .. }) = self else { return f64::INFINITY };
+        let next = events_s.partition_point(|event_s| *event_s <= after_s);
+        events_s.get(next).copied().unwrap_or(f64::INFINITY)
+    }
 }
 
-/// Linear between points, held before the first and after the last; at two points of equal time the
-/// later one holds.
-fn interpolate(points: &[[f64; 2]], time_s: f64) -> f64 {
-    let after = points.partition_point(|point| point[0] <= time_s);
-    match (after.checked_sub(1).map(|n| points[n]), points.get(after)) {
-        (None, Some(first)) => first[1],
-        (Some(last), None) => last[1],
-        (Some([t0, v0]), Some([t1, v1])) => v0 + (v1 - v0) * (time_s - t0) / (t1 - t0),
-        (None, None) => unreachable!("a timeline has points"),
+impl Timeline {
+    fn read(form: &Table, points: Vec<[f64; 2]>) -> Result<Timeline, SceneError> {
+        if points.windows(2).any(|pair| pair[1][0] < pair[0][0]) {
+            return Err(form.error("timeline", "expected times that do not fall"));
+        }
+        Ok(Timeline::new(points))
+    }
+
+    fn new(points: Vec<[f64; 2]>) -> Timeline {
+        let slope = |pair: &[[f64; 2]]| (pair[1][1] - pair[0][1]) / (pair[1][0] - pair[0][0]);
+        let inner = points.windows(2).map(slope);
+        let slopes: Vec<f64> = std::iter::once(0.0).chain(inner).chain([0.0]).collect();
+        // A step has no slope that equals another's.
+        let is_event = |(_, around): &(&[f64; 2], &[f64])| around[0] != around[1];
+        let events = points.iter().zip(slopes.windows(2)).filter(is_event);
+        let events_s = events.map(|(point, _)| point[0]).collect();
+        Timeline { points, events_s }
+    }
+
+    /// Linear between points, held before the first and after the last; at two points of equal time
+    /// the later one holds from then on.
+    fn at(&self, moment: Moment) -> f64 {
+        let after = self.points.partition_point(|point| moment.is_past(point[0]));
+        match (after.checked_sub(1).map(|n| self.points[n]), self.points.get(after)) {
+            (None, Some(first)) => first[1],
+            (Some(last), None) => last[1],
+            (Some([t0, v0]), Some([t1, v1])) => v0 + (v1 - v0) * (moment.time_s - t0) / (t1 - t0),
+            (None, None) => unreachable!("a timeline has points"),
+        }
     }
 }
 
@@ -148,8 +206,21 @@ mod tests {
 
     #[test]
     fn a_timeline_is_linear_between_points_and_steps_where_times_are_equal() {
-        let ramp = Stimulus::Timeline(vec![[0.0, 0.0], [1.0, 10.0], [1.0, 50.0], [2.0, 50.0]]);
-        let at = |time| ramp.at(0, time);
+        let ramp = Timeline::new(vec![[0.0, 0.0], [1.0, 10.0], [1.0, 50.0], [2.0, 50.0]]);
+        let at = |time| ramp.at(Moment::at(time));
         assert_eq!([at(-1.0), at(0.5), at(1.0), at(9.0)], [0.0, 5.0, 50.0, 50.0]);
+        assert_eq!(ramp.at(Moment::before(1.0)), 10.0);
+    }
+
+    #[test]
+    fn events_are_steps_and_kinks_but_no_point_on_a_line() {
+        let points =
+            [[0.0, 0.0], [1.0, 1.0], [2.0, 2.0], [3.0, 2.0], [4.0, 2.0], [4.0, 7.0], [5.0, 7.0]];
+        let timeline = Stimulus::Timeline(Timeline::new(points.to_vec()));
+        let event = |after_s: &f64| Some(timeline.next_event_s(*after_s));
+        let events: Vec<f64> = std::iter::successors(event(&-1.0), event)
+            .take_while(|event| event.is_finite())
+            .collect();
+        assert_eq!(events, [0.0, 2.0, 4.0]);
     }
 }

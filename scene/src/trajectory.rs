@@ -96,6 +96,17 @@ impl Trajectory {
         !matches!(self, Trajectory::Points(_))
     }
 
+    /// When the pad next turns back on its line; infinite where it has none, or turns more often
+    /// than every `least_s`.
+    pub fn next_turn_s(&self, after_s: f64, least_s: f64) -> f64 {
+        match self {
+            Trajectory::Line { period_s, .. } if 0.5 * period_s >= least_s => {
+                next_multiple(0.5 * period_s, after_s)
+            }
+            _ => f64::INFINITY,
+        }
+    }
+
     /// The position at a sweep's point and a time.
     pub fn at(&self, point: usize, time_s: f64) -> Point {
         match self {
@@ -114,6 +125,13 @@ impl Trajectory {
             }
         }
     }
+}
+
+/// The first multiple of a period that is later.
+pub(crate) fn next_multiple(period_s: f64, after_s: f64) -> f64 {
+    let periods = (after_s / period_s).floor();
+    let next_s = (periods + 1.0) * period_s;
+    if next_s > after_s { next_s } else { (periods + 2.0) * period_s }
 }
 
 /// Evenly spaced places, the outermost `margin_mm` from the edges; a single column or row is in the
@@ -166,4 +184,19 @@ fn read_lissajous(table: &Table) -> Result<Trajectory, SceneError> {
 
 fn period(table: &Table) -> Result<f64, SceneError> {
     table.require("period_s", "a number above 0", table.number("period_s", Limits::POSITIVE)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_turns_twice_a_period_unless_steps_are_longer() {
+        let line = Trajectory::Line { from: [0.0; 2], to: [1.0; 2], period_s: 0.2 };
+        let turn = |after_s: &f64| Some(line.next_turn_s(*after_s, 0.01));
+        let turns: Vec<f64> = std::iter::successors(turn(&0.0), turn).take(1000).collect();
+        assert!(turns.iter().enumerate().all(|(n, s)| (s - 0.1 * (n + 1) as f64).abs() < 1e-9));
+        assert_eq!(line.next_turn_s(0.0, 0.11), f64::INFINITY);
+        assert_eq!(Trajectory::Points(vec![[0.0; 2]; 2]).next_turn_s(0.0, 0.01), f64::INFINITY);
+    }
 }

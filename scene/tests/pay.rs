@@ -146,6 +146,21 @@ fn a_slot_allocates_nothing_but_for_transients_and_coupled_pads() {
     );
 }
 
+#[test]
+fn a_driven_pad_allocates_nothing_once_it_has_been_driven_for_some_slots() {
+    let coupled = |part: &Part| ["coupling", "switching"].contains(&part.name);
+    let mut plant =
+        Plant::new(&scene(&scene_of(&parts(|part| !coupled(part)))), 0, &timing()).unwrap();
+    let mut slot = |slot: usize| {
+        let slot_s = plant.truth(slot).time_s;
+        for pad in 0..2 {
+            plant.set_drive(pad, slot_s + 1e-4, 50.0 + slot as f64).unwrap();
+        }
+    };
+    (0..SLOTS).for_each(&mut slot);
+    assert_eq!(measure(|| (SLOTS..4 * SLOTS).for_each(&mut slot)).count_total, 0);
+}
+
 /// Tables of the sheet and the shunt are the case's: plants share them, and so does what calibrates
 /// beside a run.
 #[test]

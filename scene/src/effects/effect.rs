@@ -6,6 +6,8 @@ use std::ops::Range;
 use num_complex::Complex64;
 
 use super::pad::Pad;
+use super::tick::Tick;
+use crate::drive::PadDrive;
 use crate::few::Few;
 use crate::terminals::{MOST_CHANNELS, VOLTAGES};
 
@@ -18,13 +20,26 @@ pub(crate) enum Effect {
 
 /// Acts on the pad, once per slot.
 pub(crate) trait PadEffect: Send {
+    /// On a pad that has been so for ever, where the effect has a state.
     fn act(&mut self, pad: &mut Pad);
+    /// On the pad at its time, to which its drive has brought the effect's state. The state that is
+    /// kept must not depend on the times that are asked for: see [`Tick`].
+    fn follow(&mut self, pad: &mut Pad, _: &PadDrive) {
+        self.act(pad);
+    }
+    /// The next time up to the pad's own at which the effect keeps its state, where that depends on
+    /// what the effects before it make of the pad.
+    fn due(&self, _: &Pad, _: &PadDrive) -> Option<Tick> {
+        None
+    }
+    /// Keeps the state at a time that was due; the pad is as it is just before.
+    fn keep(&mut self, _: &Pad, _: Tick, _: &PadDrive) {}
     /// Why the level cannot be used on a pad that it has acted on, as for
     /// [`ChannelEffect::refuses`].
     fn refuses(&self, _: &Pad) -> Option<String> {
         None
     }
-    /// As if the pad had been there for ever: what a calibration waits for.
+    /// On a pad for a calibration: it has been there for ever.
     fn settle(&mut self, pad: &mut Pad) {
         self.act(pad);
     }

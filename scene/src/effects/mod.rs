@@ -4,7 +4,8 @@
 //!
 //! Once per slot the effects on the pad run in the order of [`EFFECTS`], each changing the [`Pad`];
 //! then those that see all pads at once; then the effects on the channels turn it into phasors or
-//! samples. An effect whose table (or key, for the sensor chain) is absent yields no [`Spec`], so
+//! samples. States of effects are kept at times of their own, whichever slots are asked for: see
+//! `tick`. An effect whose table (or key, for the sensor chain) is absent yields no [`Spec`], so
 //! the plant holds nothing of it. To add an effect: one file with a `read`, one line in the list.
 
 pub(crate) mod carrier;
@@ -23,6 +24,7 @@ mod split_electrode;
 mod supply;
 mod switching;
 mod temperature;
+mod tick;
 
 pub(crate) use effect::{Phasors, Run};
 pub(crate) use pad::{FilmChange, Pad};

@@ -6,6 +6,9 @@ use std::time::Instant;
 use super::effect::{ChannelEffect, Effect};
 use super::pad::Pad;
 use super::spec::{Setting, Spec};
+use super::tick::Tick;
+use crate::drive::PadDrive;
+use crate::stimulus::Moment;
 
 /// What an effect has cost so far.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,13 +55,38 @@ impl Effects {
         self.list.iter().any(|effect| matches!(effect, Effect::Pads(_)))
     }
 
-    /// Lets the effects on a single pad act on it.
-    pub fn on_pad(&mut self, pad: &mut Pad) {
+    /// Lets the effects on a single pad act on it, their states brought to its time.
+    pub fn on_pad(&mut self, pad: &mut Pad, drive: &PadDrive) {
+        while let Some((n, tick)) = self.due(pad, drive) {
+            self.keep(n, tick, drive);
+        }
         for (n, effect) in self.list.iter_mut().enumerate() {
             if let Effect::Pad(effect) = effect {
-                self.meter.book(n, || effect.act(pad));
+                self.meter.book(n, || effect.follow(pad, drive));
             }
         }
+    }
+
+    /// Lets effect `n` keep its state at a time, after those before it have acted on the pad.
+    fn keep(&mut self, n: usize, tick: Tick, drive: &PadDrive) {
+        let mut pad = drive.pad(Moment::before(tick.time_s));
+        for (k, effect) in self.list[..=n].iter_mut().enumerate() {
+            let Effect::Pad(effect) = effect else { continue };
+            self.meter.time(k, || match k < n {
+                true => effect.follow(&mut pad, drive),
+                false => effect.keep(&pad, tick, drive),
+            });
+        }
+    }
+
+    /// The first effect to keep its state before the pad's time, and when.
+    fn due(&self, pad: &Pad, drive: &PadDrive) -> Option<(usize, Tick)> {
+        let due = |(n, effect): (usize, &Effect)| match effect {
+            Effect::Pad(effect) => Some((n, effect.due(pad, drive)?)),
+            _ => None,
+        };
+        let due = self.list.iter().enumerate().filter_map(due);
+        due.min_by(|(_, a), (_, b)| a.time_s.total_cmp(&b.time_s))
     }
 
     /// Which effect cannot be used on a pad that they have acted on, and why.
@@ -107,10 +135,17 @@ enum Meter {
 
 impl Meter {
     fn book(&mut self, n: usize, work: impl FnOnce()) {
+        self.time(n, work);
+        if let Meter::On(costs) = self {
+            costs[n].evaluations += 1;
+        }
+    }
+
+    /// Times what is not an evaluation of its own.
+    fn time(&mut self, n: usize, work: impl FnOnce()) {
         let Meter::On(costs) = self else { return work() };
         let start = Instant::now();
         work();
         costs[n].seconds += start.elapsed().as_secs_f64();
-        costs[n].evaluations += 1;
     }
 }

@@ -15,6 +15,7 @@ use super::gap;
 use super::pad::Pad;
 use super::spec::{Level, Setting, Spec};
 use crate::device::Device;
+use crate::drive::PadDrive;
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
 
@@ -47,14 +48,18 @@ struct SplitElectrode {
 }
 
 impl SplitElectrode {
-    fn for_both(&mut self, pad: &mut Pad, mut act: impl FnMut(&mut dyn PadEffect, &mut Pad)) {
-        let lean = pad.eccentricity_mm / self.centre_mm;
-        let sides =
-            [-1.0, 1.0].map(|side| Pad { load_g: pad.load_g * (1.0 + side * lean), ..pad.clone() });
-        let mut electrodes = sides;
-        for (gap, electrode) in self.gaps.iter_mut().zip(&mut electrodes) {
+    /// Lets `act` see the gap of each electrode, the electrode, and by what share of itself its
+    /// load is more for each millimetre of eccentricity.
+    fn for_both(&mut self, pad: &mut Pad, act: impl Fn(&mut dyn PadEffect, &mut Pad, f64)) {
+        let leans_per_mm = [-1.0, 1.0].map(|side| side / self.centre_mm);
+        let mut electrodes = leans_per_mm.map(|lean_per_mm| {
+            let load_g = pad.load_g * (1.0 + lean_per_mm * pad.eccentricity_mm);
+            Pad { load_g, ..pad.clone() }
+        });
+        for ((gap, electrode), lean) in self.gaps.iter_mut().zip(&mut electrodes).zip(leans_per_mm)
+        {
             if let Effect::Pad(gap) = gap {
-                act(gap.as_mut(), electrode);
+                act(gap.as_mut(), electrode, lean);
             }
         }
         self.combine(pad, &electrodes);
@@ -72,10 +77,12 @@ impl SplitElectrode {
 
 impl PadEffect for SplitElectrode {
     fn act(&mut self, pad: &mut Pad) {
-        self.for_both(pad, |gap, electrode| gap.act(electrode));
+        self.for_both(pad, |gap, electrode, _| gap.act(electrode));
     }
 
-    fn settle(&mut self, pad: &mut Pad) {
-        self.for_both(pad, |gap, electrode| gap.settle(electrode));
+    fn follow(&mut self, pad: &mut Pad, drive: &PadDrive) {
+        self.for_both(pad, |gap, electrode, lean_per_mm| {
+            gap.follow(electrode, &drive.leaning(lean_per_mm));
+        });
     }
 }

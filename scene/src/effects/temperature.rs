@@ -34,7 +34,7 @@ use super::spec::Spec;
 use crate::device::Device;
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
-use crate::stimulus::Stimulus;
+use crate::stimulus::{Moment, Stimulus};
 
 /// The most that a film may change, as a share of its resistance: what is left is positive.
 const MOST_CHANGE: f64 = 0.9;
@@ -111,7 +111,7 @@ impl Temperature {
     fn label(&self) -> String {
         let rise = match self.rise_k.moves() {
             true => format!("steps of {} K", self.step_k),
-            false => format!("{} K", self.rise_k.at(0, 0.0)),
+            false => format!("{} K", self.rise_k.at(0, Moment::at(0.0))),
         };
         match self.gradient_k {
             [0.0, 0.0] => rise,
@@ -121,7 +121,7 @@ impl Temperature {
 
     /// ΔT, in steps where it moves.
     fn rise_k(&self, time_s: f64) -> f64 {
-        let rise_k = self.rise_k.at(0, time_s);
+        let rise_k = self.rise_k.at(0, Moment::at(time_s));
         if self.rise_k.moves() { (rise_k / self.step_k).round() * self.step_k } else { rise_k }
     }
 }

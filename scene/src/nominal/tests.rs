@@ -82,7 +82,7 @@ impl Solver for Exact {
     fn split(&self, x_mm: f64, y_mm: f64) -> Split {
         let mut exact = self.0.borrow_mut();
         let mut pad = pad_of_frame([x_mm, y_mm], PICOFARAD, &exact.device);
-        exact.effects.on_pad(&mut pad);
+        exact.effects.on_resting_pad(&mut pad);
         Split { share: pad.split.map(|share| share.re), ohm: pad.sheet_ohm.re }
     }
 }

@@ -4,6 +4,7 @@
 #![allow(dead_code, reason = "each test file uses a part")]
 
 pub mod every;
+pub mod ode;
 
 use std::f64::consts::TAU;
 

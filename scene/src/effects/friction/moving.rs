@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Pads that move against friction, from slot to slot: as their trajectory says, or hanging on the
-//! finger that follows it.
+//! Pads that move against friction: as their trajectory says, or hanging on the finger that follows
+//! it.
 //!
-//! Between slots the finger moves evenly, and load, attraction and push are linear.
+//! A step takes finger, push, load and attraction as they are at its end, and the finger's velocity
+//! as its mean over the step.
 
-use super::law::{Drive, Law, Motion, Surface, Vector, add};
+use super::law::{Drive, Law, Motion, Surface, Vector, add, length};
 use crate::device::Device;
+use crate::drive::PadDrive;
 use crate::effects::effect::PadEffect;
-use crate::effects::pad::Finger;
 use crate::effects::pad::Pad;
 use crate::effects::sheet::ideal_split;
+use crate::effects::tick::Tick;
+use crate::stimulus::Moment;
 use crate::trajectory::SLACK_MM;
 
 /// The effect: a law, and where each pad is.
@@ -21,14 +24,12 @@ pub(super) struct Moving {
     pads: Vec<Option<Track>>,
 }
 
-/// A pad at the middle of its last slot.
+/// Where a pad is, and where its trajectory.
 #[derive(Clone, Copy, Debug)]
 struct Track {
-    time_s: f64,
+    tick: Tick,
     finger_m: Vector,
     pad_m: Vector,
-    push_n: Vector,
-    sliding_n: f64,
     motion: Motion,
 }
 
@@ -37,76 +38,46 @@ impl Moving {
         Moving { law, surface, step_s, device, pads: Vec::new() }
     }
 
-    /// Where the trajectory, the push and the friction's strength are now.
-    fn now(&self, pad: &Pad) -> Track {
-        let at_m = [1e-3 * pad.x_mm, 1e-3 * pad.y_mm];
+    /// The pad at the start of the case: at rest, the finger on it.
+    fn begin(drive: &PadDrive) -> Track {
+        let start = drive.set(Moment::at(0.0));
+        let at_m = [1e-3 * start.x_mm, 1e-3 * start.y_mm];
+        Track { tick: Tick::default(), finger_m: at_m, pad_m: at_m, motion: Motion::default() }
+    }
+
+    /// The track that is kept of a pad.
+    fn kept(&self, index: usize, drive: &PadDrive) -> Track {
+        let kept = self.pads.get(index).copied().flatten();
+        kept.unwrap_or_else(|| Moving::begin(drive))
+    }
+
+    /// The track at the pad's time, `step_s` later.
+    fn step(&self, from: &Track, pad: &Pad, step_s: f64) -> Track {
+        let finger_m = [1e-3 * pad.x_mm, 1e-3 * pad.y_mm];
+        let finger_m_s = add([0.0; 2], 1.0 / step_s, add(finger_m, -1.0, from.finger_m));
         let sliding_n = self.device.mu * (self.device.weight_n(pad.load_g) + pad.attraction_n);
-        let motion = Motion::default();
-        Track {
-            time_s: pad.time_s,
-            finger_m: at_m,
-            pad_m: at_m,
-            push_n: pad.push_n,
-            sliding_n,
-            motion,
-        }
-    }
-
-    fn advance(&self, from: Track, to: Track, finger: Option<Finger>) -> Track {
-        let span_s = (to.time_s - from.time_s).max(0.0);
-        let steps = (span_s / self.step_s).ceil();
-        let mut at = from;
-        for step in 1..=steps as usize {
-            let along = step as f64 / steps;
-            let mix = |from: Vector, to: Vector| add(from, along, add(to, -1.0, from));
-            let there = Track {
-                finger_m: mix(from.finger_m, to.finger_m),
-                push_n: mix(from.push_n, to.push_n),
-                sliding_n: from.sliding_n + along * (to.sliding_n - from.sliding_n),
-                ..at
-            };
-            at = match finger {
-                Some(finger) => self.pull(finger, there, at.finger_m, span_s / steps),
-                None => self.follow(there, at.finger_m, span_s / steps),
-            };
-        }
-        Track { time_s: to.time_s, ..at }
-    }
-
-    /// The pad on the finger's spring.
-    fn pull(&self, finger: Finger, to: Track, finger_before_m: Vector, step_s: f64) -> Track {
-        let finger_m_s = add([0.0; 2], 1.0 / step_s, add(to.finger_m, -1.0, finger_before_m));
+        let Some(finger) = pad.finger else {
+            let motion = self.law.follow(&self.surface, from.motion, finger_m_s, step_s, sliding_n);
+            return Track { finger_m, pad_m: finger_m, motion, ..*from };
+        };
         let inertia = finger.mass_kg / step_s;
-        let spring = add(to.push_n, finger.stiffness_n_per_m, add(to.finger_m, -1.0, to.pad_m));
+        let spring = add(pad.push_n, finger.stiffness_n_per_m, add(finger_m, -1.0, from.pad_m));
         let damped = add(spring, finger.damping_n_s_per_m, finger_m_s);
         let drive = Drive {
             step_s,
             mobility_n_s_per_m: inertia
                 + finger.damping_n_s_per_m
                 + finger.stiffness_n_per_m * step_s,
-            push_n: add(damped, inertia, to.motion.velocity_m_s),
-            sliding_n: to.sliding_n,
+            push_n: add(damped, inertia, from.motion.velocity_m_s),
+            sliding_n,
         };
-        let motion = self.law.step(&self.surface, to.motion, drive);
-        Track { pad_m: add(to.pad_m, step_s, motion.velocity_m_s), motion, ..to }
+        let motion = self.law.step(&self.surface, from.motion, drive);
+        let pad_m = add(from.pad_m, step_s, motion.velocity_m_s);
+        Track { finger_m, pad_m, motion, ..*from }
     }
 
-    /// The pad where its trajectory says.
-    fn follow(&self, to: Track, before_m: Vector, step_s: f64) -> Track {
-        let velocity_m_s = add([0.0; 2], 1.0 / step_s, add(to.finger_m, -1.0, before_m));
-        let motion = self.law.follow(&self.surface, to.motion, velocity_m_s, step_s, to.sliding_n);
-        Track { pad_m: to.finger_m, motion, ..to }
-    }
-}
-
-impl PadEffect for Moving {
-    fn act(&mut self, pad: &mut Pad) {
-        if self.pads.len() <= pad.index {
-            self.pads.resize(pad.index + 1, None);
-        }
-        let now = self.now(pad);
-        let track = self.pads[pad.index].map_or(now, |from| self.advance(from, now, pad.finger));
-        self.pads[pad.index] = Some(track);
+    /// What the track makes of the pad.
+    fn set_results(&self, pad: &mut Pad, track: &Track) {
         let [half_mm, reach_mm] = [
             [self.device.width_mm, self.device.height_mm].map(|mm| mm / 2.0),
             self.device.reach_mm(),
@@ -116,11 +87,36 @@ impl PadEffect for Moving {
             [0, 1].into_iter().any(|axis| at_mm[axis].abs() > reach_mm[axis] + SLACK_MM);
         [pad.x_mm, pad.y_mm] = [0, 1].map(|axis| at_mm[axis].clamp(-half_mm[axis], half_mm[axis]));
         pad.split = ideal_split(pad.x_mm, pad.y_mm, &self.device);
-        pad.friction_n = super::law::length(track.motion.friction_n);
+        pad.friction_n = length(track.motion.friction_n);
+    }
+}
+
+impl PadEffect for Moving {
+    /// A pad at rest: friction has nothing to work against.
+    fn act(&mut self, pad: &mut Pad) {
         pad.force_n = Some(self.device.mu * pad.attraction_n);
     }
 
-    fn settle(&mut self, pad: &mut Pad) {
-        pad.force_n = Some(self.device.mu * pad.attraction_n);
+    fn due(&self, pad: &Pad, drive: &PadDrive) -> Option<Tick> {
+        let track = self.pads.get(pad.index).and_then(Option::as_ref);
+        let from = track.map_or(Tick::default(), |track| track.tick);
+        from.next(self.step_s, pad.time_s, |after_s| drive.next_event_s(after_s, self.step_s))
+    }
+
+    fn keep(&mut self, pad: &Pad, tick: Tick, drive: &PadDrive) {
+        if self.pads.len() <= pad.index {
+            self.pads.resize(pad.index + 1, None);
+        }
+        let from = self.kept(pad.index, drive);
+        let track = self.step(&from, pad, tick.time_s - from.tick.time_s);
+        self.pads[pad.index] = Some(Track { tick, ..track });
+    }
+
+    fn follow(&mut self, pad: &mut Pad, drive: &PadDrive) {
+        let from = self.kept(pad.index, drive);
+        let ahead_s = from.tick.ahead_s(self.step_s, pad.time_s);
+        let track = ahead_s.map_or(from, |ahead_s| self.step(&from, pad, ahead_s));
+        self.set_results(pad, &track);
+        self.act(pad);
     }
 }

@@ -23,20 +23,35 @@ pub(super) enum Method {
     TrBdf2,
 }
 
+/// The drive at the start of a step, where TR-BDF2 has its first stage, and at the end.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stages {
+    start: Drive,
+    middle: Drive,
+    end: Drive,
+}
+
+/// Where TR-BDF2 has its first stage: γ.
+const GAMMA: f64 = 2.0 - std::f64::consts::SQRT_2;
+
 impl Method {
-    /// The state a step later; `drive` at a fraction of the step.
+    /// What a step needs of a drive, which is asked for at fractions of the step.
     #[inline]
-    pub fn step(
-        self,
-        law: &Law,
-        rest_m: f64,
-        from: State,
-        step_s: f64,
-        drive: impl Fn(f64) -> Drive,
-    ) -> State {
+    pub fn stages(self, drive: impl Fn(f64) -> Drive) -> Stages {
+        let end = drive(1.0);
         match self {
-            Method::SemiImplicit => semi_implicit(law, rest_m, from, step_s, drive(1.0)),
-            Method::ImplicitEuler => stage(law, rest_m, from, from, step_s, drive(1.0)),
+            Method::SemiImplicit | Method::ImplicitEuler => Stages { start: end, middle: end, end },
+            Method::Trapezoid => Stages { start: drive(0.0), middle: end, end },
+            Method::TrBdf2 => Stages { start: drive(0.0), middle: drive(GAMMA), end },
+        }
+    }
+
+    /// The state a step later.
+    #[inline]
+    pub fn step(self, law: &Law, rest_m: f64, from: State, step_s: f64, drive: &Stages) -> State {
+        match self {
+            Method::SemiImplicit => semi_implicit(law, rest_m, from, step_s, drive.end),
+            Method::ImplicitEuler => stage(law, rest_m, from, from, step_s, drive.end),
             Method::Trapezoid => trapezoid(law, rest_m, from, step_s, drive),
             Method::TrBdf2 => tr_bdf2(law, rest_m, from, step_s, drive),
         }
@@ -54,43 +69,30 @@ fn semi_implicit(law: &Law, rest_m: f64, from: State, step_s: f64, drive: Drive)
 
 /// Where it would close the gap, it has overshot: then implicit Euler, for a start from closed
 /// throws the patch open again.
-fn trapezoid(
-    law: &Law,
-    rest_m: f64,
-    from: State,
-    step_s: f64,
-    drive: impl Fn(f64) -> Drive,
-) -> State {
-    let base = ahead(from, law.rates(from, rest_m, drive(0.0)), 0.5 * step_s);
-    let to = stage(law, rest_m, base, from, 0.5 * step_s, drive(1.0));
-    if to.gap_m > 0.0 { to } else { stage(law, rest_m, from, from, step_s, drive(1.0)) }
+fn trapezoid(law: &Law, rest_m: f64, from: State, step_s: f64, drive: &Stages) -> State {
+    let base = ahead(from, law.rates(from, rest_m, drive.start), 0.5 * step_s);
+    let to = stage(law, rest_m, base, from, 0.5 * step_s, drive.end);
+    if to.gap_m > 0.0 { to } else { stage(law, rest_m, from, from, step_s, drive.end) }
 }
 
 /// The trapezoid over γ of the step, then a backward difference over the whole, both with the same
 /// θ; closed, as above.
-fn tr_bdf2(
-    law: &Law,
-    rest_m: f64,
-    from: State,
-    step_s: f64,
-    drive: impl Fn(f64) -> Drive,
-) -> State {
-    const GAMMA: f64 = 2.0 - std::f64::consts::SQRT_2;
+fn tr_bdf2(law: &Law, rest_m: f64, from: State, step_s: f64, drive: &Stages) -> State {
     const MIDDLE: f64 = 1.0 / (GAMMA * (2.0 - GAMMA));
     let theta = 0.5 * GAMMA * step_s;
-    let base = ahead(from, law.rates(from, rest_m, drive(0.0)), theta);
-    let middle = stage(law, rest_m, base, from, theta, drive(GAMMA));
+    let base = ahead(from, law.rates(from, rest_m, drive.start), theta);
+    let middle = stage(law, rest_m, base, from, theta, drive.middle);
     let mix = |middle: f64, from: f64| MIDDLE * middle + (1.0 - MIDDLE) * from;
     let base = State {
         gap_m: mix(middle.gap_m, from.gap_m),
         speed_m_s: mix(middle.speed_m_s, from.speed_m_s),
         creep_m: mix(middle.creep_m, from.creep_m),
     };
-    let to = stage(law, rest_m, base, middle, theta, drive(1.0));
+    let to = stage(law, rest_m, base, middle, theta, drive.end);
     if middle.gap_m.min(to.gap_m) > 0.0 {
         to
     } else {
-        stage(law, rest_m, from, from, step_s, drive(1.0))
+        stage(law, rest_m, from, from, step_s, drive.end)
     }
 }
 
@@ -105,7 +107,7 @@ fn ahead(from: State, (acceleration, creep_m_s): (f64, f64), theta_s: f64) -> St
 }
 
 /// An implicit stage of length θ from `base`, sought from `near` on.
-#[inline]
+#[inline(always)]
 fn stage(law: &Law, rest_m: f64, base: State, near: State, theta_s: f64, drive: Drive) -> State {
     let share = theta_s / law.creep_s;
     let inertia = law.inertia_kg_m2 / theta_s;

@@ -112,7 +112,7 @@ impl Law {
 /// Root of a function that is positive at `low` and negative at `high`, to the last bits; `low` or
 /// `high` where it has none. Newton's steps from `at`, halving the bracket wherever one would leave
 /// it.
-#[inline]
+#[inline(always)]
 pub(super) fn root(mut low: f64, mut high: f64, mut at: f64, f: impl Fn(f64) -> Sloped) -> f64 {
     for _ in 0..100 {
         let Sloped { value, slope } = f(at);

@@ -13,8 +13,8 @@
 //! | `tr-bdf2` | second order and damping, 100 µs: the reference | 3.0e-4 |
 //!
 //! `step_us` sets another step for the level that is named, up to 1 ms. A pad starts relaxed under
-//! its load, its voltage switched on at time 0; between slots load and square of the voltage are
-//! taken as linear. `drive = "sine"` pulls with the haptic voltage's own sine instead of its mean
+//! its load, its voltage switched on at time 0; from then on load and voltage act at all times, and
+//! where they step a step ends. `drive = "sine"` pulls with the haptic voltage's own sine instead of its mean
 //! square; the force that is reported is then still of the mean square, at the gap of the moment.
 //! Behind `[supply]` the pad's voltage falls as its capacitance grows. Source: docs/physics.md §3.
 

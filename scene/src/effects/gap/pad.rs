@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The patches of a pad together: at rest, or brought from slot to slot.
+//! The patches of a pad together: at rest, or brought along in time.
 
 use super::dynamic::Method;
 use super::equilibrium::equilibrium;
 use super::law::{Drive, Law, State};
 use super::quasi_static;
 use crate::device::EPSILON_0;
+use crate::drive::{PadDrive, Pull};
 use crate::effects::effect::PadEffect;
-use crate::effects::pad::Pad;
+use crate::effects::pad::{Pad, Supply};
+use crate::effects::tick::{Tick, slack_s};
+use crate::stimulus::Moment;
 
 /// How a pad's gaps follow their drive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,27 +54,20 @@ pub(super) struct Gap {
     /// Of the haptic voltage, where it pulls as a sine.
     sine_rad_s: Option<f64>,
     pads: Vec<Option<Moving>>,
+    /// The patches at the time that is looked at.
+    seen: Vec<State>,
     /// The last equilibrium: over a raster load and voltage stay the same.
     rested: Option<([f64; 2], f64, Vec<f64>)>,
 }
 
-/// A pad at the middle of its last slot.
+/// A pad at a time at which its state is kept.
 struct Moving {
-    time_s: f64,
-    source_v_rms: f64,
-    pressure_pa: f64,
+    tick: Tick,
     patches: Vec<State>,
 }
 
 impl PadEffect for Gap {
     fn act(&mut self, pad: &mut Pad) {
-        match self.motion {
-            Motion::Static => self.settle(pad),
-            _ => self.follow(pad),
-        }
-    }
-
-    fn settle(&mut self, pad: &mut Pad) {
         let asked = [pad.source_v_rms, pad.load_g];
         let (volt, gaps) = match self.rested.take() {
             Some((same, volt, gaps)) if same == asked => (volt, gaps),
@@ -80,11 +76,19 @@ impl PadEffect for Gap {
         self.set_results(pad, volt, gaps.iter().copied());
         self.rested = Some((asked, volt, gaps));
     }
+
+    fn follow(&mut self, pad: &mut Pad, drive: &PadDrive) {
+        match self.motion {
+            Motion::Static => self.act(pad),
+            _ => self.bring_along(pad, drive),
+        }
+    }
 }
 
 impl Gap {
     pub fn new(rubber: Rubber, motion: Motion, step_s: f64, sine_rad_s: Option<f64>) -> Self {
-        Gap { rubber, motion, step_s, sine_rad_s, pads: Vec::new(), rested: None }
+        let (pads, seen, rested) = (Vec::new(), Vec::new(), None);
+        Gap { rubber, motion, step_s, sine_rad_s, pads, seen, rested }
     }
 
     /// Voltage at the pad and relaxed gaps. Behind a supply the voltage falls as the capacitance
@@ -104,63 +108,82 @@ impl Gap {
         (high, gaps(high).collect())
     }
 
-    /// Brings the pad's patches from its last slot to this one.
-    fn follow(&mut self, pad: &mut Pad) {
+    /// Brings the pad's patches to its time: tick by tick, then by a step that is not kept.
+    fn bring_along(&mut self, pad: &mut Pad, drive: &PadDrive) {
         if self.pads.len() <= pad.index {
             self.pads.resize_with(pad.index + 1, || None);
         }
-        let moving = self.pads[pad.index].take().unwrap_or_else(|| self.begin(pad));
-        let moving = self.advance(moving, pad);
-        let gaps = || moving.patches.iter().map(|patch| patch.gap_m);
-        let volt = pad.haptic_v_at(self.rubber.capacitance_f(gaps()));
-        self.set_results(pad, volt, gaps());
+        let mut moving = self.pads[pad.index].take().unwrap_or_else(|| self.begin(drive));
+        let next_event_s = |after_s: f64| drive.next_pull_event_s(after_s);
+        while let Some(next) = moving.tick.next(self.step_s, pad.time_s, next_event_s) {
+            self.step(&mut moving.patches, [moving.tick.time_s, next.time_s], pad.supply, drive);
+            moving.tick = next;
+        }
+        let mut seen = std::mem::take(&mut self.seen);
+        seen.clone_from(&moving.patches);
+        if moving.tick.ahead_s(self.step_s, pad.time_s).is_some() {
+            self.step(&mut seen, [moving.tick.time_s, pad.time_s], pad.supply, drive);
+        }
+        let gaps = seen.iter().map(|patch| patch.gap_m);
+        let volt = pad.haptic_v_at(self.rubber.capacitance_f(gaps.clone()));
+        self.set_results(pad, volt, gaps);
+        self.seen = seen;
         self.pads[pad.index] = Some(moving);
     }
 
     /// The pad at the start of the case, when its voltage is switched on: relaxed under its load.
-    fn begin(&self, pad: &Pad) -> Moving {
-        let pressure_pa = self.rubber.pa_per_g * pad.load_g;
+    fn begin(&self, drive: &PadDrive) -> Moving {
+        let pressure_pa = self.rubber.pa_per_g * drive.pull(Moment::at(0.0)).load_g;
         let gaps = self.rubber.equilibrium_m(Drive::new(0.0, pressure_pa));
         let still =
             |(gap_m, rest_m): (f64, &f64)| State { gap_m, speed_m_s: 0.0, creep_m: rest_m - gap_m };
         let patches = gaps.zip(&self.rubber.rest_m).map(still).collect();
-        Moving { time_s: 0.0, source_v_rms: pad.source_v_rms, pressure_pa, patches }
+        Moving { tick: Tick::default(), patches }
     }
 
-    fn advance(&self, mut moving: Moving, pad: &Pad) -> Moving {
-        let span_s = (pad.time_s - moving.time_s).max(0.0);
-        let steps = (span_s / self.step_s).ceil();
-        let pressure_pa = self.rubber.pa_per_g * pad.load_g;
-        for step in 0..steps as usize {
-            let seen = self.seen_square(&moving.patches, pad);
-            let drive = |fraction: f64| {
-                let along = (step as f64 + fraction) / steps;
-                let mix = |from: f64, to: f64| from + (to - from) * along;
-                let square = seen * mix(moving.source_v_rms.powi(2), pad.source_v_rms.powi(2));
-                let now = self.instant(square, moving.time_s + along * span_s);
-                Drive {
-                    pull_n: 0.5 * EPSILON_0 * now,
-                    pressure_pa: mix(moving.pressure_pa, pressure_pa),
-                }
+    /// Brings the patches from one time to another, between which nothing steps.
+    fn step(
+        &self,
+        patches: &mut [State],
+        [from_s, to_s]: [f64; 2],
+        supply: Option<Supply>,
+        drive: &PadDrive,
+    ) {
+        let span_s = to_s - from_s;
+        let seen = self.seen_square(patches, supply);
+        let at = |fraction: f64| {
+            let moment = match fraction {
+                0.0 => Moment::at(from_s + slack_s(self.step_s)),
+                1.0 => Moment::before(to_s),
+                _ => Moment::at(from_s + fraction * span_s),
             };
-            for (patch, rest) in moving.patches.iter_mut().zip(&self.rubber.rest_m) {
-                *patch = self.step(*patch, *rest, span_s / steps, drive);
-            }
+            self.drive(seen, drive.pull(moment), moment.time_s)
+        };
+        let law = &self.rubber.law;
+        let each = patches.iter_mut().zip(&self.rubber.rest_m);
+        if let Motion::Dynamic(method) = self.motion {
+            let stages = method.stages(at);
+            each.for_each(|(patch, rest)| {
+                *patch = method.step(law, *rest, *patch, span_s, &stages)
+            });
+        } else {
+            let end = at(1.0);
+            each.for_each(|(patch, rest)| {
+                *patch = quasi_static::advance(law, *rest, *patch, span_s, end);
+            });
         }
-        Moving { time_s: pad.time_s, source_v_rms: pad.source_v_rms, pressure_pa, ..moving }
     }
 
-    fn step(&self, patch: State, rest_m: f64, step_s: f64, drive: impl Fn(f64) -> Drive) -> State {
-        let law = &self.rubber.law;
-        match self.motion {
-            Motion::Dynamic(method) => method.step(law, rest_m, patch, step_s, drive),
-            _ => quasi_static::advance(law, rest_m, patch, step_s, drive(1.0)),
-        }
+    /// What pulls and presses the patches, where this part of the source's mean square is at the
+    /// pad.
+    fn drive(&self, seen: f64, pull: Pull, time_s: f64) -> Drive {
+        let square = self.instant(seen * pull.source_v_rms.powi(2), time_s);
+        Drive { pull_n: 0.5 * EPSILON_0 * square, pressure_pa: self.rubber.pa_per_g * pull.load_g }
     }
 
     /// What part of the source's mean square is at the pad, its capacitance being what it is now.
-    fn seen_square(&self, patches: &[State], pad: &Pad) -> f64 {
-        let Some(supply) = pad.supply else { return 1.0 };
+    fn seen_square(&self, patches: &[State], supply: Option<Supply>) -> f64 {
+        let Some(supply) = supply else { return 1.0 };
         supply.share(self.rubber.capacitance_f(patches.iter().map(|patch| patch.gap_m))).powi(2)
     }
 

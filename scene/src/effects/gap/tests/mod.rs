@@ -71,7 +71,7 @@ impl By {
         match self {
             By::Rk4 => rk4(law, from, step_s, drive(0.5)),
             By::QuasiStatic => quasi_static::advance(law, REST_M, from, step_s, drive(1.0)),
-            By::Dynamic(method) => method.step(law, REST_M, from, step_s, drive),
+            By::Dynamic(method) => method.step(law, REST_M, from, step_s, &method.stages(drive)),
         }
     }
 }
