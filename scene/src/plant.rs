@@ -54,6 +54,8 @@ pub struct Plant {
     held: Vec<HeldVoltage>,
     /// The latest time that was asked for.
     latest_s: f64,
+    /// The pads that the slot does not serve, where effects ask for them.
+    others: Vec<Pad>,
     /// The slot last asked for, so that truth, phasors and samples of a slot are of one evaluation.
     now: (Option<usize>, Pad),
 }
@@ -107,9 +109,20 @@ impl Plant {
         let now = (None, resting([0.0; 2], 0.0, 0.0, &device));
         let ratios = ratios::of_device(&device, timing.signs.as_ref());
         let ratios = ratios.map_err(|message| SceneError::new(Place::File, "profile", message))?;
-        let (timing, held) = (timing.clone(), Vec::new());
-        let plant =
-            Plant { effects, ratios, case, device, timing, seed, index, held, latest_s: 0.0, now };
+        let (timing, held, others) = (timing.clone(), Vec::new(), Vec::new());
+        let plant = Plant {
+            effects,
+            ratios,
+            case,
+            device,
+            timing,
+            seed,
+            index,
+            held,
+            latest_s: 0.0,
+            others,
+            now,
+        };
         plant.check_limited_levels()?;
         Ok(plant)
     }
@@ -444,11 +457,12 @@ impl Plant {
         self.latest_s = self.latest_s.max(time_s);
         self.now = (Some(slot), self.alone(index, time_s));
         if self.effects.joins_pads() {
-            let others: Vec<_> =
-                (0..self.case.pads.len()).filter(|other| *other != index).collect();
-            let others: Vec<_> =
-                others.into_iter().map(|other| self.alone(other, time_s)).collect();
+            let mut others = std::mem::take(&mut self.others);
+            others.clear();
+            let indices = (0..self.case.pads.len()).filter(|other| *other != index);
+            others.extend(indices.map(|other| self.alone(other, time_s)));
             self.effects.on_pads(&mut self.now.1, &others);
+            self.others = others;
         }
     }
 

@@ -132,7 +132,7 @@ fn allocations(parts: &[&Part]) -> u64 {
 
 #[test]
 fn a_slot_allocates_nothing_but_for_transients_and_coupled_pads() {
-    const ALLOCATE: [&str; 3] = ["coupling", "sensor.others", "switching"];
+    const ALLOCATE: [&str; 2] = ["coupling", "switching"];
     for one in optional() {
         let with =
             parts(|part| part.name == "carrier" || part.name == one.name || one.needs(part.name));
