@@ -6,6 +6,7 @@
 //! | level | what | largest error of C, 0 → 400 → 0 V |
 //! | --- | --- | --- |
 //! | `static` | the relaxed equilibrium, on the branch that starts open | – |
+//! | `hysteresis` | the relaxed equilibrium on the branch that the pad comes from: closed patches stay closed on the way down; 1 ms | – |
 //! | `quasi-static` | film and creep without inertia, linearly implicit, 1 ms | 8e-2 |
 //! | `semi-implicit` | inertia too; film and creep implicit, contact explicit, 100 µs | 3.1e-2 |
 //! | `implicit-euler` | all implicit, 100 µs | 3.3e-2 |

@@ -2,7 +2,7 @@
 //! The patches of a pad together: at rest, or brought along in time.
 
 use super::dynamic::Method;
-use super::equilibrium::equilibrium;
+use super::equilibrium::{equilibrium, equilibrium_from};
 use super::law::{Drive, Law, State};
 use super::quasi_static;
 use crate::device::EPSILON_0;
@@ -16,6 +16,8 @@ use crate::stimulus::Moment;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Motion {
     Static,
+    /// The equilibrium that the pad finds from where it is.
+    Hysteresis,
     QuasiStatic,
     Dynamic(Method),
 }
@@ -135,8 +137,7 @@ impl Gap {
     fn begin(&self, drive: &PadDrive) -> Moving {
         let pressure_pa = self.rubber.pa_per_g * drive.pull(Moment::at(0.0)).load_g;
         let gaps = self.rubber.equilibrium_m(Drive::new(0.0, pressure_pa));
-        let still =
-            |(gap_m, rest_m): (f64, &f64)| State { gap_m, speed_m_s: 0.0, creep_m: rest_m - gap_m };
+        let still = |(gap_m, rest_m): (f64, &f64)| at_rest(*rest_m, gap_m);
         let patches = gaps.zip(&self.rubber.rest_m).map(still).collect();
         Moving { tick: Tick::default(), patches }
     }
@@ -166,12 +167,15 @@ impl Gap {
             each.for_each(|(patch, rest)| {
                 *patch = method.step(law, *rest, *patch, span_s, &stages)
             });
-        } else {
-            let end = at(1.0);
-            each.for_each(|(patch, rest)| {
-                *patch = quasi_static::advance(law, *rest, *patch, span_s, end);
-            });
+            return;
         }
+        let end = at(1.0);
+        each.for_each(|(patch, rest)| {
+            *patch = match self.motion {
+                Motion::QuasiStatic => quasi_static::advance(law, *rest, *patch, span_s, end),
+                _ => at_rest(*rest, equilibrium_from(law, *rest, end, patch.gap_m)),
+            };
+        });
     }
 
     /// What pulls and presses the patches, where this part of the source's mean square is at the
@@ -198,4 +202,9 @@ impl Gap {
         pad.capacitance_f = self.rubber.capacitance_f(gaps_m.clone());
         pad.attraction_n = self.rubber.attraction_n(gaps_m, Drive::new(volt, 0.0).pull_n);
     }
+}
+
+/// A patch that is still, and has crept as far as it will.
+fn at_rest(rest_m: f64, gap_m: f64) -> State {
+    State { gap_m, speed_m_s: 0.0, creep_m: rest_m - gap_m }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The relaxed pad.
 
+use super::super::equilibrium::equilibrium_from;
 use super::super::pad::Rubber;
 use super::*;
 
@@ -74,5 +75,48 @@ fn capacitance_rises_with_load_and_voltage() {
             (0..80).map(|step| capacitance_pf(&pad, 10.0 * f64::from(step), load_g)).collect();
         assert!(rising.windows(2).all(|pair| pair[0] <= pair[1]), "{load_g} g: {rising:?}");
         assert!(capacitance_pf(&pad, 300.0, load_g) < capacitance_pf(&pad, 300.0, load_g + 10.0));
+    }
+}
+
+fn force_n(pad: &Rubber, volt: f64, gaps_m: &[f64]) -> f64 {
+    let pull_n = Drive::new(volt, 0.0).pull_n;
+    let each = gaps_m.iter().map(|gap_m| pull_n * pad.patch_m2 / (gap_m + 5e-6).powi(2));
+    0.12 * each.sum::<f64>()
+}
+
+/// docs/physics.md §3: 20 g, the prototype's forces on the way up and down.
+#[test]
+fn closed_patches_stay_closed_on_the_way_down() {
+    let pad = pad();
+    let mut gaps_m: Vec<f64> = pad.equilibrium_m(Drive::new(0.0, pad.pa_per_g * 20.0)).collect();
+    let mut at = |volt: f64| {
+        let drive = Drive::new(volt, pad.pa_per_g * 20.0);
+        for (gap_m, rest_m) in gaps_m.iter_mut().zip(&pad.rest_m) {
+            *gap_m = equilibrium_from(&pad.law, *rest_m, drive, *gap_m);
+            let balance = pad.law.relaxed(*gap_m, *rest_m, drive);
+            assert!(balance.value.abs() < 1e-6 && balance.slope < 0.0, "{volt} V: {balance:?}");
+        }
+        force_n(&pad, volt, &gaps_m)
+    };
+    let up: Vec<f64> = (0..=80).map(|step| at(5.0 * f64::from(step))).collect();
+    let down: Vec<f64> = (0..=80).rev().map(|step| at(5.0 * f64::from(step))).collect();
+    for (step, upwards, downwards) in [(60, 0.400, 0.517), (65, 0.504, 0.653)] {
+        let found = [up[step], down[80 - step]];
+        assert!((found[0] - upwards).abs() < 0.001, "{found:?}");
+        assert!((found[1] - downwards).abs() < 0.001, "{found:?}");
+    }
+    assert_eq!(down[80], 0.0);
+    let back = at(5.0);
+    assert!((back - up[1]).abs() < 1e-12, "without a voltage they open: {back} and {}", up[1]);
+}
+
+#[test]
+fn from_open_the_branch_is_the_open_one_at_any_voltage() {
+    let pad = pad();
+    for (rest_m, step) in pad.rest_m.iter().flat_map(|rest| (0..60).map(move |step| (*rest, step)))
+    {
+        let drive = Drive::new(10.0 * f64::from(step), 300.0);
+        let open_m = equilibrium(&pad.law, rest_m, drive);
+        assert_eq!(equilibrium_from(&pad.law, rest_m, drive, rest_m), open_m);
     }
 }
