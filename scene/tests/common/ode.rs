@@ -3,7 +3,7 @@
 //! shares no code with the plant.
 
 /// Heights g₀ + d of the patches, µm.
-pub const REST_UM: [f64; 8] = [13.0, 14.5, 16.0, 17.5, 19.106, 19.585, 26.0, 34.0];
+pub const REST_UM: [f64; 8] = [13.0, 14.5, 16.0, 17.5, 19.0664, 19.5503, 26.0, 34.0];
 
 const EPSILON_0: f64 = 8.8541878128e-12;
 const KAPPA: f64 = 5e8;
@@ -15,7 +15,7 @@ const D_M: f64 = 5e-6;
 const FILM_REST_M: f64 = 0.7e-6;
 const VISCOSITY_PA_S: f64 = 1.8e-5;
 const INERTIA: f64 = 7.0;
-const GRAVITY: f64 = 10.0;
+const GRAVITY: f64 = 9.80665;
 const AREA_M2: f64 = std::f64::consts::PI * 0.015 * 0.015;
 
 /// Longest step, s: RK4 diverges from 0.5 µs on.
