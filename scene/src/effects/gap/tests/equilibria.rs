@@ -21,7 +21,7 @@ fn capacitance_pf(pad: &Rubber, volt: f64, load_g: f64) -> f64 {
     1e12 * pad.capacitance_f(pad.equilibrium_m(Drive::new(volt, pad.pa_per_g * load_g)))
 }
 
-/// docs/physics.md §3, to the prototype's last digit; at 9.80665 m/s² 50 g would have 372.04 pF.
+/// docs/physics.md §3, to the prototype's last digit.
 #[test]
 fn capacitance_at_rest_is_353_to_373_pf_from_20_to_50_g() {
     let at = |load_g| capacitance_pf(&pad(), 0.0, load_g);
