@@ -39,8 +39,8 @@ pub enum Measure {
     InvalidPercent,
     /// Largest |estimate − expected|.
     MaxOff,
-    /// How far from the expected time the estimate jumps: where a pad's measurement rises most from
-    /// one slot to the next, by five times its mean change at least.
+    /// How far from the expected time the estimate jumps: where the mean of a pad's next seven slots
+    /// rises most above that of the seven before, by five times its mean change at least.
     JumpOff,
     /// How far from the expected haptic voltage the estimate leaves its law at low voltages: where
     /// it first is a quarter more than up to 100 V. A force goes with the square of the voltage, so

@@ -10,7 +10,7 @@ use crate::terminals::{VOLTAGES, terminals_mm};
 /// Permittivity of free space, F/m.
 pub const EPSILON_0: f64 = 8.854_187_812_8e-12;
 
-/// Default gravity, N/kg: the standard acceleration (CGPM 1901).
+/// Standard gravity (docs/physics.md §3).
 const GRAVITY_M_S2: f64 = 9.80665;
 
 /// Sizes, full scales, frequencies and the nominal force law of the display.

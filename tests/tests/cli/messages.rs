@@ -117,7 +117,7 @@ fn a_bad_scene_is_one_line_that_names_line_and_key() {
         ("[magnet]\nrung = \"a\"", "bad.toml:4: magnet: unknown key"),
         (
             "[gap]\nrung = \"marble\"",
-            "bad.toml:5: gap.rung: expected one of \"static\", \"quasi-static\"",
+            "bad.toml:5: gap.rung: expected one of \"static\", \"hysteresis\", \"quasi-static\"",
         ),
         ("load = 20", "bad.toml:4: pad.0.load: expected load_g, since a key names its unit"),
         (

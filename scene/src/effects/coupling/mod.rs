@@ -27,7 +27,8 @@ use num_complex::Complex64;
 use super::effect::{Effect, PadsEffect};
 use super::pad::Pad;
 use super::sheet::analytic::{self, Analytic};
-use super::sheet::mesh::{Correction, Mesh, Network};
+use super::sheet::mesh::{Mesh, Spread};
+use super::sheet::network::{Correction, Network};
 use super::sheet::{Following, OfSheet, Sheet};
 use super::shunt::{self, Screened};
 use super::spec::{Level, Spec};
@@ -133,8 +134,11 @@ impl Field for Screened {
 
 impl Field for Network {
     fn ohm(&self, places_mm: &[[f64; 2]]) -> Vec<Vec<Complex64>> {
-        let potentials: Vec<_> =
-            places_mm.iter().map(|place| self.potential_around(*place)).collect();
-        symmetric(places_mm.len(), |k, l| self.read(&potentials[l], places_mm[k]).into())
+        let half_m = self.mesh.place_m(self.mesh.cells[0], self.mesh.cells[1]).map(|m| m / 2.0);
+        let place_m = |place: &[f64; 2]| [0, 1].map(|axis| half_m[axis] + 1e-3 * place[axis]);
+        let nodes = |place: &[f64; 2]| self.mesh.spread(place_m(place));
+        let nodes: Vec<Spread> = places_mm.iter().map(nodes).collect();
+        let potentials: Vec<_> = nodes.iter().map(|nodes| self.potential(nodes)).collect();
+        symmetric(places_mm.len(), |k, l| self.read(&potentials[l], &nodes[k]).into())
     }
 }

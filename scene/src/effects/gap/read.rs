@@ -12,8 +12,8 @@ use crate::effects::spec::{Level, Setting, Spec};
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
 
-/// Heights g₀ + d of eight patches of equal area, µm: fitted to the paper's Fig. 7 (docs/physics.md
-/// §3).
+/// Heights g₀ + d of eight patches of equal area, µm: fitted to the paper's Fig. 7 with the mean
+/// square of the drive (docs/physics.md §3).
 const REST_UM: [f64; 8] = [13.0, 14.5, 16.0, 17.5, 19.0664, 19.5503, 26.0, 34.0];
 
 /// Viscosity of air, Pa·s.
@@ -26,9 +26,8 @@ const LONGEST_US: f64 = 1000.0;
 const LONGEST_SEMI_IMPLICIT_US: f64 = 200.0;
 
 /// Levels, and what a slot of 1.7 ms costs at its usual step, ns.
-const LEVELS: [(&str, Motion, f64); 7] = [
+const LEVELS: [(&str, Motion, f64); 6] = [
     ("static", Motion::Static, 500.0),
-    ("hysteresis", Motion::Hysteresis, 4e3),
     ("quasi-static", Motion::QuasiStatic, 400.0),
     ("semi-implicit", Motion::Dynamic(Method::SemiImplicit), 2.4e3),
     ("implicit-euler", Motion::Dynamic(Method::ImplicitEuler), 10e3),
@@ -63,10 +62,7 @@ pub(in super::super) fn read(root: &Table, device: &Device) -> Result<Option<Spe
 }
 
 fn usual_step_us(motion: Motion) -> f64 {
-    match motion {
-        Motion::Dynamic(_) => 100.0,
-        _ => LONGEST_US,
-    }
+    if motion == Motion::QuasiStatic { LONGEST_US } else { 100.0 }
 }
 
 fn check_step(table: &Table, motion: Motion, step_us: f64) -> Result<(), SceneError> {

@@ -11,6 +11,7 @@
 //! ohm_per_square = 300
 //! ```
 
+use super::disc::Disc;
 use crate::effects::pad::FilmChange;
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
@@ -24,6 +25,8 @@ pub(crate) struct Film {
     slope_per_m: [f64; 2],
     middle_m: [f64; 2],
     patches: Vec<Patch>,
+    /// Where patches begin and end along each axis, in order.
+    pub breaks_m: [Vec<f64>; 2],
     /// What an effect adds to the rise, patches included.
     change_per_m: [f64; 2],
 }
@@ -44,6 +47,7 @@ impl Film {
             slope_per_m: [0.0; 2],
             middle_m: [0.0; 2],
             patches: Vec::new(),
+            breaks_m: [const { Vec::new() }; 2],
             change_per_m: [0.0; 2],
         }
     }
@@ -53,14 +57,16 @@ impl Film {
             table.pair("slope_percent", Limits::within(-90.0, 90.0))?.unwrap_or_default();
         let middle_m = size_m.map(|size| size / 2.0);
         let patches = table.tables("patch")?;
+        let patches: Vec<Patch> = patches
+            .into_iter()
+            .map(|patch| Patch::read(patch, middle_m))
+            .collect::<Result<_, _>>()?;
         Ok(Film {
             ohm_per_square: table.number_or("ohm_per_square", Limits::POSITIVE, 150.0)?,
             slope_per_m: [0, 1].map(|axis| slope_percent[axis] / 100.0 / size_m[axis]),
             middle_m,
-            patches: patches
-                .into_iter()
-                .map(|patch| Patch::read(patch, middle_m))
-                .collect::<Result<_, _>>()?,
+            breaks_m: [0, 1].map(|axis| breaks(&patches, axis)),
+            patches,
             change_per_m: [0.0; 2],
         })
     }
@@ -85,16 +91,59 @@ impl Film {
 
     /// Ohms per square at a place from the bottom left corner.
     pub fn at(&self, place_m: [f64; 2]) -> f64 {
-        let along = |slope: [f64; 2]| {
-            let rise = |axis: usize| slope[axis] * (place_m[axis] - self.middle_m[axis]);
-            1.0 + rise(0) + rise(1)
-        };
-        let ohm = match self.patches.iter().rev().find(|patch| patch.covers(place_m)) {
-            Some(patch) => patch.ohm_per_square,
-            None => self.ohm_per_square * along(self.slope_per_m),
-        };
-        ohm * along(self.change_per_m)
+        match self.patches.iter().rev().find(|patch| patch.covers(place_m)) {
+            Some(patch) => patch.ohm_per_square * self.along(self.change_per_m, place_m),
+            None => self.ohm_per_square * self.slope(place_m),
+        }
     }
+
+    /// What its slopes make of it at a place, leaving patches aside.
+    pub fn slope(&self, place_m: [f64; 2]) -> f64 {
+        self.along(self.slope_per_m, place_m) * self.along(self.change_per_m, place_m)
+    }
+
+    fn along(&self, slope: [f64; 2], place_m: [f64; 2]) -> f64 {
+        let rise = |axis: usize| slope[axis] * (place_m[axis] - self.middle_m[axis]);
+        1.0 + rise(0) + rise(1)
+    }
+
+    /// Its mean under a pad.
+    pub(super) fn mean(&self, centre_m: [f64; 2], disc: &Disc) -> f64 {
+        if self.patches.is_empty() {
+            return self.at(centre_m); // slopes even out
+        }
+        let places = disc.at(centre_m);
+        let count = places.len() as f64;
+        places.map(|place| self.at(place)).sum::<f64>() / count
+    }
+
+    /// Conductance along an axis between two ends, of the strip between two sides across it.
+    pub fn siemens(&self, axis: usize, ends_m: [f64; 2], sides_m: [f64; 2]) -> f64 {
+        let ohm_m = |across: f64| {
+            self.pieces(axis, ends_m).map(move |(at, length)| {
+                let place = if axis == 0 { [at, across] } else { [across, at] };
+                length * self.at(place)
+            })
+        };
+        self.pieces(1 - axis, sides_m).map(|(at, width)| width / ohm_m(at).sum::<f64>()).sum()
+    }
+
+    /// Middle and length of each piece that patches cut a line along an axis into.
+    fn pieces(&self, axis: usize, [from, to]: [f64; 2]) -> impl Iterator<Item = (f64, f64)> {
+        let breaks = &self.breaks_m[axis];
+        let [first, last] = [from, to].map(|end| breaks.partition_point(|at| *at <= end));
+        let inside = &breaks[first..last];
+        let starts = std::iter::once(from).chain(inside.iter().copied());
+        let ends = inside.iter().copied().chain([to]);
+        starts.zip(ends).map(|(start, end)| (0.5 * (start + end), end - start))
+    }
+}
+
+fn breaks(patches: &[Patch], axis: usize) -> Vec<f64> {
+    let ends = |patch: &Patch| [patch.low_m[axis], patch.high_m[axis]];
+    let mut breaks: Vec<f64> = patches.iter().flat_map(ends).collect();
+    breaks.sort_by(f64::total_cmp);
+    breaks
 }
 
 impl Patch {

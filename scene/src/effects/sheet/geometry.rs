@@ -55,6 +55,12 @@ impl Sheet {
         [self.size_m[0] / 2.0 + x_mm * 1e-3, self.size_m[1] / 2.0 + y_mm * 1e-3]
     }
 
+    /// Where patches of the film begin and end along an axis, mm from the middle.
+    pub fn breaks_mm(&self, axis: usize) -> Vec<f64> {
+        let middle_m = self.size_m[axis] / 2.0;
+        self.film.breaks_m[axis].iter().map(|at| 1e3 * (at - middle_m)).collect()
+    }
+
     /// How far from the middle a pad's centre can be, mm.
     pub fn reach_mm(&self) -> [f64; 2] {
         self.size_m.map(|size| 1e3 * (size / 2.0 - self.pad_radius_m))

@@ -9,7 +9,7 @@
 //! Each is a patch of radius `terminal_radius_mm` behind `terminal_ohm`, a number or a list of one
 //! for each; those listed in `shorted` have no resistance, those in `open` no current. The radius
 //! is not the paper's: 1.7 mm gives the R_p of docs/physics.md §1, 73 to 190 Ω, mean 143 Ω, for
-//! pads 20 mm off the edges. On a mesh a terminal is the node nearest to its place.
+//! pads 20 mm off the edges.
 //!
 //! | level | what | look-up | error of the split, rms / max | build |
 //! | --- | --- | --- | --- | --- |
@@ -18,27 +18,33 @@
 //! | `bicubic` | spline of the same, 128 × 75 | 40 ns | 7e-7 / 6e-5 | 4 ms |
 //! | `bicubic-fine` | 512 × 297 | 70 ns | 5e-9 / 1e-6 | 90 ms |
 //! | `analytic` | Neumann function of the rectangle | 360 ns | 5e-11 max | – |
-//! | `grid-20-mm` | finite differences | 60 ns | 2.8e-4 / 7e-3 | 9 ms |
-//! | `grid-10-mm` | | 70 ns | 6.9e-5 / 3.9e-3 | 52 ms |
-//! | `grid-5-mm` | | 90 ns | 1.7e-5 / 1.0e-3 | 82 ms |
-//! | `grid-2.5-mm` | | 100 ns | 3.9e-6 / 1.9e-4 | 0.2 s |
-//! | `grid-1.25-mm` | | 170 ns | 9.7e-7 / 4.7e-5 | 0.9 s |
+//! | `grid-20-mm` | finite differences | 60 ns | 2.8e-4 / 7e-3 | 12 ms |
+//! | `grid-10-mm` | | 70 ns | 6.9e-5 / 3.9e-3 | 20 ms |
+//! | `grid-5-mm` | | 90 ns | 1.7e-5 / 1.0e-3 | 70 ms |
+//! | `grid-2.5-mm` | | 100 ns | 3.9e-6 / 1.9e-4 | 0.25 s |
+//! | `grid-1.25-mm` | | 170 ns | 9.7e-7 / 4.7e-5 | 1.1 s |
 //!
 //! A table may have `table_columns` × `table_rows` of its own. Grids are the only levels for a
-//! non-uniform film. Errors are over pads 20 mm off the edges; at the edges, in front of terminals
+//! non-uniform film; patches of the film make them take up to four times as long to build. Errors are over pads 20 mm off the edges; at the edges, in front of terminals
 //! 5 and 6, the table's reach 2e-4.
 //!
 //! Without the table the sheet is ideal: no resistance, and corner currents that are bilinear in
 //! the position.
 
 pub(crate) mod analytic;
+mod disc;
 mod distance;
+mod factor;
 mod film;
 mod following;
 pub(super) mod geometry;
 mod grid;
+mod lattice;
+mod lines;
 pub(super) mod mesh;
+pub(super) mod network;
 pub(super) mod nodes;
+mod own;
 pub(super) mod spline;
 mod split;
 mod table;
@@ -184,6 +190,8 @@ pub(crate) fn ideal_split(x_mm: f64, y_mm: f64, device: &Device) -> PerTerminal<
 mod device_tests;
 #[cfg(test)]
 mod grid_tests;
+#[cfg(test)]
+mod stripes;
 #[cfg(test)]
 mod terminal_tests;
 #[cfg(test)]

@@ -31,7 +31,7 @@ carrier_hz = 101e3
 current_full_scale_a = 0.004
 sense_full_scale_v = 8.0
 haptic_full_scale_v = 600.0
-gravity_m_s2 = 10.0
+gravity_m_s2 = 9.80665
 ";
 pub const TERMINALS: &str = "[terminals]
 places_mm = [[-150, 100], [-150, -100], [150, -100], [150, 100]]
