@@ -41,9 +41,9 @@ fn friction(loads: &[Load]) -> Figure {
         series.push(Series::line("", paint, truth).tagged(&name(load)));
         series.push(Series::dots("", paint, measured));
     }
-    series.push(Series::dots("of the load, and measured F added", Paint::INK, vec![]));
+    series.push(Series::dots("the load's friction and the measured force", Paint::INK, vec![]));
     series.push(Series::line("true friction", Paint::INK, vec![]));
-    series.push(Series::line("of the load alone", Paint::INK.dashed(), vec![]));
+    series.push(Series::line("the load's friction alone", Paint::INK.dashed(), vec![]));
     let y = Axis::with_zero("friction (N)", ordinates(&series));
     let plot = Plot::new("Friction over haptic voltage", voltage_axis(loads), y, series);
     Figure::plot("Friction over the haptic voltage", "", &plot)
