@@ -26,8 +26,15 @@ fn truths(text: &str) -> Vec<Truth> {
     (0..plant.slots()).map(|slot| plant.truth(slot)).collect()
 }
 
-const LEVELS: [&str; 6] =
-    ["static", "quasi-static", "semi-implicit", "implicit-euler", "trapezoid", "tr-bdf2"];
+const LEVELS: [&str; 7] = [
+    "static",
+    "hysteresis",
+    "quasi-static",
+    "semi-implicit",
+    "implicit-euler",
+    "trapezoid",
+    "tr-bdf2",
+];
 
 #[test]
 fn effects_that_a_scene_leaves_out_leave_the_bits_of_the_others_alone() {
@@ -139,6 +146,26 @@ fn no_load_and_600_v_and_back_leave_a_pad_as_it_was() {
         );
         let (before, after) = (truths[20].capacitance_pf, truths.last().unwrap().capacitance_pf);
         assert!((after / before - 1.0).abs() < 1e-6, "{level}: {before} {after}");
+    }
+}
+
+/// docs/physics.md §3: 20 g, 300 V on the way up and on the way down from 400 V.
+#[test]
+fn a_pad_on_its_way_down_stays_closed_by_the_level_that_remembers() {
+    let forces_n = |level: &str| {
+        let truths = truths(&format!(
+            "duration_s = 0.1\n[[pad]]\nposition_mm = [0, 0]\nload_g = 20\n\
+             haptic_v_rms = {{ timeline = [[0, 300], [0.04, 300], [0.04, 400], [0.06, 400], [0.06, 300]] }}\n\
+             [friction]\n[gap]\nrung = \"{level}\"\n"
+        ));
+        let at = |time_s: f64| truths.iter().find(|truth| truth.time_s > time_s).unwrap().force_n;
+        [at(0.03), at(0.09)]
+    };
+    for (level, expected) in [("static", [0.400, 0.400]), ("hysteresis", [0.400, 0.517])] {
+        let found = forces_n(level);
+        for (found, expected) in found.iter().zip(expected) {
+            assert!((found - expected).abs() < 0.001, "{level}: {found} N");
+        }
     }
 }
 

@@ -93,21 +93,32 @@ impl Gap {
         Gap { rubber, motion, step_s, sine_rad_s, pads, seen, rested }
     }
 
-    /// Voltage at the pad and relaxed gaps. Behind a supply the voltage falls as the capacitance
-    /// rises, and that rises with the voltage: there is one voltage that agrees, found by halving.
+    /// Voltage at the pad and relaxed gaps.
     fn at_rest(&self, pad: &Pad) -> (f64, Vec<f64>) {
         let pressure_pa = self.rubber.pa_per_g * pad.load_g;
         let gaps = |volt: f64| self.rubber.equilibrium_m(Drive::new(volt, pressure_pa));
-        let (mut low, mut high) = (0.0, pad.source_v_rms);
-        if pad.supply.is_none() {
-            return (high, gaps(high).collect());
+        let volt =
+            agreed_v(pad.source_v_rms, pad.supply, |volt| self.rubber.capacitance_f(gaps(volt)));
+        (volt, gaps(volt).collect())
+    }
+
+    /// The equilibria that the patches find from where they are.
+    fn relax(&self, patches: &mut [State], supply: Option<Supply>, pull: Pull) {
+        let pressure_pa = self.rubber.pa_per_g * pull.load_g;
+        let from = patches.iter().zip(&self.rubber.rest_m);
+        let capacitance_f = |volt: f64| {
+            let drive = Drive::new(volt, pressure_pa);
+            let gaps = from
+                .clone()
+                .map(|(at, rest)| equilibrium_from(&self.rubber.law, *rest, drive, at.gap_m));
+            self.rubber.capacitance_f(gaps)
+        };
+        let volt = agreed_v(pull.source_v_rms, supply, capacitance_f);
+        let drive = Drive::new(volt, pressure_pa);
+        for (patch, rest) in patches.iter_mut().zip(&self.rubber.rest_m) {
+            let gap_m = equilibrium_from(&self.rubber.law, *rest, drive, patch.gap_m);
+            *patch = at_rest(*rest, gap_m);
         }
-        while high - low > 1e-12 * pad.source_v_rms {
-            let middle = 0.5 * (low + high);
-            let agreed = pad.haptic_v_at(self.rubber.capacitance_f(gaps(middle)));
-            *(if agreed > middle { &mut low } else { &mut high }) = middle;
-        }
-        (high, gaps(high).collect())
     }
 
     /// Brings the pad's patches to its time: tick by tick, then by a step that is not kept.
@@ -150,6 +161,9 @@ impl Gap {
         supply: Option<Supply>,
         drive: &PadDrive,
     ) {
+        if self.motion == Motion::Hysteresis {
+            return self.relax(patches, supply, drive.pull(Moment::before(to_s)));
+        }
         let span_s = to_s - from_s;
         let seen = self.seen_square(patches, supply);
         let at = |fraction: f64| {
@@ -171,10 +185,7 @@ impl Gap {
         }
         let end = at(1.0);
         each.for_each(|(patch, rest)| {
-            *patch = match self.motion {
-                Motion::QuasiStatic => quasi_static::advance(law, *rest, *patch, span_s, end),
-                _ => at_rest(*rest, equilibrium_from(law, *rest, end, patch.gap_m)),
-            };
+            *patch = quasi_static::advance(law, *rest, *patch, span_s, end);
         });
     }
 
@@ -207,4 +218,17 @@ impl Gap {
 /// A patch that is still, and has crept as far as it will.
 fn at_rest(rest_m: f64, gap_m: f64) -> State {
     State { gap_m, speed_m_s: 0.0, creep_m: rest_m - gap_m }
+}
+
+/// The voltage at a pad whose capacitance rises with it: behind a supply the voltage falls as the
+/// capacitance rises, so that there is one that agrees, found by halving.
+fn agreed_v(source_v: f64, supply: Option<Supply>, capacitance_f: impl Fn(f64) -> f64) -> f64 {
+    let Some(supply) = supply else { return source_v };
+    let (mut low, mut high) = (0.0, source_v);
+    while high - low > 1e-12 * source_v {
+        let middle = 0.5 * (low + high);
+        let agreed = source_v * supply.share(capacitance_f(middle));
+        *(if agreed > middle { &mut low } else { &mut high }) = middle;
+    }
+    high
 }

@@ -26,8 +26,9 @@ const LONGEST_US: f64 = 1000.0;
 const LONGEST_SEMI_IMPLICIT_US: f64 = 200.0;
 
 /// Levels, and what a slot of 1.7 ms costs at its usual step, ns.
-const LEVELS: [(&str, Motion, f64); 6] = [
+const LEVELS: [(&str, Motion, f64); 7] = [
     ("static", Motion::Static, 500.0),
+    ("hysteresis", Motion::Hysteresis, 4e3),
     ("quasi-static", Motion::QuasiStatic, 400.0),
     ("semi-implicit", Motion::Dynamic(Method::SemiImplicit), 2.4e3),
     ("implicit-euler", Motion::Dynamic(Method::ImplicitEuler), 10e3),
@@ -62,7 +63,10 @@ pub(in super::super) fn read(root: &Table, device: &Device) -> Result<Option<Spe
 }
 
 fn usual_step_us(motion: Motion) -> f64 {
-    if motion == Motion::QuasiStatic { LONGEST_US } else { 100.0 }
+    match motion {
+        Motion::Dynamic(_) => 100.0,
+        _ => LONGEST_US,
+    }
 }
 
 fn check_step(table: &Table, motion: Motion, step_us: f64) -> Result<(), SceneError> {
