@@ -89,7 +89,7 @@ fn effects(effects: &[Effect], wall_seconds: f64) -> String {
         &[
             "effect",
             "fidelity level",
-            "difference from finer level",
+            "difference from a finer level",
             "wall seconds",
             "share of run",
         ],
@@ -97,7 +97,7 @@ fn effects(effects: &[Effect], wall_seconds: f64) -> String {
     )
 }
 
-/// The difference of a level from the next finer one, percent of the quantity.
+/// The difference of a level from a finer one, percent.
 pub fn off(percent: f64, finer: &str) -> String {
     format!("{} % from {finer}", number(percent))
 }

@@ -302,7 +302,7 @@ fn add_effects(effects: &mut Vec<Effect>, outcome: &Outcome) {
     }
 }
 
-/// Adds how far each level is from the next finer one: in the case where that is furthest.
+/// Adds how far each level is from a finer one: in the case where that is furthest.
 fn add_errors(effects: &mut [Effect], cases: &[Case]) -> Result<()> {
     for error in cases
         .par_iter()

@@ -132,7 +132,7 @@ impl<'a> Case<'a> {
         Ok(())
     }
 
-    /// The case's levels, each with its error against the next finer one.
+    /// The case's levels, each with its error against a finer one.
     ///
     /// # Errors
     /// As [`Case::new`].

@@ -93,7 +93,7 @@ pub struct Effect {
     pub level: String,
     /// Wall time, s.
     pub seconds: f64,
-    /// The next finer level and the largest difference to it on the scene, percent.
+    /// A finer level and the largest difference from it on the scene, percent.
     pub finer: Option<(String, f64)>,
 }
 

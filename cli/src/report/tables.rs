@@ -68,7 +68,7 @@ pub fn effects(effects: &[Effect], wall_seconds: f64) -> String {
         &[
             "effect",
             "fidelity level",
-            "difference from the next finer level",
+            "difference from a finer level",
             "#wall time",
             "#share of the run",
         ],

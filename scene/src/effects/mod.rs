@@ -15,6 +15,7 @@ mod finger;
 mod friction;
 mod gap;
 mod pad;
+pub(crate) mod recorded;
 mod running;
 mod sensor;
 pub(crate) mod sheet;
@@ -30,7 +31,6 @@ pub(crate) use effect::{Phasors, Run};
 pub(crate) use pad::{FilmChange, Pad};
 pub use running::EffectCost;
 pub(crate) use running::Effects;
-pub(crate) use sensor::noise::NOISE;
 pub(crate) use spec::{Setting, Spec};
 
 use crate::device::Device;
@@ -67,6 +67,23 @@ pub(crate) const EFFECTS: &[Reader] = &[
 
 /// Those that split a pad's current among the terminals.
 pub(crate) const SPLITTING: [&str; 3] = ["sheet", "shunt", "coupling"];
+
+/// Those on the film and on the currents: what comes before them moves the pads and their gaps.
+pub(crate) const FILM_AND_CURRENTS: [&str; 7] = [
+    "temperature",
+    "sheet",
+    "shunt",
+    "sensor.inductance",
+    "coupling",
+    "sensor.others",
+    carrier::CARRIER,
+];
+
+/// Those that see all pads at once.
+pub(crate) const JOINING: [&str; 2] = ["coupling", "sensor.others"];
+
+/// Those that differ from one realisation to the next: an error of a level leaves them out.
+pub(crate) const RANDOM: [&str; 3] = ["sensor.noise", "sensor.noise_density", "sensor.jitter"];
 
 /// Reads an effect's table; `None` where the scene leaves the effect out.
 pub(crate) type Reader = fn(&Table, &Device) -> Result<Option<Spec>, SceneError>;

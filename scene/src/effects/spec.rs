@@ -28,11 +28,17 @@ pub(crate) struct Level {
     word: &'static str,
     /// What a run says: the word, and its numbers where it has some.
     pub label: String,
-    /// What a slot costs, as the `speed` example measured it, ns: an error budget takes the
-    /// cheapest level that fits.
+    /// What a slot costs, as the `speed` example measured it, with what is built before spread over
+    /// 100 000 slots, ns: an error budget takes the cheapest level that fits.
     pub cost_ns: f64,
     /// There are scenes that it refuses, so that it has to be asked before a run.
     pub limited: bool,
+    /// It answers another question than the other levels: it is none of their approximations.
+    apart: bool,
+    /// What it is compared with, where that is not the next level.
+    finer: Option<&'static str>,
+    /// Building it takes longer than many a run.
+    slow_to_build: bool,
     build: Builder,
 }
 
@@ -54,12 +60,37 @@ impl Level {
         cost_ns: f64,
         build: impl Fn(&Setting) -> Effect + Send + Sync + 'static,
     ) -> Self {
-        Level { word, label: word.to_string(), cost_ns, limited: false, build: Arc::new(build) }
+        Level {
+            word,
+            label: word.to_string(),
+            cost_ns,
+            limited: false,
+            apart: false,
+            finer: None,
+            slow_to_build: false,
+            build: Arc::new(build),
+        }
     }
 
     /// The same level, which refuses some scenes.
     pub fn limited(self) -> Self {
         Level { limited: true, ..self }
+    }
+
+    /// The same level, as one that answers a question of its own.
+    pub fn apart(self) -> Self {
+        Level { apart: true, ..self }
+    }
+
+    /// The same level, whose error is its difference from level `word`: one that is more exact by
+    /// far, where the next one is not, or costs more.
+    pub fn against(self, word: &'static str) -> Self {
+        Level { finer: Some(word).filter(|word| *word != self.word), ..self }
+    }
+
+    /// The same level, as one that takes long to build.
+    pub fn slow_to_build(self) -> Self {
+        Level { slow_to_build: true, ..self }
     }
 
     /// The same level, with its numbers beside its word.
@@ -87,11 +118,26 @@ impl Spec {
         levels: Vec<Level>,
         usual: &str,
     ) -> Result<Option<Spec>, SceneError> {
-        let words: Vec<_> = levels.iter().map(|level| level.word).collect();
+        Spec::with_questions(name, table, levels, usual, &[])
+    }
+
+    /// The same, where `rung` may also be the word of a question that several levels answer, so that
+    /// an error budget chooses among them; beside it, which one does without a budget.
+    pub fn with_questions(
+        name: &'static str,
+        table: Option<&Table>,
+        levels: Vec<Level>,
+        usual: &str,
+        questions: &[(&'static str, &'static str)],
+    ) -> Result<Option<Spec>, SceneError> {
+        let of_levels = levels.iter().map(|level| level.word);
+        let words: Vec<_> = of_levels.chain(questions.iter().map(|(word, _)| *word)).collect();
         let word = table.map_or(Ok(None), |table| table.choice("rung", &words))?;
-        let chosen = words.iter().position(|known| *known == word.unwrap_or(usual));
+        let question = questions.iter().find(|(question, _)| Some(*question) == word);
+        let level = question.map_or(word.unwrap_or(usual), |(_, usual)| usual);
+        let chosen = levels.iter().position(|known| known.word == level);
         let chosen = chosen.expect("the usual level is one of the effect's");
-        Ok(Some(Spec { name, levels, chosen, named: word.is_some() }))
+        Ok(Some(Spec { name, levels, chosen, named: word.is_some() && question.is_none() }))
     }
 
     /// The level that is used.
@@ -106,22 +152,37 @@ impl Spec {
 
     /// Whether an error budget may choose the level.
     pub fn is_free(&self) -> bool {
-        !self.named && self.levels.len() > 1
+        !self.named && self.rivals().len() > 1
     }
 
-    /// The same effect at each of its levels, coarsest first.
-    pub fn all(&self) -> Vec<Spec> {
-        (0..self.levels.len()).map(|chosen| self.at(chosen)).collect()
+    /// The same effect at each level that answers the same question, coarsest first.
+    pub fn rivals(&self) -> Vec<Spec> {
+        let rivals = |n: &usize| *n == self.chosen || !self.level().apart && !self.levels[*n].apart;
+        (0..self.levels.len()).filter(rivals).map(|chosen| self.at(chosen)).collect()
     }
 
-    /// The same effect at its finest level.
+    /// The same effect at the finest level that answers the same question.
     pub fn finest(&self) -> Spec {
-        self.at(self.levels.len() - 1)
+        self.rivals().pop().expect("at least the level itself")
     }
 
-    /// The same effect one level up.
+    /// The levels that others can be compared with, of which only the last is as good as the finest:
+    /// all where that takes long to build, else the finest alone.
+    pub fn stand_ins(&self) -> Vec<Spec> {
+        let mut rivals = self.rivals();
+        match rivals.last() {
+            Some(finest) if finest.level().slow_to_build => rivals.drain(1..).collect(),
+            _ => rivals.pop().into_iter().collect(),
+        }
+    }
+
+    /// The same effect at the level that its error is measured against.
     pub fn finer(&self) -> Option<Spec> {
-        (self.chosen + 1 < self.levels.len()).then(|| self.at(self.chosen + 1))
+        let finer = |rival: &Spec| match self.level().finer {
+            Some(word) => rival.is_at(word),
+            None => rival.chosen > self.chosen,
+        };
+        self.rivals().into_iter().find(finer)
     }
 
     fn at(&self, chosen: usize) -> Spec {

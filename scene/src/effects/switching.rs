@@ -59,7 +59,7 @@ pub(super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError>
         })
     };
     let integrated = |(word, method, steps, cost_ns): (&'static str, Method, usize, f64)| {
-        let level = level(word, method, steps, cost_ns);
+        let level = level(word, method, steps, cost_ns).against("settling");
         if method == Method::Euler { level.limited() } else { level }
     };
     let mut levels: Vec<_> = RC.map(integrated).into();

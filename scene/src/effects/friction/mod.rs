@@ -8,7 +8,7 @@
 //! | `dahl` | besides, bristles that bend before they slide |
 //! | `lugre` | besides, the Stribeck fall of sliding friction and the bristles' damping |
 //!
-//! The step's error in the pad's place is 1.4, 16 and 150 µm at 10 µs, 100 µs and 1 ms, of a finger
+//! Each is a law of its own, none an approximation of another. The step's error in the pad's place is 1.4, 16 and 150 µm at 10 µs, 100 µs and 1 ms, of a finger
 //! that swings 30 mm twice a second; the prototype has 1.8, 18 and 180 µm (docs/physics.md §4).
 //!
 //! Without the table the force is eq. 8 with the true capacitance and voltage, which for an even
@@ -44,13 +44,13 @@ pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneE
     let step_s = 1e-6 * table.number_or("step_us", Limits::within(1.0, 1000.0), 100.0)?;
     let (mu, newton_per_g) = (device.mu, device.weight_n(1.0));
     let coulomb = move |_: &Setting| Effect::Pad(Box::new(Coulomb { mu, newton_per_g }));
-    let mut levels = vec![Level::new("coulomb", 20.0, coulomb)];
+    let mut levels = vec![Level::new("coulomb", 20.0, coulomb).apart()];
     for (word, law, cost_ns) in LAWS {
         let device = device.clone();
         let build = move |_: &Setting| {
             Effect::Pad(Box::new(Moving::new(law, surface, step_s, device.clone())))
         };
-        levels.push(Level::new(word, cost_ns, build));
+        levels.push(Level::new(word, cost_ns, build).apart());
     }
     let usual = if root.table("hand")?.is_some() { "lugre" } else { "coulomb" };
     Spec::with_levels("friction", Some(table), levels, usual)

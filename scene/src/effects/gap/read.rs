@@ -25,6 +25,9 @@ const LONGEST_US: f64 = 1000.0;
 /// The longest step whose contact is explicit, µs.
 const LONGEST_SEMI_IMPLICIT_US: f64 = 200.0;
 
+/// The question that all levels of a gap in motion answer, and the level that does without a budget.
+const MOVING: (&str, &str) = ("moving", "tr-bdf2");
+
 /// Levels, and what a slot of 1.7 ms costs at its usual step, ns.
 const LEVELS: [(&str, Motion, f64); 7] = [
     ("static", Motion::Static, 500.0),
@@ -38,7 +41,8 @@ const LEVELS: [(&str, Motion, f64); 7] = [
 
 pub(in super::super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneError> {
     let Some(table) = root.table("gap")? else { return Ok(None) };
-    let named = table.choice("rung", &LEVELS.map(|(word, ..)| word))?;
+    let words = LEVELS.iter().map(|(word, ..)| *word).chain([MOVING.0]).collect::<Vec<_>>();
+    let named = table.choice("rung", &words)?;
     let rubber = read_rubber(table, device)?;
     let sine = table.choice("drive", &["rms", "sine"])? == Some("sine");
     let sine_rad_s = sine.then_some(TAU * device.haptic_hz);
@@ -57,9 +61,17 @@ pub(in super::super) fn read(root: &Table, device: &Device) -> Result<Option<Spe
         } else {
             format!("{word} {step_us} µs")
         };
-        levels.push(Level::new(word, cost_ns, build).labelled(label));
+        let level = Level::new(word, cost_ns, build).labelled(label);
+        levels.push(match motion {
+            Motion::Static | Motion::Hysteresis => level.apart(),
+            // None of these is more exact than the next by far.
+            Motion::QuasiStatic | Motion::Dynamic(Method::SemiImplicit | Method::ImplicitEuler) => {
+                level.against("trapezoid")
+            }
+            Motion::Dynamic(_) => level,
+        });
     }
-    Spec::with_levels("gap", Some(table), levels, "static")
+    Spec::with_questions("gap", Some(table), levels, "static", &[MOVING])
 }
 
 fn usual_step_us(motion: Motion) -> f64 {

@@ -42,11 +42,8 @@ pub(in super::super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, S
     let build = move |setting: &Setting| {
         Noise::white([ppm * 1e-6; MOST_CHANNELS], Origin::Adc, setting).effect()
     };
-    Ok(Spec::new(NOISE, format!("{ppm} ppm"), build))
+    Ok(Spec::new("sensor.noise", format!("{ppm} ppm"), build))
 }
-
-/// The name of the effect that an error of a level leaves out.
-pub(crate) const NOISE: &str = "sensor.noise";
 
 /// Reads `sensor.noise_density_na_per_rthz`: noise of the current sensors.
 pub(in super::super) fn read_density(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {

@@ -45,7 +45,7 @@ pub(super) mod mesh;
 pub(super) mod network;
 pub(super) mod nodes;
 mod own;
-pub(super) mod spline;
+pub(crate) mod spline;
 mod split;
 mod table;
 
@@ -65,22 +65,23 @@ use crate::few::Few;
 use crate::format::Table;
 use crate::terminals::PerTerminal;
 
-/// Levels of a uniform sheet, and what a look-up costs, ns.
+/// Levels of a uniform sheet, and what a look-up costs with its share of the build, ns.
 const UNIFORM_LEVELS: [(&str, f64); 5] = [
     ("distance", 70.0),
-    ("bilinear", 20.0),
-    ("bicubic", 60.0),
-    ("bicubic-fine", 61.0),
+    ("bilinear", 30.0),
+    ("bicubic", 100.0),
+    ("bicubic-fine", 660.0),
     ("analytic", 400.0),
 ];
 
-/// Levels of any sheet: their spacing in mm, and what a look-up costs, ns.
+/// Levels of any sheet: their spacing in mm, and what a look-up costs with its share of the build,
+/// ns.
 const GRID_LEVELS: [(&str, f64, f64); 5] = [
-    ("grid-20-mm", 20.0, 60.0),
-    ("grid-10-mm", 10.0, 61.0),
-    ("grid-5-mm", 5.0, 62.0),
-    ("grid-2.5-mm", 2.5, 63.0),
-    ("grid-1.25-mm", 1.25, 64.0),
+    ("grid-20-mm", 20.0, 120.0),
+    ("grid-10-mm", 10.0, 400.0),
+    ("grid-5-mm", 5.0, 650.0),
+    ("grid-2.5-mm", 2.5, 1.3e3),
+    ("grid-1.25-mm", 1.25, 5.7e3),
 ];
 
 pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneError> {
@@ -95,12 +96,14 @@ pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneE
         .collect();
     let word = table.choice("rung", &words)?;
     if !uniform || word.is_some_and(|word| word.starts_with("grid")) {
-        let levels = GRID_LEVELS
-            .map(|(word, mm, cost_ns)| level(&sheet, word, cost_ns, move |sheet| grid(sheet, mm)));
+        let levels = GRID_LEVELS.map(|(word, mm, cost_ns)| {
+            level(&sheet, word, cost_ns, move |sheet| grid(sheet, mm)).slow_to_build()
+        });
         Spec::with_levels("sheet", Some(table), levels.into(), "grid-5-mm")
     } else {
         let levels = UNIFORM_LEVELS.map(|(word, cost_ns)| {
             level(&sheet, word, cost_ns, move |sheet| exact_or_table(word, sheet))
+                .against("analytic")
         });
         Spec::with_levels("sheet", Some(table), levels.into(), "bicubic")
     }

@@ -95,6 +95,26 @@ impl Spline {
         Spline::filtered(axes, values, sample)
     }
 
+    /// Through values at the nodes, with the slopes at the rim that a parabola through three of
+    /// them has.
+    pub fn free(axes: [Axis; 2], values: usize, node: impl Fn(usize, usize) -> Values) -> Self {
+        let along = |n: usize, axis: usize, f: &dyn Fn(usize) -> Values| {
+            let last = axes[axis].nodes - 1;
+            let slope = |a: usize, b: usize, c: usize, sign: f64| {
+                let [a, b, c] = [f(a), f(b), f(c)];
+                (0..values).map(|n| sign * (2.0 * b[n] - 1.5 * a[n] - 0.5 * c[n])).collect()
+            };
+            match n {
+                0 => slope(0, 1, 2, 1.0),
+                beyond if beyond == last + 2 => slope(last, last - 1, last - 2, -1.0),
+                n => f(n - 1),
+            }
+        };
+        Spline::filtered(axes, values, |column, row| {
+            along(column, 0, &|x| along(row, 1, &|y| node(x, y)))
+        })
+    }
+
     fn filtered(axes: [Axis; 2], values: usize, sample: impl Fn(usize, usize) -> Values) -> Self {
         let (columns, rows) = (axes[0].nodes + 2, axes[1].nodes + 2);
         let samples = (0..columns * rows).map(|n| sample(n % columns, n / columns));

@@ -50,7 +50,7 @@ pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneE
             Effect::Pad(Box::new(Shunt { screening: Following::new(&screening), reach_mm }))
         })
     };
-    let levels = vec![level("table", 820.0, Some(NODES)), level("series", 2.8e4, None)];
+    let levels = vec![level("table", 1.0e3, Some(NODES)), level("series", 2.8e4, None)];
     Spec::with_levels("shunt", root.table("shunt")?, levels, "table")
 }
 

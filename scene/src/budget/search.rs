@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The cheapest levels of a case within its budget.
+
+use super::bench::{Against, Bench, Mechanics, Run, electrics};
+use super::core::Core;
+use super::norm::{Norm, Seen};
+use super::worst::{Search, affordable, extremes};
+use crate::case::Case;
+use crate::effects::Spec;
+use crate::error::SceneError;
+
+/// How often shares are halved before everything is left at its finest.
+const MOST_TRIES: usize = 4;
+
+/// What a core costs to read a slot of an ideal device, ns.
+const READ_NS: f64 = 2e3;
+
+/// What a slot's samples cost, ns.
+const SAMPLED_NS: f64 = 1e5;
+
+/// A case with effect `n` at another level.
+pub(super) fn at_level(case: &Case, n: usize, level: Spec) -> Case {
+    let mut case = case.clone();
+    case.effects[n] = level;
+    case
+}
+
+/// What others are compared with: a run of finer levels, and a core that is calibrated on it.
+pub(super) struct Reference<'a> {
+    run: Run<'a>,
+    core: Core,
+    norm: Norm,
+    seen: Vec<Option<Seen>>,
+    first: Vec<usize>,
+    pads: usize,
+}
+
+/// A case that is compared with a reference, and when it is known to be too far off, percent.
+pub(super) struct Compared<'a> {
+    pub bench: &'a Bench<'a>,
+    pub case: &'a Case,
+    pub mechanics: &'a Mechanics,
+    pub enough: f64,
+}
+
+impl<'a> Reference<'a> {
+    pub fn new(
+        bench: &'a Bench<'a>,
+        case: &Case,
+        mechanics: &Mechanics,
+    ) -> Result<Reference<'a>, SceneError> {
+        let run = bench.over(case, mechanics)?;
+        Ok(Reference {
+            core: run.core()?,
+            norm: Norm::new(&case.device, &mechanics.slots),
+            seen: vec![None; mechanics.slots.len()],
+            first: extremes(&mechanics.slots, &case.device.terminals_mm),
+            pads: case.pads.len(),
+            run,
+        })
+    }
+
+    /// The largest difference of a case from it, percent; some of it, where that is enough.
+    pub fn percent(&mut self, compared: &Compared) -> Result<f64, SceneError> {
+        let mut run = compared.bench.over(compared.case, compared.mechanics)?;
+        let sampled = f64::from(u8::from(run.sampled) + u8::from(self.run.sampled)) * SAMPLED_NS;
+        let look_ns = run.cost_ns + self.run.cost_ns + sampled + 2.0 * READ_NS;
+        let (slots, first) = (self.seen.len(), self.first.clone());
+        let looks = affordable(slots, look_ns);
+        let search =
+            Search { slots, looks, first: &first, pads: self.pads, enough: compared.enough };
+        search.worst(|slot| {
+            let fine = *self.seen[slot].get_or_insert_with(|| self.run.see(slot, &self.core));
+            Ok(self.norm.percent(&run.see(slot, &self.core), &fine))
+        })
+    }
+}
+
+/// A case whose levels are chosen, and its mechanics.
+#[derive(Clone)]
+struct Chosen {
+    case: Case,
+    mechanics: Mechanics,
+}
+
+/// The effects of a case at the cheapest levels within its budget.
+pub(super) fn cheapest(
+    bench: &Bench,
+    case: &Case,
+    budget_percent: f64,
+) -> Result<Vec<Spec>, SceneError> {
+    let mut open: Vec<_> = (0..case.effects.len()).filter(|n| case.effects[*n].is_free()).collect();
+    open.sort_by_key(|n| case.effects[*n].rivals().len());
+    let mut finest = case.clone();
+    open.iter().for_each(|n| finest.effects[*n] = case.effects[*n].finest());
+    if open.is_empty() {
+        return Ok(finest.effects);
+    }
+    let mechanics = bench.mechanics(&finest, None)?;
+    for stand_in in stand_ins(&finest, &open) {
+        let reference = Chosen { case: stand_in, mechanics: mechanics.clone() };
+        if let Some(effects) = below(bench, &finest, &reference, &open, budget_percent)? {
+            return Ok(effects);
+        }
+    }
+    Ok(finest.effects)
+}
+
+/// The finest case, after it with levels that stand in for one that takes long to build, coarsest
+/// first.
+fn stand_ins(finest: &Case, open: &[usize]) -> Vec<Case> {
+    let dear = open.iter().map(|&n| (n, finest.effects[n].stand_ins()));
+    match dear.max_by_key(|(_, levels)| levels.len()) {
+        Some((n, levels)) => levels.into_iter().map(|level| at_level(finest, n, level)).collect(),
+        None => Vec::new(),
+    }
+}
+
+/// The cheapest levels that are found within the budget by a comparison with a reference. Where
+/// that only stands in for the finest levels, errors against these are at most twice as large: of a
+/// method of first order, in steps that halve, the next level leaves half of the error.
+fn below(
+    bench: &Bench,
+    finest: &Case,
+    stand_in: &Chosen,
+    open: &[usize],
+    budget_percent: f64,
+) -> Result<Option<Vec<Spec>>, SceneError> {
+    let label = |case: &Case, n: usize| case.effects[n].level().label.clone();
+    let standing = open.iter().find(|n| label(finest, **n) != label(&stand_in.case, **n));
+    let most_percent = if standing.is_some() { 0.5 * budget_percent } else { budget_percent };
+    let mut reference = Reference::new(bench, &stand_in.case, &stand_in.mechanics)?;
+    let mut shared = most_percent;
+    for _ in 0..MOST_TRIES {
+        let chosen = within(bench, &mut reference, stand_in, open, shared);
+        let Chosen { case, mechanics } = &chosen;
+        if standing.is_some_and(|n| label(case, *n) == label(&stand_in.case, *n)) {
+            return Ok(None);
+        }
+        let compared = Compared { bench, case, mechanics, enough: most_percent };
+        if reference.percent(&compared)? <= most_percent {
+            return Ok(Some(chosen.case.effects));
+        }
+        shared *= 0.5;
+    }
+    Ok(None)
+}
+
+/// The cheapest level of each open effect, with an even share of what the ones before have left.
+fn within(
+    bench: &Bench,
+    reference: &mut Reference,
+    finest: &Chosen,
+    open: &[usize],
+    budget_percent: f64,
+) -> Chosen {
+    let (mut chosen, mut left) = (finest.clone(), budget_percent);
+    let first = electrics(&finest.case.effects);
+    for (done, &n) in open.iter().enumerate() {
+        let share = left / (open.len() - done) as f64;
+        let mut levels = finest.case.effects[n].rivals();
+        levels.sort_by(|a, b| a.level().cost_ns.total_cmp(&b.level().cost_ns));
+        let most_ns = finest.case.effects[n].level().cost_ns;
+        // The finest has been chosen already: what costs as much is no alternative.
+        for level in levels.into_iter().take_while(|level| level.level().cost_ns < most_ns) {
+            let case = at_level(&finest.case, n, level.clone());
+            let off = if n < first {
+                moved(bench, reference, finest, &case, share)
+                    .inspect(|mechanics| chosen.mechanics = mechanics.clone())
+                    .map(|mechanics| mechanics.percent)
+            } else {
+                let mechanics = &finest.mechanics;
+                let compared = Compared { bench, case: &case, mechanics, enough: share };
+                // A level that refuses the scene is one that does not fit.
+                reference.percent(&compared).ok().filter(|percent| *percent <= share)
+            };
+            if let Some(percent) = off {
+                chosen.case.effects[n] = level;
+                left -= percent;
+                break;
+            }
+        }
+    }
+    chosen
+}
+
+/// The mechanics of a case, where they are within a share of the finest ones.
+fn moved(
+    bench: &Bench,
+    reference: &Reference,
+    finest: &Chosen,
+    case: &Case,
+    share_percent: f64,
+) -> Option<Mechanics> {
+    let slots = &finest.mechanics.slots;
+    let against = Against { norm: &reference.norm, slots, most_percent: share_percent };
+    let mechanics = bench.mechanics(case, Some(&against)).ok()?;
+    Some(mechanics).filter(|mechanics| mechanics.percent <= share_percent)
+}
+
+/// The level that effect `n` of a case is compared with, and the difference, percent.
+pub(super) fn off_finer(
+    bench: &Bench,
+    case: &Case,
+    mechanics: &Mechanics,
+    n: usize,
+) -> Result<Option<(String, f64)>, SceneError> {
+    let Some(finer) = case.effects[n].finer() else { return Ok(None) };
+    let (label, finer) = (finer.level().label.clone(), at_level(case, n, finer));
+    if n < electrics(&case.effects) {
+        let finer = bench.mechanics(&finer, None)?.slots;
+        let norm = Norm::new(&case.device, &finer);
+        let slots = mechanics.slots.iter().zip(&finer);
+        let percent = slots.map(|(coarse, fine)| norm.of(coarse, fine)).fold(0.0, f64::max);
+        return Ok(Some((label, percent)));
+    }
+    let mut finer = Reference::new(bench, &finer, mechanics)?;
+    let compared = Compared { bench, case, mechanics, enough: f64::INFINITY };
+    Ok(Some((label, finer.percent(&compared)?)))
+}
