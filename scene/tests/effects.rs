@@ -97,3 +97,16 @@ fn four_terminals_are_all_there_is_and_short_edges_have_their_middles_left_and_r
         "{long:?} {short:?}"
     );
 }
+
+/// Without a capacitance its solution would be a division by zero.
+#[test]
+fn a_shunt_of_no_capacitance_is_no_shunt() {
+    let seen = |shunt: &str| {
+        let mut plant = plant(&format!("{PADS}[sheet]\n[coupling]\n{shunt}"));
+        (0..6).map(|slot| see(&mut plant, slot)).collect::<Vec<_>>()
+    };
+    let none = seen("");
+    for rung in ["", "rung = \"table\"\n", "rung = \"series\"\n"] {
+        assert_eq!(seen(&format!("[shunt]\nnanofarad_per_m2 = 0\n{rung}")), none, "{rung}");
+    }
+}

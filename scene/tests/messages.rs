@@ -20,6 +20,26 @@ fn check(table: &str, expected: &str) {
     assert!(message.starts_with(expected), "got      {message}\nexpected {expected}");
 }
 
+/// Its film is implicit, its spring is not.
+#[test]
+fn semi_implicit_refuses_rubber_that_it_would_make_swing() {
+    let with = |rung: &str, key: &str| {
+        let text = format!(
+            "title = \"t\"\n[[pad]]\nposition_mm = [0, 0]\n[gap]\nrung = \"{rung}\"\n{key}\n"
+        );
+        Scene::parse(&text, "s.toml", &[])
+    };
+    for key in ["spring_pa_per_m = 1e15", "creep_share = 1000"] {
+        let message = with("semi-implicit", key).unwrap_err().to_string();
+        assert!(
+            message.contains("s.toml:5: gap.rung: expected rubber of at most 1.9e9 Pa/m"),
+            "{message}"
+        );
+        assert!(with("tr-bdf2", key).is_ok() && with("moving", key).is_ok(), "{key}");
+    }
+    assert!(with("semi-implicit", "spring_pa_per_m = 1e9").is_ok());
+}
+
 #[test]
 fn unknown_level() {
     check(

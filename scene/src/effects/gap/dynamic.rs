@@ -35,6 +35,17 @@ pub(super) struct Stages {
 const GAMMA: f64 = 2.0 - std::f64::consts::SQRT_2;
 
 impl Method {
+    /// The stiffest spring that steps are stable with at a gap: h·K < 2·(m/h + c) where the film is
+    /// implicit and the spring is not; any where all is implicit.
+    pub fn stiffest_pa_per_m(self, law: &Law, gap_m: f64, step_s: f64) -> f64 {
+        match self {
+            Method::SemiImplicit => {
+                2.0 * (law.inertia_kg_m2 / step_s + law.film(gap_m).value) / step_s
+            }
+            _ => f64::INFINITY,
+        }
+    }
+
     /// What a step needs of a drive, which is asked for at fractions of the step.
     #[inline]
     pub fn stages(self, drive: impl Fn(f64) -> Drive) -> Stages {

@@ -34,6 +34,13 @@ pub(super) struct Rubber {
 }
 
 impl Rubber {
+    /// The stiffest spring that steps of a method are stable with: where the highest patch rests
+    /// the film damps least.
+    pub fn stiffest_pa_per_m(&self, method: Method, step_s: f64) -> f64 {
+        let highest_m = self.rest_m.iter().copied().fold(0.0, f64::max);
+        method.stiffest_pa_per_m(&self.law, highest_m, step_s)
+    }
+
     pub fn capacitance_f(&self, gaps_m: impl Iterator<Item = f64>) -> f64 {
         gaps_m.map(|gap| EPSILON_0 * self.patch_m2 / (gap + self.law.insulator_m)).sum()
     }

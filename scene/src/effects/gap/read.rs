@@ -52,6 +52,13 @@ pub(in super::super) fn read(root: &Table, device: &Device) -> Result<Option<Spe
         let asked_us = asked_us.filter(|_| named == Some(word));
         let step_us = asked_us.unwrap_or(usual_step_us(motion));
         check_step(table, motion, step_us)?;
+        if let Err(message) = check_spring(&rubber, motion, step_us) {
+            // A budget does without it.
+            if named == Some(word) {
+                return Err(table.error("rung", message));
+            }
+            continue;
+        }
         let rubber = rubber.clone();
         let build = move |_: &Setting| {
             Effect::Pad(Box::new(Gap::new(rubber.clone(), motion, step_us * 1e-6, sine_rad_s)))
@@ -93,6 +100,20 @@ fn check_step(table: &Table, motion: Motion, step_us: f64) -> Result<(), SceneEr
     }
     Err(table
         .error("step_us", format!("expected at most {longest_us}, since {reason}, got {step_us}")))
+}
+
+/// Whether the rubber is soft enough for steps whose spring is explicit.
+fn check_spring(rubber: &Rubber, motion: Motion, step_us: f64) -> Result<(), String> {
+    let Motion::Dynamic(method) = motion else { return Ok(()) };
+    let spring = rubber.law.spring_pa_per_m + rubber.law.creep_spring_pa_per_m;
+    let stiffest = rubber.stiffest_pa_per_m(method, 1e-6 * step_us);
+    if spring <= stiffest {
+        return Ok(());
+    }
+    Err(format!(
+        "expected rubber of at most {stiffest:.1e} Pa/m with all that creeps of it, beyond which steps of \
+         {step_us} µs swing ever wider, got {spring:.1e}; a shorter step_us or tr-bdf2 holds more"
+    ))
 }
 
 fn read_rubber(table: &Table, device: &Device) -> Result<Rubber, SceneError> {

@@ -36,6 +36,9 @@ use crate::error::SceneError;
 use crate::format::{Limits, Table};
 use crate::terminals::PerTerminal;
 
+/// The levels as a scene writes them.
+const WORDS: [&str; 2] = ["table", "series"];
+
 /// Columns and rows of the table.
 const NODES: [usize; 2] = [32, 19];
 
@@ -50,11 +53,11 @@ pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneE
             Effect::Pad(Box::new(Shunt { screening: Following::new(&screening), reach_mm }))
         })
     };
-    let levels = vec![level("table", 1.0e3, Some(NODES)), level("series", 2.8e4, None)];
+    let levels = vec![level(WORDS[0], 1.0e3, Some(NODES)), level(WORDS[1], 2.8e4, None)];
     Spec::with_levels("shunt", root.table("shunt")?, levels, "table")
 }
 
-/// The sheet and ωc, S/m², where there is a shunt.
+/// The sheet and ωc, S/m², where there is a shunt: a capacitance of zero is none.
 pub(super) fn screened(root: &Table, device: &Device) -> Result<Option<(Sheet, f64)>, SceneError> {
     let Some(table) = root.table("shunt")? else { return Ok(None) };
     let limits = Limits::within(0.0, 1e4);
@@ -64,6 +67,10 @@ pub(super) fn screened(root: &Table, device: &Device) -> Result<Option<(Sheet, f
         return Err(table
             .error("", "expected a [sheet] too, since that is what the capacitance lies across"));
     };
+    if nanofarad == 0.0 {
+        table.choice("rung", &WORDS)?;
+        return Ok(None);
+    }
     let sheet = Sheet::read(sheet, device)?;
     match sheet.film.is_uniform() {
         true => Ok(Some((sheet, 1e-9 * nanofarad * device.carrier_rad_s))),

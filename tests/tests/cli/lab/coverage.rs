@@ -31,7 +31,7 @@ fn lab(noise: &mut Noise, friction: bool) -> Loads {
         for step in 0..voltages {
             let haptic_v_rms = 350.0 * f64::from(step) / f64::from(voltages - 1);
             let capacitance_pf = 310.0 + 0.8 * load_g + 60.0 * (haptic_v_rms / 350.0).powi(2);
-            let press_n = if friction { MU * load_g * 1e-2 } else { 0.0 };
+            let press_n = if friction { MU * load_g * 9.806_65e-3 } else { 0.0 };
             measurements.push(Load {
                 haptic_v_rms,
                 newtons: press_n
