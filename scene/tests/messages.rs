@@ -32,7 +32,7 @@ fn semi_implicit_refuses_rubber_that_it_would_make_swing() {
     for key in ["spring_pa_per_m = 1e15", "creep_share = 1000"] {
         let message = with("semi-implicit", key).unwrap_err().to_string();
         assert!(
-            message.contains("s.toml:5: gap.rung: expected rubber of at most 1.9e9 Pa/m"),
+            message.contains("s.toml:5: gap.rung: expected rubber of at most 2.0e9 Pa/m"),
             "{message}"
         );
         assert!(with("tr-bdf2", key).is_ok() && with("moving", key).is_ok(), "{key}");
