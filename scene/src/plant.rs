@@ -6,6 +6,8 @@
 //! slot's window. Effects may have a state, which moves through all of time, whichever pad is
 //! served: ask for slots in rising order.
 
+mod calibrating;
+
 use std::ops::Range;
 
 use num_complex::Complex64;
@@ -21,8 +23,7 @@ use crate::ratios::{self, Ratios};
 use crate::scene::Scene;
 use crate::stimulus::Moment;
 use crate::timing::Timing;
-use crate::trajectory::raster;
-use crate::truth::{ForcePoint, MapPoint, PadMeasurement, Truth};
+use crate::truth::Truth;
 
 /// One case of a scene at work.
 ///
@@ -345,92 +346,6 @@ impl Plant {
         let run = Run { slot, range, slot_start, channels: self.channels() };
         self.effects.on_channels(|effect| effect.samples(&self.now.1, &run, &mut out[start..]));
         out[start..].iter_mut().for_each(|sample| *sample = sample.clamp(-1.0, 1.0));
-    }
-
-    /// A raster of places with what the nominal device reads there: no noise, no mismatch, one pad
-    /// alone and at rest.
-    ///
-    /// ```
-    /// # use hapticore_scene::{Plant, Scene, Timing};
-    /// # let scene = Scene::parse("title = \"t\"\n[[pad]]\nposition_mm = [0, 0]\n[sheet]\n", "t.toml", &[])?;
-    /// # let timing = Timing {
-    /// #     pads: 4, slot_samples: 1700, window_start: 700, window_samples: 1000, samples_per_period: 10.0, signs: None,
-    /// # };
-    /// # let plant = Plant::new(&scene, 0, &timing)?;
-    /// let map = plant.calibration_map(3, 3, 15.0); // row by row from the bottom left
-    /// assert_eq!((map[0].x_mm, map[0].y_mm, map[4].x_mm), (-415.0, -235.0, 0.0));
-    /// assert!(map[0].r_x < -0.5 && map[4].r_x.abs() < 1e-9);
-    /// assert!((map[4].shares.iter().sum::<f64>() - 1.0).abs() < 1e-12);
-    /// # Ok::<(), hapticore_scene::SceneError>(())
-    /// ```
-    pub fn calibration_map(&self, nx: usize, ny: usize, margin_mm: f64) -> Vec<MapPoint> {
-        let still = raster(nx, ny, margin_mm, &self.device)
-            .into_iter()
-            .map(|place| resting(place, 0.0, 0.0, &self.device));
-        let point = |pad: Pad| {
-            let amplitudes = pad.amplitudes();
-            let ([r_x, r_y], shares) =
-                (self.ratios.of_amplitudes(&amplitudes), self.ratios.shares(&amplitudes));
-            MapPoint {
-                x_mm: pad.x_mm,
-                y_mm: pad.y_mm,
-                r_x,
-                r_y,
-                shares,
-                sheet_ohm: pad.sheet_ohm.re,
-            }
-        };
-        self.settle(still).map(point).collect()
-    }
-
-    /// What the terminals of the nominal device measure of an isolated pad at rest at each of these
-    /// positions, mm.
-    pub fn measurements(&self, places_mm: &[[f64; 2]]) -> Vec<PadMeasurement> {
-        let still = places_mm.iter().map(|place| resting(*place, 0.0, 0.0, &self.device));
-        let measurement = |pad: Pad| PadMeasurement {
-            siemens: pad.transfer(&self.device).iter().copied().collect(),
-            sheet_ohm: pad.sheet_ohm.re,
-        };
-        self.settle(still).map(measurement).collect()
-    }
-
-    /// A friction calibration, as for the paper's Fig. 6: one pad alone in the middle of the sheet,
-    /// under each load at each voltage. Eq. 8's k is fitted to it; without `[gap]` every point has
-    /// `force_k` itself.
-    ///
-    /// ```
-    /// # use hapticore_scene::{Plant, Scene, Timing};
-    /// # let scene = Scene::parse("title = \"t\"\n[[pad]]\nposition_mm = [0, 0]\n[gap]\n", "t.toml", &[])?;
-    /// # let timing = Timing {
-    /// #     pads: 4, slot_samples: 1700, window_start: 700, window_samples: 1000, samples_per_period: 10.0, signs: None,
-    /// # };
-    /// # let plant = Plant::new(&scene, 0, &timing)?;
-    /// let points = plant.friction_calibration(&[20.0, 100.0], &[0.0, 300.0]);
-    /// assert_eq!((points[0].load_g, points[3].load_g, points[0].force_n), (20.0, 100.0, 0.0));
-    /// assert!((points[0].capacitance_pf - 353.4).abs() < 0.1); // at rest under 20 g
-    /// assert!(points[3].force_n > points[1].force_n); // a load closes the gap
-    /// # Ok::<(), hapticore_scene::SceneError>(())
-    /// ```
-    pub fn friction_calibration(&self, loads_g: &[f64], haptic_v_rms: &[f64]) -> Vec<ForcePoint> {
-        let settings =
-            loads_g.iter().flat_map(|load| haptic_v_rms.iter().map(move |volt| (*load, *volt)));
-        let still = settings.map(|(load, volt)| resting([0.0, 0.0], load, volt, &self.device));
-        let point = |pad: Pad| ForcePoint {
-            load_g: pad.load_g,
-            haptic_v_rms: pad.haptic_v_rms,
-            capacitance_pf: pad.capacitance_f * 1e12,
-            force_n: pad.haptic_force_n(&self.device),
-        };
-        self.settle(still).map(point).collect()
-    }
-
-    /// Lets effects of their own act on each pad, so that a calibration leaves the run as it was.
-    fn settle(&self, pads: impl Iterator<Item = Pad>) -> impl Iterator<Item = Pad> {
-        let mut effects = self.fresh_effects();
-        pads.map(move |mut pad| {
-            effects.on_resting_pad(&mut pad);
-            pad
-        })
     }
 
     /// The middle of a slot's window.
