@@ -5,7 +5,7 @@
 use std::collections::VecDeque;
 
 use crate::device::Device;
-use crate::effects::Pad;
+use crate::effects::pad::Pad;
 use crate::pad::{PadPlan, pad_as_set};
 use crate::stimulus::Moment;
 use crate::truth::Setpoint;

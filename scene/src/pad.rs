@@ -3,8 +3,8 @@
 //! fastest, then the load, the haptic voltage, the capacitance and the eccentricity.
 
 use crate::device::{Device, EPSILON_0};
-use crate::effects::sheet::ideal_split;
-use crate::effects::{FilmChange, Pad};
+use crate::effects::pad::{FilmChange, Pad};
+use crate::effects::sheet::ideal::ideal_split;
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
 use crate::stimulus::{Moment, Stimulus};

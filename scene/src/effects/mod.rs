@@ -14,7 +14,7 @@ mod effect;
 mod finger;
 mod friction;
 mod gap;
-mod pad;
+pub(crate) mod pad;
 pub(crate) mod recorded;
 mod running;
 mod sensor;
@@ -28,7 +28,7 @@ mod temperature;
 mod tick;
 
 pub(crate) use effect::{Phasors, Run};
-pub(crate) use pad::{FilmChange, Pad};
+pub(crate) use pad::Pad;
 pub use running::EffectCost;
 pub(crate) use running::Effects;
 pub(crate) use spec::{Setting, Spec};

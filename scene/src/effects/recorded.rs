@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex};
 
 use super::effect::{Effect, PadEffect, PadsEffect};
 use super::pad::Pad;
-use super::sheet::ideal_split;
+use super::sheet::ideal::ideal_split;
 use super::spec::Spec;
 use crate::device::Device;
 

@@ -10,7 +10,7 @@ use crate::device::Device;
 use crate::drive::PadDrive;
 use crate::effects::effect::PadEffect;
 use crate::effects::pad::Pad;
-use crate::effects::sheet::ideal_split;
+use crate::effects::sheet::ideal::ideal_split;
 use crate::effects::tick::Tick;
 use crate::stimulus::Moment;
 use crate::trajectory::SLACK_MM;

@@ -39,6 +39,7 @@ mod film;
 mod following;
 pub(super) mod geometry;
 mod grid;
+pub(crate) mod ideal;
 mod lattice;
 mod lines;
 pub(super) mod mesh;
@@ -61,9 +62,7 @@ use super::pad::Pad;
 use super::spec::{Level, Spec};
 use crate::device::Device;
 use crate::error::SceneError;
-use crate::few::Few;
 use crate::format::Table;
-use crate::terminals::PerTerminal;
 
 /// Levels of a uniform sheet, and what a look-up costs with its share of the build, ns.
 const UNIFORM_LEVELS: [(&str, f64); 5] = [
@@ -172,21 +171,6 @@ impl PadEffect for OnSheet {
         pad.split = split.share.map(Complex64::from);
         pad.sheet_ohm = split.ohm.into();
     }
-}
-
-/// The split of an ideal sheet: corner currents bilinear in the position, so that r_x and r_y are
-/// proportional to x and y. Only a device without `[sheet]` has it, and so the corners as its first
-/// terminals; where there is one, it says the split.
-pub(crate) fn ideal_split(x_mm: f64, y_mm: f64, device: &Device) -> PerTerminal<Complex64> {
-    let (u, v) = (x_mm / device.width_mm + 0.5, y_mm / device.height_mm + 0.5);
-    let corners = [(1.0 - u) * v, (1.0 - u) * (1.0 - v), u * (1.0 - v), u * v];
-    Few::of(device.terminals(), |shares| {
-        shares
-            .iter_mut()
-            .zip(corners)
-            .take(device.terminals())
-            .for_each(|(share, corner)| *share = corner.into());
-    })
 }
 
 #[cfg(test)]

@@ -15,6 +15,7 @@ use std::f64::consts::PI;
 use super::linear::{Square, dot};
 use super::neumann::Neumann;
 use super::*;
+use crate::few::Few;
 
 const MODES: usize = 900;
 
