@@ -151,6 +151,12 @@ impl Scene {
         if let Some(then) = calibrated(tree)? {
             let then_case = Case::read(&then, name)?;
             then.refuse_unknown()?;
+            let [now, before] = [&case, &then_case].map(|case| case.device.terminals());
+            if now != before {
+                let message =
+                    format!("expected the {now} terminals that the device has, got {before}");
+                return Err(tree.error("calibration.set", message));
+            }
             case.nominal.clone_from(&then_case.nominal);
             case.calibrated = Some(Box::new(then_case));
         }

@@ -20,6 +20,25 @@ fn check(table: &str, expected: &str) {
     assert!(message.starts_with(expected), "got      {message}\nexpected {expected}");
 }
 
+#[test]
+fn a_calibration_that_cannot_be_of_the_device_names_its_key() {
+    for (set, words) in [
+        (
+            "\"sheet.terminals\" = 4",
+            "calibration.set: expected the 6 terminals that the device has, got 4",
+        ),
+        ("\"sheet.foo\" = 4", "sheet.foo: unknown key"),
+        ("seed = 4", "seed belongs to the whole scene"),
+        ("\"pad.9.load_g\" = 4", "there is no 9"),
+    ] {
+        let text = format!(
+            "title = \"t\"\n[[pad]]\nposition_mm = [0, 0]\n[sheet]\n[calibration]\nset = {{ {set} }}\n"
+        );
+        let message = Scene::parse(&text, "s.toml", &[]).unwrap_err().to_string();
+        assert!(message.starts_with("s.toml:") && message.contains(words), "{message}");
+    }
+}
+
 /// Its film is implicit, its spring is not.
 #[test]
 fn semi_implicit_refuses_rubber_that_it_would_make_swing() {

@@ -2,18 +2,10 @@
 //! Effects with a state, as a scene has them: the gap in motion, the supply, the finger, split
 //! pads; and that none of them is there unless the scene names it.
 
-use hapticore_scene::{Complex, Plant, Scene, Timing, Truth};
+mod common;
 
-fn timing() -> Timing {
-    Timing {
-        pads: 4,
-        slot_samples: 1700,
-        window_start: 700,
-        window_samples: 1000,
-        samples_per_period: 10.0,
-        signs: None,
-    }
-}
+use common::standard_timing as timing;
+use hapticore_scene::{Complex, Plant, Scene, Truth};
 
 fn plant(text: &str) -> Plant {
     let text = format!("title = \"t\"\n{text}");

@@ -5,19 +5,8 @@
 mod common;
 
 use common::ode::{Ode, REST_UM};
-use hapticore_scene::{DriveError, Plant, Scene, Timing, Truth};
-
-/// Slots of 1.7 ms whose middle is 1.2 ms after their start.
-fn timing() -> Timing {
-    Timing {
-        pads: 16,
-        slot_samples: 1700,
-        window_start: 700,
-        window_samples: 1000,
-        samples_per_period: 10.0,
-        signs: None,
-    }
-}
+use common::standard_timing as timing;
+use hapticore_scene::{DriveError, Plant, Scene, Truth};
 
 fn plant(text: &str) -> Plant {
     let text = format!("title = \"t\"\n{text}");

@@ -47,6 +47,10 @@ impl Scene {
             let Some(budget_percent) = self.cases[index].budget_percent.take() else { continue };
             let bench = Bench { scene: &self, index, timing };
             let effects = search::cheapest(&bench, &self.cases[index], budget_percent)?;
+            // The device was calibrated at the same levels: only what has changed since may differ.
+            if let Some(then) = &mut self.cases[index].calibrated {
+                then.effects = then.effects.iter().map(|effect| effect.as_in(&effects)).collect();
+            }
             self.cases[index].effects = effects;
         }
         Ok(self)

@@ -166,6 +166,13 @@ impl Spec {
         self.rivals().pop().expect("at least the level itself")
     }
 
+    /// The same effect at the level that it has among others, where it has that level too.
+    pub fn as_in(&self, others: &[Spec]) -> Spec {
+        let other = others.iter().find(|other| other.name == self.name);
+        let is_same = |level: &Level| other.is_some_and(|other| other.is_at(level.word));
+        self.levels.iter().position(is_same).map_or_else(|| self.clone(), |n| self.at(n))
+    }
+
     /// The levels that others can be compared with, of which only the last is as good as the finest:
     /// all where that takes long to build, else the finest alone.
     pub fn stand_ins(&self) -> Vec<Spec> {

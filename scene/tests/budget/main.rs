@@ -192,3 +192,14 @@ fn nine_in_ten_printed_errors_are_within_a_factor_of_two_of_the_actual_ones() {
     println!("{} of {checked} off: {off:#?}", off.len());
     assert!(10 * off.len() <= checked, "{} of {checked} off", off.len());
 }
+
+/// Without a change since, a device that is calibrated within a budget is the device itself.
+#[test]
+fn a_calibration_has_the_levels_that_the_budget_chose() {
+    let changed = "[calibration]\nset = { \"device.mu\" = 0.2 }\n";
+    let scene = scene("error_budget_percent = 0.01\n", changed).within_budget(&timing()).unwrap();
+    let plant = Plant::new(&scene, 0, &timing()).unwrap();
+    let then = plant.as_calibrated().unwrap().expect("friction has changed");
+    assert_ne!(scene.cases[0].effects()[0], ("sheet", "bicubic 128 × 75"), "not the usual level");
+    assert_eq!(then.calibration_map(5, 3, 20.0), plant.calibration_map(5, 3, 20.0));
+}

@@ -27,6 +27,11 @@ pub fn timing() -> Timing {
     }
 }
 
+/// Slots of 1.7 ms, as profile `standard` has them: the window's middle is 1.2 ms after the start.
+pub fn standard_timing() -> Timing {
+    Timing { pads: 16, slot_samples: 1700, window_start: 700, window_samples: 1000, ..timing() }
+}
+
 pub fn scene(text: &str) -> Scene {
     Scene::parse(&format!("title = \"t\"\n{text}"), "s.toml", &[])
         .unwrap_or_else(|error| panic!("{error}"))

@@ -227,7 +227,7 @@ fn what_is_left_is_printed_plotted_and_told() {
     let [low, high] = [0, 1].map(|end| told["force"]["force_k"]["interval"][end].as_f64().unwrap());
     assert!(low < 9.6e12 && 9.6e12 < high && high / low < 1.1, "{low} {high}");
     let rms_mm = |told: &serde_json::Value, of: &str| told[of]["rms_mm"].as_f64().unwrap();
-    // Measured without noise, both are of the words' rounding.
+    // Of places that are measured without noise and lie near each other both leave little.
     assert!(rms_mm(&told, "held_out") < 0.01 && rms_mm(&told, "own_places") < 0.01, "{told}");
     // Places too far from each other: those held out are found less well, and that is a warning.
     let plant = plant("minimal-sheet", &SHEET);
