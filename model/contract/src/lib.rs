@@ -6,6 +6,7 @@
 //! | --- | --- |
 //! | [`profile`] | word formats, counts and timings of a core, from TOML; `small`, `standard` and `fine` are bundled |
 //! | [`frame`] | the words that a core gives for each slot: order, formats, and the numbers that they stand for |
+//! | [`control`] | the force controller: its law and formats, the numbers that tune it |
 //! | [`calibration`] | what makes a core the sensor of a device: the position table and two gains |
 //! | [`format`](mod@format) | number formats, of the hardware language |
 //!
@@ -42,6 +43,7 @@
 //! ```
 
 pub mod calibration;
+pub mod control;
 pub mod frame;
 pub mod profile;
 

@@ -235,7 +235,9 @@ impl<B: Block> Submodule for B {
         visitor.enter(name);
         let registers = B::Registers::zip(self.registers(), state.registers);
         B::Registers::each(registers, |field, (format, value)| {
-            visitor.register(field, format, value)
+            if !format.is_none() {
+                visitor.register(field, format, value);
+            }
         });
         state.submodules.visit(self, visitor);
         visitor.leave();
@@ -243,7 +245,9 @@ impl<B: Block> Submodule for B {
 
     fn edit<V: Interpretation>(&self, state: &mut State<B, V>, edit: &mut impl Edit<V>) {
         let registers = B::Registers::zip(self.registers(), state.registers);
-        state.registers = B::Registers::map(registers, |(format, value)| edit.word(format, value));
+        state.registers = B::Registers::map(registers, |(format, value)| {
+            if format.is_none() { value } else { edit.word(format, value) }
+        });
         state.submodules.edit(self, edit);
     }
 }

@@ -37,6 +37,22 @@ pub struct Format {
 pub const BIT: Format = Format::unsigned(1, 0);
 
 impl Format {
+    /// No bits: an output or a register of this format is absent, which a block's configuration may
+    /// decide. It is neither printed nor traced, and holds 0.
+    pub const NONE: Format = Format::unsigned(0, 0);
+
+    /// Whether there are no bits.
+    #[inline(always)]
+    pub const fn is_none(self) -> bool {
+        self.width == 0
+    }
+
+    /// This format, or none.
+    #[inline(always)]
+    pub const fn where_present(self, present: bool) -> Self {
+        if present { self } else { Format::NONE }
+    }
+
     /// A signed format of `width` bits, `frac` of them after the point.
     #[inline(always)]
     pub const fn signed(width: u8, frac: i8) -> Self {

@@ -10,7 +10,7 @@
 //! `closed`, break before make.
 
 use super::demodulator::{self, Demodulator};
-use super::estimator::{self, Calibration, Estimator, FramePort};
+use super::estimator::{self, Calibration, Estimator, FramePort, PromptPort};
 use super::multiplexer::{self, Multiplexer};
 use super::oscillator::{self, Oscillator};
 use super::pace::{self, Pace};
@@ -51,6 +51,7 @@ block! {
         frames as FramePort: core.estimator.outputs().frames,
         /// Strobes have come closer than the profile's clocks per sample since reset or `clear`: frames are wrong.
         overrun: BIT,
+        prompt as PromptPort: core.estimator.outputs().prompt,
     }
     registers(core) {}
 }
@@ -144,6 +145,11 @@ impl Core {
         self.estimator.place_at_once(table);
     }
 
+    /// Clocks from the strobe of a window's last sample to its prompt estimate.
+    pub fn prompt_latency(&self) -> u64 {
+        1 + self.oscillator.latency() + self.demodulator.latency() + self.estimator.prompt_latency()
+    }
+
     /// Clocks from the strobe of a window's last sample to the last word of its frame.
     pub fn latency(&self) -> u64 {
         1 + self.oscillator.latency() + self.demodulator.latency() + self.estimator.latency()
@@ -181,7 +187,7 @@ impl Block for Core {
             clipped: demodulator.clipped,
             calibration: i.calibration,
         };
-        let estimator::Outputs { frames } = call!(self.estimator, state, inputs);
+        let estimator::Outputs { frames, prompt } = call!(self.estimator, state, inputs);
         Outputs {
             channel: demodulator.channel,
             serve: slot.pad,
@@ -189,6 +195,7 @@ impl Block for Core {
             carrier: oscillator.cosine,
             frames,
             overrun: pace.overrun,
+            prompt,
         }
     }
 }

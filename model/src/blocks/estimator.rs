@@ -6,6 +6,14 @@
 //!      └ haptic voltage ───────────────────────────────┘
 //! ```
 //!
+//! For a force controller, which cannot wait for the position, a prompt estimate comes first: the
+//! capacitance with the sheet's resistance at the pad's last place, and its force.
+//!
+//! ```text
+//! sums ─ currents ─ capacitance ─ force ─ prompt           (sheet: that of the pad's last frame)
+//!                       ratio ─ position ─ capacitance ─ force ─ frames
+//! ```
+//!
 //! One slot is in flight at a time, so that nothing of one pad can meet anything of another; the
 //! profile's blanking is longer than the latency. Latency: the sum of the stages', from the last
 //! sum to the last word.
@@ -21,7 +29,8 @@ use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::{BIT, Format};
-use hapticore_hdl::signal::{Signal, zero};
+use hapticore_hdl::memory::{Memory, Write};
+use hapticore_hdl::signal::{Signal, bit, zero};
 use hapticore_hdl::{block, bundle, call, when};
 
 bundle! {
@@ -59,12 +68,34 @@ bundle! {
     }
 }
 
+bundle! {
+    /// An estimate before its frame. Its words are stable until the frame's force replaces them.
+    pub struct PromptPort {
+        /// Asserted for one cycle: the estimate that comes before the frame is valid.
+        prompt,
+        /// Pad of the estimate.
+        prompt_pad,
+        /// Capacitance with the sheet's resistance at the pad's last place, pF.
+        prompt_capacitance,
+        /// Its haptic force, N.
+        prompt_force,
+        /// Gain of that force, N/pF² at a full-scale haptic mean square.
+        prompt_gain,
+        /// No capacitance has these currents, or a code or a word is at its limit.
+        prompt_invalid,
+    }
+}
+
 block! {
     /// The estimator: makes a frame of a window's sums.
     pub struct Estimator("estimator") {
         pads: u64,
+        /// Whether there is a prompt estimate.
+        prompts: bool,
     }
     submodules {
+        /// The sheet's resistance at the last place of each pad.
+        sheets: Memory,
         currents: Currents,
         ratio: Ratio,
         position: Position,
@@ -89,9 +120,14 @@ block! {
     }
     outputs(estimator) {
         frames as FramePort: estimator.frame(),
+        prompt as PromptPort: estimator.prompt(),
     }
     registers(estimator) {
         busy: BIT,
+        /// The prompt estimate is under way.
+        early: BIT.where_present(estimator.prompts),
+        /// The prompt estimate has been given: the frame's follows.
+        follow: BIT.where_present(estimator.prompts),
         pad: estimator.pad(),
         clipped: BIT,
     }
@@ -104,7 +140,10 @@ impl Estimator {
     /// The first of its blocks that cannot be.
     pub fn try_new(profile: &Profile) -> Result<Self, ProfileError> {
         let currents = Currents::try_new(profile)?;
+        let sheets = Memory::new("sheets", profile.pads as usize, profile.sheet());
         Ok(Estimator {
+            prompts: profile.control.is_some(),
+            sheets: sheets.dont_care_on_collision().in_block(),
             ratio: Ratio::try_new(profile, currents.sums(), currents.least())?,
             position: Position::new(profile),
             haptic_voltage: HapticVoltage::try_new(profile)?,
@@ -136,6 +175,26 @@ impl Estimator {
         FramePort { valid, index, frame: word, done, pad, clipped, saturated, invalid, lost }
     }
 
+    /// The formats of a prompt estimate.
+    #[inline(always)]
+    fn prompt(&self) -> PromptPort<Format> {
+        let force = &self.force_estimator;
+        let formats = PromptPort {
+            prompt: BIT,
+            prompt_pad: self.pad(),
+            prompt_capacitance: self.capacitance.outputs().capacitance,
+            prompt_force: force.outputs().haptic_force,
+            prompt_gain: force.inputs().gain,
+            prompt_invalid: BIT,
+        };
+        PromptPort::map(formats, |format| format.where_present(self.prompts))
+    }
+
+    /// Clocks from the last sum to the prompt estimate.
+    pub fn prompt_latency(&self) -> u64 {
+        self.currents.latency() + self.capacitance.latency() + self.force_estimator.latency()
+    }
+
     /// Clocks from the last sum to the last word.
     pub fn latency(&self) -> u64 {
         let stages = [
@@ -146,7 +205,9 @@ impl Estimator {
             self.force_estimator.latency(),
             self.frames.latency(),
         ];
-        stages.into_iter().sum()
+        let prompt =
+            if self.prompts { self.prompt_latency() - self.currents.latency() + 1 } else { 0 };
+        prompt + stages.into_iter().sum::<u64>()
     }
 
     /// As [`Position::place_at_once`].
@@ -170,7 +231,7 @@ impl Block for Estimator {
     fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
         let r = state.load(self);
         if (i.valid | r.busy | i.calibration.table.write | i.clear).can_skip() {
-            return self.quiet(r);
+            return self.quiet(state, r, &i);
         }
         let Inputs { valid, index, sum, .. } = i;
         let inputs = currents::Inputs { valid, index, sum };
@@ -179,7 +240,8 @@ impl Block for Estimator {
         let inputs = haptic_voltage::Inputs { clear: i.clear, pad, valid, index, sum };
         let haptic = call!(self.haptic_voltage, state, inputs);
         let currents::Outputs { x, y, corners, least, .. } = currents;
-        let inputs = ratio::Inputs { start: currents.done, x, y, corners, least };
+        let start = if self.prompts { r.follow } else { currents.done };
+        let inputs = ratio::Inputs { start, x, y, corners, least };
         let ratio = call!(self.ratio, state, inputs);
         let inputs = position::Inputs {
             start: ratio.done,
@@ -189,11 +251,13 @@ impl Block for Estimator {
             table: i.calibration.table,
         };
         let position = call!(self.position, state, inputs);
+        let invalid_place = ratio.invalid | position.invalid;
+        let sheet = self.sheet(state, &r, pad, &position, invalid_place);
         let inputs = capacitance::Inputs {
-            start: position.done,
+            start: position.done | (currents.done & bit(self.prompts)),
             total: currents.total,
             sense: currents.sense,
-            sheet: position.sheet,
+            sheet,
             gain: i.calibration.capacitance_gain,
         };
         let capacitance = call!(self.capacitance, state, inputs);
@@ -204,9 +268,9 @@ impl Block for Estimator {
             gain: i.calibration.force_gain,
         };
         let force = call!(self.force_estimator, state, inputs);
-        let invalid = ratio.invalid | position.invalid | capacitance.invalid;
+        let invalid = invalid_place | capacitance.invalid;
         let inputs = frames::Inputs {
-            start: force.done,
+            start: force.done & !self.early(&r),
             pad: r.pad,
             invalid,
             r_x: self.frames.ratio(ratio.r_x),
@@ -225,8 +289,24 @@ impl Block for Estimator {
             | capacitance.saturated
             | force.saturated;
         let held = held.named("any_saturated");
-        let busy = valid | (r.busy & !frames.done);
-        state.store(self, Registers { busy, pad, clipped: valid.select(i.clipped, r.clipped) });
+        let prompt_done = (force.done & self.early(&r)).named("prompt_done");
+        let prompt = PromptPort {
+            prompt: prompt_done,
+            prompt_pad: r.pad,
+            prompt_capacitance: capacitance.capacitance,
+            prompt_force: force.haptic_force,
+            prompt_gain: i.calibration.force_gain,
+            prompt_invalid: prompt_done & (held | capacitance.invalid | r.clipped),
+        };
+        let prompt = self.where_prompt(prompt);
+        let next = Registers {
+            busy: valid | (r.busy & !frames.done),
+            early: (currents.done | (self.early(&r) & !force.done)).where_present(r.early.format),
+            follow: prompt_done.where_present(r.follow.format),
+            pad,
+            clipped: valid.select(i.clipped, r.clipped),
+        };
+        state.store(self, next);
         let gate = |a: Signal<V>| when!(frames.valid => a, else zero(a.format));
         let frames = FramePort {
             valid: frames.valid,
@@ -239,16 +319,67 @@ impl Block for Estimator {
             invalid: gate(invalid),
             lost: gate(position.lost),
         };
-        Outputs { frames }
+        Outputs { frames, prompt }
     }
 }
 
 impl Estimator {
-    /// The outputs while nothing is under way: no frame, and so nothing about one.
+    /// The outputs while nothing is under way: no frame, and so nothing about one; of the last
+    /// prompt estimate, the words.
     #[inline(always)]
-    fn quiet<V: Interpretation>(&self, r: Regs<V>) -> Out<V> {
+    fn quiet<V: Interpretation>(&self, state: &State<Self, V>, r: Regs<V>, i: &In<V>) -> Out<V> {
         let nothing = FramePort::map(self.frame(), zero);
-        Outputs { frames: FramePort { pad: r.pad, clipped: r.clipped, ..nothing } }
+        let frames = FramePort { pad: r.pad, clipped: r.clipped, ..nothing };
+        if !self.prompts {
+            return Outputs { frames, prompt: PromptPort::map(self.prompt(), zero) };
+        }
+        let within = &state.submodules;
+        let prompt = PromptPort {
+            prompt: bit(false),
+            prompt_pad: r.pad,
+            prompt_capacitance: within.capacitance.load(&self.capacitance).capacitance,
+            prompt_force: within.force_estimator.load(&self.force_estimator).haptic_force,
+            prompt_gain: i.calibration.force_gain,
+            prompt_invalid: bit(false),
+        };
+        Outputs { frames, prompt }
+    }
+
+    /// The ports of a prompt estimate, where there is one.
+    #[inline(always)]
+    fn where_prompt<V: Interpretation>(
+        &self,
+        prompt: PromptPort<Signal<V>>,
+    ) -> PromptPort<Signal<V>> {
+        let with_formats = PromptPort::zip(prompt, self.prompt());
+        PromptPort::map(with_formats, |(signal, format)| signal.where_present(format))
+    }
+
+    /// The sheet's resistance: at the pad's last place while the prompt estimate is under way, then
+    /// at this one, which is kept where it is valid.
+    #[inline(always)]
+    fn sheet<V: Interpretation>(
+        &self,
+        state: &mut State<Self, V>,
+        r: &Regs<V>,
+        pad: Signal<V>,
+        position: &position::Out<V>,
+        invalid: Signal<V>,
+    ) -> Signal<V> {
+        if !self.prompts {
+            return position.sheet;
+        }
+        let last = self.sheets.data(&mut state.submodules.sheets);
+        let enable = position.done & !invalid;
+        let write = Write { enable, address: pad, data: position.sheet };
+        self.sheets.access(&mut state.submodules.sheets, pad, write);
+        r.early.select(last, position.sheet)
+    }
+
+    /// Whether the prompt estimate is under way.
+    #[inline(always)]
+    fn early<V: Interpretation>(&self, r: &Regs<V>) -> Signal<V> {
+        if self.prompts { r.early } else { bit(false) }
     }
 }
 

@@ -2,12 +2,14 @@
 //! The blocks of the core, one file each, from the ADC's codes to frames.
 
 pub mod capacitance;
+pub mod controller;
 pub mod core;
 pub mod currents;
 pub mod demodulator;
 pub mod divider;
 pub mod estimator;
 pub mod force;
+pub mod force_loop;
 pub mod frames;
 pub mod haptic_voltage;
 pub mod multiplexer;

@@ -11,7 +11,7 @@
 use super::tone::Response;
 use super::{Gathered, calibrated, signals};
 use crate::blocks::core::{self, Core};
-use crate::blocks::estimator::{Estimator, In, Inputs};
+use crate::blocks::estimator::{self, Estimator, In, Inputs, PromptPort};
 use crate::blocks::oscillator::Inputs as Sample;
 use hapticore_contract::calibration::Calibration;
 use hapticore_contract::frame::Frame;
@@ -40,6 +40,8 @@ pub struct FixedSimulation<V: Interpretation = i64> {
     response: Response,
     quiet: In<V>,
     sums: Vec<Signal<V>>,
+    /// The last prompt estimate, where the profile has a controller.
+    prompt: Option<PromptPort<Signal<V>>>,
 }
 
 impl<V: Interpretation> FixedSimulation<V> {
@@ -64,6 +66,7 @@ impl<V: Interpretation> FixedSimulation<V> {
             oscillator: profile.formats.oscillator,
             channels: profile.channels(),
             sums,
+            prompt: None,
             core,
         }
     }
@@ -226,7 +229,13 @@ impl<V: Interpretation> FixedSimulation<V> {
     fn estimate(&mut self, pad: usize, clipped: bool) -> Frame {
         let (pad, clipped) = (code(pad as i64, self.quiet.pad.format), bit(clipped));
         let quiet = Inputs { pad, clipped, ..self.quiet };
-        run(self.core.estimator(), &mut self.state.submodules.estimator, &quiet, &self.sums)
+        let state = &mut self.state.submodules.estimator;
+        run(self.core.estimator(), state, &quiet, &self.sums, &mut self.prompt)
+    }
+
+    /// The prompt estimate of the last slot.
+    pub(super) fn prompt(&self) -> Option<PromptPort<Signal<V>>> {
+        self.prompt
     }
 
     /// The core, and the state of its estimator.
@@ -246,6 +255,7 @@ fn run<V: Interpretation>(
     state: &mut State<Estimator, V>,
     quiet: &In<V>,
     sums: &[Signal<V>],
+    prompt: &mut Option<PromptPort<Signal<V>>>,
 ) -> Frame {
     let mut gathered = Gathered::default();
     for clock in 0..sums.len() + estimator.latency() as usize {
@@ -258,7 +268,10 @@ fn run<V: Interpretation>(
             },
             None => *quiet,
         };
-        let frame = estimator.clock(state, inputs).frames;
+        let estimator::Outputs { frames: frame, prompt: given } = estimator.clock(state, inputs);
+        if V::known_bit(given.prompt.value) == Some(true) {
+            *prompt = Some(given);
+        }
         if V::known_bit(frame.valid.value) == Some(true) {
             gathered.accept_word(1, V::code(frame.index), V::code(frame.frame));
         }

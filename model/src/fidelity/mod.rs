@@ -3,6 +3,7 @@
 
 pub mod clock;
 pub mod fixed;
+pub mod force_loop;
 mod tone;
 
 use crate::blocks::core::{Core, In, Inputs, Out};

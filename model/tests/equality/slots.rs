@@ -6,6 +6,7 @@ use crate::device::{self, Sight, calibration, short_profiles};
 use crate::harness::{Bench, operations, show};
 use crate::random::Random;
 use hapticore_contract::calibration::Calibration;
+use hapticore_contract::control::{Control, Law};
 use hapticore_contract::frame::{Flags, Frame};
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::bundle::Bundle;
@@ -14,7 +15,7 @@ use hapticore_model::blocks::estimator::{self, Estimator};
 use hapticore_model::blocks::position::TablePort;
 use hapticore_model::fidelity::clock::ClockSimulation;
 use hapticore_model::fidelity::fixed::FixedSimulation;
-use hapticore_reference::rounded::{Exact, Slots, Sums};
+use hapticore_reference::rounded::{Exact, Prompt, Slots, Sums};
 
 fn check_slots(profile: &Profile, slots: usize, seed: u64) {
     let calibration = calibration(profile);
@@ -60,13 +61,19 @@ fn frames_by_eq_6_alone_are_the_reference() {
 
 #[test]
 fn frames_of_any_sums_are_the_reference() {
-    for (seed, profile) in (0..).zip(short_profiles()) {
+    let controlled = short_profiles().into_iter().map(|profile| Profile {
+        control: Some(Control::of(&profile, Law::Inverse)),
+        ..profile
+    });
+    for (seed, profile) in (0..).zip(short_profiles().into_iter().chain(controlled)) {
         let calibration = calibration(&profile);
         let mut reference = Slots::new(&profile, &calibration);
         let mut bench = Bench::new(Estimator::try_new(&profile).unwrap());
         let constants = calibrate(&mut bench, &profile, &calibration);
         let mut random = Random::new(seed);
-        for _ in 0..operations(6_000) {
+        // A controller asks for two estimates of a slot.
+        let slots = if profile.control.is_some() { 1_000 } else { 6_000 };
+        for _ in 0..operations(slots) {
             check_sums(&mut bench, &mut reference, constants, &profile, &mut random);
         }
     }
@@ -107,9 +114,12 @@ fn check_sums(
     for (index, &sum) in (0..).zip(&sums) {
         bench.clock(estimator::Inputs { valid: 1, index, sum, pad, clipped, ..constants });
     }
-    let mut codes = [0; 8];
+    let (mut codes, mut prompt) = ([0; 8], None);
     let done = (0..10_000).find_map(|_| {
-        let out = bench.clock(constants).frames;
+        let estimator::Outputs { frames: out, prompt: given } = bench.clock(constants);
+        if given.prompt == 1 {
+            prompt = Some(given);
+        }
         if out.valid == 1 {
             codes[out.index as usize] = out.frame;
         }
@@ -123,7 +133,25 @@ fn check_sums(
     let of = |code: i64| Exact::of(code, format);
     let (square, phases) = sums.split_last().expect("there are sums");
     let phases = phases.chunks(2).map(|iq| [of(iq[0]), of(iq[1])]).collect();
-    let expected = reference.frame(pad as usize, &Sums { phases, square: of(*square), clipped });
+    let sums_of = Sums { phases, square: of(*square), clipped };
+    let (expected, expected_prompt) = reference.frame_and_prompt(pad as usize, &sums_of);
     let shown = show::<estimator::Inputs>(constants);
+    if profile.control.is_some() {
+        let expected = prompt_codes(profile, pad, &expected_prompt);
+        assert_eq!(prompt, Some(expected), "clock {}: of sums {sums:?}; {shown}", bench.clock);
+    }
     assert_eq!(frame, expected, "clock {}: got, reference of sums {sums:?}; {shown}", bench.clock);
+}
+
+/// The ports of a prompt estimate, while it is given.
+fn prompt_codes(profile: &Profile, pad: i64, prompt: &Prompt) -> estimator::PromptPort<i64> {
+    let f = &profile.formats;
+    estimator::PromptPort {
+        prompt: 1,
+        prompt_pad: pad,
+        prompt_capacitance: prompt.capacitance.code(f.capacitance),
+        prompt_force: prompt.force.code(f.force),
+        prompt_gain: prompt.force_gain.code(f.force_gain),
+        prompt_invalid: prompt.invalid.into(),
+    }
 }

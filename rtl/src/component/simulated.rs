@@ -86,7 +86,9 @@ fn clock<B: Block>(block: &B, state: &mut State<B, i64>, inputs: &[u64]) -> Vec<
     let outputs = block.clock(state, B::Inputs::map(block.inputs(), read));
     let mut words = Vec::new();
     B::Outputs::each(B::Outputs::zip(outputs, block.outputs()), |_, (signal, format)| {
-        words.push(signal.value as u64 & mask(format));
+        if !format.is_none() {
+            words.push(signal.value as u64 & mask(format));
+        }
     });
     words
 }

@@ -42,7 +42,7 @@ impl Trace {
             });
             outputs.clear();
             B::Outputs::each(block.clock(&mut state, signals), |_, signal| {
-                outputs.push(signal.value)
+                outputs.extend((!signal.format.is_none()).then_some(signal.value));
             });
             codes.extend(&outputs);
         }

@@ -53,6 +53,9 @@ fn added(sum: u64, outputs: Outputs<Signal<i64>>) -> u64 {
     let mut sum = sum.rotate_left(ROTATED);
     let mut index = 0;
     Outputs::each(outputs, |_, output| {
+        if output.format.is_none() {
+            return;
+        }
         sum = sum.wrapping_add((output.value as u64) << moved(index));
         index += 1;
     });

@@ -6,6 +6,7 @@
 
 use super::{Method, Profile, ProfileError};
 use crate::calibration::Layout;
+use crate::control::Control;
 use hapticore_hdl::format::Format;
 use std::fmt::Display;
 
@@ -34,7 +35,8 @@ impl Profile {
         self.check_terminals()?;
         self.check_formats()?;
         self.check_position()?;
-        self.check_slot()
+        self.check_slot()?;
+        self.control.as_ref().map_or(Ok(()), Control::check)
     }
 
     fn check_terminals(&self) -> Check {

@@ -7,6 +7,7 @@
 
 mod check;
 
+use crate::control::Control;
 use hapticore_hdl::format::Format;
 use serde::{Deserialize, Serialize};
 use std::fmt::Display;
@@ -47,6 +48,9 @@ pub struct Profile {
     /// The haptic voltage.
     #[serde(default)]
     pub haptic: Haptic,
+    /// The force controller, where there is one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub control: Option<Control>,
     /// Formats of the core's words; all other widths derive from them.
     pub formats: Formats,
 }

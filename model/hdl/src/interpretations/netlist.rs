@@ -190,6 +190,9 @@ fn settled(node: Node) -> Option<i64> {
 fn ports<S: Bundle>(formats: S::Of<Format>, op: impl Fn(usize) -> Op) -> (S::Of<Node>, Vec<Named>) {
     let mut index = 0;
     let nodes = S::map(formats, |format| {
+        if format.is_none() {
+            return wire(Op::Constant(0), format);
+        }
         index += 1;
         wire(op(index - 1), format)
     });
@@ -199,7 +202,9 @@ fn ports<S: Bundle>(formats: S::Of<Format>, op: impl Fn(usize) -> Op) -> (S::Of<
 fn named<S: Bundle>(nodes: S::Of<Node>, formats: S::Of<Format>) -> Vec<Named> {
     let mut all = Vec::new();
     S::each(S::zip(nodes, formats), |&Field { name, states, doc }, (node, format)| {
-        all.push(Named { name, format, states, about: doc.trim(), node });
+        if !format.is_none() {
+            all.push(Named { name, format, states, about: doc.trim(), node });
+        }
     });
     all
 }
@@ -387,7 +392,9 @@ impl Interpretation for Node {
     ) -> Outputs<B, Signal<Self>> {
         let driven = widen::<B::Inputs, Node>(B::NAME, inputs, block.inputs());
         let mut inputs = Vec::new();
-        B::Inputs::each(driven, |_, node| inputs.push(node));
+        B::Inputs::each(B::Inputs::zip(driven, block.inputs()), |_, (node, format)| {
+            inputs.extend((!format.is_none()).then_some(node));
+        });
         let module = read(block, state);
         let index = with_module(|open| {
             open.module.instances.push(Instance { name, module, inputs });

@@ -207,6 +207,12 @@ impl<V: Value> Signal<V> {
         Signal { value: V::quantize(self, to, rounding, overflow), format: to }
     }
 
+    /// This signal where a port or register of `format` is present, nothing where it is absent.
+    #[inline(always)]
+    pub fn where_present(self, format: Format) -> Self {
+        if format.is_none() { zero(format) } else { self }
+    }
+
     /// The same number in the format `to`, which has no fewer fractional bits; what is lost beyond
     /// its range is named.
     ///

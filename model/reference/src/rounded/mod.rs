@@ -6,6 +6,7 @@
 //! the bit.
 
 mod capacitance;
+mod controller;
 mod currents;
 mod demodulator;
 mod force;
@@ -16,6 +17,7 @@ mod position;
 mod ratio;
 
 pub use capacitance::{Capacitance, capacitance};
+pub use controller::{Controller, Drive, Request};
 pub use currents::{Currents, currents};
 pub use demodulator::{Sums, demodulate};
 pub use force::{Force, Squares, force, mean_square};
@@ -37,7 +39,23 @@ pub struct Slots {
     capacitance_gain: Exact,
     force_gain: Exact,
     squares: Squares,
+    /// The sheet's resistance at each pad's last place.
+    sheets: Vec<Exact>,
     frames: Frames,
+}
+
+/// The estimate of a slot that comes before its frame: with the sheet's resistance at the pad's
+/// last place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Prompt {
+    /// Capacitance, pF.
+    pub capacitance: Exact,
+    /// Haptic force, N.
+    pub force: Exact,
+    /// Gain of that force.
+    pub force_gain: Exact,
+    /// No capacitance has these currents, or a code or a word is at its limit.
+    pub invalid: bool,
 }
 
 impl Slots {
@@ -56,6 +74,7 @@ impl Slots {
             capacitance_gain: round_real(calibration.capacitance_gain, f.capacitance_gain),
             force_gain: round_real(calibration.force_gain, f.force_gain),
             squares: Squares::new(profile),
+            sheets: vec![Exact::ZERO; profile.pads as usize],
             frames: Frames::new(profile),
             profile: profile.clone(),
         }
@@ -69,15 +88,36 @@ impl Slots {
 
     /// The frame of a window's sums.
     pub fn frame(&mut self, pad: usize, sums: &Sums) -> Frame {
+        self.frame_and_prompt(pad, sums).0
+    }
+
+    /// The frame of a window's sums, and the estimate that came before it.
+    pub fn frame_and_prompt(&mut self, pad: usize, sums: &Sums) -> (Frame, Prompt) {
         let p = &self.profile;
         let currents = currents(p, &sums.phases);
+        let mean_square = self.squares.mean(p, pad, mean_square(p, sums.square));
+        let prompt = {
+            let gain = self.capacitance_gain;
+            let early = capacitance(p, currents.total, currents.sense, self.sheets[pad], gain);
+            let force = force(p, early.capacitance, mean_square.value, self.force_gain);
+            let saturated =
+                currents.saturated | early.saturated | mean_square.held | force.saturated;
+            Prompt {
+                capacitance: early.capacitance,
+                force: force.force,
+                force_gain: self.force_gain,
+                invalid: early.invalid | saturated | sums.clipped,
+            }
+        };
         let ratio = ratio(p, &currents);
         let place = self.position.place([ratio.r_x, ratio.r_y]);
         let lost = self.position.any_open(ratio.share);
         let sheet = place.sheet;
         let capacitance =
             capacitance(p, currents.total, currents.sense, sheet, self.capacitance_gain);
-        let mean_square = self.squares.mean(p, pad, mean_square(p, sums.square));
+        if !(ratio.invalid | place.invalid) {
+            self.sheets[pad] = sheet;
+        }
         let force = force(p, capacitance.capacitance, mean_square.value, self.force_gain);
         let saturated = currents.saturated
             | place.saturated
@@ -96,6 +136,7 @@ impl Slots {
             mean_square.value,
         ];
         let codes = self.frames.words(pad, values, invalid);
-        Frame { pad, codes, flags: Flags { clipped: sums.clipped, saturated, invalid, lost } }
+        let flags = Flags { clipped: sums.clipped, saturated, invalid, lost };
+        (Frame { pad, codes, flags }, prompt)
     }
 }

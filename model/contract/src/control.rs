@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The force controller of a core: its law and formats, and the numbers that tune it to a device.
+//!
+//! A controller gives a pad's drive word after each of its slots. Drive words are fractions of the
+//! drive's full scale; s = √F is a fraction of the root of the largest target.
+//!
+//! ```text
+//! open           d = D(s)
+//! proportional   d = D(s) + c,          c += α·(K·(F_t − F) − c)          (paper, Fig. 8b: α = 1)
+//! integral       d = D(s) + K·e + c,    c += K_i·e,   e = √F_t − √F
+//! inverse        d = min(√(F_t / (k·C²·G)), D(s))
+//! ```
+//!
+//! D is a curve that the host writes: the paper's feed-forward K·√F (eq. 9), a measured steady
+//! curve, or, with the inverse law, the limit that keeps a pad of small capacitance from
+//! overshooting as it is pulled in. G is the haptic mean square at full drive. c is what the drive
+//! word, limited, leaves of its other parts: nothing winds up.
+
+use crate::profile::{Profile, ProfileError};
+use hapticore_hdl::format::Format;
+use serde::{Deserialize, Serialize};
+
+/// How a drive word follows from target and measurement.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Law {
+    /// The curve alone (eq. 9).
+    Open,
+    /// The curve and a filtered multiple of the force's error (Fig. 8b).
+    Proportional,
+    /// The curve, a multiple and an integral of the error of the force's root.
+    Integral,
+    /// The voltage that gives the target at the capacitance just measured, limited by the curve.
+    Inverse,
+}
+
+/// The controller of a core.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Control {
+    /// How a drive word follows from target and measurement.
+    pub law: Law,
+    /// Drive words: a fraction, unsigned. Roots of forces have the same format.
+    pub drive: Format,
+    /// Target forces, N: unsigned, one integer bit at least.
+    pub target: Format,
+    /// Gains.
+    pub gain: Format,
+    /// Cells of the curve, a power of two.
+    pub cells: u64,
+    /// So many invalid frames of a pad in a row are a fault.
+    pub invalid_frames: u64,
+    /// So many frames without a sign of life from the host are a fault.
+    pub silent_frames: u64,
+}
+
+impl Control {
+    /// A controller with words as wide as the profile's multipliers take at once.
+    ///
+    /// ```
+    /// use hapticore_contract::control::{Control, Law};
+    /// use hapticore_contract::profile::Profile;
+    ///
+    /// let control = Control::of(&Profile::bundled("small")?, Law::Inverse);
+    /// assert_eq!((control.drive.to_string(), control.target.to_string()), ("u15.15".into(), "u15.14".into()));
+    /// # Ok::<(), hapticore_contract::profile::ProfileError>(())
+    /// ```
+    pub fn of(profile: &Profile, law: Law) -> Self {
+        let width = profile.multiplier.clamp(9, 19) - 1;
+        let frac = width as i8;
+        Control {
+            law,
+            drive: Format::unsigned(width, frac),
+            target: Format::unsigned(width, frac - 1),
+            gain: Format::unsigned(width, frac - 3),
+            cells: 64,
+            invalid_frames: 8,
+            silent_frames: 1 << 12,
+        }
+    }
+
+    /// Fractional bits by which a target is moved down to be below one; even, as its root is then
+    /// moved by half of it.
+    pub fn target_shift(&self) -> i8 {
+        let bits = self.target.integer_bits().max(0) as i8;
+        bits + (bits & 1)
+    }
+
+    /// The root of the largest target, √N, of which roots are fractions.
+    pub fn root_full_scale(&self) -> f64 {
+        2f64.powi(i32::from(self.target_shift()) / 2)
+    }
+
+    /// Checks every value against its range.
+    ///
+    /// # Errors
+    /// The first value that is out of its range, with its key.
+    pub fn check(&self) -> Result<(), ProfileError> {
+        let ensure = |holds: bool, field: &str, expected: &str, got: String| {
+            if holds { Ok(()) } else { Err(ProfileError::value(field, expected, got)) }
+        };
+        let Control { drive, target, gain, .. } = self;
+        let fraction = !drive.signed && drive.integer_bits() == 0;
+        ensure(
+            fraction && (8..=20).contains(&drive.width),
+            "control.drive",
+            "an unsigned fraction of 8 to 20 bits, such as u16.16",
+            drive.to_string(),
+        )?;
+        let sound = !target.signed
+            && (8..=20).contains(&target.width)
+            && (1..=4).contains(&target.integer_bits());
+        ensure(
+            sound,
+            "control.target",
+            "an unsigned format of 8 to 20 bits, 1 to 4 of them integer, such as u16.15",
+            target.to_string(),
+        )?;
+        let sound = !gain.signed && (8..=20).contains(&gain.width) && gain.frac >= 0;
+        ensure(
+            sound && (1..=8).contains(&gain.integer_bits()),
+            "control.gain",
+            "an unsigned format of 8 to 20 bits, 1 to 8 of them integer, such as u16.13",
+            gain.to_string(),
+        )?;
+        let most = 1 << (drive.width - 4).min(10);
+        let cells = self.cells.is_power_of_two() && (4..=most).contains(&self.cells);
+        let expected = format!("a power of two from 4 to {most}");
+        ensure(cells, "control.cells", &expected, self.cells.to_string())?;
+        for (field, frames) in [
+            ("control.invalid_frames", self.invalid_frames),
+            ("control.silent_frames", self.silent_frames),
+        ] {
+            ensure((1..=1 << 20).contains(&frames), field, "1 to 1048576", frames.to_string())?;
+        }
+        Ok(())
+    }
+}
+
+/// The numbers that tune a controller, in the core's units.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tuning {
+    /// The curve D: drive words at s = 0, 1/cells, … 1.
+    pub curve: Vec<f64>,
+    /// 1/G: one over the haptic mean square, a frame's word, at full drive.
+    pub full_drive: f64,
+    /// K: drive per N (proportional) or per root (integral).
+    pub proportional: f64,
+    /// α (proportional) or K_i, drive per root and frame (integral).
+    pub correction: f64,
+    /// The largest drive word.
+    pub rail: f64,
+    /// The largest change of a drive word from frame to frame.
+    pub slew: f64,
+    /// A force beyond it is a fault, N.
+    pub force_cap: f64,
+}
+
+impl Tuning {
+    /// A controller that does nothing but hold its drive within full scale.
+    pub fn idle(control: &Control) -> Self {
+        Tuning {
+            curve: vec![0.0; control.cells as usize + 1],
+            full_drive: 1.0,
+            proportional: 0.0,
+            correction: 0.0,
+            rail: 1.0,
+            slew: 1.0,
+            force_cap: f64::INFINITY,
+        }
+    }
+}
+
+/// Faults of a controller: each takes every drive to zero until it is cleared.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
+pub struct Faults {
+    /// The host was silent for too long.
+    pub silence: bool,
+    /// Estimates of a pad were invalid for too long.
+    pub sensor: bool,
+    /// A force was beyond its cap.
+    pub force: bool,
+}
+
+impl Faults {
+    /// Whether there is one.
+    pub fn any(self) -> bool {
+        self.silence | self.sensor | self.force
+    }
+}
+
+/// What a controller gives after a slot.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Drive {
+    /// Pad number, from 0.
+    pub pad: usize,
+    /// Part of the drive's full scale.
+    pub fraction: f64,
+    /// The drive is at zero and should be less.
+    pub low: bool,
+    /// The drive is at its rail and should be more.
+    pub high: bool,
+    /// What keeps the drives at zero.
+    pub faults: Faults,
+}

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The force controller, exactly rounded (docs/physics.md §6; laws in `hapticore_contract::control`).
+//!
+//! ```text
+//! s = min([√(F_t/4^h)], 1 − lsb),   D = D_n + [(D_n+1 − D_n)·p],   n + p = cells·s
+//! inverse        d = min([√[[F_t/G] / [k·[C²]]]], D)
+//! proportional   p = [K·[F_t − F]],   d = D + c + [α·[p − c]]
+//! integral       e = s − [√(F/4^h)],  d = D + [K·e] + (c + [K_i·e])
+//! ```
+//!
+//! [x] is x in its format: to the nearest code, ties to even, saturated.
+
+use super::{Exact, round, round_quotient, round_real, round_sqrt};
+use hapticore_contract::control::{Control, Law, Tuning};
+use hapticore_contract::format::Format;
+use hapticore_contract::profile::Profile;
+
+/// What a controller is asked.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Request {
+    /// Pad whose drive word is made.
+    pub pad: usize,
+    /// Target force, N.
+    pub target: Exact,
+    /// Capacitance, pF.
+    pub capacitance: Exact,
+    /// Measured force, N.
+    pub force: Exact,
+    /// Gain of the force.
+    pub force_gain: Exact,
+    /// The estimate is invalid.
+    pub invalid: bool,
+    /// Drives follow their targets.
+    pub enable: bool,
+}
+
+/// What is known of a pad.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Pad {
+    invalid: u64,
+    drive: Exact,
+    correction: Exact,
+}
+
+/// A drive word, and whether it should be below zero or beyond the rail.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Drive {
+    /// The drive word, full scales.
+    pub drive: Exact,
+    /// It is at zero and should be below.
+    pub low: bool,
+    /// It is at the rail and should be beyond.
+    pub high: bool,
+}
+
+/// The force controller of all pads.
+#[derive(Debug, Clone)]
+pub struct Controller {
+    profile: Profile,
+    control: Control,
+    tuning: Words,
+    pads: Vec<Pad>,
+    silent: u64,
+    /// Silence, sensor, force: latched.
+    pub faults: [bool; 3],
+}
+
+/// The tuning, rounded.
+#[derive(Debug, Clone)]
+struct Words {
+    curve: Vec<Exact>,
+    full_drive: Exact,
+    proportional: Exact,
+    correction: Exact,
+    rail: Exact,
+    slew: Exact,
+    force_cap: Exact,
+}
+
+impl Controller {
+    /// The controller of a profile, tuned, with all drives at zero.
+    ///
+    /// # Panics
+    /// Where the profile has none.
+    pub fn new(profile: &Profile, tuning: &Tuning) -> Self {
+        let control = profile.control.clone().expect("a profile with a controller");
+        let (drive, gain) = (|x| round_real(x, control.drive), |x| round_real(x, control.gain));
+        let tuning = Words {
+            curve: tuning.curve.iter().map(|&word| drive(word)).collect(),
+            full_drive: gain(tuning.full_drive),
+            proportional: gain(tuning.proportional),
+            correction: gain(tuning.correction),
+            rail: drive(tuning.rail),
+            slew: drive(tuning.slew),
+            force_cap: round_real(tuning.force_cap.min(1e9), profile.formats.force),
+        };
+        let pad = Pad { invalid: 0, drive: Exact::ZERO, correction: Exact::ZERO };
+        Controller {
+            pads: vec![pad; profile.pads as usize],
+            profile: profile.clone(),
+            control,
+            tuning,
+            silent: 0,
+            faults: [false; 3],
+        }
+    }
+
+    /// The host is alive.
+    pub fn hear(&mut self) {
+        self.silent = 0;
+    }
+
+    /// Clears all faults.
+    pub fn clear_faults(&mut self) {
+        self.faults = [false; 3];
+    }
+
+    /// The drive word of a pad.
+    pub fn drive(&mut self, request: &Request) -> Drive {
+        self.silent = (self.silent + 1).min(self.control.silent_frames);
+        let pad = self.pads[request.pad];
+        let most = self.control.invalid_frames;
+        let invalid = if request.invalid { (pad.invalid + 1).min(most) } else { 0 };
+        self.faults[0] |= self.silent == self.control.silent_frames;
+        self.faults[1] |= invalid == most;
+        self.faults[2] |= !request.invalid && request.force > self.tuning.force_cap;
+        let (base, wanted) = self.wanted(request, pad);
+        let rail = self.tuning.rail;
+        let (low, high) = (wanted < Exact::ZERO, wanted > rail);
+        let within = if low { Exact::ZERO } else if high { rail } else { wanted };
+        let off = !request.enable || self.faults.contains(&true);
+        let to = match (off, request.invalid) {
+            (true, _) => Exact::ZERO,
+            (_, true) => pad.drive,
+            _ => within,
+        };
+        let drive = self.slewed(pad.drive, to);
+        let correction = round(drive - base, self.signed()).value;
+        self.pads[request.pad] = Pad { invalid, drive, correction };
+        Drive { drive, low, high }
+    }
+
+    fn slewed(&self, last: Exact, to: Exact) -> Exact {
+        let (change, slew) = (to - last, self.tuning.slew);
+        if change.magnitude() <= slew {
+            return to;
+        }
+        let full = round(last + slew, self.control.drive).value;
+        if change > Exact::ZERO { full } else { last - slew }
+    }
+
+    fn signed(&self) -> Format {
+        Format::signed(self.control.drive.width + 1, self.control.drive.frac)
+    }
+
+    /// √(F/4^h), below one.
+    fn root(&self, force: Exact) -> Exact {
+        let drive = self.control.drive;
+        round(round_sqrt(force.scaled(-self.control.target_shift()), drive.frac), drive).value
+    }
+
+    /// The curve at a root.
+    fn curve(&self, root: Exact) -> Exact {
+        let bits = self.control.cells.ilog2() as i8;
+        let scaled = root.scaled(bits);
+        let cell = scaled.floor();
+        let part = scaled - Exact::new(cell, 0);
+        let [low, high] = [cell, cell + 1].map(|n| self.tuning.curve[n as usize]);
+        low + round((high - low) * part, self.signed()).value
+    }
+
+    /// What the correction comes on top of, and the drive without limits.
+    fn wanted(&self, request: &Request, pad: Pad) -> (Exact, Exact) {
+        let (t, signed) = (&self.tuning, self.signed());
+        let root = self.root(request.target);
+        let curve = self.curve(root);
+        match self.control.law {
+            Law::Open => (curve, curve),
+            Law::Inverse => {
+                let inverse = self.inverse(request);
+                (curve, if inverse > curve { curve } else { inverse })
+            }
+            Law::Proportional => {
+                let target = self.control.target;
+                let format = Format::signed(target.width + 1, target.frac);
+                let error = round(request.target - request.force, format).value;
+                let scaled = round(error * t.proportional, signed).value;
+                let away = round(scaled - pad.correction, signed).value;
+                let step = round(away * t.correction, signed).value;
+                (curve, curve + round(pad.correction + step, signed).value)
+            }
+            Law::Integral => {
+                let force = round(request.force, self.control.target).value;
+                let error = root - self.root(force);
+                let base = curve + round(error * t.proportional, signed).value;
+                (base, base + pad.correction + round(error * t.correction, signed).value)
+            }
+        }
+    }
+
+    /// √(F_t/G / (k·C²)), below one.
+    fn inverse(&self, request: &Request) -> Exact {
+        let (square, target, drive) =
+            (self.profile.formats.square, self.control.target, self.control.drive);
+        let stiffness = Format::unsigned(square.width, square.width as i8 - 4);
+        let numerator = Format::unsigned(target.width + 2, target.frac + 2);
+        let quotient = Format::unsigned(2 * drive.width, 2 * drive.frac);
+        let squared = round(request.capacitance * request.capacitance, square).value;
+        let per_square = round(squared * request.force_gain, stiffness).value;
+        let wanted = round(request.target * self.tuning.full_drive, numerator).value;
+        let quotient = round_quotient(wanted, per_square, quotient).value;
+        round(round_sqrt(quotient, drive.frac), drive).value
+    }
+}

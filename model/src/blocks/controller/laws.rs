@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The steps of each law: the operands of its products, what becomes of them, and the drive that
+//! the law wants.
+
+use super::tasks::Task;
+use super::{Controller, In, Registers, Regs};
+use hapticore_contract::control::Law;
+use hapticore_hdl::block::Interpretation;
+use hapticore_hdl::format::Format;
+use hapticore_hdl::signal::{HalfEven, Proved, Saturate, Signal, Wrap, int, zero};
+
+/// What memories and blocks within give.
+pub(super) struct Found<V> {
+    /// Product of the last operands, an integer.
+    pub product: Signal<V>,
+    /// Square root that is done.
+    pub root: Signal<V>,
+    /// A word of the curve.
+    pub curve: Signal<V>,
+    /// Of the pad: invalid estimates in a row.
+    pub invalid: Signal<V>,
+    /// Of the pad: its drive word.
+    pub last: Signal<V>,
+    /// Of the pad: what corrects its curve.
+    pub correction: Signal<V>,
+}
+
+impl Controller {
+    /// What the square root is taken of: target or force, moved down below one, or the quotient.
+    #[inline(always)]
+    pub(super) fn radicand<V: Interpretation>(
+        &self,
+        r: &Regs<V>,
+        i: &In<V>,
+        quotient: Signal<V>,
+    ) -> Signal<V> {
+        let small = |force: Signal<V>| force.scaled(-self.shift).resize(self.radicand, Proved);
+        match self.law {
+            Law::Open | Law::Proportional => small(i.target),
+            Law::Inverse => r.task.at(Task::InverseRoot).select(quotient, small(i.target)),
+            Law::Integral => {
+                let force = i.measured.quantize(self.target, HalfEven, Saturate);
+                small(r.task.at(Task::ForceRoot).select(force, i.target))
+            }
+        }
+    }
+
+    /// Operands of the next product, as integers.
+    #[inline(always)]
+    pub(super) fn operands<V: Interpretation>(
+        &self,
+        r: &Regs<V>,
+        i: &In<V>,
+        found: &Found<V>,
+    ) -> (Signal<V>, Signal<V>) {
+        let at = |task: Task| r.task.at(task);
+        let (rise, part) =
+            ((found.curve - r.curve_drive).integer(), r.root.bits(0, self.part_format().width));
+        let (left, right) = match self.law {
+            Law::Open => (rise, part),
+            Law::Proportional | Law::Integral => {
+                let (error, corrected) =
+                    (self.error(r, i).integer(), self.corrected(r, found).integer());
+                let gain = at(Task::Error).select(i.tuning.proportional, i.tuning.correction);
+                let left = at(Task::Error)
+                    .select(error, at(Task::Correct).select(corrected, rise));
+                (left, at(Task::Interpolate).select(part, gain.integer()))
+            }
+            Law::Inverse => {
+                let (capacitance, target) = (i.capacitance.integer(), i.target.integer());
+                let choose = |first, second, third, fourth| {
+                    let others = at(Task::Stiffness).select(third, fourth);
+                    at(Task::Interpolate).select(first, at(Task::Square).select(second, others))
+                };
+                let (gain, drive) = (i.force_gain.integer(), i.tuning.full_drive.integer());
+                let left = choose(rise, capacitance, r.factor, target);
+                (left, choose(part, capacitance, gain, drive))
+            }
+        };
+        (left.resize(self.left, Proved), right.resize(self.right, Proved))
+    }
+
+    /// F_t − F, or √F_t − √F.
+    #[inline(always)]
+    fn error<V: Interpretation>(&self, r: &Regs<V>, i: &In<V>) -> Signal<V> {
+        if self.law == Law::Integral {
+            return r.error;
+        }
+        (i.target - i.measured).quantize(self.error_format(), HalfEven, Saturate)
+    }
+
+    /// What the correction's gain takes: the filter's difference, or the error.
+    #[inline(always)]
+    fn corrected<V: Interpretation>(&self, r: &Regs<V>, found: &Found<V>) -> Signal<V> {
+        if self.law == Law::Integral {
+            return r.error;
+        }
+        (r.proportional - found.correction).resize(self.correction_format(), Saturate)
+    }
+
+    /// Takes what a task that ends has found.
+    #[inline(always)]
+    pub(super) fn take<V: Interpretation>(
+        &self,
+        r: Regs<V>,
+        found: &Found<V>,
+        ends: Signal<V>,
+    ) -> Regs<V> {
+        let at = |task: Task| ends & self.at(&r, task);
+        let root = found.root.resize(self.drive, Saturate);
+        let rise = self.narrow(found, self.correction_format(), self.part_format());
+        let curve = (r.curve_drive + rise).resize(self.drive, Saturate);
+        let next = Registers {
+            root: (at(Task::Root) | at(Task::InverseRoot)).select(root, r.root),
+            curve_drive: at(Task::Curve)
+                .select(found.curve, at(Task::Interpolate).select(curve, r.curve_drive)),
+            ..r
+        };
+        match self.law {
+            Law::Open => next,
+            Law::Proportional | Law::Integral => self.take_feedback(next, found, root, at),
+            Law::Inverse => self.take_inverse(next, found, at),
+        }
+    }
+
+    /// A product of a word of what is corrected, or of a rise, narrowed.
+    #[inline(always)]
+    fn narrow<V: Interpretation>(&self, found: &Found<V>, left: Format, right: Format) -> Signal<V> {
+        let exact = found.product.as_code(left.product(right));
+        exact.quantize(self.correction_format(), HalfEven, Saturate)
+    }
+
+    #[inline(always)]
+    fn take_feedback<V: Interpretation>(
+        &self,
+        r: Regs<V>,
+        found: &Found<V>,
+        root: Signal<V>,
+        at: impl Fn(Task) -> Signal<V>,
+    ) -> Regs<V> {
+        let scaled = self.narrow(found, self.error_format(), self.gain);
+        let step = self.narrow(found, self.corrected_format(), self.gain);
+        if self.law == Law::Proportional {
+            // The filter's new state takes the place of what it follows.
+            let state = (found.correction + step).resize(self.correction_format(), Saturate);
+            let kept = at(Task::Correct).select(state, r.proportional);
+            return Registers { proportional: at(Task::Error).select(scaled, kept), ..r };
+        }
+        let error = (r.root - root).resize(self.error_format(), Proved);
+        Registers {
+            error: at(Task::ForceRoot).select(error, at(Task::Correct).select(step, r.error)),
+            proportional: at(Task::Error).select(scaled, r.proportional),
+            ..r
+        }
+    }
+
+    #[inline(always)]
+    fn take_inverse<V: Interpretation>(
+        &self,
+        r: Regs<V>,
+        found: &Found<V>,
+        at: impl Fn(Task) -> Signal<V>,
+    ) -> Regs<V> {
+        let narrow = |left: Format, right: Format, to: Format| {
+            found.product.as_code(left.product(right)).quantize(to, HalfEven, Saturate)
+        };
+        let square = narrow(self.capacitance, self.capacitance, self.square);
+        let stiffness = narrow(self.square, self.force_gain, self.stiffness_format());
+        let numerator = narrow(self.target, self.gain, self.numerator_format());
+        let kept = at(Task::Stiffness).select(stiffness.integer(), r.factor);
+        Registers {
+            factor: at(Task::Square).select(square.integer(), kept),
+            numerator: at(Task::Target).select(numerator, r.numerator),
+            ..r
+        }
+    }
+
+    /// What the correction comes on top of: the curve, and what is proportional to the error.
+    #[inline(always)]
+    fn base<V: Interpretation>(&self, r: &Regs<V>) -> Signal<V> {
+        match self.law {
+            Law::Integral => r.curve_drive + r.proportional,
+            _ => r.curve_drive,
+        }
+    }
+
+    /// The drive within 0 and the rail, and whether it should be below or beyond.
+    #[inline(always)]
+    pub(super) fn wanted<V: Interpretation>(
+        &self,
+        r: &Regs<V>,
+        i: &In<V>,
+        found: &Found<V>,
+    ) -> [Signal<V>; 3] {
+        let base = self.base(r);
+        let wanted = match self.law {
+            Law::Open => base,
+            Law::Inverse => r.root.at_most(base),
+            Law::Proportional => base + r.proportional,
+            Law::Integral => base + (found.correction + r.error),
+        };
+        let (low, high) = (wanted.less_than(int(0)), i.tuning.rail.less_than(wanted));
+        // Where it wraps, it is low or high.
+        let within = high.select(i.tuning.rail, wanted.resize(self.drive, Wrap));
+        [low.select(zero(self.drive), within), low, high]
+    }
+
+    /// What a drive word leaves of curve and error: the correction that the pad keeps.
+    #[inline(always)]
+    pub(super) fn left_over<V: Interpretation>(&self, r: &Regs<V>, drive: Signal<V>) -> Signal<V> {
+        (drive - self.base(r)).resize(self.correction_format(), Saturate)
+    }
+
+    /// The drive word: as wanted where drives are on and the estimate is valid, but no further from
+    /// the last than the slew limit.
+    #[inline(always)]
+    pub(super) fn limited<V: Interpretation>(
+        &self,
+        r: &Regs<V>,
+        i: &In<V>,
+        last: Signal<V>,
+    ) -> Signal<V> {
+        let valid = i.invalid.select(last, r.wanted);
+        let to = self.off(r, i).select(zero(self.drive), valid);
+        let most = (last + i.tuning.slew).resize(self.drive, Saturate);
+        let least = (last - i.tuning.slew).resize(self.drive, Saturate);
+        let up = most.less_than(to).select(most, to);
+        let down = to.less_than(least).select(least, to);
+        last.less_than(to).select(up, down)
+    }
+}

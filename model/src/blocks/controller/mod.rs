@@ -1,0 +1,434 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Force controller: a pad's drive word from its target force and its last estimate.
+//!
+//! ```text
+//! s = √F_t,   D = curve(s), linear between its cells                              (paper, eq. 9: D = K·√F_t)
+//! open           d = D
+//! proportional   d = D + c,         c += α·(K·(F_t − F) − c)                      (paper, Fig. 8b: α = 1)
+//! integral       d = D + K·e + c,   c += K_i·e,   e = √F_t − √F
+//! inverse        d = min(√(F_t/G / (k·C²)), D)                                    (docs/physics.md §6)
+//! drive = d, held within 0 … rail, then within slew of the pad's last;   c = drive − (D + K·e)
+//! ```
+//!
+//! ```text
+//! target ─[√]─ s ─[curve]─(interpolate)─ D ─┬───────────────────────[min]─┬─(limits)─ drive
+//! C ─(²)─(× k)─┐                            │                         │   │
+//! target ─(÷ G)─[divider]─[√]───────────────┼─────────────────────────┘   │
+//! force ─(target −)─(× K)─(× α)─ c ─────────┴─(+)─────────────────────────┘
+//! ```
+//!
+//! | signal        | format                 | unit            | overflow                    |
+//! | drive, s, D   | profile                | full scale      | held within 0 … rail        |
+//! | c, K·e        | drive's, with a sign   | full scale      | saturates                   |
+//! | k·C²          | square's width, u·.·−4 | N               | saturates                   |
+//! | F_t/G         | target's, 2 bits more  | N               | saturates                   |
+//! | quotient      | drive's, twice         | full scale²     | saturates: then D is less   |
+//!
+//! c is what the limited drive leaves of its other parts, so that nothing winds up, and switching
+//! on or off makes no step. A zero denominator gives the limit D. While an estimate is invalid the
+//! drive stays; see [`faults`] for what takes it to zero. All narrowing rounds half to even.
+//!
+//! One multiplier, one square root and one divider serve all steps. Latency: the sum of the law's
+//! tasks and a clock, from `start` to `done`.
+
+mod faults;
+mod laws;
+mod tasks;
+mod words;
+
+use super::divider::{self, Divider};
+use super::multiplier::{self, Multiplier};
+use super::sqrt::{self, SquareRoot};
+use crate::buildable::{fits, rounds};
+use hapticore_contract::control::{Control, Law};
+use hapticore_contract::profile::{Profile, ProfileError};
+use hapticore_hdl::block::{Block, Interpretation, State};
+use hapticore_hdl::format::{BIT, Format};
+use hapticore_hdl::memory::{Memory, Write};
+use hapticore_hdl::signal::{Proved, Signal, bit, int, zero};
+use hapticore_hdl::states::States;
+use hapticore_hdl::{block, bundle, call, when};
+pub use faults::Faults;
+use laws::Found;
+use tasks::Task;
+
+bundle! {
+    /// What tunes a controller. Words are stable while a drive word is being made.
+    pub struct Tuning {
+        /// Controller: drives follow their targets; else they go to zero.
+        enable,
+        /// Controller: one over the haptic mean square at full drive.
+        full_drive,
+        /// Controller: gain of the error.
+        proportional,
+        /// Controller: filter or integral gain.
+        correction,
+        /// Controller: largest drive word.
+        rail,
+        /// Controller: largest change of a drive word from frame to frame.
+        slew,
+        /// Controller: a larger force is a fault, N.
+        force_cap,
+        /// Controller: writes a word of the curve.
+        curve_write,
+        /// Controller: number of the curve's word.
+        curve_address,
+        /// Controller: word of the curve, a drive word.
+        curve_word,
+    }
+}
+
+block! {
+    /// The force controller.
+    pub struct Controller("controller") {
+        law: Law,
+        drive: Format,
+        target: Format,
+        gain: Format,
+        /// Bits of a target's scale: it is below 2^shift.
+        shift: i8,
+        pad: Format,
+        capacitance: Format,
+        force: Format,
+        force_gain: Format,
+        square: Format,
+        /// Of the square root.
+        radicand: Format,
+        /// Of the multiplier's operands.
+        left: Format,
+        right: Format,
+        invalid_frames: u64,
+        silent_frames: u64,
+    }
+    submodules {
+        multiplier: Multiplier,
+        sqrt: SquareRoot,
+        divider: Divider,
+        curve: Memory,
+        /// Of each pad: invalid frames in a row, and the drive word.
+        pads: Memory,
+        /// Of each pad: what corrects the curve.
+        corrections: Memory,
+    }
+    inputs(block) {
+        /// Begins; all others are valid and stable until `done`.
+        start: BIT,
+        /// Pad whose drive word is made.
+        pad: block.pad,
+        /// The force that the pad shall have, N.
+        target: block.target,
+        /// Capacitance of the pad, pF.
+        capacitance: block.capacitance,
+        /// Haptic force of the pad, N.
+        measured: block.force,
+        /// Gain of the force, N/pF² at a full-scale haptic mean square.
+        force_gain: block.force_gain,
+        /// The estimate is invalid.
+        invalid: BIT,
+        /// The host is alive.
+        alive: BIT,
+        /// Clears faults.
+        clear_faults: BIT,
+        tuning as Tuning: block.tuning(),
+    }
+    outputs(block) {
+        /// Asserted for one cycle when the drive word is valid.
+        done: BIT,
+        /// Drive word of the pad, drive's full scale; stable until the next `done`.
+        drive: block.drive,
+        /// The drive is at zero and should be less.
+        low: BIT,
+        /// The drive is at its rail and should be more.
+        high: BIT,
+        faults as Faults: Faults::of(BIT),
+    }
+    registers(block) {
+        task in Task,
+        count: Format::counter(7),
+        left: block.left,
+        right: block.right,
+        sqrt_start: BIT,
+        divide: BIT,
+        root: block.drive,
+        curve_drive: block.drive,
+        /// Product of the step before.
+        factor: block.of_inverse(block.square.integer()),
+        /// F_t/G.
+        numerator: block.of_inverse(block.numerator_format()),
+        error: block.error_format(),
+        proportional: block.of_feedback(block.correction_format()),
+        /// Before slew: within 0 and the rail.
+        wanted: block.drive,
+        drive: block.drive,
+        low: BIT,
+        high: BIT,
+        silent: Format::counter(block.silent_frames),
+        silence_fault: BIT,
+        sensor_fault: BIT,
+        force_fault: BIT,
+        done: BIT,
+    }
+}
+
+impl Controller {
+    /// The controller of a profile.
+    ///
+    /// # Errors
+    /// A profile without a controller, a word that is none of the model's.
+    pub fn try_new(profile: &Profile) -> Result<Self, ProfileError> {
+        let Some(control) = &profile.control else {
+            return Err(ProfileError::value("control", "a table", "none"));
+        };
+        control.check()?;
+        let block = Self::of(profile, control);
+        fits("control.drive", "the dividend of the inverse law", block.divider.dividend.width)?;
+        for (product, to) in block.products() {
+            rounds("control.gain", product, to)?;
+        }
+        Ok(block)
+    }
+
+    fn of(profile: &Profile, control: &Control) -> Self {
+        let f = &profile.formats;
+        let &Control { law, drive, target, gain, cells, .. } = control;
+        let pad = Format::counter(profile.pads - 1);
+        let words = 1 << pad.width;
+        let square = Format::unsigned(2 * drive.width, 2 * drive.frac);
+        let (left, right) = words::operands(control, f);
+        let invalid = Format::counter(control.invalid_frames);
+        let word = Format::unsigned(invalid.width + drive.width, 0);
+        Controller {
+            multiplier: Multiplier::new(left, right, profile.multiplier),
+            sqrt: SquareRoot::new(square, drive.frac),
+            divider: Divider::new(words::numerator(target), words::stiffness(f.square), square),
+            curve: Memory::new("curve", cells as usize + 1, drive).dont_care_on_collision(),
+            pads: Memory::new("pads", words, word).dont_care_on_collision(),
+            corrections: Memory::new("corrections", words, words::correction(drive))
+                .dont_care_on_collision(),
+            radicand: square,
+            law,
+            drive,
+            target,
+            gain,
+            shift: control.target_shift(),
+            pad,
+            capacitance: f.capacitance,
+            force: f.force,
+            force_gain: f.force_gain,
+            square: f.square,
+            left,
+            right,
+            invalid_frames: control.invalid_frames,
+            silent_frames: control.silent_frames,
+        }
+    }
+
+    /// The formats of the tuning.
+    fn tuning(&self) -> Tuning<Format> {
+        Tuning {
+            enable: BIT,
+            full_drive: self.gain,
+            proportional: self.gain,
+            correction: self.gain,
+            rail: self.drive,
+            slew: self.drive,
+            force_cap: self.force,
+            curve_write: BIT,
+            curve_address: self.curve.address(),
+            curve_word: self.drive,
+        }
+    }
+
+    /// Clocks from `start` to `done`.
+    pub fn latency(&self) -> u64 {
+        1 + Task::of(self.law).iter().map(|task| self.clocks(*task)).sum::<u64>()
+    }
+
+    fn clocks(&self, task: Task) -> u64 {
+        match task {
+            Task::Idle => 0,
+            Task::Root | Task::InverseRoot | Task::ForceRoot => self.sqrt.latency() + 1,
+            Task::Divide => self.divider.latency() + 1,
+            Task::Curve => 2,
+            Task::Combine | Task::Limit => 1,
+            _ => self.multiplier.latency() + 2,
+        }
+    }
+}
+
+impl Block for Controller {
+    #[inline(always)]
+    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
+        let r = state.load(self);
+        let outputs = self.outputs_now(&r);
+        let idle = r.task.at(Task::Idle);
+        let woken = i.start | i.alive | i.clear_faults | i.tuning.curve_write;
+        if (woken | !idle | r.done).can_skip() {
+            return outputs;
+        }
+        let (found, ends) = self.find(state, &r, &i, idle);
+        let still = Registers {
+            sqrt_start: bit(false),
+            divide: bit(false),
+            done: bit(false),
+            ..self.heard(r, &i)
+        };
+        let begin = Registers {
+            task: Task::Root.signal(),
+            count: int(0),
+            sqrt_start: bit(true),
+            silent: self.silence(&r, &i),
+            ..still
+        };
+        let next =
+            when!(i.start => begin, idle => still, else self.work(still, &i, &found, ends));
+        self.keep(state, &r, &i, next.drive, &found);
+        state.store(self, next);
+        outputs
+    }
+}
+
+impl Controller {
+    #[inline(always)]
+    fn outputs_now<V: Interpretation>(&self, r: &Regs<V>) -> Out<V> {
+        let faults = faults::Faults {
+            silence_fault: r.silence_fault,
+            sensor_fault: r.sensor_fault,
+            force_fault: r.force_fault,
+        };
+        Outputs { done: r.done, drive: r.drive, low: r.low, high: r.high, faults }
+    }
+
+    /// What the blocks and memories within give, and whether the task ends with it.
+    #[inline(always)]
+    fn find<V: Interpretation>(
+        &self,
+        state: &mut State<Self, V>,
+        r: &Regs<V>,
+        i: &In<V>,
+        idle: Signal<V>,
+    ) -> (Found<V>, Signal<V>) {
+        let inputs = multiplier::Inputs { enable: !idle, left: r.left, right: r.right };
+        let product = call!(self.multiplier, state, inputs).product;
+        let (divided, quotient) = self.divided(state, r);
+        let radicand = self.radicand(r, i, quotient);
+        let inputs = sqrt::Inputs { start: r.sqrt_start, radicand };
+        let root = call!(self.sqrt, state, inputs);
+        let within = &mut state.submodules;
+        let pad = self.pads.data(&mut within.pads);
+        let correction = match self.feeds_back() {
+            true => self.corrections.data(&mut within.corrections),
+            false => zero(self.correction_format()),
+        };
+        let found = Found {
+            product,
+            root: root.sqrt,
+            curve: self.curve_word(state, r, i),
+            invalid: pad.bits(self.drive.width, pad.format.width - self.drive.width),
+            last: pad.bits(0, self.drive.width).as_code(self.drive),
+            correction,
+        };
+        (found, self.ends(r, root.done, divided))
+    }
+
+    /// Whether the division is done, and its quotient.
+    #[inline(always)]
+    fn divided<V: Interpretation>(
+        &self,
+        state: &mut State<Self, V>,
+        r: &Regs<V>,
+    ) -> (Signal<V>, Signal<V>) {
+        if self.law != Law::Inverse {
+            return (bit(false), zero(self.radicand));
+        }
+        let denominator = r.factor.as_code(self.stiffness_format());
+        let inputs = divider::Inputs { start: r.divide, numerator: r.numerator, denominator };
+        let divided = call!(self.divider, state, inputs);
+        (divided.done, divided.quotient)
+    }
+
+    /// The word of the curve that was asked for. That of the cell's lower end is asked for first,
+    /// then that of its upper one.
+    #[inline(always)]
+    fn curve_word<V: Interpretation>(
+        &self,
+        state: &mut State<Self, V>,
+        r: &Regs<V>,
+        i: &In<V>,
+    ) -> Signal<V> {
+        let curve = self.curve.data(&mut state.submodules.curve);
+        let (bits, upper) = (self.cell_bits(), !(r.task.at(Task::Curve) & r.count.is(0)));
+        let cell = r.root.bits(self.drive.width - bits, bits);
+        let Tuning { curve_write: enable, curve_address: address, curve_word: data, .. } = i.tuning;
+        let read = (cell + upper).resize(self.curve.address(), Proved);
+        let write = Write { enable, address, data };
+        self.curve.access(&mut state.submodules.curve, read, write);
+        curve
+    }
+
+    /// A clock of a task; where it ends, the next begins.
+    #[inline(always)]
+    fn work<V: Interpretation>(
+        &self,
+        r: Regs<V>,
+        i: &In<V>,
+        found: &Found<V>,
+        ends: Signal<V>,
+    ) -> Regs<V> {
+        let loads = self.multiplies(&r) & r.count.is(0);
+        let (left, right) = self.operands(&r, i, found);
+        let (combine, limit) = (self.at(&r, Task::Combine), self.at(&r, Task::Limit));
+        let [wanted, low, high] = self.wanted(&r, i, found);
+        let next = Registers {
+            task: ends.select(self.following(&r), r.task),
+            count: ends.select(int(0), r.count.increment()),
+            left: loads.select(left, r.left),
+            right: loads.select(right, r.right),
+            sqrt_start: ends & self.root_follows(&r),
+            divide: ends & self.at(&r, Task::Target),
+            wanted: combine.select(wanted, r.wanted),
+            low: combine.select(low, r.low),
+            high: combine.select(high, r.high),
+            drive: limit.select(self.limited(&r, i, found.last), r.drive),
+            done: limit,
+            ..self.take(r, found, ends)
+        };
+        self.faults_found(next, i, found.invalid, combine)
+    }
+
+    /// What is known of the pad is written with the last task; until then it is read.
+    #[inline(always)]
+    fn keep<V: Interpretation>(
+        &self,
+        state: &mut State<Self, V>,
+        r: &Regs<V>,
+        i: &In<V>,
+        drive: Signal<V>,
+        found: &Found<V>,
+    ) {
+        let enable = r.task.at(Task::Limit);
+        let data = self.invalid_count(i, found.invalid).concat(drive.integer());
+        let write = Write { enable, address: i.pad, data };
+        self.pads.access(&mut state.submodules.pads, i.pad, write);
+        if self.feeds_back() {
+            let data = self.left_over(r, drive);
+            let write = Write { enable, address: i.pad, data };
+            self.corrections.access(&mut state.submodules.corrections, i.pad, write);
+        }
+    }
+
+    /// Whether the law has an error.
+    #[inline(always)]
+    fn feeds_back(&self) -> bool {
+        matches!(self.law, Law::Proportional | Law::Integral)
+    }
+
+    /// Bits of the number of a cell of the curve.
+    #[inline(always)]
+    fn cell_bits(&self) -> u8 {
+        (self.curve.words - 1).ilog2() as u8
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Drive words: those of each law, rounded; faults; the clocks they take.
+
+use super::{Controller, Inputs, Outputs};
+use crate::support::random::Random;
+use crate::support::{Bench, MILLION, check_latency_of, operations};
+use hapticore_contract::control::{Control, Law, Tuning};
+use hapticore_contract::profile::Profile;
+use hapticore_reference::rounded::{self, Exact, Request};
+
+const LAWS: [Law; 4] = [Law::Open, Law::Proportional, Law::Integral, Law::Inverse];
+
+/// Every bundled profile with a controller of every law.
+fn profiles() -> impl Iterator<Item = (u64, Profile)> {
+    let with = |profile: Profile| {
+        LAWS.map(|law| Profile { control: Some(Control::of(&profile, law)), ..profile.clone() })
+    };
+    (0..).zip(Profile::all().into_iter().flat_map(with))
+}
+
+/// A controller beside its reference.
+struct Pair {
+    bench: Bench<Controller>,
+    reference: rounded::Controller,
+    inputs: Inputs<i64>,
+    profile: Profile,
+}
+
+impl Pair {
+    /// Both, with a tuning drawn at random, its words corners or anything.
+    fn tuned(profile: &Profile, random: &mut Random) -> Self {
+        let mut bench = Bench::new(Controller::try_new(profile).unwrap());
+        let formats = bench.block.inputs();
+        let control = profile.control.as_ref().unwrap();
+        let mut inputs = Inputs::of(0);
+        let mut word = |format| random.word(format);
+        let (mut t, f) = (inputs.tuning, formats.tuning);
+        t.full_drive = word(f.full_drive);
+        t.proportional = word(f.proportional);
+        t.correction = word(f.correction);
+        t.rail = word(f.rail);
+        t.slew = word(f.slew);
+        t.force_cap = word(f.force_cap);
+        inputs.tuning = t;
+        let curve: Vec<i64> = (0..=control.cells).map(|_| word(f.curve_word)).collect();
+        for (address, &curve_word) in (0..).zip(&curve) {
+            let mut write = inputs;
+            (write.tuning.curve_write, write.tuning.curve_address) = (1, address);
+            write.tuning.curve_word = curve_word;
+            bench.clock(write);
+        }
+        let tuning = Tuning {
+            curve: curve.iter().map(|&code| control.drive.real(code)).collect(),
+            full_drive: control.gain.real(t.full_drive),
+            proportional: control.gain.real(t.proportional),
+            correction: control.gain.real(t.correction),
+            rail: control.drive.real(t.rail),
+            slew: control.drive.real(t.slew),
+            force_cap: profile.formats.force.real(t.force_cap),
+        };
+        let reference = rounded::Controller::new(profile, &tuning);
+        Pair { bench, reference, inputs, profile: profile.clone() }
+    }
+
+    /// Holds that a drive word and the faults are the reference's.
+    fn check(&mut self, random: &mut Random) {
+        let f = self.bench.block.inputs();
+        let rarely = |random: &mut Random, one_in: u64| i64::from(random.below(one_in) == 0);
+        let i = Inputs {
+            pad: random.below(self.profile.pads) as i64,
+            target: random.word(f.target),
+            capacitance: random.word(f.capacitance),
+            measured: random.word(f.measured),
+            force_gain: random.word(f.force_gain),
+            invalid: rarely(random, 3),
+            alive: rarely(random, 2000),
+            clear_faults: rarely(random, 20),
+            ..self.inputs
+        };
+        let enable = 1 - rarely(random, 10);
+        self.tell(&i);
+        let mut inputs = Inputs { alive: 0, clear_faults: 0, ..i };
+        inputs.tuning.enable = enable;
+        let expected = self.expected(&inputs);
+        let (out, _) = self.bench.operate(inputs);
+        let got = (out.drive, out.low, out.high, out.faults);
+        assert_eq!(got, expected, "{:?} {:?}, {inputs:?}", self.profile.name, self.profile.control);
+        self.bench.check_registers();
+    }
+
+    /// A clock in which the host is heard or clears faults.
+    fn tell(&mut self, i: &Inputs<i64>) {
+        let told = Inputs { alive: i.alive, clear_faults: i.clear_faults, ..self.inputs };
+        self.bench.clock(told);
+        if i.alive == 1 {
+            self.reference.hear();
+        }
+        if i.clear_faults == 1 {
+            self.reference.clear_faults();
+        }
+    }
+
+    fn expected(&mut self, i: &Inputs<i64>) -> (i64, i64, i64, super::Faults<i64>) {
+        let (f, control) = (&self.profile.formats, self.profile.control.as_ref().unwrap());
+        let drive = self.reference.drive(&Request {
+            pad: i.pad as usize,
+            target: Exact::of(i.target, control.target),
+            capacitance: Exact::of(i.capacitance, f.capacitance),
+            force: Exact::of(i.measured, f.force),
+            force_gain: Exact::of(i.force_gain, f.force_gain),
+            invalid: i.invalid == 1,
+            enable: i.tuning.enable == 1,
+        });
+        let [silence_fault, sensor_fault, force_fault] = self.reference.faults.map(i64::from);
+        let faults = super::Faults { silence_fault, sensor_fault, force_fault };
+        (drive.drive.code(control.drive), drive.low.into(), drive.high.into(), faults)
+    }
+}
+
+#[test]
+fn drive_words_are_those_of_the_law() {
+    for (seed, profile) in profiles() {
+        let mut random = Random::new(seed);
+        for _ in 0..8 {
+            let mut pair = Pair::tuned(&profile, &mut random);
+            (0..operations(MILLION / 2500)).for_each(|_| pair.check(&mut random));
+        }
+    }
+}
+
+#[test]
+fn latency_is_the_clocks_measured() {
+    for (_, profile) in profiles() {
+        let block = Controller::try_new(&profile).unwrap();
+        check_latency_of(block.clone(), block.latency(), |mut inputs| {
+            inputs.tuning.curve_write = 0; // any address would do
+            inputs
+        });
+    }
+}
+
+#[test]
+fn a_profile_without_a_controller_is_refused() {
+    let profile = Profile::bundled("small").expect("bundled");
+    let error = Controller::try_new(&profile).unwrap_err();
+    assert_eq!(error.to_string(), "control: expected a table, got none");
+}
+
+#[test]
+fn the_host_is_missed_after_as_many_frames_as_the_profile_says() {
+    let mut profile = Profile::bundled("standard").expect("bundled");
+    profile.control = Some(Control { silent_frames: 5, ..Control::of(&profile, Law::Open) });
+    let mut bench = Bench::new(Controller::try_new(&profile).unwrap());
+    let mut frame = |alive: i64| -> Outputs<i64> {
+        bench.clock(Inputs { alive, ..Inputs::of(0) });
+        bench.operate(Inputs::of(0)).0
+    };
+    let silent: Vec<_> = (0..6).map(|_| frame(0).faults.silence_fault).collect();
+    assert_eq!(silent, [0, 0, 0, 0, 1, 1]);
+    assert_eq!(frame(1).faults.silence_fault, 1, "it stays until it is cleared");
+}
