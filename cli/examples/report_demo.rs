@@ -230,6 +230,7 @@ fn slot(case: usize, seed: u32, truth: Truth) -> Row {
         measured,
         flags: String::new(),
         truth: Some(truth),
+        driven: None,
         reference: Some(reference),
     }
 }

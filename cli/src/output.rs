@@ -9,7 +9,7 @@ use anyhow::{Context, Result};
 use hapticore_files::AtomicFolder;
 use hapticore_host::{COLUMNS, QUANTITIES};
 
-use hapticore_run::record::{Record, Row, Truth};
+use hapticore_run::record::{Driven, Record, Row, Truth};
 
 /// What a scene adds behind the truth: the case's name, the point of its sweep, and what no frame
 /// has.
@@ -17,6 +17,9 @@ const OF_SCENE: [&str; 4] = ["case", "point", "true_load_g", "true_friction_n"];
 
 /// The last columns of a scene: one or zero.
 const TRUE_FLAGS: [&str; 2] = ["true_over_edge", "true_touching"];
+
+/// The last columns of a scene with a controller.
+const DRIVEN: [&str; 4] = ["target_n", "drive_v_rms", "drive_limited", "drive_fault"];
 
 /// The file by which a folder is known for one of a run.
 const SUMMARY: &str = "summary.json";
@@ -113,6 +116,8 @@ pub struct OfScene {
     pub cases: Vec<String>,
     /// The keys of the pads that are swept.
     pub swept: Vec<&'static str>,
+    /// Whether a controller drives the pads.
+    pub driven: bool,
 }
 
 impl Frames {
@@ -138,6 +143,9 @@ impl Frames {
             write!(self.file, ",{}", OF_SCENE.join(","))?;
             scene.swept.iter().try_for_each(|name| write!(self.file, ",set_{name}"))?;
             write!(self.file, ",{}", TRUE_FLAGS.join(","))?;
+            if scene.driven {
+                write!(self.file, ",{}", DRIVEN.join(","))?;
+            }
         }
         writeln!(self.file)
     }
@@ -156,6 +164,9 @@ impl Frames {
         write!(self.file, ",{}", row.flags)?;
         if let (Some(scene), Some(truth)) = (&self.scene, &row.truth) {
             scene.write(&mut self.file, row.case, truth)?;
+            if scene.driven {
+                write_driven(&mut self.file, &row.driven.unwrap_or_default())?;
+            }
         }
         writeln!(self.file)
     }
@@ -177,6 +188,11 @@ impl OfScene {
         self.swept.iter().try_for_each(|name| write!(file, ",{}", truth.set.get(name)))?;
         write!(file, ",{},{}", u8::from(truth.over_edge), u8::from(truth.touching))
     }
+}
+
+fn write_driven(file: &mut impl Write, driven: &Driven) -> io::Result<()> {
+    let Driven { target_n, drive_v_rms, limited, fault } = driven;
+    write!(file, ",{target_n},{drive_v_rms},{},{}", u8::from(*limited), u8::from(*fault))
 }
 
 /// A text as a field of CSV.

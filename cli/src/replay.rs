@@ -133,7 +133,7 @@ impl Replay {
             session: Session::new(
                 profile,
                 device,
-                args.core.fidelity(),
+                (args.core.fidelity(), None),
                 args.core.errors,
                 (0, clock),
             )?,

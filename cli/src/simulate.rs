@@ -66,7 +66,11 @@ fn write(
             args.core.json,
         )?;
     }
-    let of_scene = OfScene { cases: record.cases.clone(), swept: record.swept.clone() };
+    let of_scene = OfScene {
+        cases: record.cases.clone(),
+        swept: record.swept.clone(),
+        driven: record.rows.iter().any(|row| row.driven.is_some()),
+    };
     let mut frames = Frames::create(&output, Some(of_scene))?;
     record.rows.iter().try_for_each(|row| frames.row(row))?;
     frames.finish()?;
@@ -328,6 +332,7 @@ fn figure_name(figure: Figure) -> String {
         Figure::Fig4 => "fig4",
         Figure::Fig6 => "fig6",
         Figure::Fig7 => "fig7",
+        Figure::Fig9 => "fig9",
         Figure::Hockey => "hockey",
     }
     .into()

@@ -2,6 +2,7 @@
 //! One variant of a scene, read: the device, what its pads do, which effects are on and how long it
 //! lasts.
 
+use crate::control::ControlPlan;
 use crate::device::Device;
 use crate::effects::{EFFECTS, SPLITTING, Spec, carrier};
 use crate::error::SceneError;
@@ -34,6 +35,8 @@ pub struct Case {
     /// The device in this case; its sample rate is not a number until a plant is built for a
     /// profile.
     pub device: Device,
+    /// The force controller that drives the pads, where the scene has one.
+    pub control: Option<ControlPlan>,
     pub(crate) pads: Vec<PadPlan>,
     pub(crate) effects: Vec<Spec>,
     pub(crate) length: Length,
@@ -102,7 +105,13 @@ impl Case {
             .filter_map(|read| read(root, &device).transpose())
             .collect::<Result<_, _>>()?;
         let has = |name| effects.iter().any(|effect| effect.name == name);
-        let has = Tables { gap: has("gap"), finger: has("hand"), split_electrode: has("halves") };
+        let control = ControlPlan::read(root)?;
+        let has = Tables {
+            gap: has("gap"),
+            finger: has("hand"),
+            split_electrode: has("halves"),
+            control: control.is_some(),
+        };
         let tables = root.tables("pad")?;
         if tables.is_empty() || tables.len() > MOST_PADS {
             return Err(root.error(
@@ -126,6 +135,7 @@ impl Case {
             document: document(root, name),
             length,
             device,
+            control,
             pads,
             effects,
             budget_percent,

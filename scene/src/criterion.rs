@@ -39,6 +39,10 @@ pub enum Measure {
     InvalidPercent,
     /// Largest |estimate − expected|.
     MaxOff,
+    /// Root mean square of truth − target, of the force of a pad with a controller.
+    RmsOffTarget,
+    /// Largest truth − target, of the force of a pad with a controller: how far it overshoots.
+    MaxAboveTarget,
     /// How far from the expected time the estimate jumps: where the mean of a pad's next seven slots
     /// rises most above that of the seven before, by five times its mean change at least.
     JumpOff,
@@ -48,7 +52,7 @@ pub enum Measure {
     DepartureOff,
 }
 
-const MEASURES: [(&str, Measure); 11] = [
+const MEASURES: [(&str, Measure); 13] = [
     ("max_abs_error", Measure::MaxAbsError),
     ("rms_error", Measure::RmsError),
     ("mean_error", Measure::MeanError),
@@ -58,6 +62,8 @@ const MEASURES: [(&str, Measure); 11] = [
     ("max_percent_of_full_scale", Measure::MaxPercentOfFullScale),
     ("invalid_percent", Measure::InvalidPercent),
     ("max_off", Measure::MaxOff),
+    ("rms_off_target", Measure::RmsOffTarget),
+    ("max_above_target", Measure::MaxAboveTarget),
     ("jump_off", Measure::JumpOff),
     ("departure_off", Measure::DepartureOff),
 ];
@@ -66,6 +72,10 @@ impl Measure {
     /// The measure's name in a scene: `spread_percent`.
     pub fn name(self) -> &'static str {
         name_of(&MEASURES, self)
+    }
+
+    fn is_of_target(self) -> bool {
+        matches!(self, Measure::RmsOffTarget | Measure::MaxAboveTarget)
     }
 
     /// Unit of the measured value.
@@ -79,9 +89,12 @@ impl Measure {
     /// ```
     pub fn unit(self, of: Quantity) -> &'static str {
         match self {
-            Measure::MaxAbsError | Measure::RmsError | Measure::MeanError | Measure::MaxOff => {
-                of.unit()
-            }
+            Measure::MaxAbsError
+            | Measure::RmsError
+            | Measure::MeanError
+            | Measure::MaxOff
+            | Measure::RmsOffTarget
+            | Measure::MaxAboveTarget => of.unit(),
             Measure::JumpOff => Quantity::TimeS.unit(),
             Measure::DepartureOff => Quantity::HapticVRms.unit(),
             _ => "%",
@@ -167,6 +180,10 @@ impl Criterion {
             return Err(
                 table.error("with", "expected with measure = \"increases_with\", and only there")
             );
+        }
+        if measure.is_of_target() && of != Quantity::ForceN {
+            let message = format!("expected \"force_n\" with measure = {:?}", measure.name());
+            return Err(table.error("of", message));
         }
         Ok(Criterion {
             name: table.require("name", "text", table.text("name")?)?,

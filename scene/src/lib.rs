@@ -66,6 +66,7 @@
 
 mod budget;
 mod case;
+mod control;
 mod criterion;
 mod device;
 mod drive;
@@ -91,6 +92,7 @@ mod variant;
 
 pub use budget::LevelDeviation;
 pub use case::Case;
+pub use control::{ControlLaw, ControlPlan, DriveCurve};
 pub use criterion::{Criterion, Measure, Per, Where};
 pub use device::Device;
 pub use drive::DriveError;

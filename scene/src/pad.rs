@@ -23,6 +23,8 @@ pub(crate) struct PadPlan {
     haptic_v_rms: Stimulus,
     capacitance_pf: Stimulus,
     eccentricity_mm: Stimulus,
+    /// The force that a controller shall give; zero without one.
+    target_n: Stimulus,
     /// Along x and y; a pad without a finger is not pushed.
     push_n: [Stimulus; 2],
 }
@@ -52,8 +54,10 @@ impl PadPlan {
             true => stimulus("eccentricity_mm", Limits::within(-reach_mm, reach_mm), 0.0)?,
             false => Stimulus::Constant(0.0),
         };
+        let target_n = read_target(table, has)?;
         Ok(PadPlan {
             eccentricity_mm,
+            target_n,
             push_n: [push("push_x_n")?, push("push_y_n")?],
             name: table.text("name")?.unwrap_or_else(|| format!("pad {index}")),
             trajectory: Trajectory::read(table, device)?,
@@ -63,9 +67,17 @@ impl PadPlan {
         })
     }
 
-    fn stimuli(&self) -> [&Stimulus; 6] {
-        let [x, y] = &self.push_n;
-        [&self.load_g, &self.haptic_v_rms, &self.capacitance_pf, &self.eccentricity_mm, x, y]
+    fn stimuli(&self) -> [&Stimulus; 7] {
+        let ([x, y], target) = (&self.push_n, &self.target_n);
+        [
+            &self.load_g,
+            &self.haptic_v_rms,
+            &self.capacitance_pf,
+            &self.eccentricity_mm,
+            target,
+            x,
+            y,
+        ]
     }
 
     /// Points of the whole sweep; one where nothing is swept.
@@ -114,6 +126,7 @@ impl PadPlan {
             haptic_v_rms: self.haptic_v_rms.at(haptic, moment),
             capacitance_pf: self.capacitance_pf.at(capacitance, moment),
             eccentricity_mm: self.eccentricity_mm.at(eccentricity, moment),
+            target_n: self.target_n(moment),
         }
     }
 
@@ -137,6 +150,11 @@ impl PadPlan {
         let haptic = load / self.load_g.points();
         let capacitance = haptic / self.haptic_v_rms.points();
         [load, haptic, capacitance, capacitance / self.capacitance_pf.points()]
+    }
+
+    /// The force that a controller shall give, N.
+    pub fn target_n(&self, moment: Moment) -> f64 {
+        self.target_n.at(0, moment)
     }
 
     /// What pushes the pad besides its finger, N.
@@ -192,14 +210,37 @@ pub(crate) fn pad_as_set(
 
 /// A push, over time only.
 fn read_push(table: &Table, key: &'static str) -> Result<Stimulus, SceneError> {
-    let stimulus = Stimulus::read(table, key, Limits::ANY)?.unwrap_or(Stimulus::Constant(0.0));
+    over_time(table, key, "a push", Stimulus::read(table, key, Limits::ANY)?)
+}
+
+/// A stimulus that is not swept; zero where there is none.
+fn over_time(
+    table: &Table,
+    key: &'static str,
+    what: &str,
+    stimulus: Option<Stimulus>,
+) -> Result<Stimulus, SceneError> {
+    let stimulus = stimulus.unwrap_or(Stimulus::Constant(0.0));
     match stimulus.points() {
         1 => Ok(stimulus),
         points => {
             Err(table
-                .error(key, format!("expected a push over time, got a sweep of {points} points")))
+                .error(key, format!("expected {what} over time, got a sweep of {points} points")))
         }
     }
+}
+
+/// A target force, over time only; a pad with one has no voltage of its own.
+fn read_target(table: &Table, has: Tables) -> Result<Stimulus, SceneError> {
+    if !has.control {
+        return Ok(Stimulus::Constant(0.0));
+    }
+    if table.get("haptic_v_rms").is_some() {
+        let message = "expected none, since [control] decides it; a pad has target_n instead";
+        return Err(table.error("haptic_v_rms", message));
+    }
+    let stimulus = Stimulus::read(table, "target_n", Limits::within(0.0, 100.0))?;
+    over_time(table, "target_n", "a force", stimulus)
 }
 
 /// The tables of a scene that give a pad's keys their meaning.
@@ -208,6 +249,7 @@ pub(crate) struct Tables {
     pub gap: bool,
     pub finger: bool,
     pub split_electrode: bool,
+    pub control: bool,
 }
 
 /// A pad at rest, for a calibration.

@@ -292,6 +292,14 @@ impl Plant {
         self.held[pad].set(time_s, haptic_v_rms, self.latest_s)
     }
 
+    /// The force that a controller shall give a pad at a time, N; 0 where the scene has none.
+    ///
+    /// # Panics
+    /// Where there is no such pad.
+    pub fn target_n(&self, pad: usize, time_s: f64) -> f64 {
+        self.case.pads[pad].target_n(Moment::at(time_s))
+    }
+
     /// The plant in a slot.
     pub fn truth(&mut self, slot: usize) -> Truth {
         self.look(slot);

@@ -6,6 +6,7 @@
 //! summary = "One pad rastered over the sheet"
 //! profile = "standard"            # the core's; default "standard"
 //! window_samples = 5000           # of the core's window, where the profile's is too short for the haptic frequency
+//! settle_samples = 390            # before the window, where the profile's slots are too long
 //! seed = 1                        # of noise and mismatch; default 1
 //! figure = "fig3"                 # fig3 | fig4 | fig6 | fig7 | hockey; how a report draws it
 //! record = ["frames", "report"]   # frames | report | capture | waves
@@ -57,6 +58,8 @@ pub enum Figure {
     Fig6,
     /// Friction, eq. 8 and the pad's voltage over time.
     Fig7,
+    /// The force beside its target.
+    Fig9,
     /// Paths of several pads.
     Hockey,
 }
@@ -100,6 +103,9 @@ pub struct Scene {
     pub profile: String,
     /// Samples of the core's integration window, where the scene does not leave it to the profile.
     pub window_samples: Option<u64>,
+    /// Samples for a pad to settle before its window, where the scene does not leave it to the
+    /// profile.
+    pub settle_samples: Option<u64>,
     /// Seed of noise and mismatch.
     pub seed: u64,
     /// How a report draws it.
@@ -170,6 +176,7 @@ impl Scene {
             ("fig4", Figure::Fig4),
             ("fig6", Figure::Fig6),
             ("fig7", Figure::Fig7),
+            ("fig9", Figure::Fig9),
             ("hockey", Figure::Hockey),
         ];
         let figure = root.choice("figure", &figures.map(|(name, _)| name))?;
@@ -179,6 +186,7 @@ impl Scene {
             summary: root.text("summary")?.unwrap_or_default(),
             profile: root.text("profile")?.unwrap_or_else(|| "standard".to_string()),
             window_samples: root.whole("window_samples", 1, 1 << 20)?,
+            settle_samples: root.whole("settle_samples", 0, 1 << 20)?,
             seed: root.whole("seed", 0, i64::MAX as u64)?.unwrap_or(1),
             figure: figures
                 .into_iter()

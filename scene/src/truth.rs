@@ -76,6 +76,8 @@ pub struct Setpoint {
     pub capacitance_pf: f64,
     /// Eccentricity of the push, mm.
     pub eccentricity_mm: f64,
+    /// Force that a controller shall give, N; 0 without one.
+    pub target_n: f64,
 }
 
 /// Takes a value of a setpoint.
@@ -83,13 +85,14 @@ type Taken = fn(&Setpoint) -> f64;
 
 impl Setpoint {
     /// Keys and values, in the order in which a sweep varies them, the fastest first.
-    const KEYS: [(&str, Taken); 6] = [
+    const KEYS: [(&str, Taken); 7] = [
         ("x_mm", |set| set.x_mm),
         ("y_mm", |set| set.y_mm),
         ("load_g", |set| set.load_g),
         ("haptic_v_rms", |set| set.haptic_v_rms),
         ("capacitance_pf", |set| set.capacitance_pf),
         ("eccentricity_mm", |set| set.eccentricity_mm),
+        ("target_n", |set| set.target_n),
     ];
 
     /// The value of a key: `load_g`; not a number for another key.

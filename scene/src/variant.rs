@@ -6,11 +6,12 @@ use crate::error::SceneError;
 use crate::format::{self, Node, Table};
 
 /// Keys that belong to the scene as a whole, so that a case cannot set them.
-const WHOLE: [&str; 9] = [
+const WHOLE: [&str; 10] = [
     "title",
     "summary",
     "profile",
     "window_samples",
+    "settle_samples",
     "seed",
     "figure",
     "record",

@@ -8,18 +8,21 @@ use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread;
 
 use anyhow::{Result, ensure};
+use hapticore_contract::control::Tuning;
 use hapticore_contract::profile::Profile;
 use hapticore_host::profile::{for_terminals, serving};
 use hapticore_host::{CrosstalkCanceller, DeviceCalibration, Residual, SlotClock, quantities_of};
+use hapticore_model::blocks::force_loop::ForceLoop;
 use hapticore_scene::{Complex, EffectCost, LevelDeviation, Plant, Scene, Truth, signs_by_place};
 
 use crate::calibrate;
 use crate::capture::Recorder;
+use crate::control::{self, controlled};
 use crate::digitiser::Digitiser;
 use crate::engine::{Fidelity, Signals, Slot};
 use crate::inputs::{buildable, timing};
 use crate::interrupt;
-use crate::record::{self, Row, SignalError};
+use crate::record::{self, Driven, Row, SignalError};
 use crate::session::Session;
 
 /// Slots made ahead of the core.
@@ -86,7 +89,10 @@ impl<'a> Case<'a> {
     ) -> Result<Self> {
         let device = &scene.cases[index].device;
         let signs = signs_by_place(&device.terminals_mm, [device.width_mm, device.height_mm]);
-        let profile = buildable(for_terminals(profile, &signs)?)?;
+        let control = scene.cases[index].control.as_ref();
+        let profile = for_terminals(profile, &signs)?;
+        let profile =
+            buildable(control.map_or(profile.clone(), |plan| controlled(&profile, plan)))?;
         let plant = Plant::new(scene, index, &timing(&profile))?;
         let pads = plant.pad_names().len();
         let profile = Arc::new(serving(&profile, pads));
@@ -156,9 +162,10 @@ impl<'a> Case<'a> {
         let canceller =
             || Some(CrosstalkCanceller::calibrated(plant.nominal_sheet()?, &self.device));
         let cancellers = canceller().zip(canceller()).map(<[_; 2]>::from);
-        let session =
-            Session::new(&self.profile, &self.device, settings.fidelity, settings.errors, at)?
-                .with_cancellers(cancellers);
+        let tuning = self.tuning(&plant)?;
+        let fidelity = (settings.fidelity, tuning.as_ref());
+        let session = Session::new(&self.profile, &self.device, fidelity, settings.errors, at)?
+            .with_cancellers(cancellers);
         let whole = settings.fidelity == Fidelity::Clock || recorder.is_some();
         let mut maker = Maker::new(
             plant.metered(),
@@ -166,6 +173,9 @@ impl<'a> Case<'a> {
             self.scene.cases[self.index].sampled(),
             whole,
         );
+        if tuning.is_some() {
+            return self.close(session, maker, recorder, progress);
+        }
         let (sender, receiver) = sync_channel(AHEAD);
         thread::scope(|scope| {
             let maker = scope.spawn(move || {
@@ -176,6 +186,72 @@ impl<'a> Case<'a> {
             outcome.effects = maker.join().expect("the plant does not panic");
             Ok(outcome)
         })
+    }
+}
+
+/// A force loop: the plant of a slot waits for the drives that follow from the slots before.
+impl Case<'_> {
+    /// The controller's tuning, where the scene has one.
+    fn tuning(&self, plant: &Plant) -> Result<Option<Tuning>> {
+        let (Some(plan), Some(control)) =
+            (&self.scene.cases[self.index].control, &self.profile.control)
+        else {
+            return Ok(None);
+        };
+        let calibrated = plant.as_calibrated()?;
+        let at = (calibrated.as_ref().unwrap_or(plant), self.clock.seconds(plant.pad_names().len()));
+        control::tuning(plan, control, &self.profile, &self.device, at).map(Some)
+    }
+
+    fn close(
+        &self,
+        mut session: Session,
+        mut maker: Maker,
+        mut recorder: Option<&mut (dyn Recorder + Send)>,
+        progress: &(dyn Fn() + Sync),
+    ) -> Result<Outcome> {
+        let plan = self.scene.cases[self.index].control.as_ref();
+        let full_scale_v = plan.map_or(0.0, |plan| plan.full_scale_v);
+        let latency_s = self.drive_latency_s()?;
+        for pad in 0..maker.plant.pad_names().len() {
+            maker.plant.set_drive(pad, 0.0, 0.0)?;
+        }
+        let (mut rows, mut peak) = (Vec::new(), 0f64);
+        for slot in 0..self.slots {
+            interrupt::check()?;
+            let truth = maker.plant.truth(slot);
+            let end_s = self.clock.seconds(slot + 1);
+            let target_n = maker.plant.target_n(truth.pad, end_s);
+            session.set_target(truth.pad, target_n);
+            let (signals, of_slot) = maker.signals(slot);
+            let made = Slot { pad: truth.pad, signals };
+            if let Some(recorder) = recorder.as_mut() {
+                recorder.slot(made.pad, made.whole())?;
+            }
+            peak = peak.max(of_slot);
+            let row = session.slot(&made, Some(record_truth(&truth)));
+            let Some(drive) = session.take_drive() else { continue };
+            let drive_v_rms = full_scale_v * drive.fraction;
+            maker.plant.set_drive(drive.pad, end_s + latency_s, drive_v_rms)?;
+            let (limited, fault) = (drive.low | drive.high, drive.faults.any());
+            let driven = Some(Driven { target_n, drive_v_rms, limited, fault });
+            rows.extend(row.map(|row| Row { driven, ..row }));
+            progress();
+        }
+        Ok(Outcome {
+            rows,
+            effects: maker.plant.effects(),
+            peak,
+            errors: session.errors(),
+            residual: session.residual(),
+        })
+    }
+
+    /// From a slot's end to the drive that follows from it, s.
+    fn drive_latency_s(&self) -> Result<f64> {
+        let clocks = ForceLoop::try_new(&self.profile)?.latency();
+        let clock_hz = self.profile.clocks_per_sample as f64 * self.device.device.sample_rate_hz;
+        Ok(clocks as f64 / clock_hz)
     }
 }
 

@@ -88,7 +88,14 @@ type Baseline = fn(&Criterion, &[&Row]) -> f64;
 /// The baseline that a measure is compared with: its name and how it is measured.
 fn baseline(criterion: &Criterion) -> Option<(&'static str, Baseline)> {
     match (criterion.measure, criterion.of) {
-        (Measure::MaxPercentOfFullScale | Measure::InvalidPercent | Measure::JumpOff, _) => None,
+        (
+            Measure::MaxPercentOfFullScale
+            | Measure::InvalidPercent
+            | Measure::JumpOff
+            | Measure::RmsOffTarget
+            | Measure::MaxAboveTarget,
+            _,
+        ) => None,
         (Measure::MaxAbsError | Measure::RmsError, Quantity::PositionMm) => {
             Some(("best affine fit", |criterion, rows| {
                 errors(criterion.measure, affine::distances(rows))
@@ -129,9 +136,16 @@ fn value(criterion: &Criterion, rows: &[&Row], estimate: Estimate) -> f64 {
             let expected = criterion.expected.unwrap_or(f64::NAN);
             greatest(rows.iter().map(|row| (estimated(row, of, estimate) - expected).abs()))
         }
+        Measure::RmsOffTarget => mean(rows.iter().map(|row| off_target(row).powi(2))).sqrt(),
+        Measure::MaxAboveTarget => greatest(rows.iter().map(|row| off_target(row))),
         Measure::DepartureOff => departure::off(rows, criterion, estimate),
         Measure::MaxPercentOfFullScale | Measure::JumpOff => f64::NAN,
     }
+}
+
+/// By how much the true force is more than its target, N.
+fn off_target(row: &Row) -> f64 {
+    row.truth.map_or(f64::NAN, |truth| truth.quantities.force_n - truth.set.target_n)
 }
 
 fn errors(measure: Measure, distances: impl Iterator<Item = f64>) -> f64 {

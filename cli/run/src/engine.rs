@@ -4,6 +4,7 @@
 use std::sync::Arc;
 
 use hapticore_contract::calibration::Calibration;
+use hapticore_contract::control::Drive;
 use hapticore_contract::frame::{Frame, Measurement};
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::block::Interpretation;
@@ -113,6 +114,14 @@ pub trait Engine: Send {
 
     /// The measurement of the last slot, where it is still to come.
     fn finish(&mut self) -> Option<Measurement> {
+        None
+    }
+
+    /// Sets a pad's target force, N, where there is a controller.
+    fn set_target(&mut self, _pad: usize, _newtons: f64) {}
+
+    /// The drive of the last slot's pad, where there is a controller.
+    fn take_drive(&mut self) -> Option<Drive> {
         None
     }
 }

@@ -49,15 +49,19 @@ pub fn buildable(profile: Profile) -> Result<Profile> {
     Ok(profile)
 }
 
-/// The profile with the window that a scene asks for.
+/// The profile with the slot that a scene asks for.
 ///
 /// # Errors
 /// A window that the profile's core cannot have.
 pub fn windowed(mut profile: Profile, scene: &Scene) -> Result<Profile> {
-    if let Some(samples) = scene.window_samples {
-        profile = profile.with_window(samples);
-        hapticore_model::check(&profile)
-            .with_context(|| format!("{}: window_samples", scene.name))?;
+    let asked = [("window_samples", scene.window_samples), ("settle_samples", scene.settle_samples)];
+    for (key, samples) in asked {
+        let Some(samples) = samples else { continue };
+        match key {
+            "window_samples" => profile = profile.with_window(samples),
+            _ => profile.slot.settle = samples,
+        }
+        hapticore_model::check(&profile).with_context(|| format!("{}: {key}", scene.name))?;
     }
     Ok(profile)
 }

@@ -10,6 +10,7 @@
 //! | [`engine`] | the core at its three fidelities behind one trait |
 //! | [`session`] | slots in, rows out: the core, the reference beside it, rounding errors |
 //! | [`case`] | a case of a scene, its samples made while the core works |
+//! | [`control`] | the force loop of a scene: controller, tuning, and what closes it |
 //! | [`criteria`] | what a scene claims, measured |
 //! | [`errors`] | rounding errors of every signal |
 //! | [`capture`] | ADC samples in CSV, WAV and SigMF files |
@@ -21,6 +22,7 @@
 pub mod calibrate;
 pub mod capture;
 pub mod case;
+pub mod control;
 pub mod criteria;
 pub mod digitiser;
 pub mod engine;

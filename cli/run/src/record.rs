@@ -25,9 +25,24 @@ pub struct Row {
     pub flags: String,
     /// What the plant knows, where there is one.
     pub truth: Option<Truth>,
+    /// What a controller made of it, where there is one.
+    pub driven: Option<Driven>,
     /// The floating-point reference on the same samples, and eq. 6 alone, where they were asked
     /// for.
     pub reference: Option<Reference>,
+}
+
+/// What a controller made of a slot.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+pub struct Driven {
+    /// The force that the pad should have, N.
+    pub target_n: f64,
+    /// The haptic voltage that the pad is given from then on, V rms.
+    pub drive_v_rms: f64,
+    /// The drive is at zero or at its rail, and should be beyond.
+    pub limited: bool,
+    /// A fault keeps the drives at zero.
+    pub fault: bool,
 }
 
 /// What the plant knows of a slot.

@@ -6,11 +6,13 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 
 use anyhow::Result;
+use hapticore_contract::control::{Drive, Tuning};
 use hapticore_contract::frame::Measurement;
 use hapticore_contract::profile::Profile;
 use hapticore_host::{CrosstalkCanceller, DeviceCalibration, Readout, Residual, SlotClock};
 use hapticore_reference::Reference as FloatCore;
 
+use crate::control::closed;
 use crate::engine::{Engine, Fidelity, Slot, engine};
 use crate::errors::Errors;
 use crate::record::{Reference, Row, SignalError, Truth};
@@ -30,21 +32,25 @@ pub struct Session {
 
 impl Session {
     /// A core of the profile for a device, just before its first slot. `case` is the number of the
-    /// case in rows.
+    /// case in rows. With a tuning the profile's controller drives the pads.
     ///
     /// # Errors
     /// A calibration that the profile's formats do not hold.
     pub fn new(
         profile: &Arc<Profile>,
         device: &DeviceCalibration,
-        fidelity: Fidelity,
+        (fidelity, tuning): (Fidelity, Option<&Tuning>),
         errors: bool,
         (case, clock): (usize, SlotClock),
     ) -> Result<Self> {
         let calibration = device.for_profile(profile)?;
+        let engine = match tuning {
+            Some(tuning) => closed::engine(fidelity, profile, &calibration, tuning)?,
+            None => engine(fidelity, profile, &calibration),
+        };
         Ok(Session {
             residual: device.residual(&calibration),
-            engine: engine(fidelity, profile, &calibration),
+            engine,
             reference: FloatCore::new(profile, &calibration),
             errors: errors.then(|| Errors::new(profile, &calibration)),
             readouts: [0, 1].map(|_| Readout::new(profile, device)),
@@ -77,10 +83,21 @@ impl Session {
             measured: reference.quantities,
             flags: String::new(),
             truth,
+            driven: None,
             reference: Some(reference),
         });
         let measurement = self.engine.slot(slot)?;
         self.finished(&measurement)
+    }
+
+    /// Sets the target force of a pad, N, from its next slot on.
+    pub fn set_target(&mut self, pad: usize, newtons: f64) {
+        self.engine.set_target(pad, newtons);
+    }
+
+    /// The drive of the last slot's pad, where there is a controller.
+    pub fn take_drive(&mut self) -> Option<Drive> {
+        self.engine.take_drive()
     }
 
     /// The last row, where it is still to come.

@@ -78,6 +78,7 @@ fn row(n: usize) -> Row {
         measured,
         flags: String::new(),
         truth,
+        driven: None,
         reference,
     }
 }

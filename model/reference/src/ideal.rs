@@ -12,6 +12,7 @@
 //! Amplitudes enter results as quotients only, so that the core's tone gain cancels; its square
 //! gain does not, and a measurement's mean square holds it, as a frame's does. Nothing saturates.
 
+use crate::control::Prompt;
 use hapticore_contract::calibration::Calibration;
 use hapticore_contract::frame::{Flags, Measurement};
 use hapticore_contract::profile::{Profile, Window};
@@ -66,6 +67,19 @@ pub struct Reference<T = f64> {
     squares: Vec<Vec<T>>,
     sums: Vec<[T; 2]>,
     last: usize,
+    early: Early<T>,
+}
+
+/// What is known of a slot before its place.
+#[derive(Debug, Clone, Copy)]
+struct Early<T> {
+    pad: usize,
+    total: T,
+    sense: T,
+    /// At the pad's last place.
+    sheet: T,
+    mean_square: T,
+    clipped: bool,
 }
 
 impl Reference {
@@ -113,6 +127,14 @@ impl<T: Real> Reference<T> {
             squares: vec![Vec::new(); profile.pads as usize],
             sums: vec![[T::zero(); 2]; terminals.x.len() + 1],
             last: 0,
+            early: Early {
+                pad: 0,
+                total: T::zero(),
+                sense: T::zero(),
+                sheet: T::zero(),
+                mean_square: T::zero(),
+                clipped: false,
+            },
         }
     }
 
@@ -196,6 +218,9 @@ impl<T: Real> Reference<T> {
         clipped: bool,
     ) -> Measurement<T> {
         let mean_square = self.mean_square(pad, mean_square * self.square_gain);
+        let sheet = self.held[pad].measurement.sheet;
+        let [total, sense] = total_and_sense(phasors);
+        self.early = Early { pad, total, sense, sheet, mean_square, clipped };
         let solution = self.solve(pad, phasors, mean_square);
         self.last = pad;
         if solution.valid {
@@ -204,6 +229,35 @@ impl<T: Real> Reference<T> {
         let flags =
             Flags { clipped, saturated: false, invalid: !solution.valid, lost: solution.lost };
         Measurement { mean_square, flags, ..self.held[pad].measurement }
+    }
+
+    /// The last slot's estimate before its place was known: with the sheet's resistance at the pad's
+    /// last place.
+    pub fn prompt(&self) -> Prompt {
+        let Early { pad, total, sense, sheet, mean_square, clipped } = self.early;
+        let (capacitance, left) = self.capacitance(total, sense, sheet);
+        let number = |x: T| x.to_f64().unwrap_or(f64::NAN);
+        Prompt {
+            pad,
+            capacitance_pf: number(capacitance),
+            force_n: number(self.force(capacitance, mean_square)),
+            force_gain: self.calibration.force_gain,
+            invalid: clipped || left.is_nan() || left <= T::zero(),
+        }
+    }
+
+    /// The capacitance, and what the square root is taken of.
+    #[inline(always)]
+    fn capacitance(&self, total: T, sense: T, sheet: T) -> (T, T) {
+        let drop = if self.sheet_correction { total * sheet } else { T::zero() };
+        let left = sense * sense - drop * drop;
+        (real::<T>(self.calibration.capacitance_gain) * total / left.sqrt(), left)
+    }
+
+    /// Eq. 8.
+    #[inline(always)]
+    fn force(&self, capacitance_pf: T, mean_square: T) -> T {
+        real::<T>(self.calibration.force_gain) * capacitance_pf * capacitance_pf * mean_square
     }
 
     /// The mean of the pad's last squares, or the newest while they are too few.
@@ -222,8 +276,7 @@ impl<T: Real> Reference<T> {
 
     /// Eqs. 2, 3, 6 and 8 and the sheet's resistance.
     fn solve(&self, pad: usize, phasors: &[[T; 2]], mean_square: T) -> Solution<T> {
-        let (terminals, sense) = phasors.split_at(self.signs.len());
-        let amplitudes = terminals.iter().map(magnitude);
+        let amplitudes = phasors[..self.signs.len()].iter().map(magnitude);
         let (mut x, mut y, mut corners, mut least) =
             (T::zero(), T::zero(), T::zero(), T::infinity());
         for (amplitude, &[sign_x, sign_y]) in amplitudes.zip(&self.signs) {
@@ -233,16 +286,12 @@ impl<T: Real> Reference<T> {
                 corners + if sign_x.is_zero() && sign_y.is_zero() { T::zero() } else { amplitude };
             least = amplitude.min(least);
         }
-        let of_all = |part: usize| sum(terminals.iter().map(|phasor| phasor[part]));
-        let (total, sense) = (magnitude(&[of_all(0), of_all(1)]), magnitude(&sense[0]));
+        let [total, sense] = total_and_sense(phasors);
         let (r_x, r_y) = (x / corners, y / corners);
         let place = self.calibration.position.look_up(r_x, r_y);
         let (x_mm, y_mm, sheet) = (place.x, place.y, place.sheet.max(T::zero()));
-        let drop = if self.sheet_correction { total * sheet } else { T::zero() };
-        let left = sense * sense - drop * drop;
-        let capacitance_pf = real::<T>(self.calibration.capacitance_gain) * total / left.sqrt();
-        let force_n =
-            real::<T>(self.calibration.force_gain) * capacitance_pf * capacitance_pf * mean_square;
+        let (capacitance_pf, left) = self.capacitance(total, sense, sheet);
+        let force_n = self.force(capacitance_pf, mean_square);
         let flags = Flags::default();
         Solution {
             values: Held {
@@ -273,6 +322,14 @@ fn of_code<T: Real>(code: i32) -> T {
 
 fn sum<T: Real>(numbers: impl Iterator<Item = T>) -> T {
     numbers.fold(T::zero(), |sum, x| sum + x)
+}
+
+/// The amplitudes of the current into all terminals and of the sensing voltage.
+#[inline(always)]
+fn total_and_sense<T: Real>(phasors: &[[T; 2]]) -> [T; 2] {
+    let (sense, terminals) = phasors.split_last().expect("the sensing voltage is the last");
+    let of_all = |part: usize| sum(terminals.iter().map(|phasor| phasor[part]));
+    [magnitude(&[of_all(0), of_all(1)]), magnitude(sense)]
 }
 
 fn magnitude<T: Real>(phasor: &[T; 2]) -> T {

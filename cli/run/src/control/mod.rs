@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The force loop of a scene: its controller in the core's units, and the core and controller that
+//! close it.
+
+pub mod closed;
+mod tuning;
+
+pub use tuning::{controlled, tuning};

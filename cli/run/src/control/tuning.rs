@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A scene's controller, in volts and newtons, as words of a core.
+
+use anyhow::{Result, ensure};
+use hapticore_contract::control::{Control, Law, Tuning};
+use hapticore_contract::profile::Profile;
+use hapticore_host::DeviceCalibration;
+use hapticore_scene::{ControlLaw, ControlPlan, DriveCurve, Plant};
+
+/// Voltages at which the steady curve is measured.
+const MEASURED: usize = 401;
+
+/// The profile with the controller that a scene asks for; formats are those of the profile's own,
+/// where it has one.
+pub fn controlled(profile: &Profile, plan: &ControlPlan) -> Profile {
+    let law = match plan.law {
+        ControlLaw::Open => Law::Open,
+        ControlLaw::Proportional => Law::Proportional,
+        ControlLaw::Integral => Law::Integral,
+        ControlLaw::Inverse => Law::Inverse,
+    };
+    let control = profile.control.clone().unwrap_or_else(|| Control::of(profile, law));
+    Profile { control: Some(Control { law, ..control }), ..profile.clone() }
+}
+
+/// The tuning of a controller for a device; `frame_s` is the time from a pad's slot to its next.
+///
+/// # Errors
+/// A gain that its word does not hold: its key, and what would.
+pub fn tuning(
+    plan: &ControlPlan,
+    control: &Control,
+    profile: &Profile,
+    device: &DeviceCalibration,
+    (plant, frame_s): (&Plant, f64),
+) -> Result<Tuning> {
+    let part = |volt: f64| volt / plan.full_scale_v;
+    let root = control.root_full_scale();
+    let adc = part(device.device.haptic_full_scale_v);
+    let (proportional, correction) = match control.law {
+        Law::Integral => {
+            (part(plan.proportional_v) * root, part(plan.integral_v) * root * frame_s)
+        }
+        _ => (part(plan.proportional_v), plan.filter),
+    };
+    let full_drive = adc * adc / profile.square_gain();
+    for (key, value) in [
+        ("full_scale_v", full_drive),
+        ("proportional_v", proportional),
+        ("integral_v", correction),
+    ] {
+        let most = control.gain.real(control.gain.max_code() as i64);
+        ensure!(value <= most, "control.{key}: expected a gain of {most} at most, got {value}");
+    }
+    Ok(Tuning {
+        curve: curve(plan, control, plant).into_iter().map(|volt| part(volt).min(1.0)).collect(),
+        full_drive,
+        proportional,
+        correction,
+        rail: part(plan.rail_v),
+        slew: part(plan.slew_v),
+        force_cap: plan.force_cap_n,
+    })
+}
+
+/// The voltages of the curve, at the roots of forces 0 … the largest target.
+fn curve(plan: &ControlPlan, control: &Control, plant: &Plant) -> Vec<f64> {
+    let root = |cell: u64| cell as f64 / control.cells as f64 * control.root_full_scale();
+    let roots = (0..=control.cells).map(root);
+    match plan.curve {
+        DriveCurve::SquareRoot => {
+            roots.map(|root| plan.curve_factor * plan.feed_forward_v * root).collect()
+        }
+        DriveCurve::Steady => {
+            let steady = steady(plan, plant);
+            let volt = |root: f64| plan.curve_factor * voltage_of(&steady, root * root);
+            roots.map(volt).collect()
+        }
+    }
+}
+
+/// Voltages and the forces that they give at rest under the nominal load.
+fn steady(plan: &ControlPlan, plant: &Plant) -> Vec<[f64; 2]> {
+    let step_v = plan.rail_v / (MEASURED - 1) as f64;
+    let volts: Vec<f64> = (0..MEASURED).map(|n| step_v * n as f64).collect();
+    let points = plant.friction_calibration(&[plan.nominal_load_g], &volts);
+    volts.into_iter().zip(points).map(|(volt, point)| [volt, point.force_n]).collect()
+}
+
+/// The least voltage that gives a force, linear between those measured; beyond them the last.
+fn voltage_of(steady: &[[f64; 2]], force_n: f64) -> f64 {
+    let next = steady.partition_point(|[_, force]| *force < force_n);
+    match (next.checked_sub(1), steady.get(next)) {
+        (Some(before), Some([high_v, high_n])) => {
+            let [low_v, low_n] = steady[before];
+            low_v + (high_v - low_v) * (force_n - low_n) / (high_n - low_n)
+        }
+        (None, _) => 0.0,
+        (_, None) => steady.last().map_or(0.0, |[volt, _]| *volt),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::voltage_of;
+
+    #[test]
+    fn the_voltage_of_a_force_lies_between_those_measured() {
+        let steady = [[0.0, 0.0], [100.0, 0.1], [200.0, 0.5]];
+        let volts = [0.0, 0.05, 0.1, 0.3, 0.5, 9.0].map(|force| voltage_of(&steady, force));
+        assert_eq!(volts, [0.0, 50.0, 100.0, 150.0, 200.0, 200.0]);
+    }
+}

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The force controller in floating point.
+//!
+//! ```text
+//! s = √F_t,   D = curve(s), linear between its points
+//! open           d = D
+//! proportional   d = D + c,         c += α·(K·(F_t − F) − c)          (paper, Fig. 8b: α = 1)
+//! integral       d = D + K·e + c,   c += K_i·e,   e = √F_t − √F       (roots over that of the largest target)
+//! inverse        d = min(√(F_t/G / (k·C²)), D)                        (docs/physics.md §6)
+//! ```
+//!
+//! The drive is held within 0 … rail, then within slew of the pad's last; c is what it leaves of
+//! its other parts.
+
+use hapticore_contract::control::{Control, Drive, Faults, Law, Tuning};
+
+/// An estimate that comes before its frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Prompt {
+    /// Pad number, from 0.
+    pub pad: usize,
+    /// Capacitance with the sheet's resistance at the pad's last place, pF.
+    pub capacitance_pf: f64,
+    /// Its haptic force, N.
+    pub force_n: f64,
+    /// Gain of that force, N/pF² at a haptic mean-square word of one.
+    pub force_gain: f64,
+    /// There is no such capacitance, or a code was at full scale.
+    pub invalid: bool,
+}
+
+#[derive(Debug, Clone, Copy, Default)]
+struct Pad {
+    invalid: u64,
+    drive: f64,
+    correction: f64,
+}
+
+/// The force controller of all pads.
+#[derive(Debug, Clone)]
+pub struct Controller {
+    control: Control,
+    tuning: Tuning,
+    pads: Vec<Pad>,
+    silent: u64,
+    faults: Faults,
+}
+
+impl Controller {
+    /// A controller of so many pads, tuned, with all drives at zero.
+    pub fn new(control: &Control, tuning: &Tuning, pads: usize) -> Self {
+        Controller {
+            control: control.clone(),
+            tuning: tuning.clone(),
+            pads: vec![Pad::default(); pads],
+            silent: 0,
+            faults: Faults::default(),
+        }
+    }
+
+    /// The host is alive.
+    pub fn hear(&mut self) {
+        self.silent = 0;
+    }
+
+    /// Clears all faults.
+    pub fn clear_faults(&mut self) {
+        self.faults = Faults::default();
+    }
+
+    /// The drive of a pad whose force shall be `target_n`.
+    pub fn drive(&mut self, prompt: &Prompt, target_n: f64) -> Drive {
+        let pad = self.pads[prompt.pad];
+        let invalid = if prompt.invalid { pad.invalid + 1 } else { 0 };
+        self.silent += 1;
+        self.faults.silence |= self.silent >= self.control.silent_frames;
+        self.faults.sensor |= invalid >= self.control.invalid_frames;
+        self.faults.force |= !prompt.invalid && prompt.force_n > self.tuning.force_cap;
+        let (base, wanted) = self.wanted(prompt, target_n, pad.correction);
+        let (low, high) = (wanted < 0.0, wanted > self.tuning.rail);
+        let to = match (self.faults.any(), prompt.invalid) {
+            (true, _) => 0.0,
+            (_, true) => pad.drive,
+            _ => wanted.min(self.tuning.rail).max(0.0),
+        };
+        let slew = self.tuning.slew;
+        let drive = to.min(pad.drive + slew).max(pad.drive - slew);
+        self.pads[prompt.pad] = Pad { invalid, drive, correction: drive - base };
+        Drive { pad: prompt.pad, fraction: drive, low, high, faults: self.faults }
+    }
+
+    /// √F over that of the largest target.
+    fn root(&self, newtons: f64) -> f64 {
+        (newtons.max(0.0).sqrt() / self.control.root_full_scale()).min(1.0)
+    }
+
+    fn curve(&self, root: f64) -> f64 {
+        let (curve, cells) = (&self.tuning.curve, self.tuning.curve.len() - 1);
+        let at = root * cells as f64;
+        let cell = (at as usize).min(cells - 1);
+        curve[cell] + (curve[cell + 1] - curve[cell]) * (at - cell as f64)
+    }
+
+    /// What the correction comes on top of, and the drive without limits.
+    fn wanted(&self, prompt: &Prompt, target_n: f64, correction: f64) -> (f64, f64) {
+        let Tuning { proportional, correction: gain, full_drive, .. } = self.tuning;
+        let root = self.root(target_n);
+        let curve = self.curve(root);
+        match self.control.law {
+            Law::Open => (curve, curve),
+            Law::Proportional => {
+                let scaled = proportional * (target_n - prompt.force_n);
+                (curve, curve + correction + gain * (scaled - correction))
+            }
+            Law::Integral => {
+                let error = root - self.root(prompt.force_n);
+                let base = curve + proportional * error;
+                (base, base + correction + gain * error)
+            }
+            Law::Inverse => {
+                let stiffness = prompt.force_gain * prompt.capacitance_pf.powi(2);
+                let inverse = (target_n * full_drive / stiffness).sqrt();
+                (curve, if inverse < curve { inverse } else { curve })
+            }
+        }
+    }
+}

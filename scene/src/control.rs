@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `[control]`: a force controller in the place of the scene's haptic voltages.
+//!
+//! ```toml
+//! [[pad]]
+//! target_n = { timeline = [[0, 0], [0.5, 0], [0.5, 0.6]] }   # the force that the pad shall have
+//!
+//! [control]
+//! law = "inverse"        # open | proportional | integral | inverse
+//! curve = "steady"       # steady: the voltage that gives a force at rest; square-root: V = K·√F, eq. 9
+//! ```
+//!
+//! The plant does not control: it takes the voltages that somebody sets
+//! ([`Plant::set_drive`](crate::Plant::set_drive)). This is what a run is asked to close around it,
+//! in volts and newtons. Source: paper, eq. 9 and Fig. 8; docs/physics.md §6.
+
+use crate::error::SceneError;
+use crate::format::{Limits, Table};
+
+/// How a drive follows from target and measurement.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ControlLaw {
+    /// The curve alone: eq. 9.
+    Open,
+    /// The curve and a filtered multiple of the force's error: Fig. 8b.
+    Proportional,
+    /// The curve, a multiple and an integral of the error of the force's root.
+    Integral,
+    /// The voltage that gives the target at the capacitance just measured, limited by the curve.
+    Inverse,
+}
+
+const LAWS: [(&str, ControlLaw); 4] = [
+    ("open", ControlLaw::Open),
+    ("proportional", ControlLaw::Proportional),
+    ("integral", ControlLaw::Integral),
+    ("inverse", ControlLaw::Inverse),
+];
+
+/// Which voltage goes with a force before anything is measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DriveCurve {
+    /// V = K·√F.
+    SquareRoot,
+    /// The voltage that gives the force at rest under the nominal load.
+    Steady,
+}
+
+const CURVES: [(&str, DriveCurve); 2] =
+    [("square-root", DriveCurve::SquareRoot), ("steady", DriveCurve::Steady)];
+
+/// A force controller as a scene asks for it.
+///
+/// ```
+/// use hapticore_scene::{ControlLaw, Scene};
+///
+/// let text = "title = \"t\"\nduration_s = 1\n[control]\nrail_v = 400\n\
+///             [[pad]]\nposition_mm = [0, 0]\ntarget_n = 0.3\n";
+/// let control = Scene::parse(text, "t.toml", &[])?.cases[0].control.clone().unwrap();
+/// assert_eq!((control.law, control.rail_v, control.feed_forward_v), (ControlLaw::Inverse, 400.0, 600.0));
+/// # Ok::<(), hapticore_scene::SceneError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct ControlPlan {
+    /// How a drive follows from target and measurement.
+    pub law: ControlLaw,
+    /// Which voltage goes with a force.
+    pub curve: DriveCurve,
+    /// The curve is so many times the voltage that it says: with the inverse law, how far beyond it
+    /// the drive may go.
+    pub curve_factor: f64,
+    /// Load at which the steady curve is measured, g.
+    pub nominal_load_g: f64,
+    /// K of eq. 9, V/√N.
+    pub feed_forward_v: f64,
+    /// Gain of the error: V/N with `proportional`, V/√N with `integral`.
+    pub proportional_v: f64,
+    /// α, the share of the correction that a frame takes on.
+    pub filter: f64,
+    /// Integral gain, V/(√N·s).
+    pub integral_v: f64,
+    /// The drive's full scale, V rms.
+    pub full_scale_v: f64,
+    /// The largest drive, V rms.
+    pub rail_v: f64,
+    /// The largest change of a drive from frame to frame, V rms.
+    pub slew_v: f64,
+    /// A measured force beyond it takes every drive to zero, N.
+    pub force_cap_n: f64,
+}
+
+impl ControlPlan {
+    /// The table, where there is one.
+    pub(crate) fn read(root: &Table) -> Result<Option<ControlPlan>, SceneError> {
+        let Some(table) = root.table("control")? else { return Ok(None) };
+        let number = |key, default| table.number_or(key, Limits::above(0.0, 1e6), default);
+        let law = choice(table, "law", &LAWS)?.unwrap_or(ControlLaw::Inverse);
+        let inverse = law == ControlLaw::Inverse;
+        let curve = if inverse { DriveCurve::Steady } else { DriveCurve::SquareRoot };
+        let full_scale_v = number("full_scale_v", 500.0)?;
+        let within = Limits::above(0.0, full_scale_v);
+        Ok(Some(ControlPlan {
+            law,
+            curve: choice(table, "curve", &CURVES)?.unwrap_or(curve),
+            curve_factor: number("curve_factor", if inverse { 1.1 } else { 1.0 })?,
+            nominal_load_g: table.number_or("nominal_load_g", Limits::within(0.0, 1e5), 50.0)?,
+            feed_forward_v: number("feed_forward_v", 600.0)?,
+            proportional_v: table.number_or("proportional_v", Limits::within(0.0, 1e5), 0.0)?,
+            filter: table.number_or("filter", Limits::above(0.0, 1.0), 1.0)?,
+            integral_v: table.number_or("integral_v", Limits::within(0.0, 1e7), 0.0)?,
+            rail_v: table.number_or("rail_v", within, full_scale_v)?,
+            slew_v: table.number_or("slew_v", within, full_scale_v)?,
+            force_cap_n: number("force_cap_n", 1e6)?,
+            full_scale_v,
+        }))
+    }
+}
+
+fn choice<T: Copy>(
+    table: &Table,
+    key: &'static str,
+    words: &[(&'static str, T)],
+) -> Result<Option<T>, SceneError> {
+    let names: Vec<_> = words.iter().map(|(name, _)| *name).collect();
+    let chosen = table.choice(key, &names)?;
+    Ok(chosen.and_then(|chosen| words.iter().find(|(name, _)| *name == chosen)).map(|of| of.1))
+}
