@@ -102,7 +102,12 @@ impl Case {
             .filter_map(|read| read(root, &device).transpose())
             .collect::<Result<_, _>>()?;
         let has = |name| effects.iter().any(|effect| effect.name == name);
-        let has = Tables { gap: has("gap"), finger: has("hand"), split_electrode: has("halves") };
+        let has = Tables {
+            gap: has("gap"),
+            finger: has("hand"),
+            split_electrode: has("halves"),
+            charge: has("charge"),
+        };
         let tables = root.tables("pad")?;
         if tables.is_empty() || tables.len() > MOST_PADS {
             return Err(root.error(

@@ -25,6 +25,8 @@ pub(crate) struct PadPlan {
     eccentricity_mm: Stimulus,
     /// Along x and y; a pad without a finger is not pushed.
     push_n: [Stimulus; 2],
+    /// Its insulators charge, so that a turn of the haptic voltage's polarity changes what pulls it.
+    pub charges: bool,
 }
 
 impl PadPlan {
@@ -55,6 +57,7 @@ impl PadPlan {
         Ok(PadPlan {
             eccentricity_mm,
             push_n: [push("push_x_n")?, push("push_y_n")?],
+            charges: has.charge,
             name: table.text("name")?.unwrap_or_else(|| format!("pad {index}")),
             trajectory: Trajectory::read(table, device)?,
             load_g: stimulus("load_g", Limits::within(0.0, 1e5), 20.0)?,
@@ -208,6 +211,7 @@ pub(crate) struct Tables {
     pub gap: bool,
     pub finger: bool,
     pub split_electrode: bool,
+    pub charge: bool,
 }
 
 /// A pad at rest, for a calibration.
@@ -246,6 +250,9 @@ fn still(
         force_n: None,
         eccentricity_mm: 0.0,
         direction: 0.0,
+        polarity: 0.0,
+        charge: None,
+        stiffness: 1.0,
         push_n: [0.0; 2],
         finger: None,
         friction_n: 0.0,
