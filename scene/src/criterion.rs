@@ -37,7 +37,7 @@ pub enum Measure {
     MaxPercentOfFullScale,
     /// Percent of finished slots whose result is flagged invalid.
     InvalidPercent,
-    /// Largest |estimate − expected|.
+    /// Largest |estimate − expected|; of what the plant alone knows, |truth − expected|.
     MaxOff,
     /// How far from the expected time the estimate jumps: where the mean of a pad's next seven slots
     /// rises most above that of the seven before, by five times its mean change at least.
