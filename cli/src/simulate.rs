@@ -11,7 +11,7 @@ use hapticore_run::case::{Case, Outcome, Settings};
 use hapticore_run::criteria::{self, CaseRows};
 use hapticore_run::record::{Effect, Provenance, Record, Row};
 use hapticore_run::{errors, haptic, inputs};
-use hapticore_scene::{Figure, Quantity, Record as Wanted, Scene, Timing};
+use hapticore_scene::{Figure, HapticWave, Quantity, Record as Wanted, Scene, Timing};
 use hapticore_waveforms::kind::Kind;
 use rayon::prelude::*;
 
@@ -231,7 +231,10 @@ fn haptic_warning(record: &Record, cases: &[Case]) -> Option<String> {
             |row: &Row| row.truth.is_some_and(|truth| truth.quantities.haptic_v_rms > HAPTIC_OFF_V);
         record.rows.iter().any(|row| row.case == case.number && volts(row))
     };
-    let sampled = cases.iter().filter(|case| case.scene.cases[case.index].sampled()).filter(is_on);
+    let is_sine =
+        |case: &&Case| case.scene.cases[case.index].device.haptic_wave == HapticWave::Sine;
+    let sampled = cases.iter().filter(|case| case.scene.cases[case.index].sampled());
+    let sampled = sampled.filter(is_sine).filter(is_on);
     let warning = |case: &Case| {
         let rate = case.device.device.sample_rate_hz;
         haptic::warning(&case.profile, case.scene.cases[case.index].device.haptic_hz, rate)

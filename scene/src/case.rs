@@ -111,6 +111,7 @@ impl Case {
             finger: has("hand"),
             split_electrode: has("halves"),
             control: control.is_some(),
+            charge: has("charge"),
         };
         let tables = root.tables("pad")?;
         if tables.is_empty() || tables.len() > MOST_PADS {

@@ -37,7 +37,7 @@ pub enum Measure {
     MaxPercentOfFullScale,
     /// Percent of finished slots whose result is flagged invalid.
     InvalidPercent,
-    /// Largest |estimate − expected|.
+    /// Largest |estimate − expected|; of what the plant alone knows, |truth − expected|.
     MaxOff,
     /// Root mean square of truth − target, of the force of a pad with a controller.
     RmsOffTarget,

@@ -6,6 +6,8 @@ use std::f64::consts::{PI, TAU};
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
 use crate::terminals::{VOLTAGES, terminals_mm};
+use crate::timing::Timing;
+use crate::wave::HapticWave;
 
 /// Permittivity of free space, F/m.
 pub const EPSILON_0: f64 = 8.854_187_812_8e-12;
@@ -45,6 +47,8 @@ pub struct Device {
     pub carrier_rad_s: f64,
     /// Frequency of the haptic voltage, Hz.
     pub haptic_hz: f64,
+    /// How the haptic voltage goes on in time.
+    pub haptic_wave: HapticWave,
     /// ADC sample rate, Hz: the scene's carrier times the profile's samples per period, rounded.
     pub sample_rate_hz: f64,
     /// Size of the sheet along x, mm.
@@ -64,16 +68,19 @@ pub struct Device {
 }
 
 impl Device {
-    /// The device under a core whose oscillator has so many ADC samples per period: the sample rate
-    /// is the whole multiple of the scene's carrier that is nearest, and the carrier what the
-    /// oscillator makes of it, 101 kHz for 100 kHz at 9.9 samples.
-    pub(crate) fn sampled(self, samples_per_period: f64) -> Self {
+    /// The device under a core: the sample rate is the whole multiple of the scene's carrier that is
+    /// nearest to its oscillator's samples per period, and the carrier what the oscillator makes of
+    /// it, 101 kHz for 100 kHz at 9.9 samples.
+    pub(crate) fn sampled(self, timing: &Timing) -> Self {
+        let samples_per_period = timing.samples_per_period;
         let sample_rate_hz = self.carrier_hz * samples_per_period.round();
         let carrier_hz = sample_rate_hz / samples_per_period;
-        Device { sample_rate_hz, carrier_hz, carrier_rad_s: TAU * carrier_hz, ..self }
+        let haptic_wave = self.haptic_wave.in_slots_of(timing.slot_samples as f64 / sample_rate_hz);
+        let carrier_rad_s = TAU * carrier_hz;
+        Device { sample_rate_hz, carrier_hz, carrier_rad_s, haptic_wave, ..self }
     }
 
-    /// Reads `[device]`, `[carrier]`'s voltages and frequencies and `[sensor]`'s full scales; all
+    /// Reads `[device]`, `[carrier]`'s voltages, frequencies and wave and `[sensor]`'s full scales; all
     /// have defaults.
     pub(crate) fn read(root: &Table) -> Result<Device, SceneError> {
         let number =
@@ -98,6 +105,7 @@ impl Device {
             carrier_hz,
             carrier_rad_s: TAU * carrier_hz,
             haptic_hz: number("carrier", "haptic_hz", Limits::POSITIVE, 1000.0)?,
+            haptic_wave: HapticWave::read(root)?,
             sample_rate_hz: f64::NAN, // the profile's, known when a plant is built
             width_mm: number("device", "width_mm", smallest, 860.0)?,
             height_mm: number("device", "height_mm", smallest, 500.0)?,

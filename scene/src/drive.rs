@@ -122,6 +122,11 @@ impl PadDrive<'_> {
         }
     }
 
+    /// The source's voltage with its polarity: of a sine nothing, which is its mean.
+    pub fn signed_v(&self, moment: Moment) -> f64 {
+        self.device.haptic_wave.polarity(moment) * self.pull(moment).source_v_rms
+    }
+
     fn held_v_rms(&self, moment: Moment) -> Option<f64> {
         self.held?.at(moment)
     }
@@ -129,7 +134,10 @@ impl PadDrive<'_> {
     /// The pad before any effect.
     pub fn pad(&self, moment: Moment) -> Pad {
         let push_n = self.plan.push_n(moment);
-        pad_as_set(self.index, moment.time_s, &self.set(moment), push_n, self.device)
+        Pad {
+            polarity: self.device.haptic_wave.polarity(moment),
+            ..pad_as_set(self.index, moment.time_s, &self.set(moment), push_n, self.device)
+        }
     }
 
     /// The same of an electrode that is loaded more where the push is off the centre.
@@ -137,7 +145,8 @@ impl PadDrive<'_> {
         PadDrive { lean_per_mm, ..self }
     }
 
-    /// When the voltage or what presses the pad next steps or turns.
+    /// When the voltage or what presses the pad next steps or turns; where the pad's insulators
+    /// charge, the polarity too.
     pub fn next_pull_event_s(&self, after_s: f64) -> f64 {
         let scenes_s = || self.plan.next_voltage_event_s(after_s);
         let voltage_s = match self.held {
@@ -145,7 +154,12 @@ impl PadDrive<'_> {
             Some(held) => held.next_event_s(after_s).min(scenes_s()),
             None => scenes_s(),
         };
-        voltage_s.min(self.plan.next_pressure_event_s(after_s, self.point_s))
+        let pressure_s = self.plan.next_pressure_event_s(after_s, self.point_s);
+        let turn_s = match self.plan.charges {
+            true => self.device.haptic_wave.next_turn_s(after_s),
+            false => f64::INFINITY,
+        };
+        voltage_s.min(pressure_s).min(turn_s)
     }
 
     /// When anything next steps or turns. A line that turns more often than every `least_s` is one

@@ -23,6 +23,7 @@ const SCENES: &[(&str, &str)] = &[
     ("minimal-gap", include_str!("../gallery/minimal-gap.toml")),
     ("minimal-halves", include_str!("../gallery/minimal-halves.toml")),
     ("minimal-supply", include_str!("../gallery/minimal-supply.toml")),
+    ("minimal-charge", include_str!("../gallery/minimal-charge.toml")),
 ];
 
 /// All bundled scenes: name and TOML text.

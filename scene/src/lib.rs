@@ -89,6 +89,7 @@ mod timing;
 mod trajectory;
 mod truth;
 mod variant;
+mod wave;
 
 pub use budget::LevelDeviation;
 pub use case::Case;
@@ -107,3 +108,4 @@ pub use scene::{Figure, Record, Scene};
 pub use terminals::{LEAST_TERMINALS, MOST_TERMINALS};
 pub use timing::Timing;
 pub use truth::{ForcePoint, MapPoint, PadMeasurement, Setpoint, Truth};
+pub use wave::HapticWave;

@@ -27,6 +27,8 @@ pub(crate) struct PadPlan {
     target_n: Stimulus,
     /// Along x and y; a pad without a finger is not pushed.
     push_n: [Stimulus; 2],
+    /// Its insulators charge, so that a turn of the haptic voltage's polarity changes what pulls it.
+    pub charges: bool,
 }
 
 impl PadPlan {
@@ -59,6 +61,7 @@ impl PadPlan {
             eccentricity_mm,
             target_n,
             push_n: [push("push_x_n")?, push("push_y_n")?],
+            charges: has.charge,
             name: table.text("name")?.unwrap_or_else(|| format!("pad {index}")),
             trajectory: Trajectory::read(table, device)?,
             load_g: stimulus("load_g", Limits::within(0.0, 1e5), 20.0)?,
@@ -250,6 +253,7 @@ pub(crate) struct Tables {
     pub finger: bool,
     pub split_electrode: bool,
     pub control: bool,
+    pub charge: bool,
 }
 
 /// A pad at rest, for a calibration.
@@ -288,6 +292,9 @@ fn still(
         force_n: None,
         eccentricity_mm: 0.0,
         direction: 0.0,
+        polarity: 0.0,
+        charge: None,
+        stiffness: 1.0,
         push_n: [0.0; 2],
         finger: None,
         friction_n: 0.0,

@@ -104,7 +104,7 @@ impl Plant {
         timing: &Timing,
     ) -> Result<Plant, SceneError> {
         timing.check().map_err(|message| SceneError::new(Place::File, "profile", message))?;
-        let device = case.device.clone().sampled(timing.samples_per_period);
+        let device = case.device.clone().sampled(timing);
         let setting = Setting { device: &device, timing, seed, case: index };
         let effects = Effects::build(&case.effects, &setting);
         let now = (None, resting([0.0; 2], 0.0, 0.0, &device));

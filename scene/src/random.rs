@@ -14,6 +14,7 @@ pub(crate) enum Origin {
     Adc,
     Amplifier,
     Dither,
+    Panel,
 }
 
 /// What a stream is for.

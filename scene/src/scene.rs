@@ -24,10 +24,16 @@
 //! [device]                        # width_mm, height_mm, pad_diameter_mm, mu, gravity_m_s2
 //! [sheet]                         # effects, each with its `rung`; see `effects`
 //! [supply]
+//! [charge]
 //! [gap]
 //! [halves]
 //! [hand]
+//! [release]
 //! [friction]
+//! [temperature]
+//! [shunt]
+//! [coupling]
+//! [switching]
 //! [carrier]
 //! [sensor]
 //!

@@ -14,7 +14,7 @@ const PADS: &str = "dwell_slots = 6\n[[pad]]\nposition_mm = [120, -60]\nhaptic_v
 
 /// A scene with all effects that have no state: a slot can then be asked for in any order.
 fn all_without_state() -> String {
-    let states = ["gap", "halves", "hand", "friction"];
+    let states = ["charge", "temperature.spring", "gap", "halves", "hand", "release", "friction"];
     scene_of(&PARTS.iter().filter(|part| !states.contains(&part.name)).collect::<Vec<_>>())
 }
 

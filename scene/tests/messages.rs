@@ -71,9 +71,9 @@ fn unknown_level() {
 fn unknown_effect() {
     let magnet = format!("{SCENE}[magnet]\nrung = \"a\"");
     assert!(message(&magnet, &[]).starts_with("s.toml:4: magnet: unknown key, expected one of "));
-    assert!(
-        message(&magnet, &[]).contains("\"supply\", \"gap\", \"halves\", \"hand\", \"friction\"")
-    );
+    assert!(message(&magnet, &[]).contains(
+        "\"supply\", \"charge\", \"temperature\", \"gap\", \"halves\", \"hand\", \"release\""
+    ));
 }
 
 #[test]
@@ -453,4 +453,95 @@ fn too_many_pads_for_the_profile() {
     };
     let error = Plant::new(&scene, 0, &timing).map(|_| ()).unwrap_err().to_string();
     assert_eq!(error, "s: pad: expected at most 1 pads, as profile standard serves, got 2");
+}
+
+#[test]
+fn charge_and_waves_that_cannot_be() {
+    check(
+        "[charge]\ntime_constant_s = 3",
+        "s.toml:4: charge.share: expected a number from -10 to 0.99, but it is missing",
+    );
+    check(
+        "[charge]\nshare = 0.3",
+        "s.toml:4: charge.time_constant_s: expected a number above 0 and at most 1000000, but it is missing",
+    );
+    check(
+        "[charge]\nshare = 1.5\ntime_constant_s = 3",
+        "s.toml:5: charge.share: expected a number from -10 to 0.99, got 1.5",
+    );
+    check(
+        "[charge]\nshare = [0.5, 0.6]\ntime_constant_s = [3, 4]",
+        "s.toml:5: charge.share: expected at most 4 shares that add up to 0.99 at most, got [0.5, 0.6]",
+    );
+    check(
+        "[charge]\nshare = [0.1, 0.2]\ntime_constant_s = 3",
+        "s.toml:6: charge.time_constant_s: expected 2, one for each share, got 1",
+    );
+    check(
+        "[carrier]\nhaptic_wave = \"saw\"",
+        "s.toml:5: carrier.haptic_wave: expected one of \"sine\", \"dc\", \"square\", got \"saw\"",
+    );
+    check(
+        "[carrier]\nhaptic_turn_s = 0.1",
+        "s.toml:5: carrier.haptic_turn_s: expected haptic_wave = \"square\" too",
+    );
+    let square = "[carrier]\nhaptic_wave = \"square\"\n";
+    check(
+        &format!("{square}[sensor]\nhaptic_leakage = true"),
+        "s.toml:7: sensor.haptic_leakage: expected carrier.haptic_wave = \"sine\" with it, whose current alone is known here, got \"square\"",
+    );
+    check(
+        &format!("{square}[gap]\ndrive = \"sine\""),
+        "s.toml:7: gap.drive: expected \"rms\" where carrier.haptic_wave is no sine, got \"square\"",
+    );
+    check(
+        &format!("{square}[supply]\ntransformer_h = 1"),
+        "s.toml:7: supply.transformer_h: expected 0 with carrier.haptic_wave = \"square\"",
+    );
+}
+
+#[test]
+fn release_drift_springs_and_panel_noise_that_cannot_be() {
+    check("[release]", "s.toml:4: release: expected [friction] too");
+    check(
+        "[friction]\n[release]\ntime_constant_ms = 0",
+        "s.toml:6: release.time_constant_ms: expected a number above 0 and at most 1000000, got 0",
+    );
+    check(
+        "[friction]\ndrift = { sweep = [1, 2] }",
+        "s.toml:5: friction.drift: expected a factor over time, not a sweep",
+    );
+    check(
+        "[friction]\ndrift = { timeline = [[0, 1], [1, -1]] }",
+        "s.toml:5: friction.drift.timeline: expected a number from 0 to 100, got -1",
+    );
+    check(
+        "[temperature]\nspring_percent_per_k = 1",
+        "s.toml:5: temperature.spring_percent_per_k: expected a [gap] too",
+    );
+    check(
+        "[gap]\n[temperature]\nspring_percent_per_k = -5\nrise_k = 40",
+        "s.toml:6: temperature.spring_percent_per_k: expected springs that lose at most 0.9 of themselves, got 2",
+    );
+    check(
+        "[gap]\n[temperature]\nspring_percent_per_k = 1\ngradient_k = [1, 0]",
+        "s.toml:7: temperature.gradient_k: unknown key",
+    );
+    check(
+        "[gap]\nrung = \"semi-implicit\"\n[temperature]\nspring_percent_per_k = 10\nrise_k = 40",
+        "s.toml:5: gap.rung: expected rubber of at most 2.0e9 Pa/m",
+    );
+    let shunt = "[sheet]\n[shunt]\nnanofarad_per_m2 = 9\n";
+    check(
+        &format!("{shunt}panel_noise_mv = -1"),
+        "s.toml:7: shunt.panel_noise_mv: expected a number from 0 to 100000, got -1",
+    );
+    check(
+        &format!("{shunt}panel_noise_khz = 1"),
+        "s.toml:7: shunt.panel_noise_khz: expected panel_noise_mv too",
+    );
+    check(
+        &format!("{shunt}panel_noise_mv = 1\npanel_noise_khz = 20"),
+        "s.toml:8: shunt.panel_noise_khz: expected at most 10, a tenth of the carrier's frequency, got 20",
+    );
 }

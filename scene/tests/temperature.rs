@@ -197,3 +197,70 @@ fn what_cannot_be_is_refused_with_its_key() {
         "expected a film that changes by at most 0.9 of itself, got",
     );
 }
+
+/// Relaxed rubber of so many Pa/m under 50 g at 300 V.
+const GAP: &str = "[[pad]]\nposition_mm = [0, 0]\nload_g = 50\nhaptic_v_rms = 300\n[friction]\nrung = \"coulomb\"\n[gap]\n";
+
+/// docs/physics.md §3: κ − 5 % is + 0.064 N and + 55 pF at 50 g and 300 V.
+#[test]
+fn softer_rubber_closes_the_gap() {
+    let see = |spring: &str| plant(&format!("{GAP}{spring}")).truth(0);
+    let nominal = see("");
+    let soft = see("[temperature]\nspring_percent_per_k = -0.5\nrise_k = 10\n");
+    let (more_n, more_pf) =
+        (soft.force_n - nominal.force_n, soft.capacitance_pf - nominal.capacitance_pf);
+    println!("+{more_n:.4} N, +{more_pf:.1} pF");
+    assert!((more_n - 0.064).abs() < 0.002 && (more_pf - 55.0).abs() < 2.0);
+}
+
+#[test]
+fn warm_rubber_is_rubber_of_another_spring_at_every_level() {
+    for rung in
+        ["static", "hysteresis", "quasi-static", "semi-implicit", "implicit-euler", "tr-bdf2"]
+    {
+        let see = |keys: &str| {
+            let mut plant = plant(&format!("duration_s = 0.05\n{GAP}rung = \"{rung}\"\n{keys}"));
+            (0..plant.slots()).map(|slot| plant.truth(slot)).collect::<Vec<_>>()
+        };
+        let [cold, warm, stiff] = [
+            "",
+            "[temperature]\nspring_percent_per_k = 0.5\nrise_k = 20\n",
+            "spring_pa_per_m = 5.5e8\n",
+        ]
+        .map(see);
+        let off = |a: &[Truth], b: &[Truth]| {
+            let off = |(a, b): (&Truth, &Truth)| (a.capacitance_pf / b.capacitance_pf - 1.0).abs();
+            a.iter().zip(b).map(off).fold(0.0, f64::max)
+        };
+        assert!(off(&warm, &stiff) < 1e-9, "{rung}: {:e}", off(&warm, &stiff));
+        assert!(off(&warm, &cold) > 1e-3, "{rung}: {:e}", off(&warm, &cold));
+    }
+}
+
+#[test]
+fn rubber_that_warms_up_is_where_rubber_of_that_warmth_is() {
+    let warming =
+        "[temperature]\nspring_percent_per_k = 0.5\nrise_k = { timeline = [[0, 0], [0.2, 20]] }\n";
+    let mut moving = plant(&format!("duration_s = 0.2\n{GAP}{warming}"));
+    for slot in (0..moving.slots()).step_by(40) {
+        let truth = moving.truth(slot);
+        let spring = 5e8 * (1.0 + 0.005 * 100.0 * truth.time_s);
+        let still = plant(&format!("{GAP}spring_pa_per_m = {spring}\n")).truth(0);
+        assert!((truth.capacitance_pf / still.capacitance_pf - 1.0).abs() < 1e-9);
+    }
+    let dynamic = |us: u32| {
+        let text = format!("duration_s = 0.2\n{GAP}rung = \"tr-bdf2\"\nstep_us = {us}\n{warming}");
+        let mut plant = plant(&text);
+        plant.truth(plant.slots() - 1).capacitance_pf
+    };
+    assert!((dynamic(100) / dynamic(10) - 1.0).abs() < 1e-4);
+}
+
+#[test]
+fn a_calibration_is_of_rubber_before_it_warmed_up() {
+    let points = |keys: &str| {
+        plant(&format!("{GAP}{keys}")).friction_calibration(&[20.0, 100.0], &[0.0, 300.0])
+    };
+    let warm = "[temperature]\nspring_percent_per_k = 0.5\nrise_k = 20\n";
+    assert_eq!(points(warm), points(""));
+}

@@ -198,13 +198,21 @@ fn timeline(steps: &[[f64; 2]]) -> String {
 }
 
 /// Effects with a state, each at a level and a step of its own.
-const STATES: [&str; 6] = [
+const STATES: [&str; 10] = [
     "[gap]\nrung = \"tr-bdf2\"\n",
     "[gap]\nrung = \"quasi-static\"\nstep_us = 700\n[supply]\n",
     "[gap]\nrung = \"trapezoid\"\nstep_us = 130\n[halves]\n",
     "[gap]\nrung = \"semi-implicit\"\n[friction]\nrung = \"stiction\"\n",
     "[gap]\nrung = \"tr-bdf2\"\nstep_us = 200\n[friction]\nrung = \"dahl\"\nstep_us = 30\n[hand]\n",
     "[supply]\n[gap]\nrung = \"implicit-euler\"\n[halves]\n[friction]\nstep_us = 170\n[hand]\n",
+    "[charge]\nshare = 0.4\ntime_constant_s = 0.02\n[carrier]\nhaptic_wave = \"dc\"\n\
+     [friction]\nrung = \"coulomb\"\ndrift = { timeline = [[0, 1], [0.06, 1.4]] }\n[release]\n",
+    "[charge]\nshare = -0.3\ntime_constant_s = 0.05\n[carrier]\nhaptic_wave = \"dc\"\n[gap]\nrung = \"hysteresis\"\n",
+    "[charge]\nshare = [0.3, -0.2]\ntime_constant_s = [0.01, 0.1]\nstart_v = [50, -20]\n[supply]\n\
+     [gap]\nrung = \"tr-bdf2\"\n[friction]\nrung = \"dahl\"\n[hand]\n[release]\nstep_us = 70\n",
+    "[charge]\nshare = 0.3\ntime_constant_s = 0.01\n[carrier]\nhaptic_wave = \"square\"\nhaptic_turn_s = 0.0031\n\
+     [supply]\n[gap]\nrung = \"trapezoid\"\nstep_us = 130\n[halves]\n[friction]\n[hand]\n[release]\n\
+     [temperature]\nspring_percent_per_k = -0.5\nrise_k = { timeline = [[0, 0], [0.1, 20]] }\n",
 ];
 
 /// What a state is, to the bit.
@@ -268,13 +276,9 @@ fn a_drive_that_is_set_has_the_bits_of_the_same_steps_in_the_scene() {
     let mut draw = Draw(3);
     for (n, effects) in STATES.into_iter().enumerate() {
         let steps = draw.steps(0.14);
-        let text = |volt: &str| {
-            format!(
-                "duration_s = 0.15\n{}{}{effects}",
-                pads(volt, 1),
-                "[carrier]\nhaptic_hz = 200\n"
-            )
-        };
+        let carrier =
+            if effects.contains("[carrier]") { "" } else { "[carrier]\nhaptic_hz = 200\n" };
+        let text = |volt: &str| format!("duration_s = 0.15\n{}{carrier}{effects}", pads(volt, 1));
         let scenes = truths(&text(&timeline(&steps)));
         let mut plant = plant(&text("123"));
         let mut left = steps.iter().peekable();

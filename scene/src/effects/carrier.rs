@@ -4,7 +4,7 @@
 //!   I_i = w_i·jωC/(1 + jωC·R_p)·V      (eqs. 1 and 4; w_i is the share of terminal i)
 //!
 //! The sensing voltage is V·cos ωt with t = 0 at each slot's first sample; the haptic voltage is
-//! √2·V_h·sin ω_h·t with t since the start of the case.
+//! √2·V_h·sin ω_h·t with t since the start of the case, or V_h with the polarity of its `wave`.
 //!
 //! | level | what the `float` and `fixed` cores are given | error |
 //! | --- | --- | --- |
@@ -23,7 +23,9 @@ use crate::device::Device;
 use crate::error::SceneError;
 use crate::format::Table;
 use crate::rotor::Rotor;
+use crate::stimulus::Moment;
 use crate::terminals::MOST_CHANNELS;
+use crate::wave::HapticWave;
 
 /// The effect's name.
 pub(crate) const CARRIER: &str = "carrier";
@@ -54,6 +56,17 @@ impl Carrier {
             device: setting.device.clone(),
             turns_per_sample: 1.0 / setting.timing.samples_per_period,
         }
+    }
+
+    /// Samples of a haptic voltage that is no sine.
+    fn set_haptic(&self, pad: &Pad, run: &Run, samples: &mut [f64]) {
+        let volt = pad.haptic_v_rms / self.device.haptic_full_scale_v;
+        let mut sample = run.slot_start + run.range.start as u64;
+        run.rows(samples, |row| {
+            let moment = Moment::at(sample as f64 / self.device.sample_rate_hz);
+            row[row.len() - 1] = volt * self.device.haptic_wave.polarity(moment);
+            sample += 1;
+        });
     }
 
     /// Of the terminals' currents, then of the sensing voltage.
@@ -93,5 +106,8 @@ impl ChannelEffect for Carrier {
             }
             row[row.len() - 1] = haptic * slow.turn().im;
         });
+        if self.device.haptic_wave != HapticWave::Sine {
+            self.set_haptic(pad, run, samples);
+        }
     }
 }

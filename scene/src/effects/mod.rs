@@ -9,6 +9,7 @@
 //! the plant holds nothing of it. To add an effect: one file with a `read`, one line in the list.
 
 pub(crate) mod carrier;
+mod charge;
 pub(crate) mod coupling;
 mod effect;
 mod finger;
@@ -16,6 +17,7 @@ mod friction;
 mod gap;
 pub(crate) mod pad;
 pub(crate) mod recorded;
+mod release;
 mod running;
 mod sensor;
 pub(crate) mod sheet;
@@ -40,9 +42,12 @@ use crate::format::Table;
 /// Every effect, in the order in which they act.
 pub(crate) const EFFECTS: &[Reader] = &[
     supply::read,
+    charge::read,
+    temperature::read_spring,
     gap::read,
     split_electrode::read,
     finger::read,
+    release::read,
     friction::read,
     temperature::read,
     sheet::read,
@@ -53,6 +58,7 @@ pub(crate) const EFFECTS: &[Reader] = &[
     carrier::read,
     switching::read,
     sensor::leakage::read,
+    shunt::panel::read,
     sensor::bandwidth::read,
     sensor::jitter::read,
     sensor::crosstalk::read,
@@ -83,7 +89,8 @@ pub(crate) const FILM_AND_CURRENTS: [&str; 7] = [
 pub(crate) const JOINING: [&str; 2] = ["coupling", "sensor.others"];
 
 /// Those that differ from one realisation to the next: an error of a level leaves them out.
-pub(crate) const RANDOM: [&str; 3] = ["sensor.noise", "sensor.noise_density", "sensor.jitter"];
+pub(crate) const RANDOM: [&str; 4] =
+    ["sensor.noise", "sensor.noise_density", "sensor.jitter", shunt::panel::PANEL_NOISE];
 
 /// Reads an effect's table; `None` where the scene leaves the effect out.
 pub(crate) type Reader = fn(&Table, &Device) -> Result<Option<Spec>, SceneError>;

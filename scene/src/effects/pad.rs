@@ -5,6 +5,7 @@ use num_complex::Complex64;
 
 use crate::device::Device;
 use crate::terminals::PerTerminal;
+use crate::wave::HapticWave;
 
 /// A pad in one slot, as far as the effects have got.
 #[derive(Clone, Debug)]
@@ -28,6 +29,12 @@ pub(crate) struct Pad {
     pub attraction_n: f64,
     /// Haptic force, N, where an effect says it; else eq. 8 with the true capacitance and voltage.
     pub force_n: Option<f64>,
+    /// Polarity of the haptic voltage: 1, −1, or 0 for a sine.
+    pub polarity: f64,
+    /// What charge in the insulators does to the attraction, where an effect says it.
+    pub charge: Option<Charge>,
+    /// How stiff the rubber is, by how stiff it was when the device was calibrated.
+    pub stiffness: f64,
     /// How far along x the push is off the pad's centre.
     pub eccentricity_mm: f64,
     /// Eq. 10, where an effect says it.
@@ -79,9 +86,16 @@ impl Pad {
             .map_or(self.source_v_rms, |supply| self.source_v_rms * supply.share(capacitance_f))
     }
 
+    /// What pulls the pad under a haptic voltage: the voltage itself, or what charge leaves of it.
+    #[inline]
+    pub fn pulling_v(&self, haptic_v_rms: f64) -> f64 {
+        self.charge.map_or(haptic_v_rms, |charge| charge.square_under(haptic_v_rms).sqrt())
+    }
+
     /// The haptic force as an effect says, or else by eq. 8.
     pub fn haptic_force_n(&self, device: &Device) -> f64 {
-        self.force_n.unwrap_or(device.force_k * (self.capacitance_f * self.haptic_v_rms).powi(2))
+        let volt = self.pulling_v(self.haptic_v_rms);
+        self.force_n.unwrap_or(device.force_k * (self.capacitance_f * volt).powi(2))
     }
 
     /// jωC/(1 + jωC·R_p): the pad's capacitance in series with the sheet, S.
@@ -115,6 +129,32 @@ impl Pad {
     }
 }
 
+/// A voltage V_c that charge in the insulators holds against the haptic voltage.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Charge {
+    pub volt: f64,
+    /// How it has been rising up to now, V/s.
+    pub volt_per_s: f64,
+    /// Polarity of the haptic voltage, as a pad has it.
+    pub polarity: f64,
+}
+
+impl Charge {
+    /// (V − V_c)²; of a sine its mean, V² + V_c².
+    pub fn square_under(self, haptic_v_rms: f64) -> f64 {
+        let Charge { volt, polarity, .. } = self;
+        match polarity {
+            0.0 => haptic_v_rms.powi(2) + volt.powi(2),
+            polarity => (polarity * haptic_v_rms - volt).powi(2),
+        }
+    }
+
+    /// What it was a short time ago, since when nothing has stepped.
+    pub fn ago(self, ago_s: f64) -> Charge {
+        Charge { volt: self.volt - ago_s * self.volt_per_s, ..self }
+    }
+}
+
 /// The impedance between source and pad at the haptic frequency.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Supply {
@@ -122,11 +162,24 @@ pub(crate) struct Supply {
     pub transformer_h: f64,
     pub parasitic_f: f64,
     pub rad_s: f64,
+    pub wave: HapticWave,
 }
 
 impl Supply {
     /// V_h/V_source.
     pub fn share(&self, capacitance_f: f64) -> f64 {
+        match self.wave {
+            HapticWave::Sine => self.share_of_sine(capacitance_f),
+            HapticWave::Dc => 1.0,
+            HapticWave::Square { turn_s } => {
+                let tau_s = self.limiting_ohm * (capacitance_f + self.parasitic_f);
+                let lost = tau_s / turn_s.unwrap_or(f64::INFINITY);
+                (1.0 - 2.0 * lost * (0.5 / lost).tanh()).sqrt()
+            }
+        }
+    }
+
+    fn share_of_sine(&self, capacitance_f: f64) -> f64 {
         let impedance = Complex64::new(self.limiting_ohm, self.rad_s * self.transformer_h);
         let admittance = Complex64::new(0.0, self.rad_s * (capacitance_f + self.parasitic_f));
         1.0 / (1.0 + impedance * admittance).norm()

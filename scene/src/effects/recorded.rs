@@ -6,7 +6,7 @@
 use std::sync::{Arc, Mutex};
 
 use super::effect::{Effect, PadEffect, PadsEffect};
-use super::pad::Pad;
+use super::pad::{Charge, Pad};
 use super::sheet::ideal::ideal_split;
 use super::spec::Spec;
 use crate::device::Device;
@@ -19,6 +19,7 @@ struct State {
     haptic_v_rms: f64,
     capacitance_f: f64,
     attraction_n: f64,
+    charge: Option<Charge>,
     force_n: Option<f64>,
     direction: f64,
     friction_n: f64,
@@ -63,6 +64,7 @@ impl PadEffect for Recorder {
             haptic_v_rms: pad.haptic_v_rms,
             capacitance_f: pad.capacitance_f,
             attraction_n: pad.attraction_n,
+            charge: pad.charge,
             force_n: pad.force_n,
             direction: pad.direction,
             friction_n: pad.friction_n,
@@ -109,6 +111,7 @@ impl PadEffect for Player {
         pad.haptic_v_rms = state.haptic_v_rms;
         pad.capacitance_f = state.capacitance_f;
         pad.attraction_n = state.attraction_n;
+        pad.charge = state.charge;
         pad.force_n = state.force_n;
         pad.direction = state.direction;
         pad.friction_n = state.friction_n;

@@ -14,6 +14,7 @@ use super::effect::{Effect, PadEffect};
 use super::gap;
 use super::pad::Pad;
 use super::spec::{Level, Setting, Spec};
+use super::tick::Tick;
 use crate::device::Device;
 use crate::drive::PadDrive;
 use crate::error::SceneError;
@@ -51,7 +52,7 @@ impl SplitElectrode {
     /// Lets `act` see the gap of each electrode, the electrode, and by what share of itself its
     /// load is more for each millimetre of eccentricity.
     fn for_both(&mut self, pad: &mut Pad, act: impl Fn(&mut dyn PadEffect, &mut Pad, f64)) {
-        let leans_per_mm = [-1.0, 1.0].map(|side| side / self.centre_mm);
+        let leans_per_mm = self.leans_per_mm();
         let mut electrodes = leans_per_mm.map(|lean_per_mm| {
             let load_g = pad.load_g * (1.0 + lean_per_mm * pad.eccentricity_mm);
             Pad { load_g, ..pad.clone() }
@@ -63,6 +64,10 @@ impl SplitElectrode {
             }
         }
         self.combine(pad, &electrodes);
+    }
+
+    fn leans_per_mm(&self) -> [f64; 2] {
+        [-1.0, 1.0].map(|side| side / self.centre_mm)
     }
 
     fn combine(&self, pad: &mut Pad, [left, right]: &[Pad; 2]) {
@@ -84,5 +89,22 @@ impl PadEffect for SplitElectrode {
         self.for_both(pad, |gap, electrode, lean_per_mm| {
             gap.follow(electrode, &drive.leaning(lean_per_mm));
         });
+    }
+
+    /// Both gaps keep their states at the same times.
+    fn due(&self, pad: &Pad, drive: &PadDrive) -> Option<Tick> {
+        match &self.gaps[0] {
+            Effect::Pad(gap) => gap.due(pad, drive),
+            _ => None,
+        }
+    }
+
+    fn keep(&mut self, pad: &Pad, tick: Tick, drive: &PadDrive) {
+        let leans_per_mm = self.leans_per_mm();
+        for (gap, lean_per_mm) in self.gaps.iter_mut().zip(leans_per_mm) {
+            if let Effect::Pad(gap) = gap {
+                gap.keep(pad, tick, &drive.leaning(lean_per_mm));
+            }
+        }
     }
 }

@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `[temperature]`: the sheet's film is warmer than it was when the device was calibrated, and
-//! resists more, or less.
+//! `[temperature]`: the sheet's film and the pads' rubber are warmer than they were when the device
+//! was calibrated: the film resists more, or less, and the rubber is stiffer, or softer.
 //!
 //!   R_s(x, y) = R_s·[1 + α·(ΔT + g_x·x/width + g_y·y/height)]      (x and y from the sheet's middle)
+//!   κ = κ·(1 + β·ΔT), k₁ likewise
 //!
 //! ```toml
 //! [temperature]
 //! tempco_ppm_per_k = 400          # α
 //! rise_k = 15                     # ΔT in the middle, or over time, as a pad's load; see `stimulus`
 //! gradient_k = [4, 0]             # g: from the left edge to the right one, from the bottom to the top
+//! spring_percent_per_k = 0.34     # β, of the springs in [gap]
 //! step_k = 0.05                   # of ΔT, where it moves: what is computed from the sheet is renewed so often
 //! ```
+//!
+//! Either α or β is there, or both; an effect that is not named is not there.
 //!
 //! Split, R_p, shunt and coupling follow, and so does the truth; calibrations and what the host
 //! knows are of the film without the rise. Resistances in series with the terminals stay as they
@@ -23,6 +27,10 @@
 //! K and 250 K, less the more oxygen there was (I. Prasaja, thesis, Universitas Indonesia, 1999);
 //! thermometers of ITO on alumina have −2313 ppm/K from room temperature to 400 °C (Wang, Zhang and
 //! Ding, IEEE INEC 2016).
+//!
+//! β has no default either. An ideal rubber's is 0.34 %/K at 20 °C, since its stiffness goes with the
+//! absolute temperature (Treloar, The Physics of Rubber Elasticity, 1975); filled ones soften as they
+//! warm. The gap follows ΔT itself, not its steps, and pads are as warm as the sheet's middle.
 //!
 //! A step of ΔT is a step of α·`step_k` in R_s, 20 ppm at 400 ppm/K: the film deviates by at most
 //! half of that. With a gradient the film is not uniform, so that `[sheet]` needs a level of a
@@ -39,8 +47,27 @@ use crate::stimulus::{Moment, Stimulus};
 /// The most that a film may change, as a share of its resistance: what is left is positive.
 const MOST_CHANGE: f64 = 0.9;
 
+/// Reads what becomes of the rubber.
+pub(super) fn read_spring(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
+    let Some(spring) = Spring::read(root)? else { return Ok(None) };
+    let label = format!("{} %/K", 100.0 * spring.per_k);
+    Ok(Spec::new("temperature.spring", label, move |_| Effect::Pad(Box::new(spring.clone()))))
+}
+
+/// How stiff the rubber gets, by how stiff it is at the calibration; none where its temperature does
+/// nothing.
+pub(super) fn stiffest(root: &Table) -> Result<Option<f64>, SceneError> {
+    let stiffness = |spring: Spring| spring.stiffness().into_iter().fold(1.0, f64::max);
+    Ok(Spring::read(root)?.map(stiffness))
+}
+
+/// Reads what becomes of the film.
 pub(super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
     let Some(table) = root.table("temperature")? else { return Ok(None) };
+    let of_rubber = table.get("spring_percent_per_k").is_some();
+    if of_rubber && table.get("tempco_ppm_per_k").is_none() {
+        return Ok(None);
+    }
     let Some(sheet) = root.table("sheet")? else {
         return Err(table
             .error("", "expected a [sheet] too, since its film is what the temperature changes"));
@@ -56,6 +83,63 @@ pub(super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError>
     }
     let label = temperature.label();
     Ok(Spec::new("temperature", label, move |_| Effect::Pad(Box::new(temperature.clone()))))
+}
+
+/// ΔT in the middle.
+fn read_rise(table: &Table) -> Result<Stimulus, SceneError> {
+    let rise_k = Stimulus::read(table, "rise_k", Limits::within(-1e3, 1e3))?
+        .unwrap_or(Stimulus::Constant(0.0));
+    match rise_k.points() {
+        1 => Ok(rise_k),
+        _ => Err(table.error(
+            "rise_k",
+            "expected a temperature over time, not a sweep; a case can set another",
+        )),
+    }
+}
+
+/// The rubber's temperature above that of the calibration, and what it does.
+#[derive(Clone, Debug)]
+struct Spring {
+    per_k: f64,
+    rise_k: Stimulus,
+}
+
+impl Spring {
+    fn read(root: &Table) -> Result<Option<Spring>, SceneError> {
+        let Some(table) = root.table("temperature")? else { return Ok(None) };
+        let percent = table.number("spring_percent_per_k", Limits::within(-100.0, 100.0))?;
+        let Some(percent) = percent else { return Ok(None) };
+        if root.table("gap")?.is_none() {
+            let message =
+                "expected a [gap] too, since its springs are what the temperature changes";
+            return Err(table.error("spring_percent_per_k", message));
+        }
+        let spring = Spring { per_k: 0.01 * percent, rise_k: read_rise(table)? };
+        match spring.stiffness().into_iter().find(|stiffness| *stiffness < 1.0 - MOST_CHANGE) {
+            None => Ok(Some(spring)),
+            Some(stiffness) => {
+                let expected =
+                    format!("expected springs that lose at most {MOST_CHANGE} of themselves");
+                let lost = 1.0 - stiffness;
+                Err(table.error("spring_percent_per_k", format!("{expected}, got {lost}")))
+            }
+        }
+    }
+
+    /// Values between which the stiffness lies.
+    fn stiffness(&self) -> Vec<f64> {
+        self.rise_k.extremes().into_iter().map(|rise_k| 1.0 + self.per_k * rise_k).collect()
+    }
+}
+
+impl PadEffect for Spring {
+    fn act(&mut self, pad: &mut Pad) {
+        pad.stiffness *= 1.0 + self.per_k * self.rise_k.at(0, Moment::at(pad.time_s));
+    }
+
+    /// A calibration is of the rubber as the scene describes it.
+    fn settle(&mut self, _: &mut Pad) {}
 }
 
 /// The film's temperature above that of the calibration.
@@ -75,20 +159,13 @@ impl Temperature {
             &ppm.to_string(),
             table.number("tempco_ppm_per_k", ppm)?,
         )?;
-        let rise_k = Stimulus::read(table, "rise_k", Limits::within(-1e3, 1e3))?
-            .unwrap_or(Stimulus::Constant(0.0));
+        let rise_k = read_rise(table)?;
         let temperature = Temperature {
             per_k: 1e-6 * tempco,
             gradient_k: table.pair("gradient_k", Limits::within(-1e3, 1e3))?.unwrap_or_default(),
             step_k: table.number_or("step_k", Limits::above(0.0, 100.0), 0.05)?,
             rise_k,
         };
-        if temperature.rise_k.points() > 1 {
-            return Err(table.error(
-                "rise_k",
-                "expected a temperature over time, not a sweep; a case can set another",
-            ));
-        }
         let change = temperature.largest_change();
         match change <= MOST_CHANGE {
             true => Ok(temperature),

@@ -17,8 +17,12 @@ pub enum Estimate {
     Eq6,
 }
 
-/// The estimate of a quantity; not a number where there is none.
+/// The estimate of a quantity; not a number where there is none. What the plant alone knows is not
+/// estimated: it is the truth.
 pub fn estimated(row: &Row, of: Quantity, estimate: Estimate) -> f64 {
+    if let (Quantity::LoadG | Quantity::FrictionN, Some(truth)) = (of, row.truth) {
+        return if of == Quantity::LoadG { truth.load_g } else { truth.friction_n };
+    }
     match (estimate, row.reference) {
         (Estimate::Core, _) => quantity(&row.measured, of),
         (Estimate::Reference, Some(reference)) => quantity(&reference.quantities, of),

@@ -203,7 +203,7 @@ impl Controller {
         let (square, target, drive) =
             (self.profile.formats.square, self.control.target, self.control.drive);
         let stiffness = Format::unsigned(square.width, square.width as i8 - 4);
-        let numerator = Format::unsigned(target.width + 2, target.frac + 2);
+        let numerator = Format::unsigned(target.width + 3, target.frac);
         let quotient = Format::unsigned(2 * drive.width, 2 * drive.frac);
         let squared = round(request.capacitance * request.capacitance, square).value;
         let per_square = round(squared * request.force_gain, stiffness).value;

@@ -21,7 +21,7 @@
 //! | drive, s, D   | profile                | full scale      | held within 0 … rail        |
 //! | c, K·e        | drive's, with a sign   | full scale      | saturates                   |
 //! | k·C²          | square's width, u·.·−4 | N               | saturates                   |
-//! | F_t/G         | target's, 2 bits more  | N               | saturates                   |
+//! | F_t/G         | target's, 3 bits more  | N               | saturates                   |
 //! | quotient      | drive's, twice         | full scale²     | saturates: then D is less   |
 //!
 //! c is what the limited drive leaves of its other parts, so that nothing winds up, and switching

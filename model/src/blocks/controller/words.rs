@@ -102,7 +102,7 @@ pub(super) const fn stiffness(square: Format) -> Format {
 }
 
 pub(super) const fn numerator(target: Format) -> Format {
-    Format::unsigned(target.width + 2, target.frac + 2)
+    Format::unsigned(target.width + 3, target.frac)
 }
 
 pub(super) const fn correction(drive: Format) -> Format {

@@ -17,6 +17,7 @@
 //! or sticks; how much it does is the truth's `friction_n`, by `coulomb` as if the pad slid. With `[hand]` the pad lags behind its
 //! trajectory; a step is `step_us`, 100 µs. Source: docs/physics.md §3, §4.
 
+mod coefficient;
 mod law;
 mod moving;
 
@@ -26,6 +27,7 @@ use super::spec::{Level, Setting, Spec};
 use crate::device::Device;
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
+use coefficient::Coefficient;
 use law::{Law, Surface};
 use moving::Moving;
 
@@ -42,13 +44,17 @@ pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneE
         bristle_n_s_per_m: table.number_or("bristle_n_s_per_m", Limits::NOT_NEGATIVE, 300.0)?,
     };
     let step_s = 1e-6 * table.number_or("step_us", Limits::within(1.0, 1000.0), 100.0)?;
-    let (mu, newton_per_g) = (device.mu, device.weight_n(1.0));
-    let coulomb = move |_: &Setting| Effect::Pad(Box::new(Coulomb { mu, newton_per_g }));
+    let mu = Coefficient::read(table, device)?;
+    let newton_per_g = device.weight_n(1.0);
+    let coulomb = {
+        let mu = mu.clone();
+        move |_: &Setting| Effect::Pad(Box::new(Coulomb { mu: mu.clone(), newton_per_g }))
+    };
     let mut levels = vec![Level::new("coulomb", 20.0, coulomb).apart()];
     for (word, law, cost_ns) in LAWS {
-        let device = device.clone();
+        let (device, mu) = (device.clone(), mu.clone());
         let build = move |_: &Setting| {
-            Effect::Pad(Box::new(Moving::new(law, surface, step_s, device.clone())))
+            Effect::Pad(Box::new(Moving::new(law, surface, mu.clone(), step_s, device.clone())))
         };
         levels.push(Level::new(word, cost_ns, build).apart());
     }
@@ -57,15 +63,26 @@ pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneE
 }
 
 struct Coulomb {
-    mu: f64,
+    mu: Coefficient,
     newton_per_g: f64,
+}
+
+impl Coulomb {
+    fn rub(&self, pad: &mut Pad, mu: f64) {
+        let force_n = mu * pad.attraction_n;
+        pad.force_n = Some(force_n);
+        pad.friction_n = mu * self.newton_per_g * pad.load_g + force_n;
+    }
 }
 
 impl PadEffect for Coulomb {
     fn act(&mut self, pad: &mut Pad) {
-        let force_n = self.mu * pad.attraction_n;
-        pad.force_n = Some(force_n);
-        pad.friction_n = self.mu * self.newton_per_g * pad.load_g + force_n;
+        self.rub(pad, self.mu.at(pad.time_s));
+    }
+
+    /// A calibration is of the nominal coefficient.
+    fn settle(&mut self, pad: &mut Pad) {
+        self.rub(pad, self.mu.nominal);
     }
 }
 

@@ -5,6 +5,7 @@
 //! A step takes finger, push, load and attraction as they are at its end, and the finger's velocity
 //! as its mean over the step.
 
+use super::coefficient::Coefficient;
 use super::law::{Drive, Law, Motion, Surface, Vector, add, length};
 use crate::device::Device;
 use crate::drive::PadDrive;
@@ -19,6 +20,7 @@ use crate::trajectory::SLACK_MM;
 pub(super) struct Moving {
     law: Law,
     surface: Surface,
+    mu: Coefficient,
     step_s: f64,
     device: Device,
     pads: Vec<Option<Track>>,
@@ -34,8 +36,8 @@ struct Track {
 }
 
 impl Moving {
-    pub fn new(law: Law, surface: Surface, step_s: f64, device: Device) -> Self {
-        Moving { law, surface, step_s, device, pads: Vec::new() }
+    pub fn new(law: Law, surface: Surface, mu: Coefficient, step_s: f64, device: Device) -> Self {
+        Moving { law, surface, mu, step_s, device, pads: Vec::new() }
     }
 
     /// The pad at the start of the case: at rest, the finger on it.
@@ -55,7 +57,8 @@ impl Moving {
     fn step(&self, from: &Track, pad: &Pad, step_s: f64) -> Track {
         let finger_m = [1e-3 * pad.x_mm, 1e-3 * pad.y_mm];
         let finger_m_s = add([0.0; 2], 1.0 / step_s, add(finger_m, -1.0, from.finger_m));
-        let sliding_n = self.device.mu * (self.device.weight_n(pad.load_g) + pad.attraction_n);
+        let mu = self.mu.before(pad.time_s);
+        let sliding_n = mu * (self.device.weight_n(pad.load_g) + pad.attraction_n);
         let Some(finger) = pad.finger else {
             let motion = self.law.follow(&self.surface, from.motion, finger_m_s, step_s, sliding_n);
             return Track { finger_m, pad_m: finger_m, motion, ..*from };
@@ -94,13 +97,20 @@ impl Moving {
 impl PadEffect for Moving {
     /// A pad at rest: friction has nothing to work against.
     fn act(&mut self, pad: &mut Pad) {
-        pad.force_n = Some(self.device.mu * pad.attraction_n);
+        pad.force_n = Some(self.mu.at(pad.time_s) * pad.attraction_n);
+    }
+
+    /// A calibration is of the nominal coefficient.
+    fn settle(&mut self, pad: &mut Pad) {
+        pad.force_n = Some(self.mu.nominal * pad.attraction_n);
     }
 
     fn due(&self, pad: &Pad, drive: &PadDrive) -> Option<Tick> {
         let track = self.pads.get(pad.index).and_then(Option::as_ref);
         let from = track.map_or(Tick::default(), |track| track.tick);
-        from.next(self.step_s, pad.time_s, |after_s| drive.next_event_s(after_s, self.step_s))
+        from.next(self.step_s, pad.time_s, |after_s| {
+            drive.next_event_s(after_s, self.step_s).min(self.mu.next_event_s(after_s))
+        })
     }
 
     fn keep(&mut self, pad: &Pad, tick: Tick, drive: &PadDrive) {

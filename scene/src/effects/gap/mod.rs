@@ -27,6 +27,7 @@ mod law;
 mod pad;
 mod quasi_static;
 mod read;
+mod rubber;
 
 pub(super) use read::read;
 

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The patches of a pad together: at rest, or brought along in time.
+//!
+//! Load and voltage act as they are at each stage of a step. Charge and the rubber's warmth come from
+//! effects before this one: then steps are taken where these are as they were then, `due` by `due`.
 
 use super::dynamic::Method;
-use super::equilibrium::{equilibrium, equilibrium_from};
-use super::law::{Drive, Law, State};
+use super::equilibrium::equilibrium_from;
+use super::law::{Drive, State};
 use super::quasi_static;
+use super::rubber::{Rubber, agreed_v, at_rest};
 use crate::device::EPSILON_0;
 use crate::drive::{PadDrive, Pull};
 use crate::effects::effect::PadEffect;
-use crate::effects::pad::{Pad, Supply};
+use crate::effects::pad::{Charge, Pad, Supply};
 use crate::effects::tick::{Tick, slack_s};
 use crate::stimulus::Moment;
 
@@ -22,39 +26,6 @@ pub(super) enum Motion {
     Dynamic(Method),
 }
 
-/// The pad's rubber: patches of equal area that differ in the gap at which they rest.
-#[derive(Clone, Debug)]
-pub(super) struct Rubber {
-    pub law: Law,
-    pub patch_m2: f64,
-    /// W/S of a gram.
-    pub pa_per_g: f64,
-    /// g₀ of each patch.
-    pub rest_m: Vec<f64>,
-}
-
-impl Rubber {
-    /// The stiffest spring that steps of a method are stable with: where the highest patch rests
-    /// the film damps least.
-    pub fn stiffest_pa_per_m(&self, method: Method, step_s: f64) -> f64 {
-        let highest_m = self.rest_m.iter().copied().fold(0.0, f64::max);
-        method.stiffest_pa_per_m(&self.law, highest_m, step_s)
-    }
-
-    pub fn capacitance_f(&self, gaps_m: impl Iterator<Item = f64>) -> f64 {
-        gaps_m.map(|gap| EPSILON_0 * self.patch_m2 / (gap + self.law.insulator_m)).sum()
-    }
-
-    fn attraction_n(&self, gaps_m: impl Iterator<Item = f64>, pull_n: f64) -> f64 {
-        gaps_m.map(|gap| pull_n * self.patch_m2 / (gap + self.law.insulator_m).powi(2)).sum()
-    }
-
-    /// The relaxed gaps under a drive.
-    pub fn equilibrium_m(&self, drive: Drive) -> impl Iterator<Item = f64> {
-        self.rest_m.iter().map(move |rest| equilibrium(&self.law, *rest, drive))
-    }
-}
-
 /// The effect: the rubber, how it moves, and where each pad is.
 pub(super) struct Gap {
     rubber: Rubber,
@@ -62,12 +33,17 @@ pub(super) struct Gap {
     step_s: f64,
     /// Of the haptic voltage, where it pulls as a sine.
     sine_rad_s: Option<f64>,
+    /// Effects before it change over time what acts on the patches.
+    led: bool,
     pads: Vec<Option<Moving>>,
     /// The patches at the time that is looked at.
     seen: Vec<State>,
     /// The last equilibrium: over a raster load and voltage stay the same.
-    rested: Option<([f64; 2], f64, Vec<f64>)>,
+    rested: Option<(Asked, f64, Vec<f64>)>,
 }
+
+/// What an equilibrium is of: source, load, stiffness of the rubber, and charge.
+type Asked = ([f64; 3], Option<Charge>);
 
 /// A pad at a time at which its state is kept.
 struct Moving {
@@ -77,10 +53,13 @@ struct Moving {
 
 impl PadEffect for Gap {
     fn act(&mut self, pad: &mut Pad) {
-        let asked = [pad.source_v_rms, pad.load_g];
+        let asked = ([pad.source_v_rms, pad.load_g, pad.stiffness], pad.charge);
         let (volt, gaps) = match self.rested.take() {
             Some((same, volt, gaps)) if same == asked => (volt, gaps),
-            _ => self.at_rest(pad),
+            _ => {
+                self.rubber.stiffen(pad.stiffness);
+                self.at_rest(pad)
+            }
         };
         self.set_results(pad, volt, gaps.iter().copied());
         self.rested = Some((asked, volt, gaps));
@@ -89,39 +68,63 @@ impl PadEffect for Gap {
     fn follow(&mut self, pad: &mut Pad, drive: &PadDrive) {
         match self.motion {
             Motion::Static => self.act(pad),
-            _ => self.bring_along(pad, drive),
+            _ => {
+                self.rubber.stiffen(pad.stiffness);
+                self.bring_along(pad, drive);
+            }
         }
+    }
+
+    fn due(&self, pad: &Pad, drive: &PadDrive) -> Option<Tick> {
+        if !self.led || self.motion == Motion::Static {
+            return None;
+        }
+        let moving = self.pads.get(pad.index).and_then(Option::as_ref);
+        self.next(moving.map_or(Tick::default(), |moving| moving.tick), pad, drive)
+    }
+
+    fn keep(&mut self, pad: &Pad, tick: Tick, drive: &PadDrive) {
+        self.rubber.stiffen(pad.stiffness);
+        let mut moving = self.take(pad.index, drive);
+        self.step_to(&mut moving, tick, pad, drive);
+        self.pads[pad.index] = Some(moving);
     }
 }
 
 impl Gap {
     pub fn new(rubber: Rubber, motion: Motion, step_s: f64, sine_rad_s: Option<f64>) -> Self {
         let (pads, seen, rested) = (Vec::new(), Vec::new(), None);
-        Gap { rubber, motion, step_s, sine_rad_s, pads, seen, rested }
+        Gap { rubber, motion, step_s, sine_rad_s, led: false, pads, seen, rested }
+    }
+
+    /// The same gap, behind effects that change over time what acts on the patches.
+    pub fn led(self, led: bool) -> Self {
+        Gap { led, ..self }
     }
 
     /// Voltage at the pad and relaxed gaps.
     fn at_rest(&self, pad: &Pad) -> (f64, Vec<f64>) {
         let pressure_pa = self.rubber.pa_per_g * pad.load_g;
-        let gaps = |volt: f64| self.rubber.equilibrium_m(Drive::new(volt, pressure_pa));
+        let gaps =
+            |volt: f64| self.rubber.equilibrium_m(Drive::new(pad.pulling_v(volt), pressure_pa));
         let volt =
             agreed_v(pad.source_v_rms, pad.supply, |volt| self.rubber.capacitance_f(gaps(volt)));
         (volt, gaps(volt).collect())
     }
 
     /// The equilibria that the patches find from where they are.
-    fn relax(&self, patches: &mut [State], supply: Option<Supply>, pull: Pull) {
+    fn relax(&self, patches: &mut [State], pad: &Pad, pull: Pull) {
         let pressure_pa = self.rubber.pa_per_g * pull.load_g;
         let from = patches.iter().zip(&self.rubber.rest_m);
         let capacitance_f = |volt: f64| {
-            let drive = Drive::new(volt, pressure_pa);
+            let drive = Drive::new(pad.pulling_v(volt), pressure_pa);
             let gaps = from
                 .clone()
                 .map(|(at, rest)| equilibrium_from(&self.rubber.law, *rest, drive, at.gap_m));
             self.rubber.capacitance_f(gaps)
         };
-        let volt = agreed_v(pull.source_v_rms, supply, capacitance_f);
-        let drive = Drive::new(volt, pressure_pa);
+        let volt = agreed_v(pull.source_v_rms, pad.supply, capacitance_f);
+        let drive = Drive::new(pad.pulling_v(volt), pressure_pa);
         for (patch, rest) in patches.iter_mut().zip(&self.rubber.rest_m) {
             let gap_m = equilibrium_from(&self.rubber.law, *rest, drive, patch.gap_m);
             *patch = at_rest(*rest, gap_m);
@@ -130,25 +133,39 @@ impl Gap {
 
     /// Brings the pad's patches to its time: tick by tick, then by a step that is not kept.
     fn bring_along(&mut self, pad: &mut Pad, drive: &PadDrive) {
-        if self.pads.len() <= pad.index {
-            self.pads.resize_with(pad.index + 1, || None);
-        }
-        let mut moving = self.pads[pad.index].take().unwrap_or_else(|| self.begin(drive));
-        let next_event_s = |after_s: f64| drive.next_pull_event_s(after_s);
-        while let Some(next) = moving.tick.next(self.step_s, pad.time_s, next_event_s) {
-            self.step(&mut moving.patches, [moving.tick.time_s, next.time_s], pad.supply, drive);
-            moving.tick = next;
+        let mut moving = self.take(pad.index, drive);
+        while let Some(next) = self.next(moving.tick, pad, drive) {
+            self.step_to(&mut moving, next, pad, drive);
         }
         let mut seen = std::mem::take(&mut self.seen);
         seen.clone_from(&moving.patches);
         if moving.tick.ahead_s(self.step_s, pad.time_s).is_some() {
-            self.step(&mut seen, [moving.tick.time_s, pad.time_s], pad.supply, drive);
+            self.step(&mut seen, [moving.tick.time_s, pad.time_s], pad, drive);
         }
         let gaps = seen.iter().map(|patch| patch.gap_m);
         let volt = pad.haptic_v_at(self.rubber.capacitance_f(gaps.clone()));
         self.set_results(pad, volt, gaps);
         self.seen = seen;
         self.pads[pad.index] = Some(moving);
+    }
+
+    /// What is kept of a pad, for a while.
+    fn take(&mut self, index: usize, drive: &PadDrive) -> Moving {
+        if self.pads.len() <= index {
+            self.pads.resize_with(index + 1, || None);
+        }
+        self.pads[index].take().unwrap_or_else(|| self.begin(drive))
+    }
+
+    /// When the state is kept next, up to the pad's time.
+    fn next(&self, from: Tick, pad: &Pad, drive: &PadDrive) -> Option<Tick> {
+        from.next(self.step_s, pad.time_s, |after_s| drive.next_pull_event_s(after_s))
+    }
+
+    /// Brings a pad to the next time at which its state is kept.
+    fn step_to(&self, moving: &mut Moving, next: Tick, pad: &Pad, drive: &PadDrive) {
+        self.step(&mut moving.patches, [moving.tick.time_s, next.time_s], pad, drive);
+        moving.tick = next;
     }
 
     /// The pad at the start of the case, when its voltage is switched on: relaxed under its load.
@@ -161,25 +178,20 @@ impl Gap {
     }
 
     /// Brings the patches from one time to another, between which nothing steps.
-    fn step(
-        &self,
-        patches: &mut [State],
-        [from_s, to_s]: [f64; 2],
-        supply: Option<Supply>,
-        drive: &PadDrive,
-    ) {
+    fn step(&self, patches: &mut [State], [from_s, to_s]: [f64; 2], pad: &Pad, drive: &PadDrive) {
         if self.motion == Motion::Hysteresis {
-            return self.relax(patches, supply, drive.pull(Moment::before(to_s)));
+            return self.relax(patches, pad, drive.pull(Moment::before(to_s)));
         }
         let span_s = to_s - from_s;
-        let seen = self.seen_square(patches, supply);
+        let seen = self.seen_square(patches, pad.supply);
         let at = |fraction: f64| {
             let moment = match fraction {
                 0.0 => Moment::at(from_s + slack_s(self.step_s)),
                 1.0 => Moment::before(to_s),
                 _ => Moment::at(from_s + fraction * span_s),
             };
-            self.drive(seen, drive.pull(moment), moment.time_s)
+            let charge = pad.charge.map(|charge| charge.ago(to_s - moment.time_s));
+            self.drive(seen, drive.pull(moment), moment.time_s, charge)
         };
         let law = &self.rubber.law;
         let each = patches.iter_mut().zip(&self.rubber.rest_m);
@@ -198,8 +210,12 @@ impl Gap {
 
     /// What pulls and presses the patches, where this part of the source's mean square is at the
     /// pad.
-    fn drive(&self, seen: f64, pull: Pull, time_s: f64) -> Drive {
-        let square = self.instant(seen * pull.source_v_rms.powi(2), time_s);
+    fn drive(&self, seen: f64, pull: Pull, time_s: f64, charge: Option<Charge>) -> Drive {
+        let mean_square = seen * pull.source_v_rms.powi(2);
+        let square = match charge {
+            None => self.instant(mean_square, time_s),
+            Some(charge) => self.instant_charged(mean_square, time_s, charge),
+        };
         Drive { pull_n: 0.5 * EPSILON_0 * square, pressure_pa: self.rubber.pa_per_g * pull.load_g }
     }
 
@@ -215,27 +231,20 @@ impl Gap {
             .map_or(mean_square, |rad_s| 2.0 * mean_square * (rad_s * time_s).sin().powi(2))
     }
 
+    /// The same less what charge holds against it.
+    fn instant_charged(&self, mean_square: f64, time_s: f64, charge: Charge) -> f64 {
+        match self.sine_rad_s {
+            None => charge.square_under(mean_square.sqrt()),
+            Some(rad_s) => {
+                ((2.0 * mean_square).sqrt() * (rad_s * time_s).sin() - charge.volt).powi(2)
+            }
+        }
+    }
+
     fn set_results(&self, pad: &mut Pad, volt: f64, gaps_m: impl Iterator<Item = f64> + Clone) {
         pad.haptic_v_rms = volt;
         pad.capacitance_f = self.rubber.capacitance_f(gaps_m.clone());
-        pad.attraction_n = self.rubber.attraction_n(gaps_m, Drive::new(volt, 0.0).pull_n);
+        let pull_n = Drive::new(pad.pulling_v(volt), 0.0).pull_n;
+        pad.attraction_n = self.rubber.attraction_n(gaps_m, pull_n);
     }
-}
-
-/// A patch that is still, and has crept as far as it will.
-fn at_rest(rest_m: f64, gap_m: f64) -> State {
-    State { gap_m, speed_m_s: 0.0, creep_m: rest_m - gap_m }
-}
-
-/// The voltage at a pad whose capacitance rises with it: behind a supply the voltage falls as the
-/// capacitance rises, so that there is one that agrees, found by halving.
-fn agreed_v(source_v: f64, supply: Option<Supply>, capacitance_f: impl Fn(f64) -> f64) -> f64 {
-    let Some(supply) = supply else { return source_v };
-    let (mut low, mut high) = (0.0, source_v);
-    while high - low > 1e-12 * source_v {
-        let middle = 0.5 * (low + high);
-        let agreed = source_v * supply.share(capacitance_f(middle));
-        *(if agreed > middle { &mut low } else { &mut high }) = middle;
-    }
-    high
 }

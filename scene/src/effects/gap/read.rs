@@ -5,12 +5,15 @@ use std::f64::consts::{PI, TAU};
 
 use super::dynamic::Method;
 use super::law::Law;
-use super::pad::{Gap, Motion, Rubber};
+use super::pad::{Gap, Motion};
+use super::rubber::Rubber;
 use crate::device::Device;
 use crate::effects::effect::Effect;
 use crate::effects::spec::{Level, Setting, Spec};
+use crate::effects::temperature;
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
+use crate::wave::HapticWave;
 
 /// Heights g₀ + d of eight patches of equal area, µm: fitted to the paper's Fig. 7 with the mean
 /// square of the drive (docs/physics.md §3).
@@ -45,6 +48,13 @@ pub(in super::super) fn read(root: &Table, device: &Device) -> Result<Option<Spe
     let named = table.choice("rung", &words)?;
     let rubber = read_rubber(table, device)?;
     let sine = table.choice("drive", &["rms", "sine"])? == Some("sine");
+    if sine && device.haptic_wave != HapticWave::Sine {
+        let got = device.haptic_wave.name();
+        let message = format!("expected \"rms\" where carrier.haptic_wave is no sine, got {got:?}");
+        return Err(table.error("drive", message));
+    }
+    let stiffest = temperature::stiffest(root)?;
+    let led = stiffest.is_some() || root.table("charge")?.is_some();
     let sine_rad_s = sine.then_some(TAU * device.haptic_hz);
     let asked_us = table.number("step_us", Limits::POSITIVE)?;
     let mut levels = Vec::new();
@@ -52,7 +62,7 @@ pub(in super::super) fn read(root: &Table, device: &Device) -> Result<Option<Spe
         let asked_us = asked_us.filter(|_| named == Some(word));
         let step_us = asked_us.unwrap_or(usual_step_us(motion));
         check_step(table, motion, step_us)?;
-        if let Err(message) = check_spring(&rubber, motion, step_us) {
+        if let Err(message) = check_spring(&rubber, stiffest.unwrap_or(1.0), motion, step_us) {
             // A budget does without it.
             if named == Some(word) {
                 return Err(table.error("rung", message));
@@ -61,7 +71,8 @@ pub(in super::super) fn read(root: &Table, device: &Device) -> Result<Option<Spe
         }
         let rubber = rubber.clone();
         let build = move |_: &Setting| {
-            Effect::Pad(Box::new(Gap::new(rubber.clone(), motion, step_us * 1e-6, sine_rad_s)))
+            let gap = Gap::new(rubber.clone(), motion, step_us * 1e-6, sine_rad_s);
+            Effect::Pad(Box::new(gap.led(led)))
         };
         let label = if motion == Motion::Static {
             word.to_string()
@@ -103,9 +114,14 @@ fn check_step(table: &Table, motion: Motion, step_us: f64) -> Result<(), SceneEr
 }
 
 /// Whether the rubber is soft enough for steps whose spring is explicit.
-fn check_spring(rubber: &Rubber, motion: Motion, step_us: f64) -> Result<(), String> {
+fn check_spring(
+    rubber: &Rubber,
+    stiffness: f64,
+    motion: Motion,
+    step_us: f64,
+) -> Result<(), String> {
     let Motion::Dynamic(method) = motion else { return Ok(()) };
-    let spring = rubber.law.spring_pa_per_m + rubber.law.creep_spring_pa_per_m;
+    let spring = stiffness * (rubber.law.spring_pa_per_m + rubber.law.creep_spring_pa_per_m);
     let stiffest = rubber.stiffest_pa_per_m(method, 1e-6 * step_us);
     if spring <= stiffest {
         return Ok(());
@@ -137,5 +153,5 @@ fn read_rubber(table: &Table, device: &Device) -> Result<Rubber, SceneError> {
         inertia_kg_m2: table.number_or("inertia_kg_m2", Limits::POSITIVE, 7.0)?,
     };
     let rest_m = rest_um.iter().map(|um| 1e-6 * (um - insulator_um)).collect();
-    Ok(Rubber { law, patch_m2, pa_per_g: device.weight_n(1.0) / device.pad_area_m2, rest_m })
+    Ok(Rubber::new(law, patch_m2, device.weight_n(1.0) / device.pad_area_m2, rest_m))
 }

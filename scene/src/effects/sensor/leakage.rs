@@ -2,7 +2,8 @@
 //! `sensor.haptic_leakage`: the haptic voltage drives a current of its own into the terminals, eq.
 //! 1's second term, −17 dB (200 Hz, 350 V) to −3 dB (1 kHz) of the carrier's at 5 V. It shifts no
 //! phasor, since a demodulator's window rejects it, but takes ADC range and dithers the codes
-//! (docs/physics.md §5).
+//! (docs/physics.md §5). Only a sine's is known here: a constant voltage has none, and a square's flows
+//! in the first moments after a turn.
 
 use std::f64::consts::{SQRT_2, TAU};
 
@@ -16,9 +17,15 @@ use crate::device::Device;
 use crate::error::SceneError;
 use crate::format::Table;
 use crate::terminals::PerTerminal;
+use crate::wave::HapticWave;
 
-pub(in super::super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
-    let on = root.table("sensor")?.map_or(Ok(false), |table| table.flag("haptic_leakage"))?;
+pub(in super::super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneError> {
+    let Some(table) = root.table("sensor")? else { return Ok(None) };
+    let on = table.flag("haptic_leakage")?;
+    if on && device.haptic_wave != HapticWave::Sine {
+        let got = device.haptic_wave.name();
+        return Err(table.error("haptic_leakage", format!("expected carrier.haptic_wave = \"sine\" with it, whose current alone is known here, got {got:?}")));
+    }
     let build =
         |setting: &Setting| Effect::Channels(Box::new(Leakage { device: setting.device.clone() }));
     Ok(if on { Spec::new("sensor.leakage", "steady state", build) } else { None })

@@ -168,7 +168,7 @@ impl ChannelEffect for Noise {
 
 /// Where the random numbers of a case come from.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Source {
+pub(in super::super) struct Source {
     seed: u64,
     case: u64,
 }
@@ -184,6 +184,6 @@ impl Source {
     }
 }
 
-pub(super) fn normal(random: &mut Stream) -> f64 {
+pub(in super::super) fn normal(random: &mut Stream) -> f64 {
     StandardNormal.sample(random)
 }

@@ -7,6 +7,8 @@
 //! nanofarad_per_m2 = 9
 //! ```
 //!
+//! `panel_noise_mv` adds the panel's own voltage: see `panel`.
+//!
 //! | level | what | error | look-up | build |
 //! | --- | --- | --- | --- | --- |
 //! | `table` | the exact solution with a spline of its series, 32 × 19 | 3e-6 of the current | 0.8 µs | 40 ms |
@@ -15,6 +17,7 @@
 //! The change against the sheet alone is added to what `[sheet]` says, at any of its levels; it is
 //! that of a uniform film, so no other is accepted.
 
+pub(super) mod panel;
 mod screen;
 #[cfg(test)]
 mod tests;

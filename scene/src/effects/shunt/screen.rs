@@ -70,6 +70,18 @@ impl Screened {
         })
     }
 
+    /// Current into each terminal per volt of the panel, S: the same as if the terminals alone had a
+    /// volt less, since a sheet that nothing else holds follows the panel.
+    pub fn driven_by_panel(&self) -> PerTerminal<Complex64> {
+        let ohm = &self.sheet.terminal_ohm;
+        let closed = |n: usize| ohm[n].is_finite();
+        let into = |(n, row): (usize, &[Complex64])| match closed(n) {
+            true => row.iter().enumerate().filter(|(n, _)| closed(*n)).map(|(_, g)| g).sum(),
+            false => Complex64::ZERO,
+        };
+        self.inverse.rows().enumerate().map(into).collect()
+    }
+
     /// D between a place and each terminal, and the place itself.
     pub fn screens(&self, x_mm: f64, y_mm: f64) -> Screens {
         let at = self.sheet.place_m(x_mm, y_mm);

@@ -73,3 +73,27 @@ fn the_tables_error_is_three_millionths_and_falls_with_the_fourth_power_of_its_s
     let [coarse, fine] = [error([16, 10]), error(NODES)];
     assert!(fine < 4e-6 && coarse > 8.0 * fine, "{coarse:e} {fine:e}");
 }
+
+/// The panel's current into a terminal is what enters the sheet at each place, jωc·V_p per area, by
+/// that place's share: the split as it is for pads.
+#[test]
+fn the_panels_current_leaves_through_the_terminals_as_from_every_place_at_once() {
+    let mut open = sheet(300.0);
+    open.terminal_ohm[2] = f64::INFINITY;
+    for sheet in [sheet(0.0), sheet(300.0), open] {
+        let screened = Screened::new(&sheet, siemens(22.0));
+        let driven = screened.driven_by_panel();
+        let [columns, rows] = [172, 100]; // cells of 5 mm, by their middles
+        let mut sum = vec![Complex64::ZERO; sheet.terminals()];
+        for n in 0..columns * rows {
+            let at = [-427.5 + 5.0 * (n % columns) as f64, -247.5 + 5.0 * (n / columns) as f64];
+            let shares = screened.source(at[0], at[1]).share;
+            sum.iter_mut().zip(shares).for_each(|(sum, share)| *sum += share);
+        }
+        let area_siemens = Complex64::new(0.0, siemens(22.0) * 25e-6);
+        for (sum, driven) in sum.iter().zip(driven) {
+            let found = sum * area_siemens;
+            assert!((found - driven).norm() < 2e-3 * 22e-9 * 6.3e5 * 0.43, "{found} {driven}");
+        }
+    }
+}

@@ -2,7 +2,7 @@
 //! The relaxed pad.
 
 use super::super::equilibrium::equilibrium_from;
-use super::super::pad::Rubber;
+use super::super::rubber::Rubber;
 use super::*;
 
 const HEIGHTS_UM: [f64; 8] = [13.0, 14.5, 16.0, 17.5, 19.0664, 19.5503, 26.0, 34.0];
@@ -10,12 +10,8 @@ const HEIGHTS_UM: [f64; 8] = [13.0, 14.5, 16.0, 17.5, 19.0664, 19.5503, 26.0, 34
 fn pad() -> Rubber {
     let pad_m2 = std::f64::consts::PI * 0.015 * 0.015;
     let rest_m = HEIGHTS_UM.map(|um| 1e-6 * (um - 5.0)).to_vec();
-    Rubber {
-        law: Law { creep_spring_pa_per_m: 1.75e8, ..law(AIR_PA_S) },
-        patch_m2: pad_m2 / 8.0,
-        pa_per_g: 0.009_806_65 / pad_m2,
-        rest_m,
-    }
+    let law = Law { creep_spring_pa_per_m: 1.75e8, ..law(AIR_PA_S) };
+    Rubber::new(law, pad_m2 / 8.0, 0.009_806_65 / pad_m2, rest_m)
 }
 
 fn capacitance_pf(pad: &Rubber, volt: f64, load_g: f64) -> f64 {

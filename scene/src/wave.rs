@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! How the haptic voltage goes on in time, of which a scene sets the RMS.
+//!
+//! ```toml
+//! [carrier]
+//! haptic_wave = "square"          # "sine" (default) | "dc" | "square"
+//! haptic_hz = 1000                # of the sine
+//! haptic_turn_s = 0.0017          # a square's polarity turns so often, from time 0 on; with every slot where absent
+//! ```
+//!
+//! A sine and a square have no mean, so that no charge gathers in the insulators (`effects/charge`);
+//! of a square V² is constant, too. Source: docs/physics.md §7.
+
+use crate::error::SceneError;
+use crate::format::{Limits, Table};
+use crate::stimulus::Moment;
+use crate::trajectory::next_multiple;
+
+/// How the haptic voltage goes on in time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum HapticWave {
+    /// A sine.
+    Sine,
+    /// A constant voltage.
+    Dc,
+    /// A voltage that turns its polarity.
+    Square {
+        /// From one turn to the next, s; none, until a plant is built for a core, where it turns
+        /// with every slot.
+        turn_s: Option<f64>,
+    },
+}
+
+impl HapticWave {
+    /// Reads `[carrier]`'s keys.
+    pub(crate) fn read(root: &Table) -> Result<HapticWave, SceneError> {
+        let Some(carrier) = root.table("carrier")? else { return Ok(HapticWave::Sine) };
+        let word = carrier.choice("haptic_wave", &["sine", "dc", "square"])?;
+        let turn_s = carrier.number("haptic_turn_s", Limits::above(0.0, 1e5))?;
+        match (word, turn_s) {
+            (Some("square"), turn_s) => Ok(HapticWave::Square { turn_s }),
+            (_, Some(_)) => Err(carrier.error(
+                "haptic_turn_s",
+                "expected haptic_wave = \"square\" too, which alone turns",
+            )),
+            (Some("dc"), None) => Ok(HapticWave::Dc),
+            _ => Ok(HapticWave::Sine),
+        }
+    }
+
+    /// The same under a core whose slots last so long.
+    pub(crate) fn in_slots_of(self, slot_s: f64) -> HapticWave {
+        match self {
+            HapticWave::Square { turn_s } => {
+                HapticWave::Square { turn_s: Some(turn_s.unwrap_or(slot_s)) }
+            }
+            same => same,
+        }
+    }
+
+    /// What a scene writes.
+    pub fn name(self) -> &'static str {
+        match self {
+            HapticWave::Sine => "sine",
+            HapticWave::Dc => "dc",
+            HapticWave::Square { .. } => "square",
+        }
+    }
+
+    /// Its polarity: 1 or −1, and 0 for a sine, which has none for long.
+    pub(crate) fn polarity(self, moment: Moment) -> f64 {
+        const ROUNDING: f64 = 1e-9;
+        match self {
+            HapticWave::Sine => 0.0,
+            HapticWave::Dc => 1.0,
+            HapticWave::Square { turn_s } => {
+                let turns = moment.time_s / turn_s.unwrap_or(f64::INFINITY);
+                let past = match moment.is_past(moment.time_s) {
+                    true => (turns + ROUNDING).floor(),
+                    false => (turns - ROUNDING).ceil() - 1.0,
+                };
+                if past.max(0.0) % 2.0 == 0.0 { 1.0 } else { -1.0 }
+            }
+        }
+    }
+
+    /// When the polarity next turns; infinite where it never does.
+    pub(crate) fn next_turn_s(self, after_s: f64) -> f64 {
+        match self {
+            HapticWave::Square { turn_s: Some(turn_s) } => next_multiple(turn_s, after_s),
+            _ => f64::INFINITY,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_square_turns_at_multiples_and_has_not_turned_just_before() {
+        let square = HapticWave::Square { turn_s: Some(0.1) };
+        for n in 1..50u32 {
+            let turn_s = square.next_turn_s(0.1 * f64::from(n) - 0.03);
+            assert!((turn_s - 0.1 * f64::from(n)).abs() < 1e-12);
+            let polarity = if n % 2 == 0 { 1.0 } else { -1.0 };
+            let around = [Moment::before(turn_s), Moment::at(turn_s), Moment::at(turn_s + 0.05)];
+            assert_eq!(around.map(|at| square.polarity(at)), [-polarity, polarity, polarity]);
+        }
+        assert_eq!(square.polarity(Moment::at(0.0)), 1.0);
+    }
+
+    #[test]
+    fn a_square_without_a_time_turns_with_every_slot() {
+        let square = HapticWave::Square { turn_s: None };
+        assert_eq!(square.next_turn_s(3.0), f64::INFINITY);
+        assert_eq!(square.in_slots_of(0.5).next_turn_s(3.0), 3.5);
+        let own = HapticWave::Square { turn_s: Some(2.0) };
+        assert_eq!(own.in_slots_of(0.5), own);
+    }
+}
