@@ -193,7 +193,7 @@ pub fn disturbed_rows(
         Maker::new(case.plant().expect("a plant"), &case.profile, scene.cases[0].sampled(), false);
     let at = (0, case.clock);
     let mut session =
-        Session::new(&case.profile, &case.device, Fidelity::Fixed, false, at).expect("a session");
+        Session::new(&case.profile, &case.device, (Fidelity::Fixed, None), false, at).expect("a session");
     let row = |slot| {
         let truth = maker.plant().truth(slot);
         let (mut signals, _) = maker.signals(slot);

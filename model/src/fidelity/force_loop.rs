@@ -15,7 +15,7 @@ use hapticore_contract::calibration::Calibration;
 use hapticore_contract::control::{Drive, Faults, Tuning};
 use hapticore_contract::frame::Frame;
 use hapticore_contract::profile::{Profile, ProfileError};
-use hapticore_hdl::block::{Block, State};
+use hapticore_hdl::block::{Block, Inputs as BlockInputs, Outputs as BlockOutputs, State};
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::Format;
 use hapticore_hdl::probe::{Probe, Variable, sample, variables};
@@ -82,7 +82,8 @@ impl FixedLoop {
         let mut state = controller.reset();
         for write in curve_writes(formats, tuning) {
             let idle = controller::Inputs { tuning: write, ..controller::Inputs::of(0) };
-            controller.clock(&mut state, signals::<controller::Inputs, i64>(idle, controller.inputs()));
+            let inputs = signals::<controller::Inputs, i64>(idle, controller.inputs());
+            clock(&controller, &mut state, inputs);
         }
         Ok(FixedLoop {
             core: FixedSimulation::new(profile, calibration),
@@ -124,6 +125,16 @@ impl FixedLoop {
     }
 }
 
+/// A clock, out of line: once is enough of what is large.
+#[inline(never)]
+fn clock<B: Block>(
+    block: &B,
+    state: &mut State<B, i64>,
+    inputs: BlockInputs<B, Signal<i64>>,
+) -> BlockOutputs<B, Signal<i64>> {
+    block.clock(state, inputs)
+}
+
 /// Runs a controller until its drive word is there.
 ///
 /// # Panics
@@ -135,11 +146,11 @@ fn run(
     inputs: controller::In<i64>,
     pad: usize,
 ) -> Drive {
-    controller.clock(state, inputs);
+    clock(controller, state, inputs);
     let quiet = controller::Inputs { alive: bit(false), ..inputs };
-    controller.clock(state, controller::Inputs { start: bit(true), ..quiet });
+    clock(controller, state, controller::Inputs { start: bit(true), ..quiet });
     for _ in 0..controller.latency() {
-        let out = controller.clock(state, quiet);
+        let out = clock(controller, state, quiet);
         if out.done.value != 0 {
             return Drive {
                 pad,
@@ -212,11 +223,11 @@ impl ClockLoop {
             let table = formats.core.calibration.table;
             let mut inputs = self.inputs;
             inputs.core.calibration.table = signals::<TablePort, i64>(codes, table);
-            self.block.clock(&mut self.state, inputs);
+            clock(&self.block, &mut self.state, inputs);
         }
         for write in curve_writes(formats.tuning, tuning) {
             let tuning = signals::<controller::Tuning, i64>(write, formats.tuning);
-            self.block.clock(&mut self.state, Inputs { tuning, ..self.inputs });
+            clock(&self.block, &mut self.state, Inputs { tuning, ..self.inputs });
         }
     }
 
@@ -274,9 +285,9 @@ impl ClockLoop {
         }
     }
 
-    #[inline(always)]
+    #[inline(never)]
     fn step(&mut self, inputs: Inputs<Signal<i64>>) {
-        let outputs = self.block.clock(&mut self.state, inputs);
+        let outputs = clock(&self.block, &mut self.state, inputs);
         self.clocks += 1;
         self.channel = outputs.core.channel.value as usize;
         let frame = outputs.core.frames;
