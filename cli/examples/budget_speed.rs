@@ -15,8 +15,11 @@ use hapticore_run::engine::Fidelity;
 use hapticore_run::inputs;
 use hapticore_scene::Scene;
 
+/// Keys of a scene, and what they are set to.
+type Set = [(&'static str, &'static str)];
+
 /// Scenes, their budgets in percent, and what opens their levels.
-const SCENES: [(&str, &str, &[(&str, &str)]); 7] = [
+const SCENES: [(&str, &str, &Set); 7] = [
     ("fig3", "0.1", &[("sheet.rung", "false")]),
     ("fig7", "1", &[("sheet.rung", "false"), ("gap.rung", "moving")]),
     ("hockey", "1", &[("sheet.rung", "false"), ("gap.rung", "moving")]),
@@ -45,7 +48,7 @@ fn main() -> Result<()> {
     Ok(())
 }
 
-fn print(name: &str, percent: &str, open: &[(&str, &str)]) -> Result<()> {
+fn print(name: &str, percent: &str, open: &Set) -> Result<()> {
     let (mut least, mut levels) = ([f64::INFINITY; 3], String::new());
     for _ in 0..BEST_OF {
         let (times, chosen) = once(name, percent, open)?;
@@ -59,7 +62,7 @@ fn print(name: &str, percent: &str, open: &[(&str, &str)]) -> Result<()> {
 }
 
 /// Seconds to choose, to run, and to run with the levels named; and the levels of each case.
-fn once(name: &str, percent: &str, open: &[(&str, &str)]) -> Result<([f64; 3], String)> {
+fn once(name: &str, percent: &str, open: &Set) -> Result<([f64; 3], String)> {
     let more = [("error_budget_percent", percent), ("carrier.rung", "phasor")];
     let scene = inputs::scene(name, &owned(open.iter().chain(&more)))?;
     let profile = inputs::windowed(inputs::profile(&scene.profile)?, &scene)?;
