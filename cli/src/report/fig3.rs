@@ -5,6 +5,7 @@
 
 use super::axis::Axis;
 use super::fig3_maps;
+use super::fig4::ordinates;
 use super::figure::Figure;
 use super::number;
 use super::paint::Paint;
@@ -69,14 +70,14 @@ fn sum(loads: &[Load]) -> Figure {
         let tag = format!("{} g", number::fixed(load.load_g, 0));
         let of =
             |get: Get| load.settings.first().map_or(vec![], |setting| middle_row(setting, get));
+        let core = of(CORE_PF);
         series.push(Series::line("", paint, of(EQ6_PF)).tagged(&tag));
-        series.push(Series::dots("", paint, of(CORE_PF)));
+        series.push(Series::sampled("", paint, core.chunk_by(|a, b| (a.0 - b.0).abs() < 0.1)));
     }
     series.push(Series::line("sum of the currents, as a capacitance by eq. 6", Paint::INK, vec![]));
     series.push(Series::dots("core, corrected for the sheet", Paint::INK, vec![]));
-    let points = || series.iter().flat_map(|s| s.points.iter());
-    let x = Axis::linear("x (mm)", points().map(|p| p.0));
-    let y = Axis::with_zero("C (pF)", points().map(|p| p.1));
+    let x = Axis::linear("x (mm)", series.iter().flat_map(|s| s.points.iter().map(|p| p.0)));
+    let y = Axis::with_zero("C (pF)", ordinates(&series));
     let title = "Sum of the currents over position, by load";
     Figure::plot(title, "Along the middle of the sheet.", &Plot::new(title, x, y, series))
 }

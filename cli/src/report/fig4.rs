@@ -6,10 +6,16 @@ use super::figure::Figure;
 use super::number;
 use super::paint::Paint;
 use super::plot::Plot;
-use super::select::{Setting, extent};
+use super::select::Setting;
 use super::series::Series;
-use super::sweep::{self, Load, load, loads, means, reference, slots, voltage};
+use super::sweep::{self, Load, load, loads, means, measured, reference, slots, voltage};
 use hapticore_run::record::{Record, Row, Truth};
+
+/// What a dot is.
+pub const MEASURED: &str = "measured, mean ± standard deviation";
+
+/// What a figure without that legend says of its bars.
+pub const BARS: &str = "Dots are means over a setting's slots, bars ± one standard deviation.";
 
 /// Voltages that are drawn over the load.
 const VOLTAGES: usize = 8;
@@ -61,7 +67,7 @@ fn over_voltage(loads: &[Load]) -> Figure {
     Figure::plot("Capacitance over haptic voltage, by load", "", &plot)
 }
 
-/// Truth as a line, the slots as dots, the reference's means as rings.
+/// Truth as a line, what is measured as dots with bars, the reference's means as rings.
 pub fn trio(
     settings: &[Setting],
     paint: Paint,
@@ -76,14 +82,14 @@ pub fn trio(
             paint,
             means(settings, |r, t| (x(r, t), reference(r, |q| q.capacitance_pf))),
         ),
-        Series::dots("", paint, slots(settings, |r, t| (x(r, t), r.measured.capacitance_pf))),
+        measured("", paint, settings, |r, t| (x(r, t), r.measured.capacitance_pf)),
     ]
 }
 
 /// What line, dot and ring stand for, whatever their colour.
 pub fn keys(loads: &[Load]) -> Vec<Series> {
     let mut keys = vec![
-        Series::dots("measured", Paint::INK, vec![]),
+        Series::dots(MEASURED, Paint::INK, vec![]),
         Series::line("true value", Paint::INK, vec![]),
     ];
     if rows(loads).any(|(row, _)| row.reference.is_some()) {
@@ -110,28 +116,36 @@ pub fn capacitance_axis(loads: &[Load]) -> Axis {
     Axis::linear("C (pF)", values)
 }
 
+/// What the vertical axis has to reach: points and the ends of their bars.
+pub fn ordinates(series: &[Series]) -> impl Iterator<Item = f64> {
+    let of_points = series.iter().flat_map(|s| s.points.iter().map(|p| p.1));
+    let of_bars = series
+        .iter()
+        .flat_map(|s| s.points.iter().zip(&s.bars).flat_map(|(p, bar)| [p.1 - bar, p.1 + bar]));
+    of_points.chain(of_bars)
+}
+
 fn error(loads: &[Load]) -> Figure {
     let percent = |value: f64, t: &Truth| 100.0 * (value / t.quantities.capacitance_pf - 1.0);
-    let mut series = Vec::new();
+    let (mut series, mut worst) = (Vec::new(), f64::NAN);
     for (n, load) in loads.iter().enumerate() {
         let point =
             |r: &Row, t: &Truth| (t.quantities.haptic_v_rms, percent(r.measured.capacitance_pf, t));
         let name = format!("{} g", number::fixed(load.load_g, 0));
-        series.push(Series::dots(&name, Paint::series(n), slots(&load.settings, point)));
+        worst = slots(&load.settings, point).iter().map(|p| p.1.abs()).fold(worst, f64::max);
+        series.push(measured(&name, Paint::series(n), &load.settings, point));
         let ideal = |r: &Row, t: &Truth| {
             (t.quantities.haptic_v_rms, percent(reference(r, |q| q.capacitance_pf), t))
         };
         series.push(Series::line("", Paint::series(n), sweep::means(&load.settings, ideal)));
     }
     series.push(Series::line("floating-point reference", Paint::INK, vec![]));
-    let values: Vec<_> = series.iter().flat_map(|s| s.points.iter().map(|p| p.1)).collect();
-    let worst = extent(values.iter().map(|v| v.abs())).map_or(f64::NAN, |(_, high)| high);
-    let y = Axis::with_zero("ΔC (%)", values);
+    let y = Axis::with_zero("ΔC (%)", ordinates(&series));
     let plot =
         Plot::new("Error of the capacitance over haptic voltage", voltage_axis(loads), y, series);
     Figure::plot(
         "Error of the capacitance",
-        &format!("At most {} % of the true capacitance.", number::short(worst)),
+        &format!("At most {} % of the true capacitance. {BARS}", number::short(worst)),
         &plot,
     )
 }

@@ -4,14 +4,14 @@
 //! increment of friction over C·V.
 
 use super::axis::Axis;
-use super::fig4::{capacitance_axis, keys, trio, voltage_axis};
+use super::fig4::{BARS, capacitance_axis, keys, ordinates, trio, voltage_axis};
 use super::figure::Figure;
 use super::number;
 use super::paint::Paint;
 use super::plot::Plot;
 use super::select::{self, extent};
 use super::series::{Point, Series};
-use super::sweep::{Load, loads, means, reference, slots};
+use super::sweep::{Load, loads, means, measured, reference, slots};
 use hapticore_run::record::{Quantities, Record, Row, Truth};
 
 /// The square law is fitted up to this voltage, where the paper's data still follow it.
@@ -36,12 +36,16 @@ fn friction(loads: &[Load]) -> Figure {
         let of_load = |t: &Truth| t.friction_n - t.quantities.force_n;
         let truth = means(&load.settings, |_, t| (volt(t), t.friction_n));
         let offset = means(&load.settings, |_, t| (volt(t), of_load(t)));
-        let measured = slots(&load.settings, |r, t| (volt(t), of_load(t) + r.measured.force_n));
+        let at = |r: &Row, t: &Truth| (volt(t), of_load(t) + r.measured.force_n);
         series.push(Series::line("", paint.dashed(), offset));
         series.push(Series::line("", paint, truth).tagged(&name(load)));
-        series.push(Series::dots("", paint, measured));
+        series.push(measured("", paint, &load.settings, at));
     }
-    series.push(Series::dots("the load's friction and the measured force", Paint::INK, vec![]));
+    series.push(Series::dots(
+        "the load's friction and the measured force, mean ± standard deviation",
+        Paint::INK,
+        vec![],
+    ));
     series.push(Series::line("true friction", Paint::INK, vec![]));
     series.push(Series::line("the load's friction alone", Paint::INK.dashed(), vec![]));
     let y = Axis::with_zero("friction (N)", ordinates(&series));
@@ -55,7 +59,7 @@ fn increment(loads: &[Load]) -> Figure {
     let mut series = Vec::new();
     for (n, load) in loads.iter().enumerate() {
         let at = |r: &Row, t: &Truth| (nanocoulomb(&r.measured), t.quantities.force_n);
-        series.push(Series::dots(&name(load), Paint::series(n), slots(&load.settings, at)));
+        series.push(measured(&name(load), Paint::series(n), &load.settings, at));
     }
     let all = || {
         loads.iter().flat_map(|load| {
@@ -76,10 +80,6 @@ fn increment(loads: &[Load]) -> Figure {
     Figure::plot("Increment of friction over C·V", &note, &plot)
 }
 
-fn ordinates(series: &[Series]) -> impl Iterator<Item = f64> {
-    series.iter().flat_map(|s| s.points.iter().map(|p| p.1))
-}
-
 fn kilovolts_squared(truth: &Truth) -> f64 {
     truth.quantities.haptic_v_rms.powi(2) / 1e3
 }
@@ -93,24 +93,23 @@ fn force(loads: &[Load]) -> Figure {
     series.push(Series::line("square law", Paint::INK.dashed(), vec![]));
     let points = || series.iter().flat_map(|s| s.points.iter());
     let x = Axis::with_zero("haptic voltage squared (10³ V²)", points().map(|p| p.0));
-    let y = Axis::with_zero("F (N)", points().map(|p| p.1));
+    let y = Axis::with_zero("F (N)", ordinates(&series));
     let plot = Plot::new("Haptic force over the square of the haptic voltage", x, y, series);
     let note = format!("The square law is fitted to the true force up to {SQUARE_LAW_TO_V} V RMS.");
     Figure::plot("Haptic force over the haptic voltage squared", &note, &plot)
 }
 
-/// Square law, truth, reference and slots at one load.
+/// Square law, truth, reference and measured means at one load.
 fn forces(load: &Load, paint: Paint) -> [Series; 4] {
     let truth = means(&load.settings, |_, t| (kilovolts_squared(t), t.quantities.force_n));
     let slope = slope(&truth);
     let law = truth.iter().map(|(x, _)| (*x, slope * x)).collect();
     let ideal = means(&load.settings, |r, t| (kilovolts_squared(t), reference(r, |q| q.force_n)));
-    let measured = slots(&load.settings, |r, t| (kilovolts_squared(t), r.measured.force_n));
     [
         Series::line("", paint.dashed(), law),
         Series::line("", paint, truth).tagged(&name(load)),
         Series::rings("", paint, ideal),
-        Series::dots("", paint, measured),
+        measured("", paint, &load.settings, |r, t| (kilovolts_squared(t), r.measured.force_n)),
     ]
 }
 
@@ -151,7 +150,7 @@ fn capacitance(loads: &[Load]) -> Figure {
 fn residual(record: &Record, loads: &[Load]) -> Figure {
     let at = |t: &Truth, force: f64| (t.quantities.haptic_v_rms, force - t.quantities.force_n);
     let eq6 = |r: &Row| r.reference.map_or(f64::NAN, |r| r.force_eq6_n);
-    let mut series = Vec::new();
+    let (mut series, mut worst) = (Vec::new(), f64::NAN);
     for (n, load) in loads.iter().enumerate() {
         let paint = Paint::series(n);
         series.push(Series::line("", paint.dashed(), means(&load.settings, |r, t| at(t, eq6(r)))));
@@ -160,26 +159,23 @@ fn residual(record: &Record, loads: &[Load]) -> Figure {
             paint,
             means(&load.settings, |r, t| at(t, reference(r, |q| q.force_n))),
         ));
-        series.push(Series::dots(
-            &name(load),
-            paint,
-            slots(&load.settings, |r, t| at(t, r.measured.force_n)),
-        ));
+        let off = |r: &Row, t: &Truth| at(t, r.measured.force_n);
+        worst = slots(&load.settings, off).iter().map(|p| p.1.abs()).fold(worst, f64::max);
+        series.push(measured(&name(load), paint, &load.settings, off));
     }
-    let values: Vec<_> = series.iter().flat_map(|s| s.points.iter().map(|p| p.1)).collect();
+    let values: Vec<_> = ordinates(&series).collect();
     if record.rows.iter().any(|r| r.reference.is_some()) {
         series.push(Series::rings("floating-point reference", Paint::INK, vec![]));
         series.push(Series::line("eq. 6 alone", Paint::INK.dashed(), vec![]));
     }
     let limits = select::limit(record, "N", "").map_or(vec![], |limit| vec![-limit, limit]);
-    let worst = extent(values.iter().map(|v| v.abs())).map_or(f64::NAN, |(_, high)| high);
     let y = Axis::with_zero("ΔF (N)", values.into_iter().chain(limits.iter().copied()));
     let mut plot =
         Plot::new("Measured minus true force over haptic voltage", voltage_axis(loads), y, series);
     plot.limits = limits;
     Figure::plot(
         "Force error of eq. 8",
-        &format!("Measured minus true force: at most {} N.", number::short(worst)),
+        &format!("Measured minus true force: at most {} N. {BARS}", number::short(worst)),
         &plot,
     )
 }

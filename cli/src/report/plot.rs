@@ -26,6 +26,9 @@ const DOTS: usize = 2400;
 /// How much of its colour a band has.
 const BAND: f64 = 0.3;
 
+/// Half the width of an error bar's ends.
+const END: i32 = 7;
+
 /// Columns that all lines of a plot share.
 const COLUMNS: usize = 2400;
 
@@ -140,9 +143,33 @@ impl Plot {
                 let rings = matches!(series.mark, Mark::Rings(_));
                 let style =
                     if rings { stroke(series.paint, 3) } else { series.paint.sentinel().filled() };
-                for at in thin_dots(&runs.concat(), self.dots_each()) {
+                let dots = thin_dots(&runs.concat(), self.dots_each());
+                self.bars(root, chart, series, &dots)?;
+                for at in dots {
                     root.draw(&Circle::new(at, radius, style))?;
                 }
+            }
+        }
+        Ok(())
+    }
+
+    /// The error bars of the dots that are drawn, as far as they lie within the axes; with ends where
+    /// they are longer than the dots.
+    fn bars(&self, root: &Area, chart: &Chart, series: &Series, dots: &[(i32, i32)]) -> Drawn {
+        let (low, high) = self.y.range();
+        for (point, bar) in series.points.iter().zip(&series.bars) {
+            let x = self.x.place(point.0);
+            let at = |y: f64| chart.backend_coord(&(x, self.y.place(y).clamp(low, high)));
+            let drawn = self.runs(chart, &[*point]).concat().iter().any(|at| dots.contains(at));
+            let (below, above) = (at(point.1 - bar), at(point.1 + bar));
+            if !drawn || below == above {
+                continue;
+            }
+            let end = |(x, y): (i32, i32)| vec![(x - END, y), (x + END, y)];
+            let ends =
+                if below.1 - above.1 > 3 * END { vec![end(below), end(above)] } else { vec![] };
+            for line in [vec![below, above]].into_iter().chain(ends) {
+                root.draw(&PathElement::new(line, stroke(series.paint, 2)))?;
             }
         }
         Ok(())

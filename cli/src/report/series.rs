@@ -4,6 +4,7 @@
 use std::collections::HashSet;
 
 use super::paint::Paint;
+use super::select::mean;
 
 /// A point in the axes' units; not finite where there is none.
 pub type Point = (f64, f64);
@@ -32,6 +33,9 @@ pub struct Series {
     pub mark: Mark,
     /// Points in the units of the axes.
     pub points: Vec<Point>,
+    /// Half the length of each point's error bar, in units of the vertical axis; empty where no point
+    /// has one.
+    pub bars: Vec<f64>,
     /// A label at its last point.
     pub tag: Option<String>,
 }
@@ -39,22 +43,43 @@ pub struct Series {
 impl Series {
     /// A thin line.
     pub fn line(name: &str, paint: Paint, points: Vec<Point>) -> Series {
-        Series { name: name.into(), paint, mark: Mark::Line(4), points, tag: None }
+        Series {
+            name: name.into(),
+            paint,
+            mark: Mark::Line(4),
+            points,
+            bars: Vec::new(),
+            tag: None,
+        }
     }
 
     /// A series drawn as dots.
     pub fn dots(name: &str, paint: Paint, points: Vec<Point>) -> Series {
-        Series { name: name.into(), paint, mark: Mark::Dots(7), points, tag: None }
+        Series {
+            name: name.into(),
+            paint,
+            mark: Mark::Dots(7),
+            points,
+            bars: Vec::new(),
+            tag: None,
+        }
     }
 
     /// Rings, which let a dot at the same place be seen.
     pub fn rings(name: &str, paint: Paint, points: Vec<Point>) -> Series {
-        Series { name: name.into(), paint, mark: Mark::Rings(12), points, tag: None }
+        Series {
+            name: name.into(),
+            paint,
+            mark: Mark::Rings(12),
+            points,
+            bars: Vec::new(),
+            tag: None,
+        }
     }
 
     /// The area that the points enclose.
     pub fn band(paint: Paint, points: Vec<Point>) -> Series {
-        Series { name: String::new(), paint, mark: Mark::Band, points, tag: None }
+        Series { name: String::new(), paint, mark: Mark::Band, points, bars: Vec::new(), tag: None }
     }
 
     /// With another mark.
@@ -62,10 +87,33 @@ impl Series {
         Series { mark, ..self }
     }
 
+    /// Each of some samples of a value as dots at their means, with a bar of ± one standard deviation
+    /// where there are several.
+    pub fn sampled<'a>(
+        name: &str,
+        paint: Paint,
+        samples: impl IntoIterator<Item = &'a [Point]>,
+    ) -> Series {
+        let (points, bars) = samples.into_iter().map(mean_and_deviation).unzip();
+        Series { bars, ..Series::dots(name, paint, points) }
+    }
+
     /// With a label at its last point.
     pub fn tagged(self, tag: &str) -> Series {
         Series { tag: Some(tag.into()), ..self }
     }
+}
+
+/// The mean of a sample, and the standard deviation of its ordinates; none of a single one.
+fn mean_and_deviation(sample: &[Point]) -> (Point, f64) {
+    let y = || sample.iter().map(|p| p.1);
+    let centre = (mean(sample.iter().map(|p| p.0)), mean(y()));
+    let count = y().filter(|y| y.is_finite()).count();
+    if count < 2 {
+        return (centre, 0.0);
+    }
+    let square = mean(y().map(|y| (y - centre.1).powi(2)));
+    (centre, (square * count as f64 / (count - 1) as f64).sqrt())
 }
 
 /// At most about `most` of the points, on a raster of `width` × `height`: one per cell, the cells
@@ -120,6 +168,15 @@ mod tests {
         assert!(thin.len() <= 2000 + 4, "{}", thin.len());
         assert!(thin.contains(&(500, 900)));
         assert_eq!((thin[0], thin.last()), (points[0], points.last()));
+    }
+
+    #[test]
+    fn a_bar_is_the_standard_deviation_of_a_sample() {
+        let samples: [&[Point]; 3] =
+            [&[(1.0, 2.0), (1.0, 4.0), (1.0, 6.0)], &[(2.0, 5.0)], &[(3.0, 1.0), (3.0, f64::NAN)]];
+        let series = Series::sampled("", Paint::INK, samples);
+        assert_eq!(series.points, [(1.0, 4.0), (2.0, 5.0), (3.0, 1.0)]);
+        assert_eq!(series.bars, [2.0, 0.0, 0.0]);
     }
 
     #[test]

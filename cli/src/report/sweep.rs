@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Settings arranged by load and haptic voltage, for the figures that sweep both.
 
+use super::paint::Paint;
 use super::select::{Setting, mean, settings};
-use super::series::Point;
+use super::series::{Point, Series};
 use hapticore_run::record::{Quantities, Record, Row, Truth};
 
 /// All settings at one load of one case, by rising voltage.
@@ -46,6 +47,19 @@ fn case(setting: &Setting) -> usize {
 /// One point for every slot.
 pub fn slots(settings: &[Setting], point: impl Fn(&Row, &Truth) -> Point) -> Vec<Point> {
     settings.iter().flat_map(|s| s.rows.iter().map(|(row, truth)| point(row, truth))).collect()
+}
+
+/// What is measured in every setting: the mean over its slots as a dot, with a bar of ± one standard
+/// deviation.
+pub fn measured(
+    name: &str,
+    paint: Paint,
+    settings: &[Setting],
+    point: impl Fn(&Row, &Truth) -> Point,
+) -> Series {
+    let of = |setting: &Setting| slots(std::slice::from_ref(setting), &point);
+    let samples: Vec<_> = settings.iter().map(of).collect();
+    Series::sampled(name, paint, samples.iter().map(Vec::as_slice))
 }
 
 /// One point for every setting, the mean over its slots.

@@ -254,6 +254,74 @@ fn nothing_is_drawn_outside_of_its_plot() {
     }
 }
 
+/// Dots, and lines that lead straight up through a dot, with their lengths: x, y and length.
+fn dots_and_bars(page: &str) -> (Vec<[f64; 2]>, Vec<[f64; 3]>) {
+    let document = roxmltree::Document::parse_with_options(
+        page,
+        roxmltree::ParsingOptions { allow_dtd: true, ..Default::default() },
+    );
+    let document = document.expect("well-formed");
+    let (mut dots, mut bars) = (Vec::new(), Vec::new());
+    for svg in document.descendants().filter(|n| n.has_attribute("aria-label")) {
+        let all = |tag: &'static str| svg.descendants().filter(move |n| n.has_tag_name(tag));
+        let here: Vec<[f64; 2]> = all("circle")
+            .map(|n| ["cx", "cy"].map(|key| n.attribute(key).unwrap().parse().unwrap()))
+            .collect();
+        for line in all("polyline").filter_map(|n| n.attribute("points")) {
+            let at: Vec<f64> =
+                line.split([',', ' ']).filter_map(|number| number.parse().ok()).collect();
+            let &[x, above, x1, below] = at.as_slice() else { continue };
+            let (above, below) = (above.min(below), above.max(below));
+            if let Some(dot) =
+                here.iter().find(|dot| dot[0] == x && (above..=below).contains(&dot[1]))
+                && x == x1
+            {
+                bars.push([x, dot[1], below - above]);
+            }
+        }
+        dots.extend(here);
+    }
+    (dots, bars)
+}
+
+#[test]
+fn a_point_with_spread_has_a_bar_of_twice_the_standard_deviation_and_another_has_none() {
+    // Means of 20, 60 and 40; standard deviations of 10 and none.
+    let samples: [&[(f64, f64)]; 3] =
+        [&[(1.0, 10.0), (1.0, 20.0), (1.0, 30.0)], &[(2.0, 60.0)], &[(3.0, 40.0), (3.0, 40.0)]];
+    let series = series::Series::sampled("", paint::Paint::INK, samples);
+    let [x, y] = [axis::Axis::exact("x", 0.0, 4.0), axis::Axis::exact("y", 0.0, 100.0)];
+    let (dots, bars) = dots_and_bars(&plot::Plot::new("p", x, y, vec![series]).svg());
+    let unit = (dots[0][1] - dots[1][1]) / 40.0;
+    assert_eq!((dots.len(), bars.len()), (3, 1), "{bars:?}");
+    assert_eq!(bars[0][..2], dots[0]);
+    assert!((bars[0][2] - 20.0 * unit).abs() <= 2.0, "{bars:?}, {unit} a unit");
+}
+
+#[test]
+fn figures_have_bars_where_settings_have_several_slots() {
+    let bars = |figure, slots: usize| {
+        let of = |n: usize| {
+            let mut row = row(n / slots);
+            row.measured.capacitance_pf += (n % slots) as f64;
+            row.measured.force_n += 0.01 * (n % slots) as f64;
+            row.truth = row.truth.map(|truth| Truth { group: n / slots, ..truth });
+            Row { case: 0, ..row }
+        };
+        dots_and_bars(&check(&record(Some(figure), (0..12 * slots).map(of).collect()))).1.len()
+    };
+    for figure in ["fig3", "fig4", "fig6"] {
+        assert_eq!(bars(figure, 1), 0, "{figure}");
+    }
+    assert!(
+        bars("fig4", 3) > 12 && bars("fig6", 3) > 24,
+        "{} {}",
+        bars("fig4", 3),
+        bars("fig6", 3)
+    );
+    assert!(bars("fig3", 3) > 0, "{}", bars("fig3", 3));
+}
+
 #[test]
 fn a_sweep_is_drawn_over_what_is_swept() {
     let swept =

@@ -16,6 +16,7 @@ mod bench;
 mod core;
 mod norm;
 mod search;
+mod stand_in;
 mod worst;
 
 use crate::effects::Spec;

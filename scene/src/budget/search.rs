@@ -4,6 +4,7 @@
 use super::bench::{Against, Bench, Mechanics, Run, electrics};
 use super::core::Core;
 use super::norm::{Norm, Seen};
+use super::stand_in::{StandIn, is_same, stand_ins};
 use super::worst::{Search, affordable, extremes};
 use crate::case::Case;
 use crate::effects::Spec;
@@ -78,9 +79,9 @@ impl<'a> Reference<'a> {
 
 /// A case whose levels are chosen, and its mechanics.
 #[derive(Clone)]
-struct Chosen {
-    case: Case,
-    mechanics: Mechanics,
+pub(super) struct Chosen {
+    pub case: Case,
+    pub mechanics: Mechanics,
 }
 
 /// The effects of a case at the cheapest levels within its budget.
@@ -97,44 +98,40 @@ pub(super) fn cheapest(
         return Ok(finest.effects);
     }
     let mechanics = bench.mechanics(&finest, None)?;
+    let mut before = None;
     for stand_in in stand_ins(&finest, &open) {
-        let reference = Chosen { case: stand_in, mechanics: mechanics.clone() };
-        if let Some(effects) = below(bench, &finest, &reference, &open, budget_percent)? {
+        let chosen = Chosen { case: stand_in, mechanics: mechanics.clone() };
+        let mut reference = Reference::new(bench, &chosen.case, &chosen.mechanics)?;
+        let standing = open.iter().copied().find(|n| !is_same(&finest, &chosen.case, *n));
+        let stand_in =
+            StandIn::new(bench, &mut reference, chosen, standing, budget_percent, before)?;
+        before = stand_in.own.map(|own| own.step_percent);
+        if let Some(effects) = below(bench, &mut reference, &stand_in, &open, budget_percent)? {
             return Ok(effects);
         }
     }
     Ok(finest.effects)
 }
 
-/// The finest case, after it with levels that stand in for one that takes long to build, coarsest
-/// first.
-fn stand_ins(finest: &Case, open: &[usize]) -> Vec<Case> {
-    let dear = open.iter().map(|&n| (n, finest.effects[n].stand_ins()));
-    match dear.max_by_key(|(_, levels)| levels.len()) {
-        Some((n, levels)) => levels.into_iter().map(|level| at_level(finest, n, level)).collect(),
-        None => Vec::new(),
-    }
-}
-
 /// The cheapest levels that are found within the budget by a comparison with a reference. Where
 /// that only stands in for the finest levels, errors against these are at most twice as large: of a
-/// method of first order, in steps that halve, the next level leaves half of the error.
+/// method of first order, in steps that halve, the next level leaves half of the error. Where no
+/// coarser level than the stand-in will do, it is taken itself if its own error leaves room.
 fn below(
     bench: &Bench,
-    finest: &Case,
-    stand_in: &Chosen,
+    reference: &mut Reference,
+    stand_in: &StandIn,
     open: &[usize],
     budget_percent: f64,
 ) -> Result<Option<Vec<Spec>>, SceneError> {
-    let label = |case: &Case, n: usize| case.effects[n].level().label.clone();
-    let standing = open.iter().find(|n| label(finest, **n) != label(&stand_in.case, **n));
-    let most_percent = if standing.is_some() { 0.5 * budget_percent } else { budget_percent };
-    let mut reference = Reference::new(bench, &stand_in.case, &stand_in.mechanics)?;
+    let most_percent = if stand_in.own.is_some() { 0.5 * budget_percent } else { budget_percent };
     let mut shared = most_percent;
     for _ in 0..MOST_TRIES {
-        let chosen = within(bench, &mut reference, stand_in, open, shared);
+        let chosen = within(bench, reference, &stand_in.chosen, open, shared);
         let Chosen { case, mechanics } = &chosen;
-        if standing.is_some_and(|n| label(case, *n) == label(&stand_in.case, *n)) {
+        let stays = stand_in.own.filter(|own| is_same(case, &stand_in.chosen.case, own.n));
+        let most_percent = stays.map_or(most_percent, |own| budget_percent - own.percent);
+        if most_percent <= 0.0 {
             return Ok(None);
         }
         let compared = Compared { bench, case, mechanics, enough: most_percent };

@@ -183,6 +183,11 @@ impl Spec {
         }
     }
 
+    /// The same effect at the next coarser level that answers the same question.
+    pub fn coarser(&self) -> Option<Spec> {
+        self.rivals().into_iter().rfind(|rival| rival.chosen < self.chosen)
+    }
+
     /// The same effect at the level that its error is measured against.
     pub fn finer(&self) -> Option<Spec> {
         let finer = |rival: &Spec| match self.level().finer {

@@ -16,10 +16,10 @@
 //!
 //!   φ_i = φ⁰_i + Σ K_ij·s_j,   w_i = g·φ_i − s_i,   R_i·w_i = φ_i   ⇒   R_i·s_i − (g·R_i − 1)·Σ K_ij·s_j = (g·R_i − 1)·φ⁰_i
 
+use faer::Mat;
 use faer::sparse::{SparseColMat, Triplet};
-use faer::{Col, Mat};
 
-use super::factor::Factor;
+use super::factor::{Factor, Half};
 use super::geometry::Sheet;
 use super::lattice::Lattice;
 use super::linear::{Square, dot};
@@ -47,6 +47,14 @@ pub(crate) struct Network {
     extra: Square<f64>,
     /// Shares w by the same.
     share: Square<f64>,
+}
+
+/// A current into a mesh.
+pub(crate) struct Source {
+    half: Half,
+    /// φ⁰ at the terminals, and the extra currents by them.
+    alone: Values,
+    extra: Values,
 }
 
 impl Network {
@@ -78,21 +86,19 @@ impl Network {
         self.share.rows().map(|row| dot(row, &alone)).collect()
     }
 
-    /// Potential of every node for a unit current into some.
-    pub fn potential(&self, source: &Spread) -> Col<f64> {
-        let mut potential = Col::zeros(self.mesh.nodes());
-        numbered(&self.mesh, source).for_each(|(node, weight)| potential[node] += weight);
-        self.factor.solve_in_place(potential.as_mut().as_mat_mut());
-        let extra = self.extra(&self.alone(source));
-        potential + &self.fields * Col::from_fn(extra.len(), |n| extra[n])
+    /// A unit current into some nodes by their weights; `work` is as [`Factor::energy`] wants it.
+    pub fn source(&self, nodes: &Spread, work: &mut [f64]) -> Source {
+        let half = self.factor.half(numbered(&self.mesh, nodes), work);
+        let alone = self.alone(nodes);
+        Source { half, extra: self.extra(&alone), alone }
     }
 
-    /// A potential, read at some nodes by their weights.
-    pub fn read(&self, potential: &Col<f64>, at: &Spread) -> f64 {
-        numbered(&self.mesh, at).map(|(node, weight)| weight * potential[node]).sum()
+    /// The potential at one source's nodes for a unit current into another's.
+    pub fn between(&self, a: &Source, b: &Source) -> f64 {
+        a.half.dot(&b.half) + dot(&a.alone, &b.extra)
     }
 
-    /// The same of the source itself; `work` is as [`Factor::energy`] wants it.
+    /// The same of a source itself; `work` is as [`Factor::energy`] wants it.
     pub fn resistance(&self, source: &Spread, work: &mut [f64]) -> f64 {
         let alone = self.alone(source);
         let dummies = self.factor.energy(numbered(&self.mesh, source), work);
