@@ -2,10 +2,14 @@
 //! Clocked model = printed Verilog, every output at every clock: random input and whole scenes, in
 //! two simulators.
 
+use hapticore_contract::control::{Control, Law};
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::verilog::Design;
 use hapticore_host::profile::for_terminals;
+use hapticore_hdl::bundle::Bundle;
+use hapticore_model::blocks::controller::{self, Controller};
 use hapticore_model::blocks::haptic_voltage::HapticVoltage;
+use hapticore_tests::force_loop::Closed;
 use hapticore_tests::lockstep::verilator::{Start, Verilated};
 use hapticore_tests::lockstep::{Bench, Trace, icarus};
 use hapticore_tests::{stimulus, tools};
@@ -112,5 +116,77 @@ fn icarus_runs_a_mean_over_windows_as_the_model_does() {
     });
     if let Err(mismatch) = icarus::check(design.top(), &design.text(), &trace) {
         panic!("{mismatch}");
+    }
+}
+
+/// The plant and the loop together: a step of the target, and the clocks in which the force follows.
+#[test]
+fn verilator_closes_the_force_loop_as_the_model_does() {
+    if !tools::have(&["verilator", "make", "g++"]) {
+        return;
+    }
+    for name in ["small", "standard"] {
+        let profile = Profile::bundled(name).expect("bundled");
+        let target = "{ timeline = [[0, 0], [0.004, 0], [0.004, 0.6]] }";
+        let set = [("pad.0.target_n".to_string(), target.to_string())];
+        let mut closed = Closed::new(&profile, ("fig9", 1), &set, 16);
+        let (block, design) = (closed.block.clone(), Design::of(&closed.block, "a test"));
+        let trace = Trace::record(&block, design.ports.clone(), |outputs| closed.next(outputs));
+        let drives = of_port(&trace, "drive");
+        assert!(drives.iter().max() > Some(&0), "{name}: the loop drives the pad");
+        let verilated = Verilated::new(design.top(), &design.ports, &design.text(), Start::Zero);
+        if let Err(mismatch) = verilated.check(&trace) {
+            panic!("{name}: {mismatch}");
+        }
+    }
+}
+
+/// What a port gave, clock by clock.
+fn of_port(trace: &Trace, name: &str) -> Vec<i64> {
+    let at = trace.ports.iter().position(|port| port.name == name).expect("a port");
+    (0..trace.clocks()).map(|clock| trace.row(clock)[at]).collect()
+}
+
+/// Each law, its operands anywhere.
+#[test]
+fn icarus_runs_each_law_of_the_controller_as_the_model_does() {
+    if !tools::have(&["iverilog", "vvp"]) {
+        return;
+    }
+    for name in ["small", "standard"] {
+        for law in [Law::Open, Law::Proportional, Law::Integral, Law::Inverse] {
+            let mut profile = Profile::bundled(name).expect("bundled");
+            profile.control = Some(Control::of(&profile, law));
+            let block = Controller::try_new(&profile).expect("a controller");
+            let design = Design::of(&block, "a test");
+            let cells = profile.control.as_ref().map_or(0, |control| control.cells as i64);
+            let trace =
+                Trace::record(&block, design.ports.clone(), with_curve(&block, cells + 1));
+            if let Err(mismatch) = icarus::check(design.top(), &design.text(), &trace) {
+                panic!("{name}, {law:?}: {mismatch}");
+            }
+        }
+    }
+}
+
+/// A curve of any words, then operations.
+fn with_curve(block: &Controller, words: i64) -> impl FnMut(&[i64]) -> Option<Vec<i64>> {
+    let names: Vec<&str> = controller::Inputs::FIELDS.iter().map(|field| field.name).collect();
+    let at = |name: &str| names.iter().position(|found| *found == name).expect("a port");
+    let [write, address, word] = ["curve_write", "curve_address", "curve_word"].map(at);
+    let (start, format) = (at("start"), block.inputs().tuning.curve_word);
+    let (mut operations, mut rng) =
+        (stimulus::operations(block, 7, 200, words, 0), fastrand::Rng::with_seed(7));
+    let mut addresses = 0..words;
+    move |outputs| {
+        let Some(next) = addresses.next() else {
+            let mut row = operations(outputs)?;
+            (row[write], row[address]) = (0, 0);
+            return Some(row);
+        };
+        let mut row = vec![0; names.len()];
+        (row[write], row[address], row[start]) = (1, next, 0);
+        row[word] = stimulus::shaped(&mut rng, format);
+        Some(row)
     }
 }

@@ -192,7 +192,10 @@ impl<'a> Case<'a> {
 /// A force loop: the plant of a slot waits for the drives that follow from the slots before.
 impl Case<'_> {
     /// The controller's tuning, where the scene has one.
-    fn tuning(&self, plant: &Plant) -> Result<Option<Tuning>> {
+    ///
+    /// # Errors
+    /// A gain that its word does not hold.
+    pub fn tuning(&self, plant: &Plant) -> Result<Option<Tuning>> {
         let (Some(plan), Some(control)) =
             (&self.scene.cases[self.index].control, &self.profile.control)
         else {

@@ -192,6 +192,9 @@ impl Format {
     /// The narrowest format that holds every number of both.
     #[inline(always)]
     pub fn join(self, other: Format) -> Format {
+        if self.is_none() || other.is_none() {
+            return if self.is_none() { other } else { self };
+        }
         let signed = self.signed || other.signed;
         let frac = self.frac.max(other.frac);
         let integer = self.integer_bits().max(other.integer_bits());

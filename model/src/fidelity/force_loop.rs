@@ -38,7 +38,10 @@ pub fn tuning_codes(formats: &controller::Tuning<Format>, tuning: &Tuning) -> co
 }
 
 /// The writes of the curve, one a clock.
-fn curve_writes(formats: controller::Tuning<Format>, tuning: &Tuning) -> Vec<controller::Tuning<i64>> {
+pub fn curve_writes(
+    formats: controller::Tuning<Format>,
+    tuning: &Tuning,
+) -> Vec<controller::Tuning<i64>> {
     let mut write = tuning_codes(&formats, tuning);
     write.curve_write = 1;
     let mut writes = Vec::new();

@@ -333,7 +333,7 @@ impl Value for Node {
                 Overflow::Proved,
             );
         }
-        if a.value == b.value && a.format == b.format {
+        if to.is_none() || (a.value == b.value && a.format == b.format) {
             return Self::quantize(a, to, Rounding::Exact, Overflow::Proved);
         }
         wire(Op::Select(bit, a.value, b.value), to)

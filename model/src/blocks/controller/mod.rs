@@ -104,7 +104,8 @@ block! {
         multiplier: Multiplier,
         sqrt: SquareRoot,
         divider: Divider,
-        curve: Memory,
+        /// Drive words of the curve.
+        points: Memory,
         /// Of each pad: invalid frames in a row, and the drive word.
         pads: Memory,
         /// Of each pad: what corrects the curve.
@@ -201,7 +202,7 @@ impl Controller {
             multiplier: Multiplier::new(left, right, profile.multiplier),
             sqrt: SquareRoot::new(square, drive.frac),
             divider: Divider::new(words::numerator(target), words::stiffness(f.square), square),
-            curve: Memory::new("curve", cells as usize + 1, drive).dont_care_on_collision(),
+            points: Memory::new("points", cells as usize + 1, drive).dont_care_on_collision(),
             pads: Memory::new("pads", words, word).dont_care_on_collision(),
             corrections: Memory::new("corrections", words, words::correction(drive))
                 .dont_care_on_collision(),
@@ -234,7 +235,7 @@ impl Controller {
             slew: self.drive,
             force_cap: self.force,
             curve_write: BIT,
-            curve_address: self.curve.address(),
+            curve_address: self.points.address(),
             curve_word: self.drive,
         }
     }
@@ -356,13 +357,13 @@ impl Controller {
         r: &Regs<V>,
         i: &In<V>,
     ) -> Signal<V> {
-        let curve = self.curve.data(&mut state.submodules.curve);
+        let curve = self.points.data(&mut state.submodules.points);
         let (bits, upper) = (self.cell_bits(), !(r.task.at(Task::Curve) & r.count.is(0)));
         let cell = r.root.bits(self.drive.width - bits, bits);
         let Tuning { curve_write: enable, curve_address: address, curve_word: data, .. } = i.tuning;
-        let read = (cell + upper).resize(self.curve.address(), Proved);
+        let read = (cell + upper).resize(self.points.address(), Proved);
         let write = Write { enable, address, data };
-        self.curve.access(&mut state.submodules.curve, read, write);
+        self.points.access(&mut state.submodules.points, read, write);
         curve
     }
 
@@ -426,7 +427,7 @@ impl Controller {
     /// Bits of the number of a cell of the curve.
     #[inline(always)]
     fn cell_bits(&self) -> u8 {
-        (self.curve.words - 1).ilog2() as u8
+        (self.points.words - 1).ilog2() as u8
     }
 }
 

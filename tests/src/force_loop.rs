@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What a force loop is given, clock by clock, by a plant that its own drive words move: in a trace
+//! of it, Verilog that gives the model's drive words has moved the plant as the model did.
+
+use std::collections::VecDeque;
+
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::bundle::Bundle;
+use hapticore_hdl::format::Format;
+use hapticore_model::blocks::force_loop::{ForceLoop, Inputs, Outputs};
+use hapticore_model::blocks::position::TablePort;
+use hapticore_model::fidelity::force_loop::{curve_writes, tuning_codes};
+use hapticore_run::case::{Case, Maker};
+use hapticore_run::engine::Signals;
+use hapticore_run::inputs;
+
+/// The plant of a scene's case around a force loop.
+pub struct Closed {
+    /// The loop of the case's profile.
+    pub block: ForceLoop,
+    maker: Maker,
+    profile: Profile,
+    constants: Inputs<i64>,
+    writes: VecDeque<Inputs<i64>>,
+    codes: Vec<i32>,
+    slots: usize,
+    /// Slots, samples and clocks since the first strobe.
+    slot: usize,
+    sample: u64,
+    count: u64,
+    full_scale_v: f64,
+    sample_rate_hz: f64,
+}
+
+impl Closed {
+    /// So many slots of a bundled scene's case by a profile, with keys and values as in `--set`.
+    ///
+    /// # Panics
+    /// Where there is no such scene or case, or it has no controller.
+    pub fn new(
+        profile: &Profile,
+        (scene, case): (&str, usize),
+        set: &[(String, String)],
+        slots: usize,
+    ) -> Self {
+        let scene = inputs::scene(scene, set).expect("bundled");
+        let profile = inputs::windowed(profile.clone(), &scene).expect("a profile");
+        let case = Case::new(&scene, case, 0, &profile, 0.0).expect("a case");
+        let calibration = case.device.for_profile(&case.profile).expect("a calibration");
+        let plant = case.plant().expect("a plant");
+        let tuning = case.tuning(&plant).expect("gains that fit").expect("a controller");
+        let block = ForceLoop::try_new(&case.profile).expect("a force loop");
+        let formats = block.inputs();
+        let constants = Inputs {
+            core: block.core.idle_inputs(&calibration),
+            tuning: tuning_codes(&formats.tuning, &tuning),
+            ..Inputs::of(0)
+        };
+        let mut writes = VecDeque::new();
+        let word = formats.core.calibration.table.word;
+        for (address, &real) in (0..).zip(&calibration.position.words) {
+            let table = TablePort { write: 1, address, word: word.code_saturating(real) };
+            let core = constants.core.with_table(table);
+            writes.push_back(Inputs { core, ..constants });
+        }
+        for tuning in curve_writes(formats.tuning, &tuning) {
+            writes.push_back(Inputs { tuning, ..constants });
+        }
+        Closed {
+            maker: Maker::new(plant, &case.profile, true, false),
+            codes: vec![0; case.profile.channels()],
+            profile: (*case.profile).clone(),
+            constants,
+            writes,
+            slots,
+            slot: 0,
+            sample: 0,
+            count: 0,
+            full_scale_v: scene.cases[case.index].control.as_ref().expect("a controller").full_scale_v,
+            sample_rate_hz: case.device.device.sample_rate_hz,
+            block,
+        }
+    }
+
+    /// The inputs of the next clock, after these outputs; none at the end.
+    pub fn next(&mut self, outputs: &[i64]) -> Option<Vec<i64>> {
+        if let Some(write) = self.writes.pop_front() {
+            return Some(flat(write));
+        }
+        self.drive(outputs);
+        let mut inputs = self.constants;
+        if self.count == 0 {
+            inputs.core.strobe = 1;
+            self.begin_sample(&mut inputs)?;
+        }
+        let channels = self.profile.channels();
+        let at = (self.sample.saturating_sub(self.profile.slot.blanking())) as usize * channels;
+        let channel = port(outputs, "channel") as usize;
+        inputs.core.code = match self.sample < self.profile.slot.blanking() {
+            true => 0,
+            false => self.codes[at + channel].into(),
+        };
+        self.advance();
+        Some(flat(inputs))
+    }
+
+    fn advance(&mut self) {
+        self.count = (self.count + 1) % self.profile.clocks_per_sample;
+        if self.count == 0 {
+            self.sample = (self.sample + 1) % self.profile.slot.samples();
+            self.slot += usize::from(self.sample == 0);
+        }
+    }
+
+    /// A drive word moves the plant from now on.
+    fn drive(&mut self, outputs: &[i64]) {
+        if port(outputs, "drive_valid") == 0 {
+            return;
+        }
+        let format: Format = self.block.outputs().drive.drive;
+        let volt = self.full_scale_v * format.real(port(outputs, "drive"));
+        let pad = port(outputs, "drive_pad") as usize;
+        let time_s = self.time_s();
+        self.maker.plant().set_drive(pad, time_s, volt).expect("in the order of time");
+    }
+
+    fn time_s(&self) -> f64 {
+        let samples = self.slot as u64 * self.profile.slot.samples() + self.sample;
+        let part = self.count as f64 / self.profile.clocks_per_sample as f64;
+        (samples as f64 + part) / self.sample_rate_hz
+    }
+
+    /// A slot's target is written as it begins; its window is made once its blanking is over, and
+    /// so the drives of the slots before are known.
+    fn begin_sample(&mut self, inputs: &mut Inputs<i64>) -> Option<()> {
+        let pads = self.maker.plant().pad_names().len();
+        if self.sample == 0 {
+            if self.slot == self.slots {
+                return None;
+            }
+            let pad = self.slot % pads;
+            let end = (self.slot + 1) as f64 * self.profile.slot.samples() as f64;
+            let newtons = self.maker.plant().target_n(pad, end / self.sample_rate_hz);
+            let word = self.block.inputs().target.target_word;
+            inputs.target.target_write = 1;
+            inputs.target.target_pad = pad as i64;
+            inputs.target.target_word = word.code_saturating(newtons);
+        }
+        if self.sample == self.profile.slot.blanking() {
+            let Signals::Samples { codes, .. } = self.maker.sample(self.slot).0 else {
+                unreachable!("it was asked for samples")
+            };
+            self.codes = codes;
+        }
+        Some(())
+    }
+}
+
+fn flat(inputs: Inputs<i64>) -> Vec<i64> {
+    let mut codes = Vec::with_capacity(Inputs::FIELDS.len());
+    Inputs::each(inputs, |_, code| codes.push(code));
+    codes
+}
+
+fn port(outputs: &[i64], name: &str) -> i64 {
+    let at = Outputs::FIELDS.iter().position(|field| field.name == name).expect("a port");
+    outputs[at]
+}
