@@ -246,6 +246,8 @@ fn still(
         force_n: None,
         eccentricity_mm: 0.0,
         direction: 0.0,
+        electrodes_f: [0.0; 4],
+        hand_n: [0.0; 2],
         push_n: [0.0; 2],
         finger: None,
         friction_n: 0.0,
