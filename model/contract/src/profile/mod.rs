@@ -6,6 +6,9 @@
 //! other, and nothing needs to be compiled again.
 
 mod check;
+mod wall;
+
+pub use wall::Wall;
 
 use hapticore_hdl::format::Format;
 use serde::{Deserialize, Serialize};
@@ -47,6 +50,9 @@ pub struct Profile {
     /// The haptic voltage.
     #[serde(default)]
     pub haptic: Haptic,
+    /// A virtual wall; a core has none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub wall: Option<Wall>,
     /// Formats of the core's words; all other widths derive from them.
     pub formats: Formats,
 }
