@@ -4,11 +4,7 @@
 //! `cargo run --release -p hapticore-tests --example walls [HANDS] [N_PER_MM] [FRAME_MS] [RULE]`: 100
 //! hands, 0.5 N/mm, 1 ms, all rules.
 
-use hapticore_tests::walls::device::Drive;
-use hapticore_tests::walls::hand::Hand;
-use hapticore_tests::walls::measures::{Measures, Row};
 use hapticore_tests::walls::trial::{Kind, Setup};
-use rayon::prelude::*;
 
 fn main() {
     let number = |n: usize, usual: f64| {
@@ -22,16 +18,9 @@ fn main() {
     let rule = std::env::args().nth(4);
     let asked = |kind: &Kind| rule.as_ref().is_none_or(|rule| *rule == format!("{kind:?}"));
     for kind in Kind::ALL.into_iter().filter(asked) {
-        let drive = Drive::calibrated(kind.pad());
         for noise_percent in [0.4, 1.0] {
-            let trial = |seed: u64| {
-                let mismatch_percent = if seed.is_multiple_of(2) { 2.0 } else { -2.0 };
-                let setup = Setup { kind, n_per_mm, mismatch_percent, noise_percent, frame_ms };
-                let hand = Hand::draw(seed, n_per_mm);
-                Measures::of(&setup.run(&hand, &drive, 1000 + seed), frame_ms)
-            };
-            let trials: Vec<Measures> = (0..hands).into_par_iter().map(trial).collect();
-            println!("| {kind:?}, {noise_percent} % | {} |", Row::of(&trials).text());
+            let setup = Setup { kind, n_per_mm, mismatch_percent: 2.0, noise_percent, frame_ms };
+            println!("| {kind:?}, {noise_percent} % | {} |", setup.hands(0..hands).text());
         }
     }
 }

@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! One hand at a wall under one rule.
 
+use std::ops::Range;
+
 use fastrand::Rng;
+use hapticore_contract::profile::Wall;
 use hapticore_reference::wall::{
     Direction, Eq11, Eq12, Frame, Fused, Linear, Rule, Sequential, Stiffness, Target, Test,
 };
 use hapticore_scene::Truth;
+use rayon::prelude::*;
 
+use super::clocked::Clocked;
 use super::device::{Drive, MOST_V, Pad, with_hand};
 use super::hand::{Hand, Phase};
+use super::measures::{Measures, Row};
 
 /// The processing time from the last sample of a frame to its drive, s.
 const PROCESSING_S: f64 = 30e-6;
@@ -31,18 +37,34 @@ pub enum Kind {
     B,
     /// Rule A.
     A,
+    /// Rule A as the wall's block, in the words of profile `small`.
+    SmallA,
+    /// Rule A as the wall's block, in the words of profile `standard`.
+    StandardA,
     /// A wall that knows the force of the hand.
     True,
 }
 
 impl Kind {
     /// All, in the order of the table.
-    pub const ALL: [Kind; 7] =
-        [Kind::Eq11, Kind::Eq12, Kind::Eq12Linear, Kind::Fused, Kind::B, Kind::A, Kind::True];
+    pub const ALL: [Kind; 9] = [
+        Kind::Eq11,
+        Kind::Eq12,
+        Kind::Eq12Linear,
+        Kind::Fused,
+        Kind::B,
+        Kind::A,
+        Kind::SmallA,
+        Kind::StandardA,
+        Kind::True,
+    ];
 
     /// What pad it is for.
     pub fn pad(self) -> Pad {
-        if self == Kind::A { Pad::Strips } else { Pad::Halves }
+        match self {
+            Kind::A | Kind::SmallA | Kind::StandardA => Pad::Strips,
+            _ => Pad::Halves,
+        }
     }
 }
 
@@ -123,10 +145,25 @@ impl Setup {
             Kind::Fused => Box::new(Fused::new(stiffness, factory, self.frame_ms)),
             Kind::B => Box::new(Sequential::new(stiffness, Test::B, factory, self.frame_ms)),
             Kind::A => Box::new(Sequential::new(stiffness, Test::A, factory, self.frame_ms)),
+            Kind::SmallA => Box::new(Clocked::new("small", Wall::A, stiffness, factory)),
+            Kind::StandardA => Box::new(Clocked::new("standard", Wall::A, stiffness, factory)),
             Kind::True => {
                 return Judge::Knows(Omniscient { stiffness, direction: Direction::Push });
             }
         })
+    }
+
+    /// What hands of these seeds feel; the mismatch of every other one has the other sign.
+    pub fn hands(&self, seeds: Range<u64>) -> Row {
+        let drive = Drive::calibrated(self.kind.pad());
+        let trial = |seed: u64| {
+            let sign = if seed.is_multiple_of(2) { 1.0 } else { -1.0 };
+            let setup = Setup { mismatch_percent: sign * self.mismatch_percent, ..self.clone() };
+            let hand = Hand::draw(seed, self.n_per_mm);
+            Measures::of(&setup.run(&hand, &drive, 1000 + seed), self.frame_ms)
+        };
+        let trials: Vec<Measures> = seeds.into_par_iter().map(trial).collect();
+        Row::of(&trials)
     }
 
     /// The frames of a hand.
