@@ -101,8 +101,40 @@ pub(crate) struct PadDrive<'a> {
     /// What has been set in place of the scene's voltage.
     pub held: Option<&'a HeldVoltage>,
     pub device: &'a Device,
+    /// What is done to one electrode of the pad in particular.
+    pub electrode: Electrode,
+}
+
+/// What is done to one electrode of a split pad in particular; nothing of a pad that is whole.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Electrode {
     /// By what share of itself the load is more for each millimetre of the push's eccentricity.
     pub lean_per_mm: f64,
+    /// What the push of the hand adds to the eccentricity, mm.
+    pub tilt_mm: f64,
+    /// The eccentricity at which the pad tips, mm.
+    pub reach_mm: f64,
+    /// The most that its source gives.
+    pub most_v_rms: f64,
+}
+
+impl Electrode {
+    /// The whole pad.
+    pub const WHOLE: Electrode = Electrode {
+        lean_per_mm: 0.0,
+        tilt_mm: 0.0,
+        reach_mm: f64::INFINITY,
+        most_v_rms: f64::INFINITY,
+    };
+
+    /// What pulls and presses the electrode, of what does the pad.
+    pub fn of_pad(&self, source_v_rms: f64, load_g: f64, eccentricity_mm: f64) -> Pull {
+        let eccentricity_mm = (eccentricity_mm + self.tilt_mm).clamp(-self.reach_mm, self.reach_mm);
+        Pull {
+            source_v_rms: source_v_rms.min(self.most_v_rms),
+            load_g: load_g * (1.0 + self.lean_per_mm * eccentricity_mm),
+        }
+    }
 }
 
 impl PadDrive<'_> {
@@ -116,10 +148,8 @@ impl PadDrive<'_> {
     pub fn pull(&self, moment: Moment) -> Pull {
         let [load_g, haptic_v_rms, eccentricity_mm] =
             self.plan.set_of_gap(self.point(moment), moment);
-        Pull {
-            source_v_rms: self.held_v_rms(moment).unwrap_or(haptic_v_rms),
-            load_g: load_g * (1.0 + self.lean_per_mm * eccentricity_mm),
-        }
+        let source_v_rms = self.held_v_rms(moment).unwrap_or(haptic_v_rms);
+        self.electrode.of_pad(source_v_rms, load_g, eccentricity_mm)
     }
 
     /// The source's voltage with its polarity: of a sine nothing, which is its mean.
@@ -140,9 +170,9 @@ impl PadDrive<'_> {
         }
     }
 
-    /// The same of an electrode that is loaded more where the push is off the centre.
-    pub fn leaning(self, lean_per_mm: f64) -> Self {
-        PadDrive { lean_per_mm, ..self }
+    /// The same of an electrode.
+    pub fn of(self, electrode: Electrode) -> Self {
+        PadDrive { electrode, ..self }
     }
 
     /// When the voltage or what presses the pad next steps or turns; where the pad's insulators

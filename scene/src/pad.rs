@@ -295,6 +295,8 @@ fn still(
         polarity: 0.0,
         charge: None,
         stiffness: 1.0,
+        electrodes_f: [0.0; 4],
+        hand_n: [0.0; 2],
         push_n: [0.0; 2],
         finger: None,
         friction_n: 0.0,

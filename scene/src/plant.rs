@@ -14,7 +14,7 @@ use num_complex::Complex64;
 
 use crate::case::{Case, Length};
 use crate::device::Device;
-use crate::drive::{DriveError, HeldVoltage, PadDrive};
+use crate::drive::{DriveError, Electrode, HeldVoltage, PadDrive};
 use crate::effects::{EffectCost, Effects, Pad, Phasors, Run, Setting};
 use crate::error::{Place, SceneError};
 use crate::nominal::NominalSheet;
@@ -319,6 +319,8 @@ impl Plant {
             haptic_v_rms: pad.haptic_v_rms,
             force_n: pad.haptic_force_n(&self.device),
             friction_n: pad.friction_n,
+            hand_n: pad.hand_n,
+            electrodes_pf: pad.electrodes_f.map(|farad| farad * 1e12),
             direction: pad.direction,
             load_g: pad.load_g,
             set: self.drive(pad.index).set(Moment::at(pad.time_s)),
@@ -420,5 +422,5 @@ fn drive<'a>(
         Length::Time { .. } => f64::INFINITY,
     };
     let plan = &case.pads[index];
-    PadDrive { index, plan, point_s, held: held.get(index), device, lean_per_mm: 0.0 }
+    PadDrive { index, plan, point_s, held: held.get(index), device, electrode: Electrode::WHOLE }
 }

@@ -81,7 +81,7 @@ impl Stimulus {
         let (key, stimulus) = match all {
             (Some(sweep), None, None) => ("sweep", Stimulus::Sweep(sweep)),
             (None, Some(points), None) => {
-                ("timeline", Stimulus::Timeline(Timeline::read(form, points)?))
+                ("timeline", Stimulus::Timeline(Timeline::read(form, "timeline", points)?))
             }
             (None, None, Some(sine)) => ("sine", sine),
             _ => {
@@ -162,16 +162,23 @@ impl Stimulus {
 
     /// When the value next steps, or turns from one slope to another; infinite where it never does.
     pub fn next_event_s(&self, after_s: f64) -> f64 {
-        let Stimulus::Timeline(Timeline { events_s, .. }) = self else { return f64::INFINITY };
-        let next = events_s.partition_point(|event_s| *event_s <= after_s);
-        events_s.get(next).copied().unwrap_or(f64::INFINITY)
+        if let Stimulus::Timeline(timeline) = self {
+            timeline.next_event_s(after_s)
+        } else {
+            f64::INFINITY
+        }
     }
 }
 
 impl Timeline {
-    fn read(form: &Table, points: Vec<[f64; 2]>) -> Result<Timeline, SceneError> {
+    /// The timeline of `key`, which has at least one point.
+    pub fn read(
+        form: &Table,
+        key: &'static str,
+        points: Vec<[f64; 2]>,
+    ) -> Result<Timeline, SceneError> {
         if points.windows(2).any(|pair| pair[1][0] < pair[0][0]) {
-            return Err(form.error("timeline", "expected times that do not fall"));
+            return Err(form.error(key, "expected times that do not fall"));
         }
         Ok(Timeline::new(points))
     }
@@ -187,9 +194,21 @@ impl Timeline {
         Timeline { points, events_s }
     }
 
+    /// The lowest and the highest value.
+    pub fn extremes(&self) -> [f64; 2] {
+        let values = || self.points.iter().map(|point| point[1]);
+        [values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max)]
+    }
+
+    /// When the value next steps, or turns from one slope to another; infinite where it never does.
+    pub fn next_event_s(&self, after_s: f64) -> f64 {
+        let next = self.events_s.partition_point(|event_s| *event_s <= after_s);
+        self.events_s.get(next).copied().unwrap_or(f64::INFINITY)
+    }
+
     /// Linear between points, held before the first and after the last; at two points of equal time
     /// the later one holds from then on.
-    fn at(&self, moment: Moment) -> f64 {
+    pub fn at(&self, moment: Moment) -> f64 {
         let after = self.points.partition_point(|point| moment.is_past(point[0]));
         match (after.checked_sub(1).map(|n| self.points[n]), self.points.get(after)) {
             (None, Some(first)) => first[1],

@@ -10,6 +10,7 @@
 //! | `{ raster = { nx = 24, ny = 14, margin_mm = 15 } }` | is placed on a grid, row by row from the bottom left, its centre `margin_mm` off the edges |
 //! | `{ line = { from_mm = [0, 0], to_mm = [100, 0], period_s = 2 } }` | goes there and back at even speed |
 //! | `{ circle = { centre_mm = [0, 0], radius_mm = 100, period_s = 2, phase_turns = 0 } }` | circles, anticlockwise |
+//! | `{ timeline = { x_mm = [[0, -20], [1, 5]], y_mm = [[0, 0]] } }` | goes from point to point: time in s and mm, linear between, held outside; an axis left out stays at 0 |
 //! | `{ lissajous = { centre_mm, amplitude_mm = [ax, ay], frequency_hz = [fx, fy], phase_turns = [px, py] } }` | swings |
 
 use std::f64::consts::TAU;
@@ -17,6 +18,7 @@ use std::f64::consts::TAU;
 use crate::device::Device;
 use crate::error::SceneError;
 use crate::format::{Limits, Table, Value};
+use crate::stimulus::{Moment, Timeline};
 
 type Point = [f64; 2];
 
@@ -27,8 +29,19 @@ pub(crate) const SLACK_MM: f64 = 1e-9;
 #[derive(Clone, Debug)]
 pub(crate) enum Trajectory {
     Points(Vec<Point>),
-    Line { from: Point, to: Point, period_s: f64 },
-    Swing { centre: Point, amplitude: Point, frequency_hz: Point, phase_turns: Point },
+    Line {
+        from: Point,
+        to: Point,
+        period_s: f64,
+    },
+    Swing {
+        centre: Point,
+        amplitude: Point,
+        frequency_hz: Point,
+        phase_turns: Point,
+    },
+    /// Along x and along y, mm.
+    Timeline(Box<[Timeline; 2]>),
 }
 
 impl Trajectory {
@@ -65,12 +78,13 @@ impl Trajectory {
         let line = form.table("line")?.map(read_line).transpose()?;
         let circle = form.table("circle")?.map(read_circle).transpose()?;
         let lissajous = form.table("lissajous")?.map(read_lissajous).transpose()?;
-        let mut given = [points, raster, line, circle, lissajous].into_iter().flatten();
+        let timeline = form.table("timeline")?.map(read_timeline).transpose()?;
+        let mut given = [points, raster, line, circle, timeline, lissajous].into_iter().flatten();
         match (given.next(), given.next()) {
             (Some(trajectory), None) => Ok(trajectory),
             _ => {
                 Err(form
-                    .error("", "expected exactly one of \"sweep\", \"raster\", \"line\", \"circle\", \"lissajous\""))
+                    .error("", "expected exactly one of \"sweep\", \"raster\", \"line\", \"circle\", \"timeline\", \"lissajous\""))
             }
         }
     }
@@ -82,6 +96,10 @@ impl Trajectory {
             Trajectory::Line { from, to, .. } => vec![*from, *to],
             Trajectory::Swing { centre: [x, y], amplitude: [ax, ay], .. } => {
                 vec![[x - ax.abs(), y - ay.abs()], [x + ax.abs(), y + ay.abs()]]
+            }
+            Trajectory::Timeline(axes) => {
+                let [x, y] = [0, 1].map(|axis| axes[axis].extremes());
+                (0..2).map(|n| [x[n], y[n]]).collect()
             }
         }
     }
@@ -103,6 +121,9 @@ impl Trajectory {
             Trajectory::Line { period_s, .. } if 0.5 * period_s >= least_s => {
                 next_multiple(0.5 * period_s, after_s)
             }
+            Trajectory::Timeline(axes) => {
+                axes[0].next_event_s(after_s).min(axes[1].next_event_s(after_s))
+            }
             _ => f64::INFINITY,
         }
     }
@@ -123,6 +144,7 @@ impl Trajectory {
                             * (TAU * (frequency_hz[axis] * time_s + phase_turns[axis])).sin()
                 })
             }
+            Trajectory::Timeline(axes) => [0, 1].map(|axis| axes[axis].at(Moment::at(time_s))),
         }
     }
 }
@@ -155,6 +177,14 @@ fn read_raster(table: &Table, device: &Device) -> Result<Trajectory, SceneError>
 fn read_line(table: &Table) -> Result<Trajectory, SceneError> {
     let pair = |key| table.require(key, "[x, y]", table.pair(key, Limits::ANY)?);
     Ok(Trajectory::Line { from: pair("from_mm")?, to: pair("to_mm")?, period_s: period(table)? })
+}
+
+fn read_timeline(table: &Table) -> Result<Trajectory, SceneError> {
+    let axis = |key| {
+        let points = table.pairs(key)?.unwrap_or_else(|| vec![[0.0; 2]]);
+        Timeline::read(table, key, points)
+    };
+    Ok(Trajectory::Timeline(Box::new([axis("x_mm")?, axis("y_mm")?])))
 }
 
 fn read_circle(table: &Table) -> Result<Trajectory, SceneError> {

@@ -48,6 +48,11 @@ pub struct Truth {
     pub force_n: f64,
     /// Friction that acts on the pad, N; 0 where `[friction]` has no law of motion.
     pub friction_n: f64,
+    /// Force of finger and push on the pad along x and y, N; 0 without `[hand]`.
+    pub hand_n: [f64; 2],
+    /// Capacitances of the electrodes of a split pad from left to right, two or four, pF; 0 without
+    /// `[halves]`.
+    pub electrodes_pf: [f64; 4],
     /// Direction of the push, eq. 10; 0 without `[halves]`.
     pub direction: f64,
     /// Load on the pad, g.

@@ -200,6 +200,12 @@ fn tables_and_keys_that_mean_nothing_alone() {
         "eccentricity_mm = 8\n[halves]\n[gap]",
         "s.toml:4: pad.0.eccentricity_mm: expected a number from -7.5 to 7.5, got 8",
     );
+    check(
+        "[gap]\n[halves]\npush_height_mm = 5",
+        "s.toml:6: halves.push_height_mm: expected [hand] too, which pushes at that height",
+    );
+    check("[gap]\n[halves]\nstrips = 3", "s.toml:6: halves.strips: expected 2 or 4, got 3");
+    check("[gap]\n[halves]\nsensing_v_rms = 9", "s.toml:6: halves.sensing_v_rms: unknown key");
 }
 
 #[test]
@@ -239,6 +245,7 @@ fn pad_outside_the_sheet() {
         "{ line = { from_mm = [0, 0], to_mm = [0, 300], period_s = 1 } }",
         "{ circle = { centre_mm = [400, 0], radius_mm = 20, period_s = 1 } }",
         "{ lissajous = { amplitude_mm = [100, 240], frequency_hz = [1, 1] } }",
+        "{ timeline = { x_mm = [[0, 0], [1, 430], [2, 0]] } }",
     ] {
         let message = message(&scene(position), &[]);
         assert!(message.starts_with(expected), "{position}: {message}");
@@ -354,6 +361,12 @@ fn sweeps_and_time_do_not_mix() {
     check(
         "load_g = { timeline = [[1, 1], [0, 2]] }",
         "s.toml:4: pad.0.load_g.timeline: expected times that do not fall",
+    );
+    let moved =
+        "title = \"t\"\n[[pad]]\nposition_mm = { timeline = { x_mm = [[1, 1], [0, 1]] } }\n";
+    assert_eq!(
+        message(moved, &[]),
+        "s.toml:3: pad.0.position_mm.timeline.x_mm: expected times that do not fall"
     );
 }
 

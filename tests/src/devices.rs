@@ -192,8 +192,8 @@ pub fn disturbed_rows(
     let mut maker =
         Maker::new(case.plant().expect("a plant"), &case.profile, scene.cases[0].sampled(), false);
     let at = (0, case.clock);
-    let mut session =
-        Session::new(&case.profile, &case.device, (Fidelity::Fixed, None), false, at).expect("a session");
+    let mut session = Session::new(&case.profile, &case.device, (Fidelity::Fixed, None), false, at)
+        .expect("a session");
     let row = |slot| {
         let truth = maker.plant().truth(slot);
         let (mut signals, _) = maker.signals(slot);

@@ -76,7 +76,11 @@ impl Closed {
             slot: 0,
             sample: 0,
             count: 0,
-            full_scale_v: scene.cases[case.index].control.as_ref().expect("a controller").full_scale_v,
+            full_scale_v: scene.cases[case.index]
+                .control
+                .as_ref()
+                .expect("a controller")
+                .full_scale_v,
             sample_rate_hz: case.device.device.sample_rate_hz,
             block,
         }

@@ -12,6 +12,7 @@
 //! | [`speed`] | how fast the model is, and Verilator |
 //! | [`stimulus`] | what a core is given: random and directed input, whole scenes |
 //! | [`tools`] | the HDL tools, and the message where one is missing |
+//! | [`walls`] | hands at a wall: the plant in a loop with a rule, and what the hand feels |
 
 pub mod devices;
 pub mod faults;
@@ -22,3 +23,4 @@ pub mod reference_error;
 pub mod speed;
 pub mod stimulus;
 pub mod tools;
+pub mod walls;

@@ -3,12 +3,13 @@
 //! two simulators.
 
 use hapticore_contract::control::{Control, Law};
-use hapticore_contract::profile::Profile;
+use hapticore_contract::profile::{self, Profile};
+use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::verilog::Design;
 use hapticore_host::profile::for_terminals;
-use hapticore_hdl::bundle::Bundle;
 use hapticore_model::blocks::controller::{self, Controller};
 use hapticore_model::blocks::haptic_voltage::HapticVoltage;
+use hapticore_model::blocks::wall::{Inputs, Wall};
 use hapticore_tests::force_loop::Closed;
 use hapticore_tests::lockstep::verilator::{Start, Verilated};
 use hapticore_tests::lockstep::{Bench, Trace, icarus};
@@ -160,8 +161,7 @@ fn icarus_runs_each_law_of_the_controller_as_the_model_does() {
             let block = Controller::try_new(&profile).expect("a controller");
             let design = Design::of(&block, "a test");
             let cells = profile.control.as_ref().map_or(0, |control| control.cells as i64);
-            let trace =
-                Trace::record(&block, design.ports.clone(), with_curve(&block, cells + 1));
+            let trace = Trace::record(&block, design.ports.clone(), with_curve(&block, cells + 1));
             if let Err(mismatch) = icarus::check(design.top(), &design.text(), &trace) {
                 panic!("{name}, {law:?}: {mismatch}");
             }
@@ -188,5 +188,62 @@ fn with_curve(block: &Controller, words: i64) -> impl FnMut(&[i64]) -> Option<Ve
         (row[write], row[address], row[start]) = (1, next, 0);
         row[word] = stimulus::shaped(&mut rng, format);
         Some(row)
+    }
+}
+
+/// A wall and its trace: pads that are dragged through it in turn, and between them any words.
+fn wall(profile: &str, rule: profile::Wall) -> (Design, Trace) {
+    let bundled = Profile::bundled(profile).expect("bundled");
+    let block = Wall::try_new(&Profile { wall: Some(rule), ..bundled }).unwrap();
+    let (f, latency, mut clocks) = (block.inputs(), block.latency(), 0..);
+    let mut rng = fastrand::Rng::with_seed(7);
+    let mut held = Inputs::of(0);
+    let design = Design::of(&block, "a test");
+    let trace = Trace::record(&block, design.ports.clone(), move |_| {
+        let clock: u64 = clocks.next()?;
+        let (frame, within) = (clock / (latency + 3), clock % (latency + 3));
+        if within == 0 {
+            let turns = (frame / 2) as f64 / 300.0;
+            let x_mm = 2.0 * (std::f64::consts::TAU * turns).cos();
+            let push = -0.02 * (std::f64::consts::TAU * turns).sin() + 0.01 * (rng.f64() - 0.5);
+            held = <Inputs as Bundle>::map(f, |format| {
+                rng.i64(format.min_code() as i64..=format.max_code() as i64)
+            });
+            (held.pad, held.restart) = ((frame % 2) as i64, i64::from(rng.u32(..500) == 0));
+            if rng.u32(..16) != 0 {
+                held.c_left = f.c_left.code_saturating(170.0 * (1.0 - push));
+                held.c_right = f.c_right.code_saturating(170.0 * (1.0 + push));
+                held.x = f.x.code_saturating(x_mm);
+                held.at_zero = i64::from(x_mm > 0.0);
+                held.stiffness = f.stiffness.code_saturating(0.5);
+                held.most = f.most.code_saturating(1.0);
+                held.factory = 0;
+            }
+        }
+        let mut inputs = Vec::new();
+        let given = Inputs { start: i64::from(within == 0), ..held };
+        <Inputs as Bundle>::map(given, |code| inputs.push(code));
+        (frame < 1500).then_some(inputs)
+    });
+    (design, trace)
+}
+
+#[test]
+fn both_simulators_run_a_wall_as_the_model_does() {
+    for (profile, rule) in [("small", profile::Wall::B), ("standard", profile::Wall::A)] {
+        let (design, trace) = wall(profile, rule);
+        if tools::have(&["iverilog", "vvp"])
+            && let Err(mismatch) = icarus::check(design.top(), &design.text(), &trace)
+        {
+            panic!("{profile}, Icarus: {mismatch}");
+        }
+        if tools::have(&["verilator", "make", "g++"]) {
+            let verilated =
+                Verilated::new(design.top(), &design.ports, &design.text(), Start::Zero);
+            if let Err(mismatch) = verilated.check(&trace) {
+                panic!("{profile}, Verilator: {mismatch}");
+            }
+        }
+        println!("{profile}: {} clocks equal", trace.clocks());
     }
 }

@@ -202,7 +202,8 @@ impl Case<'_> {
             return Ok(None);
         };
         let calibrated = plant.as_calibrated()?;
-        let at = (calibrated.as_ref().unwrap_or(plant), self.clock.seconds(plant.pad_names().len()));
+        let at =
+            (calibrated.as_ref().unwrap_or(plant), self.clock.seconds(plant.pad_names().len()));
         control::tuning(plan, control, &self.profile, &self.device, at).map(Some)
     }
 

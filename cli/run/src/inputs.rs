@@ -54,7 +54,8 @@ pub fn buildable(profile: Profile) -> Result<Profile> {
 /// # Errors
 /// A window that the profile's core cannot have.
 pub fn windowed(mut profile: Profile, scene: &Scene) -> Result<Profile> {
-    let asked = [("window_samples", scene.window_samples), ("settle_samples", scene.settle_samples)];
+    let asked =
+        [("window_samples", scene.window_samples), ("settle_samples", scene.settle_samples)];
     for (key, samples) in asked {
         let Some(samples) = samples else { continue };
         match key {

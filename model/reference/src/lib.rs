@@ -4,6 +4,7 @@
 //! | module | a result is | compare with |
 //! | --- | --- | --- |
 //! | [`Reference`] | the equation in floating point: `f64`, or any [`Real`] | any core: the difference is what word lengths cost |
+//! | [`wall`] | direction of push and walls, frame by frame, in `f64` | the wall's block: the difference is what word lengths cost |
 //! | [`rounded`] | the exact value, rounded where and how the blocks' docs say | the clocked core: equal to the bit |
 //!
 //! Absent: the core. This crate depends on the contract alone (profiles, frames, calibrations,
@@ -45,5 +46,6 @@
 pub mod control;
 mod ideal;
 pub mod rounded;
+pub mod wall;
 
 pub use ideal::{Real, Reference};

@@ -19,3 +19,4 @@ pub mod pace;
 pub mod position;
 pub mod ratio;
 pub mod sqrt;
+pub mod wall;

@@ -22,7 +22,10 @@ use hapticore_hdl::probe::{Probe, Variable, sample, variables};
 use hapticore_hdl::signal::{Signal, bit, code};
 
 /// The tuning's words as codes, all drives on, nothing written.
-pub fn tuning_codes(formats: &controller::Tuning<Format>, tuning: &Tuning) -> controller::Tuning<i64> {
+pub fn tuning_codes(
+    formats: &controller::Tuning<Format>,
+    tuning: &Tuning,
+) -> controller::Tuning<i64> {
     controller::Tuning {
         enable: 1,
         full_drive: formats.full_drive.code_saturating(tuning.full_drive),

@@ -61,10 +61,9 @@ fn frames_by_eq_6_alone_are_the_reference() {
 
 #[test]
 fn frames_of_any_sums_are_the_reference() {
-    let controlled = short_profiles().into_iter().map(|profile| Profile {
-        control: Some(Control::of(&profile, Law::Inverse)),
-        ..profile
-    });
+    let controlled = short_profiles()
+        .into_iter()
+        .map(|profile| Profile { control: Some(Control::of(&profile, Law::Inverse)), ..profile });
     for (seed, profile) in (0..).zip(short_profiles().into_iter().chain(controlled)) {
         let calibration = calibration(&profile);
         let mut reference = Slots::new(&profile, &calibration);

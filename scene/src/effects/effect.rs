@@ -34,6 +34,11 @@ pub(crate) trait PadEffect: Send {
     }
     /// Keeps the state at a time that was due; the pad is as it is just before.
     fn keep(&mut self, _: &Pad, _: Tick, _: &PadDrive) {}
+    /// Force of the hand on a pad at the last time at which the effect kept its state, N, where it
+    /// moves the pad. Effects before it see that force until the next.
+    fn hand_n(&self, _pad: usize) -> Option<[f64; 2]> {
+        None
+    }
     /// Why the level cannot be used on a pad that it has acted on, as for
     /// [`ChannelEffect::refuses`].
     fn refuses(&self, _: &Pad) -> Option<String> {

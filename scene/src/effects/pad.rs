@@ -39,6 +39,11 @@ pub(crate) struct Pad {
     pub eccentricity_mm: f64,
     /// Eq. 10, where an effect says it.
     pub direction: f64,
+    /// Capacitances of the electrodes from left to right, where an effect splits the pad.
+    pub electrodes_f: [f64; 4],
+    /// Force of finger and push on the pad, N: as last kept, until the effect that moves the pad
+    /// says it for the pad's time.
+    pub hand_n: [f64; 2],
     /// What pushes the pad besides its finger, N.
     pub push_n: [f64; 2],
     /// What the pad hangs on, where an effect says it; else it goes where its trajectory says.

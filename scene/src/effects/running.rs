@@ -60,6 +60,7 @@ impl Effects {
         while let Some((n, tick)) = self.due(pad, drive) {
             self.keep(n, tick, drive);
         }
+        pad.hand_n = self.hand_n(pad.index);
         for (n, effect) in self.list.iter_mut().enumerate() {
             if let Effect::Pad(effect) = effect {
                 self.meter.book(n, || effect.follow(pad, drive));
@@ -70,6 +71,7 @@ impl Effects {
     /// Lets effect `n` keep its state at a time, after those before it have acted on the pad.
     fn keep(&mut self, n: usize, tick: Tick, drive: &PadDrive) {
         let mut pad = drive.pad(Moment::before(tick.time_s));
+        pad.hand_n = self.hand_n(pad.index);
         for (k, effect) in self.list[..=n].iter_mut().enumerate() {
             let Effect::Pad(effect) = effect else { continue };
             self.meter.time(k, || match k < n {
@@ -77,6 +79,15 @@ impl Effects {
                 false => effect.keep(&pad, tick, drive),
             });
         }
+    }
+
+    /// Force of the hand on a pad, as last kept.
+    fn hand_n(&self, pad: usize) -> [f64; 2] {
+        let said = self.list.iter().find_map(|effect| match effect {
+            Effect::Pad(effect) => effect.hand_n(pad),
+            _ => None,
+        });
+        said.unwrap_or_default()
     }
 
     /// The first effect to keep its state before the pad's time, and when.

@@ -1,12 +1,21 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `[halves]`: a pad of two electrodes side by side along x, which reads the direction of the push.
+//! `[halves]`: a pad of electrodes side by side along x, which reads the direction of the push.
 //!
-//!   F₁,₂ = W/2·(1 ∓ e/x_c),   Δx = Σa_i·x_i/Σa_i − Σx_i/2,   x_i = ∓x_c,   a_i ∝ C_i      (CoP and eq. 10)
+//!   W_i = W·(1 + e·x_i/ρ²),   ρ² = Σs_i·x_i²                                               (CoP)
+//!   Δx = Σa_i·x_i/Σa_i − Σx_i/2,   x_i = ∓x_c,   a_i ∝ C_i                                 (eq. 10)
 //!
-//! A push off the centre, a pad's `eccentricity_mm`, presses one electrode more than the other; its
-//! gap closes further, and eq. 10 reads a part of e. `mismatch_percent` is by how much the left
-//! electrode is larger than the right one: it reads as a constant offset. The centres lie a quarter
-//! of the pad's diameter off its own. Each electrode has gaps of its own, at the level of `[gap]`.
+//! A push off the centre, a pad's `eccentricity_mm`, presses one side more than the other; its gap
+//! closes further, and eq. 10 reads a part of e. With `push_height_mm` the hand of `[hand]` pushes
+//! at that height above the sheet, which adds height·F/W to e; where the pad tips, e is at its end.
+//! `mismatch_percent` is by how much the left sensing electrode is larger than the right one: it
+//! reads as a constant offset. Each electrode has gaps of its own, at the level of `[gap]`, with its
+//! share s_i of the pad's area and the load per area W_i.
+//!
+//! | `strips` | electrodes | senses |
+//! | --- | --- | --- |
+//! | 2 | halves, whose centres lie a quarter of the pad's diameter off its own | both |
+//! | 4 | strips of a disc: the outer two have `outer_share_percent` of its area | the outer two, at `sensing_v_rms` at most where that is given |
+//!
 //! The truth's direction is Δx over half the sheet's width, as the ratios of eq. 10 are. Source:
 //! docs/physics.md §4.
 
@@ -16,7 +25,7 @@ use super::pad::Pad;
 use super::spec::{Level, Setting, Spec};
 use super::tick::Tick;
 use crate::device::Device;
-use crate::drive::PadDrive;
+use crate::drive::{Electrode, PadDrive, Pull};
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
 
@@ -26,72 +35,135 @@ pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneE
         return Err(table.error("", "expected [gap] too, which the push closes on one side"));
     };
     let mismatch = 0.01 * table.number_or("mismatch_percent", Limits::within(-50.0, 50.0), 0.0)?;
+    let height_mm = table.number_or("push_height_mm", Limits::NOT_NEGATIVE, 0.0)?;
+    if height_mm > 0.0 && root.table("hand")?.is_none() {
+        return Err(
+            table.error("push_height_mm", "expected [hand] too, which pushes at that height")
+        );
+    }
+    let strips = read_strips(table, mismatch, device)?;
+    let newton_per_g = device.weight_n(1.0);
     let build = move |setting: &Setting| {
-        let electrodes = [gap.build(setting), gap.build(setting)];
-        let (centre_mm, half_width_mm) =
-            (setting.device.electrode_offset_mm(), 0.5 * setting.device.width_mm);
+        let gaps = strips.iter().map(|_| gap.build(setting)).collect();
+        let half_width_mm = 0.5 * setting.device.width_mm;
         Effect::Pad(Box::new(SplitElectrode {
-            gaps: electrodes,
-            mismatch,
-            centre_mm,
+            gaps,
+            strips: strips.clone(),
+            push_mm_g_per_n: height_mm / newton_per_g,
             half_width_mm,
         }))
     };
     Spec::with_levels("halves", Some(table), vec![Level::new("gaps", 1e3, build)], "gaps")
 }
 
-struct SplitElectrode {
-    /// The gap effect of the left and of the right electrode.
-    gaps: [Effect; 2],
-    mismatch: f64,
+/// One electrode.
+#[derive(Clone, Copy, Debug)]
+struct Strip {
+    /// Share of the pad's area.
+    area: f64,
+    /// Where its centre lies, mm right of the pad's.
     centre_mm: f64,
+    electrode: Electrode,
+}
+
+/// The electrodes from left to right.
+fn read_strips(table: &Table, mismatch: f64, device: &Device) -> Result<Vec<Strip>, SceneError> {
+    let strips = table.whole("strips", 2, 4)?.unwrap_or(2);
+    if strips == 3 {
+        return Err(table.error("strips", "expected 2 or 4, got 3"));
+    }
+    let mut sides = vec![[0.5, device.electrode_offset_mm()]];
+    let mut sensing_v_rms = f64::INFINITY;
+    if strips == 4 {
+        let outer = table.number_or("outer_share_percent", Limits::within(1.0, 90.0), 20.0)?;
+        let most_v = table.number("sensing_v_rms", Limits::NOT_NEGATIVE)?;
+        sensing_v_rms = most_v.unwrap_or(sensing_v_rms);
+        sides = disc_strips(0.005 * outer, 0.5 * device.pad_diameter_mm).to_vec();
+    }
+    let outer_mm = sides[0][1];
+    let mean_square_mm2: f64 = sides.iter().map(|[area, mm]| 2.0 * area * mm * mm).sum();
+    let strip = |side: f64, n: usize| Strip {
+        area: sides[n][0] * if n == 0 { 1.0 - 0.5 * side * mismatch } else { 1.0 },
+        centre_mm: side * sides[n][1],
+        electrode: Electrode {
+            lean_per_mm: side * sides[n][1] / mean_square_mm2,
+            reach_mm: mean_square_mm2 / outer_mm,
+            most_v_rms: if n == 0 { sensing_v_rms } else { f64::INFINITY },
+            ..Electrode::WHOLE
+        },
+    };
+    let left = (0..sides.len()).map(|n| strip(-1.0, n));
+    Ok(left.chain((0..sides.len()).rev().map(|n| strip(1.0, n))).collect())
+}
+
+/// Area share and centre of the outer and of the inner strip on one side of a disc, whose outer
+/// strip is a segment of this share: (acos t − t√(1−t²))/π for one that begins at t radii.
+fn disc_strips(outer: f64, radius_mm: f64) -> [[f64; 2]; 2] {
+    use std::f64::consts::PI;
+    let segment = |t: f64| (t.acos() - t * (1.0 - t * t).sqrt()) / PI;
+    let (mut low, mut high) = (0.0, 1.0);
+    while high - low > 1e-12 {
+        let middle = 0.5 * (low + high);
+        *(if segment(middle) > outer { &mut low } else { &mut high }) = middle;
+    }
+    // Of what lies beyond t radii: its first moment, over the disc's area, in radii.
+    let moment = |t: f64| 2.0 / 3.0 * (1.0 - t * t).powf(1.5) / PI;
+    [[outer, moment(low)], [0.5 - outer, moment(0.0) - moment(low)]]
+        .map(|[area, moment]| [area, radius_mm * moment / area])
+}
+
+struct SplitElectrode {
+    /// The gap effect of each electrode from left to right.
+    gaps: Vec<Effect>,
+    strips: Vec<Strip>,
+    /// Height of the push over the weight of a gram, mm·g/N.
+    push_mm_g_per_n: f64,
     half_width_mm: f64,
 }
 
 impl SplitElectrode {
-    /// Lets `act` see the gap of each electrode, the electrode, and by what share of itself its
-    /// load is more for each millimetre of eccentricity.
-    fn for_both(&mut self, pad: &mut Pad, act: impl Fn(&mut dyn PadEffect, &mut Pad, f64)) {
-        let leans_per_mm = self.leans_per_mm();
-        let mut electrodes = leans_per_mm.map(|lean_per_mm| {
-            let load_g = pad.load_g * (1.0 + lean_per_mm * pad.eccentricity_mm);
-            Pad { load_g, ..pad.clone() }
-        });
-        for ((gap, electrode), lean) in self.gaps.iter_mut().zip(&mut electrodes).zip(leans_per_mm)
-        {
-            if let Effect::Pad(gap) = gap {
-                act(gap.as_mut(), electrode, lean);
-            }
+    /// Lets `act` see the gap of each electrode, the electrode, and what is done to it; then takes
+    /// them together.
+    fn for_all(&mut self, pad: &mut Pad, act: impl Fn(&mut dyn PadEffect, &mut Pad, Electrode)) {
+        let tilt_mm = self.tilt_mm(pad);
+        let (mut electrodes_f, mut attraction_n) = ([0.0; 4], 0.0);
+        let each = self.gaps.iter_mut().zip(&self.strips).zip(&mut electrodes_f);
+        for ((gap, strip), farad) in each {
+            let Effect::Pad(gap) = gap else { continue };
+            let electrode = Electrode { tilt_mm, ..strip.electrode };
+            let Pull { source_v_rms, load_g } =
+                electrode.of_pad(pad.source_v_rms, pad.load_g, pad.eccentricity_mm);
+            let mut part = Pad { source_v_rms, load_g, ..pad.clone() };
+            act(gap.as_mut(), &mut part, electrode);
+            *farad = strip.area * part.capacitance_f;
+            attraction_n += strip.area * part.attraction_n;
         }
-        self.combine(pad, &electrodes);
+        pad.electrodes_f = electrodes_f;
+        pad.capacitance_f = electrodes_f.iter().sum();
+        pad.haptic_v_rms = pad.haptic_v_at(pad.capacitance_f);
+        pad.attraction_n = attraction_n;
+        let last = self.strips.len() - 1;
+        let [a, b] = [electrodes_f[0], electrodes_f[last]];
+        pad.direction = self.strips[last].centre_mm * (b - a) / (a + b) / self.half_width_mm;
     }
 
-    fn leans_per_mm(&self) -> [f64; 2] {
-        [-1.0, 1.0].map(|side| side / self.centre_mm)
-    }
-
-    fn combine(&self, pad: &mut Pad, [left, right]: &[Pad; 2]) {
-        let areas = [0.5 + 0.25 * self.mismatch, 0.5 - 0.25 * self.mismatch];
-        let [a, b] = [areas[0] * left.capacitance_f, areas[1] * right.capacitance_f];
-        pad.capacitance_f = a + b;
-        pad.haptic_v_rms = pad.haptic_v_at(a + b);
-        pad.attraction_n = areas[0] * left.attraction_n + areas[1] * right.attraction_n;
-        pad.direction = self.centre_mm * (b - a) / (a + b) / self.half_width_mm;
+    /// What the push of the hand adds to the eccentricity.
+    fn tilt_mm(&self, pad: &Pad) -> f64 {
+        let moment_mm_g = self.push_mm_g_per_n * pad.hand_n[0];
+        if moment_mm_g == 0.0 || pad.load_g <= 0.0 { 0.0 } else { moment_mm_g / pad.load_g }
     }
 }
 
 impl PadEffect for SplitElectrode {
     fn act(&mut self, pad: &mut Pad) {
-        self.for_both(pad, |gap, electrode, _| gap.act(electrode));
+        self.for_all(pad, |gap, electrode, _| gap.act(electrode));
     }
 
     fn follow(&mut self, pad: &mut Pad, drive: &PadDrive) {
-        self.for_both(pad, |gap, electrode, lean_per_mm| {
-            gap.follow(electrode, &drive.leaning(lean_per_mm));
-        });
+        self.for_all(pad, |gap, part, electrode| gap.follow(part, &drive.of(electrode)));
     }
 
-    /// Both gaps keep their states at the same times.
+    /// All gaps keep their states at the same times.
     fn due(&self, pad: &Pad, drive: &PadDrive) -> Option<Tick> {
         match &self.gaps[0] {
             Effect::Pad(gap) => gap.due(pad, drive),
@@ -100,10 +172,11 @@ impl PadEffect for SplitElectrode {
     }
 
     fn keep(&mut self, pad: &Pad, tick: Tick, drive: &PadDrive) {
-        let leans_per_mm = self.leans_per_mm();
-        for (gap, lean_per_mm) in self.gaps.iter_mut().zip(leans_per_mm) {
+        let tilt_mm = self.tilt_mm(pad);
+        for (gap, strip) in self.gaps.iter_mut().zip(&self.strips) {
             if let Effect::Pad(gap) = gap {
-                gap.keep(pad, tick, &drive.leaning(lean_per_mm));
+                let electrode = Electrode { tilt_mm, ..strip.electrode };
+                gap.keep(pad, tick, &drive.of(electrode));
             }
         }
     }

@@ -38,17 +38,13 @@ pub fn tuning(
     let root = control.root_full_scale();
     let adc = part(device.device.haptic_full_scale_v);
     let (proportional, correction) = match control.law {
-        Law::Integral => {
-            (part(plan.proportional_v) * root, part(plan.integral_v) * root * frame_s)
-        }
+        Law::Integral => (part(plan.proportional_v) * root, part(plan.integral_v) * root * frame_s),
         _ => (part(plan.proportional_v), plan.filter),
     };
     let full_drive = adc * adc / profile.square_gain();
-    for (key, value) in [
-        ("full_scale_v", full_drive),
-        ("proportional_v", proportional),
-        ("integral_v", correction),
-    ] {
+    for (key, value) in
+        [("full_scale_v", full_drive), ("proportional_v", proportional), ("integral_v", correction)]
+    {
         let most = control.gain.real(control.gain.max_code() as i64);
         ensure!(value <= most, "control.{key}: expected a gain of {most} at most, got {value}");
     }

@@ -16,7 +16,7 @@ fn ensure(holds: bool, field: &str, expected: impl Display, got: impl Display) -
     if holds { Ok(()) } else { Err(ProfileError::value(field, expected, got)) }
 }
 
-fn within(field: &str, value: u64, low: u64, high: u64) -> Check {
+pub(super) fn within(field: &str, value: u64, low: u64, high: u64) -> Check {
     ensure((low..=high).contains(&value), field, format_args!("{low} to {high}"), value)
 }
 
@@ -35,6 +35,7 @@ impl Profile {
         self.check_terminals()?;
         self.check_formats()?;
         self.check_position()?;
+        self.check_wall()?;
         self.check_slot()?;
         self.control.as_ref().map_or(Ok(()), Control::check)
     }

@@ -6,6 +6,9 @@
 //! other, and nothing needs to be compiled again.
 
 mod check;
+mod wall;
+
+pub use wall::Wall;
 
 use crate::control::Control;
 use hapticore_hdl::format::Format;
@@ -51,6 +54,9 @@ pub struct Profile {
     /// The force controller, where there is one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub control: Option<Control>,
+    /// A virtual wall; a core has none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub wall: Option<Wall>,
     /// Formats of the core's words; all other widths derive from them.
     pub formats: Formats,
 }

@@ -127,7 +127,13 @@ impl Controller {
         let (base, wanted) = self.wanted(request, pad);
         let rail = self.tuning.rail;
         let (low, high) = (wanted < Exact::ZERO, wanted > rail);
-        let within = if low { Exact::ZERO } else if high { rail } else { wanted };
+        let within = if low {
+            Exact::ZERO
+        } else if high {
+            rail
+        } else {
+            wanted
+        };
         let off = !request.enable || self.faults.contains(&true);
         let to = match (off, request.invalid) {
             (true, _) => Exact::ZERO,

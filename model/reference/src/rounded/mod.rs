@@ -15,6 +15,7 @@ mod number;
 mod oscillator;
 mod position;
 mod ratio;
+mod wall;
 
 pub use capacitance::{Capacitance, capacitance};
 pub use controller::{Controller, Drive, Request};
@@ -26,6 +27,7 @@ pub use number::{Exact, Rounded, floor_quotient, round, round_quotient, round_re
 pub use oscillator::{Oscillator, Sample, windowed_lo};
 pub use position::{Place, Position};
 pub use ratio::{Ratio, ratio};
+pub use wall::{Wall, WallFrame, WallResult};
 
 use hapticore_contract::calibration::Calibration;
 use hapticore_contract::frame::{Flags, Frame};

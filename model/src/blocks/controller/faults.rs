@@ -9,7 +9,7 @@
 //!
 //! What causes a fault and still holds when it is cleared causes it again.
 
-use super::{Controller, In, Regs, Registers};
+use super::{Controller, In, Registers, Regs};
 use hapticore_hdl::block::Interpretation;
 use hapticore_hdl::bundle;
 use hapticore_hdl::format::Format;
@@ -56,7 +56,11 @@ impl Controller {
 
     /// Invalid estimates of the pad in a row, with this one.
     #[inline(always)]
-    pub(super) fn invalid_count<V: Interpretation>(&self, i: &In<V>, before: Signal<V>) -> Signal<V> {
+    pub(super) fn invalid_count<V: Interpretation>(
+        &self,
+        i: &In<V>,
+        before: Signal<V>,
+    ) -> Signal<V> {
         let counter = Format::counter(self.invalid_frames);
         let more = before.at_least(int(self.invalid_frames)).select(before, before + int(1));
         i.invalid.select(more, int(0)).resize(counter, Wrap)

@@ -62,8 +62,7 @@ impl Controller {
                 let (error, corrected) =
                     (self.error(r, i).integer(), self.corrected(r, found).integer());
                 let gain = at(Task::Error).select(i.tuning.proportional, i.tuning.correction);
-                let left = at(Task::Error)
-                    .select(error, at(Task::Correct).select(corrected, rise));
+                let left = at(Task::Error).select(error, at(Task::Correct).select(corrected, rise));
                 (left, at(Task::Interpolate).select(part, gain.integer()))
             }
             Law::Inverse => {
@@ -125,7 +124,12 @@ impl Controller {
 
     /// A product of a word of what is corrected, or of a rise, narrowed.
     #[inline(always)]
-    fn narrow<V: Interpretation>(&self, found: &Found<V>, left: Format, right: Format) -> Signal<V> {
+    fn narrow<V: Interpretation>(
+        &self,
+        found: &Found<V>,
+        left: Format,
+        right: Format,
+    ) -> Signal<V> {
         let exact = found.product.as_code(left.product(right));
         exact.quantize(self.correction_format(), HalfEven, Saturate)
     }

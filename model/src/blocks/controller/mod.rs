@@ -40,6 +40,7 @@ use super::divider::{self, Divider};
 use super::multiplier::{self, Multiplier};
 use super::sqrt::{self, SquareRoot};
 use crate::buildable::{fits, rounds};
+pub use faults::Faults;
 use hapticore_contract::control::{Control, Law};
 use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_hdl::block::{Block, Interpretation, State};
@@ -48,7 +49,6 @@ use hapticore_hdl::memory::{Memory, Write};
 use hapticore_hdl::signal::{Proved, Signal, bit, int, zero};
 use hapticore_hdl::states::States;
 use hapticore_hdl::{block, bundle, call, when};
-pub use faults::Faults;
 use laws::Found;
 use tasks::Task;
 
@@ -281,8 +281,7 @@ impl Block for Controller {
             silent: self.silence(&r, &i),
             ..still
         };
-        let next =
-            when!(i.start => begin, idle => still, else self.work(still, &i, &found, ends));
+        let next = when!(i.start => begin, idle => still, else self.work(still, &i, &found, ends));
         self.keep(state, &r, &i, next.drive, &found);
         state.store(self, next);
         outputs

@@ -29,11 +29,17 @@ impl Task {
         match law {
             Law::Open => &[Root, Curve, Interpolate, Combine, Limit],
             Law::Proportional => &[Root, Curve, Interpolate, Error, Correct, Combine, Limit],
-            Law::Integral => {
-                &[Root, Curve, Interpolate, ForceRoot, Error, Correct, Combine, Limit]
-            }
+            Law::Integral => &[Root, Curve, Interpolate, ForceRoot, Error, Correct, Combine, Limit],
             Law::Inverse => &[
-                Root, Curve, Interpolate, Square, Stiffness, Target, Divide, InverseRoot, Combine,
+                Root,
+                Curve,
+                Interpolate,
+                Square,
+                Stiffness,
+                Target,
+                Divide,
+                InverseRoot,
+                Combine,
                 Limit,
             ],
         }

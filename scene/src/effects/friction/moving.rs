@@ -33,6 +33,8 @@ struct Track {
     finger_m: Vector,
     pad_m: Vector,
     motion: Motion,
+    /// Force of finger and push on the pad, N.
+    hand_n: Vector,
 }
 
 impl Moving {
@@ -44,7 +46,13 @@ impl Moving {
     fn begin(drive: &PadDrive) -> Track {
         let start = drive.set(Moment::at(0.0));
         let at_m = [1e-3 * start.x_mm, 1e-3 * start.y_mm];
-        Track { tick: Tick::default(), finger_m: at_m, pad_m: at_m, motion: Motion::default() }
+        Track {
+            tick: Tick::default(),
+            finger_m: at_m,
+            pad_m: at_m,
+            motion: Motion::default(),
+            hand_n: [0.0; 2],
+        }
     }
 
     /// The track that is kept of a pad.
@@ -76,7 +84,11 @@ impl Moving {
         };
         let motion = self.law.step(&self.surface, from.motion, drive);
         let pad_m = add(from.pad_m, step_s, motion.velocity_m_s);
-        Track { finger_m, pad_m, motion, ..*from }
+        let stretch = add(finger_m, -1.0, pad_m);
+        let damped_m_s = add(finger_m_s, -1.0, motion.velocity_m_s);
+        let hand_n = add(pad.push_n, finger.stiffness_n_per_m, stretch);
+        let hand_n = add(hand_n, finger.damping_n_s_per_m, damped_m_s);
+        Track { finger_m, pad_m, motion, hand_n, ..*from }
     }
 
     /// What the track makes of the pad.
@@ -91,6 +103,7 @@ impl Moving {
         [pad.x_mm, pad.y_mm] = [0, 1].map(|axis| at_mm[axis].clamp(-half_mm[axis], half_mm[axis]));
         pad.split = ideal_split(pad.x_mm, pad.y_mm, &self.device);
         pad.friction_n = length(track.motion.friction_n);
+        pad.hand_n = track.hand_n;
     }
 }
 
@@ -103,6 +116,10 @@ impl PadEffect for Moving {
     /// A calibration is of the nominal coefficient.
     fn settle(&mut self, pad: &mut Pad) {
         pad.force_n = Some(self.mu.nominal * pad.attraction_n);
+    }
+
+    fn hand_n(&self, pad: usize) -> Option<Vector> {
+        self.pads.get(pad)?.map(|track| track.hand_n)
     }
 
     fn due(&self, pad: &Pad, drive: &PadDrive) -> Option<Tick> {

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `[wall]`: the numbers of a virtual wall's sequential test (docs/physics.md §6). Times are frames
+//! of the pad, lengths µm, so that the model needs no seconds.
+
+use super::{Profile, ProfileError, check::within};
+use serde::{Deserialize, Serialize};
+
+/// A virtual wall's sequential test. What a profile does not name is as in rule A at 1 ms frames.
+///
+/// ```
+/// use hapticore_contract::profile::{Profile, Wall};
+///
+/// let mut profile = Profile::bundled("small")?;
+/// assert_eq!(profile.wall, None, "no bundled profile has a wall");
+/// profile.wall = Some(Wall { engage: 0, ..Wall::A });
+/// let message = profile.check_values().unwrap_err().to_string();
+/// assert_eq!(message, "wall.engage: expected 1 to 63, got 0");
+/// # Ok::<(), hapticore_contract::profile::ProfileError>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Wall {
+    /// h1: evidence, in standard deviations, that lets go.
+    pub release: u64,
+    /// h2: evidence that engages again.
+    pub engage: u64,
+    /// bf in sixteenths: by how much of the friction's asymmetry letting go is advanced.
+    pub advance_16: u64,
+    /// kb in sixteenths: by how much of it engaging is delayed.
+    pub delay_16: u64,
+    /// Frames that a state lasts at least.
+    pub dwell_frames: u64,
+    /// Frames in which the force comes back when the wall engages again.
+    pub ramp_frames: u64,
+    /// Frames without voltage after which the direction is learnt.
+    pub zero_frames: u64,
+    /// Speed from which it is learnt, µm per frame.
+    pub learn_um: u64,
+    /// Speed beyond which only play releases, or nothing engages, µm per frame.
+    pub fast_um: u64,
+    /// Play of the position, µm.
+    pub play_um: u64,
+    /// Distance from the wall at which air is free, µm.
+    pub clear_um: u64,
+}
+
+impl Wall {
+    /// Rule A, for a pad whose sensing strips stay at a low voltage.
+    pub const A: Wall = Wall {
+        release: 3,
+        engage: 8,
+        advance_16: 5,
+        delay_16: 16,
+        dwell_frames: 0,
+        ramp_frames: 40,
+        zero_frames: 10,
+        learn_um: 10,
+        fast_um: 20,
+        play_um: 100,
+        clear_um: 200,
+    };
+    /// Rule B, for halves that sense and brake.
+    pub const B: Wall =
+        Wall { release: 4, engage: 12, advance_16: 0, delay_16: 24, dwell_frames: 20, ..Wall::A };
+}
+
+impl Default for Wall {
+    fn default() -> Self {
+        Wall::A
+    }
+}
+
+impl Profile {
+    pub(super) fn check_wall(&self) -> Result<(), ProfileError> {
+        let Some(wall) = self.wall else { return Ok(()) };
+        for (field, value, low, high) in [
+            ("wall.release", wall.release, 1, 63),
+            ("wall.engage", wall.engage, 1, 63),
+            ("wall.advance_16", wall.advance_16, 0, 255),
+            ("wall.delay_16", wall.delay_16, 0, 255),
+            ("wall.dwell_frames", wall.dwell_frames, 0, 1023),
+            ("wall.ramp_frames", wall.ramp_frames, 1, 1023),
+            ("wall.zero_frames", wall.zero_frames, 1, 1023),
+            ("wall.learn_um", wall.learn_um, 1, 10_000),
+            ("wall.fast_um", wall.fast_um, 1, 10_000),
+            ("wall.play_um", wall.play_um, 1, 10_000),
+            ("wall.clear_um", wall.clear_um, 1, 10_000),
+        ] {
+            within(field, value, low, high)?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The steps of the wall's rule, each one clock: equations at the head of the block.
+
+use super::{
+    CHANGE, EVIDENCE, FAST, FRAMES, FRICTION, GAIN, In, Kept, LEARNT, OFFSET, Registers, Regs, U,
+    Wall, Y,
+};
+use hapticore_hdl::block::Interpretation;
+use hapticore_hdl::bundle::Bundle;
+use hapticore_hdl::format::Format;
+use hapticore_hdl::signal::{HalfEven, Proved, Saturate, Signal, Wrap, bit, code, int, zero};
+use hapticore_hdl::when;
+
+/// The code of a number of a format, to the nearest.
+fn nearest(real: f64, format: Format) -> i64 {
+    format.code_saturating(real)
+}
+
+/// A constant by its number.
+#[inline(always)]
+fn number<V: Interpretation>(real: f64, format: Format) -> Signal<V> {
+    code(nearest(real, format), format)
+}
+
+/// The mean of an old value and a new one that has a share of 2^−shift.
+#[inline(always)]
+fn filtered<V: Interpretation>(old: Signal<V>, new: Signal<V>, shift: u8, to: Format) -> Signal<V> {
+    let sum = old * int((1 << shift) - 1) + new;
+    sum.scaled(-(shift as i8)).quantize(to, HalfEven, Proved)
+}
+
+/// One more, up to `most`.
+#[inline(always)]
+fn counted<V: Interpretation>(count: Signal<V>, most: u64) -> Signal<V> {
+    count.at_least(int(most)).select(int(most), count + int(1)).resize(count.format, Wrap)
+}
+
+impl Wall {
+    /// A pad at its first frame: nothing is known but where it is.
+    #[inline(always)]
+    fn started<V: Interpretation>(&self, i: &In<V>) -> Kept<Signal<V>> {
+        let formats = self.kept_formats();
+        Kept {
+            last: i.x,
+            filtered: i.x.resize(formats.filtered, Proved),
+            u: i.factory,
+            inwards: i.factory.resize(LEARNT, Proved),
+            outwards: i.factory.resize(LEARNT, Proved),
+            extreme: i.x.resize(formats.extreme, Proved),
+            since: code(self.rule.dwell_frames as i64, formats.since),
+            ..Kept::map(formats, zero)
+        }
+    }
+
+    /// x̄, v, u and the time without voltage.
+    #[inline(always)]
+    pub(super) fn follow<V: Interpretation>(
+        &self,
+        r: Regs<V>,
+        i: In<V>,
+        quotient: Signal<V>,
+    ) -> Regs<V> {
+        let kept = when!(i.restart | !r.kept.known => self.started(&i), else r.kept);
+        let before = kept.u;
+        let any = !(i.c_left.is(0) & i.c_right.is(0));
+        let reads = any & quotient.less_than(code(1 << 12, quotient.format));
+        let negative = i.c_right.less_than(i.c_left);
+        let read = negative.select(-quotient, quotient).resize(U, Wrap);
+        let u = reads.select(read, kept.u);
+        let zeros = self.rule.zero_frames;
+        let kept = Kept {
+            known: bit(true),
+            last: i.x,
+            filtered: filtered(kept.filtered, i.x, 2, self.filtered()),
+            speed: filtered(kept.speed, i.x - kept.last, 3, self.speed()),
+            u,
+            zero: i.at_zero.select(counted(kept.zero, zeros), zero(kept.zero.format)),
+            ..kept
+        };
+        let moved = (u - before).abs().resize(r.moved.format, Wrap);
+        Registers { kept, any, reads, moved, ..r }
+    }
+
+    /// What the direction reads in free air.
+    #[inline(always)]
+    pub(super) fn learn<V: Interpretation>(&self, r: Regs<V>) -> Regs<V> {
+        let k = r.kept;
+        let clear = number(1e-3 * self.rule.clear_um as f64, self.filtered());
+        let speed = |sign: f64| number(sign * 1e-3 * self.rule.learn_um as f64, self.speed());
+        let learns = r.reads & clear.less_than(k.filtered) & k.zero.is(self.rule.zero_frames);
+        let inwards = learns & k.speed.less_than(speed(-1.0));
+        let outwards = learns & speed(1.0).less_than(k.speed);
+        let side = |learns: Signal<V>, of: Signal<V>, frames: Signal<V>| {
+            let [fast, slow] = [2, 6].map(|shift| filtered(of, k.u, shift, LEARNT));
+            let next = frames.is(FAST).select(slow, fast);
+            (learns.select(next, of), learns.select(counted(frames, FAST), frames))
+        };
+        let (in_u, inwards_frames) = side(inwards, k.inwards, k.inwards_frames);
+        let (out_u, outwards_frames) = side(outwards, k.outwards, k.outwards_frames);
+        let change = learns.select(filtered(k.change, r.moved, 6, CHANGE), k.change);
+        let kept = Kept {
+            change,
+            inwards: in_u,
+            inwards_frames: inwards_frames.resize(FRAMES, Proved),
+            outwards: out_u,
+            outwards_frames: outwards_frames.resize(FRAMES, Proved),
+            ..k
+        };
+        Registers { kept, ..r }
+    }
+
+    /// off and b.
+    #[inline(always)]
+    pub(super) fn calibrate<V: Interpretation>(&self, r: Regs<V>, i: In<V>) -> Regs<V> {
+        let k = r.kept;
+        let [into, out] = [k.inwards_frames, k.outwards_frames].map(|frames| frames.is(FAST));
+        let first = number(0.006, FRICTION);
+        let least = number(0.0015, FRICTION);
+        let learnt = (k.outwards - k.inwards).scaled(-1).resize(FRICTION, Saturate);
+        let learnt = learnt.less_than(least).select(least, learnt);
+        let middle = (k.inwards + k.outwards).scaled(-1);
+        let of_one = into.select(k.inwards + first, k.outwards - first);
+        let offset = (into & out).select(middle, (into | out).select(of_one, i.factory));
+        Registers {
+            offset: offset.resize(OFFSET, Proved),
+            friction: (into & out).select(learnt, first),
+            ..r
+        }
+    }
+
+    /// y and the bias in standard deviations; time goes on.
+    #[inline(always)]
+    pub(super) fn weigh<V: Interpretation>(&self, r: Regs<V>) -> Regs<V> {
+        let k = r.kept;
+        let rough = number(0.0055 / 0.886, CHANGE).less_than(k.change);
+        let off = k.u - r.offset;
+        let [fine, coarse] = [8, 7].map(|by| off.scaled(by).quantize(Y, HalfEven, Saturate));
+        let factor = k.free.select(int(self.rule.delay_16), int(self.rule.advance_16)).scaled(-4);
+        let bias = r.friction * factor;
+        let [fine_bias, coarse_bias] =
+            [8, 7].map(|by| bias.scaled(by).quantize(EVIDENCE, HalfEven, Saturate));
+        let step = number((1.0f64 / self.rule.ramp_frames as f64).min(1.0), GAIN);
+        let one = number(1.0, GAIN);
+        let gain = k.gain + step;
+        let gain = one.less_than(gain).select(one, gain).resize(GAIN, Wrap);
+        let since = counted(k.since, self.rule.dwell_frames.max(1));
+        Registers {
+            y: r.reads.select(rough.select(coarse, fine), zero(Y)),
+            bias: rough.select(coarse_bias, fine_bias),
+            kept: Kept { since, gain, ..k },
+            ..r
+        }
+    }
+
+    /// Evidence and play, and whether they end the state.
+    #[inline(always)]
+    pub(super) fn test<V: Interpretation>(&self, r: Regs<V>) -> Regs<V> {
+        let k = r.kept;
+        let fast = |sign: f64| number(sign * 1e-3 * self.rule.fast_um as f64, self.speed());
+        let play = number(1e-3 * self.rule.play_um as f64, self.filtered());
+        let half = number(0.5, EVIDENCE);
+        let [h1, h2] = [self.rule.release, self.rule.engage].map(|h| number(h as f64, EVIDENCE));
+        let farther =
+            k.free.select(k.extreme.less_than(k.filtered), k.filtered.less_than(k.extreme));
+        let extreme = farther.select(k.filtered, k.extreme);
+        let release = (k.evidence + r.y + r.bias - half).resize(EVIDENCE, Saturate);
+        let inwards = k.speed.less_than(fast(-1.0));
+        let release = (inwards & h1.less_than(release)).select(h1, release);
+        let engage = (k.evidence - r.y - half - r.bias).resize(EVIDENCE, Saturate);
+        let back = k.free.select(extreme - k.filtered, k.filtered - extreme);
+        let engages = h2.less_than(engage) & !fast(1.0).less_than(k.speed);
+        let decided = k.free.select(engages, h1.less_than(release)) | play.less_than(back);
+        let over = match self.rule.dwell_frames {
+            0 => bit(true),
+            dwell => k.since.is(dwell),
+        };
+        let kept = Kept { extreme, evidence: k.free.select(engage, release), ..k };
+        Registers { kept, leaves: decided & over, ..r }
+    }
+
+    /// The state of the next frames.
+    #[inline(always)]
+    pub(super) fn decide<V: Interpretation>(&self, r: Regs<V>, i: In<V>) -> Regs<V> {
+        let k = r.kept;
+        let outside = !i.x.less_than(int(0));
+        let enters = outside | r.leaves;
+        let dwell = code(self.rule.dwell_frames as i64, k.since.format);
+        let since = outside.select(dwell, r.leaves.select(zero(k.since.format), k.since));
+        let restarts = r.leaves & k.free;
+        let gain = outside.select(number(1.0, GAIN), restarts.select(zero(GAIN), k.gain));
+        let free = !outside & (r.leaves.select(!k.free, k.free));
+        let kept = Kept {
+            free,
+            evidence: enters.select(zero(EVIDENCE), k.evidence),
+            extreme: enters.select(k.filtered, k.extreme),
+            since,
+            gain,
+            ..k
+        };
+        Registers { kept, ..r }
+    }
+}

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Walls: the rounded reference's, frame by frame of hands that enter, press and leave, and of
+//! random words; the clocks they take; hostile frames; the proof of ranges.
+
+use super::{Inputs, Outputs, Wall};
+use crate::support::never_skips::NeverSkips;
+use crate::support::random::Random;
+use crate::support::{Bench, MILLION, operations};
+use hapticore_contract::profile::{self, Profile};
+use hapticore_hdl::block::Block;
+use hapticore_hdl::bundle::Bundle;
+use hapticore_hdl::format::Format;
+use hapticore_hdl::interpretations::range::{Range, take_assumptions, take_violations, whole};
+use hapticore_hdl::probe::sample;
+use hapticore_hdl::signal::Signal;
+use hapticore_reference::rounded::{self, Exact, WallFrame, WallResult};
+
+/// The bundled profiles by rule A, which is taken where they name none, and by rule B.
+fn profiles() -> Vec<Profile> {
+    let with = |wall| Profile::all().into_iter().map(move |p| Profile { wall, ..p });
+    with(None).chain(with(Some(profile::Wall::B))).collect()
+}
+
+/// The block and its reference, pad by pad.
+struct Pair {
+    bench: Bench<Wall>,
+    walls: Vec<rounded::Wall>,
+    formats: Inputs<Format>,
+    force: Format,
+}
+
+impl Pair {
+    fn new(profile: &Profile) -> Self {
+        let block = Wall::try_new(profile).unwrap();
+        let walls = (0..profile.pads).map(|_| rounded::Wall::new(profile)).collect();
+        let (formats, force) = (block.inputs(), profile.formats.force);
+        Pair { bench: Bench::new(block), walls, formats, force }
+    }
+
+    /// A frame of both: the same to the bit.
+    fn frame(&mut self, inputs: Inputs<i64>) -> Outputs<i64> {
+        let (got, clocks) = self.bench.operate(inputs);
+        assert_eq!(clocks, self.bench.block.latency(), "clocks measured, latency()");
+        let f = &self.formats;
+        let frame = WallFrame {
+            restart: inputs.restart == 1,
+            parts: [inputs.c_left, inputs.c_right].map(|code| Exact::of(code, f.c_left)),
+            x: Exact::of(inputs.x, f.x),
+            at_zero: inputs.at_zero == 1,
+            stiffness: Exact::of(inputs.stiffness, f.stiffness),
+            most: Exact::of(inputs.most, f.most),
+            factory: Exact::of(inputs.factory, f.factory),
+        };
+        let WallResult { target, free, valid } = self.walls[inputs.pad as usize].frame(&frame);
+        let target = target.code(self.force);
+        let expected = Outputs { done: 1, target, free: free.into(), valid: valid.into() };
+        assert_eq!(got, expected, "clock {}: {inputs:?}", self.bench.clock);
+        got
+    }
+
+    /// Codes of a frame in units: pF, mm.
+    fn given(&self, pad: i64, [left, right]: [f64; 2], x_mm: f64, at_zero: bool) -> Inputs<i64> {
+        let f = &self.formats;
+        Inputs {
+            start: 0,
+            pad,
+            restart: 0,
+            c_left: f.c_left.code_saturating(left),
+            c_right: f.c_right.code_saturating(right),
+            x: f.x.code_saturating(x_mm),
+            at_zero: at_zero.into(),
+            stiffness: f.stiffness.code_saturating(0.5),
+            most: f.most.code_saturating(1.0),
+            factory: 0,
+        }
+    }
+}
+
+/// A pad that is dragged to and fro over the wall's surface, pushing the way it goes: what it reads
+/// and where it is in frame n.
+fn dragged(random: &mut Random, n: u64) -> ([f64; 2], f64) {
+    let turns = n as f64 / 700.0;
+    let x_mm = 2.0 * (std::f64::consts::TAU * turns).cos() + 0.005 * random.between(-1.0, 1.0);
+    let push = -0.02 * (std::f64::consts::TAU * turns).sin() + 0.004;
+    let noise = 0.01 * random.between(-1.0, 1.0);
+    ([170.0 * (1.0 - push - noise), 170.0 * (1.0 + push)], x_mm)
+}
+
+#[test]
+fn walls_are_those_of_the_reference_where_a_hand_drags_the_pad() {
+    for (seed, profile) in (0..).zip(profiles()) {
+        let (mut pair, mut random) = (Pair::new(&profile), Random::new(seed));
+        let (mut frees, mut targets) = (0, 0);
+        for n in 0..operations(MILLION / 500) {
+            for pad in 0..2 {
+                let (parts, x_mm) = dragged(&mut random, n + 300 * pad);
+                let mut inputs = pair.given(pad as i64, parts, x_mm, x_mm > 0.0);
+                inputs.restart = i64::from(random.below(3000) == 0);
+                let out = pair.frame(inputs);
+                frees += out.free;
+                targets += i64::from(out.target > 0);
+            }
+        }
+        if cfg!(optimised) {
+            assert!(
+                frees > 200 && targets > 200,
+                "{}: {frees} free, {targets} forces",
+                profile.name
+            );
+        }
+    }
+}
+
+#[test]
+fn walls_are_those_of_the_reference_whatever_the_words() {
+    for (seed, profile) in (0..).zip(profiles()) {
+        let (mut pair, mut random) = (Pair::new(&profile), Random::new(seed));
+        let formats = pair.formats;
+        let mut inputs = <Inputs as Bundle>::map(formats, |format| random.word(format));
+        for _ in 0..operations(MILLION / 200) {
+            let next = <Inputs as Bundle>::map(formats, |format| random.word(format));
+            let restart = i64::from(random.below(40) == 0);
+            // Runs of like positions and voltages, so that states are reached and left.
+            let x =
+                if random.below(3) == 0 { next.x } else { inputs.x + random.below(9) as i64 - 4 };
+            let x = x.clamp(formats.x.min_code() as i64, formats.x.max_code() as i64);
+            let at_zero = i64::from(random.below(30) != 0);
+            let (pad, start) = (next.pad.rem_euclid(2), 0);
+            inputs = Inputs { start, restart, x, at_zero, pad, ..next };
+            if random.below(2) == 0 {
+                inputs.c_right = inputs.c_left + inputs.c_left / 64;
+                inputs.c_right = inputs.c_right.min(formats.c_right.max_code() as i64);
+            }
+            pair.frame(inputs);
+        }
+    }
+}
+
+#[test]
+fn a_lifted_pad_is_let_go_and_an_open_part_is_no_evidence() {
+    for profile in profiles() {
+        let mut pair = Pair::new(&profile);
+        let within = |pair: &mut Pair, parts: [f64; 2]| {
+            let inputs = pair.given(0, parts, -1.0, false);
+            (0..200).map(|_| pair.frame(inputs)).last().unwrap()
+        };
+        pair.frame(pair.given(0, [170.0; 2], 1.0, true));
+        let pressed = within(&mut pair, [170.0; 2]);
+        assert_eq!((pressed.free, pressed.valid), (0, 1));
+        let half_n = pair.force.code_saturating(0.5);
+        assert_eq!(pressed.target, half_n, "0.5 N/mm, 1 mm deep");
+        let lifted = within(&mut pair, [0.0; 2]);
+        assert_eq!((lifted.target, lifted.free, lifted.valid), (0, 0, 0), "all parts lifted");
+        for dead in [[170.0, 0.0], [0.0, 170.0]] {
+            let open = within(&mut pair, dead);
+            assert_eq!((open.target, open.free, open.valid), (half_n, 0, 1), "{dead:?}: as before");
+        }
+        let out = pair.given(0, [170.0, 0.0], -0.8, false);
+        let last = (0..40).map(|_| pair.frame(out)).last().unwrap();
+        assert_eq!((last.target, last.free), (0, 1), "play releases it");
+    }
+}
+
+#[test]
+fn at_the_surface_there_is_no_force_and_no_push_is_no_release() {
+    for profile in profiles() {
+        let mut pair = Pair::new(&profile);
+        let surface = pair.given(0, [170.0; 2], 0.0, false);
+        for _ in 0..100 {
+            let out = pair.frame(surface);
+            assert_eq!((out.target, out.free), (0, 0), "x_c = 0");
+        }
+        let still = pair.given(0, [170.0; 2], -0.5, false);
+        // With rule A friction's asymmetry advances letting go by less than the test's drift.
+        for _ in 0..2000 {
+            assert_eq!(pair.frame(still).free, 0, "Δx = 0");
+        }
+        let rail = Inputs { x: pair.formats.x.min_code() as i64, ..still };
+        let last = (0..100).map(|_| pair.frame(rail)).last().unwrap();
+        assert_eq!(last.target, still.most, "at the rail the largest force holds it");
+    }
+}
+
+#[test]
+fn skipping_changes_no_bit_on_any_clock() {
+    for profile in profiles() {
+        let block = Wall::try_new(&profile).unwrap();
+        let (formats, clocks) = (block.inputs(), block.latency() + 6);
+        let mut skips = Bench::new(block.clone());
+        let mut never = Bench::<_, NeverSkips>::read(block);
+        let mut random = Random::new(3);
+        for _ in 0..operations(300) {
+            let held = <Inputs as Bundle>::map(formats, |format| random.word(format));
+            for clock in 0..clocks {
+                let inputs = Inputs { start: i64::from(clock == 0), ..held };
+                assert_eq!(skips.clock(inputs), never.clock(inputs), "clock {}", skips.clock);
+                let same = |((name, a), (_, b)): ((_, i64), (_, NeverSkips))| -> Option<_> {
+                    let _: &hapticore_hdl::probe::Variable = &name;
+                    (a != b.0).then_some(name.name)
+                };
+                let differ: Vec<_> =
+                    skips.registers().zip(never.registers()).filter_map(same).collect();
+                assert_eq!(differ, Vec::<String>::new(), "clock {}", skips.clock);
+            }
+        }
+    }
+}
+
+/// Every word anywhere in its format, in the memory too, until nothing new can come.
+#[test]
+fn no_signal_can_overflow() {
+    for profile in profiles() {
+        let block = Wall::try_new(&profile).unwrap();
+        let any = <Inputs as Bundle>::map(block.inputs(), |format: Format| Signal {
+            value: whole(format),
+            format,
+        });
+        let mut state = block.reset::<Range>();
+        let mut seen: Vec<Range> = Vec::new();
+        take_violations();
+        take_assumptions();
+        for clock in 0.. {
+            assert!(clock < 20_000, "does not close");
+            block.clock(&mut state, any);
+            let mut now = Vec::new();
+            sample(&block, &state, &mut now);
+            let joined: Vec<_> = match seen.is_empty() {
+                true => now,
+                false => seen.iter().zip(&now).map(|(a, b)| a.join(*b)).collect(),
+            };
+            if joined == seen && clock > 300 {
+                break;
+            }
+            seen = joined;
+        }
+        assert_eq!(take_violations(), [], "{}", profile.name);
+        let assumed = take_assumptions();
+        assert!(assumed.iter().all(|text| text.contains("remainder of a division")), "{assumed:?}");
+    }
+}

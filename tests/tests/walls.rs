@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Hands at a wall, closed loop on the plant: what each rule may leave of sticking force, release
+//! time, flips and vanished walls. The figures of a hundred hands are in docs/physics.md §6
+//! (`cargo run --release -p hapticore-tests --example walls`); these are the first twelve of them.
+
+use hapticore_tests::walls::device::Drive;
+use hapticore_tests::walls::hand::Hand;
+use hapticore_tests::walls::measures::{Measures, Row};
+use hapticore_tests::walls::trial::{Kind, Setup};
+
+const HANDS: u64 = if cfg!(optimised) { 12 } else { 2 };
+
+/// 0.5 N/mm, 1 ms frames, 1 % noise.
+fn setup(kind: Kind) -> Setup {
+    Setup { kind, n_per_mm: 0.5, mismatch_percent: 2.0, noise_percent: 1.0, frame_ms: 1.0 }
+}
+
+fn felt(kind: Kind) -> Row {
+    let row = setup(kind).hands(0..HANDS);
+    println!("{kind:?} | {}", row.text());
+    row
+}
+
+#[test]
+fn a_wall_with_split_drive_hardly_sticks() {
+    let a = felt(Kind::A);
+    assert!(a.sticking_n <= 0.03 && a.worst_n <= 0.12 && a.slow_peak_n <= 0.08, "{a:?}");
+    assert!(a.release_ms <= 25.0 && a.release_p95_ms <= 90.0 && a.vanished_ms <= 1.0, "{a:?}");
+    // Knowing the hand's force leaves as many: those of the hovering hand are asked for.
+    assert!(a.excess_flips <= 5.0, "{a:?}");
+    assert!(a.peak_n > 0.7, "and it holds: {a:?}");
+}
+
+/// The block in the words of the smallest profile costs next to nothing.
+#[test]
+fn the_block_is_felt_as_the_rule_is() {
+    let a = felt(Kind::SmallA);
+    assert!(a.sticking_n <= 0.03 && a.slow_peak_n <= 0.08 && a.release_p95_ms <= 90.0, "{a:?}");
+    assert!(a.vanished_ms <= 2.0 && a.excess_flips <= 6.0, "{a:?}");
+}
+
+/// Halves that sense and brake: what pulled in under the push hides its end. The wall of eq. 11
+/// sticks wholly, the fused rule in part, rule B less.
+#[test]
+fn rules_on_two_halves_stick_in_the_order_of_what_they_know() {
+    let [eq11, fused, b, known] = [Kind::Eq11, Kind::Fused, Kind::B, Kind::True].map(felt);
+    assert!(eq11.sticking_n > 2.0 * fused.sticking_n && fused.sticking_n > 1.2 * b.sticking_n);
+    assert!(b.sticking_n > 10.0 * known.sticking_n, "{b:?} {known:?}");
+    assert!(b.sticking_n <= 0.08 && b.release_ms <= 35.0 && b.release_p95_ms <= 280.0, "{b:?}");
+    assert!(b.vanished_ms <= 6.0, "{b:?}");
+}
+
+/// In by 4 mm beyond the surface, a rest, out again, with 300 N/m: sticking at most 0.008 N, and
+/// the wall never vanishes.
+#[test]
+fn the_trajectory_of_the_paper_neither_sticks_nor_loses_the_wall() {
+    let drive = Drive::calibrated(Kind::A.pad());
+    for mismatch_percent in [-2.0, 2.0] {
+        let setup = Setup { mismatch_percent, noise_percent: 0.4, ..setup(Kind::A) };
+        let frames = setup.run(&Hand::of_the_paper(), &drive, 1);
+        let felt = Measures::of(&frames, 1.0);
+        println!("{felt:?}");
+        assert!(felt.sticking_n <= 0.008 && felt.vanished_ms == 0.0, "{felt:?}");
+        assert!(felt.peak_n > 0.3, "the wall holds: {felt:?}");
+    }
+}
