@@ -43,6 +43,8 @@ pub enum Measure {
     RmsOffTarget,
     /// Largest truth − target, of the force of a pad with a controller: how far it overshoots.
     MaxAboveTarget,
+    /// Largest target − truth, of the force of a pad with a controller.
+    MaxBelowTarget,
     /// How far from the expected time the estimate jumps: where the mean of a pad's next seven slots
     /// rises most above that of the seven before, by five times its mean change at least.
     JumpOff,
@@ -52,7 +54,7 @@ pub enum Measure {
     DepartureOff,
 }
 
-const MEASURES: [(&str, Measure); 13] = [
+const MEASURES: [(&str, Measure); 14] = [
     ("max_abs_error", Measure::MaxAbsError),
     ("rms_error", Measure::RmsError),
     ("mean_error", Measure::MeanError),
@@ -64,6 +66,7 @@ const MEASURES: [(&str, Measure); 13] = [
     ("max_off", Measure::MaxOff),
     ("rms_off_target", Measure::RmsOffTarget),
     ("max_above_target", Measure::MaxAboveTarget),
+    ("max_below_target", Measure::MaxBelowTarget),
     ("jump_off", Measure::JumpOff),
     ("departure_off", Measure::DepartureOff),
 ];
@@ -75,7 +78,10 @@ impl Measure {
     }
 
     fn is_of_target(self) -> bool {
-        matches!(self, Measure::RmsOffTarget | Measure::MaxAboveTarget)
+        matches!(
+            self,
+            Measure::RmsOffTarget | Measure::MaxAboveTarget | Measure::MaxBelowTarget
+        )
     }
 
     /// Unit of the measured value.
@@ -94,7 +100,8 @@ impl Measure {
             | Measure::MeanError
             | Measure::MaxOff
             | Measure::RmsOffTarget
-            | Measure::MaxAboveTarget => of.unit(),
+            | Measure::MaxAboveTarget
+            | Measure::MaxBelowTarget => of.unit(),
             Measure::JumpOff => Quantity::TimeS.unit(),
             Measure::DepartureOff => Quantity::HapticVRms.unit(),
             _ => "%",

@@ -93,7 +93,8 @@ fn baseline(criterion: &Criterion) -> Option<(&'static str, Baseline)> {
             | Measure::InvalidPercent
             | Measure::JumpOff
             | Measure::RmsOffTarget
-            | Measure::MaxAboveTarget,
+            | Measure::MaxAboveTarget
+            | Measure::MaxBelowTarget,
             _,
         ) => None,
         (Measure::MaxAbsError | Measure::RmsError, Quantity::PositionMm) => {
@@ -138,6 +139,7 @@ fn value(criterion: &Criterion, rows: &[&Row], estimate: Estimate) -> f64 {
         }
         Measure::RmsOffTarget => mean(rows.iter().map(|row| off_target(row).powi(2))).sqrt(),
         Measure::MaxAboveTarget => greatest(rows.iter().map(|row| off_target(row))),
+        Measure::MaxBelowTarget => greatest(rows.iter().map(|row| -off_target(row))),
         Measure::DepartureOff => departure::off(rows, criterion, estimate),
         Measure::MaxPercentOfFullScale | Measure::JumpOff => f64::NAN,
     }

@@ -9,7 +9,7 @@ use super::fixed::FixedSimulation;
 use super::{Gathered, signals};
 use crate::blocks::controller::{self, Controller, Faults as FaultPort};
 use crate::blocks::core;
-use crate::blocks::force_loop::{DrivePort, ForceLoop, Inputs};
+use crate::blocks::force_loop::{DrivePort, ForceLoop, Inputs, Outputs};
 use crate::blocks::position::TablePort;
 use hapticore_contract::calibration::Calibration;
 use hapticore_contract::control::{Drive, Faults, Tuning};
@@ -20,6 +20,7 @@ use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::Format;
 use hapticore_hdl::probe::{Probe, Variable, sample, variables};
 use hapticore_hdl::signal::{Signal, bit, code};
+use std::slice::ChunksExact;
 
 /// The tuning's words as codes, all drives on, nothing written.
 pub fn tuning_codes(
@@ -173,11 +174,18 @@ fn run(
 /// Fidelity `clock`: every clock, as the board runs it.
 pub struct ClockLoop {
     block: ForceLoop,
-    state: State<ForceLoop, i64>,
     inputs: Inputs<Signal<i64>>,
     clocks_per_sample: u64,
-    blanking: u64,
+    /// What the ADC sees of a slot's blanking.
     silence: Vec<i32>,
+    channels: usize,
+    state: ClockState,
+}
+
+/// What changes from clock to clock: apart from what does not, so that the compiler need not look
+/// at formats again after every word that is written.
+struct ClockState {
+    block: State<ForceLoop, i64>,
     channel: usize,
     gathered: Gathered,
     frame: Option<Frame>,
@@ -203,21 +211,24 @@ impl ClockLoop {
             tuning: tuning_codes(&formats.tuning, tuning),
             ..Inputs::of(0)
         };
+        let channels = profile.channels();
         let mut of = ClockLoop {
-            state: block.reset(),
+            state: ClockState {
+                block: block.reset(),
+                channel: 0,
+                gathered: Gathered::default(),
+                frame: None,
+                drive: None,
+                clocks: 0,
+            },
             inputs: signals::<Inputs, i64>(codes, formats),
             clocks_per_sample: profile.clocks_per_sample,
-            blanking: profile.slot.blanking(),
-            silence: vec![0; profile.channels()],
-            channel: 0,
-            gathered: Gathered::default(),
-            frame: None,
-            drive: None,
-            clocks: 0,
+            silence: vec![0; profile.slot.blanking() as usize * channels],
+            channels,
             block,
         };
         of.calibrate(calibration, tuning);
-        of.blank(&mut |_| ());
+        of.blank();
         Ok(of)
     }
 
@@ -229,24 +240,24 @@ impl ClockLoop {
             let table = formats.core.calibration.table;
             let mut inputs = self.inputs;
             inputs.core.calibration.table = signals::<TablePort, i64>(codes, table);
-            clock(&self.block, &mut self.state, inputs);
+            clock(&self.block, &mut self.state.block, inputs);
         }
         for write in curve_writes(formats.tuning, tuning) {
             let tuning = signals::<controller::Tuning, i64>(write, formats.tuning);
-            clock(&self.block, &mut self.state, Inputs { tuning, ..self.inputs });
+            clock(&self.block, &mut self.state.block, Inputs { tuning, ..self.inputs });
         }
     }
 
-    /// Sets a pad's target force, N, with the next clock.
+    /// Sets a pad's target force, N.
     pub fn set_target(&mut self, pad: usize, newtons: f64) {
         let formats = self.block.inputs().target;
-        let target = &mut self.inputs.target;
-        target.target_write = bit(true);
-        target.target_pad = code(pad as i64, formats.target_pad);
-        target.target_word =
+        let mut inputs = self.inputs;
+        inputs.target.target_write = bit(true);
+        inputs.target.target_pad = code(pad as i64, formats.target_pad);
+        inputs.target.target_word =
             code(formats.target_word.code_saturating(newtons), formats.target_word);
-        self.step(self.inputs);
-        self.inputs.target.target_write = bit(false);
+        let outputs = clock(&self.block, &mut self.state.block, inputs);
+        self.state.collect(outputs);
     }
 
     /// The frame and the drive word of a slot: `codes` are those of its window.
@@ -254,46 +265,84 @@ impl ClockLoop {
     /// # Panics
     /// Where the blanking is too short for them.
     pub fn slot(&mut self, codes: &[i32]) -> (Frame, Drive) {
-        self.slot_with(codes, &mut |_| ())
+        self.samples(codes);
+        self.blank();
+        self.results()
     }
 
     /// As [`ClockLoop::slot`], with a look at the simulation after each clock.
     ///
     /// # Panics
     /// As [`ClockLoop::slot`].
-    pub fn slot_with(&mut self, codes: &[i32], look: &mut impl FnMut(&Self)) -> (Frame, Drive) {
-        for codes in codes.chunks_exact(self.silence.len()) {
-            self.sample(codes, look);
+    pub fn slot_with(&mut self, codes: &[i32], mut look: impl FnMut(&Self)) -> (Frame, Drive) {
+        let silence = self.silence.clone();
+        for codes in codes.chunks_exact(self.channels).chain(silence.chunks_exact(self.channels)) {
+            for count in 0..self.clocks_per_sample {
+                let inputs = self.state.inputs(&self.inputs, count == 0, codes);
+                let outputs = clock(&self.block, &mut self.state.block, inputs);
+                self.state.collect(outputs);
+                look(self);
+            }
         }
-        self.blank(look);
-        let frame = self.frame.take().expect("a frame within the blanking");
-        (frame, self.drive.take().expect("a drive word within the blanking"))
+        self.results()
+    }
+
+    fn results(&mut self) -> (Frame, Drive) {
+        let frame = self.state.frame.take().expect("a frame within the blanking");
+        (frame, self.state.drive.take().expect("a drive word within the blanking"))
     }
 
     /// Clocks since the first sample.
     pub fn clocks(&self) -> u64 {
-        self.clocks
+        self.state.clocks
     }
 
-    fn blank(&mut self, look: &mut impl FnMut(&Self)) {
+    fn blank(&mut self) {
         let silence = std::mem::take(&mut self.silence);
-        (0..self.blanking).for_each(|_| self.sample(&silence, look));
+        self.samples(&silence);
         self.silence = silence;
     }
 
-    fn sample(&mut self, codes: &[i32], look: &mut impl FnMut(&Self)) {
-        for count in 0..self.clocks_per_sample {
-            let format = self.inputs.core.code.format;
-            let code = Signal { value: i64::from(codes[self.channel]), format };
-            let core = core::Inputs { strobe: bit(count == 0), code, ..self.inputs.core };
-            self.step(Inputs { core, ..self.inputs });
-            look(self);
+    fn samples(&mut self, codes: &[i32]) {
+        let samples = codes.chunks_exact(self.channels);
+        self.state.samples(&self.block, &self.inputs, self.clocks_per_sample, samples);
+    }
+}
+
+impl ClockState {
+    /// Not inlined: what it borrows is then known to be apart.
+    #[inline(never)]
+    fn samples(
+        &mut self,
+        block: &ForceLoop,
+        inputs: &Inputs<Signal<i64>>,
+        clocks: u64,
+        samples: ChunksExact<'_, i32>,
+    ) {
+        for codes in samples {
+            for count in 0..clocks {
+                let inputs = self.inputs(inputs, count == 0, codes);
+                let outputs = block.clock(&mut self.block, inputs);
+                self.collect(outputs);
+            }
         }
     }
 
-    #[inline(never)]
-    fn step(&mut self, inputs: Inputs<Signal<i64>>) {
-        let outputs = clock(&self.block, &mut self.state, inputs);
+    /// The inputs of a clock: the code is that of the channel that was asked for.
+    #[inline(always)]
+    fn inputs(
+        &self,
+        inputs: &Inputs<Signal<i64>>,
+        strobe: bool,
+        codes: &[i32],
+    ) -> Inputs<Signal<i64>> {
+        let format = inputs.core.code.format;
+        let code = Signal { value: i64::from(codes[self.channel]), format };
+        Inputs { core: core::Inputs { strobe: bit(strobe), code, ..inputs.core }, ..*inputs }
+    }
+
+    #[inline(always)]
+    fn collect(&mut self, outputs: Outputs<Signal<i64>>) {
         self.clocks += 1;
         self.channel = outputs.core.channel.value as usize;
         let frame = outputs.core.frames;
@@ -302,15 +351,20 @@ impl ClockLoop {
             self.frame = Some(self.gathered.frame(frame));
         }
         if outputs.drive.drive_valid.value != 0 {
-            let DrivePort { drive_pad, drive, drive_low, drive_high, .. } = outputs.drive;
-            self.drive = Some(Drive {
-                pad: drive_pad.value as usize,
-                fraction: drive.format.real(drive.value),
-                low: drive_low.value != 0,
-                high: drive_high.value != 0,
-                faults: faults(outputs.faults),
-            });
+            self.drive = Some(given(outputs));
         }
+    }
+}
+
+/// The drive word that is given.
+fn given(outputs: Outputs<Signal<i64>>) -> Drive {
+    let DrivePort { drive_pad, drive, drive_low, drive_high, .. } = outputs.drive;
+    Drive {
+        pad: drive_pad.value as usize,
+        fraction: drive.format.real(drive.value),
+        low: drive_low.value != 0,
+        high: drive_high.value != 0,
+        faults: faults(outputs.faults),
     }
 }
 
@@ -320,6 +374,6 @@ impl Probe for ClockLoop {
     }
 
     fn sample(&self, codes: &mut Vec<i64>) {
-        sample(&self.block, &self.state, codes);
+        sample(&self.block, &self.state.block, codes);
     }
 }
