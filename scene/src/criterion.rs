@@ -78,10 +78,7 @@ impl Measure {
     }
 
     fn is_of_target(self) -> bool {
-        matches!(
-            self,
-            Measure::RmsOffTarget | Measure::MaxAboveTarget | Measure::MaxBelowTarget
-        )
+        matches!(self, Measure::RmsOffTarget | Measure::MaxAboveTarget | Measure::MaxBelowTarget)
     }
 
     /// Unit of the measured value.

@@ -3,13 +3,16 @@
 
 use std::thread;
 
+use hapticore_contract::control::{Control, Law};
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::block;
 use hapticore_hdl::block::{Block, Interpretation, State};
+use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::Format;
 use hapticore_hdl::interpretations::netlist::Netlist;
 use hapticore_hdl::interpretations::range::{Range, take_violations, whole};
 use hapticore_hdl::signal::{HalfEven, Proved, Signal, bit, int, zero};
+use hapticore_model::blocks::controller::{self, Controller};
 use hapticore_model::blocks::core::Core;
 use hapticore_model::blocks::demodulator::Demodulator;
 use hapticore_model::parse_profile;
@@ -55,6 +58,45 @@ fn a_mean_over_windows_cannot_overflow() {
         let proof = prove(&profile);
         assert!(proof.holds(), "{windows} windows: {:?}", proof.violations.first());
     }
+}
+
+/// Drive words of every law: any operands and tuning, any curve, as often as it takes to close.
+#[test]
+fn no_signal_of_a_force_controller_can_overflow() {
+    for profile in Profile::all() {
+        for law in [Law::Open, Law::Proportional, Law::Integral, Law::Inverse] {
+            let control = Some(Control::of(&profile, law));
+            let block = Controller::try_new(&Profile { control, ..profile.clone() }).unwrap();
+            take_violations();
+            let mut state = block.reset();
+            let (closed, _) = close(&block, &mut state, |state| drive_word(&block, state));
+            assert_eq!(take_violations(), [], "{} {law:?}", profile.name);
+            assert!(closed, "{} {law:?}", profile.name);
+        }
+    }
+}
+
+fn drive_word(block: &Controller, state: &mut State<Controller, Range>) {
+    let formats = block.inputs();
+    let any = controller::Inputs::map(formats, |format| Signal { value: whole(format), format });
+    let mut held = controller::Inputs { start: bit(false), ..any };
+    let words = Range { low: 0, high: block.words_of_curve() as i128 - 1 };
+    held.tuning.curve_address.value = words;
+    block.clock(state, controller::Inputs { start: bit(true), ..held });
+    (0..block.latency()).for_each(|_| {
+        block.clock(state, held);
+    });
+}
+
+/// The core with its prompt estimate.
+#[test]
+fn no_signal_of_a_core_with_a_controller_can_overflow() {
+    let mut profile = Profile::bundled("small").expect("bundled");
+    // The program's loop is the same, however often it is run through.
+    profile.position.steps = 1;
+    profile.control = Some(Control::of(&profile, Law::Inverse));
+    let proof = prove(&profile);
+    assert!(proof.holds(), "{:?}", proof.violations.first());
 }
 
 block! {

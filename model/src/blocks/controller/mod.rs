@@ -240,6 +240,11 @@ impl Controller {
         }
     }
 
+    /// Words of the curve: one more than its cells.
+    pub fn words_of_curve(&self) -> usize {
+        self.points.words
+    }
+
     /// Clocks from `start` to `done`.
     pub fn latency(&self) -> u64 {
         1 + Task::of(self.law).iter().map(|task| self.clocks(*task)).sum::<u64>()
