@@ -150,6 +150,9 @@ pub struct HdlArgs {
     /// A device's calibration, whose terminals and pads a bundled profile takes
     #[arg(long, value_name = "FILE")]
     pub calibration: Option<PathBuf>,
+    /// Prints the core with a force controller of this law [default: as the profile has it]
+    #[arg(long, value_name = "open|proportional|integral|inverse")]
+    pub control: Option<String>,
     /// Where the files go
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,

@@ -3,7 +3,8 @@
 
 use std::path::PathBuf;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
+use hapticore_contract::control::{Control, Law};
 use hapticore_contract::profile::Profile;
 use hapticore_rtl::board::Target;
 use hapticore_rtl::component;
@@ -33,12 +34,27 @@ pub fn run(args: &HdlArgs) -> Result<bool> {
         Some(device) => inputs::buildable(device.profile(&profile)?)?,
         None => profile,
     };
+    let profile = match args.control.as_deref() {
+        Some(law) => with_controller(profile, law)?,
+        None => profile,
+    };
     let output = Output::new(&args.out)?;
     let top = match board {
         Some(board) => write_board(&output, board, &profile)?,
         None => write_core(&output, &profile)?,
     };
     print_result(args, &profile, &top, &output.keep()?)
+}
+
+/// The profile with a controller of a law.
+fn with_controller(profile: Profile, name: &str) -> Result<Profile> {
+    let law = Law::ALL.into_iter().find(|law| law.name() == name);
+    let law = law.with_context(|| {
+        let names = Law::ALL.map(Law::name).join(", ");
+        format!("--control: expected one of {names}, got \"{name}\"")
+    })?;
+    let control = Control { law, ..profile.control.clone().unwrap_or(Control::of(&profile, law)) };
+    inputs::buildable(Profile { control: Some(control), ..profile })
 }
 
 /// The core: a file for each module, and what a bench must know of it.
@@ -54,6 +70,10 @@ fn write_core(output: &Output, profile: &Profile) -> Result<String> {
 
 /// A board: its Verilog, its constraints, and the script that makes its bitstream.
 fn write_board(output: &Output, board: Target, profile: &Profile) -> Result<String> {
+    ensure!(
+        profile.control.is_none(),
+        "--board: expected a profile without a controller: a board's top has no drive yet"
+    );
     let top = board
         .top_of(profile)
         .with_context(|| format!("board {}, profile {}", board.name(), profile.name))?;

@@ -8,6 +8,7 @@
 
 use crate::blocks::core::Core;
 use crate::blocks::demodulator::POLYPHASE_GAIN;
+use crate::blocks::force_loop::ForceLoop;
 use crate::blocks::position::Position;
 use hapticore_contract::calibration::Layout;
 use hapticore_contract::profile::{self, Profile, ProfileError};
@@ -44,7 +45,10 @@ pub fn parse_profile(text: &str) -> Result<Profile, ProfileError> {
 /// # Errors
 /// The first value that does not allow it: field, range and value.
 pub fn check(profile: &Profile) -> Result<(), ProfileError> {
-    Core::try_new(profile).map(drop)
+    match profile.control {
+        Some(_) => ForceLoop::try_new(profile).map(drop),
+        None => Core::try_new(profile).map(drop),
+    }
 }
 
 #[cfg(test)]

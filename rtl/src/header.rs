@@ -7,6 +7,7 @@ use std::fmt::Write;
 use hapticore_contract::frame::Field;
 use hapticore_contract::profile::Profile;
 use hapticore_model::blocks::core::Core;
+use hapticore_model::blocks::force_loop::ForceLoop;
 
 use hapticore_hdl::verilog::{Design, Heading};
 
@@ -19,15 +20,33 @@ pub const NAME: &str = "hapticore.vh";
 const FIELDS: [&str; Field::ALL.len()] =
     ["R_X", "R_Y", "X", "Y", "SHEET", "CAPACITANCE", "FORCE", "MEAN_SQUARE"];
 
-/// Prints the core of a profile, as `hapticore hdl --profile` does.
+/// Prints the core of a profile, with its force controller where it has one, as `hapticore hdl
+/// --profile` does.
+///
+/// # Panics
+/// Where a controller cannot be; [`hapticore_model::check`] says why.
 pub fn design(profile: &Profile) -> Design {
     let core = Core::new(profile);
-    let heading = Heading {
+    let mut heading = Heading {
         command: format!("hapticore hdl --profile {}", profile.name),
         source: source(profile),
         interface: interface(&core, profile),
     };
-    Design::of(&core, heading)
+    let Some(control) = &profile.control else { return Design::of(&core, heading) };
+    let force_loop = ForceLoop::try_new(profile).unwrap_or_else(|error| panic!("{error}"));
+    heading.command += &format!(" --control {}", control.law.name());
+    heading.interface.extend(interface_of_loop(&force_loop));
+    Design::of(&force_loop, heading)
+}
+
+/// What a user of the force loop must know besides.
+fn interface_of_loop(force_loop: &ForceLoop) -> [String; 4] {
+    [
+        format!("- drive_valid: a drive word, {} cycles after its slot's last strobe.", force_loop.latency()),
+        "- target_write, target_pad, target_word: a pad's target, taken as its slot's estimate is given; a sign of life.".into(),
+        "- curve_write, curve_address, curve_word: a word of the curve per cycle, while no drive word is being made.".into(),
+        "- proportional, correction, full_drive, rail, slew, force_cap: stable while a drive word is being made.".into(),
+    ]
 }
 
 /// The versions of what a design is made from.

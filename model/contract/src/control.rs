@@ -34,6 +34,21 @@ pub enum Law {
     Inverse,
 }
 
+impl Law {
+    /// All laws.
+    pub const ALL: [Law; 4] = [Law::Open, Law::Proportional, Law::Integral, Law::Inverse];
+
+    /// Its name in a profile: `inverse`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Law::Open => "open",
+            Law::Proportional => "proportional",
+            Law::Integral => "integral",
+            Law::Inverse => "inverse",
+        }
+    }
+}
+
 /// The controller of a core.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
