@@ -3,7 +3,7 @@
 
 use std::thread;
 
-use hapticore_contract::profile::Profile;
+use hapticore_contract::profile::{ForceLaw, Profile};
 use hapticore_hdl::block;
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::Format;
@@ -54,6 +54,16 @@ fn a_mean_over_windows_cannot_overflow() {
         profile.position.steps = 1;
         let proof = prove(&profile);
         assert!(proof.holds(), "{windows} windows: {:?}", proof.violations.first());
+    }
+}
+
+#[test]
+fn a_force_table_cannot_overflow() {
+    for mut profile in Profile::all() {
+        profile.force.law = ForceLaw::Table;
+        profile.position.steps = 1;
+        let proof = prove(&profile);
+        assert!(proof.holds(), "{}: {:?}", profile.name, proof.violations.first());
     }
 }
 

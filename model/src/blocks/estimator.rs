@@ -13,15 +13,18 @@
 use super::capacitance::{self, Capacitance};
 use super::currents::{self, Currents};
 use super::force::{self, Force};
+use super::force_table::{self, ForceTable};
 use super::frames::{self, Frames};
 use super::haptic_voltage::{self, HapticVoltage};
 use super::position::{self, Position, TablePort};
 use super::ratio::{self, Ratio};
-use hapticore_contract::profile::{Profile, ProfileError};
+use hapticore_contract::calibration::ForceTable as Words;
+use hapticore_contract::profile::{ForceLaw, Profile, ProfileError};
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::{BIT, Format};
-use hapticore_hdl::signal::{Signal, zero};
+use hapticore_hdl::memory::Memory;
+use hapticore_hdl::signal::{Proved, Saturate, Signal, code, int, zero};
 use hapticore_hdl::{block, bundle, call, when};
 
 bundle! {
@@ -63,6 +66,7 @@ block! {
     /// The estimator: makes a frame of a window's sums.
     pub struct Estimator("estimator") {
         pads: u64,
+        force_gain: Format,
     }
     submodules {
         currents: Currents,
@@ -70,7 +74,10 @@ block! {
         position: Position,
         haptic_voltage: HapticVoltage,
         capacitance: Capacitance,
-        force_estimator: Force,
+        /// By eq. 8.
+        force_estimator: Option<Force>,
+        /// With a table, where that is the law.
+        force_table: Option<ForceTable>,
         frames: Frames,
     }
     inputs(estimator) {
@@ -103,13 +110,17 @@ impl Estimator {
     /// # Errors
     /// The first of its blocks that cannot be.
     pub fn try_new(profile: &Profile) -> Result<Self, ProfileError> {
-        let currents = Currents::try_new(profile)?;
+        let (currents, law) = (Currents::try_new(profile)?, profile.force.law);
         Ok(Estimator {
             ratio: Ratio::try_new(profile, currents.sums(), currents.least())?,
             position: Position::new(profile),
             haptic_voltage: HapticVoltage::try_new(profile)?,
             capacitance: Capacitance::try_new(profile, currents.amplitude())?,
-            force_estimator: Force::try_new(profile)?,
+            force_estimator: (law == ForceLaw::Eq8).then(|| Force::try_new(profile)).transpose()?,
+            force_table: (law == ForceLaw::Table)
+                .then(|| ForceTable::try_new(profile))
+                .transpose()?,
+            force_gain: profile.formats.force_gain,
             frames: Frames::new(profile),
             pads: profile.pads,
             currents,
@@ -123,9 +134,10 @@ impl Estimator {
 
     /// The formats of the calibration.
     fn calibration(&self) -> Calibration<Format> {
-        let (capacitance_gain, force_gain) =
-            (self.capacitance.inputs().gain, self.force_estimator.inputs().gain);
-        Calibration { capacitance_gain, force_gain, table: self.position.inputs().table }
+        let (capacitance_gain, force_gain) = (self.capacitance.inputs().gain, self.force_gain);
+        let table = self.position.inputs().table;
+        let address = self.table().address();
+        Calibration { capacitance_gain, force_gain, table: TablePort { address, ..table } }
     }
 
     /// The formats of a frame.
@@ -143,7 +155,8 @@ impl Estimator {
             self.ratio.latency(),
             self.position.latency(),
             self.capacitance.latency(),
-            self.force_estimator.latency(),
+            self.force_estimator.as_ref().map_or(0, Force::latency),
+            self.force_table.as_ref().map_or(0, ForceTable::latency),
             self.frames.latency(),
         ];
         stages.into_iter().sum()
@@ -152,6 +165,59 @@ impl Estimator {
     /// As [`Position::place_at_once`].
     pub(crate) fn place_at_once(&mut self, table: Vec<i64>) {
         self.position.place_at_once(table);
+    }
+
+    /// What the table port writes: the position table, and behind it the force table where there
+    /// is one.
+    pub fn table(&self) -> Memory {
+        let (position, force) = (self.position.table(), &self.force_table);
+        let words = position.words + force.as_ref().map_or(0, |_| Words::WORDS);
+        Memory { words, ..position.clone() }
+    }
+
+    /// The port of the position table, and that of the force table where there is one.
+    #[inline(always)]
+    fn table_ports<V: Interpretation>(
+        &self,
+        port: TablePort<Signal<V>>,
+    ) -> [TablePort<Signal<V>>; 2] {
+        let Some(force) = &self.force_table else { return [port; 2] };
+        let words = self.position.table().words as u64;
+        let address = self.position.inputs().table.address;
+        let last = code(words as i64 - 1, port.address.format);
+        let behind = port.address.at_least(int(words)).named("force_word");
+        let of_position = port.address.at_most(last).resize(address, Proved);
+        let of_force = (port.address - int(words)).resize(force.inputs().table.address, Saturate);
+        [
+            TablePort { write: port.write & !behind, address: of_position, ..port },
+            TablePort { write: port.write & behind, address: of_force, ..port },
+        ]
+    }
+
+    /// The force: by eq. 8, or with the table where there is one; and the gain that it has of
+    /// (C·V)².
+    #[inline(always)]
+    fn force<V: Interpretation>(
+        &self,
+        state: &mut State<Self, V>,
+        i: force::In<V>,
+        (pad, table): (Signal<V>, TablePort<Signal<V>>),
+    ) -> (force::Out<V>, Signal<V>) {
+        let force::Inputs { start, capacitance, mean_square, gain } = i;
+        let (by_eq8, by_table) = (&self.force_estimator, &self.force_table);
+        if let Some((block, within)) =
+            by_eq8.as_ref().zip(state.submodules.force_estimator.as_mut())
+        {
+            return (block.call("force_estimator", within, i), gain);
+        }
+        let (block, within) = by_table
+            .as_ref()
+            .zip(state.submodules.force_table.as_mut())
+            .expect("one law or the other");
+        let inputs = force_table::Inputs { start, pad, capacitance, mean_square, gain, table };
+        let force_table::Outputs { done, haptic_force, factored_gain, saturated } =
+            block.call("force_table", within, inputs);
+        (force::Outputs { done, haptic_force, saturated }, factored_gain)
     }
 
     /// The position block's configuration.
@@ -181,12 +247,13 @@ impl Block for Estimator {
         let currents::Outputs { x, y, corners, least, .. } = currents;
         let inputs = ratio::Inputs { start: currents.done, x, y, corners, least };
         let ratio = call!(self.ratio, state, inputs);
+        let [of_position, of_force] = self.table_ports(i.calibration.table);
         let inputs = position::Inputs {
             start: ratio.done,
             r_x: ratio.r_x,
             r_y: ratio.r_y,
             share: ratio.share,
-            table: i.calibration.table,
+            table: of_position,
         };
         let position = call!(self.position, state, inputs);
         let inputs = capacitance::Inputs {
@@ -203,7 +270,7 @@ impl Block for Estimator {
             mean_square: haptic.mean_square,
             gain: i.calibration.force_gain,
         };
-        let force = call!(self.force_estimator, state, inputs);
+        let (force, _gain) = self.force(state, inputs, (r.pad, of_force));
         let invalid = ratio.invalid | position.invalid | capacitance.invalid;
         let inputs = frames::Inputs {
             start: force.done,

@@ -8,6 +8,7 @@ pub mod demodulator;
 pub mod divider;
 pub mod estimator;
 pub mod force;
+pub mod force_table;
 pub mod frames;
 pub mod haptic_voltage;
 pub mod multiplexer;

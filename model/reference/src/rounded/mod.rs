@@ -9,6 +9,7 @@ mod capacitance;
 mod currents;
 mod demodulator;
 mod force;
+mod force_table;
 mod frames;
 mod number;
 mod oscillator;
@@ -19,6 +20,7 @@ pub use capacitance::{Capacitance, capacitance};
 pub use currents::{Currents, currents};
 pub use demodulator::{Sums, demodulate};
 pub use force::{Force, Squares, force, mean_square};
+pub use force_table::ForceTable;
 pub use frames::Frames;
 pub use number::{Exact, Rounded, floor_quotient, round, round_quotient, round_real, round_sqrt};
 pub use oscillator::{Oscillator, Sample, windowed_lo};
@@ -27,7 +29,7 @@ pub use ratio::{Ratio, ratio};
 
 use hapticore_contract::calibration::Calibration;
 use hapticore_contract::frame::{Flags, Frame};
-use hapticore_contract::profile::Profile;
+use hapticore_contract::profile::{ForceLaw, Profile};
 
 /// A core, slot by slot, rounded as the blocks round.
 pub struct Slots {
@@ -36,6 +38,7 @@ pub struct Slots {
     position: Position,
     capacitance_gain: Exact,
     force_gain: Exact,
+    force_table: Option<ForceTable>,
     squares: Squares,
     frames: Frames,
 }
@@ -55,6 +58,8 @@ impl Slots {
             position: Position::new(profile, &words),
             capacitance_gain: round_real(calibration.capacitance_gain, f.capacitance_gain),
             force_gain: round_real(calibration.force_gain, f.force_gain),
+            force_table: (profile.force.law == ForceLaw::Table)
+                .then(|| ForceTable::new(profile, &calibration.force_table)),
             squares: Squares::new(profile),
             frames: Frames::new(profile),
             profile: profile.clone(),
@@ -78,7 +83,11 @@ impl Slots {
         let capacitance =
             capacitance(p, currents.total, currents.sense, sheet, self.capacitance_gain);
         let mean_square = self.squares.mean(p, pad, mean_square(p, sums.square));
-        let force = force(p, capacitance.capacitance, mean_square.value, self.force_gain);
+        let (capacitance_pf, gain) = (capacitance.capacitance, self.force_gain);
+        let force = match &mut self.force_table {
+            None => force(p, capacitance_pf, mean_square.value, gain),
+            Some(table) => table.force(p, pad, [capacitance_pf, mean_square.value, gain]),
+        };
         let saturated = currents.saturated
             | place.saturated
             | capacitance.saturated
