@@ -4,8 +4,8 @@
 //!
 //! `cargo run --release -p hapticore-run --example force_prior > cli/run/src/lab/force_prior.csv`
 //!
-//! Each device's table is fitted to much more than a laboratory reads: settled at eight loads and 40
-//! voltages up and down, and steps at six loads and five voltages, each millisecond of the first 20,
+//! Each device's table is fitted to much more than a laboratory reads: settled at nine loads and 46
+//! voltages to 460 V up and down, and steps at six loads and five voltages, each millisecond of the first 20,
 //! then every seventh. Where a device has no readings its table is drawn to a smooth one.
 
 use anyhow::Result;
@@ -17,7 +17,7 @@ use hapticore_run::lab::force_table::{Covariance, Knowledge, NUMBERS, Numbers, R
 const DEVICES: usize = 60;
 const SEED: u64 = 7000;
 
-const SETTLED_G: [f64; 8] = [10.0, 20.0, 35.0, 50.0, 75.0, 100.0, 125.0, 150.0];
+const SETTLED_G: [f64; 9] = [10.0, 20.0, 35.0, 50.0, 75.0, 100.0, 125.0, 150.0, 200.0];
 const STEPS_G: [f64; 6] = [10.0, 30.0, 50.0, 80.0, 120.0, 150.0];
 const STEPS_V: [f64; 5] = [200.0, 260.0, 300.0, 350.0, 400.0];
 
@@ -29,11 +29,8 @@ const FIRST: usize = 20;
 const DEVIATIONS_N: [f64; 3] = [0.002, 0.003, 0.004];
 
 /// What two neighbouring slopes of a table may differ by, and what a number may be without readings.
-const BEND: f64 = 0.3;
+const BEND: f64 = 0.15;
 const ANY: f64 = 2.0;
-
-/// Added to the variance of each number: 60 devices are not all.
-const VARIANCE: f64 = 1e-4;
 
 fn main() -> Result<()> {
     let mut normal = Normal::new(SEED);
@@ -61,10 +58,10 @@ fn line(numbers: &Numbers) -> String {
 
 /// The numbers of a device's table, as multiples of k of eq. 8 on a laboratory's settled readings.
 fn numbers(bench: &Bench) -> Result<Numbers> {
-    let force_k = eq8(&settled(bench, &[20.0, 100.0], 18)?);
+    let force_k = eq8(&settled(bench, &[20.0, 100.0], 400.0, 18)?);
     let mut knowledge = smooth();
     let [of_settled, of_first, of_rest] = DEVIATIONS_N;
-    knowledge.learn_all(&settled(bench, &SETTLED_G, 40)?, force_k, of_settled);
+    knowledge.learn_all(&settled(bench, &SETTLED_G, 460.0, 46)?, force_k, of_settled);
     for load_g in STEPS_G {
         for volt in STEPS_V {
             let step = bench.step(load_g, volt, SLOTS)?;
@@ -77,9 +74,9 @@ fn numbers(bench: &Bench) -> Result<Numbers> {
     Ok(knowledge.numbers)
 }
 
-/// Settled readings at so many voltages to 400 V, up and down.
-fn settled(bench: &Bench, loads_g: &[f64], voltages: usize) -> Result<Vec<Reading>> {
-    let up: Vec<f64> = (1..=voltages).map(|n| 400.0 * n as f64 / voltages as f64).collect();
+/// Settled readings at so many voltages to the highest, up and down.
+fn settled(bench: &Bench, loads_g: &[f64], most_v: f64, voltages: usize) -> Result<Vec<Reading>> {
+    let up: Vec<f64> = (1..=voltages).map(|n| most_v * n as f64 / voltages as f64).collect();
     let volts: Vec<f64> = up.iter().chain(up.iter().rev()).copied().collect();
     let each = loads_g.iter().map(|load_g| bench.settled(*load_g, &volts));
     Ok(each.collect::<Result<Vec<_>>>()?.concat())
@@ -108,7 +105,7 @@ fn mean(tables: &[Numbers]) -> Numbers {
 fn covariance(tables: &[Numbers], mean: &Numbers) -> Covariance {
     let entry = |n: usize, m: usize| {
         let products = tables.iter().map(|table| (table[n] - mean[n]) * (table[m] - mean[m]));
-        products.sum::<f64>() / (tables.len() - 1) as f64 + if n == m { VARIANCE } else { 0.0 }
+        products.sum::<f64>() / (tables.len() - 1) as f64
     };
     (0..NUMBERS).map(|n| std::array::from_fn(|m| entry(n, m))).collect()
 }

@@ -5,7 +5,7 @@
 //! | readings | loads, g | voltage, V rms |
 //! | --- | --- | --- |
 //! | settled | 20, 100 | 18 from 60 to 400, up and down |
-//! | steps of 4 s, 98 readings each, evenly over the logarithm of time | 20, 20, 100 | 300, 400, 350 |
+//! | steps of 4 s, 98 readings each, evenly over the logarithm of time | 20, 100, 100 | 350, 350, 400 |
 //!
 //! As many as a laboratory takes, 366, of one gap that moves; of a gap without time (`static`) the
 //! settled readings on the way up, for the way down is another device's.
@@ -21,7 +21,7 @@ use crate::lab::force_table::Reading;
 /// Loads of settled readings, g.
 const LOADS_G: [f64; 2] = [20.0, 100.0];
 /// Load and voltage of steps.
-const STEPS: [[f64; 2]; 3] = [[20.0, 300.0], [20.0, 400.0], [100.0, 350.0]];
+const STEPS: [[f64; 2]; 3] = [[20.0, 350.0], [100.0, 350.0], [100.0, 400.0]];
 /// Readings of a step.
 const OF_STEP: usize = 98;
 /// Slots of a step: one a millisecond.

@@ -11,7 +11,7 @@ use hapticore_host::{DeviceCalibration, Raster, Scales, Signs, open_share};
 use hapticore_scene::{ForcePoint, Plant, Scene};
 
 use crate::inputs;
-use crate::lab::force_table::{eq8, fit};
+use crate::lab::force_table::fit;
 use bench::Bench;
 
 /// Places in a row and rows of the raster that a simulated device is calibrated with.
@@ -38,13 +38,11 @@ fn force_k(plant: &Plant) -> f64 {
 pub fn force_table(scene: &str, force_k: f64) -> Result<Force> {
     let Some(bench) = Bench::of(scene)? else { return Ok(Force::default()) };
     let readings = bench.readings()?;
-    let of_readings = eq8(&readings);
-    let mut force = fit(&readings, of_readings);
+    let mut force = fit(&readings, force_k);
     if bench.is_static() {
         force.recent_s = 0.0;
         force.rows.iter_mut().for_each(|[_, _, d]| *d = 0.0);
     }
-    force.rows.iter_mut().flatten().for_each(|number| *number *= of_readings / force_k);
     Ok(force)
 }
 

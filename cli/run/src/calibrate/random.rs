@@ -48,7 +48,7 @@ impl Normal {
     }
 
     /// The next (Box and Muller 1958).
-    pub fn next(&mut self) -> f64 {
+    pub fn deviate(&mut self) -> f64 {
         let radius = (-2.0 * (1.0 - self.share()).ln()).sqrt();
         (radius * (TAU * self.share()).cos()).clamp(-3.0, 3.0)
     }
@@ -56,7 +56,7 @@ impl Normal {
 
 /// The scene of a device, as TOML: the nominal one, or one at random.
 pub fn scene(mut normal: Option<&mut Normal>) -> String {
-    let mut next = || normal.as_mut().map_or(0.0, |normal| normal.next());
+    let mut next = || normal.as_mut().map_or(0.0, |normal| normal.deviate());
     let common_um = 0.5 * next();
     let heights: Vec<f64> = REST_UM.iter().map(|um| um + common_um + 0.3 * next()).collect();
     let gap: String = PARAMETERS

@@ -21,8 +21,10 @@ pub const NUMBERS: usize = 3 * ForceTable::ROWS;
 /// Voltages of the numbers are shares of this, so that all are about one, V.
 pub const VOLTS: f64 = 400.0;
 
-/// The deviation of a reading, N: measurement, and what a table cannot follow.
-pub const DEVIATION_N: f64 = 0.006;
+/// The deviation that a reading counts with, N: 5 mN of measurement, and what a table cannot follow.
+/// The latter is alike in neighbouring readings, so that together they tell less than as many
+/// independent ones: of 6 to 16 mN the last does best on random devices.
+pub const DEVIATION_N: f64 = 0.016;
 
 /// The numbers of a table: a, b, d of each row, b and d per [`VOLTS`].
 pub type Numbers = [f64; NUMBERS];
@@ -169,11 +171,28 @@ impl Knowledge {
     }
 }
 
-/// The table of a device, from readings and the prior; multiples of `force_k`, that of eq. 8.
+/// The table of a device, from readings and the prior, as multiples of `force_k`. The prior's are
+/// those of the k of eq. 8 on settled readings.
 pub fn fit(readings: &[Reading], force_k: f64) -> Force {
+    let settled = readings.iter().filter(|r| r.recent_v == r.haptic_v_rms);
+    let settled: Vec<_> = settled.copied().collect();
+    let own_k = eq8(if settled.is_empty() { readings } else { &settled });
     let mut knowledge = Knowledge::prior();
-    knowledge.learn_all(readings, force_k, DEVIATION_N);
-    knowledge.table(RECENT_S)
+    knowledge.learn_all(readings, own_k, DEVIATION_N);
+    let mut table = knowledge.table(RECENT_S);
+    table.rows.iter_mut().flatten().for_each(|number| *number *= own_k / force_k);
+    table
+}
+
+/// What a table leaves of readings, N (largest, rms); and what eq. 8 leaves.
+pub fn residuals(readings: &[Reading], force_k: f64, table: &Force) -> [[f64; 2]; 2] {
+    let of = |factor: &dyn Fn(&Reading) -> f64| {
+        let off = |r: &Reading| force_k * r.square() * factor(r) - r.force_n;
+        let squares: f64 = readings.iter().map(|reading| off(reading).powi(2)).sum();
+        let largest = readings.iter().map(|reading| off(reading).abs()).fold(0.0, f64::max);
+        [largest, (squares / readings.len() as f64).sqrt()]
+    };
+    [of(&|r| table.factor(r.capacitance_pf, r.recent_v, r.mean_v)), of(&|_| 1.0)]
 }
 
 #[cfg(test)]

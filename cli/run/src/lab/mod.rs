@@ -167,7 +167,7 @@ pub fn calibrate(data: &Data, profile: &Profile) -> Result<(DeviceCalibration, O
         pads: setup.pads,
         map: Raster { columns: 0, places: Vec::new(), open_share: 0.0 },
         device: scales(setup, scale, force_k),
-        force: None,
+        force: force.as_ref().and_then(|force| force.table.clone()),
         terminals: signs.clone(),
     };
     let profile = buildable(device.profile(profile)?)?;
