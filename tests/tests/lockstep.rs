@@ -81,7 +81,7 @@ fn verilator_runs_a_force_table_as_the_model_does() {
     for name in ["small", "standard"] {
         let bench = with_force_table(name);
         let (top, ports, text) = (bench.design.top(), &bench.design.ports, bench.design.text());
-        assert!(text.contains("module force_table") && !text.contains("module force_estimator"));
+        assert!(text.contains("force_table") && !text.contains("force_estimator"));
         let verilated = Verilated::new(top, ports, &text, Start::Zero);
         for stimulus in [
             stimulus::scene(&bench.profile, "fig6", 16),
