@@ -229,6 +229,7 @@ fn slot(case: usize, seed: u32, truth: Truth) -> Row {
         pad: 0,
         measured,
         flags: String::new(),
+        laws: None,
         truth: Some(truth),
         driven: None,
         reference: Some(reference),

@@ -159,6 +159,7 @@ pub fn calibration_lines(outcome: &Outcome) -> Vec<String> {
             estimate(force.force_k),
             number(1e3 * force.noise_n)
         ));
+        lines.extend(force.table_residual_n.map(force_table_line));
         lines.extend(force.mu.map(|mu| format!("mu = {}", estimate(mu))));
         lines.extend(
             force
@@ -167,6 +168,14 @@ pub fn calibration_lines(outcome: &Outcome) -> Vec<String> {
         );
     }
     lines
+}
+
+/// What force table and eq. 8 leave of the loads.
+fn force_table_line([table, eq8]: [[f64; 2]; 2]) -> String {
+    let millinewtons = |[largest, rms]: [f64; 2]| {
+        format!("{} mN RMS, {} mN at most", number(1e3 * rms), number(1e3 * largest))
+    };
+    format!("force table: leaves {}; eq. 8: {}", millinewtons(table), millinewtons(eq8))
 }
 
 /// A number and its interval.

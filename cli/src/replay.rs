@@ -228,6 +228,7 @@ impl Replay {
             pads: (0..self.pads).map(|pad| format!("pad {pad}")).collect(),
             effects: Vec::new(),
             criteria: Vec::new(),
+            force_laws: None,
             errors: self.session.errors(),
             simulated_seconds: self.clock.seconds(self.slots),
             wall_seconds: self.start.elapsed().as_secs_f64(),

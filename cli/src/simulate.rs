@@ -9,7 +9,7 @@ use hapticore_contract::profile::Profile;
 use hapticore_run::capture::{self, Adc, Recorder};
 use hapticore_run::case::{Case, Outcome, Settings};
 use hapticore_run::criteria::{self, CaseRows};
-use hapticore_run::record::{Effect, Provenance, Record, Row};
+use hapticore_run::record::{Effect, ForceLawErrors, Provenance, Record, Row};
 use hapticore_run::{errors, haptic, inputs};
 use hapticore_scene::{Figure, HapticWave, Quantity, Record as Wanted, Scene, Timing};
 use hapticore_waveforms::kind::Kind;
@@ -268,6 +268,7 @@ fn gather(scene: &Scene, cases: &[Case], outcomes: Vec<Outcome>) -> Record {
         pads: scene.cases[cases[0].index].pad_names().iter().map(ToString::to_string).collect(),
         effects,
         criteria,
+        force_laws: ForceLawErrors::of(&all),
         errors: signal_errors,
         simulated_seconds: cases.iter().map(Case::seconds).sum(),
         wall_seconds: 0.0,

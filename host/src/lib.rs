@@ -53,6 +53,7 @@ pub mod command;
 pub mod crosstalk;
 pub mod decoder;
 pub mod device;
+pub mod laws;
 mod line;
 pub mod packet;
 pub mod placement;
@@ -71,6 +72,7 @@ pub use crosstalk::{
 };
 pub use decoder::Decoder;
 pub use device::{DeviceCalibration, DeviceError, Found, Raster, Scales, Signs, found, open_share};
+pub use laws::{ForceLaws, Laws};
 pub use line::Damage;
 pub use packet::{Heartbeat, Message, Packet, Status};
 pub use placement::Placement;

@@ -5,7 +5,7 @@
 //! rounds; nothing here asserts a time, for the machine is never quiet: quote the ratios.
 
 use dsp_process::SplitProcess;
-use hapticore_contract::calibration::{Calibration, Point, PositionTable};
+use hapticore_contract::calibration::{Calibration, ForceTable, Point, PositionTable};
 use hapticore_contract::profile::Profile;
 use hapticore_model::fidelity::{clock::ClockSimulation, fixed::FixedSimulation};
 use idsp::{Lockin, Lowpass, Lowpass2, LowpassState};
@@ -93,7 +93,8 @@ fn calibration(profile: &Profile) -> Calibration {
         .map(|(i, j)| Point { x: i * 80.0, y: j * 40.0, r_x: i / 6.0, r_y: j / 6.0, sheet: 0.0 })
         .collect();
     let position = PositionTable::fit(profile, &points).expect("a raster");
-    Calibration { position, capacitance_gain: 796.0, force_gain: 1e-6 }
+    let force_table = ForceTable::default();
+    Calibration { position, capacitance_gain: 796.0, force_gain: 1e-6, force_table }
 }
 
 /// The codes of a slot: currents a quarter turn ahead of the sensing voltage, a slow haptic

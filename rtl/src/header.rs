@@ -106,7 +106,7 @@ pub fn of_core(profile: &Profile, design: &Design) -> String {
         Core::new(profile).latency() as i64,
         "clocks from a slot's last strobe to its frame's last word",
     );
-    let table = Core::new(profile).estimator().position().table().words;
+    let table = Core::new(profile).estimator().table().words;
     parameter("TABLE_WORDS", table as i64, "of the position table");
     for port in &design.ports {
         parameter(

@@ -252,7 +252,7 @@ fn stream(block: &Stream, divisor: u64) -> Alone {
 pub fn blocks(target: Target) -> Vec<Alone> {
     let (profile, parameters) = (target.profile(), target.parameters());
     let (core, divisor) = (Core::new(&profile), parameters.divisor());
-    let words = core.estimator().position().table().words as u64;
+    let words = core.estimator().table().words as u64;
     let block = CommandRegisters::new(core.inputs().calibration, words);
     vec![
         stream(&Stream::new(&profile, divisor, block.outputs().data), divisor),

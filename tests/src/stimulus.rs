@@ -252,10 +252,9 @@ pub fn scene(profile: &Profile, name: &str, slots: usize) -> Stimulus {
     let core = Core::new(profile);
     let formats = core.inputs();
     let words: Vec<_> = calibration
-        .position
-        .words
-        .iter()
-        .map(|&word| formats.calibration.table.word.code_saturating(word))
+        .words(profile)
+        .into_iter()
+        .map(|word| formats.calibration.table.word.code_saturating(word))
         .collect();
     Stimulus {
         constants: core.idle_inputs(&calibration),
@@ -319,7 +318,7 @@ pub fn tones(profile: &Profile, seed: u64, slots: u64) -> Stimulus {
 pub fn random(profile: &Profile, seed: u64, slots: u64) -> Stimulus {
     let mut rng = Rng::with_seed(seed);
     let core = Core::new(profile);
-    let memory = core.estimator().position().table().clone();
+    let memory = core.estimator().table();
     let constants = Inputs::map(core.inputs(), |format| corner(&mut rng, format));
     let table: Vec<i64> = (0..memory.words).map(|_| corner(&mut rng, memory.format)).collect();
     let (channels, adc, disturb) = (profile.channels(), profile.formats.adc, (rng.fork(), memory));

@@ -3,7 +3,7 @@
 //! two simulators.
 
 use hapticore_contract::control::{Control, Law};
-use hapticore_contract::profile::{self, Profile};
+use hapticore_contract::profile::{self, ForceLaw, Profile};
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::verilog::Design;
 use hapticore_host::profile::for_terminals;
@@ -68,6 +68,47 @@ fn icarus_runs_what_the_model_runs() {
                 panic!("{name}: {mismatch}");
             }
         }
+    }
+}
+
+/// The bundled profile with a force table.
+fn with_force_table(name: &str) -> Bench {
+    let mut profile = Profile::bundled(name).expect("bundled");
+    profile.force.law = ForceLaw::Table;
+    Bench::of(profile)
+}
+
+#[test]
+fn verilator_runs_a_force_table_as_the_model_does() {
+    if !tools::have(&["verilator", "make", "g++"]) {
+        return;
+    }
+    for name in ["small", "standard"] {
+        let bench = with_force_table(name);
+        let (top, ports, text) = (bench.design.top(), &bench.design.ports, bench.design.text());
+        assert!(text.contains("force_table") && !text.contains("force_estimator"));
+        let verilated = Verilated::new(top, ports, &text, Start::Zero);
+        for stimulus in [
+            stimulus::scene(&bench.profile, "fig6", 16),
+            stimulus::random(&bench.profile, 5, 8),
+            stimulus::tones(&bench.profile, 6, 16),
+        ] {
+            if let Err(mismatch) = verilated.check(&bench.record(stimulus)) {
+                panic!("{name}: {mismatch}");
+            }
+        }
+    }
+}
+
+#[test]
+fn icarus_runs_a_force_table_as_the_model_does() {
+    if !tools::have(&["iverilog", "vvp"]) {
+        return;
+    }
+    let bench = with_force_table("small");
+    let trace = bench.record(stimulus::scene(&bench.profile, "hockey", 2));
+    if let Err(mismatch) = icarus::check(bench.design.top(), &bench.design.text(), &trace) {
+        panic!("{mismatch}");
     }
 }
 

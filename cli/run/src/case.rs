@@ -9,11 +9,13 @@ use std::thread;
 
 use anyhow::{Result, ensure};
 use hapticore_contract::control::Tuning;
-use hapticore_contract::profile::Profile;
+use hapticore_contract::profile::{ForceLaw, Profile};
 use hapticore_host::profile::{for_terminals, serving};
 use hapticore_host::{CrosstalkCanceller, DeviceCalibration, Residual, SlotClock, quantities_of};
 use hapticore_model::blocks::force_loop::ForceLoop;
-use hapticore_scene::{Complex, EffectCost, LevelDeviation, Plant, Scene, Truth, signs_by_place};
+use hapticore_scene::{
+    Complex, EffectCost, Figure, LevelDeviation, Plant, Scene, Truth, signs_by_place,
+};
 
 use crate::calibrate;
 use crate::capture::Recorder;
@@ -27,6 +29,9 @@ use crate::session::Session;
 
 /// Slots made ahead of the core.
 const AHEAD: usize = 8;
+
+/// Figures that show the force by eq. 8 and by the table side by side.
+const BOTH: [Figure; 2] = [Figure::Fig6, Figure::Fig7];
 
 /// A case, ready to be run.
 pub struct Case<'a> {
@@ -97,7 +102,12 @@ impl<'a> Case<'a> {
         let pads = plant.pad_names().len();
         let profile = Arc::new(serving(&profile, pads));
         let calibrated = plant.as_calibrated()?;
-        let device = calibrate::of_plant(calibrated.as_ref().unwrap_or(&plant), &profile);
+        let mut device = calibrate::of_plant(calibrated.as_ref().unwrap_or(&plant), &profile);
+        if profile.force.law == ForceLaw::Table || scene.figure.is_some_and(|of| BOTH.contains(&of))
+        {
+            let document = &scene.cases[index].document;
+            device.force = Some(calibrate::force_table(document, device.device.force_k)?);
+        }
         let clock = SlotClock::new(&profile, device.device.sample_rate_hz, start_s);
         Ok(Case { scene, index, number, profile, device, slots: plant.slots(), clock })
     }

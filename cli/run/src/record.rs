@@ -5,8 +5,8 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-pub use hapticore_host::Quantities;
 use hapticore_host::Residual;
+pub use hapticore_host::{Laws, Quantities};
 use hapticore_scene::Setpoint;
 use serde::Serialize;
 
@@ -23,6 +23,9 @@ pub struct Row {
     pub measured: Quantities,
     /// Names of the flags that are set, joined by `+`.
     pub flags: String,
+    /// The force by eq. 8 and by the force table, from the core's capacitance and voltage; where the
+    /// device has a table.
+    pub laws: Option<Laws>,
     /// What the plant knows, where there is one.
     pub truth: Option<Truth>,
     /// What a controller made of it, where there is one.
@@ -125,6 +128,32 @@ pub struct SignalError {
     pub max_codes: f64,
 }
 
+/// The largest and the rms error of the force by either law, N, over all slots with a truth.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct ForceLawErrors {
+    /// Of eq. 8: largest, rms.
+    pub eq8_n: [f64; 2],
+    /// Of the force table: largest, rms.
+    pub table_n: [f64; 2],
+}
+
+impl ForceLawErrors {
+    /// The errors over rows; none where none has both a truth and a table.
+    pub fn of(rows: &[Row]) -> Option<ForceLawErrors> {
+        let pair = |row: &Row| Some((row.laws?, row.truth?.quantities.force_n));
+        let pairs: Vec<_> = rows.iter().filter_map(pair).collect();
+        let errors = |of: fn(&Laws) -> f64| {
+            let off = || pairs.iter().map(move |(laws, truth_n)| of(laws) - truth_n);
+            let squares: f64 = off().map(|off| off * off).sum();
+            [off().map(f64::abs).fold(0.0, f64::max), (squares / pairs.len() as f64).sqrt()]
+        };
+        (!pairs.is_empty()).then(|| ForceLawErrors {
+            eq8_n: errors(|laws| laws.eq8_n),
+            table_n: errors(|laws| laws.table_n),
+        })
+    }
+}
+
 /// Where a run comes from: enough to repeat it.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Provenance {
@@ -187,6 +216,9 @@ pub struct Record {
     /// Where it comes from.
     #[serde(flatten)]
     pub provenance: Provenance,
+    /// What either law of the force leaves of the true force, where the device has a force table.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub force_laws: Option<ForceLawErrors>,
     /// One row per finished slot.
     #[serde(skip)]
     pub rows: Vec<Row>,

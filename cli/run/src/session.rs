@@ -9,7 +9,9 @@ use anyhow::Result;
 use hapticore_contract::control::{Drive, Tuning};
 use hapticore_contract::frame::Measurement;
 use hapticore_contract::profile::Profile;
-use hapticore_host::{CrosstalkCanceller, DeviceCalibration, Readout, Residual, SlotClock};
+use hapticore_host::{
+    CrosstalkCanceller, DeviceCalibration, ForceLaws, Readout, Residual, SlotClock,
+};
 use hapticore_reference::Reference as FloatCore;
 
 use crate::control::closed;
@@ -25,6 +27,8 @@ pub struct Session {
     errors: Option<Errors>,
     /// Of the core and of the reference.
     readouts: [Readout; 2],
+    /// Both laws of the force, where the device has a table.
+    laws: Option<ForceLaws>,
     clock: SlotClock,
     case: usize,
     waiting: VecDeque<Row>,
@@ -54,6 +58,7 @@ impl Session {
             reference: FloatCore::new(profile, &calibration),
             errors: errors.then(|| Errors::new(profile, &calibration)),
             readouts: [0, 1].map(|_| Readout::new(profile, device)),
+            laws: device.force.as_ref().map(|_| ForceLaws::new(profile, &calibration)),
             clock,
             case,
             waiting: VecDeque::new(),
@@ -82,6 +87,7 @@ impl Session {
             pad: slot.pad,
             measured: reference.quantities,
             flags: String::new(),
+            laws: None,
             truth,
             driven: None,
             reference: Some(reference),
@@ -136,6 +142,7 @@ impl Session {
         let row = self.waiting.pop_front()?;
         assert_eq!(row.pad, measurement.pad, "measurements come in the order of their slots");
         let (measured, flags) = self.readouts[0].convert(measurement);
-        Some(Row { measured, flags, ..row })
+        let laws = self.laws.as_mut().map(|laws| laws.forces(measurement));
+        Some(Row { measured, flags, laws, ..row })
     }
 }

@@ -148,6 +148,8 @@ mod tests {
                 mu: Some(estimate(0.1)),
                 current_scale: None,
                 noise_n: 0.0,
+                table: None,
+                table_residual_n: None,
                 points,
             }),
             warnings: vec!["<a> & b".into()],

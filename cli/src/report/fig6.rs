@@ -6,6 +6,7 @@
 use super::axis::Axis;
 use super::fig4::{BARS, capacitance_axis, keys, ordinates, trio, voltage_axis};
 use super::figure::Figure;
+use super::laws;
 use super::number;
 use super::paint::Paint;
 use super::plot::Plot;
@@ -24,7 +25,7 @@ pub fn figures(record: &Record) -> Vec<Figure> {
     let has_friction = record.rows.iter().any(|row| row.truth.is_some_and(|t| t.friction_n > 0.0));
     let panel_a = has_friction.then(|| friction(&loads));
     let others = [capacitance(&loads), increment(&loads), force(&loads), residual(record, &loads)];
-    panel_a.into_iter().chain(others).collect()
+    panel_a.into_iter().chain(others).chain(laws::over_voltage(record)).collect()
 }
 
 /// Panel a: what the load's friction is without a voltage, and what the voltage adds.

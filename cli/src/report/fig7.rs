@@ -6,6 +6,7 @@ use super::axis::Axis;
 use super::figure::Figure;
 use super::general::{self, Quantity};
 use super::hockey::force_error;
+use super::laws;
 use super::paint::Paint;
 use super::plot::Plot;
 use super::select;
@@ -30,7 +31,7 @@ pub fn figures(record: &Record) -> Vec<Figure> {
     .map(|q| general::over_time(record, q));
     let compared = (record.cases.len() > 1).then(|| cases(record));
     let figures = [force, force_error(record, "estimate"), capacitance, voltage];
-    compared.into_iter().chain(figures).collect()
+    compared.into_iter().chain(figures).chain(laws::over_time(record)).collect()
 }
 
 /// True haptic force of every case over its own time: how much earlier one jumps than another.

@@ -25,6 +25,7 @@ mod figure;
 mod frame;
 mod general;
 mod hockey;
+mod laws;
 mod map;
 mod number;
 mod page;

@@ -3,7 +3,9 @@
 //! rows.
 
 use super::*;
-use hapticore_run::record::{Criterion, Effect, Quantities, Reference, Row, SignalError, Truth};
+use hapticore_run::record::{
+    Criterion, Effect, Laws, Quantities, Reference, Row, SignalError, Truth,
+};
 
 const FIGURES: [Option<&str>; 7] =
     [Some("fig3"), Some("fig4"), Some("fig6"), Some("fig7"), Some("hockey"), Some("fig99"), None];
@@ -77,6 +79,7 @@ fn row(n: usize) -> Row {
         pad: n % 4,
         measured,
         flags: String::new(),
+        laws: Some(Laws { eq8_n: 0.11, table_n: measured.force_n }),
         truth,
         driven: None,
         reference,

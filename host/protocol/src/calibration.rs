@@ -91,7 +91,7 @@ pub struct ConstantWord {
 /// A calibration as codes for a core: what its ports and its position table are given.
 ///
 /// ```
-/// # use hapticore_contract::calibration::{Calibration, Point, PositionTable};
+/// # use hapticore_contract::calibration::{Calibration, ForceTable, Point, PositionTable};
 /// # use hapticore_contract::profile::Profile;
 /// use hapticore_protocol::{CalibrationWords, Constant};
 ///
@@ -100,7 +100,8 @@ pub struct ConstantWord {
 /// # let places = (0..9 * 7).map(|k| (f64::from(k % 9) / 4.0 - 1.0, f64::from(k / 9) / 3.0 - 1.0));
 /// # let point = |(x, y)| Point { x: 400.0 * x, y: 220.0 * y, r_x: 0.8 * x, r_y: 0.8 * y, sheet: 0.05 };
 /// # let position = PositionTable::fit(&profile, &places.map(point).collect::<Vec<_>>())?;
-/// let calibration = Calibration { position, capacitance_gain: 800.0, force_gain: 2e-6 };
+/// let force_table = ForceTable::default();
+/// let calibration = Calibration { position, capacitance_gain: 800.0, force_gain: 2e-6, force_table };
 /// let words = CalibrationWords::new(&profile, &calibration);
 /// let gain = words.constant(Constant::CapacitanceGain);
 /// assert_eq!(gain.format.real(gain.code), 800.0);
@@ -112,7 +113,8 @@ pub struct ConstantWord {
 pub struct CalibrationWords {
     /// The constants, in the order of [`Constant::ALL`].
     pub constants: [ConstantWord; Constant::ALL.len()],
-    /// The words of the position table, by address.
+    /// The words of the position table and, where the law is one, of the force table behind it, by
+    /// address.
     pub table: Vec<i64>,
     /// The format of the table's words.
     pub table_format: Format,
@@ -131,12 +133,8 @@ impl CalibrationWords {
             }
         });
         let table_format = profile.formats.table;
-        let table = calibration
-            .position
-            .words
-            .iter()
-            .map(|&real| table_format.code_saturating(real))
-            .collect();
+        let words = calibration.words(profile).into_iter();
+        let table = words.map(|real| table_format.code_saturating(real)).collect();
         CalibrationWords { constants, table, table_format }
     }
 

@@ -23,7 +23,7 @@
 use crate::calibration::WordFormats;
 use crate::register::Register;
 use hapticore_contract::frame::Field;
-use hapticore_contract::profile::Profile;
+use hapticore_contract::profile::{Force, Profile};
 use hapticore_hdl::format::Format;
 
 /// Ends a packet.
@@ -88,8 +88,12 @@ pub const NIBBLE: Format = Format::unsigned(4, 0);
 /// ```
 pub fn digest(profile: &Profile) -> u16 {
     let text = format!("{:?}", Profile { name: String::new(), ..profile.clone() });
-    // A section that a profile does not have is not of its digest: boards of before keep theirs.
+    // What a profile does not have is not of its digest: boards from before keep theirs.
     let text = text.replace("wall: None, ", "").replace("control: None, ", "");
+    let text = match profile.force == Force::default() {
+        true => text.replace(&format!("force: {:?}, ", profile.force), ""),
+        false => text,
+    };
     let step = |hash: u64, byte: u8| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
     let hash = text.bytes().fold(0xcbf2_9ce4_8422_2325, step);
     (hash ^ hash >> 16 ^ hash >> 32 ^ hash >> 48) as u16

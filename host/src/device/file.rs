@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The file of a device's calibration: read, checked and written.
 
-use super::{DeviceCalibration, Raster, Scales};
+use super::{DeviceCalibration, Force, Raster, Scales};
 use crate::text::{ReadError, read, with_key};
 use std::fmt::Write;
 use std::path::Path;
@@ -44,7 +44,11 @@ impl DeviceCalibration {
 
     fn check(&self) -> Result<(), String> {
         match self.pads {
-            1..=256 => self.device.check().and_then(|()| self.map.check()),
+            1..=256 => {
+                self.device.check()?;
+                self.force.as_ref().map_or(Ok(()), Force::check)?;
+                self.map.check()
+            }
             pads => Err(format!("pads: expected 1 to 256, got {pads}")),
         }
     }
@@ -55,7 +59,7 @@ impl DeviceCalibration {
         let mut text = format!(
             "# A device's calibration for `hapticore replay`.\npads = {}\n\n[terminals]\nx = {:?}\ny = {:?}\n\n[device]\n\
              sample_rate_hz = {:?}\ncarrier_hz = {:?}\ncurrent_full_scale_a = {:?}\nsense_full_scale_v = {:?}\n\
-             haptic_full_scale_v = {:?}\nforce_k = {:?}\n{}\n[map]\ncolumns = {}\nopen_share = {:?}\n\
+             haptic_full_scale_v = {:?}\nforce_k = {:?}\n{}{}\n[map]\ncolumns = {}\nopen_share = {:?}\n\
              places = [ # x_mm, y_mm, r_x, r_y, sheet_ohm\n",
             self.pads,
             self.terminals.x,
@@ -70,6 +74,7 @@ impl DeviceCalibration {
                 .pad_diameter_mm
                 .map(|mm| format!("pad_diameter_mm = {mm:?}\n"))
                 .unwrap_or_default(),
+            self.force.as_ref().map(Force::text).unwrap_or_default(),
             self.map.columns,
             self.map.open_share
         );

@@ -17,6 +17,11 @@
 //! haptic_full_scale_v = 600.0
 //! force_k = 9.6e12                # eq. 8, N/(F·V)²
 //! pad_diameter_mm = 30.0          # pads that are nearer to each other touch; never told where it is left out
+//! [force]                         # of cores whose force.law is a table; k is force_k times a + b·V_s + d·(V_s − V_m)
+//! recent_s = 0.01                 # V_s and V_m: low-passes of the pad's rms voltage
+//! mean_s = 1.5
+//! release_v = 2.0                 # below it a pad's past is forgotten
+//! rows = [[a, b, d], …]           # 11: for 320, 384 … 960 pF; b and d per volt
 //! [map]
 //! columns = 121                   # places in a row
 //! open_share = 0.01               # of the ratios' denominator: a terminal with less current is open; none ever where it is left out
@@ -24,9 +29,11 @@
 //! ```
 
 mod file;
+mod force;
 mod refine;
 
 pub use file::DeviceError;
+pub use force::{Force, MEAN_S, RECENT_S, RELEASE_V};
 
 use std::f64::consts::TAU;
 
@@ -35,7 +42,7 @@ use crate::residual::Residual;
 use hapticore_contract::calibration::{
     Calibration, CalibrationError, Point, PositionError, PositionTable,
 };
-use hapticore_contract::profile::Profile;
+use hapticore_contract::profile::{ForceLaw, Profile};
 use serde::Deserialize;
 
 /// The calibration of a device, as its file holds it: the same for every profile.
@@ -60,6 +67,8 @@ pub struct DeviceCalibration {
     pub terminals: Signs,
     /// Full scales and the force law.
     pub device: Scales,
+    /// The force table, where the device has been calibrated for one.
+    pub force: Option<Force>,
     /// Places and what is measured there.
     pub map: Raster,
 }
@@ -160,6 +169,11 @@ pub enum DeviceWordsError {
     /// A number that its format cannot represent.
     #[error(transparent)]
     Number(#[from] CalibrationError),
+    /// The core's law is a table, and the device has none.
+    #[error(
+        "calibration force: expected [force], the table of a profile whose force.law is \"table\""
+    )]
+    NoForceTable,
 }
 
 impl DeviceCalibration {
@@ -193,12 +207,17 @@ impl DeviceCalibration {
         };
         let (_, places) = refine::refine(self.map.columns, &self.map.places);
         let points: Vec<_> = places.iter().map(place).collect();
+        let force_table = match (&self.force, profile.force.law) {
+            (None, ForceLaw::Table) => return Err(DeviceWordsError::NoForceTable),
+            (force, _) => force.clone().unwrap_or_default().for_profile(profile, device),
+        };
         let table = PositionTable::fit(profile, &points).map_err(DeviceWordsError::Map)?;
         let calibration = Calibration {
             position: table.with_open_share(self.map.open_share),
             capacitance_gain: device.capacitance_gain(),
             force_gain: device.force_k * 1e-24 * device.haptic_full_scale_v.powi(2)
                 / profile.square_gain(),
+            force_table,
         };
         calibration.check(profile)?;
         Ok(calibration)

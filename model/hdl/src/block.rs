@@ -252,6 +252,32 @@ impl<B: Block> Submodule for B {
     }
 }
 
+/// A block that only some configurations have.
+impl<B: Block> Submodule for Option<B> {
+    type State<V: Interpretation> = Option<State<B, V>>;
+
+    fn reset_state<V: Interpretation>(&self) -> Self::State<V> {
+        self.as_ref().map(Block::reset)
+    }
+
+    fn visit<V: Interpretation>(
+        &self,
+        name: &'static str,
+        state: &Self::State<V>,
+        visitor: &mut impl Visitor<V>,
+    ) {
+        if let Some((block, state)) = self.as_ref().zip(state.as_ref()) {
+            block.visit(name, state, visitor);
+        }
+    }
+
+    fn edit<V: Interpretation>(&self, state: &mut Self::State<V>, edit: &mut impl Edit<V>) {
+        if let Some((block, state)) = self.as_ref().zip(state.as_mut()) {
+            block.edit(state, edit);
+        }
+    }
+}
+
 impl Submodule for Memory {
     type State<V: Interpretation> = V::Words;
 

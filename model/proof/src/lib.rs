@@ -117,7 +117,7 @@ impl Run<'_> {
     /// Every word that the format allows, at every address.
     fn any_tables(&self, state: &mut State<Core, Range>) {
         let maybe = Signal { value: Range { low: 0, high: 1 }, format: BIT };
-        let words = self.core.estimator().position().table().words as i128;
+        let words = self.core.estimator().table().words as i128;
         let mut inputs = self.inputs;
         let table = &mut inputs.calibration.table;
         (table.write, table.address.value) = (maybe, Range { low: 0, high: words - 1 });

@@ -4,7 +4,7 @@
 use std::thread;
 
 use hapticore_contract::control::{Control, Law};
-use hapticore_contract::profile::Profile;
+use hapticore_contract::profile::{ForceLaw, Profile};
 use hapticore_hdl::block;
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::bundle::Bundle;
@@ -97,6 +97,16 @@ fn no_signal_of_a_core_with_a_controller_can_overflow() {
     profile.control = Some(Control::of(&profile, Law::Inverse));
     let proof = prove(&profile);
     assert!(proof.holds(), "{:?}", proof.violations.first());
+}
+
+#[test]
+fn a_force_table_cannot_overflow() {
+    for mut profile in Profile::all() {
+        profile.force.law = ForceLaw::Table;
+        profile.position.steps = 1;
+        let proof = prove(&profile);
+        assert!(proof.holds(), "{}: {:?}", profile.name, proof.violations.first());
+    }
 }
 
 block! {

@@ -7,15 +7,16 @@
 //! r_x = Σ ±a_k / Σ a_k,   r_y likewise (eqs. 2, 3);   x, y, R: where the table has these ratios;   lost: min a_k < open · Σ a_k
 //! a = |Σ (i_k + j q_k)|,   C = gain · a / √(v² − (a·R)²)    or    gain · a / v (eq. 6)
 //! m = 1/Σw · Σ w·h², the mean of the pad's last N once there are as many,   F = gain · C² · m · square_gain (eq. 8)
+//! F = gain · factor(C, past) · C² · m · square_gain, past of √(m · square_gain)    with a force table
 //! ```
 //!
 //! Amplitudes enter results as quotients only, so that the core's tone gain cancels; its square
 //! gain does not, and a measurement's mean square holds it, as a frame's does. Nothing saturates.
 
 use crate::control::Prompt;
-use hapticore_contract::calibration::Calibration;
+use hapticore_contract::calibration::{Calibration, PastVoltage};
 use hapticore_contract::frame::{Flags, Measurement};
-use hapticore_contract::profile::{Profile, Window};
+use hapticore_contract::profile::{ForceLaw, Profile, Window};
 use num_traits::{Float, FloatConst, FromPrimitive};
 
 /// What the equations can be evaluated in: `f32`, `f64`, or a type with more bits.
@@ -65,6 +66,9 @@ pub struct Reference<T = f64> {
     /// Windows over which squares are averaged, and the last squares of every pad.
     windows: usize,
     squares: Vec<Vec<T>>,
+    law: ForceLaw,
+    /// The voltage that every pad has had.
+    past: Vec<PastVoltage<T>>,
     sums: Vec<[T; 2]>,
     last: usize,
     early: Early<T>,
@@ -93,7 +97,7 @@ impl<T: Real> Reference<T> {
     /// A core in the precision of `T`, calibrated, just before its first slot.
     ///
     /// ```
-    /// # use hapticore_contract::calibration::{Calibration, Point, PositionTable};
+    /// # use hapticore_contract::calibration::{Calibration, ForceTable, Point, PositionTable};
     /// # use hapticore_contract::profile::Profile;
     /// use hapticore_reference::Reference;
     ///
@@ -101,7 +105,8 @@ impl<T: Real> Reference<T> {
     /// # let place = |k: i32| (f64::from(k % 9 - 4) * 20.0, f64::from(k / 9 - 4) * 10.0);
     /// # let point = |(x, y)| Point { x, y, r_x: x / 100.0, r_y: y / 50.0, sheet: 0.0 };
     /// # let position = PositionTable::fit(&profile, &(0..81).map(place).map(point).collect::<Vec<_>>())?;
-    /// # let calibration = Calibration { position, capacitance_gain: 800.0, force_gain: 2e-6 };
+    /// # let force_table = ForceTable::default();
+    /// # let calibration = Calibration { position, capacitance_gain: 800.0, force_gain: 2e-6, force_table };
     /// let mut double = Reference::new(&profile, &calibration);
     /// let mut single = Reference::<f32>::with_precision(&profile, &calibration);
     /// let phasors = [(0.11, 0.0), (0.12, 0.0), (0.1, 0.0), (0.09, 0.0), (0.1, 0.0), (0.1, 0.0), (0.3, 0.4)];
@@ -125,6 +130,8 @@ impl<T: Real> Reference<T> {
             held: (0..profile.pads as usize).map(nothing).collect(),
             windows: profile.haptic.windows as usize,
             squares: vec![Vec::new(); profile.pads as usize],
+            law: profile.force.law,
+            past: vec![PastVoltage::default(); profile.pads as usize],
             sums: vec![[T::zero(); 2]; terminals.x.len() + 1],
             last: 0,
             early: Early {
@@ -221,6 +228,7 @@ impl<T: Real> Reference<T> {
         let sheet = self.held[pad].measurement.sheet;
         let [total, sense] = total_and_sense(phasors);
         self.early = Early { pad, total, sense, sheet, mean_square, clipped };
+        self.past[pad].follow(&self.calibration.force_table, mean_square.sqrt());
         let solution = self.solve(pad, phasors, mean_square);
         self.last = pad;
         if solution.valid {
@@ -274,6 +282,14 @@ impl<T: Real> Reference<T> {
         }
     }
 
+    /// What the law multiplies the force gain by.
+    fn factor(&self, pad: usize, capacitance_pf: T) -> T {
+        match self.law {
+            ForceLaw::Eq8 => T::one(),
+            ForceLaw::Table => self.calibration.force_table.factor(capacitance_pf, self.past[pad]),
+        }
+    }
+
     /// Eqs. 2, 3, 6 and 8 and the sheet's resistance.
     fn solve(&self, pad: usize, phasors: &[[T; 2]], mean_square: T) -> Solution<T> {
         let amplitudes = phasors[..self.signs.len()].iter().map(magnitude);
@@ -291,7 +307,8 @@ impl<T: Real> Reference<T> {
         let place = self.calibration.position.look_up(r_x, r_y);
         let (x_mm, y_mm, sheet) = (place.x, place.y, place.sheet.max(T::zero()));
         let (capacitance_pf, left) = self.capacitance(total, sense, sheet);
-        let force_n = self.force(capacitance_pf, mean_square);
+        let gain = real::<T>(self.calibration.force_gain) * self.factor(pad, capacitance_pf);
+        let force_n = gain * capacitance_pf * capacitance_pf * mean_square;
         let flags = Flags::default();
         Solution {
             values: Held {

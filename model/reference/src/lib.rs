@@ -19,7 +19,7 @@
 //! phasors:
 //!
 //! ```
-//! use hapticore_contract::calibration::{Calibration, Point, PositionTable};
+//! use hapticore_contract::calibration::{Calibration, ForceTable, Point, PositionTable};
 //! use hapticore_contract::profile::Profile;
 //! use hapticore_reference::Reference;
 //!
@@ -27,7 +27,8 @@
 //! let place = |k: i32| (f64::from(k % 9 - 4) * 20.0, f64::from(k / 9 - 4) * 10.0);
 //! let point = |(x, y)| Point { x, y, r_x: x / 100.0, r_y: y / 50.0, sheet: 0.0 };
 //! let position = PositionTable::fit(&profile, &(0..81).map(place).map(point).collect::<Vec<_>>())?;
-//! let calibration = Calibration { position, capacitance_gain: 800.0, force_gain: 2e-6 };
+//! let force_table = ForceTable::default();
+//! let calibration = Calibration { position, capacitance_gain: 800.0, force_gain: 2e-6, force_table };
 //! let mut reference = Reference::new(&profile, &calibration);
 //!
 //! // The same current at all six terminals, a tenth of full scale; the sensing voltage at half of it.

@@ -21,16 +21,18 @@
 use super::capacitance::{self, Capacitance};
 use super::currents::{self, Currents};
 use super::force::{self, Force};
+use super::force_table::{self, ForceTable};
 use super::frames::{self, Frames};
 use super::haptic_voltage::{self, HapticVoltage};
 use super::position::{self, Position, TablePort};
 use super::ratio::{self, Ratio};
-use hapticore_contract::profile::{Profile, ProfileError};
+use hapticore_contract::calibration::ForceTable as Words;
+use hapticore_contract::profile::{ForceLaw, Profile, ProfileError};
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::{BIT, Format};
 use hapticore_hdl::memory::{Memory, Write};
-use hapticore_hdl::signal::{Signal, bit, zero};
+use hapticore_hdl::signal::{Proved, Saturate, Signal, bit, code, int, zero};
 use hapticore_hdl::{block, bundle, call, when};
 
 bundle! {
@@ -92,6 +94,7 @@ block! {
         pads: u64,
         /// Whether there is a prompt estimate.
         prompts: bool,
+        force_gain: Format,
     }
     submodules {
         /// The sheet's resistance at the last place of each pad.
@@ -101,7 +104,10 @@ block! {
         position: Position,
         haptic_voltage: HapticVoltage,
         capacitance: Capacitance,
-        force_estimator: Force,
+        /// By eq. 8.
+        force_estimator: Option<Force>,
+        /// With a table, where that is the law.
+        force_table: Option<ForceTable>,
         frames: Frames,
     }
     inputs(estimator) {
@@ -139,8 +145,12 @@ impl Estimator {
     /// # Errors
     /// The first of its blocks that cannot be.
     pub fn try_new(profile: &Profile) -> Result<Self, ProfileError> {
-        let currents = Currents::try_new(profile)?;
+        let (currents, law) = (Currents::try_new(profile)?, profile.force.law);
         let sheets = Memory::new("sheets", profile.pads as usize, profile.sheet());
+        if profile.control.is_some() && law != ForceLaw::Eq8 {
+            let got = "table";
+            return Err(ProfileError::value("force.law", "\"eq8\", with a controller", got));
+        }
         Ok(Estimator {
             prompts: profile.control.is_some(),
             sheets: sheets.dont_care_on_collision().in_block(),
@@ -148,7 +158,11 @@ impl Estimator {
             position: Position::new(profile),
             haptic_voltage: HapticVoltage::try_new(profile)?,
             capacitance: Capacitance::try_new(profile, currents.amplitude())?,
-            force_estimator: Force::try_new(profile)?,
+            force_estimator: (law == ForceLaw::Eq8).then(|| Force::try_new(profile)).transpose()?,
+            force_table: (law == ForceLaw::Table)
+                .then(|| ForceTable::try_new(profile))
+                .transpose()?,
+            force_gain: profile.formats.force_gain,
             frames: Frames::new(profile),
             pads: profile.pads,
             currents,
@@ -162,9 +176,10 @@ impl Estimator {
 
     /// The formats of the calibration.
     fn calibration(&self) -> Calibration<Format> {
-        let (capacitance_gain, force_gain) =
-            (self.capacitance.inputs().gain, self.force_estimator.inputs().gain);
-        Calibration { capacitance_gain, force_gain, table: self.position.inputs().table }
+        let (capacitance_gain, force_gain) = (self.capacitance.inputs().gain, self.force_gain);
+        let table = self.position.inputs().table;
+        let address = self.table().address();
+        Calibration { capacitance_gain, force_gain, table: TablePort { address, ..table } }
     }
 
     /// The formats of a frame.
@@ -178,13 +193,12 @@ impl Estimator {
     /// The formats of a prompt estimate.
     #[inline(always)]
     fn prompt(&self) -> PromptPort<Format> {
-        let force = &self.force_estimator;
         let formats = PromptPort {
             prompt: BIT,
             prompt_pad: self.pad(),
             prompt_capacitance: self.capacitance.outputs().capacitance,
-            prompt_force: force.outputs().haptic_force,
-            prompt_gain: force.inputs().gain,
+            prompt_force: self.frames.inputs().haptic_force,
+            prompt_gain: self.force_gain,
             prompt_invalid: BIT,
         };
         PromptPort::map(formats, |format| format.where_present(self.prompts))
@@ -192,7 +206,9 @@ impl Estimator {
 
     /// Clocks from the last sum to the prompt estimate.
     pub fn prompt_latency(&self) -> u64 {
-        self.currents.latency() + self.capacitance.latency() + self.force_estimator.latency()
+        self.currents.latency()
+            + self.capacitance.latency()
+            + self.force_estimator.as_ref().map_or(0, Force::latency)
     }
 
     /// Clocks from the last sum to the last word.
@@ -202,7 +218,8 @@ impl Estimator {
             self.ratio.latency(),
             self.position.latency(),
             self.capacitance.latency(),
-            self.force_estimator.latency(),
+            self.force_estimator.as_ref().map_or(0, Force::latency),
+            self.force_table.as_ref().map_or(0, ForceTable::latency),
             self.frames.latency(),
         ];
         let prompt =
@@ -213,6 +230,59 @@ impl Estimator {
     /// As [`Position::place_at_once`].
     pub(crate) fn place_at_once(&mut self, table: Vec<i64>) {
         self.position.place_at_once(table);
+    }
+
+    /// What the table port writes: the position table, and behind it the force table where there
+    /// is one.
+    pub fn table(&self) -> Memory {
+        let (position, force) = (self.position.table(), &self.force_table);
+        let words = position.words + force.as_ref().map_or(0, |_| Words::WORDS);
+        Memory { words, ..position.clone() }
+    }
+
+    /// The port of the position table, and that of the force table where there is one.
+    #[inline(always)]
+    fn table_ports<V: Interpretation>(
+        &self,
+        port: TablePort<Signal<V>>,
+    ) -> [TablePort<Signal<V>>; 2] {
+        let Some(force) = &self.force_table else { return [port; 2] };
+        let words = self.position.table().words as u64;
+        let address = self.position.inputs().table.address;
+        let last = code(words as i64 - 1, port.address.format);
+        let behind = port.address.at_least(int(words)).named("force_word");
+        let of_position = port.address.at_most(last).resize(address, Proved);
+        let of_force = (port.address - int(words)).resize(force.inputs().table.address, Saturate);
+        [
+            TablePort { write: port.write & !behind, address: of_position, ..port },
+            TablePort { write: port.write & behind, address: of_force, ..port },
+        ]
+    }
+
+    /// The force: by eq. 8, or with the table where there is one; and the gain that it has of
+    /// (C·V)².
+    #[inline(always)]
+    fn force<V: Interpretation>(
+        &self,
+        state: &mut State<Self, V>,
+        i: force::In<V>,
+        (pad, table): (Signal<V>, TablePort<Signal<V>>),
+    ) -> (force::Out<V>, Signal<V>) {
+        let force::Inputs { start, capacitance, mean_square, gain } = i;
+        let (by_eq8, by_table) = (&self.force_estimator, &self.force_table);
+        if let Some((block, within)) =
+            by_eq8.as_ref().zip(state.submodules.force_estimator.as_mut())
+        {
+            return (block.call("force_estimator", within, i), gain);
+        }
+        let (block, within) = by_table
+            .as_ref()
+            .zip(state.submodules.force_table.as_mut())
+            .expect("one law or the other");
+        let inputs = force_table::Inputs { start, pad, capacitance, mean_square, gain, table };
+        let force_table::Outputs { done, haptic_force, factored_gain, saturated } =
+            block.call("force_table", within, inputs);
+        (force::Outputs { done, haptic_force, saturated }, factored_gain)
     }
 
     /// The position block's configuration.
@@ -243,12 +313,13 @@ impl Block for Estimator {
         let start = if self.prompts { r.follow } else { currents.done };
         let inputs = ratio::Inputs { start, x, y, corners, least };
         let ratio = call!(self.ratio, state, inputs);
+        let [of_position, of_force] = self.table_ports(i.calibration.table);
         let inputs = position::Inputs {
             start: ratio.done,
             r_x: ratio.r_x,
             r_y: ratio.r_y,
             share: ratio.share,
-            table: i.calibration.table,
+            table: of_position,
         };
         let position = call!(self.position, state, inputs);
         let invalid_place = ratio.invalid | position.invalid;
@@ -267,7 +338,7 @@ impl Block for Estimator {
             mean_square: haptic.mean_square,
             gain: i.calibration.force_gain,
         };
-        let force = call!(self.force_estimator, state, inputs);
+        let (force, gain) = self.force(state, inputs, (r.pad, of_force));
         let invalid = invalid_place | capacitance.invalid;
         let inputs = frames::Inputs {
             start: force.done & !self.early(&r),
@@ -295,7 +366,7 @@ impl Block for Estimator {
             prompt_pad: r.pad,
             prompt_capacitance: capacitance.capacitance,
             prompt_force: force.haptic_force,
-            prompt_gain: i.calibration.force_gain,
+            prompt_gain: gain,
             prompt_invalid: prompt_done & (held | capacitance.invalid | r.clipped),
         };
         let prompt = self.where_prompt(prompt);
@@ -338,11 +409,20 @@ impl Estimator {
             prompt: bit(false),
             prompt_pad: r.pad,
             prompt_capacitance: within.capacitance.load(&self.capacitance).capacitance,
-            prompt_force: within.force_estimator.load(&self.force_estimator).haptic_force,
+            prompt_force: self.last_force(state),
             prompt_gain: i.calibration.force_gain,
             prompt_invalid: bit(false),
         };
         Outputs { frames, prompt }
+    }
+
+    /// What the force estimator holds.
+    #[inline(always)]
+    fn last_force<V: Interpretation>(&self, state: &State<Self, V>) -> Signal<V> {
+        let held = self.force_estimator.as_ref().zip(state.submodules.force_estimator.as_ref());
+        held.map_or(zero(self.prompt().prompt_force), |(block, within)| {
+            within.load(block).haptic_force
+        })
     }
 
     /// The ports of a prompt estimate, where there is one.

@@ -10,6 +10,7 @@ pub mod divider;
 pub mod estimator;
 pub mod force;
 pub mod force_loop;
+pub mod force_table;
 pub mod frames;
 pub mod haptic_voltage;
 pub mod multiplexer;

@@ -35,7 +35,7 @@ impl ClockSimulation {
     pub fn new(profile: &Profile, calibration: &Calibration) -> Self {
         let core = Core::new(profile);
         let formats = core.inputs();
-        let state = calibrated(&core, calibration);
+        let state = calibrated(&core, profile, calibration);
         ClockSimulation {
             inputs: signals::<Inputs, i64>(core.idle_inputs(calibration), formats),
             core,

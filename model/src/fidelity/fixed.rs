@@ -58,7 +58,7 @@ impl<V: Interpretation> FixedSimulation<V> {
         let sums = vec![zero(core.demodulator().sum()); core.demodulator().sums() as usize];
         let local = local(&core, profile);
         FixedSimulation {
-            state: calibrated(&core, calibration),
+            state: calibrated(&core, profile, calibration),
             response: response(&core, &local, profile),
             local,
             quiet: quiet(&core, constants),

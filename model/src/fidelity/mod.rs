@@ -11,6 +11,7 @@ use crate::blocks::estimator;
 use crate::blocks::position::TablePort;
 use hapticore_contract::calibration::Calibration;
 use hapticore_contract::frame::{Flags, Frame};
+use hapticore_contract::profile::Profile;
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::Format;
@@ -54,12 +55,16 @@ impl Gathered {
 }
 
 /// The state of a core with the calibration's tables written into it, through its port.
-fn calibrated<V: Interpretation>(core: &Core, calibration: &Calibration) -> State<Core, V> {
+fn calibrated<V: Interpretation>(
+    core: &Core,
+    profile: &Profile,
+    calibration: &Calibration,
+) -> State<Core, V> {
     let mut state = core.reset();
     let formats = core.inputs();
     let constants = core.idle_inputs(calibration);
-    let memory = core.estimator().position().table();
-    for (address, &word) in calibration.position.words.iter().enumerate() {
+    let memory = core.estimator().table();
+    for (address, word) in calibration.words(profile).into_iter().enumerate() {
         let codes = constants.with_table(TablePort { write: 1, address: address as i64, word: 0 });
         let mut inputs = signals::<Inputs, V>(codes, formats);
         inputs.calibration.table.word = constant(word, memory.format);

@@ -2,13 +2,22 @@
 //! A device to calibrate with, and what its ADC could see.
 
 use super::random::Random;
-use hapticore_contract::calibration::{Calibration, Point, PositionTable};
-use hapticore_contract::profile::Profile;
+use hapticore_contract::calibration::{Calibration, ForceTable, Point, PositionTable};
+use hapticore_contract::profile::{ForceLaw, Profile};
 use std::f64::consts::TAU;
 
 /// The bundled profiles, their slots cut to a few samples so that slots pass quickly.
 pub fn short_profiles() -> Vec<Profile> {
     Profile::all().into_iter().map(shortened).collect()
+}
+
+/// The same with a force table.
+pub fn short_table_profiles() -> Vec<Profile> {
+    let with_table = |mut profile: Profile| {
+        profile.force.law = ForceLaw::Table;
+        shortened(profile)
+    };
+    Profile::all().into_iter().map(with_table).collect()
 }
 
 fn shortened(mut profile: Profile) -> Profile {
@@ -41,9 +50,20 @@ pub fn calibration(profile: &Profile) -> Calibration {
         position: PositionTable::fit(profile, &points).expect("a raster").with_open_share(0.01),
         capacitance_gain: 800.0,
         force_gain: 2e-6,
+        force_table: force_table(),
     };
     calibration.check(profile).expect("a calibration within its formats");
     calibration
+}
+
+/// A force table such as a device has: the factor rises with the capacitance, more where the voltage
+/// has been there for long.
+fn force_table() -> ForceTable {
+    let row = |row: usize| {
+        let row = row as f64;
+        [0.9 + 0.02 * row * row, 0.3 - 0.05 * row, 0.1 * row - 0.4]
+    };
+    ForceTable { rows: std::array::from_fn(row), recent: 0.5, mean: 0.011, release: 0.05 }
 }
 
 /// The tones of a slot: amplitudes and phases (turns) of the terminals and the sensing voltage, and

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Netlists: they elaborate for every profile, and run as the clocked model does.
 
-use crate::device::short_profiles;
+use crate::device::{short_profiles, short_table_profiles};
 use crate::harness::Bench;
 use crate::idle::{assert_same_outputs, drive_core, flat};
 use crate::interpreter::State;
@@ -23,7 +23,7 @@ fn every_profile_elaborates() {
 
 #[test]
 fn the_netlist_runs_as_the_clocked_model_does() {
-    for profile in short_profiles() {
+    for profile in short_profiles().into_iter().chain(short_table_profiles()) {
         let core = Core::new(&profile);
         let netlist = Netlist::of(&core);
         let mut state = State::new(&netlist, netlist.top());

@@ -2,7 +2,7 @@
 //! Whole slots: frames of fidelities `fixed` and `clock`, and of the estimator by itself, are those
 //! of the reference.
 
-use crate::device::{self, Sight, calibration, short_profiles};
+use crate::device::{self, Sight, calibration, short_profiles, short_table_profiles};
 use crate::harness::{Bench, operations, show};
 use crate::random::Random;
 use hapticore_contract::calibration::Calibration;
@@ -60,11 +60,19 @@ fn frames_by_eq_6_alone_are_the_reference() {
 }
 
 #[test]
+fn frames_with_a_force_table_are_the_reference() {
+    for profile in short_table_profiles() {
+        check_slots(&profile, operations(1400) as usize, 4);
+    }
+}
+
+#[test]
 fn frames_of_any_sums_are_the_reference() {
     let controlled = short_profiles()
         .into_iter()
         .map(|profile| Profile { control: Some(Control::of(&profile, Law::Inverse)), ..profile });
-    for (seed, profile) in (0..).zip(short_profiles().into_iter().chain(controlled)) {
+    let profiles = short_profiles().into_iter().chain(short_table_profiles()).chain(controlled);
+    for (seed, profile) in (0..).zip(profiles) {
         let calibration = calibration(&profile);
         let mut reference = Slots::new(&profile, &calibration);
         let mut bench = Bench::new(Estimator::try_new(&profile).unwrap());
@@ -85,7 +93,7 @@ fn calibrate(
 ) -> estimator::Inputs<i64> {
     let f = &profile.formats;
     let zero = estimator::Inputs::map(bench.block.inputs(), |_| 0);
-    for (address, &word) in (0..).zip(&calibration.position.words) {
+    for (address, word) in (0..).zip(calibration.words(profile)) {
         let table = TablePort { write: 1, address, word: f.table.code_saturating(word) };
         bench.clock(estimator::Inputs {
             calibration: estimator::Calibration { table, ..zero.calibration },

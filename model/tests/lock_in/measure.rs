@@ -10,7 +10,7 @@
 //! that of the worst phase, relative to a tone on the carrier f_c. Reserve: how many times larger
 //! than the carrier's a tone may be that moves the force by 1 %, its amplitude by half of that.
 
-use hapticore_contract::calibration::{Calibration, Point, PositionTable};
+use hapticore_contract::calibration::{Calibration, ForceTable, Point, PositionTable};
 use hapticore_contract::profile::Profile;
 use hapticore_model::fidelity::fixed::FixedSimulation;
 use std::f64::consts::{PI, TAU};
@@ -190,6 +190,7 @@ fn calibration(profile: &Profile) -> Calibration {
         position: PositionTable::fit(profile, &points).expect("a raster"),
         capacitance_gain: 796.0,
         force_gain: 1e-6,
+        force_table: ForceTable::default(),
     }
 }
 

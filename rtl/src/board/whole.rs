@@ -88,7 +88,7 @@ impl Board {
         parameters.check(profile)?;
         let core = Core::new(profile);
         let reader = AdcReader::new(profile, parameters);
-        let words = core.estimator().position().table().words as u64;
+        let words = core.estimator().table().words as u64;
         let registers = CommandRegisters::new(core.inputs().calibration, words);
         let sets = 1usize << reader.outputs().address.width;
         Ok(Board {

@@ -20,8 +20,7 @@ fn harmless(profile: &Profile, core: &Core, commands: &[Command], random: &mut R
     let formats = core.inputs().calibration;
     // Words that the map's address could name but that it does not have; bits above the address are
     // ignored.
-    let (words, most) =
-        (core.estimator().position().table().words as u64, 1 << formats.table.address.width);
+    let (words, most) = (core.estimator().table().words as u64, 1 << formats.table.address.width);
     let beyond = words + random.below(most - words) + most * random.below(0x8000 / most);
     let any = random.word(formats.force_gain);
     let command = match random.below(5) {

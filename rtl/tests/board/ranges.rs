@@ -56,10 +56,8 @@ fn no_signal_of_a_peripheral_can_overflow() {
         prove(&Pads::new(profile.pads, parameters.dead()));
         prove(&Receiver::new(parameters.divisor()));
         prove(&Transmitter::new(parameters.divisor()));
-        let registers = CommandRegisters::new(
-            core.inputs().calibration,
-            core.estimator().position().table().words as u64,
-        );
+        let registers =
+            CommandRegisters::new(core.inputs().calibration, core.estimator().table().words as u64);
         prove(&Stream::new(&profile, parameters.divisor(), registers.outputs().data));
         prove(&registers);
         let board = Board::new(&profile, &parameters).expect("bundled profiles fit");

@@ -2,7 +2,7 @@
 //! Calibrations: that of a sheet, and words that break a careless core.
 
 use super::Noise;
-use hapticore_contract::calibration::{Calibration, Point, PositionTable};
+use hapticore_contract::calibration::{Calibration, ForceTable, Point, PositionTable};
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::format::Format;
 use hapticore_rtl::codes::CalibrationWords;
@@ -90,5 +90,6 @@ fn sheet(profile: &Profile, set: Set) -> Calibration {
     };
     let points: Vec<Point> = (0..columns * rows).map(point).collect();
     let position = PositionTable::fit(profile, &points).expect("a sheet").with_open_share(0.01);
-    Calibration { position, capacitance_gain: 800.0, force_gain: 2e-6 }
+    let force_table = ForceTable::default();
+    Calibration { position, capacitance_gain: 800.0, force_gain: 2e-6, force_table }
 }

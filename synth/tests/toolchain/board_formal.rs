@@ -97,7 +97,7 @@ type Known = Vec<(&'static str, u64)>;
 /// The registers of a board.
 fn registers(target: Target) -> (String, Known) {
     let core = Core::new(&target.profile());
-    let words = core.estimator().position().table().words as u64;
+    let words = core.estimator().table().words as u64;
     let address = u64::from(core.inputs().calibration.table.address.width);
     let verilog =
         print(Netlist::of(&CommandRegisters::new(core.inputs().calibration, words)).top());

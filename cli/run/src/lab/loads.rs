@@ -13,12 +13,15 @@
 //! | `capacitance_pf` | measured otherwise, by a bridge |
 //! | `i_total` or `i1` … `iN`, `v_sense` | amplitudes as for places, of the sum or of each terminal |
 //! | `x_mm`, `y_mm` | where the pad is; the sheet's middle without them |
+//! | `time_s` | since the voltage was switched on, of step records; −1 of settled readings. With it a force table is fitted, too |
 
 use std::f64::consts::TAU;
 
 use anyhow::{Result, anyhow, bail, ensure};
+use hapticore_host::device::Force as ForceTable;
 use serde::Serialize;
 
+use super::force_table::{self, Reading};
 use super::least_squares::{Estimate, Fit, Unfit};
 use super::setup::Setup;
 use super::table::{Row, Table};
@@ -28,6 +31,9 @@ const KILO: f64 = 1e-3;
 
 /// Picofarads to farads.
 const PICO: f64 = 1e-12;
+
+/// Readings of a force table at least.
+const TABLE_READINGS: usize = 60;
 
 /// (C·V)² whose least and largest differ by less than this share tell no k.
 const ALIKE: f64 = 0.02;
@@ -45,6 +51,8 @@ pub struct Load {
     pub reference_pf: Option<f64>,
     /// From the currents, with the full scale of the setup.
     pub sensed_pf: Option<f64>,
+    /// Since the voltage was switched on, in a record of a step; none of a settled reading.
+    pub time_s: Option<f64>,
 }
 
 /// The measurements of a file.
@@ -56,6 +64,8 @@ pub struct Loads {
     pub loads: Vec<Load>,
     /// Whether `newtons` are all of the friction.
     pub friction: bool,
+    /// Whether there are times, so that a force table is asked for.
+    pub timed: bool,
 }
 
 /// What follows from loads.
@@ -72,6 +82,11 @@ pub struct Force {
     /// Data points of the fit.
     #[serde(skip)]
     pub points: Vec<Point>,
+    /// The force table, where step records were measured, too.
+    #[serde(skip)]
+    pub table: Option<ForceTable>,
+    /// What the table leaves of its own readings, N (largest, rms); likewise eq. 8.
+    pub table_residual_n: Option<[[f64; 2]; 2]>,
 }
 
 /// A measurement as eq. 8 has it.
@@ -119,6 +134,7 @@ impl Loads {
         };
         let haptic = table.column("haptic_v_rms")?;
         let reference = optional("capacitance_pf")?;
+        let time = optional("time_s")?;
         let sensed = Sensed::of(table)?;
         ensure!(
             reference.is_some() || sensed.is_some(),
@@ -147,10 +163,12 @@ impl Loads {
                     .as_ref()
                     .map(|sensed| sensed.capacitance_pf(table, row, setup, &sheet_ohm))
                     .transpose()?,
+                time_s: time.map(|column| row.at(column)).filter(|time_s| *time_s >= 0.0),
             })
         };
         let loads = table.rows().iter().map(measurement).collect::<Result<_>>()?;
-        Ok(Loads { file: table.file.clone(), loads, friction: force.is_none() })
+        let timed = time.is_some();
+        Ok(Loads { file: table.file.clone(), loads, friction: force.is_none(), timed })
     }
 
     /// k, and what else they tell.
@@ -203,7 +221,27 @@ impl Loads {
             load_g: load.load_g,
         };
         let points = self.loads.iter().zip(&squares).zip(&residuals).map(point).collect();
-        Ok(Force { force_k, mu, current_scale, noise_n, points })
+        let friction = mu.map_or(setup.mu, |mu| Some(mu.value)).filter(|_| self.friction);
+        let reading = |load: &Load| {
+            let force_n = load.newtons - friction.unwrap_or(0.0) * weight(load);
+            (load.time_s, [capacitance_f(load) / PICO, load.haptic_v_rms, force_n])
+        };
+        let readings = force_table::follow(&self.loads.iter().map(reading).collect::<Vec<_>>());
+        let table = self.timed.then(|| self.table(&readings, force_k.value)).transpose()?;
+        let table_residual_n =
+            table.as_ref().map(|table| force_table::residuals(&readings, force_k.value, table));
+        Ok(Force { force_k, mu, current_scale, noise_n, points, table, table_residual_n })
+    }
+
+    /// The force table of readings, multiples of k.
+    fn table(&self, readings: &[Reading], force_k: f64) -> Result<ForceTable> {
+        let count = readings.len();
+        ensure!(
+            count >= TABLE_READINGS,
+            "{}: time_s: expected {TABLE_READINGS} readings at least for a force table, better 366, got {count}",
+            self.file
+        );
+        Ok(force_table::fit(readings, force_k))
     }
 
     fn check(&self, setup: &Setup) -> Result<()> {

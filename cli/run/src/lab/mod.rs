@@ -15,8 +15,10 @@
 //! | [`scattered`] | places that are no raster, brought onto one |
 //! | [`loads`] | friction under known loads and voltages |
 //! | [`wiring`] | terminals that are swapped or reversed |
+//! | [`force_table`] | the force table, from readings and a prior |
 //! | [`least_squares`] | coefficients with their intervals |
 
+pub mod force_table;
 pub mod least_squares;
 pub mod loads;
 pub mod places;
@@ -165,6 +167,7 @@ pub fn calibrate(data: &Data, profile: &Profile) -> Result<(DeviceCalibration, O
         pads: setup.pads,
         map: Raster { columns: 0, places: Vec::new(), open_share: 0.0 },
         device: scales(setup, scale, force_k),
+        force: force.as_ref().and_then(|force| force.table.clone()),
         terminals: signs.clone(),
     };
     let profile = buildable(device.profile(profile)?)?;

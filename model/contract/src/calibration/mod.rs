@@ -5,20 +5,22 @@
 //! a measurement. Numbers are in the core's own units: fractions of full scale, millimetres,
 //! picofarads, newtons.
 
+mod force;
 mod layout;
 mod least_squares;
 mod position;
 
+pub use force::{ForceTable, PastVoltage};
 pub use layout::{Axis, Layout, Scalar, Surface};
 pub use position::{Condition, Found, Point, PositionError, PositionTable, Real};
 
-use crate::profile::Profile;
+use crate::profile::{ForceLaw, Profile};
 use hapticore_hdl::format::Format;
 
 /// The calibration of a device.
 ///
 /// ```
-/// use hapticore_contract::calibration::{Calibration, Point, PositionTable};
+/// use hapticore_contract::calibration::{Calibration, ForceTable, Point, PositionTable};
 /// use hapticore_contract::profile::Profile;
 ///
 /// let profile = Profile::bundled("small")?;
@@ -26,7 +28,8 @@ use hapticore_hdl::format::Format;
 /// let place = |k: i32| (f64::from(k % 9 - 4) * 20.0, f64::from(k / 9 - 4) * 10.0);
 /// let point = |(x, y)| Point { x, y, r_x: x / 100.0, r_y: y / 50.0, sheet: 0.05 };
 /// let position = PositionTable::fit(&profile, &(0..81).map(place).map(point).collect::<Vec<_>>())?;
-/// let calibration = Calibration { position, capacitance_gain: 800.0, force_gain: 2e-6 };
+/// let force_table = ForceTable::default();
+/// let calibration = Calibration { position, capacitance_gain: 800.0, force_gain: 2e-6, force_table };
 /// calibration.check(&profile)?;
 ///
 /// let found = calibration.position.look_up(0.25f64, -0.4);
@@ -44,6 +47,8 @@ pub struct Calibration {
     pub capacitance_gain: f64,
     /// Newtons per square picofarad at a haptic mean-square word of one.
     pub force_gain: f64,
+    /// What the force gain is multiplied by, for cores whose law is the table.
+    pub force_table: ForceTable,
 }
 
 /// A number that a core of the profile cannot be given.
@@ -70,6 +75,17 @@ impl Calibration {
                 return Err(CalibrationError { name, format, value });
             }
         }
-        Ok(())
+        let mut words = self.words(profile).into_iter().skip(self.position.words.len());
+        match words.find(|&word| f.table.code(word).is_none()) {
+            Some(value) => Err(CalibrationError { name: "force table", format: f.table, value }),
+            None => Ok(()),
+        }
+    }
+
+    /// What a core of the profile is given through its table port, by address, as fractions: the
+    /// position table, and behind it the force table where the law is one.
+    pub fn words(&self, profile: &Profile) -> Vec<f64> {
+        let force = (profile.force.law == ForceLaw::Table).then(|| self.force_table.words());
+        self.position.words.iter().copied().chain(force.into_iter().flatten()).collect()
     }
 }

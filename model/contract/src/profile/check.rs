@@ -4,7 +4,7 @@
 //! Absent: whether a core's signals and clocks suffice, which only its blocks know
 //! (`hapticore_model::check`).
 
-use super::{Method, Profile, ProfileError};
+use super::{ForceLaw, Method, Profile, ProfileError};
 use crate::calibration::Layout;
 use crate::control::Control;
 use hapticore_hdl::format::Format;
@@ -224,7 +224,27 @@ impl Profile {
         self.check_unsigned(f.square, "square")?;
         self.check_unsigned(f.force, "force")?;
         self.check_unsigned(f.capacitance_gain, "capacitance_gain")?;
-        self.check_unsigned(f.force_gain, "force_gain")
+        self.check_unsigned(f.force_gain, "force_gain")?;
+        self.check_force()
+    }
+
+    /// Voltages are fractions of full scale; cells of the force table begin at whole picofarads.
+    fn check_force(&self) -> Check {
+        let voltage = self.force.voltage;
+        ensure(
+            !voltage.signed && voltage.integer_bits() == 0 && (8..=28).contains(&voltage.width),
+            "force.voltage",
+            "an unsigned fraction of 8 to 28 bits, such as u24.24",
+            voltage,
+        )?;
+        let capacitance = self.formats.capacitance;
+        let cells = (0..=22).contains(&capacitance.frac);
+        ensure(
+            self.force.law == ForceLaw::Eq8 || cells,
+            "formats.capacitance",
+            "0 to 22 fractional bits, with force.law table",
+            capacitance,
+        )
     }
 
     fn check_unsigned(&self, format: Format, name: &str) -> Check {

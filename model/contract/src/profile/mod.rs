@@ -57,6 +57,9 @@ pub struct Profile {
     /// A virtual wall; a core has none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub wall: Option<Wall>,
+    /// Force from capacitance and haptic voltage.
+    #[serde(default)]
+    pub force: Force,
     /// Formats of the core's words; all other widths derive from them.
     pub formats: Formats,
 }
@@ -157,6 +160,40 @@ impl Default for Haptic {
     fn default() -> Self {
         Haptic { windows: 1 }
     }
+}
+
+/// Force from capacitance and haptic voltage.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Force {
+    /// The law.
+    pub law: ForceLaw,
+    /// The format of the voltages that the table's law keeps; one is full scale.
+    #[serde(default = "force_voltage")]
+    pub voltage: Format,
+}
+
+/// The law by which force follows from capacitance and haptic voltage.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ForceLaw {
+    /// F = k·(C·V)² with one k (paper, eq. 8).
+    Eq8,
+    /// F = k·(C·V)² with k from a table: of the capacitance, and of the voltage that the pad has had
+    /// (docs/physics.md §3).
+    Table,
+}
+
+/// Eq. 8.
+impl Default for Force {
+    fn default() -> Self {
+        Force { law: ForceLaw::Eq8, voltage: force_voltage() }
+    }
+}
+
+/// So fine that a filter of 1.5 s at frames of 0.25 ms stands still within 1e-4 of full scale.
+const fn force_voltage() -> Format {
+    Format::unsigned(24, 24)
 }
 
 /// Word formats. Every other width of the core derives from these.

@@ -14,6 +14,8 @@ use hapticore_contract::profile::Profile;
 pub struct Force {
     /// Haptic force, N.
     pub force: Exact,
+    /// What (C·V)² is multiplied by.
+    pub gain: Exact,
     /// The result is saturated.
     pub saturated: bool,
 }
@@ -65,5 +67,5 @@ pub fn force(profile: &Profile, capacitance: Exact, mean_square: Exact, gain: Ex
     let square = round(capacitance * capacitance, f.square);
     let energy = round(square.value * mean_square, f.square);
     let force = round(energy.value * gain, f.force);
-    Force { force: force.value, saturated: square.held | energy.held | force.held }
+    Force { force: force.value, gain, saturated: square.held | energy.held | force.held }
 }

@@ -10,6 +10,7 @@ mod controller;
 mod currents;
 mod demodulator;
 mod force;
+mod force_table;
 mod frames;
 mod number;
 mod oscillator;
@@ -22,6 +23,7 @@ pub use controller::{Controller, Drive, Request};
 pub use currents::{Currents, currents};
 pub use demodulator::{Sums, demodulate};
 pub use force::{Force, Squares, force, mean_square};
+pub use force_table::ForceTable;
 pub use frames::Frames;
 pub use number::{Exact, Rounded, floor_quotient, round, round_quotient, round_real, round_sqrt};
 pub use oscillator::{Oscillator, Sample, windowed_lo};
@@ -31,7 +33,7 @@ pub use wall::{Wall, WallFrame, WallResult};
 
 use hapticore_contract::calibration::Calibration;
 use hapticore_contract::frame::{Flags, Frame};
-use hapticore_contract::profile::Profile;
+use hapticore_contract::profile::{ForceLaw, Profile};
 
 /// A core, slot by slot, rounded as the blocks round.
 pub struct Slots {
@@ -40,6 +42,7 @@ pub struct Slots {
     position: Position,
     capacitance_gain: Exact,
     force_gain: Exact,
+    force_table: Option<ForceTable>,
     squares: Squares,
     /// The sheet's resistance at each pad's last place.
     sheets: Vec<Exact>,
@@ -75,6 +78,8 @@ impl Slots {
             position: Position::new(profile, &words),
             capacitance_gain: round_real(calibration.capacitance_gain, f.capacitance_gain),
             force_gain: round_real(calibration.force_gain, f.force_gain),
+            force_table: (profile.force.law == ForceLaw::Table)
+                .then(|| ForceTable::new(profile, &calibration.force_table)),
             squares: Squares::new(profile),
             sheets: vec![Exact::ZERO; profile.pads as usize],
             frames: Frames::new(profile),
@@ -120,7 +125,11 @@ impl Slots {
         if !(ratio.invalid | place.invalid) {
             self.sheets[pad] = sheet;
         }
-        let force = force(p, capacitance.capacitance, mean_square.value, self.force_gain);
+        let (capacitance_pf, gain) = (capacitance.capacitance, self.force_gain);
+        let force = match &mut self.force_table {
+            None => force(p, capacitance_pf, mean_square.value, gain),
+            Some(table) => table.force(p, pad, [capacitance_pf, mean_square.value, gain]),
+        };
         let saturated = currents.saturated
             | place.saturated
             | capacitance.saturated

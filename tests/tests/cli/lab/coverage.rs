@@ -40,10 +40,11 @@ fn lab(noise: &mut Noise, friction: bool) -> Loads {
                 load_g: Some(load_g),
                 reference_pf: Some(capacitance_pf),
                 sensed_pf: None,
+                time_s: None,
             });
         }
     }
-    Loads { file: "loads.csv".into(), loads: measurements, friction }
+    Loads { file: "loads.csv".into(), loads: measurements, friction, timed: false }
 }
 
 /// A lab whose bridge has noise of 0.5 pF, and whose currents' full scale is not what the setup

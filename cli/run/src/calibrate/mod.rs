@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The calibration of a simulated device: what its builder knows of it.
 
+pub mod bench;
+pub mod random;
+
 use anyhow::{Result, anyhow};
 use hapticore_contract::profile::Profile;
+use hapticore_host::device::Force;
 use hapticore_host::{DeviceCalibration, Raster, Scales, Signs, open_share};
 use hapticore_scene::{ForcePoint, Plant, Scene};
 
 use crate::inputs;
+use crate::lab::force_table::fit;
+use bench::Bench;
 
 /// Places in a row and rows of the raster that a simulated device is calibrated with.
 const RASTER: [usize; 2] = [121, 71];
@@ -24,6 +30,22 @@ fn force_k(plant: &Plant) -> f64 {
     product / points.iter().map(|point| square(point).powi(2)).sum::<f64>()
 }
 
+/// The force table of a scene's device, from readings on a bench, as multiples of its `force_k`: of
+/// a gap without time with filters without time, of a scene without gap or friction eq. 8.
+///
+/// # Errors
+/// A device that cannot be simulated.
+pub fn force_table(scene: &str, force_k: f64) -> Result<Force> {
+    let Some(bench) = Bench::of(scene)? else { return Ok(Force::default()) };
+    let readings = bench.readings()?;
+    let mut force = fit(&readings, force_k);
+    if bench.is_static() {
+        force.recent_s = 0.0;
+        force.rows.iter_mut().for_each(|[_, _, d]| *d = 0.0);
+    }
+    Ok(force)
+}
+
 /// What the builder of the simulated device knows of it.
 pub fn of_plant(plant: &Plant, profile: &Profile) -> DeviceCalibration {
     let device = plant.device();
@@ -36,6 +58,7 @@ pub fn of_plant(plant: &Plant, profile: &Profile) -> DeviceCalibration {
         pads: plant.pad_names().len() as u64,
         terminals: Signs { x: profile.terminals.x.clone(), y: profile.terminals.y.clone() },
         map: Raster { columns: RASTER[0], places: places.collect(), open_share },
+        force: None,
         device: Scales {
             sample_rate_hz: device.sample_rate_hz,
             carrier_hz: device.carrier_hz,

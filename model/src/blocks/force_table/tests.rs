@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Forces with a table: those of the rounded reference, whatever words, pads and voltages follow one
+//! another; the clocks they take.
+
+use super::{ForceTable, Inputs, Table, TablePort};
+use crate::support::random::Random;
+use crate::support::{Bench, MILLION, cases, check, check_latency_of, operations};
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::format::Format;
+use hapticore_reference::rounded::{self, Exact};
+use std::cell::RefCell;
+
+/// Tables that follow one another.
+const TABLES: u64 = 40;
+
+fn bench(profile: &Profile) -> Bench<ForceTable> {
+    Bench::new(ForceTable::try_new(profile).unwrap())
+}
+
+/// Writes a table and gives the reference of the same words; pads keep what they have had.
+fn write(
+    bench: &mut Bench<ForceTable>,
+    words: &[i64],
+    word: Format,
+    inputs: Inputs<i64>,
+) -> Vec<Exact> {
+    for (address, &word) in (0..).zip(words) {
+        let table = TablePort { write: 1, address, word };
+        bench.clock(Inputs { start: 0, table, ..inputs });
+    }
+    words.iter().map(|&code| Exact::of(code, word)).collect()
+}
+
+fn quiet(i: Inputs<i64>) -> Inputs<i64> {
+    Inputs { table: TablePort { write: 0, ..i.table }, ..i }
+}
+
+/// Words as a calibration has them, or any.
+fn words(random: &mut Random, word: Format, any: bool) -> Vec<i64> {
+    let usual = ForceTableWords(random);
+    if any { (0..Table::WORDS).map(|_| random.word(word)).collect() } else { usual.codes(word) }
+}
+
+/// Words of a table of factors about one, of filters that settle.
+struct ForceTableWords<'a>(&'a mut Random);
+
+impl ForceTableWords<'_> {
+    fn codes(self, word: Format) -> Vec<i64> {
+        let random = self.0;
+        let rows = std::array::from_fn(|_| {
+            [random.between(0.5, 2.0), random.between(-1.0, 1.0), random.between(-3.0, 3.0)]
+        });
+        let (recent, mean) = (random.between(0.05, 1.0), random.between(1e-4, 0.06));
+        let table = Table { rows, recent, mean, release: random.between(0.0, 0.1) };
+        table.words().iter().map(|&real| word.code_saturating(real)).collect()
+    }
+}
+
+#[test]
+fn forces_are_those_of_the_table() {
+    for (seed, profile) in (0..).zip(Profile::all()) {
+        let (f, mut random) = (&profile.formats, Random::new(seed));
+        let mut bench = bench(&profile);
+        let reference = RefCell::new(rounded::ForceTable::of_words(&profile, vec![]));
+        let mut cases = cases(&bench.block, MILLION / 3, seed).map(quiet);
+        for round in 0..TABLES {
+            let Some(first) = cases.next() else { break };
+            let codes = words(&mut random, f.table, round % 2 == 1);
+            let words = write(&mut bench, &codes, f.table, first);
+            reference.borrow_mut().calibrate(words);
+            let inputs = cases.by_ref().take((operations(MILLION / 3) / TABLES) as usize);
+            // Half of the capacitances within the table, and its ends.
+            let within = |mut i: Inputs<i64>| {
+                let row = Exact::new(i128::from(random.below(11)), 6) + Exact::new(320, 0);
+                let at = row.real()
+                    + [0.0, f.capacitance.lsb(), -f.capacitance.lsb(), 31.7]
+                        [random.below(4) as usize];
+                if random.below(2) == 0 {
+                    i.capacitance = f.capacitance.code_saturating(at);
+                }
+                if random.below(8) == 0 {
+                    i.mean_square = 0;
+                }
+                i
+            };
+            let inputs: Vec<_> = inputs.map(within).collect();
+            check(&mut bench, inputs.into_iter(), |i| {
+                let numbers = [
+                    Exact::of(i.capacitance, f.capacitance),
+                    Exact::of(i.mean_square, f.mean_square),
+                    Exact::of(i.gain, f.force_gain),
+                ];
+                let pad = (i.pad as u64 % profile.pads) as usize;
+                let expected = reference.borrow_mut().force(&profile, pad, numbers);
+                [
+                    ("haptic_force", expected.force.code(f.force)),
+                    ("factored_gain", expected.gain.code(f.force_gain)),
+                    ("saturated", expected.saturated.into()),
+                ]
+            });
+        }
+        bench.check_registers();
+    }
+}
+
+#[test]
+fn latency_is_the_clocks_measured() {
+    for profile in Profile::all() {
+        let block = ForceTable::try_new(&profile).unwrap();
+        check_latency_of(block.clone(), block.latency(), quiet);
+    }
+}
+
+/// A constant factor of one is eq. 8, to the bit; but for a voltage of full scale, which its word
+/// does not hold.
+#[test]
+fn a_flat_table_is_eq_8() {
+    for (seed, profile) in (0..).zip(Profile::all()) {
+        let f = &profile.formats;
+        let mut bench = bench(&profile);
+        let flat = Table::default().words().map(|real| f.table.code_saturating(real));
+        let mut cases = cases(&bench.block, MILLION / 30, seed).map(quiet);
+        let first = cases.next().expect("a case");
+        write(&mut bench, &flat, f.table, first);
+        check(&mut bench, cases, |i| {
+            let [capacitance, mean_square, gain] = [
+                Exact::of(i.capacitance, f.capacitance),
+                Exact::of(i.mean_square, f.mean_square),
+                Exact::of(i.gain, f.force_gain),
+            ];
+            let expected = rounded::force(&profile, capacitance, mean_square, gain);
+            let full = mean_square.real().sqrt() >= 1.0 - profile.force.voltage.lsb() / 2.0;
+            [
+                ("haptic_force", expected.force.code(f.force)),
+                ("factored_gain", i.gain),
+                ("saturated", (expected.saturated | full).into()),
+            ]
+        });
+    }
+}
