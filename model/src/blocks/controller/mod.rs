@@ -26,7 +26,7 @@
 //!
 //! c is what the limited drive leaves of its other parts, so that nothing winds up, and switching
 //! on or off makes no step. A zero denominator gives the limit D. While an estimate is invalid the
-//! drive stays; see [`faults`] for what takes it to zero. All narrowing rounds half to even.
+//! drive stays; see `faults.rs` for what takes it to zero. All narrowing rounds half to even.
 //!
 //! One multiplier, one square root and one divider serve all steps. Latency: the sum of the law's
 //! tasks and a clock, from `start` to `done`.
