@@ -94,14 +94,14 @@ impl ControlPlan {
     pub(crate) fn read(root: &Table) -> Result<Option<ControlPlan>, SceneError> {
         let Some(table) = root.table("control")? else { return Ok(None) };
         let number = |key, default| table.number_or(key, Limits::above(0.0, 1e6), default);
-        let law = choice(table, "law", &LAWS)?.unwrap_or(ControlLaw::Inverse);
+        let law = table.word("law", &LAWS)?.unwrap_or(ControlLaw::Inverse);
         let inverse = law == ControlLaw::Inverse;
         let curve = if inverse { DriveCurve::Steady } else { DriveCurve::SquareRoot };
         let full_scale_v = number("full_scale_v", 500.0)?;
         let within = Limits::above(0.0, full_scale_v);
         Ok(Some(ControlPlan {
             law,
-            curve: choice(table, "curve", &CURVES)?.unwrap_or(curve),
+            curve: table.word("curve", &CURVES)?.unwrap_or(curve),
             curve_factor: number("curve_factor", if inverse { 1.1 } else { 1.0 })?,
             nominal_load_g: table.number_or("nominal_load_g", Limits::within(0.0, 1e5), 50.0)?,
             feed_forward_v: number("feed_forward_v", 600.0)?,
@@ -114,14 +114,4 @@ impl ControlPlan {
             full_scale_v,
         }))
     }
-}
-
-fn choice<T: Copy>(
-    table: &Table,
-    key: &'static str,
-    words: &[(&'static str, T)],
-) -> Result<Option<T>, SceneError> {
-    let names: Vec<_> = words.iter().map(|(name, _)| *name).collect();
-    let chosen = table.choice(key, &names)?;
-    Ok(chosen.and_then(|chosen| words.iter().find(|(name, _)| *name == chosen)).map(|of| of.1))
 }

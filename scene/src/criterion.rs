@@ -176,7 +176,7 @@ pub struct Criterion {
 
 impl Criterion {
     pub(crate) fn read(table: &Table, cases: &[String]) -> Result<Criterion, SceneError> {
-        let measure = word(table, "measure", &MEASURES)?;
+        let measure = table.word("measure", &MEASURES)?;
         let measure = table.require("measure", "what is measured", measure)?;
         let of = table.require("of", "a quantity", quantity(table, "of")?)?;
         let with = quantity(table, "with")?;
@@ -196,7 +196,8 @@ impl Criterion {
             with,
             expected: read_expected(table, measure)?,
             cases: read_cases(table, cases)?,
-            per: word(table, "per", &[("case", Per::Case), ("group", Per::Group)])?
+            per: table
+                .word("per", &[("case", Per::Case), ("group", Per::Group)])?
                 .unwrap_or_default(),
             filters: read_filters(table)?,
             limit: table.require("limit", "a number", table.number("limit", Limits::ANY)?)?,
@@ -246,18 +247,6 @@ fn read_filters(table: &Table) -> Result<Vec<Where>, SceneError> {
 fn quantity(table: &Table, key: &'static str) -> Result<Option<Quantity>, SceneError> {
     let names: Vec<_> = Quantity::all().map(Quantity::name).collect();
     Ok(table.choice(key, &names)?.and_then(Quantity::named))
-}
-
-fn word<T: Copy>(
-    table: &Table,
-    key: &'static str,
-    words: &[(&'static str, T)],
-) -> Result<Option<T>, SceneError> {
-    let names: Vec<_> = words.iter().map(|(name, _)| *name).collect();
-    let chosen = table.choice(key, &names)?;
-    Ok(chosen
-        .and_then(|chosen| words.iter().find(|(name, _)| *name == chosen))
-        .map(|(_, value)| *value))
 }
 
 fn name_of<T: Copy + PartialEq>(words: &[(&'static str, T)], value: T) -> &'static str {

@@ -7,8 +7,8 @@ use crate::effects::pad::{FilmChange, Pad};
 use crate::effects::sheet::ideal::ideal_split;
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
-use crate::stimulus::{Moment, Stimulus};
-use crate::trajectory::{SLACK_MM, Trajectory, next_multiple};
+use crate::stimulus::{Moment, Stimulus, next_multiple};
+use crate::trajectory::{SLACK_MM, Trajectory};
 use crate::truth::Setpoint;
 
 /// Capacitance of a pad that neither names one nor has a gap, pF: 5 kΩ at 100 kHz.

@@ -42,6 +42,13 @@ impl Moment {
     }
 }
 
+/// The first multiple of a period that is later.
+pub(crate) fn next_multiple(period_s: f64, after_s: f64) -> f64 {
+    let periods = (after_s / period_s).floor();
+    let next_s = (periods + 1.0) * period_s;
+    if next_s > after_s { next_s } else { (periods + 2.0) * period_s }
+}
+
 /// Points of time and value, and those times at which the value steps or its slope changes.
 #[derive(Clone, Debug)]
 pub(crate) struct Timeline {

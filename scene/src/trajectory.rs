@@ -18,7 +18,7 @@ use std::f64::consts::TAU;
 use crate::device::Device;
 use crate::error::SceneError;
 use crate::format::{Limits, Table, Value};
-use crate::stimulus::{Moment, Timeline};
+use crate::stimulus::{Moment, Timeline, next_multiple};
 
 type Point = [f64; 2];
 
@@ -147,13 +147,6 @@ impl Trajectory {
             Trajectory::Timeline(axes) => [0, 1].map(|axis| axes[axis].at(Moment::at(time_s))),
         }
     }
-}
-
-/// The first multiple of a period that is later.
-pub(crate) fn next_multiple(period_s: f64, after_s: f64) -> f64 {
-    let periods = (after_s / period_s).floor();
-    let next_s = (periods + 1.0) * period_s;
-    if next_s > after_s { next_s } else { (periods + 2.0) * period_s }
 }
 
 /// Evenly spaced places, the outermost `margin_mm` from the edges; a single column or row is in the

@@ -13,8 +13,7 @@
 
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
-use crate::stimulus::Moment;
-use crate::trajectory::next_multiple;
+use crate::stimulus::{Moment, next_multiple};
 
 /// How the haptic voltage goes on in time.
 #[derive(Clone, Copy, Debug, PartialEq)]

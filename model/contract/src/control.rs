@@ -16,7 +16,6 @@
 //! overshooting as it is pulled in. G is the haptic mean square at full drive. c is what the drive
 //! word, limited, leaves of its other parts: nothing winds up.
 
-use crate::profile::{Profile, ProfileError};
 use hapticore_hdl::format::Format;
 use serde::{Deserialize, Serialize};
 
@@ -70,30 +69,6 @@ pub struct Control {
 }
 
 impl Control {
-    /// A controller with words as wide as the profile's multipliers take at once.
-    ///
-    /// ```
-    /// use hapticore_contract::control::{Control, Law};
-    /// use hapticore_contract::profile::Profile;
-    ///
-    /// let control = Control::of(&Profile::bundled("small")?, Law::Inverse);
-    /// assert_eq!((control.drive.to_string(), control.target.to_string()), ("u15.15".into(), "u15.14".into()));
-    /// # Ok::<(), hapticore_contract::profile::ProfileError>(())
-    /// ```
-    pub fn of(profile: &Profile, law: Law) -> Self {
-        let width = profile.multiplier.clamp(9, 19) - 1;
-        let frac = width as i8;
-        Control {
-            law,
-            drive: Format::unsigned(width, frac),
-            target: Format::unsigned(width, frac - 1),
-            gain: Format::unsigned(width, frac - 3),
-            cells: 64,
-            invalid_frames: 8,
-            silent_frames: 1 << 12,
-        }
-    }
-
     /// Fractional bits by which a target is moved down to be below one; even, as its root is then
     /// moved by half of it.
     pub fn target_shift(&self) -> i8 {
@@ -104,51 +79,6 @@ impl Control {
     /// The root of the largest target, √N, of which roots are fractions.
     pub fn root_full_scale(&self) -> f64 {
         2f64.powi(i32::from(self.target_shift()) / 2)
-    }
-
-    /// Checks every value against its range.
-    ///
-    /// # Errors
-    /// The first value that is out of its range, with its key.
-    pub fn check(&self) -> Result<(), ProfileError> {
-        let ensure = |holds: bool, field: &str, expected: &str, got: String| {
-            if holds { Ok(()) } else { Err(ProfileError::value(field, expected, got)) }
-        };
-        let Control { drive, target, gain, .. } = self;
-        let fraction = !drive.signed && drive.integer_bits() == 0;
-        ensure(
-            fraction && (8..=20).contains(&drive.width),
-            "control.drive",
-            "an unsigned fraction of 8 to 20 bits, such as u16.16",
-            drive.to_string(),
-        )?;
-        let sound = !target.signed
-            && (8..=20).contains(&target.width)
-            && (1..=4).contains(&target.integer_bits());
-        ensure(
-            sound,
-            "control.target",
-            "an unsigned format of 8 to 20 bits, 1 to 4 of them integer, such as u16.15",
-            target.to_string(),
-        )?;
-        let sound = !gain.signed && (8..=20).contains(&gain.width) && gain.frac >= 0;
-        ensure(
-            sound && (1..=8).contains(&gain.integer_bits()),
-            "control.gain",
-            "an unsigned format of 8 to 20 bits, 1 to 8 of them integer, such as u16.13",
-            gain.to_string(),
-        )?;
-        let most = 1 << (drive.width - 4).min(10);
-        let cells = self.cells.is_power_of_two() && (4..=most).contains(&self.cells);
-        let expected = format!("a power of two from 4 to {most}");
-        ensure(cells, "control.cells", &expected, self.cells.to_string())?;
-        for (field, frames) in [
-            ("control.invalid_frames", self.invalid_frames),
-            ("control.silent_frames", self.silent_frames),
-        ] {
-            ensure((1..=1 << 20).contains(&frames), field, "1 to 1048576", frames.to_string())?;
-        }
-        Ok(())
     }
 }
 

@@ -341,7 +341,7 @@ impl Block for Estimator {
         let (force, gain) = self.force(state, inputs, (r.pad, of_force));
         let invalid = invalid_place | capacitance.invalid;
         let inputs = frames::Inputs {
-            start: force.done & !self.early(&r),
+            start: if self.prompts { force.done & !r.early } else { force.done },
             pad: r.pad,
             invalid,
             r_x: self.frames.ratio(ratio.r_x),

@@ -13,6 +13,7 @@
 //! errors that amplify each other can do, the shares are halved. Source: docs/physics.md §8.
 
 mod bench;
+mod compared;
 mod core;
 mod norm;
 mod search;

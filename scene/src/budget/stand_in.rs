@@ -7,7 +7,7 @@
 //! of convergence has q = 1/4; no less than 1/2, first order, is relied on.
 
 use super::bench::Bench;
-use super::search::{Chosen, Compared, Reference, at_level};
+use super::compared::{Chosen, Compared, Reference, at_level};
 use crate::case::Case;
 use crate::error::SceneError;
 

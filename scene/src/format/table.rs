@@ -58,6 +58,19 @@ impl Table {
         }
     }
 
+    /// What one of a list of words stands for.
+    pub fn word<T: Copy>(
+        &self,
+        key: &'static str,
+        words: &[(&'static str, T)],
+    ) -> Result<Option<T>> {
+        let names: Vec<_> = words.iter().map(|(name, _)| *name).collect();
+        let chosen = self.choice(key, &names)?;
+        let value =
+            |chosen| words.iter().find(|(name, _)| *name == chosen).map(|(_, value)| *value);
+        Ok(chosen.and_then(value))
+    }
+
     pub fn number(&self, key: &'static str, limits: Limits) -> Result<Option<f64>> {
         let Some(node) = self.get(key) else { return Ok(None) };
         match node.value.number().filter(|number| limits.holds(*number)) {

@@ -257,3 +257,50 @@ impl Profile {
         )
     }
 }
+
+impl Control {
+    /// Checks every value against its range.
+    ///
+    /// # Errors
+    /// The first value that is out of its range, with its key.
+    pub fn check(&self) -> Result<(), ProfileError> {
+        let ensure = |holds: bool, field: &str, expected: &str, got: String| {
+            if holds { Ok(()) } else { Err(ProfileError::value(field, expected, got)) }
+        };
+        let Control { drive, target, gain, .. } = self;
+        let fraction = !drive.signed && drive.integer_bits() == 0;
+        ensure(
+            fraction && (8..=20).contains(&drive.width),
+            "control.drive",
+            "an unsigned fraction of 8 to 20 bits, such as u16.16",
+            drive.to_string(),
+        )?;
+        let sound = !target.signed
+            && (8..=20).contains(&target.width)
+            && (1..=4).contains(&target.integer_bits());
+        ensure(
+            sound,
+            "control.target",
+            "an unsigned format of 8 to 20 bits, 1 to 4 of them integer, such as u16.15",
+            target.to_string(),
+        )?;
+        let sound = !gain.signed && (8..=20).contains(&gain.width) && gain.frac >= 0;
+        ensure(
+            sound && (1..=8).contains(&gain.integer_bits()),
+            "control.gain",
+            "an unsigned format of 8 to 20 bits, 1 to 8 of them integer, such as u16.13",
+            gain.to_string(),
+        )?;
+        let most = 1 << (drive.width - 4).min(10);
+        let cells = self.cells.is_power_of_two() && (4..=most).contains(&self.cells);
+        let expected = format!("a power of two from 4 to {most}");
+        ensure(cells, "control.cells", &expected, self.cells.to_string())?;
+        for (field, frames) in [
+            ("control.invalid_frames", self.invalid_frames),
+            ("control.silent_frames", self.silent_frames),
+        ] {
+            ensure((1..=1 << 20).contains(&frames), field, "1 to 1048576", frames.to_string())?;
+        }
+        Ok(())
+    }
+}

@@ -10,7 +10,7 @@ mod wall;
 
 pub use wall::Wall;
 
-use crate::control::Control;
+use crate::control::{Control, Law};
 use hapticore_hdl::format::Format;
 use serde::{Deserialize, Serialize};
 use std::fmt::Display;
@@ -367,6 +367,32 @@ impl Profile {
     /// The core's clocks in a slot.
     pub fn slot_clocks(&self) -> u64 {
         self.slot.samples() * self.clocks_per_sample
+    }
+}
+
+impl Control {
+    /// A controller with words as wide as the profile's multipliers take at once.
+    ///
+    /// ```
+    /// use hapticore_contract::control::{Control, Law};
+    /// use hapticore_contract::profile::Profile;
+    ///
+    /// let control = Control::of(&Profile::bundled("small")?, Law::Inverse);
+    /// assert_eq!((control.drive.to_string(), control.target.to_string()), ("u15.15".into(), "u15.14".into()));
+    /// # Ok::<(), hapticore_contract::profile::ProfileError>(())
+    /// ```
+    pub fn of(profile: &Profile, law: Law) -> Self {
+        let width = profile.multiplier.clamp(9, 19) - 1;
+        let frac = width as i8;
+        Control {
+            law,
+            drive: Format::unsigned(width, frac),
+            target: Format::unsigned(width, frac - 1),
+            gain: Format::unsigned(width, frac - 3),
+            cells: 64,
+            invalid_frames: 8,
+            silent_frames: 1 << 12,
+        }
     }
 }
 

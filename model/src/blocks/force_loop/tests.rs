@@ -1,1 +1,97 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The clocks from the last strobe to the drive word; what a target that is written late does.
 
+use super::{ForceLoop, Inputs};
+use crate::support::Bench;
+use crate::support::device::short_profiles;
+use hapticore_contract::control::{Control, Law};
+use hapticore_contract::profile::Profile;
+
+/// The short profiles, with a controller of this law.
+fn controlled(law: Law) -> impl Iterator<Item = Profile> {
+    short_profiles().into_iter().map(move |mut profile| {
+        profile.control = Some(Control::of(&profile, law));
+        // The frame waits for two estimates.
+        profile.slot.settle += 400;
+        profile
+    })
+}
+
+/// Clocks a slot of codes, and then until the drive word: the clocks after the last strobe, and the
+/// word.
+fn slot(
+    bench: &mut Bench<ForceLoop>,
+    profile: &Profile,
+    quiet: Inputs<i64>,
+    late: impl Fn(u64) -> Inputs<i64>,
+) -> (u64, i64) {
+    let clocks = profile.clocks_per_sample;
+    // Currents that are small beside the sensing voltage, so that there is a capacitance.
+    let (sense, mut channel) = (profile.terminals.x.len() as i64, 0);
+    for clock in 0..=(profile.slot.samples() - 1) * clocks {
+        let mut inputs = quiet;
+        inputs.core.strobe = i64::from(clock % clocks == 0);
+        inputs.core.code = if channel == sense { 10_000 } else { 100 };
+        channel = bench.clock(inputs).core.channel;
+    }
+    for clock in 1..20_000 {
+        let drive = bench.clock(late(clock)).drive;
+        if drive.drive_valid == 1 {
+            return (clock, drive.drive);
+        }
+    }
+    panic!("{}: no drive word", profile.name);
+}
+
+#[test]
+fn latency_is_the_clocks_measured() {
+    for law in Law::ALL {
+        for profile in controlled(law) {
+            let mut bench = Bench::new(ForceLoop::try_new(&profile).unwrap());
+            let quiet = Inputs::of(0);
+            let (measured, _) = slot(&mut bench, &profile, quiet, |_| quiet);
+            let (name, latency) = (&profile.name, bench.block.latency());
+            assert_eq!(measured, latency, "{name} {law:?}: from the last strobe to the drive word");
+        }
+    }
+}
+
+/// The drive word after a target of this code that is written so many clocks after the last strobe.
+fn after(profile: &Profile, target: i64, written: u64) -> i64 {
+    let mut bench = Bench::new(ForceLoop::try_new(profile).unwrap());
+    let mut quiet = Inputs::of(0);
+    let formats = bench.block.inputs().tuning;
+    (quiet.tuning.enable, quiet.tuning.rail) = (1, formats.rail.max_code() as i64);
+    (quiet.tuning.slew, quiet.tuning.force_cap) =
+        (formats.slew.max_code() as i64, formats.force_cap.max_code() as i64);
+    for address in 0..bench.block.controller.words_of_curve() as i64 {
+        let mut write = quiet;
+        (write.tuning.curve_write, write.tuning.curve_address) = (1, address);
+        write.tuning.curve_word = 100 * address;
+        bench.clock(write);
+    }
+    // A target while nothing happens, then the one that is late.
+    let write = |word: i64| {
+        let mut inputs = quiet;
+        (inputs.target.target_write, inputs.target.target_word) = (1, word);
+        inputs
+    };
+    bench.clock(write(1 << 8));
+    slot(&mut bench, profile, quiet, |clock| if clock == written { write(target) } else { quiet }).1
+}
+
+/// A target counts from the frame on in which it is there when the estimate is given: written in
+/// any clock, it gives the old drive word or the new one, and never a mixture.
+#[test]
+fn a_target_that_is_written_in_mid_frame_is_taken_whole_or_not_at_all() {
+    let profile = controlled(Law::Open).next().expect("a profile");
+    let block = ForceLoop::try_new(&profile).unwrap();
+    let given = block.latency() - block.controller.latency();
+    let (old, new) = (after(&profile, 1 << 8, 1), after(&profile, 1 << 12, 1));
+    assert!(old > 0 && new > old, "{old}, {new}");
+    for written in given - 8..=block.latency() {
+        let drive = after(&profile, 1 << 12, written);
+        assert!(drive == old || drive == new, "written at {written}: {drive}");
+    }
+    assert_eq!(after(&profile, 1 << 12, given + 2), old, "too late for this frame");
+}
