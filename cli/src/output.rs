@@ -98,7 +98,8 @@ pub fn is_of_a_run(name: &str) -> bool {
 }
 
 fn is_of_waves(name: &str) -> bool {
-    let texts = name.starts_with("waves.core.") && name.ends_with(".txt");
+    let of_states = ["waves.core.", "waves.force_loop."];
+    let texts = of_states.iter().any(|of| name.starts_with(of)) && name.ends_with(".txt");
     texts || ["waves.vcd", "waves.fst", "waves.gtkw"].contains(&name)
 }
 

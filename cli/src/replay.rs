@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `hapticore replay`: recorded ADC samples through the core, in constant memory.
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
@@ -236,6 +237,7 @@ impl Replay {
             position_table: Some(self.session.residual()),
             sheet_mm: None,
             swept: Vec::new(),
+            laws: BTreeMap::new(),
             provenance: Provenance::new(),
             rows: self.rows.kept,
         })

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `hapticore simulate`: a scene through the core.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -276,9 +277,19 @@ fn gather(scene: &Scene, cases: &[Case], outcomes: Vec<Outcome>) -> Record {
         position_table,
         sheet_mm: Some([device.width_mm, device.height_mm]),
         swept: swept(scene, cases),
+        laws: laws(scene, cases),
         provenance: Provenance::default(),
         rows: all,
     }
+}
+
+/// The law of each case that has a controller.
+fn laws(scene: &Scene, cases: &[Case]) -> BTreeMap<String, &'static str> {
+    let law = |case: &Case| {
+        let plan = scene.cases[case.index].control.as_ref()?;
+        Some((case.name().to_string(), plan.law.name()))
+    };
+    cases.iter().filter_map(law).collect()
 }
 
 /// The keys that any of the cases sweeps.

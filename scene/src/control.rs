@@ -37,6 +37,13 @@ const LAWS: [(&str, ControlLaw); 4] = [
     ("inverse", ControlLaw::Inverse),
 ];
 
+impl ControlLaw {
+    /// Its name in a scene.
+    pub fn name(self) -> &'static str {
+        LAWS.iter().find(|(_, law)| *law == self).map_or("", |(name, _)| name)
+    }
+}
+
 /// Which voltage goes with a force before anything is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DriveCurve {

@@ -8,7 +8,7 @@
 //! window_samples = 5000           # of the core's window, where the profile's is too short for the haptic frequency
 //! settle_samples = 390            # before the window, where the profile's slots are too long
 //! seed = 1                        # of noise and mismatch; default 1
-//! figure = "fig3"                 # fig3 | fig4 | fig6 | fig7 | hockey; how a report draws it
+//! figure = "fig3"                 # fig3 | fig4 | fig6 | fig7 | fig9 | hockey; how a report draws it
 //! record = ["frames", "report"]   # frames | report | capture | waves
 //! dwell_slots = 1                 # slots of each pad at each point of a sweep, or
 //! duration_s = 2.0                # time, where pads move and nothing is swept

@@ -31,7 +31,10 @@ use toml::Spanned;
 use crate::Error;
 
 /// The views that come with the project, by name.
-const BUNDLED: &[(&str, &str)] = &[("slot", include_str!("../views/slot.toml"))];
+const BUNDLED: &[(&str, &str)] = &[
+    ("slot", include_str!("../views/slot.toml")),
+    ("force_loop", include_str!("../views/force_loop.toml")),
+];
 
 /// A view that cannot be read, or that does not fit the trace.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -220,7 +223,7 @@ mod tests {
             assert!(!View::bundled(name).unwrap().groups.is_empty());
         }
         let error = View::bundled("no").unwrap_err().to_string();
-        assert_eq!(error, "expected a view among slot, got \"no\"");
+        assert_eq!(error, "expected a view among slot, force_loop, got \"no\"");
     }
 
     #[test]

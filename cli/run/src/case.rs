@@ -12,19 +12,19 @@ use hapticore_contract::control::Tuning;
 use hapticore_contract::profile::{ForceLaw, Profile};
 use hapticore_host::profile::{for_terminals, serving};
 use hapticore_host::{CrosstalkCanceller, DeviceCalibration, Residual, SlotClock, quantities_of};
-use hapticore_model::blocks::force_loop::ForceLoop;
 use hapticore_scene::{
     Complex, EffectCost, Figure, LevelDeviation, Plant, Scene, Truth, signs_by_place,
 };
 
 use crate::calibrate;
 use crate::capture::Recorder;
+use crate::control::plant::LoopPlant;
 use crate::control::{self, controlled};
 use crate::digitiser::Digitiser;
 use crate::engine::{Fidelity, Signals, Slot};
 use crate::inputs::{buildable, timing};
 use crate::interrupt;
-use crate::record::{self, Driven, Row, SignalError};
+use crate::record::{self, Row, SignalError};
 use crate::session::Session;
 
 /// Slots made ahead of the core.
@@ -220,52 +220,33 @@ impl Case<'_> {
     fn close(
         &self,
         mut session: Session,
-        mut maker: Maker,
+        maker: Maker,
         mut recorder: Option<&mut (dyn Recorder + Send)>,
         progress: &(dyn Fn() + Sync),
     ) -> Result<Outcome> {
-        let plan = self.scene.cases[self.index].control.as_ref();
-        let full_scale_v = plan.map_or(0.0, |plan| plan.full_scale_v);
-        let latency_s = self.drive_latency_s()?;
-        for pad in 0..maker.plant.pad_names().len() {
-            maker.plant.set_drive(pad, 0.0, 0.0)?;
-        }
+        let mut plant = LoopPlant::new(self, maker)?;
         let (mut rows, mut peak) = (Vec::new(), 0f64);
-        for slot in 0..self.slots {
+        for number in 0..self.slots {
             interrupt::check()?;
-            let truth = maker.plant.truth(slot);
-            let end_s = self.clock.seconds(slot + 1);
-            let target_n = maker.plant.target_n(truth.pad, end_s);
-            session.set_target(truth.pad, target_n);
-            let (signals, of_slot) = maker.signals(slot);
-            let made = Slot { pad: truth.pad, signals };
+            let made = plant.slot(number);
+            session.set_target(made.slot.pad, made.target_n);
             if let Some(recorder) = recorder.as_mut() {
-                recorder.slot(made.pad, made.whole())?;
+                recorder.slot(made.slot.pad, made.slot.whole())?;
             }
-            peak = peak.max(of_slot);
-            let row = session.slot(&made, Some(record_truth(&truth)));
+            peak = peak.max(made.peak);
+            let row = session.slot(&made.slot, Some(record_truth(&made.truth)));
             let Some(drive) = session.take_drive() else { continue };
-            let drive_v_rms = full_scale_v * drive.fraction;
-            maker.plant.set_drive(drive.pad, end_s + latency_s, drive_v_rms)?;
-            let (limited, fault) = (drive.low | drive.high, drive.faults.any());
-            let driven = Some(Driven { target_n, drive_v_rms, limited, fault });
+            let driven = Some(plant.drive(&made, &drive)?);
             rows.extend(row.map(|row| Row { driven, ..row }));
             progress();
         }
         Ok(Outcome {
             rows,
-            effects: maker.plant.effects(),
+            effects: plant.effects(),
             peak,
             errors: session.errors(),
             residual: session.residual(),
         })
-    }
-
-    /// From a slot's end to the drive that follows from it, s.
-    fn drive_latency_s(&self) -> Result<f64> {
-        let clocks = ForceLoop::try_new(&self.profile)?.latency();
-        let clock_hz = self.profile.clocks_per_sample as f64 * self.device.device.sample_rate_hz;
-        Ok(clocks as f64 / clock_hz)
     }
 }
 

@@ -147,7 +147,7 @@ fn value(criterion: &Criterion, rows: &[&Row], estimate: Estimate) -> f64 {
 
 /// By how much the true force is more than its target, N.
 fn off_target(row: &Row) -> f64 {
-    row.truth.map_or(f64::NAN, |truth| truth.quantities.force_n - truth.set.target_n)
+    row.truth.map_or(f64::NAN, |truth| truth.off_target_n())
 }
 
 fn errors(measure: Measure, distances: impl Iterator<Item = f64>) -> f64 {

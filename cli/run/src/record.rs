@@ -70,6 +70,13 @@ pub struct Truth {
     pub touching: bool,
 }
 
+impl Truth {
+    /// By how much the force is more than its target, N.
+    pub fn off_target_n(&self) -> f64 {
+        self.quantities.force_n - self.set.target_n
+    }
+}
+
 /// What the floating-point reference says of a slot.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Reference {
@@ -184,8 +191,8 @@ pub struct Record {
     pub title: String,
     /// What it is about.
     pub summary: String,
-    /// Which figures to draw: `fig3`, `fig4`, `fig6`, `fig7`, `hockey`; any other gets the general
-    /// ones.
+    /// Which figures to draw: `fig3`, `fig4`, `fig6`, `fig7`, `fig9`, `hockey`; any other gets the
+    /// general ones.
     pub figure: Option<String>,
     /// Name of the profile.
     pub profile: String,
@@ -213,6 +220,9 @@ pub struct Record {
     pub sheet_mm: Option<[f64; 2]>,
     /// The keys of the pads that are swept.
     pub swept: Vec<&'static str>,
+    /// The law of the force controller of each case that has one.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub laws: BTreeMap<String, &'static str>,
     /// Where it comes from.
     #[serde(flatten)]
     pub provenance: Provenance,

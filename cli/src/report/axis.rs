@@ -85,6 +85,11 @@ impl Axis {
         }
     }
 
+    /// Characters of the longest label.
+    pub fn longest_label(&self) -> usize {
+        self.ticks().iter().map(|(_, text)| text.chars().count()).max().unwrap_or(1)
+    }
+
     fn names(&self) -> Vec<(f64, String)> {
         self.categories.iter().enumerate().map(|(n, name)| (-(n as f64), name.clone())).collect()
     }

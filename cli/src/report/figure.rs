@@ -49,7 +49,7 @@ impl Figure {
 }
 
 /// The legend of named series.
-fn keys(series: &[Series]) -> String {
+pub fn keys(series: &[Series]) -> String {
     let named = series.iter().filter(|s| !s.name.is_empty());
     named.map(|s| key(&s.name, &swatch(s))).collect()
 }

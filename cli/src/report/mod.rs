@@ -7,7 +7,8 @@
 //! | `figure`, `plot`, `frame`, `map` | a figure, a plot over two axes and what stands around it, a map of the sheet |
 //! | `axis`, `series`, `paint`, `number` | ticks, points, colours of both modes, numbers as text |
 //! | `select`, `sweep` | rows by case, setting and pad; settings by load and voltage |
-//! | `fig3`, `fig4`, `fig6`, `fig7`, `hockey` | the figures of a scene |
+//! | `control` | pads with a target force, and how far each is off it |
+//! | `fig3`, `fig4`, `fig6`, `fig7`, `fig9`, `hockey` | the figures of a scene |
 //! | `calibration` | the page of a device's calibration |
 //! | `general`, `swept` | those of any other: over time, over what is swept |
 
@@ -16,11 +17,13 @@ mod calibration;
 mod canvas;
 #[cfg(test)]
 mod contrast;
+mod control;
 mod fig3;
 mod fig3_maps;
 mod fig4;
 mod fig6;
 mod fig7;
+mod fig9;
 mod figure;
 mod frame;
 mod general;
@@ -75,6 +78,7 @@ fn chosen(record: &Record) -> Vec<Figure> {
         Some("fig4") => fig4::figures(record),
         Some("fig6") => fig6::figures(record),
         Some("fig7") => fig7::figures(record),
+        Some("fig9") => fig9::figures(record),
         Some("hockey") => hockey::figures(record),
         _ if truth && !record.swept.is_empty() => swept::figures(record),
         _ => general::figures(record),

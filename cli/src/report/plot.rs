@@ -49,6 +49,9 @@ pub struct Plot {
     pub breaks: Vec<f64>,
     /// Height where the width is 1200.
     pub height: u32,
+    /// Characters that the labels of the vertical axis have room for at least, so that plots above
+    /// each other line up.
+    pub label_characters: usize,
 }
 
 impl Plot {
@@ -62,6 +65,7 @@ impl Plot {
             limits: Vec::new(),
             breaks: Vec::new(),
             height: 720,
+            label_characters: 0,
         }
     }
 
@@ -111,8 +115,7 @@ impl Plot {
     }
 
     fn label_width(&self) -> u32 {
-        let longest =
-            self.y.ticks().iter().map(|(_, text)| text.chars().count()).max().unwrap_or(1);
+        let longest = self.y.longest_label().max(self.label_characters);
         u32::try_from(longest * CHARACTER + 24).unwrap_or(200)
     }
 

@@ -149,7 +149,7 @@ pub fn run(record: &Record) -> String {
 
 /// A table in a container that scrolls on its own; a `#` before a head puts its column to the
 /// right.
-fn table(label: &str, heads: &[&str], rows: &str) -> String {
+pub fn table(label: &str, heads: &[&str], rows: &str) -> String {
     let head = |head: &&str| match head.strip_prefix('#') {
         Some(text) => format!("<th class=\"number\" scope=\"col\">{text}</th>"),
         None => format!("<th scope=\"col\">{head}</th>"),
@@ -163,7 +163,7 @@ fn table(label: &str, heads: &[&str], rows: &str) -> String {
 }
 
 /// A row; the cells are HTML, each with its class.
-fn row(cells: &[(&str, &str)]) -> String {
+pub fn row(cells: &[(&str, &str)]) -> String {
     let cell = |(class, html): &(&str, &str)| match *class {
         "" => format!("<td>{html}</td>"),
         class => format!("<td class=\"{class}\">{html}</td>"),

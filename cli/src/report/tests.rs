@@ -4,11 +4,19 @@
 
 use super::*;
 use hapticore_run::record::{
-    Criterion, Effect, Laws, Quantities, Reference, Row, SignalError, Truth,
+    Criterion, Driven, Effect, Laws, Quantities, Reference, Row, SignalError, Truth,
 };
 
-const FIGURES: [Option<&str>; 7] =
-    [Some("fig3"), Some("fig4"), Some("fig6"), Some("fig7"), Some("hockey"), Some("fig99"), None];
+const FIGURES: [Option<&str>; 8] = [
+    Some("fig3"),
+    Some("fig4"),
+    Some("fig6"),
+    Some("fig7"),
+    Some("fig9"),
+    Some("hockey"),
+    Some("fig99"),
+    None,
+];
 
 /// A report may be this large, bytes.
 const MOST_BYTES: usize = 1_500_000;
@@ -73,6 +81,8 @@ fn row(n: usize) -> Row {
         Reference { quantities, capacitance_eq6_pf: 317.0 - (t * 0.1).sin(), force_eq6_n: 0.09 };
     let measured = Quantities { x_mm: quantities.x_mm + (t * 5.3).sin(), ..quantities };
     let (truth, reference) = (Some(truth), Some(reference));
+    let (limited, fault) = (n % 7 == 0, n % 11 == 0);
+    let driven = Some(Driven { target_n: 0.1, drive_v_rms: t % 300.0, limited, fault });
     Row {
         case: n % 97 / 60,
         time_s: t * 1e-3,
@@ -81,7 +91,7 @@ fn row(n: usize) -> Row {
         flags: String::new(),
         laws: Some(Laws { eq8_n: 0.11, table_n: measured.force_n }),
         truth,
-        driven: None,
+        driven,
         reference,
     }
 }
@@ -101,12 +111,13 @@ fn without_numbers(mut row: Row) -> Row {
         force_n: nan,
         ..row.measured
     };
+    row.driven = row.driven.map(|driven| Driven { drive_v_rms: nan, ..driven });
     row.truth = row.truth.map(|t| Truth { quantities: row.measured, load_g: nan, ..t });
     row
 }
 
 fn without_truth(row: Row) -> Row {
-    Row { truth: None, reference: None, ..row }
+    Row { truth: None, driven: None, reference: None, ..row }
 }
 
 /// The page is well-formed, holds no address and no script, bounds its size, and draws with classes
@@ -364,4 +375,112 @@ fn a_map_has_the_size_of_the_sheet() {
     let small = Record { sheet_mm: Some([1000.0, 1000.0]), ..record(Some("fig3"), rows(100)) };
     assert!(check(&small).contains("viewBox=\"0 0 860 860\""));
     assert!(check(&record(Some("fig3"), rows(100))).contains("viewBox=\"0 0 860 500\""));
+}
+
+/// A run of a controller: cases of ten slots of 1 ms, each with a law, a target and the forces that
+/// come of it.
+fn controlled(cases: &[(&'static str, f64, [f64; 10])]) -> Record {
+    let rows = cases.iter().enumerate().flat_map(|(case, (_, target_n, forces))| {
+        forces.iter().enumerate().map(move |(n, force_n)| {
+            let mut row = Row { case, pad: 0, time_s: 1e-3 * (10 * case + n) as f64, ..row(n) };
+            let truth = row.truth.as_mut().expect("a truth");
+            (truth.set.target_n, truth.quantities.force_n) = (*target_n, *force_n);
+            row.measured.force_n = *force_n;
+            row.driven =
+                Some(Driven { target_n: *target_n, drive_v_rms: 200.0, ..Driven::default() });
+            row
+        })
+    });
+    let names: Vec<_> = (0..cases.len()).map(|n| format!("case {n}")).collect();
+    let laws = names.iter().cloned().zip(cases.iter().map(|(law, ..)| *law)).collect();
+    Record { laws, cases: names, ..record(Some("fig9"), rows.collect()) }
+}
+
+/// The texts of the rows of the table with this label.
+fn cells(page: &str, label: &str) -> Vec<Vec<String>> {
+    let options = roxmltree::ParsingOptions { allow_dtd: true, ..Default::default() };
+    let document = roxmltree::Document::parse_with_options(page, options).expect("well-formed");
+    let table = document.descendants().find(|n| n.attribute("aria-label") == Some(label));
+    let rows = table.expect("the table").descendants().filter(|n| n.has_tag_name("tr"));
+    let texts = |row: roxmltree::Node| {
+        row.children().map(|cell| cell.text().unwrap_or("").into()).collect()
+    };
+    rows.skip(1).map(texts).collect()
+}
+
+/// Off by this much in every slot but the last, and by twice as much in that.
+fn off(target_n: f64, off_n: f64) -> [f64; 10] {
+    let mut forces = [target_n + off_n; 10];
+    forces[9] += off_n;
+    forces
+}
+
+#[test]
+fn a_case_is_compared_with_the_open_loop_of_the_same_target() {
+    let cases = [
+        ("inverse", 0.6, off(0.6, 0.01)),
+        ("open", 0.3, off(0.3, 0.2)),
+        ("inverse", 0.3, off(0.3, 0.02)),
+        ("open", 0.6, off(0.6, 0.04)),
+        ("inverse", 0.5, off(0.5, 0.1)),
+    ];
+    // Those of a target together. RMS: √((9·1 + 4)/10) times what most are off.
+    let expected = [
+        ["case 0", "inverse", "0.600 N", "0.0114 N", "0.250", "0.0200 N", "0.250"],
+        ["case 3", "open", "0.600 N", "0.0456 N", "1.00", "0.0800 N", "1.00"],
+        ["case 1", "open", "0.300 N", "0.228 N", "1.00", "0.400 N", "1.00"],
+        ["case 2", "inverse", "0.300 N", "0.0228 N", "0.100", "0.0400 N", "0.100"],
+        ["case 4", "inverse", "0.500 N", "0.114 N", "–", "0.200 N", "–"],
+    ];
+    let page = check(&controlled(&cases));
+    let rows: Vec<_> = cells(&page, "Off target").iter().map(|row| row[..7].to_vec()).collect();
+    assert_eq!(rows, expected);
+    assert_eq!(page.matches("<div class=\"panels\">").count(), 3, "a figure for each target");
+}
+
+/// The texts of every drawing that is about this, each with its place across.
+fn texts(page: &str, about: &str) -> Vec<Vec<(String, String)>> {
+    let options = roxmltree::ParsingOptions { allow_dtd: true, ..Default::default() };
+    let document = roxmltree::Document::parse_with_options(page, options).expect("well-formed");
+    let is_it =
+        |n: &roxmltree::Node| n.attribute("aria-label").is_some_and(|a| a.starts_with(about));
+    let text = |n: roxmltree::Node| {
+        (n.attribute("x").unwrap_or("").into(), n.text().unwrap_or("").trim().into())
+    };
+    let all = |svg: roxmltree::Node| {
+        svg.descendants().filter(|n| n.has_tag_name("text")).map(text).collect()
+    };
+    document.descendants().filter(is_it).map(all).collect()
+}
+
+#[test]
+fn panels_have_the_same_axes_and_line_up() {
+    let page = check(&controlled(&[("open", 0.3, off(0.3, 2.0)), ("inverse", 0.6, off(0.6, 0.0))]));
+    let [force, drive] = ["Force over time", "Drive over time"].map(|about| texts(&page, about));
+    assert_eq!((force.len(), drive.len()), (2, 2));
+    assert_eq!((&force[0], &drive[0]), (&force[1], &drive[1]));
+    let times = |texts: &[(String, String)]| -> Vec<(String, String)> {
+        texts.iter().filter(|(_, text)| text.starts_with("0.00")).cloned().collect()
+    };
+    assert!(times(&force[0]).len() > 3, "{force:?}");
+    assert_eq!(times(&force[0]), times(&drive[0]));
+}
+
+#[test]
+fn limits_and_faults_are_marked_where_there_are_any() {
+    let mut record = controlled(&[("open", 0.3, off(0.3, 0.0))]);
+    let plain = check(&record);
+    assert!(!plain.contains("drive limited") && !plain.contains("off by a fault"));
+    for (row, limited, fault) in [(2, true, false), (3, true, false), (7, false, true)] {
+        let driven = record.rows[row].driven.as_mut().expect("driven");
+        (driven.limited, driven.fault) = (limited, fault);
+    }
+    let page = check(&record);
+    assert!(page.contains("limited in 2 of 10 slots; fault in 1 of 10 slots"));
+    assert!(page.contains("drive limited") && page.contains("drives off by a fault"));
+    let marks = |class: &str| {
+        page.matches(&format!("<polyline class=\"s {class}\" stroke-width=\"10\"")).count()
+    };
+    assert_eq!((marks("k13"), marks("k3 dash")), (1, 1));
+    assert_eq!(cells(&page, "Off target")[0][7..], ["2", "1"]);
 }

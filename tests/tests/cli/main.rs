@@ -65,6 +65,18 @@ fn refuse(folder: &Path, args: &[&str], words: &[&str]) {
     assert!(!folder.join("results").exists(), "{args:?}: leaves nothing behind");
 }
 
+/// The fields of a line: what is quoted may hold commas, as names of cases do.
+fn fields(line: &str) -> Vec<String> {
+    let mut fields = vec![String::new()];
+    for (n, part) in line.split('"').enumerate() {
+        let mut pieces =
+            if n % 2 == 1 { vec![part] } else { part.split(',').collect() }.into_iter();
+        fields.last_mut().expect("a field").extend(pieces.next());
+        fields.extend(pieces.map(String::from));
+    }
+    fields
+}
+
 /// A table: names of the columns, and rows of texts.
 struct Table {
     names: Vec<String>,
@@ -75,9 +87,8 @@ impl Table {
     fn read(path: &Path) -> Table {
         let text =
             fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-        let split = |line: &str| line.split(',').map(ToString::to_string).collect::<Vec<_>>();
         let mut lines = text.lines();
-        Table { names: split(lines.next().expect("a header")), rows: lines.map(split).collect() }
+        Table { names: fields(lines.next().expect("a header")), rows: lines.map(fields).collect() }
     }
 
     fn column(&self, name: &str) -> Vec<&str> {

@@ -1,20 +1,25 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Waveforms of a run: another program's reader finds the frames in them, and the bundled view fits
-//! the core.
+//! Waveforms of a run: another program's reader finds the frames in them, and the bundled views fit
+//! the core and the force loop.
 
 use std::fs;
 use std::path::Path;
 
+use hapticore_contract::control::{Control, Law};
 use hapticore_contract::frame::Field;
 use hapticore_contract::profile::Profile;
-use hapticore_hdl::probe::variables;
+use hapticore_hdl::probe::{Variable, variables};
 use hapticore_model::blocks::core::Core;
+use hapticore_model::blocks::force_loop::ForceLoop;
 use hapticore_waveforms::pattern::fits;
 use hapticore_waveforms::view::View;
 use wellen::simple::Waveform;
 use wellen::{SignalRef, SignalValueRef};
 
 use crate::{Table, finish};
+
+/// The drive's full scale in `fig9`, V RMS.
+const FULL_SCALE_V: f64 = 500.0;
 
 /// The values of a signal: time-table index and code.
 fn values(waves: &mut Waveform, path: &str, signed: bool) -> Vec<(u32, i64)> {
@@ -44,11 +49,11 @@ fn at(values: &[(u32, i64)], time: u32) -> i64 {
     values[values.partition_point(|(when, _)| *when <= time) - 1].1
 }
 
-/// The frames in the waves: codes of all fields.
-fn frames(waves: &mut Waveform) -> Vec<Vec<i64>> {
+/// The frames in the waves of a core: codes of all fields.
+fn frames(waves: &mut Waveform, core: &str) -> Vec<Vec<i64>> {
     let [valid, index] = ["valid", "index"]
-        .map(|name| values(waves, &format!("core.estimator.frames.{name}"), false));
-    let word = values(waves, "core.estimator.frames.word", true);
+        .map(|name| values(waves, &format!("{core}.estimator.frames.{name}"), false));
+    let word = values(waves, &format!("{core}.estimator.frames.word"), true);
     let mut frames = Vec::new();
     let end = waves.time_table().len() as u32;
     for time in (0..end).filter(|time| at(&valid, *time) == 1) {
@@ -67,10 +72,10 @@ fn check(kind: &str, args: &[&str], first: usize) {
     let out = folder.path().join("o");
     let mut waves =
         wellen::simple::read(out.join(format!("waves.{kind}"))).expect("waves that others read");
-    let frames = frames(&mut waves);
+    let frames = frames(&mut waves, "core");
     assert!(frames.len() >= 2, "two frames at least");
     compare(&frames, &Table::read(&out.join("frames.csv")), first);
-    compare_truth(&mut waves, &Table::read(&out.join("frames.csv")), first);
+    compare_truth(&mut waves, "core", &Table::read(&out.join("frames.csv")), first);
     let forces = values(&mut waves, "core.estimator.force_estimator.haptic_force", false);
     let force = Profile::bundled("standard").unwrap().formats.force;
     let last = Table::read(&out.join("frames.csv")).numbers("force_n")[first + frames.len() - 1];
@@ -98,9 +103,9 @@ fn compare(frames: &[Vec<i64>], table: &Table, first: usize) {
 }
 
 /// The truth beside a frame is that of the frame's slot.
-fn compare_truth(waves: &mut Waveform, table: &Table, first: usize) {
-    let valid = values(waves, "core.estimator.frames.valid", false);
-    let index = values(waves, "core.estimator.frames.index", false);
+fn compare_truth(waves: &mut Waveform, core: &str, table: &Table, first: usize) {
+    let valid = values(waves, &format!("{core}.estimator.frames.valid"), false);
+    let index = values(waves, &format!("{core}.estimator.frames.index"), false);
     let end = waves.time_table().len() as u32;
     let starts: Vec<u32> =
         (0..end).filter(|time| at(&valid, *time) == 1 && at(&index, *time) == 0).collect();
@@ -149,13 +154,61 @@ fn a_window_that_makes_a_large_file_is_told() {
 }
 
 fn check_save_file(out: &Path) {
-    let save = fs::read_to_string(out.join("waves.gtkw")).unwrap();
-    for shown in [
+    let expected = [
         "core.estimator.force_estimator.haptic_force[19:0]",
         "truth.force_n",
         "waves.core.estimator.position.surface.txt",
-    ] {
+    ];
+    check_shown(out, &expected);
+}
+
+fn check_shown(out: &Path, expected: &[&str]) {
+    let save = fs::read_to_string(out.join("waves.gtkw")).unwrap();
+    for shown in expected {
         assert!(save.contains(shown), "{shown}");
+    }
+}
+
+/// A force loop in the waves: frames, truth and drive words are those of the run, which changes the
+/// drive with every slot.
+fn check_loop(args: &[&str], first: usize) {
+    let folder = tempfile::tempdir().unwrap();
+    // The curve is far above what the measured capacitance asks for, so that the loop is closed.
+    let set = [
+        ["--set", "duration_s=0.008"],
+        ["--set", "control.curve_factor=1.5"],
+        ["--set", "pad.0.target_n={ timeline = [[0, 0.1], [0.008, 0.3]] }"],
+    ];
+    let common = ["simulate", "fig9", "--core", "clock", "--waves", "vcd", "--out", "o"];
+    let case = ["--case", "inverse law, square 0.6 N"];
+    finish(folder.path(), &[&common, &case[..], &set.concat(), args].concat());
+    let out = folder.path().join("o");
+    let mut waves = wellen::simple::read(out.join("waves.vcd")).expect("waves that others read");
+    let frames = frames(&mut waves, "force_loop.core");
+    assert!(frames.len() >= 2, "two frames at least");
+    let table = Table::read(&out.join("frames.csv"));
+    compare(&frames, &table, first);
+    compare_truth(&mut waves, "force_loop.core", &table, first);
+    compare_drives(&mut waves, &table, first);
+    let task = "waves.force_loop.controller.task.txt";
+    check_shown(&out, &["force_loop.controller.drive[", "truth.haptic_v_rms", task]);
+    let names = fs::read_to_string(out.join(task)).unwrap();
+    assert!(names.contains("inverse_root"), "{names}");
+}
+
+/// Drive words and targets at each `done`, in volts and newtons.
+fn compare_drives(waves: &mut Waveform, table: &Table, first: usize) {
+    let control = Control::of(&Profile::bundled("standard").unwrap(), Law::Inverse);
+    let done = values(waves, "force_loop.controller.done", false);
+    let drive = values(waves, "force_loop.controller.drive", false);
+    let target = values(waves, "force_loop.target", false);
+    let (volts, targets) = (table.numbers("drive_v_rms"), table.numbers("target_n"));
+    let given: Vec<u32> = done.iter().filter(|(_, code)| *code == 1).map(|(at, _)| *at).collect();
+    assert!(given.len() >= 2 && volts[first] != volts[first + 1], "{volts:?}");
+    for (slot, time) in (first..).zip(given) {
+        assert_eq!(FULL_SCALE_V * control.drive.real(at(&drive, time)), volts[slot], "{slot}");
+        let off_n = control.target.real(at(&target, time)) - targets[slot];
+        assert!(off_n.abs() <= control.target.lsb() / 2.0, "slot {slot}: {off_n} N");
     }
 }
 
@@ -172,13 +225,30 @@ fn a_window_later_in_the_run_holds_its_frames() {
 }
 
 #[test]
-fn every_pattern_of_the_bundled_view_finds_signals_of_the_core() {
-    let core = Core::new(&Profile::bundled("standard").unwrap());
-    let paths: Vec<_> = variables(&core, "core")
-        .iter()
-        .map(|v| format!("{}.{}", v.scope.join("."), v.name))
-        .collect();
-    for group in View::bundled("slot").unwrap().groups {
+fn the_waves_of_a_force_loop_hold_its_frames_and_drives() {
+    check_loop(&[], 0);
+}
+
+#[test]
+fn a_later_window_of_a_force_loop_holds_what_led_to_it() {
+    // The drive words of slots 3 to 5 and their frames, which come 4 to 6 ms after the start.
+    check_loop(&["--waves-window", "0.0037..0.0064"], 3);
+}
+
+#[test]
+fn every_pattern_of_a_bundled_view_finds_signals() {
+    let standard = Profile::bundled("standard").unwrap();
+    let control = Some(Control::of(&standard, Law::Inverse));
+    let controlled = Profile { control, ..standard.clone() };
+    check_patterns("slot", &variables(&Core::new(&standard), "core"));
+    let force_loop = ForceLoop::try_new(&controlled).expect("a controller");
+    check_patterns("force_loop", &variables(&force_loop, "force_loop"));
+}
+
+fn check_patterns(view: &str, variables: &[Variable]) {
+    let paths: Vec<_> =
+        variables.iter().map(|v| format!("{}.{}", v.scope.join("."), v.name)).collect();
+    for group in View::bundled(view).unwrap().groups {
         for entry in group.signals {
             let pattern = entry.show.get_ref();
             let found =

@@ -3,6 +3,7 @@
 //! close it.
 
 pub mod closed;
+pub mod plant;
 mod tuning;
 
 pub use tuning::{controlled, tuning};
