@@ -81,7 +81,7 @@ fn row(n: usize) -> Row {
         Reference { quantities, capacitance_eq6_pf: 317.0 - (t * 0.1).sin(), force_eq6_n: 0.09 };
     let measured = Quantities { x_mm: quantities.x_mm + (t * 5.3).sin(), ..quantities };
     let (truth, reference) = (Some(truth), Some(reference));
-    let (limited, fault) = (n % 7 == 0, n % 11 == 0);
+    let (limited, fault) = (n.is_multiple_of(7), n.is_multiple_of(11));
     let driven = Some(Driven { target_n: 0.1, drive_v_rms: t % 300.0, limited, fault });
     Row {
         case: n % 97 / 60,

@@ -190,10 +190,24 @@ fn check_loop(args: &[&str], first: usize) {
     compare(&frames, &table, first);
     compare_truth(&mut waves, "force_loop.core", &table, first);
     compare_drives(&mut waves, &table, first);
+    check_truth_times(&mut waves);
     let task = "waves.force_loop.controller.task.txt";
     check_shown(&out, &["force_loop.controller.drive[", "truth.haptic_v_rms", task]);
     let names = fs::read_to_string(out.join(task)).unwrap();
     assert!(names.contains("inverse_root"), "{names}");
+}
+
+/// The truth changes at ends of slots, which are of 1 ms; first it is what the window begins with.
+fn check_truth_times(waves: &mut Waveform) {
+    let signal = signal(waves, "truth.force_n");
+    waves.load_signals(&[signal]);
+    let changes = waves.get_signal(signal).expect("loaded").iter_changes();
+    let times: Vec<u64> = changes.skip(1).map(|(at, _)| waves.time_table()[at as usize]).collect();
+    let timescale = waves.hierarchy().timescale().expect("a timescale");
+    let exponent = timescale.unit.to_exponent().expect("a unit of time");
+    let ticks_per_slot = 10u64.pow((-3 - i32::from(exponent)) as u32) / u64::from(timescale.factor);
+    assert!(!times.is_empty());
+    assert!(times.iter().all(|time| time.is_multiple_of(ticks_per_slot)), "{times:?}");
 }
 
 /// Drive words and targets at each `done`, in volts and newtons.
