@@ -180,7 +180,7 @@ fn check_loop(args: &[&str], first: usize) {
         ["--set", "pad.0.target_n={ timeline = [[0, 0.1], [0.008, 0.3]] }"],
     ];
     let common = ["simulate", "fig9", "--core", "clock", "--waves", "vcd", "--out", "o"];
-    let case = ["--case", "inverse law, square 0.6 N"];
+    let case = ["--case", "square 0.6 N, closed loop"];
     finish(folder.path(), &[&common, &case[..], &set.concat(), args].concat());
     let out = folder.path().join("o");
     let mut waves = wellen::simple::read(out.join("waves.vcd")).expect("waves that others read");
