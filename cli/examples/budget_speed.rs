@@ -81,7 +81,7 @@ fn run(scenes: &[&Scene], profile: &Profile) -> Result<f64> {
     let start = Instant::now();
     for scene in scenes {
         for index in 0..scene.cases.len() {
-            let case = Case::new(scene, index, index, profile, 0.0)?;
+            let case = Case::new(scene, index, profile, &[])?;
             case.run(&Settings { fidelity: Fidelity::Float, errors: false }, None, &|| ())?;
         }
     }

@@ -57,11 +57,12 @@ fn once(name: &str, carrier: &str, fidelity: Fidelity) -> Result<[f64; 3]> {
     let choosing = Instant::now();
     let scene = scene.within_budget(&inputs::timing(&profile))?;
     let levels = choosing.elapsed().as_secs_f64();
-    let mut device_s = 0.0;
+    let mut cases: Vec<Case> = Vec::new();
     for index in 0..scene.cases.len() {
-        let case = Case::new(&scene, index, index, &profile, device_s)?;
+        let case = Case::new(&scene, index, &profile, &cases)?;
         case.run(&Settings { fidelity, errors: false }, None, &|| ())?;
-        device_s += case.seconds();
+        cases.push(case);
     }
+    let device_s = cases.iter().map(Case::seconds).sum();
     Ok([device_s, levels, start.elapsed().as_secs_f64()])
 }

@@ -133,7 +133,7 @@ impl Replay {
         Ok(Replay {
             session: Session::new(
                 profile,
-                device,
+                (device, &device.for_profile(profile)?),
                 (args.core.fidelity(), None),
                 args.core.errors,
                 (0, clock),

@@ -98,8 +98,7 @@ fn cases<'a>(args: &SimulateArgs, scene: &'a Scene, profile: &Profile) -> Result
         |index: &usize| args.case.is_empty() || args.case.iter().any(|name| name == names[*index]);
     let mut cases: Vec<Case> = Vec::new();
     for index in (0..names.len()).filter(chosen) {
-        let start_s = cases.iter().map(Case::seconds).sum();
-        let case = Case::new(scene, index, cases.len(), profile, start_s)?;
+        let case = Case::new(scene, index, profile, &cases)?;
         case.check(&args.scene, args.core.fidelity())?;
         cases.push(case);
     }

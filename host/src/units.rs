@@ -124,6 +124,11 @@ impl SlotClock {
         self.start_s
     }
 
+    /// Samples of the ADC a second.
+    pub fn sample_rate_hz(&self) -> f64 {
+        self.sample_rate_hz
+    }
+
     /// How long `slots` take, s.
     pub fn seconds(&self, slots: usize) -> f64 {
         slots as f64 * self.slot_samples / self.sample_rate_hz

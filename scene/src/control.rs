@@ -7,6 +7,7 @@
 //!
 //! [control]
 //! law = "inverse"        # open | proportional | integral | inverse
+//! force = "eq8"          # eq8 | table: how the core estimates the force; else as the profile says
 //! curve = "steady"       # steady: the voltage that gives a force at rest; square-root: V = K·√F, eq. 9
 //! ```
 //!
@@ -44,6 +45,18 @@ impl ControlLaw {
     }
 }
 
+/// How a core estimates the force that a controller is given.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ForceEstimate {
+    /// Eq. 8, with one constant k.
+    Eq8,
+    /// Eq. 8, with k from a table over capacitance and past voltage.
+    Table,
+}
+
+const FORCES: [(&str, ForceEstimate); 2] =
+    [("eq8", ForceEstimate::Eq8), ("table", ForceEstimate::Table)];
+
 /// Which voltage goes with a force before anything is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DriveCurve {
@@ -71,6 +84,8 @@ const CURVES: [(&str, DriveCurve); 2] =
 pub struct ControlPlan {
     /// How a drive follows from target and measurement.
     pub law: ControlLaw,
+    /// How the core estimates the force, where not as its profile says.
+    pub force: Option<ForceEstimate>,
     /// Which voltage goes with a force.
     pub curve: DriveCurve,
     /// The curve is so many times the voltage that it says: with the inverse law, how far beyond it
@@ -108,8 +123,9 @@ impl ControlPlan {
         let within = Limits::above(0.0, full_scale_v);
         Ok(Some(ControlPlan {
             law,
+            force: table.word("force", &FORCES)?,
             curve: table.word("curve", &CURVES)?.unwrap_or(curve),
-            curve_factor: number("curve_factor", if inverse { 1.1 } else { 1.0 })?,
+            curve_factor: number("curve_factor", if inverse { 1.13 } else { 1.0 })?,
             nominal_load_g: table.number_or("nominal_load_g", Limits::within(0.0, 1e5), 50.0)?,
             feed_forward_v: number("feed_forward_v", 600.0)?,
             proportional_v: table.number_or("proportional_v", Limits::within(0.0, 1e5), 0.0)?,

@@ -93,7 +93,7 @@ mod wave;
 
 pub use budget::LevelDeviation;
 pub use case::Case;
-pub use control::{ControlLaw, ControlPlan, DriveCurve};
+pub use control::{ControlLaw, ControlPlan, DriveCurve, ForceEstimate};
 pub use criterion::{Criterion, Measure, Per, Where};
 pub use device::Device;
 pub use drive::DriveError;

@@ -160,6 +160,11 @@ impl PadPlan {
         self.target_n.at(0, moment)
     }
 
+    /// The largest force that a controller shall give at any time, N.
+    pub fn largest_target_n(&self) -> f64 {
+        self.target_n.extremes().into_iter().fold(0.0, f64::max)
+    }
+
     /// What pushes the pad besides its finger, N.
     pub fn push_n(&self, moment: Moment) -> [f64; 2] {
         [0, 1].map(|axis| self.push_n[axis].at(0, moment))

@@ -300,6 +300,11 @@ impl Plant {
         self.case.pads[pad].target_n(Moment::at(time_s))
     }
 
+    /// The largest force that a controller shall give each pad, N.
+    pub fn largest_targets_n(&self) -> Vec<f64> {
+        self.case.pads.iter().map(|pad| pad.largest_target_n()).collect()
+    }
+
     /// The plant in a slot.
     pub fn truth(&mut self, slot: usize) -> Truth {
         self.look(slot);

@@ -6,9 +6,10 @@ use std::fmt::Write;
 use fastrand::Rng;
 use hapticore_contract::profile::Profile;
 use hapticore_host::Residual;
-use hapticore_run::case::{Case, Maker, record_truth};
+use hapticore_run::case::{Case, record_truth};
 use hapticore_run::engine::Fidelity;
 use hapticore_run::engine::{Signals, Slot};
+use hapticore_run::maker::Maker;
 use hapticore_run::record::{Quantities, Row};
 use hapticore_run::session::Session;
 use hapticore_scene::Scene;
@@ -188,12 +189,13 @@ pub fn disturbed_rows(
     disturb: impl Fn(usize, &mut Signals),
 ) -> (Vec<Row>, Residual) {
     let scene = Scene::parse(scene, "device", &[]).expect("a scene");
-    let case = Case::new(&scene, 0, 0, profile, 0.0).expect("a case");
+    let case = Case::new(&scene, 0, profile, &[]).expect("a case");
     let mut maker =
         Maker::new(case.plant().expect("a plant"), &case.profile, scene.cases[0].sampled(), false);
     let at = (0, case.clock);
-    let mut session = Session::new(&case.profile, &case.device, (Fidelity::Fixed, None), false, at)
-        .expect("a session");
+    let device = (&case.device, case.calibration().expect("a calibration"));
+    let mut session =
+        Session::new(&case.profile, device, (Fidelity::Fixed, None), false, at).expect("a session");
     let row = |slot| {
         let truth = maker.plant().truth(slot);
         let (mut signals, _) = maker.signals(slot);

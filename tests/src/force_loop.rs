@@ -10,9 +10,10 @@ use hapticore_hdl::format::Format;
 use hapticore_model::blocks::force_loop::{ForceLoop, Inputs, Outputs};
 use hapticore_model::blocks::position::TablePort;
 use hapticore_model::fidelity::force_loop::{curve_writes, tuning_codes};
-use hapticore_run::case::{Case, Maker};
+use hapticore_run::case::Case;
 use hapticore_run::engine::Signals;
 use hapticore_run::inputs;
+use hapticore_run::maker::Maker;
 
 /// The plant of a scene's case around a force loop.
 pub struct Closed {
@@ -45,8 +46,8 @@ impl Closed {
     ) -> Self {
         let scene = inputs::scene(scene, set).expect("bundled");
         let profile = inputs::windowed(profile.clone(), &scene).expect("a profile");
-        let case = Case::new(&scene, case, 0, &profile, 0.0).expect("a case");
-        let calibration = case.device.for_profile(&case.profile).expect("a calibration");
+        let case = Case::new(&scene, case, &profile, &[]).expect("a case");
+        let calibration = case.calibration().expect("a calibration").clone();
         let plant = case.plant().expect("a plant");
         let tuning = case.tuning(&plant).expect("gains that fit").expect("a controller");
         let block = ForceLoop::try_new(&case.profile).expect("a force loop");

@@ -13,9 +13,10 @@ use hapticore_hdl::format::Format;
 use hapticore_hdl::memory::Memory;
 use hapticore_model::blocks::core::{Core, Inputs, Outputs};
 use hapticore_model::blocks::position::TablePort;
-use hapticore_run::case::{Case, Maker};
+use hapticore_run::case::Case;
 use hapticore_run::engine::Signals;
 use hapticore_run::inputs;
+use hapticore_run::maker::Maker;
 
 /// What the core is given of the plant: sets of codes, one for each strobe.
 pub type Samples = Box<dyn Iterator<Item = Vec<i64>>>;
@@ -236,8 +237,8 @@ fn disturbed(inputs: Inputs<i64>, rng: &mut Rng, table: &Memory) -> Inputs<i64> 
 /// Where there is no such scene.
 pub fn scene(profile: &Profile, name: &str, slots: usize) -> Stimulus {
     let scene = inputs::scene(name, &[]).expect("bundled");
-    let case = Case::new(&scene, 0, 0, profile, 0.0).expect("a case");
-    let calibration = case.device.for_profile(profile).expect("a calibration");
+    let case = Case::new(&scene, 0, profile, &[]).expect("a case");
+    let calibration = case.calibration().expect("a calibration").clone();
     let mut maker = Maker::new(case.plant().expect("a plant"), &case.profile, true, true);
     let (channels, last) = (profile.channels(), case.slots);
     let samples = (0..slots).flat_map(move |slot| {

@@ -23,10 +23,11 @@ use hapticore_model::fidelity::clock::ClockSimulation;
 use hapticore_rtl::board::framing::Register;
 use hapticore_rtl::board::{Parameters, Target};
 use hapticore_rtl::component;
-use hapticore_run::case::{Case, Maker};
+use hapticore_run::case::Case;
 use hapticore_run::engine::Fidelity;
 use hapticore_run::engine::{Slot, engine};
 use hapticore_run::inputs;
+use hapticore_run::maker::Maker;
 use hapticore_tests::tools;
 use random::Random;
 use std::fs;
@@ -182,7 +183,7 @@ fn returns_what_simulate_gives(target: Target, simulator: Simulator) {
     }
     let profile = target.profile();
     let scene = inputs::scene("hockey", &[]).expect("bundled");
-    let case = Case::new(&scene, 0, 0, &profile, 0.0).expect("a case");
+    let case = Case::new(&scene, 0, &profile, &[]).expect("a case");
     assert_eq!(*case.profile, profile, "the scene has as many pads as the board");
     let calibration = case.device.for_profile(&profile).expect("a calibration");
     let mut maker = Maker::new(case.plant().expect("a plant"), &profile, true, true);

@@ -167,10 +167,11 @@ fn verilator_closes_the_force_loop_as_the_model_does() {
     if !tools::have(&["verilator", "make", "g++"]) {
         return;
     }
-    for name in ["small", "standard"] {
+    for (name, force) in [("small", "\"eq8\""), ("standard", "\"table\"")] {
         let profile = Profile::bundled(name).expect("bundled");
         let target = "{ timeline = [[0, 0], [0.004, 0], [0.004, 0.6]] }";
-        let set = [("pad.0.target_n".to_string(), target.to_string())];
+        let set = [("pad.0.target_n", target), ("control.force", force)];
+        let set = set.map(|(key, value)| (key.to_string(), value.to_string()));
         let mut closed = Closed::new(&profile, ("fig9", 1), &set, 16);
         let (block, design) = (closed.block.clone(), Design::of(&closed.block, "a test"));
         let trace = Trace::record(&block, design.ports.clone(), |outputs| closed.next(outputs));

@@ -3,27 +3,29 @@
 //!
 //! The plant's samples depend on the slot alone, so that results do not depend on threads.
 
-use std::sync::Arc;
-use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::sync::mpsc::{Receiver, sync_channel};
+use std::sync::{Arc, OnceLock};
 use std::thread;
 
 use anyhow::{Result, ensure};
+use hapticore_contract::calibration::Calibration;
 use hapticore_contract::control::Tuning;
 use hapticore_contract::profile::{ForceLaw, Profile};
+use hapticore_host::device::{DeviceWordsError, Force};
 use hapticore_host::profile::{for_terminals, serving};
 use hapticore_host::{CrosstalkCanceller, DeviceCalibration, Residual, SlotClock, quantities_of};
 use hapticore_scene::{
-    Complex, EffectCost, Figure, LevelDeviation, Plant, Scene, Truth, signs_by_place,
+    ControlPlan, EffectCost, Figure, LevelDeviation, Plant, Scene, Truth, signs_by_place,
 };
 
-use crate::calibrate;
+use crate::calibrate::{self, bench::Bench};
 use crate::capture::Recorder;
 use crate::control::plant::LoopPlant;
 use crate::control::{self, controlled};
-use crate::digitiser::Digitiser;
-use crate::engine::{Fidelity, Signals, Slot};
+use crate::engine::Fidelity;
 use crate::inputs::{buildable, timing};
 use crate::interrupt;
+use crate::maker::{Made, Maker};
 use crate::record::{self, Row, SignalError};
 use crate::session::Session;
 
@@ -49,7 +51,14 @@ pub struct Case<'a> {
     pub slots: usize,
     /// The time of each slot.
     pub clock: SlotClock,
+    /// What decides the device's forces, where it was calibrated for a force table.
+    bench: Option<Bench>,
+    /// The device's calibration as words of the core, made when they are first asked for.
+    calibration: Words,
 }
+
+/// Words that cases of one device share.
+type Words = Arc<OnceLock<Result<Calibration, DeviceWordsError>>>;
 
 /// What a case left.
 pub struct Outcome {
@@ -73,25 +82,13 @@ pub struct Settings {
     pub errors: bool,
 }
 
-/// A slot on its way to the core.
-struct Made {
-    slot: Slot,
-    truth: Truth,
-    peak: f64,
-}
-
 impl<'a> Case<'a> {
-    /// Case `index` of the scene, the `number`th to be run, from `start_s` on.
+    /// Case `index` of the scene, to be run after others: of a device that one of them has, the
+    /// calibration is that one's.
     ///
     /// # Errors
     /// A case that the profile cannot serve.
-    pub fn new(
-        scene: &'a Scene,
-        index: usize,
-        number: usize,
-        profile: &Profile,
-        start_s: f64,
-    ) -> Result<Self> {
+    pub fn new(scene: &'a Scene, index: usize, profile: &Profile, others: &[Case]) -> Result<Self> {
         let device = &scene.cases[index].device;
         let signs = signs_by_place(&device.terminals_mm, [device.width_mm, device.height_mm]);
         let control = scene.cases[index].control.as_ref();
@@ -103,13 +100,38 @@ impl<'a> Case<'a> {
         let profile = Arc::new(serving(&profile, pads));
         let calibrated = plant.as_calibrated()?;
         let mut device = calibrate::of_plant(calibrated.as_ref().unwrap_or(&plant), &profile);
+        let mut bench = None;
         if profile.force.law == ForceLaw::Table || scene.figure.is_some_and(|of| BOTH.contains(&of))
         {
-            let document = &scene.cases[index].document;
-            device.force = Some(calibrate::force_table(document, device.device.force_k)?);
+            bench = Bench::of(&scene.cases[index].document)?;
+            device.force = Some(force_table(bench.as_ref(), device.device.force_k, others)?);
         }
+        let start_s = others.iter().map(Case::seconds).sum();
         let clock = SlotClock::new(&profile, device.device.sample_rate_hz, start_s);
-        Ok(Case { scene, index, number, profile, device, slots: plant.slots(), clock })
+        let uncontrolled = |of: &Profile| Profile { control: None, ..of.clone() };
+        let mut same = others.iter().filter(|other| {
+            other.device == device && uncontrolled(&other.profile) == uncontrolled(&profile)
+        });
+        Ok(Case {
+            calibration: same.next().map(|same| same.calibration.clone()).unwrap_or_default(),
+            number: others.len(),
+            slots: plant.slots(),
+            scene,
+            index,
+            profile,
+            device,
+            clock,
+            bench,
+        })
+    }
+
+    /// The device's calibration as words of the case's core.
+    ///
+    /// # Errors
+    /// A number that the profile's formats do not hold, a map that no position table fits.
+    pub fn calibration(&self) -> Result<&Calibration> {
+        let words = self.calibration.get_or_init(|| self.device.for_profile(&self.profile));
+        words.as_ref().map_err(|error| error.clone().into())
     }
 
     /// Name of the case, as the scene gives it.
@@ -174,7 +196,8 @@ impl<'a> Case<'a> {
         let cancellers = canceller().zip(canceller()).map(<[_; 2]>::from);
         let tuning = self.tuning(&plant)?;
         let fidelity = (settings.fidelity, tuning.as_ref());
-        let session = Session::new(&self.profile, &self.device, fidelity, settings.errors, at)?
+        let device = (&self.device, self.calibration()?);
+        let session = Session::new(&self.profile, device, fidelity, settings.errors, at)?
             .with_cancellers(cancellers);
         let whole = settings.fidelity == Fidelity::Clock || recorder.is_some();
         let mut maker = Maker::new(
@@ -190,13 +213,22 @@ impl<'a> Case<'a> {
         thread::scope(|scope| {
             let maker = scope.spawn(move || {
                 maker.make(self.slots, &sender);
-                maker.plant.effects()
+                maker.plant().effects()
             });
             let mut outcome = consume(session, receiver, recorder, progress)?;
             outcome.effects = maker.join().expect("the plant does not panic");
             Ok(outcome)
         })
     }
+}
+
+/// The force table of a device on its bench, or the same of another case.
+fn force_table(bench: Option<&Bench>, force_k: f64, others: &[Case]) -> Result<Force> {
+    let same = |other: &&Case| {
+        bench.is_some() && other.bench.as_ref() == bench && other.device.device.force_k == force_k
+    };
+    let made = others.iter().find(same).and_then(|other| other.device.force.clone());
+    made.map_or_else(|| calibrate::force_table(bench, force_k), Ok)
 }
 
 /// A force loop: the plant of a slot waits for the drives that follow from the slots before.
@@ -206,15 +238,33 @@ impl Case<'_> {
     /// # Errors
     /// A gain that its word does not hold.
     pub fn tuning(&self, plant: &Plant) -> Result<Option<Tuning>> {
-        let (Some(plan), Some(control)) =
-            (&self.scene.cases[self.index].control, &self.profile.control)
-        else {
+        let (Some(plan), Some(control)) = (self.plan(), &self.profile.control) else {
             return Ok(None);
         };
+        for (pad, target_n) in plant.largest_targets_n().into_iter().enumerate() {
+            let most_n = control.target.real(control.target.max_code() as i64);
+            ensure!(
+                target_n <= most_n,
+                "pad.{pad}.target_n: expected at most {most_n:.3} N, what the controller's word holds, got {target_n}"
+            );
+        }
         let calibrated = plant.as_calibrated()?;
         let at =
             (calibrated.as_ref().unwrap_or(plant), self.clock.seconds(plant.pad_names().len()));
         control::tuning(plan, control, &self.profile, &self.device, at).map(Some)
+    }
+
+    /// The plant of the case's force loop, before its first slot: no pad is driven.
+    ///
+    /// # Errors
+    /// A profile without a controller.
+    pub fn loop_plant(&self, maker: Maker) -> Result<LoopPlant> {
+        let full_scale_v = self.plan().map_or(0.0, |plan| plan.full_scale_v);
+        LoopPlant::new(maker, &self.profile, self.clock, full_scale_v)
+    }
+
+    fn plan(&self) -> Option<&ControlPlan> {
+        self.scene.cases[self.index].control.as_ref()
     }
 
     fn close(
@@ -224,7 +274,7 @@ impl Case<'_> {
         mut recorder: Option<&mut (dyn Recorder + Send)>,
         progress: &(dyn Fn() + Sync),
     ) -> Result<Outcome> {
-        let mut plant = LoopPlant::new(self, maker)?;
+        let mut plant = self.loop_plant(maker)?;
         let (mut rows, mut peak) = (Vec::new(), 0f64);
         for number in 0..self.slots {
             interrupt::check()?;
@@ -282,69 +332,4 @@ pub fn record_truth(truth: &Truth) -> record::Truth {
     let quantities = quantities_of!(truth);
     let Truth { load_g, friction_n, set, point, group, over_edge, touching, .. } = *truth;
     record::Truth { quantities, load_g, friction_n, set, point, group, over_edge, touching }
-}
-
-/// Produces the samples or amplitudes of slots in order.
-pub struct Maker {
-    plant: Plant,
-    digitiser: Digitiser,
-    sampled: bool,
-    blanking: usize,
-    samples: usize,
-    whole: bool,
-    fractions: Vec<f64>,
-}
-
-impl Maker {
-    /// A maker of slots from a plant: with the samples of the blanking where `whole`.
-    pub fn new(plant: Plant, profile: &Profile, sampled: bool, whole: bool) -> Self {
-        let (blanking, samples) =
-            (profile.slot.blanking() as usize, profile.slot.samples() as usize);
-        let digitiser = Digitiser::new(profile.formats.adc);
-        Maker { plant, digitiser, sampled, blanking, samples, whole, fractions: Vec::new() }
-    }
-
-    fn make(&mut self, slots: usize, to: &SyncSender<Made>) {
-        for slot in 0..slots {
-            let truth = self.plant.truth(slot);
-            let (signals, peak) = self.signals(slot);
-            let slot = Slot { pad: truth.pad, signals };
-            if to.send(Made { slot, truth, peak }).is_err() {
-                return; // The core has stopped: it tells why.
-            }
-        }
-    }
-
-    /// What the core is given of a slot, and the largest sample.
-    pub fn signals(&mut self, slot: usize) -> (Signals, f64) {
-        if self.sampled { self.sample(slot) } else { self.phasors(slot) }
-    }
-
-    /// The samples of a slot, and the largest.
-    pub fn sample(&mut self, slot: usize) -> (Signals, f64) {
-        let first = if self.whole { 0 } else { self.blanking };
-        self.fractions.clear();
-        if self.whole {
-            self.plant.samples(slot, 0..self.blanking, &mut self.fractions);
-        }
-        self.plant.samples(slot, self.blanking..self.samples, &mut self.fractions);
-        let mut codes = Vec::with_capacity(self.fractions.len());
-        let peak = self.digitiser.codes(&self.fractions, &mut codes);
-        let blanking = (self.blanking - first) * self.plant.channels();
-        (Signals::Samples { codes, blanking }, peak)
-    }
-
-    /// Simulated device of the case.
-    pub fn plant(&mut self) -> &mut Plant {
-        &mut self.plant
-    }
-
-    fn phasors(&mut self, slot: usize) -> (Signals, f64) {
-        let mut found = vec![Complex::default(); self.plant.channels() - 1];
-        let mean_square = self.plant.phasors(slot, &mut found);
-        let largest =
-            found.iter().map(|phasor| phasor.norm()).fold((2.0 * mean_square).sqrt(), f64::max);
-        let amplitudes = found.iter().map(|phasor| (phasor.re, phasor.im)).collect();
-        (Signals::Phasors { amplitudes, mean_square }, largest)
-    }
 }

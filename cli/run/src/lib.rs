@@ -9,6 +9,7 @@
 //! | [`digitiser`] | the one place where fractions of full scale meet codes |
 //! | [`engine`] | the core at its three fidelities behind one trait |
 //! | [`session`] | slots in, rows out: the core, the reference beside it, rounding errors |
+//! | [`maker`] | what a plant gives the core of its slots |
 //! | [`case`] | a case of a scene, its samples made while the core works |
 //! | [`control`] | the force loop of a scene: controller, tuning, and what closes it |
 //! | [`criteria`] | what a scene claims, measured |
@@ -31,6 +32,7 @@ pub mod haptic;
 pub mod inputs;
 pub mod interrupt;
 pub mod lab;
+pub mod maker;
 pub mod number;
 pub mod provenance;
 pub mod record;

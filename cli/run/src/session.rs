@@ -6,6 +6,7 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 
 use anyhow::Result;
+use hapticore_contract::calibration::Calibration;
 use hapticore_contract::control::{Drive, Tuning};
 use hapticore_contract::frame::Measurement;
 use hapticore_contract::profile::Profile;
@@ -35,30 +36,30 @@ pub struct Session {
 }
 
 impl Session {
-    /// A core of the profile for a device, just before its first slot. `case` is the number of the
+    /// A core of the profile for a device, of whose calibration it is given these words, just
+    /// before its first slot. `case` is the number of the
     /// case in rows. With a tuning the profile's controller drives the pads.
     ///
     /// # Errors
-    /// A calibration that the profile's formats do not hold.
+    /// A profile whose controller cannot be.
     pub fn new(
         profile: &Arc<Profile>,
-        device: &DeviceCalibration,
+        (device, calibration): (&DeviceCalibration, &Calibration),
         (fidelity, tuning): (Fidelity, Option<&Tuning>),
         errors: bool,
         (case, clock): (usize, SlotClock),
     ) -> Result<Self> {
-        let calibration = device.for_profile(profile)?;
         let engine = match tuning {
-            Some(tuning) => closed::engine(fidelity, profile, &calibration, tuning)?,
-            None => engine(fidelity, profile, &calibration),
+            Some(tuning) => closed::engine(fidelity, profile, calibration, tuning)?,
+            None => engine(fidelity, profile, calibration),
         };
         Ok(Session {
-            residual: device.residual(&calibration),
+            residual: device.residual(calibration),
             engine,
-            reference: FloatCore::new(profile, &calibration),
-            errors: errors.then(|| Errors::new(profile, &calibration)),
+            reference: FloatCore::new(profile, calibration),
+            errors: errors.then(|| Errors::new(profile, calibration)),
             readouts: [0, 1].map(|_| Readout::new(profile, device)),
-            laws: device.force.as_ref().map(|_| ForceLaws::new(profile, &calibration)),
+            laws: device.force.as_ref().map(|_| ForceLaws::new(profile, calibration)),
             clock,
             case,
             waiting: VecDeque::new(),

@@ -150,7 +150,7 @@ fn run(name: &str, law: ForceLaw) -> [f64; 2] {
     let mut profile = inputs::profile("standard").unwrap();
     profile.force.law = law;
     let profile = inputs::windowed(profile, &scene).unwrap();
-    let case = Case::new(&scene, 0, 0, &profile, 0.0).unwrap();
+    let case = Case::new(&scene, 0, &profile, &[]).unwrap();
     let settings = Settings { fidelity: Fidelity::Fixed, errors: false };
     let outcome = case.run(&settings, None, &|| ()).unwrap();
     let off = |of: &dyn Fn(&Row) -> f64| {

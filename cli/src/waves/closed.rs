@@ -9,9 +9,10 @@
 use anyhow::Result;
 use hapticore_contract::control::{Drive, Tuning};
 use hapticore_model::fidelity::force_loop::ClockLoop;
-use hapticore_run::case::{Case, Maker};
-use hapticore_run::control::plant::{LoopPlant, LoopSlot};
+use hapticore_run::case::Case;
+use hapticore_run::control::plant::LoopSlot;
 use hapticore_run::interrupt;
+use hapticore_run::maker::Maker;
 use hapticore_waveforms::tracer::{Trace, Tracer};
 use hapticore_waveforms::wave::Wave;
 use indicatif::ProgressBar;
@@ -30,8 +31,8 @@ pub fn trace<W: Wave>(
     bar: &ProgressBar,
 ) -> Result<Trace> {
     let profile = &case.profile;
-    let mut plant = LoopPlant::new(case, Maker::new(case.plant()?, profile, true, false))?;
-    let mut core = ClockLoop::new(profile, &case.device.for_profile(profile)?, tuning)?;
+    let mut plant = case.loop_plant(Maker::new(case.plant()?, profile, true, false))?;
+    let mut core = ClockLoop::new(profile, case.calibration()?, tuning)?;
     let mut tracer = Tracer::new(wave, &core, &truth::variables(), &slots.settings)?;
     let blanking = profile.slot.blanking() * profile.clocks_per_sample;
     tracer.skip(blanking);

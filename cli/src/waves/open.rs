@@ -6,9 +6,10 @@
 
 use anyhow::Result;
 use hapticore_model::fidelity::clock::ClockSimulation;
-use hapticore_run::case::{Case, Maker};
+use hapticore_run::case::Case;
 use hapticore_run::engine::Signals;
 use hapticore_run::interrupt;
+use hapticore_run::maker::Maker;
 use hapticore_scene::Truth;
 use hapticore_waveforms::tracer::{Trace, Tracer};
 use hapticore_waveforms::wave::Wave;
@@ -23,7 +24,7 @@ use super::{Slots, truth};
 pub fn trace<W: Wave>(case: &Case, slots: &Slots, wave: W, bar: &ProgressBar) -> Result<Trace> {
     let profile = &case.profile;
     let mut maker = Maker::new(case.plant()?, profile, true, true);
-    let mut core = ClockSimulation::new(profile, &case.device.for_profile(profile)?);
+    let mut core = ClockSimulation::new(profile, case.calibration()?);
     let mut tracer = Tracer::new(wave, &core, &truth::variables(), &slots.settings)?;
     tracer.skip(slots.first * profile.slot_clocks());
     let mut before: Option<Truth> = None;

@@ -10,7 +10,7 @@
 //! ```
 //!
 //! The drive is held within 0 … rail, then within slew of the pad's last; c is what it leaves of
-//! its other parts.
+//! its other parts, and stays as it is while estimates are invalid.
 
 use hapticore_contract::control::{Control, Drive, Faults, Law, Tuning};
 
@@ -85,7 +85,8 @@ impl Controller {
         };
         let slew = self.tuning.slew;
         let drive = to.min(pad.drive + slew).max(pad.drive - slew);
-        self.pads[prompt.pad] = Pad { invalid, drive, correction: drive - base };
+        let correction = if prompt.invalid { pad.correction } else { drive - base };
+        self.pads[prompt.pad] = Pad { invalid, drive, correction };
         Drive { pad: prompt.pad, fraction: drive, low, high, faults: self.faults }
     }
 

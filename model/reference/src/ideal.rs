@@ -244,12 +244,13 @@ impl<T: Real> Reference<T> {
     pub fn prompt(&self) -> Prompt {
         let Early { pad, total, sense, sheet, mean_square, clipped } = self.early;
         let (capacitance, left) = self.capacitance(total, sense, sheet);
+        let gain = self.force_gain(pad, capacitance);
         let number = |x: T| x.to_f64().unwrap_or(f64::NAN);
         Prompt {
             pad,
             capacitance_pf: number(capacitance),
-            force_n: number(self.force(capacitance, mean_square)),
-            force_gain: self.calibration.force_gain,
+            force_n: number(gain * capacitance * capacitance * mean_square),
+            force_gain: number(gain),
             invalid: clipped || left.is_nan() || left <= T::zero(),
         }
     }
@@ -260,12 +261,6 @@ impl<T: Real> Reference<T> {
         let drop = if self.sheet_correction { total * sheet } else { T::zero() };
         let left = sense * sense - drop * drop;
         (real::<T>(self.calibration.capacitance_gain) * total / left.sqrt(), left)
-    }
-
-    /// Eq. 8.
-    #[inline(always)]
-    fn force(&self, capacitance_pf: T, mean_square: T) -> T {
-        real::<T>(self.calibration.force_gain) * capacitance_pf * capacitance_pf * mean_square
     }
 
     /// The mean of the pad's last squares, or the newest while they are too few.
@@ -282,12 +277,13 @@ impl<T: Real> Reference<T> {
         }
     }
 
-    /// What the law multiplies the force gain by.
-    fn factor(&self, pad: usize, capacitance_pf: T) -> T {
-        match self.law {
+    /// The k of eq. 8, or what the table makes of it.
+    fn force_gain(&self, pad: usize, capacitance_pf: T) -> T {
+        let factor = match self.law {
             ForceLaw::Eq8 => T::one(),
             ForceLaw::Table => self.calibration.force_table.factor(capacitance_pf, self.past[pad]),
-        }
+        };
+        real::<T>(self.calibration.force_gain) * factor
     }
 
     /// Eqs. 2, 3, 6 and 8 and the sheet's resistance.
@@ -307,7 +303,7 @@ impl<T: Real> Reference<T> {
         let place = self.calibration.position.look_up(r_x, r_y);
         let (x_mm, y_mm, sheet) = (place.x, place.y, place.sheet.max(T::zero()));
         let (capacitance_pf, left) = self.capacitance(total, sense, sheet);
-        let gain = real::<T>(self.calibration.force_gain) * self.factor(pad, capacitance_pf);
+        let gain = self.force_gain(pad, capacitance_pf);
         let force_n = gain * capacitance_pf * capacitance_pf * mean_square;
         let flags = Flags::default();
         Solution {

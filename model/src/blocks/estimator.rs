@@ -147,10 +147,6 @@ impl Estimator {
     pub fn try_new(profile: &Profile) -> Result<Self, ProfileError> {
         let (currents, law) = (Currents::try_new(profile)?, profile.force.law);
         let sheets = Memory::new("sheets", profile.pads as usize, profile.sheet());
-        if profile.control.is_some() && law != ForceLaw::Eq8 {
-            let got = "table";
-            return Err(ProfileError::value("force.law", "\"eq8\", with a controller", got));
-        }
         Ok(Estimator {
             prompts: profile.control.is_some(),
             sheets: sheets.dont_care_on_collision().in_block(),
@@ -206,9 +202,12 @@ impl Estimator {
 
     /// Clocks from the last sum to the prompt estimate.
     pub fn prompt_latency(&self) -> u64 {
-        self.currents.latency()
-            + self.capacitance.latency()
-            + self.force_estimator.as_ref().map_or(0, Force::latency)
+        self.currents.latency() + self.capacitance.latency() + self.force_latency()
+    }
+
+    fn force_latency(&self) -> u64 {
+        self.force_estimator.as_ref().map_or(0, Force::latency)
+            + self.force_table.as_ref().map_or(0, ForceTable::latency)
     }
 
     /// Clocks from the last sum to the last word.
@@ -218,8 +217,7 @@ impl Estimator {
             self.ratio.latency(),
             self.position.latency(),
             self.capacitance.latency(),
-            self.force_estimator.as_ref().map_or(0, Force::latency),
-            self.force_table.as_ref().map_or(0, ForceTable::latency),
+            self.force_latency(),
             self.frames.latency(),
         ];
         let prompt =
@@ -266,7 +264,7 @@ impl Estimator {
         &self,
         state: &mut State<Self, V>,
         i: force::In<V>,
-        (pad, table): (Signal<V>, TablePort<Signal<V>>),
+        (hold, pad, table): (Signal<V>, Signal<V>, TablePort<Signal<V>>),
     ) -> (force::Out<V>, Signal<V>) {
         let force::Inputs { start, capacitance, mean_square, gain } = i;
         let (by_eq8, by_table) = (&self.force_estimator, &self.force_table);
@@ -279,7 +277,9 @@ impl Estimator {
             .as_ref()
             .zip(state.submodules.force_table.as_mut())
             .expect("one law or the other");
-        let inputs = force_table::Inputs { start, pad, capacitance, mean_square, gain, table };
+        let hold = hold.where_present(block.inputs().hold);
+        let inputs =
+            force_table::Inputs { start, hold, pad, capacitance, mean_square, gain, table };
         let force_table::Outputs { done, haptic_force, factored_gain, saturated } =
             block.call("force_table", within, inputs);
         (force::Outputs { done, haptic_force, saturated }, factored_gain)
@@ -338,7 +338,7 @@ impl Block for Estimator {
             mean_square: haptic.mean_square,
             gain: i.calibration.force_gain,
         };
-        let (force, gain) = self.force(state, inputs, (r.pad, of_force));
+        let (force, gain) = self.force(state, inputs, (self.early(&r), r.pad, of_force));
         let invalid = invalid_place | capacitance.invalid;
         let inputs = frames::Inputs {
             start: if self.prompts { force.done & !r.early } else { force.done },
@@ -405,24 +405,34 @@ impl Estimator {
             return Outputs { frames, prompt: PromptPort::map(self.prompt(), zero) };
         }
         let within = &state.submodules;
+        let (force, gain) = self.last_force(state, i.calibration.force_gain);
         let prompt = PromptPort {
             prompt: bit(false),
             prompt_pad: r.pad,
             prompt_capacitance: within.capacitance.load(&self.capacitance).capacitance,
-            prompt_force: self.last_force(state),
-            prompt_gain: i.calibration.force_gain,
+            prompt_force: force,
+            prompt_gain: gain,
             prompt_invalid: bit(false),
         };
         Outputs { frames, prompt }
     }
 
-    /// What the force estimator holds.
+    /// The last force and its gain, as they are held.
     #[inline(always)]
-    fn last_force<V: Interpretation>(&self, state: &State<Self, V>) -> Signal<V> {
-        let held = self.force_estimator.as_ref().zip(state.submodules.force_estimator.as_ref());
-        held.map_or(zero(self.prompt().prompt_force), |(block, within)| {
-            within.load(block).haptic_force
-        })
+    fn last_force<V: Interpretation>(
+        &self,
+        state: &State<Self, V>,
+        gain: Signal<V>,
+    ) -> (Signal<V>, Signal<V>) {
+        let (by_eq8, by_table) = (&self.force_estimator, &self.force_table);
+        let within = &state.submodules;
+        if let Some((block, within)) = by_eq8.as_ref().zip(within.force_estimator.as_ref()) {
+            return (within.load(block).haptic_force, gain);
+        }
+        let (block, within) =
+            by_table.as_ref().zip(within.force_table.as_ref()).expect("one law or the other");
+        let held = within.load(block);
+        (held.haptic_force, held.factored_gain)
     }
 
     /// The ports of a prompt estimate, where there is one.

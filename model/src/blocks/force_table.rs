@@ -24,7 +24,8 @@
 //! | square, force       | profile                   | pF²; N          | saturate, flagged                  |
 //!
 //! One multiplier serves all thirteen products, on codes as integers, and one square root. Row and
-//! share are bits of the capacitance. Latency: the square root, then for each [`Operation`] three
+//! share are bits of the capacitance. A prompt estimate is made of V_s and V_m as the frame's will be,
+//! which does not count them twice. Latency: the square root, then for each [`Operation`] three
 //! clocks and a product. Source: docs/physics.md §3.
 
 use super::multiplier::{self, Multiplier};
@@ -57,6 +58,8 @@ states! {
 block! {
     /// The force estimator with a table.
     pub struct ForceTable("force_table") {
+        /// Whether a slot has a prompt estimate, too.
+        prompts: bool,
         capacitance: Format,
         mean_square: Format,
         square: Format,
@@ -79,6 +82,8 @@ block! {
     inputs(force) {
         /// Begins; all others but the table are valid and stable until `done`.
         start: BIT,
+        /// An estimate that comes before the frame's: what the pad has had stays as it was.
+        hold: BIT.where_present(force.prompts),
         pad: force.pad,
         /// The capacitance, in pF.
         capacitance: force.capacitance,
@@ -156,6 +161,7 @@ impl ForceTable {
             signed(&[word.width, share, f.force_gain.width, capacitance.width, mean_square.width]);
         fits("formats.table", "products of the force table", left.product(right).width)?;
         let block = ForceTable {
+            prompts: profile.control.is_some(),
             words: Memory::new("words", Table::WORDS.next_power_of_two(), word)
                 .dont_care_on_collision(),
             past: Memory::new("past", 2 << pad.width, voltage).dont_care_on_collision(),
@@ -426,7 +432,8 @@ impl Block for ForceTable {
         let (filtered, _) = self.filter(&r, read[1], product);
         let filters = r.operation.at(Operation::Recent) | of_mean;
         let accepts = r.step.at(Step::Accept);
-        let write = Write { enable: accepts & filters, address: place, data: filtered };
+        let keeps = if self.prompts { accepts & !i.hold } else { accepts };
+        let write = Write { enable: keeps & filters, address: place, data: filtered };
         self.past.access(&mut state.submodules.past, place, write);
         let idle = Registers { multiplier_busy: bit(false), done: bit(false), ..r };
         let at = |step: Step| step.signal::<V>().resize(r.step.format, Proved);

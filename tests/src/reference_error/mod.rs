@@ -15,9 +15,10 @@ use hapticore_contract::frame::Measurement;
 use hapticore_contract::profile::Profile;
 use hapticore_host::Scales;
 use hapticore_reference::{Real, Reference};
-use hapticore_run::case::{Case, Maker};
+use hapticore_run::case::Case;
 use hapticore_run::engine::{Signals, Slot};
 use hapticore_run::inputs;
+use hapticore_run::maker::Maker;
 use hapticore_scene::Timing;
 use xprec::Df64;
 
@@ -171,7 +172,7 @@ pub fn measure(scene: &str, slots: usize) -> Measured {
     let cases = scene.cases.len();
     let of_each = slots.div_ceil(cases);
     for index in (0..cases).step_by(cases.div_ceil(slots)) {
-        let case = Case::new(&scene, index, 0, &profile, 0.0).expect("a case");
+        let case = Case::new(&scene, index, &profile, &[]).expect("a case");
         measured.case(&case, scene.cases[index].sampled(), of_each);
     }
     measured
@@ -179,7 +180,7 @@ pub fn measure(scene: &str, slots: usize) -> Measured {
 
 impl Measured {
     fn case(&mut self, case: &Case, sampled: bool, slots: usize) {
-        let calibration = case.device.for_profile(&case.profile).expect("a calibration");
+        let calibration = case.calibration().expect("a calibration").clone();
         let mut cores = Cores::new(&case.profile, &calibration);
         let units = Units::new(&case.profile, &case.device.device);
         let mut maker = Maker::new(case.plant().expect("a plant"), &case.profile, sampled, false);

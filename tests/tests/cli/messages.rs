@@ -103,6 +103,49 @@ fn bad_input_is_one_line() {
     assert_eq!(String::from_utf8(log).unwrap().lines().count(), 1);
 }
 
+/// What a controller's words do not hold is refused, with its key, the limit and what was given.
+#[test]
+fn a_controller_that_cannot_be_is_one_line_with_key_and_limit() {
+    let folder = tempfile::tempdir().unwrap();
+    for (set, words) in [
+        ("control.law=\"magic\"", ["--set control.law", "\"inverse\"", "\"magic\""]),
+        ("control.rail_v=600", ["control.rail_v", "at most 500", "600"]),
+        ("control.rail_v=nan", ["control.rail_v", "expected", "nan"]),
+        ("control.filter=0", ["control.filter", "expected", "0"]),
+        ("control.slew_v=-1", ["control.slew_v", "expected", "-1"]),
+        ("control.force=\"spring\"", ["control.force", "\"eq8\", \"table\"", "spring"]),
+        ("pad.0.target_n=50", ["pad.0.target_n", "at most 2.000 N", "50"]),
+        ("pad.0.target_n=-0.1", ["pad.0.target_n", "expected", "-0.1"]),
+        ("sensor.haptic_full_scale_v=5000", ["control.full_scale_v", "at least", "got 500"]),
+    ] {
+        let case = "sine 0.3 N, closed loop";
+        let no_cases = ["--set", "case=[]", "--set", "criterion=[]"];
+        let args = [&["simulate", "fig9", "--set", set], &no_cases[..]].concat();
+        let args = if set.starts_with("pad") {
+            args
+        } else {
+            vec!["simulate", "fig9", "--set", set, "--case", case]
+        };
+        refuse(folder.path(), &args, &words);
+    }
+    for (law, key, limit) in
+        [("proportional", "proportional_v", "4000"), ("integral", "proportional_v", "2000")]
+    {
+        let set = [format!("control.law={law}"), format!("control.{key}=90000")];
+        let args = [
+            "simulate",
+            "fig9",
+            "--case",
+            "sine 0.3 N, closed loop",
+            "--set",
+            &set[0],
+            "--set",
+            &set[1],
+        ];
+        refuse(folder.path(), &args, &[&format!("control.{key}"), "at most", limit, "90000"]);
+    }
+}
+
 /// A scene of one pad, of which each adds a line 4 and further.
 const PAD: &str = "title = \"t\"\n[[pad]]\nposition_mm = [0, 0]\n";
 

@@ -33,7 +33,7 @@ const HELD: usize = 4;
 const TABLES: [&str; 6] = ["device", "gap", "friction", "supply", "temperature", "calibration"];
 
 /// A simulated device on the bench.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Bench {
     tables: Table,
     haptic_hz: Option<Value>,

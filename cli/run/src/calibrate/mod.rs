@@ -30,13 +30,14 @@ fn force_k(plant: &Plant) -> f64 {
     product / points.iter().map(|point| square(point).powi(2)).sum::<f64>()
 }
 
-/// The force table of a scene's device, from readings on a bench, as multiples of its `force_k`: of
-/// a gap without time with filters without time, of a scene without gap or friction eq. 8.
+/// The force table of a device from readings on its bench, as multiples of its `force_k`: of a gap
+/// without time with filters without time; without a bench, of a scene without gap or friction,
+/// eq. 8.
 ///
 /// # Errors
 /// A device that cannot be simulated.
-pub fn force_table(scene: &str, force_k: f64) -> Result<Force> {
-    let Some(bench) = Bench::of(scene)? else { return Ok(Force::default()) };
+pub fn force_table(bench: Option<&Bench>, force_k: f64) -> Result<Force> {
+    let Some(bench) = bench else { return Ok(Force::default()) };
     let readings = bench.readings()?;
     let mut force = fit(&readings, force_k);
     if bench.is_static() {

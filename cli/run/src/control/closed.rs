@@ -25,25 +25,51 @@ pub fn engine(
     calibration: &Calibration,
     tuning: &Tuning,
 ) -> Result<Box<dyn Engine>> {
-    let profile = profile.clone();
     Ok(match fidelity {
-        Fidelity::Float => Box::new(Float::new(&profile, calibration, tuning)),
-        Fidelity::Fixed => {
-            let core = FixedLoop::new(&profile, calibration, tuning)?;
-            Box::new(Fixed { core, profile, drive: None })
-        }
-        Fidelity::Clock => {
-            let core = ClockLoop::new(&profile, calibration, tuning)?;
-            Box::new(Clock { core, profile, drive: None })
-        }
+        Fidelity::Float => closed(profile, Float::new(profile, calibration, tuning)),
+        Fidelity::Fixed => closed(profile, FixedLoop::new(profile, calibration, tuning)?),
+        Fidelity::Clock => closed(profile, ClockLoop::new(profile, calibration, tuning)?),
     })
 }
 
+/// A core that drives the pad of each slot.
+trait Loop: Send + 'static {
+    fn slot(&mut self, slot: &Slot, profile: &Profile) -> (Measurement, Drive);
+    fn set_target(&mut self, pad: usize, newtons: f64);
+}
+
+/// A loop as an engine: the drive of the last slot waits until it is taken.
+struct Closed<L> {
+    core: L,
+    profile: Arc<Profile>,
+    drive: Option<Drive>,
+}
+
+fn closed(profile: &Arc<Profile>, core: impl Loop) -> Box<dyn Engine> {
+    Box::new(Closed { core, profile: profile.clone(), drive: None })
+}
+
+impl<L: Loop> Engine for Closed<L> {
+    fn slot(&mut self, slot: &Slot) -> Option<Measurement> {
+        let (measurement, drive) = self.core.slot(slot, &self.profile);
+        self.drive = Some(drive);
+        Some(measurement)
+    }
+
+    fn set_target(&mut self, pad: usize, newtons: f64) {
+        self.core.set_target(pad, newtons);
+    }
+
+    fn take_drive(&mut self) -> Option<Drive> {
+        self.drive.take()
+    }
+}
+
+/// Reference and controller in floating point.
 struct Float {
     core: Reference,
     controller: Controller,
     targets: Vec<f64>,
-    drive: Option<Drive>,
 }
 
 impl Float {
@@ -54,68 +80,41 @@ impl Float {
             core: Reference::new(profile, calibration),
             controller: Controller::new(control, tuning, pads),
             targets: vec![0.0; pads],
-            drive: None,
         }
     }
 }
 
-impl Engine for Float {
-    fn slot(&mut self, slot: &Slot) -> Option<Measurement> {
+impl Loop for Float {
+    fn slot(&mut self, slot: &Slot, _: &Profile) -> (Measurement, Drive) {
         let measurement = slot.refer(&mut self.core);
-        self.drive = Some(self.controller.drive(&self.core.prompt(), self.targets[slot.pad]));
-        Some(measurement)
+        let drive = self.controller.drive(&self.core.prompt(), self.targets[slot.pad]);
+        (measurement, drive)
     }
 
     fn set_target(&mut self, pad: usize, newtons: f64) {
         self.targets[pad] = newtons;
         self.controller.hear();
     }
-
-    fn take_drive(&mut self) -> Option<Drive> {
-        self.drive.take()
-    }
 }
 
-struct Fixed {
-    core: FixedLoop,
-    profile: Arc<Profile>,
-    drive: Option<Drive>,
-}
-
-impl Engine for Fixed {
-    fn slot(&mut self, slot: &Slot) -> Option<Measurement> {
-        let (frame, drive) = self.core.slot(|core| slot.frame(core));
-        self.drive = Some(drive);
-        Some(frame.measurement(&self.profile))
+impl Loop for FixedLoop {
+    fn slot(&mut self, slot: &Slot, profile: &Profile) -> (Measurement, Drive) {
+        let (frame, drive) = self.slot(|core| slot.frame(core));
+        (frame.measurement(profile), drive)
     }
 
     fn set_target(&mut self, pad: usize, newtons: f64) {
-        self.core.set_target(pad, newtons);
-    }
-
-    fn take_drive(&mut self) -> Option<Drive> {
-        self.drive.take()
+        self.set_target(pad, newtons);
     }
 }
 
-struct Clock {
-    core: ClockLoop,
-    profile: Arc<Profile>,
-    drive: Option<Drive>,
-}
-
-impl Engine for Clock {
-    fn slot(&mut self, slot: &Slot) -> Option<Measurement> {
-        let (frame, drive) = self.core.slot(slot.window());
-        self.drive = Some(drive);
-        Some(frame.measurement(&self.profile))
+impl Loop for ClockLoop {
+    fn slot(&mut self, slot: &Slot, profile: &Profile) -> (Measurement, Drive) {
+        let (frame, drive) = self.slot(slot.window());
+        (frame.measurement(profile), drive)
     }
 
     fn set_target(&mut self, pad: usize, newtons: f64) {
-        self.core.set_target(pad, newtons);
-    }
-
-    fn take_drive(&mut self) -> Option<Drive> {
-        self.drive.take()
+        self.set_target(pad, newtons);
     }
 }

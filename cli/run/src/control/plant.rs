@@ -9,12 +9,13 @@
 
 use anyhow::Result;
 use hapticore_contract::control::Drive;
+use hapticore_contract::profile::Profile;
 use hapticore_host::SlotClock;
 use hapticore_model::blocks::force_loop::ForceLoop;
 use hapticore_scene::{EffectCost, Truth};
 
-use crate::case::{Case, Maker};
 use crate::engine::Slot;
+use crate::maker::Maker;
 use crate::record::Driven;
 
 /// A plant whose pads are driven by what its slots lead to.
@@ -42,23 +43,22 @@ pub struct LoopSlot {
 }
 
 impl LoopPlant {
-    /// The plant of a case, before its first slot: no pad is driven.
+    /// A plant before its first slot: no pad is driven. `full_scale_v` is that of drive words.
     ///
     /// # Errors
-    /// A case without a controller.
-    pub fn new(case: &Case, mut maker: Maker) -> Result<Self> {
-        let plan = case.scene.cases[case.index].control.as_ref();
-        let clocks = ForceLoop::try_new(&case.profile)?.latency();
-        let clock_hz = case.profile.clocks_per_sample as f64 * case.device.device.sample_rate_hz;
+    /// A profile without a controller.
+    pub fn new(
+        mut maker: Maker,
+        profile: &Profile,
+        clock: SlotClock,
+        full_scale_v: f64,
+    ) -> Result<Self> {
+        let clocks = ForceLoop::try_new(profile)?.latency();
+        let clock_hz = profile.clocks_per_sample as f64 * clock.sample_rate_hz();
         for pad in 0..maker.plant().pad_names().len() {
             maker.plant().set_drive(pad, 0.0, 0.0)?;
         }
-        Ok(LoopPlant {
-            maker,
-            clock: case.clock,
-            full_scale_v: plan.map_or(0.0, |plan| plan.full_scale_v),
-            latency_s: clocks as f64 / clock_hz,
-        })
+        Ok(LoopPlant { maker, clock, full_scale_v, latency_s: clocks as f64 / clock_hz })
     }
 
     /// A slot; slots are asked for in order, each after the drive of the one before.

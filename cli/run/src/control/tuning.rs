@@ -3,9 +3,9 @@
 
 use anyhow::{Result, ensure};
 use hapticore_contract::control::{Control, Law, Tuning};
-use hapticore_contract::profile::Profile;
+use hapticore_contract::profile::{Force, ForceLaw, Profile};
 use hapticore_host::DeviceCalibration;
-use hapticore_scene::{ControlLaw, ControlPlan, DriveCurve, Plant};
+use hapticore_scene::{ControlLaw, ControlPlan, DriveCurve, ForceEstimate, Plant};
 
 /// Voltages at which the steady curve is measured.
 const MEASURED: usize = 401;
@@ -20,7 +20,15 @@ pub fn controlled(profile: &Profile, plan: &ControlPlan) -> Profile {
         ControlLaw::Inverse => Law::Inverse,
     };
     let control = profile.control.clone().unwrap_or_else(|| Control::of(profile, law));
-    Profile { control: Some(Control { law, ..control }), ..profile.clone() }
+    let force = plan.force.map_or(profile.force.law, |force| match force {
+        ForceEstimate::Eq8 => ForceLaw::Eq8,
+        ForceEstimate::Table => ForceLaw::Table,
+    });
+    Profile {
+        control: Some(Control { law, ..control }),
+        force: Force { law: force, ..profile.force },
+        ..profile.clone()
+    }
 }
 
 /// The tuning of a controller for a device; `frame_s` is the time from a pad's slot to its next.
@@ -42,11 +50,20 @@ pub fn tuning(
         _ => (part(plan.proportional_v), plan.filter),
     };
     let full_drive = adc * adc / profile.square_gain();
-    for (key, value) in
-        [("full_scale_v", full_drive), ("proportional_v", proportional), ("integral_v", correction)]
-    {
-        let most = control.gain.real(control.gain.max_code() as i64);
-        ensure!(value <= most, "control.{key}: expected a gain of {most} at most, got {value}");
+    let most = control.gain.real(control.gain.max_code() as i64);
+    ensure!(
+        full_drive <= most,
+        "control.full_scale_v: expected at least {:.0} V with sensor.haptic_full_scale_v = {}, got {}",
+        (plan.full_scale_v * (full_drive / most).sqrt()).ceil(),
+        device.device.haptic_full_scale_v,
+        plan.full_scale_v
+    );
+    for (key, asked, gain) in [
+        ("proportional_v", plan.proportional_v, proportional),
+        ("integral_v", plan.integral_v, correction),
+    ] {
+        let limit = asked * most / gain;
+        ensure!(gain <= most, "control.{key}: expected at most {limit:.0}, got {asked}");
     }
     Ok(Tuning {
         curve: curve(plan, control, plant).into_iter().map(|volt| part(volt).min(1.0)).collect(),

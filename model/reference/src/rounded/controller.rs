@@ -4,9 +4,12 @@
 //! ```text
 //! s = min([√(F_t/4^h)], 1 − lsb),   D = D_n + [(D_n+1 − D_n)·p],   n + p = cells·s
 //! inverse        d = min([√[[F_t/G] / [k·[C²]]]], D)
-//! proportional   p = [K·[F_t − F]],   d = D + c + [α·[p − c]]
-//! integral       e = s − [√(F/4^h)],  d = D + [K·e] + (c + [K_i·e])
+//! proportional   p = [K·[F_t − F]],   d = D + [c + [α·[p − c]]]
+//! integral       e = s − [√(F/4^h)],  d = D + [K·e] + [c + [K_i·e]]
 //! ```
+//!
+//! c, and what it is the sum of, is 8 bits finer than a drive word: what rounding takes from d stays
+//! in it.
 //!
 //! [x] is x in its format: to the nearest code, ties to even, saturated.
 
@@ -125,6 +128,7 @@ impl Controller {
         self.faults[1] |= invalid == most;
         self.faults[2] |= !request.invalid && request.force > self.tuning.force_cap;
         let (base, wanted) = self.wanted(request, pad);
+        let rounded = round(wanted, self.control.drive).value;
         let rail = self.tuning.rail;
         let (low, high) = (wanted < Exact::ZERO, wanted > rail);
         let within = if low {
@@ -132,7 +136,7 @@ impl Controller {
         } else if high {
             rail
         } else {
-            wanted
+            rounded
         };
         let off = !request.enable || self.faults.contains(&true);
         let to = match (off, request.invalid) {
@@ -141,7 +145,11 @@ impl Controller {
             _ => within,
         };
         let drive = self.slewed(pad.drive, to);
-        let correction = round(drive - base, self.signed()).value;
+        let taken = if low || high || drive != within { Exact::ZERO } else { wanted - rounded };
+        let correction = match request.invalid {
+            true => pad.correction,
+            false => round(drive - base + taken, self.kept()).value,
+        };
         self.pads[request.pad] = Pad { invalid, drive, correction };
         Drive { drive, low, high }
     }
@@ -157,6 +165,10 @@ impl Controller {
 
     fn signed(&self) -> Format {
         Format::signed(self.control.drive.width + 1, self.control.drive.frac)
+    }
+
+    fn kept(&self) -> Format {
+        Format::signed(self.control.drive.width + 9, self.control.drive.frac + 8)
     }
 
     /// √(F/4^h), below one.
@@ -192,14 +204,15 @@ impl Controller {
                 let error = round(request.target - request.force, format).value;
                 let scaled = round(error * t.proportional, signed).value;
                 let away = round(scaled - pad.correction, signed).value;
-                let step = round(away * t.correction, signed).value;
-                (curve, curve + round(pad.correction + step, signed).value)
+                let step = round(away * t.correction, self.kept()).value;
+                (curve, curve + round(pad.correction + step, self.kept()).value)
             }
             Law::Integral => {
                 let force = round(request.force, self.control.target).value;
                 let error = root - self.root(force);
                 let base = curve + round(error * t.proportional, signed).value;
-                (base, base + pad.correction + round(error * t.correction, signed).value)
+                let step = round(error * t.correction, self.kept()).value;
+                (base, base + round(pad.correction + step, self.kept()).value)
             }
         }
     }

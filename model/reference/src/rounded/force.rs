@@ -61,8 +61,8 @@ impl Squares {
     }
 }
 
-/// The force from capacitance and mean square.
-pub fn force(profile: &Profile, capacitance: Exact, mean_square: Exact, gain: Exact) -> Force {
+/// The force from capacitance, mean square and gain.
+pub fn force(profile: &Profile, [capacitance, mean_square, gain]: [Exact; 3]) -> Force {
     let f = &profile.formats;
     let square = round(capacitance * capacitance, f.square);
     let energy = round(square.value * mean_square, f.square);

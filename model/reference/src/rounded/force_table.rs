@@ -36,6 +36,15 @@ impl ForceTable {
         self.words = words;
     }
 
+    /// As [`ForceTable::force`], but what the pad has had stays as it was: a frame's force is still
+    /// to come.
+    pub fn prompt(&mut self, profile: &Profile, pad: usize, numbers: [Exact; 3]) -> Force {
+        let past = self.past[pad];
+        let force = self.force(profile, pad, numbers);
+        self.past[pad] = past;
+        force
+    }
+
     /// The force of a pad's next frame from capacitance, mean square and gain.
     pub fn force(
         &mut self,
@@ -55,7 +64,7 @@ impl ForceTable {
         let [below, above] = [row, row + 1].map(|row| round(self.row(row, pad), factor).value);
         let factor = hold(below + share * (above - below), factor);
         let gain = hold(factor * gain, profile.formats.force_gain);
-        let force = force(profile, capacitance, mean_square, gain);
+        let force = force(profile, [capacitance, mean_square, gain]);
         Force { saturated: saturated | force.saturated, ..force }
     }
 

@@ -106,13 +106,17 @@ impl Slots {
         let prompt = {
             let gain = self.capacitance_gain;
             let early = capacitance(p, currents.total, currents.sense, self.sheets[pad], gain);
-            let force = force(p, early.capacitance, mean_square.value, self.force_gain);
+            let numbers = [early.capacitance, mean_square.value, self.force_gain];
+            let force = match &mut self.force_table {
+                None => force(p, numbers),
+                Some(table) => table.prompt(p, pad, numbers),
+            };
             let saturated =
                 currents.saturated | early.saturated | mean_square.held | force.saturated;
             Prompt {
                 capacitance: early.capacitance,
                 force: force.force,
-                force_gain: self.force_gain,
+                force_gain: force.gain,
                 invalid: early.invalid | saturated | sums.clipped,
             }
         };
@@ -125,10 +129,10 @@ impl Slots {
         if !(ratio.invalid | place.invalid) {
             self.sheets[pad] = sheet;
         }
-        let (capacitance_pf, gain) = (capacitance.capacitance, self.force_gain);
+        let numbers = [capacitance.capacitance, mean_square.value, self.force_gain];
         let force = match &mut self.force_table {
-            None => force(p, capacitance_pf, mean_square.value, gain),
-            Some(table) => table.force(p, pad, [capacitance_pf, mean_square.value, gain]),
+            None => force(p, numbers),
+            Some(table) => table.force(p, pad, numbers),
         };
         let saturated = currents.saturated
             | place.saturated

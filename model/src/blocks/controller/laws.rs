@@ -94,7 +94,7 @@ impl Controller {
         if self.law == Law::Integral {
             return r.error;
         }
-        (r.proportional - found.correction).resize(self.correction_format(), Saturate)
+        (r.proportional - found.correction).quantize(self.correction_format(), HalfEven, Saturate)
     }
 
     /// Takes what a task that ends has found.
@@ -107,7 +107,8 @@ impl Controller {
     ) -> Regs<V> {
         let at = |task: Task| ends & self.at(&r, task);
         let root = found.root.resize(self.drive, Saturate);
-        let rise = self.narrow(found, self.correction_format(), self.part_format());
+        let signed = self.correction_format();
+        let rise = self.narrow(found, (signed, self.part_format()), signed);
         let curve = (r.curve_drive + rise).resize(self.drive, Saturate);
         let next = Registers {
             root: (at(Task::Root) | at(Task::InverseRoot)).select(root, r.root),
@@ -127,11 +128,10 @@ impl Controller {
     fn narrow<V: Interpretation>(
         &self,
         found: &Found<V>,
-        left: Format,
-        right: Format,
+        (left, right): (Format, Format),
+        to: Format,
     ) -> Signal<V> {
-        let exact = found.product.as_code(left.product(right));
-        exact.quantize(self.correction_format(), HalfEven, Saturate)
+        found.product.as_code(left.product(right)).quantize(to, HalfEven, Saturate)
     }
 
     #[inline(always)]
@@ -142,20 +142,21 @@ impl Controller {
         root: Signal<V>,
         at: impl Fn(Task) -> Signal<V>,
     ) -> Regs<V> {
-        let scaled = self.narrow(found, self.error_format(), self.gain);
-        let step = self.narrow(found, self.corrected_format(), self.gain);
+        let of = (self.error_format(), self.gain);
+        let scaled = self.narrow(found, of, self.correction_format());
+        let of = (self.corrected_format(), self.gain);
+        let step = self.narrow(found, of, self.kept_format());
+        let correction = (found.correction + step).resize(self.kept_format(), Saturate);
+        let next = Registers {
+            proportional: at(Task::Error).select(scaled, r.proportional),
+            correction: at(Task::Correct).select(correction, r.correction),
+            ..r
+        };
         if self.law == Law::Proportional {
-            // The filter's new state takes the place of what it follows.
-            let state = (found.correction + step).resize(self.correction_format(), Saturate);
-            let kept = at(Task::Correct).select(state, r.proportional);
-            return Registers { proportional: at(Task::Error).select(scaled, kept), ..r };
+            return next;
         }
         let error = (r.root - root).resize(self.error_format(), Proved);
-        Registers {
-            error: at(Task::ForceRoot).select(error, at(Task::Correct).select(step, r.error)),
-            proportional: at(Task::Error).select(scaled, r.proportional),
-            ..r
-        }
+        Registers { error: at(Task::ForceRoot).select(error, r.error), ..next }
     }
 
     #[inline(always)]
@@ -165,12 +166,10 @@ impl Controller {
         found: &Found<V>,
         at: impl Fn(Task) -> Signal<V>,
     ) -> Regs<V> {
-        let narrow = |left: Format, right: Format, to: Format| {
-            found.product.as_code(left.product(right)).quantize(to, HalfEven, Saturate)
-        };
-        let square = narrow(self.capacitance, self.capacitance, self.square);
-        let stiffness = narrow(self.square, self.force_gain, self.stiffness_format());
-        let numerator = narrow(self.target, self.gain, self.numerator_format());
+        let square = self.narrow(found, (self.capacitance, self.capacitance), self.square);
+        let of = (self.square, self.force_gain);
+        let stiffness = self.narrow(found, of, self.stiffness_format());
+        let numerator = self.narrow(found, (self.target, self.gain), self.numerator_format());
         let kept = at(Task::Stiffness).select(stiffness.integer(), r.factor);
         Registers {
             factor: at(Task::Square).select(square.integer(), kept),
@@ -188,31 +187,38 @@ impl Controller {
         }
     }
 
-    /// The drive within 0 and the rail, and whether it should be below or beyond.
+    /// The drive within 0 and the rail, whether it should be below or beyond, and what rounding
+    /// took from it.
     #[inline(always)]
     pub(super) fn wanted<V: Interpretation>(
         &self,
         r: &Regs<V>,
         i: &In<V>,
-        found: &Found<V>,
-    ) -> [Signal<V>; 3] {
+    ) -> ([Signal<V>; 3], Signal<V>) {
         let base = self.base(r);
         let wanted = match self.law {
             Law::Open => base,
             Law::Inverse => r.root.at_most(base),
-            Law::Proportional => base + r.proportional,
-            Law::Integral => base + (found.correction + r.error),
+            Law::Proportional | Law::Integral => base + r.correction,
         };
         let (low, high) = (wanted.less_than(int(0)), i.tuning.rail.less_than(wanted));
         // Where it wraps, it is low or high.
-        let within = high.select(i.tuning.rail, wanted.resize(self.drive, Wrap));
-        [low.select(zero(self.drive), within), low, high]
+        let rounded = wanted.quantize(self.drive, HalfEven, Wrap);
+        let within = high.select(i.tuning.rail, rounded);
+        let words = [low.select(zero(self.drive), within), low, high];
+        if !self.feeds_back() {
+            return (words, zero(Format::NONE));
+        }
+        let residue = (wanted - rounded).resize(self.residue_format(), Wrap);
+        (words, (low | high).select(zero(residue.format), residue))
     }
 
-    /// What a drive word leaves of curve and error: the correction that the pad keeps.
+    /// What a drive word leaves of curve and error: the correction that the pad keeps, with what
+    /// rounding took where the word is the one that was wanted.
     #[inline(always)]
     pub(super) fn left_over<V: Interpretation>(&self, r: &Regs<V>, drive: Signal<V>) -> Signal<V> {
-        (drive - self.base(r)).resize(self.correction_format(), Saturate)
+        let rounded = drive.equals(r.wanted).select(r.residue, zero(r.residue.format));
+        (drive - self.base(r) + rounded).resize(self.kept_format(), Saturate)
     }
 
     /// The drive word: as wanted where drives are on and the estimate is valid, but no further from

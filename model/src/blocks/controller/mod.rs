@@ -7,7 +7,8 @@
 //! proportional   d = D + c,         c += α·(K·(F_t − F) − c)                      (paper, Fig. 8b: α = 1)
 //! integral       d = D + K·e + c,   c += K_i·e,   e = √F_t − √F
 //! inverse        d = min(√(F_t/G / (k·C²)), D)                                    (docs/physics.md §6)
-//! drive = d, held within 0 … rail, then within slew of the pad's last;   c = drive − (D + K·e)
+//! drive = d, held within 0 … rail, then within slew of the pad's last
+//! c = drive − (D + K·e), and what rounding took of d where nothing holds it; of an invalid estimate as before
 //! ```
 //!
 //! ```text
@@ -19,14 +20,16 @@
 //!
 //! | signal        | format                 | unit            | overflow                    |
 //! | drive, s, D   | profile                | full scale      | held within 0 … rail        |
-//! | c, K·e        | drive's, with a sign   | full scale      | saturates                   |
+//! | K·e           | drive's, with a sign   | full scale      | saturates                   |
+//! | c             | the same, 8 bits finer | full scale      | saturates                   |
 //! | k·C²          | square's width, u·.·−4 | N               | saturates                   |
 //! | F_t/G         | target's, 3 bits more  | N               | saturates                   |
 //! | quotient      | drive's, twice         | full scale²     | saturates: then D is less   |
 //!
-//! c is what the limited drive leaves of its other parts, so that nothing winds up, and switching
-//! on or off makes no step. A zero denominator gives the limit D. While an estimate is invalid the
-//! drive stays; see `faults.rs` for what takes it to zero. All narrowing rounds half to even.
+//! c is what the limited drive leaves of its other parts: nothing winds up, and a drive that has c
+//! goes on from zero when it is switched on; the others go to D within slew. A zero denominator gives
+//! the limit D. While an estimate is invalid the drive stays; see `faults.rs` for what takes it to
+//! zero. All narrowing rounds half to even.
 //!
 //! One multiplier, one square root and one divider serve all steps. Latency: the sum of the law's
 //! tasks and a clock, from `start` to `done`.
@@ -156,10 +159,15 @@ block! {
         factor: block.of_inverse(block.square.integer()),
         /// F_t/G.
         numerator: block.of_inverse(block.numerator_format()),
-        error: block.error_format(),
+        /// √F_t − √F.
+        error: block.of_integral(block.error_format()),
         proportional: block.of_feedback(block.correction_format()),
+        /// The filter's new state, or the integral with this frame.
+        correction: block.of_feedback(block.kept_format()),
         /// Before slew: within 0 and the rail.
         wanted: block.drive,
+        /// What rounding took from it.
+        residue: block.of_feedback(block.residue_format()),
         drive: block.drive,
         low: BIT,
         high: BIT,
@@ -204,7 +212,7 @@ impl Controller {
             divider: Divider::new(words::numerator(target), words::stiffness(f.square), square),
             points: Memory::new("points", cells as usize + 1, drive).dont_care_on_collision(),
             pads: Memory::new("pads", words, word).dont_care_on_collision(),
-            corrections: Memory::new("corrections", words, words::correction(drive))
+            corrections: Memory::new("corrections", words, words::kept(drive))
                 .dont_care_on_collision(),
             radicand: square,
             law,
@@ -323,7 +331,7 @@ impl Controller {
         let pad = self.pads.data(&mut within.pads);
         let correction = match self.feeds_back() {
             true => self.corrections.data(&mut within.corrections),
-            false => zero(self.correction_format()),
+            false => zero(self.kept_format()),
         };
         let found = Found {
             product,
@@ -383,7 +391,7 @@ impl Controller {
         let loads = self.multiplies(&r) & r.count.is(0);
         let (left, right) = self.operands(&r, i, found);
         let (combine, limit) = (self.at(&r, Task::Combine), self.at(&r, Task::Limit));
-        let [wanted, low, high] = self.wanted(&r, i, found);
+        let ([wanted, low, high], residue) = self.wanted(&r, i);
         let next = Registers {
             task: ends.select(self.following(&r), r.task),
             count: ends.select(int(0), r.count.increment()),
@@ -392,6 +400,7 @@ impl Controller {
             sqrt_start: ends & self.root_follows(&r),
             divide: ends & self.at(&r, Task::Target),
             wanted: combine.select(wanted, r.wanted),
+            residue: combine.select(residue, r.residue).where_present(r.residue.format),
             low: combine.select(low, r.low),
             high: combine.select(high, r.high),
             drive: limit.select(self.limited(&r, i, found.last), r.drive),
@@ -416,7 +425,7 @@ impl Controller {
         let write = Write { enable, address: i.pad, data };
         self.pads.access(&mut state.submodules.pads, i.pad, write);
         if self.feeds_back() {
-            let data = self.left_over(r, drive);
+            let data = i.invalid.select(found.correction, self.left_over(r, drive));
             let write = Write { enable, address: i.pad, data };
             self.corrections.access(&mut state.submodules.corrections, i.pad, write);
         }
@@ -435,5 +444,7 @@ impl Controller {
     }
 }
 
+#[cfg(test)]
+mod hard_cases;
 #[cfg(test)]
 mod tests;

@@ -25,6 +25,18 @@ impl Controller {
         correction(self.drive)
     }
 
+    /// What the pad keeps of its correction.
+    #[inline(always)]
+    pub(super) fn kept_format(&self) -> Format {
+        kept(self.drive)
+    }
+
+    /// What rounding takes from a drive: half a step of its word, of either sign.
+    #[inline(always)]
+    pub(super) fn residue_format(&self) -> Format {
+        Format::signed(FINER + 1, self.kept_format().frac)
+    }
+
     /// The error of forces, or of their roots.
     #[inline(always)]
     pub(super) fn error_format(&self) -> Format {
@@ -54,6 +66,12 @@ impl Controller {
         format.where_present(self.feeds_back())
     }
 
+    /// A register of the integral law.
+    #[inline(always)]
+    pub(super) fn of_integral(&self, format: Format) -> Format {
+        format.where_present(self.law == Law::Integral)
+    }
+
     /// A register of the inverse law.
     #[inline(always)]
     pub(super) fn of_inverse(&self, format: Format) -> Format {
@@ -69,7 +87,7 @@ impl Controller {
             Law::Proportional | Law::Integral => vec![
                 rise,
                 (self.error_format().product(self.gain), signed),
-                (self.corrected_format().product(self.gain), signed),
+                (self.corrected_format().product(self.gain), self.kept_format()),
             ],
             Law::Inverse => vec![
                 rise,
@@ -103,6 +121,14 @@ pub(super) const fn stiffness(square: Format) -> Format {
 
 pub(super) const fn numerator(target: Format) -> Format {
     Format::unsigned(target.width + 3, target.frac)
+}
+
+/// Bits by which what a pad keeps is finer than a drive word: with a gain of 2^-9 an error of one step
+/// still moves it.
+const FINER: u8 = 8;
+
+pub(super) const fn kept(drive: Format) -> Format {
+    Format::signed(drive.width + 1 + FINER, drive.frac + FINER as i8)
 }
 
 pub(super) const fn correction(drive: Format) -> Format {

@@ -16,7 +16,7 @@ fn forces_are_those_of_eq_8() {
             let capacitance = Exact::of(i.capacitance, f.capacitance);
             let (mean_square, gain) =
                 (Exact::of(i.mean_square, f.mean_square), Exact::of(i.gain, f.force_gain));
-            let expected = rounded::force(&profile, capacitance, mean_square, gain);
+            let expected = rounded::force(&profile, [capacitance, mean_square, gain]);
             [
                 ("haptic_force", expected.force.code(f.force)),
                 ("saturated", expected.saturated.into()),

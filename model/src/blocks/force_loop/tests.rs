@@ -5,7 +5,7 @@ use super::{ForceLoop, Inputs};
 use crate::support::Bench;
 use crate::support::device::short_profiles;
 use hapticore_contract::control::{Control, Law};
-use hapticore_contract::profile::Profile;
+use hapticore_contract::profile::{Force, ForceLaw, Profile};
 
 /// The short profiles, with a controller of this law.
 fn controlled(law: Law) -> impl Iterator<Item = Profile> {
@@ -14,6 +14,16 @@ fn controlled(law: Law) -> impl Iterator<Item = Profile> {
         // The frame waits for two estimates.
         profile.slot.settle += 400;
         profile
+    })
+}
+
+/// Those, with the force by eq. 8 and by the table.
+fn with_both_forces(law: Law) -> impl Iterator<Item = Profile> {
+    controlled(law).flat_map(|profile| {
+        [ForceLaw::Eq8, ForceLaw::Table].map(|law| {
+            let force = Force { law, ..profile.force };
+            Profile { force, ..profile.clone() }
+        })
     })
 }
 
@@ -46,7 +56,7 @@ fn slot(
 #[test]
 fn latency_is_the_clocks_measured() {
     for law in Law::ALL {
-        for profile in controlled(law) {
+        for profile in with_both_forces(law) {
             let mut bench = Bench::new(ForceLoop::try_new(&profile).unwrap());
             let quiet = Inputs::of(0);
             let (measured, _) = slot(&mut bench, &profile, quiet, |_| quiet);

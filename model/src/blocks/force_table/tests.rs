@@ -5,6 +5,7 @@
 use super::{ForceTable, Inputs, Table, TablePort};
 use crate::support::random::Random;
 use crate::support::{Bench, MILLION, cases, check, check_latency_of, operations};
+use hapticore_contract::control::{Control, Law};
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::format::Format;
 use hapticore_reference::rounded::{self, Exact};
@@ -12,6 +13,12 @@ use std::cell::RefCell;
 
 /// Tables that follow one another.
 const TABLES: u64 = 40;
+
+/// Every bundled profile with a controller, which is given an estimate before the frame's.
+fn with_prompts() -> impl Iterator<Item = Profile> {
+    let control = |profile: &Profile| Some(Control::of(profile, Law::Inverse));
+    Profile::all().into_iter().map(move |profile| Profile { control: control(&profile), ..profile })
+}
 
 fn bench(profile: &Profile) -> Bench<ForceTable> {
     Bench::new(ForceTable::try_new(profile).unwrap())
@@ -58,7 +65,7 @@ impl ForceTableWords<'_> {
 
 #[test]
 fn forces_are_those_of_the_table() {
-    for (seed, profile) in (0..).zip(Profile::all()) {
+    for (seed, profile) in (0..).zip(with_prompts()) {
         let (f, mut random) = (&profile.formats, Random::new(seed));
         let mut bench = bench(&profile);
         let reference = RefCell::new(rounded::ForceTable::of_words(&profile, vec![]));
@@ -91,7 +98,12 @@ fn forces_are_those_of_the_table() {
                     Exact::of(i.gain, f.force_gain),
                 ];
                 let pad = (i.pad as u64 % profile.pads) as usize;
-                let expected = reference.borrow_mut().force(&profile, pad, numbers);
+                let mut reference = reference.borrow_mut();
+                let expected = if i.hold == 1 {
+                    reference.prompt(&profile, pad, numbers)
+                } else {
+                    reference.force(&profile, pad, numbers)
+                };
                 [
                     ("haptic_force", expected.force.code(f.force)),
                     ("factored_gain", expected.gain.code(f.force_gain)),
@@ -128,7 +140,7 @@ fn a_flat_table_is_eq_8() {
                 Exact::of(i.mean_square, f.mean_square),
                 Exact::of(i.gain, f.force_gain),
             ];
-            let expected = rounded::force(&profile, capacitance, mean_square, gain);
+            let expected = rounded::force(&profile, [capacitance, mean_square, gain]);
             let full = mean_square.real().sqrt() >= 1.0 - profile.force.voltage.lsb() / 2.0;
             [
                 ("haptic_force", expected.force.code(f.force)),

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! How a force loop follows its target: scene `fig9` at fidelity `fixed` under other laws and loads.
+
+use hapticore_run::case::{Case, Settings};
+use hapticore_run::engine::Fidelity;
+use hapticore_run::inputs;
+use hapticore_run::record::Row;
+
+/// The targets of `fig9`, as its cases call them.
+pub const TARGETS: [&str; 4] = ["square 0.3 N", "square 0.6 N", "sine 0.3 N", "sine 0.6 N"];
+
+/// A law with its gains.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Law {
+    /// What the table calls it.
+    pub name: &'static str,
+    /// Keys and values of `[control]`.
+    pub set: &'static [(&'static str, &'static str)],
+}
+
+/// The laws, with the gains that the table is of.
+pub const LAWS: [Law; 7] = [
+    Law { name: "open, K = 600 (eq. 9)", set: &[("law", "open")] },
+    Law {
+        name: "proportional, K_p = 1000 V/N (Fig. 8b)",
+        set: &[("law", "proportional"), ("proportional_v", "1000")],
+    },
+    Law {
+        name: "the same, α = 0.35",
+        set: &[("law", "proportional"), ("proportional_v", "1000"), ("filter", "0.35")],
+    },
+    Law {
+        name: "integral, K = 64 V/√N, K_i = 740 kV/(√N·s)",
+        set: &[("law", "integral"), ("proportional_v", "64"), ("integral_v", "740000")],
+    },
+    Law {
+        name: "integral, the same, force table",
+        set: &[
+            ("law", "integral"),
+            ("proportional_v", "64"),
+            ("integral_v", "740000"),
+            ("force", "table"),
+        ],
+    },
+    Law { name: "inverse", set: &[("law", "inverse")] },
+    Law { name: "inverse, force table", set: &[("law", "inverse"), ("force", "table")] },
+];
+
+/// A slot of a loop.
+#[derive(Clone, Copy, Debug)]
+pub struct Followed {
+    /// Middle of the slot's window, s.
+    pub time_s: f64,
+    /// Target in the slot, N.
+    pub target_n: f64,
+    /// Target that the drive of the slot was made for: that of the slot before, N.
+    pub asked_n: f64,
+    /// True force, N.
+    pub force_n: f64,
+}
+
+/// The slots of a law after a target, the pad under so many grams.
+///
+/// # Panics
+/// Where the scene has no such case.
+pub fn follow(law: &Law, target: &str, load_g: f64) -> Vec<Followed> {
+    let open = law.set.contains(&("law", "open"));
+    let case = format!("{target}, {} loop", if open { "open" } else { "closed" });
+    let text = |(key, value): &(&str, &str)| (format!("control.{key}"), quoted(value));
+    let mut set: Vec<_> = law.set.iter().map(text).collect();
+    set.push(("pad.0.load_g".into(), load_g.to_string()));
+    set.push(("control.nominal_load_g".into(), load_g.to_string()));
+    let scene = inputs::scene("fig9", &set).expect("bundled");
+    let profile = inputs::profile(&scene.profile).expect("bundled");
+    let profile = inputs::windowed(profile, &scene).expect("a window");
+    let index = scene.cases.iter().position(|found| found.name == case).expect("a case");
+    let case = Case::new(&scene, index, &profile, &[]).expect("a case");
+    let settings = Settings { fidelity: Fidelity::Fixed, errors: false };
+    let outcome = case.run(&settings, None, &|| ()).expect("a run");
+    let asked = std::iter::once(0.0).chain(outcome.rows.iter().map(asked_n));
+    outcome.rows.iter().zip(asked).map(|(row, asked_n)| followed(row, asked_n)).collect()
+}
+
+fn quoted(value: &str) -> String {
+    if value.parse::<f64>().is_ok() { value.to_string() } else { format!("\"{value}\"") }
+}
+
+fn asked_n(row: &Row) -> f64 {
+    row.driven.expect("a controller").target_n
+}
+
+fn followed(row: &Row, asked_n: f64) -> Followed {
+    let truth = row.truth.expect("a simulated pad");
+    let (target_n, force_n) = (truth.set.target_n, truth.quantities.force_n);
+    Followed { time_s: row.time_s, target_n, asked_n, force_n }
+}
+
+fn rms(errors: impl Iterator<Item = f64>) -> f64 {
+    let (sum, count) =
+        errors.fold((0.0, 0), |(sum, count), error| (sum + error * error, count + 1));
+    (sum / f64::from(count)).sqrt()
+}
+
+/// Root mean square of true force − target at the same time, N.
+pub fn rms_n(slots: &[Followed]) -> f64 {
+    rms(slots.iter().map(|slot| slot.force_n - slot.target_n))
+}
+
+/// Root mean square of true force − the target that the drive was made for, from 50 ms after each
+/// step of the target on, N.
+pub fn rms_after_edges_n(slots: &[Followed]) -> f64 {
+    let (mut edge_s, mut before) = (slots[0].time_s, slots[0].asked_n);
+    let mut error = |slot: &Followed| {
+        if (slot.asked_n - before).abs() > 0.05 {
+            edge_s = slot.time_s;
+        }
+        before = slot.asked_n;
+        (slot.time_s > edge_s + 0.05).then_some(slot.force_n - slot.asked_n)
+    };
+    rms(slots.iter().filter_map(&mut error))
+}
+
+/// The largest true force − target at the same time, N.
+pub fn overshoot_n(slots: &[Followed]) -> f64 {
+    slots.iter().map(|slot| slot.force_n - slot.target_n).fold(0.0, f64::max)
+}
+
+/// From the target's first step to 90 % of it for good, s.
+pub fn rise_s(slots: &[Followed]) -> f64 {
+    let most = slots.iter().map(|slot| slot.target_n).fold(0.0, f64::max);
+    let on = slots.iter().filter(|slot| slot.target_n == most);
+    let (mut first, mut last) = (None, 0.0);
+    for slot in on {
+        let first = *first.get_or_insert(slot.time_s);
+        if slot.force_n < 0.9 * most {
+            last = slot.time_s - first;
+        }
+    }
+    last
+}
