@@ -1,25 +1,28 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Clocked model = gates, every output at every clock: the whole core as Yosys makes it of the
-//! printed Verilog, in the cells of both FPGA families. What has no initial value in the cells
-//! starts with anything.
+//! Clocked model = gates, every output at every clock: the whole core, and the core with its force
+//! controller, as Yosys makes them of the printed Verilog, in the cells of both FPGA families. What
+//! has no initial value in the cells starts with anything.
 //!
 //! Clocks per core: slots of two scenes, and corners at random with tables that are written while
-//! they are read.
+//! they are read. Clocks of a force loop: a step of its target, the plant closed around the model.
 
 use std::fs;
 
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::verilog::Design;
 use hapticore_synth::tools::{Tools, root};
-use hapticore_tests::lockstep::Bench;
+use hapticore_tests::force_loop::Closed;
 use hapticore_tests::lockstep::verilator::{Start, Verilated};
+use hapticore_tests::lockstep::{Bench, Trace};
 use hapticore_tests::{stimulus, tools};
 
 /// Clocks of each core at least.
 const CLOCKS: usize = 100_000;
 
 /// The gates of a design, with what their cells do, as Verilog.
-fn gates(tools: &Tools, family: &str, bench: &Bench) -> String {
+fn gates(tools: &Tools, family: &str, design: &Design) -> String {
     let folder = tempfile::tempdir().expect("a folder");
-    fs::write(folder.path().join("design.v"), bench.design.text()).expect("written");
+    fs::write(folder.path().join("design.v"), design.text()).expect("written");
     let script = root().join("synth/netlist");
     let mut command = tools.command(script.to_str().expect("a path"));
     tools::run(command.args([family, "design.v", "gates.v"]), folder.path());
@@ -33,8 +36,8 @@ fn gates_run_what_the_model_runs(family: &str, profile: &str) {
     }
     let bench = Bench::new(profile);
     let top = format!("{}_gate", bench.design.top());
-    let verilated =
-        Verilated::new(&top, &bench.design.ports, &gates(&tools, family, &bench), Start::Anything);
+    let text = gates(&tools, family, &bench.design);
+    let verilated = Verilated::new(&top, &bench.design.ports, &text, Start::Anything);
     let mut clocks = 0;
     for stimulus in [
         stimulus::scene(&bench.profile, "fig6", 3),
@@ -49,6 +52,37 @@ fn gates_run_what_the_model_runs(family: &str, profile: &str) {
     }
     println!("{family}, {profile}: {clocks} clocks equal in gates");
     assert!(clocks >= CLOCKS, "{clocks} clocks");
+}
+
+/// The force loop of a profile, its force by eq. 8 or the table.
+fn gates_close_the_loop_as_the_model_does(family: &str, profile: &str, force: &str) {
+    let Some(tools) = Tools::or_skip() else { return };
+    if !tools::have(&["verilator", "make", "g++", "iverilog"]) {
+        return;
+    }
+    let target = "{ timeline = [[0, 0.2], [0.0015, 0.2], [0.0015, 0.6]] }".to_string();
+    let set = [("pad.0.target_n".into(), target), ("control.force".into(), force.into())];
+    let bundled = Profile::bundled(profile).expect("bundled");
+    let mut closed = Closed::new(&bundled, ("fig9", 1), &set, 3);
+    let (block, design) = (closed.block.clone(), Design::of(&closed.block, "a test"));
+    let trace = Trace::record(&block, design.ports.clone(), |outputs| closed.next(outputs));
+    let top = format!("{}_gate", design.top());
+    let text = gates(&tools, family, &design);
+    let verilated = Verilated::new(&top, &design.ports, &text, Start::Anything);
+    if let Err(mismatch) = verilated.check(&trace) {
+        panic!("{family}, {profile}: {mismatch}");
+    }
+    println!("{family}, {profile}: {} clocks of a force loop equal in gates", trace.clocks());
+}
+
+#[test]
+fn ice40_gates_close_the_force_loop_as_the_model_does() {
+    gates_close_the_loop_as_the_model_does("ice40", "small", "\"eq8\"");
+}
+
+#[test]
+fn ecp5_gates_close_the_force_loop_with_a_table_as_the_model_does() {
+    gates_close_the_loop_as_the_model_does("ecp5", "standard", "\"table\"");
 }
 
 #[test]

@@ -47,7 +47,7 @@ fn frames_of_whole_slots_are_the_reference() {
 #[test]
 fn frames_of_short_slots_are_the_reference() {
     for profile in short_profiles() {
-        check_slots(&profile, operations(1400) as usize, 2);
+        check_slots(&profile, operations(900) as usize, 2);
     }
 }
 
@@ -55,23 +55,23 @@ fn frames_of_short_slots_are_the_reference() {
 fn frames_by_eq_6_alone_are_the_reference() {
     for mut profile in short_profiles() {
         profile.capacitance.sheet_correction = false;
-        check_slots(&profile, operations(1400) as usize, 3);
+        check_slots(&profile, operations(900) as usize, 3);
     }
 }
 
 #[test]
 fn frames_with_a_force_table_are_the_reference() {
     for profile in short_table_profiles() {
-        check_slots(&profile, operations(1400) as usize, 4);
+        check_slots(&profile, operations(900) as usize, 4);
     }
 }
 
 #[test]
 fn frames_of_any_sums_are_the_reference() {
-    let controlled = short_profiles()
-        .into_iter()
+    let both = || short_profiles().into_iter().chain(short_table_profiles());
+    let controlled = both()
         .map(|profile| Profile { control: Some(Control::of(&profile, Law::Inverse)), ..profile });
-    let profiles = short_profiles().into_iter().chain(short_table_profiles()).chain(controlled);
+    let profiles = both().chain(controlled);
     for (seed, profile) in (0..).zip(profiles) {
         let calibration = calibration(&profile);
         let mut reference = Slots::new(&profile, &calibration);
@@ -79,7 +79,7 @@ fn frames_of_any_sums_are_the_reference() {
         let constants = calibrate(&mut bench, &profile, &calibration);
         let mut random = Random::new(seed);
         // A controller asks for two estimates of a slot.
-        let slots = if profile.control.is_some() { 1_000 } else { 6_000 };
+        let slots = if profile.control.is_some() { 800 } else { 2_500 };
         for _ in 0..operations(slots) {
             check_sums(&mut bench, &mut reference, constants, &profile, &mut random);
         }

@@ -118,7 +118,7 @@ fn of_profiles(name: &str) -> Vec<Module> {
 }
 
 fn narrow_divider() -> Module {
-    module(&Divider::new(Format::unsigned(5, 2), Format::unsigned(3, 1), Format::unsigned(4, 2)))
+    module(&Divider::new(Format::unsigned(4, 2), Format::unsigned(3, 1), Format::unsigned(3, 1)))
 }
 
 fn narrow_sqrt() -> Module {

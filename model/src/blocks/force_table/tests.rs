@@ -69,13 +69,13 @@ fn forces_are_those_of_the_table() {
         let (f, mut random) = (&profile.formats, Random::new(seed));
         let mut bench = bench(&profile);
         let reference = RefCell::new(rounded::ForceTable::of_words(&profile, vec![]));
-        let mut cases = cases(&bench.block, MILLION / 3, seed).map(quiet);
+        let mut cases = cases(&bench.block, MILLION / 10, seed).map(quiet);
         for round in 0..TABLES {
             let Some(first) = cases.next() else { break };
             let codes = words(&mut random, f.table, round % 2 == 1);
             let words = write(&mut bench, &codes, f.table, first);
             reference.borrow_mut().calibrate(words);
-            let inputs = cases.by_ref().take((operations(MILLION / 3) / TABLES) as usize);
+            let inputs = cases.by_ref().take((operations(MILLION / 10) / TABLES) as usize);
             // Half of the capacitances within the table, and its ends.
             let within = |mut i: Inputs<i64>| {
                 let row = Exact::new(i128::from(random.below(11)), 6) + Exact::new(320, 0);
@@ -131,7 +131,7 @@ fn a_flat_table_is_eq_8() {
         let f = &profile.formats;
         let mut bench = bench(&profile);
         let flat = Table::default().words().map(|real| f.table.code_saturating(real));
-        let mut cases = cases(&bench.block, MILLION / 30, seed).map(quiet);
+        let mut cases = cases(&bench.block, MILLION / 100, seed).map(quiet);
         let first = cases.next().expect("a case");
         write(&mut bench, &flat, f.table, first);
         check(&mut bench, cases, |i| {
