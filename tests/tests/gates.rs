@@ -25,7 +25,8 @@ fn gates(tools: &Tools, family: &str, design: &Design) -> String {
     fs::write(folder.path().join("design.v"), design.text()).expect("written");
     let script = root().join("synth/netlist");
     let mut command = tools.command(script.to_str().expect("a path"));
-    tools::run(command.args([family, "design.v", "gates.v"]), folder.path());
+    command.args([family, "design.v", "gates.v"]).env("TOP", design.top());
+    tools::run(&mut command, folder.path());
     fs::read_to_string(folder.path().join("gates.v")).expect("the gates")
 }
 
