@@ -18,6 +18,9 @@ const OF_SCENE: [&str; 4] = ["case", "point", "true_load_g", "true_friction_n"];
 /// The last columns of a scene: one or zero.
 const TRUE_FLAGS: [&str; 2] = ["true_over_edge", "true_touching"];
 
+/// The last columns of a scene with walls.
+const WALLED: [&str; 3] = ["released", "true_hand_x_n", "true_haptic_friction_n"];
+
 /// The last columns of a scene with a controller.
 const DRIVEN: [&str; 4] = ["target_n", "drive_v_rms", "drive_limited", "drive_fault"];
 
@@ -119,6 +122,8 @@ pub struct OfScene {
     pub swept: Vec<&'static str>,
     /// Whether a controller drives the pads.
     pub driven: bool,
+    /// Whether they meet walls.
+    pub walled: bool,
 }
 
 impl Frames {
@@ -147,6 +152,9 @@ impl Frames {
             if scene.driven {
                 write!(self.file, ",{}", DRIVEN.join(","))?;
             }
+            if scene.walled {
+                write!(self.file, ",{}", WALLED.join(","))?;
+            }
         }
         writeln!(self.file)
     }
@@ -167,6 +175,11 @@ impl Frames {
             scene.write(&mut self.file, row.case, truth)?;
             if scene.driven {
                 write_driven(&mut self.file, &row.driven.unwrap_or_default())?;
+            }
+            if scene.walled {
+                let free = row.driven.and_then(|driven| driven.free).unwrap_or_default();
+                let Truth { hand_x_n, haptic_friction_n, .. } = truth;
+                write!(self.file, ",{},{hand_x_n},{haptic_friction_n}", u8::from(free))?;
             }
         }
         writeln!(self.file)
@@ -192,7 +205,7 @@ impl OfScene {
 }
 
 fn write_driven(file: &mut impl Write, driven: &Driven) -> io::Result<()> {
-    let Driven { target_n, drive_v_rms, limited, fault } = driven;
+    let Driven { target_n, drive_v_rms, limited, fault, .. } = driven;
     write!(file, ",{target_n},{drive_v_rms},{},{}", u8::from(*limited), u8::from(*fault))
 }
 

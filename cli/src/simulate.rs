@@ -71,6 +71,7 @@ fn write(
         cases: record.cases.clone(),
         swept: record.swept.clone(),
         driven: record.rows.iter().any(|row| row.driven.is_some()),
+        walled: record.rows.iter().any(|row| row.driven.is_some_and(|it| it.free.is_some())),
     };
     let mut frames = Frames::create(&output, Some(of_scene))?;
     record.rows.iter().try_for_each(|row| frames.row(row))?;
@@ -265,7 +266,7 @@ fn gather(scene: &Scene, cases: &[Case], outcomes: Vec<Outcome>) -> Record {
         profile: cases[0].profile.name.clone(),
         fidelity: String::new(),
         cases: cases.iter().map(|case| case.name().to_string()).collect(),
-        pads: scene.cases[cases[0].index].pad_names().iter().map(ToString::to_string).collect(),
+        pads: scene.cases[cases[0].index].served_names(),
         effects,
         criteria,
         force_laws: ForceLawErrors::of(&all),
@@ -347,6 +348,8 @@ fn figure_name(figure: Figure) -> String {
         Figure::Fig6 => "fig6",
         Figure::Fig7 => "fig7",
         Figure::Fig9 => "fig9",
+        Figure::Fig13 => "fig13",
+        Figure::Fig15 => "fig15",
         Figure::Hockey => "hockey",
     }
     .into()

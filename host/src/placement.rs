@@ -5,7 +5,7 @@
 //! | flag | is set where |
 //! | --- | --- |
 //! | `at_edge` | a position is at the end of the calibrated places, to within [`NEAR_MM`]; a pad that reaches over the edge reads so, too |
-//! | `touching` | another pad's last position is nearer than a pad is wide: both change each other's capacitance and position |
+//! | `touching` | another pad's last position is nearer than a pad is wide, and no part of the same: both change each other's capacitance and position |
 //!
 //! A pad whose frame is invalid has no position: it is at no edge and touches none.
 
@@ -21,6 +21,8 @@ pub struct Placement {
     ends_mm: [[f64; 2]; 2],
     pad_diameter_mm: Option<f64>,
     pads: Vec<Option<[f64; 2]>>,
+    /// So many of them in a row are parts of one pad.
+    parts: usize,
 }
 
 impl Placement {
@@ -36,6 +38,7 @@ impl Placement {
             ends_mm: [ends(0), ends(1)],
             pad_diameter_mm: device.device.pad_diameter_mm,
             pads: vec![None; device.pads as usize],
+            parts: device.parts.max(1) as usize,
         }
     }
 
@@ -62,7 +65,7 @@ impl Placement {
             .pads
             .iter()
             .enumerate()
-            .filter(|(other, _)| *other != pad)
+            .filter(|(other, _)| other / self.parts != pad / self.parts)
             .filter_map(|(_, place)| *place);
         others
             .into_iter()
@@ -79,6 +82,7 @@ mod tests {
             ends_mm: [[-415.0, 415.0], [-235.0, 235.0]],
             pad_diameter_mm,
             pads: vec![None; 3],
+            parts: 1,
         }
     }
 

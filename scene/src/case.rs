@@ -4,7 +4,7 @@
 
 use crate::control::ControlPlan;
 use crate::device::Device;
-use crate::effects::{EFFECTS, SPLITTING, Spec, carrier};
+use crate::effects::{EFFECTS, SPLITTING, Spec, carrier, part};
 use crate::error::SceneError;
 use crate::format::{Limits, Node, Table, Value};
 use crate::pad::{PadPlan, Tables};
@@ -38,6 +38,8 @@ pub struct Case {
     /// The force controller that drives the pads, where the scene has one.
     pub control: Option<ControlPlan>,
     pub(crate) pads: Vec<PadPlan>,
+    /// Where what each slot of a pad serves lies, mm right of the pad's centre.
+    pub(crate) parts_mm: Vec<f64>,
     pub(crate) effects: Vec<Spec>,
     pub(crate) length: Length,
     /// Error that all levels together may leave, where the scene names one: until they are chosen,
@@ -73,6 +75,29 @@ impl Case {
     /// Names of the pads, in the order of their slots.
     pub fn pad_names(&self) -> Vec<&str> {
         self.pads.iter().map(|pad| pad.name.as_str()).collect()
+    }
+
+    /// What a core serves, slot after slot: the pads, or the parts of each.
+    ///
+    /// ```
+    /// use hapticore_scene::Scene;
+    ///
+    /// let text = "title = \"t\"\n[[pad]]\nname = \"puck\"\nposition_mm = [0, 0]\n[gap]\n\
+    ///             [halves]\nsenses = \"each\"\n";
+    /// let case = &Scene::parse(text, "t.toml", &[])?.cases[0];
+    /// assert_eq!(case.served_names(), ["puck, left", "puck, right"]);
+    /// # Ok::<(), hapticore_scene::SceneError>(())
+    /// ```
+    pub fn served_names(&self) -> Vec<String> {
+        let parts: &[&str] = match self.parts_mm.len() {
+            1 => &[""],
+            parts => &[", left", ", right", ", brake"][..parts],
+        };
+        let of_pad = |pad: &PadPlan| {
+            let name = pad.name.clone();
+            parts.iter().map(move |part| format!("{name}{part}"))
+        };
+        self.pads.iter().flat_map(of_pad).collect()
     }
 
     /// The keys of the pads that are swept, as [`Setpoint::get`](crate::Setpoint::get) knows them.
@@ -113,6 +138,7 @@ impl Case {
             control: control.is_some(),
             charge: has("charge"),
         };
+        let parts_mm = part::centres_mm(root, &device)?;
         let tables = root.tables("pad")?;
         if tables.is_empty() || tables.len() > MOST_PADS {
             return Err(root.error(
@@ -138,6 +164,7 @@ impl Case {
             device,
             control,
             pads,
+            parts_mm,
             effects,
             budget_percent,
             nominal,

@@ -8,7 +8,8 @@
 //! [control]
 //! law = "inverse"        # open | proportional | integral | inverse
 //! force = "eq8"          # eq8 | table: how the core estimates the force; else as the profile says
-//! curve = "steady"       # steady: the voltage that gives a force at rest; square-root: V = K·√F, eq. 9
+//! curve = "steady"       # steady: the voltage that gives a force at rest; square-root: V = K·√F, eq. 9;
+//!                        # linear: V = K·F
 //! ```
 //!
 //! The plant does not control: it takes the voltages that somebody sets
@@ -17,6 +18,7 @@
 
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
+use crate::wall::WallPlan;
 
 /// How a drive follows from target and measurement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -62,12 +64,17 @@ const FORCES: [(&str, ForceEstimate); 2] =
 pub enum DriveCurve {
     /// V = K·√F.
     SquareRoot,
+    /// V = K·F: with a wall, a voltage that goes with the depth.
+    Linear,
     /// The voltage that gives the force at rest under the nominal load.
     Steady,
 }
 
-const CURVES: [(&str, DriveCurve); 2] =
-    [("square-root", DriveCurve::SquareRoot), ("steady", DriveCurve::Steady)];
+const CURVES: [(&str, DriveCurve); 3] = [
+    ("square-root", DriveCurve::SquareRoot),
+    ("linear", DriveCurve::Linear),
+    ("steady", DriveCurve::Steady),
+];
 
 /// A force controller as a scene asks for it.
 ///
@@ -93,7 +100,7 @@ pub struct ControlPlan {
     pub curve_factor: f64,
     /// Load at which the steady curve is measured, g.
     pub nominal_load_g: f64,
-    /// K of eq. 9, V/√N.
+    /// K of eq. 9, V/√N; of a linear curve, V/N.
     pub feed_forward_v: f64,
     /// Gain of the error: V/N with `proportional`, V/√N with `integral`.
     pub proportional_v: f64,
@@ -109,6 +116,8 @@ pub struct ControlPlan {
     pub slew_v: f64,
     /// A measured force beyond it takes every drive to zero, N.
     pub force_cap_n: f64,
+    /// The walls, where the scene has them.
+    pub wall: Option<WallPlan>,
 }
 
 impl ControlPlan {
@@ -134,6 +143,7 @@ impl ControlPlan {
             rail_v: table.number_or("rail_v", within, full_scale_v)?,
             slew_v: table.number_or("slew_v", within, full_scale_v)?,
             force_cap_n: number("force_cap_n", 1e6)?,
+            wall: WallPlan::read(root)?,
             full_scale_v,
         }))
     }

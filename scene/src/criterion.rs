@@ -7,7 +7,8 @@
 //! measure = "spread_percent"      # see `Measure`
 //! of = "force_n"                  # see `Quantity`
 //! limit = 0.1                     # the measure must be at most this
-//! expected = 343                  # with max_off, jump_off and departure_off: what it should be
+//! expected = 343                  # with max_off, mean_off, jump_off and departure_off: what it should be
+//! with = "load_g"                 # with increases_with and nonlinearity_percent
 //! case = "rest"                   # or cases = ["a", "b"]; all cases where absent
 //! per = "group"                   # case | group: taken over each, the worst counts
 //! where = { haptic_v_rms = [50, 300], time_s = [0.5, 10] }   # only slots whose truth lies within
@@ -33,12 +34,17 @@ pub enum Measure {
     /// Smallest step, negated, between group means ordered by the truth of `with`, all else equal,
     /// in percent of the mean: below the limit (usually 0) where the estimate rises throughout.
     IncreasesWith,
+    /// Largest departure of the estimate from the straight line that fits it best over the truth of
+    /// `with`, all else equal, in percent of what the line spans.
+    NonlinearityPercent,
     /// Largest sample of the ADC channels, percent of full scale.
     MaxPercentOfFullScale,
     /// Percent of finished slots whose result is flagged invalid.
     InvalidPercent,
     /// Largest |estimate − expected|; of what the plant alone knows, |truth − expected|.
     MaxOff,
+    /// |mean of the estimate − expected|; of what the plant alone knows, of the truth.
+    MeanOff,
     /// Root mean square of truth − target, of the force of a pad with a controller.
     RmsOffTarget,
     /// Largest truth − target, of the force of a pad with a controller: how far it overshoots.
@@ -54,16 +60,18 @@ pub enum Measure {
     DepartureOff,
 }
 
-const MEASURES: [(&str, Measure); 14] = [
+const MEASURES: [(&str, Measure); 16] = [
     ("max_abs_error", Measure::MaxAbsError),
     ("rms_error", Measure::RmsError),
     ("mean_error", Measure::MeanError),
     ("max_percent_error", Measure::MaxPercentError),
     ("spread_percent", Measure::SpreadPercent),
     ("increases_with", Measure::IncreasesWith),
+    ("nonlinearity_percent", Measure::NonlinearityPercent),
     ("max_percent_of_full_scale", Measure::MaxPercentOfFullScale),
     ("invalid_percent", Measure::InvalidPercent),
     ("max_off", Measure::MaxOff),
+    ("mean_off", Measure::MeanOff),
     ("rms_off_target", Measure::RmsOffTarget),
     ("max_above_target", Measure::MaxAboveTarget),
     ("max_below_target", Measure::MaxBelowTarget),
@@ -96,6 +104,7 @@ impl Measure {
             | Measure::RmsError
             | Measure::MeanError
             | Measure::MaxOff
+            | Measure::MeanOff
             | Measure::RmsOffTarget
             | Measure::MaxAboveTarget
             | Measure::MaxBelowTarget => of.unit(),
@@ -157,9 +166,9 @@ pub struct Criterion {
     pub measure: Measure,
     /// The quantity that the measure applies to.
     pub of: Quantity,
-    /// For [`Measure::IncreasesWith`]: with which.
+    /// For [`Measure::IncreasesWith`] and [`Measure::NonlinearityPercent`]: with which.
     pub with: Option<Quantity>,
-    /// For [`Measure::MaxOff`], [`Measure::JumpOff`] and [`Measure::DepartureOff`]: the value, the
+    /// For [`Measure::MaxOff`], [`Measure::MeanOff`], [`Measure::JumpOff`] and [`Measure::DepartureOff`]: the value, the
     /// time, s, or the haptic voltage, V rms, that is expected.
     pub expected: Option<f64>,
     /// Names of the cases it covers; all where empty.
@@ -180,10 +189,11 @@ impl Criterion {
         let measure = table.require("measure", "what is measured", measure)?;
         let of = table.require("of", "a quantity", quantity(table, "of")?)?;
         let with = quantity(table, "with")?;
-        if with.is_some() != (measure == Measure::IncreasesWith) {
-            return Err(
-                table.error("with", "expected with measure = \"increases_with\", and only there")
-            );
+        let lines = matches!(measure, Measure::IncreasesWith | Measure::NonlinearityPercent);
+        if with.is_some() != lines {
+            let measures = "\"increases_with\" or \"nonlinearity_percent\"";
+            let expected = format!("expected with measure = {measures}, and only there");
+            return Err(table.error("with", expected));
         }
         if measure.is_of_target() && of != Quantity::ForceN {
             let message = format!("expected \"force_n\" with measure = {:?}", measure.name());
@@ -214,11 +224,14 @@ impl Criterion {
 fn read_expected(table: &Table, measure: Measure) -> Result<Option<f64>, SceneError> {
     let expected = table.number("expected", Limits::ANY)?;
     if expected.is_some()
-        == matches!(measure, Measure::MaxOff | Measure::JumpOff | Measure::DepartureOff)
+        == matches!(
+            measure,
+            Measure::MaxOff | Measure::MeanOff | Measure::JumpOff | Measure::DepartureOff
+        )
     {
         return Ok(expected);
     }
-    let with = "\"max_off\", \"jump_off\" or \"departure_off\"";
+    let with = "\"max_off\", \"mean_off\", \"jump_off\" or \"departure_off\"";
     Err(table.error("expected", format!("expected with measure = {with}, and only there")))
 }
 

@@ -9,6 +9,8 @@ const SCENES: &[(&str, &str)] = &[
     ("fig6", include_str!("../gallery/fig6.toml")),
     ("fig7", include_str!("../gallery/fig7.toml")),
     ("fig9", include_str!("../gallery/fig9.toml")),
+    ("fig13", include_str!("../gallery/fig13.toml")),
+    ("fig15", include_str!("../gallery/fig15.toml")),
     ("hockey", include_str!("../gallery/hockey.toml")),
     ("terminals-500-ohm", include_str!("../gallery/terminals-500-ohm.toml")),
     ("shunt-panel", include_str!("../gallery/shunt-panel.toml")),

@@ -49,6 +49,7 @@
 //! | know the display that a scene describes | [`Device`], [`signs_by_place`] |
 //! | name a quantity, its unit and its truth | [`Quantity`] |
 //! | know what a scene claims | [`Criterion`], [`Measure`] |
+//! | know the force loop and the walls that a scene asks for | [`ControlPlan`], [`WallPlan`] |
 //! | start from a bundled scene | [`gallery`] |
 //!
 //! Inside, from the bottom up:
@@ -89,6 +90,7 @@ mod timing;
 mod trajectory;
 mod truth;
 mod variant;
+mod wall;
 mod wave;
 
 pub use budget::LevelDeviation;
@@ -108,4 +110,5 @@ pub use scene::{Figure, Record, Scene};
 pub use terminals::{LEAST_TERMINALS, MOST_TERMINALS};
 pub use timing::Timing;
 pub use truth::{ForcePoint, MapPoint, PadMeasurement, Setpoint, Truth};
+pub use wall::{WallPlan, WallRule};
 pub use wave::HapticWave;

@@ -222,7 +222,7 @@ fn read_push(table: &Table, key: &'static str) -> Result<Stimulus, SceneError> {
 }
 
 /// A stimulus that is not swept; zero where there is none.
-fn over_time(
+pub(crate) fn over_time(
     table: &Table,
     key: &'static str,
     what: &str,
@@ -285,6 +285,7 @@ fn still(
         (capacitance_f * haptic_v_rms).powi(2) / (2.0 * EPSILON_0 * device.pad_area_m2);
     Pad {
         index,
+        part: None,
         time_s,
         x_mm: at[0],
         y_mm: at[1],

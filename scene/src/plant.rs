@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! One case of a scene at work: the truth, the phasors and the ADC samples, slot by slot.
 //!
-//! Slot s serves pad s mod pads. Its sample n is taken at (s·slot_samples + n)/sample rate; the
+//! Slot s serves pad s mod pads, or that part of a pad where each has slots of its own. Its sample n is taken at (s·slot_samples + n)/sample rate; the
 //! carrier starts afresh at n = 0. A pad is held for the whole slot as it is in the middle of the
 //! slot's window. Effects may have a state, which moves through all of time, whichever pad is
 //! served: ask for slots in rising order.
@@ -77,8 +77,9 @@ impl Plant {
                 format!("expected a case below {}, got {case}", scene.cases.len()),
             ));
         };
-        if chosen.pads.len() > timing.pads {
-            let (pads, name) = (chosen.pads.len(), &scene.profile);
+        let served = chosen.pads.len() * chosen.parts_mm.len();
+        if served > timing.pads {
+            let (pads, name) = (served, &scene.profile);
             return Err(fail(
                 "pad",
                 format!(
@@ -215,7 +216,7 @@ impl Plant {
     /// Finished slots of this case.
     pub fn slots(&self) -> usize {
         match self.case.length {
-            Length::Sweep { points, dwell_slots } => points * dwell_slots * self.case.pads.len(),
+            Length::Sweep { points, dwell_slots } => points * dwell_slots * self.served(),
             Length::Time { duration_s } => (duration_s * self.device.sample_rate_hz
                 / self.timing.slot_samples as f64)
                 .floor() as usize,
@@ -237,6 +238,21 @@ impl Plant {
         self.device.clone()
     }
 
+    /// How many pads a core serves: the scene's, or the parts of them that have slots of their own.
+    pub fn served(&self) -> usize {
+        self.case.pads.len() * self.parts()
+    }
+
+    /// The parts of each pad that have slots of their own; one where it is served as a whole.
+    pub fn parts(&self) -> usize {
+        self.case.parts_mm.len()
+    }
+
+    /// Where they lie, mm right of the pad's centre.
+    pub fn parts_mm(&self) -> &[f64] {
+        &self.case.parts_mm
+    }
+
     /// The pads' names, in the order of their slots.
     pub fn pad_names(&self) -> Vec<&str> {
         self.case.pad_names()
@@ -250,7 +266,8 @@ impl Plant {
 
     /// Sets a pad's haptic voltage at its source: from `time_s` on it is this, until it is set
     /// again, whatever the scene says. A controller or a recording drives the plant so, slot by
-    /// slot; load and position stay the scene's.
+    /// slot; load and position stay the scene's. Parts of a pad have one source: any of their
+    /// numbers sets it.
     ///
     /// Times of a pad do not fall, and none is before the middle of the window of a slot that has
     /// been asked for. Several may be set ahead.
@@ -284,11 +301,12 @@ impl Plant {
         time_s: f64,
         haptic_v_rms: f64,
     ) -> Result<(), DriveError> {
-        let pads = self.case.pads.len();
+        let pads = self.served();
         if pad >= pads {
             return Err(DriveError::NoPad { pad, pads });
         }
-        self.held.resize_with(pads, HeldVoltage::default);
+        let pad = pad / self.parts();
+        self.held.resize_with(self.case.pads.len(), HeldVoltage::default);
         self.held[pad].set(time_s, haptic_v_rms, self.latest_s)
     }
 
@@ -297,7 +315,7 @@ impl Plant {
     /// # Panics
     /// Where there is no such pad.
     pub fn target_n(&self, pad: usize, time_s: f64) -> f64 {
-        self.case.pads[pad].target_n(Moment::at(time_s))
+        self.case.pads[pad / self.parts()].target_n(Moment::at(time_s))
     }
 
     /// The largest force that a controller shall give each pad, N.
@@ -312,7 +330,8 @@ impl Plant {
         let [r_x, r_y] = self.ratios.of_amplitudes(&pad.amplitudes());
         Truth {
             time_s: pad.time_s,
-            pad: pad.index,
+            pad: pad.index * self.parts() + pad.part.unwrap_or(0),
+            part: pad.part.unwrap_or(0),
             point,
             group: self.case.pads[pad.index].group(point),
             r_x,
@@ -324,6 +343,7 @@ impl Plant {
             haptic_v_rms: pad.haptic_v_rms,
             force_n: pad.haptic_force_n(&self.device),
             friction_n: pad.friction_n,
+            haptic_friction_n: self.haptic_friction_n(pad),
             hand_n: pad.hand_n,
             electrodes_pf: pad.electrodes_f.map(|farad| farad * 1e12),
             direction: pad.direction,
@@ -332,6 +352,12 @@ impl Plant {
             over_edge: pad.over_edge,
             touching: pad.touching,
         }
+    }
+
+    /// What of a pad's friction is the haptic force's.
+    fn haptic_friction_n(&self, pad: &Pad) -> f64 {
+        let of_load_n = self.device.mu * self.device.weight_n(pad.load_g);
+        (pad.friction_n - of_load_n).clamp(0.0, pad.haptic_force_n(&self.device))
     }
 
     /// What an ideal demodulator over the slot's window finds, as fractions of full scale: one
@@ -372,7 +398,7 @@ impl Plant {
     /// The point of the sweep in a slot.
     fn point(&self, slot: usize) -> usize {
         match self.case.length {
-            Length::Sweep { dwell_slots, .. } => slot / self.case.pads.len() / dwell_slots,
+            Length::Sweep { dwell_slots, .. } => slot / self.served() / dwell_slots,
             Length::Time { .. } => 0,
         }
     }
@@ -383,23 +409,25 @@ impl Plant {
             return;
         }
         let time_s = self.time_s(slot);
-        let index = slot % self.case.pads.len();
+        let served = slot % self.served();
+        let parts = self.parts();
+        let (index, part) = (served / parts, (parts > 1).then_some(served % parts));
         self.latest_s = self.latest_s.max(time_s);
-        self.now = (Some(slot), self.alone(index, time_s));
+        self.now = (Some(slot), self.alone(index, part, time_s));
         if self.effects.joins_pads() {
             let mut others = std::mem::take(&mut self.others);
             others.clear();
             let indices = (0..self.case.pads.len()).filter(|other| *other != index);
-            others.extend(indices.map(|other| self.alone(other, time_s)));
+            others.extend(indices.map(|other| self.alone(other, None, time_s)));
             self.effects.on_pads(&mut self.now.1, &others);
             self.others = others;
         }
     }
 
     /// A pad as if it were the only one.
-    fn alone(&mut self, index: usize, time_s: f64) -> Pad {
+    fn alone(&mut self, index: usize, part: Option<usize>, time_s: f64) -> Pad {
         let drive = drive(&self.case, &self.timing, &self.device, &self.held, index);
-        let mut pad = drive.pad(Moment::at(time_s));
+        let mut pad = Pad { part, ..drive.pad(Moment::at(time_s)) };
         self.effects.on_pad(&mut pad, &drive);
         if let Some(held) = self.held.get_mut(index) {
             held.forget(time_s);
@@ -422,7 +450,8 @@ fn drive<'a>(
 ) -> PadDrive<'a> {
     let point_s = match case.length {
         Length::Sweep { dwell_slots, .. } => {
-            (dwell_slots * case.pads.len() * timing.slot_samples) as f64 / device.sample_rate_hz
+            let slots = dwell_slots * case.pads.len() * case.parts_mm.len();
+            (slots * timing.slot_samples) as f64 / device.sample_rate_hz
         }
         Length::Time { .. } => f64::INFINITY,
     };

@@ -13,6 +13,8 @@ enum Source {
     Frame,
     /// The plant alone.
     Plant,
+    /// The scene, which sets it.
+    Scene,
     /// Two others, taken as a vector.
     Pair,
 }
@@ -83,6 +85,14 @@ quantities! {
     LoadG: "load_g", "g", Plant, |truth| truth.load_g;
     /// Friction that acts on the pad, N; known to the plant alone.
     FrictionN: "friction_n", "N", Plant, |truth| truth.friction_n;
+    /// What of the friction that acts is the haptic force's, N; known to the plant alone.
+    HapticFrictionN: "haptic_friction_n", "N", Plant, |truth| truth.haptic_friction_n;
+    /// Force of the hand along x, N; known to the plant alone.
+    HandXN: "hand_x_n", "N", Plant, |truth| truth.hand_n[0];
+    /// Eccentricity of the push, mm.
+    EccentricityMm: "eccentricity_mm", "mm", Scene, |truth| truth.set.eccentricity_mm;
+    /// The part of a split pad that the slot serves, from 0.
+    Part: "part", "1", Scene, |truth| truth.part as f64;
 }
 
 impl Quantity {

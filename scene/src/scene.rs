@@ -8,7 +8,7 @@
 //! window_samples = 5000           # of the core's window, where the profile's is too short for the haptic frequency
 //! settle_samples = 390            # before the window, where the profile's slots are too long
 //! seed = 1                        # of noise and mismatch; default 1
-//! figure = "fig3"                 # fig3 | fig4 | fig6 | fig7 | fig9 | hockey; how a report draws it
+//! figure = "fig3"                 # fig3 | fig4 | fig6 | fig7 | fig9 | fig13 | fig15 | hockey; how a report draws it
 //! record = ["frames", "report"]   # frames | report | capture | waves
 //! dwell_slots = 1                 # slots of each pad at each point of a sweep, or
 //! duration_s = 2.0                # time, where pads move and nothing is swept
@@ -66,6 +66,10 @@ pub enum Figure {
     Fig7,
     /// The force beside its target.
     Fig9,
+    /// The direction that is read over the eccentricity of the push.
+    Fig13,
+    /// A pad at a wall: its place, the hand's force and the wall's over time.
+    Fig15,
     /// Paths of several pads.
     Hockey,
 }
@@ -183,6 +187,8 @@ impl Scene {
             ("fig6", Figure::Fig6),
             ("fig7", Figure::Fig7),
             ("fig9", Figure::Fig9),
+            ("fig13", Figure::Fig13),
+            ("fig15", Figure::Fig15),
             ("hockey", Figure::Hockey),
         ];
         let figure = root.choice("figure", &figures.map(|(name, _)| name))?;

@@ -50,14 +50,14 @@ pub(crate) fn next_multiple(period_s: f64, after_s: f64) -> f64 {
 }
 
 /// Points of time and value, and those times at which the value steps or its slope changes.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Timeline {
     points: Vec<[f64; 2]>,
     events_s: Vec<f64>,
 }
 
 /// One quantity of a pad over sweep points or time.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Stimulus {
     Constant(f64),
     Sweep(Vec<f64>),

@@ -24,8 +24,10 @@ use num_complex::Complex64;
 pub struct Truth {
     /// Time since the start of the case, s.
     pub time_s: f64,
-    /// The pad that the slot serves.
+    /// The pad that the slot serves, or the part of one, counted over all pads.
     pub pad: usize,
+    /// The part of its pad that is served; 0 of a pad that is served as a whole.
+    pub part: usize,
     /// Point of the sweep, 0 where nothing is swept.
     pub point: usize,
     /// Points that differ in position alone share a group.
@@ -48,6 +50,8 @@ pub struct Truth {
     pub force_n: f64,
     /// Friction that acts on the pad, N; 0 where `[friction]` has no law of motion.
     pub friction_n: f64,
+    /// What of it is the haptic force's: what is beyond μ times the load, N.
+    pub haptic_friction_n: f64,
     /// Force of finger and push on the pad along x and y, N; 0 without `[hand]`.
     pub hand_n: [f64; 2],
     /// Capacitances of the electrodes of a split pad from left to right, two or four, pF; 0 without

@@ -9,7 +9,8 @@ use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::Format;
 use hapticore_model::blocks::force_loop::{ForceLoop, Inputs, Outputs};
 use hapticore_model::blocks::position::TablePort;
-use hapticore_model::fidelity::force_loop::{curve_writes, tuning_codes};
+use hapticore_model::blocks::split_pad::WallPort;
+use hapticore_model::fidelity::force_loop::{curve_writes, tuning_codes, wall_codes};
 use hapticore_run::case::Case;
 use hapticore_run::engine::Signals;
 use hapticore_run::inputs;
@@ -55,11 +56,15 @@ impl Closed {
         let constants = Inputs {
             core: block.core.idle_inputs(&calibration),
             tuning: tuning_codes(&formats.tuning, &tuning),
+            wall: tuning
+                .walls
+                .as_ref()
+                .map_or(WallPort::of(0), |walls| wall_codes(&formats.wall, walls)),
             ..Inputs::of(0)
         };
         let mut writes = VecDeque::new();
         let word = formats.core.calibration.table.word;
-        for (address, &real) in (0..).zip(&calibration.position.words) {
+        for (address, real) in (0..).zip(calibration.words(&case.profile)) {
             let table = TablePort { write: 1, address, word: word.code_saturating(real) };
             let core = constants.core.with_table(table);
             writes.push_back(Inputs { core, ..constants });
@@ -67,6 +72,7 @@ impl Closed {
         for tuning in curve_writes(formats.tuning, &tuning) {
             writes.push_back(Inputs { tuning, ..constants });
         }
+        writes.extend(surfaces(&case, constants, formats.wall.wall_surface));
         Closed {
             maker: Maker::new(plant, &case.profile, true, false),
             codes: vec![0; case.profile.channels()],
@@ -87,10 +93,23 @@ impl Closed {
         }
     }
 
+    /// A pad that is pushed into a wall and drawn out of it again, within so few slots that a trace
+    /// of them can be kept.
+    ///
+    /// # Panics
+    /// As [`Closed::new`].
+    pub fn at_a_wall(profile: &Profile) -> Self {
+        let there_and_back =
+            "{ timeline = { x_mm = [[0, 0.3], [0.006, -0.8], [0.012, -0.8], [0.02, 0.5]] } }";
+        let set = [("pad.0.position_mm", there_and_back), ("hand.stiffness_n_per_m", "20000")];
+        let set = set.map(|(key, value)| (key.to_string(), value.to_string()));
+        Closed::new(profile, ("fig15", 0), &set, 24)
+    }
+
     /// The inputs of the next clock, after these outputs; none at the end.
     pub fn next(&mut self, outputs: &[i64]) -> Option<Vec<i64>> {
         if let Some(write) = self.writes.pop_front() {
-            return Some(flat(write));
+            return Some(flat(write, self.block.inputs()));
         }
         self.drive(outputs);
         let mut inputs = self.constants;
@@ -106,7 +125,7 @@ impl Closed {
             false => self.codes[at + channel].into(),
         };
         self.advance();
-        Some(flat(inputs))
+        Some(flat(inputs, self.block.inputs()))
     }
 
     fn advance(&mut self) {
@@ -138,7 +157,7 @@ impl Closed {
     /// A slot's target is written as it begins; its window is made once its blanking is over, and
     /// so the drives of the slots before are known.
     fn begin_sample(&mut self, inputs: &mut Inputs<i64>) -> Option<()> {
-        let pads = self.maker.plant().pad_names().len();
+        let pads = self.maker.plant().served();
         if self.sample == 0 {
             if self.slot == self.slots {
                 return None;
@@ -161,9 +180,31 @@ impl Closed {
     }
 }
 
-fn flat(inputs: Inputs<i64>) -> Vec<i64> {
+/// The walls' surfaces, as they are when the case begins.
+fn surfaces(case: &Case, constants: Inputs<i64>, format: Format) -> Vec<Inputs<i64>> {
+    let plan = case.scene.cases[case.index].control.as_ref();
+    let Some(wall) = plan.and_then(|plan| plan.wall.as_ref()) else { return Vec::new() };
+    let plant = case.plant().expect("a plant");
+    let last_mm = plant.parts_mm().last().copied().unwrap_or(0.0);
+    let write = |pad: usize| {
+        let mut inputs = constants;
+        (inputs.wall.wall_write, inputs.wall.wall_pad) = (1, pad as i64);
+        inputs.wall.wall_surface = format.code_saturating(wall.surface_mm(0.0) + last_mm);
+        inputs
+    };
+    (0..plant.served()).map(write).collect()
+}
+
+/// The codes of the ports that are there.
+fn flat(inputs: Inputs<i64>, formats: Inputs<Format>) -> Vec<i64> {
     let mut codes = Vec::with_capacity(Inputs::FIELDS.len());
-    Inputs::each(inputs, |_, code| codes.push(code));
+    let mut push = |format: Format, code: i64| {
+        if !format.is_none() {
+            codes.push(code);
+        }
+    };
+    let both = <Inputs as Bundle>::zip(formats, inputs);
+    Inputs::each(both, |_, (format, code)| push(format, code));
     codes
 }
 

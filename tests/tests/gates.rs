@@ -65,10 +65,28 @@ fn gates_close_the_loop_as_the_model_does(family: &str, profile: &str, force: &s
     let set = [("pad.0.target_n".into(), target), ("control.force".into(), force.into())];
     let bundled = Profile::bundled(profile).expect("bundled");
     let mut closed = Closed::new(&bundled, ("fig9", 1), &set, 3);
+    loop_gates_do_as_the_model_does(&tools, (family, profile), &mut closed);
+}
+
+/// Cores with walls: three slots of a pad make one frame.
+fn gates_run_a_wall_as_the_model_does(family: &str, profile: &str) {
+    let Some(tools) = Tools::or_skip() else { return };
+    if !tools::have(&["verilator", "make", "g++", "iverilog"]) {
+        return;
+    }
+    let mut closed = Closed::at_a_wall(&Profile::bundled(profile).expect("bundled"));
+    loop_gates_do_as_the_model_does(&tools, (family, profile), &mut closed);
+}
+
+fn loop_gates_do_as_the_model_does(
+    tools: &Tools,
+    (family, profile): (&str, &str),
+    closed: &mut Closed,
+) {
     let (block, design) = (closed.block.clone(), Design::of(&closed.block, "a test"));
     let trace = Trace::record(&block, design.ports.clone(), |outputs| closed.next(outputs));
     let top = format!("{}_gate", design.top());
-    let text = gates(&tools, family, &design);
+    let text = gates(tools, family, &design);
     let verilated = Verilated::new(&top, &design.ports, &text, Start::Anything);
     if let Err(mismatch) = verilated.check(&trace) {
         panic!("{family}, {profile}: {mismatch}");
@@ -84,6 +102,11 @@ fn ice40_gates_close_the_force_loop_as_the_model_does() {
 #[test]
 fn ecp5_gates_close_the_force_loop_with_a_table_as_the_model_does() {
     gates_close_the_loop_as_the_model_does("ecp5", "standard", "\"table\"");
+}
+
+#[test]
+fn ecp5_gates_run_a_wall_as_the_model_does() {
+    gates_run_a_wall_as_the_model_does("ecp5", "small");
 }
 
 #[test]

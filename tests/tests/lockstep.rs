@@ -184,6 +184,26 @@ fn verilator_closes_the_force_loop_as_the_model_does() {
     }
 }
 
+/// Plant, core and wall together: a pad is pushed into the wall, which holds it, and drawn out.
+#[test]
+fn verilator_runs_a_wall_as_the_model_does() {
+    if !tools::have(&["verilator", "make", "g++"]) {
+        return;
+    }
+    for name in ["small", "standard"] {
+        let mut closed = Closed::at_a_wall(&Profile::bundled(name).expect("bundled"));
+        let (block, design) = (closed.block.clone(), Design::of(&closed.block, "a test"));
+        let trace = Trace::record(&block, design.ports.clone(), |outputs| closed.next(outputs));
+        let [drive, free] = ["drive", "drive_free"].map(|port| of_port(&trace, port));
+        assert!(drive.iter().max() > Some(&0), "{name}: the wall holds the pad");
+        assert!(free.iter().max() > Some(&0), "{name}: the wall lets it go");
+        let verilated = Verilated::new(design.top(), &design.ports, &design.text(), Start::Zero);
+        if let Err(mismatch) = verilated.check(&trace) {
+            panic!("{name}: {mismatch}");
+        }
+    }
+}
+
 /// What a port gave, clock by clock.
 fn of_port(trace: &Trace, name: &str) -> Vec<i64> {
     let at = trace.ports.iter().position(|port| port.name == name).expect("a port");

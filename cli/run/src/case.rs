@@ -93,14 +93,20 @@ impl<'a> Case<'a> {
         let signs = signs_by_place(&device.terminals_mm, [device.width_mm, device.height_mm]);
         let control = scene.cases[index].control.as_ref();
         let profile = for_terminals(profile, &signs)?;
-        let profile =
-            buildable(control.map_or(profile.clone(), |plan| controlled(&profile, plan)))?;
         let plant = Plant::new(scene, index, &timing(&profile))?;
-        let pads = plant.pad_names().len();
-        let profile = Arc::new(serving(&profile, pads));
+        let profile = for_parts(serving(&profile, plant.served()), plant.parts());
+        let rate_hz = plant.device().sample_rate_hz;
+        let frame_s = (profile.slot.samples() as usize * plant.served()) as f64 / rate_hz;
+        let profile = control
+            .map_or(profile.clone(), |plan| controlled(&profile, plan, (plant.parts(), frame_s)));
+        let profile = Arc::new(buildable(profile)?);
         let calibrated = plant.as_calibrated()?;
         let mut device = calibrate::of_plant(calibrated.as_ref().unwrap_or(&plant), &profile);
         let mut bench = None;
+        ensure!(
+            plant.parts() == 1 || profile.force.law == ForceLaw::Eq8,
+            "control.force: expected \"eq8\" with halves.senses = \"each\", for a force table is of whole pads"
+        );
         if profile.force.law == ForceLaw::Table || scene.figure.is_some_and(|of| BOTH.contains(&of))
         {
             bench = Bench::of(&scene.cases[index].document)?;
@@ -108,7 +114,7 @@ impl<'a> Case<'a> {
         }
         let start_s = others.iter().map(Case::seconds).sum();
         let clock = SlotClock::new(&profile, device.device.sample_rate_hz, start_s);
-        let uncontrolled = |of: &Profile| Profile { control: None, ..of.clone() };
+        let uncontrolled = |of: &Profile| Profile { control: None, wall: None, ..of.clone() };
         let mut same = others.iter().filter(|other| {
             other.device == device && uncontrolled(&other.profile) == uncontrolled(&profile)
         });
@@ -198,7 +204,8 @@ impl<'a> Case<'a> {
         let fidelity = (settings.fidelity, tuning.as_ref());
         let device = (&self.device, self.calibration()?);
         let session = Session::new(&self.profile, device, fidelity, settings.errors, at)?
-            .with_cancellers(cancellers);
+            .with_cancellers(cancellers)
+            .with_directions(&plant);
         let whole = settings.fidelity == Fidelity::Clock || recorder.is_some();
         let mut maker = Maker::new(
             plant.metered(),
@@ -220,6 +227,15 @@ impl<'a> Case<'a> {
             Ok(outcome)
         })
     }
+}
+
+/// The profile for pads that are served part by part: half a pad has half its capacitance, so that
+/// the gain of (C·V)² is four times the pad's.
+fn for_parts(mut profile: Profile, parts: usize) -> Profile {
+    if parts > 1 {
+        profile.formats.force_gain.frac -= 2;
+    }
+    profile
 }
 
 /// The force table of a device on its bench, or the same of another case.
@@ -249,8 +265,7 @@ impl Case<'_> {
             );
         }
         let calibrated = plant.as_calibrated()?;
-        let at =
-            (calibrated.as_ref().unwrap_or(plant), self.clock.seconds(plant.pad_names().len()));
+        let at = (calibrated.as_ref().unwrap_or(plant), self.clock.seconds(plant.served()));
         control::tuning(plan, control, &self.profile, &self.device, at).map(Some)
     }
 
@@ -260,7 +275,8 @@ impl Case<'_> {
     /// A profile without a controller.
     pub fn loop_plant(&self, maker: Maker) -> Result<LoopPlant> {
         let full_scale_v = self.plan().map_or(0.0, |plan| plan.full_scale_v);
-        LoopPlant::new(maker, &self.profile, self.clock, full_scale_v)
+        let wall = self.plan().and_then(|plan| plan.wall.clone());
+        LoopPlant::new(maker, &self.profile, (self.clock, full_scale_v), wall)
     }
 
     fn plan(&self) -> Option<&ControlPlan> {
@@ -280,13 +296,15 @@ impl Case<'_> {
             interrupt::check()?;
             let made = plant.slot(number);
             session.set_target(made.slot.pad, made.target_n);
+            if let Some(surface_mm) = made.surface_mm {
+                session.set_surface(made.slot.pad, surface_mm);
+            }
             if let Some(recorder) = recorder.as_mut() {
                 recorder.slot(made.slot.pad, made.slot.whole())?;
             }
             peak = peak.max(made.peak);
             let row = session.slot(&made.slot, Some(record_truth(&made.truth)));
-            let Some(drive) = session.take_drive() else { continue };
-            let driven = Some(plant.drive(&made, &drive)?);
+            let driven = plant.drive(&made, session.take_drive())?;
             rows.extend(row.map(|row| Row { driven, ..row }));
             progress();
         }
@@ -330,6 +348,17 @@ fn consume(
 /// What the record keeps of the plant's truth.
 pub fn record_truth(truth: &Truth) -> record::Truth {
     let quantities = quantities_of!(truth);
-    let Truth { load_g, friction_n, set, point, group, over_edge, touching, .. } = *truth;
-    record::Truth { quantities, load_g, friction_n, set, point, group, over_edge, touching }
+    record::Truth {
+        quantities,
+        load_g: truth.load_g,
+        friction_n: truth.friction_n,
+        haptic_friction_n: truth.haptic_friction_n,
+        hand_x_n: truth.hand_n[0],
+        part: truth.part,
+        set: truth.set,
+        point: truth.point,
+        group: truth.group,
+        over_edge: truth.over_edge,
+        touching: truth.touching,
+    }
 }

@@ -12,6 +12,7 @@ mod affine;
 mod departure;
 mod estimate;
 mod jumps;
+mod lines;
 
 /// A case that was run, as criteria see it.
 pub struct CaseRows<'a> {
@@ -129,13 +130,20 @@ fn value(criterion: &Criterion, rows: &[&Row], estimate: Estimate) -> f64 {
             )
         }
         Measure::SpreadPercent => spread(rows.iter().map(|row| estimated(row, of, estimate))),
-        Measure::IncreasesWith => rise(rows, of, criterion.with.unwrap_or(of), estimate),
+        Measure::IncreasesWith => lines::rise(rows, of, criterion.with.unwrap_or(of), estimate),
+        Measure::NonlinearityPercent => {
+            lines::nonlinearity(rows, of, criterion.with.unwrap_or(of), estimate)
+        }
         Measure::InvalidPercent => {
             100.0 * mean(rows.iter().map(|row| f64::from(row.flags.contains("invalid"))))
         }
         Measure::MaxOff => {
             let expected = criterion.expected.unwrap_or(f64::NAN);
             greatest(rows.iter().map(|row| (estimated(row, of, estimate) - expected).abs()))
+        }
+        Measure::MeanOff => {
+            let expected = criterion.expected.unwrap_or(f64::NAN);
+            (mean(rows.iter().map(|row| estimated(row, of, estimate))) - expected).abs()
         }
         Measure::RmsOffTarget => mean(rows.iter().map(|row| off_target(row).powi(2))).sqrt(),
         Measure::MaxAboveTarget => greatest(rows.iter().map(|row| off_target(row))),
@@ -166,27 +174,6 @@ fn spread(values: impl Iterator<Item = f64> + Clone) -> f64 {
     let highest = greatest(values.clone());
     let lowest = -greatest(values.clone().map(|value| -value));
     100.0 * (highest - lowest) / mean(values)
-}
-
-/// The smallest step, negated, of the estimate between neighbouring values of `with`, load and
-/// voltage else equal.
-fn rise(rows: &[&Row], of: Quantity, with: Quantity, estimate: Estimate) -> f64 {
-    let key = |value: f64| (value * 1e6).round() as i64;
-    let mut lines: BTreeMap<Vec<i64>, BTreeMap<i64, Vec<f64>>> = BTreeMap::new();
-    for row in rows {
-        let others =
-            [Quantity::LoadG, Quantity::HapticVRms].into_iter().filter(|other| *other != with);
-        let line =
-            lines.entry(others.map(|other| key(truth(row, other, 0.0))).collect()).or_default();
-        line.entry(key(truth(row, with, 0.0))).or_default().push(estimated(row, of, estimate));
-    }
-    let overall = mean(rows.iter().map(|row| estimated(row, of, estimate)));
-    let means = lines
-        .into_values()
-        .map(|line| line.into_values().map(|v| mean(v.into_iter())).collect::<Vec<_>>());
-    let falls =
-        means.flat_map(|line| line.windows(2).map(|pair| pair[0] - pair[1]).collect::<Vec<_>>());
-    100.0 * greatest(falls) / overall
 }
 
 /// How far the estimate is from the truth.

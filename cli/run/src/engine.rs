@@ -120,7 +120,11 @@ pub trait Engine: Send {
     /// Sets a pad's target force, N, where there is a controller.
     fn set_target(&mut self, _pad: usize, _newtons: f64) {}
 
-    /// The drive of the last slot's pad, where there is a controller.
+    /// Sets where the wall of a pad begins, mm, where there are walls.
+    fn set_surface(&mut self, _pad: usize, _surface_mm: f64) {}
+
+    /// The drive that the last slot led to, where there is a controller: after each slot, or after
+    /// the last of a split pad.
     fn take_drive(&mut self) -> Option<Drive> {
         None
     }

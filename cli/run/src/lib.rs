@@ -26,6 +26,7 @@ pub mod case;
 pub mod control;
 pub mod criteria;
 pub mod digitiser;
+pub mod direction;
 pub mod engine;
 pub mod errors;
 pub mod haptic;

@@ -46,6 +46,8 @@ pub struct Driven {
     pub limited: bool,
     /// A fault keeps the drives at zero.
     pub fault: bool,
+    /// The user leaves the pad's wall, where it has one.
+    pub free: Option<bool>,
 }
 
 /// What the plant knows of a slot.
@@ -57,6 +59,12 @@ pub struct Truth {
     pub load_g: f64,
     /// Friction that acts on the pad; zero where no law of motion makes it.
     pub friction_n: f64,
+    /// What of it is the haptic force's.
+    pub haptic_friction_n: f64,
+    /// Force of the hand on the pad along x, where there is one.
+    pub hand_x_n: f64,
+    /// The part of a split pad that the slot serves.
+    pub part: usize,
     /// What the scene sets the pad to.
     #[serde(skip)]
     pub set: Setpoint,
@@ -191,7 +199,7 @@ pub struct Record {
     pub title: String,
     /// What it is about.
     pub summary: String,
-    /// Which figures to draw: `fig3`, `fig4`, `fig6`, `fig7`, `fig9`, `hockey`; any other gets the
+    /// Which figures to draw: `fig3`, `fig4`, `fig6`, `fig7`, `fig9`, `fig13`, `fig15`, `hockey`; any other gets the
     /// general ones.
     pub figure: Option<String>,
     /// Name of the profile.

@@ -14,8 +14,10 @@ use hapticore_host::{
     CrosstalkCanceller, DeviceCalibration, ForceLaws, Readout, Residual, SlotClock,
 };
 use hapticore_reference::Reference as FloatCore;
+use hapticore_scene::Plant;
 
 use crate::control::closed;
+use crate::direction::Directions;
 use crate::engine::{Engine, Fidelity, Slot, engine};
 use crate::errors::Errors;
 use crate::record::{Reference, Row, SignalError, Truth};
@@ -28,6 +30,8 @@ pub struct Session {
     errors: Option<Errors>,
     /// Of the core and of the reference.
     readouts: [Readout; 2],
+    /// Of the core and of the reference, where pads are served part by part.
+    directions: [Option<Directions>; 2],
     /// Both laws of the force, where the device has a table.
     laws: Option<ForceLaws>,
     clock: SlotClock,
@@ -59,6 +63,7 @@ impl Session {
             reference: FloatCore::new(profile, calibration),
             errors: errors.then(|| Errors::new(profile, calibration)),
             readouts: [0, 1].map(|_| Readout::new(profile, device)),
+            directions: [None, None],
             laws: device.force.as_ref().map(|_| ForceLaws::new(profile, calibration)),
             clock,
             case,
@@ -74,6 +79,12 @@ impl Session {
         let [of_core, of_reference] = cancellers;
         self.readouts = [core.with_canceller(of_core), reference.with_canceller(of_reference)];
         self
+    }
+
+    /// The same session, whose measurements have the direction of the push in a plant whose pads
+    /// are served part by part.
+    pub fn with_directions(self, plant: &Plant) -> Self {
+        Session { directions: [0, 1].map(|_| Directions::of(plant)), ..self }
     }
 
     /// Takes a slot and what is known of it; the row that is finished, if one is.
@@ -102,6 +113,11 @@ impl Session {
         self.engine.set_target(pad, newtons);
     }
 
+    /// Sets where the wall of a pad begins, mm, from its next slot on.
+    pub fn set_surface(&mut self, pad: usize, surface_mm: f64) {
+        self.engine.set_surface(pad, surface_mm);
+    }
+
     /// The drive of the last slot's pad, where there is a controller.
     pub fn take_drive(&mut self) -> Option<Drive> {
         self.engine.take_drive()
@@ -127,7 +143,10 @@ impl Session {
         let measurement = slot.refer(&mut self.reference);
         let capacitance_pf = self.reference.capacitance_eq6();
         let ratio = capacitance_pf / measurement.capacitance_pf;
-        let (quantities, _) = self.readouts[1].convert(&measurement);
+        let (mut quantities, _) = self.readouts[1].convert(&measurement);
+        if let Some(directions) = &mut self.directions[1] {
+            directions.complete(measurement.pad, &mut quantities);
+        }
         Reference {
             quantities,
             capacitance_eq6_pf: capacitance_pf,
@@ -142,7 +161,10 @@ impl Session {
     fn finished(&mut self, measurement: &Measurement) -> Option<Row> {
         let row = self.waiting.pop_front()?;
         assert_eq!(row.pad, measurement.pad, "measurements come in the order of their slots");
-        let (measured, flags) = self.readouts[0].convert(measurement);
+        let (mut measured, flags) = self.readouts[0].convert(measurement);
+        if let Some(directions) = &mut self.directions[0] {
+            directions.complete(measurement.pad, &mut measured);
+        }
         let laws = self.laws.as_mut().map(|laws| laws.forces(measurement));
         Some(Row { measured, flags, laws, ..row })
     }

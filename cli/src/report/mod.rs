@@ -8,7 +8,7 @@
 //! | `axis`, `series`, `paint`, `number` | ticks, points, colours of both modes, numbers as text |
 //! | `select`, `sweep` | rows by case, setting and pad; settings by load and voltage |
 //! | `control` | pads with a target force, and how far each is off it |
-//! | `fig3`, `fig4`, `fig6`, `fig7`, `fig9`, `hockey` | the figures of a scene |
+//! | `fig3`, `fig4`, `fig6`, `fig7`, `fig9`, `fig13`, `fig15`, `hockey` | the figures of a scene |
 //! | `calibration` | the page of a device's calibration |
 //! | `general`, `swept` | those of any other: over time, over what is swept |
 
@@ -18,6 +18,8 @@ mod canvas;
 #[cfg(test)]
 mod contrast;
 mod control;
+mod fig13;
+mod fig15;
 mod fig3;
 mod fig3_maps;
 mod fig4;
@@ -79,6 +81,8 @@ fn chosen(record: &Record) -> Vec<Figure> {
         Some("fig6") => fig6::figures(record),
         Some("fig7") => fig7::figures(record),
         Some("fig9") => fig9::figures(record),
+        Some("fig13") => fig13::figures(record),
+        Some("fig15") => fig15::figures(record),
         Some("hockey") => hockey::figures(record),
         _ if truth && !record.swept.is_empty() => swept::figures(record),
         _ => general::figures(record),

@@ -41,7 +41,7 @@ pub fn trace<W: Wave>(
         bar.inc(1);
         let made = plant.slot(number as usize);
         let drive = step(&mut core, &mut tracer, &made, profile.slot_clocks() - blanking)?;
-        plant.drive(&made, &drive)?;
+        plant.drive(&made, drive)?;
     }
     Ok(tracer.finish()?)
 }
@@ -52,10 +52,13 @@ fn step<W: Wave>(
     tracer: &mut Tracer<W>,
     made: &LoopSlot,
     window_clocks: u64,
-) -> Result<Drive> {
+) -> Result<Option<Drive>> {
     let mut outcome = Ok(());
     let mut clocks = 0..;
     core.set_target(made.slot.pad, made.target_n);
+    if let Some(surface_mm) = made.surface_mm {
+        core.set_surface(made.slot.pad, surface_mm);
+    }
     let (_, drive) = core.slot_with(made.slot.window(), |core| {
         if clocks.next() == Some(window_clocks) {
             truth::set(tracer, &made.truth);

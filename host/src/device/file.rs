@@ -43,6 +43,11 @@ impl DeviceCalibration {
     }
 
     fn check(&self) -> Result<(), String> {
+        let parts = self.parts;
+        if parts == 0 || !self.pads.is_multiple_of(parts) {
+            let pads = self.pads;
+            return Err(format!("parts: expected a divisor of pads, {pads}, got {parts}"));
+        }
         match self.pads {
             1..=256 => {
                 self.device.check()?;
@@ -57,11 +62,12 @@ impl DeviceCalibration {
     pub fn text(&self) -> String {
         let device = &self.device;
         let mut text = format!(
-            "# A device's calibration for `hapticore replay`.\npads = {}\n\n[terminals]\nx = {:?}\ny = {:?}\n\n[device]\n\
+            "# A device's calibration for `hapticore replay`.\npads = {}\n{}\n[terminals]\nx = {:?}\ny = {:?}\n\n[device]\n\
              sample_rate_hz = {:?}\ncarrier_hz = {:?}\ncurrent_full_scale_a = {:?}\nsense_full_scale_v = {:?}\n\
              haptic_full_scale_v = {:?}\nforce_k = {:?}\n{}{}\n[map]\ncolumns = {}\nopen_share = {:?}\n\
              places = [ # x_mm, y_mm, r_x, r_y, sheet_ohm\n",
             self.pads,
+            if self.parts > 1 { format!("parts = {}\n", self.parts) } else { String::new() },
             self.terminals.x,
             self.terminals.y,
             device.sample_rate_hz,

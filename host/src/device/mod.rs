@@ -6,6 +6,7 @@
 //!
 //! ```toml
 //! pads = 1
+//! parts = 1                        # 2 or 3 of them in a row are parts of one split pad
 //! [terminals]                     # signs in the ratios; those of eqs. 2 and 3 where the table is left out
 //! x = [-1, -1, 1, 1, 0, 0]
 //! y = [1, -1, -1, 1, -1, 1]
@@ -62,6 +63,9 @@ use serde::Deserialize;
 pub struct DeviceCalibration {
     /// Number of pads, selected in turn.
     pub pads: u64,
+    /// Of them, so many in a row are parts of one pad.
+    #[serde(default = "whole")]
+    pub parts: u64,
     /// The signs of the terminals' currents in the ratios of `map`.
     #[serde(default)]
     pub terminals: Signs,
@@ -71,6 +75,11 @@ pub struct DeviceCalibration {
     pub force: Option<Force>,
     /// Places and what is measured there.
     pub map: Raster,
+}
+
+/// Pads that are not split.
+fn whole() -> u64 {
+    1
 }
 
 /// The signs of the terminals' currents in the numerators of both ratios.

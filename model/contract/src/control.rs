@@ -99,6 +99,21 @@ pub struct Tuning {
     pub slew: f64,
     /// A force beyond it is a fault, N.
     pub force_cap: f64,
+    /// The walls of split pads, where the profile has them.
+    pub walls: Option<Walls>,
+}
+
+/// Virtual walls.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Walls {
+    /// Stiffness, N/mm.
+    pub stiffness_n_per_mm: f64,
+    /// The largest force, N.
+    pub most_n: f64,
+    /// What the direction u of a wall on the left reads without a push.
+    pub factory: f64,
+    /// The walls are right of their surfaces.
+    pub right: bool,
 }
 
 impl Tuning {
@@ -112,6 +127,7 @@ impl Tuning {
             rail: 1.0,
             slew: 1.0,
             force_cap: f64::INFINITY,
+            walls: None,
         }
     }
 }
@@ -147,4 +163,15 @@ pub struct Drive {
     pub high: bool,
     /// What keeps the drives at zero.
     pub faults: Faults,
+    /// What the pad's wall made of it, where it has one.
+    pub walled: Option<Walled>,
+}
+
+/// What a wall makes of a pad.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Walled {
+    /// The force that the drive is for, N.
+    pub target_n: f64,
+    /// The user leaves the wall.
+    pub free: bool,
 }

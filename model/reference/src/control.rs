@@ -87,7 +87,7 @@ impl Controller {
         let drive = to.min(pad.drive + slew).max(pad.drive - slew);
         let correction = if prompt.invalid { pad.correction } else { drive - base };
         self.pads[prompt.pad] = Pad { invalid, drive, correction };
-        Drive { pad: prompt.pad, fraction: drive, low, high, faults: self.faults }
+        Drive { pad: prompt.pad, fraction: drive, low, high, faults: self.faults, walled: None }
     }
 
     /// √F over that of the largest target.

@@ -10,6 +10,9 @@
 //! F = min(k_w·|x|, F_max)·gain                                           (docs/physics.md §6)
 //! ```
 //!
+//! That is the rule `sequential`. By `never` the state stays PUSH (eq. 11, with a force that is linear
+//! in the depth), by `direct` it is FREE in each frame within the wall where y > 0 (eq. 12).
+//!
 //! ```text
 //! C_L, C_R ─(−, +)─[divider]─ u ─┐
 //! x ─[follow]─ x̄, v ─[learn]─ off, b, σ ─[test]─ PUSH/FREE ─(k_w·|x|)─(× gain)─[round half even]─ force

@@ -7,19 +7,21 @@
 
 use super::fixed::FixedSimulation;
 use super::{Gathered, signals};
-use crate::blocks::controller::{self, Controller, Faults as FaultPort};
+use crate::blocks::controller::{self, Faults as FaultPort};
 use crate::blocks::core;
-use crate::blocks::force_loop::{DrivePort, ForceLoop, Inputs, Outputs};
+use crate::blocks::drives::{self, DrivePort, Drives, TargetPort};
+use crate::blocks::force_loop::{ForceLoop, Inputs, Outputs};
 use crate::blocks::position::TablePort;
+use crate::blocks::split_pad::WallPort;
 use hapticore_contract::calibration::Calibration;
-use hapticore_contract::control::{Drive, Faults, Tuning};
-use hapticore_contract::frame::Frame;
+use hapticore_contract::control::{Drive, Faults, Tuning, Walled, Walls};
+use hapticore_contract::frame::{Field, Frame};
 use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_hdl::block::{Block, Inputs as BlockInputs, Outputs as BlockOutputs, State};
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::Format;
 use hapticore_hdl::probe::{Probe, Variable, sample, variables};
-use hapticore_hdl::signal::{Signal, bit, code};
+use hapticore_hdl::signal::{Signal, bit};
 use std::slice::ChunksExact;
 
 /// The tuning's words as codes, all drives on, nothing written.
@@ -63,19 +65,64 @@ fn faults(port: FaultPort<Signal<i64>>) -> Faults {
     Faults { silence: silence_fault, sensor: sensor_fault, force: force_fault }
 }
 
-/// Fidelity `fixed`: the controller's clocks follow those of the estimator, both without those of
-/// the samples.
+/// The inputs of drives while nothing happens: tuned, walls as told.
+fn idle(drives: &Drives, tuning: &Tuning) -> drives::Inputs<i64> {
+    let formats = drives.inputs();
+    let mut idle =
+        drives::Inputs { tuning: tuning_codes(&formats.tuning, tuning), ..drives::Inputs::of(0) };
+    if let Some(walls) = &tuning.walls {
+        idle.wall = wall_codes(&formats.wall, walls);
+    }
+    idle
+}
+
+/// The words of walls as codes, nothing written.
+pub fn wall_codes(formats: &WallPort<Format>, walls: &Walls) -> WallPort<i64> {
+    WallPort {
+        wall_right: walls.right.into(),
+        wall_stiffness: formats.wall_stiffness.code_saturating(walls.stiffness_n_per_mm),
+        wall_most: formats.wall_most.code_saturating(walls.most_n),
+        wall_factory: formats.wall_factory.code_saturating(walls.factory),
+        ..WallPort::of(0)
+    }
+}
+
+/// A pad's target as its port takes it.
+fn target_write(formats: &TargetPort<Format>, pad: usize, newtons: f64) -> TargetPort<i64> {
+    TargetPort {
+        target_write: 1,
+        target_pad: pad as i64,
+        target_word: formats.target_word.code_saturating(newtons),
+        ..TargetPort::of(0)
+    }
+}
+
+/// The surface of a pad's wall as its port takes it.
+fn surface_write(
+    formats: &WallPort<Format>,
+    idle: WallPort<i64>,
+    pad: usize,
+    surface_mm: f64,
+) -> WallPort<i64> {
+    WallPort {
+        wall_write: 1,
+        wall_pad: pad as i64,
+        wall_surface: formats.wall_surface.code_saturating(surface_mm),
+        ..idle
+    }
+}
+
+/// Fidelity `fixed`: the clocks of drives follow those of the estimator, both without those of the
+/// samples.
 pub struct FixedLoop {
     core: FixedSimulation<i64>,
-    controller: Controller,
-    state: State<Controller, i64>,
-    tuning: controller::Tuning<Signal<i64>>,
-    targets: Vec<i64>,
-    alive: bool,
+    drives: Drives,
+    state: State<Drives, i64>,
+    idle: drives::Inputs<i64>,
 }
 
 impl FixedLoop {
-    /// A core and a controller of a profile, calibrated and tuned, all targets zero.
+    /// A core and its drives of a profile, calibrated and tuned, all targets zero.
     ///
     /// # Errors
     /// A profile without a controller, or one that cannot be.
@@ -84,51 +131,62 @@ impl FixedLoop {
         calibration: &Calibration,
         tuning: &Tuning,
     ) -> Result<Self, ProfileError> {
-        let controller = Controller::try_new(profile)?;
-        let formats = controller.inputs().tuning;
-        let mut state = controller.reset();
-        for write in curve_writes(formats, tuning) {
-            let idle = controller::Inputs { tuning: write, ..controller::Inputs::of(0) };
-            let inputs = signals::<controller::Inputs, i64>(idle, controller.inputs());
-            clock(&controller, &mut state, inputs);
+        let drives = ForceLoop::try_new(profile)?.drives;
+        let (state, idle) = (drives.reset(), idle(&drives, tuning));
+        let core = FixedSimulation::new(profile, calibration);
+        let mut of = FixedLoop { core, drives, state, idle };
+        for write in curve_writes(of.drives.inputs().tuning, tuning) {
+            of.clock(drives::Inputs { tuning: write, ..of.idle });
         }
-        Ok(FixedLoop {
-            core: FixedSimulation::new(profile, calibration),
-            tuning: signals::<controller::Tuning, i64>(tuning_codes(&formats, tuning), formats),
-            state,
-            controller,
-            targets: vec![0; profile.pads as usize],
-            alive: false,
-        })
+        Ok(of)
     }
 
     /// Sets a pad's target force, N.
     pub fn set_target(&mut self, pad: usize, newtons: f64) {
-        self.targets[pad] = self.controller.inputs().target.code_saturating(newtons);
-        self.alive = true;
+        let target = target_write(&self.drives.inputs().target, pad, newtons);
+        self.clock(drives::Inputs { target, ..self.idle });
     }
 
-    /// The frame and the drive word of a slot, of what `frame` lets the core find.
+    /// Sets where the wall of a pad begins, mm.
+    pub fn set_surface(&mut self, pad: usize, surface_mm: f64) {
+        let wall = surface_write(&self.drives.inputs().wall, self.idle.wall, pad, surface_mm);
+        self.clock(drives::Inputs { wall, ..self.idle });
+    }
+
+    /// The frame of a slot, of what `frame` lets the core find, and its drive word; none where the
+    /// slot is not the last of a split pad.
     pub fn slot(
         &mut self,
         frame: impl FnOnce(&mut FixedSimulation<i64>) -> Frame,
-    ) -> (Frame, Drive) {
+    ) -> (Frame, Option<Drive>) {
         let frame = frame(&mut self.core);
         let prompt = self.core.prompt().expect("a core with a controller gives an estimate");
-        let formats = self.controller.inputs();
-        let inputs = controller::Inputs {
-            start: bit(false),
-            pad: prompt.prompt_pad,
-            target: code(self.targets[frame.pad], formats.target),
-            capacitance: prompt.prompt_capacitance,
-            measured: prompt.prompt_force,
-            force_gain: prompt.prompt_gain,
-            invalid: prompt.prompt_invalid,
-            alive: bit(std::mem::take(&mut self.alive)),
-            clear_faults: bit(false),
-            tuning: self.tuning,
-        };
-        (frame, run(&self.controller, &mut self.state, inputs, frame.pad))
+        let mut inputs = signals::<drives::Inputs, i64>(self.idle, self.drives.inputs());
+        inputs.estimate = prompt;
+        let mut drive = None;
+        for _ in 0..=self.drives.latency() {
+            let outputs = clock(&self.drives, &mut self.state, inputs);
+            inputs.estimate.prompt = bit(false);
+            if outputs.drive.drive_valid.value != 0 {
+                drive = Some(given(outputs.drive, outputs.faults));
+            }
+        }
+        self.place(&frame);
+        (frame, drive)
+    }
+
+    /// The place of a valid frame.
+    fn place(&mut self, frame: &Frame) {
+        if frame.flags.invalid || self.drives.split_pad.is_none() {
+            return;
+        }
+        let (placed_pad, place) = (frame.pad as i64, frame.codes[Field::X as usize]);
+        self.clock(drives::Inputs { placed: 1, placed_pad, place, ..self.idle });
+    }
+
+    fn clock(&mut self, inputs: drives::Inputs<i64>) {
+        let inputs = signals::<drives::Inputs, i64>(inputs, self.drives.inputs());
+        clock(&self.drives, &mut self.state, inputs);
     }
 }
 
@@ -142,33 +200,21 @@ fn clock<B: Block>(
     block.clock(state, inputs)
 }
 
-/// Runs a controller until its drive word is there.
-///
-/// # Panics
-/// Where it does not finish within its latency.
-#[inline(never)]
-fn run(
-    controller: &Controller,
-    state: &mut State<Controller, i64>,
-    inputs: controller::In<i64>,
-    pad: usize,
-) -> Drive {
-    clock(controller, state, inputs);
-    let quiet = controller::Inputs { alive: bit(false), ..inputs };
-    clock(controller, state, controller::Inputs { start: bit(true), ..quiet });
-    for _ in 0..controller.latency() {
-        let out = clock(controller, state, quiet);
-        if out.done.value != 0 {
-            return Drive {
-                pad,
-                fraction: out.drive.format.real(out.drive.value),
-                low: out.low.value != 0,
-                high: out.high.value != 0,
-                faults: faults(out.faults),
-            };
-        }
+/// The drive word that is given.
+fn given(port: DrivePort<Signal<i64>>, faults_port: FaultPort<Signal<i64>>) -> Drive {
+    let DrivePort { drive_pad, drive, drive_low, drive_high, drive_target, drive_free, .. } = port;
+    let walled = Walled {
+        target_n: drive_target.format.real(drive_target.value),
+        free: drive_free.value != 0,
+    };
+    Drive {
+        pad: drive_pad.value as usize,
+        fraction: drive.format.real(drive.value),
+        low: drive_low.value != 0,
+        high: drive_high.value != 0,
+        faults: faults(faults_port),
+        walled: (!drive_target.format.is_none()).then_some(walled),
     }
-    unreachable!("the controller finishes within its latency")
 }
 
 /// Fidelity `clock`: every clock, as the board runs it.
@@ -179,6 +225,8 @@ pub struct ClockLoop {
     /// What the ADC sees of a slot's blanking.
     silence: Vec<i32>,
     channels: usize,
+    /// The walls, nothing written.
+    wall: WallPort<i64>,
     state: ClockState,
 }
 
@@ -206,9 +254,11 @@ impl ClockLoop {
     ) -> Result<Self, ProfileError> {
         let block = ForceLoop::try_new(profile)?;
         let formats = block.inputs();
+        let drives = idle(&block.drives, tuning);
         let codes = Inputs {
             core: block.core.idle_inputs(calibration),
-            tuning: tuning_codes(&formats.tuning, tuning),
+            tuning: drives.tuning,
+            wall: drives.wall,
             ..Inputs::of(0)
         };
         let channels = profile.channels();
@@ -225,17 +275,18 @@ impl ClockLoop {
             clocks_per_sample: profile.clocks_per_sample,
             silence: vec![0; profile.slot.blanking() as usize * channels],
             channels,
+            wall: drives.wall,
             block,
         };
-        of.calibrate(calibration, tuning);
+        of.calibrate(profile, calibration, tuning);
         of.blank();
         Ok(of)
     }
 
-    fn calibrate(&mut self, calibration: &Calibration, tuning: &Tuning) {
+    fn calibrate(&mut self, profile: &Profile, calibration: &Calibration, tuning: &Tuning) {
         let formats = self.block.inputs();
-        let word = self.block.core.estimator().position().table().format;
-        for (address, &real) in (0..).zip(&calibration.position.words) {
+        let word = self.block.core.estimator().table().format;
+        for (address, real) in (0..).zip(calibration.words(profile)) {
             let codes = TablePort { write: 1, address, word: word.code_saturating(real) };
             let table = formats.core.calibration.table;
             let mut inputs = self.inputs;
@@ -251,20 +302,29 @@ impl ClockLoop {
     /// Sets a pad's target force, N.
     pub fn set_target(&mut self, pad: usize, newtons: f64) {
         let formats = self.block.inputs().target;
-        let mut inputs = self.inputs;
-        inputs.target.target_write = bit(true);
-        inputs.target.target_pad = code(pad as i64, formats.target_pad);
-        inputs.target.target_word =
-            code(formats.target_word.code_saturating(newtons), formats.target_word);
+        let target = signals::<TargetPort, i64>(target_write(&formats, pad, newtons), formats);
+        self.write(Inputs { target, ..self.inputs });
+    }
+
+    /// Sets where the wall of a pad begins, mm.
+    pub fn set_surface(&mut self, pad: usize, surface_mm: f64) {
+        let formats = self.block.inputs().wall;
+        let wall = surface_write(&formats, self.wall, pad, surface_mm);
+        let wall = signals::<WallPort, i64>(wall, formats);
+        self.write(Inputs { wall, ..self.inputs });
+    }
+
+    fn write(&mut self, inputs: Inputs<Signal<i64>>) {
         let outputs = clock(&self.block, &mut self.state.block, inputs);
         self.state.collect(outputs);
     }
 
-    /// The frame and the drive word of a slot: `codes` are those of its window.
+    /// The frame of a slot, and its drive word as in [`FixedLoop::slot`]: `codes` are those of its
+    /// window.
     ///
     /// # Panics
     /// Where the blanking is too short for them.
-    pub fn slot(&mut self, codes: &[i32]) -> (Frame, Drive) {
+    pub fn slot(&mut self, codes: &[i32]) -> (Frame, Option<Drive>) {
         self.samples(codes);
         self.blank();
         self.results()
@@ -274,7 +334,11 @@ impl ClockLoop {
     ///
     /// # Panics
     /// As [`ClockLoop::slot`].
-    pub fn slot_with(&mut self, codes: &[i32], mut look: impl FnMut(&Self)) -> (Frame, Drive) {
+    pub fn slot_with(
+        &mut self,
+        codes: &[i32],
+        mut look: impl FnMut(&Self),
+    ) -> (Frame, Option<Drive>) {
         let silence = self.silence.clone();
         for codes in codes.chunks_exact(self.channels).chain(silence.chunks_exact(self.channels)) {
             for count in 0..self.clocks_per_sample {
@@ -287,9 +351,9 @@ impl ClockLoop {
         self.results()
     }
 
-    fn results(&mut self) -> (Frame, Drive) {
+    fn results(&mut self) -> (Frame, Option<Drive>) {
         let frame = self.state.frame.take().expect("a frame within the blanking");
-        (frame, self.state.drive.take().expect("a drive word within the blanking"))
+        (frame, self.state.drive.take())
     }
 
     /// Clocks since the first sample.
@@ -351,20 +415,8 @@ impl ClockState {
             self.frame = Some(self.gathered.frame(frame));
         }
         if outputs.drive.drive_valid.value != 0 {
-            self.drive = Some(given(outputs));
+            self.drive = Some(given(outputs.drive, outputs.faults));
         }
-    }
-}
-
-/// The drive word that is given.
-fn given(outputs: Outputs<Signal<i64>>) -> Drive {
-    let DrivePort { drive_pad, drive, drive_low, drive_high, .. } = outputs.drive;
-    Drive {
-        pad: drive_pad.value as usize,
-        fraction: drive.format.real(drive.value),
-        low: drive_low.value != 0,
-        high: drive_high.value != 0,
-        faults: faults(outputs.faults),
     }
 }
 

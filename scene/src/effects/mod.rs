@@ -16,6 +16,7 @@ mod finger;
 mod friction;
 mod gap;
 pub(crate) mod pad;
+pub(crate) mod part;
 pub(crate) mod recorded;
 mod release;
 mod running;
@@ -49,6 +50,7 @@ pub(crate) const EFFECTS: &[Reader] = &[
     finger::read,
     release::read,
     friction::read,
+    part::read,
     temperature::read,
     sheet::read,
     shunt::read,

@@ -12,6 +12,8 @@ use crate::wave::HapticWave;
 pub(crate) struct Pad {
     /// Which pad it is: effects with a state keep one for each.
     pub index: usize,
+    /// The part that the slot serves, where each part of a split pad has a slot of its own.
+    pub part: Option<usize>,
     /// Middle of the slot's window, since the start of the case.
     pub time_s: f64,
     pub x_mm: f64,

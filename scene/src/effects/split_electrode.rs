@@ -16,7 +16,7 @@
 //! | 2 | halves, whose centres lie a quarter of the pad's diameter off its own | both |
 //! | 4 | strips of a disc: the outer two have `outer_share_percent` of its area | the outer two, at `sensing_v_rms` at most where that is given |
 //!
-//! The truth's direction is Δx over half the sheet's width, as the ratios of eq. 10 are. Source:
+//! With `senses = "each"` a pad has a slot for each of its parts: see `part`. The truth's direction is Δx over half the sheet's width, as the ratios of eq. 10 are. Source:
 //! docs/physics.md §4.
 
 use super::effect::{Effect, PadEffect};
@@ -58,16 +58,20 @@ pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneE
 
 /// One electrode.
 #[derive(Clone, Copy, Debug)]
-struct Strip {
+pub(super) struct Strip {
     /// Share of the pad's area.
     area: f64,
     /// Where its centre lies, mm right of the pad's.
-    centre_mm: f64,
-    electrode: Electrode,
+    pub centre_mm: f64,
+    pub electrode: Electrode,
 }
 
 /// The electrodes from left to right.
-fn read_strips(table: &Table, mismatch: f64, device: &Device) -> Result<Vec<Strip>, SceneError> {
+pub(super) fn read_strips(
+    table: &Table,
+    mismatch: f64,
+    device: &Device,
+) -> Result<Vec<Strip>, SceneError> {
     let strips = table.whole("strips", 2, 4)?.unwrap_or(2);
     if strips == 3 {
         return Err(table.error("strips", "expected 2 or 4, got 3"));

@@ -76,7 +76,10 @@ impl Plant {
     pub fn friction_calibration(&self, loads_g: &[f64], haptic_v_rms: &[f64]) -> Vec<ForcePoint> {
         let settings =
             loads_g.iter().flat_map(|load| haptic_v_rms.iter().map(move |volt| (*load, *volt)));
-        let still = settings.map(|(load, volt)| resting([0.0, 0.0], load, volt, &self.device));
+        // The part that brakes: the last, where parts have slots of their own.
+        let part = (self.parts() > 1).then(|| self.parts() - 1);
+        let still = settings
+            .map(|(load, volt)| Pad { part, ..resting([0.0, 0.0], load, volt, &self.device) });
         let point = |pad: Pad| ForcePoint {
             load_g: pad.load_g,
             haptic_v_rms: pad.haptic_v_rms,
@@ -84,6 +87,17 @@ impl Plant {
             force_n: pad.haptic_force_n(&self.device),
         };
         self.settle(still).map(point).collect()
+    }
+
+    /// What the left and the right part of a split pad read at rest under a load, pF: the direction
+    /// that a device has when it leaves the factory. None of a pad that is whole.
+    pub fn parts_at_rest_pf(&self, load_g: f64) -> Option<[f64; 2]> {
+        let still = [resting([0.0, 0.0], load_g, 0.0, &self.device)];
+        let of = |pad: Pad| {
+            let right = pad.electrodes_f.iter().rposition(|farad| *farad > 0.0)?;
+            (right > 0).then(|| [0, right].map(|n| 1e12 * pad.electrodes_f[n]))
+        };
+        self.settle(still.into_iter()).find_map(of)
     }
 
     /// Lets effects of their own act on each pad, so that a calibration leaves the run as it was.

@@ -73,6 +73,39 @@ fn check_loop(folder: &Path, scene: &str) {
     assert!(frames("fixed") == frames("clock"), "{scene}: fixed is clock, to the bit");
 }
 
+/// Holds the same where a loop does what its first clocks do not show.
+fn check_loop_with(scene: &str, set: &[&str]) {
+    let folder = tempfile::tempdir().unwrap();
+    let frames = |core: &str| {
+        let mut args = vec!["simulate", scene, "--core", core, "--out", core];
+        set.iter().for_each(|set| args.extend(["--set", set]));
+        finish(folder.path(), &args);
+        Table::read(&folder.path().join(core).join("frames.csv"))
+    };
+    let (fixed, clock) = (frames("fixed"), frames("clock"));
+    let drives = fixed.numbers("drive_v_rms");
+    assert!(drives.iter().any(|volt| *volt > 100.0), "{scene}: the loop drives the pad");
+    for name in &fixed.names {
+        assert!(fixed.column(name) == clock.column(name), "{scene}: {name}, fixed and clock");
+    }
+}
+
+#[test]
+#[cfg_attr(not(optimised), ignore = "every clock of a loop: run with --release")]
+fn a_force_table_in_a_loop_is_the_same_in_fixed_and_clock() {
+    let target = "pad.0.target_n={ timeline = [[0, 0], [0.005, 0], [0.005, 0.6]] }";
+    check_loop_with("fig9", &["control.force=\"table\"", "duration_s=0.03", target]);
+}
+
+/// In every case of `fig15` a pad that is pushed into the wall and drawn out of it.
+#[test]
+#[cfg_attr(not(optimised), ignore = "every clock of a loop: run with --release")]
+fn a_wall_is_met_and_left_alike_in_fixed_and_clock() {
+    let place = "{ timeline = { x_mm = [[0, 0.3], [0.006, -0.8], [0.012, -0.8], [0.02, 0.5]] } }";
+    let place = format!("pad.0.position_mm={place}");
+    check_loop_with("fig15", &["hand.stiffness_n_per_m=20000", "duration_s=0.024", &place]);
+}
+
 fn check(scene: &str, text: &str) {
     let folder = tempfile::tempdir().unwrap();
     let mut summary = Value::Null;

@@ -56,7 +56,8 @@ pub fn of_plant(plant: &Plant, profile: &Profile) -> DeviceCalibration {
     let places =
         map.iter().map(|point| [point.x_mm, point.y_mm, point.r_x, point.r_y, point.sheet_ohm]);
     DeviceCalibration {
-        pads: plant.pad_names().len() as u64,
+        pads: plant.served() as u64,
+        parts: plant.parts() as u64,
         terminals: Signs { x: profile.terminals.x.clone(), y: profile.terminals.y.clone() },
         map: Raster { columns: RASTER[0], places: places.collect(), open_share },
         force: None,
@@ -83,5 +84,5 @@ pub fn nominal(profile: &Profile) -> Result<DeviceCalibration> {
         let terminals = profile.terminals.x.len();
         anyhow!("expected --calibration FILE: the paper's display has six terminals, the profile {terminals}")
     })?;
-    Ok(DeviceCalibration { pads: profile.pads, ..of_plant(&plant, profile) })
+    Ok(DeviceCalibration { pads: profile.pads, parts: 1, ..of_plant(&plant, profile) })
 }

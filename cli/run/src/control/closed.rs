@@ -6,12 +6,13 @@ use std::sync::Arc;
 
 use anyhow::Result;
 use hapticore_contract::calibration::Calibration;
-use hapticore_contract::control::{Drive, Tuning};
+use hapticore_contract::control::{Drive, Tuning, Walled};
 use hapticore_contract::frame::Measurement;
 use hapticore_contract::profile::Profile;
 use hapticore_model::fidelity::force_loop::{ClockLoop, FixedLoop};
 use hapticore_reference::Reference;
 use hapticore_reference::control::Controller;
+use hapticore_reference::wall::{SplitPads, Whole};
 
 use crate::engine::{Engine, Fidelity, Slot};
 
@@ -34,8 +35,9 @@ pub fn engine(
 
 /// A core that drives the pad of each slot.
 trait Loop: Send + 'static {
-    fn slot(&mut self, slot: &Slot, profile: &Profile) -> (Measurement, Drive);
+    fn slot(&mut self, slot: &Slot, profile: &Profile) -> (Measurement, Option<Drive>);
     fn set_target(&mut self, pad: usize, newtons: f64);
+    fn set_surface(&mut self, pad: usize, surface_mm: f64);
 }
 
 /// A loop as an engine: the drive of the last slot waits until it is taken.
@@ -52,12 +54,16 @@ fn closed(profile: &Arc<Profile>, core: impl Loop) -> Box<dyn Engine> {
 impl<L: Loop> Engine for Closed<L> {
     fn slot(&mut self, slot: &Slot) -> Option<Measurement> {
         let (measurement, drive) = self.core.slot(slot, &self.profile);
-        self.drive = Some(drive);
+        self.drive = drive;
         Some(measurement)
     }
 
     fn set_target(&mut self, pad: usize, newtons: f64) {
         self.core.set_target(pad, newtons);
+    }
+
+    fn set_surface(&mut self, pad: usize, surface_mm: f64) {
+        self.core.set_surface(pad, surface_mm);
     }
 
     fn take_drive(&mut self) -> Option<Drive> {
@@ -70,25 +76,46 @@ struct Float {
     core: Reference,
     controller: Controller,
     targets: Vec<f64>,
+    split_pads: Option<SplitPads>,
 }
 
 impl Float {
     fn new(profile: &Profile, calibration: &Calibration, tuning: &Tuning) -> Self {
         let pads = profile.pads as usize;
         let control = profile.control.as_ref().expect("a scene with a controller sets it");
+        let walls = profile.wall.as_ref().zip(tuning.walls.as_ref());
         Float {
             core: Reference::new(profile, calibration),
             controller: Controller::new(control, tuning, pads),
             targets: vec![0.0; pads],
+            split_pads: walls.map(|(wall, walls)| SplitPads::new(wall, walls, pads)),
         }
     }
 }
 
 impl Loop for Float {
-    fn slot(&mut self, slot: &Slot, _: &Profile) -> (Measurement, Drive) {
+    fn slot(&mut self, slot: &Slot, _: &Profile) -> (Measurement, Option<Drive>) {
         let measurement = slot.refer(&mut self.core);
-        let drive = self.controller.drive(&self.core.prompt(), self.targets[slot.pad]);
+        let (prompt, target_n) = (self.core.prompt(), self.targets[slot.pad]);
+        let Some(split_pads) = &mut self.split_pads else {
+            return (measurement, Some(self.controller.drive(&prompt, target_n)));
+        };
+        let drive = split_pads.estimate(&prompt).map(|Whole { prompt, walled }| {
+            let walled = Walled { target_n: walled.target_n.max(target_n), ..walled };
+            let drive = self.controller.drive(&prompt, walled.target_n);
+            split_pads.drive(slot.pad, drive.fraction);
+            Drive { walled: Some(walled), ..drive }
+        });
+        if !measurement.flags.invalid {
+            split_pads.place(slot.pad, measurement.x_mm);
+        }
         (measurement, drive)
+    }
+
+    fn set_surface(&mut self, pad: usize, surface_mm: f64) {
+        if let Some(split_pads) = &mut self.split_pads {
+            split_pads.set_surface(pad, surface_mm);
+        }
     }
 
     fn set_target(&mut self, pad: usize, newtons: f64) {
@@ -98,7 +125,7 @@ impl Loop for Float {
 }
 
 impl Loop for FixedLoop {
-    fn slot(&mut self, slot: &Slot, profile: &Profile) -> (Measurement, Drive) {
+    fn slot(&mut self, slot: &Slot, profile: &Profile) -> (Measurement, Option<Drive>) {
         let (frame, drive) = self.slot(|core| slot.frame(core));
         (frame.measurement(profile), drive)
     }
@@ -106,15 +133,23 @@ impl Loop for FixedLoop {
     fn set_target(&mut self, pad: usize, newtons: f64) {
         self.set_target(pad, newtons);
     }
+
+    fn set_surface(&mut self, pad: usize, surface_mm: f64) {
+        self.set_surface(pad, surface_mm);
+    }
 }
 
 impl Loop for ClockLoop {
-    fn slot(&mut self, slot: &Slot, profile: &Profile) -> (Measurement, Drive) {
+    fn slot(&mut self, slot: &Slot, profile: &Profile) -> (Measurement, Option<Drive>) {
         let (frame, drive) = self.slot(slot.window());
         (frame.measurement(profile), drive)
     }
 
     fn set_target(&mut self, pad: usize, newtons: f64) {
         self.set_target(pad, newtons);
+    }
+
+    fn set_surface(&mut self, pad: usize, surface_mm: f64) {
+        self.set_surface(pad, surface_mm);
     }
 }

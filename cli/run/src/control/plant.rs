@@ -12,7 +12,7 @@ use hapticore_contract::control::Drive;
 use hapticore_contract::profile::Profile;
 use hapticore_host::SlotClock;
 use hapticore_model::blocks::force_loop::ForceLoop;
-use hapticore_scene::{EffectCost, Truth};
+use hapticore_scene::{EffectCost, Truth, WallPlan};
 
 use crate::engine::Slot;
 use crate::maker::Maker;
@@ -26,6 +26,11 @@ pub struct LoopPlant {
     full_scale_v: f64,
     /// From a slot's end to the drive that follows from it, s.
     latency_s: f64,
+    wall: Option<WallPlan>,
+    /// Where the wall of each pad has been set to begin, mm.
+    surfaces_mm: Vec<f64>,
+    /// How each pad, or all parts of it, is driven.
+    driven: Vec<Option<Driven>>,
 }
 
 /// A slot, and what its drive should give.
@@ -38,27 +43,33 @@ pub struct LoopSlot {
     pub peak: f64,
     /// The force that the pad shall have, N.
     pub target_n: f64,
+    /// Where the pad's wall begins as the core measures it, mm, where that is new.
+    pub surface_mm: Option<f64>,
     /// The slot's end, s.
     end_s: f64,
 }
 
 impl LoopPlant {
-    /// A plant before its first slot: no pad is driven. `full_scale_v` is that of drive words.
+    /// A plant before its first slot: no pad is driven. `full_scale_v` is that of drive words; the
+    /// walls are the scene's.
     ///
     /// # Errors
     /// A profile without a controller.
     pub fn new(
         mut maker: Maker,
         profile: &Profile,
-        clock: SlotClock,
-        full_scale_v: f64,
+        (clock, full_scale_v): (SlotClock, f64),
+        wall: Option<WallPlan>,
     ) -> Result<Self> {
         let clocks = ForceLoop::try_new(profile)?.latency();
         let clock_hz = profile.clocks_per_sample as f64 * clock.sample_rate_hz();
-        for pad in 0..maker.plant().pad_names().len() {
+        let pads = maker.plant().served();
+        for pad in 0..pads {
             maker.plant().set_drive(pad, 0.0, 0.0)?;
         }
-        Ok(LoopPlant { maker, clock, full_scale_v, latency_s: clocks as f64 / clock_hz })
+        let latency_s = clocks as f64 / clock_hz;
+        let (surfaces_mm, driven) = (vec![f64::NAN; pads], vec![None; pads]);
+        Ok(LoopPlant { maker, clock, full_scale_v, latency_s, wall, surfaces_mm, driven })
     }
 
     /// A slot; slots are asked for in order, each after the drive of the one before.
@@ -66,19 +77,41 @@ impl LoopPlant {
         let truth = self.maker.plant().truth(number);
         let end_s = self.clock.seconds(number + 1);
         let target_n = self.maker.plant().target_n(truth.pad, end_s);
+        let surface_mm = self.surface_mm(truth.pad, end_s);
         let (signals, peak) = self.maker.signals(number);
-        LoopSlot { slot: Slot { pad: truth.pad, signals }, truth, peak, target_n, end_s }
+        let slot = Slot { pad: truth.pad, signals };
+        LoopSlot { slot, truth, peak, target_n, surface_mm, end_s }
     }
 
-    /// Drives the pad of a slot, from the slot's end and the latency of its drive word on.
+    /// A pad's place is that of its last part.
+    fn surface_mm(&mut self, pad: usize, time_s: f64) -> Option<f64> {
+        let wall = self.wall.as_ref()?;
+        let surface_mm =
+            wall.surface_mm(time_s) + self.maker.plant().parts_mm().last().copied().unwrap_or(0.0);
+        let before = std::mem::replace(&mut self.surfaces_mm[pad], surface_mm);
+        (before != surface_mm).then_some(surface_mm)
+    }
+
+    /// Drives the pad of a slot, from the slot's end and the latency of its drive word on; without
+    /// a drive word it stays as it was driven last.
     ///
     /// # Errors
     /// A drive that the plant does not take.
-    pub fn drive(&mut self, of: &LoopSlot, drive: &Drive) -> Result<Driven> {
+    pub fn drive(&mut self, of: &LoopSlot, drive: Option<Drive>) -> Result<Option<Driven>> {
+        let pad = of.slot.pad / self.maker.plant().parts();
+        if let Some(drive) = drive {
+            self.driven[pad] = Some(self.driven(of, &drive)?);
+        }
+        Ok(self.driven[pad])
+    }
+
+    fn driven(&mut self, of: &LoopSlot, drive: &Drive) -> Result<Driven> {
         let drive_v_rms = self.full_scale_v * drive.fraction;
         self.maker.plant().set_drive(drive.pad, of.end_s + self.latency_s, drive_v_rms)?;
         let (limited, fault) = (drive.low | drive.high, drive.faults.any());
-        Ok(Driven { target_n: of.target_n, drive_v_rms, limited, fault })
+        let target_n = drive.walled.map_or(of.target_n, |walled| walled.target_n);
+        let free = drive.walled.map(|walled| walled.free);
+        Ok(Driven { target_n, drive_v_rms, limited, fault, free })
     }
 
     /// Effects and what they cost.

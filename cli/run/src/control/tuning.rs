@@ -2,17 +2,25 @@
 //! A scene's controller, in volts and newtons, as words of a core.
 
 use anyhow::{Result, ensure};
-use hapticore_contract::control::{Control, Law, Tuning};
-use hapticore_contract::profile::{Force, ForceLaw, Profile};
+use hapticore_contract::control::{Control, Law, Tuning, Walls};
+use hapticore_contract::profile::{Force, ForceLaw, Profile, Release, Wall};
 use hapticore_host::DeviceCalibration;
-use hapticore_scene::{ControlLaw, ControlPlan, DriveCurve, ForceEstimate, Plant};
+use hapticore_scene::{
+    ControlLaw, ControlPlan, DriveCurve, ForceEstimate, Plant, WallPlan, WallRule,
+};
 
 /// Voltages at which the steady curve is measured.
 const MEASURED: usize = 401;
 
 /// The profile with the controller that a scene asks for; formats are those of the profile's own,
 /// where it has one.
-pub fn controlled(profile: &Profile, plan: &ControlPlan) -> Profile {
+/// Those of the walls are for the time from a pad's slot to its next, where the profile has none of
+/// its own; `parts` are the slots of each pad.
+pub fn controlled(
+    profile: &Profile,
+    plan: &ControlPlan,
+    (parts, frame_s): (usize, f64),
+) -> Profile {
     let law = match plan.law {
         ControlLaw::Open => Law::Open,
         ControlLaw::Proportional => Law::Proportional,
@@ -24,10 +32,38 @@ pub fn controlled(profile: &Profile, plan: &ControlPlan) -> Profile {
         ForceEstimate::Eq8 => ForceLaw::Eq8,
         ForceEstimate::Table => ForceLaw::Table,
     });
+    let wall = plan.wall.as_ref().map(|wall| {
+        let usual = if parts == 2 { Wall::B } else { Wall::A }.at_frames_of(1e3 * frame_s);
+        walled(profile.wall.unwrap_or(usual), wall)
+    });
     Profile {
+        wall,
         control: Some(Control { law, ..control }),
         force: Force { law: force, ..profile.force },
         ..profile.clone()
+    }
+}
+
+/// The rule of a profile's walls as a scene asks for it.
+fn walled(wall: Wall, plan: &WallPlan) -> Wall {
+    let rule = match plan.rule {
+        WallRule::Sequential => Release::Sequential,
+        WallRule::Direct => Release::Direct,
+        WallRule::Never => Release::Never,
+    };
+    // Nothing moves so fast that it would be learnt from.
+    let learn_um = if plan.calibrated { wall.learn_um } else { 10_000 };
+    Wall { rule, learn_um, ..wall }
+}
+
+/// The walls, as the factory calibrates them.
+fn walls(plan: &WallPlan, nominal_load_g: f64, plant: &Plant) -> Walls {
+    let read = plant.parts_at_rest_pf(nominal_load_g).filter(|_| plan.calibrated);
+    Walls {
+        stiffness_n_per_mm: plan.stiffness_n_per_mm,
+        most_n: plan.force_n,
+        factory: read.map_or(0.0, |[left, right]| (right - left) / (right + left)),
+        right: plan.right,
     }
 }
 
@@ -73,6 +109,7 @@ pub fn tuning(
         rail: part(plan.rail_v),
         slew: part(plan.slew_v),
         force_cap: plan.force_cap_n,
+        walls: plan.wall.as_ref().map(|wall| walls(wall, plan.nominal_load_g, plant)),
     })
 }
 
@@ -83,6 +120,9 @@ fn curve(plan: &ControlPlan, control: &Control, plant: &Plant) -> Vec<f64> {
     match plan.curve {
         DriveCurve::SquareRoot => {
             roots.map(|root| plan.curve_factor * plan.feed_forward_v * root).collect()
+        }
+        DriveCurve::Linear => {
+            roots.map(|root| plan.curve_factor * plan.feed_forward_v * root * root).collect()
         }
         DriveCurve::Steady => {
             let steady = steady(plan, plant);

@@ -4,7 +4,7 @@
 
 use hapticore_scene::Quantity;
 
-use crate::record::{Quantities, Row};
+use crate::record::{Quantities, Row, Truth};
 
 /// The source of an estimate.
 #[derive(Clone, Copy)]
@@ -20,8 +20,8 @@ pub enum Estimate {
 /// The estimate of a quantity; not a number where there is none. What the plant alone knows is not
 /// estimated: it is the truth.
 pub fn estimated(row: &Row, of: Quantity, estimate: Estimate) -> f64 {
-    if let (Quantity::LoadG | Quantity::FrictionN, Some(truth)) = (of, row.truth) {
-        return if of == Quantity::LoadG { truth.load_g } else { truth.friction_n };
+    if let Some(known) = row.truth.and_then(|truth| known_to_the_plant(&truth, of)) {
+        return known;
     }
     match (estimate, row.reference) {
         (Estimate::Core, _) => quantity(&row.measured, of),
@@ -38,10 +38,23 @@ pub fn estimated(row: &Row, of: Quantity, estimate: Estimate) -> f64 {
 pub fn truth(row: &Row, of: Quantity, start_s: f64) -> f64 {
     match (of, row.truth) {
         (Quantity::TimeS, _) => row.time_s - start_s,
-        (Quantity::LoadG, Some(truth)) => truth.load_g,
-        (Quantity::FrictionN, Some(truth)) => truth.friction_n,
-        (_, Some(truth)) => quantity(&truth.quantities, of),
+        (_, Some(truth)) => {
+            known_to_the_plant(&truth, of).unwrap_or_else(|| quantity(&truth.quantities, of))
+        }
         (_, None) => f64::NAN,
+    }
+}
+
+/// What no frame estimates.
+fn known_to_the_plant(truth: &Truth, of: Quantity) -> Option<f64> {
+    match of {
+        Quantity::LoadG => Some(truth.load_g),
+        Quantity::FrictionN => Some(truth.friction_n),
+        Quantity::HapticFrictionN => Some(truth.haptic_friction_n),
+        Quantity::HandXN => Some(truth.hand_x_n),
+        Quantity::EccentricityMm => Some(truth.set.eccentricity_mm),
+        Quantity::Part => Some(truth.part as f64),
+        _ => None,
     }
 }
 

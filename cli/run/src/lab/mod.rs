@@ -165,6 +165,7 @@ pub fn calibrate(data: &Data, profile: &Profile) -> Result<(DeviceCalibration, O
     };
     let mut device = DeviceCalibration {
         pads: setup.pads,
+        parts: 1,
         map: Raster { columns: 0, places: Vec::new(), open_share: 0.0 },
         device: scales(setup, scale, force_k),
         force: force.as_ref().and_then(|force| force.table.clone()),

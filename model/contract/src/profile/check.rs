@@ -12,7 +12,7 @@ use std::fmt::Display;
 
 type Check = Result<(), ProfileError>;
 
-fn ensure(holds: bool, field: &str, expected: impl Display, got: impl Display) -> Check {
+pub(super) fn ensure(holds: bool, field: &str, expected: impl Display, got: impl Display) -> Check {
     if holds { Ok(()) } else { Err(ProfileError::value(field, expected, got)) }
 }
 

@@ -8,7 +8,7 @@
 mod check;
 mod wall;
 
-pub use wall::Wall;
+pub use wall::{Release, Wall};
 
 use crate::control::{Control, Law};
 use hapticore_hdl::format::Format;
@@ -54,7 +54,7 @@ pub struct Profile {
     /// The force controller, where there is one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub control: Option<Control>,
-    /// A virtual wall; a core has none.
+    /// Virtual walls of split pads, where the core has them; they need a force controller.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub wall: Option<Wall>,
     /// Force from capacitance and haptic voltage.

@@ -2,10 +2,26 @@
 //! `[wall]`: the numbers of a virtual wall's sequential test (docs/physics.md §6). Times are frames
 //! of the pad, lengths µm, so that the model needs no seconds.
 
-use super::{Profile, ProfileError, check::within};
+use super::{
+    Profile, ProfileError,
+    check::{ensure, within},
+};
 use serde::{Deserialize, Serialize};
 
-/// A virtual wall's sequential test. What a profile does not name is as in rule A at 1 ms frames.
+/// When a wall lets a pad go.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Release {
+    /// Never: eq. 11.
+    Never,
+    /// In each frame whose push leads out, as it reads: eq. 12.
+    Direct,
+    /// When a sequential test on the push, or play of the position, says so.
+    #[default]
+    Sequential,
+}
+
+/// A virtual wall of a split pad. What a profile does not name is as in rule A at 1 ms frames.
 ///
 /// ```
 /// use hapticore_contract::profile::{Profile, Wall};
@@ -20,6 +36,11 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Wall {
+    /// Slots of a pad, one for each of its parts: 2 that sense and brake, left and right; or 3, of
+    /// which the last brakes alone.
+    pub parts: u64,
+    /// When it lets go.
+    pub rule: Release,
     /// h1: evidence, in standard deviations, that lets go.
     pub release: u64,
     /// h2: evidence that engages again.
@@ -47,6 +68,8 @@ pub struct Wall {
 impl Wall {
     /// Rule A, for a pad whose sensing strips stay at a low voltage.
     pub const A: Wall = Wall {
+        parts: 3,
+        rule: Release::Sequential,
         release: 3,
         engage: 8,
         advance_16: 5,
@@ -60,8 +83,38 @@ impl Wall {
         clear_um: 200,
     };
     /// Rule B, for halves that sense and brake.
-    pub const B: Wall =
-        Wall { release: 4, engage: 12, advance_16: 0, delay_16: 24, dwell_frames: 20, ..Wall::A };
+    pub const B: Wall = Wall {
+        parts: 2,
+        release: 4,
+        engage: 12,
+        advance_16: 0,
+        delay_16: 24,
+        dwell_frames: 20,
+        ..Wall::A
+    };
+}
+
+impl Wall {
+    /// The same times and speeds with frames of another length than 1 ms.
+    ///
+    /// ```
+    /// use hapticore_contract::profile::Wall;
+    ///
+    /// let wall = Wall::A.at_frames_of(4.0);
+    /// assert_eq!((wall.ramp_frames, wall.fast_um, wall.play_um), (10, 80, 100));
+    /// ```
+    pub fn at_frames_of(self, milliseconds: f64) -> Wall {
+        let frames = |count: u64| (count as f64 / milliseconds).round() as u64;
+        let um = |speed: u64| ((speed as f64 * milliseconds).round() as u64).clamp(1, 10_000);
+        Wall {
+            dwell_frames: frames(self.dwell_frames).min(1023),
+            ramp_frames: frames(self.ramp_frames).clamp(1, 1023),
+            zero_frames: frames(self.zero_frames).clamp(1, 1023),
+            learn_um: um(self.learn_um),
+            fast_um: um(self.fast_um),
+            ..self
+        }
+    }
 }
 
 impl Default for Wall {
@@ -74,6 +127,7 @@ impl Profile {
     pub(super) fn check_wall(&self) -> Result<(), ProfileError> {
         let Some(wall) = self.wall else { return Ok(()) };
         for (field, value, low, high) in [
+            ("wall.parts", wall.parts, 2, 3),
             ("wall.release", wall.release, 1, 63),
             ("wall.engage", wall.engage, 1, 63),
             ("wall.advance_16", wall.advance_16, 0, 255),
@@ -88,6 +142,13 @@ impl Profile {
         ] {
             within(field, value, low, high)?;
         }
-        Ok(())
+        ensure(self.control.is_some(), "control", "a table, since [wall] drives the pads", "none")?;
+        let parts = wall.parts;
+        ensure(
+            self.pads.is_multiple_of(parts),
+            "pads",
+            format_args!("a multiple of wall.parts, {parts}"),
+            self.pads,
+        )
     }
 }

@@ -16,6 +16,7 @@ mod number;
 mod oscillator;
 mod position;
 mod ratio;
+mod split_pad;
 mod wall;
 
 pub use capacitance::{Capacitance, capacitance};
@@ -29,6 +30,7 @@ pub use number::{Exact, Rounded, floor_quotient, round, round_quotient, round_re
 pub use oscillator::{Oscillator, Sample, windowed_lo};
 pub use position::{Place, Position};
 pub use ratio::{Ratio, ratio};
+pub use split_pad::{Estimate, SplitPads, WholePad};
 pub use wall::{Wall, WallFrame, WallResult};
 
 use hapticore_contract::calibration::Calibration;

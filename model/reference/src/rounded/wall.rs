@@ -9,7 +9,7 @@
 
 use super::{Exact, round, round_quotient, round_real};
 use hapticore_contract::format::Format;
-use hapticore_contract::profile::{Profile, Wall as Rule};
+use hapticore_contract::profile::{Profile, Release, Wall as Rule};
 
 const U: Format = Format::signed(13, 13);
 const LEARNT: Format = Format::signed(20, 19);
@@ -219,6 +219,15 @@ impl Wall {
         };
         let leaves = (decided || back > play) && k.since >= self.rule.dwell_frames;
         let outside = x >= Exact::ZERO;
+        let free = match self.rule.rule {
+            Release::Never => Some(false),
+            Release::Direct => Some(!outside && y > Exact::ZERO),
+            Release::Sequential => None,
+        };
+        if let Some(free) = free {
+            (k.free, k.gain) = (free, Exact::new(1, 0));
+            return;
+        }
         if outside || leaves {
             (k.evidence, k.extreme) = (Exact::ZERO, k.filtered);
         }

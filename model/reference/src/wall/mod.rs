@@ -24,10 +24,12 @@
 mod fused;
 mod paper;
 mod sequential;
+mod split;
 
 pub use fused::{Fused, Linear};
 pub use paper::{Eq11, Eq12};
 pub use sequential::{Sequential, Test};
+pub use split::{SplitPads, Whole};
 
 /// What a rule sees of one pad in one frame.
 #[derive(Clone, Copy, Debug, PartialEq)]

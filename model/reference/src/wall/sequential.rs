@@ -18,6 +18,7 @@
 //! let go. Source: docs/physics.md §6.
 
 use super::{Direction, Frame, Rule, Stiffness, Target};
+use hapticore_contract::profile::{Release, Wall};
 
 /// Asymmetry of a push that only overcomes friction, until it is learnt.
 const FRICTION_AT_FIRST: f64 = 0.006;
@@ -68,11 +69,53 @@ impl Side {
     }
 }
 
+/// What a wall's rule goes by besides its test.
+#[derive(Clone, Copy, Debug)]
+struct Numbers {
+    rule: Release,
+    /// Distance from the wall at which air is free, mm.
+    clear_mm: f64,
+    /// Time without voltage after which the direction is learnt, ms.
+    zero_ms: f64,
+    /// Speeds from which it is learnt, and beyond which only play releases, mm/s.
+    learn_mm_s: f64,
+    fast_mm_s: f64,
+    play_mm: f64,
+    /// Time in which the force comes back, ms.
+    ramp_ms: f64,
+}
+
+impl Numbers {
+    const USUAL: Numbers = Numbers {
+        rule: Release::Sequential,
+        clear_mm: 0.2,
+        zero_ms: 10.0,
+        learn_mm_s: 10.0,
+        fast_mm_s: 20.0,
+        play_mm: PLAY_MM,
+        ramp_ms: 40.0,
+    };
+
+    /// Of a profile, a frame being a millisecond, so that 1 µm per frame is 1 mm/s.
+    fn of(wall: &Wall) -> Numbers {
+        Numbers {
+            rule: wall.rule,
+            clear_mm: 1e-3 * wall.clear_um as f64,
+            zero_ms: wall.zero_frames as f64,
+            learn_mm_s: wall.learn_um as f64,
+            fast_mm_s: wall.fast_um as f64,
+            play_mm: 1e-3 * wall.play_um as f64,
+            ramp_ms: wall.ramp_frames as f64,
+        }
+    }
+}
+
 /// A wall by rule A or B.
 #[derive(Clone, Debug)]
 pub struct Sequential {
     stiffness: Stiffness,
     test: Test,
+    numbers: Numbers,
     factory: f64,
     frame_ms: f64,
     /// Last x, filtered x and speed; nothing before the first frame.
@@ -99,6 +142,7 @@ impl Sequential {
         Sequential {
             stiffness,
             test,
+            numbers: Numbers::USUAL,
             factory,
             frame_ms,
             motion: None,
@@ -115,6 +159,18 @@ impl Sequential {
         }
     }
 
+    /// The same with the numbers of a profile, whose unit of time is a frame.
+    pub fn of_profile(stiffness: Stiffness, wall: &Wall, factory: f64) -> Self {
+        let test = Test {
+            h1: wall.release as f64,
+            h2: wall.engage as f64,
+            kb: wall.delay_16 as f64 / 16.0,
+            bf: wall.advance_16 as f64 / 16.0,
+            dwell_ms: wall.dwell_frames as f64,
+        };
+        Sequential { numbers: Numbers::of(wall), ..Sequential::new(stiffness, test, factory, 1.0) }
+    }
+
     /// Filtered place and speed, mm and mm/s.
     fn follow(&mut self, x_mm: f64) -> (f64, f64) {
         let [last, filtered, speed] = self.motion.unwrap_or([x_mm, x_mm, 0.0]);
@@ -125,13 +181,14 @@ impl Sequential {
     }
 
     fn learn(&mut self, change: f64, filtered_mm: f64, speed_mm_s: f64) {
-        if filtered_mm <= 0.2 || self.zero_ms < 10.0 {
+        let Numbers { clear_mm, zero_ms, learn_mm_s, .. } = self.numbers;
+        if filtered_mm <= clear_mm || self.zero_ms < zero_ms {
             return;
         }
         self.change += (change.abs() - self.change) / 64.0;
-        if speed_mm_s < -10.0 {
+        if speed_mm_s < -learn_mm_s {
             self.inwards.learn(self.u);
-        } else if speed_mm_s > 10.0 {
+        } else if speed_mm_s > learn_mm_s {
             self.outwards.learn(self.u);
         }
     }
@@ -157,20 +214,21 @@ impl Sequential {
     /// Whether the state is to be left.
     fn test(&mut self, y: f64, bias: f64, filtered_mm: f64, speed_mm_s: f64) -> bool {
         let Test { h1, h2, kb, bf, dwell_ms } = self.test;
+        let Numbers { fast_mm_s, play_mm, .. } = self.numbers;
         let is_over = match self.direction {
             Direction::Push => {
                 self.extreme_mm = self.extreme_mm.min(filtered_mm);
                 self.evidence = (self.evidence + y + bf * bias - 0.5).max(0.0);
-                if speed_mm_s < -20.0 {
+                if speed_mm_s < -fast_mm_s {
                     self.evidence = self.evidence.min(h1);
                 }
-                self.evidence > h1 || filtered_mm - self.extreme_mm > PLAY_MM
+                self.evidence > h1 || filtered_mm - self.extreme_mm > play_mm
             }
             Direction::Free => {
                 self.extreme_mm = self.extreme_mm.max(filtered_mm);
                 self.evidence = (self.evidence - y - 0.5 - kb * bias).max(0.0);
-                (self.evidence > h2 && speed_mm_s <= 20.0)
-                    || self.extreme_mm - filtered_mm > PLAY_MM
+                (self.evidence > h2 && speed_mm_s <= fast_mm_s)
+                    || self.extreme_mm - filtered_mm > play_mm
             }
         };
         is_over && self.since_ms >= dwell_ms
@@ -191,8 +249,12 @@ impl Rule for Sequential {
         let sigma = if 0.886 * self.change > 0.0055 { 2f64.powi(-7) } else { 2f64.powi(-8) };
         let y = read.map_or(0.0, |u| ((u - offset) / sigma).clamp(-4.0, 4.0));
         self.since_ms += self.frame_ms;
-        self.gain = (self.gain + self.frame_ms / 40.0).min(1.0);
-        if frame.x_mm >= 0.0 {
+        self.gain = (self.gain + self.frame_ms / self.numbers.ramp_ms).min(1.0);
+        if self.numbers.rule != Release::Sequential {
+            let leads_out = self.numbers.rule == Release::Direct && frame.x_mm < 0.0 && y > 0.0;
+            self.direction = if leads_out { Direction::Free } else { Direction::Push };
+            self.gain = 1.0;
+        } else if frame.x_mm >= 0.0 {
             self.enter(Direction::Push, filtered_mm);
             (self.since_ms, self.gain) = (f64::INFINITY, 1.0);
         } else if self.test(y, friction / sigma, filtered_mm, speed_mm_s) {

@@ -57,6 +57,7 @@ impl Pair {
             rail: control.drive.real(t.rail),
             slew: control.drive.real(t.slew),
             force_cap: profile.formats.force.real(t.force_cap),
+            walls: None,
         };
         let reference = rounded::Controller::new(profile, &tuning);
         Pair { bench, reference, inputs, profile: profile.clone() }

@@ -5,7 +5,7 @@ use super::{ForceLoop, Inputs};
 use crate::support::Bench;
 use crate::support::device::short_profiles;
 use hapticore_contract::control::{Control, Law};
-use hapticore_contract::profile::{Force, ForceLaw, Profile};
+use hapticore_contract::profile::{Force, ForceLaw, Profile, Wall};
 
 /// The short profiles, with a controller of this law.
 fn controlled(law: Law) -> impl Iterator<Item = Profile> {
@@ -53,6 +53,27 @@ fn slot(
     panic!("{}: no drive word", profile.name);
 }
 
+/// A split pad has its drive word after the slot of its last part, later by what its wall takes.
+#[test]
+fn latency_is_the_clocks_measured_with_walls() {
+    for wall in [Wall::A, Wall::B] {
+        for profile in controlled(Law::Inverse) {
+            let (wall, pads) = (Some(wall), wall.parts);
+            let profile = Profile { wall, pads, ..profile };
+            let mut bench = Bench::new(ForceLoop::try_new(&profile).unwrap());
+            let quiet = Inputs::of(0);
+            let clocks = profile.slot_clocks() * (pads - 1);
+            for clock in 0..clocks {
+                let mut inputs = quiet;
+                inputs.core.strobe = i64::from(clock % profile.clocks_per_sample == 0);
+                assert_eq!(bench.clock(inputs).drive.drive_valid, 0, "clock {clock}");
+            }
+            let (measured, _) = slot(&mut bench, &profile, quiet, |_| quiet);
+            assert_eq!(measured, bench.block.latency(), "{} {pads} parts", profile.name);
+        }
+    }
+}
+
 #[test]
 fn latency_is_the_clocks_measured() {
     for law in Law::ALL {
@@ -74,7 +95,7 @@ fn after(profile: &Profile, target: i64, written: u64) -> i64 {
     (quiet.tuning.enable, quiet.tuning.rail) = (1, formats.rail.max_code() as i64);
     (quiet.tuning.slew, quiet.tuning.force_cap) =
         (formats.slew.max_code() as i64, formats.force_cap.max_code() as i64);
-    for address in 0..bench.block.controller.words_of_curve() as i64 {
+    for address in 0..bench.block.drives.controller.words_of_curve() as i64 {
         let mut write = quiet;
         (write.tuning.curve_write, write.tuning.curve_address) = (1, address);
         write.tuning.curve_word = 100 * address;
@@ -96,7 +117,7 @@ fn after(profile: &Profile, target: i64, written: u64) -> i64 {
 fn a_target_that_is_written_in_mid_frame_is_taken_whole_or_not_at_all() {
     let profile = controlled(Law::Open).next().expect("a profile");
     let block = ForceLoop::try_new(&profile).unwrap();
-    let given = block.latency() - block.controller.latency();
+    let given = block.latency() - block.drives.controller.latency();
     let (old, new) = (after(&profile, 1 << 8, 1), after(&profile, 1 << 12, 1));
     assert!(old > 0 && new > old, "{old}, {new}");
     for written in given - 8..=block.latency() {

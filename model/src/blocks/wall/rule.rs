@@ -5,6 +5,7 @@ use super::{
     CHANGE, EVIDENCE, FAST, FRAMES, FRICTION, GAIN, In, Kept, LEARNT, OFFSET, Registers, Regs, U,
     Wall, Y,
 };
+use hapticore_contract::profile::Release;
 use hapticore_hdl::block::Interpretation;
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::Format;
@@ -181,8 +182,25 @@ impl Wall {
     /// The state of the next frames.
     #[inline(always)]
     pub(super) fn decide<V: Interpretation>(&self, r: Regs<V>, i: In<V>) -> Regs<V> {
-        let k = r.kept;
         let outside = !i.x.less_than(int(0));
+        match self.rule.rule {
+            Release::Sequential => self.decide_by_test(r, outside),
+            Release::Never => self.decided(r, bit(false)),
+            // The push leads out where it reads more than without one.
+            Release::Direct => self.decided(r, !outside & int(0).less_than(r.y)),
+        }
+    }
+
+    /// The state of rules that keep none.
+    #[inline(always)]
+    fn decided<V: Interpretation>(&self, r: Regs<V>, free: Signal<V>) -> Regs<V> {
+        let kept = Kept { free, gain: number(1.0, GAIN), ..r.kept };
+        Registers { kept, ..r }
+    }
+
+    #[inline(always)]
+    fn decide_by_test<V: Interpretation>(&self, r: Regs<V>, outside: Signal<V>) -> Regs<V> {
+        let k = r.kept;
         let enters = outside | r.leaves;
         let dwell = code(self.rule.dwell_frames as i64, k.since.format);
         let since = outside.select(dwell, r.leaves.select(zero(k.since.format), k.since));

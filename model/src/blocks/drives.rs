@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Drives: from estimates to drive words.
+//!
+//! ```text
+//! prompt estimate ─┬───────────────── controller ─ drive word of the pad
+//!                  └ split pad ─ wall ─[max]─┘        (where pads are split and have walls)
+//! targets ─[of every pad]─ target ───────┘
+//! ```
+//!
+//! A pad's target is taken once, as its estimate is given: one that is written later counts from
+//! the next frame on. Writing one is a sign of life of the host. A split pad has a drive word after
+//! the slot of its last part, by whose number it is known; its target is the larger of the one
+//! written and the wall's. Latency: two clocks, or those of the split pad and one, and the
+//! controller's.
+
+use super::controller::{self, Controller, Faults, Tuning};
+use super::estimator::{FramePort, PromptPort};
+use super::split_pad::{self, SplitPad, WallPort};
+use hapticore_contract::frame::Field;
+use hapticore_contract::profile::{Profile, ProfileError};
+use hapticore_hdl::block::{Block, Interpretation, State};
+use hapticore_hdl::format::{BIT, Format};
+use hapticore_hdl::memory::{Memory, Write};
+use hapticore_hdl::signal::{HalfEven, Signal, bit};
+use hapticore_hdl::{block, bundle, call};
+
+bundle! {
+    /// Writes the target of a pad.
+    pub struct TargetPort {
+        /// Target: writes a pad's.
+        target_write,
+        /// Target: whose.
+        target_pad,
+        /// Target: force, N.
+        target_word,
+        /// The host is alive.
+        alive,
+        /// Clears the controller's faults.
+        clear_faults,
+    }
+}
+
+bundle! {
+    /// A drive word, as it is given.
+    pub struct DrivePort {
+        /// Asserted for one cycle with each drive word.
+        drive_valid,
+        /// Pad of the drive word.
+        drive_pad,
+        /// Drive word, drive's full scale.
+        drive,
+        /// The drive is at zero and should be less.
+        drive_low,
+        /// The drive is at its rail and should be more.
+        drive_high,
+        /// The force that it is for, N; stable until the pad's next target.
+        drive_target,
+        /// The user leaves the wall.
+        drive_free,
+    }
+}
+
+block! {
+    /// Controller, targets and walls of all pads.
+    pub struct Drives("drives") {
+        estimates: PromptPort<Format>,
+        position: Format,
+        pad: Format,
+    }
+    submodules {
+        /// The controller.
+        pub controller: Controller,
+        /// Split pads and their walls, where there are some.
+        pub split_pad: Option<SplitPad>,
+        targets: Memory,
+    }
+    inputs(block) {
+        estimate as PromptPort: block.estimates,
+        /// A frame has a valid place.
+        placed: BIT.where_present(block.has_walls()),
+        /// Number of its pad.
+        placed_pad: block.pad.where_present(block.has_walls()),
+        /// Place, mm.
+        place: block.position.where_present(block.has_walls()),
+        target as TargetPort: block.target(),
+        tuning as Tuning: block.controller.inputs().tuning,
+        wall as WallPort: block.wall(),
+    }
+    outputs(block) {
+        drive as DrivePort: block.drive(),
+        faults as Faults: Faults::of(BIT),
+    }
+    registers(block) {
+        /// A pad's target has been asked for.
+        asked: BIT,
+        /// It is there.
+        start: BIT,
+        invalid: BIT,
+        pad: block.pad,
+        target: block.targets.format,
+        /// A drive word has been given.
+        driven: BIT.where_present(block.has_walls()),
+        /// It is zero.
+        rests: BIT.where_present(block.has_walls()),
+    }
+}
+
+impl Drives {
+    /// The drives of a profile, after estimates of these formats.
+    ///
+    /// # Errors
+    /// A profile without a controller; a controller or a wall that cannot be.
+    pub fn try_new(profile: &Profile, estimates: PromptPort<Format>) -> Result<Self, ProfileError> {
+        let controller = Controller::try_new(profile)?;
+        let controller::Inputs { target, pad, .. } = controller.inputs();
+        let split_pad = profile.wall.map(|_| SplitPad::try_new(profile)).transpose()?;
+        let targets = Memory::new("targets", 1 << pad.width, target);
+        let position = profile.formats.position;
+        Ok(Drives { estimates, position, pad, controller, split_pad, targets })
+    }
+
+    /// Clocks from the prompt estimate to the drive word.
+    pub fn latency(&self) -> u64 {
+        let split = self.split_pad.as_ref().map_or(1, SplitPad::latency);
+        1 + split + self.controller.latency()
+    }
+
+    #[inline(always)]
+    fn has_walls(&self) -> bool {
+        self.split_pad.is_some()
+    }
+
+    fn target(&self) -> TargetPort<Format> {
+        TargetPort {
+            target_write: BIT,
+            target_pad: self.pad,
+            target_word: self.targets.format,
+            alive: BIT,
+            clear_faults: BIT,
+        }
+    }
+
+    fn drive(&self) -> DrivePort<Format> {
+        DrivePort {
+            drive_valid: BIT,
+            drive_pad: self.pad,
+            drive: self.controller.outputs().drive,
+            drive_low: BIT,
+            drive_high: BIT,
+            drive_target: self.targets.format.where_present(self.has_walls()),
+            drive_free: BIT.where_present(self.has_walls()),
+        }
+    }
+
+    fn wall(&self) -> WallPort<Format> {
+        self.split_pad.as_ref().map_or(WallPort::of(Format::NONE), SplitPad::port)
+    }
+
+    /// A frame's word that is a valid place: whether it is, of which pad, and the place.
+    #[inline(always)]
+    pub fn place<V: Interpretation>(
+        &self,
+        frame: &FramePort<Signal<V>>,
+    ) -> (Signal<V>, Signal<V>, Signal<V>) {
+        if !self.has_walls() {
+            let none = |format: Format| frame.valid.where_present(format);
+            return (none(Format::NONE), none(Format::NONE), none(Format::NONE));
+        }
+        let placed = frame.valid & frame.index.is(Field::X as u64) & !frame.invalid;
+        (placed, frame.pad, frame.frame.as_code(self.position))
+    }
+}
+
+/// What a controller begins with.
+struct Begin<V: Interpretation> {
+    start: Signal<V>,
+    invalid: Signal<V>,
+    capacitance: Signal<V>,
+    measured: Signal<V>,
+    target: Signal<V>,
+    free: Signal<V>,
+}
+
+impl Drives {
+    /// Of a pad that is whole: as soon as its target is there.
+    #[inline(always)]
+    fn whole<V: Interpretation>(&self, r: &Regs<V>, i: &In<V>) -> Begin<V> {
+        Begin {
+            start: r.start,
+            invalid: r.invalid,
+            capacitance: i.estimate.prompt_capacitance,
+            measured: i.estimate.prompt_force,
+            target: r.target,
+            free: bit(false),
+        }
+    }
+
+    /// Of a split one: once its wall is known.
+    #[inline(always)]
+    fn split<V: Interpretation>(
+        &self,
+        state: &mut State<Self, V>,
+        r: &Regs<V>,
+        i: &In<V>,
+    ) -> Begin<V> {
+        let within = self.split_pad.as_ref().zip(state.submodules.split_pad.as_mut());
+        let (block, within) = within.expect("there are walls");
+        let inputs = split_pad::Inputs {
+            estimate: i.estimate.prompt,
+            pad: i.estimate.prompt_pad,
+            capacitance: i.estimate.prompt_capacitance,
+            measured: i.estimate.prompt_force,
+            invalid: i.estimate.prompt_invalid,
+            placed: i.placed,
+            placed_pad: i.placed_pad,
+            place: i.place,
+            driven: r.driven,
+            rests: r.rests,
+            wall: i.wall,
+        };
+        let pad = block.call("split_pad", within, inputs);
+        let (wall, _) = pad.target.saturate(self.targets.format, HalfEven);
+        Begin {
+            start: pad.done,
+            invalid: pad.invalid,
+            capacitance: pad.capacitance,
+            measured: pad.measured,
+            target: wall.less_than(r.target).select(r.target, wall),
+            free: pad.free,
+        }
+    }
+}
+
+impl Block for Drives {
+    #[inline(always)]
+    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
+        let r = state.load(self);
+        let begin = match self.has_walls() {
+            true => self.split(state, &r, &i),
+            false => self.whole(&r, &i),
+        };
+        let TargetPort { target_write, target_pad, target_word, alive, clear_faults } = i.target;
+        let inputs = controller::Inputs {
+            start: begin.start,
+            pad: r.pad,
+            target: begin.target,
+            capacitance: begin.capacitance,
+            measured: begin.measured,
+            force_gain: i.estimate.prompt_gain,
+            invalid: begin.invalid,
+            alive: alive | target_write,
+            clear_faults,
+            tuning: i.tuning,
+        };
+        let controller = call!(self.controller, state, inputs);
+        let found = self.targets.data(&mut state.submodules.targets);
+        let prompt = i.estimate.prompt;
+        let pad = prompt.select(i.estimate.prompt_pad, r.pad);
+        let write = Write { enable: target_write, address: target_pad, data: target_word };
+        self.targets.access(&mut state.submodules.targets, pad, write);
+        let next = Registers {
+            asked: prompt,
+            start: r.asked,
+            invalid: prompt.select(i.estimate.prompt_invalid, r.invalid),
+            pad,
+            target: r.asked.select(found, r.target),
+            driven: controller.done.where_present(r.driven.format),
+            rests: controller.drive.is(0).where_present(r.rests.format),
+        };
+        state.store(self, next);
+        let of_walls = self.drive();
+        let drive = DrivePort {
+            drive_valid: controller.done,
+            drive_pad: r.pad,
+            drive: controller.drive,
+            drive_low: controller.low,
+            drive_high: controller.high,
+            drive_target: begin.target.where_present(of_walls.drive_target),
+            drive_free: begin.free.where_present(of_walls.drive_free),
+        };
+        Outputs { drive, faults: controller.faults }
+    }
+}

@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Split pad: the estimates of a pad's parts as one of the pad, and the force of its wall.
+//!
+//! ```text
+//! parts of a pad, slot after slot:   left | right          both sense and brake
+//!                                    left | right | brake   the outer two sense
+//! C = (C_left + C_right)/2,  F likewise;    or those of the brake
+//! x_w = ±(x − surface),   a wall on the right is a mirrored one on the left
+//! ```
+//!
+//! ```text
+//! estimate ─[left, right]─ C_left, C_right ─┐
+//! frame ─[x of every pad]─(− surface, ±)────┴─ wall ─ target        (docs/physics.md §6)
+//! drive ─[zero, of every pad]───────────────┘
+//! ```
+//!
+//! | signal  | format              | unit | overflow                              |
+//! | C, F    | profile             | pF, N | cannot: a mean                       |
+//! | x_w     | that of positions   | mm   | saturates, meant: far from the wall   |
+//!
+//! A pad is known by the number of its last part, whose place is the pad's. The wall acts from the
+//! pad's first valid place on; where the estimate of a sensing part is invalid it lets go, the safe
+//! side. Latency: three clocks and the wall's, from the last part's estimate to `done`.
+
+use super::wall::{self, Wall};
+use hapticore_contract::profile::{Profile, ProfileError};
+use hapticore_hdl::block::{Block, Interpretation, State};
+use hapticore_hdl::format::{BIT, Format};
+use hapticore_hdl::memory::{Memory, Write};
+use hapticore_hdl::signal::{HalfEven, Proved, Saturate, Signal, bit, zero};
+use hapticore_hdl::{block, bundle, call};
+
+bundle! {
+    /// Where the walls of pads are, and what they are made of.
+    pub struct WallPort {
+        /// Wall: writes the wall of a pad.
+        wall_write,
+        /// Wall: whose; a pad is known by the number of its last part.
+        wall_pad,
+        /// Wall: place of its surface, mm; its inside is left of it.
+        wall_surface,
+        /// Wall: its inside is right of it instead.
+        wall_right,
+        /// Wall: stiffness, N/mm.
+        wall_stiffness,
+        /// Wall: largest force, N.
+        wall_most,
+        /// Wall: what the direction of a wall on the left reads without a push.
+        wall_factory,
+        /// Wall: pads start anew, as when they are put on.
+        wall_restart,
+    }
+}
+
+block! {
+    /// Parts of split pads, and their walls.
+    pub struct SplitPad("split_pad") {
+        pads: u64,
+        parts: u64,
+        position: Format,
+        capacitance: Format,
+        force: Format,
+    }
+    submodules {
+        /// The walls.
+        pub wall: Wall,
+        /// Of each pad: it has a place, and which.
+        places: Memory,
+        /// Of each pad: the wall is on the right, and its surface.
+        surfaces: Memory,
+        /// Of each pad: it is not driven.
+        rests: Memory,
+    }
+    inputs(block) {
+        /// A part's estimate; all up to `invalid` are valid.
+        estimate: BIT,
+        /// Number of the part.
+        pad: block.pad(),
+        /// Capacitance of the part, pF.
+        capacitance: block.capacitance,
+        /// Haptic force, N.
+        measured: block.force,
+        /// The estimate is invalid.
+        invalid: BIT,
+        /// A frame has a valid place.
+        placed: BIT,
+        /// Number of its part.
+        placed_pad: block.pad(),
+        /// Place, mm.
+        place: block.position,
+        /// A drive word is given.
+        driven: BIT,
+        /// It is zero.
+        rests: BIT,
+        wall as WallPort: block.port(),
+    }
+    outputs(block) {
+        /// Asserted for one cycle when the estimate of a pad is there.
+        done: BIT,
+        /// Capacitance of what brakes, pF.
+        capacitance: block.capacitance,
+        /// Its haptic force, N.
+        measured: block.force,
+        /// Its estimate is invalid.
+        invalid: BIT,
+        /// Force of the wall, N.
+        target: block.force,
+        /// The user leaves the wall.
+        free: BIT,
+        /// The direction was read.
+        reads: BIT,
+    }
+    registers(block) {
+        pad: block.pad(),
+        left: block.capacitance,
+        right: block.capacitance,
+        /// The estimate of a sensing part is invalid.
+        invalid: BIT,
+        /// That of what brakes is.
+        unknown: BIT,
+        capacitance: block.capacitance,
+        /// Of the left part, then of the pad.
+        measured: block.force,
+        /// The pad's place and wall are asked for, then there.
+        asked: BIT,
+        found: BIT,
+        start: BIT,
+        placed: BIT,
+        x: block.position,
+        mirrored: BIT,
+        rests: BIT,
+    }
+}
+
+impl SplitPad {
+    /// The split pads of a profile.
+    ///
+    /// # Errors
+    /// A profile without walls, words that the model cannot hold.
+    pub fn try_new(profile: &Profile) -> Result<Self, ProfileError> {
+        let Some(rule) = &profile.wall else {
+            return Err(ProfileError::value("wall", "a table", "none"));
+        };
+        let (wall, f) = (Wall::try_new(profile)?, &profile.formats);
+        let words = 1 << Format::counter(profile.pads - 1).width;
+        let memory = |name, format| Memory::new(name, words, format).dont_care_on_collision();
+        let place = Format::unsigned(f.position.width + 1, 0);
+        Ok(SplitPad {
+            pads: profile.pads,
+            parts: rule.parts,
+            position: f.position,
+            capacitance: f.capacitance,
+            force: f.force,
+            wall,
+            places: memory("places", place),
+            surfaces: Memory::new("surfaces", words, place),
+            rests: memory("rests", BIT),
+        })
+    }
+
+    #[inline(always)]
+    fn pad(&self) -> Format {
+        Format::counter(self.pads - 1)
+    }
+
+    /// The formats of the walls' port.
+    #[inline(always)]
+    pub fn port(&self) -> WallPort<Format> {
+        let wall = self.wall.inputs();
+        WallPort {
+            wall_write: BIT,
+            wall_pad: self.pad(),
+            wall_surface: self.position,
+            wall_right: BIT,
+            wall_stiffness: wall.stiffness,
+            wall_most: wall.most,
+            wall_factory: wall.factory,
+            wall_restart: BIT,
+        }
+    }
+
+    /// Clocks from the estimate of a pad's last part to `done`.
+    pub fn latency(&self) -> u64 {
+        3 + self.wall.latency()
+    }
+
+    /// The part is this one of its pad.
+    #[inline(always)]
+    fn is_part<V: Interpretation>(&self, pad: Signal<V>, part: u64) -> Signal<V> {
+        (part..self.pads)
+            .step_by(self.parts as usize)
+            .fold(bit(false), |any, number| any | pad.is(number))
+    }
+
+    /// The registers after a part's estimate.
+    #[inline(always)]
+    fn gathered<V: Interpretation>(&self, r: Regs<V>, i: &In<V>) -> Regs<V> {
+        let [first, second] = [0, 1].map(|part| i.estimate & self.is_part(i.pad, part));
+        let last = i.estimate & self.is_part(i.pad, self.parts - 1);
+        let mean =
+            |a: Signal<V>, b: Signal<V>| (a + b).scaled(-1).quantize(a.format, HalfEven, Proved);
+        let (capacitance, measured) = match self.parts {
+            2 => (mean(r.left, i.capacitance), mean(r.measured, i.measured)),
+            _ => (i.capacitance, i.measured),
+        };
+        let invalid = (!first & r.invalid) | i.invalid;
+        Registers {
+            pad: i.estimate.select(i.pad, r.pad),
+            left: first.select(i.capacitance, r.left),
+            right: second.select(i.capacitance, r.right),
+            invalid: (first | second).select(invalid, r.invalid),
+            unknown: last.select(if self.parts == 2 { invalid } else { i.invalid }, r.unknown),
+            capacitance: last.select(capacitance, r.capacitance),
+            measured: last.select(measured, first.select(i.measured, r.measured)),
+            asked: last,
+            found: r.asked,
+            start: r.found,
+            ..r
+        }
+    }
+
+    /// What memories say of the pad that was asked for: the place from its wall, and whether it is
+    /// driven.
+    #[inline(always)]
+    fn located<V: Interpretation>(
+        &self,
+        state: &mut State<Self, V>,
+        i: &In<V>,
+        r: &Regs<V>,
+        next: Regs<V>,
+    ) -> Regs<V> {
+        let within = &mut state.submodules;
+        let [place, surface] =
+            [self.places.data(&mut within.places), self.surfaces.data(&mut within.surfaces)];
+        let rests = self.rests.data(&mut within.rests);
+        let write = Write {
+            enable: i.placed,
+            address: i.placed_pad,
+            data: bit(true).concat(i.place.bits(0, self.position.width)),
+        };
+        self.places.access(&mut within.places, r.pad, write);
+        let write = Write {
+            enable: i.wall.wall_write,
+            address: i.wall.wall_pad,
+            data: i.wall.wall_right.concat(i.wall.wall_surface.bits(0, self.position.width)),
+        };
+        self.surfaces.access(&mut within.surfaces, r.pad, write);
+        let write = Write { enable: i.driven, address: r.pad, data: i.rests };
+        self.rests.access(&mut within.rests, r.pad, write);
+        let of = |word: Signal<V>| word.bits(0, self.position.width).as_code(self.position);
+        let flag = |word: Signal<V>| word.bits(self.position.width, 1);
+        let right = flag(surface);
+        let depth = of(place) - of(surface);
+        let (x, _) = right.select(-depth, depth).saturate(self.position, HalfEven);
+        Registers {
+            placed: r.found.select(flag(place), r.placed),
+            x: r.found.select(x, r.x),
+            mirrored: r.found.select(right, r.mirrored),
+            rests: r.found.select(rests, r.rests),
+            ..next
+        }
+    }
+}
+
+impl SplitPad {
+    /// What the wall is given: without current where no part can be trusted, so that it lets go.
+    #[inline(always)]
+    fn of_wall<V: Interpretation>(&self, r: &Regs<V>, i: &In<V>) -> wall::In<V> {
+        let trusted = r.placed & !r.invalid;
+        let current = |part: Signal<V>| trusted.select(part, zero(self.capacitance));
+        let factory = i.wall.wall_factory;
+        wall::Inputs {
+            start: r.start,
+            pad: r.pad,
+            restart: i.wall.wall_restart | !r.placed,
+            c_left: current(r.mirrored.select(r.right, r.left)),
+            c_right: current(r.mirrored.select(r.left, r.right)),
+            x: r.x,
+            at_zero: r.rests,
+            stiffness: i.wall.wall_stiffness,
+            most: i.wall.wall_most,
+            factory: r.mirrored.select(-factory, factory).resize(factory.format, Saturate),
+        }
+    }
+}
+
+impl Block for SplitPad {
+    #[inline(always)]
+    fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
+        let r = state.load(self);
+        let walled = call!(self.wall, state, self.of_wall(&r, &i));
+        let outputs = Outputs {
+            done: walled.done,
+            capacitance: r.capacitance,
+            measured: r.measured,
+            invalid: r.unknown,
+            target: walled.target,
+            free: walled.free,
+            reads: walled.valid,
+        };
+        let written = i.placed | i.driven | i.wall.wall_write;
+        if (i.estimate | r.asked | r.found | r.start | written).can_skip() {
+            return outputs;
+        }
+        let gathered = self.gathered(r, &i);
+        let next = self.located(state, &i, &r, gathered);
+        state.store(self, next);
+        outputs
+    }
+}
+
+#[cfg(test)]
+mod tests;

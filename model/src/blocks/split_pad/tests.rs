@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Split pads: the rounded reference's, for random estimates, places, walls and drives; sensing that
+//! fails within a wall; the clocks they take; the proof of ranges.
+
+use super::{Inputs, Outputs, SplitPad};
+use crate::support::never_skips::NeverSkips;
+use crate::support::random::Random;
+use crate::support::{Bench, MILLION, operations};
+use hapticore_contract::control::{Control, Law};
+use hapticore_contract::profile::{self, Profile};
+use hapticore_hdl::block::Block;
+use hapticore_hdl::bundle::Bundle;
+use hapticore_hdl::format::Format;
+use hapticore_hdl::interpretations::range::{Range, take_assumptions, take_violations, whole};
+use hapticore_hdl::probe::sample;
+use hapticore_hdl::signal::Signal;
+use hapticore_reference::rounded::{Estimate, Exact, SplitPads, WallFrame};
+
+/// The bundled profiles with two pads of two parts, and of three.
+fn profiles() -> Vec<Profile> {
+    let walls = [profile::Wall::A, profile::Wall::B];
+    let with = |wall: profile::Wall| {
+        Profile::all().into_iter().map(move |profile| Profile {
+            control: Some(Control::of(&profile, Law::Inverse)),
+            wall: Some(wall),
+            pads: 2 * wall.parts,
+            ..profile
+        })
+    };
+    walls.into_iter().flat_map(with).collect()
+}
+
+/// The block and its reference.
+struct Pair {
+    bench: Bench<SplitPad>,
+    pads: [SplitPads; 2],
+    formats: Inputs<Format>,
+    parts: usize,
+    quiet: Inputs<i64>,
+}
+
+impl Pair {
+    fn new(profile: &Profile) -> Self {
+        let block = SplitPad::try_new(profile).unwrap();
+        let formats = block.inputs();
+        let mut quiet = Inputs::of(0);
+        quiet.wall.wall_stiffness = formats.wall.wall_stiffness.code_saturating(0.5);
+        quiet.wall.wall_most = formats.wall.wall_most.code_saturating(1.0);
+        Pair {
+            parts: profile.wall.unwrap().parts as usize,
+            pads: [0, 1].map(|_| SplitPads::new(profile)),
+            bench: Bench::new(block),
+            formats,
+            quiet,
+        }
+    }
+
+    fn last(&self, pad: usize) -> i64 {
+        (self.parts * (pad + 1) - 1) as i64
+    }
+
+    fn surface(&mut self, pad: usize, code: i64, right: bool) {
+        let mut write = self.quiet;
+        (write.wall.wall_write, write.wall.wall_pad) = (1, self.last(pad));
+        (write.wall.wall_surface, write.wall.wall_right) = (code, right.into());
+        self.bench.clock(write);
+        self.pads[pad].surface = (Exact::of(code, self.formats.wall.wall_surface), right);
+    }
+
+    fn place(&mut self, pad: usize, code: i64) {
+        let placed_pad = self.last(pad);
+        self.bench.clock(Inputs { placed: 1, placed_pad, place: code, ..self.quiet });
+        self.pads[pad].place = Some(Exact::of(code, self.formats.place));
+    }
+
+    /// The estimates of a pad's parts, capacitance, force and whether they are invalid: what is given
+    /// of the pad, the same to the bit, and then whether it is driven.
+    fn frame(&mut self, pad: usize, parts: &[(i64, i64, bool)], rests: bool) -> Outputs<i64> {
+        let mut got = None;
+        for (part, &(capacitance, measured, invalid)) in (0..).zip(parts) {
+            let pad = (self.parts * pad) as i64 + part;
+            let invalid = invalid.into();
+            let estimate =
+                Inputs { estimate: 1, pad, capacitance, measured, invalid, ..self.quiet };
+            self.bench.clock(estimate);
+            for clock in 1..=self.bench.block.latency() {
+                let out = self.bench.clock(self.quiet);
+                if out.done == 1 {
+                    assert_eq!(clock, self.bench.block.latency(), "clocks measured, latency()");
+                    got = Some(out);
+                }
+            }
+        }
+        let got = got.expect("the last part gives the pad");
+        let f = &self.formats;
+        let of = |&(c, force, invalid): &(i64, i64, bool)| Estimate {
+            capacitance: Exact::of(c, f.capacitance),
+            force: Exact::of(force, f.measured),
+            invalid,
+        };
+        let port = WallFrame {
+            restart: self.quiet.wall.wall_restart == 1,
+            parts: [Exact::ZERO; 2],
+            x: Exact::ZERO,
+            at_zero: false,
+            stiffness: Exact::of(self.quiet.wall.wall_stiffness, f.wall.wall_stiffness),
+            most: Exact::of(self.quiet.wall.wall_most, f.wall.wall_most),
+            factory: Exact::of(self.quiet.wall.wall_factory, f.wall.wall_factory),
+        };
+        let expected = self.pads[pad].estimates(&parts.iter().map(of).collect::<Vec<_>>(), &port);
+        let expected = Outputs {
+            done: 1,
+            capacitance: expected.brake.capacitance.code(f.capacitance),
+            measured: expected.brake.force.code(f.measured),
+            invalid: expected.brake.invalid.into(),
+            target: expected.wall.target.code(f.measured),
+            free: expected.wall.free.into(),
+            reads: expected.wall.valid.into(),
+        };
+        assert_eq!(got, expected, "clock {}: pad {pad}, {parts:?}", self.bench.clock);
+        self.bench.clock(Inputs { driven: 1, rests: rests.into(), ..self.quiet });
+        self.pads[pad].rests = rests;
+        got
+    }
+}
+
+/// Two pads, whose walls are on either side and move, with estimates that are near each other or
+/// anywhere, places that go to and fro or jump.
+#[test]
+fn pads_are_those_of_the_reference() {
+    for (seed, profile) in (0..).zip(profiles()) {
+        let (mut pair, mut random) = (Pair::new(&profile), Random::new(seed));
+        let (formats, parts) = (pair.formats, pair.parts);
+        let (mut freed, mut forced) = (0, 0);
+        let mut places = [0i64; 2];
+        for n in 0..operations(MILLION / 1000) {
+            let pad = (n % 2) as usize;
+            if random.below(50) == 0 {
+                let near = random.between(-200.0, 200.0) as i64;
+                let word = random.word(formats.wall.wall_surface);
+                pair.surface(pad, if random.below(4) == 0 { word } else { near }, pad == 1);
+            }
+            if random.below(4) != 0 {
+                let near = places[pad] + random.below(9) as i64 - 4;
+                let word = random.word(formats.place);
+                places[pad] = if random.below(200) == 0 { word } else { near };
+                places[pad] = places[pad].clamp(-(1 << 12), 1 << 12);
+                pair.place(pad, places[pad]);
+            }
+            let middle = random.word(formats.capacitance) / 2;
+            let estimates: Vec<_> = (0..parts)
+                .map(|_| {
+                    let near = (middle as f64 * random.between(0.98, 1.0)) as i64;
+                    let any = random.word(formats.capacitance);
+                    let capacitance = if random.below(20) == 0 { any } else { near };
+                    (capacitance, random.word(formats.measured), random.below(50) == 0)
+                })
+                .collect();
+            pair.quiet.wall.wall_restart = i64::from(random.below(300) == 0);
+            let out = pair.frame(pad, &estimates, random.below(20) != 0);
+            freed += out.free;
+            forced += i64::from(out.target > 0);
+        }
+        if cfg!(optimised) {
+            assert!(freed > 50 && forced > 50, "{}: {freed}, {forced}", profile.name);
+        }
+    }
+}
+
+/// A wall on the left that a pad has been pushed into by a millimetre.
+fn pushed(profile: &Profile) -> (Pair, Vec<(i64, i64, bool)>, i64) {
+    let mut pair = Pair::new(profile);
+    let f = pair.formats;
+    let half_n = f.wall.wall_most.code_saturating(0.5);
+    let estimate = (f.capacitance.code_saturating(180.0), 0, false);
+    let parts = vec![estimate; pair.parts];
+    pair.place(0, f.place.code_saturating(0.5));
+    pair.frame(0, &parts, true);
+    pair.place(0, f.place.code_saturating(-1.0));
+    for _ in 0..50 {
+        assert_eq!(pair.frame(0, &parts, false).free, 0);
+    }
+    assert_eq!(pair.frame(0, &parts, false).target, half_n, "0.5 N/mm, 1 mm deep");
+    (pair, parts, half_n)
+}
+
+#[test]
+fn an_invalid_sensing_part_lets_go_in_mid_wall_and_the_wall_is_back_after_it() {
+    for profile in profiles() {
+        for dead in 0..2 {
+            let (mut pair, parts, half_n) = pushed(&profile);
+            let mut broken = parts.clone();
+            broken[dead].2 = true;
+            let out = pair.frame(0, &broken, false);
+            assert_eq!((out.target, out.reads), (0, 0), "part {dead}: the safe side");
+            assert_eq!(pair.frame(0, &parts, false).target, half_n, "part {dead} is back");
+        }
+    }
+}
+
+#[test]
+fn a_pad_that_has_no_place_yet_meets_no_wall() {
+    for profile in profiles() {
+        let mut pair = Pair::new(&profile);
+        let far = pair.formats.wall.wall_surface.max_code() as i64;
+        pair.surface(0, far, false);
+        let parts = vec![(pair.formats.capacitance.code_saturating(180.0), 0, false); pair.parts];
+        for _ in 0..20 {
+            let out = pair.frame(0, &parts, true);
+            assert_eq!((out.target, out.reads), (0, 0));
+        }
+        pair.place(0, 0);
+        assert!(pair.frame(0, &parts, true).reads == 1, "with its first place it does");
+    }
+}
+
+#[test]
+fn skipping_changes_no_bit_on_any_clock() {
+    for profile in profiles() {
+        let block = SplitPad::try_new(&profile).unwrap();
+        let formats = block.inputs();
+        let mut skips = Bench::new(block.clone());
+        let mut never = Bench::<_, NeverSkips>::read(block);
+        let mut random = Random::new(5);
+        for clock in 0..operations(20_000) {
+            let mut inputs = <Inputs as Bundle>::map(formats, |format| random.word(format));
+            inputs.pad %= profile.pads as i64;
+            inputs.placed_pad %= profile.pads as i64;
+            inputs.wall.wall_pad %= profile.pads as i64;
+            inputs.estimate = i64::from(clock % 97 == 0);
+            assert_eq!(skips.clock(inputs), never.clock(inputs), "clock {}", skips.clock);
+        }
+    }
+}
+
+/// Every word anywhere in its format, in the memories too, until nothing new can come.
+#[test]
+fn no_signal_can_overflow() {
+    for profile in profiles() {
+        let block = SplitPad::try_new(&profile).unwrap();
+        let any = <Inputs as Bundle>::map(block.inputs(), |format: Format| Signal {
+            value: whole(format),
+            format,
+        });
+        let mut state = block.reset::<Range>();
+        let mut seen: Vec<Range> = Vec::new();
+        take_violations();
+        take_assumptions();
+        for clock in 0.. {
+            assert!(clock < 20_000, "does not close");
+            block.clock(&mut state, any);
+            let mut now = Vec::new();
+            sample(&block, &state, &mut now);
+            let joined: Vec<_> = match seen.is_empty() {
+                true => now,
+                false => seen.iter().zip(&now).map(|(a, b)| a.join(*b)).collect(),
+            };
+            if joined == seen && clock > 300 {
+                break;
+            }
+            seen = joined;
+        }
+        assert_eq!(take_violations(), [], "{}", profile.name);
+        let assumed = take_assumptions();
+        assert!(assumed.iter().all(|text| text.contains("remainder of a division")), "{assumed:?}");
+    }
+}
