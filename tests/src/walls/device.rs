@@ -47,7 +47,7 @@ impl Pad {
         }
     }
 
-    fn tables(self, mismatch_percent: f64, gap: &str) -> String {
+    fn tables(self, mismatch_percent: f64, gap: &str, senses: &str) -> String {
         let strips = match self {
             Pad::Halves => String::new(),
             Pad::Strips => format!(
@@ -56,7 +56,7 @@ impl Pad {
         };
         format!(
             "[gap]\nrung = {gap}\n[halves]\npush_height_mm = {PUSH_HEIGHT_MM}\n\
-             mismatch_percent = {mismatch_percent}\n{strips}[hand]\n"
+             mismatch_percent = {mismatch_percent}\n{strips}{senses}[hand]\n"
         )
     }
 }
@@ -79,8 +79,14 @@ fn plant(text: &str, frame_ms: f64) -> Plant {
     Plant::new(&scene, 0, &timing(frame_ms)).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// The plant with a hand on its pad, its target a point every 4 ms.
+/// The plant with a hand on its pad.
 pub fn with_hand(pad: Pad, hand: &Hand, mismatch_percent: f64, frame_ms: f64) -> Plant {
+    plant(&scene_of(pad, hand, mismatch_percent, ""), frame_ms)
+}
+
+/// The scene of a hand on a pad, its target a point every 4 ms; `senses` are more keys of the pad's
+/// electrodes.
+pub fn scene_of(pad: Pad, hand: &Hand, mismatch_percent: f64, senses: &str) -> String {
     let (mut points, duration_s) = (String::new(), hand.duration_s());
     for n in 0..=(duration_s / 4e-3).ceil() as u32 {
         let time_s = 4e-3 * f64::from(n);
@@ -88,14 +94,13 @@ pub fn with_hand(pad: Pad, hand: &Hand, mismatch_percent: f64, frame_ms: f64) ->
     }
     let load_g = 1e3 * hand.load_n / GRAVITY;
     let Hand { stiffness_n_per_m: k, damping_n_s_per_m: c, mass_kg: m, .. } = hand;
-    let text = format!(
+    format!(
         "title = \"a hand at a wall\"\nduration_s = {duration_s}\n[[pad]]\nload_g = {load_g}\n\
          position_mm = {{ timeline = {{ x_mm = [{points}] }} }}\n{}\
          stiffness_n_per_m = {k}\ndamping_n_s_per_m = {c}\nmass_kg = {m}\n\
          [friction]\nrung = \"lugre\"\n",
-        pad.tables(mismatch_percent, "\"tr-bdf2\"")
-    );
-    plant(&text, frame_ms)
+        pad.tables(mismatch_percent, "\"tr-bdf2\"", senses)
+    )
 }
 
 /// The inverse law of a device.
@@ -115,7 +120,7 @@ impl Drive {
             "title = \"steady curve\"\n[[pad]]\nposition_mm = [0, 0]\nload_g = {load_g}\n\
              haptic_v_rms = {{ sweep = {{ from = 0, to = {MOST_V}, points = {points} }} }}\n{}\
              [friction]\nrung = \"coulomb\"\n",
-            pad.tables(0.0, "\"static\"")
+            pad.tables(0.0, "\"static\"", "")
         );
         let mut plant = plant(&text, 1.0);
         let (mut above, mut below, mut steady) = (0.0, 0.0, Vec::new());

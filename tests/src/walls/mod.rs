@@ -7,6 +7,7 @@
 //! | [`hand`] | hands drawn at random, and what each does at the wall |
 //! | [`device`] | the pad that it moves, and the drive that makes a force of a target |
 //! | [`clocked`] | the wall's block as a rule |
+//! | [`core`] | the same hands at a wall in the core, through its sensor chain |
 //! | [`trial`] | one hand, one rule: the loop |
 //! | [`measures`] | sticking force, release time, flips, vanished walls |
 //!
@@ -16,6 +17,7 @@
 //! no code with the rules (`hapticore_reference::wall`) and the wall's block.
 
 pub mod clocked;
+pub mod core;
 pub mod device;
 pub mod hand;
 pub mod measures;
