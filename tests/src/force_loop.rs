@@ -59,7 +59,7 @@ impl Closed {
         };
         let mut writes = VecDeque::new();
         let word = formats.core.calibration.table.word;
-        for (address, &real) in (0..).zip(&calibration.position.words) {
+        for (address, real) in (0..).zip(calibration.words(&case.profile)) {
             let table = TablePort { write: 1, address, word: word.code_saturating(real) };
             let core = constants.core.with_table(table);
             writes.push_back(Inputs { core, ..constants });

@@ -3,6 +3,7 @@
 //!
 //! The plant's samples depend on the slot alone, so that results do not depend on threads.
 
+use std::collections::VecDeque;
 use std::sync::mpsc::{Receiver, sync_channel};
 use std::sync::{Arc, OnceLock};
 use std::thread;
@@ -276,6 +277,8 @@ impl Case<'_> {
     ) -> Result<Outcome> {
         let mut plant = self.loop_plant(maker)?;
         let (mut rows, mut peak) = (Vec::new(), 0f64);
+        // Drives are prompt; the row of a short slot comes while the next window is taken.
+        let mut drives = VecDeque::new();
         for number in 0..self.slots {
             interrupt::check()?;
             let made = plant.slot(number);
@@ -286,10 +289,11 @@ impl Case<'_> {
             peak = peak.max(made.peak);
             let row = session.slot(&made.slot, Some(record_truth(&made.truth)));
             let Some(drive) = session.take_drive() else { continue };
-            let driven = Some(plant.drive(&made, &drive)?);
-            rows.extend(row.map(|row| Row { driven, ..row }));
+            drives.push_back(plant.drive(&made, &drive)?);
+            rows.extend(row.map(|row| Row { driven: drives.pop_front(), ..row }));
             progress();
         }
+        rows.extend(session.finish().map(|row| Row { driven: drives.pop_front(), ..row }));
         Ok(Outcome {
             rows,
             effects: plant.effects(),

@@ -8,7 +8,8 @@
 //! ```
 //!
 //! A pad's target is taken once, as its estimate is given: one that is written later counts from
-//! the next frame on. Writing one is a sign of life of the host. Latency: that of the core's prompt
+//! the next frame on. Writing one is a sign of life of the host. The drive word is given before the
+//! next window begins, the frame perhaps within it. Latency: that of the core's prompt
 //! estimate, two clocks, the controller's.
 
 use super::controller::{self, Controller, Faults, Tuning};
@@ -88,13 +89,29 @@ impl ForceLoop {
     /// The force loop of a profile.
     ///
     /// # Errors
-    /// A profile without a controller; a core or controller that cannot be.
+    /// A profile without a controller; a core or controller that cannot be; a drive word that
+    /// would come within the next window.
     pub fn try_new(profile: &Profile) -> Result<Self, ProfileError> {
         let (core, controller) = (Core::try_new(profile)?, Controller::try_new(profile)?);
         let target = controller.inputs().target;
         let pad = controller.inputs().pad;
         let targets = Memory::new("targets", 1 << pad.width, target);
-        Ok(ForceLoop { core, controller, targets, pad })
+        let of = ForceLoop { core, controller, targets, pad };
+        of.check_blanking(profile)?;
+        Ok(of)
+    }
+
+    /// No window depends on the drive word of the slot before it from its middle on: a plant makes
+    /// whole windows.
+    fn check_blanking(&self, profile: &Profile) -> Result<(), ProfileError> {
+        let blanking = profile.slot.blanking() * profile.clocks_per_sample;
+        // The last sample's own clocks are part of it.
+        let least = self.latency() - profile.clocks_per_sample.min(self.latency());
+        if blanking > least {
+            return Ok(());
+        }
+        let expected = format!("more than {least} clocks of blanking for a drive word");
+        Err(ProfileError::value("slot.settle", expected, blanking))
     }
 
     /// Clocks from the strobe of a window's last sample to the drive word.

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A core with its force controller, slot by slot: `fixed` and, of every clock, `clock`.
 //!
-//! Either takes the codes of a slot's window and gives its frame and its drive word. What the ADC
-//! sees while a slot is blanked touches neither, so that `clock` is given zeros there: a plant can
-//! then wait for the drive word before it makes the window that depends on it.
+//! Either takes the codes of a slot's window and gives its drive word, and the frame that is
+//! finished: that of the slot, or with `clock`, where slots are short, that of the slot before. What
+//! the ADC sees while a slot is blanked touches neither, so that `clock` is given zeros there: a
+//! plant can then wait for the drive word before it makes the window that depends on it.
 
 use super::fixed::FixedSimulation;
 use super::{Gathered, signals};
@@ -227,15 +228,15 @@ impl ClockLoop {
             channels,
             block,
         };
-        of.calibrate(calibration, tuning);
+        of.calibrate(profile, calibration, tuning);
         of.blank();
         Ok(of)
     }
 
-    fn calibrate(&mut self, calibration: &Calibration, tuning: &Tuning) {
+    fn calibrate(&mut self, profile: &Profile, calibration: &Calibration, tuning: &Tuning) {
         let formats = self.block.inputs();
-        let word = self.block.core.estimator().position().table().format;
-        for (address, &real) in (0..).zip(&calibration.position.words) {
+        let word = formats.core.calibration.table.word;
+        for (address, real) in (0..).zip(calibration.words(profile)) {
             let codes = TablePort { write: 1, address, word: word.code_saturating(real) };
             let table = formats.core.calibration.table;
             let mut inputs = self.inputs;
@@ -260,36 +261,50 @@ impl ClockLoop {
         self.state.collect(outputs);
     }
 
-    /// The frame and the drive word of a slot: `codes` are those of its window.
-    ///
-    /// # Panics
-    /// Where the blanking is too short for them.
-    pub fn slot(&mut self, codes: &[i32]) -> (Frame, Drive) {
+    /// The drive word of a slot, and the frame that is finished before the next window begins, if
+    /// one is: `codes` are those of its window.
+    pub fn slot(&mut self, codes: &[i32]) -> (Option<Frame>, Drive) {
         self.samples(codes);
         self.blank();
         self.results()
     }
 
     /// As [`ClockLoop::slot`], with a look at the simulation after each clock.
-    ///
-    /// # Panics
-    /// As [`ClockLoop::slot`].
-    pub fn slot_with(&mut self, codes: &[i32], mut look: impl FnMut(&Self)) -> (Frame, Drive) {
+    pub fn slot_with(
+        &mut self,
+        codes: &[i32],
+        mut look: impl FnMut(&Self),
+    ) -> (Option<Frame>, Drive) {
         let silence = self.silence.clone();
         for codes in codes.chunks_exact(self.channels).chain(silence.chunks_exact(self.channels)) {
             for count in 0..self.clocks_per_sample {
-                let inputs = self.state.inputs(&self.inputs, count == 0, codes);
-                let outputs = clock(&self.block, &mut self.state.block, inputs);
-                self.state.collect(outputs);
+                self.clock(count == 0, codes);
                 look(self);
             }
         }
         self.results()
     }
 
-    fn results(&mut self) -> (Frame, Drive) {
-        let frame = self.state.frame.take().expect("a frame within the blanking");
-        (frame, self.state.drive.take().expect("a drive word within the blanking"))
+    /// Runs on without samples until the last slot's frame is there, where it is still to come.
+    pub fn finish(&mut self) -> Option<Frame> {
+        let codes = vec![0; self.channels];
+        let mut left = self.block.core.latency();
+        while self.state.frame.is_none() && left > 0 {
+            self.clock(false, &codes);
+            left -= 1;
+        }
+        self.state.frame.take()
+    }
+
+    fn clock(&mut self, strobe: bool, codes: &[i32]) {
+        let inputs = self.state.inputs(&self.inputs, strobe, codes);
+        let outputs = clock(&self.block, &mut self.state.block, inputs);
+        self.state.collect(outputs);
+    }
+
+    fn results(&mut self) -> (Option<Frame>, Drive) {
+        let drive = self.state.drive.take().expect("the blanking is longer than it takes");
+        (self.state.frame.take(), drive)
     }
 
     /// Clocks since the first sample.

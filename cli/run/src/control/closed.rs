@@ -34,8 +34,14 @@ pub fn engine(
 
 /// A core that drives the pad of each slot.
 trait Loop: Send + 'static {
-    fn slot(&mut self, slot: &Slot, profile: &Profile) -> (Measurement, Drive);
+    /// The measurement that is finished, if one is, and the drive of the slot.
+    fn slot(&mut self, slot: &Slot, profile: &Profile) -> (Option<Measurement>, Drive);
     fn set_target(&mut self, pad: usize, newtons: f64);
+
+    /// The measurement of the last slot, where it is still to come.
+    fn finish(&mut self, _: &Profile) -> Option<Measurement> {
+        None
+    }
 }
 
 /// A loop as an engine: the drive of the last slot waits until it is taken.
@@ -53,7 +59,11 @@ impl<L: Loop> Engine for Closed<L> {
     fn slot(&mut self, slot: &Slot) -> Option<Measurement> {
         let (measurement, drive) = self.core.slot(slot, &self.profile);
         self.drive = Some(drive);
-        Some(measurement)
+        measurement
+    }
+
+    fn finish(&mut self) -> Option<Measurement> {
+        self.core.finish(&self.profile)
     }
 
     fn set_target(&mut self, pad: usize, newtons: f64) {
@@ -85,10 +95,10 @@ impl Float {
 }
 
 impl Loop for Float {
-    fn slot(&mut self, slot: &Slot, _: &Profile) -> (Measurement, Drive) {
+    fn slot(&mut self, slot: &Slot, _: &Profile) -> (Option<Measurement>, Drive) {
         let measurement = slot.refer(&mut self.core);
         let drive = self.controller.drive(&self.core.prompt(), self.targets[slot.pad]);
-        (measurement, drive)
+        (Some(measurement), drive)
     }
 
     fn set_target(&mut self, pad: usize, newtons: f64) {
@@ -98,9 +108,9 @@ impl Loop for Float {
 }
 
 impl Loop for FixedLoop {
-    fn slot(&mut self, slot: &Slot, profile: &Profile) -> (Measurement, Drive) {
+    fn slot(&mut self, slot: &Slot, profile: &Profile) -> (Option<Measurement>, Drive) {
         let (frame, drive) = self.slot(|core| slot.frame(core));
-        (frame.measurement(profile), drive)
+        (Some(frame.measurement(profile)), drive)
     }
 
     fn set_target(&mut self, pad: usize, newtons: f64) {
@@ -109,9 +119,13 @@ impl Loop for FixedLoop {
 }
 
 impl Loop for ClockLoop {
-    fn slot(&mut self, slot: &Slot, profile: &Profile) -> (Measurement, Drive) {
+    fn slot(&mut self, slot: &Slot, profile: &Profile) -> (Option<Measurement>, Drive) {
         let (frame, drive) = self.slot(slot.window());
-        (frame.measurement(profile), drive)
+        (frame.map(|frame| frame.measurement(profile)), drive)
+    }
+
+    fn finish(&mut self, profile: &Profile) -> Option<Measurement> {
+        self.finish().map(|frame| frame.measurement(profile))
     }
 
     fn set_target(&mut self, pad: usize, newtons: f64) {
