@@ -111,7 +111,7 @@ Exit status: 0 done, 2 bad input.";
 /// Arguments of `codes`.
 #[derive(Debug, Clone, clap::Args)]
 pub struct CodesArgs {
-    /// The core's profile: a bundled name (small, standard, fine) or a TOML file [default:
+    /// The core's profile: a bundled name (small, standard, fine, fast) or a TOML file [default:
     /// standard]
     #[arg(long, value_name = "PROFILE")]
     pub profile: Option<String>,
@@ -143,7 +143,7 @@ pub struct HdlArgs {
     /// A board: its top, constraints and a script that makes a bitstream, too
     #[arg(long, value_name = "ulx3s|icebreaker")]
     pub board: Option<String>,
-    /// The core's profile: a bundled name (small, standard, fine) or a TOML file [default: the
+    /// The core's profile: a bundled name (small, standard, fine, fast) or a TOML file [default: the
     /// board's, else standard]
     #[arg(long, value_name = "PROFILE")]
     pub profile: Option<String>,
@@ -175,7 +175,7 @@ pub struct CoreArgs {
     /// How exactly the core is run
     #[arg(long, value_enum, default_value_t = Core::Fixed)]
     pub core: Core,
-    /// The core's profile: a bundled name (small, standard, fine) or a TOML file
+    /// The core's profile: a bundled name (small, standard, fine, fast) or a TOML file
     #[arg(long, value_name = "PROFILE")]
     pub profile: Option<String>,
     /// Also find the rounding error of every signal, against the same signal without rounding

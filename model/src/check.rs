@@ -3,7 +3,7 @@
 //!
 //! The contract's [`Profile::check_values`] holds the ranges that a profile states of itself. Two
 //! questions are left that only blocks answer: whether every signal fits a word of the model
-//! ([`MAX_WIDTH`](hapticore_hdl::format::MAX_WIDTH)), which each says as it is built, and whether the clocks between two windows
+//! ([`MAX_WIDTH`](hapticore_hdl::format::MAX_WIDTH)), which each says as it is built, and whether the clocks of a slot
 //! suffice.
 
 use crate::blocks::core::Core;
@@ -85,7 +85,7 @@ mod tests {
     #[test]
     fn blocks_refuse_what_values_alone_do_not_tell() {
         for (change, field) in [
-            ((|p| p.slot.settle = 0) as fn(&mut Profile), "slot.settle"),
+            ((|p| (p.slot.settle, p.slot.integrate) = (0, 300)) as fn(&mut Profile), "slot.settle"),
             (|p| p.formats.square = Format::unsigned(28, 48), "formats.square"),
         ] {
             let mut profile = Profile::bundled("standard").expect("bundled");

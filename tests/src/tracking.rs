@@ -5,6 +5,7 @@ use hapticore_run::case::{Case, Settings};
 use hapticore_run::engine::Fidelity;
 use hapticore_run::inputs;
 use hapticore_run::record::Row;
+use hapticore_scene::{Scene, gallery};
 
 /// The targets of `fig9`, as its cases call them.
 pub const TARGETS: [&str; 4] = ["square 0.3 N", "square 0.6 N", "sine 0.3 N", "sine 0.6 N"];
@@ -46,6 +47,28 @@ pub const LAWS: [Law; 7] = [
     Law { name: "inverse, force table", set: &[("law", "inverse"), ("force", "table")] },
 ];
 
+/// How a core divides its time, in samples of 1 µs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Division {
+    /// What the table calls it.
+    pub name: &'static str,
+    /// Bundled profile.
+    pub profile: &'static str,
+    /// Pads, the first of which is followed.
+    pub pads: usize,
+    /// `settle_samples` and `window_samples` of the scene.
+    pub samples: [u64; 2],
+}
+
+/// That of `fig9`: a pad, slots of 1 ms.
+pub const OWN: Division =
+    Division { name: "1 pad, 1 ms", profile: "standard", pads: 1, samples: [390, 600] };
+/// Four pads in the same time.
+pub const FOUR_SHORT: Division =
+    Division { name: "4 pads, 250 µs", profile: "fast", pads: 4, samples: [112, 128] };
+/// As short as slots are.
+pub const SHORT: Division = Division { name: "1 pad, 250 µs", pads: 1, ..FOUR_SHORT };
+
 /// A slot of a loop.
 #[derive(Clone, Copy, Debug)]
 pub struct Followed {
@@ -64,21 +87,46 @@ pub struct Followed {
 /// # Panics
 /// Where the scene has no such case.
 pub fn follow(law: &Law, target: &str, load_g: f64) -> Vec<Followed> {
+    follow_in(&OWN, law, target, load_g)
+}
+
+/// The first pad's slots of a law after a target, all pads under so many grams.
+///
+/// # Panics
+/// Where the scene has no such case.
+pub fn follow_in(division: &Division, law: &Law, target: &str, load_g: f64) -> Vec<Followed> {
     let open = law.set.contains(&("law", "open"));
     let case = format!("{target}, {} loop", if open { "open" } else { "closed" });
+    let scene = scene(division, law, load_g);
+    let index = scene.cases.iter().position(|found| found.name == case).expect("a case");
+    let profile = inputs::profile(division.profile).expect("bundled");
+    let profile = inputs::windowed(profile, &scene).expect("a window");
+    let case = Case::new(&scene, index, &profile, &[]).expect("a case");
+    let settings = Settings { fidelity: Fidelity::Fixed, errors: false };
+    let outcome = case.run(&settings, None, &|| ()).expect("a run");
+    let rows: Vec<_> = outcome.rows.iter().filter(|row| row.pad == 0).collect();
+    let asked = std::iter::once(0.0).chain(rows.iter().map(|row| asked_n(row)));
+    rows.iter().zip(asked).map(|(row, asked_n)| followed(row, asked_n)).collect()
+}
+
+/// `fig9` in other slots; further pads rest.
+fn scene(division: &Division, law: &Law, load_g: f64) -> Scene {
     let text = |(key, value): &(&str, &str)| (format!("control.{key}"), quoted(value));
     let mut set: Vec<_> = law.set.iter().map(text).collect();
     set.push(("pad.0.load_g".into(), load_g.to_string()));
     set.push(("control.nominal_load_g".into(), load_g.to_string()));
-    let scene = inputs::scene("fig9", &set).expect("bundled");
-    let profile = inputs::profile(&scene.profile).expect("bundled");
-    let profile = inputs::windowed(profile, &scene).expect("a window");
-    let index = scene.cases.iter().position(|found| found.name == case).expect("a case");
-    let case = Case::new(&scene, index, &profile, &[]).expect("a case");
-    let settings = Settings { fidelity: Fidelity::Fixed, errors: false };
-    let outcome = case.run(&settings, None, &|| ()).expect("a run");
-    let asked = std::iter::once(0.0).chain(outcome.rows.iter().map(asked_n));
-    outcome.rows.iter().zip(asked).map(|(row, asked_n)| followed(row, asked_n)).collect()
+    let others: String = (1..division.pads)
+        .map(|pad| {
+            format!("[[pad]]\nposition_mm = [{}, 90]\nload_g = {load_g}\ntarget_n = 0\n", 80 * pad)
+        })
+        .collect();
+    let [settle, window] = division.samples;
+    let scene = gallery::find("fig9").expect("bundled");
+    let scene = scene
+        .replacen("[sheet]", &format!("{others}[sheet]"), 1)
+        .replace("settle_samples = 390", &format!("settle_samples = {settle}"))
+        .replace("window_samples = 600", &format!("window_samples = {window}"));
+    Scene::parse(&scene, "fig9.toml", &set).unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn quoted(value: &str) -> String {
@@ -120,9 +168,11 @@ pub fn rms_after_edges_n(slots: &[Followed]) -> f64 {
     rms(slots.iter().filter_map(&mut error))
 }
 
-/// The largest true force − target at the same time, N.
+/// The largest true force above its target and above the target that its drive was made for, N: a
+/// pad that waits for its next slot while its target falls does not overshoot.
 pub fn overshoot_n(slots: &[Followed]) -> f64 {
-    slots.iter().map(|slot| slot.force_n - slot.target_n).fold(0.0, f64::max)
+    let above = |slot: &Followed| slot.force_n - slot.target_n.max(slot.asked_n);
+    slots.iter().map(above).fold(0.0, f64::max)
 }
 
 /// From the target's first step to 90 % of it for good, s.

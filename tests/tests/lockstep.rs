@@ -167,10 +167,21 @@ fn verilator_closes_the_force_loop_as_the_model_does() {
     if !tools::have(&["verilator", "make", "g++"]) {
         return;
     }
-    for (name, force) in [("small", "\"eq8\""), ("standard", "\"table\"")] {
+    // In slots of 250 µs an estimate runs on within the next window.
+    let own = ["390", "600"];
+    for (name, force, [settle, window]) in [
+        ("small", "\"eq8\"", own),
+        ("standard", "\"table\"", own),
+        ("fast", "\"table\"", ["112", "128"]),
+    ] {
         let profile = Profile::bundled(name).expect("bundled");
-        let target = "{ timeline = [[0, 0], [0.004, 0], [0.004, 0.6]] }";
-        let set = [("pad.0.target_n", target), ("control.force", force)];
+        let target = "{ timeline = [[0, 0], [0.002, 0], [0.002, 0.6]] }";
+        let set = [
+            ("pad.0.target_n", target),
+            ("control.force", force),
+            ("settle_samples", settle),
+            ("window_samples", window),
+        ];
         let set = set.map(|(key, value)| (key.to_string(), value.to_string()));
         let mut closed = Closed::new(&profile, ("fig9", 1), &set, 16);
         let (block, design) = (closed.block.clone(), Design::of(&closed.block, "a test"));

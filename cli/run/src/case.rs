@@ -3,6 +3,7 @@
 //!
 //! The plant's samples depend on the slot alone, so that results do not depend on threads.
 
+use std::collections::VecDeque;
 use std::sync::mpsc::{Receiver, sync_channel};
 use std::sync::{Arc, OnceLock};
 use std::thread;
@@ -292,6 +293,8 @@ impl Case<'_> {
     ) -> Result<Outcome> {
         let mut plant = self.loop_plant(maker)?;
         let (mut rows, mut peak) = (Vec::new(), 0f64);
+        // Drives are prompt; the row of a short slot comes while the next window is taken.
+        let mut drives = VecDeque::new();
         for number in 0..self.slots {
             interrupt::check()?;
             let made = plant.slot(number);
@@ -304,10 +307,12 @@ impl Case<'_> {
             }
             peak = peak.max(made.peak);
             let row = session.slot(&made.slot, Some(record_truth(&made.truth)));
-            let driven = plant.drive(&made, session.take_drive())?;
-            rows.extend(row.map(|row| Row { driven, ..row }));
+            drives.push_back(plant.drive(&made, session.take_drive())?);
+            rows.extend(row.map(|row| Row { driven: drives.pop_front().flatten(), ..row }));
             progress();
         }
+        let last = session.finish();
+        rows.extend(last.map(|row| Row { driven: drives.pop_front().flatten(), ..row }));
         Ok(Outcome {
             rows,
             effects: plant.effects(),

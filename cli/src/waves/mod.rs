@@ -28,6 +28,7 @@ use hapticore_waveforms::view::View;
 
 use crate::print::number;
 use crate::progress;
+use hapticore_model::blocks::core::Core;
 use hapticore_run::case::Case;
 
 /// Slots traced where no window is named.
@@ -146,7 +147,9 @@ fn clocks(case: &Case, window: Option<&Range<f64>>, clock_hz: f64) -> Range<u64>
             (seconds.start * clock_hz).floor() as u64..(seconds.end * clock_hz).ceil() as u64
         }
         None => {
-            0..SLOTS * profile.slot_clocks() + profile.slot.blanking() * profile.clocks_per_sample
+            let blanking = profile.slot.blanking() * profile.clocks_per_sample;
+            let frame = Core::new(profile).latency();
+            0..SLOTS * profile.slot_clocks() + blanking.max(frame)
         }
     }
 }

@@ -4,7 +4,7 @@
 //!
 //! | module | holds |
 //! | --- | --- |
-//! | [`profile`] | word formats, counts and timings of a core, from TOML; `small`, `standard` and `fine` are bundled |
+//! | [`profile`] | word formats, counts and timings of a core, from TOML; `small`, `standard`, `fine` and `fast` are bundled |
 //! | [`frame`] | the words that a core gives for each slot: order, formats, and the numbers that they stand for |
 //! | [`control`] | the force controller: its law and formats, the numbers that tune it |
 //! | [`calibration`] | what makes a core the sensor of a device: the position table and two gains |

@@ -7,7 +7,8 @@
 //! ```
 //!
 //! The answer to `channel` is expected as `code` one clock later. Pads are selected by `pad` and
-//! `closed`, break before make.
+//! `closed`, break before make. The estimate of a slot may run on while the next window is taken; it
+//! is over before that window's sums come.
 
 use super::demodulator::{self, Demodulator};
 use super::estimator::{self, Calibration, Estimator, FramePort, PromptPort};
@@ -80,7 +81,7 @@ impl Core {
     pub fn try_new(profile: &Profile) -> Result<Self, ProfileError> {
         profile.check_values()?;
         let core = Self::of_blocks(profile)?;
-        core.check_blanking(profile)?;
+        core.check_clocks(profile)?;
         Ok(core)
     }
 
@@ -94,15 +95,22 @@ impl Core {
         })
     }
 
-    /// The next window begins when the last one's sums have been read out and its frame is made.
-    fn check_blanking(&self, profile: &Profile) -> Result<(), ProfileError> {
-        let estimate = self.demodulator.latency() + self.estimator.latency();
+    /// Sums have been read out when the next window begins, and a frame is made when the next sums
+    /// come: an estimate may run on while the next window is taken.
+    fn check_clocks(&self, profile: &Profile) -> Result<(), ProfileError> {
+        let read_out = self.demodulator.latency();
         let blanking = profile.slot.blanking() * profile.clocks_per_sample;
-        if blanking > estimate {
-            return Ok(());
+        if blanking <= read_out {
+            let expected = format_args!("more than {read_out} clocks of blanking").to_string();
+            return Err(ProfileError::value("slot.settle", expected, blanking));
         }
-        let expected = format_args!("more than {estimate} clocks of blanking").to_string();
-        Err(ProfileError::value("slot.settle", expected, blanking))
+        // From a window's last sample to its frame, less those from the next's to its first sum.
+        let frame = read_out + self.estimator.latency() - self.demodulator.first_sum();
+        if profile.slot_clocks() <= frame {
+            let expected = format_args!("slots of more than {frame} clocks").to_string();
+            return Err(ProfileError::value("slot.settle", expected, profile.slot_clocks()));
+        }
+        Ok(())
     }
 
     /// The inputs of a core with a calibration, as codes, while nothing happens.

@@ -215,6 +215,12 @@ impl Demodulator {
             + if self.polyphase.is_some() { polyphase::read_out(self.channels) } else { 0 }
     }
 
+    /// Clocks from `start` to the first sum's `valid`, at least: polyphase sums are read out after
+    /// them.
+    pub fn first_sum(&self) -> u64 {
+        self.steps() + 1 - if self.polyphase.is_some() { 0 } else { self.sums() - 1 }
+    }
+
     /// The fewest clocks from one sample to the next: the last code is asked for while it is there.
     pub fn least_clocks_per_sample(&self) -> u64 {
         let asks = 2 + if self.polyphase.is_some() { 2 } else { 4 } + self.steps() - PIPELINE;

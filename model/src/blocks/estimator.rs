@@ -14,9 +14,10 @@
 //!                       ratio ─ position ─ capacitance ─ force ─ frames
 //! ```
 //!
-//! One slot is in flight at a time, so that nothing of one pad can meet anything of another; the
-//! profile's blanking is longer than the latency. Latency: the sum of the stages', from the last
-//! sum to the last word.
+//! One slot is in flight at a time, so that nothing of one pad can meet anything of another: a
+//! profile's slots are longer than the latency, so that a frame is finished before the next sums
+//! come. A prompt estimate therefore finds the resistance of the pad's last slot, whichever pads
+//! came between. Latency: the sum of the stages', from the last sum to the last word.
 
 use super::capacitance::{self, Capacitance};
 use super::currents::{self, Currents};

@@ -7,7 +7,8 @@
 //! targets, walls ───────────────────────┘
 //! ```
 //!
-//! Latency: that of the core's prompt estimate, and the drives'.
+//! The drive word is given before the next window begins, the frame perhaps within it. Latency:
+//! that of the core's prompt estimate, and the drives'.
 
 use super::controller::{Faults, Tuning};
 use super::core::{Core, Inputs as CoreInputs, Outputs as CoreOutputs};
@@ -45,11 +46,27 @@ impl ForceLoop {
     /// The force loop of a profile.
     ///
     /// # Errors
-    /// A profile without a controller; a core or controller that cannot be.
+    /// A profile without a controller; a core or controller that cannot be; a drive word that
+    /// would come within the next window.
     pub fn try_new(profile: &Profile) -> Result<Self, ProfileError> {
         let core = Core::try_new(profile)?;
         let drives = Drives::try_new(profile, core.outputs().prompt)?;
-        Ok(ForceLoop { core, drives })
+        let of = ForceLoop { core, drives };
+        of.check_blanking(profile)?;
+        Ok(of)
+    }
+
+    /// No window depends on the drive word of the slot before it from its middle on: a plant makes
+    /// whole windows.
+    fn check_blanking(&self, profile: &Profile) -> Result<(), ProfileError> {
+        let blanking = profile.slot.blanking() * profile.clocks_per_sample;
+        // The last sample's own clocks are part of it.
+        let least = self.latency() - profile.clocks_per_sample.min(self.latency());
+        if blanking > least {
+            return Ok(());
+        }
+        let expected = format!("more than {least} clocks of blanking for a drive word");
+        Err(ProfileError::value("slot.settle", expected, blanking))
     }
 
     /// Clocks from the strobe of a window's last sample to the drive word.

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A core with its force controller, slot by slot: `fixed` and, of every clock, `clock`.
 //!
-//! Either takes the codes of a slot's window and gives its frame and its drive word. What the ADC
-//! sees while a slot is blanked touches neither, so that `clock` is given zeros there: a plant can
-//! then wait for the drive word before it makes the window that depends on it.
+//! Either takes the codes of a slot's window and gives its drive word, and the frame that is
+//! finished: that of the slot, or with `clock`, where slots are short, that of the slot before. What
+//! the ADC sees while a slot is blanked touches neither, so that `clock` is given zeros there: a
+//! plant can then wait for the drive word before it makes the window that depends on it.
 
 use super::fixed::FixedSimulation;
 use super::{Gathered, signals};
@@ -319,41 +320,49 @@ impl ClockLoop {
         self.state.collect(outputs);
     }
 
-    /// The frame of a slot, and its drive word as in [`FixedLoop::slot`]: `codes` are those of its
-    /// window.
-    ///
-    /// # Panics
-    /// Where the blanking is too short for them.
-    pub fn slot(&mut self, codes: &[i32]) -> (Frame, Option<Drive>) {
+    /// The drive word of a slot, as in [`FixedLoop::slot`], and the frame that is finished before
+    /// the next window begins, if one is: `codes` are those of its window.
+    pub fn slot(&mut self, codes: &[i32]) -> (Option<Frame>, Option<Drive>) {
         self.samples(codes);
         self.blank();
         self.results()
     }
 
     /// As [`ClockLoop::slot`], with a look at the simulation after each clock.
-    ///
-    /// # Panics
-    /// As [`ClockLoop::slot`].
     pub fn slot_with(
         &mut self,
         codes: &[i32],
         mut look: impl FnMut(&Self),
-    ) -> (Frame, Option<Drive>) {
+    ) -> (Option<Frame>, Option<Drive>) {
         let silence = self.silence.clone();
         for codes in codes.chunks_exact(self.channels).chain(silence.chunks_exact(self.channels)) {
             for count in 0..self.clocks_per_sample {
-                let inputs = self.state.inputs(&self.inputs, count == 0, codes);
-                let outputs = clock(&self.block, &mut self.state.block, inputs);
-                self.state.collect(outputs);
+                self.clock(count == 0, codes);
                 look(self);
             }
         }
         self.results()
     }
 
-    fn results(&mut self) -> (Frame, Option<Drive>) {
-        let frame = self.state.frame.take().expect("a frame within the blanking");
-        (frame, self.state.drive.take())
+    /// Runs on without samples until the last slot's frame is there, where it is still to come.
+    pub fn finish(&mut self) -> Option<Frame> {
+        let codes = vec![0; self.channels];
+        let mut left = self.block.core.latency();
+        while self.state.frame.is_none() && left > 0 {
+            self.clock(false, &codes);
+            left -= 1;
+        }
+        self.state.frame.take()
+    }
+
+    fn clock(&mut self, strobe: bool, codes: &[i32]) {
+        let inputs = self.state.inputs(&self.inputs, strobe, codes);
+        let outputs = clock(&self.block, &mut self.state.block, inputs);
+        self.state.collect(outputs);
+    }
+
+    fn results(&mut self) -> (Option<Frame>, Option<Drive>) {
+        (self.state.frame.take(), self.state.drive.take())
     }
 
     /// Clocks since the first sample.

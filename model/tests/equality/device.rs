@@ -3,7 +3,8 @@
 
 use super::random::Random;
 use hapticore_contract::calibration::{Calibration, ForceTable, Point, PositionTable};
-use hapticore_contract::profile::{ForceLaw, Profile};
+use hapticore_contract::control::{Control, Law};
+use hapticore_contract::profile::{ForceLaw, Method, Profile};
 use std::f64::consts::TAU;
 
 /// The bundled profiles, their slots cut to a few samples so that slots pass quickly.
@@ -34,6 +35,34 @@ fn shortened(mut profile: Profile) -> Profile {
     (0..1000)
         .find_map(|periods| with_settle(98 + 5 * periods))
         .expect("a slot longer than the estimator takes")
+}
+
+/// The short profiles with windows as long as it takes for an estimate to be finished, to a few samples, before
+/// the next sums come; it begins while the next slot is blanked and ends within its window.
+pub fn overlapping_profiles() -> Vec<Profile> {
+    let overlapping = |profile: Profile| {
+        let unit = if profile.carrier.method == Method::Polyphase { 5 } else { 4 };
+        // Of the same point in a period of five samples; longer than the read-out and a drive word.
+        let settle = 98 + unit * 4;
+        let with_window = |units: u64| {
+            let mut profile = profile.clone();
+            profile.slot.settle = settle;
+            let profile = profile.with_window(unit * units);
+            hapticore_model::check(&profile).is_ok().then_some(profile)
+        };
+        let profile = (10..1000).find_map(with_window).expect("a slot longer than the estimate");
+        assert!(profile.slot.integrate > 50, "{}: the estimate ends within a window", profile.name);
+        profile
+    };
+    let laws = [None, Some(Law::Inverse)];
+    let both = short_profiles().into_iter().chain(short_table_profiles());
+    let with = |profile: Profile| {
+        laws.map(|law| Profile {
+            control: law.map(|law| Control::of(&profile, law)),
+            ..profile.clone()
+        })
+    };
+    both.flat_map(with).map(overlapping).collect()
 }
 
 /// A calibration such as a sheet has: ratios that saturate towards its edges.

@@ -7,6 +7,7 @@
 //! | [`idle`] | skipping an idle block changes no bit on any clock |
 //! | [`netlists`] | the captured graph, run by an interpreter of its own = the clocked model, on every clock |
 //! | [`slots`] | frames of fidelities `fixed` and `clock` = the rounded reference |
+//! | [`overlap`] | the same where an estimate runs on within the next window, with a controller too |
 //! | [`phasors`] | frames from amplitudes = frames from the same tones' samples, but for the ADC's rounding |
 //! | [`ideal`] | the floating-point reference = the equations solved backwards |
 //! | [`accuracy`] | fixed point departs from floating point as word lengths predict |
@@ -20,6 +21,7 @@ mod idle;
 mod interpreter;
 mod netlists;
 mod never_skips;
+mod overlap;
 mod phasors;
 mod random;
 mod signals;

@@ -8,10 +8,11 @@ use measure::{Measured, all, document};
 
 /// Limits of a profile: excess and the least reserve in dB, the response to a constant (none:
 /// nothing may be left of it).
-const LIMITS: [(&str, f64, f64, Option<f64>); 3] = [
+const LIMITS: [(&str, f64, f64, Option<f64>); 4] = [
     ("small", 4.0, 68.0, None),
     ("standard", 2.0, 75.0, Some(-140.0)),
     ("fine", 2.0, 75.0, Some(-140.0)),
+    ("fast", 6.0, 22.0, Some(-120.0)),
 ];
 /// By how much the reserve may be less than in floating point, dB.
 const LESS: f64 = 4.0;

@@ -27,7 +27,7 @@ const RESERVE: [f64; 2] = [50.0, 20e3];
 const QUIET: f64 = 256.0;
 const PHASES: usize = 256;
 /// The bundled profiles and the sample rates of their boards.
-const RATES: [(&str, f64); 3] = [("small", 500e3), ("standard", 1e6), ("fine", 1e6)];
+const RATES: [(&str, f64); 4] = [("small", 500e3), ("standard", 1e6), ("fine", 1e6), ("fast", 1e6)];
 
 /// In phase and quadrature.
 type Pair = [f64; 2];

@@ -35,9 +35,15 @@ pub fn engine(
 
 /// A core that drives the pad of each slot.
 trait Loop: Send + 'static {
-    fn slot(&mut self, slot: &Slot, profile: &Profile) -> (Measurement, Option<Drive>);
+    /// The measurement that is finished, if one is, and the drive that the slot led to.
+    fn slot(&mut self, slot: &Slot, profile: &Profile) -> (Option<Measurement>, Option<Drive>);
     fn set_target(&mut self, pad: usize, newtons: f64);
     fn set_surface(&mut self, pad: usize, surface_mm: f64);
+
+    /// The measurement of the last slot, where it is still to come.
+    fn finish(&mut self, _: &Profile) -> Option<Measurement> {
+        None
+    }
 }
 
 /// A loop as an engine: the drive of the last slot waits until it is taken.
@@ -55,7 +61,11 @@ impl<L: Loop> Engine for Closed<L> {
     fn slot(&mut self, slot: &Slot) -> Option<Measurement> {
         let (measurement, drive) = self.core.slot(slot, &self.profile);
         self.drive = drive;
-        Some(measurement)
+        measurement
+    }
+
+    fn finish(&mut self) -> Option<Measurement> {
+        self.core.finish(&self.profile)
     }
 
     fn set_target(&mut self, pad: usize, newtons: f64) {
@@ -94,11 +104,11 @@ impl Float {
 }
 
 impl Loop for Float {
-    fn slot(&mut self, slot: &Slot, _: &Profile) -> (Measurement, Option<Drive>) {
+    fn slot(&mut self, slot: &Slot, _: &Profile) -> (Option<Measurement>, Option<Drive>) {
         let measurement = slot.refer(&mut self.core);
         let (prompt, target_n) = (self.core.prompt(), self.targets[slot.pad]);
         let Some(split_pads) = &mut self.split_pads else {
-            return (measurement, Some(self.controller.drive(&prompt, target_n)));
+            return (Some(measurement), Some(self.controller.drive(&prompt, target_n)));
         };
         let drive = split_pads.estimate(&prompt).map(|Whole { prompt, walled }| {
             let walled = Walled { target_n: walled.target_n.max(target_n), ..walled };
@@ -109,7 +119,7 @@ impl Loop for Float {
         if !measurement.flags.invalid {
             split_pads.place(slot.pad, measurement.x_mm);
         }
-        (measurement, drive)
+        (Some(measurement), drive)
     }
 
     fn set_surface(&mut self, pad: usize, surface_mm: f64) {
@@ -125,9 +135,9 @@ impl Loop for Float {
 }
 
 impl Loop for FixedLoop {
-    fn slot(&mut self, slot: &Slot, profile: &Profile) -> (Measurement, Option<Drive>) {
+    fn slot(&mut self, slot: &Slot, profile: &Profile) -> (Option<Measurement>, Option<Drive>) {
         let (frame, drive) = self.slot(|core| slot.frame(core));
-        (frame.measurement(profile), drive)
+        (Some(frame.measurement(profile)), drive)
     }
 
     fn set_target(&mut self, pad: usize, newtons: f64) {
@@ -140,9 +150,13 @@ impl Loop for FixedLoop {
 }
 
 impl Loop for ClockLoop {
-    fn slot(&mut self, slot: &Slot, profile: &Profile) -> (Measurement, Option<Drive>) {
+    fn slot(&mut self, slot: &Slot, profile: &Profile) -> (Option<Measurement>, Option<Drive>) {
         let (frame, drive) = self.slot(slot.window());
-        (frame.measurement(profile), drive)
+        (frame.map(|frame| frame.measurement(profile)), drive)
+    }
+
+    fn finish(&mut self, profile: &Profile) -> Option<Measurement> {
+        self.finish().map(|frame| frame.measurement(profile))
     }
 
     fn set_target(&mut self, pad: usize, newtons: f64) {

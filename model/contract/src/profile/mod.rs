@@ -2,8 +2,8 @@
 //! Profiles: word lengths, counts and timings of a core, at run time. The one place where a width
 //! is written.
 //!
-//! A profile is TOML. `small`, `standard` and `fine` are bundled; [`Profile::parse`] reads any
-//! other, and nothing needs to be compiled again.
+//! A profile is TOML. `small`, `standard`, `fine` and `fast` are bundled; [`Profile::parse`] reads
+//! any other, and nothing needs to be compiled again.
 
 mod check;
 mod wall;
@@ -274,10 +274,11 @@ impl ProfileError {
 pub const POLYPHASE_GAIN: f64 = 57230.0 / 65536.0;
 
 /// The bundled profiles: their names and texts.
-pub const BUNDLED: [(&str, &str); 3] = [
+pub const BUNDLED: [(&str, &str); 4] = [
     ("small", include_str!("small.toml")),
     ("standard", include_str!("standard.toml")),
     ("fine", include_str!("fine.toml")),
+    ("fast", include_str!("fast.toml")),
 ];
 
 impl Profile {
@@ -316,7 +317,7 @@ impl Profile {
     ///
     /// assert_eq!(Profile::bundled("small")?.pads, 4);
     /// let message = Profile::bundled("tiny").unwrap_err().to_string();
-    /// assert_eq!(message, "expected a file or a profile among small, standard, fine, got \"tiny\"");
+    /// assert_eq!(message, "expected a file or a profile among small, standard, fine, fast, got \"tiny\"");
     /// # Ok::<(), hapticore_contract::profile::ProfileError>(())
     /// ```
     ///
