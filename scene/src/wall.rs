@@ -13,6 +13,7 @@
 //! inside = "left"            # left | right of its surface
 //! stiffness_n_per_mm = 0.5
 //! force_n = 1                # the most that it gives
+//! play_mm = 0.2              # way back after which the hand has turned, whatever the push reads
 //! uncalibrated = false       # else the direction's offset is taken out: at the factory, then in free air
 //! ```
 //!
@@ -64,6 +65,9 @@ pub struct WallPlan {
     pub stiffness_n_per_mm: f64,
     /// The largest force, N.
     pub force_n: f64,
+    /// Way back of the pad after which the hand has turned, mm, where not as the profile says: some
+    /// four times the noise of the place.
+    pub play_mm: Option<f64>,
     /// The direction's offset is taken out.
     pub calibrated: bool,
     surface_mm: Stimulus,
@@ -94,6 +98,7 @@ impl WallPlan {
                 0.5,
             )?,
             force_n: table.number_or("force_n", Limits::within(0.0, 100.0), 1.0)?,
+            play_mm: table.number("play_mm", Limits::within(0.001, 10.0))?,
             calibrated: !table.flag("uncalibrated")?,
             surface_mm,
         }))

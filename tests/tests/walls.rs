@@ -3,7 +3,8 @@
 //! time, flips and vanished walls. The figures of a hundred hands are in docs/physics.md §6
 //! (`cargo run --release -p hapticore-tests --example walls`); these are the first twelve of them.
 
-use hapticore_tests::walls::device::Drive;
+use hapticore_tests::walls::core::InCore;
+use hapticore_tests::walls::device::{Drive, Pad};
 use hapticore_tests::walls::hand::Hand;
 use hapticore_tests::walls::measures::{Measures, Row};
 use hapticore_tests::walls::trial::{Kind, Setup};
@@ -63,4 +64,17 @@ fn the_trajectory_of_the_paper_neither_sticks_nor_loses_the_wall() {
         assert!(felt.sticking_n <= 0.008 && felt.vanished_ms == 0.0, "{felt:?}");
         assert!(felt.peak_n > 0.3, "the wall holds: {felt:?}");
     }
+}
+
+/// With sheet, noise, ADC and the core between pad and drive, slots of 250 µs.
+#[test]
+fn a_wall_in_the_core_is_felt_as_the_rule_is() {
+    let hands = if cfg!(optimised) { 3 } else { 1 };
+    let core =
+        InCore { pad: Pad::Strips, profile: "fast", n_per_mm: 0.5, play_mm: 0.2, noise_ppm: 18.0 };
+    let a = core.hands(0..hands, 2.0);
+    println!("{core:?} | {}", a.text());
+    assert!(a.sticking_n <= 0.03 && a.worst_n <= 0.12 && a.slow_peak_n <= 0.08, "{a:?}");
+    assert!(a.release_ms <= 25.0 && a.release_p95_ms <= 90.0 && a.vanished_ms <= 1.0, "{a:?}");
+    assert!(a.peak_n > 0.7, "and it holds: {a:?}");
 }

@@ -3,13 +3,11 @@
 //! a scene, the core with its controller and wall at fidelity `fixed`, parts of the pad slot by slot.
 
 use std::ops::Range;
-use std::sync::Arc;
 
 use hapticore_contract::profile::Profile;
 use hapticore_reference::wall::Direction;
 use hapticore_run::case::{Case, Settings};
 use hapticore_run::engine::Fidelity;
-use hapticore_run::inputs;
 use hapticore_run::record::Row as Record;
 use hapticore_scene::Scene;
 use rayon::prelude::*;
@@ -28,21 +26,21 @@ pub struct InCore {
     pub profile: &'static str,
     /// Stiffness of the wall, N/mm.
     pub n_per_mm: f64,
-    /// Samples of a slot that a pad settles, and of its window.
-    pub slot: [u64; 2],
+    /// Play of the position, mm.
+    pub play_mm: f64,
     /// Noise of each current, ppm of full scale rms.
     pub noise_ppm: f64,
 }
 
 impl InCore {
     fn scene(&self, hand: &Hand, mismatch_percent: f64, seed: u64) -> Scene {
-        let InCore { pad, n_per_mm, slot: [settle, window], noise_ppm, .. } = self;
+        let InCore { pad, n_per_mm, play_mm, noise_ppm, .. } = self;
         let text = format!(
-            "settle_samples = {settle}\nwindow_samples = {window}\nseed = {seed}\n{}\
+            "seed = {seed}\n{}\
              [sheet]\n[carrier]\nrung = \"samples\"\nhaptic_wave = \"square\"\n[sensor]\n\
              haptic_full_scale_v = 600\nnoise_ppm_rms = {noise_ppm}\nquantisation_bits = 18\n\
              [control]\nrail_v = 400\nnominal_load_g = 80\n\
-             [wall]\nstiffness_n_per_mm = {n_per_mm}\n",
+             [wall]\nstiffness_n_per_mm = {n_per_mm}\nplay_mm = {play_mm}\n",
             scene_of(*pad, hand, mismatch_percent, "senses = \"each\"\n")
         );
         Scene::parse(&text, "hand.toml", &[]).unwrap_or_else(|error| panic!("{error}"))
@@ -55,8 +53,7 @@ impl InCore {
     pub fn run(&self, hand: &Hand, mismatch_percent: f64, seed: u64) -> (Vec<Seen>, f64) {
         let scene = self.scene(hand, mismatch_percent, seed);
         let profile = Profile::bundled(self.profile).expect("bundled");
-        let profile = inputs::windowed(profile, &scene).expect("a slot that the core can have");
-        let case = Case::new(&scene, 0, &Arc::new(profile), &[]).expect("a case");
+        let case = Case::new(&scene, 0, &profile, &[]).expect("a case");
         let settings = Settings { fidelity: Fidelity::Fixed, errors: false };
         let outcome = case.run(&settings, None, &|| ()).expect("a run");
         let parts = case.plant().expect("a plant").parts();

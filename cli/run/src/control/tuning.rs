@@ -53,7 +53,8 @@ fn walled(wall: Wall, plan: &WallPlan) -> Wall {
     };
     // Nothing moves so fast that it would be learnt from.
     let learn_um = if plan.calibrated { wall.learn_um } else { 10_000 };
-    Wall { rule, learn_um, ..wall }
+    let play_um = plan.play_mm.map_or(wall.play_um, |mm| (1e3 * mm).round() as u64);
+    Wall { rule, learn_um, play_um, ..wall }
 }
 
 /// The walls, as the factory calibrates them.

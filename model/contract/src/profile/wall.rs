@@ -74,24 +74,17 @@ impl Wall {
         engage: 8,
         advance_16: 5,
         delay_16: 16,
-        dwell_frames: 0,
+        dwell_frames: 20,
         ramp_frames: 40,
         zero_frames: 10,
         learn_um: 10,
         fast_um: 20,
-        play_um: 100,
+        play_um: 200,
         clear_um: 200,
     };
     /// Rule B, for halves that sense and brake.
-    pub const B: Wall = Wall {
-        parts: 2,
-        release: 4,
-        engage: 12,
-        advance_16: 0,
-        delay_16: 24,
-        dwell_frames: 20,
-        ..Wall::A
-    };
+    pub const B: Wall =
+        Wall { parts: 2, release: 4, engage: 12, advance_16: 0, delay_16: 24, ..Wall::A };
 }
 
 impl Wall {
@@ -101,7 +94,7 @@ impl Wall {
     /// use hapticore_contract::profile::Wall;
     ///
     /// let wall = Wall::A.at_frames_of(4.0);
-    /// assert_eq!((wall.ramp_frames, wall.fast_um, wall.play_um), (10, 80, 100));
+    /// assert_eq!((wall.ramp_frames, wall.fast_um, wall.play_um), (10, 80, 200));
     /// ```
     pub fn at_frames_of(self, milliseconds: f64) -> Wall {
         let frames = |count: u64| (count as f64 / milliseconds).round() as u64;

@@ -8,8 +8,8 @@
 //! off = (u_in + u_out)/2,  b = max((u_out − u_in)/2, 0.0015);  one side alone: u_in + 0.006, u_out − 0.006;  none: factory offset
 //! y = clamp((u − off)/σ, ±4),   σ = 2^-8, or 2^-7 where 0.886·mean|Δu| > 0.0055
 //! x ≥ 0   PUSH, S = E = 0, gain = 1
-//! PUSH    S = max(0, S + y + bf·b/σ − ½);  v < −20 mm/s: S = min(S, h1);  S > h1 or x̄ − min x̄ > 0.1 mm → FREE
-//! FREE    E = max(0, E − y − ½ − kb·b/σ);  E > h2 and v ≤ 20 mm/s, or max x̄ − x̄ > 0.1 mm → PUSH, gain = 0
+//! PUSH    S = max(0, S + y + bf·b/σ − ½);  v < −20 mm/s: S = min(S, h1);  S > h1 or x̄ − min x̄ > 0.2 mm → FREE
+//! FREE    E = max(0, E − y − ½ − kb·b/σ);  E > h2 and v ≤ 20 mm/s, or max x̄ − x̄ > 0.2 mm → PUSH, gain = 0
 //! F = min(k_w·|x|, F_max)·gain,   gain += 1/40 per ms
 //! ```
 //!
@@ -27,7 +27,7 @@ const LEAST_FRICTION: f64 = 0.0015;
 /// Frames of one side that are learnt fast, before it counts.
 const FAST: u32 = 16;
 /// Play of the position, mm.
-const PLAY_MM: f64 = 0.1;
+const PLAY_MM: f64 = 0.2;
 
 /// What tells rule A from rule B.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,7 +46,7 @@ pub struct Test {
 
 impl Test {
     /// Rule A, for a pad whose sensing strips stay at a low voltage.
-    pub const A: Test = Test { h1: 3.0, h2: 8.0, kb: 1.0, bf: 0.3, dwell_ms: 0.0 };
+    pub const A: Test = Test { h1: 3.0, h2: 8.0, kb: 1.0, bf: 0.3, dwell_ms: 20.0 };
     /// Rule B, for halves that sense and brake.
     pub const B: Test = Test { h1: 4.0, h2: 12.0, kb: 1.5, bf: 0.0, dwell_ms: 20.0 };
 }
