@@ -210,6 +210,13 @@ pub struct SimulateArgs {
     /// replay`
     #[arg(long, value_name = "FILE.csv|FILE.wav")]
     pub capture: Option<PathBuf>,
+    /// Measure the force loops about this force, N: a sine on the drive, and one on the target, at
+    /// one frequency after the other
+    #[arg(long, value_name = "NEWTONS", value_parser = above_zero)]
+    pub bode: Option<f64>,
+    /// Run a force loop that is predicted to be unstable
+    #[arg(long)]
+    pub unstable: bool,
     /// Where results go [default: out/SCENE and what differs from the default, as
     /// out/fig6-pad.0.load_g=50]
     #[arg(long, value_name = "DIR")]

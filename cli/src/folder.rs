@@ -29,6 +29,7 @@ pub fn of_scene(args: &SimulateArgs, name: &str) -> PathBuf {
     let mut words = vec![if mine { format!("{name}.toml") } else { name.to_string() }];
     words.extend(of_core(&args.core));
     words.extend(args.case.iter().cloned());
+    words.extend(args.bode.map(|force_n| format!("bode={force_n}")));
     words.extend(args.set.iter().map(|(key, value)| format!("{key}={value}")));
     folder(&words)
 }

@@ -24,6 +24,7 @@ pub mod replay;
 pub mod report;
 pub mod scenes;
 pub mod simulate;
+pub mod stability;
 pub mod waves;
 
 use std::process::ExitCode;

@@ -97,7 +97,7 @@ impl Output {
 
 /// Whether a run writes a file of this name.
 pub fn is_of_a_run(name: &str) -> bool {
-    ["frames.csv", SUMMARY, "report.html"].contains(&name) || is_of_waves(name)
+    ["frames.csv", SUMMARY, "report.html", "bode.csv"].contains(&name) || is_of_waves(name)
 }
 
 fn is_of_waves(name: &str) -> bool {

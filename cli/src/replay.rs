@@ -238,6 +238,8 @@ impl Replay {
             sheet_mm: None,
             swept: Vec::new(),
             laws: BTreeMap::new(),
+            stability: BTreeMap::new(),
+            bode: Vec::new(),
             provenance: Provenance::new(),
             rows: self.rows.kept,
         })

@@ -18,7 +18,7 @@ use rayon::prelude::*;
 
 use crate::args::{SimulateArgs, Waves};
 use crate::output::{Frames, OfScene, Output, is_of_a_run, summary};
-use crate::{console, folder, print, progress, report, say, waves};
+use crate::{console, folder, print, progress, report, say, stability, waves};
 use hapticore_host::residual::{self, Residual};
 
 /// Below this the haptic voltage is off, V rms.
@@ -52,12 +52,19 @@ fn write(
     folder: &Path,
 ) -> Result<(Record, Vec<PathBuf>)> {
     let cases = cases(args, scene, profile)?;
+    let stability = stability::of_cases(&cases, args.unstable)?;
     let output = Output::new(folder)?;
     let capture = capture_path(args, scene, folder);
     capture.iter().try_for_each(|path| check_capture(path, folder))?;
     let recorder = capture.as_deref().map(|path| recorder(path, args, &cases)).transpose()?;
     announce(args, scene, &cases)?;
-    let (record, recorder) = simulate(args, scene, &cases, recorder)?;
+    let (mut record, recorder) = simulate(args, scene, &cases, recorder)?;
+    record.warnings.extend(stability::warnings(&stability));
+    record.stability = stability;
+    if let Some(force_n) = args.bode {
+        record.bode = stability::measure(&cases, &settings(args), force_n)?;
+        output.write("bode.csv", &stability::csv(&record.bode))?;
+    }
     if let Some(kind) = wave_kind(args, scene) {
         waves::trace(
             &cases[0],
@@ -196,7 +203,7 @@ fn simulate(
     mut recorder: Capture,
 ) -> Result<(Record, Capture)> {
     let start = Instant::now();
-    let settings = Settings { fidelity: args.core.fidelity(), errors: args.core.errors };
+    let settings = settings(args);
     let bar = progress::bar(Some(cases.iter().map(|case| case.slots as u64).sum()), args.core.json);
     let tick = || bar.inc(1);
     let outcomes = match recorder.as_deref_mut() {
@@ -217,6 +224,10 @@ fn simulate(
     record.warnings.extend(warned);
     add_errors(&mut record.effects, cases)?;
     Ok((record, recorder))
+}
+
+fn settings(args: &SimulateArgs) -> Settings {
+    Settings { fidelity: args.core.fidelity(), errors: args.core.errors }
 }
 
 /// What the scene allows a position, mm.
@@ -278,6 +289,8 @@ fn gather(scene: &Scene, cases: &[Case], outcomes: Vec<Outcome>) -> Record {
         sheet_mm: Some([device.width_mm, device.height_mm]),
         swept: swept(scene, cases),
         laws: laws(scene, cases),
+        stability: BTreeMap::new(),
+        bode: Vec::new(),
         provenance: Provenance::default(),
         rows: all,
     }

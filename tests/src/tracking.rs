@@ -2,13 +2,19 @@
 //! How a force loop follows its target: scene `fig9` at fidelity `fixed` under other laws and loads.
 
 use hapticore_run::case::{Case, Settings};
+use hapticore_run::control::bode;
+use hapticore_run::control::stability::OpenLoop;
 use hapticore_run::engine::Fidelity;
 use hapticore_run::inputs;
-use hapticore_run::record::Row;
+use hapticore_run::record::{Bode, Row, Stability};
 use hapticore_scene::{Scene, gallery};
+use rayon::prelude::*;
 
 /// The targets of `fig9`, as its cases call them.
 pub const TARGETS: [&str; 4] = ["square 0.3 N", "square 0.6 N", "sine 0.3 N", "sine 0.6 N"];
+
+/// A case with a closed loop: its targets do not matter where a force is asked for.
+const CLOSED: &str = "square 0.6 N, closed loop";
 
 /// A law with its gains.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -96,23 +102,76 @@ pub fn follow(law: &Law, target: &str, load_g: f64) -> Vec<Followed> {
 /// Where the scene has no such case.
 pub fn follow_in(division: &Division, law: &Law, target: &str, load_g: f64) -> Vec<Followed> {
     let open = law.set.contains(&("law", "open"));
-    let case = format!("{target}, {} loop", if open { "open" } else { "closed" });
-    let scene = scene(division, law, load_g);
-    let index = scene.cases.iter().position(|found| found.name == case).expect("a case");
-    let profile = inputs::profile(division.profile).expect("bundled");
-    let profile = inputs::windowed(profile, &scene).expect("a window");
-    let case = Case::new(&scene, index, &profile, &[]).expect("a case");
-    let settings = Settings { fidelity: Fidelity::Fixed, errors: false };
-    let outcome = case.run(&settings, None, &|| ()).expect("a run");
+    let name = format!("{target}, {} loop", if open { "open" } else { "closed" });
+    let scene = scene(division, law.set, load_g);
+    slots(&case(division, &scene, &name))
+}
+
+/// The first pad's slots.
+fn slots(case: &Case) -> Vec<Followed> {
+    let outcome = case.run(&FIXED, None, &|| ()).expect("a run");
     let rows: Vec<_> = outcome.rows.iter().filter(|row| row.pad == 0).collect();
     let asked = std::iter::once(0.0).chain(rows.iter().map(|row| asked_n(row)));
     rows.iter().zip(asked).map(|(row, asked_n)| followed(row, asked_n)).collect()
 }
 
+const FIXED: Settings = Settings { fidelity: Fidelity::Fixed, errors: false };
+
+fn case<'a>(division: &Division, scene: &'a Scene, name: &str) -> Case<'a> {
+    let index = scene.cases.iter().position(|found| found.name == name).expect("a case");
+    let profile = inputs::profile(division.profile).expect("bundled");
+    let profile = inputs::windowed(profile, scene).expect("a window");
+    Case::new(scene, index, &profile, &[]).expect("a case")
+}
+
+/// An integral law with its gains, V/√N and V/(√N·s), and the force table.
+fn integral(gains: &[String; 2]) -> [(&str, &str); 4] {
+    let [proportional, integral] = gains;
+    [
+        ("law", "integral"),
+        ("proportional_v", proportional),
+        ("integral_v", integral),
+        ("force", "table"),
+    ]
+}
+
+/// The predicted stability of an integral law about a force.
+///
+/// # Panics
+/// Where the scene cannot be run so.
+pub fn stability(division: &Division, gains: [f64; 2], force_n: f64) -> Stability {
+    let scene = scene(division, &integral(&gains.map(|gain| gain.to_string())), 50.0);
+    let case = case(division, &scene, CLOSED);
+    let open = OpenLoop::of(&case, force_n).expect("a plant").expect("a loop");
+    open.margins(force_n)
+}
+
+/// The same, and what is measured.
+///
+/// # Panics
+/// As [`stability`].
+pub fn measured(division: &Division, gains: [f64; 2], force_n: f64) -> Bode {
+    let scene = scene(division, &integral(&gains.map(|gain| gain.to_string())), 50.0);
+    let case = case(division, &scene, CLOSED);
+    let all = |point: &(dyn Fn(usize) -> _ + Sync)| {
+        (0..bode::frequencies()).into_par_iter().map(point).collect()
+    };
+    bode::measure(&case, &FIXED, force_n, all).expect("a run").expect("a loop")
+}
+
+/// The slots of an integral law after a target, as [`follow_in`].
+///
+/// # Panics
+/// As [`stability`].
+pub fn follow_integral(division: &Division, gains: [f64; 2], target: &str) -> Vec<Followed> {
+    let scene = scene(division, &integral(&gains.map(|gain| gain.to_string())), 50.0);
+    slots(&case(division, &scene, &format!("{target}, closed loop")))
+}
+
 /// `fig9` in other slots; further pads rest.
-fn scene(division: &Division, law: &Law, load_g: f64) -> Scene {
+fn scene(division: &Division, control: &[(&str, &str)], load_g: f64) -> Scene {
     let text = |(key, value): &(&str, &str)| (format!("control.{key}"), quoted(value));
-    let mut set: Vec<_> = law.set.iter().map(text).collect();
+    let mut set: Vec<_> = control.iter().map(text).collect();
     set.push(("pad.0.load_g".into(), load_g.to_string()));
     set.push(("control.nominal_load_g".into(), load_g.to_string()));
     let others: String = (1..division.pads)

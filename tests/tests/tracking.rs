@@ -3,8 +3,8 @@
 //! §6 (`cargo run --release -p hapticore-tests --example tracking` prints all of it).
 
 use hapticore_tests::tracking::{
-    FOUR_SHORT, Followed, LAWS, SHORT, TARGETS, follow, follow_in, overshoot_n, rise_s,
-    rms_after_edges_n, rms_n,
+    FOUR_SHORT, Followed, LAWS, SHORT, TARGETS, follow, follow_in, follow_integral, measured,
+    overshoot_n, rise_s, rms_after_edges_n, rms_n, stability,
 };
 use rayon::prelude::*;
 
@@ -87,6 +87,43 @@ fn an_edge_in_slots_of_250_us_overshoots_as_little() {
             }
         }
     });
+}
+
+/// Phase margin and bandwidth of the integral law, as measured and as predicted; gains are for the
+/// frame, with half a phase margin to spare at either force.
+#[test]
+#[cfg_attr(not(optimised), ignore = "whole scenes: run with --release")]
+fn loops_in_slots_of_250_us_are_as_stable_and_as_fast_as_predicted() {
+    for (division, integral_v, least_hz) in [(FOUR_SHORT, 5e5, 100.0), (SHORT, 1.3e6, 250.0)] {
+        for force_n in [0.3, 0.6] {
+            let found = measured(&division, [64.0, integral_v], force_n);
+            let [measured, predicted] = [found.measured, found.predicted]
+                .map(|of| of.phase_margin_deg.expect("an open loop that falls below 1"));
+            let last_hz = found.points.last().expect("points").hz;
+            let band_hz = found.bandwidth_hz.unwrap_or(last_hz);
+            let name = format!("{}, {force_n} N", division.name);
+            let crossover_hz = found.measured.crossover_hz.unwrap_or_default();
+            println!(
+                "{name}: {measured:.1}° of {predicted:.1}°, 1 at {crossover_hz:.0} Hz, -3 dB beyond {band_hz:.0} Hz"
+            );
+            assert!(measured >= 45.0, "{name}: {measured}°");
+            assert!((measured - predicted).abs() <= 5.0, "{name}: {measured}°, {predicted}°");
+            assert!(band_hz >= least_hz, "{name}: {band_hz} Hz");
+        }
+    }
+}
+
+/// What is predicted to be unstable is, and a third less gain is not.
+#[test]
+#[cfg_attr(not(optimised), ignore = "whole scenes: run with --release")]
+fn a_loop_that_is_predicted_to_be_unstable_is_in_a_limit_cycle() {
+    for (integral_v, stable) in [(1e6, false), (6.7e5, true)] {
+        let gains = [64.0, integral_v];
+        assert_eq!(stability(&FOUR_SHORT, gains, 0.6).stable(), stable, "{integral_v}");
+        let off_n = rms_after_edges_n(&follow_integral(&FOUR_SHORT, gains, TARGETS[1]));
+        println!("K_i = {integral_v}: {:.1} mN", 1e3 * off_n);
+        assert_eq!(off_n < 0.01, stable, "{integral_v}: {off_n} N");
+    }
 }
 
 /// The paper's gain without a filter is in a limit cycle; with it, it is not.

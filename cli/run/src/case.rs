@@ -280,7 +280,16 @@ impl Case<'_> {
         LoopPlant::new(maker, &self.profile, (self.clock, full_scale_v), wall)
     }
 
-    fn plan(&self) -> Option<&ControlPlan> {
+    /// From a slot's end to the drive that follows from it, s.
+    ///
+    /// # Errors
+    /// A profile without a controller.
+    pub fn drive_latency_s(&self) -> Result<f64> {
+        control::plant::latency_s(&self.profile, &self.clock)
+    }
+
+    /// What the scene asks of the controller, where it has one.
+    pub fn plan(&self) -> Option<&ControlPlan> {
         self.scene.cases[self.index].control.as_ref()
     }
 

@@ -190,6 +190,52 @@ pub struct Provenance {
     pub calibration: Option<PathBuf>,
 }
 
+/// How stable a force loop is about a force at rest.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+pub struct Stability {
+    /// The force, N.
+    pub force_n: f64,
+    /// From a pad's slot to its next, s.
+    pub frame_s: f64,
+    /// From the middle of a window to the middle of the time for which its drive is given, s.
+    pub delay_s: f64,
+    /// Where the open loop has the magnitude 1, Hz; none where it never does.
+    pub crossover_hz: Option<f64>,
+    /// By how much the phase may fall there, degrees.
+    pub phase_margin_deg: Option<f64>,
+    /// The largest factor on the gains with which the loop is stable; none where all are.
+    pub gain_margin: Option<f64>,
+}
+
+/// A force loop as it was measured.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Bode {
+    /// Name of the case.
+    pub case: String,
+    /// Margins as predicted and as measured.
+    pub predicted: Stability,
+    /// See `predicted`.
+    pub measured: Stability,
+    /// Where the true force follows a sine of the target with 3 dB less than at the lowest
+    /// frequency, Hz; none where it never does.
+    pub bandwidth_hz: Option<f64>,
+    /// By frequency.
+    pub points: Vec<BodePoint>,
+}
+
+/// A force loop at a frequency.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct BodePoint {
+    /// Frequency, Hz.
+    pub hz: f64,
+    /// Open loop as measured: gain, dB, and phase, degrees.
+    pub open: [f64; 2],
+    /// The same as predicted.
+    pub predicted: [f64; 2],
+    /// From target to true force, dB.
+    pub closed_db: f64,
+}
+
 /// A whole run.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Record {
@@ -237,6 +283,12 @@ pub struct Record {
     /// What either law of the force leaves of the true force, where the device has a force table.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub force_laws: Option<ForceLawErrors>,
+    /// How stable the force loop of each case is predicted to be, where there is one.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub stability: BTreeMap<String, Stability>,
+    /// The force loops as they were measured, where that was asked for.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub bode: Vec<Bode>,
     /// One row per finished slot.
     #[serde(skip)]
     pub rows: Vec<Row>,

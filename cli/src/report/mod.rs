@@ -13,6 +13,7 @@
 //! | `general`, `swept` | those of any other: over time, over what is swept |
 
 mod axis;
+mod bode;
 mod calibration;
 mod canvas;
 #[cfg(test)]
@@ -56,6 +57,7 @@ pub fn html(record: &Record) -> String {
         page::heading(record),
         page::section("Criteria", &tables::criteria(&record.criteria)),
         page::section("Figures", &figures),
+        page::section("Force loops", &bode::table(record)),
         page::section("Effects: fidelity levels and computing time", &cost),
         page::section("Rounding errors of the core's signals", &tables::errors(&record.errors)),
         page::section("The run", &tables::run(record)),
@@ -67,7 +69,8 @@ fn figures(record: &Record) -> String {
     if record.rows.is_empty() {
         return "<p class=\"note\">No slot was finished, so there is nothing to draw.</p>\n".into();
     }
-    let figures: String = chosen(record).iter().map(Figure::html).collect();
+    let figures: String =
+        chosen(record).iter().chain(&bode::figures(record)).map(Figure::html).collect();
     format!("<div class=\"figures\">\n{figures}</div>\n")
 }
 

@@ -11,6 +11,7 @@ mod lab;
 mod messages;
 mod recorders;
 mod runs;
+mod stability;
 mod streams;
 mod terminals;
 mod tutorial;

@@ -18,6 +18,26 @@ use crate::engine::Slot;
 use crate::maker::Maker;
 use crate::record::Driven;
 
+/// A sine on top of what a loop does, from a time on.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Excitation {
+    /// The first pad's target, N.
+    pub hold_n: f64,
+    /// Amplitude on its target, N.
+    pub target_n: f64,
+    /// Amplitude on its drive, V rms.
+    pub drive_v: f64,
+    /// Frequency, Hz.
+    pub hz: f64,
+}
+
+impl Excitation {
+    /// The sine at the end of a slot.
+    fn wave(&self, end_s: f64) -> f64 {
+        (std::f64::consts::TAU * self.hz * end_s).sin()
+    }
+}
+
 /// A plant whose pads are driven by what its slots lead to.
 pub struct LoopPlant {
     maker: Maker,
@@ -31,6 +51,7 @@ pub struct LoopPlant {
     surfaces_mm: Vec<f64>,
     /// How each pad, or all parts of it, is driven.
     driven: Vec<Option<Driven>>,
+    excitation: Option<Excitation>,
 }
 
 /// A slot, and what its drive should give.
@@ -46,7 +67,16 @@ pub struct LoopSlot {
     /// Where the pad's wall begins as the core measures it, mm, where that is new.
     pub surface_mm: Option<f64>,
     /// The slot's end, s.
-    end_s: f64,
+    pub end_s: f64,
+}
+
+/// From a slot's end to the drive that follows from it, s.
+///
+/// # Errors
+/// A profile without a controller.
+pub fn latency_s(profile: &Profile, clock: &SlotClock) -> Result<f64> {
+    let clocks = ForceLoop::try_new(profile)?.latency();
+    Ok(clocks as f64 / (profile.clocks_per_sample as f64 * clock.sample_rate_hz()))
 }
 
 impl LoopPlant {
@@ -61,22 +91,38 @@ impl LoopPlant {
         (clock, full_scale_v): (SlotClock, f64),
         wall: Option<WallPlan>,
     ) -> Result<Self> {
-        let clocks = ForceLoop::try_new(profile)?.latency();
-        let clock_hz = profile.clocks_per_sample as f64 * clock.sample_rate_hz();
+        let latency_s = latency_s(profile, &clock)?;
         let pads = maker.plant().served();
         for pad in 0..pads {
             maker.plant().set_drive(pad, 0.0, 0.0)?;
         }
-        let latency_s = clocks as f64 / clock_hz;
         let (surfaces_mm, driven) = (vec![f64::NAN; pads], vec![None; pads]);
-        Ok(LoopPlant { maker, clock, full_scale_v, latency_s, wall, surfaces_mm, driven })
+        Ok(LoopPlant {
+            maker,
+            clock,
+            full_scale_v,
+            latency_s,
+            wall,
+            surfaces_mm,
+            driven,
+            excitation: None,
+        })
+    }
+
+    /// The same with a sine on the first pad's target or drive, and its target in the scene's place.
+    pub fn with_excitation(mut self, excitation: Excitation) -> Self {
+        self.excitation = Some(excitation);
+        self
     }
 
     /// A slot; slots are asked for in order, each after the drive of the one before.
     pub fn slot(&mut self, number: usize) -> LoopSlot {
         let truth = self.maker.plant().truth(number);
         let end_s = self.clock.seconds(number + 1);
-        let target_n = self.maker.plant().target_n(truth.pad, end_s);
+        let target_n = match self.excitation.filter(|_| truth.pad == 0) {
+            Some(sine) => sine.hold_n + sine.target_n * sine.wave(end_s),
+            None => self.maker.plant().target_n(truth.pad, end_s),
+        };
         let surface_mm = self.surface_mm(truth.pad, end_s);
         let (signals, peak) = self.maker.signals(number);
         let slot = Slot { pad: truth.pad, signals };
@@ -107,7 +153,10 @@ impl LoopPlant {
 
     fn driven(&mut self, of: &LoopSlot, drive: &Drive) -> Result<Driven> {
         let drive_v_rms = self.full_scale_v * drive.fraction;
-        self.maker.plant().set_drive(drive.pad, of.end_s + self.latency_s, drive_v_rms)?;
+        let sine = self.excitation.filter(|_| drive.pad == 0);
+        let added_v = sine.map_or(0.0, |sine| sine.drive_v * sine.wave(of.end_s));
+        let given_v = (drive_v_rms + added_v).max(0.0);
+        self.maker.plant().set_drive(drive.pad, of.end_s + self.latency_s, given_v)?;
         let (limited, fault) = (drive.low | drive.high, drive.faults.any());
         let target_n = drive.walled.map_or(of.target_n, |walled| walled.target_n);
         let free = drive.walled.map(|walled| walled.free);

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! How stable a force loop is predicted to be, and measured: what is refused, what is warned of,
+//! and what is written.
+
+use std::fs;
+
+use serde_json::Value;
+
+use crate::{expect, fields, refuse};
+
+/// The integral law on one case of `fig9`.
+fn fig9(integral_v: &str) -> Vec<String> {
+    let set = [
+        "control.law=integral".to_string(),
+        "control.proportional_v=64".into(),
+        format!("control.integral_v={integral_v}"),
+        "criterion=[]".into(),
+    ];
+    let set = set.into_iter().flat_map(|set| ["--set".to_string(), set]);
+    let of = ["simulate", "fig9", "--case", "square 0.6 N, closed loop"].map(String::from);
+    of.into_iter().chain(set).collect()
+}
+
+#[test]
+fn an_unstable_loop_is_refused_unless_it_may_be() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let args = fig9("1500000");
+    let args: Vec<&str> = args.iter().map(String::as_str).collect();
+    refuse(folder.path(), &args, &["control", "stable loop", "gain margin of 0.", "--unstable"]);
+    let args = [&args[..], &["--unstable", "--out", "o"]].concat();
+    expect(folder.path(), &args, 0);
+}
+
+#[test]
+fn little_phase_margin_is_warned_of_in_three_places() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for (integral_v, warned) in [("740000", true), ("300000", false)] {
+        let args = fig9(integral_v);
+        let args: Vec<&str> = args.iter().map(String::as_str).chain(["--out", "o"]).collect();
+        let output = expect(folder.path(), &args, 0);
+        let [log, summary, report] = [
+            String::from_utf8(output.stderr).expect("text"),
+            fs::read_to_string(folder.path().join("o/summary.json")).expect("a summary"),
+            fs::read_to_string(folder.path().join("o/report.html")).expect("a report"),
+        ];
+        for text in [&log, &summary, &report] {
+            assert_eq!(text.contains("phase margin of"), warned, "{integral_v}: {text:.300}");
+        }
+        assert!(report.contains("Predicted stability of force loops"));
+        let summary: Value = serde_json::from_str(&summary).expect("JSON");
+        let of = &summary["stability"]["square 0.6 N, closed loop"];
+        let of = |key: &str| of[key].as_f64().unwrap_or_else(|| panic!("{key} in {of}"));
+        assert_eq!(of("frame_s"), 1e-3);
+        assert_eq!(of("phase_margin_deg") < 45.0, warned);
+        assert!(of("gain_margin") > 1.0 && of("crossover_hz") > 50.0);
+        // Half of the window of 600 µs, the drive word's latency, half a frame.
+        assert!((of("delay_s") - 820e-6).abs() < 1e-6, "{}", of("delay_s"));
+    }
+}
+
+#[test]
+#[cfg_attr(not(optimised), ignore = "33 runs: run with --release")]
+fn a_loop_is_measured_beside_its_prediction() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let args = fig9("500000");
+    let args = args.iter().map(String::as_str).chain(["--bode", "0.3", "--out", "o"]);
+    expect(folder.path(), &args.collect::<Vec<_>>(), 0);
+    let text = fs::read_to_string(folder.path().join("o/bode.csv")).expect("bode.csv");
+    let mut lines = text.lines();
+    let head = "case,frequency_hz,gain_db,phase_deg,predicted_gain_db,predicted_phase_deg,target_to_force_db";
+    assert_eq!(lines.next(), Some(head));
+    let rows: Vec<Vec<f64>> = lines
+        .map(|line| fields(line)[1..].iter().map(|text| text.parse().expect("a number")).collect())
+        .collect();
+    assert!((12..=20).contains(&rows.len()), "{} frequencies", rows.len());
+    for row in &rows {
+        let [hz, gain, phase, predicted_gain, predicted_phase] = row[..5] else {
+            panic!("five numbers")
+        };
+        assert!((gain - predicted_gain).abs() < 1.0, "{hz} Hz: {gain} dB, {predicted_gain} dB");
+        assert!((phase - predicted_phase).abs() < 6.0, "{hz} Hz: {phase}°, {predicted_phase}°");
+    }
+    let report = fs::read_to_string(folder.path().join("o/report.html")).expect("a report");
+    assert!(report.contains("about 0.3") && report.contains("target to true force"));
+}
