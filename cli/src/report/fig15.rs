@@ -22,6 +22,9 @@ const LEAST_N: f64 = 0.01;
 /// Cases that are drawn; the others are in the table alone.
 const PANELS: usize = 8;
 
+/// Lines of a panel.
+type Lines = fn(&Panel) -> Vec<Series>;
+
 /// A pad's frame: the slot of its last part, and where the pad then is.
 struct Frame<'a> {
     time_s: f64,
@@ -145,13 +148,13 @@ impl Frame<'_> {
 }
 
 fn drawn(panels: &[Panel]) -> Figure {
-    let all = |of: fn(&Panel) -> Vec<Series>| -> Vec<f64> {
+    let all = |of: Lines| -> Vec<f64> {
         let points = |panel: &Panel| of(panel).into_iter().flat_map(|series| series.points);
         panels.iter().flat_map(points).map(|point| point.1).filter(|y| y.is_finite()).collect()
     };
     let times = panels.iter().flat_map(|panel| panel.frames.iter().map(|frame| frame.time_s));
     let time = Axis::linear("time (s)", times);
-    let rows: [(&str, fn(&Panel) -> Vec<Series>, u32); 3] = [
+    let rows: [(&str, Lines, u32); 3] = [
         ("place (mm)", |panel| panel.places(), 400),
         ("force (N)", |panel| panel.forces(), 500),
         ("direction (10⁻³)", |panel| panel.directions(), 400),

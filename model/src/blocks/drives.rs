@@ -7,10 +7,11 @@
 //! targets ─[of every pad]─ target ───────┘
 //! ```
 //!
-//! A pad's target is taken once, as its estimate is given: one that is written later counts from
-//! the next frame on. Writing one is a sign of life of the host. A split pad has a drive word after
+//! A pad's target and the settings of controller and walls are taken once, as its estimate is given:
+//! what is written later counts from the next frame on. The curve is not: it is written while no drive
+//! word is being made. Writing a target is a sign of life of the host. A split pad has a drive word after
 //! the slot of its last part, by whose number it is known; its target is the larger of the one
-//! written and the wall's. Latency: two clocks, or those of the split pad and one, and the
+//! written and the wall's. Latency: two clocks, or those of the split pad, and the
 //! controller's.
 
 use super::controller::{self, Controller, Faults, Tuning};
@@ -19,6 +20,7 @@ use super::split_pad::{self, SplitPad, WallPort};
 use hapticore_contract::frame::Field;
 use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_hdl::block::{Block, Interpretation, State};
+use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::{BIT, Format};
 use hapticore_hdl::memory::{Memory, Write};
 use hapticore_hdl::signal::{HalfEven, Signal, bit};
@@ -60,6 +62,38 @@ bundle! {
     }
 }
 
+bundle! {
+    /// The least and the most of all pads since they were last read.
+    pub struct ExtremesPort {
+        /// There has been a drive word of a valid estimate.
+        extremes_valid,
+        /// Least drive word.
+        least_drive,
+        /// Largest drive word.
+        most_drive,
+        /// Least haptic force, N.
+        least_force,
+        /// Largest haptic force, N.
+        most_force,
+    }
+}
+
+bundle! {
+    /// Settings of the frame: those of [`Tuning`] and [`WallPort`] as its estimate was given.
+    pub struct Settings {
+        set_enable,
+        set_full_drive,
+        set_proportional,
+        set_correction,
+        set_rail,
+        set_slew,
+        set_force_cap,
+        set_stiffness,
+        set_most,
+        set_factory,
+    }
+}
+
 block! {
     /// Controller, targets and walls of all pads.
     pub struct Drives("drives") {
@@ -85,9 +119,12 @@ block! {
         target as TargetPort: block.target(),
         tuning as Tuning: block.controller.inputs().tuning,
         wall as WallPort: block.wall(),
+        /// Extremes are read: they begin anew.
+        extremes_read: BIT,
     }
     outputs(block) {
         drive as DrivePort: block.drive(),
+        extremes as ExtremesPort: block.extremes(),
         faults as Faults: Faults::of(BIT),
     }
     registers(block) {
@@ -98,6 +135,8 @@ block! {
         invalid: BIT,
         pad: block.pad,
         target: block.targets.format,
+        settings as Settings: block.settings(),
+        extremes as ExtremesPort: block.extremes(),
         /// A drive word has been given.
         driven: BIT.where_present(block.has_walls()),
         /// It is zero.
@@ -121,8 +160,7 @@ impl Drives {
 
     /// Clocks from the prompt estimate to the drive word.
     pub fn latency(&self) -> u64 {
-        let split = self.split_pad.as_ref().map_or(1, SplitPad::latency);
-        1 + split + self.controller.latency()
+        self.split_pad.as_ref().map_or(2, SplitPad::latency) + self.controller.latency()
     }
 
     #[inline(always)]
@@ -154,6 +192,33 @@ impl Drives {
 
     fn wall(&self) -> WallPort<Format> {
         self.split_pad.as_ref().map_or(WallPort::of(Format::NONE), SplitPad::port)
+    }
+
+    fn extremes(&self) -> ExtremesPort<Format> {
+        let (drive, force) = (self.controller.outputs().drive, self.estimates.prompt_force);
+        ExtremesPort {
+            extremes_valid: BIT,
+            least_drive: drive,
+            most_drive: drive,
+            least_force: force,
+            most_force: force,
+        }
+    }
+
+    fn settings(&self) -> Settings<Format> {
+        let (tuning, wall) = (self.controller.inputs().tuning, self.wall());
+        Settings {
+            set_enable: tuning.enable,
+            set_full_drive: tuning.full_drive,
+            set_proportional: tuning.proportional,
+            set_correction: tuning.correction,
+            set_rail: tuning.rail,
+            set_slew: tuning.slew,
+            set_force_cap: tuning.force_cap,
+            set_stiffness: wall.wall_stiffness,
+            set_most: wall.wall_most,
+            set_factory: wall.wall_factory,
+        }
     }
 
     /// A frame's word that is a valid place: whether it is, of which pad, and the place.
@@ -216,7 +281,12 @@ impl Drives {
             place: i.place,
             driven: r.driven,
             rests: r.rests,
-            wall: i.wall,
+            wall: WallPort {
+                wall_stiffness: r.settings.set_stiffness,
+                wall_most: r.settings.set_most,
+                wall_factory: r.settings.set_factory,
+                ..i.wall
+            },
         };
         let pad = block.call("split_pad", within, inputs);
         let (wall, _) = pad.target.saturate(self.targets.format, HalfEven);
@@ -227,6 +297,78 @@ impl Drives {
             measured: pad.measured,
             target: wall.less_than(r.target).select(r.target, wall),
             free: pad.free,
+        }
+    }
+}
+
+impl Drives {
+    /// The settings: those of now, with an estimate.
+    #[inline(always)]
+    fn taken<V: Interpretation>(&self, r: &Regs<V>, i: &In<V>) -> Settings<Signal<V>> {
+        let now = Settings {
+            set_enable: i.tuning.enable,
+            set_full_drive: i.tuning.full_drive,
+            set_proportional: i.tuning.proportional,
+            set_correction: i.tuning.correction,
+            set_rail: i.tuning.rail,
+            set_slew: i.tuning.slew,
+            set_force_cap: i.tuning.force_cap,
+            set_stiffness: i.wall.wall_stiffness,
+            set_most: i.wall.wall_most,
+            set_factory: i.wall.wall_factory,
+        };
+        let pairs = Settings::zip(now, r.settings);
+        Settings::map(pairs, |(now, old)| match now.format.is_none() {
+            true => old,
+            false => i.estimate.prompt.select(now, old),
+        })
+    }
+
+    /// The tuning that the frame goes by.
+    #[inline(always)]
+    fn held<V: Interpretation>(
+        &self,
+        settings: &Settings<Signal<V>>,
+        now: Tuning<Signal<V>>,
+    ) -> Tuning<Signal<V>> {
+        Tuning {
+            enable: settings.set_enable,
+            full_drive: settings.set_full_drive,
+            proportional: settings.set_proportional,
+            correction: settings.set_correction,
+            rail: settings.set_rail,
+            slew: settings.set_slew,
+            force_cap: settings.set_force_cap,
+            ..now
+        }
+    }
+
+    /// Extremes with a drive word that is given now; the first after a reading counts alone.
+    #[inline(always)]
+    fn extremes_with<V: Interpretation>(
+        &self,
+        r: &Regs<V>,
+        i: &In<V>,
+        controller: &controller::Out<V>,
+        begin: &Begin<V>,
+    ) -> ExtremesPort<Signal<V>> {
+        let old = r.extremes;
+        let known = old.extremes_valid & !i.extremes_read;
+        let counts = controller.done & !begin.invalid;
+        let least = |old: Signal<V>, now: Signal<V>| {
+            let lesser = known.select(old.less_than(now).select(old, now), now);
+            counts.select(lesser, old)
+        };
+        let most = |old: Signal<V>, now: Signal<V>| {
+            let greater = known.select(now.less_than(old).select(old, now), now);
+            counts.select(greater, old)
+        };
+        ExtremesPort {
+            extremes_valid: counts | known,
+            least_drive: least(old.least_drive, controller.drive),
+            most_drive: most(old.most_drive, controller.drive),
+            least_force: least(old.least_force, begin.measured),
+            most_force: most(old.most_force, begin.measured),
         }
     }
 }
@@ -250,7 +392,7 @@ impl Block for Drives {
             invalid: begin.invalid,
             alive: alive | target_write,
             clear_faults,
-            tuning: i.tuning,
+            tuning: self.held(&r.settings, i.tuning),
         };
         let controller = call!(self.controller, state, inputs);
         let found = self.targets.data(&mut state.submodules.targets);
@@ -264,6 +406,8 @@ impl Block for Drives {
             invalid: prompt.select(i.estimate.prompt_invalid, r.invalid),
             pad,
             target: r.asked.select(found, r.target),
+            settings: self.taken(&r, &i),
+            extremes: self.extremes_with(&r, &i, &controller, &begin),
             driven: controller.done.where_present(r.driven.format),
             rests: controller.drive.is(0).where_present(r.rests.format),
         };
@@ -278,6 +422,6 @@ impl Block for Drives {
             drive_target: begin.target.where_present(of_walls.drive_target),
             drive_free: begin.free.where_present(of_walls.drive_free),
         };
-        Outputs { drive, faults: controller.faults }
+        Outputs { drive, extremes: r.extremes, faults: controller.faults }
     }
 }

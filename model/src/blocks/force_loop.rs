@@ -12,7 +12,7 @@
 
 use super::controller::{Faults, Tuning};
 use super::core::{Core, Inputs as CoreInputs, Outputs as CoreOutputs};
-use super::drives::{self, DrivePort, Drives, TargetPort};
+use super::drives::{self, DrivePort, Drives, ExtremesPort, TargetPort};
 use super::split_pad::WallPort;
 use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_hdl::block::{Block, Interpretation, State};
@@ -33,10 +33,13 @@ block! {
         target as TargetPort: block.drives.inputs().target,
         tuning as Tuning: block.drives.inputs().tuning,
         wall as WallPort: block.drives.inputs().wall,
+        /// Extremes are read: they begin anew.
+        extremes_read: BIT,
     }
     outputs(block) {
         core as CoreOutputs: block.core.outputs(),
         drive as DrivePort: block.drives.outputs().drive,
+        extremes as ExtremesPort: block.drives.outputs().extremes,
         faults as Faults: Faults::of(BIT),
     }
     registers(block) {}
@@ -88,9 +91,11 @@ impl Block for ForceLoop {
             target: i.target,
             tuning: i.tuning,
             wall: i.wall,
+            extremes_read: i.extremes_read,
         };
         let drives = call!(self.drives, state, inputs);
-        Outputs { core, drive: drives.drive, faults: drives.faults }
+        let drives::Outputs { drive, extremes, faults } = drives;
+        Outputs { core, drive, extremes, faults }
     }
 }
 

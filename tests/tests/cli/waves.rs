@@ -7,7 +7,7 @@ use std::path::Path;
 
 use hapticore_contract::control::{Control, Law};
 use hapticore_contract::frame::Field;
-use hapticore_contract::profile::Profile;
+use hapticore_contract::profile::{Profile, Wall};
 use hapticore_hdl::probe::{Variable, variables};
 use hapticore_model::blocks::core::Core;
 use hapticore_model::blocks::force_loop::ForceLoop;
@@ -191,8 +191,8 @@ fn check_loop(args: &[&str], first: usize) {
     compare_truth(&mut waves, "force_loop.core", &table, first);
     compare_drives(&mut waves, &table, first);
     check_truth_times(&mut waves);
-    let task = "waves.force_loop.controller.task.txt";
-    check_shown(&out, &["force_loop.controller.drive[", "truth.haptic_v_rms", task]);
+    let task = "waves.force_loop.drives.controller.task.txt";
+    check_shown(&out, &["force_loop.drives.controller.drive[", "truth.haptic_v_rms", task]);
     let names = fs::read_to_string(out.join(task)).unwrap();
     assert!(names.contains("inverse_root"), "{names}");
 }
@@ -213,9 +213,9 @@ fn check_truth_times(waves: &mut Waveform) {
 /// Drive words and targets at each `done`, in volts and newtons.
 fn compare_drives(waves: &mut Waveform, table: &Table, first: usize) {
     let control = Control::of(&Profile::bundled("standard").unwrap(), Law::Inverse);
-    let done = values(waves, "force_loop.controller.done", false);
-    let drive = values(waves, "force_loop.controller.drive", false);
-    let target = values(waves, "force_loop.target", false);
+    let done = values(waves, "force_loop.drives.controller.done", false);
+    let drive = values(waves, "force_loop.drives.controller.drive", false);
+    let target = values(waves, "force_loop.drives.target", false);
     let (volts, targets) = (table.numbers("drive_v_rms"), table.numbers("target_n"));
     let given: Vec<u32> = done.iter().filter(|(_, code)| *code == 1).map(|(at, _)| *at).collect();
     assert!(given.len() >= 2 && volts[first] != volts[first + 1], "{volts:?}");
@@ -253,7 +253,8 @@ fn a_later_window_of_a_force_loop_holds_what_led_to_it() {
 fn every_pattern_of_a_bundled_view_finds_signals() {
     let standard = Profile::bundled("standard").unwrap();
     let control = Some(Control::of(&standard, Law::Inverse));
-    let controlled = Profile { control, ..standard.clone() };
+    let (wall, pads) = (Some(Wall::A), Wall::A.parts);
+    let controlled = Profile { control, wall, pads, ..standard.clone() };
     check_patterns("slot", &variables(&Core::new(&standard), "core"));
     let force_loop = ForceLoop::try_new(&controlled).expect("a controller");
     check_patterns("force_loop", &variables(&force_loop, "force_loop"));

@@ -111,6 +111,80 @@ fn after(profile: &Profile, target: i64, written: u64) -> i64 {
     slot(&mut bench, profile, quiet, |clock| if clock == written { write(target) } else { quiet }).1
 }
 
+/// The drive word of a frame whose rail becomes `rail` so many clocks after the last strobe.
+fn after_rail(profile: &Profile, rail: i64, written: u64) -> i64 {
+    let mut bench = Bench::new(ForceLoop::try_new(profile).unwrap());
+    let mut quiet = Inputs::of(0);
+    let formats = bench.block.inputs().tuning;
+    (quiet.tuning.enable, quiet.tuning.rail) = (1, 1 << 10);
+    (quiet.tuning.slew, quiet.tuning.force_cap) =
+        (formats.slew.max_code() as i64, formats.force_cap.max_code() as i64);
+    for address in 0..bench.block.drives.controller.words_of_curve() as i64 {
+        let mut write = quiet;
+        (write.tuning.curve_write, write.tuning.curve_address) = (1, address);
+        write.tuning.curve_word = 1 << 13;
+        bench.clock(write);
+    }
+    let late = |clock: u64| {
+        let mut inputs = quiet;
+        if clock >= written {
+            inputs.tuning.rail = rail;
+        }
+        inputs
+    };
+    let mut target = quiet;
+    (target.target.target_write, target.target.target_word) = (1, 1 << 10);
+    bench.clock(target);
+    slot(&mut bench, profile, quiet, late).1
+}
+
+/// Gains and limits count from the frame on in which they are there when the estimate is given: changed
+/// in any clock after it, they leave its drive word as it was.
+#[test]
+fn settings_that_change_in_mid_frame_are_taken_with_the_next() {
+    let profile = controlled(Law::Open).next().expect("a profile");
+    let block = ForceLoop::try_new(&profile).unwrap();
+    let given = block.core.prompt_latency();
+    assert_eq!(after_rail(&profile, 1 << 12, 1), 1 << 12, "in time");
+    for written in given + 1..=block.latency() {
+        assert_eq!(after_rail(&profile, 1 << 12, written), 1 << 10, "changed at {written}");
+    }
+}
+
+/// Of what every frame gives, the least and the most until they are read.
+#[test]
+fn extremes_are_those_since_they_were_read() {
+    let profile = controlled(Law::Open).next().expect("a profile");
+    let mut bench = Bench::new(ForceLoop::try_new(&profile).unwrap());
+    let mut quiet = Inputs::of(0);
+    let formats = bench.block.inputs().tuning;
+    (quiet.tuning.enable, quiet.tuning.rail) = (1, formats.rail.max_code() as i64);
+    (quiet.tuning.slew, quiet.tuning.force_cap) =
+        (formats.slew.max_code() as i64, formats.force_cap.max_code() as i64);
+    for address in 0..bench.block.drives.controller.words_of_curve() as i64 {
+        let mut write = quiet;
+        (write.tuning.curve_write, write.tuning.curve_address) = (1, address);
+        write.tuning.curve_word = 100 * address;
+        bench.clock(write);
+    }
+    assert_eq!(bench.clock(quiet).extremes.extremes_valid, 0, "nothing yet");
+    let mut given = Vec::new();
+    for (n, target) in [1 << 10, 1 << 12, 1 << 8].into_iter().enumerate() {
+        let mut write = quiet;
+        (write.target.target_write, write.target.target_word) = (1, target);
+        for pad in 0..profile.pads as i64 {
+            write.target.target_pad = pad;
+            bench.clock(write);
+        }
+        given.push(slot(&mut bench, &profile, quiet, |_| quiet).1);
+        let extremes = bench.clock(quiet).extremes;
+        let (least, most) = (given.iter().min().unwrap(), given.iter().max().unwrap());
+        assert_eq!((extremes.least_drive, extremes.most_drive), (*least, *most), "frame {n}");
+    }
+    bench.clock(Inputs { extremes_read: 1, ..quiet });
+    assert_eq!(bench.clock(quiet).extremes.extremes_valid, 0, "read");
+}
+
 /// A target counts from the frame on in which it is there when the estimate is given: written in
 /// any clock, it gives the old drive word or the new one, and never a mixture.
 #[test]
