@@ -85,7 +85,11 @@ mod tests {
     #[test]
     fn blocks_refuse_what_values_alone_do_not_tell() {
         for (change, field) in [
-            ((|p| (p.slot.settle, p.slot.integrate) = (0, 300)) as fn(&mut Profile), "slot.settle"),
+            (
+                (|p| (p.slot.open, p.slot.settle, p.slot.integrate) = (1, 0, 304))
+                    as fn(&mut Profile),
+                "slot.settle",
+            ),
             (|p| p.formats.square = Format::unsigned(28, 48), "formats.square"),
         ] {
             let mut profile = Profile::bundled("standard").expect("bundled");

@@ -3,8 +3,8 @@
 //! §6 (`cargo run --release -p hapticore-tests --example tracking` prints all of it).
 
 use hapticore_tests::tracking::{
-    FOUR_SHORT, Followed, LAWS, SHORT, TARGETS, follow, follow_in, follow_integral, measured,
-    overshoot_n, rise_s, rms_after_edges_n, rms_n, stability,
+    Division, FOUR_SHORT, Followed, LAWS, OWN, SHORT, TARGETS, follow, follow_in, follow_integral,
+    measured, overshoot_n, rise_s, rms_after_edges_n, rms_n, stability,
 };
 use rayon::prelude::*;
 
@@ -111,6 +111,18 @@ fn loops_in_slots_of_250_us_are_as_stable_and_as_fast_as_predicted() {
             assert!(band_hz >= least_hz, "{name}: {band_hz} Hz");
         }
     }
+}
+
+/// Four pads in the slots of `standard`: a frame is longer than a drive is held before its step.
+#[test]
+#[cfg_attr(not(optimised), ignore = "whole scenes: run with --release")]
+fn a_slow_loop_is_predicted_too() {
+    let slow = Division { samples: [690, 1000], pads: 4, ..OWN };
+    let found = measured(&slow, [25.0, 29_400.0], 0.6);
+    let [measured, predicted] =
+        [found.measured, found.predicted].map(|of| of.gain_margin.expect("a limit"));
+    println!("gain margin {measured:.2}, predicted {predicted:.2}");
+    assert!((measured / predicted - 1.0).abs() < 0.1, "{measured}, {predicted}");
 }
 
 /// What is predicted to be unstable is, and a third less gain is not.

@@ -181,7 +181,8 @@ impl<'a> Bench<'a> {
             plant.set_drive(pad, 0.0, 0.0)?;
         }
         let frames = |seconds: f64| (seconds / self.frame_s).ceil() as usize;
-        let (closed, rest) = (frames(CLOSED_S), frames(CLOSED_S + REST_S));
+        let closed = frames(CLOSED_S);
+        let rest = closed + frames(REST_S);
         let (mut drives, mut quantities) = (Vec::new(), Vec::new());
         let mut held_v = 0.0;
         for frame in 0..=rest + frames(FOLLOWED_S).max(FOLLOWED) {
