@@ -7,12 +7,14 @@ use hapticore_run::record::{
     Criterion, Driven, Effect, Laws, Quantities, Reference, Row, SignalError, Truth,
 };
 
-const FIGURES: [Option<&str>; 8] = [
+const FIGURES: [Option<&str>; 10] = [
     Some("fig3"),
     Some("fig4"),
     Some("fig6"),
     Some("fig7"),
     Some("fig9"),
+    Some("fig13"),
+    Some("fig15"),
     Some("hockey"),
     Some("fig99"),
     None,
@@ -76,13 +78,15 @@ fn row(n: usize) -> Row {
         ..Quantities::default()
     };
     let (load_g, point, group) = (20.0 * (n % 3) as f64, n, n % 48);
-    let truth = Truth { quantities, load_g, point, group, ..Truth::default() };
+    let part = n % 3;
+    let truth = Truth { quantities, load_g, point, group, part, ..Truth::default() };
     let reference =
         Reference { quantities, capacitance_eq6_pf: 317.0 - (t * 0.1).sin(), force_eq6_n: 0.09 };
     let measured = Quantities { x_mm: quantities.x_mm + (t * 5.3).sin(), ..quantities };
     let (truth, reference) = (Some(truth), Some(reference));
     let (limited, fault) = (n.is_multiple_of(7), n.is_multiple_of(11));
-    let driven = Some(Driven { target_n: 0.1, drive_v_rms: t % 300.0, limited, fault });
+    let free = Some(n.is_multiple_of(5));
+    let driven = Some(Driven { target_n: 0.1, drive_v_rms: t % 300.0, limited, fault, free });
     Row {
         case: n % 97 / 60,
         time_s: t * 1e-3,

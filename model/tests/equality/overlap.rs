@@ -5,9 +5,9 @@
 use crate::device::{self, Sight, calibration, overlapping_profiles};
 use crate::harness::operations;
 use crate::random::Random;
-use hapticore_contract::control::{Drive, Law, Tuning};
+use hapticore_contract::control::{Drive, Law, Tuning, Walls};
 use hapticore_contract::frame::Frame;
-use hapticore_contract::profile::{Profile, ProfileError};
+use hapticore_contract::profile::{Profile, ProfileError, Wall};
 use hapticore_model::blocks::core::Core;
 use hapticore_model::fidelity::clock::ClockSimulation;
 use hapticore_model::fidelity::force_loop::{ClockLoop, FixedLoop};
@@ -61,13 +61,30 @@ fn tuning(profile: &Profile) -> Tuning {
         rail: 0.95,
         slew: 0.5,
         force_cap: 4.0,
+        walls: profile.wall.map(|_| Walls {
+            stiffness_n_per_mm: 0.5,
+            most_n: 1.0,
+            factory: 0.01,
+            right: false,
+        }),
     }
+}
+
+/// The profiles with a controller, and with walls of pads of two parts and of three.
+fn controlled() -> impl Iterator<Item = Profile> {
+    profiles().filter(|profile| profile.control.is_some()).flat_map(|profile| {
+        let with_wall = |wall: Wall| {
+            let pads = wall.parts * profile.pads.div_ceil(wall.parts);
+            Profile { wall: Some(wall), pads, ..profile.clone() }
+        };
+        let walls = [Wall::A, Wall::B].map(with_wall);
+        [profile].into_iter().chain(walls).collect::<Vec<_>>()
+    })
 }
 
 #[test]
 fn drives_and_frames_of_a_loop_are_the_same_at_fixed_and_clock() {
-    let controlled = profiles().filter(|profile| profile.control.is_some());
-    for (seed, mut profile) in (10..).zip(controlled) {
+    for (seed, mut profile) in (10..).zip(controlled()) {
         let laws = Law::ALL;
         profile.control.as_mut().expect("a controller").law = laws[seed as usize % laws.len()];
         let (calibration, tuning) = (calibration(&profile), tuning(&profile));
@@ -80,6 +97,11 @@ fn drives_and_frames_of_a_loop_are_the_same_at_fixed_and_clock() {
             let target = 0.01 * (slot % 90) as f64;
             fixed.set_target(pad, target);
             clock.set_target(pad, target);
+            if profile.wall.is_some() {
+                let surface_mm = 40.0 * (slot as f64 / 7.0).sin();
+                fixed.set_surface(pad, surface_mm);
+                clock.set_surface(pad, surface_mm);
+            }
             let codes = window(&profile, &codes);
             let (frame, drive) = fixed.slot(|core| core.slot(pad, codes));
             let (finished, of_clock) = clock.slot(codes);
@@ -87,7 +109,7 @@ fn drives_and_frames_of_a_loop_are_the_same_at_fixed_and_clock() {
             assert_eq!(of_clock, drive, "{case}: the drive, at once");
             assert_eq!(frame, reference.slot(pad, codes), "{case}: fixed, reference");
             expected.push(frame);
-            drives.push(drive);
+            drives.extend(drive);
             frames.extend(finished);
         }
         assert_eq!(frames.len() + 1, expected.len(), "{}: a slot later", profile.name);
