@@ -21,9 +21,11 @@ pub fn figures(record: &Record) -> Vec<Figure> {
 fn of_loop(of: &Bode) -> Figure {
     let force = number::short(of.predicted.force_n);
     let title = format!("Force loop of \"{}\" about {force} N", of.case);
-    let margin = |of: &Stability| of.phase_margin_deg.map_or("none".into(), number::short);
+    let margin = |of: &Stability| {
+        of.phase_margin_deg.map_or("none".into(), |margin| format!("{}°", number::short(margin)))
+    };
     let note = format!(
-        "Phase margin {}° as measured, {}° as predicted. The true force follows its target to −3 dB up to {}.",
+        "Phase margin {} as measured, {} as predicted. The true force follows its target to −3 dB up to {}.",
         margin(&of.measured),
         margin(&of.predicted),
         of.bandwidth_hz
