@@ -40,13 +40,22 @@ pub fn design(profile: &Profile) -> Design {
 }
 
 /// What a user of the force loop must know besides.
-fn interface_of_loop(force_loop: &ForceLoop) -> [String; 4] {
-    [
+fn interface_of_loop(force_loop: &ForceLoop) -> Vec<String> {
+    let mut lines = vec![
         format!("- drive_valid: a drive word, {} cycles after its slot's last strobe.", force_loop.latency()),
         "- target_write, target_pad, target_word: a pad's target, taken as its slot's estimate is given; a sign of life.".into(),
         "- curve_write, curve_address, curve_word: a word of the curve per cycle, while no drive word is being made.".into(),
-        "- proportional, correction, full_drive, rail, slew, force_cap: stable while a drive word is being made.".into(),
-    ]
+        "- proportional, correction, full_drive, rail, slew, force_cap: taken as a slot's estimate is given.".into(),
+        "- least_drive to most_force: of all pads, of valid estimates since extremes_read.".into(),
+    ];
+    if let Some(split_pad) = &force_loop.drives.split_pad {
+        let parts = split_pad.parts();
+        lines.extend([
+            format!("- pads are split: {parts} slots in a row make a frame of one; its targets, walls and drive words bear the number of the last."),
+            "- wall_write, wall_pad, wall_surface, wall_right: a pad's wall; wall_stiffness, wall_most, wall_factory: taken as settings are.".into(),
+        ]);
+    }
+    lines
 }
 
 /// The versions of what a design is made from.

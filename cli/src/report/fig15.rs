@@ -194,7 +194,7 @@ fn felt(panels: &[Panel]) -> Figure {
         "#largest haptic force",
         "#sticking force, mean",
         "#sticking force, most",
-        "#push and release taken for each other",
+        "#changes between push and release",
     ];
     let newtons = |value: f64| number::with_unit(&number::short(value), "N");
     let row = |panel: &Panel| {
@@ -209,8 +209,8 @@ fn felt(panels: &[Panel]) -> Figure {
     };
     let rows: String = panels.iter().map(row).collect();
     let note = "The sticking force is what of the friction the wall makes while the hand pulls the pad \
-                outwards within it. The last column counts changes between push and release within \
-                the wall; one belongs to each way out.";
+                outwards within it. Changes between push and release are those within the wall; one \
+                belongs to each way out.";
     let table = tables::table("Felt", &heads, &rows);
     Figure::wide("What the hand feels on its way out", note, String::new(), table)
 }

@@ -262,7 +262,7 @@ fn drawn(page: &str) -> Vec<([f64; 2], [f64; 2])> {
 #[test]
 fn nothing_is_drawn_outside_of_its_plot() {
     for figure in FIGURES {
-        let rows = rows(200).into_iter().map(with_reference_far_off).collect();
+        let rows = rows(400).into_iter().map(with_reference_far_off).collect();
         let points = drawn(&check(&record(figure, rows)));
         assert!(points.len() > 100, "{figure:?}");
         for (point, size) in points {

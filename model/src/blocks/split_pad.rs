@@ -158,6 +158,11 @@ impl SplitPad {
         })
     }
 
+    /// Slots of each pad.
+    pub fn parts(&self) -> u64 {
+        self.parts
+    }
+
     #[inline(always)]
     fn pad(&self) -> Format {
         Format::counter(self.pads - 1)

@@ -8,18 +8,25 @@ use hapticore_contract::profile::Profile;
 use hapticore_model::fidelity::fixed::FixedSimulation;
 use std::f64::consts::TAU;
 
-/// Samples in a period of the haptic voltage, so that its ripple falls between the lobes of every
-/// window.
-const HAPTIC_PERIOD: u64 = 50;
+/// The longest period of the haptic voltage, in samples.
+const LONGEST_PERIOD: u64 = 50;
 const SLOTS: usize = 20;
 /// By how much a difference may be more than the ADC's rounding lets expect.
 const MORE: f64 = 5.0;
 
+/// Samples in a period of the haptic voltage, so that its ripple falls between the lobes of the
+/// window.
+fn haptic_period(profile: &Profile) -> u64 {
+    let divides = |period: &u64| profile.slot.integrate.is_multiple_of(*period);
+    (1..=LONGEST_PERIOD).rev().find(divides).expect("1 does")
+}
+
 fn window(profile: &Profile, tones: &Tones) -> Vec<i32> {
     let full = f64::from(1 << (profile.formats.adc.width - 1));
+    let period = haptic_period(profile) as f64;
     let sample = |n: u64| {
         let mut codes = tone_codes(profile, tones, n);
-        let haptic = full * tones.haptic * (TAU * n as f64 / HAPTIC_PERIOD as f64).sin();
+        let haptic = full * tones.haptic * (TAU * n as f64 / period).sin();
         *codes.last_mut().expect("there are channels") = haptic.round() as i32;
         codes
     };
@@ -67,7 +74,7 @@ fn check(profile: &Profile, random: &mut Random) {
             MORE * expected * from_phasors.capacitance_pf + 2.0 * profile.formats.capacitance.lsb();
         assert!(capacitance < allowed, "{}: capacitance {capacitance} pF, {allowed}", profile.name);
         let square = off(from_samples.mean_square, from_phasors.mean_square);
-        let allowed = MORE * 2.0 * rounding_of(profile, HAPTIC_PERIOD)
+        let allowed = MORE * 2.0 * rounding_of(profile, haptic_period(profile))
             + 2.0 * profile.formats.mean_square.lsb();
         assert!(square < allowed, "{}: mean square {square}, {allowed}", profile.name);
         let ratio = off(from_samples.r_x, from_phasors.r_x);

@@ -166,7 +166,7 @@ fn a_lifted_pad_is_let_go_and_an_open_part_is_no_evidence() {
             let open = within(&mut pair, dead);
             assert_eq!((open.target, open.free, open.valid), (half_n, 0, 1), "{dead:?}: as before");
         }
-        let out = pair.given(0, [170.0, 0.0], -0.8, false);
+        let out = pair.given(0, [170.0, 0.0], -0.7, false);
         let last = (0..40).map(|_| pair.frame(out)).last().unwrap();
         assert_eq!((last.target, last.free), (0, 1), "play releases it");
     }
