@@ -34,7 +34,7 @@ const KNOBS: [Knob; 6] = [
 ];
 
 /// Scenes without a claim about a force: to them friction does not matter.
-const WITHOUT_FORCE: [&str; 2] = ["fig4", "minimal-halves"];
+const WITHOUT_FORCE: [&str; 3] = ["fig4", "fig13", "minimal-halves"];
 
 /// Whether a scene has what the knob turns.
 fn matters(scene: &str, text: &str, knob: &Knob) -> bool {
