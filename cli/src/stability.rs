@@ -21,10 +21,16 @@ const PARTS: [f64; 2] = [0.5, 1.0];
 /// # Errors
 /// A loop that is predicted to be unstable, unless it may be.
 pub fn of_cases(cases: &[Case], unstable: bool) -> Result<BTreeMap<String, Stability>> {
-    let found: Vec<_> = cases.par_iter().map(of_case).collect::<Result<_>>()?;
-    let names = cases.iter().map(|case| case.name().to_string());
-    let found: BTreeMap<_, _> =
-        names.zip(found).filter_map(|(name, found)| Some((name, found?))).collect();
+    // Cases that differ in the course of their target alone have one loop.
+    let keys: Vec<_> = cases.iter().map(key).collect::<Result<_>>()?;
+    let first = |n: usize| keys.iter().position(|key| *key == keys[n]).unwrap_or(n);
+    let of_first = |(n, case): (usize, &Case)| match first(n) == n {
+        true => of_case(case),
+        false => Ok(None),
+    };
+    let found: Vec<_> = cases.par_iter().enumerate().map(of_first).collect::<Result<_>>()?;
+    let named = |(n, case): (usize, &Case)| Some((case.name().to_string(), found[first(n)]?));
+    let found: BTreeMap<_, _> = cases.iter().enumerate().filter_map(named).collect();
     for (name, margins) in &found {
         if !margins.stable() && !unstable {
             bail!(
@@ -38,8 +44,24 @@ pub fn of_cases(cases: &[Case], unstable: bool) -> Result<BTreeMap<String, Stabi
     Ok(found)
 }
 
+/// What a case's loop depends on: its scene without the course of its targets, and the largest.
+fn key(case: &Case) -> Result<(String, u64)> {
+    let mut scene: toml::Table = toml::from_str(&case.scene.cases[case.index].document)?;
+    for pad in scene.get_mut("pad").and_then(|pads| pads.as_array_mut()).into_iter().flatten() {
+        if let Some(pad) = pad.as_table_mut() {
+            pad.remove("target_n");
+        }
+    }
+    scene.remove("criterion");
+    Ok((scene.to_string(), largest_n(case)?.to_bits()))
+}
+
+fn largest_n(case: &Case) -> Result<f64> {
+    Ok(case.plant()?.largest_targets_n().into_iter().fold(0.0, f64::max))
+}
+
 fn of_case(case: &Case) -> Result<Option<Stability>> {
-    let most_n = case.plant()?.largest_targets_n().into_iter().fold(0.0, f64::max);
+    let most_n = largest_n(case)?;
     if most_n <= 0.0 {
         return Ok(None);
     }

@@ -101,7 +101,12 @@ impl Closed {
     pub fn at_a_wall(profile: &Profile) -> Self {
         let there_and_back =
             "{ timeline = { x_mm = [[0, 0.3], [0.006, -0.8], [0.012, -0.8], [0.02, 0.5]] } }";
-        let set = [("pad.0.position_mm", there_and_back), ("hand.stiffness_n_per_m", "20000")];
+        let set = [
+            ("pad.0.position_mm", there_and_back),
+            ("hand.stiffness_n_per_m", "20000"),
+            ("settle_samples", "390"),
+            ("window_samples", "600"),
+        ];
         let set = set.map(|(key, value)| (key.to_string(), value.to_string()));
         Closed::new(profile, ("fig15", 0), &set, 24)
     }

@@ -42,13 +42,25 @@ fn matters(scene: &str, text: &str, knob: &Knob) -> bool {
     of_force && text.lines().any(|line| line.starts_with(knob.of))
 }
 
+/// The case that all criteria of a scene are of, where there is one: the others need not be run.
+fn only_case(text: &str) -> Option<String> {
+    let scene: toml::Table = text.parse().expect("a bundled scene");
+    let criteria = scene["criterion"].as_array().expect("criteria").iter();
+    let mut cases = criteria.map(|criterion| Some(criterion.get("case")?.as_str()?.to_string()));
+    let first = cases.next()??;
+    cases.all(|case| case.as_ref() == Some(&first)).then_some(first)
+}
+
 /// The criteria of a scene that fail, as the summary names them.
 fn failing(scene: &str, set: &[&str]) -> Vec<String> {
     let folder = tempfile::tempdir().unwrap();
+    let case = gallery::find(scene).and_then(only_case);
+    let case = case.iter().flat_map(|case| ["--case", case.as_str()]);
     let set = set.iter().chain(&["carrier.rung=phasor"]).flat_map(|set| ["--set", set]);
     let args: Vec<_> = ["simulate", scene, "--core", "float", "--out", "run", "--json"]
         .into_iter()
         .chain(set)
+        .chain(case)
         .collect();
     let output = command(folder.path(), &args).output().unwrap();
     let log = String::from_utf8_lossy(&output.stderr);
