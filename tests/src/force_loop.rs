@@ -104,6 +104,9 @@ impl Closed {
         let set = [
             ("pad.0.position_mm", there_and_back),
             ("hand.stiffness_n_per_m", "20000"),
+            ("hand.damping_n_s_per_m", "30"),
+            ("hand.mass_kg", "0.01"),
+            ("halves.push_height_mm", "0.5"),
             ("settle_samples", "390"),
             ("window_samples", "600"),
         ];

@@ -125,7 +125,9 @@ impl Wall {
             since: self.rule.dwell_frames,
             gain: Exact::ZERO,
         };
-        let mut k = self.kept.take().filter(|_| !i.restart).unwrap_or_else(fresh);
+        let known = self.kept.take().filter(|_| !i.restart);
+        let is_new = known.is_none();
+        let mut k = known.unwrap_or_else(fresh);
         let [left, right] = i.parts;
         let sum = left + right;
         k.speed = mean(k.speed, i.x - k.last, 3, self.speed());
@@ -140,7 +142,7 @@ impl Wall {
         self.test(&mut k, y, i.x);
         let target = self.target(&k, i, sum);
         let free = k.free;
-        self.kept = Some(k);
+        self.kept = Some(k).filter(|_| !is_new || sum != Exact::ZERO);
         WallResult { target, free, valid: sum != Exact::ZERO }
     }
 

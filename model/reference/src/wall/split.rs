@@ -99,9 +99,10 @@ impl SplitPads {
 
 impl Pad {
     fn walled(&mut self, sensed: [Prompt; 2], right: bool) -> Walled {
-        let trusted = self.x_mm.is_some() && sensed.iter().all(|part| !part.invalid);
+        let Some(x_mm) = self.x_mm else { return Walled { target_n: 0.0, free: false } };
+        let trusted = sensed.iter().all(|part| !part.invalid);
         let [a, b] = sensed.map(|part| if trusted { part.capacitance_pf } else { 0.0 });
-        let depth_mm = self.x_mm.map_or(0.0, |x_mm| x_mm - self.surface_mm);
+        let depth_mm = x_mm - self.surface_mm;
         let frame = match right {
             true => Frame { left: b, right: a, x_mm: -depth_mm, at_zero: self.rests },
             false => Frame { left: a, right: b, x_mm: depth_mm, at_zero: self.rests },

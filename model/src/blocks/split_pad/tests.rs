@@ -209,8 +209,13 @@ fn a_pad_that_has_no_place_yet_meets_no_wall() {
             let out = pair.frame(0, &parts, true);
             assert_eq!((out.target, out.reads), (0, 0));
         }
-        pair.place(0, 0);
-        assert!(pair.frame(0, &parts, true).reads == 1, "with its first place it does");
+        // Its first place begins where it is: it does not come there from somewhere else.
+        pair.place(0, far - 64);
+        let first = pair.frame(0, &parts, true);
+        assert_eq!((first.reads, first.free), (1, 0), "with its first place it does");
+        for frame in 0..20 {
+            assert_eq!(pair.frame(0, &parts, true).free, 0, "frame {frame}");
+        }
     }
 }
 

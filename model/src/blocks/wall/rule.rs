@@ -61,7 +61,8 @@ impl Wall {
         i: In<V>,
         quotient: Signal<V>,
     ) -> Regs<V> {
-        let kept = when!(i.restart | !r.kept.known => self.started(&i), else r.kept);
+        let known = r.kept.known & !i.restart;
+        let kept = when!(!known => self.started(&i), else r.kept);
         let before = kept.u;
         let any = !(i.c_left.is(0) & i.c_right.is(0));
         let reads = any & quotient.less_than(code(1 << 12, quotient.format));
@@ -70,7 +71,8 @@ impl Wall {
         let u = reads.select(read, kept.u);
         let zeros = self.rule.zero_frames;
         let kept = Kept {
-            known: bit(true),
+            // A pad that has had no current yet may not have a place either.
+            known: known | any,
             last: i.x,
             filtered: filtered(kept.filtered, i.x, 2, self.filtered()),
             speed: filtered(kept.speed, i.x - kept.last, 3, self.speed()),
