@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 use super::axis::Axis;
 use super::figure::Figure;
 use super::general;
+use super::map::half_sheet_mm;
 use super::number;
 use super::page::escape;
 use super::paint::Paint;
@@ -39,7 +40,7 @@ pub fn figures(record: &Record) -> Vec<Figure> {
 }
 
 fn lines(record: &Record) -> Vec<Line> {
-    let half_width_mm = 0.5 * record.sheet_mm.map_or(f64::NAN, |[width, _]| width);
+    let (half_width_mm, _) = half_sheet_mm(record);
     let mut lines: BTreeMap<(usize, i64), Vec<(&Row, Truth)>> = BTreeMap::new();
     for row in &record.rows {
         if let Some(truth) = row.truth.filter(|truth| truth.part == COMPLETE) {

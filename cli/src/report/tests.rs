@@ -6,6 +6,7 @@ use super::*;
 use hapticore_run::record::{
     Criterion, Driven, Effect, Laws, Quantities, Reference, Row, SignalError, Truth,
 };
+use hapticore_scene::Setpoint;
 
 const FIGURES: [Option<&str>; 10] = [
     Some("fig3"),
@@ -75,11 +76,13 @@ fn row(n: usize) -> Row {
         capacitance_pf: 318.0 + (t * 12.9).sin(),
         haptic_v_rms: (t * 7.0) % 350.0,
         force_n: 0.1 + 0.01 * (t * 3.1).sin(),
+        direction: 1e-3 * (t * 1.7).sin(),
         ..Quantities::default()
     };
+    let set = Setpoint { eccentricity_mm: 0.1 * (n % 40) as f64 - 2.0, ..Setpoint::default() };
     let (load_g, point, group) = (20.0 * (n % 3) as f64, n, n % 48);
     let part = n % 3;
-    let truth = Truth { quantities, load_g, point, group, part, ..Truth::default() };
+    let truth = Truth { quantities, load_g, point, group, part, set, ..Truth::default() };
     let reference =
         Reference { quantities, capacitance_eq6_pf: 317.0 - (t * 0.1).sin(), force_eq6_n: 0.09 };
     let measured = Quantities { x_mm: quantities.x_mm + (t * 5.3).sin(), ..quantities };
@@ -264,7 +267,7 @@ fn nothing_is_drawn_outside_of_its_plot() {
     for figure in FIGURES {
         let rows = rows(400).into_iter().map(with_reference_far_off).collect();
         let points = drawn(&check(&record(figure, rows)));
-        assert!(points.len() > 100, "{figure:?}");
+        assert!(points.len() > 100, "{figure:?}: {}", points.len());
         for (point, size) in points {
             let within = |axis: usize| (0.0..=size[axis]).contains(&point[axis]);
             assert!(within(0) && within(1), "{figure:?}: {point:?} of {size:?}");
