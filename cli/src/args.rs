@@ -63,6 +63,7 @@ const HDL: &str = "Examples:
   hapticore hdl --board ulx3s --out build && build/build.sh
   hapticore hdl --profile small --out verilog
   hapticore hdl --calibration mine.toml --out verilog
+  hapticore hdl --profile fast --control inverse --dac ad5664 --out verilog
 
 Exit status: 0 done, 2 bad input.";
 
@@ -153,6 +154,18 @@ pub struct HdlArgs {
     /// Prints the core with a force controller of this law [default: as the profile has it]
     #[arg(long, value_name = "open|proportional|integral|inverse")]
     pub control: Option<String>,
+    /// Prints the pins of a converter for the controller's drives: one bit of sigma-delta per pad, a
+    /// serial converter of 4 or 8 channels, or a word of 16 bits with address and write strobe
+    #[arg(long, value_name = "pulses|ad5664|ad5668|parallel")]
+    pub dac: Option<String>,
+    /// Its wave: a square turns with every SLOTS slots of a pad, a sine has a period of CLOCKS
+    #[arg(
+        long,
+        value_name = "dc|square[:SLOTS]|sine:CLOCKS",
+        default_value = "square",
+        requires = "dac"
+    )]
+    pub wave: String,
     /// Where the files go
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,

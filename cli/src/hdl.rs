@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use anyhow::{Context, Result, ensure};
 use hapticore_contract::control::{Control, Law};
 use hapticore_contract::profile::Profile;
+use hapticore_hdl::verilog::Design;
 use hapticore_rtl::board::Target;
 use hapticore_rtl::component;
 use hapticore_rtl::header;
@@ -38,11 +39,15 @@ pub fn run(args: &HdlArgs) -> Result<bool> {
         Some(law) => with_controller(profile, law)?,
         None => profile,
     };
+    let pins =
+        args.dac.as_deref().map(|dac| drive_output(&profile, dac, &args.wave)).transpose()?;
+    ensure!(pins.is_none() || board.is_none(), "--dac: a board's top has no drive yet");
     let output = Output::new(&args.out)?;
     let top = match board {
         Some(board) => write_board(&output, board, &profile)?,
         None => write_core(&output, &profile)?,
     };
+    pins.iter().try_for_each(|design| write_modules(&output, design))?;
     print_result(args, &profile, &top, &output.keep()?)
 }
 
@@ -57,15 +62,26 @@ fn with_controller(profile: Profile, name: &str) -> Result<Profile> {
     inputs::buildable(Profile { control: Some(control), ..profile })
 }
 
-/// The core: a file for each module, and what a bench must know of it.
+/// The drive output of a profile's force loop.
+fn drive_output(profile: &Profile, dac: &str, wave: &str) -> Result<Design> {
+    let options = format!("--dac {dac} --wave {wave}");
+    let (wave, converter) = (wave.parse().context("--wave")?, dac.parse().context("--dac")?);
+    ensure!(profile.control.is_some(), "--dac: expected a force controller too: --control LAW");
+    header::drive_output(profile, wave, converter, &options).context("--dac")
+}
+
+/// The core, and what a bench must know of it.
 fn write_core(output: &Output, profile: &Profile) -> Result<String> {
     let design = header::design(profile);
-    design
-        .modules
-        .iter()
-        .try_for_each(|file| output.write(&format!("{}.v", file.name), &file.text))?;
+    write_modules(output, &design)?;
     output.write(header::NAME, &header::of_core(profile, &design))?;
     Ok(design.top().to_owned())
+}
+
+/// A file for each module.
+fn write_modules(output: &Output, design: &Design) -> Result<()> {
+    let mut files = design.modules.iter();
+    files.try_for_each(|file| output.write(&format!("{}.v", file.name), &file.text))
 }
 
 /// A board: its Verilog, its constraints, and the script that makes its bitstream.

@@ -5,12 +5,13 @@
 use std::fmt::Write;
 
 use hapticore_contract::frame::Field;
-use hapticore_contract::profile::Profile;
+use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_model::blocks::core::Core;
 use hapticore_model::blocks::force_loop::ForceLoop;
 
 use hapticore_hdl::verilog::{Design, Heading};
 
+use crate::board::drive_output::{Converter, DriveOutput, Wave};
 use crate::board::framing::digest;
 
 /// The file's name.
@@ -37,6 +38,30 @@ pub fn design(profile: &Profile) -> Design {
     heading.command += &format!(" --control {}", control.law.name());
     heading.interface.extend(interface_of_loop(&force_loop));
     Design::of(&force_loop, heading)
+}
+
+/// Prints the drive output of a profile's force loop, as `hapticore hdl --dac` does beside the loop.
+///
+/// # Errors
+/// A profile without a controller, or more pads than the converter has channels.
+pub fn drive_output(
+    profile: &Profile,
+    wave: Wave,
+    converter: Converter,
+    options: &str,
+) -> Result<Design, ProfileError> {
+    let output = DriveOutput::of_profile(profile, wave, converter)?;
+    let interface = [
+        "- drive_valid, drive_pad, drive, serve, closed: the outputs of hapticore_loop of these names; enable: not its clear.",
+        "- dac_*: pins of the converter; words are offset binary, half of full scale is 0 V.",
+        "- dac_live: every channel has been set to zero since reset; gate the high voltage with it.",
+    ];
+    let heading = Heading {
+        command: format!("hapticore hdl --profile {} {options}", profile.name),
+        source: source(profile),
+        interface: interface.map(String::from).to_vec(),
+    };
+    Ok(Design::of(&output, heading))
 }
 
 /// What a user of the force loop must know besides.

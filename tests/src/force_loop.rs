@@ -7,6 +7,7 @@ use std::collections::VecDeque;
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::Format;
+use hapticore_hdl::verilog::Design;
 use hapticore_model::blocks::force_loop::{ForceLoop, Inputs, Outputs};
 use hapticore_model::blocks::position::TablePort;
 use hapticore_model::blocks::split_pad::WallPort;
@@ -16,10 +17,11 @@ use hapticore_run::engine::Signals;
 use hapticore_run::inputs;
 use hapticore_run::maker::Maker;
 
+use crate::lockstep::Trace;
+
 /// The plant of a scene's case around a force loop.
 pub struct Closed {
-    /// The loop of the case's profile.
-    pub block: ForceLoop,
+    block: ForceLoop,
     maker: Maker,
     profile: Profile,
     constants: Inputs<i64>,
@@ -94,14 +96,16 @@ impl Closed {
     }
 
     /// A pad that is pushed into a wall and drawn out of it again, within so few slots that a trace
-    /// of them can be kept.
+    /// of them can be kept; its force by `eq8` or `table`.
     ///
     /// # Panics
     /// As [`Closed::new`].
-    pub fn at_a_wall(profile: &Profile) -> Self {
+    pub fn at_a_wall(profile: &Profile, force: &str) -> Self {
         let there_and_back =
             "{ timeline = { x_mm = [[0, 0.3], [0.006, -0.8], [0.012, -0.8], [0.02, 0.5]] } }";
+        let force = format!("\"{force}\"");
         let set = [
+            ("control.force", force.as_str()),
             ("pad.0.position_mm", there_and_back),
             ("hand.stiffness_n_per_m", "20000"),
             ("hand.damping_n_s_per_m", "30"),
@@ -114,8 +118,16 @@ impl Closed {
         Closed::new(profile, ("fig15", 0), &set, 24)
     }
 
+    /// What is printed of the loop, and what its model did until the end.
+    pub fn record(mut self) -> (Design, Trace) {
+        let block = self.block.clone();
+        let design = Design::of(&block, "a test");
+        let trace = Trace::record(&block, design.ports.clone(), |outputs| self.next(outputs));
+        (design, trace)
+    }
+
     /// The inputs of the next clock, after these outputs; none at the end.
-    pub fn next(&mut self, outputs: &[i64]) -> Option<Vec<i64>> {
+    fn next(&mut self, outputs: &[i64]) -> Option<Vec<i64>> {
         if let Some(write) = self.writes.pop_front() {
             return Some(flat(write, self.block.inputs()));
         }

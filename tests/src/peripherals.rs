@@ -11,6 +11,11 @@ use hapticore_hdl::verilog::Design;
 use hapticore_host::Command;
 use hapticore_model::blocks::core::Core;
 use hapticore_rtl::board::adc_reader::AdcReader;
+use hapticore_rtl::board::drive_output::parallel::Parallel;
+use hapticore_rtl::board::drive_output::pulses::Pulses;
+use hapticore_rtl::board::drive_output::serial::{Frame, Serial};
+use hapticore_rtl::board::drive_output::sine::Sine;
+use hapticore_rtl::board::drive_output::{Converter, DriveOutput, Wave};
 use hapticore_rtl::board::framing::{END, ESC, ESC_END, ESC_ESC, Register};
 use hapticore_rtl::board::pads::Pads;
 use hapticore_rtl::board::registers::CommandRegisters;
@@ -248,13 +253,77 @@ fn stream(block: &Stream, divisor: u64) -> Alone {
     })
 }
 
-/// The blocks of a board, with its own parameters.
+/// Slots of all pads, words at any time; now and then none, or the output is off.
+fn drive_output(block: &DriveOutput) -> Alone {
+    let of = block.inputs();
+    let (mut enable, mut closed, mut quiet) =
+        (Level::default(), Level::default(), Level::default());
+    let mut serve = 0;
+    alone(block, 60_000, move |rng| {
+        let before = closed.value;
+        let closed = closed.next(rng, 120);
+        if before > closed {
+            serve = if rng.u8(..8) == 0 {
+                any(rng, of.serve)
+            } else {
+                serve + 1 & of.serve.max_code() as i64
+            };
+        }
+        let words = if quiet.next(rng, 2_000) == 1 { 0 } else { now(rng, 60) };
+        let most = if enable.value == 0 { 4_000 } else { 90 };
+        vec![
+            ("drive_valid", words),
+            ("drive_pad", any(rng, of.drive_pad)),
+            ("drive", corner(rng, of.drive)),
+            ("serve", serve),
+            ("closed", closed),
+            ("enable", enable.next(rng, most)),
+        ]
+    })
+}
+
+/// A level whenever the line is free, or a little later.
+fn given<B: Block>(block: &B, [channel, level]: [Format; 2], busy: u32) -> Alone {
+    let mut wait = 0;
+    alone(block, 40_000, move |rng| {
+        wait = if wait == 0 { busy + rng.u32(..2) * rng.u32(..20) } else { wait - 1 };
+        vec![
+            ("valid", (wait == 0).into()),
+            ("channel", any(rng, channel)),
+            ("level", corner(rng, level)),
+        ]
+    })
+}
+
+/// The drive output with each wave and converter, and the converters alone.
+fn drive_outputs() -> Vec<Alone> {
+    let (drive, level) = (Format::unsigned(16, 16), Format::signed(17, 16));
+    let channel = Format::counter(2);
+    let of = |shape, wave, converter| {
+        drive_output(&DriveOutput::new(shape, drive, 900, wave, converter))
+    };
+    let slow = Frame { half_clocks: 3, ..Frame::AD5668 };
+    let bits = u32::from(slow.bits());
+    vec![
+        of([3, 1], Wave::Square { turn_slots: 1 }, Converter::Pulses),
+        of([6, 2], Wave::Square { turn_slots: 3 }, Converter::Serial(Frame::AD5664)),
+        of([2, 1], Wave::Sine { points: 16, point_clocks: 40 }, Converter::Parallel { bits: 12 }),
+        of([1, 1], Wave::Dc, Converter::Parallel { bits: 18 }),
+        alone(&Sine::new(64, 9), 2_000, |_| Vec::new()),
+        given(&Pulses::new(3, level), [channel, level], 3),
+        given(&Parallel::new(12, channel, level), [channel, level], 4),
+        given(&Serial::new(slow, channel, level), [channel, level], (2 * bits + 2) * 3),
+    ]
+}
+
+/// The blocks of a board, with its own parameters, and those that no board's parameters change.
 pub fn blocks(target: Target) -> Vec<Alone> {
     let (profile, parameters) = (target.profile(), target.parameters());
     let (core, divisor) = (Core::new(&profile), parameters.divisor());
     let words = core.estimator().table().words as u64;
     let block = CommandRegisters::new(core.inputs().calibration, words);
-    vec![
+    let mut all = drive_outputs();
+    all.extend([
         stream(&Stream::new(&profile, divisor, block.outputs().data), divisor),
         registers(&block, profile.clone(), words),
         adc_reader(&AdcReader::new(&profile, &parameters), &parameters),
@@ -262,5 +331,6 @@ pub fn blocks(target: Target) -> Vec<Alone> {
         transmitter(divisor),
         pads(profile.pads, parameters.dead()),
         sigma_delta(core.outputs().carrier),
-    ]
+    ]);
+    all
 }

@@ -4,7 +4,8 @@
 //! has no initial value in the cells starts with anything.
 //!
 //! Clocks per core: slots of two scenes, and corners at random with tables that are written while
-//! they are read. Clocks of a force loop: a step of its target, the plant closed around the model.
+//! they are read. Clocks of a force loop: a pad is pushed into a wall and drawn out of it, the plant
+//! closed around the model.
 
 use std::fs;
 
@@ -12,8 +13,8 @@ use hapticore_contract::profile::Profile;
 use hapticore_hdl::verilog::Design;
 use hapticore_synth::tools::{Tools, root};
 use hapticore_tests::force_loop::Closed;
+use hapticore_tests::lockstep::Bench;
 use hapticore_tests::lockstep::verilator::{Start, Verilated};
-use hapticore_tests::lockstep::{Bench, Trace};
 use hapticore_tests::{stimulus, tools};
 
 /// Clocks of each core at least.
@@ -55,58 +56,31 @@ fn gates_run_what_the_model_runs(family: &str, profile: &str) {
     assert!(clocks >= CLOCKS, "{clocks} clocks");
 }
 
-/// The force loop of a profile, its force by eq. 8 or the table.
-fn gates_close_the_loop_as_the_model_does(family: &str, profile: &str, force: &str) {
+/// A force loop with a wall, the plant closed around it; its force by eq. 8 or the table.
+fn gates_run_a_wall_as_the_model_does(family: &str, profile: &str, force: &str) {
     let Some(tools) = Tools::or_skip() else { return };
     if !tools::have(&["verilator", "make", "g++", "iverilog"]) {
         return;
     }
-    let target = "{ timeline = [[0, 0.2], [0.0015, 0.2], [0.0015, 0.6]] }".to_string();
-    let set = [("pad.0.target_n".into(), target), ("control.force".into(), force.into())];
     let bundled = Profile::bundled(profile).expect("bundled");
-    let mut closed = Closed::new(&bundled, ("fig9", 1), &set, 3);
-    loop_gates_do_as_the_model_does(&tools, (family, profile), &mut closed);
-}
-
-/// Cores with walls: three slots of a pad make one frame.
-fn gates_run_a_wall_as_the_model_does(family: &str, profile: &str) {
-    let Some(tools) = Tools::or_skip() else { return };
-    if !tools::have(&["verilator", "make", "g++", "iverilog"]) {
-        return;
-    }
-    let mut closed = Closed::at_a_wall(&Profile::bundled(profile).expect("bundled"));
-    loop_gates_do_as_the_model_does(&tools, (family, profile), &mut closed);
-}
-
-fn loop_gates_do_as_the_model_does(
-    tools: &Tools,
-    (family, profile): (&str, &str),
-    closed: &mut Closed,
-) {
-    let (block, design) = (closed.block.clone(), Design::of(&closed.block, "a test"));
-    let trace = Trace::record(&block, design.ports.clone(), |outputs| closed.next(outputs));
+    let (design, trace) = Closed::at_a_wall(&bundled, force).record();
     let top = format!("{}_gate", design.top());
-    let text = gates(tools, family, &design);
+    let text = gates(&tools, family, &design);
     let verilated = Verilated::new(&top, &design.ports, &text, Start::Anything);
     if let Err(mismatch) = verilated.check(&trace) {
         panic!("{family}, {profile}: {mismatch}");
     }
-    println!("{family}, {profile}: {} clocks of a force loop equal in gates", trace.clocks());
+    println!("{family}, {profile}: {} clocks of a wall equal in gates", trace.clocks());
 }
 
 #[test]
-fn ice40_gates_close_the_force_loop_as_the_model_does() {
-    gates_close_the_loop_as_the_model_does("ice40", "small", "\"eq8\"");
+fn ice40_gates_run_a_wall_as_the_model_does() {
+    gates_run_a_wall_as_the_model_does("ice40", "small", "eq8");
 }
 
 #[test]
-fn ecp5_gates_close_the_force_loop_with_a_table_as_the_model_does() {
-    gates_close_the_loop_as_the_model_does("ecp5", "standard", "\"table\"");
-}
-
-#[test]
-fn ecp5_gates_run_a_wall_as_the_model_does() {
-    gates_run_a_wall_as_the_model_does("ecp5", "small");
+fn ecp5_gates_run_a_wall_with_a_force_table_as_the_model_does() {
+    gates_run_a_wall_as_the_model_does("ecp5", "standard", "table");
 }
 
 #[test]

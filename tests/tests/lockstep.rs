@@ -10,10 +10,13 @@ use hapticore_host::profile::for_terminals;
 use hapticore_model::blocks::controller::{self, Controller};
 use hapticore_model::blocks::haptic_voltage::HapticVoltage;
 use hapticore_model::blocks::wall::{Inputs, Wall};
+use hapticore_rtl::board::drive_output::serial::Frame;
+use hapticore_rtl::board::drive_output::{self, Converter, DriveOutput, Wave};
 use hapticore_tests::force_loop::Closed;
 use hapticore_tests::lockstep::verilator::{Start, Verilated};
 use hapticore_tests::lockstep::{Bench, Trace, icarus};
 use hapticore_tests::{stimulus, tools};
+use std::collections::BTreeSet;
 
 /// Clocks that Verilator runs at least, of each profile.
 const CLOCKS: usize = 1_000_000;
@@ -183,9 +186,7 @@ fn verilator_closes_the_force_loop_as_the_model_does() {
             ("window_samples", window),
         ];
         let set = set.map(|(key, value)| (key.to_string(), value.to_string()));
-        let mut closed = Closed::new(&profile, ("fig9", 1), &set, 16);
-        let (block, design) = (closed.block.clone(), Design::of(&closed.block, "a test"));
-        let trace = Trace::record(&block, design.ports.clone(), |outputs| closed.next(outputs));
+        let (design, trace) = Closed::new(&profile, ("fig9", 1), &set, 16).record();
         let drives = of_port(&trace, "drive");
         assert!(drives.iter().max() > Some(&0), "{name}: the loop drives the pad");
         let verilated = Verilated::new(design.top(), &design.ports, &design.text(), Start::Zero);
@@ -202,9 +203,8 @@ fn verilator_runs_a_wall_as_the_model_does() {
         return;
     }
     for name in ["small", "standard"] {
-        let mut closed = Closed::at_a_wall(&Profile::bundled(name).expect("bundled"));
-        let (block, design) = (closed.block.clone(), Design::of(&closed.block, "a test"));
-        let trace = Trace::record(&block, design.ports.clone(), |outputs| closed.next(outputs));
+        let profile = Profile::bundled(name).expect("bundled");
+        let (design, trace) = Closed::at_a_wall(&profile, "eq8").record();
         let [drive, free] = ["drive", "drive_free"].map(|port| of_port(&trace, port));
         assert!(drive.iter().max() > Some(&0), "{name}: the wall holds the pad");
         assert!(free.iter().max() > Some(&0), "{name}: the wall lets it go");
@@ -213,6 +213,63 @@ fn verilator_runs_a_wall_as_the_model_does() {
             panic!("{name}: {mismatch}");
         }
     }
+}
+
+/// The drive words of a wall reach the pins of a converter, with the polarity of their slots.
+#[test]
+fn verilator_drives_a_converter_as_the_model_does() {
+    if !tools::have(&["verilator", "make", "g++"]) {
+        return;
+    }
+    let mut profile = Profile::bundled("standard").expect("bundled");
+    let (_, of_loop) = Closed::at_a_wall(&profile, "eq8").record();
+    profile.control = Some(Control::of(&profile, Law::Inverse));
+    profile.wall = Some(profile::Wall::A);
+    profile.pads = 3;
+    let (wave, converter) = (Wave::Square { turn_slots: 2 }, Converter::Serial(Frame::AD5664));
+    let block = DriveOutput::of_profile(&profile, wave, converter).expect("a force loop");
+    let design = Design::of(&block, "a test");
+    let names = drive_output::Inputs::FIELDS.iter().map(|field| field.name);
+    let inputs: Vec<Vec<i64>> = names.map(|name| drive_input(&of_loop, name)).collect();
+    let mut clocks = 0..of_loop.clocks();
+    let trace = Trace::record(&block, design.ports.clone(), |_| {
+        clocks.next().map(|clock| inputs.iter().map(|input| input[clock]).collect())
+    });
+    let words: BTreeSet<_> = serial_words(&trace).into_iter().collect();
+    assert!(words.iter().any(|word| *word > 33_000) && words.iter().any(|word| *word < 32_000));
+    for drive in of_port(&of_loop, "drive").into_iter().collect::<BTreeSet<_>>() {
+        let word = |sign: f64| (32_768.0 + sign * 0.5 * drive as f64).round_ties_even() as i64;
+        let either = [word(1.0), word(-1.0)];
+        assert!(either.iter().any(|word| words.contains(word)), "{drive} is at the pins");
+    }
+    let verilated = Verilated::new(design.top(), &design.ports, &design.text(), Start::Zero);
+    if let Err(mismatch) = verilated.check(&trace) {
+        panic!("{mismatch}");
+    }
+}
+
+/// What the drive output is given by the port of the loop that has its name.
+fn drive_input(of_loop: &Trace, name: &str) -> Vec<i64> {
+    match name {
+        "enable" => of_port(of_loop, "clear").into_iter().map(|clear| 1 - clear).collect(),
+        name => of_port(of_loop, name),
+    }
+}
+
+/// The words that a serial converter of 16 bits takes.
+fn serial_words(trace: &Trace) -> Vec<i64> {
+    let of = |name| of_port(trace, name);
+    let (sync_n, sclk, sdi) = (of("dac_sync_n"), of("dac_sclk"), of("dac_sdi"));
+    let (mut frame, mut words) = (0, Vec::new());
+    for clock in 1..sync_n.len() {
+        if sync_n[clock] == 0 && sclk[clock - 1] > sclk[clock] {
+            frame = frame << 1 | sdi[clock];
+        }
+        if sync_n[clock - 1] < sync_n[clock] {
+            words.push(frame & 0xffff);
+        }
+    }
+    words
 }
 
 /// What a port gave, clock by clock.

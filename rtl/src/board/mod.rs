@@ -8,6 +8,7 @@
 //! | [`adc_reader`] | eight channels of a simultaneous ADC, in |
 //! | [`sigma_delta`] | the carrier, out |
 //! | [`pads`] | one pad at a time, out |
+//! | [`drive_output`] | drive words of a force loop, out through converters |
 //! | [`uart`], [`crc16`], [`framing`] | the serial line and its packets; the host's side of it is `hapticore-host` |
 //! | [`stream`] | frames, out |
 //! | [`registers`] | calibration, in |
@@ -17,6 +18,7 @@
 pub mod adc_reader;
 mod bits;
 pub mod crc16;
+pub mod drive_output;
 pub mod framing;
 pub mod pads;
 pub mod parameters;

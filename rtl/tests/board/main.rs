@@ -12,6 +12,7 @@ mod random;
 mod bench;
 mod blocks;
 mod commands;
+mod drive_output;
 mod heartbeats;
 mod part;
 mod pins;

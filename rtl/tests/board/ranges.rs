@@ -11,6 +11,8 @@ use hapticore_hdl::probe::sample;
 use hapticore_hdl::signal::Signal;
 use hapticore_model::blocks::core::Core;
 use hapticore_rtl::board::adc_reader::AdcReader;
+use hapticore_rtl::board::drive_output::serial::Frame;
+use hapticore_rtl::board::drive_output::{Converter, DriveOutput, Wave};
 use hapticore_rtl::board::pads::Pads;
 use hapticore_rtl::board::registers::CommandRegisters;
 use hapticore_rtl::board::sigma_delta::SigmaDelta;
@@ -62,5 +64,37 @@ fn no_signal_of_a_peripheral_can_overflow() {
         prove(&registers);
         let board = Board::new(&profile, &parameters).expect("bundled profiles fit");
         assert_eq!(Netlist::of(&board).top().name, "board");
+    }
+}
+
+#[test]
+fn no_signal_of_a_drive_output_can_overflow() {
+    let waves = [
+        Wave::Dc,
+        Wave::Square { turn_slots: 1 },
+        Wave::Square { turn_slots: 5 },
+        Wave::Sine { points: 16, point_clocks: 20 },
+    ];
+    let converters = [
+        Converter::Pulses,
+        Converter::Serial(Frame::AD5664),
+        Converter::Serial(Frame { half_clocks: 3, ..Frame::AD5668 }),
+        Converter::Parallel { bits: 12 },
+    ];
+    for shape in [[1, 1], [4, 1], [6, 3], [16, 1]] {
+        for converter in converters.into_iter().filter(|it| fits(*it, shape)) {
+            for wave in waves {
+                let drive = Format::unsigned(16, 16);
+                prove(&DriveOutput::new(shape, drive, 100, wave, converter));
+            }
+        }
+    }
+}
+
+/// Whether the converter has a channel for each pad.
+fn fits(converter: Converter, [pads, parts]: [u64; 2]) -> bool {
+    match converter {
+        Converter::Serial(frame) => pads / parts <= 1 << frame.address_bits,
+        _ => true,
     }
 }

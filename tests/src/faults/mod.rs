@@ -16,8 +16,8 @@
 pub mod campaign;
 pub mod kinds;
 mod plant;
-mod statements;
-mod word;
+pub mod statements;
+pub mod word;
 
 pub use kinds::Kind;
 pub use plant::Planted;

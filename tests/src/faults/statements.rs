@@ -105,37 +105,3 @@ pub fn unused(module: &str) -> HashSet<String> {
     list.map(|(list, _)| list.split(',').map(|part| part.trim().to_owned()).collect())
         .unwrap_or_default()
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn statements_are_told_apart() {
-        let module = "    wire signed [3:0] a =\n        b ? c\n        : d; // s4.0\n    wire e; // u1.0\n    x <= a + b;\n    if (e) begin\n    assign y = x;\n    wire unused = &{1'b0, a[3], b};\n";
-        let [a, b, c, d, e, f] = &statements(module)[..] else {
-            panic!("{:?}", statements(module))
-        };
-        let text = str::to_owned;
-        assert_eq!(
-            *a,
-            Statement::Wire {
-                range: text("signed [3:0] "),
-                name: text("a"),
-                value: text("b ? c\n: d")
-            }
-        );
-        assert_eq!(*b, Statement::Driven { range: text(""), name: text("e") });
-        assert_eq!(*c, Statement::Register { name: text("x"), value: text("a + b") });
-        assert_eq!(*d, Statement::Condition { value: text("e"), rest: text("if\nbegin") });
-        assert_eq!(*e, Statement::Output { name: text("y"), value: text("x") });
-        assert!(matches!(f, Statement::Other(_)));
-        assert_eq!(unused(module), HashSet::from([text("a[3]"), text("b")]));
-    }
-
-    #[test]
-    #[should_panic(expected = "unknown: z <- a + b;")]
-    fn no_operator_is_left_out() {
-        statements("    z <- a + b;");
-    }
-}

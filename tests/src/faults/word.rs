@@ -80,32 +80,3 @@ fn has(part: &str, name: &str, bit: u8) -> bool {
     };
     matches!((low.parse::<u8>(), high.parse::<u8>()), (Ok(low), Ok(high)) if (low..=high).contains(&bit))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn check(range: &str, value: &str, unused: &str, expected: &[&str]) {
-        let unused = HashSet::from([unused.to_owned()]);
-        let word = Word::new(range, "w", value, &unused);
-        let found: Vec<_> = word
-            .variants()
-            .into_iter()
-            .map(|variant| variant.instead)
-            .chain(word.narrow())
-            .collect();
-        assert_eq!(found, expected, "{range}{value}");
-    }
-
-    #[test]
-    fn what_the_text_says_is_no_fault_is_none() {
-        let (top, low) = ("{1'b0, w_true[6:0]}", "{w_true[7:1], 1'b0}");
-        check("[7:0] ", "a + b", "v[7]", &["-", top, low]);
-        check("[7:0] ", "a + b", "w[7]", &["-", low]);
-        check("[7:0] ", "a + b", "w[7:6]", &[low]);
-        check("[7:0] ", "{a, 3'd0}", "", &[top]);
-        check("[7:0] ", "{1'd0, a}", "w[0]", &[]);
-        check("signed [7:0] ", "{{2{a[5]}}, a} + b", "w[7:6]", &[low]);
-        check("", "a * b", "", &[]);
-    }
-}

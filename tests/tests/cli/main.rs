@@ -6,6 +6,7 @@ mod captures;
 mod codes;
 mod flags;
 mod gallery;
+mod hdl;
 mod knobs;
 mod lab;
 mod messages;

@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The drive output against converters as their data sheets describe them: after each change every
+//! channel has the voltage that its drive word, its wave and its slots ask for.
+
+use crate::bench::Bench;
+use crate::random::Random;
+use hapticore_hdl::bundle::Bundle;
+use hapticore_hdl::format::Format;
+use hapticore_rtl::board::drive_output::serial::Frame;
+use hapticore_rtl::board::drive_output::{Converter, DacPort, DriveOutput, Inputs, Wave};
+use std::f64::consts::TAU;
+
+const DRIVE: Format = Format::unsigned(16, 16);
+/// Clocks of a slot, and of it before the switch closes.
+const SLOT: u64 = 700;
+const OPEN: u64 = 60;
+/// Clocks within which all of four channels are written.
+const WRITTEN: u64 = 4 * 55;
+const STALE: u64 = 9_000;
+
+/// What a converter's pins have told it.
+struct Dac {
+    pins: DacPort<i64>,
+    clocks: u64,
+    bits: u64,
+    taken: u8,
+    high_since: u64,
+    codes: [Option<i64>; 8],
+}
+
+impl Dac {
+    fn new() -> Dac {
+        let pins = DacPort::of(0);
+        Dac { pins, clocks: 0, bits: 0, taken: 0, high_since: 0, codes: [None; 8] }
+    }
+
+    /// AD5664 and AD5668: bits are taken at falling edges, the last of a frame updates its channel.
+    fn serial(&mut self, frame: &Frame, now: DacPort<i64>) {
+        let before = std::mem::replace(&mut self.pins, now);
+        self.clocks += 1;
+        if before.dac_sync_n > now.dac_sync_n {
+            assert!(self.clocks - self.high_since >= 1, "sync_n rests for 15 ns");
+            self.taken = 0;
+        }
+        if now.dac_sync_n == 0 && before.dac_sclk > now.dac_sclk {
+            assert_eq!(before.dac_sdi, now.dac_sdi, "data is stable around the edge");
+            (self.bits, self.taken) = (self.bits << 1 | now.dac_sdi as u64, self.taken + 1);
+            if self.taken == frame.bits() {
+                self.update(frame);
+            }
+        }
+        if now.dac_sync_n > before.dac_sync_n && self.clocks > 1 {
+            assert_eq!(self.taken, frame.bits(), "no frame is cut short");
+            self.high_since = self.clocks;
+        }
+    }
+
+    fn update(&mut self, frame: &Frame) {
+        let field = |low: u8, width: u8| self.bits >> low & ((1 << width) - 1);
+        let address = frame.tail_bits + frame.word_bits;
+        assert_eq!(field(address + frame.address_bits, 3), 0b011, "write and update a channel");
+        let channel = field(address, frame.address_bits) as usize;
+        self.codes[channel] = Some(field(frame.tail_bits, frame.word_bits) as i64);
+    }
+
+    /// A word is taken as the strobe ends.
+    fn parallel(&mut self, now: DacPort<i64>) {
+        let before = std::mem::replace(&mut self.pins, now);
+        let line = |pins: DacPort<i64>| (pins.dac_word, pins.dac_address);
+        if before.dac_write_n != now.dac_write_n {
+            assert_eq!(line(before), line(now), "word and address are stable around the strobe");
+        }
+        if before.dac_write_n < now.dac_write_n && before != DacPort::of(0) {
+            self.codes[now.dac_address as usize] = Some(now.dac_word);
+        }
+    }
+}
+
+/// A drive output of pads in slots, with its converter.
+struct Rig {
+    bench: Bench<DriveOutput>,
+    converter: Converter,
+    dac: Dac,
+    clock: u64,
+    pads: u64,
+    enable: i64,
+    pulses: Vec<u64>,
+}
+
+impl Rig {
+    fn new([pads, parts]: [u64; 2], wave: Wave, converter: Converter) -> Rig {
+        let block = DriveOutput::new([pads, parts], DRIVE, STALE, wave, converter);
+        let (dac, pulses) = (Dac::new(), vec![0; pads as usize]);
+        Rig { bench: Bench::new(block), converter, dac, clock: 0, pads, enable: 1, pulses }
+    }
+
+    fn clock(&mut self, word: Option<(u64, i64)>) {
+        let (pad, drive) = word.unwrap_or_default();
+        let inputs = Inputs {
+            drive_valid: word.is_some().into(),
+            drive_pad: pad as i64,
+            drive,
+            serve: (self.clock / SLOT % self.pads) as i64,
+            closed: (self.clock % SLOT >= OPEN).into(),
+            enable: self.enable,
+        };
+        self.clock += 1;
+        let pins = self.bench.clock(inputs).dac;
+        match self.converter {
+            Converter::Serial(frame) => self.dac.serial(&frame, pins),
+            Converter::Parallel { .. } => self.dac.parallel(pins),
+            Converter::Pulses => {
+                let bit = |n: usize| pins.dac_pulses as u64 >> n & 1;
+                self.pulses.iter_mut().enumerate().for_each(|(n, sum)| *sum += bit(n));
+            }
+        }
+        self.dac.pins = pins;
+    }
+
+    fn wait(&mut self, clocks: u64) {
+        (0..clocks).for_each(|_| self.clock(None));
+    }
+
+    /// To the given clock of the current slot, or of the next.
+    fn wait_for(&mut self, at: u64) {
+        self.wait((at + SLOT - self.clock % SLOT) % SLOT);
+    }
+
+    fn codes(&self, channels: usize) -> Vec<i64> {
+        self.dac.codes[..channels].iter().map(|code| code.expect("was written")).collect()
+    }
+}
+
+/// The word of a level in codes of the drive: rounded half to even, zero in the middle.
+fn word(level: f64, bits: i32) -> i64 {
+    let half = 2f64.powi(bits - 1);
+    let rounded = (level / 65_536.0 * half).round_ties_even();
+    (rounded.clamp(-half, half - 1.0) + half) as i64
+}
+
+/// How often a channel's polarity has turned when its last slot has ended so often.
+fn turns(ends: u64, turn_slots: u64) -> u64 {
+    ends.div_ceil(turn_slots)
+}
+
+/// Random drive words of random pads; before each the converter has what was asked for.
+fn check_square(shape: [u64; 2], turn_slots: u64, converter: Converter, bits: i32) {
+    let channels = (shape[0] / shape[1]) as usize;
+    let mut rig = Rig::new(shape, Wave::Square { turn_slots }, converter);
+    let (mut words, mut random) = (vec![0i64; channels], Random::new(5));
+    rig.wait(WRITTEN);
+    for _ in 0..2_000 {
+        let at = OPEN + WRITTEN + random.below(SLOT - OPEN - 2 * WRITTEN);
+        rig.wait_for(at);
+        let channel = random.below(channels as u64);
+        let drive = match random.below(8) {
+            0 => 65_535,
+            1 => 0,
+            _ => random.below(65_536) as i64,
+        };
+        words[channel as usize] = drive;
+        rig.clock(Some((channel * shape[1] + shape[1] - 1, drive)));
+        rig.wait(WRITTEN);
+        let slots = (rig.clock - 1) / SLOT;
+        let expected: Vec<i64> = (0..channels as u64)
+            .map(|channel| {
+                let last = (channel + 1) * shape[1] - 1;
+                let ends = (slots + shape[0] - 1 - last) / shape[0];
+                let sign = if turns(ends, turn_slots) % 2 == 0 { 1.0 } else { -1.0 };
+                word(sign * words[channel as usize] as f64, bits)
+            })
+            .collect();
+        assert_eq!(rig.codes(channels), expected, "clock {}", rig.clock);
+    }
+}
+
+#[test]
+fn serial_converters_get_every_word_and_turn() {
+    check_square([4, 1], 1, Converter::Serial(Frame::AD5664), 16);
+    check_square([4, 1], 3, Converter::Serial(Frame::AD5664), 16);
+    check_square([6, 3], 2, Converter::Serial(Frame::AD5664), 16);
+    // 32 bits at half the clock, one pad: a frame takes 130 clocks.
+    let slow = Frame { half_clocks: 2, ..Frame::AD5668 };
+    check_square([1, 1], 1, Converter::Serial(slow), 16);
+}
+
+#[test]
+fn parallel_converters_get_every_word_and_turn() {
+    check_square([4, 1], 1, Converter::Parallel { bits: 12 }, 12);
+    check_square([2, 2], 2, Converter::Parallel { bits: 16 }, 16);
+    check_square([3, 1], 1, Converter::Parallel { bits: 18 }, 18);
+}
+
+#[test]
+fn a_word_is_at_the_pins_after_the_latency() {
+    let mut rig = Rig::new([4, 1], Wave::Dc, Converter::Parallel { bits: 16 });
+    rig.wait(WRITTEN);
+    rig.clock(Some((2, 40_000)));
+    let latency = rig.bench.block.latency();
+    rig.wait(latency - 1);
+    assert_ne!(rig.dac.pins.dac_word, word(40_000.0, 16));
+    rig.wait(1);
+    assert_eq!([rig.dac.pins.dac_word, rig.dac.pins.dac_address], [word(40_000.0, 16), 2]);
+}
+
+#[test]
+fn a_density_of_pulses_is_the_level() {
+    const CLOCKS: u64 = 80_000;
+    let mut rig = Rig::new([4, 1], Wave::Dc, Converter::Pulses);
+    let words = [65_535, 12_345, 0, 1];
+    (0..4).for_each(|pad| {
+        rig.clock(Some((pad, words[pad as usize])));
+        rig.wait(20);
+    });
+    for _ in 0..10 {
+        // Fresh words, as frames bring them.
+        rig.pulses.fill(0);
+        for _ in 0..CLOCKS / 8_000 {
+            rig.clock(Some((1, 12_345)));
+            rig.wait(7_999);
+        }
+        for (sum, word) in rig.pulses.iter().zip(words) {
+            let density = 0.5 + 0.5 * word as f64 / 65_536.0;
+            let expected = density * CLOCKS as f64;
+            // A pin holds each of its bits for 8 clocks.
+            assert!((*sum as f64 - expected).abs() < 16.0, "{sum} of {expected}");
+        }
+    }
+}
+
+/// The level leaves the sine by the sine's rounding and the word's only.
+#[test]
+fn a_sine_has_its_amplitude_and_its_period() {
+    let (points, point_clocks) = (64, 50);
+    let mut rig =
+        Rig::new([3, 1], Wave::Sine { points, point_clocks }, Converter::Parallel { bits: 16 });
+    let words = [65_535, 30_000, 7];
+    rig.clock(Some((0, words[0])));
+    rig.wait(10);
+    (1..3).for_each(|pad| {
+        rig.clock(Some((pad, words[pad as usize])));
+        rig.wait(10);
+    });
+    rig.wait(point_clocks - rig.clock % point_clocks - 1);
+    for n in 0..5 * points {
+        if n % 8 == 0 {
+            rig.clock(Some((0, words[0])));
+        } else {
+            rig.clock(None);
+        }
+        rig.wait(point_clocks - 1);
+        // Points begin with the first clock after reset, at 0; all three are written 20 clocks later.
+        let point = 1 + (rig.clock - 20) / point_clocks;
+        let sine = (TAU * point as f64 / points as f64).sin();
+        for (code, amplitude) in rig.codes(3).into_iter().zip(words) {
+            let exact = sine * amplitude as f64 / 2.0 + 32_768.0;
+            let off = (code as f64 - exact.min(65_535.0)).abs();
+            assert!(off <= 1.1, "point {n}: {code}, {exact}");
+        }
+    }
+}
+
+#[test]
+fn every_channel_is_set_to_zero_after_reset_before_the_output_is_live() {
+    for wave in [Wave::Dc, Wave::Square { turn_slots: 1 }] {
+        let mut rig = Rig::new([4, 1], wave, Converter::Serial(Frame::AD5664));
+        while rig.dac.pins.dac_live == 0 {
+            assert!(rig.clock < 2 * WRITTEN, "{wave:?}");
+            rig.wait(1);
+        }
+        assert_eq!(rig.codes(4), [32_768; 4], "{wave:?}");
+    }
+}
+
+#[test]
+fn without_drive_words_all_channels_go_to_zero_and_a_word_ends_that() {
+    let mut rig = Rig::new([4, 1], Wave::Dc, Converter::Parallel { bits: 16 });
+    (0..4).for_each(|pad| rig.clock(Some((pad, 20_000))));
+    rig.wait(STALE - 1);
+    assert_eq!(rig.codes(4), [42_768; 4]);
+    rig.wait(WRITTEN);
+    assert_eq!(rig.codes(4), [32_768; 4]);
+    rig.clock(Some((3, 20_000)));
+    rig.wait(WRITTEN);
+    assert_eq!(rig.codes(4), [32_768, 32_768, 32_768, 42_768]);
+}
+
+#[test]
+fn a_disabled_output_is_zero_whatever_words_come() {
+    let mut rig = Rig::new([2, 1], Wave::Dc, Converter::Parallel { bits: 16 });
+    (0..2).for_each(|pad| rig.clock(Some((pad, 20_000))));
+    rig.wait(100);
+    rig.enable = 0;
+    rig.wait(100);
+    assert_eq!(rig.codes(2), [32_768; 2]);
+    rig.clock(Some((1, 20_000)));
+    rig.wait(100);
+    assert_eq!(rig.codes(2), [32_768; 2]);
+    rig.enable = 1;
+    rig.wait(100);
+    assert_eq!(rig.codes(2), [32_768; 2], "a word from before does not come back");
+    rig.clock(Some((1, 20_000)));
+    rig.wait(100);
+    assert_eq!(rig.codes(2), [32_768, 42_768]);
+}
+
+#[test]
+#[should_panic(expected = "channels need 3")]
+fn a_frame_with_too_short_an_address_is_refused() {
+    let frame = Frame { address_bits: 2, ..Frame::AD5664 };
+    DriveOutput::new([8, 1], DRIVE, STALE, Wave::Dc, Converter::Serial(frame));
+}
