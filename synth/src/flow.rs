@@ -25,6 +25,7 @@ pub struct Flow<'a> {
     folder: PathBuf,
     verilog: String,
     constraints: Option<String>,
+    shares: bool,
 }
 
 /// A placed and routed design.
@@ -59,7 +60,13 @@ impl<'a> Flow<'a> {
         let constraints = names.iter().find(|name| ending(name, family.constraints())).cloned();
         let verilog =
             names.into_iter().filter(|name| ending(name, "v")).collect::<Vec<_>>().join(" ");
-        Ok(Flow { tools, family, top, folder: folder.into(), verilog, constraints })
+        let folder = folder.into();
+        Ok(Flow { tools, family, top, folder, verilog, constraints, shares: true })
+    }
+
+    /// The same, with no operator shared by synthesis.
+    pub fn unshared(self) -> Self {
+        Flow { shares: false, ..self }
     }
 
     fn yosys(&self, commands: &str) -> Result<()> {
@@ -77,10 +84,12 @@ impl<'a> Flow<'a> {
     /// # Errors
     /// Yosys refuses.
     pub fn synthesise(&self) -> Result<Cells> {
-        self.yosys(&format!(
-            "{}; write_json netlist.json; tee -q -o cells.json stat -json",
-            self.family.synthesis(self.top)
-        ))?;
+        let synthesis = match self.shares {
+            true => self.family.synthesis(self.top),
+            false => self.family.synthesis_unshared(self.top),
+        };
+        let outputs = "write_json netlist.json; tee -q -o cells.json stat -json";
+        self.yosys(&format!("{synthesis}; {outputs}"))?;
         let stat = self.json("cells.json")?;
         let modules = stat["modules"].as_object().context("Yosys's statistics")?;
         let top = modules.get(&format!("\\{}", self.top)).context("the top module's statistics")?;
@@ -103,6 +112,18 @@ impl<'a> Flow<'a> {
         let mut all: Vec<_> = modules.iter().map(of).collect();
         all.sort_by(|a, b| a.module.cmp(&b.module));
         Ok(all)
+    }
+
+    /// What the netlist takes of the part, which may be more than it has: packed, not placed.
+    ///
+    /// # Errors
+    /// nextpnr refuses, or does not say.
+    pub fn packed(&self) -> Result<Used> {
+        let (program, part) = self.family.place();
+        let unconstrained = self.family.unconstrained();
+        let mut arguments = part.to_vec();
+        arguments.extend(["--json", "netlist.json", "--pack-only", unconstrained]);
+        utilisation(self.family, &self.tools.run(program, &arguments, &self.folder)?)
     }
 
     /// Places and routes the netlist with a seed.
@@ -131,10 +152,7 @@ impl<'a> Flow<'a> {
         match &self.constraints {
             Some(file) => arguments.extend([constraints, file]),
             // The order of a harness's pins is no one's concern.
-            None => arguments.push(match self.family {
-                Family::Ice40 => "--pcf-allow-unconstrained",
-                Family::Ecp5 => "--lpf-allow-unconstrained",
-            }),
+            None => arguments.push(self.family.unconstrained()),
         }
         self.tools.run(program, &arguments, &self.folder)?;
         let report = self.json(&report)?;
@@ -216,6 +234,19 @@ fn used(family: Family, report: &Value) -> Result<Used> {
     Ok(Used { logic: of(logic)?, multipliers: of(multipliers)?, block_rams: of(block_rams)? })
 }
 
+/// Used and available cells, as nextpnr's log has them: `ICESTORM_LC:    5900/   5280   111%`.
+fn utilisation(family: Family, log: &str) -> Result<Used> {
+    let of = |resource: &str| {
+        let line = log.lines().find_map(|line| line.split_once(&format!(" {resource}:")));
+        let numbers = line.and_then(|(_, numbers)| numbers.split_once('/'));
+        let (used, rest) = numbers.with_context(|| format!("nextpnr's {resource}"))?;
+        let available = rest.split_whitespace().next().unwrap_or_default();
+        Ok::<_, anyhow::Error>([used.trim().parse()?, available.parse()?])
+    };
+    let [logic, multipliers, block_rams] = family.resources();
+    Ok(Used { logic: of(logic)?, multipliers: of(multipliers)?, block_rams: of(block_rams)? })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -226,6 +257,15 @@ mod tests {
         let report = json!({"fmax": {"clock$glb": {"achieved": 19.546}, "$PACKER_GND_NET$glb": {"achieved": 9.0}}});
         assert_eq!(fmax(&report).unwrap(), 19.55);
         assert!(fmax(&json!({"fmax": {}})).is_err());
+    }
+
+    #[test]
+    fn a_log_says_what_is_used() {
+        let log = "Info: Device utilisation:\nInfo: \t         ICESTORM_LC:  5900/ 5280   111%\n\
+                   Info: \t        ICESTORM_RAM:    26/   30    86%\nInfo: \t        ICESTORM_DSP:     7/    8    87%\n";
+        let used = utilisation(Family::Ice40, &log.replace("\t", " ")).unwrap();
+        assert_eq!((used.logic, used.multipliers), ([5900, 5280], [7, 8]));
+        assert!(utilisation(Family::Ecp5, log).is_err());
     }
 
     #[test]

@@ -13,6 +13,7 @@
 //! | [`formal`] | proofs with SymbiYosys |
 //! | [`flow`] | synthesis, placement and packing of one design |
 //! | [`harness`] | a core between shift registers, so that it can be placed without a board |
+//! | [`loops`] | force loops whose area and clock are reported |
 //! | [`isolation`] | proof that no pad can change another's frame |
 //! | [`cells`] | cells of an FPGA, counted by what they are |
 //! | [`report`] | what is committed in `synth/reports/`, as JSON and as text |
@@ -27,6 +28,7 @@ pub mod flow;
 pub mod formal;
 pub mod harness;
 pub mod isolation;
+pub mod loops;
 pub mod report;
 pub mod sources;
 pub mod target;

@@ -4,12 +4,14 @@
 use anyhow::{Context, Result};
 use clap::{Parser, Subcommand};
 use hapticore_contract::profile::Profile;
+use hapticore_hdl::verilog::Design;
 use hapticore_synth::flow::Flow;
+use hapticore_synth::harness;
+use hapticore_synth::loops::{Loop, LoopsReport, Measured};
 use hapticore_synth::report::{BoardReport, CoreRow, CoresReport, limits, median};
 use hapticore_synth::sources::{self, File};
 use hapticore_synth::target::{self, Family};
 use hapticore_synth::tools::{Tools, root};
-use hapticore_synth::{flow, harness};
 use serde::Serialize;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -40,6 +42,15 @@ enum What {
     },
     /// Vectors for users of the Verilog, into rtl/verilog/vectors
     Vectors,
+    /// Force loops: cores with controller and walls
+    Loops {
+        /// Seeds to place with
+        #[arg(long, default_value_t = 5)]
+        seeds: u64,
+        /// Only loops whose names begin so, such as `small, inverse`; the others stay as reported
+        #[arg(long, default_value = "")]
+        only: String,
+    },
     /// Every bundled profile's core on every family
     Cores {
         /// Seeds to place with
@@ -54,6 +65,7 @@ fn main() -> ExitCode {
     let result = match &args.what {
         What::Board { name, seeds } => board(&args, name, *seeds),
         What::Vectors => vectors(),
+        What::Loops { seeds, only } => loops(&args, *seeds, only),
         What::Cores { seeds } => cores(&args, *seeds),
     };
     match result {
@@ -131,6 +143,52 @@ fn cores(args: &Args, seeds: u64) -> Result<bool> {
     Ok(true)
 }
 
+/// Measures the loops whose names begin with `only`; the rows of the others are the report's.
+fn loops(args: &Args, seeds: u64, only: &str) -> Result<bool> {
+    let tools = Tools::find()?;
+    let mut rows = Vec::new();
+    for of in Loop::all().iter().filter(|of| of.name().starts_with(only)) {
+        eprintln!("{} on {}", of.name(), of.family.part());
+        rows.push(of.row(measured(args, &tools, of, seeds)?));
+    }
+    let text = fs::read_to_string(args.reports.join("loops.json")).unwrap_or_default();
+    let old = serde_json::from_str(&text).map_or(Vec::new(), |report: LoopsReport| report.rows);
+    let find = |of: &Loop| rows.iter().chain(&old).find(|row| of.is_of(row)).cloned();
+    let rows = Loop::all().iter().filter_map(find).collect();
+    let report = LoopsReport { made_by: "synth/run loops".into(), rows };
+    save(&args.reports, "loops", &report, &report.markdown())?;
+    print!("{}", report.markdown());
+    Ok(true)
+}
+
+fn measured(args: &Args, tools: &Tools, of: &Loop, seeds: u64) -> Result<Measured> {
+    let (design, files) = (of.design(), of.files());
+    let adds = of.adds.replace(", ", "-").replace(' ', "-");
+    let folder = args.work.join(format!("{}-{adds}", of.profile.name));
+    let flow = Flow::new(tools, of.family, design.top(), &files, &folder.join("bare"))?.unshared();
+    let cells = flow.synthesise()?;
+    let modules = if of.profile.control.is_some() { flow.modules()? } else { Vec::new() };
+    let flow = harnessed(tools, of.family, &design, files, &folder)?.unshared();
+    flow.synthesise()?;
+    let used = flow.packed()?;
+    let fits = used.logic[0] <= used.logic[1];
+    let placed = if of.placed && fits { flow.place_all(seeds)? } else { Vec::new() };
+    let timings = placed.iter().map(|placed| placed.timing).collect();
+    Ok(Measured { cells, used, timings, modules })
+}
+
+/// A design in its harness.
+fn harnessed<'a>(
+    tools: &'a Tools,
+    family: Family,
+    design: &Design,
+    mut files: Vec<File>,
+    folder: &Path,
+) -> Result<Flow<'a>> {
+    files.push(File { name: "harness.v".into(), text: harness::verilog(design) });
+    Flow::new(tools, family, harness::TOP, &files, &folder.join("harness"))
+}
+
 fn core(
     args: &Args,
     tools: &Tools,
@@ -143,13 +201,10 @@ fn core(
     let folder = args.work.join(format!("{}-{family:?}", profile.name));
     let cells =
         Flow::new(tools, family, design.top(), &files, &folder.join("bare"))?.synthesise()?;
-    let mut harnessed = files.clone();
-    harnessed.push(File { name: "harness.v".into(), text: harness::verilog(&design) });
-    let flow = Flow::new(tools, family, harness::TOP, &harnessed, &folder.join("harness"))?;
+    let flow = harnessed(tools, family, &design, files.clone(), &folder)?;
     flow.synthesise()?;
-    let placed = flow.place_all(seeds);
-    let (timings, unplaced) = match placed {
-        Ok(placed) => (placed.iter().map(|placed: &flow::Placed| placed.timing).collect(), None),
+    let (timings, unplaced) = match flow.place_all(seeds) {
+        Ok(placed) => (placed.iter().map(|placed| placed.timing).collect(), None),
         Err(error)
             if error.to_string().contains("Unable to place")
                 || error.to_string().contains("no more") =>

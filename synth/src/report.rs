@@ -128,14 +128,14 @@ pub fn limits(board: &Board, used: &Used, median_mhz: f64) -> Vec<Limit> {
     all
 }
 
-const COLUMNS: &str = "LUT4 | carry | flip-flops | multipliers | block RAM | LUT RAM";
+pub(crate) const COLUMNS: &str = "LUT4 | carry | flip-flops | multipliers | block RAM | LUT RAM";
 
-fn columns(cells: &Cells) -> String {
+pub(crate) fn columns(cells: &Cells) -> String {
     let Cells { luts, carries, registers, multipliers, block_rams, lut_rams } = cells;
     format!("{luts} | {carries} | {registers} | {multipliers} | {block_rams} | {lut_rams}")
 }
 
-fn mhz(timings: &[Timing]) -> String {
+pub(crate) fn mhz(timings: &[Timing]) -> String {
     timings.iter().map(|timing| format!("{:.1}", timing.mhz)).collect::<Vec<_>>().join(" ")
 }
 

@@ -14,9 +14,9 @@ fn main() {
     };
     let (hands, n_per_mm, frame_ms) = (number(1, 100.0) as u64, number(2, 0.5), number(3, 1.0));
     println!(
-        "| rule, noise, mismatch | mean sticking, N (worst) | slow peak, N | release, ms; p95 | excess flips | vanished, ms | peak, N |"
+        "| rule, noise, mismatch | mean sticking, N (worst) | slow peak, N | release, ms; p95 | excess flips | vanished, ms | peak, N | bursts |"
     );
-    println!("| --- | --- | --- | --- | --- | --- | --- |");
+    println!("| --- | --- | --- | --- | --- | --- | --- | --- |");
     let rule = std::env::args().nth(4);
     let asked = |kind: &Kind| rule.as_ref().is_none_or(|rule| *rule == format!("{kind:?}"));
     for kind in Kind::ALL.into_iter().filter(asked) {

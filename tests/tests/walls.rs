@@ -51,6 +51,26 @@ fn rules_on_two_halves_stick_in_the_order_of_what_they_know() {
     assert!(b.vanished_ms <= 6.0, "{b:?}");
 }
 
+/// Hands that press slowly at 1 N/mm feel half of it up to 0.7 N (A), 0.79 of it up to 1 N (B); at half
+/// of it they would not.
+#[test]
+fn a_wall_is_as_stiff_as_it_is_to_be() {
+    for (kind, to_n, least_n_per_mm) in [(Kind::A, 0.7, 0.5), (Kind::B, 1.0, 0.79)] {
+        let wall = |n_per_mm| Setup { n_per_mm, ..setup(kind) }.stiffness(0..HANDS, to_n);
+        let [soft, stiff] = [0.5, 1.0].map(wall);
+        println!("{kind:?}: {soft:?}, {stiff:?}");
+        assert!(stiff.n_per_mm >= least_n_per_mm && stiff.least_peak_n >= to_n, "{stiff:?}");
+        assert!(soft.n_per_mm < least_n_per_mm || !cfg!(optimised), "{soft:?}");
+    }
+}
+
+/// At frames of 1 ms no hand at a stiff wall by rule A makes it come and go.
+#[test]
+fn a_stiff_wall_by_rule_a_has_no_bursts() {
+    let row = Setup { n_per_mm: 8.0, ..setup(Kind::A) }.hands(0..HANDS);
+    assert_eq!(row.bursts, 0.0, "{row:?}");
+}
+
 /// In by 4 mm beyond the surface, a rest, out again, with 300 N/m: sticking at most 0.008 N, and
 /// the wall never vanishes.
 #[test]

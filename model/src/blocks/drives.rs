@@ -153,7 +153,7 @@ impl Drives {
         let controller = Controller::try_new(profile)?;
         let controller::Inputs { target, pad, .. } = controller.inputs();
         let split_pad = profile.wall.map(|_| SplitPad::try_new(profile)).transpose()?;
-        let targets = Memory::new("targets", 1 << pad.width, target);
+        let targets = Memory::new("targets", 1 << pad.width, target).in_block();
         let position = profile.formats.position;
         Ok(Drives { estimates, position, pad, controller, split_pad, targets })
     }

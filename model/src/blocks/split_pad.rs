@@ -152,8 +152,8 @@ impl SplitPad {
             capacitance: f.capacitance,
             force: f.force,
             wall,
-            places: memory("places", place),
-            surfaces: Memory::new("surfaces", words, place),
+            places: memory("places", place).in_block(),
+            surfaces: Memory::new("surfaces", words, place).in_block(),
             rests: memory("rests", BIT),
         })
     }

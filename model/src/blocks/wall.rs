@@ -285,22 +285,31 @@ impl Wall {
         Step::ALL[1..].iter().fold(bit(false), |any, step| any | ends(*step))
     }
 
-    /// What is kept of the pad, with the word that has been read last.
+    /// What is kept of the pad, with the word that has been read last, while it is loaded. The first
+    /// word says whether the pad is known; a pad that is not, or starts anew, has words of its own.
     #[inline(always)]
-    fn loaded<V: Interpretation>(&self, r: &Regs<V>, word: Signal<V>) -> Kept<Signal<V>> {
+    fn loaded<V: Interpretation>(
+        &self,
+        r: &Regs<V>,
+        i: &In<V>,
+        word: Signal<V>,
+    ) -> Kept<Signal<V>> {
+        let of_pad = r.kept.known.select(word, self.word(r, self.anew(i), 1));
         let mut index = 0;
-        Kept::map(r.kept, |old| {
+        let kept = Kept::map(r.kept, |old| {
             index += 1;
-            let loads = r.step.at(Step::Load) & r.count.is(index);
-            loads.select(word.bits(0, old.format.width).as_code(old.format), old)
-        })
+            let word = of_pad.bits(0, old.format.width).as_code(old.format);
+            r.count.is(index).select(word, old)
+        });
+        let known = r.count.is(1).select(word.bits(0, 1) & !i.restart, r.kept.known);
+        Kept { known, ..kept }
     }
 
-    /// The word that is saved in this clock.
+    /// The word of this clock, where the first one is that of count `from`.
     #[inline(always)]
-    fn saved<V: Interpretation>(&self, r: &Regs<V>) -> Signal<V> {
-        let (mut index, mut word) = (0, zero(self.kept.format));
-        Kept::map(r.kept, |of| {
+    fn word<V: Interpretation>(&self, r: &Regs<V>, kept: Kept<Signal<V>>, from: u64) -> Signal<V> {
+        let (mut index, mut word) = (from, zero(self.kept.format));
+        Kept::map(kept, |of| {
             let bits = of.bits(0, of.format.width).resize(self.kept.format, Proved);
             word = r.count.is(index).select(bits, word);
             index += 1;
@@ -393,15 +402,23 @@ impl Block for Wall {
         let product = call!(self.multiplier, state, self.operands(&r, &i)).product;
         let word = self.kept.data(&mut state.submodules.kept);
         let address = i.pad.concat(r.count.bits(0, INDEX.width));
-        let write = Write { enable: r.step.at(Step::Save), address, data: self.saved(&r) };
+        let write =
+            Write { enable: r.step.at(Step::Save), address, data: self.word(&r, r.kept, 0) };
         self.kept.access(&mut state.submodules.kept, address, write);
         let idle = Registers { done: bit(false), ..r };
-        let works = Registers { kept: self.loaded(&r, word), count: r.count.increment(), ..idle };
+        let ends = self.ends(&r);
+        let goes_on = Registers { count: r.count.increment(), ..idle };
         next!(self, state,
             i.start => Registers { step: Step::Load.signal(), count: int(0), ..idle },
             r.step.at(Step::Idle) => idle,
-            self.ends(&r) => self.step(Registers { kept: works.kept, ..idle }, i, quotient, product),
-            else works
+            r.step.at(Step::Load) => Registers {
+                step: ends.select(Step::Divide.signal(), r.step),
+                count: ends.select(int(0), goes_on.count),
+                kept: self.loaded(&r, &i, word),
+                ..idle
+            },
+            ends => self.step(idle, i, quotient, product),
+            else goes_on
         );
         outputs
     }

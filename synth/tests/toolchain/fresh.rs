@@ -2,6 +2,7 @@
 //! What is committed about the Verilog is about the Verilog as it is. Needs no tools.
 
 use hapticore_contract::profile::Profile;
+use hapticore_synth::loops::{Loop, LoopsReport};
 use hapticore_synth::report::{BoardReport, CoresReport, limits, median};
 use hapticore_synth::sources;
 use hapticore_synth::target::{BOARDS, Family, TOP};
@@ -35,6 +36,21 @@ fn the_table_of_cores_is_of_the_cores_that_are_printed() {
         }
     }
     assert!(rows.next().is_none());
+}
+
+#[test]
+fn the_table_of_loops_is_of_the_loops_that_are_printed() {
+    let report: LoopsReport =
+        serde_json::from_str(&read("synth/reports/loops.json")).expect("a report");
+    assert_eq!(read("synth/reports/loops.md"), report.markdown(), "synth/run loops");
+    let loops = Loop::all();
+    assert_eq!(report.rows.len(), loops.len());
+    for (row, of) in report.rows.iter().zip(&loops) {
+        let name = of.name();
+        assert!(of.is_of(row), "{name}: a row for each loop");
+        let hash = sources::hash_of(&of.files());
+        assert_eq!(row.sources, hash, "{name}: the Verilog has changed: run synth/run loops");
+    }
 }
 
 #[test]

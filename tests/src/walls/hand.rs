@@ -68,7 +68,7 @@ impl Hand {
         let tremor_mm = (1e3 * between(0.01, 0.04) / stiffness_n_per_m).min(0.1);
         let tremor = [tremor_mm, between(8.0, 12.0), between(0.0, 1.0)];
         let load_n = between(0.4, 1.2);
-        let aim_mm = |press_n: f64| -press_n * (1e3 / stiffness_n_per_m + 1.0 / wall_n_per_mm);
+        let aim_mm = |press_n: f64| aim_mm(press_n, stiffness_n_per_m, wall_n_per_mm);
         let mut plan = Plan { parts: Vec::new(), at_mm: START_MM, time_s: 0.0 };
         for to_mm in [4.0, 11.0, 3.0] {
             plan.go(Phase::Air, to_mm, between(20.0, 60.0));
@@ -99,6 +99,19 @@ impl Hand {
             tremor,
             parts: plan.parts,
         }
+    }
+
+    /// The hand of a seed, which now goes to and fro in air and then presses slowly into the wall,
+    /// with so many newtons, and rests there.
+    pub fn pressing(seed: u64, wall_n_per_mm: f64, press_n: f64) -> Hand {
+        let hand = Hand::draw(seed, wall_n_per_mm);
+        let mut plan = Plan { parts: Vec::new(), at_mm: START_MM, time_s: 0.0 };
+        for to_mm in [4.0, 11.0, 3.0] {
+            plan.go(Phase::Air, to_mm, 40.0);
+        }
+        plan.go(Phase::Enter, aim_mm(press_n, hand.stiffness_n_per_m, wall_n_per_mm), 20.0);
+        plan.wait(Phase::Press, 0.5);
+        Hand { parts: plan.parts, ..hand }
     }
 
     /// How the paper's authors went through a wall once: in by 10 mm, a rest, out again.
@@ -146,6 +159,11 @@ impl Hand {
             + (part.to_mm - from_mm) * smooth
             + amplitude_mm * (TAU * (hz * time_s + turns)).sin()
     }
+}
+
+/// Where a hand aims to press with so many newtons.
+fn aim_mm(press_n: f64, hand_n_per_m: f64, wall_n_per_mm: f64) -> f64 {
+    -press_n * (1e3 / hand_n_per_m + 1.0 / wall_n_per_mm)
 }
 
 /// A trial as it is put together.

@@ -7,6 +7,7 @@
 //! | slow peak | the largest of it while the hand leaves slowly |
 //! | release | from the hand's force turning outwards, in each part in which it leaves, until the wall's force is below 0.05 N or the pad is out |
 //! | excess flips | changes of direction within the wall, beyond one in each part in which the hand leaves |
+//! | bursts | times at which the direction changes more often than tremor of 10 Hz asks for: more than 4 flips within 200 ms |
 //! | vanished | time within the wall in which the hand pushes in by more than 0.05 N and the rule is `Free`, in the parts in which it enters |
 
 use hapticore_reference::wall::Direction;
@@ -16,6 +17,9 @@ use super::trial::Seen;
 
 /// A force below which the wall has let go, N.
 const GONE_N: f64 = 0.05;
+
+/// A burst: more than so many flips within so many seconds, in which tremor of 10 Hz turns four times.
+const BURST: (usize, f64) = (4, 0.2);
 
 /// The measures of one trial.
 #[derive(Clone, Debug, Default)]
@@ -28,6 +32,8 @@ pub struct Measures {
     pub release_ms: Vec<f64>,
     /// Flips beyond those that the hand asked for.
     pub excess_flips: f64,
+    /// Bursts of flips.
+    pub bursts: f64,
     /// Time in which the wall had vanished, ms.
     pub vanished_ms: f64,
     /// Largest haptic force, N.
@@ -50,7 +56,8 @@ impl Measures {
             sticking_n: felt.iter().sum::<f64>() / felt.len().max(1) as f64,
             slow_peak_n: slow.map(|seen| seen.felt_n).fold(0.0, f64::max),
             release_ms: releases_ms(frames),
-            excess_flips: (flips(frames) - leavings(frames)).max(0) as f64,
+            excess_flips: (flips_s(frames).len() as f64 - leavings(frames)).max(0.0),
+            bursts: bursts(&flips_s(frames)),
             vanished_ms: frame_ms * frames.iter().filter(vanished).count() as f64,
             peak_n: frames.iter().map(|seen| seen.force_n).fold(0.0, f64::max),
         }
@@ -73,8 +80,8 @@ fn leaving_parts(frames: &[Seen]) -> impl Iterator<Item = &[Seen]> {
 }
 
 /// Parts in which the hand leaves from within the wall.
-fn leavings(frames: &[Seen]) -> i32 {
-    leaving_parts(frames).filter(|part| part[0].x_mm < 0.0).count() as i32
+fn leavings(frames: &[Seen]) -> f64 {
+    leaving_parts(frames).filter(|part| part[0].x_mm < 0.0).count() as f64
 }
 
 fn releases_ms(frames: &[Seen]) -> Vec<f64> {
@@ -90,11 +97,23 @@ fn releases_ms(frames: &[Seen]) -> Vec<f64> {
     leaving_parts(frames).filter_map(release).collect()
 }
 
-/// Changes of direction with the pad within the wall.
-fn flips(frames: &[Seen]) -> i32 {
+/// When the direction changes with the pad within the wall, s.
+fn flips_s(frames: &[Seen]) -> Vec<f64> {
     let within = |pair: &&[Seen]| pair[0].x_mm < 0.0 && pair[1].x_mm < 0.0;
     let changes = frames.windows(2).filter(within);
-    changes.filter(|pair| pair[0].direction != pair[1].direction).count() as i32
+    let flips = changes.filter(|pair| pair[0].direction != pair[1].direction);
+    flips.map(|pair| pair[1].time_s).collect()
+}
+
+/// Bursts among flips; none of a burst counts for the next.
+fn bursts(mut flips_s: &[f64]) -> f64 {
+    let ((most, within_s), mut count) = (BURST, 0.0);
+    while let [first, rest @ ..] = flips_s {
+        let is_burst = flips_s.get(most).is_some_and(|last| last - first <= within_s);
+        flips_s = if is_burst { &flips_s[most + 1..] } else { rest };
+        count += f64::from(u8::from(is_burst));
+    }
+    count
 }
 
 /// The measures over many hands: a row of the table.
@@ -112,6 +131,8 @@ pub struct Row {
     pub release_p95_ms: f64,
     /// Mean of the trials' excess flips.
     pub excess_flips: f64,
+    /// Bursts of flips of all trials together.
+    pub bursts: f64,
     /// Mean time per trial in which the wall had vanished on entry, ms.
     pub vanished_ms: f64,
     /// Largest haptic force, N.
@@ -139,6 +160,7 @@ impl Row {
             release_ms: quantile(0.5),
             release_p95_ms: quantile(0.95),
             excess_flips: mean(|trial| trial.excess_flips),
+            bursts: trials.iter().map(|trial| trial.bursts).sum(),
             vanished_ms: mean(|trial| trial.vanished_ms),
             peak_n: most(|trial| trial.peak_n),
         }
@@ -147,7 +169,7 @@ impl Row {
     /// A row of the table in Markdown, without its name.
     pub fn text(&self) -> String {
         format!(
-            "{:.3} ({:.3}) | {:.3} | {:.0}; {:.0} | {:.1} | {:.1} | {:.2}",
+            "{:.3} ({:.3}) | {:.3} | {:.0}; {:.0} | {:.1} | {:.1} | {:.2} | {:.0}",
             self.sticking_n,
             self.worst_n,
             self.slow_peak_n,
@@ -155,7 +177,8 @@ impl Row {
             self.release_p95_ms,
             self.excess_flips,
             self.vanished_ms,
-            self.peak_n
+            self.peak_n,
+            self.bursts
         )
     }
 }

@@ -9,7 +9,8 @@
 //! | [`clocked`] | the wall's block as a rule |
 //! | [`core`] | the same hands at a wall in the core, through its sensor chain |
 //! | [`trial`] | one hand, one rule: the loop |
-//! | [`measures`] | sticking force, release time, flips, vanished walls |
+//! | [`measures`] | sticking force, release time, flips, bursts of them, vanished walls |
+//! | [`stiffness`] | how stiff the wall is to a hand that presses |
 //!
 //! The wall's surface is at x = 0 of the sheet, its inside at x < 0. A frame is one slot of one pad:
 //! the plant is measured in its middle, and the drive that follows from it holds from 30 µs behind
@@ -21,4 +22,5 @@ pub mod core;
 pub mod device;
 pub mod hand;
 pub mod measures;
+pub mod stiffness;
 pub mod trial;

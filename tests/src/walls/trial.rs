@@ -153,14 +153,18 @@ impl Setup {
         })
     }
 
+    /// With the mismatch of a seed: that of every other one has the other sign.
+    pub(super) fn of_seed(&self, seed: u64) -> Setup {
+        let sign = if seed.is_multiple_of(2) { 1.0 } else { -1.0 };
+        Setup { mismatch_percent: sign * self.mismatch_percent, ..self.clone() }
+    }
+
     /// What hands of these seeds feel; the mismatch of every other one has the other sign.
     pub fn hands(&self, seeds: Range<u64>) -> Row {
         let drive = Drive::calibrated(self.kind.pad());
         let trial = |seed: u64| {
-            let sign = if seed.is_multiple_of(2) { 1.0 } else { -1.0 };
-            let setup = Setup { mismatch_percent: sign * self.mismatch_percent, ..self.clone() };
             let hand = Hand::draw(seed, self.n_per_mm);
-            Measures::of(&setup.run(&hand, &drive, 1000 + seed), self.frame_ms)
+            Measures::of(&self.of_seed(seed).run(&hand, &drive, 1000 + seed), self.frame_ms)
         };
         let trials: Vec<Measures> = seeds.into_par_iter().map(trial).collect();
         Row::of(&trials)

@@ -211,9 +211,11 @@ impl Controller {
             sqrt: SquareRoot::new(square, drive.frac),
             divider: Divider::new(words::numerator(target), words::stiffness(f.square), square),
             points: Memory::new("points", cells as usize + 1, drive).dont_care_on_collision(),
-            pads: Memory::new("pads", words, word).dont_care_on_collision(),
+            // Few pads would make registers of them, a word after the other.
+            pads: Memory::new("pads", words, word).dont_care_on_collision().in_block(),
             corrections: Memory::new("corrections", words, words::kept(drive))
-                .dont_care_on_collision(),
+                .dont_care_on_collision()
+                .in_block(),
             radicand: square,
             law,
             drive,

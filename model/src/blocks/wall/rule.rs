@@ -9,8 +9,9 @@ use hapticore_contract::profile::Release;
 use hapticore_hdl::block::Interpretation;
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::Format;
-use hapticore_hdl::signal::{HalfEven, Proved, Saturate, Signal, Wrap, bit, code, int, zero};
-use hapticore_hdl::when;
+use hapticore_hdl::signal::{
+    Assumed, HalfEven, Proved, Saturate, Signal, Wrap, bit, code, int, zero,
+};
 
 /// The code of a number of a format, to the nearest.
 fn nearest(real: f64, format: Format) -> i64 {
@@ -23,11 +24,22 @@ fn number<V: Interpretation>(real: f64, format: Format) -> Signal<V> {
     code(nearest(real, format), format)
 }
 
-/// The mean of an old value and a new one that has a share of 2^−shift.
+/// What intervals cannot see of a mean whose terms are taken apart.
+const MEAN: &str = "a mean of old and new value lies between them";
+
+/// The mean of an old value and a new one that has a share of 2^−shift. Shifts and a difference take
+/// no multiplier.
 #[inline(always)]
 fn filtered<V: Interpretation>(old: Signal<V>, new: Signal<V>, shift: u8, to: Format) -> Signal<V> {
-    let sum = old * int((1 << shift) - 1) + new;
-    sum.scaled(-(shift as i8)).quantize(to, HalfEven, Proved)
+    let sum = old.scaled(shift as i8) - old + new;
+    sum.scaled(-(shift as i8)).quantize(to, HalfEven, Assumed(MEAN))
+}
+
+/// A signal times a constant: a sum of shifted ones, which takes no multiplier.
+#[inline(always)]
+fn times<V: Interpretation>(signal: Signal<V>, constant: u64, to: Format) -> Signal<V> {
+    let bits = (0..u64::BITS).filter(|bit| constant >> bit & 1 == 1);
+    bits.fold(zero(to), |sum, bit| (sum + signal.scaled(bit as i8)).resize(to, Proved))
 }
 
 /// One more, up to `most`.
@@ -39,7 +51,7 @@ fn counted<V: Interpretation>(count: Signal<V>, most: u64) -> Signal<V> {
 impl Wall {
     /// A pad at its first frame: nothing is known but where it is.
     #[inline(always)]
-    fn started<V: Interpretation>(&self, i: &In<V>) -> Kept<Signal<V>> {
+    pub(super) fn anew<V: Interpretation>(&self, i: &In<V>) -> Kept<Signal<V>> {
         let formats = self.kept_formats();
         Kept {
             last: i.x,
@@ -61,18 +73,17 @@ impl Wall {
         i: In<V>,
         quotient: Signal<V>,
     ) -> Regs<V> {
-        let known = r.kept.known & !i.restart;
-        let kept = when!(!known => self.started(&i), else r.kept);
+        let kept = r.kept;
         let before = kept.u;
         let any = !(i.c_left.is(0) & i.c_right.is(0));
         let reads = any & quotient.less_than(code(1 << 12, quotient.format));
-        let negative = i.c_right.less_than(i.c_left);
+        let negative = (i.c_right - i.c_left).msb();
         let read = negative.select(-quotient, quotient).resize(U, Wrap);
         let u = reads.select(read, kept.u);
         let zeros = self.rule.zero_frames;
         let kept = Kept {
             // A pad that has had no current yet may not have a place either.
-            known: known | any,
+            known: kept.known | any,
             last: i.x,
             filtered: filtered(kept.filtered, i.x, 2, self.filtered()),
             speed: filtered(kept.speed, i.x - kept.last, 3, self.speed()),
@@ -93,10 +104,16 @@ impl Wall {
         let learns = r.reads & clear.less_than(k.filtered) & k.zero.is(self.rule.zero_frames);
         let inwards = learns & k.speed.less_than(speed(-1.0));
         let outwards = learns & speed(1.0).less_than(k.speed);
+        // It moves one way at most, so that one filter serves both: by a quarter at first, then by 1/64.
+        let of = inwards.select(k.inwards, k.outwards);
+        let frames = inwards.select(k.inwards_frames, k.outwards_frames);
+        let slow = frames.is(FAST);
+        let share = |of: Signal<V>| slow.select(of, of.scaled(4));
+        let sum = of.scaled(6) - share(of) + share(k.u);
+        let next = sum.scaled(-6).quantize(LEARNT, HalfEven, Assumed(MEAN));
+        let counted = counted(frames, FAST);
         let side = |learns: Signal<V>, of: Signal<V>, frames: Signal<V>| {
-            let [fast, slow] = [2, 6].map(|shift| filtered(of, k.u, shift, LEARNT));
-            let next = frames.is(FAST).select(slow, fast);
-            (learns.select(next, of), learns.select(counted(frames, FAST), frames))
+            (learns.select(next, of), learns.select(counted, frames))
         };
         let (in_u, inwards_frames) = side(inwards, k.inwards, k.inwards_frames);
         let (out_u, outwards_frames) = side(outwards, k.outwards, k.outwards_frames);
@@ -122,7 +139,7 @@ impl Wall {
         let learnt = (k.outwards - k.inwards).scaled(-1).resize(FRICTION, Saturate);
         let learnt = learnt.less_than(least).select(least, learnt);
         let middle = (k.inwards + k.outwards).scaled(-1);
-        let of_one = into.select(k.inwards + first, k.outwards - first);
+        let of_one = into.select(k.inwards, k.outwards) + into.select(first, -first);
         let offset = (into & out).select(middle, (into | out).select(of_one, i.factory));
         Registers {
             offset: offset.resize(OFFSET, Proved),
@@ -137,19 +154,20 @@ impl Wall {
         let k = r.kept;
         let rough = number(0.0055 / 0.886, CHANGE).less_than(k.change);
         let off = k.u - r.offset;
-        let [fine, coarse] = [8, 7].map(|by| off.scaled(by).quantize(Y, HalfEven, Saturate));
-        let factor = k.free.select(int(self.rule.delay_16), int(self.rule.advance_16)).scaled(-4);
-        let bias = r.friction * factor;
-        let [fine_bias, coarse_bias] =
-            [8, 7].map(|by| bias.scaled(by).quantize(EVIDENCE, HalfEven, Saturate));
+        let in_deviations = |of: Signal<V>, to: Format| {
+            rough.select(of.scaled(7), of.scaled(8)).quantize(to, HalfEven, Saturate)
+        };
+        let most = r.friction.format.product(Format::unsigned(8, 4));
+        let [delay, advance] = [self.rule.delay_16, self.rule.advance_16]
+            .map(|sixteenths| times(r.friction.scaled(-4), sixteenths, most));
         let step = number((1.0f64 / self.rule.ramp_frames as f64).min(1.0), GAIN);
         let one = number(1.0, GAIN);
         let gain = k.gain + step;
         let gain = one.less_than(gain).select(one, gain).resize(GAIN, Wrap);
         let since = counted(k.since, self.rule.dwell_frames.max(1));
         Registers {
-            y: r.reads.select(rough.select(coarse, fine), zero(Y)),
-            bias: rough.select(coarse_bias, fine_bias),
+            y: r.reads.select(in_deviations(off, Y), zero(Y)),
+            bias: in_deviations(k.free.select(delay, advance), EVIDENCE),
             kept: Kept { since, gain, ..k },
             ..r
         }
@@ -163,21 +181,28 @@ impl Wall {
         let play = number(1e-3 * self.rule.play_um as f64, self.filtered());
         let half = number(0.5, EVIDENCE);
         let [h1, h2] = [self.rule.release, self.rule.engage].map(|h| number(h as f64, EVIDENCE));
-        let farther =
-            k.free.select(k.extreme.less_than(k.filtered), k.filtered.less_than(k.extreme));
-        let extreme = farther.select(k.filtered, k.extreme);
-        let release = (k.evidence + r.y + r.bias - half).resize(EVIDENCE, Saturate);
-        let inwards = k.speed.less_than(fast(-1.0));
-        let release = (inwards & h1.less_than(release)).select(h1, release);
-        let engage = (k.evidence - r.y - half - r.bias).resize(EVIDENCE, Saturate);
-        let back = k.free.select(extreme - k.filtered, k.filtered - extreme);
-        let engages = h2.less_than(engage) & !fast(1.0).less_than(k.speed);
-        let decided = k.free.select(engages, h1.less_than(release)) | play.less_than(back);
+        // How far inside of the extreme it is: of either state by the one difference.
+        let inside = k.filtered - k.extreme;
+        let farther = k.free.select(int(0).less_than(inside), inside.less_than(int(0)));
+        let back = k.free.select(inside.less_than(-play), play.less_than(inside));
+        // S + y + b − ½, or E − y − b − ½.
+        let push = r.y + r.bias;
+        let evidence = k.evidence - half + k.free.select(-push, push);
+        let evidence = evidence.resize(EVIDENCE, Saturate);
+        let releases = h1.less_than(evidence);
+        let [inwards, outwards] = [k.speed.less_than(fast(-1.0)), fast(1.0).less_than(k.speed)];
+        let engages = h2.less_than(evidence) & !outwards;
+        let decided = k.free.select(engages, releases & !inwards) | back;
+        let held = !k.free & inwards & releases;
         let over = match self.rule.dwell_frames {
             0 => bit(true),
             dwell => k.since.is(dwell),
         };
-        let kept = Kept { extreme, evidence: k.free.select(engage, release), ..k };
+        let kept = Kept {
+            extreme: farther.select(k.filtered, k.extreme),
+            evidence: held.select(h1, evidence),
+            ..k
+        };
         Registers { kept, leaves: decided & over, ..r }
     }
 
