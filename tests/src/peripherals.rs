@@ -266,7 +266,7 @@ fn drive_output(block: &DriveOutput) -> Alone {
             serve = if rng.u8(..8) == 0 {
                 any(rng, of.serve)
             } else {
-                serve + 1 & of.serve.max_code() as i64
+                (serve + 1) & of.serve.max_code() as i64
             };
         }
         let words = if quiet.next(rng, 2_000) == 1 { 0 } else { now(rng, 60) };
@@ -274,12 +274,25 @@ fn drive_output(block: &DriveOutput) -> Alone {
         vec![
             ("drive_valid", words),
             ("drive_pad", any(rng, of.drive_pad)),
-            ("drive", corner(rng, of.drive)),
+            ("drive", amplitude(rng, of.drive)),
             ("serve", serve),
             ("closed", closed),
             ("enable", enable.next(rng, most)),
         ]
     })
+}
+
+/// An amplitude: a corner, or one whose product with a sine of 16 points is half a step of a level off
+/// a level, or the least more.
+fn amplitude(rng: &mut Rng, drive: Format) -> i64 {
+    // Odd codes of sin π/4 and sin 3π/8 in steps of 2⁻¹⁶.
+    let sines = [46_341, 60_547];
+    let inverse = |of: i64| (0..5).fold(of, |x, _| x * (2 - of * x) & 0xffff);
+    match rng.u8(..8) {
+        0 => 0x8000,
+        1 => (0x7fff + 2 * now(rng, 2)) * inverse(sines[rng.usize(..2)]) & 0xffff,
+        _ => corner(rng, drive),
+    }
 }
 
 /// A level whenever the line is free, or a little later.
@@ -302,17 +315,17 @@ fn drive_outputs() -> Vec<Alone> {
     let of = |shape, wave, converter| {
         drive_output(&DriveOutput::new(shape, drive, 900, wave, converter))
     };
-    let slow = Frame { half_clocks: 3, ..Frame::AD5668 };
-    let bits = u32::from(slow.bits());
+    let slow = Frame { half_clocks: 4, ..Frame::AD5664 };
+    let busy = (2 * u32::from(slow.bits()) + 2) * 4;
     vec![
-        of([3, 1], Wave::Square { turn_slots: 1 }, Converter::Pulses),
-        of([6, 2], Wave::Square { turn_slots: 3 }, Converter::Serial(Frame::AD5664)),
-        of([2, 1], Wave::Sine { points: 16, point_clocks: 40 }, Converter::Parallel { bits: 12 }),
-        of([1, 1], Wave::Dc, Converter::Parallel { bits: 18 }),
-        alone(&Sine::new(64, 9), 2_000, |_| Vec::new()),
+        of([3, 1], Wave::Square { turn_slots: 6 }, Converter::Pulses),
+        of([6, 2], Wave::Square { turn_slots: 4 }, Converter::Serial(Frame::AD5668)),
+        of([2, 1], Wave::Sine { points: 16, point_clocks: 40 }, Converter::Parallel { bits: 17 }),
+        of([2, 1], Wave::Dc, Converter::Parallel { bits: 12 }),
+        alone(&Sine::new(64, 11), 2_000, |_| Vec::new()),
         given(&Pulses::new(3, level), [channel, level], 3),
         given(&Parallel::new(12, channel, level), [channel, level], 4),
-        given(&Serial::new(slow, channel, level), [channel, level], (2 * bits + 2) * 3),
+        given(&Serial::new(slow, channel, level), [channel, level], busy),
     ]
 }
 

@@ -4,6 +4,7 @@
 
 use hapticore_contract::control::{Control, Law};
 use hapticore_contract::profile::{self, ForceLaw, Profile};
+use hapticore_hdl::block::Block;
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::verilog::Design;
 use hapticore_host::profile::for_terminals;
@@ -238,7 +239,8 @@ fn verilator_drives_a_converter_as_the_model_does() {
     let words: BTreeSet<_> = serial_words(&trace).into_iter().collect();
     assert!(words.iter().any(|word| *word > 33_000) && words.iter().any(|word| *word < 32_000));
     for drive in of_port(&of_loop, "drive").into_iter().collect::<BTreeSet<_>>() {
-        let word = |sign: f64| (32_768.0 + sign * 0.5 * drive as f64).round_ties_even() as i64;
+        let level = 32_768.0 * block.inputs().drive.real(drive);
+        let word = |sign: f64| (32_768.0 + sign * level).round_ties_even() as i64;
         let either = [word(1.0), word(-1.0)];
         assert!(either.iter().any(|word| words.contains(word)), "{drive} is at the pins");
     }

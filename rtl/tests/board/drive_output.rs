@@ -4,7 +4,6 @@
 
 use crate::bench::Bench;
 use crate::random::Random;
-use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::Format;
 use hapticore_rtl::board::drive_output::serial::Frame;
 use hapticore_rtl::board::drive_output::{Converter, DacPort, DriveOutput, Inputs, Wave};
@@ -166,7 +165,7 @@ fn check_square(shape: [u64; 2], turn_slots: u64, converter: Converter, bits: i3
             .map(|channel| {
                 let last = (channel + 1) * shape[1] - 1;
                 let ends = (slots + shape[0] - 1 - last) / shape[0];
-                let sign = if turns(ends, turn_slots) % 2 == 0 { 1.0 } else { -1.0 };
+                let sign = if turns(ends, turn_slots).is_multiple_of(2) { 1.0 } else { -1.0 };
                 word(sign * words[channel as usize] as f64, bits)
             })
             .collect();

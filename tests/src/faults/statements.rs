@@ -7,6 +7,7 @@ use std::sync::LazyLock;
 use regex::{Captures, Regex};
 
 /// A statement of the printed Verilog.
+#[allow(missing_docs, reason = "fields are what their names say")]
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Statement {
     /// A wire with what drives it; the range has the sign in front and a space behind.

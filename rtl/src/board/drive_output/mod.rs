@@ -295,8 +295,8 @@ impl DriveOutput {
 struct Changes<V: Interpretation> {
     /// A drive word.
     words: Signal<V>,
-    /// A turn of the polarity.
-    turns: Signal<V>,
+    /// A turn of the polarity, where the wave has some.
+    turns: Option<Signal<V>>,
     slots: Signal<V>,
 }
 
@@ -329,7 +329,7 @@ impl DriveOutput {
         let last_part = |n: u64| (n + 1) * self.parts - 1;
         let words = self.mask_of(|n| i.drive_valid & i.drive_pad.is(last_part(n)));
         let Some(turn_slots) = self.turn_slots() else {
-            return Changes { words, turns: self.mask_of(|_| bit(false)), slots: r.slots };
+            return Changes { words, turns: None, slots: r.slots };
         };
         let opens = r.closed & !i.closed;
         let first = opens & r.serve.is(last_part(0));
@@ -340,7 +340,7 @@ impl DriveOutput {
             0 => first & due,
             n => opens & r.serve.is(last_part(n)) & r.slots.is(turn_slots - 1),
         });
-        Changes { words, turns, slots: first.select(counted, r.slots) }
+        Changes { words, turns: Some(turns), slots: first.select(counted, r.slots) }
     }
 
     /// Clocks until the last drive word is stale, from now on.
@@ -433,14 +433,14 @@ impl Block for DriveOutput {
         let falls = |n: u64| off & bits(r.known, n);
         let registers = Registers {
             settled: self.mask_of(|n| {
-                let changed = bits(changes.words, n) | bits(changes.turns, n) | turned | falls(n);
+                let changed = bits(changes.words, n) | turned | falls(n);
+                let changed = changes.turns.map_or(changed, |turns| changed | bits(turns, n));
                 (bits(r.settled, n) | (ask & channel.is(n))) & !changed
             }),
             known: self.mask_of(|n| (bits(r.known, n) | bits(changes.words, n)) & !off),
-            negative: match self.turn_slots() {
-                Some(_) => self.mask_of(|n| xor(bits(r.negative, n), bits(changes.turns, n))),
-                None => r.negative,
-            },
+            negative: changes.turns.map_or(r.negative, |turns| {
+                self.mask_of(|n| xor(bits(r.negative, n), bits(turns, n)))
+            }),
             slots: changes.slots,
             closed: i.closed.where_present(r.closed.format),
             serve: i.serve.where_present(r.serve.format),
