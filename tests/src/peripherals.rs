@@ -287,10 +287,10 @@ fn drive_output(block: &DriveOutput) -> Alone {
 fn amplitude(rng: &mut Rng, drive: Format) -> i64 {
     // Odd codes of sin π/4 and sin 3π/8 in steps of 2⁻¹⁶.
     let sines = [46_341, 60_547];
-    let inverse = |of: i64| (0..5).fold(of, |x, _| x * (2 - of * x) & 0xffff);
+    let inverse = |of: i64| (0..5).fold(of, |x, _| (x * (2 - of * x)) & 0xffff);
     match rng.u8(..8) {
         0 => 0x8000,
-        1 => (0x7fff + 2 * now(rng, 2)) * inverse(sines[rng.usize(..2)]) & 0xffff,
+        1 => ((0x7fff + 2 * now(rng, 2)) * inverse(sines[rng.usize(..2)])) & 0xffff,
         _ => corner(rng, drive),
     }
 }

@@ -4,7 +4,6 @@
 
 use hapticore_contract::control::{Control, Law};
 use hapticore_contract::profile::{self, ForceLaw, Profile};
-use hapticore_hdl::block::Block;
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::verilog::Design;
 use hapticore_host::profile::for_terminals;
