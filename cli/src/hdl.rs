@@ -39,9 +39,9 @@ pub fn run(args: &HdlArgs) -> Result<bool> {
         Some(law) => with_controller(profile, law)?,
         None => profile,
     };
+    ensure!(args.dac.is_none() || board.is_none(), "--dac: a board's top has no drive yet");
     let pins =
         args.dac.as_deref().map(|dac| drive_output(&profile, dac, &args.wave)).transpose()?;
-    ensure!(pins.is_none() || board.is_none(), "--dac: a board's top has no drive yet");
     let output = Output::new(&args.out)?;
     let top = match board {
         Some(board) => write_board(&output, board, &profile)?,

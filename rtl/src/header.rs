@@ -56,8 +56,10 @@ pub fn drive_output(
         "- dac_*: pins of the converter; words are offset binary, half of full scale is 0 V.",
         "- dac_live: every channel has been set to zero since reset; gate the high voltage with it.",
     ];
+    let law = profile.control.as_ref().map(|control| control.law.name());
+    let law = law.map_or(String::new(), |law| format!(" --control {law}"));
     let heading = Heading {
-        command: format!("hapticore hdl --profile {} {options}", profile.name),
+        command: format!("hapticore hdl --profile {}{law} {options}", profile.name),
         source: source(profile),
         interface: interface.map(String::from).to_vec(),
     };

@@ -7,9 +7,9 @@ use hapticore_contract::control::{Control, Law};
 use hapticore_contract::profile::{ForceLaw, Method, Profile};
 use std::f64::consts::TAU;
 
-/// The bundled profiles, their slots cut to a few samples so that slots pass quickly.
+/// Bundled profiles of all words, their slots cut to a few samples so that slots pass quickly.
 pub fn short_profiles() -> Vec<Profile> {
-    Profile::all().into_iter().map(shortened).collect()
+    Profile::of_distinct_words().into_iter().map(shortened).collect()
 }
 
 /// The same with a force table.
@@ -18,7 +18,7 @@ pub fn short_table_profiles() -> Vec<Profile> {
         profile.force.law = ForceLaw::Table;
         shortened(profile)
     };
-    Profile::all().into_iter().map(with_table).collect()
+    Profile::of_distinct_words().into_iter().map(with_table).collect()
 }
 
 fn shortened(mut profile: Profile) -> Profile {

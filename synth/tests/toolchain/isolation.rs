@@ -90,7 +90,7 @@ fn netlist(profile: &Profile) -> Netlist {
 
 #[test]
 fn no_pad_reaches_anothers_frame() {
-    for profile in Profile::all().into_iter().map(short) {
+    for profile in Profile::of_distinct_words().into_iter().map(short) {
         let netlist = netlist(&profile);
         for pad in 0..profile.pads {
             // The last pad's third frame comes after the third round.

@@ -20,7 +20,7 @@ fn each_converter_has_its_pins_and_no_others() {
         let args = [&LOOP[..], &["--dac", dac, "--wave", wave, "--out", dac]].concat();
         expect(folder.path(), &args, 0);
         assert!(folder.path().join(dac).join("hapticore_loop.v").exists(), "{dac}: the loop");
-        let top = folder.path().join(dac).join("drive_output.v");
+        let top = folder.path().join(dac).join("hapticore_drive_output.v");
         let top = fs::read_to_string(top).expect("the top");
         assert!(top.contains(&format!("--dac {dac} --wave {wave}")), "{dac}: the command");
         assert!(top.contains("output wire dac_live"), "{dac}");

@@ -336,6 +336,18 @@ impl Profile {
             .collect()
     }
 
+    /// The bundled profiles of which no two compute with the same words: tests of arithmetic need no
+    /// others.
+    pub fn of_distinct_words() -> Vec<Profile> {
+        let mut distinct: Vec<Profile> = Vec::new();
+        for profile in Self::all() {
+            if distinct.iter().all(|other| other.formats != profile.formats) {
+                distinct.push(profile);
+            }
+        }
+        distinct
+    }
+
     /// Channels that are demodulated: the terminals and the sensing voltage.
     pub fn demodulated(&self) -> u64 {
         self.terminals.x.len() as u64 + 1

@@ -9,7 +9,7 @@ use hapticore_reference::rounded::{self, Exact};
 
 #[test]
 fn currents_are_amplitudes_and_their_sums() {
-    for (seed, profile) in (0..).zip(Profile::all()) {
+    for (seed, profile) in (0..).zip(Profile::of_distinct_words()) {
         let (mut bench, mut random) =
             (Bench::new(Currents::try_new(&profile).unwrap()), Random::new(seed));
         for _ in 0..operations(MILLION / 20) {

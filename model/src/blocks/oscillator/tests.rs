@@ -9,8 +9,10 @@ use hapticore_reference::rounded::{self, Sample};
 
 #[test]
 fn waves_are_those_of_the_table_at_the_phase() {
-    for (seed, mut profile) in (0..).zip(Profile::all().into_iter().chain(Profile::all())) {
-        profile.carrier.window = if seed < 3 { Window::Hann } else { Window::Rectangular };
+    let with = |window| Profile::all().into_iter().map(move |profile| (window, profile));
+    let all = [Window::Hann, Window::Rectangular].into_iter().flat_map(with);
+    for (seed, (window, mut profile)) in (0..).zip(all) {
+        profile.carrier.window = window;
         let reference = rounded::Oscillator::new(&profile);
         let (mut bench, mut random) = (Bench::new(Oscillator::new(&profile)), Random::new(seed));
         let format = profile.formats.oscillator;

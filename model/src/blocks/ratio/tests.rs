@@ -15,7 +15,7 @@ fn bounded(i: Inputs<i64>) -> Inputs<i64> {
 
 #[test]
 fn ratios_are_those_of_eqs_2_and_3() {
-    for (seed, profile) in (0..).zip(Profile::all()) {
+    for (seed, profile) in (0..).zip(Profile::of_distinct_words()) {
         let currents = Currents::try_new(&profile).unwrap();
         let ((sums, corners), least) = (currents.sums(), currents.least());
         let ratio = profile.formats.ratio;

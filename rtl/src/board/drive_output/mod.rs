@@ -41,7 +41,7 @@ pub use names::NameError;
 use self::parallel::Parallel;
 use self::pulses::Pulses;
 use self::serial::Serial;
-use super::bits::{flag, word, xor};
+use super::bits::{word, xor};
 use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::bundle::Bundle;
@@ -452,7 +452,7 @@ impl Block for DriveOutput {
                 channel: r.asked.select(r.channel, r.given.channel),
                 level: r.asked.select(known.select(level, zero(level.format)), r.given.level),
             },
-            live: flag(r.live, all & ready & !r.asked & !r.given.valid, bit(false)),
+            live: r.live | (all & ready & !r.asked & !r.given.valid),
         };
         state.store(self, registers);
         Outputs { dac: DacPort { dac_live: r.live, ..pins } }
