@@ -222,12 +222,20 @@ impl Controller {
     }
 
     /// The drive word: as wanted where drives are on and the estimate is valid, but no further from
-    /// the last than the slew limit. What may follow the last word was found a clock before.
+    /// the last than the slew limit.
     #[inline(always)]
-    pub(super) fn limited<V: Interpretation>(&self, r: &Regs<V>, i: &In<V>) -> Signal<V> {
-        let valid = i.invalid.select(r.last, r.wanted);
+    pub(super) fn limited<V: Interpretation>(
+        &self,
+        r: &Regs<V>,
+        i: &In<V>,
+        last: Signal<V>,
+    ) -> Signal<V> {
+        let valid = i.invalid.select(last, r.wanted);
         let to = self.off(r, i).select(zero(self.drive), valid);
-        let above = to.less_than(r.least).select(r.least, to);
-        r.most.less_than(to).select(r.most, above)
+        let most = (last + i.tuning.slew).resize(self.drive, Saturate);
+        let least = (last - i.tuning.slew).resize(self.drive, Saturate);
+        let up = most.less_than(to).select(most, to);
+        let down = to.less_than(least).select(least, to);
+        last.less_than(to).select(up, down)
     }
 }

@@ -49,7 +49,7 @@ use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format};
 use hapticore_hdl::memory::{Memory, Write};
-use hapticore_hdl::signal::{Proved, Saturate, Signal, bit, int, zero};
+use hapticore_hdl::signal::{Proved, Signal, bit, int, zero};
 use hapticore_hdl::states::States;
 use hapticore_hdl::{block, bundle, call, when};
 use laws::Found;
@@ -168,10 +168,6 @@ block! {
         wanted: block.drive,
         /// What rounding took from it.
         residue: block.of_feedback(block.residue_format()),
-        /// Of the pad: its drive word, and the largest and the least that may follow it.
-        last: block.drive,
-        most: block.drive,
-        least: block.drive,
         drive: block.drive,
         low: BIT,
         high: BIT,
@@ -409,10 +405,7 @@ impl Controller {
             residue: combine.select(residue, r.residue).where_present(r.residue.format),
             low: combine.select(low, r.low),
             high: combine.select(high, r.high),
-            last: found.last,
-            most: (found.last + i.tuning.slew).resize(self.drive, Saturate),
-            least: (found.last - i.tuning.slew).resize(self.drive, Saturate),
-            drive: limit.select(self.limited(&r, i), r.drive),
+            drive: limit.select(self.limited(&r, i, found.last), r.drive),
             done: limit,
             ..self.take(r, found, ends)
         };
