@@ -96,16 +96,14 @@ impl Closed {
     }
 
     /// A pad that is pushed into a wall and drawn out of it again, within so few slots that a trace
-    /// of them can be kept; its force by `eq8` or `table`.
+    /// of them can be kept.
     ///
     /// # Panics
     /// As [`Closed::new`].
-    pub fn at_a_wall(profile: &Profile, force: &str) -> Self {
+    pub fn at_a_wall(profile: &Profile) -> Self {
         let there_and_back =
             "{ timeline = { x_mm = [[0, 0.3], [0.006, -0.8], [0.012, -0.8], [0.02, 0.5]] } }";
-        let force = format!("\"{force}\"");
         let set = [
-            ("control.force", force.as_str()),
             ("pad.0.position_mm", there_and_back),
             ("hand.stiffness_n_per_m", "20000"),
             ("hand.damping_n_s_per_m", "30"),

@@ -4,8 +4,8 @@
 //! has no initial value in the cells starts with anything.
 //!
 //! Clocks per core: slots of two scenes, and corners at random with tables that are written while
-//! they are read. Clocks of a force loop: a pad is pushed into a wall and drawn out of it, the plant
-//! closed around the model.
+//! they are read. Clocks of a force loop: a pad is pushed into a wall and drawn out of it, or its target
+//! steps, the plant closed around the model.
 
 use std::fs;
 
@@ -56,31 +56,45 @@ fn gates_run_what_the_model_runs(family: &str, profile: &str) {
     assert!(clocks >= CLOCKS, "{clocks} clocks");
 }
 
-/// A force loop with a wall, the plant closed around it; its force by eq. 8 or the table.
-fn gates_run_a_wall_as_the_model_does(family: &str, profile: &str, force: &str) {
+/// A force loop with the plant closed around it.
+fn gates_close_the_loop_as_the_model_does(
+    family: &str,
+    profile: &str,
+    of: impl FnOnce(&Profile) -> Closed,
+) {
     let Some(tools) = Tools::or_skip() else { return };
     if !tools::have(&["verilator", "make", "g++", "iverilog"]) {
         return;
     }
-    let bundled = Profile::bundled(profile).expect("bundled");
-    let (design, trace) = Closed::at_a_wall(&bundled, force).record();
+    let (design, trace) = of(&Profile::bundled(profile).expect("bundled")).record();
     let top = format!("{}_gate", design.top());
     let text = gates(&tools, family, &design);
     let verilated = Verilated::new(&top, &design.ports, &text, Start::Anything);
     if let Err(mismatch) = verilated.check(&trace) {
         panic!("{family}, {profile}: {mismatch}");
     }
-    println!("{family}, {profile}: {} clocks of a wall equal in gates", trace.clocks());
+    println!("{family}, {profile}: {} clocks of a force loop equal in gates", trace.clocks());
 }
 
 #[test]
 fn ice40_gates_run_a_wall_as_the_model_does() {
-    gates_run_a_wall_as_the_model_does("ice40", "small", "eq8");
+    gates_close_the_loop_as_the_model_does("ice40", "small", Closed::at_a_wall);
 }
 
 #[test]
-fn ecp5_gates_run_a_wall_with_a_force_table_as_the_model_does() {
-    gates_run_a_wall_as_the_model_does("ecp5", "standard", "table");
+fn ecp5_gates_run_a_wall_as_the_model_does() {
+    gates_close_the_loop_as_the_model_does("ecp5", "small", Closed::at_a_wall);
+}
+
+/// A force table is of whole pads: walls have none.
+#[test]
+fn ecp5_gates_close_the_force_loop_with_a_table_as_the_model_does() {
+    let target = "{ timeline = [[0, 0.2], [0.0015, 0.2], [0.0015, 0.6]] }".to_string();
+    let force = ("control.force".to_string(), "\"table\"".to_string());
+    let set = [("pad.0.target_n".to_string(), target), force];
+    gates_close_the_loop_as_the_model_does("ecp5", "standard", |profile| {
+        Closed::new(profile, ("fig9", 1), &set, 3)
+    });
 }
 
 #[test]

@@ -204,7 +204,7 @@ fn verilator_runs_a_wall_as_the_model_does() {
     }
     for name in ["small", "standard"] {
         let profile = Profile::bundled(name).expect("bundled");
-        let (design, trace) = Closed::at_a_wall(&profile, "eq8").record();
+        let (design, trace) = Closed::at_a_wall(&profile).record();
         let [drive, free] = ["drive", "drive_free"].map(|port| of_port(&trace, port));
         assert!(drive.iter().max() > Some(&0), "{name}: the wall holds the pad");
         assert!(free.iter().max() > Some(&0), "{name}: the wall lets it go");
@@ -222,7 +222,7 @@ fn verilator_drives_a_converter_as_the_model_does() {
         return;
     }
     let mut profile = Profile::bundled("standard").expect("bundled");
-    let (_, of_loop) = Closed::at_a_wall(&profile, "eq8").record();
+    let (_, of_loop) = Closed::at_a_wall(&profile).record();
     profile.control = Some(Control::of(&profile, Law::Inverse));
     profile.wall = Some(profile::Wall::A);
     profile.pads = 3;
