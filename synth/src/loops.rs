@@ -203,11 +203,6 @@ impl LoopRow {
         self.measured.modules.iter().filter(own).collect()
     }
 
-    /// LUT4 of those modules.
-    pub fn luts_of_loop(&self) -> u64 {
-        self.modules_of_loop().iter().map(|of| of.cells.luts).sum()
-    }
-
     fn markdown(&self, core: u64) -> String {
         let LoopRow { profile, part, adds, harness, measured, .. } = self;
         let Measured { cells, used, timings, .. } = measured;

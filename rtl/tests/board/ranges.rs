@@ -93,8 +93,5 @@ fn no_signal_of_a_drive_output_can_overflow() {
 
 /// Whether the converter has a channel for each pad.
 fn fits(converter: Converter, [pads, parts]: [u64; 2]) -> bool {
-    match converter {
-        Converter::Serial(frame) => pads / parts <= 1 << frame.address_bits,
-        _ => true,
-    }
+    pads / parts <= converter.most_channels()
 }

@@ -13,8 +13,9 @@
 //! | sine   | d·sin φ, all pads in phase                                | right over whole periods    |
 //!
 //! A turn comes right after a window, with the drive word that the window leads to: it then settles
-//! while the other pads have their slots. It costs 2τ/T of the mean of V², with τ of the pad behind
-//! its resistor and T from turn to turn.
+//! while the other pads have their slots; a pad that is alone, or the first part of a split one, has its
+//! next slot at once. It costs 2τ/T of the mean of V², with τ of the pad behind its resistor and T from
+//! turn to turn.
 //!
 //! | signal    | format              | unit             | overflow                |
 //! | d         | profile (drive)     | drive's full scale | –                     |
@@ -194,7 +195,6 @@ impl DriveOutput {
     ) -> Self {
         let (channels, pad) = (pads / parts, Format::counter(pads - 1));
         assert!((1..=16).contains(&channels), "channels: expected 1 to 16, got {channels}");
-        let level = Format::signed(drive.width + 1, drive.frac);
         let channel = Format::counter(channels - 1);
         let sine = match wave {
             Wave::Sine { points, point_clocks } => Some(Sine::new(points, point_clocks)),
@@ -213,6 +213,7 @@ impl DriveOutput {
             serial: None,
             parallel: None,
         };
+        let level = block.level();
         match converter {
             Converter::Pulses => block.pulses = Some(Pulses::new(channels, level)),
             Converter::Serial(frame) => block.serial = Some(Serial::new(frame, channel, level)),

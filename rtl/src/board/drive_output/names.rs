@@ -81,8 +81,7 @@ impl Converter {
     /// The most channels that it has.
     pub fn most_channels(self) -> u64 {
         match self {
-            Converter::Serial(Frame { address_bits: 3, .. }) => 4,
-            Converter::Serial(_) => 8,
+            Converter::Serial(frame) => frame.channels,
             Converter::Pulses | Converter::Parallel { .. } => 16,
         }
     }

@@ -10,9 +10,10 @@
 //! | rest   | u W    | –          | wraps, meant: that is a pulse |
 //!
 //! As [`super::super::sigma_delta`], one adder for all channels: a pin takes its next bit after
-//! 2·channels clocks, so that four pads at 25 MHz have 3.1 MHz each; a path of 96 µs leaves 0.2 % of
-//! full scale of it. A density of ½ is 0 V. Latency: a turn of all channels. Source: Schreier and
-//! Temes, Understanding Delta-Sigma Data Converters, §2.
+//! 2·channels clocks, 320 ns with four pads at 25 MHz. Bits and levels summed differ by less than one
+//! bit, so that a path of τ = 96 µs leaves less than 320 ns/τ = 0.33 % of the range of it. A density of
+//! ½ is 0 V. Latency: a turn of all channels. Source: Schreier and Temes, Understanding Delta-Sigma
+//! Data Converters, §2.
 
 use super::super::bits::{next, read_as, word};
 use super::LevelPort;

@@ -36,6 +36,8 @@ pub struct Frame {
     pub word_bits: u8,
     /// Bits behind it that nobody reads.
     pub tail_bits: u8,
+    /// Channels of the converter.
+    pub channels: u64,
     /// Clocks of half a period of the serial clock.
     pub half_clocks: u64,
 }
@@ -48,11 +50,12 @@ impl Frame {
         address_bits: 3,
         word_bits: 16,
         tail_bits: 0,
+        channels: 4,
         half_clocks: 1,
     };
     /// AD5668: eight channels of 16 bits, 32 bits a frame; serial clock up to 50 MHz.
     pub const AD5668: Frame =
-        Frame { command_bits: 8, address_bits: 4, tail_bits: 4, ..Frame::AD5664 };
+        Frame { command_bits: 8, address_bits: 4, tail_bits: 4, channels: 8, ..Frame::AD5664 };
 
     /// All bits.
     pub fn bits(&self) -> u8 {
