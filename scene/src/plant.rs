@@ -77,9 +77,9 @@ impl Plant {
                 format!("expected a case below {}, got {case}", scene.cases.len()),
             ));
         };
-        let served = chosen.pads.len() * chosen.parts_mm.len();
-        if served > timing.pads {
-            let (pads, name) = (served, &scene.profile);
+        // Parts of a pad that is served part by part have slots beyond the profile's.
+        if chosen.pads.len() > timing.pads {
+            let (pads, name) = (chosen.pads.len(), &scene.profile);
             return Err(fail(
                 "pad",
                 format!(

@@ -153,9 +153,14 @@ fn value(criterion: &Criterion, rows: &[&Row], estimate: Estimate) -> f64 {
     }
 }
 
-/// By how much the true force is more than its target, N.
+/// By how much the true force is more than its target, N: that which a wall gives, where the pad has
+/// one, else that of the scene at the time.
 fn off_target(row: &Row) -> f64 {
-    row.truth.map_or(f64::NAN, |truth| truth.off_target_n())
+    let of_wall = row.driven.filter(|driven| driven.free.is_some());
+    row.truth.map_or(f64::NAN, |truth| match of_wall {
+        Some(driven) => truth.quantities.force_n - driven.target_n,
+        None => truth.off_target_n(),
+    })
 }
 
 fn errors(measure: Measure, distances: impl Iterator<Item = f64>) -> f64 {
