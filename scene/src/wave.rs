@@ -75,10 +75,11 @@ impl HapticWave {
             HapticWave::Square { turn_s } => {
                 let turns = moment.time_s / turn_s.unwrap_or(f64::INFINITY);
                 let past = match moment.is_past(moment.time_s) {
-                    true => (turns + ROUNDING).floor(),
+                    true => turns + ROUNDING,
                     false => (turns - ROUNDING).ceil() - 1.0,
                 };
-                if past.max(0.0) % 2.0 == 0.0 { 1.0 } else { -1.0 }
+                // The cast leaves no fraction, and nothing below zero.
+                if past as u64 & 1 == 0 { 1.0 } else { -1.0 }
             }
         }
     }

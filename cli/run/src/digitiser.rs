@@ -3,6 +3,10 @@
 
 use hapticore_hdl::format::Format;
 
+/// Adding and taking away 1.5·2^52 rounds an f64 of up to 2^51 to an integer, half to even, in two
+/// additions: a call for each sample would cost as much as all else.
+const ROUNDER: f64 = 6_755_399_441_055_744.0;
+
 /// An ADC: fractions of full scale to codes, rounded to nearest even, saturated.
 #[derive(Debug, Clone, Copy)]
 pub struct Digitiser {
@@ -29,12 +33,13 @@ impl Digitiser {
 
     /// Appends the codes of some fractions; the largest magnitude among them, as a fraction.
     pub fn codes(&self, fractions: &[f64], into: &mut Vec<i32>) -> f64 {
-        let mut peak = 0;
+        let mut peak = 0f64;
         into.extend(fractions.iter().map(|fraction| {
-            let code = (fraction * self.scale).round_ties_even().clamp(self.low, self.high) as i32;
+            let code = (fraction * self.scale + ROUNDER) - ROUNDER;
+            let code = code.max(self.low).min(self.high);
             peak = peak.max(code.abs());
-            code
+            code as i32
         }));
-        f64::from(peak) / self.scale
+        peak / self.scale
     }
 }

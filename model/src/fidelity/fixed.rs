@@ -2,14 +2,17 @@
 //! Fidelity `fixed`: the frames that `clock` gives, to the bit, without stepping the clocks of
 //! every sample.
 //!
-//! A window's sums are made sample by sample with the demodulator's own arithmetic; the local
-//! oscillator is the same for every slot, and so is asked once. The estimator then runs through its
-//! clocks, a few hundred a slot: of codes the position's program has its results at once. As it is
-//! generic over the interpretation, the same run, with the program's clocks, gives the rounding
-//! error of every signal ([`Shadow`](hapticore_hdl::interpretations::shadow::Shadow)).
+//! The local oscillator is the same for every slot, and so is asked once. A window's sums are exact
+//! in the demodulator, so that codes are summed up by a plain loop over all channels; other
+//! interpretations, and codes that are too wide for it, go through the demodulator's own arithmetic
+//! sample by sample. The estimator then runs through its clocks, a few hundred a slot: of codes the
+//! position's program has its results at once. As it is generic over the interpretation, the same
+//! run, with the program's clocks, gives the rounding error of every signal
+//! ([`Shadow`](hapticore_hdl::interpretations::shadow::Shadow)).
 
+use super::plain::{PlainSums, Waves, Words};
 use super::tone::Response;
-use super::{Gathered, calibrated, signals};
+use super::{Gathered, signals};
 use crate::blocks::core::{self, Core};
 use crate::blocks::estimator::{self, Estimator, In, Inputs, PromptPort};
 use crate::blocks::oscillator::Inputs as Sample;
@@ -37,6 +40,8 @@ pub struct FixedSimulation<V: Interpretation = i64> {
     oscillator: Format,
     channels: usize,
     local: Vec<Local<V>>,
+    /// The window's sums in one loop, where values are codes.
+    plain: Option<PlainSums>,
     response: Response,
     quiet: In<V>,
     sums: Vec<Signal<V>>,
@@ -60,6 +65,7 @@ impl<V: Interpretation> FixedSimulation<V> {
         FixedSimulation {
             state: calibrated(&core, profile, calibration),
             response: response(&core, &local, profile),
+            plain: plain(&core, &local, profile),
             local,
             quiet: quiet(&core, constants),
             adc: profile.formats.adc,
@@ -133,8 +139,45 @@ impl<V: Interpretation> FixedSimulation<V> {
         self.sums.iter().map(|&sum| sum.format.real(V::code(sum))).collect()
     }
 
-    /// The sums of a window, a channel after the other, so that its two sums stay at hand.
+    /// The sums of a window.
     fn demodulate(&mut self, codes: &[i32]) {
+        match self.plain.take() {
+            Some(mut plain) => {
+                self.take(plain.of(codes));
+                self.plain = Some(plain);
+            }
+            None => self.add_up(codes),
+        }
+    }
+
+    /// Takes the sums of the loop over all channels.
+    fn take(&mut self, (sums, square): (&[f64], f64)) {
+        let (channels, demodulator) = (self.channels, self.core.demodulator());
+        let (exact, words) = (demodulator.sum(), self.plain_formats());
+        let at = |sum: f64, format| Signal { value: V::raw(sum as i64, format), format };
+        for channel in 0..channels - 1 {
+            let tone = |part: usize| at(sums[part * channels + channel], words[0]);
+            let [in_phase, quadrature] = match demodulator.polyphase() {
+                None => [tone(0), tone(1)].map(|sum| sum.resize(exact, Proved)),
+                Some(polyphase) => demodulator.combine(polyphase, std::array::from_fn(tone)),
+            };
+            self.sums[2 * channel] = in_phase;
+            self.sums[2 * channel + 1] = quadrature;
+        }
+        self.sums[2 * (channels - 1)] = at(square, words[1]).resize(exact, Proved);
+    }
+
+    /// The formats of a tone's and of the squares' sum, with the point of their products.
+    fn plain_formats(&self) -> [Format; 2] {
+        let (sum, adc) = (self.core.demodulator().sum(), self.adc);
+        match self.core.demodulator().polyphase() {
+            None => [self.running_sum(), with_point_of(sum, adc.product(adc))],
+            Some(_) => [sum, sum],
+        }
+    }
+
+    /// The sums of a window, a channel after the other, so that its two sums stay at hand.
+    fn add_up(&mut self, codes: &[i32]) {
         let (haptic, demodulated) = (self.channels - 1, self.channels - 1);
         for channel in 0..demodulated {
             let [in_phase, quadrature] = self.tone(channel, codes);
@@ -211,8 +254,7 @@ impl<V: Interpretation> FixedSimulation<V> {
     /// The format of a sum within the loop: with the point of its products, so that nothing is
     /// aligned there.
     fn running_sum(&self) -> Format {
-        let (sum, product) = (self.core.demodulator().sum(), self.adc.product(self.oscillator));
-        Format { width: sum.width - (sum.frac - product.frac) as u8, frac: product.frac, ..sum }
+        with_point_of(self.core.demodulator().sum(), self.adc.product(self.oscillator))
     }
 
     #[inline(always)]
@@ -242,6 +284,18 @@ impl<V: Interpretation> FixedSimulation<V> {
     pub fn state(&self) -> (&Core, &State<Core, V>) {
         (&self.core, &self.state)
     }
+}
+
+/// The state of a core with the calibration's tables in it.
+fn calibrated<V: Interpretation>(
+    core: &Core,
+    profile: &Profile,
+    calibration: &Calibration,
+) -> State<Core, V> {
+    let mut state = core.reset();
+    let estimator = &mut state.submodules.estimator;
+    core.estimator().set_table(estimator, &calibration.words(profile));
+    state
 }
 
 /// The frame that an estimator makes of a window's sums. Not inlined: what it borrows is then known
@@ -280,6 +334,48 @@ fn run<V: Interpretation>(
         }
     }
     unreachable!("the estimator finishes within its latency")
+}
+
+/// A sum's format with the point of its products, to the right of which it has nothing.
+fn with_point_of(sum: Format, product: Format) -> Format {
+    Format { width: sum.width - (sum.frac - product.frac) as u8, frac: product.frac, ..sum }
+}
+
+/// The loop over all channels, where values are codes and it is exact.
+fn plain<V: Interpretation>(
+    core: &Core,
+    local: &[Local<V>],
+    profile: &Profile,
+) -> Option<PlainSums> {
+    let (demodulator, adc) = (core.demodulator(), profile.formats.adc);
+    let largest = -(adc.min_code() as f64);
+    let word = |value: V| Signal { value, format: profile.formats.oscillator };
+    let whole = |word: Signal<V>| V::code(word) as f64;
+    let windows = || local.iter().map(|of| word(of.window));
+    let power = |bits: i8| 2f64.powi(bits.into());
+    let words = match demodulator.polyphase() {
+        None => {
+            let waves = |of: &Local<V>| [of.cosine, of.sine].map(|wave| whole(word(wave)));
+            Words {
+                waves: Waves::Products(local.iter().map(waves).collect()),
+                window: windows().map(whole).collect(),
+                keep: power(-profile.formats.oscillator.frac),
+                raise: 1.0,
+            }
+        }
+        Some(_) => {
+            let raised = demodulator.raised(zero::<V>(adc)).format.frac;
+            let raise = power(raised - adc.frac);
+            let window = |word| whole(demodulator.window_word(word)) * raise;
+            Words {
+                waves: Waves::Phases { offset: largest },
+                window: windows().map(window).collect(),
+                keep: power(-raised),
+                raise,
+            }
+        }
+    };
+    V::IS_CODE.then(|| PlainSums::new(words, profile.channels(), largest)).flatten()
 }
 
 /// A code of the ADC.
@@ -343,4 +439,52 @@ fn local<V: Interpretation>(core: &Core, profile: &Profile) -> Vec<Local<V>> {
         }
     }
     local
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::support::device;
+    use crate::support::random::Random;
+
+    /// Random codes with many corners, then windows of the largest, the most negative and of both in
+    /// turn.
+    #[test]
+    fn the_loop_over_all_channels_gives_the_demodulators_sums() {
+        for profile in Profile::all() {
+            let new = || FixedSimulation::<i64>::new(&profile, &device::calibration(&profile));
+            let (mut looped, mut one_by_one) = (new(), new());
+            assert!(looped.plain.is_some(), "{}", profile.name);
+            one_by_one.plain = None;
+            let (adc, count) = (profile.formats.adc, looped.window() * profile.channels());
+            let [least, most] = [adc.min_code() as i32, adc.max_code() as i32];
+            let mut random = Random::new(1);
+            let mut windows: Vec<Vec<i32>> =
+                (0..20).map(|_| (0..count).map(|_| random.word(adc) as i32).collect()).collect();
+            windows.extend([vec![least; count], vec![most; count]]);
+            windows.push((0..count).map(|n| [least, most][n / profile.channels() % 2]).collect());
+            for codes in &windows {
+                assert_eq!(looped.sums(codes), one_by_one.sums(codes), "{}", profile.name);
+            }
+        }
+    }
+
+    #[test]
+    fn sums_that_an_f64_does_not_hold_are_left_to_the_demodulator() {
+        let window = |word: f64| Words {
+            waves: Waves::Products(vec![[word; 2]; 1000]),
+            window: vec![word; 1000],
+            keep: 1.0 / word,
+            raise: 1.0,
+        };
+        let loops = |word: f64, code: f64| PlainSums::new(window(word), 8, code).is_some();
+        let [narrow, wide] = [17, 23].map(|bits| 2f64.powi(bits));
+        assert!(loops(narrow, narrow) && loops(wide, narrow));
+        assert!(!loops(wide, wide), "a tone's sum");
+        assert!(!loops(1.0, wide), "the sum of squares");
+        assert!(
+            PlainSums::new(window(narrow), 9, narrow).is_none(),
+            "more channels than a board's"
+        );
+    }
 }

@@ -4,18 +4,14 @@
 pub mod clock;
 pub mod fixed;
 pub mod force_loop;
+mod plain;
 mod tone;
 
-use crate::blocks::core::{Core, In, Inputs, Out};
 use crate::blocks::estimator;
-use crate::blocks::position::TablePort;
-use hapticore_contract::calibration::Calibration;
 use hapticore_contract::frame::{Flags, Frame};
-use hapticore_contract::profile::Profile;
-use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::Format;
-use hapticore_hdl::signal::{self, Signal, Value, constant};
+use hapticore_hdl::signal::{self, Signal, Value};
 
 /// The signals of a bundle of constants.
 pub(crate) fn signals<S: Bundle, V: Value>(
@@ -52,30 +48,4 @@ impl Gathered {
             flags: Flags { clipped, saturated, invalid, lost },
         }
     }
-}
-
-/// The state of a core with the calibration's tables written into it, through its port.
-fn calibrated<V: Interpretation>(
-    core: &Core,
-    profile: &Profile,
-    calibration: &Calibration,
-) -> State<Core, V> {
-    let mut state = core.reset();
-    let formats = core.inputs();
-    let constants = core.idle_inputs(calibration);
-    let memory = core.estimator().table();
-    for (address, word) in calibration.words(profile).into_iter().enumerate() {
-        let codes = constants.with_table(TablePort { write: 1, address: address as i64, word: 0 });
-        let mut inputs = signals::<Inputs, V>(codes, formats);
-        inputs.calibration.table.word = constant(word, memory.format);
-        clock(core, &mut state, inputs);
-    }
-    state
-}
-
-/// A clock of a core where nobody waits for it: out of line, so that all who call it share what is
-/// large.
-#[inline(never)]
-fn clock<V: Interpretation>(core: &Core, state: &mut State<Core, V>, inputs: In<V>) -> Out<V> {
-    core.clock(state, inputs)
 }

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A window's sums where a value is its code and nothing else: a plain loop over all channels.
+//!
+//! ```text
+//! Σ x·(w·cos), Σ x·(w·sin)     or Σ x·w of each of the carrier's five phases;     Σ h·round(w·h)
+//! ```
+//!
+//! The demodulator's operators are exact, so that the order in which its products are added does
+//! not matter; codes, words and partial sums are whole numbers below 2^53, which an `f64` holds
+//! exactly, and of which a processor multiplies several at once. A test holds the frames equal to
+//! those of every clock.
+
+use crate::blocks::oscillator::PHASES;
+
+/// The words of a window, and how its haptic code is rounded.
+pub(super) struct Words {
+    /// By which a sample's codes are multiplied: windowed cosine and sine, or, of polyphase sums,
+    /// the window alone.
+    pub waves: Waves,
+    /// The window's words.
+    pub window: Vec<f64>,
+    /// What is kept of the product of window and haptic code, a power of two: it is rounded.
+    pub keep: f64,
+    /// By how much the haptic code is moved up for the product that follows, a power of two.
+    pub raise: f64,
+}
+
+/// What a sample's codes are multiplied by.
+pub(super) enum Waves {
+    /// Windowed cosine and sine.
+    Products(Vec<[f64; 2]>),
+    /// The window alone, five phases apart, by which codes are multiplied that have the offset.
+    Phases { offset: f64 },
+}
+
+/// The sums of a window of so many channels, the last one haptic.
+pub(super) struct PlainSums {
+    words: Words,
+    /// The loop over the samples, with the number of channels known to the compiler.
+    sum: Sum,
+    sums: Vec<f64>,
+}
+
+impl Words {
+    /// What no partial sum exceeds, of codes that are at most `largest`: of a tone, of the squares,
+    /// and four times a product that is rounded.
+    fn largest_sums(&self, largest: f64) -> [f64; 3] {
+        let tone = match &self.waves {
+            Waves::Products(waves) => {
+                let larger = waves.iter().map(|[cosine, sine]| cosine.abs().max(sine.abs()));
+                larger.sum::<f64>() * largest
+            }
+            Waves::Phases { offset } => self.window.iter().sum::<f64>() * (largest + offset),
+        };
+        let product = |window: &f64| window * largest;
+        let share = |window: &f64| product(window) * self.keep + 1.0;
+        let square = self.window.iter().map(|window| largest * self.raise * share(window));
+        let rounded = self.window.iter().map(product).fold(0.0, f64::max);
+        [tone, square.sum(), 4.0 * rounded]
+    }
+}
+
+/// Whole numbers below this are exact.
+const EXACT: f64 = (1u64 << 53) as f64;
+/// Adding this to a number below 2^51 leaves no fraction: the sum is rounded half to even.
+const WHOLE: f64 = 1.5 * (1u64 << 52) as f64;
+
+impl PlainSums {
+    /// The sums of `channels` channels whose codes are at most `largest`; none where a partial sum
+    /// could be inexact, or for more channels than a board reads.
+    pub fn new(words: Words, channels: usize, largest: f64) -> Option<Self> {
+        let [products, phases] = loops(channels)?;
+        let (sum, parts) = match &words.waves {
+            Waves::Products(_) => (products, 2),
+            Waves::Phases { .. } => (phases, PHASES as usize),
+        };
+        let is_exact = words.largest_sums(largest).into_iter().all(|most| most < EXACT);
+        is_exact.then(|| PlainSums { words, sum, sums: vec![0.0; parts * channels] })
+    }
+
+    /// The sums of a window: of each part (in phase and quadrature, or each phase) all channels',
+    /// then that of the squares.
+    pub fn of(&mut self, codes: &[i32]) -> (&[f64], f64) {
+        let square = (self.sum)(&self.words, codes, &mut self.sums);
+        (&self.sums, square)
+    }
+}
+
+type Sum = fn(&Words, &[i32], &mut [f64]) -> f64;
+
+/// The loops over products and over phases of so many channels.
+fn loops(channels: usize) -> Option<[Sum; 2]> {
+    Some(match channels {
+        2 => [products::<2>, phases::<2>],
+        3 => [products::<3>, phases::<3>],
+        4 => [products::<4>, phases::<4>],
+        5 => [products::<5>, phases::<5>],
+        6 => [products::<6>, phases::<6>],
+        7 => [products::<7>, phases::<7>],
+        8 => [products::<8>, phases::<8>],
+        _ => return None,
+    })
+}
+
+/// The haptic code's product with its share of the window.
+#[inline(always)]
+fn square(words: &Words, window: f64, code: i32) -> f64 {
+    let code = f64::from(code);
+    let share = (code * (window * words.keep) + WHOLE) - WHOLE;
+    code * words.raise * share
+}
+
+fn products<const N: usize>(words: &Words, codes: &[i32], into: &mut [f64]) -> f64 {
+    let Waves::Products(waves) = &words.waves else { unreachable!("chosen by the waves") };
+    let (mut in_phase, mut quadrature, mut squares) = ([0.0; N], [0.0; N], 0.0);
+    let (samples, _) = codes.as_chunks::<N>();
+    for ((codes, [cosine, sine]), window) in samples.iter().zip(waves).zip(&words.window) {
+        for channel in 0..N {
+            let code = f64::from(codes[channel]);
+            in_phase[channel] += code * cosine;
+            quadrature[channel] += code * sine;
+        }
+        squares += square(words, *window, codes[N - 1]);
+    }
+    into[..N].copy_from_slice(&in_phase);
+    into[N..].copy_from_slice(&quadrature);
+    squares
+}
+
+fn phases<const N: usize>(words: &Words, codes: &[i32], into: &mut [f64]) -> f64 {
+    const COUNT: usize = PHASES as usize;
+    let Waves::Phases { offset } = words.waves else { unreachable!("chosen by the waves") };
+    let (mut sums, mut squares) = ([[0.0; N]; COUNT], 0.0);
+    let periods = codes.chunks_exact(COUNT * N).zip(words.window.as_chunks::<COUNT>().0);
+    for (codes, windows) in periods {
+        let (samples, _) = codes.as_chunks::<N>();
+        for ((sums, codes), window) in sums.iter_mut().zip(samples).zip(windows) {
+            for (sum, code) in sums.iter_mut().zip(codes) {
+                *sum += (f64::from(*code) + offset) * window;
+            }
+            squares += square(words, *window, codes[N - 1]);
+        }
+    }
+    into.copy_from_slice(sums.as_flattened());
+    squares
+}
