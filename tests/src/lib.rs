@@ -10,7 +10,6 @@
 //! | [`peripherals`] | the blocks of a board, each with a trace |
 //! | [`reference_error`] | how far the reference's `f64` is from the equations |
 //! | [`rivals`] | force controllers of other projects in a loop with this plant |
-//! | [`speed`] | how fast the model is, and Verilator |
 //! | [`stimulus`] | what a core is given: random and directed input, whole scenes |
 //! | [`tools`] | the HDL tools, and the message where one is missing |
 //! | [`tracking`] | how a force loop follows its target |
@@ -23,7 +22,6 @@ pub mod lockstep;
 pub mod peripherals;
 pub mod reference_error;
 pub mod rivals;
-pub mod speed;
 pub mod stimulus;
 pub mod tools;
 pub mod tracking;

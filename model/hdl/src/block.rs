@@ -10,7 +10,7 @@
 use crate::bundle::{Bundle, Field};
 use crate::format::Format;
 use crate::memory::{Memory, Storage};
-use crate::signal::{Proved, Signal, Value};
+use crate::signal::{Clocked, Proved, Signal, Value};
 use std::marker::PhantomData;
 
 /// The inputs of a block, each field a `T`.
@@ -28,6 +28,16 @@ pub trait Interpretation: Storage {
     fn instance<B: Block>(
         block: &B,
         _name: &'static str,
+        state: &mut State<B, Self>,
+        inputs: Inputs<B, Signal<Self>>,
+    ) -> Outputs<B, Signal<Self>> {
+        block.clock(state, inputs)
+    }
+
+    /// One cycle of a block that is within no other; where values are codes, the block's shared copy.
+    #[inline(always)]
+    fn step<B: Block>(
+        block: &B,
         state: &mut State<B, Self>,
         inputs: Inputs<B, Signal<Self>>,
     ) -> Outputs<B, Signal<Self>> {
@@ -96,6 +106,24 @@ pub trait Block: Interface {
         inputs: Inputs<Self, Signal<V>>,
     ) -> Outputs<Self, Signal<V>>;
 
+    /// [`Block::clock`] with codes, for whoever need not have it inlined. A large block has the same
+    /// out of line, so that it is compiled once, with its crate:
+    ///
+    /// ```text
+    /// #[inline(never)]
+    /// fn step(&self, state: &mut State<Self, Clocked>, inputs: In<Clocked>) -> Out<Clocked> {
+    ///     self.clock(state, inputs)
+    /// }
+    /// ```
+    #[inline(always)]
+    fn step(
+        &self,
+        state: &mut State<Self, Clocked>,
+        inputs: Inputs<Self, Signal<Clocked>>,
+    ) -> Outputs<Self, Signal<Clocked>> {
+        self.clock(state, inputs)
+    }
+
     /// The state at reset.
     fn reset<V: Interpretation>(&self) -> State<Self, V> {
         let registers = Self::Registers::map(self.registers(), |format| V::literal(0.0, format));
@@ -139,8 +167,8 @@ impl<B: Interface, V: Interpretation> State<B, V> {
     /// Replaces the registers.
     ///
     /// # Panics
-    /// In debug builds and where blocks are elaborated, where a register's format cannot represent
-    /// its signal's.
+    /// Where blocks are elaborated, and in debug builds without optimisation, where a register's
+    /// format cannot represent its signal's.
     #[inline(always)]
     pub fn store(&mut self, block: &B, next: Registers<B, Signal<V>>) {
         self.registers = widen::<B::Registers, V>(B::NAME, next, block.registers());
@@ -154,16 +182,28 @@ pub fn widen<S: Bundle, V: Value>(
     signals: S::Of<Signal<V>>,
     formats: S::Of<Format>,
 ) -> S::Of<V> {
-    if V::ELABORATES || cfg!(debug_assertions) {
+    if V::ELABORATES || cfg!(all(debug_assertions, not(optimised))) {
         check_formats::<S, V>(block, signals, formats);
     }
-    S::map(S::zip(signals, formats), |(signal, format)| {
-        if signal.format.frac == format.frac && !V::ELABORATES {
-            signal.value
-        } else {
-            signal.resize(format, Proved).value
-        }
-    })
+    S::map(S::zip(signals, formats), stored)
+}
+
+/// The value of a signal in a register's format.
+#[inline(always)]
+fn stored<V: Value>((signal, format): (Signal<V>, Format)) -> V {
+    if signal.format.frac == format.frac && !V::ELABORATES {
+        signal.value
+    } else if cfg!(debug_assertions) {
+        moved(signal, format)
+    } else {
+        signal.resize(format, Proved).value
+    }
+}
+
+/// With checks this is much code for each register: out of line.
+#[inline(never)]
+fn moved<V: Value>(signal: Signal<V>, format: Format) -> V {
+    signal.resize(format, Proved).value
 }
 
 fn check_formats<S: Bundle, V: Value>(

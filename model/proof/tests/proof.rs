@@ -82,9 +82,9 @@ fn drive_word(block: &Controller, state: &mut State<Controller, Range>) {
     let mut held = controller::Inputs { start: bit(false), ..any };
     let words = Range { low: 0, high: block.words_of_curve() as i128 - 1 };
     held.tuning.curve_address.value = words;
-    block.clock(state, controller::Inputs { start: bit(true), ..held });
+    block.call("controller", state, controller::Inputs { start: bit(true), ..held });
     (0..block.latency()).for_each(|_| {
-        block.clock(state, held);
+        block.call("controller", state, held);
     });
 }
 

@@ -20,6 +20,7 @@ use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::BIT;
+use hapticore_hdl::signal::Clocked;
 use hapticore_hdl::{block, call};
 
 block! {
@@ -165,6 +166,11 @@ impl Core {
 }
 
 impl Block for Core {
+    #[inline(never)]
+    fn step(&self, state: &mut State<Self, Clocked>, i: In<Clocked>) -> Out<Clocked> {
+        self.clock(state, i)
+    }
+
     #[inline(always)]
     fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
         let inputs = multiplexer::Inputs { strobe: i.strobe, clear: i.clear };

@@ -33,7 +33,7 @@ use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::{BIT, Format};
 use hapticore_hdl::memory::{Memory, Write};
-use hapticore_hdl::signal::{Proved, Saturate, Signal, bit, code, int, zero};
+use hapticore_hdl::signal::{Proved, Saturate, Signal, bit, code, constant, int, zero};
 use hapticore_hdl::{block, bundle, call, when};
 
 bundle! {
@@ -237,6 +237,22 @@ impl Estimator {
         let (position, force) = (self.position.table(), &self.force_table);
         let words = position.words + force.as_ref().map_or(0, |_| Words::WORDS);
         Memory { words, ..position.clone() }
+    }
+
+    /// Sets the words that the table port writes, without its clocks.
+    pub(crate) fn set_table<V: Interpretation>(&self, state: &mut State<Self, V>, words: &[f64]) {
+        let (format, of_position) = (self.position.table().format, self.position.table().words);
+        for (address, &word) in words.iter().enumerate() {
+            let word = constant(word, format);
+            match address.checked_sub(of_position) {
+                None => self.position.set_word(&mut state.submodules.position, address, word),
+                Some(address) => {
+                    let within = state.submodules.force_table.as_mut();
+                    let (block, within) = self.force_table.as_ref().zip(within).expect("has words");
+                    block.set_word(within, address, word);
+                }
+            }
+        }
     }
 
     /// The port of the position table, and that of the force table where there is one.

@@ -17,6 +17,7 @@ use super::split_pad::WallPort;
 use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::BIT;
+use hapticore_hdl::signal::Clocked;
 use hapticore_hdl::{block, call};
 
 block! {
@@ -79,6 +80,11 @@ impl ForceLoop {
 }
 
 impl Block for ForceLoop {
+    #[inline(never)]
+    fn step(&self, state: &mut State<Self, Clocked>, i: In<Clocked>) -> Out<Clocked> {
+        self.clock(state, i)
+    }
+
     #[inline(always)]
     fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
         let core = call!(self.core, state, i.core);

@@ -252,6 +252,18 @@ impl ForceTable {
         self.factor().difference(self.factor()).product(self.share())
     }
 
+    /// Sets a word of the table, without a clock.
+    pub(crate) fn set_word<V: Interpretation>(
+        &self,
+        state: &mut State<Self, V>,
+        address: usize,
+        word: Signal<V>,
+    ) {
+        let address = int(address as u64).resize(self.words.address(), Proved);
+        let write = Write { enable: bit(true), address, data: word };
+        self.words.access(&mut state.submodules.words, address, write);
+    }
+
     /// Clocks from `start` to `done`.
     pub fn latency(&self) -> u64 {
         let operation = 3 + self.multiplier.latency();

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Fidelity `clock`: every clock of the core, as the board runs it.
 
-use super::{Gathered, calibrated, clock, signals};
+use super::{Gathered, signals};
 use crate::blocks::core::{Core, Inputs, Outputs};
+use crate::blocks::position::TablePort;
 use hapticore_contract::calibration::Calibration;
 use hapticore_contract::frame::Frame;
 use hapticore_contract::profile::Profile;
@@ -98,6 +99,21 @@ impl ClockSimulation {
     }
 }
 
+/// The state of a core with the calibration's tables written into it, through its port.
+fn calibrated(
+    core: &Core,
+    profile: &Profile,
+    calibration: &Calibration,
+) -> block::State<Core, i64> {
+    let (mut state, formats) = (core.reset(), core.inputs());
+    let (constants, word) = (core.idle_inputs(calibration), core.estimator().table().format);
+    for (address, real) in (0..).zip(calibration.words(profile)) {
+        let codes = TablePort { write: 1, address, word: word.code_saturating(real) };
+        core.step(&mut state, signals::<Inputs, i64>(constants.with_table(codes), formats));
+    }
+    state
+}
+
 impl State {
     /// Not inlined: what it borrows is then known to be apart.
     #[inline(never)]
@@ -119,7 +135,7 @@ impl State {
 
     fn clock(&mut self, core: &Core, inputs: &Inputs<Signal<i64>>, strobe: bool, codes: &[i32]) {
         let inputs = self.inputs_for_cycle(inputs, strobe, codes);
-        let outputs = clock(core, &mut self.core, inputs);
+        let outputs = core.step(&mut self.core, inputs);
         self.collect_outputs(outputs);
     }
 

@@ -18,7 +18,7 @@ use hapticore_contract::calibration::Calibration;
 use hapticore_contract::control::{Drive, Faults, Tuning, Walled, Walls};
 use hapticore_contract::frame::{Field, Frame};
 use hapticore_contract::profile::{Profile, ProfileError};
-use hapticore_hdl::block::{Block, Inputs as BlockInputs, Outputs as BlockOutputs, State};
+use hapticore_hdl::block::{Block, State};
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::Format;
 use hapticore_hdl::probe::{Probe, Variable, sample, variables};
@@ -193,12 +193,12 @@ impl FixedLoop {
 
 /// A clock, out of line: once is enough of what is large.
 #[inline(never)]
-fn clock<B: Block>(
-    block: &B,
-    state: &mut State<B, i64>,
-    inputs: BlockInputs<B, Signal<i64>>,
-) -> BlockOutputs<B, Signal<i64>> {
-    block.clock(state, inputs)
+fn clock(
+    drives: &Drives,
+    state: &mut State<Drives, i64>,
+    inputs: drives::In<i64>,
+) -> drives::Out<i64> {
+    drives.clock(state, inputs)
 }
 
 /// The drive word that is given.
@@ -292,11 +292,11 @@ impl ClockLoop {
             let table = formats.core.calibration.table;
             let mut inputs = self.inputs;
             inputs.core.calibration.table = signals::<TablePort, i64>(codes, table);
-            clock(&self.block, &mut self.state.block, inputs);
+            self.block.step(&mut self.state.block, inputs);
         }
         for write in curve_writes(formats.tuning, tuning) {
             let tuning = signals::<controller::Tuning, i64>(write, formats.tuning);
-            clock(&self.block, &mut self.state.block, Inputs { tuning, ..self.inputs });
+            self.block.step(&mut self.state.block, Inputs { tuning, ..self.inputs });
         }
     }
 
@@ -316,7 +316,7 @@ impl ClockLoop {
     }
 
     fn write(&mut self, inputs: Inputs<Signal<i64>>) {
-        let outputs = clock(&self.block, &mut self.state.block, inputs);
+        let outputs = self.block.step(&mut self.state.block, inputs);
         self.state.collect(outputs);
     }
 
@@ -357,7 +357,7 @@ impl ClockLoop {
 
     fn clock(&mut self, strobe: bool, codes: &[i32]) {
         let inputs = self.state.inputs(&self.inputs, strobe, codes);
-        let outputs = clock(&self.block, &mut self.state.block, inputs);
+        let outputs = self.block.step(&mut self.state.block, inputs);
         self.state.collect(outputs);
     }
 

@@ -32,7 +32,7 @@ impl<B: Block, V: Interpretation> Bench<B, V> {
             format,
         });
         self.clock += 1;
-        let outputs = self.block.clock(&mut self.state, signals);
+        let outputs = V::step(&self.block, &mut self.state, signals);
         B::Outputs::map(outputs, V::code)
     }
 

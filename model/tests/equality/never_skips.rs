@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The clocked interpretation, except that no block may ever leave a clock out.
 
-use hapticore_hdl::block::Interpretation;
+use hapticore_hdl::block::{Block, Inputs, Interpretation, Outputs, State};
 use hapticore_hdl::format::Format;
 use hapticore_hdl::memory::{Memory, Storage, Write};
 use hapticore_hdl::signal::{Overflow, Rounding, Signal, Value};
@@ -98,4 +98,15 @@ impl Storage for NeverSkips {
     }
 }
 
-impl Interpretation for NeverSkips {}
+impl Interpretation for NeverSkips {
+    /// Out of line: a core in one piece takes long to compile.
+    #[inline(never)]
+    fn instance<B: Block>(
+        block: &B,
+        _name: &'static str,
+        state: &mut State<B, Self>,
+        inputs: Inputs<B, Signal<Self>>,
+    ) -> Outputs<B, Signal<Self>> {
+        block.clock(state, inputs)
+    }
+}

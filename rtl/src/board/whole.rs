@@ -25,7 +25,7 @@ use hapticore_contract::profile::Profile;
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::BIT;
 use hapticore_hdl::memory::{Memory, Write};
-use hapticore_hdl::signal::Signal;
+use hapticore_hdl::signal::{Clocked, Signal};
 use hapticore_hdl::{block, call};
 use hapticore_model::blocks::core::{self, Core};
 use hapticore_model::blocks::estimator::Calibration;
@@ -127,6 +127,11 @@ fn core_inputs<V: Interpretation>(
 }
 
 impl Block for Board {
+    #[inline(never)]
+    fn step(&self, state: &mut State<Self, Clocked>, i: In<Clocked>) -> Out<Clocked> {
+        self.clock(state, i)
+    }
+
     #[inline(always)]
     fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
         let r = state.load(self);

@@ -83,7 +83,7 @@ fn clock<B: Block>(block: &B, state: &mut State<B, i64>, inputs: &[u64]) -> Vec<
         value: code(*inputs.next().expect("a word a port"), format),
         format,
     };
-    let outputs = block.clock(state, B::Inputs::map(block.inputs(), read));
+    let outputs = block.step(state, B::Inputs::map(block.inputs(), read));
     let mut words = Vec::new();
     B::Outputs::each(B::Outputs::zip(outputs, block.outputs()), |_, (signal, format)| {
         if !format.is_none() {

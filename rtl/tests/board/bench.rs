@@ -21,7 +21,7 @@ impl<B: Block> Bench<B> {
     pub fn clock(&mut self, inputs: Inputs<B, i64>) -> Outputs<B, i64> {
         let with_formats = B::Inputs::zip(inputs, self.block.inputs());
         let signals = B::Inputs::map(with_formats, |(value, format)| Signal { value, format });
-        B::Outputs::map(self.block.clock(&mut self.state, signals), |signal| signal.value)
+        B::Outputs::map(self.block.step(&mut self.state, signals), |signal| signal.value)
     }
 }
 

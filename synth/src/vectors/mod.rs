@@ -131,7 +131,7 @@ impl Bench {
         let formats = self.core.inputs();
         let signals =
             Inputs::map(Inputs::zip(inputs, formats), |(value, format)| Signal { value, format });
-        let o = Outputs::map(self.core.clock(&mut self.state, signals), |signal| signal.value);
+        let o = Outputs::map(self.core.step(&mut self.state, signals), |signal| signal.value);
         self.asked = o.channel;
         let f = o.frames;
         if f.valid == 1 {

@@ -44,7 +44,7 @@ impl Trace {
                 Signal { value, format }
             });
             outputs.clear();
-            B::Outputs::each(block.clock(&mut state, signals), |_, signal| {
+            B::Outputs::each(block.step(&mut state, signals), |_, signal| {
                 outputs.extend((!signal.format.is_none()).then_some(signal.value));
             });
             codes.extend(&outputs);

@@ -100,7 +100,7 @@ fn frames(profile: &Profile, codes: &Codes, samples: &[Vec<i64>]) -> Vec<[i64; 8
     let mut clock = |inputs: Inputs<i64>, asked: &mut i64| {
         let signals =
             Inputs::map(Inputs::zip(inputs, formats), |(value, format)| Signal { value, format });
-        let outputs = Outputs::map(core.clock(&mut state, signals), |signal| signal.value);
+        let outputs = Outputs::map(core.step(&mut state, signals), |signal| signal.value);
         *asked = outputs.channel;
         let port = outputs.frames;
         if port.valid == 1 {

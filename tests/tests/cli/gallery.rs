@@ -181,8 +181,16 @@ fn small_and_fine_profiles_run_the_same_scene() {
 const FORCE_FULL_SCALE_N: f64 = 1.0;
 
 /// The largest rounding error of the force over a scene, N, as the shadow interpretation has it.
-fn force_error(folder: &Path, scene: &str, profile: &str) -> f64 {
-    let args = ["simulate", scene, "--errors", "--json", "--profile", profile];
+///
+/// Cases of a force loop are many, and differ in what drives the pad: the core's rounding is that of
+/// the first.
+fn force_error(folder: &Path, (scene, text): (&str, &str), profile: &str) -> f64 {
+    let mut args = vec!["simulate", scene, "--errors", "--json", "--profile", profile];
+    let parsed: toml::Table = text.parse().expect("a bundled scene");
+    let first = parsed.get("case").filter(|_| parsed.contains_key("control"));
+    if let Some(name) = first.and_then(|cases| cases[0]["name"].as_str()) {
+        args.extend(["--case", name]);
+    }
     let summary: Value = serde_json::from_slice(&finish(folder, &args).stdout).unwrap();
     let errors = summary["errors"].as_array().expect("errors");
     let force = errors
@@ -195,9 +203,10 @@ fn force_error(folder: &Path, scene: &str, profile: &str) -> f64 {
 #[test]
 fn rounding_moves_the_force_by_little() {
     let folder = tempfile::tempdir().unwrap();
-    gallery::all().par_iter().for_each(|(scene, _)| {
+    gallery::all().par_iter().for_each(|(scene, text)| {
         for (profile, percent) in [("small", 0.5), ("standard", 0.05)] {
-            let measured = force_error(folder.path(), scene, profile) / FORCE_FULL_SCALE_N * 100.0;
+            let error_n = force_error(folder.path(), (scene, text), profile);
+            let measured = error_n / FORCE_FULL_SCALE_N * 100.0;
             println!("{scene} {profile}: {measured:.4} % of {FORCE_FULL_SCALE_N} N");
             assert!(
                 measured <= percent,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The clocked interpretation: a value is a raw code in an `i64`.
 
-use crate::block::Interpretation;
+use crate::block::{Block, Inputs, Interpretation, Outputs, State};
 use crate::format::{Format, MAX_WIDTH};
 use crate::memory::{Collision, Memory, Storage, Write};
 use crate::signal::{Overflow, Rounding, Signal, Value};
@@ -67,6 +67,7 @@ fn min(format: Format) -> i64 {
 
 impl Value for i64 {
     const DECIDES: bool = true;
+    const IS_CODE: bool = true;
 
     #[inline(always)]
     fn literal(real: f64, format: Format) -> Self {
@@ -199,6 +200,15 @@ impl Storage for i64 {
 }
 
 impl Interpretation for i64 {
+    #[inline(always)]
+    fn step<B: Block>(
+        block: &B,
+        state: &mut State<B, i64>,
+        inputs: Inputs<B, Signal<i64>>,
+    ) -> Outputs<B, Signal<i64>> {
+        block.step(state, inputs)
+    }
+
     #[inline(always)]
     fn can_skip(busy: i64) -> bool {
         busy == 0

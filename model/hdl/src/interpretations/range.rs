@@ -94,9 +94,8 @@ fn round(code: i128, drop: i8, rounding: Rounding) -> i128 {
 }
 
 fn wrap(range: Range, to: Format) -> Range {
-    let span = 1i128 << to.width;
-    let turns = (range.low - to.min_code()).div_euclid(span);
-    let moved = range.map(|code| code - turns * span);
+    let turns = (range.low - to.min_code()) >> to.width;
+    let moved = range.map(|code| code - (turns << to.width));
     if whole(to).holds(moved) { moved } else { whole(to) }
 }
 
@@ -127,6 +126,10 @@ impl Value for Range {
 
     fn literal(real: f64, format: Format) -> Self {
         Range::point(i128::from(format.code_saturating(real)))
+    }
+
+    fn raw(code: i64, _format: Format) -> Self {
+        Range::point(code.into())
     }
 
     #[inline(never)]

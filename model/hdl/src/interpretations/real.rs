@@ -4,7 +4,7 @@
 //! What is meant stays: a phase wraps, a table address is a floor, a comparison decides. What word
 //! length costs goes: no rounding, no saturation, tables as their ideal functions.
 
-use crate::block::Interpretation;
+use crate::block::{Block, Inputs, Interpretation, Outputs, State};
 use crate::format::Format;
 use crate::memory::{Memory, Storage, Write};
 use crate::signal::{Overflow, Rounding, Signal, Value};
@@ -148,4 +148,15 @@ impl Storage for Real {
     }
 }
 
-impl Interpretation for Real {}
+impl Interpretation for Real {
+    /// Out of line: who asks for numbers without rounding waits for them, and a core in one piece takes long to compile.
+    #[inline(never)]
+    fn instance<B: Block>(
+        block: &B,
+        _name: &'static str,
+        state: &mut State<B, Self>,
+        inputs: Inputs<B, Signal<Self>>,
+    ) -> Outputs<B, Signal<Self>> {
+        block.clock(state, inputs)
+    }
+}

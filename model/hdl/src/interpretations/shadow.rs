@@ -4,7 +4,7 @@
 //! rounding error of the signal.
 
 use super::real::{Real, Reals};
-use crate::block::Interpretation;
+use crate::block::{Block, Inputs, Interpretation, Outputs, State};
 use crate::format::Format;
 use crate::memory::{Memory, Storage, Write};
 use crate::signal::{Overflow, Rounding, Signal, Value};
@@ -155,6 +155,17 @@ impl Storage for Shadow {
 }
 
 impl Interpretation for Shadow {
+    /// Out of line: who asks for rounding errors waits for them, and a core in one piece takes long to compile.
+    #[inline(never)]
+    fn instance<B: Block>(
+        block: &B,
+        _name: &'static str,
+        state: &mut State<B, Self>,
+        inputs: Inputs<B, Signal<Self>>,
+    ) -> Outputs<B, Signal<Self>> {
+        block.clock(state, inputs)
+    }
+
     fn can_skip(busy: Self) -> bool {
         busy.code == 0
     }

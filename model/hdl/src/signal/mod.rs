@@ -74,11 +74,15 @@ pub struct Signal<V> {
 /// exact format of its result.
 pub trait Value: Copy + std::fmt::Debug + 'static {
     /// Whether formats are checked at every register and port as it runs (elsewhere only in debug
-    /// builds).
+    /// builds without optimisation).
     const ELABORATES: bool = false;
 
     /// Whether every bit is known as it runs.
     const DECIDES: bool = false;
+
+    /// Whether a value is its raw code and nothing else, so that exact sums may be made in any way
+    /// that is exact.
+    const IS_CODE: bool = false;
 
     /// A constant: the number `real`, to the nearest code where the interpretation has codes.
     fn literal(real: f64, format: Format) -> Self;
@@ -192,17 +196,22 @@ pub fn decides<V: Value>(_signal: &Signal<V>) -> bool {
     V::DECIDES
 }
 
+#[cold]
+#[inline(never)]
+fn is_not_exact(from: Format, to: Format) -> ! {
+    panic!("{from} → {to} is not exact")
+}
+
 impl<V: Value> Signal<V> {
     /// The signal narrowed to the format `to`: what is lost below its least significant bit and
     /// beyond its range is named.
     #[inline(always)]
     pub fn quantize(self, to: Format, rounding: Rounding, overflow: Overflow) -> Self {
-        if V::ELABORATES || cfg!(debug_assertions) {
-            assert!(
-                rounding != Exact || to.frac >= self.format.frac,
-                "{} → {to} is not exact",
-                self.format
-            );
+        if (V::ELABORATES || cfg!(debug_assertions))
+            && rounding == Exact
+            && to.frac < self.format.frac
+        {
+            is_not_exact(self.format, to);
         }
         Signal { value: V::quantize(self, to, rounding, overflow), format: to }
     }

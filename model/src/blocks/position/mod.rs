@@ -250,6 +250,18 @@ impl Position {
         Format::unsigned(self.ratio.width - 1, self.ratio.frac)
     }
 
+    /// Sets a word of the table, without a clock.
+    pub(crate) fn set_word<V: Interpretation>(
+        &self,
+        state: &mut State<Self, V>,
+        address: usize,
+        word: Signal<V>,
+    ) {
+        let address = int(address as u64).resize(self.table.address(), Proved);
+        let write = Write { enable: bit(true), address, data: word };
+        self.table.access(&mut state.submodules.table, address, write);
+    }
+
     /// The memory of the position table.
     pub fn table(&self) -> &Memory {
         &self.table

@@ -232,7 +232,7 @@ fn no_signal_can_overflow() {
         take_assumptions();
         for clock in 0.. {
             assert!(clock < 20_000, "does not close");
-            block.clock(&mut state, any);
+            block.call("wall", &mut state, any);
             let mut now = Vec::new();
             sample(&block, &state, &mut now);
             let joined: Vec<_> = match seen.is_empty() {

@@ -6,12 +6,14 @@
 //! outputs of all clocks must have the same sum. Nothing here asserts a time, for the machine is
 //! never quiet: quote the ratio.
 
+mod speed;
+
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::verilog::Design;
 use hapticore_model::blocks::core::Core;
-use hapticore_tests::speed::verilator::Verilated;
-use hapticore_tests::speed::{Lap, Workload, model};
 use hapticore_tests::{stimulus, tools};
+use speed::verilator::Verilated;
+use speed::{Lap, Workload, model};
 
 const SCENE: &str = "fig6";
 /// Slots of the scene, and how often a round runs through them.

@@ -4,7 +4,7 @@
 use hapticore_contract::profile::Profile;
 use hapticore_model::blocks::core::Inputs;
 
-use crate::stimulus::Stimulus;
+use hapticore_tests::stimulus::Stimulus;
 
 /// What a core is given, over and over.
 #[derive(Debug, Clone)]

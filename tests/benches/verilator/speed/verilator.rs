@@ -10,9 +10,9 @@ use hapticore_hdl::verilog::{Design, Direction, Port};
 use hapticore_model::blocks::core::Inputs;
 
 use super::{Lap, ROTATED, Workload, moved};
-use crate::lockstep::bits;
-use crate::lockstep::verilator::{Program, Speed};
-use crate::tools::run;
+use hapticore_tests::lockstep::bits;
+use hapticore_tests::lockstep::verilator::{Program, Speed};
+use hapticore_tests::tools::run;
 
 /// A compiled core with its workload.
 pub struct Verilated {

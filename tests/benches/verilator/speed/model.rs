@@ -15,7 +15,7 @@ use super::{Lap, ROTATED, Workload, moved};
 pub fn run(core: &Core, workload: &Workload) -> Lap {
     let mut state = core.reset();
     for &(address, word) in &workload.table {
-        core.clock(
+        core.step(
             &mut state,
             signals(core, workload.constants.with_table(TablePort { write: 1, address, word })),
         );
