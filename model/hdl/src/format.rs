@@ -137,7 +137,8 @@ impl Format {
     /// What one code step is worth.
     #[inline(always)]
     pub fn lsb(self) -> f64 {
-        2f64.powi(-i32::from(self.frac))
+        // 2^-frac by its exponent alone: quicker than a power.
+        f64::from_bits(((1023 - i64::from(self.frac)) as u64) << 52)
     }
 
     /// The number that `code` stands for.

@@ -92,6 +92,7 @@
 //! assert_eq!(Netlist::of(&block).top().registers.len(), 2);
 //! ```
 
+pub mod area;
 pub mod block;
 pub mod bundle;
 mod declaration;

@@ -11,7 +11,7 @@
 //! ([`Shadow`](hapticore_hdl::interpretations::shadow::Shadow)).
 
 use super::plain::{PlainSums, Waves, Words};
-use super::tone::Response;
+use super::tone::{Response, WindowedSample};
 use super::{Gathered, signals};
 use crate::blocks::core::{self, Core};
 use crate::blocks::estimator::{self, Estimator, In, Inputs, PromptPort};
@@ -113,15 +113,21 @@ impl<V: Interpretation> FixedSimulation<V> {
             "an amplitude a terminal, and the sensing voltage's"
         );
         let format = self.core.demodulator().sum();
-        let (square, mut clipped) = self.response.square(mean_square);
-        for (channel, amplitude) in amplitudes.iter().enumerate() {
-            let (sums, held) = self.response.tone(*amplitude);
-            self.sums[2 * channel] = constant(sums[0], format);
-            self.sums[2 * channel + 1] = constant(sums[1], format);
-            clipped |= held;
+        let (sums, clipped) = self.response.sums(amplitudes, mean_square);
+        for (into, sum) in self.sums.iter_mut().zip(sums) {
+            *into = constant(sum, format);
         }
-        self.sums[2 * amplitudes.len()] = constant(square, format);
         self.estimate(pad, clipped)
+    }
+
+    /// The sums of tones, as numbers: of what [`FixedSimulation::phasors`] takes.
+    pub(super) fn sums_of_tones(&self, amplitudes: &[(f64, f64)], mean_square: f64) -> Vec<f64> {
+        self.response.sums(amplitudes, mean_square).0
+    }
+
+    /// The local oscillator over the window, as numbers.
+    pub(super) fn windowed(&self) -> Vec<WindowedSample> {
+        windowed(&self.core, &self.local, self.oscillator).collect()
     }
 
     /// The sums of a window, as numbers: in phase and quadrature of each channel, then of the
@@ -287,7 +293,7 @@ impl<V: Interpretation> FixedSimulation<V> {
 }
 
 /// The state of a core with the calibration's tables in it.
-fn calibrated<V: Interpretation>(
+pub(super) fn calibrated<V: Interpretation>(
     core: &Core,
     profile: &Profile,
     calibration: &Calibration,
@@ -304,7 +310,7 @@ fn calibrated<V: Interpretation>(
 /// # Panics
 /// Where it does not finish within its latency.
 #[inline(never)]
-fn run<V: Interpretation>(
+pub(super) fn run<V: Interpretation>(
     estimator: &Estimator,
     state: &mut State<Estimator, V>,
     quiet: &In<V>,
@@ -385,17 +391,27 @@ fn raw<V: Interpretation>(code: i32, adc: Format) -> Signal<V> {
 }
 
 /// The estimator's inputs between sums.
-fn quiet<V: Interpretation>(core: &Core, constants: core::In<V>) -> In<V> {
+pub(super) fn quiet<V: Interpretation>(core: &Core, constants: core::In<V>) -> In<V> {
     let zeros = Inputs::map(core.estimator().inputs(), zero);
     Inputs { calibration: constants.calibration, ..zeros }
 }
 
 /// What the window makes of tones, with the oscillator's own words.
 fn response<V: Interpretation>(core: &Core, local: &[Local<V>], profile: &Profile) -> Response {
-    let format = profile.formats.oscillator;
-    let real = |value: V| format.real(V::code(Signal { value, format }));
+    let windowed = windowed(core, local, profile.formats.oscillator);
+    let full_scale = 1.0 - profile.formats.adc.lsb();
+    Response::new(windowed, profile.slot.blanking(), profile.turns_per_sample(), full_scale)
+}
+
+/// The local oscillator over the window: windowed cosine and sine, and the window.
+fn windowed<V: Interpretation>(
+    core: &Core,
+    local: &[Local<V>],
+    format: Format,
+) -> impl Iterator<Item = WindowedSample> {
+    let real = move |value: V| V::real(Signal { value, format });
     let polyphase = core.demodulator().polyphase();
-    let windowed = local.iter().enumerate().map(|(sample, local)| {
+    local.iter().enumerate().map(move |(sample, local)| {
         let [cosine, sine, window] = [local.cosine, local.sine, local.window].map(real);
         match polyphase {
             None => [cosine, sine, window],
@@ -404,9 +420,7 @@ fn response<V: Interpretation>(core: &Core, local: &[Local<V>], profile: &Profil
                 [window * cosine, window * sine, window]
             }
         }
-    });
-    let full_scale = 1.0 - profile.formats.adc.lsb();
-    Response::new(windowed, profile.slot.blanking(), profile.turns_per_sample(), full_scale)
+    })
 }
 
 /// The local oscillator over the window of a slot: the oscillator's own, asked once.

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How exactly a core is run: every clock, every slot to the same bits, or in floating point.
+//! How exactly a core is run: every clock, every slot to the same bits, or in floating point; and
+//! what its results are expected to be off.
 
 pub mod clock;
 pub mod fixed;
 pub mod force_loop;
+pub mod noise;
 mod plain;
 mod tone;
 

@@ -45,8 +45,22 @@ impl Response {
         response
     }
 
+    /// The sums of a window: in phase and quadrature of each tone, then of the squares; and whether
+    /// any is saturated.
+    pub fn sums(&self, amplitudes: &[(f64, f64)], mean_square: f64) -> (Vec<f64>, bool) {
+        let (square, mut held) = self.square(mean_square);
+        let mut sums = Vec::with_capacity(2 * amplitudes.len() + 1);
+        for &amplitude in amplitudes {
+            let (of_tone, of_tone_held) = self.tone(amplitude);
+            sums.extend(of_tone);
+            held |= of_tone_held;
+        }
+        sums.push(square);
+        (sums, held)
+    }
+
     /// The in-phase and quadrature sums of a tone, saturated, and whether it was.
-    pub fn tone(&self, (p, q): (f64, f64)) -> ([f64; 2], bool) {
+    fn tone(&self, (p, q): (f64, f64)) -> ([f64; 2], bool) {
         let amplitude = p.hypot(q);
         let held = (self.full_scale / amplitude).min(1.0);
         let [of_p, of_q] = self.tones;
@@ -57,7 +71,7 @@ impl Response {
     }
 
     /// The sum of squares of a sine of this mean square, saturated, and whether it was.
-    pub fn square(&self, mean_square: f64) -> (f64, bool) {
+    fn square(&self, mean_square: f64) -> (f64, bool) {
         let most = 0.5 * self.full_scale * self.full_scale;
         (mean_square.min(most) * self.square, mean_square >= most)
     }

@@ -3,6 +3,7 @@
 
 mod clocked;
 pub mod netlist;
+pub mod noise;
 pub mod range;
 pub mod real;
 pub mod shadow;

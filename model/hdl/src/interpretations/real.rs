@@ -109,11 +109,15 @@ impl Value for Real {
         a.format.code_saturating(a.value.0)
     }
 
+    fn real(a: Signal<Self>) -> f64 {
+        a.value.0
+    }
+
     fn known_bit(bit: Self) -> Option<bool> {
         Some(bit.0 != 0.0)
     }
 
-    fn golden(_a: Self, operands: &[Signal<Self>], ideal: fn(&[f64]) -> f64) -> Self {
+    fn golden(_a: Signal<Self>, operands: &[Signal<Self>], ideal: fn(&[f64]) -> f64) -> Self {
         let mut reals = [0.0; 4];
         for (real, operand) in reals.iter_mut().zip(operands) {
             *real = operand.value.0;

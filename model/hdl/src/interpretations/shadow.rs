@@ -49,6 +49,10 @@ impl Value for Shadow {
         both(i64::literal(real, format), Real(real))
     }
 
+    fn raw(code: i64, format: Format) -> Self {
+        Shadow { code, real: format.real(code) }
+    }
+
     fn add(a: Signal<Self>, b: Signal<Self>, to: Format) -> Self {
         both(i64::add(code(a), code(b), to), Real::add(real(a), real(b), to))
     }
@@ -113,12 +117,12 @@ impl Value for Shadow {
         both(i64::select(bit.code, code(a), code(b), to), Real(chosen.value.real))
     }
 
-    fn golden(a: Self, operands: &[Signal<Self>], ideal: fn(&[f64]) -> f64) -> Self {
+    fn golden(a: Signal<Self>, operands: &[Signal<Self>], ideal: fn(&[f64]) -> f64) -> Self {
         let mut reals = [0.0; 4];
         for (real, operand) in reals.iter_mut().zip(operands) {
             *real = operand.value.real;
         }
-        Shadow { code: a.code, real: ideal(&reals[..operands.len()]) }
+        Shadow { code: a.value.code, real: ideal(&reals[..operands.len()]) }
     }
 
     fn code(a: Signal<Self>) -> i64 {

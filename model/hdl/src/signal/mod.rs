@@ -7,6 +7,7 @@
 //! | [`Clocked`] | a raw code | the cycle-accurate model, at native speed |
 //! | [`Real`](crate::interpretations::real::Real) | an `f64`, never rounded | what a signal would be with unlimited word length |
 //! | [`Shadow`](crate::interpretations::shadow::Shadow) | both, control following the code | the rounding error of every signal |
+//! | [`Noise`](crate::interpretations::noise::Noise) | both, and its derivatives | the error to be expected of a signal, by source |
 //! | [`Range`](crate::interpretations::range::Range) | an interval of codes | a proof that nothing overflows |
 //! | [`Node`](crate::interpretations::netlist::Node) | a node of a graph | the netlist that is printed as Verilog |
 //!
@@ -130,8 +131,8 @@ pub trait Value: Copy + std::fmt::Debug + 'static {
     /// others: `a` itself. With it a block that approximates (a table) or works digit by digit (a
     /// division) says what it approximates.
     #[inline(always)]
-    fn golden(a: Self, _operands: &[Signal<Self>], _ideal: fn(&[f64]) -> f64) -> Self {
-        a
+    fn golden(a: Signal<Self>, _operands: &[Signal<Self>], _ideal: fn(&[f64]) -> f64) -> Self {
+        a.value
     }
 
     /// The raw code given, in a format.
@@ -142,6 +143,12 @@ pub trait Value: Copy + std::fmt::Debug + 'static {
 
     /// The code that a signal has, in interpretations that have one; the nearest in others.
     fn code(a: Signal<Self>) -> i64;
+
+    /// The number that a signal is, in interpretations that have one that is not its code's.
+    #[inline(always)]
+    fn real(a: Signal<Self>) -> f64 {
+        a.format.real(Self::code(a))
+    }
 
     /// What a bit is, where the interpretation knows.
     fn known_bit(bit: Self) -> Option<bool>;
@@ -369,6 +376,6 @@ impl<V: Value> Signal<V> {
     /// See [`Value::golden`].
     #[inline(always)]
     pub fn golden(self, operands: &[Self], ideal: fn(&[f64]) -> f64) -> Self {
-        Signal { value: V::golden(self.value, operands, ideal), ..self }
+        Signal { value: V::golden(self, operands, ideal), ..self }
     }
 }

@@ -22,7 +22,7 @@ mod clock;
 mod describe;
 mod expression;
 mod fit;
-mod live;
+pub(crate) mod live;
 mod module;
 mod names;
 mod scope;

@@ -408,11 +408,16 @@ impl Position {
         let ratio = r.surface.bits(0, 1).select(i.r_y, i.r_x);
         let ratio = now.has(SHARE).select(i.share.resize(self.ratio, Proved), ratio);
         let halved = ratio.scaled(-1);
-        let high = halved.quantize(self.word, Floor, Proved).golden(&[halved], |of| of[0]);
+        let high = halved.quantize(self.word, Floor, Proved);
         let rest = (self.ratio.frac + 1 - self.word.frac) as u8;
+        // What the high part leaves, in steps of a word.
         let low = match rest {
             0 => zero(self.word),
-            _ => ratio.bits(0, rest).scaled(-(rest as i8)).golden(&[], |_| 0.0),
+            _ => {
+                let step = code(1, Format::unsigned(1, self.word.frac));
+                let low = ratio.bits(0, rest).scaled(-(rest as i8));
+                low.golden(&[halved, high, step], |of| (of[0] - of[1]) / of[2])
+            }
         };
         let taken = now.has(LOW).select(low, high);
         let kept = now.has(WRAP).select(turned, result);
@@ -503,12 +508,11 @@ impl Position {
             Format::signed(bits, i8::try_from(bits + 2).expect("sixteen digits at most"));
         let step =
             code(1, Format::unsigned(1, i8::try_from(bits).expect("sixteen digits at most")));
-        let rest = r.sum - self.half();
         // What the remainder, over the determinant in `left`, leaves; nothing where the quotient is
-        // at full scale.
-        coded.as_code(quotient).golden(&[coded.as_code(quotient), rest, r.left, step], |of| {
-            let rest = of[1] / of[2].abs();
-            if rest.abs() < 4.0 * of[3] { of[0] + rest / 8.0 } else { of[0] }
+        // at full scale. The program has taken the half of rounding out of the sum.
+        coded.as_code(quotient).golden(&[coded.as_code(quotient), r.sum, r.left, step], |of| {
+            let is_held = 8.0 * of[0].abs() > 1.0 - 4.0 * of[3];
+            if is_held { of[0] } else { of[0] + of[1] / of[2].abs() / 8.0 }
         })
     }
 

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What a slot's results are expected to be off, and by which rounding: without running a slot more
+//! than once.
+//!
+//! ```text
+//! samples ─┬─[oscillator's words]─ sums as codes ──┐
+//!          └─[cosine, sine]─ sums without rounding ─┴─ estimator ─ results, each with its errors by source
+//! ```
+//!
+//! The sums' errors are what the oscillator's words do to these samples or tones, which is known, and
+//! the ADC's rounding of each sample, whose variance is a twelfth of a step's square where samples
+//! meet many codes at random. From there on the estimator is run as
+//! [`Noise`].
+
+use super::fixed::{FixedSimulation, calibrated, quiet, run};
+use super::signals;
+use super::tone::WindowedSample;
+use crate::blocks::core::{self, Core};
+use crate::blocks::estimator::{In, Inputs};
+use hapticore_contract::calibration::Calibration;
+use hapticore_contract::profile::{Profile, ProfileError};
+use hapticore_hdl::block::State;
+use hapticore_hdl::interpretations::noise::{Errors, Mark, Moments, Noise, Recording};
+use hapticore_hdl::interpretations::real::Real;
+use hapticore_hdl::interpretations::shadow::Shadow;
+use hapticore_hdl::signal::{Signal, bit, code, constant};
+
+/// What is in a slot's window.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Signals<'a> {
+    /// Samples before any ADC, of full scale: a sample after the other, each of all channels.
+    Samples(&'a [f64]),
+    /// Tones.
+    Tones {
+        /// Of the terminals and of the sensing voltage: in phase and a quarter turn ahead of the
+        /// carrier, full scale.
+        amplitudes: &'a [(f64, f64)],
+        /// Of the haptic voltage, full scale².
+        mean_square: f64,
+    },
+}
+
+/// A result of the core: its number without rounding, in the unit of its frame's field, and its
+/// error.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Expected {
+    /// Without rounding.
+    pub real: f64,
+    /// What the core's is off.
+    pub errors: Errors,
+}
+
+/// The results of a slot.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Prediction {
+    /// Position along the long edges, mm.
+    pub x: Expected,
+    /// Position along the short edges, mm.
+    pub y: Expected,
+    /// Capacitance, pF.
+    pub capacitance: Expected,
+    /// Haptic force, N.
+    pub force: Expected,
+    /// Mean square of the haptic voltage, full scale².
+    pub mean_square: Expected,
+    /// The least amplitude of a terminal or of the sensing voltage, in steps of the ADC: see
+    /// [`Predictor::FEW_CODES`].
+    pub least_codes: f64,
+}
+
+/// The bound of a sum over a window's samples, whose roundings do not all go the same way, in standard
+/// deviations: once in 5·10^8 slots it is exceeded.
+const SIGMAS: f64 = 6.0;
+
+/// Predicts the errors of a core.
+pub struct Predictor {
+    core: Core,
+    recording: Recording,
+    /// The estimator before a slot, and when that was.
+    state: State<Core, Noise>,
+    begun: Mark,
+    quiet: In<Noise>,
+    of_codes: FixedSimulation<i64>,
+    of_reals: FixedSimulation<Real>,
+    /// The local oscillator over the window, by its words and without rounding.
+    waves: [Vec<WindowedSample>; 2],
+    /// Variance of the sums that one of each sample gives: in phase and quadrature.
+    tone: [f64; 2],
+    /// Σw² and Σw: of the haptic voltage's squares.
+    window: f64,
+    window_sum: f64,
+    samples: f64,
+    adc_lsb: f64,
+}
+
+impl Predictor {
+    /// Below so many steps of the ADC an amplitude meets too few codes for its rounding to be random,
+    /// where no noise is added to it: errors are then up to three times those predicted.
+    pub const FEW_CODES: f64 = 128.0;
+
+    /// A predictor of a profile's core, calibrated.
+    ///
+    /// # Errors
+    /// A core that cannot be.
+    pub fn new(profile: &Profile, calibration: &Calibration) -> Result<Self, ProfileError> {
+        let core = Core::try_new(profile)?;
+        let of_codes = FixedSimulation::<i64>::new(profile, calibration);
+        let of_reals = FixedSimulation::<Real>::new(profile, calibration);
+        let recording = Recording::begin();
+        let constants =
+            signals::<core::Inputs, Noise>(core.idle_inputs(calibration), core.inputs());
+        let mut quiet = quiet(&core, constants);
+        // As numbers, so that what their words are off counts.
+        let gains = &mut quiet.calibration;
+        gains.capacitance_gain =
+            constant(calibration.capacitance_gain, gains.capacitance_gain.format);
+        gains.force_gain = constant(calibration.force_gain, gains.force_gain.format);
+        let state = calibrated(&core, profile, calibration);
+        let begun = recording.mark();
+        let waves = [of_codes.windowed(), of_reals.windowed()];
+        let power = |of: usize| waves[1].iter().map(|sample| sample[of] * sample[of]).sum::<f64>();
+        Ok(Predictor {
+            tone: [power(0), power(1)],
+            window: power(2),
+            window_sum: waves[1].iter().map(|sample| sample[2]).sum(),
+            samples: waves[1].len() as f64,
+            adc_lsb: profile.formats.adc.lsb(),
+            core,
+            recording,
+            state,
+            begun,
+            quiet,
+            of_codes,
+            of_reals,
+            waves,
+        })
+    }
+
+    /// What the core's results for a slot with these signals are off.
+    ///
+    /// # Panics
+    /// Where there is not an amplitude for each demodulated channel, or a sample for each channel and
+    /// time.
+    pub fn slot(&mut self, pad: usize, signals: Signals) -> Prediction {
+        self.recording.rewind(self.begun);
+        let (sums, least_codes) = self.sums(signals);
+        let (pad, clipped) = (code(pad as i64, self.quiet.pad.format), bit(false));
+        let quiet = Inputs { pad, clipped, ..self.quiet };
+        let mut state = self.state.clone();
+        let estimator = &mut state.submodules.estimator;
+        run(self.core.estimator(), estimator, &quiet, &sums, &mut None);
+        Prediction { least_codes, ..self.results(&state) }
+    }
+
+    /// How many operations the last slot took.
+    pub fn operations(&self) -> usize {
+        self.recording.operations()
+    }
+
+    /// The sums with their errors, of the oscillator's words and of the ADC; and the least amplitude in
+    /// steps of the ADC.
+    fn sums(&mut self, signals: Signals) -> (Vec<Signal<Noise>>, f64) {
+        let format = self.core.demodulator().sum();
+        let [codes, reals] = match signals {
+            Signals::Samples(samples) => {
+                self.waves.each_ref().map(|waves| sums_of_samples(waves, samples))
+            }
+            Signals::Tones { amplitudes, mean_square } => [
+                self.of_codes.sums_of_tones(amplitudes, mean_square),
+                self.of_reals.sums_of_tones(amplitudes, mean_square),
+            ],
+        };
+        let step = self.adc_lsb * self.adc_lsb / 12.0;
+        let last = reals.len() - 1;
+        let mean_square = reals[last] / self.window_sum;
+        let sum = |(n, (rounded, real)): (usize, (f64, f64))| {
+            let code = format.code_saturating(rounded);
+            let variance = match n {
+                // Of (h + e)·w·h with another step's rounding of w·h.
+                _ if n == last => step * mean_square * (4.0 * self.window + self.samples),
+                _ => step * self.tone[n % 2],
+            };
+            let known = Moments::known(rounded - real);
+            let adc = Moments { mean: 0.0, variance, bound: SIGMAS * variance.sqrt() };
+            self.recording.input("adc", Shadow { code, real }, format, known.plus(adc))
+        };
+        let amplitude = |pair: &[f64]| 2.0 * pair[0].hypot(pair[1]) / self.window_sum;
+        let least = reals[..last].chunks_exact(2).map(amplitude).fold(f64::INFINITY, f64::min);
+        let sums = codes.into_iter().zip(reals).enumerate().map(sum).collect();
+        (sums, least / self.adc_lsb)
+    }
+
+    fn results(&self, state: &State<Core, Noise>) -> Prediction {
+        let within = &state.submodules.estimator.submodules;
+        let of = |value: Noise| Expected {
+            real: value.shadow.real,
+            errors: self.recording.errors(value),
+        };
+        let by_eq8 = within.force_estimator.as_ref().map(|force| force.registers.haptic_force);
+        let by_table = within.force_table.as_ref().map(|force| force.registers.haptic_force);
+        Prediction {
+            x: of(within.position.registers.x),
+            y: of(within.position.registers.y),
+            capacitance: of(within.capacitance.registers.capacitance),
+            force: of(by_eq8.or(by_table).expect("one law or the other")),
+            mean_square: of(within.haptic_voltage.registers.mean_square),
+            least_codes: 0.0,
+        }
+    }
+}
+
+/// The sums of a window: in phase and quadrature of each channel but the last, of which the squares
+/// are summed up.
+fn sums_of_samples(waves: &[WindowedSample], samples: &[f64]) -> Vec<f64> {
+    let channels = samples.len() / waves.len();
+    assert_eq!(samples.len(), channels * waves.len(), "a sample for each channel and time");
+    let mut sums = vec![0.0; 2 * channels - 1];
+    for (samples, [cosine, sine, window]) in samples.chunks_exact(channels).zip(waves) {
+        for (pair, sample) in sums.chunks_exact_mut(2).zip(samples) {
+            pair[0] += sample * cosine;
+            pair[1] += sample * sine;
+        }
+        let haptic = samples[channels - 1];
+        sums[2 * channels - 2] += window * haptic * haptic;
+    }
+    sums
+}

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Predicted errors of random profiles beside those that slots have.
+//!
+//! `PROFILES=200 cargo test --release -p hapticore-model --test noise -- --nocapture` prints more.
+
+#[allow(dead_code, reason = "tests of whole cores use the rest")]
+#[path = "../equality/device.rs"]
+mod device;
+mod measured;
+#[path = "../equality/random.rs"]
+#[allow(dead_code, reason = "tests of whole cores use the rest")]
+mod random;
+
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::format::Format;
+use hapticore_model::fidelity::noise::Predictor;
+use measured::{QUANTITIES, Scatter, measured, predicted, scenes};
+use random::Random;
+
+/// A bundled profile with words of other lengths.
+fn random_profile(random: &mut Random) -> Profile {
+    let bundled = Profile::of_distinct_words();
+    loop {
+        let mut profile = bundled[random.below(bundled.len() as u64) as usize].clone();
+        let f = &mut profile.formats;
+        let mut by = |format: &mut Format, least: i8, most: i8| {
+            let change = least + random.below((most - least + 1) as u64) as i8;
+            format.frac += change;
+            format.width = (format.width as i8 + change) as u8;
+        };
+        by(&mut f.adc, -6, 0);
+        by(&mut f.ratio, -5, 0);
+        by(&mut f.position, -2, 3);
+        by(&mut f.admittance, -6, 0);
+        by(&mut f.capacitance, -6, 0);
+        by(&mut f.mean_square, -6, 0);
+        by(&mut f.square, -6, 0);
+        by(&mut f.force, -3, 2);
+        if f.block_shift == 0 {
+            let change = -(random.below(6) as i8);
+            for format in [&mut f.iq, &mut f.total] {
+                format.frac += change;
+                format.width = (format.width as i8 + change) as u8;
+            }
+        }
+        if hapticore_model::check(&profile).is_ok() {
+            return profile;
+        }
+    }
+}
+
+/// Predicted over measured rms, and predicted bound over the largest that was measured.
+#[derive(Default)]
+struct Agreement {
+    rms: [Scatter; 5],
+    bound: [Scatter; 5],
+    excluded: usize,
+}
+
+impl Agreement {
+    fn of(profiles: &[Profile]) -> Self {
+        let mut agreement = Agreement::default();
+        for profile in profiles {
+            let calibration = device::calibration(profile);
+            for scene in scenes() {
+                let (predicted, least_codes) = predicted(profile, &calibration, &scene);
+                if least_codes < Predictor::FEW_CODES {
+                    agreement.excluded += 1;
+                    continue;
+                }
+                let measured = measured(profile, &calibration, &scene, 7);
+                for (n, (predicted, measured)) in predicted.into_iter().zip(measured).enumerate() {
+                    agreement.rms[n].add(predicted.rms() / measured.rms());
+                    agreement.bound[n].add(predicted.bound / measured.bound);
+                }
+            }
+        }
+        agreement
+    }
+}
+
+#[test]
+fn predicted_errors_are_those_that_slots_have() {
+    let count = std::env::var("PROFILES").map_or(5, |count| count.parse().expect("a number"));
+    let mut random = Random::new(1);
+    let mut profiles = Profile::of_distinct_words();
+    profiles.extend((0..count).map(|_| random_profile(&mut random)));
+    let agreement = Agreement::of(&profiles);
+    let of_quantities = || agreement.rms.iter().zip(&agreement.bound).zip(QUANTITIES);
+    for ((rms, bound), name) in of_quantities() {
+        println!("{name}: predicted / measured rms: {}", rms.text());
+        println!("   bound / largest measured: {}", bound.text());
+    }
+    println!("{} scenes with too few codes", agreement.excluded);
+    for ((rms, bound), name) in of_quantities() {
+        assert!((rms.at(0.5) - 1.0).abs() < 0.05, "{name}: {}", rms.text());
+        assert!(rms.at(0.05) > 0.8 && rms.at(0.95) < 1.2, "{name}: {}", rms.text());
+        assert!(rms.at(0.0) > 0.67 && rms.at(1.0) < 1.5, "{name}: {}", rms.text());
+        assert!(bound.at(0.0) >= 1.0, "{name}: {}", bound.text());
+        assert!(bound.at(0.5) < 8.0 && bound.at(1.0) < 32.0, "{name}: {}", bound.text());
+    }
+}
+
+/// A rounding that is left out of the prediction, or counted twice, is noticed.
+#[test]
+fn a_source_that_is_left_out_is_noticed() {
+    let profile = Profile::bundled("standard").expect("bundled");
+    let calibration = device::calibration(&profile);
+    let mut shorter = profile.clone();
+    for format in [&mut shorter.formats.iq, &mut shorter.formats.total] {
+        (format.width, format.frac) = (format.width - 4, format.frac - 4);
+    }
+    let scene = &scenes()[0];
+    let (of_other, _) = predicted(&profile, &calibration, scene);
+    let measured = measured(&shorter, &calibration, scene, 7);
+    assert!(of_other[2].rms() < 0.5 * measured[2].rms(), "{:?}", [of_other[2], measured[2]]);
+}
