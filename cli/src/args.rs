@@ -35,6 +35,9 @@ pub enum Command {
     /// Print what a core's registers and position table take: a device's calibration as codes
     #[command(after_help = CODES)]
     Codes(CodesArgs),
+    /// Tell what accuracy costs: errors of profiles, predicted and measured, beside latency and area
+    #[command(after_help = TRADEOFF)]
+    Tradeoff(TradeoffArgs),
     /// Make a device's calibration from what was measured of it: places, loads, full scales
     #[command(after_help = CALIBRATE)]
     Calibrate(CalibrateArgs),
@@ -66,6 +69,42 @@ const HDL: &str = "Examples:
   hapticore hdl --profile fast --control inverse --dac ad5664 --out verilog
 
 Exit status: 0 done, 2 bad input.";
+
+const TRADEOFF: &str = "Each word of the profile is made longer and shorter, and the window too, one after the other. Errors are RMS, of the core
+against the ideal estimator on the same samples before any ADC. With --target the cheapest profile that meets it is
+searched, verified by running it, and written as profile.toml.
+
+Examples:
+  hapticore tradeoff
+  hapticore tradeoff --profile small --scene fig6
+  hapticore tradeoff --target force=1mN,position=0.1mm
+
+Exit status: 0 done, 1 no profile that was found meets the target, 2 bad input.";
+
+/// Arguments of `tradeoff`.
+#[derive(Debug, Clone, clap::Args)]
+pub struct TradeoffArgs {
+    /// The profile that is varied: a bundled name (small, standard, fine, fast) or a TOML file
+    /// [default: standard]
+    #[arg(long, value_name = "PROFILE")]
+    pub profile: Option<String>,
+    /// A scene whose first case profiles are tried on, without `control`; may be given several times
+    /// [default: fig3, fig6, hockey]
+    #[arg(long, value_name = "SCENE")]
+    pub scene: Vec<String>,
+    /// Slots of each scene
+    #[arg(long, value_name = "N", default_value_t = 96)]
+    pub slots: usize,
+    /// Search the cheapest profile with these errors at most: force=1mN,position=0.1mm,capacitance=0.1%
+    #[arg(long, value_name = "ERRORS")]
+    pub target: Option<String>,
+    /// Where results go
+    #[arg(long, value_name = "DIR", default_value = "out/tradeoff")]
+    pub out: PathBuf,
+    /// Print results as JSON
+    #[arg(long)]
+    pub json: bool,
+}
 
 const CALIBRATE: &str = "Each file is known by what is in it:
   places  CSV: x_mm, y_mm, v_sense [V], and per terminal i1 … iN [A], or with phase i1, i1_deg … or i1_re, i1_im …; maybe sheet_ohm

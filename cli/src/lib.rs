@@ -4,7 +4,7 @@
 //! | module | does |
 //! | --- | --- |
 //! | [`args`] | the command line |
-//! | [`simulate`], [`replay`], [`hdl`], [`codes`](mod@codes), [`calibrate`], [`scenes`] | one command each |
+//! | [`simulate`], [`replay`], [`hdl`], [`codes`](mod@codes), [`calibrate`], [`tradeoff`], [`scenes`] | one command each |
 //! | [`output`], [`print`](mod@print), [`report`] | what a run leaves: a folder of files, lines on the terminal, a page of figures |
 //! | [`waves`] | waveforms of a case |
 //! | [`folder`], [`console`], [`progress`] | which folder; standard output that may be closed; how far a run is |
@@ -25,6 +25,7 @@ pub mod report;
 pub mod scenes;
 pub mod simulate;
 pub mod stability;
+pub mod tradeoff;
 pub mod waves;
 
 use std::process::ExitCode;
@@ -44,6 +45,7 @@ pub fn main() -> ExitCode {
         Command::Replay(args) => replay::run(&args),
         Command::Hdl(args) => hdl::run(&args),
         Command::Codes(args) => codes::run(&args),
+        Command::Tradeoff(args) => tradeoff::run(&args),
         Command::Calibrate(args) => calibrate::run(&args),
     };
     match outcome.and_then(|holds| console::finish().map(|()| holds)) {

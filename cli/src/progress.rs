@@ -5,6 +5,14 @@ use std::io::IsTerminal;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
+/// A bar over so many `things`; hidden where `quiet` or nobody looks.
+pub fn bar_of(count: u64, things: &str, quiet: bool) -> ProgressBar {
+    let template = format!("{{bar:40}} {{pos}}/{{len}} {things}, {{eta}} left");
+    let bar = bar(Some(count), quiet);
+    bar.set_style(ProgressStyle::with_template(&template).expect("a valid template"));
+    bar
+}
+
 /// A bar over `steps`, none where unknown; hidden where `quiet` or nobody looks.
 pub fn bar(steps: Option<u64>, quiet: bool) -> ProgressBar {
     if quiet || !std::io::stderr().is_terminal() {

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use toml::{Table, Value};
 
 /// Which crates of the workspace a crate may use; tests may use more ([`DEVELOPMENT`]).
-const IMPORTS: [(&str, &[&str]); 15] = [
+const IMPORTS: [(&str, &[&str]); 16] = [
     ("model/hdl", &[]),
     ("model/contract", &["hapticore-hdl"]),
     // Not the hardware language: its signals round, too.
@@ -45,6 +45,17 @@ const IMPORTS: [(&str, &[&str]); 15] = [
         ],
     ),
     (
+        "cli/tradeoff",
+        &[
+            "hapticore-contract",
+            "hapticore-hdl",
+            "hapticore-model",
+            "hapticore-reference",
+            "hapticore-run",
+            "hapticore-scene",
+        ],
+    ),
+    (
         "cli",
         &[
             "hapticore-contract",
@@ -55,6 +66,7 @@ const IMPORTS: [(&str, &[&str]); 15] = [
             "hapticore-rtl",
             "hapticore-run",
             "hapticore-scene",
+            "hapticore-tradeoff",
             "hapticore-waveforms",
         ],
     ),

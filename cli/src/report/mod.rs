@@ -10,6 +10,7 @@
 //! | `control` | pads with a target force, and how far each is off it |
 //! | `fig3`, `fig4`, `fig6`, `fig7`, `fig9`, `fig13`, `fig15`, `hockey` | the figures of a scene |
 //! | `calibration` | the page of a device's calibration |
+//! | `tradeoff` | the page of what accuracy costs |
 //! | `general`, `swept` | those of any other: over time, over what is swept |
 
 mod axis;
@@ -44,10 +45,12 @@ mod swept;
 mod tables;
 #[cfg(test)]
 mod tests;
+mod tradeoff;
 
 pub use calibration::of_calibration;
 use figure::Figure;
 use hapticore_run::record::Record;
+pub use tradeoff::of_tradeoff;
 
 /// The report of a run as a self-contained HTML page.
 pub fn html(record: &Record) -> String {

@@ -15,6 +15,7 @@ mod runs;
 mod stability;
 mod streams;
 mod terminals;
+mod tradeoff;
 mod tutorial;
 mod waves;
 

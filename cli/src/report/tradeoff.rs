@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The page of a tradeoff: errors over bits and over area, what they are made of, and predicted
+//! against measured ones.
+
+use super::axis::Axis;
+use super::figure::Figure;
+use super::number;
+use super::page::{self, escape};
+use super::paint::Paint;
+use super::plot::Plot;
+use super::series::{Mark, Series};
+use crate::tradeoff::{FEW_CODES, Tradeoff, front, prediction};
+use hapticore_tradeoff::errors::Quantity;
+use hapticore_tradeoff::sweep::Point;
+
+/// The page.
+pub fn of_tradeoff(tradeoff: &Tradeoff) -> String {
+    let title = format!("What accuracy costs: {}", tradeoff.profile);
+    let about = format!(
+        "Each point is the profile with one word longer or shorter, or another window, tried on {} slots each of {}. Errors are those of the core against the ideal estimator, RMS.",
+        tradeoff.slots,
+        tradeoff.scenes.join(", ")
+    );
+    let found = tradeoff.found.as_ref().map_or(String::new(), |found| {
+        format!("<p>{}</p>\n", escape(&found.text()).replace('\n', "<br />\n"))
+    });
+    let figures: String = Quantity::ALL
+        .iter()
+        .enumerate()
+        .flat_map(|(n, quantity)| {
+            [over_bits(tradeoff, n, *quantity), over_area(tradeoff, n, *quantity)]
+        })
+        .chain([agreement(tradeoff)])
+        .map(|figure| figure.html())
+        .collect();
+    let body = [
+        format!("<header>\n<h1>{}</h1>\n<p>{}</p>\n</header>\n", escape(&title), escape(&about)),
+        page::section("The cheapest profile", &found),
+        page::section("Figures", &format!("<div class=\"figures\">\n{figures}</div>\n")),
+        page::section("What the predicted errors are made of", &sources(tradeoff)),
+        page::section("All points", &points(tradeoff)),
+    ];
+    page::document(&title, &body.concat())
+}
+
+/// Neighbours by knob, each with the profile itself among them, by rising value.
+fn by_knob(tradeoff: &Tradeoff) -> Vec<(&str, Vec<&Point>)> {
+    let mut knobs: Vec<(&str, Vec<&Point>)> = Vec::new();
+    for point in tradeoff.points.iter().filter(|point| !point.knob.is_empty()) {
+        match knobs.iter_mut().find(|(knob, _)| *knob == point.knob) {
+            Some((_, points)) => points.push(point),
+            None => knobs.push((&point.knob, vec![point])),
+        }
+    }
+    knobs
+}
+
+fn over_bits(tradeoff: &Tradeoff, n: usize, quantity: Quantity) -> Figure {
+    let words = by_knob(tradeoff).into_iter().filter(|(knob, _)| !knob.contains('.'));
+    let line = |(at, (knob, points)): (usize, (&str, Vec<&Point>))| {
+        let places = points.iter().map(|point| (point.value as f64, point.measured[n].rms));
+        Series::line(knob, Paint::series(at), places.collect()).tagged(knob)
+    };
+    let series: Vec<_> = words.enumerate().map(line).collect();
+    let all = || series.iter().flat_map(|series| series.points.iter());
+    let title = format!("{} over word lengths", quantity.name());
+    let plot = Plot::new(
+        &title,
+        Axis::linear("bits of the word", all().map(|point| point.0)),
+        Axis::log(&format!("RMS error ({})", quantity.unit()), all().map(|point| point.1)),
+        series.clone(),
+    );
+    let note = "Measured. A line that rises to the left by half per bit is the word that limits; a flat one is longer than it need be.";
+    Figure::plot(&title, note, &plot)
+}
+
+fn over_area(tradeoff: &Tradeoff, n: usize, quantity: Quantity) -> Figure {
+    let place = |point: &Point| (point.cost.luts, point.measured[n].rms);
+    let chosen = |on: bool| -> Vec<(f64, f64)> {
+        let of = tradeoff.points.iter().filter(|point| point.front[n] == on);
+        of.map(place).collect()
+    };
+    let itself: Vec<_> =
+        tradeoff.points.iter().filter(|point| point.knob.is_empty()).map(place).collect();
+    let series = vec![
+        Series::dots("beaten by another", Paint::MUTED, chosen(false)),
+        Series::dots("Pareto front of error, area and age", Paint::series(0), chosen(true)),
+        Series::dots(&tradeoff.profile, Paint::INK, itself).mark(Mark::Rings(14)),
+    ];
+    let all = || tradeoff.points.iter().map(place);
+    let title = format!("{} over area", quantity.name());
+    let plot = Plot::new(
+        &title,
+        Axis::linear("LUT4, estimated", all().map(|point| point.0)),
+        Axis::log(&format!("RMS error ({})", quantity.unit()), all().map(|point| point.1)),
+        series,
+    );
+    Figure::plot(&title, "Measured errors.", &plot)
+}
+
+fn agreement(tradeoff: &Tradeoff) -> Figure {
+    let of = |(n, quantity): (usize, &Quantity)| {
+        let places = tradeoff.points.iter().map(|point| {
+            let measured = point.measured[n].rms;
+            (measured, point.predicted[n].rms / measured)
+        });
+        let label = format!("{} ({})", quantity.name(), quantity.unit());
+        Series::dots(&label, Paint::series(n), places.collect())
+    };
+    let series: Vec<_> = Quantity::ALL.iter().enumerate().map(of).collect();
+    let all = || series.iter().flat_map(|series| series.points.iter());
+    let plot = Plot {
+        limits: vec![1.0],
+        ..Plot::new(
+            "Predicted over measured RMS error",
+            Axis::log("measured RMS error, each in its unit", all().map(|point| point.0)),
+            Axis::with_zero("predicted / measured", all().map(|point| point.1)),
+            series.clone(),
+        )
+    };
+    Figure::plot("Predicted against measured", "1 is a perfect prediction.", &plot)
+}
+
+/// A table's row of cells.
+fn row(tag: &str, cells: &[String]) -> String {
+    let cells: String =
+        cells.iter().map(|cell| format!("<{tag}>{}</{tag}>", escape(cell))).collect();
+    format!("<tr>{cells}</tr>\n")
+}
+
+fn html_table(head: &[&str], rows: &[Vec<String>]) -> String {
+    let head: Vec<_> = head.iter().map(|cell| (*cell).to_string()).collect();
+    let rows: String = rows.iter().map(|cells| row("td", cells)).collect();
+    format!(
+        "<div class=\"scroll\"><table>\n<thead>{}</thead>\n<tbody>\n{rows}</tbody>\n</table></div>\n",
+        row("th", &head)
+    )
+}
+
+/// Each source's share of the variance of the profile itself.
+fn sources(tradeoff: &Tradeoff) -> String {
+    let Some(itself) = tradeoff.points.first() else { return String::new() };
+    let mut names: Vec<&String> = itself.sources.iter().flat_map(|of| of.keys()).collect();
+    names.sort();
+    names.dedup();
+    let share = |n: usize, name: &String| {
+        let total: f64 = itself.sources[n].values().map(|rms| rms * rms).sum();
+        itself.sources[n].get(name).map_or(0.0, |rms| rms * rms / total)
+    };
+    let mut rows: Vec<(f64, Vec<String>)> = Vec::new();
+    for name in names {
+        let shares = [0, 1, 2].map(|n| share(n, name));
+        let largest = shares.into_iter().fold(0.0, f64::max);
+        let cell = |share: f64| format!("{:.1} %", 100.0 * share);
+        rows.push((largest, [name.clone()].into_iter().chain(shares.map(cell)).collect()));
+    }
+    rows.retain(|(largest, _)| *largest > 5e-4);
+    rows.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let rows: Vec<_> = rows.into_iter().map(|(_, cells)| cells).collect();
+    let note = "<p class=\"note\">Shares of the mean square by the block that rounds; adc is the converter's rounding and what the oscillator's words do, calibration what the words of gains and tables are off.</p>\n";
+    html_table(&["source", "force", "capacitance", "position"], &rows) + note
+}
+
+fn points(tradeoff: &Tradeoff) -> String {
+    let cells = |point: &Point| {
+        let knob = if point.knob.is_empty() { &tradeoff.profile } else { &point.knob };
+        let value = if point.knob.is_empty() { String::new() } else { point.value.to_string() };
+        let mut cells = vec![knob.clone(), value];
+        for (measured, predicted) in point.measured.iter().zip(&point.predicted) {
+            cells.extend([number::short(measured.rms), prediction(point, predicted.rms)]);
+        }
+        let cost = &point.cost;
+        cells.extend([
+            number::short(cost.age_us),
+            format!("{:.0}", cost.luts),
+            format!("{:.0}", cost.flip_flops),
+            format!("{:.0}", cost.multipliers),
+            format!("{:.0}", cost.memory_bits / 1024.0),
+            front(point),
+        ]);
+        cells
+    };
+    let head = [
+        "knob",
+        "bits",
+        "force, mN",
+        "predicted",
+        "capacitance, %",
+        "predicted",
+        "position, µm",
+        "predicted",
+        "age, µs",
+        "LUT4",
+        "flip-flops",
+        "multipliers",
+        "memory, Kbit",
+        "on the front of",
+    ];
+    let few = tradeoff.points.iter().any(Point::has_few_codes);
+    let note = if few { format!("<p class=\"note\">{FEW_CODES}</p>\n") } else { String::new() };
+    html_table(&head, &tradeoff.points.iter().map(cells).collect::<Vec<_>>()) + &note
+}

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `hapticore tradeoff`: what accuracy costs.
+
+use anyhow::{Context, Result, ensure};
+use hapticore_contract::profile::Profile;
+use hapticore_run::inputs;
+use hapticore_run::record::Provenance;
+use hapticore_scene::{Scene, gallery};
+use hapticore_tradeoff::errors::Quantity;
+use hapticore_tradeoff::search::{Found, Target, search};
+use hapticore_tradeoff::sweep::{Point, Trial};
+use serde::Serialize;
+
+use crate::args::TradeoffArgs;
+use crate::output::Output;
+use crate::print::{number, table};
+use crate::{console, progress, report, say};
+
+/// The profile where none is named.
+const PROFILE: &str = "standard";
+/// The scenes where none are: places all over the sheet, forces over load and voltage, motion.
+const SCENES: [&str; 3] = ["fig3", "fig6", "hockey"];
+
+/// All that a run leaves.
+#[derive(Debug, Serialize)]
+pub struct Tradeoff {
+    /// The profile that was varied.
+    pub profile: String,
+    /// The scenes whose slots it was tried on.
+    pub scenes: Vec<String>,
+    /// Slots of each scene.
+    pub slots: usize,
+    /// The profile itself, then each of its neighbours.
+    pub points: Vec<Point>,
+    /// The cheapest profile for a target, where there was one.
+    pub found: Option<Found>,
+    /// Version, command and such.
+    pub provenance: Provenance,
+}
+
+/// Sweeps, searches where there is a target, and prints.
+///
+/// # Errors
+/// No such profile or scene, a target that cannot be read, a folder that cannot be written.
+pub fn run(args: &TradeoffArgs) -> Result<bool> {
+    let profile = inputs::profile(args.profile.as_deref().unwrap_or(PROFILE))?;
+    let target =
+        args.target.as_deref().map(str::parse::<Target>).transpose().context("--target")?;
+    let names: Vec<String> = match args.scene.is_empty() {
+        true => SCENES.map(String::from).to_vec(),
+        false => args.scene.clone(),
+    };
+    let scenes = names.iter().map(|name| scene(name)).collect::<Result<Vec<_>>>()?;
+    ensure!(args.slots >= 1, "--slots: expected at least 1");
+    let output = Output::new(&args.out)?;
+    let trial = Trial::new(scenes, profile, args.slots);
+    let plan = trial.plan();
+    let bar = progress::bar_of(plan.len() as u64, "profiles", args.json);
+    let points = trial.run(&plan, &|| bar.inc(1))?;
+    bar.finish_and_clear();
+    let found = target.map(|target| search(&trial, &target)).transpose()?;
+    let tradeoff = Tradeoff {
+        profile: trial.profile().name.clone(),
+        scenes: names,
+        slots: args.slots,
+        points,
+        found,
+        provenance: Provenance::new(),
+    };
+    write(&output, &tradeoff)?;
+    let files = output.keep()?;
+    if args.json {
+        say!("{}", serde_json::to_string_pretty(&tradeoff)?);
+    } else {
+        print(&tradeoff);
+        files.iter().for_each(|file| say!("  {}", file.display()));
+    }
+    Ok(tradeoff.found.as_ref().is_none_or(Found::holds))
+}
+
+/// A scene whose sensors leave the rounding to the core's ADC.
+fn scene(name: &str) -> Result<Scene> {
+    let plain = inputs::scene(name, &[])?;
+    let rounds = gallery::find(name).is_none_or(|text| text.contains("quantisation_bits"));
+    let key = ("sensor.quantisation_bits".to_string(), "32".to_string());
+    Ok(if rounds { inputs::scene(name, &[key]).unwrap_or(plain) } else { plain })
+}
+
+fn write(output: &Output, tradeoff: &Tradeoff) -> Result<()> {
+    output.write("tradeoff.csv", &csv(&tradeoff.points))?;
+    output.write("tradeoff.json", &serde_json::to_string_pretty(tradeoff)?)?;
+    output.write("report.html", &report::of_tradeoff(tradeoff))?;
+    if let Some(found) = &tradeoff.found {
+        output.write("profile.toml", &text_of(&found.profile)?)?;
+    }
+    Ok(())
+}
+
+fn text_of(profile: &Profile) -> Result<String> {
+    Ok(format!("# Found by hapticore tradeoff.\n{}", toml::to_string(profile)?))
+}
+
+const COLUMNS: &str = "knob,value,latency_clocks,age_us,frames_per_second,luts_ecp5,luts_ice40,flip_flops,multipliers,memory_bits,least_codes";
+
+fn csv(points: &[Point]) -> String {
+    let mut head = COLUMNS.to_string();
+    for kind in ["predicted", "measured"] {
+        for quantity in Quantity::ALL {
+            for what in ["rms", "mean", "largest"] {
+                head += &format!(",{kind}_{}_{what}", quantity.name());
+            }
+        }
+    }
+    let row = |point: &Point| {
+        let cost = &point.cost;
+        let mut row = format!(
+            "{},{},{},{},{},{},{},{},{},{},{}",
+            point.knob,
+            point.value,
+            cost.latency_clocks,
+            cost.age_us,
+            cost.frames_per_second,
+            cost.luts.round(),
+            cost.luts_ice40.round(),
+            cost.flip_flops,
+            cost.multipliers,
+            cost.memory_bits,
+            point.least_codes
+        );
+        for error in point.predicted.iter().chain(&point.measured) {
+            row += &format!(",{:e},{:e},{:e}", error.rms, error.mean, error.largest);
+        }
+        row + "\n"
+    };
+    points.iter().fold(head + "\n", |text, point| text + &row(point))
+}
+
+fn print(tradeoff: &Tradeoff) {
+    let head = [
+        "knob",
+        "bits",
+        "force mN",
+        "pred.",
+        "C %",
+        "pred.",
+        "place µm",
+        "pred.",
+        "age µs",
+        "LUT4",
+        "FF",
+        "front",
+    ];
+    let row = |point: &Point| {
+        let mut cells = vec![
+            if point.knob.is_empty() { tradeoff.profile.clone() } else { point.knob.clone() },
+            if point.knob.is_empty() { String::new() } else { point.value.to_string() },
+        ];
+        for (measured, predicted) in point.measured.iter().zip(&point.predicted) {
+            cells.extend([number(measured.rms), prediction(point, predicted.rms)]);
+        }
+        cells.push(number(point.cost.age_us));
+        cells.push(format!("{:.0}", point.cost.luts));
+        cells.push(format!("{:.0}", point.cost.flip_flops));
+        cells.push(front(point));
+        cells
+    };
+    let rows: Vec<_> = tradeoff.points.iter().map(row).collect();
+    console::print(format_args!("{}", table(&head, &rows)));
+    if tradeoff.points.iter().any(Point::has_few_codes) {
+        say!("{FEW_CODES}");
+    }
+    if let Some(found) = &tradeoff.found {
+        say!("\n{}", found.text());
+    }
+}
+
+/// A predicted error, marked where the prediction may not hold.
+pub fn prediction(point: &Point, rms: f64) -> String {
+    if point.has_few_codes() { format!("{} ?", number(rms)) } else { number(rms) }
+}
+
+/// What the mark of [`prediction`] says.
+pub const FEW_CODES: &str = "?  some amplitude is below 128 steps of the ADC, whose rounding is then not random: expect up to three times the error";
+
+/// The quantities in which a point is on the front.
+pub fn front(point: &Point) -> String {
+    let on = Quantity::ALL.iter().zip(point.front).filter(|(_, on)| *on);
+    on.map(|(quantity, _)| quantity.name()).collect::<Vec<_>>().join(" ")
+}

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What a profile's core costs: time from its latency, area from its netlist.
+
+use anyhow::Result;
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::area::Operations;
+use hapticore_hdl::interpretations::netlist::Netlist;
+use hapticore_model::blocks::core::Core;
+use serde::Serialize;
+
+/// Time and area of a core.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Cost {
+    /// From the strobe of a window's last sample to the frame's last word, clocks.
+    pub latency_clocks: u64,
+    /// From the middle of a slot's window to its frame, µs: how old a result is, at a megasample per
+    /// second.
+    pub age_us: f64,
+    /// A pad's frames per second, at a megasample per second.
+    pub frames_per_second: f64,
+    /// LUT4 of an ECP5, estimated.
+    pub luts: f64,
+    /// LUT4 of an iCE40, estimated.
+    pub luts_ice40: f64,
+    /// Bits of registers.
+    pub flip_flops: f64,
+    /// Multipliers of 18 × 18, as an ECP5 has.
+    pub multipliers: f64,
+    /// Bits of memories.
+    pub memory_bits: f64,
+}
+
+/// Samples per second of the nominal board (docs/decisions.md §6).
+const SAMPLE_HZ: f64 = 1e6;
+
+/// LUT4 by bits of adders and of selections, on ECP5 and on iCE40: fitted to what synthesis made of
+/// profiles (docs/tradeoff.md). Adders of an ECP5 lie in its carry cells, and take logic with them.
+const LUTS: [[f64; 2]; 2] = [[-1.024, 0.538], [0.216, 0.465]];
+
+fn luts(of: &Operations, [adders, selects]: [f64; 2]) -> f64 {
+    adders * of.adders + selects * of.selects
+}
+
+/// What a profile's core costs.
+///
+/// # Errors
+/// A core that cannot be.
+pub fn cost(profile: &Profile) -> Result<Cost> {
+    let core = Core::try_new(profile)?;
+    let operations = Operations::of(&Netlist::of(&core));
+    let latency_clocks = core.latency();
+    let sample_s = 1.0 / SAMPLE_HZ;
+    let clock_s = sample_s / profile.clocks_per_sample as f64;
+    let window_s = profile.slot.integrate as f64 * sample_s;
+    let slot_s = profile.slot.samples() as f64 * sample_s;
+    Ok(Cost {
+        latency_clocks,
+        age_us: 1e6 * (0.5 * window_s + latency_clocks as f64 * clock_s),
+        frames_per_second: 1.0 / (slot_s * profile.pads as f64),
+        luts: luts(&operations, LUTS[0]),
+        luts_ice40: luts(&operations, LUTS[1]),
+        flip_flops: operations.flip_flops,
+        multipliers: operations.products[1],
+        memory_bits: operations.memory_bits,
+    })
+}

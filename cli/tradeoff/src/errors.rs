@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Errors of a profile's core on slots of a scene: predicted from its own blocks, and measured.
+//!
+//! | quantity | unit | of a slot |
+//! | --- | --- | --- |
+//! | force | mN | core − ideal |
+//! | capacitance | % | (core − ideal)/ideal |
+//! | position | µm | distance of the core's place from the ideal one |
+//!
+//! Predicted are mean, variance and bound for each slot's samples, which then are averaged over the
+//! slots as measured errors are.
+
+use super::points::{Slot, Values, codes};
+use anyhow::Result;
+use hapticore_contract::calibration::Calibration;
+use hapticore_contract::profile::Profile;
+use hapticore_model::fidelity::fixed::FixedSimulation;
+use hapticore_model::fidelity::noise::{Expected, Prediction, Predictor, Signals};
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// What errors are asked of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Quantity {
+    /// Haptic force, mN.
+    Force,
+    /// Capacitance, %.
+    Capacitance,
+    /// Position, µm.
+    Position,
+}
+
+impl Quantity {
+    /// All of them.
+    pub const ALL: [Quantity; 3] = [Quantity::Force, Quantity::Capacitance, Quantity::Position];
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Quantity::Force => "force",
+            Quantity::Capacitance => "capacitance",
+            Quantity::Position => "position",
+        }
+    }
+
+    /// Its unit.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Quantity::Force => "mN",
+            Quantity::Capacitance => "%",
+            Quantity::Position => "µm",
+        }
+    }
+}
+
+/// An error over many slots.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+pub struct Error {
+    /// Root of the mean square.
+    pub rms: f64,
+    /// Mean; of the position, of its x.
+    pub mean: f64,
+    /// Largest magnitude; of a prediction, what none exceeds.
+    pub largest: f64,
+}
+
+/// Errors of force, capacitance and position.
+pub type Errors = [Error; 3];
+
+/// What the errors of a profile are made of: each source's rms, by the path of the instance that
+/// rounds.
+pub type Sources = [BTreeMap<String, f64>; 3];
+
+/// Sums over slots.
+#[derive(Debug, Clone, Copy, Default)]
+struct Sum {
+    mean: f64,
+    square: f64,
+    largest: f64,
+    count: f64,
+}
+
+impl Sum {
+    fn add(&mut self, mean: f64, square: f64, largest: f64) {
+        self.mean += mean;
+        self.square += square;
+        self.largest = self.largest.max(largest);
+        self.count += 1.0;
+    }
+
+    fn error(self) -> Error {
+        let count = self.count.max(1.0);
+        Error { rms: (self.square / count).sqrt(), mean: self.mean / count, largest: self.largest }
+    }
+}
+
+/// What a profile's core is expected to be off on slots, by which rounding, and the least amplitude in
+/// steps of the ADC.
+///
+/// # Errors
+/// A core that cannot be.
+pub fn predicted(
+    profile: &Profile,
+    calibration: &Calibration,
+    slots: &[Slot],
+) -> Result<(Errors, Sources, f64)> {
+    let mut predictor = Predictor::new(profile, calibration)?;
+    let (mut sums, mut sources) = ([Sum::default(); 3], Sources::default());
+    let mut least_codes = f64::INFINITY;
+    for slot in slots {
+        let Prediction { x, y, capacitance, force, least_codes: codes, .. } =
+            predictor.slot(slot.pad, Signals::Samples(&slot.samples));
+        least_codes = least_codes.min(codes);
+        let percent = 100.0 / capacitance.real;
+        let of = |of: &Expected, unit: f64| of.errors.total.times(unit);
+        let (force_mn, share) = (of(&force, 1e3), of(&capacitance, percent));
+        sums[0].add(force_mn.mean, force_mn.rms().powi(2), force_mn.bound);
+        sums[1].add(share.mean, share.rms().powi(2), share.bound);
+        let [along, across] = [of(&x, 1e3), of(&y, 1e3)];
+        let square = along.rms().powi(2) + across.rms().powi(2);
+        sums[2].add(along.mean, square, along.bound.hypot(across.bound));
+        for (quantity, of, unit) in
+            [(0, force, 1e3), (1, capacitance, percent), (2, x, 1e3), (2, y, 1e3)]
+        {
+            for (source, moments) in of.errors.by_source {
+                let square = moments.times(unit).rms().powi(2) / slots.len() as f64;
+                *sources[quantity].entry(source).or_default() += square;
+            }
+        }
+    }
+    for of in &mut sources {
+        of.values_mut().for_each(|square| *square = square.sqrt());
+    }
+    Ok((sums.map(Sum::error), sources, least_codes))
+}
+
+/// What a profile's core is off the ideal estimator on slots.
+pub fn measured(profile: &Profile, calibration: &Calibration, slots: &[Slot]) -> Errors {
+    let mut core = FixedSimulation::<i64>::new(profile, calibration);
+    let mut sums = [Sum::default(); 3];
+    for slot in slots {
+        let frame = core.slot(slot.pad, &codes(&slot.samples, profile.formats.adc));
+        let (is, ideal) = (Values::of(&frame.measurement(profile)), slot.ideal);
+        let force = 1e3 * (is.force_n - ideal.force_n);
+        let capacitance = 100.0 * (is.capacitance_pf / ideal.capacitance_pf - 1.0);
+        let place = [0, 1].map(|n| 1e3 * (is.position_mm[n] - ideal.position_mm[n]));
+        sums[0].add(force, force * force, force.abs());
+        sums[1].add(capacitance, capacitance * capacitance, capacitance.abs());
+        let distance = place[0].hypot(place[1]);
+        sums[2].add(place[0], distance * distance, distance);
+    }
+    sums.map(Sum::error)
+}

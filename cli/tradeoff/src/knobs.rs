@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What of a profile is varied: word lengths bit by bit, and the window.
+//!
+//! A word that gets shorter loses its last bits; its range stays. Words that are one choice move
+//! together: those of a channel and of the total, those of the position table and of the positions.
+
+use hapticore_contract::profile::{Method, Profile};
+use hapticore_hdl::format::Format;
+
+/// One thing that is varied.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Knob {
+    /// Bits of the ADC.
+    Adc,
+    /// Bits of the oscillator's and of the window's words.
+    Oscillator,
+    /// Bits of the in-phase and quadrature words, and of their total.
+    Words,
+    /// Bits of the ratios.
+    Ratio,
+    /// Bits of the position table's words, and of the positions.
+    Table,
+    /// Bits of the admittance.
+    Admittance,
+    /// Bits of the capacitance.
+    Capacitance,
+    /// Bits of the haptic voltage's mean square.
+    MeanSquare,
+    /// Bits of the squares that lead to the force.
+    Square,
+    /// Bits of the force.
+    Force,
+    /// Samples of the window.
+    Window,
+}
+
+impl Knob {
+    /// All of them.
+    pub const ALL: [Knob; 11] = [
+        Knob::Adc,
+        Knob::Oscillator,
+        Knob::Words,
+        Knob::Ratio,
+        Knob::Table,
+        Knob::Admittance,
+        Knob::Capacitance,
+        Knob::MeanSquare,
+        Knob::Square,
+        Knob::Force,
+        Knob::Window,
+    ];
+
+    /// The words, which are counted in bits.
+    pub fn words() -> impl Iterator<Item = Knob> {
+        Knob::ALL.into_iter().filter(|knob| *knob != Knob::Window)
+    }
+
+    /// Its key in a profile.
+    pub fn key(self) -> &'static str {
+        match self {
+            Knob::Adc => "adc",
+            Knob::Oscillator => "oscillator",
+            Knob::Words => "iq",
+            Knob::Ratio => "ratio",
+            Knob::Table => "table",
+            Knob::Admittance => "admittance",
+            Knob::Capacitance => "capacitance",
+            Knob::MeanSquare => "mean_square",
+            Knob::Square => "square",
+            Knob::Force => "force",
+            Knob::Window => "slot.integrate",
+        }
+    }
+
+    /// Where it stands: bits, or samples.
+    pub fn value(self, profile: &Profile) -> u64 {
+        let f = &profile.formats;
+        let format = match self {
+            Knob::Adc => f.adc,
+            Knob::Oscillator => f.oscillator,
+            Knob::Words => f.iq,
+            Knob::Ratio => f.ratio,
+            Knob::Table => f.table,
+            Knob::Admittance => f.admittance,
+            Knob::Capacitance => f.capacitance,
+            Knob::MeanSquare => f.mean_square,
+            Knob::Square => f.square,
+            Knob::Force => f.force,
+            Knob::Window => return profile.slot.integrate,
+        };
+        format.width.into()
+    }
+
+    /// The profile with this knob at a value; none where no core can be built of it.
+    pub fn set(self, profile: &Profile, value: u64) -> Option<Profile> {
+        let by = i64::try_from(value).ok()? - i64::try_from(self.value(profile)).ok()?;
+        let mut turned = match self {
+            Knob::Window => {
+                let least = if profile.carrier.method == Method::Polyphase { 5 } else { 1 };
+                profile.clone().with_window(value / least * least)
+            }
+            _ => profile.clone(),
+        };
+        if self != Knob::Window {
+            self.lengthen(&mut turned, i8::try_from(by).ok()?)?;
+        }
+        hapticore_model::check(&turned).is_ok().then_some(turned)
+    }
+
+    fn lengthen(self, profile: &mut Profile, by: i8) -> Option<()> {
+        let f = &mut profile.formats;
+        let formats: Vec<&mut Format> = match self {
+            Knob::Adc => vec![&mut f.adc],
+            Knob::Oscillator => vec![&mut f.oscillator],
+            Knob::Words => vec![&mut f.iq, &mut f.total],
+            Knob::Ratio => vec![&mut f.ratio],
+            Knob::Table => vec![&mut f.table, &mut f.position],
+            Knob::Admittance => vec![&mut f.admittance],
+            Knob::Capacitance => vec![&mut f.capacitance],
+            Knob::MeanSquare => vec![&mut f.mean_square],
+            Knob::Square => vec![&mut f.square],
+            Knob::Force => vec![&mut f.force],
+            Knob::Window => vec![],
+        };
+        for format in formats {
+            format.width = format.width.checked_add_signed(by).filter(|width| *width > 2)?;
+            format.frac = format.frac.checked_add(by)?;
+        }
+        if self == Knob::Oscillator {
+            // The code that stands for one keeps its share of the words' range.
+            let amplitude = profile.carrier.amplitude as f64 * 2f64.powi(by.into());
+            profile.carrier.amplitude = amplitude.round() as u64;
+        }
+        Some(())
+    }
+}

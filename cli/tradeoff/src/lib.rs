@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What accuracy costs: errors of profiles, predicted and measured, beside latency and area.
+//!
+//! | module | does |
+//! | --- | --- |
+//! | [`knobs`] | what of a profile is varied, and within which limits |
+//! | [`points`] | slots of a scene: what every profile is tried on |
+//! | [`errors`] | errors of force, capacitance and position, predicted and measured |
+//! | [`mod@cost`] | latency, and area from the core's own netlist |
+//! | [`mod@sweep`] | one knob after the other about a profile |
+//! | [`mod@search`] | the cheapest profile for a stated error |
+//!
+//! Errors are the core's against the ideal estimator, which sees the same samples without an ADC's
+//! rounding. What the estimator's equations leave of a scene's truth is another matter:
+//! `hapticore simulate` tells it.
+
+pub mod cost;
+pub mod errors;
+pub mod knobs;
+pub mod points;
+pub mod search;
+pub mod sweep;

@@ -1,0 +1,359 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The cheapest profile for a stated error.
+//!
+//! ```text
+//! E² = E₀² + Σ v_k·(4^(b₀−b_k) − 1),      LUT = LUT₀ + Σ s_k·(b_k − b₀)
+//! ```
+//!
+//! v_k, the variance that the word of knob k adds, and s_k, what a bit of it costs, come from one
+//! prediction and one netlist per knob; any combination then is a sum. From the longest words on, the
+//! bit is taken away that saves most area for the error that it adds, as long as the target holds;
+//! then pairs are exchanged. What is found is verified by running it; where it fails, the search is
+//! repeated with a smaller target.
+
+use super::cost::{Cost, cost};
+use super::errors::{Error, Errors, Quantity};
+use super::knobs::Knob;
+use super::sweep::{Point, Trial};
+use anyhow::Result;
+use hapticore_contract::profile::Profile;
+use serde::Serialize;
+use std::str::FromStr;
+
+/// Errors that a profile shall not exceed, RMS; none where nothing is asked.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+pub struct Target(pub [Option<f64>; 3]);
+
+impl FromStr for Target {
+    type Err = anyhow::Error;
+
+    /// Reads `force=1mN,position=0.1mm,capacitance=0.01%`.
+    fn from_str(text: &str) -> Result<Self> {
+        let mut target = Target::default();
+        for part in text.split(',') {
+            let (name, amount) = part.split_once('=').unwrap_or((part, ""));
+            let quantity = Quantity::ALL.iter().position(|of| of.name() == name.trim());
+            let (Some(quantity), Some(amount)) = (quantity, amount_of(amount.trim())) else {
+                anyhow::bail!(
+                    "expected force=1mN, capacitance=0.1% or position=0.1mm, got \"{part}\""
+                );
+            };
+            let (value, unit) = amount;
+            let units = [
+                [("mN", 1.0), ("N", 1e3), ("uN", 1e-3)],
+                [("%", 1.0); 3],
+                [("um", 1.0), ("µm", 1.0), ("mm", 1e3)],
+            ];
+            let factor = units[quantity].iter().find(|(name, _)| *name == unit);
+            let Some((_, factor)) = factor else {
+                let names = units[quantity].map(|(name, _)| name);
+                anyhow::bail!("{name}: expected a unit among {}, got \"{unit}\"", names.join(", "));
+            };
+            target.0[quantity] = Some(value * factor);
+        }
+        Ok(target)
+    }
+}
+
+fn amount_of(text: &str) -> Option<(f64, &str)> {
+    let end = text.find(|c: char| !(c.is_ascii_digit() || c == '.')).unwrap_or(text.len());
+    let value: f64 = text[..end].parse().ok()?;
+    (value.is_finite() && value > 0.0).then_some((value, text[end..].trim()))
+}
+
+/// What a search found.
+#[derive(Debug, Clone, Serialize)]
+pub struct Found {
+    /// What was asked for.
+    pub target: Target,
+    /// Bits of each knob.
+    pub bits: Vec<(String, u64)>,
+    /// Predicted and measured errors.
+    pub predicted: Errors,
+    /// Measured ones.
+    pub measured: Errors,
+    /// What it costs, and what the profile did that the search began with.
+    pub cost: Cost,
+    /// Of the profile that the search began with.
+    pub before: Cost,
+    /// The quantity that limits, and the block that adds most to its error.
+    pub limit: Option<(Quantity, String)>,
+    /// The quantities whose target no word length meets, and the least error there is.
+    pub missed: Vec<(Quantity, f64)>,
+    /// The profile.
+    #[serde(skip)]
+    pub profile: Profile,
+}
+
+impl Found {
+    /// Whether the profile meets the target as measured.
+    pub fn holds(&self) -> bool {
+        self.target
+            .0
+            .iter()
+            .zip(&self.measured)
+            .all(|(most, of)| most.is_none_or(|most| of.rms <= most))
+    }
+
+    /// What was found, in words.
+    pub fn text(&self) -> String {
+        let mut lines = Vec::new();
+        for ((quantity, most), (measured, predicted)) in
+            Quantity::ALL.iter().zip(self.target.0).zip(self.measured.iter().zip(&self.predicted))
+        {
+            let Some(most) = most else { continue };
+            let holds = if measured.rms <= most { "holds" } else { "missed" };
+            lines.push(format!(
+                "{}: {:.3} {} measured, {:.3} predicted, target {:.3}: {holds}",
+                quantity.name(),
+                measured.rms,
+                quantity.unit(),
+                predicted.rms,
+                most
+            ));
+        }
+        lines.push(format!(
+            "LUT4 {:.0} instead of {:.0} (estimated), flip-flops {:.0} instead of {:.0}",
+            self.cost.luts, self.before.luts, self.cost.flip_flops, self.before.flip_flops
+        ));
+        let bits: Vec<_> = self.bits.iter().map(|(knob, bits)| format!("{knob} {bits}")).collect();
+        lines.push(format!("bits: {}", bits.join(", ")));
+        if let Some((quantity, source)) = &self.limit {
+            lines.push(format!("the {} limits, most by {source}", quantity.name()));
+        }
+        for (quantity, least) in &self.missed {
+            lines.push(format!(
+                "{}: no word length meets the target; what is left is {:.3} {}",
+                quantity.name(),
+                least,
+                quantity.unit()
+            ));
+        }
+        lines.join("\n")
+    }
+}
+
+/// What a bit of a knob adds and costs.
+#[derive(Debug, Clone)]
+struct Slope {
+    knob: Knob,
+    /// Where the knob stands in the profile, and how far it may be turned.
+    base: u64,
+    range: [u64; 2],
+    /// Variance that the word adds at `base`, of each quantity.
+    variance: [f64; 3],
+    luts: f64,
+}
+
+/// The additive model of a profile's errors and area.
+#[derive(Debug, Clone)]
+pub struct Model {
+    squares: [f64; 3],
+    luts: f64,
+    slopes: Vec<Slope>,
+}
+
+/// By how many bits a word is shortened to see what it adds.
+const STEP: u64 = 2;
+/// How far words may grow or shrink.
+const REACH: u64 = 8;
+
+impl Model {
+    /// What predictions and netlists about a profile say.
+    ///
+    /// # Errors
+    /// As [`Trial::run`].
+    pub fn new(trial: &Trial) -> Result<Self> {
+        let profile = trial.profile();
+        let turned = |knob: Knob| {
+            let value = knob.value(profile).checked_sub(STEP)?;
+            Some((Some(knob), knob.set(profile, value)?))
+        };
+        let mut plan = vec![(None, profile.clone())];
+        plan.extend(Knob::words().filter_map(turned));
+        let points = trial.run(&plan, &|| ())?;
+        let itself = &points[0];
+        let square = |point: &Point, n: usize| point.predicted[n].rms.powi(2);
+        let slope = |((knob, _), point): (&(Option<Knob>, Profile), &Point)| {
+            let knob = (*knob)?;
+            let grown = 4f64.powi(STEP as i32) - 1.0;
+            let variance =
+                [0, 1, 2].map(|n| ((square(point, n) - square(itself, n)) / grown).max(0.0));
+            Some(Slope {
+                knob,
+                base: knob.value(profile),
+                range: range(knob, profile),
+                variance,
+                luts: (itself.cost.luts - point.cost.luts) / STEP as f64,
+            })
+        };
+        let slopes = plan.iter().zip(&points).filter_map(slope).collect();
+        let squares = [0, 1, 2].map(|n| square(itself, n));
+        Ok(Model { squares, luts: itself.cost.luts, slopes })
+    }
+
+    /// Mean squares of the errors with these bits.
+    pub fn squares(&self, bits: &[u64]) -> [f64; 3] {
+        let mut squares = self.squares;
+        for (slope, bits) in self.slopes.iter().zip(bits) {
+            let shorter = slope.base as i32 - *bits as i32;
+            let grown = 4f64.powi(shorter) - 1.0;
+            for (square, variance) in squares.iter_mut().zip(slope.variance) {
+                *square += variance * grown;
+            }
+        }
+        squares
+    }
+
+    /// Estimated LUT4 with these bits.
+    pub fn luts(&self, bits: &[u64]) -> f64 {
+        let more = |(slope, bits): (&Slope, &u64)| slope.luts * (*bits as f64 - slope.base as f64);
+        self.luts + self.slopes.iter().zip(bits).map(more).sum::<f64>()
+    }
+
+    /// The bits that cost least with errors within limits, found by taking away and exchanging.
+    pub fn cheapest(&self, most: &[Option<f64>; 3]) -> Vec<u64> {
+        let mut bits: Vec<u64> = self.slopes.iter().map(|slope| slope.range[1]).collect();
+        while let Some(next) = self.shorter(&bits, most) {
+            bits = next;
+        }
+        while let Some(next) = self.exchanged(&bits, most) {
+            bits = next;
+        }
+        bits
+    }
+
+    fn holds(&self, bits: &[u64], most: &[Option<f64>; 3]) -> bool {
+        let squares = self.squares(bits);
+        squares
+            .iter()
+            .zip(most)
+            .all(|(square, most)| most.is_none_or(|most| *square <= most * most))
+    }
+
+    /// How much of the targets is used up: the largest share.
+    fn used(&self, bits: &[u64], most: &[Option<f64>; 3]) -> f64 {
+        let squares = self.squares(bits);
+        let share =
+            |(square, most): (&f64, &Option<f64>)| most.map_or(0.0, |most| square / (most * most));
+        squares.iter().zip(most).map(share).fold(0.0, f64::max)
+    }
+
+    fn with(&self, bits: &[u64], at: usize, by: i64) -> Option<Vec<u64>> {
+        let value = bits[at].checked_add_signed(by)?;
+        let [least, most] = self.slopes[at].range;
+        (least..=most).contains(&value).then(|| {
+            let mut bits = bits.to_vec();
+            bits[at] = value;
+            bits
+        })
+    }
+
+    /// A bit less, where most area is saved for the error that is added.
+    fn shorter(&self, bits: &[u64], most: &[Option<f64>; 3]) -> Option<Vec<u64>> {
+        let used = self.used(bits, most);
+        let tried = (0..bits.len()).filter_map(|at| {
+            let next = self.with(bits, at, -1).filter(|next| self.holds(next, most))?;
+            let added = (self.used(&next, most) - used).max(1e-12);
+            Some((self.slopes[at].luts.max(1e-3) / added, next))
+        });
+        tried.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, next)| next)
+    }
+
+    /// One word a bit longer, another one or two shorter, where that is cheaper.
+    fn exchanged(&self, bits: &[u64], most: &[Option<f64>; 3]) -> Option<Vec<u64>> {
+        let cost = self.luts(bits);
+        let longer = (0..bits.len()).filter_map(|at| self.with(bits, at, 1));
+        let next = longer.flat_map(|longer| {
+            let shorter = |from: &[u64]| -> Vec<Vec<u64>> {
+                (0..from.len()).filter_map(|at| self.with(from, at, -1)).collect()
+            };
+            let one = shorter(&longer);
+            let two: Vec<_> = one.iter().flat_map(|one| shorter(one)).collect();
+            one.into_iter().chain(two)
+        });
+        let better = next.filter(|next| self.luts(next) < cost - 1e-9 && self.holds(next, most));
+        better.min_by(|a, b| self.luts(a).total_cmp(&self.luts(b)))
+    }
+
+    /// The profile with these bits; a word that no core can have keeps its length.
+    fn profile(&self, profile: &Profile, bits: &[u64]) -> Profile {
+        let mut found = profile.clone();
+        // A word that must not be longer than another's waits for it.
+        for _ in 0..2 {
+            for (slope, bits) in self.slopes.iter().zip(bits) {
+                found = slope.knob.set(&found, *bits).unwrap_or(found);
+            }
+        }
+        found
+    }
+}
+
+/// How far a knob may be turned by itself.
+fn range(knob: Knob, profile: &Profile) -> [u64; 2] {
+    let base = knob.value(profile);
+    let within = |by: &i64| {
+        base.checked_add_signed(*by).is_some_and(|value| knob.set(profile, value).is_some())
+    };
+    let reach = REACH as i64;
+    let down = (1..=reach).take_while(|by| within(&-by)).last().unwrap_or(0);
+    let up = (1..=reach).take_while(within).last().unwrap_or(0);
+    [base - down as u64, base + up as u64]
+}
+
+/// The cheapest profile about that of a trial whose errors are within the target.
+///
+/// # Errors
+/// As [`Trial::run`].
+pub fn search(trial: &Trial, target: &Target) -> Result<Found> {
+    let model = Model::new(trial)?;
+    let longest: Vec<u64> = model.slopes.iter().map(|slope| slope.range[1]).collect();
+    let least = model.squares(&longest).map(|square| square.max(0.0).sqrt());
+    let missed: Vec<_> = (0..3)
+        .filter(|n| target.0[*n].is_some_and(|most| least[*n] > most))
+        .map(|n| (Quantity::ALL[n], least[n]))
+        .collect();
+    let mut most = target.0;
+    let mut found = None;
+    for _ in 0..TRIES {
+        let bits = if missed.is_empty() { model.cheapest(&most) } else { longest.clone() };
+        let profile = model.profile(trial.profile(), &bits);
+        let plan = [(None, Profile { name: format!("{}-found", profile.name), ..profile })];
+        let point = trial.run(&plan, &|| ())?.remove(0);
+        let over = over(&point.measured, target);
+        found = Some((point, plan[0].1.clone()));
+        if over <= 1.0 || !missed.is_empty() {
+            break;
+        }
+        most = most.map(|limit| limit.map(|limit| limit / (over * 1.01)));
+    }
+    let (point, profile) = found.expect("there is a try");
+    Ok(Found {
+        target: *target,
+        bits: Knob::words().map(|knob| (knob.key().into(), knob.value(&profile))).collect(),
+        predicted: point.predicted,
+        measured: point.measured,
+        cost: point.cost,
+        before: cost(trial.profile())?,
+        limit: limit(&point, target),
+        missed,
+        profile,
+    })
+}
+
+/// How often a target is tightened where the profile that was found misses it.
+const TRIES: usize = 6;
+
+/// By how much measured errors are beyond the target, the largest ratio.
+fn over(measured: &[Error; 3], target: &Target) -> f64 {
+    let ratio = |(of, most): (&Error, &Option<f64>)| most.map_or(0.0, |most| of.rms / most);
+    measured.iter().zip(&target.0).map(ratio).fold(0.0, f64::max)
+}
+
+/// The quantity nearest to its target, and the source that adds most to it.
+fn limit(point: &Point, target: &Target) -> Option<(Quantity, String)> {
+    let share = |n: &usize| target.0[*n].map_or(0.0, |most| point.measured[*n].rms / most);
+    let nearest = (0..3).max_by(|a, b| share(a).total_cmp(&share(b)))?;
+    let most = point.sources[nearest].iter().max_by(|a, b| a.1.total_cmp(b.1))?;
+    target.0[nearest].map(|_| (Quantity::ALL[nearest], most.0.clone()))
+}

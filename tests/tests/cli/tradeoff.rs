@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `hapticore tradeoff`: its files, what its table says, and the profile that a search finds.
+
+use std::fs;
+use std::path::Path;
+
+use hapticore_contract::profile::Profile;
+use serde_json::Value;
+
+use crate::{Table, expect, refuse};
+
+const SCENE: [&str; 5] = ["tradeoff", "--scene", "fig6", "--slots", "4"];
+
+fn run(folder: &Path, more: &[&str]) -> Value {
+    let args = [&SCENE[..], more, &["--out", "t", "--json"]].concat();
+    serde_json::from_slice(&expect(folder, &args, 0).stdout).expect("JSON")
+}
+
+/// The measured rms of a quantity at a knob's value.
+fn rms(table: &Table, quantity: &str, knob: &str, value: &str) -> f64 {
+    let (knobs, values) = (table.column("knob"), table.column("value"));
+    let row = (0..knobs.len()).find(|n| knobs[*n] == knob && values[*n] == value);
+    table.numbers(&format!("measured_{quantity}_rms"))[row.expect("a row")]
+}
+
+#[test]
+#[cfg_attr(not(optimised), ignore = "dozens of profiles: run with --release")]
+fn a_tradeoff_is_swept_and_the_profile_that_is_found_is_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let told = run(folder.path(), &["--target", "force=1mN,position=0.5mm"]);
+    let table = Table::read(&folder.path().join("t/tradeoff.csv"));
+    let points = told["points"].as_array().expect("points");
+    assert_eq!(table.column("knob").len(), points.len());
+    let [short, long] = ["14", "18"].map(|bits| rms(&table, "force", "force", bits));
+    assert!(short > 8.0 * long, "four bits: {short} mN, {long} mN");
+    let found = &told["found"];
+    for (n, most) in [(0, 1.0), (2, 500.0)] {
+        let measured = found["measured"][n]["rms"].as_f64().expect("a number");
+        assert!(measured <= most, "{measured} of {most}");
+    }
+    let cells = |of: &str| found[of]["luts"].as_f64().expect("a number");
+    assert!(cells("cost") < 0.9 * cells("before"), "{} of {}", cells("cost"), cells("before"));
+    let text = fs::read_to_string(folder.path().join("t/profile.toml")).unwrap();
+    let profile = Profile::parse(&text).expect("a profile");
+    assert_eq!(hapticore_model::check(&profile), Ok(()));
+    assert_eq!(profile.name, "standard-found");
+    assert!(folder.path().join("t/report.html").exists());
+}
+
+#[test]
+fn targets_and_scenes_that_cannot_be_are_one_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let refused = |args: &[&str], words: &[&str]| {
+        refuse(folder.path(), &[&["tradeoff", "--slots", "1"], args].concat(), words);
+    };
+    refused(&["--target", "force"], &["--target", "force=1mN", "got \"force\""]);
+    refused(&["--target", "force=1mm"], &["--target", "force", "mN", "got \"mm\""]);
+    refused(&["--target", "force=-1mN"], &["--target", "got \"force=-1mN\""]);
+    refused(&["--scene", "fig9"], &["fig9", "expected a scene without [control]"]);
+    refused(&["--scene", "nowhere"], &["nowhere"]);
+}
