@@ -274,6 +274,30 @@ fn any_profile_that_is_accepted_elaborates_and_is_proved() {
     assert!(accepted > 50 && refused > 50);
 }
 
+/// Words of other profiles that get longer: a core of them is one that can be printed, or is refused.
+#[test]
+fn longer_words_are_refused_or_elaborate() {
+    let (mut accepted, mut refused) = (0, 0);
+    for mut profile in Profile::of_distinct_words() {
+        for _ in 0..8 {
+            let f = &mut profile.formats;
+            for format in
+                [&mut f.iq, &mut f.total, &mut f.admittance, &mut f.capacitance, &mut f.square]
+            {
+                (format.width, format.frac) = (format.width + 1, format.frac + 1);
+            }
+            match hapticore_model::check(&profile) {
+                Ok(()) => {
+                    Netlist::of(&Core::new(&profile));
+                    accepted += 1;
+                }
+                Err(_) => refused += 1,
+            }
+        }
+    }
+    assert!(accepted > 3 && refused > 3, "{accepted} accepted, {refused} refused");
+}
+
 #[test]
 fn bad_profiles_say_what_was_expected() {
     for (key, value, words) in [

@@ -119,6 +119,7 @@ impl Capacitance {
         let correct = profile.capacitance.sheet_correction;
         let multiplier = Multiplier::new(left, right, profile.multiplier);
         let capacitance = f.capacitance;
+        fits("formats.total", "the radicand of the capacitance", sqrt.widest())?;
         fits("formats.admittance", "the dividend of the admittance", divider.dividend.width)?;
         let block = Capacitance {
             multiplier,
@@ -141,6 +142,15 @@ impl Capacitance {
     #[inline(always)]
     fn gain_product(&self) -> Format {
         self.admittance.product(self.gain)
+    }
+
+    /// See `hurry` of the square root and the divider.
+    pub(crate) fn hurry(&mut self) {
+        // Its `done` would come within a step of two clocks, which does not look at it.
+        if self.multiplier.latency() == 1 {
+            self.sqrt.hurry();
+        }
+        self.divider.hurry();
     }
 
     /// Clocks from `start` to `done`.

@@ -31,7 +31,7 @@ use self::block_floating::wide;
 use super::demodulator::Demodulator;
 use super::multiplier::{self, Multiplier};
 use super::sqrt::{self, SquareRoot};
-use crate::buildable::rounds;
+use crate::buildable::{fits, rounds};
 use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format};
@@ -150,6 +150,7 @@ impl Currents {
         };
         let power = Format::unsigned(2 * part.width, 2 * part.frac);
         let sqrt = SquareRoot::new(power, part.frac);
+        fits("formats.total", "the radicand of an amplitude", sqrt.widest())?;
         let amplitude = sqrt.sqrt();
         let words = Memory::new("words", (2 * terminals + 4).next_power_of_two() as usize, wide)
             .dont_care_on_collision();
@@ -201,6 +202,11 @@ impl Currents {
     /// The format of the least amplitude.
     pub fn least(&self) -> Format {
         self.sqrt_format()
+    }
+
+    /// See `hurry` of the square root.
+    pub(crate) fn hurry(&mut self) {
+        self.sqrt.hurry();
     }
 
     /// Clocks from the last sum to `done`.

@@ -32,6 +32,8 @@ block! {
         pub(super) dividend: Format,
         /// Bits of the remainder.
         head: u8,
+        /// For interpretations as codes, which need not step its clocks one by one.
+        hurried: bool,
     }
     submodules {}
     inputs(divider) {
@@ -81,7 +83,22 @@ impl Divider {
         let width = (numerator.width + pad as u8).max(quotient.width + 1);
         let dividend = Format::unsigned(width, numerator.frac + pad);
         let head = (width - quotient.width).max(denominator.width);
-        Divider { numerator, denominator, quotient, dividend, head }
+        Divider { numerator, denominator, quotient, dividend, head, hurried: false }
+    }
+
+    /// From now on interpretations that know every bit have their results in the clock after `start`:
+    /// operands are stable until then.
+    pub(crate) fn hurry(&mut self) {
+        self.hurried = true;
+    }
+
+    /// The clocks that follow the first, one after the other.
+    #[inline(never)]
+    fn run_on<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) {
+        let held = Inputs { start: bit(false), ..i };
+        while V::known_bit(state.registers.done) != Some(true) {
+            self.cycle(state, held);
+        }
     }
 
     /// Clocks from `start` to `done`.
@@ -161,6 +178,17 @@ impl Divider {
 impl Block for Divider {
     #[inline(always)]
     fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
+        let outputs = self.cycle(state, i);
+        if self.hurried && V::known_bit(i.start.value) == Some(true) {
+            self.run_on(state, i);
+        }
+        outputs
+    }
+}
+
+impl Divider {
+    #[inline(always)]
+    fn cycle<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
         let r = state.load(self);
         let outputs = Outputs { done: r.done, quotient: r.quotient, saturated: r.saturated };
         if (i.start | r.busy | r.done).can_skip() {

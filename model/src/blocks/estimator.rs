@@ -226,9 +226,13 @@ impl Estimator {
         prompt + stages.into_iter().sum::<u64>()
     }
 
-    /// As [`Position::place_at_once`].
+    /// From now on interpretations that know every bit need not wait for serial blocks: as
+    /// [`Position::place_at_once`], and the same of square roots and dividers.
     pub(crate) fn place_at_once(&mut self, table: Vec<i64>) {
         self.position.place_at_once(table);
+        self.currents.hurry();
+        self.ratio.hurry();
+        self.capacitance.hurry();
     }
 
     /// What the table port writes: the position table, and behind it the force table where there

@@ -106,6 +106,11 @@ impl Ratio {
         magnitude(self.ratio)
     }
 
+    /// See `hurry` of the divider.
+    pub(crate) fn hurry(&mut self) {
+        self.divider.hurry();
+    }
+
     /// Clocks from `start` to `done`.
     pub fn latency(&self) -> u64 {
         (Step::ALL.len() as u64 - 1) * (self.divider.latency() + 1) + 1

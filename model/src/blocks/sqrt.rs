@@ -29,6 +29,8 @@ block! {
         digits: u8,
         /// Fractional bits of the square root.
         frac: i8,
+        /// For interpretations that need not step its clocks one by one.
+        hurried: bool,
     }
     submodules {}
     inputs(block) {
@@ -67,7 +69,7 @@ impl SquareRoot {
             "√{radicand} has more fractional bits than {frac}"
         );
         let digits = ((radicand.integer_bits() + 1) / 2 + i16::from(frac)) as u8;
-        SquareRoot { radicand, digits, frac }
+        SquareRoot { radicand, digits, frac, hurried: false }
     }
 
     /// The format of the square root.
@@ -80,6 +82,25 @@ impl SquareRoot {
     #[inline(always)]
     fn padded(&self) -> Format {
         Format::unsigned(2 * self.digits, 2 * self.frac)
+    }
+
+    /// From now on interpretations that know every bit have their results in the clock after `start`.
+    pub(crate) fn hurry(&mut self) {
+        self.hurried = true;
+    }
+
+    /// The clocks that follow the first, one after the other.
+    #[inline(never)]
+    fn run_on<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) {
+        let held = Inputs { start: bit(false), ..i };
+        while V::known_bit(state.registers.done) != Some(true) {
+            self.cycle(state, held);
+        }
+    }
+
+    /// The width of its widest word: what is left of the radicand, moved by a digit.
+    pub fn widest(&self) -> u8 {
+        self.padded().width + 2
     }
 
     /// Clocks from `start` to `done`.
@@ -132,6 +153,17 @@ impl SquareRoot {
 impl Block for SquareRoot {
     #[inline(always)]
     fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
+        let outputs = self.cycle(state, i);
+        if self.hurried && V::known_bit(i.start.value) == Some(true) {
+            self.run_on(state, i);
+        }
+        outputs
+    }
+}
+
+impl SquareRoot {
+    #[inline(always)]
+    fn cycle<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
         let r = state.load(self);
         let outputs = Outputs { done: r.done, sqrt: r.sqrt };
         if (i.start | r.busy | r.done).can_skip() {
