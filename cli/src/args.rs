@@ -98,6 +98,9 @@ pub struct TradeoffArgs {
     /// Search the cheapest profile with these errors at most: force=1mN,position=0.1mm,capacitance=0.1%
     #[arg(long, value_name = "ERRORS")]
     pub target: Option<String>,
+    /// Also tell what one more bit of each word would buy
+    #[arg(long)]
+    pub explain: bool,
     /// Where results go
     #[arg(long, value_name = "DIR", default_value = "out/tradeoff")]
     pub out: PathBuf,

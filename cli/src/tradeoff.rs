@@ -7,7 +7,7 @@ use hapticore_run::inputs;
 use hapticore_run::record::Provenance;
 use hapticore_scene::{Scene, gallery};
 use hapticore_tradeoff::errors::Quantity;
-use hapticore_tradeoff::search::{Found, Target, search};
+use hapticore_tradeoff::search::{Found, Model, NextBit, Target, search};
 use hapticore_tradeoff::sweep::{Point, Trial};
 use serde::Serialize;
 
@@ -34,6 +34,9 @@ pub struct Tradeoff {
     pub points: Vec<Point>,
     /// The cheapest profile for a target, where there was one.
     pub found: Option<Found>,
+    /// What one more bit would buy, of the profile that was found or else of the profile itself; where
+    /// it was asked for.
+    pub next_bits: Vec<NextBit>,
     /// Version, command and such.
     pub provenance: Provenance,
 }
@@ -58,13 +61,20 @@ pub fn run(args: &TradeoffArgs) -> Result<bool> {
     let bar = progress::bar_of(plan.len() as u64, "profiles", args.json);
     let points = trial.run(&plan, &|| bar.inc(1))?;
     bar.finish_and_clear();
-    let found = target.map(|target| search(&trial, &target)).transpose()?;
+    let asked = target.is_some() || args.explain;
+    let model = asked.then(|| Model::new(&trial)).transpose()?;
+    let found = target.zip(model.as_ref()).map(|(target, model)| search(&trial, model, &target));
+    let found = found.transpose()?;
+    let explained = model.filter(|_| args.explain);
+    let of = found.as_ref().map_or(trial.profile(), |found| &found.profile);
+    let next_bits = explained.map(|model| model.next_bits(of)).unwrap_or_default();
     let tradeoff = Tradeoff {
         profile: trial.profile().name.clone(),
         scenes: names,
         slots: args.slots,
         points,
         found,
+        next_bits,
         provenance: Provenance::new(),
     };
     write(&output, &tradeoff)?;
@@ -172,6 +182,29 @@ fn print(tradeoff: &Tradeoff) {
     if let Some(found) = &tradeoff.found {
         say!("\n{}", found.text());
     }
+    if !tradeoff.next_bits.is_empty() {
+        say!("\nwhat one more bit would buy, as predicted:");
+        console::print(format_args!("{}", next_bits(&tradeoff.next_bits)));
+    }
+}
+
+/// The head of the table of what one more bit would buy.
+pub const NEXT_BIT: [&str; 6] =
+    ["knob", "bits", "force, mN less", "capacitance, % less", "position, µm less", "LUT4 more"];
+
+/// Its rows.
+pub fn next_bit_rows(next_bits: &[NextBit]) -> Vec<Vec<String>> {
+    let row = |next: &NextBit| {
+        let mut cells = vec![next.knob.clone(), next.bits.to_string()];
+        cells.extend(next.less.map(number));
+        cells.push(format!("{:.0}", next.luts));
+        cells
+    };
+    next_bits.iter().map(row).collect()
+}
+
+fn next_bits(next_bits: &[NextBit]) -> String {
+    table(&NEXT_BIT, &next_bit_rows(next_bits))
 }
 
 /// A predicted error, marked where the prediction may not hold.

@@ -9,7 +9,7 @@ use super::page::{self, escape};
 use super::paint::Paint;
 use super::plot::Plot;
 use super::series::{Mark, Series};
-use crate::tradeoff::{FEW_CODES, Tradeoff, front, prediction};
+use crate::tradeoff::{FEW_CODES, NEXT_BIT, Tradeoff, front, next_bit_rows, prediction};
 use hapticore_tradeoff::errors::Quantity;
 use hapticore_tradeoff::sweep::Point;
 
@@ -37,6 +37,7 @@ pub fn of_tradeoff(tradeoff: &Tradeoff) -> String {
         format!("<header>\n<h1>{}</h1>\n<p>{}</p>\n</header>\n", escape(&title), escape(&about)),
         page::section("The cheapest profile", &found),
         page::section("Figures", &format!("<div class=\"figures\">\n{figures}</div>\n")),
+        page::section("What one more bit would buy", &next_bits(tradeoff)),
         page::section("What the predicted errors are made of", &sources(tradeoff)),
         page::section("All points", &points(tradeoff)),
     ];
@@ -59,18 +60,23 @@ fn over_bits(tradeoff: &Tradeoff, n: usize, quantity: Quantity) -> Figure {
     let words = by_knob(tradeoff).into_iter().filter(|(knob, _)| !knob.contains('.'));
     let line = |(at, (knob, points)): (usize, (&str, Vec<&Point>))| {
         let places = points.iter().map(|point| (point.value as f64, point.measured[n].rms));
-        Series::line(knob, Paint::series(at), places.collect()).tagged(knob)
+        Series::line(knob, Paint::series(at), places.collect())
     };
-    let series: Vec<_> = words.enumerate().map(line).collect();
+    // Words that hardly matter would only hide the others.
+    let matters = |(_, points): &(&str, Vec<&Point>)| {
+        let rms = || points.iter().map(|point| point.measured[n].rms);
+        rms().fold(0.0, f64::max) > 1.5 * rms().fold(f64::INFINITY, f64::min)
+    };
+    let series: Vec<_> = words.filter(matters).enumerate().map(line).collect();
     let all = || series.iter().flat_map(|series| series.points.iter());
-    let title = format!("{} over word lengths", quantity.name());
+    let title = format!("Error of the {} over word lengths", quantity.name());
     let plot = Plot::new(
         &title,
         Axis::linear("bits of the word", all().map(|point| point.0)),
         Axis::log(&format!("RMS error ({})", quantity.unit()), all().map(|point| point.1)),
         series.clone(),
     );
-    let note = "Measured. A line that rises to the left by half per bit is the word that limits; a flat one is longer than it need be.";
+    let note = "Measured. Words that change the error by less than half of it are left out. A word whose error halves with every bit limits; where its line is flat, it is longer than it need be.";
     Figure::plot(&title, note, &plot)
 }
 
@@ -88,7 +94,7 @@ fn over_area(tradeoff: &Tradeoff, n: usize, quantity: Quantity) -> Figure {
         Series::dots(&tradeoff.profile, Paint::INK, itself).mark(Mark::Rings(14)),
     ];
     let all = || tradeoff.points.iter().map(place);
-    let title = format!("{} over area", quantity.name());
+    let title = format!("Error of the {} over area", quantity.name());
     let plot = Plot::new(
         &title,
         Axis::linear("LUT4, estimated", all().map(|point| point.0)),
@@ -159,6 +165,13 @@ fn sources(tradeoff: &Tradeoff) -> String {
     let rows: Vec<_> = rows.into_iter().map(|(_, cells)| cells).collect();
     let note = "<p class=\"note\">Shares of the mean square by the block that rounds; adc is the converter's rounding and what the oscillator's words do, calibration what the words of gains and tables are off.</p>\n";
     html_table(&["source", "force", "capacitance", "position"], &rows) + note
+}
+
+fn next_bits(tradeoff: &Tradeoff) -> String {
+    match tradeoff.next_bits.is_empty() {
+        true => String::new(),
+        false => html_table(&NEXT_BIT, &next_bit_rows(&tradeoff.next_bits)),
+    }
 }
 
 fn points(tradeoff: &Tradeoff) -> String {

@@ -133,6 +133,19 @@ impl Found {
     }
 }
 
+/// What one more bit of a knob would buy.
+#[derive(Debug, Clone, Serialize)]
+pub struct NextBit {
+    /// The knob's key in a profile.
+    pub knob: String,
+    /// Where it stands.
+    pub bits: u64,
+    /// By how much the predicted errors of force, capacitance and position would fall, each in its unit.
+    pub less: [f64; 3],
+    /// LUT4 of an ECP5 that it would take.
+    pub luts: f64,
+}
+
 /// What a bit of a knob adds and costs.
 #[derive(Debug, Clone)]
 struct Slope {
@@ -209,6 +222,21 @@ impl Model {
     pub fn luts(&self, bits: &[u64]) -> f64 {
         let more = |(slope, bits): (&Slope, &u64)| slope.luts * (*bits as f64 - slope.base as f64);
         self.luts + self.slopes.iter().zip(bits).map(more).sum::<f64>()
+    }
+
+    /// What one more bit of each knob would buy in a profile.
+    pub fn next_bits(&self, profile: &Profile) -> Vec<NextBit> {
+        let bits: Vec<u64> = self.slopes.iter().map(|slope| slope.knob.value(profile)).collect();
+        let rms = |bits: &[u64]| self.squares(bits).map(|square| square.max(0.0).sqrt());
+        let now = rms(&bits);
+        let next = |(at, slope): (usize, &Slope)| {
+            let mut longer = bits.clone();
+            longer[at] += 1;
+            let then = rms(&longer);
+            let less = [0, 1, 2].map(|n| now[n] - then[n]);
+            NextBit { knob: slope.knob.key().into(), bits: bits[at], less, luts: slope.luts }
+        };
+        self.slopes.iter().enumerate().map(next).collect()
     }
 
     /// The bits that cost least with errors within limits, found by taking away and exchanging.
@@ -305,8 +333,7 @@ fn range(knob: Knob, profile: &Profile) -> [u64; 2] {
 ///
 /// # Errors
 /// As [`Trial::run`].
-pub fn search(trial: &Trial, target: &Target) -> Result<Found> {
-    let model = Model::new(trial)?;
+pub fn search(trial: &Trial, model: &Model, target: &Target) -> Result<Found> {
     let longest: Vec<u64> = model.slopes.iter().map(|slope| slope.range[1]).collect();
     let least = model.squares(&longest).map(|square| square.max(0.0).sqrt());
     let missed: Vec<_> = (0..3)

@@ -14,7 +14,7 @@ use hapticore_run::interrupt;
 use hapticore_scene::Scene;
 use rayon::prelude::*;
 use serde::Serialize;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 
 /// A profile that was tried.
 #[derive(Debug, Clone, Serialize)]
@@ -47,10 +47,14 @@ pub struct Trial {
     scenes: Vec<Scene>,
     profile: Profile,
     slots: usize,
+    /// Those that were made: profiles of later runs share them, too.
+    benches: Mutex<Vec<Arc<Vec<Bench>>>>,
 }
 
 /// Slots and calibration that profiles share which have a slot's times and a table in common.
 struct Bench {
+    /// The profile that it was made for, and as the scene's device and pads have it.
+    of: Profile,
     profile: Arc<Profile>,
     calibration: Calibration,
     slots: Vec<Slot>,
@@ -69,7 +73,7 @@ impl Point {
 impl Trial {
     /// A trial of a profile, and of others about it, on so many slots of each scene.
     pub fn new(scenes: Vec<Scene>, profile: Profile, slots: usize) -> Self {
-        Trial { scenes, profile, slots }
+        Trial { scenes, profile, slots, benches: Mutex::default() }
     }
 
     /// The profile itself.
@@ -104,21 +108,14 @@ impl Trial {
         plan: &[(Option<Knob>, Profile)],
         progress: &(dyn Fn() + Sync),
     ) -> Result<Vec<Point>> {
-        let mut benches: Vec<Vec<Bench>> = Vec::new();
-        let mut of_profile = Vec::new();
-        for (_, profile) in plan {
-            let known = benches.iter().position(|of| same_bench(&of[0].profile, profile));
-            if known.is_none() {
-                benches.push(self.benches(profile)?);
-            }
-            of_profile.push(known.unwrap_or(benches.len() - 1));
-        }
+        let benches = plan.iter().map(|(_, profile)| self.benches(profile));
+        let benches = benches.collect::<Result<Vec<_>>>()?;
         let points: Result<Vec<Point>> = plan
             .par_iter()
-            .zip(&of_profile)
-            .map(|((knob, profile), bench)| {
+            .zip(&benches)
+            .map(|((knob, profile), benches)| {
                 interrupt::check()?;
-                let point = point(*knob, profile, &benches[*bench])?;
+                let point = point(*knob, profile, benches)?;
                 progress();
                 Ok(point)
             })
@@ -128,8 +125,15 @@ impl Trial {
         Ok(points)
     }
 
-    fn benches(&self, profile: &Profile) -> Result<Vec<Bench>> {
-        self.scenes.iter().map(|scene| bench(scene, profile, self.slots)).collect()
+    fn benches(&self, profile: &Profile) -> Result<Arc<Vec<Bench>>> {
+        let mut made = self.benches.lock().expect("nobody panics with it");
+        if let Some(known) = made.iter().find(|of| same_bench(&of[0].of, profile)) {
+            return Ok(known.clone());
+        }
+        let bench = |scene| bench(scene, profile, self.slots);
+        let benches = Arc::new(self.scenes.iter().map(bench).collect::<Result<Vec<_>>>()?);
+        made.push(benches.clone());
+        Ok(benches)
     }
 }
 
@@ -143,7 +147,7 @@ fn bench(scene: &Scene, profile: &Profile, count: usize) -> Result<Bench> {
     let case = Case::new(scene, 0, profile, &[])?;
     let calibration = case.calibration()?.clone();
     let slots = slots(scene, profile, count)?;
-    Ok(Bench { profile: case.profile.clone(), calibration, slots })
+    Ok(Bench { of: profile.clone(), profile: case.profile.clone(), calibration, slots })
 }
 
 impl Bench {

@@ -72,7 +72,7 @@ pub struct Prediction {
 /// deviations: once in 5·10^8 slots it is exceeded.
 const SIGMAS: f64 = 6.0;
 
-/// Predicts the errors of a core.
+/// Predicts the errors of a core: one on a thread at a time, for it records what it computes.
 pub struct Predictor {
     core: Core,
     recording: Recording,

@@ -27,7 +27,7 @@ fn rms(table: &Table, quantity: &str, knob: &str, value: &str) -> f64 {
 #[cfg_attr(not(optimised), ignore = "dozens of profiles: run with --release")]
 fn a_tradeoff_is_swept_and_the_profile_that_is_found_is_one() {
     let folder = tempfile::tempdir().unwrap();
-    let told = run(folder.path(), &["--target", "force=1mN,position=0.5mm"]);
+    let told = run(folder.path(), &["--target", "force=1mN,position=0.5mm", "--explain"]);
     let table = Table::read(&folder.path().join("t/tradeoff.csv"));
     let points = told["points"].as_array().expect("points");
     assert_eq!(table.column("knob").len(), points.len());
@@ -40,6 +40,14 @@ fn a_tradeoff_is_swept_and_the_profile_that_is_found_is_one() {
     }
     let cells = |of: &str| found[of]["luts"].as_f64().expect("a number");
     assert!(cells("cost") < 0.9 * cells("before"), "{} of {}", cells("cost"), cells("before"));
+    let next = told["next_bits"].as_array().expect("next bits");
+    let most = |n: usize| {
+        let less = |of: &&Value| of["less"][n].as_f64().expect("a number");
+        let largest = next.iter().max_by(|a, b| less(a).total_cmp(&less(b))).expect("some");
+        (largest["knob"].as_str().expect("a key"), less(&largest))
+    };
+    assert!(most(0).1 > 0.0 && most(2).1 > 0.0, "{next:?}");
+    assert_ne!(most(2).0, "force", "no position by bits of the force");
     let text = fs::read_to_string(folder.path().join("t/profile.toml")).unwrap();
     let profile = Profile::parse(&text).expect("a profile");
     assert_eq!(hapticore_model::check(&profile), Ok(()));

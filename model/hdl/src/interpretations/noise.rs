@@ -142,6 +142,8 @@ struct Scope {
 
 #[derive(Debug, Default)]
 struct Tape {
+    /// Which recording of the thread it is.
+    number: u64,
     operations: Vec<Operation>,
     sources: Vec<Source>,
     floored: Option<Floored>,
@@ -159,7 +161,8 @@ fn with<T>(act: impl FnOnce(&mut Tape) -> T) -> T {
 
 impl Tape {
     fn begin(&mut self) {
-        *self = Tape { operations: vec![Operation::default()], ..Tape::default() };
+        let (number, operations) = (self.number + 1, vec![Operation::default()]);
+        *self = Tape { number, operations, ..Tape::default() };
         self.scopes.push(Scope { parent: 0, name: OUTSIDE });
     }
 
@@ -221,9 +224,12 @@ impl Tape {
 }
 
 /// What blocks compute with [`Noise`] on this thread, from [`Recording::begin`] on. There is one a
-/// thread: another one begins anew.
+/// thread: as another one begins, this one ends, and its methods panic.
 #[derive(Debug)]
-pub struct Recording(PhantomData<*const ()>);
+pub struct Recording {
+    number: u64,
+    of_this_thread: PhantomData<*const ()>,
+}
 
 /// A time of a recording.
 #[derive(Debug, Clone, Copy)]
@@ -245,17 +251,24 @@ impl Recording {
     /// Begins to write down.
     pub fn begin() -> Self {
         with(Tape::begin);
-        Recording(PhantomData)
+        Recording { number: with(|tape| tape.number), of_this_thread: PhantomData }
+    }
+
+    fn with<T>(&self, act: impl FnOnce(&mut Tape) -> T) -> T {
+        with(|tape| {
+            assert_eq!(tape.number, self.number, "another recording has begun on this thread");
+            act(tape)
+        })
     }
 
     /// Now.
     pub fn mark(&self) -> Mark {
-        with(|tape| Mark { operations: tape.operations.len(), sources: tape.sources.len() })
+        self.with(|tape| Mark { operations: tape.operations.len(), sources: tape.sources.len() })
     }
 
     /// Forgets what was written down since: signals of that time are no longer to be used.
     pub fn rewind(&self, to: Mark) {
-        with(|tape| {
+        self.with(|tape| {
             tape.operations.truncate(to.operations);
             tape.sources.truncate(to.sources);
             tape.floored = None;
@@ -271,7 +284,7 @@ impl Recording {
         format: Format,
         moments: Moments,
     ) -> Signal<Noise> {
-        let entry = with(|tape| {
+        let entry = self.with(|tape| {
             let before = tape.enter(name);
             let entry = tape.source([(EXACT, 0.0); 2], moments);
             tape.scope = before;
@@ -282,12 +295,12 @@ impl Recording {
 
     /// How many operations have been written down.
     pub fn operations(&self) -> usize {
-        with(|tape| tape.operations.len())
+        self.with(|tape| tape.operations.len())
     }
 
     /// The error of a value.
     pub fn errors(&self, of: Noise) -> Errors {
-        with(|tape| {
+        self.with(|tape| {
             let gains = tape.gains(of.entry);
             let mut by_scope = vec![Moments::default(); tape.scopes.len()];
             for source in &tape.sources {
@@ -547,5 +560,62 @@ impl Interpretation for Noise {
 
     fn can_skip(busy: Self) -> bool {
         busy.shadow.code == 0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::signal::{Floor, HalfEven, Proved};
+
+    fn input(recording: &Recording, real: f64, format: Format) -> Signal<Noise> {
+        let code = format.code(real).expect("a code");
+        let moments = Moments { mean: 0.0, variance: 1.0, bound: 2.0 };
+        recording.input("input", Shadow { code, real }, format, moments)
+    }
+
+    #[test]
+    fn what_two_signals_have_in_common_counts_once() {
+        let recording = Recording::begin();
+        let format = Format::signed(8, 2);
+        let [x, y] = [3.0, -5.0].map(|real| input(&recording, real, format));
+        let variance = |of: Signal<Noise>| recording.errors(of.value).total.variance;
+        assert_eq!(variance(x + y), 2.0);
+        assert_eq!(variance(x + x), 4.0);
+        assert_eq!(variance(x - x), 0.0);
+        assert_eq!(variance(x * y), 34.0, "5²+3²");
+        assert_eq!(variance((x - x) * y), 0.0);
+    }
+
+    /// The errors of every code, as often as each other, against the formulas.
+    #[test]
+    fn roundings_have_the_moments_of_the_bits_that_they_drop() {
+        for (rounding, dropped) in
+            [HalfEven, Floor].into_iter().flat_map(|r| (1..7).map(move |d| (r, d)))
+        {
+            let (fine, coarse) = (Format::signed(12, 6), Format::signed(12, 6 - dropped));
+            let codes = -(4i64 << dropped)..4 << dropped;
+            let error = |code: i64| {
+                let rounded =
+                    i64::quantize(Signal { value: code, format: fine }, coarse, rounding, Proved);
+                coarse.real(rounded) - fine.real(code)
+            };
+            let count = codes.clone().count() as f64;
+            let mean = codes.clone().map(error).sum::<f64>() / count;
+            let square = codes.clone().map(|code| error(code).powi(2)).sum::<f64>() / count;
+            let bound = codes.map(|code| error(code).abs()).fold(0.0, f64::max);
+            let moments = Moments::of_rounding(rounding, dropped as u8, coarse.lsb());
+            assert!((moments.mean - mean).abs() < 1e-12, "{rounding:?} {dropped}");
+            assert!((moments.rms().powi(2) - square).abs() < 1e-12, "{rounding:?} {dropped}");
+            assert!((moments.bound - bound).abs() < 1e-12, "{rounding:?} {dropped}");
+        }
+    }
+
+    #[test]
+    #[should_panic(expected = "another recording")]
+    fn a_recording_ends_as_another_begins() {
+        let first = Recording::begin();
+        Recording::begin();
+        first.mark();
     }
 }
