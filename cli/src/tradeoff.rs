@@ -5,7 +5,7 @@ use anyhow::{Context, Result, ensure};
 use hapticore_contract::profile::Profile;
 use hapticore_run::inputs;
 use hapticore_run::record::Provenance;
-use hapticore_scene::{Scene, gallery};
+use hapticore_scene::{Scene, Timing, gallery};
 use hapticore_tradeoff::errors::Quantity;
 use hapticore_tradeoff::search::{Found, Model, NextBit, Target, search};
 use hapticore_tradeoff::sweep::{Point, Trial};
@@ -53,7 +53,7 @@ pub fn run(args: &TradeoffArgs) -> Result<bool> {
         true => SCENES.map(String::from).to_vec(),
         false => args.scene.clone(),
     };
-    let scenes = names.iter().map(|name| scene(name)).collect::<Result<Vec<_>>>()?;
+    let scenes = names.iter().map(|name| scene(name, &profile)).collect::<Result<Vec<_>>>()?;
     ensure!(args.slots >= 1, "--slots: expected at least 1");
     let output = Output::new(&args.out)?;
     let trial = Trial::new(scenes, profile, args.slots);
@@ -88,12 +88,13 @@ pub fn run(args: &TradeoffArgs) -> Result<bool> {
     Ok(tradeoff.found.as_ref().is_none_or(Found::holds))
 }
 
-/// A scene whose sensors leave the rounding to the core's ADC.
-fn scene(name: &str) -> Result<Scene> {
+/// A scene whose sensors leave the rounding to the core's ADC, at levels within its error budget.
+fn scene(name: &str, profile: &Profile) -> Result<Scene> {
     let plain = inputs::scene(name, &[])?;
     let rounds = gallery::find(name).is_none_or(|text| text.contains("quantisation_bits"));
     let key = ("sensor.quantisation_bits".to_string(), "32".to_string());
-    Ok(if rounds { inputs::scene(name, &[key]).unwrap_or(plain) } else { plain })
+    let scene = if rounds { inputs::scene(name, &[key]).unwrap_or(plain) } else { plain };
+    Ok(scene.within_budget(&Timing { signs: None, ..inputs::timing(profile) })?)
 }
 
 fn write(output: &Output, tradeoff: &Tradeoff) -> Result<()> {

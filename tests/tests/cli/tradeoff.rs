@@ -55,6 +55,15 @@ fn a_tradeoff_is_swept_and_the_profile_that_is_found_is_one() {
     assert!(folder.path().join("t/report.html").exists());
 }
 
+/// Levels of such a scene are chosen before it is run.
+#[test]
+#[cfg_attr(not(optimised), ignore = "dozens of profiles: run with --release")]
+fn a_scene_with_an_error_budget_is_swept() {
+    let folder = tempfile::tempdir().unwrap();
+    let args = ["tradeoff", "--scene", "minimal-sheet", "--profile", "small", "--slots", "1"];
+    expect(folder.path(), &[&args[..], &["--out", "t"]].concat(), 0);
+}
+
 #[test]
 fn targets_and_scenes_that_cannot_be_are_one_line() {
     let folder = tempfile::tempdir().unwrap();
