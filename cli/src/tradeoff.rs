@@ -5,8 +5,9 @@ use anyhow::{Context, Result, ensure};
 use hapticore_contract::profile::Profile;
 use hapticore_run::inputs;
 use hapticore_run::record::Provenance;
-use hapticore_scene::{Scene, Timing, gallery};
+use hapticore_scene::{Scene, Timing};
 use hapticore_tradeoff::errors::Quantity;
+use hapticore_tradeoff::points;
 use hapticore_tradeoff::search::{Found, Model, NextBit, Target, search};
 use hapticore_tradeoff::sweep::{Point, Trial};
 use serde::Serialize;
@@ -53,7 +54,11 @@ pub fn run(args: &TradeoffArgs) -> Result<bool> {
         true => SCENES.map(String::from).to_vec(),
         false => args.scene.clone(),
     };
-    let scenes = names.iter().map(|name| scene(name, &profile)).collect::<Result<Vec<_>>>()?;
+    let scenes = names.iter().map(|name| scene(name)).collect::<Result<Vec<_>>>()?;
+    let profile = windowed(profile, &scenes)?;
+    let timing = Timing { signs: None, ..inputs::timing(&profile) };
+    let scenes = scenes.into_iter().map(|scene| scene.within_budget(&timing));
+    let scenes = scenes.collect::<Result<Vec<_>, _>>()?;
     ensure!(args.slots >= 1, "--slots: expected at least 1");
     let output = Output::new(&args.out)?;
     let trial = Trial::new(scenes, profile, args.slots);
@@ -62,7 +67,7 @@ pub fn run(args: &TradeoffArgs) -> Result<bool> {
     let points = trial.run(&plan, &|| bar.inc(1))?;
     bar.finish_and_clear();
     let asked = target.is_some() || args.explain;
-    let model = asked.then(|| Model::new(&trial)).transpose()?;
+    let model = asked.then(|| Model::new(trial.profile(), &points));
     let found = target.zip(model.as_ref()).map(|(target, model)| search(&trial, model, &target));
     let found = found.transpose()?;
     let explained = model.filter(|_| args.explain);
@@ -88,13 +93,32 @@ pub fn run(args: &TradeoffArgs) -> Result<bool> {
     Ok(tradeoff.found.as_ref().is_none_or(Found::holds))
 }
 
-/// A scene whose sensors leave the rounding to the core's ADC, at levels within its error budget.
-fn scene(name: &str, profile: &Profile) -> Result<Scene> {
-    let plain = inputs::scene(name, &[])?;
-    let rounds = gallery::find(name).is_none_or(|text| text.contains("quantisation_bits"));
-    let key = ("sensor.quantisation_bits".to_string(), "32".to_string());
-    let scene = if rounds { inputs::scene(name, &[key]).unwrap_or(plain) } else { plain };
-    Ok(scene.within_budget(&Timing { signs: None, ..inputs::timing(profile) })?)
+/// A scene whose sensors leave the rounding to the core's ADC.
+fn scene(name: &str) -> Result<Scene> {
+    let scene = inputs::scene(name, &[])?;
+    inputs::scene(name, &points::unrounded(&scene)?)
+}
+
+/// The profile with the slot that the scenes ask for, as `simulate` runs them. Where they do not all
+/// ask for the same, it keeps its own: all scenes are to try one profile.
+fn windowed(profile: Profile, scenes: &[Scene]) -> Result<Profile> {
+    let slot = |scene: &Scene| (scene.window_samples, scene.settle_samples);
+    let asking = |scene: &&Scene| slot(scene) != (None, None);
+    match scenes.iter().find(asking) {
+        None => Ok(profile),
+        Some(first) if scenes.iter().all(|scene| slot(scene) == slot(first)) => {
+            inputs::windowed(profile, first)
+        }
+        Some(_) => {
+            let names = scenes.iter().filter(asking).map(|scene| scene.name.as_str());
+            console::warn(&format!(
+                "{}: window_samples and settle_samples are not taken, since not all scenes ask for the same; slots are those of profile {}",
+                names.collect::<Vec<_>>().join(", "),
+                profile.name
+            ));
+            Ok(profile)
+        }
+    }
 }
 
 fn write(output: &Output, tradeoff: &Tradeoff) -> Result<()> {

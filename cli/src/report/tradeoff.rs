@@ -9,8 +9,10 @@ use super::page::{self, escape};
 use super::paint::Paint;
 use super::plot::Plot;
 use super::series::{Mark, Series};
+use super::tables;
 use crate::tradeoff::{FEW_CODES, NEXT_BIT, Tradeoff, front, next_bit_rows, prediction};
 use hapticore_tradeoff::errors::Quantity;
+use hapticore_tradeoff::knobs::Knob;
 use hapticore_tradeoff::sweep::Point;
 
 /// The page.
@@ -44,27 +46,28 @@ pub fn of_tradeoff(tradeoff: &Tradeoff) -> String {
     page::document(&title, &body.concat())
 }
 
-/// Neighbours by knob, each with the profile itself among them, by rising value.
-fn by_knob(tradeoff: &Tradeoff) -> Vec<(&str, Vec<&Point>)> {
-    let mut knobs: Vec<(&str, Vec<&Point>)> = Vec::new();
-    for point in tradeoff.points.iter().filter(|point| !point.knob.is_empty()) {
-        match knobs.iter_mut().find(|(knob, _)| *knob == point.knob) {
-            Some((_, points)) => points.push(point),
-            None => knobs.push((&point.knob, vec![point])),
-        }
-    }
-    knobs
+/// Errors of one quantity over each knob's values, rising, the profile itself among its neighbours.
+fn by_knob(tradeoff: &Tradeoff, n: usize) -> Vec<(Knob, Vec<(f64, f64)>)> {
+    let rms = |point: &Point| point.measured[n].rms;
+    let curve = |knob: Knob| {
+        let own = tradeoff.points.iter().filter(|point| point.knob == knob.key());
+        let mut curve: Vec<_> = own.map(|point| (point.value as f64, rms(point))).collect();
+        let itself = tradeoff.points.iter().filter(|point| point.knob.is_empty());
+        curve.extend(itself.map(|point| (knob.value(&point.profile) as f64, rms(point))));
+        curve.sort_by(|a, b| a.0.total_cmp(&b.0));
+        (knob, curve)
+    };
+    Knob::ALL.into_iter().map(curve).filter(|(_, curve)| curve.len() > 1).collect()
 }
 
 fn over_bits(tradeoff: &Tradeoff, n: usize, quantity: Quantity) -> Figure {
-    let words = by_knob(tradeoff).into_iter().filter(|(knob, _)| !knob.contains('.'));
-    let line = |(at, (knob, points)): (usize, (&str, Vec<&Point>))| {
-        let places = points.iter().map(|point| (point.value as f64, point.measured[n].rms));
-        Series::line(knob, Paint::series(at), places.collect())
+    let words = by_knob(tradeoff, n).into_iter().filter(|(knob, _)| *knob != Knob::Window);
+    let line = |(at, (knob, curve)): (usize, (Knob, Vec<_>))| {
+        Series::line(knob.key(), Paint::series(at), curve)
     };
     // Words that hardly matter would only hide the others.
-    let matters = |(_, points): &(&str, Vec<&Point>)| {
-        let rms = || points.iter().map(|point| point.measured[n].rms);
+    let matters = |(_, curve): &(Knob, Vec<(f64, f64)>)| {
+        let rms = || curve.iter().map(|point| point.1);
         rms().fold(0.0, f64::max) > 1.5 * rms().fold(f64::INFINITY, f64::min)
     };
     let series: Vec<_> = words.filter(matters).enumerate().map(line).collect();
@@ -127,20 +130,15 @@ fn agreement(tradeoff: &Tradeoff) -> Figure {
     Figure::plot("Predicted against measured", "1 is a perfect prediction.", &plot)
 }
 
-/// A table's row of cells.
-fn row(tag: &str, cells: &[String]) -> String {
-    let cells: String =
-        cells.iter().map(|cell| format!("<{tag}>{}</{tag}>", escape(cell))).collect();
-    format!("<tr>{cells}</tr>\n")
-}
-
-fn html_table(head: &[&str], rows: &[Vec<String>]) -> String {
-    let head: Vec<_> = head.iter().map(|cell| (*cell).to_string()).collect();
-    let rows: String = rows.iter().map(|cells| row("td", cells)).collect();
-    format!(
-        "<div class=\"scroll\"><table>\n<thead>{}</thead>\n<tbody>\n{rows}</tbody>\n</table></div>\n",
-        row("th", &head)
-    )
+/// A table of texts; the numbers of columns whose head begins with `#` stand to the right.
+fn html_table(label: &str, heads: &[&str], rows: &[Vec<String>]) -> String {
+    let row = |cells: &Vec<String>| {
+        let cells: Vec<_> = cells.iter().map(|cell| escape(cell)).collect();
+        let class = |head: &&str| if head.starts_with('#') { "number" } else { "" };
+        let cells = heads.iter().map(class).zip(cells.iter().map(|cell| &**cell));
+        tables::row(&cells.collect::<Vec<_>>())
+    };
+    tables::table(label, heads, &rows.iter().map(row).collect::<String>())
 }
 
 /// Each source's share of the variance of the profile itself.
@@ -164,13 +162,19 @@ fn sources(tradeoff: &Tradeoff) -> String {
     rows.sort_by(|a, b| b.0.total_cmp(&a.0));
     let rows: Vec<_> = rows.into_iter().map(|(_, cells)| cells).collect();
     let note = "<p class=\"note\">Shares of the mean square by the block that rounds; adc is the converter's rounding and what the oscillator's words do, calibration what the words of gains and tables are off.</p>\n";
-    html_table(&["source", "force", "capacitance", "position"], &rows) + note
+    let heads = ["source", "#force", "#capacitance", "#position"];
+    html_table("Sources of the predicted errors", &heads, &rows) + note
 }
 
 fn next_bits(tradeoff: &Tradeoff) -> String {
     match tradeoff.next_bits.is_empty() {
         true => String::new(),
-        false => html_table(&NEXT_BIT, &next_bit_rows(&tradeoff.next_bits)),
+        false => {
+            let heads =
+                NEXT_BIT.map(|head| if head == "knob" { head.into() } else { format!("#{head}") });
+            let heads = heads.each_ref().map(String::as_str);
+            html_table("What one more bit would buy", &heads, &next_bit_rows(&tradeoff.next_bits))
+        }
     }
 }
 
@@ -195,21 +199,21 @@ fn points(tradeoff: &Tradeoff) -> String {
     };
     let head = [
         "knob",
-        "bits",
-        "force, mN",
-        "predicted",
-        "capacitance, %",
-        "predicted",
-        "position, µm",
-        "predicted",
-        "age, µs",
-        "LUT4",
-        "flip-flops",
-        "multipliers",
-        "memory, Kbit",
+        "#bits",
+        "#force, mN",
+        "#predicted",
+        "#capacitance, %",
+        "#predicted",
+        "#position, µm",
+        "#predicted",
+        "#age, µs",
+        "#LUT4",
+        "#flip-flops",
+        "#multipliers",
+        "#memory, Kbit",
         "on the front of",
     ];
     let few = tradeoff.points.iter().any(Point::has_few_codes);
     let note = if few { format!("<p class=\"note\">{FEW_CODES}</p>\n") } else { String::new() };
-    html_table(&head, &tradeoff.points.iter().map(cells).collect::<Vec<_>>()) + &note
+    html_table("All points", &head, &tradeoff.points.iter().map(cells).collect::<Vec<_>>()) + &note
 }

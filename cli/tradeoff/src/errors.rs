@@ -100,14 +100,14 @@ impl Sum {
 ///
 /// # Errors
 /// A core that cannot be.
-pub fn predicted(
+pub fn predicted<'a>(
     profile: &Profile,
     calibration: &Calibration,
-    slots: &[Slot],
+    slots: impl ExactSizeIterator<Item = &'a Slot>,
 ) -> Result<(Errors, Sources, f64)> {
     let mut predictor = Predictor::new(profile, calibration)?;
     let (mut sums, mut sources) = ([Sum::default(); 3], Sources::default());
-    let mut least_codes = f64::INFINITY;
+    let (mut least_codes, count) = (f64::INFINITY, slots.len() as f64);
     for slot in slots {
         let Prediction { x, y, capacitance, force, least_codes: codes, .. } =
             predictor.slot(slot.pad, Signals::Samples(&slot.samples));
@@ -124,7 +124,7 @@ pub fn predicted(
             [(0, force, 1e3), (1, capacitance, percent), (2, x, 1e3), (2, y, 1e3)]
         {
             for (source, moments) in of.errors.by_source {
-                let square = moments.times(unit).rms().powi(2) / slots.len() as f64;
+                let square = moments.times(unit).rms().powi(2) / count;
                 *sources[quantity].entry(source).or_default() += square;
             }
         }

@@ -3,12 +3,13 @@
 //! ADC.
 
 use anyhow::{Result, ensure};
-use hapticore_contract::profile::Profile;
 use hapticore_hdl::format::Format;
 use hapticore_reference::Reference;
 use hapticore_run::case::Case;
+use hapticore_run::digitiser::Digitiser;
 use hapticore_run::interrupt;
 use hapticore_scene::Scene;
+use toml::{Table, Value};
 
 /// An ADC that rounds nothing away: what the ideal estimator is given.
 pub const FINE: Format = Format::signed(30, 29);
@@ -35,18 +36,50 @@ pub struct Values {
     pub position_mm: [f64; 2],
 }
 
-/// Slots of a scene's case, spread over its time; those without a valid position are left out.
+/// The overrides that leave the rounding of a scene's samples to the core's ADC: the finest
+/// quantisation there is. Noise that is counted in its codes keeps its size.
 ///
 /// # Errors
-/// A case that cannot be run, or is controlled; no slot with a valid position.
-pub fn slots(scene: &Scene, profile: &Profile, count: usize) -> Result<Vec<Slot>> {
+/// A scene whose documents are no TOML, which is a broken invariant.
+pub fn unrounded(scene: &Scene) -> Result<Vec<(String, String)>> {
+    let document: Table = scene.cases[0].document.parse()?;
+    let sensor = document.get("sensor").and_then(Value::as_table);
+    let number = |key: &str| {
+        let value = sensor?.get(key)?;
+        value.as_float().or_else(|| Some(value.as_integer()? as f64))
+    };
+    let Some(bits) = number("quantisation_bits") else { return Ok(Vec::new()) };
+    let dither = number("dither_lsb_rms").filter(|lsb| *lsb > 0.0);
+    // Dither of more than so many codes is refused by the scene.
+    let room = dither.map_or(f64::INFINITY, |lsb| (MOST_DITHER_LSB / lsb).log2().floor());
+    let finer = (FINEST_BITS - bits).min(room).max(0.0);
+    let set = |key: &str, value: f64| (format!("sensor.{key}"), value.to_string());
+    let dither = dither.map(|lsb| set("dither_lsb_rms", lsb * finer.exp2()));
+    Ok([set("quantisation_bits", bits + finer)].into_iter().chain(dither).collect())
+}
+
+/// The most bits of `sensor.quantisation_bits`.
+const FINEST_BITS: f64 = 32.0;
+/// The most of `sensor.dither_lsb_rms`.
+const MOST_DITHER_LSB: f64 = 1e3;
+
+/// Slots of a case, spread over its time; those without a valid position are left out.
+///
+/// # Errors
+/// A case that is controlled, or whose pads are served part by part; no slot with a valid position.
+pub fn slots(case: &Case, count: usize) -> Result<Vec<Slot>> {
+    let scene = &case.scene.name;
     ensure!(
-        scene.cases[0].control.is_none(),
-        "{}: expected a scene without [control]: its slots depend on the core",
-        scene.name
+        case.plan().is_none(),
+        "{scene}: expected a scene without [control]: its slots depend on the core"
     );
-    let case = Case::new(scene, 0, profile, &[])?;
     let mut plant = case.plant()?;
+    // A slot of a part has half the pad's capacitance, for which the core has another gain, and a
+    // force only together with the slots of the other parts.
+    ensure!(
+        plant.parts() == 1,
+        "{scene}: halves.senses: expected \"together\", got \"each\": a pad's slots must each have its force"
+    );
     let (slot, channels) = (&case.profile.slot, case.profile.channels());
     let window = slot.blanking() as usize..slot.samples() as usize;
     let mut fine = (*case.profile).clone();
@@ -66,7 +99,7 @@ pub fn slots(scene: &Scene, profile: &Profile, count: usize) -> Result<Vec<Slot>
         }
         slots.push(Slot { pad, samples, ideal: Values::of(&measured) });
     }
-    ensure!(!slots.is_empty(), "{}: expected a pad on the sheet in some slot", scene.name);
+    ensure!(!slots.is_empty(), "{scene}: expected a pad on the sheet in some slot");
     Ok(slots)
 }
 
@@ -83,7 +116,31 @@ impl Values {
 
 /// Samples as codes of an ADC.
 pub fn codes(samples: &[f64], adc: Format) -> Vec<i32> {
-    let (scale, [low, high]) = (1.0 / adc.lsb(), [adc.min_code() as f64, adc.max_code() as f64]);
-    let code = |sample: &f64| (sample * scale).round_ties_even().clamp(low, high) as i32;
-    samples.iter().map(code).collect()
+    let mut codes = Vec::with_capacity(samples.len());
+    Digitiser::new(adc).codes(samples, &mut codes);
+    codes
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use hapticore_run::inputs;
+
+    /// What a scene's sensors are set to, and the noise of that, of full scale.
+    fn sensor(name: &str) -> (Option<f64>, Option<f64>) {
+        let set = unrounded(&inputs::scene(name, &[]).unwrap()).unwrap();
+        inputs::scene(name, &set).expect("the scene takes them");
+        let number = |of: &str| {
+            set.iter().find(|(key, _)| key.ends_with(of)).map(|(_, value)| value.parse().unwrap())
+        };
+        let bits: Option<f64> = number("quantisation_bits");
+        (bits, number("dither_lsb_rms").zip(bits).map(|(lsb, bits): (f64, f64)| lsb / bits.exp2()))
+    }
+
+    #[test]
+    fn samples_are_as_fine_as_the_scene_has_them_and_dither_keeps_its_size() {
+        assert_eq!(sensor("fig3"), (Some(32.0), None));
+        assert_eq!(sensor("minimal-supply"), (None, None), "neither [sensor] nor codes");
+        assert_eq!(sensor("minimal-sensor"), (Some(26.0), Some(0.5 / 16f64.exp2())));
+    }
 }

@@ -11,7 +11,7 @@
 //! then pairs are exchanged. What is found is verified by running it; where it fails, the search is
 //! repeated with a smaller target.
 
-use super::cost::{Cost, cost};
+use super::cost::Cost;
 use super::errors::{Error, Errors, Quantity};
 use super::knobs::Knob;
 use super::sweep::{Point, Trial};
@@ -158,51 +158,59 @@ struct Slope {
     luts: f64,
 }
 
+impl Slope {
+    /// What a knob's word does between a profile and the same with [`STEP`] bits less.
+    fn between(knob: Knob, profile: &Profile, itself: &Point, shorter: &Point) -> Self {
+        let grown = 4f64.powi(STEP as i32) - 1.0;
+        let variance = |n| ((square(shorter, n) - square(itself, n)) / grown).max(0.0);
+        Slope {
+            knob,
+            base: knob.value(profile),
+            range: range(knob, profile),
+            variance: [0, 1, 2].map(variance),
+            luts: (itself.cost.luts - shorter.cost.luts) / STEP as f64,
+        }
+    }
+}
+
+/// Mean square of a predicted error.
+fn square(point: &Point, quantity: usize) -> f64 {
+    point.predicted[quantity].rms.powi(2)
+}
+
 /// The additive model of a profile's errors and area.
 #[derive(Debug, Clone)]
 pub struct Model {
+    /// Of the profile itself.
+    cost: Cost,
     squares: [f64; 3],
-    luts: f64,
     slopes: Vec<Slope>,
 }
 
-/// By how many bits a word is shortened to see what it adds.
+/// By how many bits a word is shortened to see what it adds; [`Trial::plan`] has this step.
 const STEP: u64 = 2;
 /// How far words may grow or shrink.
 const REACH: u64 = 8;
 
 impl Model {
-    /// What predictions and netlists about a profile say.
+    /// What predictions and netlists about a profile say: those of its sweep, the profile itself
+    /// first, as [`Trial::plan`] has them.
     ///
-    /// # Errors
-    /// As [`Trial::run`].
-    pub fn new(trial: &Trial) -> Result<Self> {
-        let profile = trial.profile();
-        let turned = |knob: Knob| {
-            let value = knob.value(profile).checked_sub(STEP)?;
-            Some((Some(knob), knob.set(profile, value)?))
+    /// # Panics
+    /// Where there is no point.
+    pub fn new(profile: &Profile, swept: &[Point]) -> Self {
+        let itself = &swept[0];
+        let slope = |knob: Knob| {
+            let base = knob.value(profile);
+            let shorter = base.checked_sub(STEP)?;
+            let is_it = |point: &&Point| point.knob == knob.key() && point.value == shorter;
+            Some(Slope::between(knob, profile, itself, swept.iter().find(is_it)?))
         };
-        let mut plan = vec![(None, profile.clone())];
-        plan.extend(Knob::words().filter_map(turned));
-        let points = trial.run(&plan, &|| ())?;
-        let itself = &points[0];
-        let square = |point: &Point, n: usize| point.predicted[n].rms.powi(2);
-        let slope = |((knob, _), point): (&(Option<Knob>, Profile), &Point)| {
-            let knob = (*knob)?;
-            let grown = 4f64.powi(STEP as i32) - 1.0;
-            let variance =
-                [0, 1, 2].map(|n| ((square(point, n) - square(itself, n)) / grown).max(0.0));
-            Some(Slope {
-                knob,
-                base: knob.value(profile),
-                range: range(knob, profile),
-                variance,
-                luts: (itself.cost.luts - point.cost.luts) / STEP as f64,
-            })
-        };
-        let slopes = plan.iter().zip(&points).filter_map(slope).collect();
-        let squares = [0, 1, 2].map(|n| square(itself, n));
-        Ok(Model { squares, luts: itself.cost.luts, slopes })
+        Model {
+            cost: itself.cost,
+            squares: [0, 1, 2].map(|n| square(itself, n)),
+            slopes: Knob::words().filter_map(slope).collect(),
+        }
     }
 
     /// Mean squares of the errors with these bits.
@@ -221,7 +229,7 @@ impl Model {
     /// Estimated LUT4 with these bits.
     pub fn luts(&self, bits: &[u64]) -> f64 {
         let more = |(slope, bits): (&Slope, &u64)| slope.luts * (*bits as f64 - slope.base as f64);
-        self.luts + self.slopes.iter().zip(bits).map(more).sum::<f64>()
+        self.cost.luts + self.slopes.iter().zip(bits).map(more).sum::<f64>()
     }
 
     /// What one more bit of each knob would buy in a profile.
@@ -361,7 +369,7 @@ pub fn search(trial: &Trial, model: &Model, target: &Target) -> Result<Found> {
         predicted: point.predicted,
         measured: point.measured,
         cost: point.cost,
-        before: cost(trial.profile())?,
+        before: model.cost,
         limit: limit(&point, target),
         missed,
         profile,

@@ -7,7 +7,7 @@ use super::knobs::Knob;
 use super::points::{Slot, slots};
 use anyhow::{Context, Result};
 use hapticore_contract::calibration::Calibration;
-use hapticore_contract::profile::Profile;
+use hapticore_contract::profile::{Carrier, ForceLaw, Profile};
 use hapticore_model::fidelity::noise::Predictor;
 use hapticore_run::case::Case;
 use hapticore_run::interrupt;
@@ -137,16 +137,28 @@ impl Trial {
     }
 }
 
-/// Whether profiles may share slots and calibration but for its gains.
+/// Whether profiles may share slots and calibration but for its gains: whether plant, position table
+/// and ideal estimator are the same for both.
 fn same_bench(a: &Profile, b: &Profile) -> bool {
-    let of = |p: &Profile| (p.slot.clone(), p.carrier.periods, p.position.clone(), p.formats.table);
+    // The words of a force table are in units of the square's gain, which is of the carrier's words.
+    let of_table = |p: &Profile| {
+        (p.force.law == ForceLaw::Table).then_some((p.carrier.amplitude, p.formats.oscillator))
+    };
+    let of = |p: &Profile| {
+        let carrier = Carrier { amplitude: 0, ..p.carrier.clone() };
+        (
+            (p.slot.clone(), carrier, p.terminals.clone(), p.pads),
+            (p.position.clone(), p.formats.table),
+            (p.capacitance, p.haptic, p.force, of_table(p)),
+        )
+    };
     of(a) == of(b)
 }
 
 fn bench(scene: &Scene, profile: &Profile, count: usize) -> Result<Bench> {
     let case = Case::new(scene, 0, profile, &[])?;
+    let slots = slots(&case, count)?;
     let calibration = case.calibration()?.clone();
-    let slots = slots(scene, profile, count)?;
     Ok(Bench { of: profile.clone(), profile: case.profile.clone(), calibration, slots })
 }
 
@@ -154,7 +166,10 @@ impl Bench {
     /// The profile as the scene's device and pads have it, and the calibration in its words.
     fn serve(&self, profile: &Profile) -> (Profile, Calibration) {
         let of = &self.profile;
-        let served = Profile { terminals: of.terminals.clone(), pads: of.pads, ..profile.clone() };
+        let mut served =
+            Profile { terminals: of.terminals.clone(), pads: of.pads, ..profile.clone() };
+        // More terminals than the profile's own take more clocks.
+        served.clocks_per_sample = served.clocks_per_sample.max(served.least_clocks_per_sample());
         // Of the square of the haptic voltage, a core's gain is that of its window's words.
         let force_gain = self.calibration.force_gain * of.square_gain() / served.square_gain();
         (served, Calibration { force_gain, ..self.calibration.clone() })
@@ -166,9 +181,8 @@ fn point(knob: Option<Knob>, profile: &Profile, benches: &[Bench]) -> Result<Poi
     let mut least_codes = f64::INFINITY;
     for bench in benches {
         let (profile, calibration) = bench.serve(profile);
-        let few = bench.slots.len().div_ceil(PREDICTED);
-        let chosen: Vec<Slot> = bench.slots.iter().step_by(few).cloned().collect();
-        let (expected, sources, codes) = predicted(&profile, &calibration, &chosen)
+        let few = bench.slots.iter().step_by(bench.slots.len().div_ceil(PREDICTED));
+        let (expected, sources, codes) = predicted(&profile, &calibration, few)
             .with_context(|| format!("profile {}", profile.name))?;
         least_codes = least_codes.min(codes);
         let found = measured(&profile, &calibration, &bench.slots);

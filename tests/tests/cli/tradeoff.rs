@@ -64,6 +64,26 @@ fn a_scene_with_an_error_budget_is_swept() {
     expect(folder.path(), &[&args[..], &["--out", "t"]].concat(), 0);
 }
 
+/// A scene of a user's own without `[sensor]`, which asks for a window: as `simulate` runs it.
+#[test]
+#[cfg_attr(not(optimised), ignore = "dozens of profiles: run with --release")]
+fn a_file_is_swept_with_the_window_that_it_asks_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = "title = \"t\"\nwindow_samples = 400\n[[pad]]\nposition_mm = [90, 40]\nhaptic_v_rms = 150\n[sheet]\n";
+    fs::write(folder.path().join("mine.toml"), scene).unwrap();
+    let args = ["tradeoff", "--profile", "small", "--slots", "1", "--out", "t", "--scene"];
+    let age_us = |scenes: &[&str], warning: &str| {
+        let output = expect(folder.path(), &[&args[..], scenes].concat(), 0);
+        let log = String::from_utf8(output.stderr).unwrap();
+        assert!(log.contains(warning) && log.is_empty() == warning.is_empty(), "{log}");
+        Table::read(&folder.path().join("t/tradeoff.csv")).numbers("age_us")[0]
+    };
+    let asked = age_us(&["mine.toml"], "");
+    // Half of the 100 samples that the profile's own window is longer, at a megasample per second.
+    let own = age_us(&["mine.toml", "--scene", "fig6"], "mine: window_samples");
+    assert!((own - asked - 50.0).abs() < 1e-9, "{own} {asked}");
+}
+
 #[test]
 fn targets_and_scenes_that_cannot_be_are_one_line() {
     let folder = tempfile::tempdir().unwrap();
@@ -75,4 +95,5 @@ fn targets_and_scenes_that_cannot_be_are_one_line() {
     refused(&["--target", "force=-1mN"], &["--target", "got \"force=-1mN\""]);
     refused(&["--scene", "fig9"], &["fig9", "expected a scene without [control]"]);
     refused(&["--scene", "nowhere"], &["nowhere"]);
+    refused(&["--scene", "fig13"], &["fig13", "halves.senses", "\"together\"", "\"each\""]);
 }
