@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What a circuit takes, counted in its netlist.
 //!
-//! Flip-flops, the bits of memories and products are counted. LUTs are estimated: each operation has
-//! a price by bits, which was fitted to what synthesis made of the bundled profiles (docs/tradeoff.md
-//! has the comparison).
+//! Flip-flops, the bits of memories and products are counted, and the bits of the operations that
+//! synthesis makes most LUTs of: what a LUT count follows from is for the caller to say.
 
-use crate::interpretations::netlist::{Module, Netlist, Op};
-use crate::signal::{Overflow, Rounding};
+use crate::interpretations::netlist::{Module, Netlist, Node, Op};
 use crate::verilog::live::Live;
 
 /// What operations there are, in bits of their results or operands.
@@ -18,12 +16,6 @@ pub struct Operations {
     pub adders: f64,
     /// Bits of selections.
     pub selects: f64,
-    /// Bits of comparisons for equality.
-    pub equals: f64,
-    /// Gates of single bits.
-    pub gates: f64,
-    /// Bits that are rounded or saturated.
-    pub fits: f64,
     /// Bits of memories.
     pub memory_bits: f64,
     /// Products of two variables, each as factors of so many bits.
@@ -50,9 +42,6 @@ impl Operations {
             flip_flops: self.flip_flops + other.flip_flops,
             adders: self.adders + other.adders,
             selects: self.selects + other.selects,
-            equals: self.equals + other.equals,
-            gates: self.gates + other.gates,
-            fits: self.fits + other.fits,
             memory_bits: self.memory_bits + other.memory_bits,
             products: [0, 1].map(|n| self.products[n] + other.products[n]),
         }
@@ -75,25 +64,17 @@ impl Operations {
     }
 
     fn add(&mut self, module: &Module, op: &Op, bits: f64) {
-        let format =
-            |node: crate::interpretations::netlist::Node| module.wires[node.0 as usize].format;
+        let format = |node: Node| module.wires[node.0 as usize].format;
         let width = |node| f64::from(format(node).width);
         match *op {
             Op::Add(..) | Op::Sub(..) | Op::Abs(_) => self.adders += bits,
             Op::Less(a, b) => self.adders += width(a).max(width(b)),
-            Op::Equal(a, b) => self.equals += width(a).max(width(b)),
             Op::Select(..) => self.selects += bits,
-            Op::And(..) | Op::Or(..) => self.gates += 1.0,
             Op::Mul(a, b) => {
                 for (count, most) in self.products.iter_mut().zip(FACTORS) {
                     let parts = |node| format(node).width.div_ceil(most);
                     *count += f64::from(parts(a)) * f64::from(parts(b));
                 }
-            }
-            Op::Fit(a, rounding, overflow) => {
-                let rounds = rounding == Rounding::HalfEven && format(a).frac as f64 > 0.0;
-                let saturates = overflow == Overflow::Saturate;
-                self.fits += bits * f64::from(u8::from(rounds) + u8::from(saturates));
             }
             _ => (),
         }

@@ -3,14 +3,16 @@
 //! every sample.
 //!
 //! The local oscillator is the same for every slot, and so is asked once. A window's sums are exact
-//! in the demodulator, so that codes are summed up by a plain loop over all channels; other
-//! interpretations, and codes that are too wide for it, go through the demodulator's own arithmetic
-//! sample by sample. The estimator then runs through its clocks, a few hundred a slot: of codes the
-//! position's program has its results at once. As it is generic over the interpretation, the same
-//! run, with the program's clocks, gives the rounding error of every signal
-//! ([`Shadow`](hapticore_hdl::interpretations::shadow::Shadow)).
+//! in the demodulator, so that codes, and numbers that are not rounded, are summed up by a plain loop
+//! over all channels; codes that are too wide for it go through the demodulator's own arithmetic
+//! sample by sample. The estimator then runs through its clocks, a few hundred a slot; the position's
+//! program, most of a slot's clocks, has its results at once, from codes.
+//!
+//! As it is generic over the interpretation, the same run gives the rounding error of every signal
+//! ([`Shadow`](hapticore_hdl::interpretations::shadow::Shadow)): position and sheet resistance have
+//! none there, as their program starts from codes.
 
-use super::plain::{PlainSums, Waves, Words};
+use super::plain::{PlainSums, WHOLE, Waves, Words};
 use super::tone::{Response, WindowedSample};
 use super::{Gathered, signals};
 use crate::blocks::core::{self, Core};
@@ -32,6 +34,30 @@ struct Local<V> {
     window: V,
 }
 
+/// Loops over all channels: that of codes, and that of numbers that are not rounded, as the
+/// interpretation has them.
+struct Plain {
+    codes: Option<PlainSums>,
+    reals: Option<PlainSums>,
+}
+
+impl Plain {
+    fn add_up(&mut self, codes: &[i32]) {
+        for sums in [&mut self.codes, &mut self.reals].into_iter().flatten() {
+            sums.add_up(codes);
+        }
+    }
+
+    /// The sum at an index of [`PlainSums::sums`].
+    fn sum<V: Interpretation>(&self, index: usize, format: Format) -> Signal<V> {
+        let at = |sums: &Option<PlainSums>| sums.as_ref().map(|sums| sums.sums()[index]);
+        let code = at(&self.codes).map_or(0, |sum| sum as i64);
+        let rounded = Signal { value: V::raw(code, format), format };
+        let value = at(&self.reals).map_or(rounded.value, |sum| V::with_unrounded(rounded, sum));
+        Signal { value, format }
+    }
+}
+
 /// A core at work, slot by slot.
 pub struct FixedSimulation<V: Interpretation = i64> {
     core: Core,
@@ -40,8 +66,8 @@ pub struct FixedSimulation<V: Interpretation = i64> {
     oscillator: Format,
     channels: usize,
     local: Vec<Local<V>>,
-    /// The window's sums in one loop, where values are codes.
-    plain: Option<PlainSums>,
+    /// The window's sums in one loop, where it is exact.
+    plain: Option<Plain>,
     response: Response,
     quiet: In<V>,
     sums: Vec<Signal<V>>,
@@ -149,7 +175,8 @@ impl<V: Interpretation> FixedSimulation<V> {
     fn demodulate(&mut self, codes: &[i32]) {
         match self.plain.take() {
             Some(mut plain) => {
-                self.take(plain.of(codes));
+                plain.add_up(codes);
+                self.take(&plain);
                 self.plain = Some(plain);
             }
             None => self.add_up(codes),
@@ -157,12 +184,11 @@ impl<V: Interpretation> FixedSimulation<V> {
     }
 
     /// Takes the sums of the loop over all channels.
-    fn take(&mut self, (sums, square): (&[f64], f64)) {
+    fn take(&mut self, plain: &Plain) {
         let (channels, demodulator) = (self.channels, self.core.demodulator());
         let (exact, words) = (demodulator.sum(), self.plain_formats());
-        let at = |sum: f64, format| Signal { value: V::raw(sum as i64, format), format };
         for channel in 0..channels - 1 {
-            let tone = |part: usize| at(sums[part * channels + channel], words[0]);
+            let tone = |part: usize| plain.sum(1 + part * channels + channel, words[0]);
             let [in_phase, quadrature] = match demodulator.polyphase() {
                 None => [tone(0), tone(1)].map(|sum| sum.resize(exact, Proved)),
                 Some(polyphase) => demodulator.combine(polyphase, std::array::from_fn(tone)),
@@ -170,7 +196,8 @@ impl<V: Interpretation> FixedSimulation<V> {
             self.sums[2 * channel] = in_phase;
             self.sums[2 * channel + 1] = quadrature;
         }
-        self.sums[2 * (channels - 1)] = at(square, words[1]).resize(exact, Proved);
+        let squares: Signal<V> = plain.sum(0, words[1]);
+        self.sums[2 * (channels - 1)] = squares.resize(exact, Proved);
     }
 
     /// The formats of a tone's and of the squares' sum, with the point of their products.
@@ -347,19 +374,27 @@ fn with_point_of(sum: Format, product: Format) -> Format {
     Format { width: sum.width - (sum.frac - product.frac) as u8, frac: product.frac, ..sum }
 }
 
-/// The loop over all channels, where values are codes and it is exact.
-fn plain<V: Interpretation>(
-    core: &Core,
-    local: &[Local<V>],
-    profile: &Profile,
-) -> Option<PlainSums> {
+/// The loops over all channels that an interpretation has; none where that of codes is not exact.
+fn plain<V: Interpretation>(core: &Core, local: &[Local<V>], profile: &Profile) -> Option<Plain> {
+    let (channels, largest) = (profile.channels(), -(profile.formats.adc.min_code() as f64));
+    let codes = || PlainSums::exact(words_of_codes(core, local, profile), channels, largest);
+    let reals = || PlainSums::new(words_of_reals(core, local, profile), channels);
+    let plain = Plain {
+        codes: V::HAS_CODE.then(codes).flatten(),
+        reals: V::HAS_REAL.then(reals).flatten(),
+    };
+    let is_whole = plain.codes.is_some() == V::HAS_CODE && plain.reals.is_some() == V::HAS_REAL;
+    (is_whole && (V::HAS_CODE || V::HAS_REAL)).then_some(plain)
+}
+
+/// What codes are multiplied by for sums that are codes.
+fn words_of_codes<V: Interpretation>(core: &Core, local: &[Local<V>], profile: &Profile) -> Words {
     let (demodulator, adc) = (core.demodulator(), profile.formats.adc);
-    let largest = -(adc.min_code() as f64);
     let word = |value: V| Signal { value, format: profile.formats.oscillator };
     let whole = |word: Signal<V>| V::code(word) as f64;
     let windows = || local.iter().map(|of| word(of.window));
     let power = |bits: i8| 2f64.powi(bits.into());
-    let words = match demodulator.polyphase() {
+    match demodulator.polyphase() {
         None => {
             let waves = |of: &Local<V>| [of.cosine, of.sine].map(|wave| whole(word(wave)));
             Words {
@@ -367,6 +402,7 @@ fn plain<V: Interpretation>(
                 window: windows().map(whole).collect(),
                 keep: power(-profile.formats.oscillator.frac),
                 raise: 1.0,
+                rounding: WHOLE,
             }
         }
         Some(_) => {
@@ -374,14 +410,31 @@ fn plain<V: Interpretation>(
             let raise = power(raised - adc.frac);
             let window = |word| whole(demodulator.window_word(word)) * raise;
             Words {
-                waves: Waves::Phases { offset: largest },
+                waves: Waves::Phases { offset: -(adc.min_code() as f64) },
                 window: windows().map(window).collect(),
                 keep: power(-raised),
                 raise,
+                rounding: WHOLE,
             }
         }
-    };
-    V::IS_CODE.then(|| PlainSums::new(words, profile.channels(), largest)).flatten()
+    }
+}
+
+/// What codes are multiplied by for the sums of a core that rounds nothing, in units of full scale.
+fn words_of_reals<V: Interpretation>(core: &Core, local: &[Local<V>], profile: &Profile) -> Words {
+    let (adc, format) = (profile.formats.adc, profile.formats.oscillator);
+    let number = |value: V| V::unrounded(Signal { value, format }) * adc.lsb();
+    let waves = |of: &Local<V>| [of.cosine, of.sine].map(number);
+    Words {
+        waves: match core.demodulator().polyphase() {
+            None => Waves::Products(local.iter().map(waves).collect()),
+            Some(_) => Waves::Phases { offset: -(adc.min_code() as f64) },
+        },
+        window: local.iter().map(|of| number(of.window)).collect(),
+        keep: 1.0,
+        raise: adc.lsb(),
+        rounding: 0.0,
+    }
 }
 
 /// A code of the ADC.
@@ -460,6 +513,7 @@ mod tests {
     use super::*;
     use crate::support::device;
     use crate::support::random::Random;
+    use hapticore_hdl::interpretations::shadow::Shadow;
 
     /// Random codes with many corners, then windows of the largest, the most negative and of both in
     /// turn.
@@ -483,6 +537,28 @@ mod tests {
         }
     }
 
+    /// The same sums in another order: rounding of `f64` is all that may differ.
+    #[test]
+    fn the_loop_over_all_channels_gives_the_unrounded_sums() {
+        for profile in Profile::all() {
+            let new = || FixedSimulation::<Shadow>::new(&profile, &device::calibration(&profile));
+            let (mut looped, mut one_by_one) = (new(), new());
+            assert!(looped.plain.is_some(), "{}", profile.name);
+            one_by_one.plain = None;
+            let (adc, count) = (profile.formats.adc, looped.window() * profile.channels());
+            let mut random = Random::new(2);
+            let codes: Vec<i32> = (0..count).map(|_| random.word(adc) as i32).collect();
+            looped.demodulate(&codes);
+            one_by_one.demodulate(&codes);
+            for (looped, one_by_one) in looped.sums.iter().zip(&one_by_one.sums) {
+                let (a, b) = (looped.value, one_by_one.value);
+                assert_eq!(a.code, b.code, "{}", profile.name);
+                let off = (a.real - b.real).abs();
+                assert!(off < 1e-9, "{}: {} and {}", profile.name, a.real, b.real);
+            }
+        }
+    }
+
     #[test]
     fn sums_that_an_f64_does_not_hold_are_left_to_the_demodulator() {
         let window = |word: f64| Words {
@@ -490,14 +566,15 @@ mod tests {
             window: vec![word; 1000],
             keep: 1.0 / word,
             raise: 1.0,
+            rounding: WHOLE,
         };
-        let loops = |word: f64, code: f64| PlainSums::new(window(word), 8, code).is_some();
+        let loops = |word: f64, code: f64| PlainSums::exact(window(word), 8, code).is_some();
         let [narrow, wide] = [17, 23].map(|bits| 2f64.powi(bits));
         assert!(loops(narrow, narrow) && loops(wide, narrow));
         assert!(!loops(wide, wide), "a tone's sum");
         assert!(!loops(1.0, wide), "the sum of squares");
         assert!(
-            PlainSums::new(window(narrow), 9, narrow).is_none(),
+            PlainSums::exact(window(narrow), 9, narrow).is_none(),
             "more channels than a board's"
         );
     }

@@ -152,11 +152,6 @@ impl Predictor {
         Prediction { least_codes, ..self.results(&state) }
     }
 
-    /// How many operations the last slot took.
-    pub fn operations(&self) -> usize {
-        self.recording.operations()
-    }
-
     /// The sums with their errors, of the oscillator's words and of the ADC; and the least amplitude in
     /// steps of the ADC.
     fn sums(&mut self, signals: Signals) -> (Vec<Signal<Noise>>, f64) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A window's sums where a value is its code and nothing else: a plain loop over all channels.
+//! A window's sums of codes, or of numbers that nothing rounds: a plain loop over all channels.
 //!
 //! ```text
 //! Σ x·(w·cos), Σ x·(w·sin)     or Σ x·w of each of the carrier's five phases;     Σ h·round(w·h)
@@ -8,7 +8,7 @@
 //! The demodulator's operators are exact, so that the order in which its products are added does
 //! not matter; codes, words and partial sums are whole numbers below 2^53, which an `f64` holds
 //! exactly, and of which a processor multiplies several at once. A test holds the frames equal to
-//! those of every clock.
+//! those of every clock. With the words that an unrounded core has, the same loop gives its sums.
 
 use crate::blocks::oscillator::PHASES;
 
@@ -23,6 +23,8 @@ pub(super) struct Words {
     pub keep: f64,
     /// By how much the haptic code is moved up for the product that follows, a power of two.
     pub raise: f64,
+    /// What is added to a number and taken away again: [`WHOLE`] rounds it, 0 does not.
+    pub rounding: f64,
 }
 
 /// What a sample's codes are multiplied by.
@@ -63,26 +65,36 @@ impl Words {
 /// Whole numbers below this are exact.
 const EXACT: f64 = (1u64 << 53) as f64;
 /// Adding this to a number below 2^51 leaves no fraction: the sum is rounded half to even.
-const WHOLE: f64 = 1.5 * (1u64 << 52) as f64;
+pub(super) const WHOLE: f64 = 1.5 * (1u64 << 52) as f64;
 
 impl PlainSums {
-    /// The sums of `channels` channels whose codes are at most `largest`; none where a partial sum
-    /// could be inexact, or for more channels than a board reads.
-    pub fn new(words: Words, channels: usize, largest: f64) -> Option<Self> {
+    /// The exact sums of `channels` channels whose codes are at most `largest`; none where a partial
+    /// sum could be inexact, or for more channels than a board reads.
+    pub fn exact(words: Words, channels: usize, largest: f64) -> Option<Self> {
+        let is_exact = words.largest_sums(largest).into_iter().all(|most| most < EXACT);
+        Self::new(words, channels).filter(|_| is_exact)
+    }
+
+    /// The sums of `channels` channels; none for more than a board reads.
+    pub fn new(words: Words, channels: usize) -> Option<Self> {
         let [products, phases] = loops(channels)?;
         let (sum, parts) = match &words.waves {
             Waves::Products(_) => (products, 2),
             Waves::Phases { .. } => (phases, PHASES as usize),
         };
-        let is_exact = words.largest_sums(largest).into_iter().all(|most| most < EXACT);
-        is_exact.then(|| PlainSums { words, sum, sums: vec![0.0; parts * channels] })
+        Some(PlainSums { words, sum, sums: vec![0.0; parts * channels + 1] })
     }
 
-    /// The sums of a window: of each part (in phase and quadrature, or each phase) all channels',
-    /// then that of the squares.
-    pub fn of(&mut self, codes: &[i32]) -> (&[f64], f64) {
-        let square = (self.sum)(&self.words, codes, &mut self.sums);
-        (&self.sums, square)
+    /// Adds up a window.
+    pub fn add_up(&mut self, codes: &[i32]) {
+        let (squares, sums) = self.sums.split_first_mut().expect("the squares' is one");
+        *squares = (self.sum)(&self.words, codes, sums);
+    }
+
+    /// The sums of the last window: that of the squares, then of each part (in phase and quadrature,
+    /// or each phase) all channels'.
+    pub fn sums(&self) -> &[f64] {
+        &self.sums
     }
 }
 
@@ -106,7 +118,7 @@ fn loops(channels: usize) -> Option<[Sum; 2]> {
 #[inline(always)]
 fn square(words: &Words, window: f64, code: i32) -> f64 {
     let code = f64::from(code);
-    let share = (code * (window * words.keep) + WHOLE) - WHOLE;
+    let share = (code * (window * words.keep) + words.rounding) - words.rounding;
     code * words.raise * share
 }
 

@@ -67,7 +67,7 @@ fn min(format: Format) -> i64 {
 
 impl Value for i64 {
     const DECIDES: bool = true;
-    const IS_CODE: bool = true;
+    const HAS_CODE: bool = true;
 
     #[inline(always)]
     fn literal(real: f64, format: Format) -> Self {

@@ -33,6 +33,7 @@ pub(super) fn wrap(real: f64, to: Format) -> f64 {
 
 impl Value for Real {
     const DECIDES: bool = true;
+    const HAS_REAL: bool = true;
 
     fn literal(real: f64, _format: Format) -> Self {
         Real(real)
@@ -111,6 +112,10 @@ impl Value for Real {
 
     fn real(a: Signal<Self>) -> f64 {
         a.value.0
+    }
+
+    fn with_unrounded(_a: Signal<Self>, real: f64) -> Self {
+        Real(real)
     }
 
     fn known_bit(bit: Self) -> Option<bool> {

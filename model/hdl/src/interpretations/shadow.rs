@@ -44,6 +44,8 @@ fn control(code: i64) -> Shadow {
 
 impl Value for Shadow {
     const DECIDES: bool = true;
+    const HAS_CODE: bool = true;
+    const HAS_REAL: bool = true;
 
     fn literal(real: f64, format: Format) -> Self {
         both(i64::literal(real, format), Real(real))
@@ -127,6 +129,14 @@ impl Value for Shadow {
 
     fn code(a: Signal<Self>) -> i64 {
         a.value.code
+    }
+
+    fn unrounded(a: Signal<Self>) -> f64 {
+        a.value.real
+    }
+
+    fn with_unrounded(a: Signal<Self>, real: f64) -> Self {
+        Shadow { real, ..a.value }
     }
 
     fn known_bit(bit: Self) -> Option<bool> {

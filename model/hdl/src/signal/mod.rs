@@ -81,9 +81,12 @@ pub trait Value: Copy + std::fmt::Debug + 'static {
     /// Whether every bit is known as it runs.
     const DECIDES: bool = false;
 
-    /// Whether a value is its raw code and nothing else, so that exact sums may be made in any way
-    /// that is exact.
-    const IS_CODE: bool = false;
+    /// Whether a value has a raw code, so that exact sums of codes may be made in any way that is
+    /// exact.
+    const HAS_CODE: bool = false;
+
+    /// Whether a value has a number that is never rounded: alone or beside its code.
+    const HAS_REAL: bool = false;
 
     /// A constant: the number `real`, to the nearest code where the interpretation has codes.
     fn literal(real: f64, format: Format) -> Self;
@@ -144,10 +147,22 @@ pub trait Value: Copy + std::fmt::Debug + 'static {
     /// The code that a signal has, in interpretations that have one; the nearest in others.
     fn code(a: Signal<Self>) -> i64;
 
-    /// The number that a signal is, in interpretations that have one that is not its code's.
+    /// The number that the circuit has: that of its code, in interpretations with codes.
     #[inline(always)]
     fn real(a: Signal<Self>) -> f64 {
         a.format.real(Self::code(a))
+    }
+
+    /// The number that the signal would be without rounding, in interpretations that keep it.
+    #[inline(always)]
+    fn unrounded(a: Signal<Self>) -> f64 {
+        Self::real(a)
+    }
+
+    /// The signal with this number as its unrounded one, in interpretations that keep it.
+    #[inline(always)]
+    fn with_unrounded(a: Signal<Self>, _real: f64) -> Self {
+        a.value
     }
 
     /// What a bit is, where the interpretation knows.

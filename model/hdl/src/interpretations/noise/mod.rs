@@ -14,7 +14,7 @@
 //! | source, with d bits dropped | mean | variance | bound |
 //! | --- | --- | --- | --- |
 //! | half even | 0 | (1 + 2·4^−d)/12 | ½ |
-//! | floor | −(1 − 2^−d)/2 | (1 − 4^−d)/12 | 1 |
+//! | floor | −(1 − 2^−d)/2 | (1 − 4^−d)/12 | 1 − 2^−d |
 //! | quotient, root | 0 | 1/12 | ½ |
 //! | constant, word of a table | as it is | 0 | as it is |
 //!
@@ -23,13 +23,18 @@
 //! error of a decision does, are beyond this. Source of the variances: the dropped bits take each of
 //! their 2^d values equally often.
 
+mod moments;
+mod tape;
+
+pub use self::moments::Moments;
+pub use self::tape::{Errors, Mark, Recording};
+
+use self::tape::{EXACT, Entry, Floored, with};
 use super::shadow::{Shadow, Shadows};
 use crate::block::{Block, Inputs, Interpretation, Outputs, State};
 use crate::format::Format;
 use crate::memory::{Memory, Storage, Write};
 use crate::signal::{Overflow, Rounding, Signal, Value};
-use std::cell::RefCell;
-use std::marker::PhantomData;
 
 /// The value of the noise interpretation.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,275 +51,6 @@ pub struct Words {
     shadows: Shadows,
     entries: Vec<Entry>,
     data: Entry,
-}
-
-/// An error: of what is rounded so, or of a signal.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Moments {
-    /// Mean.
-    pub mean: f64,
-    /// Variance.
-    pub variance: f64,
-    /// The largest magnitude.
-    pub bound: f64,
-}
-
-impl Moments {
-    /// Of an error that is known.
-    pub fn known(error: f64) -> Self {
-        Moments { mean: error, variance: 0.0, bound: error.abs() }
-    }
-
-    /// Of a rounding that drops so many bits, in steps of `lsb`.
-    fn of_rounding(rounding: Rounding, dropped: u8, lsb: f64) -> Self {
-        let part = 0.5f64.powi(dropped.into());
-        let (mean, variance, bound) = match rounding {
-            Rounding::Floor => (-0.5 * (1.0 - part), (1.0 - part * part) / 12.0, 1.0 - part),
-            _ => (0.0, (1.0 + 2.0 * part * part) / 12.0, 0.5),
-        };
-        Moments { mean, variance, bound }.times(lsb)
-    }
-
-    /// Of a quotient or a root, which has no last bit to drop.
-    fn of_result(lsb: f64) -> Self {
-        Moments { mean: 0.0, variance: 1.0 / 12.0, bound: 0.5 }.times(lsb)
-    }
-
-    /// Of this error with a gain.
-    pub fn times(self, gain: f64) -> Self {
-        Moments {
-            mean: gain * self.mean,
-            variance: gain * gain * self.variance,
-            bound: gain.abs() * self.bound,
-        }
-    }
-
-    /// Of this error and one that is independent of it, together.
-    pub fn plus(self, other: Self) -> Self {
-        Moments {
-            mean: self.mean + other.mean,
-            variance: self.variance + other.variance,
-            bound: self.bound + other.bound,
-        }
-    }
-
-    /// Root of the mean square.
-    pub fn rms(self) -> f64 {
-        (self.mean * self.mean + self.variance).sqrt()
-    }
-}
-
-/// Where constants come from that no instance has: a calibration's words.
-const OUTSIDE: &str = "calibration";
-
-/// The number of an operation that was written down; 0 where a value is exact.
-type Entry = u32;
-const EXACT: Entry = 0;
-
-/// An operation: what its result depends on.
-#[derive(Debug, Clone, Copy, Default)]
-struct Operation {
-    from: [(Entry, f64); 2],
-}
-
-/// A source of error, added to an operation's result.
-#[derive(Debug, Clone, Copy)]
-struct Source {
-    entry: Entry,
-    scope: usize,
-    moments: Moments,
-}
-
-/// What a floor has left out, which is its error where a golden model says that it is one.
-#[derive(Debug, Clone, Copy)]
-struct Floored {
-    entry: Entry,
-    before: f64,
-    dropped: u8,
-}
-
-/// Blocks within blocks, by the names of their instances.
-#[derive(Debug)]
-struct Scope {
-    parent: usize,
-    name: &'static str,
-}
-
-#[derive(Debug, Default)]
-struct Tape {
-    /// Which recording of the thread it is.
-    number: u64,
-    operations: Vec<Operation>,
-    sources: Vec<Source>,
-    floored: Option<Floored>,
-    scopes: Vec<Scope>,
-    scope: usize,
-}
-
-thread_local! {
-    static TAPE: RefCell<Tape> = RefCell::default();
-}
-
-fn with<T>(act: impl FnOnce(&mut Tape) -> T) -> T {
-    TAPE.with_borrow_mut(act)
-}
-
-impl Tape {
-    fn begin(&mut self) {
-        let (number, operations) = (self.number + 1, vec![Operation::default()]);
-        *self = Tape { number, operations, ..Tape::default() };
-        self.scopes.push(Scope { parent: 0, name: OUTSIDE });
-    }
-
-    fn operation(&mut self, from: [(Entry, f64); 2]) -> Entry {
-        if from.iter().all(|&(entry, gain)| entry == EXACT || gain == 0.0) {
-            return EXACT;
-        }
-        self.push(from)
-    }
-
-    fn push(&mut self, from: [(Entry, f64); 2]) -> Entry {
-        self.operations.push(Operation { from });
-        Entry::try_from(self.operations.len() - 1).expect("a slot has fewer than 2^32 operations")
-    }
-
-    /// An entry with an error of its own.
-    fn source(&mut self, from: [(Entry, f64); 2], moments: Moments) -> Entry {
-        let entry = self.push(from);
-        self.sources.push(Source { entry, scope: self.scope, moments });
-        entry
-    }
-
-    fn enter(&mut self, name: &'static str) -> usize {
-        let (before, parent) = (self.scope, self.scope);
-        let known = self.scopes.iter().position(|of| of.parent == parent && of.name == name);
-        self.scope = known.unwrap_or_else(|| {
-            self.scopes.push(Scope { parent, name });
-            self.scopes.len() - 1
-        });
-        before
-    }
-
-    /// The gain from each operation's result to that of `entry`.
-    fn gains(&self, entry: Entry) -> Vec<f64> {
-        let mut gains = vec![0.0; entry as usize + 1];
-        gains[entry as usize] = 1.0;
-        for number in (1..=entry as usize).rev() {
-            if gains[number] != 0.0 {
-                for (from, derivative) in self.operations[number].from {
-                    gains[from as usize] += derivative * gains[number];
-                }
-            }
-        }
-        gains
-    }
-
-    fn path(&self, mut scope: usize) -> String {
-        if scope == 0 {
-            return OUTSIDE.into();
-        }
-        let mut names = Vec::new();
-        while scope != 0 {
-            names.push(self.scopes[scope].name);
-            scope = self.scopes[scope].parent;
-        }
-        names.reverse();
-        names.join(".")
-    }
-}
-
-/// What blocks compute with [`Noise`] on this thread, from [`Recording::begin`] on. There is one a
-/// thread: as another one begins, this one ends, and its methods panic.
-#[derive(Debug)]
-pub struct Recording {
-    number: u64,
-    of_this_thread: PhantomData<*const ()>,
-}
-
-/// A time of a recording.
-#[derive(Debug, Clone, Copy)]
-pub struct Mark {
-    operations: usize,
-    sources: usize,
-}
-
-/// The error of a signal.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Errors {
-    /// All of it.
-    pub total: Moments,
-    /// By where it comes from: the path of the instance that rounds, or the name of an input.
-    pub by_source: Vec<(String, Moments)>,
-}
-
-impl Recording {
-    /// Begins to write down.
-    pub fn begin() -> Self {
-        with(Tape::begin);
-        Recording { number: with(|tape| tape.number), of_this_thread: PhantomData }
-    }
-
-    fn with<T>(&self, act: impl FnOnce(&mut Tape) -> T) -> T {
-        with(|tape| {
-            assert_eq!(tape.number, self.number, "another recording has begun on this thread");
-            act(tape)
-        })
-    }
-
-    /// Now.
-    pub fn mark(&self) -> Mark {
-        self.with(|tape| Mark { operations: tape.operations.len(), sources: tape.sources.len() })
-    }
-
-    /// Forgets what was written down since: signals of that time are no longer to be used.
-    pub fn rewind(&self, to: Mark) {
-        self.with(|tape| {
-            tape.operations.truncate(to.operations);
-            tape.sources.truncate(to.sources);
-            tape.floored = None;
-        });
-    }
-
-    /// A signal from outside with a name, whose error is `moments`: that of its code, if it is
-    /// known, included.
-    pub fn input(
-        &self,
-        name: &'static str,
-        shadow: Shadow,
-        format: Format,
-        moments: Moments,
-    ) -> Signal<Noise> {
-        let entry = self.with(|tape| {
-            let before = tape.enter(name);
-            let entry = tape.source([(EXACT, 0.0); 2], moments);
-            tape.scope = before;
-            entry
-        });
-        Signal { value: Noise { shadow, entry }, format }
-    }
-
-    /// How many operations have been written down.
-    pub fn operations(&self) -> usize {
-        self.with(|tape| tape.operations.len())
-    }
-
-    /// The error of a value.
-    pub fn errors(&self, of: Noise) -> Errors {
-        self.with(|tape| {
-            let gains = tape.gains(of.entry);
-            let mut by_scope = vec![Moments::default(); tape.scopes.len()];
-            for source in &tape.sources {
-                let gain = gains.get(source.entry as usize).copied().unwrap_or(0.0);
-                if gain != 0.0 {
-                    by_scope[source.scope] =
-                        by_scope[source.scope].plus(source.moments.times(gain));
-                }
-            }
-            let total = by_scope.iter().fold(Moments::default(), |sum, of| sum.plus(*of));
-            let named = by_scope.into_iter().enumerate().filter(|(_, of)| of.bound > 0.0);
-            Errors { total, by_source: named.map(|(n, of)| (tape.path(n), of)).collect() }
-        })
-    }
 }
 
 fn shadow(a: Signal<Noise>) -> Signal<Shadow> {
@@ -566,7 +302,6 @@ impl Interpretation for Noise {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::signal::{Floor, HalfEven, Proved};
 
     fn input(recording: &Recording, real: f64, format: Format) -> Signal<Noise> {
         let code = format.code(real).expect("a code");
@@ -585,37 +320,5 @@ mod tests {
         assert_eq!(variance(x - x), 0.0);
         assert_eq!(variance(x * y), 34.0, "5²+3²");
         assert_eq!(variance((x - x) * y), 0.0);
-    }
-
-    /// The errors of every code, as often as each other, against the formulas.
-    #[test]
-    fn roundings_have_the_moments_of_the_bits_that_they_drop() {
-        for (rounding, dropped) in
-            [HalfEven, Floor].into_iter().flat_map(|r| (1..7).map(move |d| (r, d)))
-        {
-            let (fine, coarse) = (Format::signed(12, 6), Format::signed(12, 6 - dropped));
-            let codes = -(4i64 << dropped)..4 << dropped;
-            let error = |code: i64| {
-                let rounded =
-                    i64::quantize(Signal { value: code, format: fine }, coarse, rounding, Proved);
-                coarse.real(rounded) - fine.real(code)
-            };
-            let count = codes.clone().count() as f64;
-            let mean = codes.clone().map(error).sum::<f64>() / count;
-            let square = codes.clone().map(|code| error(code).powi(2)).sum::<f64>() / count;
-            let bound = codes.map(|code| error(code).abs()).fold(0.0, f64::max);
-            let moments = Moments::of_rounding(rounding, dropped as u8, coarse.lsb());
-            assert!((moments.mean - mean).abs() < 1e-12, "{rounding:?} {dropped}");
-            assert!((moments.rms().powi(2) - square).abs() < 1e-12, "{rounding:?} {dropped}");
-            assert!((moments.bound - bound).abs() < 1e-12, "{rounding:?} {dropped}");
-        }
-    }
-
-    #[test]
-    #[should_panic(expected = "another recording")]
-    fn a_recording_ends_as_another_begins() {
-        let first = Recording::begin();
-        Recording::begin();
-        first.mark();
     }
 }
