@@ -27,6 +27,13 @@ pub struct Scene {
     points: Vec<Point>,
 }
 
+impl Scene {
+    /// Slots that are measured.
+    pub fn slots(&self) -> usize {
+        25 * self.points.len()
+    }
+}
+
 #[derive(Clone)]
 struct Point {
     ratios: [f64; 2],
@@ -141,7 +148,7 @@ pub fn measured(
     fine.formats.adc = FINE;
     let mut ideal = Reference::new(&fine, calibration);
     let mut random = Random::new(seed);
-    let (mut sums, count) = ([[0.0; 3]; 5], 25 * scene.points.len());
+    let (mut sums, count) = ([[0.0; 3]; 5], scene.slots());
     for slot in 0..count {
         let point = scene.points[slot % scene.points.len()].near(&mut random);
         let samples = samples(profile, &point, &mut random);
@@ -176,6 +183,28 @@ fn samples(profile: &Profile, point: &Point, random: &mut Random) -> Vec<f64> {
         samples.extend(clean.map(|sample| sample + NOISE * gaussian(random)));
     }
     samples
+}
+
+/// The amplitude that the first channel's sums say of an undithered tone of so many periods in the
+/// window, with a carrier of nearly full scale as the measure.
+pub fn amplitude_of_tone(profile: &Profile, amplitude: f64, turn: f64, periods: f64) -> f64 {
+    const MEASURE: f64 = 0.9;
+    let mut core = FixedSimulation::<i64>::new(profile, &super::device::calibration(profile));
+    let (channels, count, lsb) =
+        (profile.channels(), profile.slot.integrate, profile.formats.adc.lsb());
+    let mut magnitude = |amplitude: f64, periods: f64| {
+        let code = |n: u64| {
+            let phase = TAU * (periods * n as f64 / count as f64 + turn);
+            (amplitude * phase.cos() / lsb).round_ties_even() as i32
+        };
+        let mut codes = vec![0; channels * count as usize];
+        for (n, codes) in (0..).zip(codes.chunks_exact_mut(channels)) {
+            codes[0] = code(n);
+        }
+        let sums = core.sums(&codes);
+        sums[0].hypot(sums[1])
+    };
+    MEASURE * magnitude(amplitude, periods) / magnitude(MEASURE, profile.carrier.periods as f64)
 }
 
 /// Of twelve uniform numbers.
