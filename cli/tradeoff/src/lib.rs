@@ -9,6 +9,7 @@
 //! | [`mod@cost`] | latency, and area from the core's own netlist |
 //! | [`mod@sweep`] | one knob after the other about a profile |
 //! | [`mod@search`] | the cheapest profile for a stated error |
+//! | [`exact`] | branch and bound over its choices |
 //!
 //! Errors are the core's against the ideal estimator, which sees the same samples without an ADC's
 //! rounding. What the estimator's equations leave of a scene's truth is another matter:
@@ -16,6 +17,7 @@
 
 pub mod cost;
 pub mod errors;
+pub mod exact;
 pub mod knobs;
 pub mod points;
 pub mod search;

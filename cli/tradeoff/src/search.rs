@@ -8,11 +8,12 @@
 //! v_k, the variance that the word of knob k adds, and s_k, what a bit of it costs, come from one
 //! prediction and one netlist per knob; any combination then is a sum. From the longest words on, the
 //! bit is taken away that saves most area for the error that it adds, as long as the target holds;
-//! then pairs are exchanged. What is found is verified by running it; where it fails, the search is
-//! repeated with a smaller target.
+//! branch and bound ([`super::exact`]) then finds what is cheaper. What is found is verified by
+//! running it; where it fails, the search is repeated with a smaller target.
 
 use super::cost::Cost;
 use super::errors::{Error, Errors, Quantity};
+use super::exact::{self, Choice};
 use super::knobs::Knob;
 use super::sweep::{Point, Trial};
 use anyhow::Result;
@@ -173,6 +174,23 @@ impl Slope {
     }
 }
 
+impl Slope {
+    /// What each length within range costs beyond that of the profile, and which part of the limits it
+    /// takes.
+    fn choices(&self, most: &[Option<f64>; 3]) -> Vec<Choice> {
+        let choice = |bits: u64| {
+            let grown = 4f64.powi(self.base as i32 - bits as i32) - 1.0;
+            let part =
+                |n: usize| most[n].map_or(0.0, |most| grown * self.variance[n] / (most * most));
+            Choice {
+                cost: self.luts * (bits as f64 - self.base as f64),
+                errors: [0, 1, 2].map(part),
+            }
+        };
+        (self.range[0]..=self.range[1]).map(choice).collect()
+    }
+}
+
 /// Mean square of a predicted error.
 fn square(point: &Point, quantity: usize) -> f64 {
     point.predicted[quantity].rms.powi(2)
@@ -213,6 +231,17 @@ impl Model {
         }
     }
 
+    /// The model of these knobs alone: the others keep their lengths.
+    pub fn only(&self, knobs: &[Knob]) -> Model {
+        let of_them = self.slopes.iter().filter(|slope| knobs.contains(&slope.knob));
+        Model { slopes: of_them.cloned().collect(), ..*self }
+    }
+
+    /// How far each word may be shortened and lengthened, bits.
+    pub fn ranges(&self) -> Vec<[u64; 2]> {
+        self.slopes.iter().map(|slope| slope.range).collect()
+    }
+
     /// Mean squares of the errors with these bits.
     pub fn squares(&self, bits: &[u64]) -> [f64; 3] {
         let mut squares = self.squares;
@@ -247,19 +276,23 @@ impl Model {
         self.slopes.iter().enumerate().map(next).collect()
     }
 
-    /// The bits that cost least with errors within limits, found by taking away and exchanging.
+    /// The bits that cost least with errors within limits; the longest words where no length meets
+    /// them.
     pub fn cheapest(&self, most: &[Option<f64>; 3]) -> Vec<u64> {
         let mut bits: Vec<u64> = self.slopes.iter().map(|slope| slope.range[1]).collect();
         while let Some(next) = self.shorter(&bits, most) {
             bits = next;
         }
-        while let Some(next) = self.exchanged(&bits, most) {
-            bits = next;
-        }
-        bits
+        let knobs: Vec<Vec<Choice>> = self.slopes.iter().map(|slope| slope.choices(most)).collect();
+        let part = |n: usize| most[n].map_or(0.0, |most| self.squares[n] / (most * most));
+        let room = [0, 1, 2].map(|n| 1.0 - part(n));
+        let cheaper = exact::cheapest(&knobs, room, self.luts(&bits) - self.cost.luts);
+        let value = |(slope, option): (&Slope, usize)| slope.range[0] + option as u64;
+        cheaper.map_or(bits, |options| self.slopes.iter().zip(options).map(value).collect())
     }
 
-    fn holds(&self, bits: &[u64], most: &[Option<f64>; 3]) -> bool {
+    /// Whether errors with these bits are within limits.
+    pub fn holds(&self, bits: &[u64], most: &[Option<f64>; 3]) -> bool {
         let squares = self.squares(bits);
         squares
             .iter()
@@ -268,7 +301,7 @@ impl Model {
     }
 
     /// How much of the targets is used up: the largest share.
-    fn used(&self, bits: &[u64], most: &[Option<f64>; 3]) -> f64 {
+    pub fn used(&self, bits: &[u64], most: &[Option<f64>; 3]) -> f64 {
         let squares = self.squares(bits);
         let share =
             |(square, most): (&f64, &Option<f64>)| most.map_or(0.0, |most| square / (most * most));
@@ -294,22 +327,6 @@ impl Model {
             Some((self.slopes[at].luts.max(1e-3) / added, next))
         });
         tried.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, next)| next)
-    }
-
-    /// One word a bit longer, another one or two shorter, where that is cheaper.
-    fn exchanged(&self, bits: &[u64], most: &[Option<f64>; 3]) -> Option<Vec<u64>> {
-        let cost = self.luts(bits);
-        let longer = (0..bits.len()).filter_map(|at| self.with(bits, at, 1));
-        let next = longer.flat_map(|longer| {
-            let shorter = |from: &[u64]| -> Vec<Vec<u64>> {
-                (0..from.len()).filter_map(|at| self.with(from, at, -1)).collect()
-            };
-            let one = shorter(&longer);
-            let two: Vec<_> = one.iter().flat_map(|one| shorter(one)).collect();
-            one.into_iter().chain(two)
-        });
-        let better = next.filter(|next| self.luts(next) < cost - 1e-9 && self.holds(next, most));
-        better.min_by(|a, b| self.luts(a).total_cmp(&self.luts(b)))
     }
 
     /// The profile with these bits; a word that no core can have keeps its length.
