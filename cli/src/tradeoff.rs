@@ -96,7 +96,7 @@ pub fn run(args: &TradeoffArgs) -> Result<bool> {
 /// A scene whose sensors leave the rounding to the core's ADC.
 fn scene(name: &str) -> Result<Scene> {
     let scene = inputs::scene(name, &[])?;
-    inputs::scene(name, &points::unrounded(&scene)?)
+    inputs::scene(name, &points::unrounded(&scene.cases[0])?)
 }
 
 /// The profile with the slot that the scenes ask for, as `simulate` runs them. Where they do not all

@@ -50,7 +50,6 @@ const IMPORTS: [(&str, &[&str]); 16] = [
             "hapticore-contract",
             "hapticore-hdl",
             "hapticore-model",
-            "hapticore-reference",
             "hapticore-run",
             "hapticore-scene",
         ],

@@ -6,10 +6,11 @@ use hapticore_contract::profile::Profile;
 use hapticore_hdl::area::Operations;
 use hapticore_hdl::interpretations::netlist::Netlist;
 use hapticore_model::blocks::core::Core;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Time and area of a core.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Cost {
     /// From the strobe of a window's last sample to the frame's last word, clocks.
     pub latency_clocks: u64,

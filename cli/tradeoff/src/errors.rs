@@ -10,14 +10,15 @@
 //! Predicted are mean, variance and bound for each slot's samples, which then are averaged over the
 //! slots as measured errors are.
 
-use super::points::{Slot, Values, codes};
+use super::points::{Signals, Slot, Values, digitised, is_flagged};
 use anyhow::Result;
 use hapticore_contract::calibration::Calibration;
 use hapticore_contract::profile::Profile;
-use hapticore_model::fidelity::fixed::FixedSimulation;
-use hapticore_model::fidelity::noise::{Expected, Prediction, Predictor, Signals};
-use serde::Serialize;
+use hapticore_model::fidelity::noise::{Expected, Prediction, Predictor, Signals as Given};
+use hapticore_run::engine::{Fidelity, engine};
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// What errors are asked of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -55,7 +56,8 @@ impl Quantity {
 }
 
 /// An error over many slots.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Error {
     /// Root of the mean square.
     pub rms: f64,
@@ -109,8 +111,14 @@ pub fn predicted<'a>(
     let (mut sums, mut sources) = ([Sum::default(); 3], Sources::default());
     let (mut least_codes, count) = (f64::INFINITY, slots.len() as f64);
     for slot in slots {
+        let given = match &slot.signals {
+            Signals::Samples(samples) => Given::Samples(samples),
+            Signals::Phasors { amplitudes, mean_square } => {
+                Given::Tones { amplitudes, mean_square: *mean_square }
+            }
+        };
         let Prediction { x, y, capacitance, force, least_codes: codes, .. } =
-            predictor.slot(slot.pad, Signals::Samples(&slot.samples));
+            predictor.slot(slot.pad, given);
         least_codes = least_codes.min(codes);
         let percent = 100.0 / capacitance.real;
         let of = |of: &Expected, unit: f64| of.errors.total.times(unit);
@@ -135,16 +143,41 @@ pub fn predicted<'a>(
     Ok((sums.map(Sum::error), sources, least_codes))
 }
 
-/// What a profile's core is off the ideal estimator on slots.
-pub fn measured(profile: &Profile, calibration: &Calibration, slots: &[Slot]) -> Errors {
-    let mut core = FixedSimulation::<i64>::new(profile, calibration);
+/// What a core made of slots.
+#[derive(Debug, Clone)]
+pub struct Results {
+    /// Of each slot.
+    pub values: Vec<Values>,
+    /// How many have a flag set that tells not to take them for what their slot shows.
+    pub flagged: usize,
+}
+
+/// What a profile's core makes of slots at a fidelity that needs no clocks.
+pub fn results(
+    fidelity: Fidelity,
+    profile: &Arc<Profile>,
+    calibration: &Calibration,
+    slots: &[Slot],
+) -> Results {
+    let mut core = engine(fidelity, profile, calibration);
+    let mut measure = |slot: &Slot| {
+        let given = digitised(slot.pad, &slot.signals, profile.formats.adc);
+        core.slot(&given).expect("a slot is answered at once where there are no clocks")
+    };
+    let measured: Vec<_> = slots.iter().map(&mut measure).collect();
+    Results {
+        flagged: measured.iter().filter(|measured| is_flagged(measured)).count(),
+        values: measured.iter().map(Values::of).collect(),
+    }
+}
+
+/// What values are off others.
+pub fn errors<'a>(values: &[Values], from: impl Iterator<Item = &'a Values>) -> Errors {
     let mut sums = [Sum::default(); 3];
-    for slot in slots {
-        let frame = core.slot(slot.pad, &codes(&slot.samples, profile.formats.adc));
-        let (is, ideal) = (Values::of(&frame.measurement(profile)), slot.ideal);
-        let force = 1e3 * (is.force_n - ideal.force_n);
-        let capacitance = 100.0 * (is.capacitance_pf / ideal.capacitance_pf - 1.0);
-        let place = [0, 1].map(|n| 1e3 * (is.position_mm[n] - ideal.position_mm[n]));
+    for (is, should) in values.iter().zip(from) {
+        let force = 1e3 * (is.force_n - should.force_n);
+        let capacitance = 100.0 * (is.capacitance_pf / should.capacitance_pf - 1.0);
+        let place = [0, 1].map(|n| 1e3 * (is.position_mm[n] - should.position_mm[n]));
         sums[0].add(force, force * force, force.abs());
         sums[1].add(capacitance, capacitance * capacitance, capacitance.abs());
         let distance = place[0].hypot(place[1]);

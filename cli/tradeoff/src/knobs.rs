@@ -93,6 +93,13 @@ impl Knob {
 
     /// The profile with this knob at a value; none where no core can be built of it.
     pub fn set(self, profile: &Profile, value: u64) -> Option<Profile> {
+        let turned = self.turn(profile, value)?;
+        hapticore_model::check(&turned).is_ok().then_some(turned)
+    }
+
+    /// The profile with this knob at a value, whether or not a core can be built of it; none where a
+    /// word would be too short or too long to be written.
+    pub fn turn(self, profile: &Profile, value: u64) -> Option<Profile> {
         let by = i64::try_from(value).ok()? - i64::try_from(self.value(profile)).ok()?;
         let mut turned = match self {
             Knob::Window => {
@@ -104,7 +111,7 @@ impl Knob {
         if self != Knob::Window {
             self.lengthen(&mut turned, i8::try_from(by).ok()?)?;
         }
-        hapticore_model::check(&turned).is_ok().then_some(turned)
+        Some(turned)
     }
 
     fn lengthen(self, profile: &mut Profile, by: i8) -> Option<()> {

@@ -5,9 +5,11 @@
 //! | --- | --- |
 //! | [`knobs`] | what of a profile is varied, and within which limits |
 //! | [`points`] | slots of a scene: what every profile is tried on |
+//! | [`bench`](mod@bench) | those slots with the device's calibration, shared by profiles that differ in words alone |
 //! | [`errors`] | errors of force, capacitance and position, predicted and measured |
 //! | [`mod@cost`] | latency, and area from the core's own netlist |
 //! | [`mod@sweep`] | one knob after the other about a profile |
+//! | [`mod@front`] | the points that no other beats |
 //! | [`mod@search`] | the cheapest profile for a stated error |
 //! | [`exact`] | branch and bound over its choices |
 //!
@@ -15,9 +17,11 @@
 //! rounding. What the estimator's equations leave of a scene's truth is another matter:
 //! `hapticore simulate` tells it.
 
+pub mod bench;
 pub mod cost;
 pub mod errors;
 pub mod exact;
+pub mod front;
 pub mod knobs;
 pub mod points;
 pub mod search;

@@ -2,13 +2,17 @@
 //! Slots of scenes, which every profile is tried on: samples as the sensors give them, before any
 //! ADC.
 
+use std::sync::Arc;
+
 use anyhow::{Result, ensure};
+use hapticore_contract::frame::Measurement;
+use hapticore_contract::profile::Profile;
 use hapticore_hdl::format::Format;
-use hapticore_reference::Reference;
 use hapticore_run::case::Case;
 use hapticore_run::digitiser::Digitiser;
+use hapticore_run::engine::{self, Fidelity, engine};
 use hapticore_run::interrupt;
-use hapticore_scene::Scene;
+use hapticore_scene::{Case as SceneCase, Complex, Plant, Truth};
 use toml::{Table, Value};
 
 /// An ADC that rounds nothing away: what the ideal estimator is given.
@@ -19,10 +23,26 @@ pub const FINE: Format = Format::signed(30, 29);
 pub struct Slot {
     /// Pad, from 0.
     pub pad: usize,
-    /// The window's samples, of full scale; a sample after the other, each of all channels.
-    pub samples: Vec<f64>,
+    /// What a core is given of it.
+    pub signals: Signals,
     /// What the ideal estimator makes of it.
     pub ideal: Values,
+    /// What the plant knows.
+    pub truth: Values,
+}
+
+/// The signals of a slot's window, before any ADC.
+#[derive(Debug, Clone)]
+pub enum Signals {
+    /// Samples, of full scale; a sample after the other, each of all channels.
+    Samples(Vec<f64>),
+    /// What an ideal demodulator finds, in fractions of full scale.
+    Phasors {
+        /// In-phase and quadrature of the terminals and the sensing voltage.
+        amplitudes: Vec<(f64, f64)>,
+        /// Of the haptic voltage.
+        mean_square: f64,
+    },
 }
 
 /// The results that errors are asked of.
@@ -36,13 +56,13 @@ pub struct Values {
     pub position_mm: [f64; 2],
 }
 
-/// The overrides that leave the rounding of a scene's samples to the core's ADC: the finest
+/// The overrides that leave the rounding of a case's samples to the core's ADC: the finest
 /// quantisation there is. Noise that is counted in its codes keeps its size.
 ///
 /// # Errors
-/// A scene whose documents are no TOML, which is a broken invariant.
-pub fn unrounded(scene: &Scene) -> Result<Vec<(String, String)>> {
-    let document: Table = scene.cases[0].document.parse()?;
+/// A document that is no TOML, which is a broken invariant.
+pub fn unrounded(case: &SceneCase) -> Result<Vec<(String, String)>> {
+    let document: Table = case.document.parse()?;
     let sensor = document.get("sensor").and_then(Value::as_table);
     let number = |key: &str| {
         let value = sensor?.get(key)?;
@@ -63,11 +83,12 @@ const FINEST_BITS: f64 = 32.0;
 /// The most of `sensor.dither_lsb_rms`.
 const MOST_DITHER_LSB: f64 = 1e3;
 
-/// Slots of a case, spread over its time; those without a valid position are left out.
+/// Slots of a case, spread over its time; those without a valid position are left out. With
+/// `sampled` cores are given samples, else phasors.
 ///
 /// # Errors
 /// A case that is controlled, or whose pads are served part by part; no slot with a valid position.
-pub fn slots(case: &Case, count: usize) -> Result<Vec<Slot>> {
+pub fn slots(case: &Case, count: usize, sampled: bool) -> Result<Vec<Slot>> {
     let scene = &case.scene.name;
     ensure!(
         case.plan().is_none(),
@@ -80,45 +101,85 @@ pub fn slots(case: &Case, count: usize) -> Result<Vec<Slot>> {
         plant.parts() == 1,
         "{scene}: halves.senses: expected \"together\", got \"each\": a pad's slots must each have its force"
     );
-    let (slot, channels) = (&case.profile.slot, case.profile.channels());
-    let window = slot.blanking() as usize..slot.samples() as usize;
     let mut fine = (*case.profile).clone();
     fine.formats.adc = FINE;
-    let mut reference = Reference::new(&fine, case.calibration()?);
+    let mut ideal = engine(Fidelity::Float, &Arc::new(fine), case.calibration()?);
     let step = (case.slots / count).max(1);
     let mut slots = Vec::new();
     for number in (0..case.slots).step_by(step) {
         interrupt::check()?;
-        let pad = plant.truth(number).pad;
-        let mut samples = Vec::with_capacity(window.len() * channels);
-        plant.samples(number, window.clone(), &mut samples);
-        let measured = reference.slot(pad, &codes(&samples, FINE));
-        let flags = measured.flags;
-        if flags.invalid || flags.clipped || flags.saturated {
-            continue;
+        let truth = plant.truth(number);
+        let signals = match sampled {
+            true => samples(&mut plant, number, &case.profile),
+            false => phasors(&mut plant, number),
+        };
+        let measured = ideal.slot(&digitised(truth.pad, &signals, FINE));
+        let measured = measured.expect("the ideal estimator answers at once");
+        if !is_flagged(&measured) {
+            slots.push(Slot {
+                pad: truth.pad,
+                signals,
+                ideal: Values::of(&measured),
+                truth: Values::of_truth(&truth),
+            });
         }
-        slots.push(Slot { pad, samples, ideal: Values::of(&measured) });
     }
     ensure!(!slots.is_empty(), "{scene}: expected a pad on the sheet in some slot");
     Ok(slots)
 }
 
+fn samples(plant: &mut Plant, number: usize, profile: &Profile) -> Signals {
+    let window = profile.slot.blanking() as usize..profile.slot.samples() as usize;
+    let mut samples = Vec::with_capacity(window.len() * profile.channels());
+    plant.samples(number, window, &mut samples);
+    Signals::Samples(samples)
+}
+
+fn phasors(plant: &mut Plant, number: usize) -> Signals {
+    let mut found = vec![Complex::default(); plant.channels() - 1];
+    let mean_square = plant.phasors(number, &mut found);
+    let amplitudes = found.iter().map(|phasor| (phasor.re, phasor.im)).collect();
+    Signals::Phasors { amplitudes, mean_square }
+}
+
+/// What a core with such an ADC is given of a slot.
+pub fn digitised(pad: usize, signals: &Signals, adc: Format) -> engine::Slot {
+    let signals = match signals {
+        Signals::Samples(samples) => {
+            let mut codes = Vec::with_capacity(samples.len());
+            Digitiser::new(adc).codes(samples, &mut codes);
+            engine::Signals::Samples { codes, blanking: 0 }
+        }
+        Signals::Phasors { amplitudes, mean_square } => {
+            engine::Signals::Phasors { amplitudes: amplitudes.clone(), mean_square: *mean_square }
+        }
+    };
+    engine::Slot { pad, signals }
+}
+
+/// Whether a measurement is not to be taken for what its slot shows.
+pub fn is_flagged(measured: &Measurement) -> bool {
+    let flags = measured.flags;
+    flags.invalid || flags.clipped || flags.saturated
+}
+
 impl Values {
     /// Those of a measurement.
-    pub fn of(measured: &hapticore_contract::frame::Measurement) -> Self {
+    pub fn of(measured: &Measurement) -> Self {
         Values {
             force_n: measured.force_n,
             capacitance_pf: measured.capacitance_pf,
             position_mm: [measured.x_mm, measured.y_mm],
         }
     }
-}
 
-/// Samples as codes of an ADC.
-pub fn codes(samples: &[f64], adc: Format) -> Vec<i32> {
-    let mut codes = Vec::with_capacity(samples.len());
-    Digitiser::new(adc).codes(samples, &mut codes);
-    codes
+    fn of_truth(truth: &Truth) -> Self {
+        Values {
+            force_n: truth.force_n,
+            capacitance_pf: truth.capacitance_pf,
+            position_mm: [truth.x_mm, truth.y_mm],
+        }
+    }
 }
 
 #[cfg(test)]
@@ -128,7 +189,7 @@ mod tests {
 
     /// What a scene's sensors are set to, and the noise of that, of full scale.
     fn sensor(name: &str) -> (Option<f64>, Option<f64>) {
-        let set = unrounded(&inputs::scene(name, &[]).unwrap()).unwrap();
+        let set = unrounded(&inputs::scene(name, &[]).unwrap().cases[0]).unwrap();
         inputs::scene(name, &set).expect("the scene takes them");
         let number = |of: &str| {
             set.iter().find(|(key, _)| key.ends_with(of)).map(|(_, value)| value.parse().unwrap())

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Profiles about a profile, one knob after the other: what each costs and what it is off.
 
+use super::bench::Bench;
 use super::cost::{Cost, cost};
-use super::errors::{Errors, Quantity, Sources, measured, predicted};
+use super::errors::{Errors, Quantity, Sources, errors, predicted, results};
+use super::front::front;
 use super::knobs::Knob;
-use super::points::{Slot, slots};
 use anyhow::{Context, Result};
-use hapticore_contract::calibration::Calibration;
-use hapticore_contract::profile::{Carrier, ForceLaw, Profile};
+use hapticore_contract::profile::Profile;
 use hapticore_model::fidelity::noise::Predictor;
-use hapticore_run::case::Case;
+use hapticore_run::engine::Fidelity;
 use hapticore_run::interrupt;
 use hapticore_scene::Scene;
 use rayon::prelude::*;
@@ -49,15 +49,6 @@ pub struct Trial {
     slots: usize,
     /// Those that were made: profiles of later runs share them, too.
     benches: Mutex<Vec<Arc<Vec<Bench>>>>,
-}
-
-/// Slots and calibration that profiles share which have a slot's times and a table in common.
-struct Bench {
-    /// The profile that it was made for, and as the scene's device and pads have it.
-    of: Profile,
-    profile: Arc<Profile>,
-    calibration: Calibration,
-    slots: Vec<Slot>,
 }
 
 /// How many slots of a scene a prediction is made of.
@@ -127,52 +118,13 @@ impl Trial {
 
     fn benches(&self, profile: &Profile) -> Result<Arc<Vec<Bench>>> {
         let mut made = self.benches.lock().expect("nobody panics with it");
-        if let Some(known) = made.iter().find(|of| same_bench(&of[0].of, profile)) {
+        if let Some(known) = made.iter().find(|of| of[0].suits(profile)) {
             return Ok(known.clone());
         }
-        let bench = |scene| bench(scene, profile, self.slots);
+        let bench = |scene| Bench::new((scene, 0), profile, self.slots, true);
         let benches = Arc::new(self.scenes.iter().map(bench).collect::<Result<Vec<_>>>()?);
         made.push(benches.clone());
         Ok(benches)
-    }
-}
-
-/// Whether profiles may share slots and calibration but for its gains: whether plant, position table
-/// and ideal estimator are the same for both.
-fn same_bench(a: &Profile, b: &Profile) -> bool {
-    // The words of a force table are in units of the square's gain, which is of the carrier's words.
-    let of_table = |p: &Profile| {
-        (p.force.law == ForceLaw::Table).then_some((p.carrier.amplitude, p.formats.oscillator))
-    };
-    let of = |p: &Profile| {
-        let carrier = Carrier { amplitude: 0, ..p.carrier.clone() };
-        (
-            (p.slot.clone(), carrier, p.terminals.clone(), p.pads),
-            (p.position.clone(), p.formats.table),
-            (p.capacitance, p.haptic, p.force, of_table(p)),
-        )
-    };
-    of(a) == of(b)
-}
-
-fn bench(scene: &Scene, profile: &Profile, count: usize) -> Result<Bench> {
-    let case = Case::new(scene, 0, profile, &[])?;
-    let slots = slots(&case, count)?;
-    let calibration = case.calibration()?.clone();
-    Ok(Bench { of: profile.clone(), profile: case.profile.clone(), calibration, slots })
-}
-
-impl Bench {
-    /// The profile as the scene's device and pads have it, and the calibration in its words.
-    fn serve(&self, profile: &Profile) -> (Profile, Calibration) {
-        let of = &self.profile;
-        let mut served =
-            Profile { terminals: of.terminals.clone(), pads: of.pads, ..profile.clone() };
-        // More terminals than the profile's own take more clocks.
-        served.clocks_per_sample = served.clocks_per_sample.max(served.least_clocks_per_sample());
-        // Of the square of the haptic voltage, a core's gain is that of its window's words.
-        let force_gain = self.calibration.force_gain * of.square_gain() / served.square_gain();
-        (served, Calibration { force_gain, ..self.calibration.clone() })
     }
 }
 
@@ -180,12 +132,14 @@ fn point(knob: Option<Knob>, profile: &Profile, benches: &[Bench]) -> Result<Poi
     let (mut sum, mut of_sources) = ([Errors::default(); 2], Sources::default());
     let mut least_codes = f64::INFINITY;
     for bench in benches {
-        let (profile, calibration) = bench.serve(profile);
-        let few = bench.slots.iter().step_by(bench.slots.len().div_ceil(PREDICTED));
-        let (expected, sources, codes) = predicted(&profile, &calibration, few)
-            .with_context(|| format!("profile {}", profile.name))?;
+        let what = || format!("profile {}", profile.name);
+        let (profile, calibration) =
+            (bench.serve(profile).with_context(what)?, bench.calibration());
+        let (expected, sources, codes) =
+            predicted(&profile, calibration, bench.some(PREDICTED)).with_context(what)?;
         least_codes = least_codes.min(codes);
-        let found = measured(&profile, &calibration, &bench.slots);
+        let results = results(Fidelity::Fixed, &profile, calibration, bench.slots());
+        let found = errors(&results.values, bench.slots().iter().map(|slot| &slot.ideal));
         for (sum, errors) in sum.iter_mut().zip([expected, found]) {
             for (sum, error) in sum.iter_mut().zip(errors) {
                 sum.rms += error.rms * error.rms / benches.len() as f64;
@@ -219,17 +173,9 @@ fn point(knob: Option<Knob>, profile: &Profile, benches: &[Bench]) -> Result<Poi
 
 /// Marks the points that none beats in error, size and age together.
 fn mark_front(points: &mut [Point]) {
-    let of = |point: &Point, quantity: usize| {
-        [point.measured[quantity].rms, point.cost.luts, point.cost.age_us]
-    };
     for quantity in 0..Quantity::ALL.len() {
-        let all: Vec<[f64; 3]> = points.iter().map(|point| of(point, quantity)).collect();
-        for (point, own) in points.iter_mut().zip(&all) {
-            let beats = |other: &[f64; 3]| {
-                other.iter().zip(own).all(|(a, b)| a <= b)
-                    && other.iter().zip(own).any(|(a, b)| a < b)
-            };
-            point.front[quantity] = !all.iter().any(beats);
-        }
+        let of = |point: &Point| [point.measured[quantity].rms, point.cost.luts, point.cost.age_us];
+        let on = front(&points.iter().map(of).collect::<Vec<_>>());
+        points.iter_mut().zip(on).for_each(|(point, on)| point.front[quantity] = on);
     }
 }
