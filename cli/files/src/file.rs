@@ -71,12 +71,31 @@ impl AtomicFile {
     /// # Errors
     /// It cannot be renamed.
     pub fn persist(self) -> io::Result<()> {
+        self.make_readable()?;
+        self.temporary.persist(&self.path).map(drop).map_err(|error| error.error)
+    }
+
+    /// Gives the finished file its name unless there is a file of that name; whether it has it. Of
+    /// several writers at once one succeeds.
+    ///
+    /// # Errors
+    /// It cannot be renamed for another reason.
+    pub fn persist_new(self) -> io::Result<bool> {
+        self.make_readable()?;
+        match self.temporary.persist_noclobber(&self.path) {
+            Ok(_) => Ok(true),
+            Err(error) if error.error.kind() == io::ErrorKind::AlreadyExists => Ok(false),
+            Err(error) => Err(error.error),
+        }
+    }
+
+    fn make_readable(&self) -> io::Result<()> {
         #[cfg(unix)]
         {
             use std::os::unix::fs::PermissionsExt;
             self.temporary.as_file().set_permissions(std::fs::Permissions::from_mode(0o644))?;
         }
-        self.temporary.persist(&self.path).map(drop).map_err(|error| error.error)
+        Ok(())
     }
 }
 
@@ -88,4 +107,23 @@ pub fn write(path: &Path, text: &str) -> io::Result<()> {
     let partial = AtomicFile::create(path)?;
     partial.reopen()?.write_all(text.as_bytes())?;
     partial.persist()
+}
+
+/// Writes a whole file unless there is one of that name; whether it was written.
+///
+/// ```
+/// # let folder = tempfile::tempdir()?;
+/// # let path = folder.path().join("reference.json");
+/// assert!(hapticore_files::write_new(&path, "first")?);
+/// assert!(!hapticore_files::write_new(&path, "second")?);
+/// assert_eq!(std::fs::read_to_string(&path)?, "first");
+/// # Ok::<(), std::io::Error>(())
+/// ```
+///
+/// # Errors
+/// It cannot be written.
+pub fn write_new(path: &Path, text: &str) -> io::Result<bool> {
+    let partial = AtomicFile::create(path)?;
+    partial.reopen()?.write_all(text.as_bytes())?;
+    partial.persist_new()
 }
