@@ -5,10 +5,12 @@
 use std::process::Command;
 
 /// The crates that the command is made of, beside this one.
-const SOURCES: [&str; 8] = [
+const SOURCES: [&str; 10] = [
     "src",
     "../src",
     "../files/src",
+    "../sweep/src",
+    "../tradeoff/src",
     "../../host",
     "../../model",
     "../../rtl/src",

@@ -38,6 +38,9 @@ pub enum Command {
     /// Tell what accuracy costs: errors of profiles, predicted and measured, beside latency and area
     #[command(after_help = TRADEOFF)]
     Tradeoff(TradeoffArgs),
+    /// Run a plan of many points on all cores or many hosts, and collect what they are off and cost
+    #[command(after_help = SWEEP, args_conflicts_with_subcommands = true)]
+    Sweep(SweepArgs),
     /// Make a device's calibration from what was measured of it: places, loads, full scales
     #[command(after_help = CALIBRATE)]
     Calibrate(CalibrateArgs),
@@ -107,6 +110,92 @@ pub struct TradeoffArgs {
     /// Print results as JSON
     #[arg(long)]
     pub json: bool,
+}
+
+const SWEEP: &str = "A plan is TOML: a scene, a profile, and what of both is varied (docs/sweep.md). A point is named by the hash of all that it is
+made of: what is in the store is done, by whatever host, and what is collected has the same bytes.
+
+Examples:
+  hapticore sweep plan.toml
+  hapticore sweep plan.toml --store shared/store --list > chunks.jsonl
+  parallel hapticore sweep run --store shared/store {} :::: chunks.jsonl
+  hapticore sweep collect plan.toml --store shared/store
+  hapticore sweep submit plan.toml --store shared/store --engine hq --dry-run
+
+Exit status: 0 done, 1 a point is missing, 2 bad input, or a host that differs.";
+
+/// Arguments of `sweep`.
+#[derive(Debug, Clone, clap::Args)]
+pub struct SweepArgs {
+    /// One of the steps alone.
+    #[command(subcommand)]
+    pub step: Option<SweepStep>,
+    /// The plan, and where its points and results are.
+    #[command(flatten)]
+    pub places: Option<SweepPlaces>,
+    /// Print the plan as chunks of some seconds instead, one line of JSON each
+    #[arg(long)]
+    pub list: bool,
+    /// How many points are run at a time [default: one per processor core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=4096))]
+    pub threads: Option<u16>,
+}
+
+/// A plan and its folders.
+#[derive(Debug, Clone, clap::Args)]
+pub struct SweepPlaces {
+    /// The plan, a TOML file
+    pub plan: PathBuf,
+    /// The folder of all that was run; several plans and hosts may share it [default:
+    /// out/sweep/PLAN/store]
+    #[arg(long, value_name = "DIR")]
+    pub store: Option<PathBuf>,
+    /// Where results go [default: a folder results beside the store]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Print results as JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Steps of `sweep`.
+#[derive(Debug, Clone, Subcommand)]
+pub enum SweepStep {
+    /// Run chunks: lines of `--list`. Points that are in the store are done
+    Run {
+        /// The folder of all that was run
+        #[arg(long, value_name = "DIR")]
+        store: PathBuf,
+        /// A line, or - for lines from standard input
+        line: String,
+    },
+    /// Collect what was run, and list what is missing
+    Collect(SweepPlaces),
+    /// Hand a plan's chunks to an engine
+    Submit {
+        /// The plan and its folders.
+        #[command(flatten)]
+        places: SweepPlaces,
+        /// What distributes chunks
+        #[arg(long, value_enum)]
+        engine: SweepEngine,
+        /// Print the commands instead of running them
+        #[arg(long)]
+        dry_run: bool,
+    },
+}
+
+/// What distributes chunks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum SweepEngine {
+    /// HyperQueue
+    Hq,
+    /// A Slurm array
+    Slurm,
+    /// GNU parallel
+    Parallel,
+    /// Snakemake
+    Snakemake,
 }
 
 const CALIBRATE: &str = "Each file is known by what is in it:

@@ -4,7 +4,7 @@
 //! | module | does |
 //! | --- | --- |
 //! | [`args`] | the command line |
-//! | [`simulate`], [`replay`], [`hdl`], [`codes`](mod@codes), [`calibrate`], [`tradeoff`], [`scenes`] | one command each |
+//! | [`simulate`], [`replay`], [`hdl`], [`codes`](mod@codes), [`calibrate`], [`tradeoff`], [`sweep`], [`scenes`] | one command each |
 //! | [`output`], [`print`](mod@print), [`report`] | what a run leaves: a folder of files, lines on the terminal, a page of figures |
 //! | [`waves`] | waveforms of a case |
 //! | [`folder`], [`console`], [`progress`] | which folder; standard output that may be closed; how far a run is |
@@ -25,6 +25,7 @@ pub mod report;
 pub mod scenes;
 pub mod simulate;
 pub mod stability;
+pub mod sweep;
 pub mod tradeoff;
 pub mod waves;
 
@@ -46,13 +47,18 @@ pub fn main() -> ExitCode {
         Command::Hdl(args) => hdl::run(&args),
         Command::Codes(args) => codes::run(&args),
         Command::Tradeoff(args) => tradeoff::run(&args),
+        Command::Sweep(args) => sweep::run(&args),
         Command::Calibrate(args) => calibrate::run(&args),
     };
     match outcome.and_then(|holds| console::finish().map(|()| holds)) {
         Ok(true) => ExitCode::SUCCESS,
         Ok(false) => ExitCode::from(1),
-        Err(_) if interrupt::check().is_err() => {
-            console::complain(format_args!("{}", interrupt::Interrupted));
+        Err(error) if interrupt::check().is_err() => {
+            // A sweep keeps what it has run.
+            match error.downcast_ref::<sweep::Stopped>() {
+                Some(stopped) => console::complain(format_args!("{stopped}")),
+                None => console::complain(format_args!("{}", interrupt::Interrupted)),
+            }
             ExitCode::from(130)
         }
         Err(error) => {

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use toml::{Table, Value};
 
 /// Which crates of the workspace a crate may use; tests may use more ([`DEVELOPMENT`]).
-const IMPORTS: [(&str, &[&str]); 16] = [
+const IMPORTS: [(&str, &[&str]); 17] = [
     ("model/hdl", &[]),
     ("model/contract", &["hapticore-hdl"]),
     // Not the hardware language: its signals round, too.
@@ -55,6 +55,19 @@ const IMPORTS: [(&str, &[&str]); 16] = [
         ],
     ),
     (
+        "cli/sweep",
+        &[
+            "hapticore-contract",
+            "hapticore-files",
+            "hapticore-hdl",
+            "hapticore-host",
+            "hapticore-model",
+            "hapticore-run",
+            "hapticore-scene",
+            "hapticore-tradeoff",
+        ],
+    ),
+    (
         "cli",
         &[
             "hapticore-contract",
@@ -65,6 +78,7 @@ const IMPORTS: [(&str, &[&str]); 16] = [
             "hapticore-rtl",
             "hapticore-run",
             "hapticore-scene",
+            "hapticore-sweep",
             "hapticore-tradeoff",
             "hapticore-waveforms",
         ],

@@ -11,6 +11,7 @@
 //! | `fig3`, `fig4`, `fig6`, `fig7`, `fig9`, `fig13`, `fig15`, `hockey` | the figures of a scene |
 //! | `calibration` | the page of a device's calibration |
 //! | `tradeoff` | the page of what accuracy costs |
+//! | `sweep_plan` | the page of a plan of many points |
 //! | `general`, `swept` | those of any other: over time, over what is swept |
 
 mod axis;
@@ -41,6 +42,7 @@ mod plot;
 mod select;
 mod series;
 mod sweep;
+pub mod sweep_plan;
 mod swept;
 mod tables;
 #[cfg(test)]
@@ -50,6 +52,7 @@ mod tradeoff;
 pub use calibration::of_calibration;
 use figure::Figure;
 use hapticore_run::record::Record;
+pub use sweep_plan::of_sweep;
 pub use tradeoff::of_tradeoff;
 
 /// The report of a run as a self-contained HTML page.

@@ -162,6 +162,17 @@ pub fn table(label: &str, heads: &[&str], rows: &str) -> String {
     format!("{open}<table>\n{heads}<tbody>\n{rows}</tbody>\n</table></div>\n")
 }
 
+/// A table of texts; columns whose head begins with `#` hold numbers, to the right.
+pub fn texts(label: &str, heads: &[&str], rows: &[Vec<String>]) -> String {
+    let class = |head: &&str| if head.starts_with('#') { "number" } else { "" };
+    let html = |cells: &Vec<String>| {
+        let cells: Vec<_> = cells.iter().map(|cell| escape(cell)).collect();
+        let cells = heads.iter().map(class).zip(cells.iter().map(|cell| &**cell));
+        row(&cells.collect::<Vec<_>>())
+    };
+    table(label, heads, &rows.iter().map(html).collect::<String>())
+}
+
 /// A row; the cells are HTML, each with its class.
 pub fn row(cells: &[(&str, &str)]) -> String {
     let cell = |(class, html): &(&str, &str)| match *class {

@@ -130,17 +130,6 @@ fn agreement(tradeoff: &Tradeoff) -> Figure {
     Figure::plot("Predicted against measured", "1 is a perfect prediction.", &plot)
 }
 
-/// A table of texts; the numbers of columns whose head begins with `#` stand to the right.
-fn html_table(label: &str, heads: &[&str], rows: &[Vec<String>]) -> String {
-    let row = |cells: &Vec<String>| {
-        let cells: Vec<_> = cells.iter().map(|cell| escape(cell)).collect();
-        let class = |head: &&str| if head.starts_with('#') { "number" } else { "" };
-        let cells = heads.iter().map(class).zip(cells.iter().map(|cell| &**cell));
-        tables::row(&cells.collect::<Vec<_>>())
-    };
-    tables::table(label, heads, &rows.iter().map(row).collect::<String>())
-}
-
 /// Each source's share of the variance of the profile itself.
 fn sources(tradeoff: &Tradeoff) -> String {
     let Some(itself) = tradeoff.points.first() else { return String::new() };
@@ -163,7 +152,7 @@ fn sources(tradeoff: &Tradeoff) -> String {
     let rows: Vec<_> = rows.into_iter().map(|(_, cells)| cells).collect();
     let note = "<p class=\"note\">Shares of the mean square by the block that rounds; adc is the converter's rounding and what the oscillator's words do, calibration what the words of gains and tables are off.</p>\n";
     let heads = ["source", "#force", "#capacitance", "#position"];
-    html_table("Sources of the predicted errors", &heads, &rows) + note
+    tables::texts("Sources of the predicted errors", &heads, &rows) + note
 }
 
 fn next_bits(tradeoff: &Tradeoff) -> String {
@@ -173,7 +162,11 @@ fn next_bits(tradeoff: &Tradeoff) -> String {
             let heads =
                 NEXT_BIT.map(|head| if head == "knob" { head.into() } else { format!("#{head}") });
             let heads = heads.each_ref().map(String::as_str);
-            html_table("What one more bit would buy", &heads, &next_bit_rows(&tradeoff.next_bits))
+            tables::texts(
+                "What one more bit would buy",
+                &heads,
+                &next_bit_rows(&tradeoff.next_bits),
+            )
         }
     }
 }
@@ -215,5 +208,6 @@ fn points(tradeoff: &Tradeoff) -> String {
     ];
     let few = tradeoff.points.iter().any(Point::has_few_codes);
     let note = if few { format!("<p class=\"note\">{FEW_CODES}</p>\n") } else { String::new() };
-    html_table("All points", &head, &tradeoff.points.iter().map(cells).collect::<Vec<_>>()) + &note
+    tables::texts("All points", &head, &tradeoff.points.iter().map(cells).collect::<Vec<_>>())
+        + &note
 }

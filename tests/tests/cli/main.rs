@@ -14,6 +14,7 @@ mod recorders;
 mod runs;
 mod stability;
 mod streams;
+mod sweep;
 mod terminals;
 mod tradeoff;
 mod tutorial;

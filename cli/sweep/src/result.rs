@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What a point leaves: a line of results, the same bytes wherever it is run, and how long it took.
+
+use hapticore_tradeoff::cost::Cost;
+use hapticore_tradeoff::errors::{Error, Errors};
+use serde::{Deserialize, Serialize};
+
+use crate::axis::Settings;
+use crate::canonical;
+
+/// A line of results.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Line {
+    /// The point's name: the hash of all that it is made of.
+    pub key: String,
+    /// Seed of the scene.
+    pub seed: u64,
+    /// What of the profile is set.
+    pub profile: Settings,
+    /// What of the scene is set.
+    pub scene: Settings,
+    /// What came of it, where it could be run.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub results: Option<Results>,
+    /// Why it cannot be run, else.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub error: Option<String>,
+}
+
+/// What a point costs, and what it is off.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Results {
+    /// Time and area of the core.
+    pub cost: Cost,
+    /// Slots that it was tried on, all with a position that the ideal estimator finds.
+    pub slots: usize,
+    /// Of them, those that the core flags invalid, clipped or saturated.
+    pub flagged: usize,
+    /// Against the ideal estimator, on the same samples before any ADC.
+    pub measured: Three,
+    /// Against what the scene knows.
+    pub truth: Three,
+    /// What is predicted, where it was asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub predicted: Option<Prediction>,
+    /// What the device's levels are off finer ones, where anything of the scene is set.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub levels: Vec<Level>,
+}
+
+/// A fidelity level of the simulated device and the largest difference from a finer one.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Level {
+    /// The effect.
+    pub effect: String,
+    /// Its level.
+    pub level: String,
+    /// A finer one.
+    pub finer: String,
+    /// Of what a user reads, percent (docs/physics.md §8).
+    pub percent: f64,
+}
+
+/// Predicted errors.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Prediction {
+    /// Against the ideal estimator.
+    pub errors: Three,
+    /// The least amplitude of a channel in steps of the ADC.
+    pub least_codes: f64,
+}
+
+/// An error of each quantity.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Three {
+    /// Haptic force, mN.
+    pub force: Error,
+    /// Capacitance, %.
+    pub capacitance: Error,
+    /// Position, µm.
+    pub position: Error,
+}
+
+/// How long a point took, s.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Times {
+    /// The point's name.
+    pub key: String,
+    /// All of it.
+    pub seconds: f64,
+    /// Of the plant, per simulated second of the slots that are tried.
+    pub plant: f64,
+    /// Of the core, likewise.
+    pub core: f64,
+}
+
+impl From<Errors> for Three {
+    fn from([force, capacitance, position]: Errors) -> Self {
+        Three { force, capacitance, position }
+    }
+}
+
+impl Three {
+    /// In the order of [`Quantity::ALL`](hapticore_tradeoff::errors::Quantity::ALL).
+    pub fn all(&self) -> Errors {
+        [self.force, self.capacitance, self.position]
+    }
+}
+
+impl Results {
+    /// The largest difference of a level from a finer one, percent.
+    pub fn plant_percent(&self) -> Option<f64> {
+        self.levels.iter().map(|level| level.percent).reduce(f64::max)
+    }
+
+    /// Whether every number is one.
+    pub fn is_finite(&self) -> bool {
+        let predicted = self.predicted.as_ref().map(|of| of.errors.all());
+        let errors = [self.measured.all(), self.truth.all()].into_iter().chain(predicted);
+        let finite = |of: Error| [of.rms, of.mean, of.largest].iter().all(|of| of.is_finite());
+        errors.flatten().all(finite)
+            && self.levels.iter().all(|level| level.percent.is_finite())
+            && self.predicted.as_ref().is_none_or(|of| of.least_codes.is_finite())
+    }
+}
+
+impl Line {
+    /// The line as it is stored: canonical JSON, without its end.
+    pub fn text(&self) -> String {
+        canonical::text(self)
+    }
+
+    /// Reads a stored line.
+    ///
+    /// # Errors
+    /// A torn line, an unknown key, neither results nor error.
+    pub fn read(text: &str) -> Result<Line, String> {
+        let line: Line = serde_json::from_str(text).map_err(|error| error.to_string())?;
+        match (&line.results, &line.error) {
+            (Some(_), None) | (None, Some(_)) => Ok(line),
+            _ => Err("expected either results or error".into()),
+        }
+    }
+}

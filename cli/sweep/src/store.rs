@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The store: what has been run, in files that are never changed. Any number of programs on any
+//! number of hosts may write to it.
+//!
+//! | folder | holds |
+//! | --- | --- |
+//! | `plans/` | plans that were run, by their name, with all that they need |
+//! | `parts/` | results, a line per point; a part is named by its points |
+//! | `times/` | how long they took, by the same name |
+//! | `hosts/` | the reference point of each plan as each host runs it |
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, anyhow, ensure};
+use rayon::prelude::*;
+
+use crate::canonical;
+use crate::plan::Plan;
+use crate::result::{Line, Times};
+
+/// A folder of results.
+#[derive(Debug, Clone)]
+pub struct Store {
+    folder: PathBuf,
+}
+
+/// What a store holds.
+#[derive(Debug, Default)]
+pub struct Contents {
+    /// Lines by the name of their point.
+    pub lines: BTreeMap<String, Line>,
+    /// Files and lines that cannot be read; their points count as missing.
+    pub torn: Vec<Torn>,
+}
+
+/// A part with lines that cannot be read.
+#[derive(Debug)]
+pub struct Torn {
+    /// The file.
+    pub path: PathBuf,
+    /// What is wrong: `FILE:LINE: what`.
+    pub message: String,
+    /// Its good lines.
+    good: String,
+}
+
+/// A part as it was read.
+struct Part {
+    path: PathBuf,
+    lines: Vec<Line>,
+    torn: Option<Torn>,
+}
+
+impl Store {
+    /// A store in a folder, which is made where it is not there.
+    ///
+    /// # Errors
+    /// It cannot be made.
+    pub fn open(folder: &Path) -> Result<Store> {
+        for name in ["plans", "parts", "times", "hosts"] {
+            let path = folder.join(name);
+            fs::create_dir_all(&path).with_context(|| path.display().to_string())?;
+        }
+        Ok(Store { folder: folder.into() })
+    }
+
+    /// Where it is.
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// Keeps a plan; its name.
+    ///
+    /// # Errors
+    /// It cannot be written.
+    pub fn keep_plan(&self, plan: &Plan) -> Result<String> {
+        let name = plan.name();
+        let path = self.plan_path(&name);
+        if !path.exists() {
+            write(&path, &canonical::text(plan))?;
+        }
+        Ok(name)
+    }
+
+    /// A plan that was kept.
+    ///
+    /// # Errors
+    /// There is none of the name, or it is not what its name says.
+    pub fn plan(&self, name: &str) -> Result<Plan> {
+        let path = self.plan_path(name);
+        let what = || path.display().to_string();
+        let text = fs::read_to_string(&path).with_context(what)?;
+        let plan: Plan = serde_json::from_str(&text).with_context(what)?;
+        ensure!(plan.name() == name, "{}: expected a plan with the hash {name}", what());
+        Ok(plan)
+    }
+
+    fn plan_path(&self, name: &str) -> PathBuf {
+        self.folder.join("plans").join(format!("{name}.json"))
+    }
+
+    /// Adds a part: all of it or nothing.
+    ///
+    /// # Errors
+    /// It cannot be written.
+    pub fn add(&self, lines: &[Line], times: &[Times]) -> Result<()> {
+        let keys: Vec<_> = lines.iter().map(|line| &line.key).collect();
+        let name = &canonical::name(&keys)[..32];
+        let text: String = lines.iter().map(|line| line.text() + "\n").collect();
+        let of_times: String = times.iter().map(|of| canonical::text(of) + "\n").collect();
+        write(&self.folder.join("times").join(format!("{name}.jsonl")), &of_times)?;
+        write(&self.folder.join("parts").join(format!("{name}.jsonl")), &text)
+    }
+
+    /// All that is in it.
+    ///
+    /// # Errors
+    /// A file that cannot be read; two results of one point that differ.
+    pub fn contents(&self) -> Result<Contents> {
+        let paths = self.files("parts")?;
+        let parts = paths.into_par_iter().map(Part::read).collect::<Result<Vec<_>>>()?;
+        let (mut contents, mut from) = (Contents::default(), BTreeMap::new());
+        for Part { path, lines, torn } in parts {
+            contents.torn.extend(torn);
+            for line in lines {
+                let Some(known) = contents.lines.get(&line.key) else {
+                    from.insert(line.key.clone(), path.clone());
+                    contents.lines.insert(line.key.clone(), line);
+                    continue;
+                };
+                ensure!(
+                    *known == line,
+                    "{} and {}: expected equal results of point {:.16}, got others; remove the part of the host that is wrong",
+                    from[&line.key].display(),
+                    path.display(),
+                    line.key
+                );
+            }
+        }
+        Ok(contents)
+    }
+
+    /// Puts parts with lines that cannot be read aside, as `NAME.jsonl.torn`, and keeps their good
+    /// lines.
+    ///
+    /// # Errors
+    /// They cannot be written.
+    pub fn mend(&self, torn: &[Torn]) -> Result<()> {
+        for part in torn {
+            let aside = part.path.with_extension("jsonl.torn");
+            fs::copy(&part.path, &aside).with_context(|| aside.display().to_string())?;
+            write(&part.path, &part.good)?;
+        }
+        Ok(())
+    }
+
+    /// How long points took; what cannot be read is left out.
+    ///
+    /// # Errors
+    /// A folder that cannot be read.
+    pub fn times(&self) -> Result<BTreeMap<String, Times>> {
+        let text = |path: PathBuf| fs::read_to_string(path).unwrap_or_default();
+        let read = |text: String| -> Vec<Times> {
+            text.lines().filter_map(|line| serde_json::from_str(line).ok()).collect()
+        };
+        let all = self.files("times")?.into_iter().map(text).flat_map(read);
+        Ok(all.map(|times| (times.key.clone(), times)).collect())
+    }
+
+    fn files(&self, folder: &str) -> Result<Vec<PathBuf>> {
+        let folder = self.folder.join(folder);
+        let what = || folder.display().to_string();
+        let entries = fs::read_dir(&folder).with_context(what)?;
+        let entries = entries.collect::<io::Result<Vec<_>>>().with_context(what)?;
+        let mut paths: Vec<_> = entries.into_iter().map(|entry| entry.path()).collect();
+        paths.retain(|path| path.extension().is_some_and(|of| of == "jsonl"));
+        paths.sort();
+        Ok(paths)
+    }
+}
+
+impl Part {
+    fn read(path: PathBuf) -> Result<Part> {
+        let bytes = fs::read(&path).with_context(|| path.display().to_string())?;
+        let (mut lines, mut good, mut wrong) = (Vec::new(), String::new(), None);
+        for (n, bytes) in bytes.split_inclusive(|byte| *byte == b'\n').enumerate() {
+            let text = std::str::from_utf8(bytes).map_err(|error| error.to_string());
+            let whole = text.and_then(|text| {
+                text.strip_suffix('\n').ok_or_else(|| "the line has no end".to_string())
+            });
+            match whole.and_then(|text| Ok((Line::read(text)?, text))) {
+                Ok((line, text)) => {
+                    lines.push(line);
+                    good += text;
+                    good.push('\n');
+                }
+                Err(what) => {
+                    wrong.get_or_insert_with(|| format!("{}:{}: {what}", path.display(), n + 1));
+                }
+            }
+        }
+        let torn = wrong.map(|message| Torn { path: path.clone(), message, good });
+        Ok(Part { path, lines, torn })
+    }
+}
+
+/// Writes a file whole or not at all.
+pub(crate) fn write(path: &Path, text: &str) -> Result<()> {
+    hapticore_files::write(path, text).map_err(|error| anyhow!("{}: {error}", path.display()))
+}
