@@ -104,6 +104,10 @@ pub struct TradeoffArgs {
     /// Also tell what one more bit of each word would buy
     #[arg(long)]
     pub explain: bool,
+    /// Also synthesise the profile, and the one that was found, for both FPGA families: takes minutes, and
+    /// the tools that synth/tools fetches
+    #[arg(long)]
+    pub synth: bool,
     /// Where results go
     #[arg(long, value_name = "DIR", default_value = "out/tradeoff")]
     pub out: PathBuf,

@@ -3,13 +3,14 @@
 
 use anyhow::{Context, Result, ensure};
 use hapticore_contract::profile::Profile;
-use hapticore_run::inputs;
 use hapticore_run::record::Provenance;
+use hapticore_run::{inputs, interrupt};
 use hapticore_scene::{Scene, Timing};
 use hapticore_tradeoff::errors::Quantity;
 use hapticore_tradeoff::points;
 use hapticore_tradeoff::search::{Found, Model, NextBit, Target, search};
 use hapticore_tradeoff::sweep::{Point, Trial};
+use hapticore_tradeoff::synthesis::{self, Synthesised, synthesise};
 use serde::Serialize;
 
 use crate::args::TradeoffArgs;
@@ -38,6 +39,8 @@ pub struct Tradeoff {
     /// What one more bit would buy, of the profile that was found or else of the profile itself; where
     /// it was asked for.
     pub next_bits: Vec<NextBit>,
+    /// What synthesis makes of the profile, and of the one that was found; where it was asked for.
+    pub synthesised: Vec<Synthesised>,
     /// Version, command and such.
     pub provenance: Provenance,
 }
@@ -60,6 +63,9 @@ pub fn run(args: &TradeoffArgs) -> Result<bool> {
     let scenes = scenes.into_iter().map(|scene| scene.within_budget(&timing));
     let scenes = scenes.collect::<Result<Vec<_>, _>>()?;
     ensure!(args.slots >= 1, "--slots: expected at least 1");
+    if args.synth {
+        synthesis::tools().context("--synth")?;
+    }
     let output = Output::new(&args.out)?;
     let trial = Trial::new(scenes, profile, args.slots);
     let plan = trial.plan();
@@ -73,6 +79,10 @@ pub fn run(args: &TradeoffArgs) -> Result<bool> {
     let explained = model.filter(|_| args.explain);
     let of = found.as_ref().map_or(trial.profile(), |found| &found.profile);
     let next_bits = explained.map(|model| model.next_bits(of)).unwrap_or_default();
+    let synthesised = match args.synth {
+        true => synthesised(trial.profile(), &points[0], found.as_ref(), args.json)?,
+        false => Vec::new(),
+    };
     let tradeoff = Tradeoff {
         profile: trial.profile().name.clone(),
         scenes: names,
@@ -80,6 +90,7 @@ pub fn run(args: &TradeoffArgs) -> Result<bool> {
         points,
         found,
         next_bits,
+        synthesised,
         provenance: Provenance::new(),
     };
     write(&output, &tradeoff)?;
@@ -91,6 +102,26 @@ pub fn run(args: &TradeoffArgs) -> Result<bool> {
         files.iter().for_each(|file| say!("  {}", file.display()));
     }
     Ok(tradeoff.found.as_ref().is_none_or(Found::holds))
+}
+
+/// The profile, and the one that was found, in the cells of both families.
+fn synthesised(
+    profile: &Profile,
+    itself: &Point,
+    found: Option<&Found>,
+    quiet: bool,
+) -> Result<Vec<Synthesised>> {
+    let mut cores = vec![(profile, &itself.cost)];
+    cores.extend(found.map(|found| (&found.profile, &found.cost)));
+    let bar = progress::bar_of(cores.len() as u64, "cores synthesised", quiet);
+    let mut all = Vec::new();
+    for (profile, cost) in cores {
+        interrupt::check()?;
+        all.extend(synthesise(profile, cost)?);
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
+    Ok(all)
 }
 
 /// A scene whose sensors leave the rounding to the core's ADC.
@@ -209,7 +240,12 @@ fn print(tradeoff: &Tradeoff) {
     }
     if !tradeoff.next_bits.is_empty() {
         say!("\nwhat one more bit would buy, as predicted:");
-        console::print(format_args!("{}", next_bits(&tradeoff.next_bits)));
+        console::print(format_args!("{}", table(&NEXT_BIT, &next_bit_rows(&tradeoff.next_bits))));
+    }
+    if !tradeoff.synthesised.is_empty() {
+        say!("\nwhat synthesis makes of it:");
+        let rows = synthesised_rows(&tradeoff.synthesised);
+        console::print(format_args!("{}", table(&SYNTHESISED, &rows)));
     }
 }
 
@@ -228,8 +264,31 @@ pub fn next_bit_rows(next_bits: &[NextBit]) -> Vec<Vec<String>> {
     next_bits.iter().map(row).collect()
 }
 
-fn next_bits(next_bits: &[NextBit]) -> String {
-    table(&NEXT_BIT, &next_bit_rows(next_bits))
+/// The head of the table of what synthesis makes of profiles.
+pub const SYNTHESISED: [&str; 9] = [
+    "profile",
+    "part",
+    "LUT4",
+    "estimated",
+    "flip-flops",
+    "multipliers",
+    "block RAM",
+    "LUT RAM",
+    "clock, MHz",
+];
+
+/// Its rows.
+pub fn synthesised_rows(synthesised: &[Synthesised]) -> Vec<Vec<String>> {
+    let row = |of: &Synthesised| {
+        let cells = of.cells;
+        let counted = [cells.registers, cells.multipliers, cells.block_rams, cells.lut_rams];
+        let mut row = vec![of.profile.clone(), of.part.into(), cells.luts.to_string()];
+        row.push(format!("{:.0}", of.estimated_luts));
+        row.extend(counted.map(|count| count.to_string()));
+        row.push(of.mhz.map_or("does not fit".into(), |mhz| format!("{mhz:.1}")));
+        row
+    };
+    synthesised.iter().map(row).collect()
 }
 
 /// A predicted error, marked where the prediction may not hold.

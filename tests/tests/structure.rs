@@ -50,8 +50,10 @@ const IMPORTS: [(&str, &[&str]); 17] = [
             "hapticore-contract",
             "hapticore-hdl",
             "hapticore-model",
+            "hapticore-rtl",
             "hapticore-run",
             "hapticore-scene",
+            "hapticore-synth",
         ],
     ),
     (
@@ -87,8 +89,10 @@ const IMPORTS: [(&str, &[&str]); 17] = [
 
 /// What the tests of a crate use besides.
 ///
-/// Tests of boards take the host's side of the line, those of scenes its crosstalk cancellation.
-const DEVELOPMENT: [(&str, &[&str]); 3] = [
+/// Tests of boards take the host's side of the line, those of scenes its crosstalk cancellation; other
+/// lock-ins have the estimator of the reference behind them.
+const DEVELOPMENT: [(&str, &[&str]); 4] = [
+    ("cli/tradeoff", &["hapticore-reference"]),
     ("model", &["hapticore-reference"]),
     ("rtl", &["hapticore-host"]),
     ("scene", &["hapticore-host"]),

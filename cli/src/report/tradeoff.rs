@@ -10,7 +10,9 @@ use super::paint::Paint;
 use super::plot::Plot;
 use super::series::{Mark, Series};
 use super::tables;
-use crate::tradeoff::{FEW_CODES, NEXT_BIT, Tradeoff, front, next_bit_rows, prediction};
+use crate::tradeoff::{
+    FEW_CODES, NEXT_BIT, SYNTHESISED, Tradeoff, front, next_bit_rows, prediction, synthesised_rows,
+};
 use hapticore_tradeoff::errors::Quantity;
 use hapticore_tradeoff::knobs::Knob;
 use hapticore_tradeoff::sweep::Point;
@@ -40,6 +42,7 @@ pub fn of_tradeoff(tradeoff: &Tradeoff) -> String {
         page::section("The cheapest profile", &found),
         page::section("Figures", &format!("<div class=\"figures\">\n{figures}</div>\n")),
         page::section("What one more bit would buy", &next_bits(tradeoff)),
+        page::section("What synthesis makes of it", &synthesised(tradeoff)),
         page::section("What the predicted errors are made of", &sources(tradeoff)),
         page::section("All points", &points(tradeoff)),
     ];
@@ -156,19 +159,27 @@ fn sources(tradeoff: &Tradeoff) -> String {
 }
 
 fn next_bits(tradeoff: &Tradeoff) -> String {
-    match tradeoff.next_bits.is_empty() {
-        true => String::new(),
-        false => {
-            let heads =
-                NEXT_BIT.map(|head| if head == "knob" { head.into() } else { format!("#{head}") });
-            let heads = heads.each_ref().map(String::as_str);
-            tables::texts(
-                "What one more bit would buy",
-                &heads,
-                &next_bit_rows(&tradeoff.next_bits),
-            )
-        }
+    printed("What one more bit would buy", &NEXT_BIT, &next_bit_rows(&tradeoff.next_bits))
+}
+
+fn synthesised(tradeoff: &Tradeoff) -> String {
+    let rows = synthesised_rows(&tradeoff.synthesised);
+    printed("What synthesis makes of it", &SYNTHESISED, &rows)
+}
+
+/// A table as it is printed, whose columns are numbers but for those that name something; nothing where
+/// it has no rows.
+fn printed(label: &str, heads: &[&str], rows: &[Vec<String>]) -> String {
+    if rows.is_empty() {
+        return String::new();
     }
+    let is_name = |head: &str| ["knob", "profile", "part"].contains(&head);
+    let heads: Vec<String> = heads
+        .iter()
+        .map(|head| if is_name(head) { head.to_string() } else { format!("#{head}") })
+        .collect();
+    let heads: Vec<&str> = heads.iter().map(String::as_str).collect();
+    tables::texts(label, &heads, rows)
 }
 
 fn points(tradeoff: &Tradeoff) -> String {

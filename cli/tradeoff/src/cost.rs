@@ -34,12 +34,13 @@ pub struct Cost {
 /// Samples per second of the nominal board (docs/decisions.md §6).
 const SAMPLE_HZ: f64 = 1e6;
 
-/// LUT4 by bits of adders and of selections, on ECP5 and on iCE40: fitted to what synthesis made of
-/// profiles (docs/tradeoff.md). Adders of an ECP5 lie in its carry cells, and take logic with them.
-const LUTS: [[f64; 2]; 2] = [[-1.024, 0.538], [0.216, 0.465]];
+/// LUT4 by bits of adders and of selections, and those of every core, on ECP5 and on iCE40: fitted to
+/// what synthesis made of profiles (docs/tradeoff.md; `tests/area.rs` judges it). Adders of an ECP5 lie
+/// in its carry cells, and take logic with them.
+const LUTS: [[f64; 3]; 2] = [[-0.191, 0.246, 780.0], [0.955, 0.218, 612.0]];
 
-fn luts(of: &Operations, [adders, selects]: [f64; 2]) -> f64 {
-    adders * of.adders + selects * of.selects
+fn luts(of: &Operations, [adders, selects, every]: [f64; 3]) -> f64 {
+    adders * of.adders + selects * of.selects + every
 }
 
 /// What a profile's core costs.

@@ -12,6 +12,7 @@
 //! | [`mod@front`] | the points that no other beats |
 //! | [`mod@search`] | the cheapest profile for a stated error |
 //! | [`exact`] | branch and bound over its choices |
+//! | [`synthesis`] | what synthesis makes of a core, beside the estimate |
 //!
 //! Errors are the core's against the ideal estimator, which sees the same samples without an ADC's
 //! rounding. What the estimator's equations leave of a scene's truth is another matter:
@@ -26,3 +27,4 @@ pub mod knobs;
 pub mod points;
 pub mod search;
 pub mod sweep;
+pub mod synthesis;

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Estimated area beside what synthesis made of random profiles (`area.csv`, by
+//! `cargo run --release -p hapticore-tradeoff --example area > cli/tradeoff/tests/area.csv`).
+//!
+//! Of four profiles two were fitted to; the other two are judged here.
+
+use hapticore_contract::profile::Profile;
+use hapticore_tradeoff::cost::{Cost, cost};
+use hapticore_tradeoff::knobs::Knob;
+use std::collections::BTreeMap;
+
+type Row = BTreeMap<&'static str, &'static str>;
+
+fn rows() -> Vec<Row> {
+    let mut lines = include_str!("area.csv").lines();
+    let heads: Vec<&str> = lines.next().expect("heads").split(',').collect();
+    lines.map(|line| heads.iter().copied().zip(line.split(',')).collect()).collect()
+}
+
+fn number(row: &Row, name: &str) -> f64 {
+    row[name].parse().expect("a number")
+}
+
+/// The core of a row, estimated.
+fn estimated(row: &Row) -> Cost {
+    let base = Profile::bundled(row["base"]).expect("bundled");
+    // A word that must not be longer than another's waits for it.
+    let profile = (0..2).flat_map(|_| Knob::words()).fold(base, |profile, knob| {
+        knob.set(&profile, number(row, knob.key()) as u64).unwrap_or(profile)
+    });
+    for knob in Knob::words() {
+        assert_eq!(knob.value(&profile), number(row, knob.key()) as u64, "{}", knob.key());
+    }
+    cost(&profile).expect("a core")
+}
+
+#[test]
+fn areas_are_those_of_synthesis() {
+    let rows = rows();
+    assert!(rows.len() >= 100, "{} runs of synthesis", rows.len());
+    for (family, luts) in
+        [("Ecp5", (|of| of.luts) as fn(&Cost) -> f64), ("Ice40", |of| of.luts_ice40)]
+    {
+        let of_family = rows.iter().filter(|row| row["family"] == family);
+        let judged = of_family.enumerate().filter(|(n, _)| n % 4 >= 2).map(|(_, row)| row);
+        let mut off: Vec<f64> =
+            judged.map(|row| (luts(&estimated(row)) / number(row, "luts") - 1.0).abs()).collect();
+        off.sort_by(f64::total_cmp);
+        let at = |part: f64| 100.0 * off[((off.len() - 1) as f64 * part).round() as usize];
+        println!(
+            "{family}: LUT4 of {} cores off by {:.1} % in the median, {:.1} % at 95 %, {:.1} % at most",
+            off.len(),
+            at(0.5),
+            at(0.95),
+            at(1.0)
+        );
+        assert!(at(0.5) <= 5.0 && at(0.95) <= 12.0, "{family}: {} %, {} %", at(0.5), at(0.95));
+    }
+}
+
+#[test]
+fn multipliers_and_flip_flops_of_an_ecp5_are_counted() {
+    for row in rows().iter().filter(|row| row["family"] == "Ecp5") {
+        let of = estimated(row);
+        assert_eq!(of.multipliers, number(row, "multipliers"), "{row:?}");
+        let off = of.flip_flops / number(row, "registers") - 1.0;
+        assert!(off.abs() < 0.1, "{row:?}: {} flip-flops", of.flip_flops);
+    }
+}
