@@ -5,12 +5,10 @@
 use std::process::Command;
 
 /// The crates that the command is made of, beside this one.
-const SOURCES: [&str; 10] = [
+const SOURCES: [&str; 8] = [
     "src",
     "../src",
     "../files/src",
-    "../sweep/src",
-    "../tradeoff/src",
     "../../host",
     "../../model",
     "../../rtl/src",

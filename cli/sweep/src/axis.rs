@@ -198,7 +198,7 @@ mod tests {
         let share = read("{ from = 0.5, to = 1 }").unwrap().unwrap();
         for random in [0, 1 << 63, u64::MAX] {
             let value = share.drawn(random).as_f64().unwrap();
-            assert!((0.5..1.0).contains(&value), "{value}");
+            assert!((0.5..=1.0).contains(&value), "{value}");
         }
     }
 }

@@ -36,9 +36,9 @@ use anyhow::{Context, Result, anyhow, bail, ensure};
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::verilog::Design;
 use hapticore_host::text::read;
-use hapticore_model::blocks::core::Core;
 use hapticore_run::inputs;
 use hapticore_scene::{Place, Scene, SceneError, gallery};
+use hapticore_tradeoff::cost::netlist;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
@@ -242,7 +242,7 @@ impl Plan {
 
 /// What tells one version of the core from another, as far as results go: all that is printed of it.
 fn core_hash(profile: &Profile) -> Result<String> {
-    let design = Design::of(&Core::try_new(profile)?, "");
+    let design = Design::print(&netlist(profile)?, "");
     Ok(blake3::hash(design.text().as_bytes()).to_hex().to_string())
 }
 

@@ -123,7 +123,8 @@ impl<'a> Work<'a> {
     /// Runs a chunk's points that have no line; how many.
     ///
     /// # Errors
-    /// As [`Work::run`]; a host that differs from the one that made the store's reference.
+    /// A part that cannot be written, an interruption; a host that differs from the one that made the
+    /// store's reference.
     pub fn run_chunk(&self, chunk: &Chunk, progress: &(dyn Fn() + Sync)) -> Result<usize> {
         let range = chunk.first..chunk.first.saturating_add(chunk.count);
         ensure!(

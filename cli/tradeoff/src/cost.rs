@@ -43,14 +43,21 @@ fn luts(of: &Operations, [adders, selects, every]: [f64; 3]) -> f64 {
     adders * of.adders + selects * of.selects + every
 }
 
+/// The netlist of a profile's core.
+///
+/// # Errors
+/// A core that cannot be.
+pub fn netlist(profile: &Profile) -> Result<Netlist> {
+    Ok(Netlist::of(&Core::try_new(profile)?))
+}
+
 /// What a profile's core costs.
 ///
 /// # Errors
 /// A core that cannot be.
 pub fn cost(profile: &Profile) -> Result<Cost> {
-    let core = Core::try_new(profile)?;
-    let operations = Operations::of(&Netlist::of(&core));
-    let latency_clocks = core.latency();
+    let operations = Operations::of(&netlist(profile)?);
+    let latency_clocks = Core::try_new(profile)?.latency();
     let sample_s = 1.0 / SAMPLE_HZ;
     let clock_s = sample_s / profile.clocks_per_sample as f64;
     let window_s = profile.slot.integrate as f64 * sample_s;
