@@ -101,7 +101,7 @@ pub struct TradeoffArgs {
     /// Search the cheapest profile with these errors at most: force=1mN,position=0.1mm,capacitance=0.1%
     #[arg(long, value_name = "ERRORS")]
     pub target: Option<String>,
-    /// Also tell what one more bit of each word would buy
+    /// Also tell what one more bit of each word that is searched would buy
     #[arg(long)]
     pub explain: bool,
     /// Also synthesise the profile, and the one that was found, for both FPGA families: takes minutes, and

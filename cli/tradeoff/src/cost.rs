@@ -27,6 +27,8 @@ pub struct Cost {
     pub flip_flops: f64,
     /// Multipliers of 18 × 18, as an ECP5 has.
     pub multipliers: f64,
+    /// Multipliers of 16 × 16, as an iCE40 has.
+    pub multipliers_ice40: f64,
     /// Bits of memories.
     pub memory_bits: f64,
 }
@@ -69,7 +71,8 @@ pub fn cost(profile: &Profile) -> Result<Cost> {
         luts: luts(&operations, LUTS[0]),
         luts_ice40: luts(&operations, LUTS[1]),
         flip_flops: operations.flip_flops,
-        multipliers: operations.products[1],
+        multipliers: operations.multipliers[1],
+        multipliers_ice40: operations.multipliers[0],
         memory_bits: operations.memory_bits,
     })
 }

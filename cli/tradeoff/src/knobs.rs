@@ -55,6 +55,12 @@ impl Knob {
         Knob::ALL.into_iter().filter(|knob| *knob != Knob::Window)
     }
 
+    /// The words that a search may change. Not the oscillator's: what they reject, disturbances and
+    /// leakage (docs/lock-in.md), does not show in errors on clean slots.
+    pub fn searched() -> impl Iterator<Item = Knob> {
+        Knob::words().filter(|knob| *knob != Knob::Oscillator)
+    }
+
     /// Its key in a profile.
     pub fn key(self) -> &'static str {
         match self {

@@ -172,20 +172,25 @@ impl Slope {
             luts: (itself.cost.luts - shorter.cost.luts) / STEP as f64,
         }
     }
-}
 
-impl Slope {
+    /// The variance that the word adds with so many bits beyond that at `base`, over the latter.
+    fn grown(&self, bits: u64) -> f64 {
+        4f64.powi(self.base as i32 - bits as i32) - 1.0
+    }
+
+    /// LUT4 that so many bits cost beyond those at `base`.
+    fn more_luts(&self, bits: u64) -> f64 {
+        self.luts * (bits as f64 - self.base as f64)
+    }
+
     /// What each length within range costs beyond that of the profile, and which part of the limits it
     /// takes.
     fn choices(&self, most: &[Option<f64>; 3]) -> Vec<Choice> {
         let choice = |bits: u64| {
-            let grown = 4f64.powi(self.base as i32 - bits as i32) - 1.0;
-            let part =
-                |n: usize| most[n].map_or(0.0, |most| grown * self.variance[n] / (most * most));
-            Choice {
-                cost: self.luts * (bits as f64 - self.base as f64),
-                errors: [0, 1, 2].map(part),
-            }
+            let part = |n: usize| {
+                most[n].map_or(0.0, |most| self.grown(bits) * self.variance[n] / (most * most))
+            };
+            Choice { cost: self.more_luts(bits), errors: [0, 1, 2].map(part) }
         };
         (self.range[0]..=self.range[1]).map(choice).collect()
     }
@@ -227,7 +232,7 @@ impl Model {
         Model {
             cost: itself.cost,
             squares: [0, 1, 2].map(|n| square(itself, n)),
-            slopes: Knob::words().filter_map(slope).collect(),
+            slopes: Knob::searched().filter_map(slope).collect(),
         }
     }
 
@@ -246,10 +251,8 @@ impl Model {
     pub fn squares(&self, bits: &[u64]) -> [f64; 3] {
         let mut squares = self.squares;
         for (slope, bits) in self.slopes.iter().zip(bits) {
-            let shorter = slope.base as i32 - *bits as i32;
-            let grown = 4f64.powi(shorter) - 1.0;
             for (square, variance) in squares.iter_mut().zip(slope.variance) {
-                *square += variance * grown;
+                *square += variance * slope.grown(*bits);
             }
         }
         squares
@@ -257,7 +260,7 @@ impl Model {
 
     /// Estimated LUT4 with these bits.
     pub fn luts(&self, bits: &[u64]) -> f64 {
-        let more = |(slope, bits): (&Slope, &u64)| slope.luts * (*bits as f64 - slope.base as f64);
+        let more = |(slope, bits): (&Slope, &u64)| slope.more_luts(*bits);
         self.cost.luts + self.slopes.iter().zip(bits).map(more).sum::<f64>()
     }
 

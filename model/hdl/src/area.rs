@@ -18,12 +18,36 @@ pub struct Operations {
     pub selects: f64,
     /// Bits of memories.
     pub memory_bits: f64,
-    /// Products of two variables, each as factors of so many bits.
-    pub products: [f64; 2],
+    /// Multipliers that products take, on iCE40 and on ECP5.
+    pub multipliers: [f64; 2],
 }
 
-/// The widest factor of a multiplier of either family: iCE40 and ECP5.
-const FACTORS: [u8; 2] = [16, 18];
+/// A family's multiplier: bits of its widest factor, and of the narrowest product that synthesis gives
+/// one. Source: Yosys 0.70, `synth_ice40 -dsp` and `synth_ecp5`, `mul2dsp`.
+struct Multiplier {
+    factor: u8,
+    least_product: u8,
+}
+
+/// Those of iCE40 and ECP5.
+const MULTIPLIERS: [Multiplier; 2] =
+    [Multiplier { factor: 16, least_product: 11 }, Multiplier { factor: 18, least_product: 0 }];
+
+/// The narrowest factor that synthesis gives a multiplier.
+const LEAST_FACTOR: u8 = 2;
+
+impl Multiplier {
+    /// How many a product takes: factors that are too wide are cut into slices.
+    fn count(&self, a: u8, b: u8) -> usize {
+        let slices = |width: u8| {
+            let last = (width - 1) % self.factor + 1;
+            let whole = usize::from((width - 1) / self.factor);
+            std::iter::repeat_n(self.factor, whole).chain([last])
+        };
+        let takes = |a: u8, b: u8| a.min(b) >= LEAST_FACTOR && a + b >= self.least_product;
+        slices(a).map(|a| slices(b).filter(|b| takes(a, *b)).count()).sum()
+    }
+}
 
 impl Operations {
     /// Those of a design, with each instance counted.
@@ -43,7 +67,7 @@ impl Operations {
             adders: self.adders + other.adders,
             selects: self.selects + other.selects,
             memory_bits: self.memory_bits + other.memory_bits,
-            products: [0, 1].map(|n| self.products[n] + other.products[n]),
+            multipliers: [0, 1].map(|n| self.multipliers[n] + other.multipliers[n]),
         }
     }
 
@@ -71,12 +95,29 @@ impl Operations {
             Op::Less(a, b) => self.adders += width(a).max(width(b)),
             Op::Select(..) => self.selects += bits,
             Op::Mul(a, b) => {
-                for (count, most) in self.products.iter_mut().zip(FACTORS) {
-                    let parts = |node| format(node).width.div_ceil(most);
-                    *count += f64::from(parts(a)) * f64::from(parts(b));
+                for (count, of) in self.multipliers.iter_mut().zip(MULTIPLIERS) {
+                    *count += of.count(format(a).width, format(b).width) as f64;
                 }
             }
             _ => (),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn wide_factors_are_cut_and_narrow_slices_take_no_multiplier() {
+        let [ice40, ecp5] = &MULTIPLIERS;
+        assert_eq!(
+            [(18, 18), (19, 18), (20, 18), (36, 24), (1, 9)].map(|(a, b)| ecp5.count(a, b)),
+            [1, 1, 2, 4, 0]
+        );
+        assert_eq!(
+            [(16, 16), (17, 16), (18, 16), (18, 8), (4, 6)].map(|(a, b)| ice40.count(a, b)),
+            [1, 1, 2, 1, 0]
+        );
     }
 }
