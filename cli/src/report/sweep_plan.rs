@@ -200,7 +200,7 @@ fn agreement(collected: &Collected) -> Option<Figure> {
         ..Plot::new(
             title,
             Axis::log("measured RMS error, each in its unit", all().map(|point| point.0)),
-            Axis::with_zero("predicted / measured", all().map(|point| point.1)),
+            Axis::log("predicted / measured", all().map(|point| point.1)),
             series.clone(),
         )
     };

@@ -126,11 +126,12 @@ fn agreement(tradeoff: &Tradeoff) -> Figure {
         ..Plot::new(
             "Predicted over measured RMS error",
             Axis::log("measured RMS error, each in its unit", all().map(|point| point.0)),
-            Axis::with_zero("predicted / measured", all().map(|point| point.1)),
+            Axis::log("predicted / measured", all().map(|point| point.1)),
             series.clone(),
         )
     };
-    Figure::plot("Predicted against measured", "1 is a perfect prediction.", &plot)
+    let note = "1 is a perfect prediction. A position's is far off where a table's words are so short that its steps are no longer small.";
+    Figure::plot("Predicted against measured", note, &plot)
 }
 
 /// Each source's share of the variance of the profile itself.
