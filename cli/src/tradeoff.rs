@@ -7,10 +7,12 @@ use hapticore_run::record::Provenance;
 use hapticore_run::{inputs, interrupt};
 use hapticore_scene::{Scene, Timing};
 use hapticore_tradeoff::errors::Quantity;
+use hapticore_tradeoff::model::{Model, NextBit};
 use hapticore_tradeoff::points;
-use hapticore_tradeoff::search::{Found, Model, NextBit, Target, search};
+use hapticore_tradeoff::search::{Found, search};
 use hapticore_tradeoff::sweep::{Point, Trial};
 use hapticore_tradeoff::synthesis::{self, Synthesised, synthesise};
+use hapticore_tradeoff::target::Target;
 use serde::Serialize;
 
 use crate::args::TradeoffArgs;

@@ -11,7 +11,8 @@
 //! | [`mod@sweep`] | one knob after the other about a profile |
 //! | [`mod@front`] | the points that no other beats |
 //! | [`mod@search`] | the cheapest profile for a stated error |
-//! | [`exact`] | branch and bound over its choices |
+//! | [`mod@model`], [`exact`] | what words add and cost; branch and bound over their lengths |
+//! | [`target`] | stated errors |
 //! | [`synthesis`] | what synthesis makes of a core, beside the estimate |
 //!
 //! Errors are the core's against the ideal estimator, which sees the same samples without an ADC's
@@ -24,7 +25,9 @@ pub mod errors;
 pub mod exact;
 pub mod front;
 pub mod knobs;
+pub mod model;
 pub mod points;
 pub mod search;
 pub mod sweep;
 pub mod synthesis;
+pub mod target;

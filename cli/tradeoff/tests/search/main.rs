@@ -10,7 +10,7 @@ mod rivals;
 use hapticore_contract::profile::Profile;
 use hapticore_run::inputs;
 use hapticore_tradeoff::knobs::Knob;
-use hapticore_tradeoff::search::Model;
+use hapticore_tradeoff::model::Model;
 use hapticore_tradeoff::sweep::Trial;
 use rivals::{Limits, annealed, by_tpe, exhaustive, integer_program, min_plus_one};
 use std::sync::OnceLock;

@@ -2,7 +2,7 @@
 //! Other ways to the cheapest word lengths, on the same model.
 
 use good_lp::{Expression, ProblemVariables, Solution, SolverModel, constraint, variable};
-use hapticore_tradeoff::search::Model;
+use hapticore_tradeoff::model::Model;
 use rand::SeedableRng;
 use rand::rngs::StdRng;
 
