@@ -10,6 +10,7 @@
 //! | [`peripherals`] | the blocks of a board, each with a trace |
 //! | [`reference_error`] | how far the reference's `f64` is from the equations |
 //! | [`rivals`] | force controllers of other projects in a loop with this plant |
+//! | [`stability`] | hard cases: what must happen, what happens, and the margin |
 //! | [`stimulus`] | what a core is given: random and directed input, whole scenes |
 //! | [`tools`] | the HDL tools, and the message where one is missing |
 //! | [`tracking`] | how a force loop follows its target |
@@ -22,6 +23,7 @@ pub mod lockstep;
 pub mod peripherals;
 pub mod reference_error;
 pub mod rivals;
+pub mod stability;
 pub mod stimulus;
 pub mod tools;
 pub mod tracking;
