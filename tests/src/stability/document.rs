@@ -56,7 +56,7 @@ fn line(case: &Case, outcome: &Outcome) -> String {
         case.stimulus,
         case.must,
         outcome.happens,
-        margins.join("; ")
+        margins.join("<br>")
     )
 }
 
