@@ -31,6 +31,20 @@ pub struct Cost {
     pub multipliers_ice40: f64,
     /// Bits of memories.
     pub memory_bits: f64,
+    /// Block RAMs of 18 kbit, as an ECP5 has.
+    pub block_rams: f64,
+    /// Block RAMs of 4 kbit, as an iCE40 has.
+    pub block_rams_ice40: f64,
+}
+
+/// Bits of an iCE40's multiplier, for which a profile may be made.
+const ICE40_MULTIPLIER: u8 = 16;
+
+impl Cost {
+    /// LUT4 of the family whose multipliers a profile is made for: what a search counts.
+    pub fn luts_for(&self, profile: &Profile) -> f64 {
+        if profile.multiplier == ICE40_MULTIPLIER { self.luts_ice40 } else { self.luts }
+    }
 }
 
 /// Samples per second of the nominal board (docs/decisions.md §6).
@@ -74,5 +88,7 @@ pub fn cost(profile: &Profile) -> Result<Cost> {
         multipliers: operations.multipliers[1],
         multipliers_ice40: operations.multipliers[0],
         memory_bits: operations.memory_bits,
+        block_rams: operations.block_rams[1],
+        block_rams_ice40: operations.block_rams[0],
     })
 }
