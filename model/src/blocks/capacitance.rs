@@ -134,7 +134,12 @@ impl Capacitance {
             left,
             right,
         };
-        rounds("formats.capacitance", block.gain_product(), capacitance)?;
+        rounds(
+            "formats.capacitance",
+            "the product of admittance and gain",
+            block.gain_product(),
+            capacitance,
+        )?;
         Ok(block)
     }
 

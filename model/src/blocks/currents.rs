@@ -142,7 +142,7 @@ impl Currents {
         let demodulator = Demodulator::try_new(profile)?;
         let shift = profile.sum_shift() - demodulator.shift();
         let wide = wide(iq, block);
-        rounds("formats.iq", demodulator.sum().scaled(-shift), wide)?;
+        rounds("formats.iq", "a sum over the window", demodulator.sum().scaled(-shift), wide)?;
         let terminals = profile.terminals.x.len() as u64;
         let (part, total) = match block {
             0 => (profile.formats.total, profile.formats.total),

@@ -93,10 +93,13 @@ impl Force {
         let multiplier = Multiplier::new(left, right, profile.multiplier);
         let block =
             Force { multiplier, capacitance, mean_square, square, gain, force, left, right };
-        for (field, (product, to)) in
-            ["square", "square", "force"].into_iter().zip(block.products())
-        {
-            rounds(&format!("formats.{field}"), product, to)?;
+        let products = [
+            ("formats.square", "the square of the capacitance"),
+            ("formats.square", "the product of square and mean square"),
+            ("formats.force", "the product of energy and gain"),
+        ];
+        for ((field, name), (product, to)) in products.into_iter().zip(block.products()) {
+            rounds(field, name, product, to)?;
         }
         Ok(block)
     }
