@@ -102,6 +102,15 @@ impl HapticVoltage {
         })
     }
 
+    /// The clocks from the last sum to the mean square, one after the other, where every bit is known.
+    #[inline(never)]
+    pub(crate) fn run_on<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) {
+        let held = Inputs { valid: bit(false), clear: bit(false), ..i };
+        while V::known_bit(state.registers.busy) == Some(true) {
+            self.clock(state, held);
+        }
+    }
+
     /// Clocks from the last sum to the mean square.
     pub fn latency(&self) -> u64 {
         if self.windows == 1 { 1 } else { self.windows + 3 }

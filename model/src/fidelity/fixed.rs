@@ -355,7 +355,8 @@ pub(super) fn run<V: Interpretation>(
             },
             None => *quiet,
         };
-        let estimator::Outputs { frames: frame, prompt: given } = estimator.clock(state, inputs);
+        let estimator::Outputs { frames: frame, prompt: given } =
+            estimator.clock_running_on(state, inputs);
         if V::known_bit(given.prompt.value) == Some(true) {
             *prompt = Some(given);
         }

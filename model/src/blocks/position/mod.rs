@@ -36,6 +36,7 @@
 mod at_once;
 mod instruction;
 mod program;
+mod trace;
 
 use self::at_once::AtOnce;
 use self::instruction::{COUNT, LOW, OPEN, Operation, SCALARS, SHARE, SURFACE, WRAP};
