@@ -37,16 +37,6 @@ pub struct Cost {
     pub block_rams_ice40: f64,
 }
 
-/// Bits of an iCE40's multiplier, for which a profile may be made.
-const ICE40_MULTIPLIER: u8 = 16;
-
-impl Cost {
-    /// LUT4 of the family whose multipliers a profile is made for: what a search counts.
-    pub fn luts_for(&self, profile: &Profile) -> f64 {
-        if profile.multiplier == ICE40_MULTIPLIER { self.luts_ice40 } else { self.luts }
-    }
-}
-
 /// Samples per second of the nominal board (docs/decisions.md §6).
 const SAMPLE_HZ: f64 = 1e6;
 
