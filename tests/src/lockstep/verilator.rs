@@ -52,13 +52,14 @@ impl Version {
         [verilator, "make", "g++"]
     }
 
-    /// What it says that it is.
+    /// Its command, and what that says of its version.
     ///
     /// # Panics
     /// Where it does not run.
     pub fn name(self) -> String {
-        let mut command = Command::new(self.commands()[0]);
-        run(command.arg("--version"), Path::new(".")).trim().to_owned()
+        let command = self.commands()[0];
+        let says = run(Command::new(command).arg("--version"), Path::new("."));
+        format!("{command} ({})", says.trim())
     }
 }
 
