@@ -6,6 +6,7 @@
 //! | [`devices`] | devices drawn at random, and how well a pad is found on them |
 //! | [`faults`] | deliberate faults in printed Verilog |
 //! | [`force_loop`] | what a force loop is given by a plant that its drives move |
+//! | [`fuzz`](mod@fuzz) | what fuzzing holds of every reader and of the core, and what it begins with |
 //! | [`lockstep`] | the model and its Verilog, every output at every clock |
 //! | [`peripherals`] | the blocks of a board, each with a trace |
 //! | [`reference_error`] | how far the reference's `f64` is from the equations |
@@ -19,6 +20,7 @@
 pub mod devices;
 pub mod faults;
 pub mod force_loop;
+pub mod fuzz;
 pub mod lockstep;
 pub mod peripherals;
 pub mod reference_error;
