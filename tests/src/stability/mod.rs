@@ -12,18 +12,25 @@
 //! | [`case`] | what a case is, and its margin |
 //! | [`document`] | the page of all cases |
 //! | [`figure`] | the curves of the page |
+//! | [`force_loop`] | the controller's words, and the loop around a simulated device |
 //! | [`lock_in`] | tones, noise and disturbances at the ADC |
+//! | [`long_runs`] | the same stimulus again and again, counters that wrap |
 //! | [`rivals`] | other lock-ins and filters, on the same samples |
+//! | [`system`] | pads, terminals, the core's inputs and registers |
 
 pub mod arithmetic;
 pub mod bench;
 pub mod case;
 pub mod document;
 pub mod figure;
+pub mod force_loop;
 pub mod lock_in;
+pub mod long_runs;
 pub mod rivals;
+pub mod system;
 
 pub use case::{Case, Group, Margin, Outcome};
 
 /// Every group of cases, in the order of the page.
-pub const GROUPS: &[Group] = &[arithmetic::GROUP, lock_in::GROUP];
+pub const GROUPS: &[Group] =
+    &[arithmetic::GROUP, lock_in::GROUP, system::GROUP, force_loop::GROUP, long_runs::GROUP];
