@@ -109,7 +109,8 @@ type Phase<V> = [Signal<V>; 2];
 fn quarter_wave(profile: &Profile) -> Vec<f64> {
     let quarter = profile.slot.integrate / 4;
     (0..=quarter)
-        .map(|k| profile.amplitude() * (TAU / 4.0 * k as f64 / quarter as f64).sin())
+        .map(|k| (TAU / 4.0 * k as f64 / quarter as f64).sin())
+        .map(|sine| profile.amplitude() * exact_quarters(sine))
         .collect()
 }
 
@@ -117,10 +118,18 @@ fn quarter_wave(profile: &Profile) -> Vec<f64> {
 fn half_window(profile: &Profile) -> Vec<f64> {
     let samples = profile.slot.integrate;
     let window_value = |m: u64| match profile.carrier.window {
-        Window::Hann => (TAU / 2.0 * m as f64 / samples as f64).sin().powi(2),
+        Window::Hann => exact_quarters((TAU / 2.0 * m as f64 / samples as f64).sin().powi(2)),
         Window::Rectangular => 1.0,
     };
     (0..=samples / 2).map(|m| profile.amplitude() * window_value(m)).collect()
+}
+
+/// The sine of a rational part of a turn, or its square, exactly where it is a multiple of a quarter: its
+/// only rational values (Niven's theorem). An amplitude times ¼, ½ or ¾ may be half way between two
+/// words, which the last bit of an `f64` must not decide.
+fn exact_quarters(value: f64) -> f64 {
+    let quarters = (4.0 * value).round() / 4.0;
+    if (value - quarters).abs() < 1e-14 { quarters } else { value }
 }
 
 /// The format of a wave without its sign.

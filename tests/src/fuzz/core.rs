@@ -105,8 +105,7 @@ fn words(profile: &mut Profile, choices: &mut Unstructured) -> Result<()> {
     by(&mut [&mut f.capacitance_gain], -6, 6)?;
     by(&mut [&mut f.force_gain], -6, 6)?;
     by(&mut [&mut f.iq, &mut f.total], -6, 4)?;
-    // Of a multiple of four no word of carrier or window lies half way between two codes at 60°.
-    profile.carrier.amplitude = f.oscillator.max_code() as u64 & !3;
+    profile.carrier.amplitude = f.oscillator.max_code() as u64;
     Ok(())
 }
 

@@ -66,12 +66,16 @@ impl Oscillator {
 
     /// The sine of a phase, in parts of a turn as many as there are samples in a window.
     pub fn wave(&self, phase: u64) -> Exact {
-        let turns = (phase % self.samples) as f64 / self.samples as f64;
+        let phase = phase % self.samples;
+        let turns = phase as f64 / self.samples as f64;
         // Of the quadrants, the first: an f64 of another one's sine differs in its last bits.
         let folded = (turns * 2.0).fract() / 2.0;
         let folded = folded.min(0.5 - folded);
         let sign = if turns < 0.5 { 1.0 } else { -1.0 };
-        round_real(sign * self.amplitude * (TAU * folded).sin(), self.format)
+        // At a twelfth of a turn it is one half, and the product may be a tie.
+        let twelfths = [1, 5, 7, 11].map(|k| k * self.samples);
+        let sine = if twelfths.contains(&(12 * phase)) { 0.5 } else { (TAU * folded).sin() };
+        round_real(sign * self.amplitude * sine, self.format)
     }
 
     /// Sample `n` of a slot, which is sample `m` of its window.
@@ -88,6 +92,16 @@ impl Oscillator {
         }
     }
 
+    /// sin² π m/N; in sixths and quarters of a turn exactly.
+    fn hann(&self, m: u64) -> f64 {
+        match m.min(self.samples - m) {
+            m if 6 * m == self.samples => 0.25,
+            m if 4 * m == self.samples => 0.5,
+            m if 3 * m == self.samples => 0.75,
+            m => (PI * m as f64 / self.samples as f64).sin().powi(2),
+        }
+    }
+
     fn window_at(&self, m: u64) -> Exact {
         let total = |m: u64| {
             let whole = i128::from(m / self.samples) * self.cosine_sums[self.samples as usize];
@@ -95,11 +109,7 @@ impl Oscillator {
         };
         match self.window {
             Window::Hann if self.polyphase => {
-                let turns = (m % self.samples) as f64 / self.samples as f64;
-                round_real(
-                    self.amplitude * (PI * turns.min(1.0 - turns)).sin().powi(2),
-                    self.format,
-                )
+                round_real(self.amplitude * self.hann(m % self.samples), self.format)
             }
             Window::Hann => {
                 let code = total(m + 1).div_euclid(2) - total(m).div_euclid(2);

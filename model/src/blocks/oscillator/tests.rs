@@ -13,36 +13,60 @@ fn waves_are_those_of_the_table_at_the_phase() {
     let all = [Window::Hann, Window::Rectangular].into_iter().flat_map(with);
     for (seed, (window, mut profile)) in (0..).zip(all) {
         profile.carrier.window = window;
-        let reference = rounded::Oscillator::new(&profile);
-        let (mut bench, mut random) = (Bench::new(Oscillator::new(&profile)), Random::new(seed));
-        let format = profile.formats.oscillator;
-        let (mut since_restart, mut since_first) = (0, 0);
-        for sample in 0..operations(MILLION / 6) {
-            let [restart, first] =
-                [1500, 700].map(|one_in| sample == 0 || random.below(one_in) == 0);
-            since_restart = if restart { 0 } else { since_restart + 1 };
-            since_first = if first { 0 } else { since_first + 1 };
-            bench.clock(Inputs { sample: 1, restart: restart.into(), first: first.into() });
-            let quiet = Inputs { sample: 0, restart: 0, first: 0 };
-            (0..4)
-                .map(|_| bench.clock(quiet))
-                .find(|out| out.ready == 1)
-                .expect("ready after four clocks");
-            let out = bench.clock(quiet);
-            let Sample { cosine, sine, window } = reference.sample(since_restart, since_first);
-            let [cosine, sine, window] = [cosine, sine, window].map(|wave| wave.code(format));
-            let phase = if profile.carrier.method == Method::Polyphase {
-                since_restart as i64 % 5
-            } else {
-                0
-            };
-            let expected = Outputs { ready: 0, cosine, sine, window, phase };
-            assert_eq!(
-                out, expected,
-                "clock {}: sample {since_restart}, of the window {since_first}",
-                bench.clock
-            );
+        check_waves(&profile, seed, operations(MILLION / 6));
+    }
+}
+
+/// At a twelfth of a turn and at a sixth of a window a word is ½, ¼ or ¾ of the amplitude: half way
+/// between two codes where the amplitude is no multiple of four.
+#[test]
+fn waves_half_way_between_two_codes_are_the_even_ones() {
+    for (seed, (name, samples)) in (0..).zip([("standard", 24), ("small", 60), ("small", 120)]) {
+        for less in 0..4 {
+            let mut profile = Profile::bundled(name).expect("bundled");
+            profile.slot.integrate = samples;
+            profile.carrier.amplitude -= less;
+            if profile.carrier.method == Method::Products {
+                profile.carrier.periods = 2;
+            }
+            check_waves(&profile, seed, 400);
         }
+    }
+    let mut profile = Profile::bundled("standard").expect("bundled");
+    (profile.slot.integrate, profile.carrier.amplitude) = (24, 5);
+    let table = Oscillator::new(&profile).quarter.codes();
+    assert_eq!(table, [0, 1, 2, 4, 4, 5, 5], "5·sin 30° is 2.5, its even neighbour 2");
+}
+
+/// Holds so many samples, begun anew at random, to the reference.
+fn check_waves(profile: &Profile, seed: u64, samples: u64) {
+    let reference = rounded::Oscillator::new(profile);
+    let (mut bench, mut random) = (Bench::new(Oscillator::new(profile)), Random::new(seed));
+    let format = profile.formats.oscillator;
+    let (mut since_restart, mut since_first) = (0, 0);
+    for sample in 0..samples {
+        let [restart, first] = [1500, 700].map(|one_in| sample == 0 || random.below(one_in) == 0);
+        since_restart = if restart { 0 } else { since_restart + 1 };
+        since_first = if first { 0 } else { since_first + 1 };
+        bench.clock(Inputs { sample: 1, restart: restart.into(), first: first.into() });
+        let quiet = Inputs { sample: 0, restart: 0, first: 0 };
+        (0..4)
+            .map(|_| bench.clock(quiet))
+            .find(|out| out.ready == 1)
+            .expect("ready after four clocks");
+        let out = bench.clock(quiet);
+        let Sample { cosine, sine, window } = reference.sample(since_restart, since_first);
+        let [cosine, sine, window] = [cosine, sine, window].map(|wave| wave.code(format));
+        let phase = match profile.carrier.method {
+            Method::Polyphase => since_restart as i64 % 5,
+            Method::Products => 0,
+        };
+        let expected = Outputs { ready: 0, cosine, sine, window, phase };
+        assert_eq!(
+            out, expected,
+            "clock {}: sample {since_restart}, of the window {since_first}",
+            bench.clock
+        );
     }
 }
 
