@@ -13,8 +13,8 @@
 //!
 //! D is a curve that the host writes: the paper's feed-forward K·√F (eq. 9), a measured steady
 //! curve, or, with the inverse law, the limit that keeps a pad of small capacitance from
-//! overshooting as it is pulled in. G is the haptic mean square at full drive. c is what the drive
-//! word, limited, leaves of its other parts: nothing winds up.
+//! overshooting as it is pulled in. G is the haptic mean square at full drive. Against a
+//! limit that holds the drive c goes as far as the limit lets it: nothing winds up.
 
 use hapticore_hdl::format::Format;
 use serde::{Deserialize, Serialize};

@@ -9,8 +9,9 @@
 //! inverse        d = min(√(F_t/G / (k·C²)), D)                        (docs/physics.md §6)
 //! ```
 //!
-//! The drive is held within 0 … rail, then within slew of the pad's last; c is what it leaves of
-//! its other parts, and stays as it is while estimates are invalid.
+//! The drive is held within 0 … rail, then within slew of the pad's last. c stays as it is while
+//! estimates are invalid; against a limit that holds the drive it goes as far as drive − (D + K·e), and not
+//! back.
 
 use hapticore_contract::control::{Control, Drive, Faults, Law, Tuning};
 
@@ -76,7 +77,8 @@ impl Controller {
         self.faults.silence |= self.silent >= self.control.silent_frames;
         self.faults.sensor |= invalid >= self.control.invalid_frames;
         self.faults.force |= !prompt.invalid && prompt.force_n > self.tuning.force_cap;
-        let (base, wanted) = self.wanted(prompt, target_n, pad.correction);
+        let (correction, wanted) = self.wanted(prompt, target_n, pad.correction);
+        let base = wanted - correction;
         let (low, high) = (wanted < 0.0, wanted > self.tuning.rail);
         let to = match (self.faults.any(), prompt.invalid) {
             (true, _) => 0.0,
@@ -85,7 +87,16 @@ impl Controller {
         };
         let slew = self.tuning.slew;
         let drive = to.min(pad.drive + slew).max(pad.drive - slew);
-        let correction = if prompt.invalid { pad.correction } else { drive - base };
+        let correction = match prompt.invalid {
+            true => pad.correction,
+            false if wanted > drive && correction >= pad.correction => {
+                pad.correction.max(drive - base)
+            }
+            false if wanted < drive && correction <= pad.correction => {
+                pad.correction.min(drive - base)
+            }
+            false => correction,
+        };
         self.pads[prompt.pad] = Pad { invalid, drive, correction };
         Drive { pad: prompt.pad, fraction: drive, low, high, faults: self.faults, walled: None }
     }
@@ -102,26 +113,27 @@ impl Controller {
         curve[cell] + (curve[cell + 1] - curve[cell]) * (at - cell as f64)
     }
 
-    /// What the correction comes on top of, and the drive without limits.
+    /// The correction after this frame, and the drive without limits.
     fn wanted(&self, prompt: &Prompt, target_n: f64, correction: f64) -> (f64, f64) {
         let Tuning { proportional, correction: gain, full_drive, .. } = self.tuning;
         let root = self.root(target_n);
         let curve = self.curve(root);
         match self.control.law {
-            Law::Open => (curve, curve),
+            Law::Open => (0.0, curve),
             Law::Proportional => {
                 let scaled = proportional * (target_n - prompt.force_n);
-                (curve, curve + correction + gain * (scaled - correction))
+                let correction = correction + gain * (scaled - correction);
+                (correction, curve + correction)
             }
             Law::Integral => {
                 let error = root - self.root(prompt.force_n);
-                let base = curve + proportional * error;
-                (base, base + correction + gain * error)
+                let correction = correction + gain * error;
+                (correction, curve + proportional * error + correction)
             }
             Law::Inverse => {
                 let stiffness = prompt.force_gain * prompt.capacitance_pf.powi(2);
                 let inverse = (target_n * full_drive / stiffness).sqrt();
-                (curve, if inverse < curve { inverse } else { curve })
+                (0.0, if inverse < curve { inverse } else { curve })
             }
         }
     }

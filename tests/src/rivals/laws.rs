@@ -6,6 +6,7 @@
 //! | [`Idsp`] | `f64` | a biquad built from PID gains whose output is clamped within its feedback |
 //! | [`PyRpl`] | 14 bits, gains of 24 | the integrator saturates at four times full scale, the sum at full scale; products are cut, not rounded |
 //! | [`Linien`] | 14 bits, gains of 14 | the integrator saturates at full scale of either sign; the proportional part is cut to 14 bits and wraps |
+//! | [`SuServo`] | 16 bits in, 25 of state, 14 out, gains of 18 | the state is clipped to zero and full scale; what is below its step is cut, towards minus infinity |
 //!
 //! Full scale of the words is [`FULL_SCALE_N`] in, [`FULL_SCALE_V`] out, of either sign.
 
@@ -175,5 +176,31 @@ impl Law for Linien {
         let proportional = (error * self.proportional) >> Self::BITS[0];
         let wrapped = (proportional + 8192).rem_euclid(16384) - 8192;
         volts((wrapped + (self.integrated >> Self::BITS[1])).clamp(-8192, 8191))
+    }
+}
+
+/// SUServo's `gateware/suservo/iir.py` (ARTIQ) as an integrator: 2^11·y ← 2^11·y + b₀·2^8·x.
+pub struct SuServo {
+    integral: i64,
+    state: i64,
+}
+
+impl SuServo {
+    /// Largest state.
+    const MOST: i64 = (1 << 24) - 1;
+
+    /// An integral gain, V/N a frame, from a state at a fraction of full scale.
+    pub fn new(volts_per_newton: f64, start: f64) -> Self {
+        SuServo { integral: gain(volts_per_newton, 11), state: (start * Self::MOST as f64) as i64 }
+    }
+}
+
+impl Law for SuServo {
+    fn volts(&mut self, seen: &Seen) -> f64 {
+        let code = |newtons: f64| ((newtons / FULL_SCALE_N * 32768.0).floor() as i64).min(32767);
+        let error = code(seen.target_n) - code(seen.force_n);
+        let sum = (self.state << 11) + self.integral * (error << 8);
+        self.state = (sum >> 11).clamp(0, Self::MOST);
+        (self.state >> 10) as f64 / 16384.0 * FULL_SCALE_V
     }
 }

@@ -8,8 +8,10 @@
 //! integral       e = s − [√(F/4^h)],  d = D + [K·e] + [c + [K_i·e]]
 //! ```
 //!
-//! c, and what it is the sum of, is 8 bits finer than a drive word: what rounding takes from d stays
-//! in it.
+//! In laws with an error, s, D and what is added to it are finer than a drive word, so that the roots
+//! of two forces differ: 2^-b with b ≥ (bits of a force) + 2·h + 1. c is 8 bits finer still. It stays as it
+//! is while estimates are invalid. Against a limit that holds the drive it goes as far as drive − (D + K·e),
+//! and not back.
 //!
 //! [x] is x in its format: to the nearest code, ties to even, saturated.
 
@@ -127,7 +129,7 @@ impl Controller {
         self.faults[0] |= self.silent == self.control.silent_frames;
         self.faults[1] |= invalid == most;
         self.faults[2] |= !request.invalid && request.force > self.tuning.force_cap;
-        let (base, wanted) = self.wanted(request, pad);
+        let (correction, wanted) = self.wanted(request, pad);
         let rounded = round(wanted, self.control.drive).value;
         let rail = self.tuning.rail;
         let (low, high) = (wanted < Exact::ZERO, wanted > rail);
@@ -145,10 +147,16 @@ impl Controller {
             _ => within,
         };
         let drive = self.slewed(pad.drive, to);
-        let taken = if low || high || drive != within { Exact::ZERO } else { wanted - rounded };
-        let correction = match request.invalid {
-            true => pad.correction,
-            false => round(drive - base + taken, self.kept()).value,
+        let limit = round(drive - (wanted - correction), self.kept()).value;
+        let falls = correction < pad.correction;
+        let correction = if request.invalid {
+            pad.correction
+        } else if falls && (low || drive > within) {
+            if limit < pad.correction { limit } else { pad.correction }
+        } else if !falls && (high || drive < within) {
+            if limit > pad.correction { limit } else { pad.correction }
+        } else {
+            correction
         };
         self.pads[request.pad] = Pad { invalid, drive, correction };
         Drive { drive, low, high }
@@ -163,18 +171,27 @@ impl Controller {
         if change > Exact::ZERO { full } else { last - slew }
     }
 
+    /// Bits of a root, and of what is added to the curve.
+    fn bits(&self) -> i8 {
+        let drive = self.control.drive.frac;
+        match self.control.law {
+            Law::Open | Law::Inverse => drive,
+            _ => drive.max(self.profile.formats.force.frac + self.control.target_shift() + 1),
+        }
+    }
+
     fn signed(&self) -> Format {
-        Format::signed(self.control.drive.width + 1, self.control.drive.frac)
+        Format::signed(self.bits() as u8 + 1, self.bits())
     }
 
     fn kept(&self) -> Format {
-        Format::signed(self.control.drive.width + 9, self.control.drive.frac + 8)
+        Format::signed(self.bits() as u8 + 9, self.bits() + 8)
     }
 
     /// √(F/4^h), below one.
     fn root(&self, force: Exact) -> Exact {
-        let drive = self.control.drive;
-        round(round_sqrt(force.scaled(-self.control.target_shift()), drive.frac), drive).value
+        let fraction = Format::unsigned(self.bits() as u8, self.bits());
+        round(round_sqrt(force.scaled(-self.control.target_shift()), self.bits()), fraction).value
     }
 
     /// The curve at a root.
@@ -187,32 +204,36 @@ impl Controller {
         low + round((high - low) * part, self.signed()).value
     }
 
-    /// What the correction comes on top of, and the drive without limits.
+    /// The correction after this frame, and the drive without limits.
     fn wanted(&self, request: &Request, pad: Pad) -> (Exact, Exact) {
         let (t, signed) = (&self.tuning, self.signed());
         let root = self.root(request.target);
         let curve = self.curve(root);
         match self.control.law {
-            Law::Open => (curve, curve),
+            Law::Open => (Exact::ZERO, curve),
             Law::Inverse => {
                 let inverse = self.inverse(request);
-                (curve, if inverse > curve { curve } else { inverse })
+                (Exact::ZERO, if inverse > curve { curve } else { inverse })
             }
             Law::Proportional => {
-                let target = self.control.target;
-                let format = Format::signed(target.width + 1, target.frac);
+                let (target, force) = (self.control.target, self.profile.formats.force);
+                let frac = target.frac.max(force.frac);
+                let format = Format::signed(target.integer_bits() as u8 + frac as u8 + 1, frac);
                 let error = round(request.target - request.force, format).value;
                 let scaled = round(error * t.proportional, signed).value;
                 let away = round(scaled - pad.correction, signed).value;
                 let step = round(away * t.correction, self.kept()).value;
-                (curve, curve + round(pad.correction + step, self.kept()).value)
+                let correction = round(pad.correction + step, self.kept()).value;
+                (correction, curve + correction)
             }
             Law::Integral => {
-                let force = round(request.force, self.control.target).value;
-                let error = root - self.root(force);
-                let base = curve + round(error * t.proportional, signed).value;
+                let (bits, shift) = (self.profile.formats.force.frac, self.control.target_shift());
+                let below = Format::unsigned((bits + shift) as u8, bits);
+                let error = root - self.root(round(request.force, below).value);
+                let proportional = round(error * t.proportional, signed).value;
                 let step = round(error * t.correction, self.kept()).value;
-                (base, base + round(pad.correction + step, self.kept()).value)
+                let correction = round(pad.correction + step, self.kept()).value;
+                (correction, curve + proportional + correction)
             }
         }
     }

@@ -39,7 +39,7 @@ impl Controller {
             Law::Open | Law::Proportional => small(i.target),
             Law::Inverse => r.task.at(Task::InverseRoot).select(quotient, small(i.target)),
             Law::Integral => {
-                let force = i.measured.quantize(self.target, HalfEven, Saturate);
+                let force = i.measured.resize(self.force_format(), Saturate);
                 small(r.task.at(Task::ForceRoot).select(force, i.target))
             }
         }
@@ -106,14 +106,15 @@ impl Controller {
         ends: Signal<V>,
     ) -> Regs<V> {
         let at = |task: Task| ends & self.at(&r, task);
-        let root = found.root.resize(self.drive, Saturate);
+        let root = found.root.resize(self.fine, Saturate);
         let signed = self.correction_format();
         let rise = self.narrow(found, (signed, self.part_format()), signed);
-        let curve = (r.curve_drive + rise).resize(self.drive, Saturate);
+        let curve = (r.curve_drive + rise).resize(self.fine, Saturate);
+        let lower = found.curve.resize(self.fine, Proved);
         let next = Registers {
             root: (at(Task::Root) | at(Task::InverseRoot)).select(root, r.root),
             curve_drive: at(Task::Curve)
-                .select(found.curve, at(Task::Interpolate).select(curve, r.curve_drive)),
+                .select(lower, at(Task::Interpolate).select(curve, r.curve_drive)),
             ..r
         };
         match self.law {
@@ -187,14 +188,9 @@ impl Controller {
         }
     }
 
-    /// The drive within 0 and the rail, whether it should be below or beyond, and what rounding
-    /// took from it.
+    /// The drive within 0 and the rail, and whether it should be below or beyond.
     #[inline(always)]
-    pub(super) fn wanted<V: Interpretation>(
-        &self,
-        r: &Regs<V>,
-        i: &In<V>,
-    ) -> ([Signal<V>; 3], Signal<V>) {
+    pub(super) fn wanted<V: Interpretation>(&self, r: &Regs<V>, i: &In<V>) -> [Signal<V>; 3] {
         let base = self.base(r);
         let wanted = match self.law {
             Law::Open => base,
@@ -205,20 +201,25 @@ impl Controller {
         // Where it wraps, it is low or high.
         let rounded = wanted.quantize(self.drive, HalfEven, Wrap);
         let within = high.select(i.tuning.rail, rounded);
-        let words = [low.select(zero(self.drive), within), low, high];
-        if !self.feeds_back() {
-            return (words, zero(Format::NONE));
-        }
-        let residue = (wanted - rounded).resize(self.residue_format(), Wrap);
-        (words, (low | high).select(zero(residue.format), residue))
+        [low.select(zero(self.drive), within), low, high]
     }
 
-    /// What a drive word leaves of curve and error: the correction that the pad keeps, with what
-    /// rounding took where the word is the one that was wanted.
+    /// The correction that the pad keeps. Where a limit holds the drive and the step goes further against
+    /// it, it goes as far as the limit lets it, but never back: nothing winds up.
     #[inline(always)]
-    pub(super) fn left_over<V: Interpretation>(&self, r: &Regs<V>, drive: Signal<V>) -> Signal<V> {
-        let rounded = drive.equals(r.wanted).select(r.residue, zero(r.residue.format));
-        (drive - self.base(r) + rounded).resize(self.kept_format(), Saturate)
+    pub(super) fn kept_correction<V: Interpretation>(
+        &self,
+        r: &Regs<V>,
+        drive: Signal<V>,
+        before: Signal<V>,
+    ) -> Signal<V> {
+        let held_below = r.high | drive.less_than(r.wanted);
+        let held_above = r.low | r.wanted.less_than(drive);
+        let falls = r.correction.less_than(before);
+        let against = falls.select(held_above, held_below);
+        let limit = (drive - self.base(r)).resize(self.kept_format(), Saturate);
+        let lets = falls.select(limit.less_than(before), before.less_than(limit));
+        against.select(lets.select(limit, before), r.correction)
     }
 
     /// The drive word: as wanted where drives are on and the estimate is valid, but no further from

@@ -8,7 +8,7 @@
 //! integral       d = D + K·e + c,   c += K_i·e,   e = √F_t − √F
 //! inverse        d = min(√(F_t/G / (k·C²)), D)                                    (docs/physics.md §6)
 //! drive = d, held within 0 … rail, then within slew of the pad's last
-//! c = drive − (D + K·e), and what rounding took of d where nothing holds it; of an invalid estimate as before
+//! c as before of an invalid estimate; against a limit that holds the drive as far as drive − (D + K·e), never back
 //! ```
 //!
 //! ```text
@@ -19,17 +19,19 @@
 //! ```
 //!
 //! | signal        | format                 | unit            | overflow                    |
-//! | drive, s, D   | profile                | full scale      | held within 0 … rail        |
-//! | K·e           | drive's, with a sign   | full scale      | saturates                   |
+//! | drive         | profile                | full scale      | held within 0 … rail        |
+//! | s, D          | drive's, finer with e  | full scale      | held within 0 … full scale  |
+//! | K·e           | the same, with a sign  | full scale      | saturates                   |
 //! | c             | the same, 8 bits finer | full scale      | saturates                   |
 //! | k·C²          | square's width, u·.·−4 | N               | saturates                   |
 //! | F_t/G         | target's, 3 bits more  | N               | saturates                   |
 //! | quotient      | drive's, twice         | full scale²     | saturates: then D is less   |
 //!
-//! c is what the limited drive leaves of its other parts: nothing winds up, and a drive that has c
-//! goes on from zero when it is switched on; the others go to D within slew. A zero denominator gives
-//! the limit D. While an estimate is invalid the drive stays; see `faults.rs` for what takes it to
-//! zero. All narrowing rounds half to even.
+//! Nothing winds up: a limit is the rail, zero, the slew limit, or a drive that is off. A drive that is
+//! switched on goes to what its law wants, within slew. A zero denominator gives the limit D. While an
+//! estimate is invalid the drive stays; see `faults.rs` for what takes it to zero. Narrowing rounds half
+//! to even. In laws with an error, s is so fine that the roots of two forces are never the same, for a
+//! loop rests wherever its error is zero.
 //!
 //! One multiplier, one square root and one divider serve all steps. Latency: the sum of the law's
 //! tasks and a clock, from `start` to `done`.
@@ -86,6 +88,8 @@ block! {
     pub struct Controller("controller") {
         law: Law,
         drive: Format,
+        /// Roots of forces, and drives before they are narrowed.
+        fine: Format,
         target: Format,
         gain: Format,
         /// Bits of a target's scale: it is below 2^shift.
@@ -153,8 +157,8 @@ block! {
         right: block.right,
         sqrt_start: BIT,
         divide: BIT,
-        root: block.drive,
-        curve_drive: block.drive,
+        root: block.fine,
+        curve_drive: block.fine,
         /// Product of the step before.
         factor: block.of_inverse(block.square.integer()),
         /// F_t/G.
@@ -166,8 +170,6 @@ block! {
         correction: block.of_feedback(block.kept_format()),
         /// Before slew: within 0 and the rail.
         wanted: block.drive,
-        /// What rounding took from it.
-        residue: block.of_feedback(block.residue_format()),
         drive: block.drive,
         low: BIT,
         high: BIT,
@@ -203,22 +205,24 @@ impl Controller {
         let pad = Format::counter(profile.pads - 1);
         let words = 1 << pad.width;
         let square = Format::unsigned(2 * drive.width, 2 * drive.frac);
+        let fine = words::fine(control, f);
         let (left, right) = words::operands(control, f);
         let invalid = Format::counter(control.invalid_frames);
         let word = Format::unsigned(invalid.width + drive.width, 0);
         Controller {
             multiplier: Multiplier::new(left, right, profile.multiplier),
-            sqrt: SquareRoot::new(square, drive.frac),
+            sqrt: SquareRoot::new(square, fine.frac),
             divider: Divider::new(words::numerator(target), words::stiffness(f.square), square),
             points: Memory::new("points", cells as usize + 1, drive).dont_care_on_collision(),
             // Few pads would make registers of them, a word after the other.
             pads: Memory::new("pads", words, word).dont_care_on_collision().in_block(),
-            corrections: Memory::new("corrections", words, words::kept(drive))
+            corrections: Memory::new("corrections", words, words::kept(fine))
                 .dont_care_on_collision()
                 .in_block(),
             radicand: square,
             law,
             drive,
+            fine,
             target,
             gain,
             shift: control.target_shift(),
@@ -373,7 +377,7 @@ impl Controller {
     ) -> Signal<V> {
         let curve = self.points.data(&mut state.submodules.points);
         let (bits, upper) = (self.cell_bits(), !(r.task.at(Task::Curve) & r.count.is(0)));
-        let cell = r.root.bits(self.drive.width - bits, bits);
+        let cell = r.root.bits(self.fine.width - bits, bits);
         let Tuning { curve_write: enable, curve_address: address, curve_word: data, .. } = i.tuning;
         let read = (cell + upper).resize(self.points.address(), Proved);
         let write = Write { enable, address, data };
@@ -393,7 +397,7 @@ impl Controller {
         let loads = self.multiplies(&r) & r.count.is(0);
         let (left, right) = self.operands(&r, i, found);
         let (combine, limit) = (self.at(&r, Task::Combine), self.at(&r, Task::Limit));
-        let ([wanted, low, high], residue) = self.wanted(&r, i);
+        let [wanted, low, high] = self.wanted(&r, i);
         let next = Registers {
             task: ends.select(self.following(&r), r.task),
             count: ends.select(int(0), r.count.increment()),
@@ -402,7 +406,6 @@ impl Controller {
             sqrt_start: ends & self.root_follows(&r),
             divide: ends & self.at(&r, Task::Target),
             wanted: combine.select(wanted, r.wanted),
-            residue: combine.select(residue, r.residue).where_present(r.residue.format),
             low: combine.select(low, r.low),
             high: combine.select(high, r.high),
             drive: limit.select(self.limited(&r, i, found.last), r.drive),
@@ -427,7 +430,8 @@ impl Controller {
         let write = Write { enable, address: i.pad, data };
         self.pads.access(&mut state.submodules.pads, i.pad, write);
         if self.feeds_back() {
-            let data = i.invalid.select(found.correction, self.left_over(r, drive));
+            let kept = self.kept_correction(r, drive, found.correction);
+            let data = i.invalid.select(found.correction, kept);
             let write = Write { enable, address: i.pad, data };
             self.corrections.access(&mut state.submodules.corrections, i.pad, write);
         }

@@ -22,27 +22,27 @@ impl Controller {
     /// What is added to the curve, and steps along it.
     #[inline(always)]
     pub(super) fn correction_format(&self) -> Format {
-        correction(self.drive)
+        correction(self.fine)
     }
 
     /// What the pad keeps of its correction.
     #[inline(always)]
     pub(super) fn kept_format(&self) -> Format {
-        kept(self.drive)
+        kept(self.fine)
     }
 
-    /// What rounding takes from a drive: half a step of its word, of either sign.
+    /// A measured force, below the scale of targets.
     #[inline(always)]
-    pub(super) fn residue_format(&self) -> Format {
-        Format::signed(FINER + 1, self.kept_format().frac)
+    pub(super) fn force_format(&self) -> Format {
+        Format::unsigned((self.force.frac + self.shift) as u8, self.force.frac)
     }
 
     /// The error of forces, or of their roots.
     #[inline(always)]
     pub(super) fn error_format(&self) -> Format {
         match self.law {
-            Law::Proportional => Format::signed(self.target.width + 1, self.target.frac),
-            Law::Integral => correction(self.drive),
+            Law::Proportional => error(self.target, self.force),
+            Law::Integral => correction(self.fine),
             Law::Open | Law::Inverse => Format::NONE,
         }
     }
@@ -56,7 +56,7 @@ impl Controller {
     /// The part of a cell of the curve.
     #[inline(always)]
     pub(super) fn part_format(&self) -> Format {
-        let bits = self.drive.width - self.cell_bits();
+        let bits = self.fine.width - self.cell_bits();
         Format::unsigned(bits, bits as i8)
     }
 
@@ -121,7 +121,9 @@ pub(super) fn operands(control: &Control, f: &Formats) -> (Format, Format) {
     let (left, right) = match law {
         Law::Open => (drive.width, drive.width),
         Law::Proportional | Law::Integral => {
-            (drive.width.max(target.width), drive.width.max(gain.width))
+            let fine = fine(control, f);
+            let part = fine.width - control.cells.ilog2() as u8;
+            (fine.width.max(error(*target, f.force).width - 1), part.max(gain.width))
         }
         Law::Inverse => (
             drive.width.max(target.width).max(f.capacitance.width).max(f.square.width),
@@ -139,14 +141,32 @@ pub(super) const fn numerator(target: Format) -> Format {
     Format::unsigned(target.width + 3, target.frac)
 }
 
-/// Bits by which what a pad keeps is finer than a drive word: with a gain of 2^-9 an error of one step
-/// still moves it.
-const FINER: u8 = 8;
-
-pub(super) const fn kept(drive: Format) -> Format {
-    Format::signed(drive.width + 1 + FINER, drive.frac + FINER as i8)
+/// Roots of forces, the curve and what is added to it. In laws with an error they are so fine that the
+/// roots of two forces are never the same: below 2^shift, √(F + step) − √F is over step/2^(shift/2 + 1).
+pub(super) fn fine(control: &Control, f: &Formats) -> Format {
+    let Control { law, drive, .. } = control;
+    let bits = match law {
+        Law::Open | Law::Inverse => 0,
+        Law::Proportional | Law::Integral => {
+            (f.force.frac + control.target_shift() + 1 - drive.frac).max(0)
+        }
+    };
+    Format::unsigned(drive.width + bits as u8, drive.frac + bits)
 }
 
-pub(super) const fn correction(drive: Format) -> Format {
-    Format::signed(drive.width + 1, drive.frac)
+const fn error(target: Format, force: Format) -> Format {
+    let finer = if force.frac > target.frac { force.frac - target.frac } else { 0 };
+    Format::signed(target.width + finer as u8 + 1, target.frac + finer)
+}
+
+/// Bits by which what a pad keeps is finer than what it corrects: with a gain of 2^-9 an error of one
+/// step still moves it.
+const FINER: u8 = 8;
+
+pub(super) const fn kept(fine: Format) -> Format {
+    Format::signed(fine.width + 1 + FINER, fine.frac + FINER as i8)
+}
+
+pub(super) const fn correction(fine: Format) -> Format {
+    Format::signed(fine.width + 1, fine.frac)
 }

@@ -6,9 +6,13 @@
 //! | `words` | cases of the controller's block around a plant whose state comes back |
 //! | `device` | cases of the whole loop around a simulated device |
 //! | `rig` | the block and its plant |
+//! | `wall` | a wall that holds a hand |
+//! | `rivals` | laws of other controllers around the same plant |
 
 mod device;
 mod rig;
+mod rivals;
+mod wall;
 mod words;
 
 use super::{Case, Group};
@@ -21,10 +25,28 @@ pub const GROUP: Group = Group {
             follows for any number of frames, 10 million or more. Its plant is then a gap that follows the square of the drive, in words; the other cases run scene `fig9` (slots of 1 ms).",
     cases: &[
         Case {
+            name: "rounding_bias",
+            stimulus: "five targets from 11 to 244 mN at rest",
+            must: "the mean force within half a step of the force's word of the law in real numbers, for ever",
+            run: words::rounding_bias,
+        },
+        Case {
             name: "limit_cycle",
-            stimulus: "five targets from 11 to 244 mN at rest, every law",
+            stimulus: "the same targets, every law",
             must: "the drive word toggles by one at most, for ever",
             run: words::limit_cycle,
+        },
+        Case {
+            name: "one_sided_rail",
+            stimulus: "a target beyond what the rail gives, then 0.1 N",
+            must: "no wind-up: back within 20 frames more than a start from rest takes",
+            run: words::one_sided_rail,
+        },
+        Case {
+            name: "largest_error_and_gain",
+            stimulus: "errors from -1.4 N to the largest target with gains up to the largest",
+            must: "the drive saturates; it never goes the wrong way",
+            run: words::largest_error_and_gain,
         },
         Case {
             name: "rail_for_a_million_frames",
@@ -37,6 +59,18 @@ pub const GROUP: Group = Group {
             stimulus: "invalid estimates (of a large force) with every law at rest",
             must: "the drive is held, then zero at frame 8 and latched; what an invalid frame measured is in no drive word",
             run: words::sensor_invalid,
+        },
+        Case {
+            name: "host_silent",
+            stimulus: "no sign of life from the host",
+            must: "the drive zero with the 4,096th frame since it was heard, latched",
+            run: words::host_silent,
+        },
+        Case {
+            name: "gains_changed_in_mid_frame",
+            stimulus: "gains, rail and slew limit rewritten in each clock of a frame, every law",
+            must: "a drive within its word, then at rest as if always so tuned",
+            run: words::gains_changed_in_mid_frame,
         },
         Case {
             name: "plant_half_off",
@@ -55,6 +89,12 @@ pub const GROUP: Group = Group {
             stimulus: "all lines at zero for 30 ms while 0.3 N is asked for",
             must: "the safe side: never more drive than before, zero at frame 8, latched",
             run: device::line_lost_under_load,
+        },
+        Case {
+            name: "sensor_invalid_in_mid_wall",
+            stimulus: "all lines at zero for 30 ms while a hand rests in a wall (scene `fig15`, rule A)",
+            must: "the safe side, which is no wall: never more drive than before, zero at frame 8, latched",
+            run: wall::sensor_invalid_in_mid_wall,
         },
     ],
 };

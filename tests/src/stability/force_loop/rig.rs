@@ -73,6 +73,8 @@ pub struct Rig {
     drive: f64,
     /// The host is heard with each frame.
     pub alive: bool,
+    /// Clock of a frame, and the tuning from then on.
+    pub retune: Option<(u64, Tuning)>,
 }
 
 /// A tuning of every law; its curve is right for a pad at 320 pF.
@@ -104,11 +106,19 @@ impl Rig {
         let inputs = Inputs { tuning: tuning_codes(&formats, &tuning), ..Inputs::of(0) };
         let state = block.reset();
         let plant = Plant::new();
-        let mut rig = Rig { block, state, inputs, control, plant, drive: 0.0, alive: true };
+        let mut rig =
+            Rig { block, state, inputs, control, plant, drive: 0.0, alive: true, retune: None };
         for tuning in curve_writes(formats, &tuning) {
             rig.clock(Inputs { tuning, ..Inputs::of(0) });
         }
         rig
+    }
+
+    /// The tuning that it would have been made with.
+    pub fn tuning(&self, change: impl Fn(&mut Tuning)) -> Tuning {
+        let mut tuning = tuning(self.control.law, &self.control);
+        change(&mut tuning);
+        tuning
     }
 
     fn clock(&mut self, inputs: Inputs<i64>) -> Option<Given> {
@@ -134,7 +144,7 @@ impl Rig {
     pub fn measured(&mut self, target_n: f64, force_n: f64, invalid: bool) -> Given {
         let f = self.block.inputs();
         self.clock(Inputs { alive: self.alive.into(), ..self.inputs });
-        let held = Inputs {
+        let mut held = Inputs {
             target: f.target.code_saturating(target_n),
             capacitance: f.capacitance.code_saturating(self.plant.capacitance_pf),
             measured: f.measured.code_saturating(force_n),
@@ -143,6 +153,12 @@ impl Rig {
             ..self.inputs
         };
         for clock in 0..=self.block.latency() {
+            if let Some((at, tuning)) = &self.retune
+                && *at == clock
+            {
+                held.tuning = tuning_codes(&f.tuning, tuning);
+                self.inputs.tuning = held.tuning;
+            }
             if let Some(given) = self.clock(Inputs { start: (clock == 0).into(), ..held }) {
                 self.drive = self.control.drive.real(given.drive);
                 return Given { force_n, ..given };
@@ -176,6 +192,27 @@ impl Rig {
         self.clock(Inputs { clear_faults: 1, alive: 1, ..self.inputs });
     }
 
+    /// The step of the force's word, N.
+    pub fn force_step_n(&self) -> f64 {
+        self.block.inputs().measured.lsb()
+    }
+
+    /// The largest target, N.
+    pub fn largest_target_n(&self) -> f64 {
+        self.control.target.real(self.control.target.max_code() as i64)
+    }
+
+    /// The target as its word has it, N.
+    pub fn target_n(&self, newtons: f64) -> f64 {
+        let word = self.block.inputs().target;
+        word.real(word.code_saturating(newtons))
+    }
+
+    /// Clocks of a frame.
+    pub fn latency(&self) -> u64 {
+        self.block.latency()
+    }
+
     /// All that the next frame depends on: registers, what is kept of the pads, and the plant.
     pub fn state(&mut self) -> Vec<i64> {
         // Memories read in a clock in which something happens.
@@ -200,6 +237,25 @@ impl Rig {
             frames.push(self.frame(target_n));
         }
         panic!("no state comes back within {MOST_FRAMES} frames");
+    }
+
+    /// The force at which the law's equations and the plant rest without words, N.
+    pub fn at_rest(&self, target_n: f64) -> f64 {
+        if self.control.law == Law::Integral {
+            return target_n;
+        }
+        let tuning = self.tuning(|_| ());
+        let root = target_n.sqrt() / self.control.root_full_scale() * self.control.cells as f64;
+        let cell = root as usize;
+        let [low, high] = [tuning.curve[cell], tuning.curve[cell + 1]];
+        let curve = low + (high - low) * (root - cell as f64);
+        let (mut drive, mut force_n): (f64, f64) = (curve, 0.0);
+        for _ in 0..10_000 {
+            let capacitance_pf = 300.0 * (1.0 + drive * drive / 2.0);
+            force_n = FORCE_GAIN * (capacitance_pf * drive).powi(2);
+            drive += 0.1 * (curve + tuning.proportional * (target_n - force_n) - drive);
+        }
+        force_n
     }
 }
 

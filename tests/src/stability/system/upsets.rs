@@ -5,7 +5,7 @@
 //! Without an upset the state at the end of each frame comes back round after round. Once the state
 //! after an upset is that of the same frame without it, all that follows is the same for ever.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use fastrand::Rng;
 use hapticore_contract::frame::{Flags, Frame};
@@ -62,6 +62,8 @@ pub struct Fates {
     pub rounds: f64,
     /// What stays: upsets that leave a trace, and those with wrong frames at the end, by name.
     pub stays: BTreeMap<String, [u64; 2]>,
+    /// Names of upsets after which a pad had more than one wrong frame, and recovered.
+    pub repeats: BTreeSet<String>,
 }
 
 /// A core that has settled, and what it gives without upsets.
@@ -212,6 +214,10 @@ impl Fates {
         if fate.recovered {
             self.recovered += 1;
             self.most = self.most.max(fate.most_wrong());
+            if fate.most_wrong() > 1 {
+                println!("{name}: {fate:?}");
+                self.repeats.insert(name.into());
+            }
             self.rounds = self.rounds.max(fate.right_after as f64 / round as f64);
             return;
         }
@@ -234,6 +240,7 @@ impl Fates {
             most: self.most.max(others.most),
             rounds: self.rounds.max(others.rounds),
             stays: self.stays,
+            repeats: &self.repeats | &others.repeats,
         }
     }
 }
