@@ -52,13 +52,11 @@ fn no_signal_of_a_bundled_profile_can_overflow() {
 
 #[test]
 fn a_mean_over_windows_cannot_overflow() {
-    for windows in ["2", "64"] {
-        let mut profile = with("small", "windows", windows).expect("a profile");
-        // The program's loop is the same, however often it is run through.
-        profile.position.steps = 1;
-        let proof = prove(&profile);
-        assert!(proof.holds(), "{windows} windows: {:?}", proof.violations.first());
-    }
+    let mut profile = with("small", "windows", "64").expect("a profile");
+    // The program's loop is the same, however often it is run through.
+    profile.position.steps = 1;
+    let proof = prove(&profile);
+    assert!(proof.holds(), "{:?}", proof.violations.first());
 }
 
 /// Drive words of every law: any operands and tuning, any curve, as often as it takes to close.
