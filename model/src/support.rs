@@ -13,5 +13,7 @@ pub mod never_skips;
 #[path = "../tests/equality/random.rs"]
 pub mod random;
 
-pub use comparison::{MILLION, cases, check, check_latency, check_latency_of, within};
+pub use comparison::{
+    MILLION, cases, check, check_latency, check_latency_of, check_run_on, within,
+};
 pub use harness::{Bench, operations};

@@ -131,5 +131,33 @@ mod tests {
             [(16, 16), (17, 16), (18, 16), (18, 8), (4, 6)].map(|(a, b)| ice40.count(a, b)),
             [1, 1, 2, 1, 0]
         );
+        let narrow =
+            [(16, 1), (1, 16), (2, 16), (2, 8), (2, 9), (3, 8), (32, 32), (33, 32), (34, 48)];
+        assert_eq!(narrow.map(|(a, b)| ice40.count(a, b)), [0, 0, 1, 0, 1, 1, 4, 4, 9]);
+        assert_eq!(narrow.map(|(a, b)| ecp5.count(a, b)), [0, 0, 1, 1, 1, 1, 4, 4, 6]);
+    }
+
+    /// Counted by hand in `verilog/tests/parts.v`: each instance counts, what nothing needs does not.
+    #[test]
+    fn operations_are_those_of_the_netlist() {
+        let netlist = Netlist::of(&crate::verilog::tests::parts::parts());
+        let adder = Operations { flip_flops: 3.0, adders: 4.0, ..Operations::default() };
+        assert_eq!(Operations::of(&Netlist { modules: netlist.modules[..1].to_vec() }), adder);
+        let expected = Operations {
+            // step, count, last, kept; two adders of 3 bits and one of 4
+            flip_flops: (1 + 3 + 7 + 5) as f64 + (3 + 3 + 4) as f64,
+            // sums, differences, magnitudes, orders; those of the adders
+            adders: (7 + 6 + 4 + 4 + 4) as f64
+                + (6 + 7 + 5 + 3) as f64
+                + (5 + 3 + 5 + 4 + 4 + 5) as f64,
+            // what step, count, last and kept take next; choice, choices, assumed
+            selects: (2 + 9 + 21 + 10) as f64 + (6 + 17 + 3) as f64,
+            memory_bits: (8 * 3 + 5 * 4) as f64,
+            // 6 × 6 bits are enough for iCE40; 5 × 3, 3 × 5 and 5 × 5 are not
+            multipliers: [1.0, 4.0],
+            block_rams: [1.0; 2],
+        };
+        assert_eq!(Operations::of(&netlist), expected);
+        assert_eq!(Operations::of(&Netlist { modules: Vec::new() }), Operations::default());
     }
 }

@@ -369,3 +369,6 @@ pub trait Edit<V: Interpretation> {
     /// The words of a memory, and what it reads.
     fn memory(&mut self, memory: &Memory, words: &mut V::Words);
 }
+
+#[cfg(test)]
+mod tests;

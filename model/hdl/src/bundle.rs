@@ -161,6 +161,7 @@ macro_rules! bundle {
 
         impl<T: Copy> $name<T> {
             /// The same in every field.
+            #[allow(dead_code)]
             #[inline(always)]
             pub fn of(all: T) -> Self {
                 $name { $($field: $crate::bundle!(@of all $(, $group)?)),* }
@@ -270,3 +271,6 @@ macro_rules! next {
         }
     }};
 }
+
+#[cfg(test)]
+mod tests;

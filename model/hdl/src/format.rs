@@ -299,44 +299,4 @@ impl<'de> serde::Deserialize<'de> for Format {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn formats_read_and_print() {
-        for text in ["s18.17", "u32.32", "u18.38", "s24.-3"] {
-            assert_eq!(text.parse::<Format>().unwrap().to_string(), text);
-        }
-        for text in ["", "x8.7", "s0.0", "s64.0", "s18", "u1.x", "é8.1"] {
-            assert!(text.parse::<Format>().is_err(), "{text}");
-        }
-    }
-
-    #[test]
-    fn arithmetic_formats_hold_their_corners() {
-        let (s, u) = (Format::signed(4, 2), Format::unsigned(3, 1));
-        assert_eq!(s.product(u), Format::signed(7, 3));
-        assert_eq!(s.join(u), Format::signed(5, 2));
-        assert_eq!(s.sum(u), Format::signed(6, 2));
-        assert_eq!(u.difference(u), Format::signed(4, 1));
-        assert_eq!(
-            s.min_code() * s.min_code(),
-            64,
-            "the square of the most negative code needs the whole product"
-        );
-        assert!(s.product(s).max_code() >= 64);
-    }
-
-    #[test]
-    fn full_scale_and_ties() {
-        let s = Format::signed(4, 0);
-        assert_eq!(
-            s.code(7.5),
-            None,
-            "half way to the code above the largest rounds to even, out of the format"
-        );
-        assert_eq!(s.code_saturating(9.0), 7);
-        assert_eq!(s.code_saturating(f64::NAN), 0);
-        assert_eq!(s.code(2.5), Some(2));
-    }
-}
+mod tests;

@@ -98,6 +98,8 @@ pub mod block;
 pub mod bundle;
 pub mod claims;
 mod declaration;
+#[cfg(test)]
+mod exact;
 pub mod format;
 pub mod interpretations;
 pub mod memory;

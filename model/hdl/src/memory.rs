@@ -149,3 +149,6 @@ impl Memory {
         V::access(self, words, address, Some(write));
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -164,3 +164,6 @@ impl Block for Multiplier {
         outputs
     }
 }
+
+#[cfg(test)]
+mod tests;

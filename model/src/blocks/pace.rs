@@ -65,3 +65,6 @@ impl Block for Pace {
         outputs
     }
 }
+
+#[cfg(test)]
+mod tests;

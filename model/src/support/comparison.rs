@@ -4,9 +4,10 @@
 
 use super::harness::{Bench, operations, show};
 use super::random::Random;
-use hapticore_hdl::block::{Block, Inputs, Interpretation, Outputs};
+use hapticore_hdl::block::{Block, Inputs, Interpretation, Outputs, State};
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::Format;
+use hapticore_hdl::signal::Signal;
 
 /// Operations of a block in a test of random ones, over all profiles.
 pub const MILLION: u64 = 1_000_000;
@@ -91,6 +92,28 @@ pub fn check_latency_of<B: Block>(
     for inputs in cases(&bench.block, operations, 1).map(legal) {
         let (_, clocks) = bench.operate(inputs);
         assert_eq!(clocks, latency, "{}: clocks measured, latency()", B::NAME);
+    }
+}
+
+/// Holds that a block whose clocks are run on at once has the results of one that is clocked. `run_on`
+/// follows the clock of `start`, and gets its inputs.
+pub fn check_run_on<B: Block>(
+    [clocked, hurried]: [B; 2],
+    legal: impl Fn(Inputs<B, i64>) -> Inputs<B, i64>,
+    run_on: impl Fn(&B, &mut State<B, i64>, Inputs<B, Signal<i64>>),
+) {
+    let [mut clocked, mut hurried] = [clocked, hurried].map(Bench::new);
+    for inputs in cases(&clocked.block, CLOCKS / 500, 2).map(legal) {
+        let started = with::<B::Inputs>(inputs, "start", 1);
+        let with_formats = B::Inputs::zip(started, hurried.block.inputs());
+        hurried.clock(started);
+        let signals = B::Inputs::map(with_formats, |(value, format)| Signal { value, format });
+        run_on(&hurried.block, &mut hurried.state, signals);
+        let at_once = hurried.clock(with::<B::Inputs>(inputs, "start", 0));
+        let (expected, _) = clocked.operate(inputs);
+        assert_eq!(field::<B::Outputs>(at_once, "done"), 1, "{}", B::NAME);
+        let [at_once, expected] = [at_once, expected].map(show::<B::Outputs>);
+        assert_eq!(at_once, expected, "{} of {}", B::NAME, show::<B::Inputs>(inputs));
     }
 }
 

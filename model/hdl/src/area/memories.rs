@@ -122,6 +122,33 @@ mod tests {
         assert_eq!(block_rams(&shortened), [2, 1], "of 20 bits, 11 are always zero");
     }
 
+    /// Cells and cost by the formula at the head, worked by hand.
+    #[test]
+    fn cells_and_their_cost() {
+        let [ice40, ecp5] = &FAMILIES;
+        assert_eq!(ice40.block.takes(256, 16, true), (1, 66.0));
+        assert_eq!(ice40.block.takes(257, 16, true), (2, 130.0));
+        assert_eq!(ice40.block.takes(2049, 2, true), (2, 0.5 * (2.0 + 2.0) + 130.0));
+        assert_eq!(ice40.block.takes(2049, 2, false), (2, 0.5 * 2.0 + 130.0));
+        assert_eq!(ecp5.block.takes(512, 36, true), (1, 130.0));
+        assert_eq!(ecp5.block.takes(512, 37, true), (2, 258.0), "a byte has nine bits");
+        let distributed = ecp5.distributed.as_ref().expect("it has some");
+        assert_eq!(distributed.takes(16, 4, true), (1, 6.0));
+        assert_eq!(distributed.takes(32, 5, true), (4, 4.0 * 4.0 + 0.5 * (5.0 + 2.0) + 2.0));
+    }
+
+    #[test]
+    fn bits_that_are_the_same_in_all_words_take_no_memory() {
+        let table = |initial: &[i64], bits| Ram {
+            initial: initial.to_vec(),
+            format: Format::signed(bits, 0),
+            ..memory(1, bits, false)
+        };
+        assert_eq!(columns(&table(&[0b0101, 0b0110, 0b0100], 4)), 2);
+        assert_eq!(columns(&table(&[-1, 0], 5)), 5);
+        assert_eq!(columns(&table(&[-1, -1], 5)), 0);
+    }
+
     #[test]
     fn a_memory_may_ask_for_a_block() {
         let small = Ram { block: true, ..memory(16, 8, true) };

@@ -221,33 +221,4 @@ fn mirrored(code: i64, format: Format) -> i64 {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::signal::{Floor, HalfEven, Saturate, Wrap};
-
-    fn signal(value: i64, format: Format) -> Signal<i64> {
-        Signal { value, format }
-    }
-
-    #[test]
-    fn ties_go_to_even_on_both_sides_of_zero() {
-        let quarter = Format::signed(8, 2);
-        let rounded =
-            |code| signal(code, quarter).quantize(Format::signed(8, 0), HalfEven, Saturate).value;
-        assert_eq!([-10, -6, -5, -2, -1, 2, 3, 6, 10].map(rounded), [-2, -2, -1, 0, 0, 0, 1, 2, 2]);
-    }
-
-    #[test]
-    fn narrowings_do_what_they_are_named_for() {
-        let (wide, narrow) = (Format::signed(8, 0), Format::signed(4, 0));
-        assert_eq!(
-            [-128, -9, 7, 100].map(|c| signal(c, wide).resize(narrow, Saturate).value),
-            [-8, -8, 7, 7]
-        );
-        assert_eq!([-9, 8, 23].map(|c| signal(c, wide).resize(narrow, Wrap).value), [7, -8, 7]);
-        assert_eq!(signal(-1, Format::signed(8, 1)).quantize(wide, Floor, Wrap).value, -1);
-        assert_eq!(signal(-128, wide).abs().value, 128);
-        let (held, saturated) = signal(127, Format::signed(8, 4)).saturate(narrow, HalfEven);
-        assert_eq!((held.value, saturated.value), (7, 1), "7.94 rounds to 8, which saturates to 7");
-    }
-}
+mod tests;

@@ -451,3 +451,6 @@ fn ram(memory: &Memory, index: &mut Option<usize>) -> usize {
         })
     })
 }
+
+#[cfg(test)]
+mod tests;

@@ -368,3 +368,6 @@ fn read(words: &[Range], address: Range) -> Range {
     let within = &words[address.low as usize..=address.high as usize];
     within.iter().copied().reduce(Range::join).expect("an address means a word")
 }
+
+#[cfg(test)]
+mod tests;

@@ -169,3 +169,6 @@ impl Interpretation for Real {
         block.clock(state, inputs)
     }
 }
+
+#[cfg(test)]
+mod tests;

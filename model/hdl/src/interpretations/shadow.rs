@@ -199,3 +199,6 @@ fn nearest_turn(real: f64, wrapped: f64, to: Format) -> Real {
     let span = 2f64.powi(i32::from(to.width) - i32::from(to.frac));
     Real(real - span * ((real - wrapped) / span).round())
 }
+
+#[cfg(test)]
+mod tests;

@@ -27,3 +27,6 @@ mod terms;
 mod used;
 
 pub use system::{Problem, Property, System, Variable};
+
+#[cfg(test)]
+mod tests;

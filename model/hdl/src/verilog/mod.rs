@@ -139,3 +139,6 @@ impl Design {
         self.modules.iter().map(|file| file.text.as_str()).collect::<Vec<_>>().join("\n")
     }
 }
+
+#[cfg(test)]
+pub(crate) mod tests;

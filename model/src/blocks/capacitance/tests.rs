@@ -3,7 +3,7 @@
 
 use super::{Capacitance, Inputs};
 use crate::blocks::currents::Currents;
-use crate::support::{Bench, MILLION, cases, check, check_latency};
+use crate::support::{Bench, MILLION, cases, check, check_latency, check_run_on};
 use hapticore_contract::profile::Profile;
 use hapticore_reference::rounded::{self, Exact};
 
@@ -48,5 +48,25 @@ fn latency_is_the_clocks_measured() {
                     .unwrap();
             check_latency(block.clone(), block.latency());
         }
+    }
+}
+
+#[test]
+fn a_capacitance_that_is_run_on_is_the_same() {
+    for name in ["small", "standard"] {
+        let profile = Profile::bundled(name).expect("bundled");
+        let amplitude = Currents::try_new(&profile).unwrap().amplitude();
+        let block = || Capacitance::try_new(&profile, amplitude).unwrap();
+        let mut hurried = block();
+        hurried.hurry();
+        check_run_on(
+            [block(), hurried],
+            |i| i,
+            |block, state, inputs| {
+                assert!(block.is_busy(state));
+                block.run_on(state, inputs);
+                assert!(!block.is_busy(state));
+            },
+        );
     }
 }

@@ -3,7 +3,7 @@
 //! the clocks they take.
 
 use super::{Divider, Inputs, Outputs};
-use crate::support::{Bench, MILLION, cases, check, check_latency};
+use crate::support::{Bench, MILLION, cases, check, check_latency, check_run_on};
 use hapticore_hdl::format::Format;
 use hapticore_reference::rounded::{Exact, round_quotient};
 
@@ -96,5 +96,29 @@ fn latency_is_the_clocks_measured() {
     for width in [3, 8, 20] {
         let block = Divider::new(n, d, Format::unsigned(width, 5));
         check_latency(block.clone(), block.latency());
+    }
+}
+
+#[test]
+fn a_hurried_divider_has_the_same_quotients_at_once() {
+    let [n, d, q] = ["u12.4", "u9.7", "u7.3"].map(|text| text.parse().expect("a format"));
+    let mut hurried = Divider::new(n, d, q);
+    hurried.hurry();
+    check_run_on([Divider::new(n, d, q), hurried], |i| i, |_, _, _| ());
+}
+
+#[test]
+fn a_divider_refuses_what_it_cannot_divide() {
+    let of = |texts: [&str; 3]| {
+        let [n, d, q] = texts.map(|text| text.parse().expect("a format"));
+        std::panic::catch_unwind(|| Divider::new(n, d, q)).is_ok()
+    };
+    assert!(of(["u8.4", "u4.2", "u7.2"]));
+    assert!(
+        !of(["u8.4", "u4.2", "u7.1"]),
+        "fewer fractional bits than numerator and denominator leave"
+    );
+    for signed in [["s8.4", "u4.2", "u7.5"], ["u8.4", "s4.2", "u7.5"], ["u8.4", "u4.2", "s7.5"]] {
+        assert!(!of(signed), "{signed:?}");
     }
 }

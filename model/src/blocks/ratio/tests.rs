@@ -3,7 +3,7 @@
 
 use super::{Inputs, Ratio};
 use crate::blocks::currents::Currents;
-use crate::support::{Bench, MILLION, cases, check, check_latency_of};
+use crate::support::{Bench, MILLION, cases, check, check_latency_of, check_run_on};
 use hapticore_contract::profile::Profile;
 use hapticore_reference::rounded::{self, Exact};
 
@@ -43,4 +43,14 @@ fn latency_is_the_clocks_measured() {
         let block = Ratio::try_new(&profile, currents.sums(), currents.least()).unwrap();
         check_latency_of(block.clone(), block.latency(), bounded);
     }
+}
+
+#[test]
+fn ratios_that_are_run_on_are_the_same() {
+    let profile = Profile::bundled("small").expect("bundled");
+    let currents = Currents::try_new(&profile).unwrap();
+    let block = || Ratio::try_new(&profile, currents.sums(), currents.least()).unwrap();
+    let mut hurried = block();
+    hurried.hurry();
+    check_run_on([block(), hurried], bounded, |block, state, inputs| block.run_on(state, inputs));
 }

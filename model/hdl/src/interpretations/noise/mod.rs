@@ -300,25 +300,4 @@ impl Interpretation for Noise {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn input(recording: &Recording, real: f64, format: Format) -> Signal<Noise> {
-        let code = format.code(real).expect("a code");
-        let moments = Moments { mean: 0.0, variance: 1.0, bound: 2.0 };
-        recording.input("input", Shadow { code, real }, format, moments)
-    }
-
-    #[test]
-    fn what_two_signals_have_in_common_counts_once() {
-        let recording = Recording::begin();
-        let format = Format::signed(8, 2);
-        let [x, y] = [3.0, -5.0].map(|real| input(&recording, real, format));
-        let variance = |of: Signal<Noise>| recording.errors(of.value).total.variance;
-        assert_eq!(variance(x + y), 2.0);
-        assert_eq!(variance(x + x), 4.0);
-        assert_eq!(variance(x - x), 0.0);
-        assert_eq!(variance(x * y), 34.0, "5²+3²");
-        assert_eq!(variance((x - x) * y), 0.0);
-    }
-}
+mod tests;
