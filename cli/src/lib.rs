@@ -59,7 +59,7 @@ pub fn main() -> ExitCode {
                 Some(stopped) => console::complain(format_args!("{stopped}")),
                 None => console::complain(format_args!("{}", interrupt::Interrupted)),
             }
-            ExitCode::from(130)
+            ExitCode::from(interrupt::STATUS)
         }
         Err(error) => {
             console::complain(format_args!("error: {}", one_line(&error)));
@@ -68,7 +68,26 @@ pub fn main() -> ExitCode {
     }
 }
 
-/// The error and its causes, joined by colons.
-fn one_line(error: &anyhow::Error) -> String {
-    format!("{error:#}").lines().map(str::trim).collect::<Vec<_>>().join(" ")
+/// The longest message, characters: what an input holds is cited, however long.
+const LONGEST: usize = 2000;
+
+/// The error and its causes, joined by colons: one line that a terminal shows as it is, whatever was
+/// in the input that it cites.
+///
+/// ```
+/// let error = anyhow::anyhow!("i1: expected a code, got \"\u{1b}[2J\"").context("c.csv:3");
+/// assert_eq!(hapticore::one_line(&error), r#"c.csv:3: i1: expected a code, got "\u{1b}[2J""#);
+/// ```
+pub fn one_line(error: &anyhow::Error) -> String {
+    let line = format!("{error:#}").lines().map(str::trim).collect::<Vec<_>>().join(" ");
+    let shown = |c: char| match c {
+        '"' | '\'' | '\\' => String::from(c),
+        // As it is, but for what moves a terminal's cursor or turns its text around.
+        c => c.escape_debug().collect(),
+    };
+    let mut start: String = line.chars().take(LONGEST).map(shown).collect();
+    if line.chars().nth(LONGEST).is_some() {
+        start.push('…');
+    }
+    start
 }

@@ -168,7 +168,7 @@ fn text_of(profile: &Profile) -> Result<String> {
     Ok(format!("# Found by hapticore tradeoff.\n{}", toml::to_string(profile)?))
 }
 
-const COLUMNS: &str = "knob,value,latency_clocks,age_us,frames_per_second,luts_ecp5,luts_ice40,flip_flops,multipliers,memory_bits,least_codes";
+const COLUMNS: &str = "knob,value,latency_clocks,age_us,frames_per_second,luts_ecp5,luts_ice40,flip_flops,multipliers,memory_bits,multipliers_ice40,block_rams_ecp5,block_rams_ice40,least_codes";
 
 fn csv(points: &[Point]) -> String {
     let mut head = COLUMNS.to_string();
@@ -182,7 +182,7 @@ fn csv(points: &[Point]) -> String {
     let row = |point: &Point| {
         let cost = &point.cost;
         let mut row = format!(
-            "{},{},{},{},{},{},{},{},{},{},{}",
+            "{},{},{},{},{},{},{},{},{},{},{},{},{},{}",
             point.knob,
             point.value,
             cost.latency_clocks,
@@ -193,6 +193,9 @@ fn csv(points: &[Point]) -> String {
             cost.flip_flops,
             cost.multipliers,
             cost.memory_bits,
+            cost.multipliers_ice40,
+            cost.block_rams,
+            cost.block_rams_ice40,
             point.least_codes
         );
         for error in point.predicted.iter().chain(&point.measured) {
@@ -216,6 +219,7 @@ fn print(tradeoff: &Tradeoff) {
         "age µs",
         "LUT4",
         "FF",
+        "BRAM",
         "front",
     ];
     let row = |point: &Point| {
@@ -229,6 +233,7 @@ fn print(tradeoff: &Tradeoff) {
         cells.push(number(point.cost.age_us));
         cells.push(format!("{:.0}", point.cost.luts));
         cells.push(format!("{:.0}", point.cost.flip_flops));
+        cells.push(format!("{:.0}", point.cost.block_rams));
         cells.push(front(point));
         cells
     };

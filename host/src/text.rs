@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Text files, and the messages about wrong ones.
 
-use std::fs;
-use std::io;
+use std::fs::File;
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 /// A file that cannot be read, or is no text.
@@ -15,12 +15,22 @@ pub struct ReadError {
     pub source: io::Error,
 }
 
+/// The largest text, bytes: all of it is held in memory, and a device or a pipe may have no end.
+pub const MOST_BYTES: u64 = 1 << 22;
+
 /// A file's text.
 ///
 /// # Errors
-/// It cannot be read, or is no text.
+/// It cannot be read, is no text, or is longer than [`MOST_BYTES`].
 pub fn read(path: &Path) -> Result<String, ReadError> {
-    fs::read_to_string(path).map_err(|source| ReadError { path: path.to_owned(), source })
+    let mut text = String::new();
+    File::open(path)
+        .and_then(|file| file.take(MOST_BYTES + 1).read_to_string(&mut text))
+        .and_then(|bytes| match bytes as u64 > MOST_BYTES {
+            true => Err(io::Error::other(format!("expected a text of at most {MOST_BYTES} bytes"))),
+            false => Ok(text),
+        })
+        .map_err(|source| ReadError { path: path.to_owned(), source })
 }
 
 /// A message `LINE: what` about a TOML text, with the key of the line.

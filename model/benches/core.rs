@@ -3,6 +3,9 @@
 //!
 //! `cargo bench -p hapticore-model --bench core [PROFILE]`. Figures are medians of alternating
 //! rounds; nothing here asserts a time, for the machine is never quiet: quote the ratios.
+//!
+//! An instant is a time of sampling, in which all channels are sampled; each has two products and the
+//! haptic one a third. A channel sample is one code.
 
 use dsp_process::SplitProcess;
 use hapticore_contract::calibration::{Calibration, ForceTable, Point, PositionTable};
@@ -11,6 +14,7 @@ use hapticore_model::fidelity::{clock::ClockSimulation, fixed::FixedSimulation};
 use idsp::{Lockin, Lowpass, Lowpass2, LowpassState};
 use std::f64::consts::{SQRT_2, TAU};
 use std::num::Wrapping;
+use std::ops::AddAssign;
 use std::time::Instant;
 
 const ROUNDS: usize = 7;
@@ -28,13 +32,26 @@ fn main() {
     let mut clock = ClockSimulation::new(&profile, &calibration);
     let mut fixed: FixedSimulation = FixedSimulation::new(&profile, &calibration);
     let memory = resident_kib();
-    let (mut clocks, mut instants, mut lockin) = (Vec::new(), Vec::new(), Vec::new());
+    let mut rates: [Vec<f64>; 6] = Default::default();
     for _ in 0..ROUNDS {
-        clocks.push(rate(|| run_clock(&mut clock, &codes)));
-        instants.push(rate(|| run_fixed(&mut fixed, &profile, &codes)));
-        lockin.push(rate(|| run_idsp(&profile, &codes)));
+        let round = [
+            rate(|| run_clock(&mut clock, &codes)),
+            rate(|| run_fixed(&mut fixed, &profile, &codes)),
+            rate(|| run_sums(&mut fixed, &profile, &codes)),
+            rate(|| run_limit(&profile, &codes, f64::from, |code, word| f64::from(code) * word)),
+            rate(|| {
+                run_limit(
+                    &profile,
+                    &codes,
+                    |word| word,
+                    |code, word| i64::from(code) * i64::from(word),
+                )
+            }),
+            rate(|| run_idsp(&profile, &codes)),
+        ];
+        rates.iter_mut().zip(round).for_each(|(rates, rate)| rates.push(rate));
     }
-    let [clocks, instants, lockin] = [clocks, instants, lockin].map(median);
+    let [clocks, instants, sums, floats, integers, lockin] = rates.map(median);
     let channels = profile.channels() as f64;
     let share = profile.slot.integrate as f64 / profile.slot.samples() as f64;
     println!("profile {}, {ROUNDS} rounds, medians", profile.name);
@@ -45,9 +62,15 @@ fn main() {
         BOARD_HZ / 1e6
     );
     println!(
-        "fixed   {:8.1} M instants/s in window {:6.1} × 1 MS/s",
+        "fixed   {:8.1} M instants/s in window {:6.1} × 1 MS/s, whole slots with their estimates",
         instants / 1e6,
         instants / SAMPLE_HZ
+    );
+    println!("        {:8.1} M instants/s, the window's sums alone", sums / 1e6);
+    println!(
+        "        {:8.1} M instants/s, a plain loop of two products a channel in f64; {:.1} M in i64",
+        floats / 1e6,
+        integers / 1e6
     );
     println!(
         "        with the blanking between, which it need not look at: {:.1} × real time",
@@ -128,6 +151,41 @@ fn run_fixed(fixed: &mut FixedSimulation, profile: &Profile, codes: &[i32]) -> f
         std::hint::black_box(fixed.slot(slot % profile.pads as usize, window));
     }
     (SLOTS * fixed.window()) as f64
+}
+
+/// The sums of a window without the estimate.
+fn run_sums(fixed: &mut FixedSimulation, profile: &Profile, codes: &[i32]) -> f64 {
+    let window = &codes[profile.slot.blanking() as usize * profile.channels()..];
+    for _ in 0..SLOTS {
+        std::hint::black_box(fixed.sums(window));
+    }
+    (SLOTS * fixed.window()) as f64
+}
+
+/// What a loop over eight channels can do that multiplies codes by two words of each instant, and
+/// nothing else.
+fn run_limit<W: Copy, S: Copy + Default + AddAssign>(
+    profile: &Profile,
+    codes: &[i32],
+    word: impl Fn(i32) -> W,
+    product: impl Fn(i32, W) -> S,
+) -> f64 {
+    const CHANNELS: usize = 8;
+    let window = profile.slot.integrate as usize;
+    let words: Vec<[W; 2]> = (1..).map(|n| [word(n), word(-n)]).take(window).collect();
+    for _ in 0..SLOTS {
+        let (samples, _) = std::hint::black_box(codes).as_chunks::<CHANNELS>();
+        let (mut in_phase, mut quadrature) = ([S::default(); CHANNELS], [S::default(); CHANNELS]);
+        for (codes, words) in samples.iter().zip(&words) {
+            for channel in 0..CHANNELS {
+                in_phase[channel] += product(codes[channel], words[0]);
+                quadrature[channel] += product(codes[channel], words[1]);
+            }
+        }
+        let sums = [in_phase, quadrature];
+        std::hint::black_box(sums);
+    }
+    (SLOTS * window) as f64
 }
 
 fn run_idsp(profile: &Profile, codes: &[i32]) -> f64 {

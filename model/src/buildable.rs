@@ -10,10 +10,22 @@ pub(crate) fn fits(field: &str, word: &str, width: u8) -> Result<(), ProfileErro
     if width <= MAX_WIDTH {
         return Ok(());
     }
-    Err(ProfileError::value(field, format_args!("{word} of at most {MAX_WIDTH} bits"), width))
+    let expected = format_args!("{word} of at most {MAX_WIDTH} bits");
+    let lacking = width - MAX_WIDTH;
+    let s = if lacking == 1 { "" } else { "s" };
+    Err(ProfileError::value(
+        field,
+        expected,
+        format_args!("{width}: a word lacks {lacking} bit{s}"),
+    ))
 }
 
 /// Whether words of the model suffice to round a signal to the format of a field.
-pub(crate) fn rounds(field: &str, signal: Format, to: Format) -> Result<(), ProfileError> {
-    fits(field, "what is rounded to it", signal.rounding_width(to))
+pub(crate) fn rounds(
+    field: &str,
+    name: &str,
+    signal: Format,
+    to: Format,
+) -> Result<(), ProfileError> {
+    fits(field, &format!("{name} with room to round it,"), signal.rounding_width(to))
 }

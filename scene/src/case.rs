@@ -12,6 +12,9 @@ use crate::pad::{PadPlan, Tables};
 /// The most pads of a scene.
 const MOST_PADS: usize = 16;
 
+/// The most points of a sweep, every combination of all that a pad sweeps.
+const MOST_POINTS: usize = 10_000_000;
+
 /// Keys of `[sheet]` of which the host knows nothing: what makes a film non-uniform.
 const UNEVEN: [&str; 2] = ["slope_percent", "patch"];
 
@@ -216,6 +219,10 @@ impl Length {
         let duration_s = root.number("duration_s", Limits::above(0.0, 1e5))?;
         let dwell = root.whole("dwell_slots", 1, 1_000_000)?;
         let points = pads.iter().map(PadPlan::points).max().unwrap_or(1);
+        if points > MOST_POINTS {
+            let message = format!("expected at most {MOST_POINTS} points of a sweep, got more");
+            return Err(root.error("pad", message));
+        }
         match (duration_s, dwell) {
             (Some(duration_s), None) if points == 1 => Ok(Length::Time { duration_s }),
             (Some(_), None) => {

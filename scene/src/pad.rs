@@ -85,8 +85,8 @@ impl PadPlan {
 
     /// Points of the whole sweep; one where nothing is swept.
     pub fn points(&self) -> usize {
-        self.trajectory.points()
-            * self.stimuli().into_iter().map(Stimulus::points).product::<usize>()
+        let points = self.stimuli().into_iter().map(Stimulus::points);
+        points.fold(self.trajectory.points(), usize::saturating_mul)
     }
 
     /// Whether anything depends on time.

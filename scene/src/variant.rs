@@ -5,6 +5,9 @@
 use crate::error::SceneError;
 use crate::format::{self, Node, Table};
 
+/// The most cases of a scene: each is a copy of all that the scene says.
+const MOST_CASES: usize = 256;
+
 /// Keys that belong to the scene as a whole, so that a case cannot set them.
 const WHOLE: [&str; 10] = [
     "title",
@@ -32,8 +35,15 @@ pub(crate) struct Variant {
 
 /// All variants; one named `main` that sets nothing where there is no `[[case]]`.
 pub(crate) fn variants(root: &Table) -> Result<Vec<Variant>, SceneError> {
-    let mut variants: Vec<Variant> = Vec::new();
-    for table in root.tables("case")? {
+    let (mut variants, tables) = (Vec::<Variant>::new(), root.tables("case")?);
+    if tables.len() > MOST_CASES {
+        let got = tables.len();
+        return Err(root.error(
+            "case",
+            format!("expected at most {MOST_CASES} tables headed [[case]], got {got}"),
+        ));
+    }
+    for table in tables {
         let variant = Variant::read(table)?;
         if variants.iter().any(|other| other.name == variant.name) {
             return Err(table.error(

@@ -5,7 +5,7 @@
 //! [carrier]
 //! haptic_wave = "square"          # "sine" (default) | "dc" | "square"
 //! haptic_hz = 1000                # of the sine
-//! haptic_turn_s = 0.0017          # a square's polarity turns so often, from time 0 on; with every slot where absent
+//! haptic_turn_s = 0.0017          # a square's polarity turns so often, 1 µs at least, from time 0 on; with every slot where absent
 //! ```
 //!
 //! A sine and a square have no mean, so that no charge gathers in the insulators (`effects/charge`);
@@ -35,7 +35,7 @@ impl HapticWave {
     pub(crate) fn read(root: &Table) -> Result<HapticWave, SceneError> {
         let Some(carrier) = root.table("carrier")? else { return Ok(HapticWave::Sine) };
         let word = carrier.choice("haptic_wave", &["sine", "dc", "square"])?;
-        let turn_s = carrier.number("haptic_turn_s", Limits::above(0.0, 1e5))?;
+        let turn_s = carrier.number("haptic_turn_s", Limits::within(1e-6, 1e5))?;
         match (word, turn_s) {
             (Some("square"), turn_s) => Ok(HapticWave::Square { turn_s }),
             (_, Some(_)) => Err(carrier.error(

@@ -11,6 +11,7 @@
 //! | [`target`] | families, boards and what must hold on each |
 //! | [`tools`] | the tools that `synth/tools` fetched |
 //! | [`formal`] | proofs with SymbiYosys |
+//! | [`claims`] | `Assumed` narrowings and invariants of a block, decided by a solver |
 //! | [`flow`] | synthesis, placement and packing of one design |
 //! | [`harness`] | a core between shift registers, so that it can be placed without a board |
 //! | [`loops`] | force loops whose area and clock are reported |
@@ -24,6 +25,7 @@
 //! proofs.
 
 pub mod cells;
+pub mod claims;
 pub mod flow;
 pub mod formal;
 pub mod harness;

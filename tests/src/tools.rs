@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The HDL tools that tests look through.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 /// Whether all these commands are there. A missing one is reported; in CI that is a failure.
@@ -9,17 +9,20 @@ use std::process::{Command, Output};
 /// # Panics
 /// In CI (`CI=true`), where one is missing.
 pub fn have(commands: &[&str]) -> bool {
-    let there = |command: &str| {
-        let paths = std::env::var_os("PATH").unwrap_or_default();
-        std::env::split_paths(&paths).any(|folder| folder.join(command).is_file())
-    };
-    let missing: Vec<_> = commands.iter().copied().filter(|command| !there(command)).collect();
+    let missing: Vec<_> =
+        commands.iter().copied().filter(|command| find(command).is_none()).collect();
     if missing.is_empty() {
         return true;
     }
     assert!(std::env::var("CI").as_deref() != Ok("true"), "missing in CI: {}", missing.join(", "));
     eprintln!("SKIPPED: {} not found; ./test fetches what is missing", missing.join(", "));
     false
+}
+
+/// The file of a command, where it is on the path.
+pub fn find(command: &str) -> Option<PathBuf> {
+    let paths = std::env::var_os("PATH").unwrap_or_default();
+    std::env::split_paths(&paths).map(|folder| folder.join(command)).find(|file| file.is_file())
 }
 
 /// Runs a command in a folder to its end.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Clocked model = printed Verilog, every output at every clock: random input and whole scenes, in
-//! two simulators.
+//! four simulators.
 
 use hapticore_contract::control::{Control, Law};
 use hapticore_contract::profile::{self, ForceLaw, Profile};
@@ -8,15 +8,17 @@ use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::verilog::Design;
 use hapticore_host::profile::for_terminals;
 use hapticore_model::blocks::controller::{self, Controller};
+use hapticore_model::blocks::divider::Divider;
 use hapticore_model::blocks::haptic_voltage::HapticVoltage;
 use hapticore_model::blocks::wall::{Inputs, Wall};
 use hapticore_rtl::board::drive_output::serial::Frame;
 use hapticore_rtl::board::drive_output::{self, Converter, DriveOutput, Wave};
 use hapticore_tests::force_loop::Closed;
-use hapticore_tests::lockstep::verilator::{Start, Verilated};
-use hapticore_tests::lockstep::{Bench, Trace, icarus};
+use hapticore_tests::lockstep::verilator::{Start, Verilated, Version};
+use hapticore_tests::lockstep::{Bench, Mismatch, Trace, cxxrtl, icarus};
 use hapticore_tests::{stimulus, tools};
 use std::collections::BTreeSet;
+use std::time::Instant;
 
 /// Clocks that Verilator runs at least, of each profile.
 const CLOCKS: usize = 1_000_000;
@@ -72,6 +74,110 @@ fn icarus_runs_what_the_model_runs() {
             }
         }
     }
+}
+
+/// Runs short traces in the simulators that nothing else here uses, and says which, for how many
+/// clocks and seconds.
+fn other_simulators_run_what_the_model_runs(profile: &str) {
+    let bench = Bench::new(profile);
+    let (top, ports, text) = (bench.design.top(), &bench.design.ports, bench.design.text());
+    let traces = [
+        bench.record(stimulus::scene(&bench.profile, "hockey", 2)),
+        bench.record(stimulus::random(&bench.profile, 3, 1)),
+    ];
+    let clocks: usize = traces.iter().map(Trace::clocks).sum();
+    let say = |simulator: &str, start: Instant| {
+        let seconds = start.elapsed().as_secs_f64();
+        println!(
+            "{profile}: {clocks} clocks equal in {simulator}, {seconds:.1} s with compilation"
+        );
+    };
+    if tools::have(&Version::Current.commands()) {
+        let start = Instant::now();
+        let verilated = Verilated::with(Version::Current, top, ports, &text, Start::Zero);
+        for trace in &traces {
+            verilated.check(trace).unwrap_or_else(|found| panic!("{profile}, Verilator: {found}"));
+        }
+        say(&Version::Current.name(), start);
+    }
+    if tools::have(&cxxrtl::COMMANDS) {
+        let start = Instant::now();
+        let result = cxxrtl::check(top, &text, &traces);
+        result.unwrap_or_else(|found| panic!("{profile}, CXXRTL: {found}"));
+        say("CXXRTL", start);
+    }
+}
+
+#[test]
+fn other_simulators_run_what_the_model_runs_small() {
+    other_simulators_run_what_the_model_runs("small");
+}
+
+#[test]
+fn other_simulators_run_what_the_model_runs_standard() {
+    other_simulators_run_what_the_model_runs("standard");
+}
+
+/// What each simulator says of a divider's Verilog on a trace of its model.
+fn in_each_simulator(verilog: &str, top: &str, trace: &Trace) -> Vec<(String, Option<Mismatch>)> {
+    let mut results = Vec::new();
+    for version in [Version::Distribution, Version::Current] {
+        if tools::have(&version.commands()) {
+            let verilated = Verilated::with(version, top, &trace.ports, verilog, Start::Zero);
+            results.push((version.name(), verilated.check(trace).err()));
+        }
+    }
+    if tools::have(&["iverilog", "vvp"]) {
+        results.push(("Icarus".into(), icarus::check(top, verilog, trace).err()));
+    }
+    if tools::have(&cxxrtl::COMMANDS) {
+        let result = cxxrtl::check(top, verilog, std::slice::from_ref(trace));
+        results.push(("CXXRTL".into(), result.err()));
+    }
+    results
+}
+
+#[test]
+fn each_simulator_notices_a_mutant_at_the_same_clock() {
+    let u = hapticore_hdl::format::Format::unsigned;
+    let block = Divider::new(u(12, 8), u(11, 7), u(10, 8));
+    let design = Design::of(&block, "a test");
+    let (top, text) = (design.top(), design.text());
+    let trace =
+        Trace::record(&block, design.ports.clone(), stimulus::operations(&block, 1, 100, 0, 0));
+    for (simulator, found) in in_each_simulator(&text, top, &trace) {
+        assert_eq!(found, None, "{simulator}, as printed");
+    }
+    let mutant = text.replacen("} - {", "} + {", 1);
+    assert_ne!(mutant, text, "the divider subtracts");
+    let found = in_each_simulator(&mutant, top, &trace);
+    for (simulator, mismatch) in &found {
+        println!("{simulator}: {mismatch:?}");
+        assert_eq!(*mismatch, found[0].1, "{simulator}, {}", found[0].0);
+    }
+    assert!(found.iter().all(|(_, mismatch)| mismatch.is_some()));
+}
+
+/// CXXRTL's assertions are on: an address beyond the words ends the program.
+#[test]
+fn cxxrtl_stops_at_an_address_beyond_a_memory() {
+    if !tools::have(&cxxrtl::COMMANDS) {
+        return;
+    }
+    let mut profile = Profile::bundled("small").expect("bundled");
+    profile.haptic.windows = 4;
+    let block = HapticVoltage::try_new(&profile).unwrap();
+    let design = Design::of(&block, "a test");
+    let trace =
+        Trace::record(&block, design.ports.clone(), stimulus::operations(&block, 1, 40, 0, 40));
+    let (text, traces) = (design.text(), [trace]);
+    assert_eq!(cxxrtl::check(design.top(), &text, &traces), Ok(()));
+    let shorter = text.replace("squares [0:15]", "squares [0:14]").replace("i < 16", "i < 15");
+    assert_ne!(shorter, text, "squares of four windows and four pads");
+    let check = || cxxrtl::check(design.top(), &shorter, &traces);
+    let panic = std::panic::catch_unwind(check).expect_err("the program ends");
+    let message = panic.downcast_ref::<String>().expect("a message");
+    assert!(message.contains("out of bounds"), "{message}");
 }
 
 /// The bundled profile with a force table.

@@ -23,4 +23,4 @@ mod partial;
 
 pub use file::{AtomicFile, write, write_new};
 pub use folder::AtomicFolder;
-pub use partial::PREFIX;
+pub use partial::{PREFIX, clear};

@@ -33,6 +33,9 @@ use crate::session::Session;
 /// Slots made ahead of the core.
 const AHEAD: usize = 8;
 
+/// The most slots of all cases that are run: a row of each is kept until the end.
+const MOST_SLOTS: usize = 10_000_000;
+
 /// Figures that show the force by eq. 8 and by the table side by side.
 const BOTH: [Figure; 2] = [Figure::Fig6, Figure::Fig7];
 
@@ -95,6 +98,12 @@ impl<'a> Case<'a> {
         let control = scene.cases[index].control.as_ref();
         let profile = for_terminals(profile, &signs)?;
         let plant = Plant::new(scene, index, &timing(&profile))?;
+        let slots = plant.slots() + others.iter().map(|other| other.slots).sum::<usize>();
+        ensure!(
+            slots <= MOST_SLOTS,
+            "{}: expected at most {MOST_SLOTS} slots of all cases, got {slots}",
+            scene.name
+        );
         let profile = for_parts(serving(&profile, plant.served()), plant.parts());
         let rate_hz = plant.device().sample_rate_hz;
         let frame_s = (profile.slot.samples() as usize * plant.served()) as f64 / rate_hz;

@@ -86,11 +86,11 @@ fn transform(window: Window, x: f64) -> f64 {
 
 /// Samples of about one period, as a window of the profile may have them.
 fn whole_period(profile: &Profile, haptic_hz: f64, sample_rate_hz: f64) -> u64 {
-    let step = match profile.carrier.method {
+    let step: u64 = match profile.carrier.method {
         Method::Products => 4,
         Method::Polyphase => 5,
     };
-    step * (sample_rate_hz / haptic_hz / step as f64).round().max(1.0) as u64
+    step.saturating_mul((sample_rate_hz / haptic_hz / step as f64).round().max(1.0) as u64)
 }
 
 /// Measures the frequency of the haptic channel of a capture, from its first samples.

@@ -1,10 +1,23 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Ctrl-C, SIGTERM, SIGHUP: a run is told to stop, so that it can take away what it has begun to
 //! write.
+//!
+//! A run that does not ask, since it waits for something that may never come (a named pipe that
+//! nobody writes into), is ended after a while. What it leaves is cleared as that of a killed one.
 
+use std::process;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread;
+use std::time::Duration;
+
+/// The exit status of a run that was told to stop.
+pub const STATUS: u8 = 130;
+
+/// A run asks within this time.
+const PATIENCE: Duration = Duration::from_secs(10);
 
 static REQUESTED: AtomicBool = AtomicBool::new(false);
+static NOTICED: AtomicBool = AtomicBool::new(false);
 
 /// The run was told to stop.
 #[derive(Debug, thiserror::Error)]
@@ -13,7 +26,14 @@ pub struct Interrupted;
 
 /// Begins to listen for these signals. Where the system has none, runs end as they would.
 pub fn listen() {
-    let _ = ctrlc::set_handler(|| REQUESTED.store(true, Ordering::Relaxed));
+    let _ = ctrlc::set_handler(|| {
+        REQUESTED.store(true, Ordering::Relaxed);
+        thread::sleep(PATIENCE);
+        if !NOTICED.load(Ordering::Relaxed) {
+            eprintln!("interrupted");
+            process::exit(STATUS.into());
+        }
+    });
 }
 
 /// Whether to go on.
@@ -21,5 +41,9 @@ pub fn listen() {
 /// # Errors
 /// After such a signal.
 pub fn check() -> Result<(), Interrupted> {
-    if REQUESTED.load(Ordering::Relaxed) { Err(Interrupted) } else { Ok(()) }
+    if !REQUESTED.load(Ordering::Relaxed) {
+        return Ok(());
+    }
+    NOTICED.store(true, Ordering::Relaxed);
+    Err(Interrupted)
 }

@@ -198,6 +198,8 @@ fn points(tradeoff: &Tradeoff) -> String {
             format!("{:.0}", cost.flip_flops),
             format!("{:.0}", cost.multipliers),
             format!("{:.0}", cost.memory_bits / 1024.0),
+            format!("{:.0}", cost.block_rams),
+            format!("{:.0}", cost.block_rams_ice40),
             front(point),
         ]);
         cells
@@ -216,6 +218,8 @@ fn points(tradeoff: &Tradeoff) -> String {
         "#flip-flops",
         "#multipliers",
         "#memory, Kbit",
+        "#block RAM, ECP5",
+        "#block RAM, iCE40",
         "on the front of",
     ];
     let few = tradeoff.points.iter().any(Point::has_few_codes);

@@ -7,10 +7,12 @@
 //! | `adc = { from = 14, to = 18, step = 2 }` | 14, 16, 18 |
 //! | `adc = { from = 14, to = 18 }` | of `[random]` alone: any in between, integers where both ends are |
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 
 use serde::{Deserialize, Serialize};
 use serde_json::{Number, Value};
+
+use crate::canonical;
 
 /// What keys are set to, by key.
 pub type Settings = BTreeMap<String, Value>;
@@ -47,8 +49,8 @@ pub enum Values {
     Between(Number, Number),
 }
 
-/// The most values of an axis.
-const MOST: f64 = 1e6;
+/// The most values of an axis, and of all axes together: all of them are held in memory.
+pub(crate) const MOST: f64 = 1e6;
 
 impl Values {
     /// Reads what a plan gives for a key; none where it is a table of further keys.
@@ -63,7 +65,9 @@ impl Values {
             }
             toml::Value::Array(list) => {
                 let values = list.iter().map(plain).collect::<Result<Vec<_>, _>>()?;
-                match (1..values.len()).find(|n| values[..*n].contains(&values[*n])) {
+                let mut known = HashSet::new();
+                // Points are named by the canonical text of what they set: 1 and 1.0 are the same.
+                match values.iter().position(|value| !known.insert(canonical::text(value))) {
                     Some(again) => {
                         Err(format!("expected each value once, got {} again", list[again]))
                     }
@@ -87,11 +91,14 @@ impl Values {
     /// The value at a place of an even draw.
     pub fn drawn(&self, random: u64) -> Value {
         // Widening products spread a draw evenly over what there is.
-        let below = |count: u64| ((u128::from(random) * u128::from(count)) >> 64) as u64;
+        let below = |count: u128| ((u128::from(random) * count) >> 64) as i128;
         match self {
-            Values::List(list) => list[below(list.len() as u64) as usize].clone(),
+            Values::List(list) => list[below(list.len() as u128) as usize].clone(),
             Values::Between(from, to) => match (from.as_i64(), to.as_i64()) {
-                (Some(from), Some(to)) => (from + below((to - from) as u64 + 1) as i64).into(),
+                (Some(from), Some(to)) => {
+                    let [from, to] = [from, to].map(i128::from);
+                    ((from + below((to - from) as u128 + 1)) as i64).into()
+                }
                 _ => {
                     let [from, to] = [from, to].map(|end| end.as_f64().unwrap_or_default());
                     let share = (random >> 11) as f64 / (1u64 << 53) as f64;
@@ -132,7 +139,7 @@ fn range(table: &toml::Table) -> Result<Values, String> {
     };
     let (Some(from), Some(to)) = (number("from"), number("to")) else { return Err(wrong()) };
     let real = |number: &Number| number.as_f64().unwrap_or(f64::NAN);
-    if real(&from) >= real(&to) {
+    if real(&from) >= real(&to) || !(real(&to) - real(&from)).is_finite() {
         return Err(wrong());
     }
     if !table.contains_key("step") {
@@ -145,10 +152,20 @@ fn range(table: &toml::Table) -> Result<Values, String> {
         return Err(format!("expected at most {MOST} values, got {}", last + 1.0));
     }
     let value = |n: u64| match (from.as_i64(), step.as_i64()) {
-        (Some(from), Some(step)) => Value::from(from + step * n as i64),
+        (Some(from), Some(step)) => {
+            // The end, a rounded number, may be passed by one step at the end of all integers.
+            let value = i128::from(from) + i128::from(step) * i128::from(n);
+            Value::from(i64::try_from(value).unwrap_or(i64::MAX))
+        }
         _ => Value::from(real(&from) + real(&step) * n as f64),
     };
-    Ok(Values::List((0..=last as u64).map(value).collect()))
+    let values: Vec<_> = (0..=last as u64).map(value).collect();
+    match values.windows(2).any(|pair| pair[0].as_f64() == pair[1].as_f64()) {
+        true => {
+            Err(format!("expected a step that changes each number from {from} to {to}, got {step}"))
+        }
+        false => Ok(Values::List(values)),
+    }
 }
 
 #[cfg(test)]
@@ -184,6 +201,12 @@ mod tests {
             ("{ from = 1, to = 2, step = 0 }", "a step above 0"),
             ("{ from = 1, to = 2, by = 1 }", "expected { from, to, step }"),
             ("{ from = 0, to = 1, step = 1e-9 }", "at most 1000000 values"),
+            ("[16, 16.0]", "got 16.0 again"),
+            ("{ from = -1.7e308, to = 1.7e308 }", "from below to"),
+            (
+                "{ from = 1.0, to = 1.00000000000001, step = 1e-17 }",
+                "a step that changes each number",
+            ),
         ] {
             let message = read(text).unwrap_err();
             assert!(message.contains(words), "{text}: {message}");
@@ -195,6 +218,9 @@ mod tests {
         let bits = read("{ from = 10, to = 12 }").unwrap().unwrap();
         let drawn: Vec<_> = (0..6).map(|n| bits.drawn(n * (u64::MAX / 5))).collect();
         assert_eq!((drawn[0].clone(), drawn[5].clone()), (json!(10), json!(12)));
+        let all = format!("{{ from = {}, to = {} }}", i64::MIN, i64::MAX);
+        let all = read(&all).unwrap().unwrap();
+        assert_eq!([0, u64::MAX].map(|n| all.drawn(n)), [json!(i64::MIN), json!(i64::MAX)]);
         let share = read("{ from = 0.5, to = 1 }").unwrap().unwrap();
         for random in [0, 1 << 63, u64::MAX] {
             let value = share.drawn(random).as_f64().unwrap();

@@ -133,7 +133,7 @@ pub fn column(axis: &Axis) -> String {
 }
 
 /// Columns of cost and slots.
-const COSTS: [&str; 12] = [
+const COSTS: [&str; 15] = [
     "latency_clocks",
     "age_us",
     "frames_per_second",
@@ -142,6 +142,9 @@ const COSTS: [&str; 12] = [
     "flip_flops",
     "multipliers",
     "memory_bits",
+    "multipliers_ice40",
+    "block_rams_ecp5",
+    "block_rams_ice40",
     "slots",
     "flagged",
     "plant_percent",
@@ -187,6 +190,9 @@ fn numbers(of: &Results) -> Vec<String> {
         cost.flip_flops,
         cost.multipliers,
         cost.memory_bits,
+        cost.multipliers_ice40,
+        cost.block_rams,
+        cost.block_rams_ice40,
         of.slots as f64,
         of.flagged as f64,
     ];

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A plan's file as it is written, and the lines that its messages name.
 
-use std::collections::BTreeMap;
-use std::path::Path;
+use std::collections::{BTreeMap, HashSet};
 
 use anyhow::{Result, bail, ensure};
 use serde::Deserialize;
 use toml::Spanned;
 
-use crate::axis::{Axis, Side, Values};
+use crate::axis::{Axis, MOST, Side, Values};
 use crate::plan::{Fidelity, Points};
 
 /// A plan's file.
@@ -99,11 +98,9 @@ impl File {
         let Some(seeds) = &self.seeds else { return Ok(vec![own]) };
         let whole: Result<Vec<u64>, _> =
             seeds.get_ref().iter().map(|seed| u64::try_from(*seed)).collect();
-        let is_again = |seeds: &[u64], n: usize| seeds[..n].contains(&seeds[n]);
+        let each_once = |seeds: &[u64]| seeds.iter().collect::<HashSet<_>>().len() == seeds.len();
         match whole {
-            Ok(whole) if !whole.is_empty() && !(1..whole.len()).any(|n| is_again(&whole, n)) => {
-                Ok(whole)
-            }
+            Ok(whole) if !whole.is_empty() && each_once(&whole) => Ok(whole),
             _ => bail!(
                 "{}: expected whole numbers, each once, got {:?}",
                 lines.at(&self.seeds, "seeds"),
@@ -157,7 +154,7 @@ pub struct Lines {
 
 impl Lines {
     /// Those of a plan's text.
-    pub fn of(path: &Path, text: &str, file: &File) -> Self {
+    pub fn of(name: &str, text: &str, file: &File) -> Self {
         let random = file.random.as_ref().map(Spanned::get_ref);
         let axes = file.axes.as_ref().map(Spanned::get_ref);
         let profile = [random.map(|of| &of.profile), axes.map(|of| &of.profile)];
@@ -168,7 +165,7 @@ impl Lines {
                 lines.insert((side, key.get_ref().clone()), line(text, key.span().start));
             }
         }
-        Lines { name: path.display().to_string(), text: text.into(), axes: lines }
+        Lines { name: name.into(), text: text.into(), axes: lines }
     }
 
     /// The plan's file.
@@ -212,6 +209,12 @@ impl Lines {
         let mut axes = Vec::new();
         for (key, value) in keys {
             self.read(side, key.get_ref(), value, &mut axes)?;
+            let values = axes.iter().filter_map(|axis| Some(axis.values.list()?.len()));
+            ensure!(
+                values.sum::<usize>() as f64 <= MOST,
+                "{}: expected at most {MOST} values of all axes",
+                self.of_key(side, key.get_ref())
+            );
         }
         axes.sort_by(|a: &Axis, b| a.key.cmp(&b.key));
         if let Some(pair) = axes.windows(2).find(|pair| pair[0].key == pair[1].key) {

@@ -47,7 +47,7 @@ use crate::file::{File, Lines};
 use crate::{canonical, settings};
 
 /// Version of everything that is named by its content: keys, lines, plans.
-pub const SCHEMA: u32 = 1;
+pub const SCHEMA: u32 = 2;
 
 /// Keys of a scene that a plan sets in another way, and how.
 const WHOLE: [(&str, &str); 5] = [
@@ -135,9 +135,16 @@ impl Plan {
     /// A file that cannot be read, an unknown key, a value that is none; the message names file, line
     /// and key, and what was expected.
     pub fn read(path: &Path) -> Result<Plan> {
-        let text = read(path)?;
-        let file = File::parse(&text).map_err(|error| anyhow!("{}:{error}", path.display()))?;
-        Plan::of(&file, &Lines::of(path, &text, &file))
+        Plan::parse(&read(path)?, &path.display().to_string())
+    }
+
+    /// The plan that a text is, called `file` in messages; what it names is read.
+    ///
+    /// # Errors
+    /// As [`Plan::read`].
+    pub fn parse(text: &str, file: &str) -> Result<Plan> {
+        let read = File::parse(text).map_err(|error| anyhow!("{file}:{error}"))?;
+        Plan::of(&read, &Lines::of(file, text, &read))
     }
 
     fn of(file: &File, lines: &Lines) -> Result<Plan> {

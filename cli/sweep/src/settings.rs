@@ -38,8 +38,11 @@ pub fn turned(profile: &Profile, set: &Settings) -> Result<Profile, String> {
 }
 
 fn expected(knob: Knob, value: &Value) -> String {
-    let what =
-        if knob == Knob::Window { "a number of samples" } else { "a number of bits above 2" };
+    let what = match knob {
+        Knob::Window => "a number of samples",
+        Knob::BlockShift => "a number of bits",
+        _ => "a number of bits above 2",
+    };
     format!("expected {what}, got {value}")
 }
 

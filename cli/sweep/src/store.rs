@@ -15,6 +15,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow, ensure};
+use hapticore_files::AtomicFile;
 use rayon::prelude::*;
 
 use crate::canonical;
@@ -55,7 +56,8 @@ struct Part {
 }
 
 impl Store {
-    /// A store in a folder, which is made where it is not there.
+    /// A store in a folder, which is made where it is not there; what killed runs left unfinished is
+    /// cleared, for there may be nothing left to write.
     ///
     /// # Errors
     /// It cannot be made.
@@ -63,6 +65,7 @@ impl Store {
         for name in ["plans", "parts", "times", "hosts"] {
             let path = folder.join(name);
             fs::create_dir_all(&path).with_context(|| path.display().to_string())?;
+            hapticore_files::clear(&path);
         }
         Ok(Store { folder: folder.into() })
     }
@@ -151,7 +154,7 @@ impl Store {
     pub fn mend(&self, torn: &[Torn]) -> Result<()> {
         for part in torn {
             let aside = part.path.with_extension("jsonl.torn");
-            fs::copy(&part.path, &aside).with_context(|| aside.display().to_string())?;
+            copy(&part.path, &aside).with_context(|| aside.display().to_string())?;
             write(&part.path, &part.good)?;
         }
         Ok(())
@@ -205,6 +208,13 @@ impl Part {
         let torn = wrong.map(|message| Torn { path: path.clone(), message, good });
         Ok(Part { path, lines, torn })
     }
+}
+
+/// Copies a file whole or not at all.
+fn copy(from: &Path, to: &Path) -> io::Result<()> {
+    let copied = AtomicFile::create(to)?;
+    fs::copy(from, copied.partial_path())?;
+    copied.persist()
 }
 
 /// Writes a file whole or not at all.

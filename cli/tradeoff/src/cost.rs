@@ -31,6 +31,10 @@ pub struct Cost {
     pub multipliers_ice40: f64,
     /// Bits of memories.
     pub memory_bits: f64,
+    /// Block RAMs of 18 kbit, as an ECP5 has.
+    pub block_rams: f64,
+    /// Block RAMs of 4 kbit, as an iCE40 has.
+    pub block_rams_ice40: f64,
 }
 
 /// Samples per second of the nominal board (docs/decisions.md §6).
@@ -74,5 +78,7 @@ pub fn cost(profile: &Profile) -> Result<Cost> {
         multipliers: operations.multipliers[1],
         multipliers_ice40: operations.multipliers[0],
         memory_bits: operations.memory_bits,
+        block_rams: operations.block_rams[1],
+        block_rams_ice40: operations.block_rams[0],
     })
 }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What of a profile is varied: word lengths bit by bit, and the window.
+//! What of a profile is varied: word lengths bit by bit, block-floating words, and the window.
 //!
 //! A word that gets shorter loses its last bits; its range stays. Words that are one choice move
 //! together: those of a channel and of the total, those of the position table and of the positions.
+//! Block-floating words are another way to have small currents keep their bits: with them the words may
+//! stay short.
 
 use hapticore_contract::profile::{Method, Profile};
 use hapticore_hdl::format::Format;
@@ -30,13 +32,16 @@ pub enum Knob {
     Square,
     /// Bits of the force.
     Force,
+    /// Bits by which the in-phase and quadrature words may be moved up together; none: they all have
+    /// one point.
+    BlockShift,
     /// Samples of the window.
     Window,
 }
 
 impl Knob {
     /// All of them.
-    pub const ALL: [Knob; 11] = [
+    pub const ALL: [Knob; 12] = [
         Knob::Adc,
         Knob::Oscillator,
         Knob::Words,
@@ -47,12 +52,13 @@ impl Knob {
         Knob::MeanSquare,
         Knob::Square,
         Knob::Force,
+        Knob::BlockShift,
         Knob::Window,
     ];
 
     /// The words, which are counted in bits.
     pub fn words() -> impl Iterator<Item = Knob> {
-        Knob::ALL.into_iter().filter(|knob| *knob != Knob::Window)
+        Knob::ALL.into_iter().filter(|knob| !matches!(knob, Knob::BlockShift | Knob::Window))
     }
 
     /// The words that a search may change. Not the oscillator's: what they reject, disturbances and
@@ -74,6 +80,7 @@ impl Knob {
             Knob::MeanSquare => "mean_square",
             Knob::Square => "square",
             Knob::Force => "force",
+            Knob::BlockShift => "block_shift",
             Knob::Window => "slot.integrate",
         }
     }
@@ -92,6 +99,7 @@ impl Knob {
             Knob::MeanSquare => f.mean_square,
             Knob::Square => f.square,
             Knob::Force => f.force,
+            Knob::BlockShift => return f.block_shift.into(),
             Knob::Window => return profile.slot.integrate,
         };
         format.width.into()
@@ -114,10 +122,18 @@ impl Knob {
             }
             _ => profile.clone(),
         };
-        if self != Knob::Window {
-            self.lengthen(&mut turned, i8::try_from(by).ok()?)?;
+        match self {
+            Knob::Window => (),
+            Knob::BlockShift => move_block(&mut turned, u8::try_from(value).ok()?),
+            _ => self.lengthen(&mut turned, i8::try_from(by).ok()?)?,
         }
         Some(turned)
+    }
+
+    /// Profiles with other block-floating words, of which cores can be built.
+    pub fn other_blocks(profile: &Profile) -> impl Iterator<Item = Profile> {
+        let others = BLOCKS.into_iter().filter(|&shift| shift != Knob::BlockShift.value(profile));
+        others.filter_map(|shift| Knob::BlockShift.set(profile, shift))
     }
 
     fn lengthen(self, profile: &mut Profile, by: i8) -> Option<()> {
@@ -133,7 +149,7 @@ impl Knob {
             Knob::MeanSquare => vec![&mut f.mean_square],
             Knob::Square => vec![&mut f.square],
             Knob::Force => vec![&mut f.force],
-            Knob::Window => vec![],
+            Knob::BlockShift | Knob::Window => vec![],
         };
         for format in formats {
             format.width = format.width.checked_add_signed(by).filter(|width| *width > 2)?;
@@ -145,5 +161,19 @@ impl Knob {
             profile.carrier.amplitude = amplitude.round() as u64;
         }
         Some(())
+    }
+}
+
+/// Shifts of block-floating words that are tried.
+const BLOCKS: [u64; 4] = [0, 4, 8, 12];
+/// By how many bits a total is wider than a terminal's word with the same point.
+const TOTAL_BITS: u8 = 2;
+
+/// Words that may be moved up by so many bits; those that may not have the total's point.
+fn move_block(profile: &mut Profile, shift: u8) {
+    let f = &mut profile.formats;
+    f.block_shift = shift;
+    if shift == 0 && f.total.frac != f.iq.frac {
+        f.total = Format { width: f.iq.width + TOTAL_BITS, ..f.iq };
     }
 }

@@ -79,6 +79,10 @@ impl Trial {
             let now = knob.value(&self.profile);
             let values: Vec<u64> = match knob {
                 Knob::Window => [1, 2, 3, 6, 8].map(|quarter| now * quarter / 4).to_vec(),
+                Knob::BlockShift => {
+                    let others = Knob::other_blocks(&self.profile);
+                    others.map(|profile| knob.value(&profile)).collect()
+                }
                 _ => [-6i64, -4, -3, -2, -1, 1, 2]
                     .iter()
                     .filter_map(|by| now.checked_add_signed(*by))

@@ -59,13 +59,19 @@ fn areas_are_those_of_synthesis() {
 }
 
 #[test]
-fn multipliers_are_counted() {
+fn multipliers_and_block_rams_are_counted() {
     let mut wrong = Vec::new();
     for (n, row) in rows().iter().enumerate() {
         let of = estimated(row);
-        let counted = if row["family"] == "Ecp5" { of.multipliers } else { of.multipliers_ice40 };
-        if counted != number(row, "multipliers") {
-            wrong.push(format!("row {n}, {}: {counted} for {}", row["family"], row["multipliers"]));
+        let counted = match row["family"] {
+            "Ecp5" => [of.multipliers, of.block_rams],
+            _ => [of.multipliers_ice40, of.block_rams_ice40],
+        };
+        for (counted, what) in counted.into_iter().zip(["multipliers", "block_rams"]) {
+            if counted != number(row, what) {
+                let family = row["family"];
+                wrong.push(format!("row {n}, {family} {what}: {counted} for {}", row[what]));
+            }
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));

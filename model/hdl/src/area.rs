@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What a circuit takes, counted in its netlist.
 //!
-//! Flip-flops, the bits of memories and products are counted, and the bits of the operations that
+//! Flip-flops, memories and products are counted, and the bits of the operations that
 //! synthesis makes most LUTs of: what a LUT count follows from is for the caller to say.
+
+mod memories;
 
 use crate::interpretations::netlist::{Module, Netlist, Node, Op};
 use crate::verilog::live::Live;
@@ -20,6 +22,8 @@ pub struct Operations {
     pub memory_bits: f64,
     /// Multipliers that products take, on iCE40 and on ECP5.
     pub multipliers: [f64; 2],
+    /// Block RAMs that memories take, on iCE40 and on ECP5.
+    pub block_rams: [f64; 2],
 }
 
 /// A family's multiplier: bits of its widest factor, and of the narrowest product that synthesis gives
@@ -49,6 +53,11 @@ impl Multiplier {
     }
 }
 
+/// Counts of both families.
+fn plus(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+    [a[0] + b[0], a[1] + b[1]]
+}
+
 impl Operations {
     /// Those of a design, with each instance counted.
     pub fn of(netlist: &Netlist) -> Operations {
@@ -67,7 +76,8 @@ impl Operations {
             adders: self.adders + other.adders,
             selects: self.selects + other.selects,
             memory_bits: self.memory_bits + other.memory_bits,
-            multipliers: [0, 1].map(|n| self.multipliers[n] + other.multipliers[n]),
+            multipliers: plus(self.multipliers, other.multipliers),
+            block_rams: plus(self.block_rams, other.block_rams),
         }
     }
 
@@ -80,6 +90,8 @@ impl Operations {
         }
         for (memory, _) in module.memories.iter().zip(&live.memories).filter(|(_, live)| **live) {
             found.memory_bits += memory.initial.len() as f64 * f64::from(memory.format.width);
+            let taken = memories::block_rams(memory).map(|count| count as f64);
+            found.block_rams = plus(found.block_rams, taken);
         }
         for (wire, _) in module.wires.iter().zip(&live.uses).filter(|(_, uses)| **uses > 0) {
             found.add(module, &wire.op, f64::from(wire.format.width));

@@ -8,6 +8,7 @@
 //! by [`call!`](crate::call!), which the netlist turns into an instance.
 
 use crate::bundle::{Bundle, Field};
+use crate::claims::Claims;
 use crate::format::Format;
 use crate::memory::{Memory, Storage};
 use crate::signal::{Clocked, Proved, Signal, Value};
@@ -122,6 +123,16 @@ pub trait Block: Interface {
         inputs: Inputs<Self, Signal<Clocked>>,
     ) -> Outputs<Self, Signal<Clocked>> {
         self.clock(state, inputs)
+    }
+
+    /// What always holds of its registers and inputs, and what its caller keeps to: what a solver
+    /// proves, and may use to prove that an `Assumed` narrowing fits. Most blocks claim nothing.
+    fn claims<V: Interpretation>(
+        &self,
+        _registers: Registers<Self, Signal<V>>,
+        _inputs: Inputs<Self, Signal<V>>,
+    ) -> Claims<V> {
+        Claims::default()
     }
 
     /// The state at reset.

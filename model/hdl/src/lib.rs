@@ -17,6 +17,7 @@
 //! | [`interpretations`] | codes, reals, both, intervals, and the netlist |
 //! | [`probe`] | what a simulation shows of itself, for waveforms |
 //! | [`verilog`] | Verilog-2005 from the netlist |
+//! | [`smt`] | claims of the netlist as bit-vector problems (SMT-LIB 2) |
 //!
 //! # A first block
 //!
@@ -95,11 +96,13 @@
 pub mod area;
 pub mod block;
 pub mod bundle;
+pub mod claims;
 mod declaration;
 pub mod format;
 pub mod interpretations;
 pub mod memory;
 pub mod probe;
 pub mod signal;
+pub mod smt;
 pub mod states;
 pub mod verilog;

@@ -18,6 +18,7 @@ pub trait Storage: Value {
     /// What the read register of a memory holds.
     fn data(memory: &Memory, words: &mut Self::Words) -> Self;
     /// One clock of a memory: reads the old word at `address` into the read register, and writes.
+    #[track_caller]
     fn access(
         memory: &Memory,
         words: &mut Self::Words,
@@ -127,12 +128,14 @@ impl Memory {
 
     /// Asks for a word.
     #[inline(always)]
+    #[track_caller]
     pub fn read<V: Storage>(&self, words: &mut V::Words, address: Signal<V>) {
         V::access(self, words, address, None);
     }
 
     /// Asks for a word, and writes one.
     #[inline(always)]
+    #[track_caller]
     pub fn access<V: Storage>(&self, words: &mut V::Words, address: Signal<V>, write: Write<V>) {
         if V::ELABORATES {
             let given = write.data.format;

@@ -7,8 +7,8 @@
 //! after a round lies within the state before it, no further round can leave what has been seen,
 //! and the proof holds for all time. A word that still grows, as a filter's does, is widened to its
 //! whole format on that side (Cousot and Cousot, 1977), and the next round is run from there. What
-//! relates several signals is beyond intervals: those places name an assumption, and tests hold
-//! the assumptions.
+//! relates several signals is beyond intervals: those places name an assumption, which solvers
+//! prove from the same netlist (`hapticore_hdl::smt`).
 
 use std::slice;
 

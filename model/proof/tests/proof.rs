@@ -11,6 +11,7 @@ use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::Format;
 use hapticore_hdl::interpretations::netlist::Netlist;
 use hapticore_hdl::interpretations::range::{Range, take_violations, whole};
+use hapticore_hdl::memory::{Memory, Storage};
 use hapticore_hdl::signal::{HalfEven, Proved, Signal, bit, int, zero};
 use hapticore_model::blocks::controller::{self, Controller};
 use hapticore_model::blocks::core::Core;
@@ -18,9 +19,9 @@ use hapticore_model::blocks::demodulator::Demodulator;
 use hapticore_model::parse_profile;
 use hapticore_proof::{close, prove};
 
-/// What relates several signals, and where it is held: the tests of divider and square root run
-/// them over all codes of small widths, and every test build checks each of these narrowings at
-/// each clock.
+/// What relates several signals: solvers prove it from the netlists
+/// (`synth/tests/toolchain/claims.rs`), and every test build checks each of these narrowings at each
+/// clock.
 const ASSUMPTIONS: [&str; 3] = [
     "a square is not negative",
     "the remainder of a division stays below its denominator",
@@ -198,7 +199,41 @@ fn a_register_one_bit_short_is_noticed() {
     let byte: Signal<Range> =
         Signal { value: whole(Format::unsigned(8, 0)), format: Format::unsigned(8, 0) };
     (byte + int(1)).resize(Format::unsigned(8, 0), Proved);
-    assert_eq!(take_violations().len(), 1);
+    let found = take_violations();
+    assert_eq!(found.len(), 1);
+    let message = found[0].to_string();
+    assert!(message.starts_with("model/proof/tests/proof.rs:"), "{message}");
+    assert!(message.ends_with(": 1 … 256 lacks 1 bit in u8.0"), "{message}");
+}
+
+#[test]
+fn an_address_beyond_a_memory_is_noticed() {
+    let address = Format::unsigned(4, 0);
+    for (words, beyond) in [(16, false), (15, true)] {
+        let memory = Memory::new("squares", words, BYTE);
+        let mut state = <Range as Storage>::words(&memory);
+        take_violations();
+        memory.read(&mut state, Signal { value: whole(address), format: address });
+        let found: Vec<String> = take_violations().iter().map(ToString::to_string).collect();
+        assert_eq!(found.len(), usize::from(beyond), "{found:?}");
+        for message in found {
+            assert!(message.ends_with(": address 0 … 15 leaves the memory squares"), "{message}");
+        }
+    }
+}
+
+#[test]
+fn a_violation_names_the_instance() {
+    let filter = LowPass { by_difference: true };
+    let mut state = filter.reset();
+    take_violations();
+    let any = Inputs { x: Signal { value: whole(BYTE), format: BYTE } };
+    for _ in 0..40 {
+        filter.call("filter", &mut state, any);
+    }
+    let message = take_violations()[0].to_string();
+    assert!(message.starts_with("filter, model/proof/tests/proof.rs:"), "{message}");
+    assert!(message.contains("lacks 1 bit in u8.0"), "{message}");
 }
 
 /// A profile with one entry of its text replaced.

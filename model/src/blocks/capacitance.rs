@@ -134,7 +134,12 @@ impl Capacitance {
             left,
             right,
         };
-        rounds("formats.capacitance", block.gain_product(), capacitance)?;
+        rounds(
+            "formats.capacitance",
+            "the product of admittance and gain",
+            block.gain_product(),
+            capacitance,
+        )?;
         Ok(block)
     }
 
@@ -151,6 +156,20 @@ impl Capacitance {
             self.sqrt.hurry();
         }
         self.divider.hurry();
+    }
+
+    /// The clocks that are left to `done`, one after the other, where every bit is known.
+    #[inline(never)]
+    pub(crate) fn run_on<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) {
+        let held = Inputs { start: bit(false), ..i };
+        while V::known_bit(state.registers.done) != Some(true) {
+            self.clock(state, held);
+        }
+    }
+
+    /// Whether one is under way.
+    pub(crate) fn is_busy<V: Interpretation>(&self, state: &State<Self, V>) -> bool {
+        V::known_bit((!state.load(self).step.at(Step::Idle)).value) == Some(true)
     }
 
     /// Clocks from `start` to `done`.

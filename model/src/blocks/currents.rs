@@ -142,7 +142,7 @@ impl Currents {
         let demodulator = Demodulator::try_new(profile)?;
         let shift = profile.sum_shift() - demodulator.shift();
         let wide = wide(iq, block);
-        rounds("formats.iq", demodulator.sum().scaled(-shift), wide)?;
+        rounds("formats.iq", "a sum over the window", demodulator.sum().scaled(-shift), wide)?;
         let terminals = profile.terminals.x.len() as u64;
         let (part, total) = match block {
             0 => (profile.formats.total, profile.formats.total),
@@ -209,6 +209,16 @@ impl Currents {
         self.sqrt.hurry();
     }
 
+    /// The clocks from the last sum to `done`, one after the other, where every bit is known.
+    #[inline(never)]
+    pub(crate) fn run_on<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) {
+        let held = Inputs { valid: bit(false), ..i };
+        while V::known_bit(state.registers.done) != Some(true) {
+            self.clock(state, held);
+            self.run_moves(state);
+        }
+    }
+
     /// Clocks from the last sum to `done`.
     pub fn latency(&self) -> u64 {
         (self.terminals + 2) * (6 * self.multiplier.latency() + self.sqrt.latency() + 1)
@@ -231,7 +241,7 @@ impl Currents {
         let begin = if self.block == 0 { Step::Read } else { Step::AlignRead }.signal();
         let r = if self.block == 0 { r } else { self.unaligned(r) };
         Registers {
-            step: i.index.is(2 * self.terminals + 2).select(begin, r.step),
+            step: self.is_last(i.index).select(begin, r.step),
             multiplier_busy: bit(false),
             channel: int(0),
             total_i: zero(self.total),
@@ -239,6 +249,12 @@ impl Currents {
             saturated: (!i.index.is(0) & r.saturated) | (of_channel & held),
             ..r
         }
+    }
+
+    /// Whether a sum is the window's last.
+    #[inline(always)]
+    pub(crate) fn is_last<V: Interpretation>(&self, index: Signal<V>) -> Signal<V> {
+        index.is(2 * self.terminals + 2)
     }
 
     /// A total with a terminal's word more, and whether it is saturated.

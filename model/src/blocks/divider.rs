@@ -11,13 +11,14 @@
 //!
 //! | signal    | overflow                                                                 |
 //! | quotient  | saturates, and says so                                                   |
-//! | remainder | cannot: it stays below the denominator (assumed; verified exhaustively) |
+//! | remainder | cannot: it stays below the denominator (assumed; proved by a solver)     |
 //!
 //! A zero denominator gives a saturated quotient; the caller says what that means. Latency:
 //! quotient width + 4 clocks from `start` to `done`. Source: restoring division, Parhami, Computer
 //! Arithmetic, §13.
 
 use hapticore_hdl::block::{Block, Interpretation, State};
+use hapticore_hdl::claims::{Claims, Held};
 use hapticore_hdl::format::{BIT, Format};
 use hapticore_hdl::signal::{Assumed, Exact, Proved, Signal, bit, code, int};
 use hapticore_hdl::{block, next, when};
@@ -66,6 +67,7 @@ block! {
 }
 
 const BELOW: &str = "the remainder of a division stays below its denominator";
+const NOTHING: &str = "nothing is divided where the quotient would be too large";
 
 impl Divider {
     /// A divider for these unsigned formats.
@@ -176,6 +178,20 @@ impl Divider {
 }
 
 impl Block for Divider {
+    fn claims<V: Interpretation>(&self, r: Regs<V>, i: In<V>) -> Claims<V> {
+        let width = u64::from(self.quotient.width);
+        let begun = r.busy & !r.count.is(0);
+        let below = r.remainder.less_than(i.denominator.integer());
+        Claims {
+            invariants: vec![
+                ("a division takes as many clocks", !r.busy | r.count.less_than(int(width + 3))),
+                (BELOW, !begun | i.start | r.over | below),
+                (NOTHING, !(begun & r.over) | (r.remainder.is(0) & self.only_digits(&r))),
+            ],
+            held: Some(Held { when: r.busy & !i.start, inputs: &["denominator"] }),
+        }
+    }
+
     #[inline(always)]
     fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
         let outputs = self.cycle(state, i);
@@ -187,6 +203,16 @@ impl Block for Divider {
 }
 
 impl Divider {
+    /// Whether nothing of the dividend is left above the digits so far.
+    fn only_digits<V: Interpretation>(&self, r: &Regs<V>) -> Signal<V> {
+        let width = self.quotient.width;
+        let above = |digits: u8| {
+            let rest = r.tail.bits(digits, width - digits).is(0);
+            !r.count.is(u64::from(digits) + 1) | rest
+        };
+        (0..width).map(above).reduce(|a, b| a & b).expect("a quotient has bits")
+    }
+
     #[inline(always)]
     fn cycle<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
         let r = state.load(self);

@@ -19,6 +19,9 @@
 //! come. A prompt estimate therefore finds the resistance of the pad's last slot, whichever pads
 //! came between. Latency: the sum of the stages', from the last sum to the last word.
 
+mod run_on;
+
+use self::run_on::Given;
 use super::capacitance::{self, Capacitance};
 use super::currents::{self, Currents};
 use super::force::{self, Force};
@@ -96,6 +99,8 @@ block! {
         /// Whether there is a prompt estimate.
         prompts: bool,
         force_gain: Format,
+        /// For interpretations that know every bit: blocks run through their clocks as they are started.
+        hurried: bool,
     }
     submodules {
         /// The sheet's resistance at the last place of each pad.
@@ -150,6 +155,7 @@ impl Estimator {
         let sheets = Memory::new("sheets", profile.pads as usize, profile.sheet());
         Ok(Estimator {
             prompts: profile.control.is_some(),
+            hurried: false,
             sheets: sheets.dont_care_on_collision().in_block(),
             ratio: Ratio::try_new(profile, currents.sums(), currents.least())?,
             position: Position::new(profile),
@@ -226,9 +232,10 @@ impl Estimator {
         prompt + stages.into_iter().sum::<u64>()
     }
 
-    /// From now on interpretations that know every bit need not wait for serial blocks: as
-    /// [`Position::place_at_once`], and the same of square roots and dividers.
+    /// From now on interpretations that know every bit need not look at all blocks in each clock:
+    /// [`Position::place_at_once`], and the others run through their clocks as they are started.
     pub(crate) fn place_at_once(&mut self, table: Vec<i64>) {
+        self.hurried = true;
         self.position.place_at_once(table);
         self.currents.hurry();
         self.ratio.hurry();
@@ -320,20 +327,42 @@ impl Estimator {
 impl Block for Estimator {
     #[inline(always)]
     fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
+        self.cycle::<V, false>(state, i)
+    }
+}
+
+impl Estimator {
+    /// A clock, in which blocks that are started run through theirs if they are to. Apart from
+    /// [`Block::clock`], which is slower with so much as the question.
+    #[inline(always)]
+    pub(crate) fn clock_running_on<V: Interpretation>(
+        &self,
+        state: &mut State<Self, V>,
+        i: In<V>,
+    ) -> Out<V> {
+        self.cycle::<V, true>(state, i)
+    }
+
+    #[inline(always)]
+    fn cycle<V: Interpretation, const RUNS_ON: bool>(
+        &self,
+        state: &mut State<Self, V>,
+        i: In<V>,
+    ) -> Out<V> {
         let r = state.load(self);
         if (i.valid | r.busy | i.calibration.table.write | i.clear).can_skip() {
             return self.quiet(state, r, &i);
         }
         let Inputs { valid, index, sum, .. } = i;
-        let inputs = currents::Inputs { valid, index, sum };
-        let currents = call!(self.currents, state, inputs);
+        let to_currents = currents::Inputs { valid, index, sum };
+        let currents = call!(self.currents, state, to_currents);
         let pad = valid.select(i.pad, r.pad);
-        let inputs = haptic_voltage::Inputs { clear: i.clear, pad, valid, index, sum };
-        let haptic = call!(self.haptic_voltage, state, inputs);
+        let to_haptic = haptic_voltage::Inputs { clear: i.clear, pad, valid, index, sum };
+        let haptic = call!(self.haptic_voltage, state, to_haptic);
         let currents::Outputs { x, y, corners, least, .. } = currents;
         let start = if self.prompts { r.follow } else { currents.done };
-        let inputs = ratio::Inputs { start, x, y, corners, least };
-        let ratio = call!(self.ratio, state, inputs);
+        let to_ratio = ratio::Inputs { start, x, y, corners, least };
+        let ratio = call!(self.ratio, state, to_ratio);
         let [of_position, of_force] = self.table_ports(i.calibration.table);
         let inputs = position::Inputs {
             start: ratio.done,
@@ -345,21 +374,21 @@ impl Block for Estimator {
         let position = call!(self.position, state, inputs);
         let invalid_place = ratio.invalid | position.invalid;
         let sheet = self.sheet(state, &r, pad, &position, invalid_place);
-        let inputs = capacitance::Inputs {
+        let to_capacitance = capacitance::Inputs {
             start: position.done | (currents.done & bit(self.prompts)),
             total: currents.total,
             sense: currents.sense,
             sheet,
             gain: i.calibration.capacitance_gain,
         };
-        let capacitance = call!(self.capacitance, state, inputs);
-        let inputs = force::Inputs {
+        let capacitance = call!(self.capacitance, state, to_capacitance);
+        let to_force = force::Inputs {
             start: capacitance.done,
             capacitance: capacitance.capacitance,
             mean_square: haptic.mean_square,
             gain: i.calibration.force_gain,
         };
-        let (force, gain) = self.force(state, inputs, (self.early(&r), r.pad, of_force));
+        let (force, gain) = self.force(state, to_force, (self.early(&r), r.pad, of_force));
         let invalid = invalid_place | capacitance.invalid;
         let inputs = frames::Inputs {
             start: if self.prompts { force.done & !r.early } else { force.done },
@@ -399,6 +428,12 @@ impl Block for Estimator {
             clipped: valid.select(i.clipped, r.clipped),
         };
         state.store(self, next);
+        if RUNS_ON && self.hurried {
+            self.run_on(
+                state,
+                Given { to_currents, to_haptic, to_ratio, to_capacitance, to_force },
+            );
+        }
         let gate = |a: Signal<V>| when!(frames.valid => a, else zero(a.format));
         let frames = FramePort {
             valid: frames.valid,

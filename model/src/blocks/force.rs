@@ -93,10 +93,13 @@ impl Force {
         let multiplier = Multiplier::new(left, right, profile.multiplier);
         let block =
             Force { multiplier, capacitance, mean_square, square, gain, force, left, right };
-        for (field, (product, to)) in
-            ["square", "square", "force"].into_iter().zip(block.products())
-        {
-            rounds(&format!("formats.{field}"), product, to)?;
+        let products = [
+            ("formats.square", "the square of the capacitance"),
+            ("formats.square", "the product of square and mean square"),
+            ("formats.force", "the product of energy and gain"),
+        ];
+        for ((field, name), (product, to)) in products.into_iter().zip(block.products()) {
+            rounds(field, name, product, to)?;
         }
         Ok(block)
     }
@@ -109,6 +112,15 @@ impl Force {
             (self.square.product(self.mean_square), self.square),
             (self.square.product(self.gain), self.force),
         ]
+    }
+
+    /// The clocks from `start` to `done`, one after the other, where every bit is known.
+    #[inline(never)]
+    pub(crate) fn run_on<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) {
+        let held = Inputs { start: bit(false), ..i };
+        while V::known_bit(state.registers.done) != Some(true) {
+            self.clock(state, held);
+        }
     }
 
     /// Clocks from `start` to `done`.

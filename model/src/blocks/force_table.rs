@@ -178,23 +178,25 @@ impl ForceTable {
             left,
             right,
         };
-        for (field, product, to) in block.roundings() {
-            rounds(&format!("formats.{field}"), product, to)?;
+        for (field, name, product, to) in block.roundings() {
+            rounds(field, name, product, to)?;
         }
         Ok(block)
     }
 
-    /// What is rounded to a format, and the field that makes it as wide as it is.
-    fn roundings(&self) -> [(&'static str, Format, Format); 7] {
+    /// The field that makes a signal as wide as it is, the signal, and what it is rounded to.
+    fn roundings(&self) -> [(&'static str, &'static str, Format, Format); 7] {
         let [square, energy, force] = self.powers();
+        let gain = self.factor().product(self.gain);
+        let share = self.difference().product(self.word.scaled(MEAN_SHARE));
         [
-            ("square", square, self.square),
-            ("square", energy, self.square),
-            ("force", force, self.force),
-            ("force_gain", self.factor().product(self.gain), self.gain),
-            ("table", self.sum(), self.factor()),
-            ("table", self.blended(), self.factor()),
-            ("table", self.difference().product(self.word.scaled(MEAN_SHARE)), self.voltage),
+            ("formats.square", "the square of the capacitance", square, self.square),
+            ("formats.square", "the product of square and mean square", energy, self.square),
+            ("formats.force", "the product of energy and gain", force, self.force),
+            ("formats.force_gain", "the product of factor and gain", gain, self.gain),
+            ("formats.table", "a row's sum", self.sum(), self.factor()),
+            ("formats.table", "the blend of two rows", self.blended(), self.factor()),
+            ("formats.table", "the share of a voltage", share, self.voltage),
         ]
     }
 

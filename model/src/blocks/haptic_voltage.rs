@@ -88,7 +88,8 @@ impl HapticVoltage {
         let demodulator = Demodulator::try_new(profile)?;
         let (windows, square) = (profile.haptic.windows, profile.formats.mean_square);
         let (pad, shift) = (Format::counter(profile.pads - 1), profile.square_shift());
-        rounds("formats.mean_square", demodulator.sum().scaled(-shift), square)?;
+        let sum = demodulator.sum().scaled(-shift);
+        rounds("formats.mean_square", "a window's sum of squares", sum, square)?;
         Ok(HapticVoltage {
             squares: Memory::new("squares", (windows as usize) << pad.width, square)
                 .dont_care_on_collision(),
@@ -99,6 +100,15 @@ impl HapticVoltage {
             pad,
             square,
         })
+    }
+
+    /// The clocks from the last sum to the mean square, one after the other, where every bit is known.
+    #[inline(never)]
+    pub(crate) fn run_on<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) {
+        let held = Inputs { valid: bit(false), clear: bit(false), ..i };
+        while V::known_bit(state.registers.busy) == Some(true) {
+            self.clock(state, held);
+        }
     }
 
     /// Clocks from the last sum to the mean square.

@@ -111,6 +111,15 @@ impl Ratio {
         self.divider.hurry();
     }
 
+    /// The clocks from `start` to `done`, one after the other, where every bit is known.
+    #[inline(never)]
+    pub(crate) fn run_on<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) {
+        let held = Inputs { start: bit(false), ..i };
+        while V::known_bit(state.registers.done) != Some(true) {
+            self.clock(state, held);
+        }
+    }
+
     /// Clocks from `start` to `done`.
     pub fn latency(&self) -> u64 {
         (Step::ALL.len() as u64 - 1) * (self.divider.latency() + 1) + 1

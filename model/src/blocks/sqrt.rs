@@ -11,14 +11,15 @@
 //!
 //! | signal    | overflow                                                                   |
 //! | sqrt      | cannot: it has half the radicand's integer bits, and one more              |
-//! | remainder | cannot: it is at most twice the partial root (assumed; verified exhaustively) |
+//! | remainder | cannot: it is at most twice the partial root (assumed; proved by a solver)  |
 //!
 //! Latency: half the radicand's width + 2 clocks from `start` to `done`. Source: digit-by-digit
 //! square root, Parhami, Computer Arithmetic, §21.
 
 use hapticore_hdl::block::{Block, Interpretation, State};
+use hapticore_hdl::claims::Claims;
 use hapticore_hdl::format::{BIT, Format};
-use hapticore_hdl::signal::{Assumed, Proved, bit, int};
+use hapticore_hdl::signal::{Assumed, Proved, Signal, bit, int};
 use hapticore_hdl::{block, next, when};
 
 block! {
@@ -151,6 +152,19 @@ impl SquareRoot {
 }
 
 impl Block for SquareRoot {
+    fn claims<V: Interpretation>(&self, r: Regs<V>, _inputs: In<V>) -> Claims<V> {
+        let digits = u64::from(self.digits);
+        let below = !r.partial.concat(bit(false)).less_than(r.remainder);
+        Claims {
+            invariants: vec![
+                ("a root takes as many clocks", !r.busy | r.count.less_than(int(digits + 1))),
+                (BELOW, !r.busy | below),
+                ("a root has as many bits as digits so far", !r.busy | self.only_digits(&r)),
+            ],
+            held: None,
+        }
+    }
+
     #[inline(always)]
     fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
         let outputs = self.cycle(state, i);
@@ -162,6 +176,15 @@ impl Block for SquareRoot {
 }
 
 impl SquareRoot {
+    /// Whether nothing is in the root above the digits so far.
+    fn only_digits<V: Interpretation>(&self, r: &Regs<V>) -> Signal<V> {
+        let above = |digits: u8| {
+            let rest = r.partial.bits(digits, self.digits - digits).is(0);
+            !r.count.is(digits.into()) | rest
+        };
+        (0..self.digits).map(above).reduce(|a, b| a & b).expect("a root has digits")
+    }
+
     #[inline(always)]
     fn cycle<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
         let r = state.load(self);

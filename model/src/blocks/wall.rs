@@ -211,8 +211,9 @@ impl Wall {
         let mut width = 1;
         Kept::map(block.kept_formats(), |format| width = width.max(format.width));
         fits("formats.position", "what is kept of it", width + 8)?;
-        rounds("formats.force", block.products()[0], force)?;
-        rounds("formats.force", block.products()[1], force)?;
+        let [stiff, ramped] = block.products();
+        rounds("formats.force", "the product of depth and stiffness", stiff, force)?;
+        rounds("formats.force", "the product of force and gain", ramped, force)?;
         let words = (WORDS as usize) << pad.width;
         let kept = Memory::new("kept", words, Format::unsigned(width, 0)).dont_care_on_collision();
         Ok(Wall { kept, ..block })

@@ -5,8 +5,9 @@
 //! The local oscillator is the same for every slot, and so is asked once. A window's sums are exact
 //! in the demodulator, so that codes, and numbers that are not rounded, are summed up by a plain loop
 //! over all channels; codes that are too wide for it go through the demodulator's own arithmetic
-//! sample by sample. The estimator then runs through its clocks, a few hundred a slot; the position's
-//! program, most of a slot's clocks, has its results at once, from codes.
+//! sample by sample. The estimator then runs through its clocks, a few hundred a slot, of a block one
+//! after the other (`estimator/run_on.rs`); the position's program, most of a slot's clocks, has its results
+//! at once, from codes.
 //!
 //! As it is generic over the interpretation, the same run gives the rounding error of every signal
 //! ([`Shadow`](hapticore_hdl::interpretations::shadow::Shadow)): position and sheet resistance have
@@ -355,7 +356,8 @@ pub(super) fn run<V: Interpretation>(
             },
             None => *quiet,
         };
-        let estimator::Outputs { frames: frame, prompt: given } = estimator.clock(state, inputs);
+        let estimator::Outputs { frames: frame, prompt: given } =
+            estimator.clock_running_on(state, inputs);
         if V::known_bit(given.prompt.value) == Some(true) {
             *prompt = Some(given);
         }

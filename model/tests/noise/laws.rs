@@ -2,7 +2,10 @@
 //! The known laws of errors appear, as measured and as predicted.
 
 use super::device;
-use super::measured::{Scene, amplitude_of_tone, measured, predicted, scenes};
+use super::measured::{
+    QUANTITIES, Scene, amplitude_of_tone, measured, measured_against, predicted, reference_errors,
+    scenes,
+};
 use hapticore_contract::profile::{Profile, Window};
 use hapticore_hdl::format::Format;
 use hapticore_hdl::interpretations::noise::Moments;
@@ -43,6 +46,59 @@ fn a_bit_halves_the_error_until_another_word_dominates() {
     }
     assert!(gains[0].iter().all(|gain| (gain - 2.0).abs() < 0.2), "{gains:?}");
     assert!(gains[7].iter().all(|gain| *gain < 1.1), "{gains:?}");
+}
+
+/// What eq. 6 leaves of the capacitance, because it does not know the sheet's resistance, no word makes
+/// smaller: it is the same with words of any length, whatever these add.
+#[test]
+fn the_bias_of_eq_6_does_not_depend_on_bits() {
+    let (scene, with_sheet) = (&scenes()[0], standard());
+    let of = |bits: u8| {
+        let mut profile = standard();
+        profile.capacitance.sheet_correction = false;
+        let f = &mut profile.formats;
+        for format in [&mut f.capacitance, &mut f.admittance, &mut f.iq, &mut f.total] {
+            *format = shorter(*format, bits);
+        }
+        let calibration = device::calibration(&profile);
+        let bias =
+            measured_against(&with_sheet, &profile, &calibration, scene, 7)[CAPACITANCE].mean;
+        [bias, errors(&profile, scene, CAPACITANCE)[0]]
+    };
+    let [long, shorter, shortest] = [0, 4, 8].map(of);
+    for [bias, words] in [long, shorter, shortest] {
+        println!("eq. 6: mean {bias:.4} pF off the truth, its words {words:.4} pF RMS");
+    }
+    assert!(shortest[1] > 50.0 * long[1], "{long:?} and {shortest:?}: words were shortened");
+    for [bias, words] in [shorter, shortest] {
+        let chance = 4.0 * words / (scene.slots() as f64).sqrt();
+        assert!((bias - long[0]).abs() < 0.02 * long[0].abs() + chance, "{bias} for {}", long[0]);
+    }
+    assert!(long[0].abs() > 10.0 * long[1], "{long:?}: the equation's part is the larger one");
+}
+
+/// Errors are the core's against a reference in `f64`, whose own error is a thousandth of them at most; in `f32`
+/// it would not be.
+#[test]
+fn a_reference_in_double_precision_suffices_and_one_in_single_precision_does_not() {
+    let scene = &scenes()[0];
+    for name in ["small", "standard", "fine"] {
+        let profile = Profile::bundled(name).expect("bundled");
+        let calibration = device::calibration(&profile);
+        let [single, double] = reference_errors(&profile, &calibration, scene, 7);
+        let core = measured(&profile, &calibration, scene, 7).map(Moments::rms);
+        for (n, quantity) in QUANTITIES.into_iter().enumerate() {
+            let [single, double] = [single, double].map(|of| of[n] / core[n]);
+            println!(
+                "{name}, {quantity}: core {:.1e}; reference in f32 {single:.1e}, in f64 {double:.1e} of it",
+                core[n]
+            );
+            assert!(double < 1e-3, "{name}, {quantity}: {double}");
+        }
+        let worst = single.into_iter().zip(core).map(|(single, core)| single / core);
+        let worst = worst.fold(0.0, f64::max);
+        assert!(name != "fine" || worst > 0.1, "{name}: f32 is off {worst} of the core's error");
+    }
 }
 
 /// Rounding of the samples averages out: over four times as many, half of it is left.

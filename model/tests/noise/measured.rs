@@ -12,6 +12,7 @@ use hapticore_model::fidelity::fixed::FixedSimulation;
 use hapticore_model::fidelity::noise::{Prediction, Predictor, Signals};
 use hapticore_reference::Reference;
 use std::f64::consts::TAU;
+use xprec::Df64;
 
 /// What is looked at.
 pub const QUANTITIES: [&str; 5] = ["x", "y", "C", "F", "m"];
@@ -143,20 +144,26 @@ pub fn measured(
     scene: &Scene,
     seed: u64,
 ) -> [Moments; 5] {
+    measured_against(profile, profile, calibration, scene, seed)
+}
+
+/// The same against the ideal estimator of another profile with the same slots.
+pub fn measured_against(
+    ideal: &Profile,
+    profile: &Profile,
+    calibration: &Calibration,
+    scene: &Scene,
+    seed: u64,
+) -> [Moments; 5] {
     let mut core = FixedSimulation::<i64>::new(profile, calibration);
-    let mut fine = profile.clone();
-    fine.formats.adc = FINE;
-    let mut ideal = Reference::new(&fine, calibration);
+    let mut ideal = Reference::new(&finely_sampled(ideal), calibration);
     let mut random = Random::new(seed);
     let (mut sums, count) = ([[0.0; 3]; 5], scene.slots());
     for slot in 0..count {
         let point = scene.points[slot % scene.points.len()].near(&mut random);
         let samples = samples(profile, &point, &mut random);
-        let codes = |format: Format| -> Vec<i32> {
-            samples.iter().map(|sample| (sample / format.lsb()).round_ties_even() as i32).collect()
-        };
-        let core = values(&core.slot(0, &codes(profile.formats.adc)).measurement(profile));
-        let ideal = values(&ideal.slot(0, &codes(FINE)));
+        let core = core.slot(0, &codes(&samples, profile.formats.adc)).measurement(profile);
+        let (core, ideal) = (values(&core), values(&ideal.slot(0, &codes(&samples, FINE))));
         for (sum, (core, ideal)) in sums.iter_mut().zip(core.into_iter().zip(ideal)) {
             let error = core - ideal;
             *sum = [sum[0] + error, sum[1] + error * error, sum[2].max(error.abs())];
@@ -165,7 +172,48 @@ pub fn measured(
     sums.map(|sum| averaged(sum, count))
 }
 
-fn values(of: &Measurement) -> [f64; 5] {
+/// What each result of the floating-point reference is off in single and in double precision: root of the
+/// mean square, against double-double.
+pub fn reference_errors(
+    profile: &Profile,
+    calibration: &Calibration,
+    scene: &Scene,
+    seed: u64,
+) -> [[f64; 5]; 2] {
+    let fine = finely_sampled(profile);
+    let mut single = Reference::<f32>::with_precision(&fine, calibration);
+    let mut double = Reference::new(&fine, calibration);
+    let mut exact = Reference::<Df64>::with_precision(&fine, calibration);
+    let mut random = Random::new(seed);
+    let (mut squares, count) = ([[0.0; 5]; 2], scene.slots());
+    for slot in 0..count {
+        let point = scene.points[slot % scene.points.len()].near(&mut random);
+        let codes = codes(&samples(profile, &point, &mut random), FINE);
+        let exact = values(&exact.slot(0, &codes));
+        let single = values(&single.slot(0, &codes).map(f64::from)).map(Df64::from);
+        let double = values(&double.slot(0, &codes)).map(Df64::from);
+        for (squares, of) in squares.iter_mut().zip([single, double]) {
+            for ((square, of), exact) in squares.iter_mut().zip(of).zip(exact) {
+                *square += f64::from(of - exact).powi(2);
+            }
+        }
+    }
+    squares.map(|of| of.map(|square| (square / count as f64).sqrt()))
+}
+
+/// The profile with a converter that rounds nothing away.
+fn finely_sampled(profile: &Profile) -> Profile {
+    let mut fine = profile.clone();
+    fine.formats.adc = FINE;
+    fine
+}
+
+/// Samples as an ADC gives them.
+fn codes(samples: &[f64], adc: Format) -> Vec<i32> {
+    samples.iter().map(|sample| (sample / adc.lsb()).round_ties_even() as i32).collect()
+}
+
+fn values<T: Copy + std::fmt::Debug>(of: &Measurement<T>) -> [T; 5] {
     assert!(!of.flags.invalid && !of.flags.saturated && !of.flags.clipped, "{:?}", of.flags);
     [of.x_mm, of.y_mm, of.capacitance_pf, of.force_n, of.mean_square]
 }

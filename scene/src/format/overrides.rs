@@ -15,10 +15,16 @@ pub(crate) fn parse_value(key: &str, text: &str) -> Result<Node, SceneError> {
     parse_one(key, text)
 }
 
+/// The most parts of a key: none of a scene has as many, and tables are walked one in another.
+const MOST_PARTS: usize = 16;
+
 /// Puts `node` at `key`. Whether the key means anything shows when the table is read.
 pub(crate) fn apply(root: &mut Table, key: &str, node: Node) -> Result<(), SceneError> {
     let place = node.place.clone();
     let fail = |message: String| SceneError::new(place.clone(), key, message);
+    if key.split('.').nth(MOST_PARTS).is_some() {
+        return Err(fail(format!("expected a key of at most {MOST_PARTS} parts")));
+    }
     let mut parts = key.split('.').peekable();
     let mut here = Step::Table(root);
     while let Some(part) = parts.next() {

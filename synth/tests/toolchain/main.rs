@@ -6,6 +6,7 @@
 
 mod board_formal;
 mod cells;
+mod claims;
 mod downstream;
 mod equivalence;
 mod flow;

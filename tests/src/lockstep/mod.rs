@@ -5,11 +5,13 @@
 //!
 //! | file | runs the Verilog in |
 //! | --- | --- |
-//! | [`verilator`] | Verilator: millions of clocks |
+//! | [`verilator`] | Verilator: millions of clocks; the distribution's and a current one |
+//! | [`cxxrtl`] | CXXRTL of Yosys, which stops at an address beyond a memory |
 //! | [`icarus`] | Icarus Verilog: an event-driven simulator with unknown values, written by other people |
 //! | [`external`] | either, where others have written the Verilog |
 
 mod bench;
+pub mod cxxrtl;
 pub mod external;
 pub mod icarus;
 mod trace;
@@ -40,6 +42,16 @@ impl fmt::Display for Mismatch {
         let Mismatch { clock, signal, model, verilog, inputs } = self;
         write!(f, "clock {clock}: {signal}: model {model}, Verilog {verilog}; inputs {inputs}")
     }
+}
+
+/// A program in C++ around a design: its declaration for a simulator, and the statements that give
+/// inputs and compare outputs.
+fn program(declared: &str, ports: usize, give: &str, compare: &str) -> String {
+    include_str!("program.cpp")
+        .replace("@TOP@", declared)
+        .replace("@PORTS@", &ports.to_string())
+        .replace("@GIVE@", give)
+        .replace("@COMPARE@", compare)
 }
 
 /// Reads a simulator's verdict: a line `mismatch CLOCK SIGNAL MODEL VERILOG`, or `equal CLOCKS`.

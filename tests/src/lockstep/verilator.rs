@@ -5,12 +5,12 @@
 
 use std::fmt::Write;
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use hapticore_hdl::verilog::{Direction, Port};
 
-use super::{Mismatch, Trace, verdict};
+use super::{Mismatch, Trace, program, verdict};
 use crate::tools::run;
 
 /// How the program is compiled.
@@ -33,6 +33,36 @@ pub enum Start {
     Anything,
 }
 
+/// Which Verilator: they are years apart.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Version {
+    /// That of the distribution, 5.006 in Debian 12.
+    Distribution,
+    /// That of `synth/requirements.txt`.
+    Current,
+}
+
+impl Version {
+    /// The commands that it takes.
+    pub fn commands(self) -> [&'static str; 3] {
+        let verilator = match self {
+            Version::Distribution => "verilator",
+            Version::Current => "verilator-current",
+        };
+        [verilator, "make", "g++"]
+    }
+
+    /// Its command, and what that says of its version.
+    ///
+    /// # Panics
+    /// Where it does not run.
+    pub fn name(self) -> String {
+        let command = self.commands()[0];
+        let says = run(Command::new(command).arg("--version"), Path::new("."));
+        format!("{command} ({})", says.trim())
+    }
+}
+
 /// A compiled program around a design.
 pub struct Program {
     folder: tempfile::TempDir,
@@ -45,10 +75,20 @@ impl Program {
     /// # Panics
     /// Where a tool fails.
     pub fn compile(top: &str, main: &str, verilog: &str, speed: Speed) -> Program {
+        Program::compile_with(Version::Distribution, top, main, verilog, speed)
+    }
+
+    fn compile_with(
+        version: Version,
+        top: &str,
+        main: &str,
+        verilog: &str,
+        speed: Speed,
+    ) -> Program {
         let program = Program { folder: tempfile::tempdir().expect("a folder") };
         fs::write(program.at("design.v"), verilog).expect("written");
         fs::write(program.at("main.cpp"), main).expect("written");
-        let mut verilate = Command::new("verilator");
+        let mut verilate = Command::new(version.commands()[0]);
         let unknown = if speed == Speed::Run { "fast" } else { "unique" };
         verilate.args(["--cc", "-O3", "--x-assign", unknown, "--x-initial", unknown, "--noassert"]);
         verilate.args([
@@ -63,7 +103,9 @@ impl Program {
         run(verilate.arg("--exe").arg(program.at("main.cpp")).arg("design.v"), &program.at(""));
         let optimise = if speed == Speed::Run { "-O3 -march=native" } else { "-O1" };
         let mut make = Command::new("make");
-        make.args(["-C", "obj_dir", "-f", "Vtop.mk", "-j2"]).arg(format!("OPT_FAST={optimise}"));
+        // The package's Verilator calls whatever `python` is.
+        make.args(["-C", "obj_dir", "-f", "Vtop.mk", "-j2", "PYTHON3=python3"]);
+        make.arg(format!("OPT_FAST={optimise}"));
         run(&mut make, &program.at(""));
         program
     }
@@ -91,10 +133,22 @@ impl Verilated {
     /// # Panics
     /// Where a tool fails.
     pub fn new(top: &str, ports: &[Port], verilog: &str, start: Start) -> Verilated {
-        Verilated {
-            program: Program::compile(top, &main(top, ports), verilog, Speed::Compile),
-            start,
-        }
+        Verilated::with(Version::Distribution, top, ports, verilog, start)
+    }
+
+    /// Compiles a design given as Verilog text with one Verilator or the other.
+    ///
+    /// # Panics
+    /// Where a tool fails.
+    pub fn with(
+        version: Version,
+        top: &str,
+        ports: &[Port],
+        verilog: &str,
+        start: Start,
+    ) -> Verilated {
+        let program = Program::compile_with(version, top, &main(ports), verilog, Speed::Compile);
+        Verilated { program, start }
     }
 
     /// Runs a trace; the first mismatch, if there is one.
@@ -137,7 +191,7 @@ impl CompiledTrace<'_> {
 }
 
 /// The program around the design.
-fn main(top: &str, ports: &[Port]) -> String {
+fn main(ports: &[Port]) -> String {
     let (mut give, mut compare) = (String::new(), String::new());
     for (index, port) in ports.iter().enumerate() {
         let (name, mask) = (&port.name, u64::MAX >> (64 - u32::from(port.format.width)));
@@ -151,9 +205,5 @@ fn main(top: &str, ports: &[Port]) -> String {
             }
         };
     }
-    include_str!("verilator.cpp")
-        .replace("@TOP@", top)
-        .replace("@PORTS@", &ports.len().to_string())
-        .replace("@GIVE@", &give)
-        .replace("@COMPARE@", &compare)
+    program(include_str!("verilator.cpp"), ports.len(), &give, &compare)
 }

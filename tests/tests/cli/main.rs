@@ -18,6 +18,7 @@ mod sweep;
 mod terminals;
 mod tradeoff;
 mod tutorial;
+mod unbreakable;
 mod waves;
 
 use std::fs;

@@ -16,6 +16,7 @@ use hapticore_host::device::{RECENT_S, RELEASE_V};
 use hapticore_scene::{Plant, Scene, Timing, Truth};
 use toml::{Table, Value};
 
+use crate::interrupt;
 use crate::lab::force_table::Reading;
 
 /// Loads of settled readings, g.
@@ -146,9 +147,11 @@ impl Bench {
         let volts: Vec<f64> = up.iter().chain(down).copied().collect();
         let mut readings = Vec::new();
         for load_g in LOADS_G {
+            interrupt::check()?;
             readings.extend(self.settled(load_g, &volts)?);
         }
         for [load_g, volt] in STEPS.into_iter().filter(|_| !self.is_static()) {
+            interrupt::check()?;
             let step = self.step(load_g, volt, STEP_SLOTS)?;
             readings.extend(logarithmic(OF_STEP, STEP_SLOTS).map(|slot| step[slot]));
         }

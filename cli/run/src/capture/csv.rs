@@ -12,7 +12,7 @@
 //! codes but volts at the ADC, 10 of them at the end of its range. Every row ends with the end of a
 //! line, so that a file that was cut short is known for one.
 
-use std::io::{BufRead, Write};
+use std::io::{BufRead, Read, Write};
 use std::path::Path;
 
 use anyhow::{Context, Result, anyhow, bail};
@@ -25,6 +25,9 @@ use crate::digitiser::Digitiser;
 
 /// The most bits of a code.
 const MOST_BITS: u8 = 32;
+
+/// The longest line, bytes: it is held in memory, and what comes may have no end.
+const LONGEST: usize = 1 << 20;
 
 /// A CSV capture being read.
 pub struct Reader {
@@ -80,10 +83,13 @@ impl Reader {
         loop {
             self.line.clear();
             self.number += 1;
-            let read =
-                self.input.bytes.read_line(&mut self.line).map_err(|error| self.error(error))?;
+            let mut bytes = (&mut self.input.bytes).take(LONGEST as u64);
+            let read = bytes.read_line(&mut self.line).map_err(|error| self.error(error))?;
             if read == 0 {
                 return Ok(false);
+            }
+            if read == LONGEST && !self.line.ends_with('\n') {
+                bail!(self.error(format!("expected a line of at most {LONGEST} bytes")));
             }
             let text = self.line.trim_start_matches('\u{feff}').trim();
             match text.strip_prefix('#') {

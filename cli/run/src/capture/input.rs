@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Where a capture's bytes come from: a file, or standard input.
 
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::{self, BufRead, BufReader, Read};
 use std::path::Path;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
 use std::thread;
 use std::time::Duration;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 
 use crate::interrupt;
 
@@ -29,33 +29,54 @@ pub struct Input {
 }
 
 impl Input {
+    /// Bytes that messages call `name`.
+    pub fn new(bytes: Box<dyn Read>, name: String, length: Option<u64>) -> Self {
+        let bytes: Box<dyn Read> = Box::new(Interruptible(bytes));
+        Input { bytes: BufReader::with_capacity(BLOCK, bytes), name, length }
+    }
+
     /// Whether it begins as a WAV file does.
-    pub fn is_wav(&self) -> bool {
+    pub(super) fn is_wav(&self) -> bool {
         let head = self.bytes.buffer();
         [b"RIFF", b"RF64", b"BW64"].iter().any(|magic| head.starts_with(*magic))
     }
 }
 
-/// A file to read a capture from.
+/// A file to read a capture from. What is no plain file (a device, a named pipe) is read on a thread
+/// of its own, for even opening it may take until somebody writes.
 ///
 /// # Errors
 /// It cannot be opened.
-pub fn file(path: &Path) -> Result<Input> {
+pub(super) fn file(path: &Path) -> Result<Input> {
     let name = path.display().to_string();
+    let data = fs::metadata(path).with_context(|| name.clone())?;
+    ensure!(!data.is_dir(), "{name}: expected a file, got a folder");
+    if !data.is_file() {
+        let path = path.to_owned();
+        return Ok(Input::new(Box::new(piped(move || File::open(path))), name, None));
+    }
     let file = File::open(path).with_context(|| name.clone())?;
-    let data = file.metadata().with_context(|| name.clone())?;
-    let length = data.is_file().then_some(data.len());
-    Ok(Input { bytes: BufReader::with_capacity(BLOCK, Box::new(file)), name, length })
+    Ok(Input::new(Box::new(file), name, Some(data.len())))
 }
 
 /// Standard input, its first bytes there.
 ///
 /// # Errors
 /// It cannot be read.
-pub fn standard() -> Result<Input> {
+pub(super) fn standard() -> Result<Input> {
+    let mut input = Input::new(Box::new(piped(|| Ok(io::stdin()))), "standard input".into(), None);
+    input.bytes.fill_buf().context("standard input")?;
+    Ok(input)
+}
+
+/// What opens and reads on another thread.
+fn piped<R: Read>(open: impl FnOnce() -> io::Result<R> + Send + 'static) -> Piped {
     let (sender, blocks) = sync_channel(4);
     thread::spawn(move || {
-        let mut input = io::stdin();
+        let mut input = match open() {
+            Ok(input) => input,
+            Err(error) => return drop(sender.send(Err(error))),
+        };
         loop {
             let mut block = vec![0; BLOCK];
             let read = input.read(&mut block).map(|length| {
@@ -68,10 +89,7 @@ pub fn standard() -> Result<Input> {
             }
         }
     });
-    let piped = Piped { blocks, block: io::Cursor::new(Vec::new()) };
-    let mut bytes = BufReader::with_capacity(BLOCK, Box::new(piped) as Box<dyn Read>);
-    bytes.fill_buf().context("standard input")?;
-    Ok(Input { bytes, name: "standard input".into(), length: None })
+    Piped { blocks, block: io::Cursor::new(Vec::new()) }
 }
 
 /// What another thread reads, so that a run that waits can be told to stop.
@@ -95,5 +113,16 @@ impl Read for Piped {
             }
         }
         self.block.read(into)
+    }
+}
+
+/// Bytes whose reader can be told to stop: comments, empty lines and chunks that nobody asks for
+/// may go on for ever.
+struct Interruptible(Box<dyn Read>);
+
+impl Read for Interruptible {
+    fn read(&mut self, into: &mut [u8]) -> io::Result<usize> {
+        interrupt::check().map_err(io::Error::other)?;
+        self.0.read(into)
     }
 }

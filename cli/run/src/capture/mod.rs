@@ -20,6 +20,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 
+pub use input::Input;
 pub use stream::{Adc, Described, Recorder, Sampled, Source};
 
 #[derive(Clone, Copy)]
@@ -47,24 +48,52 @@ fn kind(path: &Path) -> Result<Kind> {
     }
 }
 
+/// The content of a capture's files, by kind.
+pub enum Content {
+    /// CSV.
+    Csv(Input),
+    /// WAV.
+    Wav(Input),
+    /// SigMF.
+    Sigmf {
+        /// What the meta data are called in messages.
+        file: String,
+        /// The text of the meta data.
+        meta: String,
+        /// The samples.
+        data: Input,
+    },
+}
+
 /// Opens a capture; `-` is standard input.
 ///
 /// # Errors
 /// It is not there, or its head is not that of a capture.
 pub fn open(path: &Path, adc: Adc, described: &Described) -> Result<Box<dyn Source>> {
-    let (kind, input) = if path == Path::new("-") {
+    let content = if path == Path::new("-") {
         let input = input::standard()?;
-        (if input.is_wav() { Kind::Wav } else { Kind::Csv }, input)
+        if input.is_wav() { Content::Wav(input) } else { Content::Csv(input) }
     } else {
-        let kind = kind(path)?;
-        if let Kind::Sigmf = kind {
-            return Ok(Box::new(sigmf::open(path, adc, described)?));
+        match kind(path)? {
+            Kind::Csv => Content::Csv(input::file(path)?),
+            Kind::Wav => Content::Wav(input::file(path)?),
+            Kind::Sigmf => sigmf::files(path)?,
         }
-        (kind, input::file(path)?)
     };
-    Ok(match kind {
-        Kind::Csv => Box::new(csv::Reader::open(input, adc, described)?),
-        _ => Box::new(wav::read::open(input, adc, described)?),
+    read(content, adc, described)
+}
+
+/// Opens a capture whose files have been opened.
+///
+/// # Errors
+/// Its head is not that of a capture.
+pub fn read(content: Content, adc: Adc, described: &Described) -> Result<Box<dyn Source>> {
+    Ok(match content {
+        Content::Csv(input) => Box::new(csv::Reader::open(input, adc, described)?),
+        Content::Wav(input) => Box::new(wav::read::open(input, adc, described)?),
+        Content::Sigmf { file, meta, data } => {
+            Box::new(sigmf::open(&file, &meta, data, adc, described)?)
+        }
     })
 }
 

@@ -10,24 +10,38 @@ use std::path::Path;
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use serde_json::Value;
 
+use super::Content;
 use super::columns::Columns;
-use super::input;
+use super::input::{self, Input};
 use super::raw::{Layout, Reader};
 use super::stream::{Adc, Described};
 use hapticore_host::text::read;
 
-/// Opens a capture by the name of either of its files.
-pub fn open(path: &Path, adc: Adc, described: &Described) -> Result<Reader> {
+/// The files of a capture, by the name of either.
+pub fn files(path: &Path) -> Result<Content> {
     let (meta, data) = (path.with_extension("sigmf-meta"), path.with_extension("sigmf-data"));
-    let file = meta.display().to_string();
-    let value: Value = serde_json::from_str(&read(&meta)?)
-        .map_err(|error| anyhow!("{file}: expected JSON: {error}"))?;
-    let head = Head::read(&value).with_context(|| file.clone())?;
+    Ok(Content::Sigmf {
+        file: meta.display().to_string(),
+        meta: read(&meta)?,
+        data: input::file(&data)?,
+    })
+}
+
+/// Opens a capture: the text of its meta data, called `file` in messages, and its samples.
+pub fn open(
+    file: &str,
+    meta: &str,
+    input: Input,
+    adc: Adc,
+    described: &Described,
+) -> Result<Reader> {
+    let value: Value =
+        serde_json::from_str(meta).map_err(|error| anyhow!("{file}: expected JSON: {error}"))?;
+    let head = Head::read(&value).with_context(|| file.to_string())?;
     let layout =
         layout(&head.datatype, described).with_context(|| format!("{file}: core:datatype"))?;
     let columns = Columns::counted(head.channels, described.channels.as_deref(), adc)
         .with_context(|| format!("{file}: core:num_channels"))?;
-    let input = input::file(&data)?;
     let block = (layout.bytes * head.channels) as u64;
     let length = input.length.context("expected a file").with_context(|| input.name.clone())?;
     ensure!(

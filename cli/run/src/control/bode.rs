@@ -18,6 +18,7 @@ use hapticore_scene::Complex;
 use super::plant::Excitation;
 use super::stability::{OpenLoop, margins};
 use crate::case::{Case, Settings};
+use crate::interrupt;
 use crate::maker::Maker;
 use crate::record::{Bode, BodePoint};
 use crate::session::Session;
@@ -143,6 +144,7 @@ fn follow(case: &Case, settings: &Settings, excitation: Excitation) -> Result<Ve
     let rest = (REST_S / case.clock.seconds(pads)).ceil() as usize;
     let mut samples = Vec::with_capacity(rest + FRAMES);
     for number in 0..(rest + FRAMES) * pads {
+        interrupt::check()?;
         let made = plant.slot(number);
         session.set_target(made.slot.pad, made.target_n);
         session.slot(&made.slot, None);

@@ -24,6 +24,7 @@ use hapticore_reference::control::{Controller, Prompt};
 use hapticore_scene::{Complex, ControlLaw, ControlPlan, Truth};
 
 use crate::case::Case;
+use crate::interrupt;
 use crate::record::Stability;
 
 /// How long the loop is closed, how long its drive is held before a step, and how long that is
@@ -186,6 +187,7 @@ impl<'a> Bench<'a> {
         let (mut drives, mut quantities) = (Vec::new(), Vec::new());
         let mut held_v = 0.0;
         for frame in 0..=rest + frames(FOLLOWED_S).max(FOLLOWED) {
+            interrupt::check()?;
             let truth = plant.truth(frame * pads);
             let start_s = self.case.clock.seconds(frame * pads + 1) + self.latency_s;
             if frame < closed {

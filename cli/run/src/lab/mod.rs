@@ -27,7 +27,7 @@ pub mod setup;
 pub mod table;
 pub mod wiring;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use hapticore_contract::profile::Profile;
@@ -37,6 +37,7 @@ use serde::Serialize;
 use crate::inputs::buildable;
 use crate::record::Provenance;
 use hapticore_host::residual::LIMIT_MM;
+use hapticore_host::text::read;
 use hapticore_host::{
     DeviceCalibration, Found, Raster, Residual, Scales, Signs, found, open_share,
 };
@@ -89,17 +90,26 @@ impl Data {
     /// # Errors
     /// A file that cannot be read, or is of no kind; a kind that is missing or comes twice.
     pub fn read(paths: &[PathBuf]) -> Result<Data> {
+        let read = |path: &PathBuf| Ok((path.display().to_string(), read(path)?));
+        Data::of(&paths.iter().map(read).collect::<Result<Vec<_>>>()?)
+    }
+
+    /// The data of texts, each with the name of its file.
+    ///
+    /// # Errors
+    /// As [`Data::read`].
+    pub fn of(files: &[(String, String)]) -> Result<Data> {
         let (mut setup, mut places, mut loads) = (None, None, None);
-        for path in paths {
-            let file = path.display();
-            if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml")) {
+        for (file, text) in files {
+            let extension = Path::new(file).extension();
+            if extension.is_some_and(|extension| extension.eq_ignore_ascii_case("toml")) {
                 ensure!(
-                    setup.replace(Setup::read(path)?).is_none(),
+                    setup.replace(Setup::parse(text, file)?).is_none(),
                     "{file}: expected one setup, got two"
                 );
                 continue;
             }
-            let table = Table::read(path)?;
+            let table = Table::parse(text, file)?;
             let (known, what) = match () {
                 () if loads::is(&table) => (&mut loads, "loads"),
                 () if places::is(&table) => (&mut places, "places"),

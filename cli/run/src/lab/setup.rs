@@ -23,15 +23,13 @@
 //! terminal_ohm = 0
 //! ```
 
-use std::path::Path;
-
 use anyhow::{Context, Result, anyhow, ensure};
 use hapticore_contract::profile::Profile;
 use hapticore_scene::signs_by_place;
 use serde::Deserialize;
 
 use hapticore_host::Signs;
-use hapticore_host::text::{read, with_key};
+use hapticore_host::text::with_key;
 
 /// What is known of a device before anything is measured.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -102,16 +100,14 @@ fn pad_diameter_mm() -> f64 {
 }
 
 impl Setup {
-    /// Reads a setup.
+    /// The setup that a text is, called `file` in messages.
     ///
     /// # Errors
-    /// It is not there or is none; the message names file, line and key.
-    pub fn read(path: &Path) -> Result<Setup> {
-        let text = read(path)?;
-        let file = path.display();
-        let setup: Setup = toml::from_str(&text).map_err(|error| {
+    /// It is none; the message names file, line and key.
+    pub fn parse(text: &str, file: &str) -> Result<Setup> {
+        let setup: Setup = toml::from_str(text).map_err(|error| {
             let line = error.span().map_or(1, |span| text[..span.start].matches('\n').count() + 1);
-            anyhow!("{file}:{}", with_key(&text, &format!("{line}: {}", error.message())))
+            anyhow!("{file}:{}", with_key(text, &format!("{line}: {}", error.message())))
         })?;
         setup.check().with_context(|| file.to_string())?;
         Ok(setup)

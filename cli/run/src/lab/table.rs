@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A table of numbers: CSV with a header; lines that begin with `#` are comments.
 
-use std::path::Path;
+use std::collections::HashSet;
 
 use anyhow::{Context, Result, anyhow, bail};
 
@@ -23,23 +23,21 @@ pub struct Row {
 }
 
 impl Table {
-    /// Reads a table.
+    /// The table that a text is, called `file` in messages.
     ///
     /// # Errors
-    /// It is not there, or not of finite numbers; the message names file, line and column.
-    pub fn read(path: &Path) -> Result<Table> {
-        let file = path.display().to_string();
+    /// It is not of finite numbers; the message names file, line and column.
+    pub fn parse(text: &str, file: &str) -> Result<Table> {
+        let file = file.to_string();
         let mut builder = csv::ReaderBuilder::new();
-        let mut reader = builder
-            .comment(Some(b'#'))
-            .trim(csv::Trim::All)
-            .from_path(path)
-            .with_context(|| file.clone())?;
+        let mut reader =
+            builder.comment(Some(b'#')).trim(csv::Trim::All).from_reader(text.as_bytes());
         let header = reader.headers().with_context(|| file.clone())?;
         let names: Vec<String> =
             header.iter().map(|name| name.trim_start_matches('\u{feff}').to_lowercase()).collect();
-        if let Some(twice) = names.iter().enumerate().find(|(k, name)| names[..*k].contains(name)) {
-            bail!("{file}:1: {} comes twice", twice.1);
+        let mut known = HashSet::new();
+        if let Some(twice) = names.iter().find(|name| !known.insert(*name)) {
+            bail!("{file}:1: {twice} comes twice");
         }
         let mut table = Table { file, names, rows: Vec::new() };
         for record in reader.records() {

@@ -138,6 +138,11 @@ pub struct Module {
     pub instances: Vec<Instance>,
     /// Its wires; each depends only on wires before it, on registers and on ports.
     pub wires: Vec<Wire>,
+    /// Bits that the block claims to be set at every clock, by name. No output depends on them.
+    pub invariants: Vec<(&'static str, Node)>,
+    /// A bit, and the input ports that a caller leaves as they were in the clock before where it is
+    /// set.
+    pub held: Option<(Node, Vec<usize>)>,
 }
 
 /// A design: its modules, the top one last.
@@ -219,11 +224,23 @@ fn read<B: Block>(block: &B, state: &mut State<B, Node>) -> usize {
         Signal { value, format }
     });
     let outputs = widen::<B::Outputs, Node>(B::NAME, block.clock(state, signals), block.outputs());
+    let before =
+        B::Registers::map(B::Registers::zip(registers, block.registers()), |(value, format)| {
+            Signal { value, format }
+        });
+    let claims = block.claims(before, signals);
     READER.with_borrow_mut(|reader| {
         let mut module = reader.open.pop().expect("opened above").module;
         module.name = B::NAME;
         module.resets = B::RESETS;
         module.path = std::any::type_name::<B>();
+        module.invariants =
+            claims.invariants.iter().map(|&(name, bit)| (name, bit.value)).collect();
+        module.held = claims.held.map(|held| {
+            let port = |name: &&str| input_ports.iter().position(|port| port.name == *name);
+            let ports = held.inputs.iter().map(|name| port(name).expect("a held input is a port"));
+            (held.when.value, ports.collect())
+        });
         module.inputs = input_ports;
         module.outputs = named::<B::Outputs>(outputs, block.outputs());
         module.registers = named::<B::Registers>(state.registers, block.registers());

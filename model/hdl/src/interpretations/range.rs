@@ -11,6 +11,8 @@ use crate::format::Format;
 use crate::memory::{Memory, Storage, Write};
 use crate::signal::{Overflow, Rounding, Signal, Value};
 use std::cell::RefCell;
+use std::fmt;
+use std::panic::Location;
 
 /// The value of the range interpretation: `low ..= high`, in codes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -23,15 +25,60 @@ pub struct Range {
 
 /// A narrowing that is declared not to overflow, and a range that does; or an address beyond the
 /// words of a memory.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+///
+/// ```
+/// use hapticore_hdl::format::Format;
+/// use hapticore_hdl::interpretations::range::{Range, take_violations, whole};
+/// use hapticore_hdl::signal::{Proved, Signal, int};
+///
+/// let byte = Format::unsigned(8, 0);
+/// let any: Signal<Range> = Signal { value: whole(byte), format: byte };
+/// (any + any + int(3)).resize(byte, Proved);
+/// let [violation] = &take_violations()[..] else { panic!("one narrowing") };
+/// assert_eq!(violation.lacking(), 2);
+/// assert!(violation.to_string().ends_with(": 3 … 513 lacks 2 bits in u8.0"), "{violation}");
+/// ```
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Violation {
+    /// The instances down to the block, with dots between; empty for the block that is run.
+    pub instance: String,
+    /// The memory, where it is an address that leaves it.
+    pub memory: Option<&'static str>,
+    /// The line of the block that narrows, or addresses the memory.
+    pub line: &'static Location<'static>,
     /// The range before the narrowing, in codes of the narrowed format; or of the address.
     pub range: Range,
     /// The format that does not hold it; or of the memory's addresses.
     pub format: Format,
 }
 
+impl Violation {
+    /// The bits that the format lacks, one at least where it lacks a sign; none where a memory has
+    /// fewer words than its address has codes.
+    pub fn lacking(&self) -> u8 {
+        let Format { signed, width, .. } = self.format;
+        let negative = self.range.low < 0;
+        let bits = |code: i128| (128 - (if code < 0 { !code } else { code }).leading_zeros()) as u8;
+        let needed = bits(self.range.low).max(bits(self.range.high)) + u8::from(signed || negative);
+        needed.saturating_sub(width).max(u8::from(negative && !signed))
+    }
+}
+
+impl fmt::Display for Violation {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let Violation { instance, memory, line, range: Range { low, high }, format } = self;
+        let place = if instance.is_empty() { String::new() } else { format!("{instance}, ") };
+        write!(f, "{place}{}:{}: ", line.file(), line.line())?;
+        match (memory, self.lacking()) {
+            (Some(memory), _) => write!(f, "address {low} … {high} leaves the memory {memory}"),
+            (None, 1) => write!(f, "{low} … {high} lacks 1 bit in {format}"),
+            (None, lacking) => write!(f, "{low} … {high} lacks {lacking} bits in {format}"),
+        }
+    }
+}
+
 thread_local! {
+    static SCOPE: RefCell<Vec<&'static str>> = const { RefCell::new(Vec::new()) };
     static VIOLATIONS: RefCell<Vec<Violation>> = const { RefCell::new(Vec::new()) };
     static ASSUMPTIONS: RefCell<Vec<&'static str>> = const { RefCell::new(Vec::new()) };
 }
@@ -100,11 +147,19 @@ fn wrap(range: Range, to: Format) -> Range {
 }
 
 /// The range as it is, noted as a violation where the format does not hold it.
+#[track_caller]
 fn never(range: Range, to: Format) -> Range {
     if !whole(to).holds(range) {
-        VIOLATIONS.with_borrow_mut(|found| found.push(Violation { range, format: to }));
+        violated(range, to, None);
     }
     clamp(range, to)
+}
+
+#[track_caller]
+fn violated(range: Range, format: Format, memory: Option<&'static str>) {
+    let instance = SCOPE.with_borrow(|scope| scope.join("."));
+    let violation = Violation { instance, memory, line: Location::caller(), range, format };
+    VIOLATIONS.with_borrow_mut(|found| found.push(violation));
 }
 
 fn assume(range: Range, to: Format, name: &'static str) -> Range {
@@ -165,6 +220,7 @@ impl Value for Range {
     }
 
     #[inline(never)]
+    #[track_caller]
     fn quantize(a: Signal<Self>, to: Format, rounding: Rounding, overflow: Overflow) -> Self {
         let range = a.value.map(|code| round(code, a.format.frac - to.frac, rounding));
         match overflow {
@@ -257,25 +313,18 @@ impl Storage for Range {
         words.1
     }
 
+    #[track_caller]
     fn access(
         memory: &Memory,
         words: &mut Self::Words,
         address: Signal<Self>,
         write: Option<Write<Self>>,
     ) {
-        let within = |address: Range| {
-            let last = memory.words as i128 - 1;
-            if address.low < 0 || address.high > last {
-                let violation = Violation { range: address, format: memory.address() };
-                VIOLATIONS.with_borrow_mut(|found| found.push(violation));
-            }
-            Range { low: address.low.clamp(0, last), high: address.high.clamp(0, last) }
-        };
-        words.1 = read(&words.0, within(address.value));
+        words.1 = read(&words.0, within(memory, address.value));
         let Some(write) = write.filter(|write| write.enable.value.high != 0) else { return };
         let data = align(write.data, memory.format);
         let surely = write.enable.value.low == 1 && write.address.value.is_point();
-        let place = within(write.address.value);
+        let place = within(memory, write.address.value);
         for word in &mut words.0[place.low as usize..=place.high as usize] {
             *word = if surely { data } else { word.join(data) };
         }
@@ -288,17 +337,30 @@ impl Interpretation for Range {
     #[inline(never)]
     fn instance<B: Block>(
         block: &B,
-        _name: &'static str,
+        name: &'static str,
         state: &mut State<B, Self>,
         inputs: Inputs<B, Signal<Self>>,
     ) -> Outputs<B, Signal<Self>> {
-        block.clock(state, inputs)
+        SCOPE.with_borrow_mut(|scope| scope.push(name));
+        let outputs = block.clock(state, inputs);
+        SCOPE.with_borrow_mut(|scope| scope.pop());
+        outputs
     }
 
     /// Surely not busy: that skipping changes no bit is tested on the clocked interpretation.
     fn can_skip(busy: Self) -> bool {
         busy == Range::point(0)
     }
+}
+
+/// The address within the words of a memory; noted as a violation where it leaves them.
+#[track_caller]
+fn within(memory: &Memory, address: Range) -> Range {
+    let last = memory.words as i128 - 1;
+    if address.low < 0 || address.high > last {
+        violated(address, memory.address(), Some(memory.name));
+    }
+    Range { low: address.low.clamp(0, last), high: address.high.clamp(0, last) }
 }
 
 /// The join of the words that an address may mean.

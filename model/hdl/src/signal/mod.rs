@@ -54,8 +54,8 @@ pub enum Overflow {
     /// It cannot happen; the interpretation as ranges proves it.
     Proved,
     /// It cannot happen for the reason named, which relates several signals and so is beyond
-    /// intervals. Test builds check it at each clock; those of the divider and the square root are
-    /// verified for all codes of small widths, too.
+    /// intervals. A solver proves it from the netlist ([`smt`](crate::smt)) and what the block
+    /// [claims](crate::block::Block::claims) of itself; test builds check it at each clock.
     Assumed(&'static str),
 }
 
@@ -103,7 +103,8 @@ pub trait Value: Copy + std::fmt::Debug + 'static {
     }
     /// The magnitude of a signal.
     fn abs(a: Signal<Self>, to: Format) -> Self;
-    /// The signal in a narrower or wider format.
+    /// The signal in a narrower or wider format. An interpretation may say which line narrows.
+    #[track_caller]
     fn quantize(a: Signal<Self>, to: Format, rounding: Rounding, overflow: Overflow) -> Self;
     /// The same code with its point moved: the number times `2^by`.
     fn scale(a: Self, by: i8) -> Self;
@@ -228,6 +229,7 @@ impl<V: Value> Signal<V> {
     /// The signal narrowed to the format `to`: what is lost below its least significant bit and
     /// beyond its range is named.
     #[inline(always)]
+    #[track_caller]
     pub fn quantize(self, to: Format, rounding: Rounding, overflow: Overflow) -> Self {
         if (V::ELABORATES || cfg!(debug_assertions))
             && rounding == Exact
@@ -250,12 +252,14 @@ impl<V: Value> Signal<V> {
     /// # Panics
     /// In debug builds and where blocks are elaborated, where `to` has fewer fractional bits.
     #[inline(always)]
+    #[track_caller]
     pub fn resize(self, to: Format, overflow: Overflow) -> Self {
         self.quantize(to, Exact, overflow)
     }
 
     /// The count after this one, of as many bits: the last code is followed by zero.
     #[inline(always)]
+    #[track_caller]
     pub fn increment(self) -> Self {
         (self + int(1)).resize(self.format, Wrap)
     }
@@ -264,12 +268,14 @@ impl<V: Value> Signal<V> {
     /// once, here, and not at every operation that it meets others in. To all others it is the
     /// signal as it was.
     #[inline(always)]
+    #[track_caller]
     pub fn align_point(self, to: Format) -> Self {
         if V::DECIDES { self.resize(to, Proved) } else { self }
     }
 
     /// As [`Signal::quantize`] with saturation, and a bit that says whether the number saturated.
     #[inline(always)]
+    #[track_caller]
     pub fn saturate(self, to: Format, rounding: Rounding) -> (Self, Self) {
         let rounded = self.quantize(self.format.rounded(to), rounding, Proved);
         let limited = rounded.resize(to, Saturate);
@@ -310,6 +316,7 @@ impl<V: Value> Signal<V> {
     /// The number whose code in the format `to` this integer is: the low bits of it, where it has
     /// more.
     #[inline(always)]
+    #[track_caller]
     pub fn as_code(self, to: Format) -> Self {
         self.resize(to.integer(), Wrap).scaled(-to.frac)
     }

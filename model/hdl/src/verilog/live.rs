@@ -53,7 +53,7 @@ impl Live {
 }
 
 /// The wires that an operation takes.
-fn operands(op: &Op) -> Vec<Node> {
+pub fn operands(op: &Op) -> Vec<Node> {
     match *op {
         Op::Constant(_) | Op::Input(_) | Op::Register(_) | Op::Data(_) | Op::Output(..) => vec![],
         Op::Abs(a) | Op::Fit(a, ..) | Op::Scale(a) | Op::Bits(a, _) | Op::Not(a) => vec![a],

@@ -191,8 +191,8 @@ impl Controller {
         control.check()?;
         let block = Self::of(profile, control);
         fits("control.drive", "the dividend of the inverse law", block.divider.dividend.width)?;
-        for (product, to) in block.products() {
-            rounds("control.gain", product, to)?;
+        for (name, product, to) in block.products() {
+            rounds("control.gain", name, product, to)?;
         }
         Ok(block)
     }

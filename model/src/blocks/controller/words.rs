@@ -78,22 +78,38 @@ impl Controller {
         format.where_present(self.law == Law::Inverse)
     }
 
-    /// The products of the law, and the formats to which they are rounded.
-    pub(super) fn products(&self) -> Vec<(Format, Format)> {
+    /// The products of the law by name, and the formats to which they are rounded.
+    pub(super) fn products(&self) -> Vec<(&'static str, Format, Format)> {
         let signed = self.correction_format();
-        let rise = (signed.product(self.part_format()), signed);
+        let rise = ("the rise within a cell", signed.product(self.part_format()), signed);
         match self.law {
             Law::Open => vec![rise],
             Law::Proportional | Law::Integral => vec![
                 rise,
-                (self.error_format().product(self.gain), signed),
-                (self.corrected_format().product(self.gain), self.kept_format()),
+                ("the product of error and gain", self.error_format().product(self.gain), signed),
+                (
+                    "the product of corrected error and gain",
+                    self.corrected_format().product(self.gain),
+                    self.kept_format(),
+                ),
             ],
             Law::Inverse => vec![
                 rise,
-                (self.capacitance.product(self.capacitance), self.square),
-                (self.square.product(self.force_gain), self.stiffness_format()),
-                (self.target.product(self.gain), self.numerator_format()),
+                (
+                    "the square of the capacitance",
+                    self.capacitance.product(self.capacitance),
+                    self.square,
+                ),
+                (
+                    "the product of square and gain",
+                    self.square.product(self.force_gain),
+                    self.stiffness_format(),
+                ),
+                (
+                    "the product of target and gain",
+                    self.target.product(self.gain),
+                    self.numerator_format(),
+                ),
             ],
         }
     }

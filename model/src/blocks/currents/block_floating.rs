@@ -14,7 +14,7 @@
 //! moving back; B the profile's `block_shift`.
 
 use super::{Currents, Registers, Regs, Step};
-use hapticore_hdl::block::Interpretation;
+use hapticore_hdl::block::{Interpretation, State};
 use hapticore_hdl::format::Format;
 use hapticore_hdl::signal::{Floor, HalfEven, Proved, Saturate, Signal, Wrap, bit, int};
 use hapticore_hdl::states::States;
@@ -89,6 +89,15 @@ impl Currents {
             channel: next.resize(r.channel.format, Wrap),
             aligning: r.aligning | (ends & r.quadrature & sense),
             ..r
+        }
+    }
+
+    /// The clocks in which a word is moved bit by bit, one after the other: nothing else changes in them.
+    #[inline(always)]
+    pub(super) fn run_moves<V: Interpretation>(&self, state: &mut State<Self, V>) {
+        while V::known_bit(state.load(self).step.at(Step::AlignMove).value) == Some(true) {
+            let r = state.load(self);
+            state.store(self, self.align(r, r.long));
         }
     }
 

@@ -2,31 +2,30 @@
 //! The program's results without its clocks, for fidelity `fixed`: most of a slot's clocks are the
 //! program's, and two in three of those wait for products.
 //!
-//! Instructions are as `instruction.rs` says, on raw codes. `fixed` and `clock` are held to be
-//! equal to the bit.
+//! Its jumps are followed once for all slots (`trace.rs`). Instructions are as `instruction.rs` says, on
+//! raw codes. `fixed` and `clock` are held to be equal to the bit.
 
-use super::instruction::{
-    CHECK, COUNT, Index, Instruction, LOW, OPEN, Operation, SCALARS, SHARE, SLOT_BITS, SURFACE,
-    WRAP,
-};
-use super::{Position, Program};
+use super::Position;
+use super::instruction::{CHECK, LOW, OPEN, SHARE, SLOT_BITS, WRAP};
+use super::program::Program;
+use super::trace::{CELL, QUOTIENT, ROW, ROW_WORDS, TABLE_SCALARS, Term, Then, Trace};
 use hapticore_contract::calibration::{Layout, Surface};
 use hapticore_hdl::format::Format;
 
-/// The scratch memory, as many words as an instruction can name: a run has a copy of its own,
-/// without an allocation.
-type Scratch = [i64; 1 << SLOT_BITS];
+/// All words that a term can name: a run has a copy of its own, without an allocation.
+type Words = [i64; 256];
 
 /// A program, its constants and a calibration's words.
 #[derive(Debug, Clone)]
 pub struct AtOnce {
-    program: Program,
-    scratch: Scratch,
+    trace: Trace,
+    words: Words,
     table: Vec<i64>,
     word: Format,
+    /// Digits of a quotient.
+    digits: u32,
     /// Bits of half a ratio that a word does not have.
     rest: u32,
-    steps: u64,
 }
 
 /// What the program gives out, as codes.
@@ -46,14 +45,9 @@ pub struct Placed {
 struct Run<'a> {
     of: &'a AtOnce,
     ratios: [i64; 3],
-    scratch: Scratch,
+    words: Words,
     sum: i64,
-    left: i64,
     quotient: i64,
-    base: usize,
-    count: u8,
-    surface: usize,
-    step: u64,
     placed: Placed,
 }
 
@@ -61,16 +55,19 @@ impl AtOnce {
     /// The program of a position block over a table of these codes.
     pub(super) fn new(position: &Position, table: Vec<i64>) -> Self {
         let (word, ratio) = (position.word, position.ratio);
-        let constants = position.scratch.codes();
-        let mut scratch = [0; 1 << SLOT_BITS];
-        scratch[..constants.len()].copy_from_slice(&constants);
+        let (constants, program) = (position.scratch.codes(), Program::new(word));
+        assert!(constants.len() <= 1 << SLOT_BITS, "slots are numbered with {SLOT_BITS} bits");
+        let mut words = [0; 256];
+        words[..constants.len()].copy_from_slice(&constants);
+        let scalars = &table[..2 * Layout::SCALARS];
+        words[TABLE_SCALARS.into()..][..scalars.len()].copy_from_slice(scalars);
         AtOnce {
-            program: Program::new(word),
-            scratch,
+            trace: Trace::of(&program, position.steps),
+            words,
             table,
             word,
+            digits: program.digits().into(),
             rest: (ratio.frac + 1 - word.frac) as u32,
-            steps: position.steps,
         }
     }
 
@@ -79,23 +76,17 @@ impl AtOnce {
         let mut run = Run {
             of: self,
             ratios,
-            scratch: self.scratch,
+            words: self.words,
             sum: self.half(),
-            left: 0,
             quotient: 0,
-            base: 0,
-            count: 0,
-            surface: 0,
-            step: 0,
             placed: Placed::default(),
         };
-        let (mut at, instructions) = (0, &self.program.instructions[..]);
-        while let Some(instruction) = instructions.get(at) {
-            if instruction.operation == Operation::End {
-                break;
-            }
-            at = if run.jumps(instruction) { instruction.target.into() } else { at + 1 };
-            run.execute(instruction);
+        let mut terms = &self.trace.terms[..];
+        for statement in &self.trace.statements {
+            let (these, others) = terms.split_at(statement.terms);
+            run.add(these);
+            run.conclude(statement.then);
+            terms = others;
         }
         run.placed
     }
@@ -110,95 +101,93 @@ impl AtOnce {
 }
 
 impl Run<'_> {
-    fn found(&self) -> bool {
-        self.step == self.of.steps
+    #[inline(always)]
+    fn word(&self, number: u8) -> i64 {
+        self.words[usize::from(number)]
     }
 
-    fn jumps(&self, instruction: &Instruction) -> bool {
-        match instruction.operation {
-            Operation::Repeat => self.count != 0,
-            Operation::Surfaces => self.surface == 0,
-            Operation::Pass => self.step != self.of.steps - 1,
-            Operation::Found => self.found(),
-            _ => false,
+    #[inline(always)]
+    fn set(&mut self, number: u8, word: i64) {
+        self.words[usize::from(number)] = word;
+    }
+
+    #[inline(always)]
+    fn add(&mut self, terms: &[Term]) {
+        for term in terms {
+            self.sum += self.word(term.left) * self.word(term.right) * i64::from(term.times);
         }
     }
 
-    /// The word that an instruction means.
-    fn slot(&self, &Instruction { operation, slot, .. }: &Instruction) -> usize {
-        let index = match slot.1 {
-            Index::None if operation == Operation::LoadDigit => usize::from(self.sum < 0),
-            Index::None => 0,
-            Index::Surface => self.surface,
-            Index::Counter => self.count.into(),
-            Index::SurfacePair => (self.surface & 1) << 1,
-        };
-        usize::from(slot.0) | index
+    #[inline(always)]
+    fn conclude(&mut self, then: Then) {
+        match then {
+            Then::Store { slot } => {
+                let (result, _) = self.result();
+                self.set(slot, result);
+                self.sum = self.of.half();
+            }
+            Then::StoreWith { slot, option, surface } => self.store(slot, option, surface),
+            Then::Row => self.row(),
+            Then::Cell { slot } => {
+                let fraction = self.of.bits() - 5;
+                self.set(CELL, self.word(slot) >> fraction << fraction);
+            }
+            Then::Digits { pair, first, count } => self.divide(pair, first, count),
+            Then::Quotient => self.set(QUOTIENT, self.of_digits()),
+            Then::Input { slot, option, surface } => self.set(slot, self.input(option, surface)),
+            Then::Output { surface } => self.output(surface.into()),
+        }
     }
 
-    fn execute(&mut self, instruction: &Instruction) {
-        let (slot, option) = (self.slot(instruction), instruction.option);
-        let bits = self.of.bits();
-        match instruction.operation {
-            Operation::Load => self.left = self.scratch[slot],
-            Operation::LoadCell => self.left = self.scratch[slot] >> (bits - 5) << (bits - 5),
-            Operation::LoadQuotient => self.left = self.of_digits(),
-            Operation::Multiply => self.sum += self.left * self.scratch[slot],
-            Operation::MultiplyTable => {
-                let word = self.of.table.get(self.base + usize::from(option)).copied().unwrap_or(0);
-                self.sum += word * self.scratch[slot];
-            }
-            Operation::LoadDigit => {
-                self.quotient = (self.quotient << 1 | i64::from(self.sum >= 0))
-                    & ((1 << self.of.program.digits()) - 1);
-                self.left = self.scratch[slot];
-            }
-            Operation::Store => self.store(slot, option),
-            Operation::Base => {
-                self.base =
-                    (self.sum >> bits) as usize & (self.of.table.len().next_power_of_two() - 1)
-            }
-            Operation::Input => self.scratch[slot] = self.input(option),
-            Operation::Output => self.output(),
-            Operation::Set => self.set(instruction),
-            Operation::Repeat => self.count = self.count.saturating_sub(1),
-            Operation::Surfaces => {
-                self.surface = match (self.surface, self.found()) {
-                    (0, _) => Surface::RatioY as usize,
-                    (_, true) => Surface::Resistance as usize,
-                    (_, false) => Surface::RatioX as usize,
-                }
-            }
-            Operation::Pass => self.step += 1,
-            Operation::Found | Operation::End => (),
+    /// The table's words from the sum, as an integer, on.
+    #[inline(always)]
+    fn row(&mut self) {
+        let table = &self.of.table;
+        let base = (self.sum >> self.of.bits()) as usize & (table.len().next_power_of_two() - 1);
+        for (number, word) in (ROW..).zip(0..ROW_WORDS) {
+            self.set(number, table.get(base + word).copied().unwrap_or(0));
         }
+    }
+
+    /// A digit for each power, +1 where the sum is not negative: it then comes nearer to zero.
+    #[inline(always)]
+    fn divide(&mut self, pair: u8, first: u8, count: u8) {
+        let [positive, negative] = [pair, pair | 1].map(|number| self.word(number));
+        for digit in 0..count {
+            let power = self.word(first - digit);
+            let is_negative = self.sum < 0;
+            self.quotient = self.quotient << 1 | i64::from(!is_negative);
+            self.sum += if is_negative { negative } else { positive } * power;
+        }
+        self.quotient &= (1 << self.of.digits) - 1;
     }
 
     /// The sum as a word, and whether it was saturated.
+    #[inline(always)]
     fn result(&self) -> (i64, bool) {
         let floor = self.sum >> self.of.bits();
         let (low, high) = (self.of.word.min_code() as i64, self.of.word.max_code() as i64);
         (floor.clamp(low, high), !(low..=high).contains(&floor))
     }
 
-    fn store(&mut self, slot: usize, option: u8) {
+    fn store(&mut self, slot: u8, option: u8, surface: u8) {
         let (result, _) = self.result();
         if option & CHECK != 0 {
             let tolerance = 1 << (self.of.bits() - u32::from(Position::TOLERANCE_BITS));
             let beyond = !(-tolerance..tolerance).contains(&result);
-            self.placed.invalid = beyond | (self.surface == 1 && self.placed.invalid);
+            self.placed.invalid = beyond | (surface == 1 && self.placed.invalid);
         }
         if option & OPEN != 0 {
             self.placed.lost = result < 0;
         }
         let unused = 64 - u32::from(self.of.word.width);
         let wrapped = self.sum >> self.of.bits() << unused >> unused;
-        self.scratch[slot] = if option & WRAP != 0 { wrapped } else { result };
+        self.set(slot, if option & WRAP != 0 { wrapped } else { result });
         self.sum = self.of.half();
     }
 
-    fn input(&self, option: u8) -> i64 {
-        let ratio = self.ratios[if option & SHARE != 0 { 2 } else { self.surface & 1 }];
+    fn input(&self, option: u8, surface: u8) -> i64 {
+        let ratio = self.ratios[if option & SHARE != 0 { 2 } else { usize::from(surface & 1) }];
         let rest = self.of.rest;
         match option & LOW {
             0 => ratio >> rest,
@@ -206,30 +195,17 @@ impl Run<'_> {
         }
     }
 
-    fn output(&mut self) {
+    fn output(&mut self, surface: usize) {
         let (result, held) = self.result();
-        let is_place = self.surface != Surface::Resistance as usize;
-        self.placed.outputs[self.surface] = if is_place { result } else { result.max(0) };
+        let is_place = surface != Surface::Resistance as usize;
+        self.placed.outputs[surface] = if is_place { result } else { result.max(0) };
         self.placed.saturated |= is_place && held;
         self.sum = self.of.half();
     }
 
-    fn set(&mut self, instruction: &Instruction) {
-        let option = instruction.option;
-        if option & SCALARS != 0 {
-            self.base = (self.surface & 1) * Layout::SCALARS;
-        }
-        if option & COUNT != 0 {
-            self.count = instruction.slot.0;
-        }
-        if option & SURFACE != 0 {
-            self.surface = 0;
-        }
-    }
-
     /// The quotient of its digits, of which a set bit is +1 and another −1, as a place.
     fn of_digits(&self) -> i64 {
-        let digits = u32::from(self.of.program.digits());
+        let digits = self.of.digits;
         let unused = 64 - digits;
         let coded = (self.quotient ^ 1 << (digits - 1)) << unused >> unused;
         coded << (self.of.bits() - digits - 2)

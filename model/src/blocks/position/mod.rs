@@ -36,6 +36,7 @@
 mod at_once;
 mod instruction;
 mod program;
+mod trace;
 
 use self::at_once::AtOnce;
 use self::instruction::{COUNT, LOW, OPEN, Operation, SCALARS, SHARE, SURFACE, WRAP};
@@ -410,13 +411,14 @@ impl Position {
         let halved = ratio.scaled(-1);
         let high = halved.quantize(self.word, Floor, Proved);
         let rest = (self.ratio.frac + 1 - self.word.frac) as u8;
-        // What the high part leaves, in steps of a word.
-        let low = match rest {
-            0 => zero(self.word),
+        // What the high part leaves, in steps of a word. It is the code's: a ratio without rounding may be
+        // many steps away, which the high part then is, too.
+        let (high, low) = match rest {
+            0 => (high, zero(self.word)),
             _ => {
                 let step = code(1, Format::unsigned(1, self.word.frac));
                 let low = ratio.bits(0, rest).scaled(-(rest as i8));
-                low.golden(&[halved, high, step], |of| (of[0] - of[1]) / of[2])
+                (high.golden(&[halved, low, step], |of| of[0] - of[1] * of[2]), low)
             }
         };
         let taken = now.has(LOW).select(low, high);

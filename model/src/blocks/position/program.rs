@@ -122,6 +122,19 @@ pub(super) fn constants(layout: &Layout, word: Format) -> Vec<f64> {
     words
 }
 
+/// An instruction as it is executed.
+#[derive(Debug, Clone, Copy)]
+pub struct Executed<'a> {
+    /// Itself.
+    pub instruction: &'a Instruction,
+    /// The counter before it.
+    pub count: u8,
+    /// The surface before it.
+    pub surface: u8,
+    /// Whether it goes on at its target.
+    pub jumps: bool,
+}
+
 /// Writes a program.
 #[derive(Default)]
 struct Writer {
@@ -212,43 +225,38 @@ impl Program {
 
     /// Clocks from the first instruction to the last, where a product takes so many from its
     /// operands' clock.
-    ///
-    /// Control does not depend on data, so that following it is enough.
     pub fn clocks(&self, steps: u64, product: u64) -> u64 {
-        let (mut clocks, mut at, mut count, mut surface, mut step) = (0, 0, 0, 0, 0);
+        let mut clocks = 0;
+        self.execute(steps, |Executed { instruction, jumps, .. }| {
+            clocks += if instruction.waits() { 2 + product } else { 1 } + u64::from(jumps);
+        });
+        clocks
+    }
+
+    /// Shows each instruction as it is executed, up to the last, with so many steps. Control does not
+    /// depend on data, so that following it is enough.
+    pub fn execute(&self, steps: u64, mut show: impl FnMut(Executed)) {
+        let (mut at, mut count, mut surface, mut step) = (0, 0, 0, 0);
         loop {
             let instruction = &self.instructions[at];
-            clocks += if instruction.waits() { 2 + product } else { 1 };
-            at += 1;
             let jumps = match instruction.operation {
-                Set => {
-                    count =
-                        if instruction.option & COUNT != 0 { instruction.slot.0 } else { count };
-                    surface = if instruction.option & SURFACE != 0 { 0 } else { surface };
-                    false
-                }
-                Repeat => {
-                    let again = count != 0;
-                    count -= u8::from(again);
-                    again
-                }
-                Surfaces => {
-                    let again = surface == 0;
-                    surface = if again { 1 } else { 2 * u8::from(step == steps) };
-                    again
-                }
-                Pass => {
-                    step += 1;
-                    step < steps
-                }
+                Repeat => count != 0,
+                Surfaces => surface == 0,
+                Pass => step + 1 < steps,
                 Found => step == steps,
-                End => return clocks,
                 _ => false,
             };
-            if jumps {
-                clocks += 1;
-                at = instruction.target as usize;
+            show(Executed { instruction, count, surface, jumps });
+            match instruction.operation {
+                Set if instruction.option & COUNT != 0 => count = instruction.slot.0,
+                Set if instruction.option & SURFACE != 0 => surface = 0,
+                Repeat => count = count.saturating_sub(1),
+                Surfaces => surface = if jumps { 1 } else { 2 * u8::from(step == steps) },
+                Pass => step += 1,
+                End => return,
+                _ => (),
             }
+            at = if jumps { instruction.target.into() } else { at + 1 };
         }
     }
 

@@ -56,7 +56,7 @@ pub(in super::super) fn read(root: &Table, device: &Device) -> Result<Option<Spe
     let stiffest = temperature::stiffest(root)?;
     let led = stiffest.is_some() || root.table("charge")?.is_some();
     let sine_rad_s = sine.then_some(TAU * device.haptic_hz);
-    let asked_us = table.number("step_us", Limits::POSITIVE)?;
+    let asked_us = table.number("step_us", Limits::within(0.01, f64::INFINITY))?;
     let mut levels = Vec::new();
     for (word, motion, cost_ns) in LEVELS {
         let asked_us = asked_us.filter(|_| named == Some(word));

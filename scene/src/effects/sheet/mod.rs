@@ -57,6 +57,8 @@ pub(crate) use split::{Solver, Split};
 
 use num_complex::Complex64;
 
+use mesh::Mesh;
+
 use super::effect::{Effect, PadEffect};
 use super::pad::Pad;
 use super::spec::{Level, Spec};
@@ -83,6 +85,12 @@ const GRID_LEVELS: [(&str, f64, f64); 5] = [
     ("grid-1.25-mm", 1.25, 5.7e3),
 ];
 
+/// The most nodes of a grid: its factors take a kilobyte each.
+const MOST_NODES: usize = 600_000;
+
+/// The level where a scene names none, on a sheet that is not too large for it.
+const USUAL_MM: f64 = 5.0;
+
 pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneError> {
     let Some(table) = root.table("sheet")? else { return Ok(None) };
     let sheet = Sheet::read(table, device)?;
@@ -95,16 +103,39 @@ pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneE
         .collect();
     let word = table.choice("rung", &words)?;
     if !uniform || word.is_some_and(|word| word.starts_with("grid")) {
-        let levels = GRID_LEVELS.map(|(word, mm, cost_ns)| {
+        let grids = grids(table, &sheet, word)?;
+        let usual = grids.iter().rev().find(|(_, mm, _)| *mm >= USUAL_MM).unwrap_or(&grids[0]).0;
+        let levels = grids.iter().map(|&(word, mm, cost_ns)| {
             level(&sheet, word, cost_ns, move |sheet| grid(sheet, mm)).slow_to_build()
         });
-        Spec::with_levels("sheet", Some(table), levels.into(), "grid-5-mm")
+        Spec::with_levels("sheet", Some(table), levels.collect(), usual)
     } else {
         let levels = UNIFORM_LEVELS.map(|(word, cost_ns)| {
             level(&sheet, word, cost_ns, move |sheet| exact_or_table(word, sheet))
                 .against("analytic")
         });
         Spec::with_levels("sheet", Some(table), levels.into(), "bicubic")
+    }
+}
+
+/// The levels whose grid over the sheet has few enough nodes: the coarsest always has.
+fn grids(
+    table: &Table,
+    sheet: &Sheet,
+    word: Option<&str>,
+) -> Result<Vec<(&'static str, f64, f64)>, SceneError> {
+    let nodes = |mm: f64| Mesh::new(sheet.size_m, 1e-3 * mm).nodes();
+    let (fit, large): (Vec<_>, Vec<_>) =
+        GRID_LEVELS.into_iter().partition(|(_, mm, _)| nodes(*mm) <= MOST_NODES);
+    match large.iter().find(|(level, ..)| Some(*level) == word) {
+        Some((_, mm, _)) => Err(table.error(
+            "rung",
+            format!(
+                "expected a grid of at most {MOST_NODES} nodes, a coarser one, got {}",
+                nodes(*mm)
+            ),
+        )),
+        None => Ok(fit),
     }
 }
 

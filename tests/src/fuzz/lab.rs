@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A lab's measurements: setup, places and loads in, a calibration out.
+
+use std::sync::LazyLock;
+
+use hapticore_contract::profile::Profile;
+use hapticore_run::lab::{self, Data};
+
+use super::calibration::check_text;
+
+static PROFILE: LazyLock<Profile> =
+    LazyLock::new(|| Profile::bundled("small").expect("a bundled profile"));
+
+/// What the files are called; their messages name one of them, or say that one is missing.
+const FILES: [&str; 3] = ["setup.toml", "places.csv", "loads.csv"];
+
+pub(super) fn check(data: &[u8]) -> bool {
+    let Ok(text) = str::from_utf8(data) else { return false };
+    let files: Vec<_> = FILES
+        .iter()
+        .zip(text.split('\0'))
+        .map(|(file, text)| (file.to_string(), text.to_string()))
+        .collect();
+    let made = Data::of(&files).and_then(|data| lab::calibrate(&data, &PROFILE));
+    match made {
+        Err(error) => {
+            let line = hapticore::one_line(&error);
+            assert!(line.contains(": ") && !line.chars().any(char::is_control), "{line:?}");
+            false
+        }
+        Ok((device, outcome)) => {
+            check_text(&device);
+            assert!(outcome.own_places.rms_mm.is_finite(), "{outcome:?}");
+            true
+        }
+    }
+}

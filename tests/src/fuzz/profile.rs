@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Profiles: TOML in, a core that can be built out.
+
+use hapticore_contract::profile::{Profile, Window};
+use hapticore_model::parse_profile;
+
+use super::{Planted, planted};
+
+pub(super) fn check(data: &[u8]) -> bool {
+    let Ok(text) = str::from_utf8(data) else { return false };
+    match parse_profile(text) {
+        Err(error) => {
+            let message = error.to_string();
+            assert_eq!(message.lines().count(), 1, "{message:?}");
+            assert!(message.contains(": "), "neither line nor key in {message:?}");
+            false
+        }
+        Ok(profile) => {
+            let written = toml::to_string(&profile).expect("plain data");
+            assert_eq!(parse_profile(&written).as_ref(), Ok(&profile), "{written}");
+            odd(&profile);
+            true
+        }
+    }
+}
+
+/// The planted panic.
+fn odd(profile: &Profile) {
+    let is_odd = profile.pads == 7
+        && profile.haptic.windows == 8
+        && profile.slot.open == 3
+        && profile.carrier.window == Window::Rectangular;
+    assert!(!(planted(Planted::Profile) && is_odd), "planted");
+}

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Verilog in CXXRTL, the simulator of Yosys, with its assertions on: an address beyond the words of
+//! a memory ends the program, whether or not the word is used.
+
+use std::fmt::Write;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use hapticore_hdl::verilog::{Direction, Port};
+
+use super::{Mismatch, Trace, program, verdict};
+use crate::tools::{find, run};
+
+/// The commands that it takes.
+pub const COMMANDS: [&str; 2] = ["yosys", "g++"];
+
+/// Runs a design, given as Verilog text, on traces.
+///
+/// # Errors
+/// An output that differs.
+///
+/// # Panics
+/// Where a tool fails, and where an assertion does.
+pub fn check(top: &str, verilog: &str, traces: &[Trace]) -> Result<(), Mismatch> {
+    let folder = tempfile::tempdir().expect("a folder");
+    let at = |name: &str| folder.path().join(name);
+    let ports = &traces.first().expect("a trace").ports;
+    fs::write(at("design.v"), verilog).expect("written");
+    fs::write(at("main.cpp"), main(top, ports)).expect("written");
+    // Without what only debuggers need.
+    let script = format!("read_verilog design.v; hierarchy -top {top}; write_cxxrtl -g0 design.cc");
+    run(Command::new("yosys").args(["-q", "-p", &script]), folder.path());
+    let mut compiler = Command::new("g++");
+    compiler.args(["-O1", "-std=c++14", "-I"]).arg(runtime()).args(["-o", "design", "main.cpp"]);
+    run(&mut compiler, folder.path());
+    for trace in traces {
+        fs::write(at("trace"), trace.bytes()).expect("written");
+        verdict(&run(Command::new(at("design")).arg("trace"), folder.path()), trace)?;
+    }
+    Ok(())
+}
+
+/// The headers that a printed design includes, beside the Yosys that is called.
+fn runtime() -> PathBuf {
+    let yosys = find("yosys").expect("yosys is on the path");
+    let prefix = yosys.parent().and_then(Path::parent).expect("a program in a folder `bin`");
+    let shares = ["share", "share/yosys"].map(|share| prefix.join(share));
+    let headers = shares.map(|share| share.join("include/backends/cxxrtl/runtime"));
+    headers.into_iter().find(|folder| folder.is_dir()).expect("Yosys brings CXXRTL's headers")
+}
+
+/// The program around the design.
+fn main(top: &str, ports: &[Port]) -> String {
+    let (mut give, mut compare) = (String::new(), String::new());
+    for (index, port) in ports.iter().enumerate() {
+        let (name, mask) = (escaped(&port.name), u64::MAX >> (64 - u32::from(port.format.width)));
+        let _ = match port.direction {
+            Direction::Input => {
+                writeln!(give, "    top->{name}.set<uint64_t>(row[{index}] & {mask}ull);")
+            }
+            Direction::Output => writeln!(
+                compare,
+                "    differ(clock, \"{}\", row[{index}] & {mask}ull, bits(top->{name}));",
+                port.name
+            ),
+        };
+    }
+    let declared = include_str!("cxxrtl.cpp").replace("p_@TOP@", &escaped(top));
+    program(&declared, ports.len(), &give, &compare)
+}
+
+/// A name as CXXRTL has it.
+fn escaped(name: &str) -> String {
+    format!("p_{}", name.replace('_', "__"))
+}
