@@ -374,12 +374,12 @@ impl Position {
         let write = Write { enable: i.table.write, address: i.table.address, data: i.table.word };
         self.table.access(&mut state.submodules.table, address, write);
         let enable = now.does(Operation::Store) | now.does(Operation::Input);
-        let data = self.stored(r, i, now, result);
-        self.scratch.access(
-            &mut state.submodules.scratch,
-            now.slot,
-            Write { enable, address: now.slot, data },
-        );
+        let write = Write {
+            enable,
+            address: variable(now.slot),
+            data: self.stored(r, i, now, result),
+        };
+        self.scratch.access(&mut state.submodules.scratch, now.slot, write);
         self.program.read(&mut state.submodules.program, self.fetch(r, now));
         let (now, next) = (r.pending.bits(0, 1), r.pending.bits(1, 1));
         // A product of two clocks goes on in the second.
@@ -584,6 +584,14 @@ impl Position {
             ..next
         }
     }
+}
+
+/// The slot, or the variable in its place where it is a constant's. No program stores to a constant;
+/// an upset instruction could, and nothing writes a constant again.
+#[inline(always)]
+fn variable<V: Interpretation>(slot: Signal<V>) -> Signal<V> {
+    let bits = program::VARIABLES.trailing_zeros() as u8;
+    bit(true).concat(slot.bits(0, bits)).named("variable")
 }
 
 /// Either integer's bits, of four each.

@@ -51,25 +51,29 @@ const COLUMNS: Slot = at(32);
 const LESS_MIDDLE: Slot = at(36);
 /// Less the least step of a word.
 const LESS_STEP: Slot = at(35);
-// Variables.
-const RATIO: Slot = at(40);
-const PLACE: Slot = at(42);
-const CORNER: Slot = at(44);
-const ERROR: Slot = at(46);
-const WEIGHTS: [Slot; 3] = [at(48), at(50), at(52)];
-const SLOPE_WEIGHTS: [Slot; 3] = [at(54), at(56), at(58)];
+/// Constants lie below, variables from here on: a store reaches no constant, whatever its slot.
+pub(super) const VARIABLES: u8 = 64;
+const fn variable(offset: u8) -> Slot {
+    at(VARIABLES + offset)
+}
+const RATIO: Slot = variable(0);
+const PLACE: Slot = variable(2);
+const CORNER: Slot = variable(4);
+const ERROR: Slot = variable(6);
+const WEIGHTS: [Slot; 3] = [variable(8), variable(10), variable(12)];
+const SLOPE_WEIGHTS: [Slot; 3] = [variable(14), variable(16), variable(18)];
 /// The matrix of cofactors: Y's rows first.
-const MATRIX: Slot = at(60);
+const MATRIX: Slot = variable(20);
 /// The determinant and less it: what is added to a negative remainder, and to another.
-const DETERMINANT: Slot = at(64);
-const OFFSET: Slot = at(66);
-const SQUARE: Slot = at(67);
-const FIRST: Slot = at(68);
-const SPARE: Slot = at(69);
-const VALUES: Slot = at(72);
-const SLOPES: Slot = at(76);
+const DETERMINANT: Slot = variable(24);
+const OFFSET: Slot = variable(26);
+const SQUARE: Slot = variable(27);
+const FIRST: Slot = variable(28);
+const SPARE: Slot = variable(29);
+const VALUES: Slot = variable(32);
+const SLOPES: Slot = variable(36);
 /// Words of the scratch memory.
-const SLOTS: usize = 128;
+const SLOTS: usize = 2 * VARIABLES as usize;
 
 /// Products of the gain and of the first guess that are summed up.
 const GAINS: u8 = 32;
