@@ -9,8 +9,8 @@ use hapticore_contract::profile::Profile;
 /// it keeps at most one packet.
 ///
 /// Whoever begins to listen in the middle of a packet hears of one damaged packet first. Damage to a
-/// packet is lost on the CRC with a probability of 2⁻³² at most; damage to its END takes the packet
-/// behind it along.
+/// packet is lost on the CRC with a probability of 2⁻³² at most. Where an END is lost, or bytes are
+/// heard that are none, the next packet is found by its length.
 ///
 /// ```
 /// use hapticore_host::{Decoder, Heartbeat, Message, Profile, Status};

@@ -28,6 +28,9 @@ impl Check for Crc16 {
     }
 }
 
+/// Good packets that garbled ones are made of.
+const GOOD: usize = 1024;
+
 /// What becomes of a packet.
 #[derive(Debug, Clone, Copy)]
 enum Garble {
@@ -119,7 +122,7 @@ fn accepted<C: Check>(profile: &Profile, seed: u64, packets: u64) -> [u64; GARBL
     let (mut collector, mut rng) =
         (Collector::<C>::new(layout.payload_bytes()), Rng::with_seed(seed));
     let mut good = Vec::new();
-    for _ in 0..1024 {
+    for _ in 0..GOOD {
         let message = message(profile, &mut rng);
         let mut bytes = from_board::<C>(&layout.payload(&message));
         assert_eq!(bytes.pop(), Some(END));
@@ -129,8 +132,10 @@ fn accepted<C: Check>(profile: &Profile, seed: u64, packets: u64) -> [u64; GARBL
     GARBLES.map(|garble| {
         let mut passed = 0;
         for _ in 0..packets {
-            let [(one, first), (other, second)] =
-                [rng.usize(..1024), rng.usize(..1024)].map(|k| &good[k]);
+            // Two packets: parts of one, joined, are that one.
+            let which = rng.usize(..GOOD);
+            let (one, first) = &good[which];
+            let (other, second) = &good[(which + rng.usize(1..GOOD)) % GOOD];
             loop {
                 bytes.clone_from(one);
                 garble.apply(&mut bytes, other, &mut rng);

@@ -113,10 +113,11 @@ impl<C: Check> Collector<C> {
             self.bytes.clear();
             return !self.packet.is_empty();
         }
-        // What is longer than any packet is not kept.
-        if self.bytes.len() <= self.length() {
-            self.bytes.push(byte);
+        // Of what is longer than any packet the last bytes are kept: they are one where an END was lost.
+        if self.bytes.len() > self.length() {
+            self.bytes.remove(0);
         }
+        self.bytes.push(byte);
         false
     }
 
@@ -125,12 +126,17 @@ impl<C: Check> Collector<C> {
         &self.packet
     }
 
-    /// The payload of these bytes.
+    /// The payload of these bytes; where there are too many, of the last of them.
     pub fn payload(&mut self) -> Result<&[u8], Damage> {
         let (expected, got) = (self.length(), self.packet.len());
-        if got != expected {
-            return Err(Damage::Length { expected, got });
-        }
+        let wrong = Damage::Length { expected, got };
+        self.packet.drain(..got.checked_sub(expected).ok_or(wrong)?);
+        self.unstuff().map_err(|damage| if got > expected { wrong } else { damage })?;
+        Ok(&self.packet[..self.payload])
+    }
+
+    /// Makes payload and check of the bytes of a packet.
+    fn unstuff(&mut self) -> Result<(), Damage> {
         self.packet.reverse();
         let length = cobs::decode_in_place(&mut self.packet).map_err(|_| Damage::Link)?;
         self.packet.truncate(length);
@@ -138,6 +144,6 @@ impl<C: Check> Collector<C> {
         let (payload, check) = self.packet.split_at(self.payload);
         let got = check.iter().rfold(0, |check, &byte| check << 8 | u32::from(byte));
         let expected = C::of(payload);
-        if expected == got { Ok(payload) } else { Err(Damage::Crc { expected, got }) }
+        if expected == got { Ok(()) } else { Err(Damage::Crc { expected, got }) }
     }
 }

@@ -14,7 +14,7 @@ use hapticore_hdl::format::Format;
 use hapticore_host::startup::start;
 use hapticore_host::{Command, WordFormats};
 use hapticore_model::blocks::core::Core;
-use hapticore_protocol::framing::command_bytes;
+use hapticore_protocol::framing::{command_bytes, packet_bytes};
 use hapticore_rtl::board::framing::END;
 use hapticore_rtl::board::registers::{self, CommandRegisters};
 use hapticore_rtl::board::stream::{self, Stream};
@@ -142,35 +142,39 @@ fn a_wire_unplugged_in_mid_command_costs_no_command_behind_the_next_end() {
     assert!(lost > 300);
 }
 
-/// The wire to the host is pulled out and put back while frames come.
+/// The wire to the host is pulled out at any time and put back, mostly while a frame is under way.
 #[test]
 fn a_wire_unplugged_in_mid_frame_costs_no_frame_but_those_meanwhile_and_one() {
+    const ROUNDS: u64 = 24;
+    const DIVISOR: u64 = 4;
     let profile = small();
-    let (calibration, samples) = (calibration(&profile), samples(&profile, 300));
+    let (slot, packet) = (profile.slot_clocks(), packet_bytes(&profile) * (10 * DIVISOR + 1));
+    let (calibration, samples) = (calibration(&profile), samples(&profile, 8 * ROUNDS as usize));
     let expected = simulated(&profile, &calibration, &samples);
-    let mut session = Session::new(&profile, parameters(&profile, 4, 0), &samples);
+    let mut session = Session::new(&profile, parameters(&profile, DIVISOR, 0), &samples);
     session.send(&start(&profile, &calibration));
-    session.packets(1);
-    let (mut random, slot) = (Random::new(SEED), profile.slot_clocks());
-    let mut damaged = 0;
-    for round in 0..40 {
-        session.run(random.below(slot));
+    let (mut random, mut damaged) = (Random::new(SEED), 0);
+    for round in 0..ROUNDS {
+        // Frames end a slot apart.
+        session.next_packet();
+        let out = random.below(slot);
+        let back = (2 + random.below(2)) * slot - random.below(packet + packet / 8);
+        session.run(out);
         session.unplugged = Some(random.below(2) as i64);
-        session.run(1 + random.below(2 * slot));
+        session.run(back - out);
         session.unplugged = None;
         let heard = session.packets.len();
-        // The frame that is under way, or the one behind it where the END of the one before is lost.
+        // The frame that is under way is damaged, and may be heard as several; of three one is lost.
         session.run(3 * slot);
         let after = &session.packets[heard..];
         let wrong = after.iter().filter(|packet| packet.is_err()).count();
-        damaged += wrong;
-        assert!(wrong <= 2 && after.len() >= wrong + 1, "{round}: {after:?}");
+        damaged += u64::from(wrong > 0);
+        assert!(after.len() >= wrong + 2, "{round}: {after:?}");
         assert!(after[wrong..].iter().all(|packet| packet.is_ok()), "{round}: {after:?}");
     }
-    println!("{damaged} damaged packets in 40 interruptions");
-    let good: Vec<_> = session.packets.iter().filter_map(|packet| packet.ok()).collect();
-    assert!(good.len() > 80 && damaged > 10);
-    for packet in good {
+    println!("a frame damaged by {damaged} of {ROUNDS} interruptions");
+    assert!(damaged > ROUNDS / 2, "{damaged}");
+    for packet in session.packets.iter().filter_map(|packet| packet.ok()) {
         assert_eq!(packet.frame, expected[usize::from(packet.status.sequence) - 1]);
     }
 }
@@ -188,7 +192,7 @@ fn a_packet_takes_the_same_clocks_whatever_it_contains_and_whatever_is_written_m
             for _ in 0..40 {
                 for index in 0..8 {
                     let any = random.word(of.frames.frame);
-                    let frame = if random.below(2) == 0 { any & 0xff00 } else { any };
+                    let frame = if random.below(2) == 0 { any & 0x7f00 } else { any };
                     let mut inputs = quiet;
                     (inputs.frames.valid, inputs.frames.index) = (1, index);
                     (inputs.frames.frame, inputs.frames.done) = (frame, (index == 7).into());

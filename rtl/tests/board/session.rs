@@ -84,6 +84,14 @@ impl Session {
         }
     }
 
+    /// Runs until the end of a packet.
+    pub fn next_packet(&mut self) {
+        let before = self.packets.len();
+        while self.packets.len() == before {
+            self.clock();
+        }
+    }
+
     /// Runs until so many packets are there.
     pub fn packets(&mut self, count: usize) -> Vec<Packet> {
         let mut left = (count as u64 + 4) * (self.profile.slot_clocks() + 60_000);

@@ -374,11 +374,8 @@ impl Position {
         let write = Write { enable: i.table.write, address: i.table.address, data: i.table.word };
         self.table.access(&mut state.submodules.table, address, write);
         let enable = now.does(Operation::Store) | now.does(Operation::Input);
-        let write = Write {
-            enable,
-            address: variable(now.slot),
-            data: self.stored(r, i, now, result),
-        };
+        let write =
+            Write { enable, address: variable(now.slot), data: self.stored(r, i, now, result) };
         self.scratch.access(&mut state.submodules.scratch, now.slot, write);
         self.program.read(&mut state.submodules.program, self.fetch(r, now));
         let (now, next) = (r.pending.bits(0, 1), r.pending.bits(1, 1));
