@@ -209,6 +209,8 @@ fn stream(block: &Stream, divisor: u64) -> Alone {
     let (mut place, mut data, mut pad) = (0, 0, 0);
     // Clocks until something is to be told just when the flags are sent, three bytes behind a frame.
     let (flags, mut told) = (30 * divisor as u32 + 1, u32::MAX);
+    // Clocks until a word is to be kept just when the next byte of a frame's words is read.
+    let (byte, mut kept) = (10 * divisor as u32 + 1, u32::MAX);
     alone(block, 100_000 * divisor as usize, move |rng| {
         let enabled = enable.next(rng, 20 * packet);
         if index == 8 {
@@ -227,8 +229,10 @@ fn stream(block: &Stream, divisor: u64) -> Alone {
         }
         wait = wait.saturating_sub(1);
         let valid = wait == 0 && rng.u8(..3) != 0;
-        let keep = now(rng, 6 * packet);
+        kept = kept.saturating_sub(1);
+        let keep = if kept == 0 { 1 } else { now(rng, 6 * packet) };
         if keep == 1 {
+            kept = u32::MAX;
             (place, data) = (any(rng, of.place), any(rng, of.data));
         }
         let frame = match rng.u8(..4) {
@@ -251,7 +255,10 @@ fn stream(block: &Stream, divisor: u64) -> Alone {
             ("place", place),
             ("data", data),
         ];
-        told = if valid && index == 7 { flags + rng.u32(..6) } else { told.saturating_sub(1) };
+        told = if valid && index == 7 { flags + rng.u32(1..4) } else { told.saturating_sub(1) };
+        if valid && index == 7 {
+            kept = rng.u32(4..20) * byte - rng.u32(0..3);
+        }
         for name in ["late", "refused"] {
             given.push((name, if told == 0 { 1 } else { now(rng, 12 * packet) }));
         }
