@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Commands: what a host writes on a board, as bytes.
 
-use crate::line::frame_bytes;
+use crate::line::to_board;
 use hapticore_contract::profile::Profile;
 use hapticore_protocol::framing::{END, data_bytes};
 use hapticore_protocol::{Control, Register, WordFormats};
@@ -13,8 +13,8 @@ use hapticore_protocol::{Control, Register, WordFormats};
 ///
 /// let profile = Profile::bundled("small")?;
 /// let bytes = Command::Table { address: 0x0102, code: -2 }.encode(&profile);
-/// assert_eq!(bytes[..4], [0x01, 0x02, 0xff, 0xfe]);
-/// assert_eq!(bytes.len(), 2 + 2 + 2 + 1, "place, data, CRC, END");
+/// assert_eq!(bytes[1..5], [0x01, 0x02, 0xff, 0xfe]);
+/// assert_eq!(bytes.len(), 1 + 2 + 2 + 4 + 1, "link, place, data, CRC, END");
 /// # Ok::<(), hapticore_host::ProfileError>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -46,7 +46,7 @@ impl Command {
             Command::Table { address, code } => (address, code),
         };
         let data = &code.to_be_bytes()[8 - data_bytes(&WordFormats::new(profile)) as usize..];
-        frame_bytes(&[&place.to_be_bytes(), data].concat())
+        to_board(&[&place.to_be_bytes(), data].concat())
     }
 }
 
@@ -69,14 +69,18 @@ pub fn encode(commands: &[Command], profile: &Profile) -> Vec<u8> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use hapticore_protocol::framing::{ESC, ESC_ESC};
+    use hapticore_protocol::framing::command_bytes;
 
     #[test]
-    fn an_escape_within_is_escaped_and_end_is_only_at_the_end() {
+    fn zeros_within_become_links_and_end_is_only_at_the_end() {
         let profile = Profile::bundled("small").expect("bundled");
-        let bytes = Command::Table { address: 0x40db, code: 0xdb }.encode(&profile);
-        assert!(bytes.windows(2).any(|pair| pair == [ESC, ESC_ESC]));
-        assert_eq!(bytes.iter().filter(|&&byte| byte == END).count(), 1);
-        assert_eq!(bytes.last(), Some(&END));
+        let length = command_bytes(&WordFormats::new(&profile)) as usize;
+        for (address, code) in [(0, 0), (0x4000, 0), (0x0001, 0x100), (0x1111, 0x1111)] {
+            let bytes = Command::Table { address, code }.encode(&profile);
+            assert_eq!(bytes.len(), length, "{bytes:x?}");
+            assert_eq!(bytes.iter().position(|&byte| byte == END), Some(length - 1), "{bytes:x?}");
+        }
+        let bytes = Command::Table { address: 0x4000, code: 0 }.encode(&profile);
+        assert_eq!(bytes[..4], [2, 0x40, 1, 1], "each link leads to the next");
     }
 }

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Decoder: messages from a stream of bytes, whatever has become of it on the way.
 
-use crate::line::{Collector, Damage};
+use crate::line::{Check, Collector, Crc32, Damage};
 use crate::packet::{Layout, Message};
 use hapticore_contract::profile::Profile;
 
 /// Makes messages of bytes as they come. What it has lost it says, and the next END puts it right;
 /// it keeps at most one packet.
 ///
-/// Whoever begins to listen in the middle of a packet hears of one damaged packet first. A packet
-/// that is damaged passes for a good one with the probability of its CRC, 1 in 65,536.
+/// Whoever begins to listen in the middle of a packet hears of one damaged packet first. Damage to a
+/// packet is lost on the CRC with a probability of 2⁻³² at most. Where an END is lost, or bytes are
+/// heard that are none, the next packet is found by its length.
 ///
 /// ```
 /// use hapticore_host::{Decoder, Heartbeat, Message, Profile, Status};
@@ -27,7 +28,7 @@ use hapticore_contract::profile::Profile;
 #[derive(Debug, Clone)]
 pub struct Decoder {
     layout: Layout,
-    collector: Collector,
+    collector: Collector<Crc32>,
 }
 
 impl Decoder {
@@ -39,16 +40,7 @@ impl Decoder {
 
     /// Takes a byte; gives a message, or what became of it, at its END.
     pub fn push(&mut self, byte: u8) -> Option<Result<Message, Damage>> {
-        match self.collector.push(byte)? {
-            Ok(bytes)
-                if bytes.len() < self.collector.length()
-                    && self.layout.is_cut_heartbeat(&bytes) =>
-            {
-                None
-            }
-            Ok(bytes) => Some(self.message(&bytes)),
-            Err(damage) => Some(Err(damage)),
-        }
+        push(&self.layout, &mut self.collector, byte)
     }
 
     /// Every message of some bytes.
@@ -58,8 +50,21 @@ impl Decoder {
     ) -> impl Iterator<Item = Result<Message, Damage>> + 'a {
         bytes.into_iter().filter_map(|byte| self.push(byte))
     }
+}
 
-    fn message(&self, bytes: &[u8]) -> Result<Message, Damage> {
-        self.layout.message(self.collector.payload(bytes)?).map_err(Damage::Pad)
+/// [`Decoder::push`] with any check.
+pub(crate) fn push<C: Check>(
+    layout: &Layout,
+    collector: &mut Collector<C>,
+    byte: u8,
+) -> Option<Result<Message, Damage>> {
+    if !collector.push(byte) {
+        return None;
     }
+    let stuffed = collector.stuffed();
+    if stuffed.len() < collector.length() && layout.is_cut_heartbeat(stuffed) {
+        return None;
+    }
+    let payload = collector.payload();
+    Some(payload.and_then(|payload| layout.message(payload).map_err(Damage::Pad)))
 }

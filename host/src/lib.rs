@@ -53,6 +53,8 @@ pub mod command;
 pub mod crosstalk;
 pub mod decoder;
 pub mod device;
+#[cfg(test)]
+mod garbled;
 pub mod laws;
 mod line;
 pub mod packet;
@@ -86,5 +88,5 @@ pub use units::{SlotClock, Units, flag_names};
 pub use hapticore_contract::calibration::Calibration;
 pub use hapticore_contract::frame::{Field, Flags, Frame, Measurement};
 pub use hapticore_contract::profile::{Profile, ProfileError};
-pub use hapticore_protocol::framing::{END, ESC, VERSION, digest};
+pub use hapticore_protocol::framing::{END, VERSION, digest};
 pub use hapticore_protocol::{CalibrationWords, Constant, ConstantWord, Register, WordFormats};

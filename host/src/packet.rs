@@ -6,6 +6,7 @@
 //! constants of [`hapticore_protocol::framing`]; the encoder here serves tests and programs that
 //! stand in for a board.
 
+use crate::line::{Crc32, from_board};
 use bitvec::prelude::{BitArray, Lsb0};
 use bitvec::view::BitView;
 use hapticore_contract::frame::Field;
@@ -20,8 +21,8 @@ type Words = [i64; Field::ALL.len()];
 /// What every packet says of the line and of the commands that came over it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Status {
-    /// Counts the frames of the core, modulo 256; the first after a reset is 1. A gap is a loss.
-    pub sequence: u8,
+    /// Counts the frames of the core, modulo 65,536; the first after a reset is 1. A gap is a loss.
+    pub sequence: u16,
     /// The ADC was late since the packet before; samples of it are wrong.
     pub late: bool,
     /// A command was refused since the packet before.
@@ -144,7 +145,7 @@ impl Message {
 
     /// The bytes that a board of the profile sends.
     pub fn encode(&self, profile: &Profile) -> Vec<u8> {
-        crate::line::frame_bytes(&Layout::new(profile).payload(self))
+        from_board::<Crc32>(&Layout::new(profile).payload(self))
     }
 }
 
@@ -169,8 +170,8 @@ impl Layout {
         STATUS_BYTES as usize + Field::ALL.len() * self.word_bytes
     }
 
-    /// Whether these are the first bytes of a heartbeat that ended early because one of its words
-    /// was written.
+    /// Whether these are the first bytes of a heartbeat, stuffed, that ended early because one of its
+    /// words was written. Its flags are not zero: they are on the line as they are.
     pub fn is_cut_heartbeat(&self, bytes: &[u8]) -> bool {
         let is_heartbeat = |flags: &u8| {
             flags >> flags::HEARTBEAT & 1 != 0 && flags >> flags::VERSION & 7 == VERSION
@@ -180,10 +181,11 @@ impl Layout {
 
     /// What a payload of the right length says; the number of the pad where there is no such pad.
     pub fn message(&self, payload: &[u8]) -> Result<Message, u8> {
-        let (&[sequence, pad, bits], words) =
+        let (&[high, low, pad, bits], words) =
             payload.split_first_chunk().expect("the length was checked");
         let words = words.chunks_exact(self.word_bytes).map(signed).collect::<Vec<_>>();
         let words = Words::try_from(words).expect("the length was checked");
+        let sequence = u16::from_be_bytes([high, low]);
         let (commands, pad) = (pad >> 4, pad & 0xf);
         let version = bits >> flags::VERSION & 7;
         let bits = BitArray::<_, Lsb0>::new([bits]);
@@ -218,7 +220,8 @@ impl Layout {
         set.into_iter()
             .chain(self.own_flags(message))
             .for_each(|(flag, is)| bits.set(usize::from(flag), is));
-        let mut payload = vec![status.sequence, status.commands << 4 | pad, bits.into_inner()];
+        let [high, low] = status.sequence.to_be_bytes();
+        let mut payload = vec![high, low, status.commands << 4 | pad, bits.into_inner()];
         words.iter().for_each(|word| payload.extend(&word.to_be_bytes()[8 - self.word_bytes..]));
         payload
     }

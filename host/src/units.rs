@@ -103,7 +103,7 @@ impl SlotClock {
     }
 
     /// The middle of the window of the frame with this sequence number, s: as [`SlotClock::tick`],
-    /// but for slots whose frames are lost, up to 255 at a time.
+    /// but for slots whose frames are lost, up to 65,535 at a time.
     ///
     /// ```
     /// # use hapticore_host::{Profile, SlotClock};
@@ -113,8 +113,8 @@ impl SlotClock {
     /// assert!((fourth - first - clock.seconds(3)).abs() < 1e-12);
     /// # Ok::<(), hapticore_host::ProfileError>(())
     /// ```
-    pub fn time_of(&mut self, sequence: u8) -> f64 {
-        let lost = sequence.wrapping_sub(self.slots as u8).wrapping_sub(1);
+    pub fn time_of(&mut self, sequence: u16) -> f64 {
+        let lost = sequence.wrapping_sub(self.slots as u16).wrapping_sub(1);
         self.slots += u64::from(lost);
         self.tick()
     }

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Registers: a command acts only if all its bytes have come, escaped rightly and with their CRC, and then on nothing but the
+// Registers: a command acts only if all its bytes have come, with links and CRC that are right, and then on nothing but the
 // register or the word that it names. Commands are taken apart here once more, the CRC a bit at a time.
 //
 // Appended to the printed module; parameters: DATA (bytes of a command's data), WORDS (of the table) and ADDRESS (its bits).
 
-    localparam LENGTH = DATA + 4;
+    // Bytes on the line before END, and bits of place and data.
+    localparam LENGTH = DATA + 7;
     localparam WHOLE = 8 * (DATA + 2);
     localparam TABLE = 4, NONE = 5;
 
-    function [15:0] check_of(input [15:0] before, input [7:0] next);
+    function [31:0] check_of(input [31:0] before, input [7:0] next);
         integer k;
         begin
             check_of = before;
-            for (k = 7; k >= 0; k = k - 1)
-                check_of = {check_of[14:0], 1'b0} ^ ((check_of[15] ^ next[k]) ? 16'h1021 : 16'h0000);
+            for (k = 0; k < 8; k = k + 1)
+                check_of = {1'b0, check_of[31:1]} ^ ((check_of[0] ^ next[k]) ? 32'hedb88320 : 32'h00000000);
         end
     endfunction
 
@@ -21,28 +22,28 @@
     always @(posedge clock) was_reset <= 1;
     always @(*) if (!was_reset) assume (reset);
 
-    // The command as it comes: how many bytes, and what they are.
-    reg behind_esc = 0, wrong = 0;
-    reg [3:0] length = 0;
-    reg [15:0] check = 0;
+    // The command as it comes: how many bytes, how many until the next link, and what they are.
+    reg [4:0] length = 0;
+    reg [7:0] until = 0;
+    reg [31:0] check = 0;
     reg [WHOLE-1:0] whole = 0;
-    wire end_byte = octet == 8'hc0;
-    wire esc_byte = octet == 8'hdb && !behind_esc;
-    wire [7:0] plain = !behind_esc ? octet : octet == 8'hdc ? 8'hc0 : 8'hdb;
-    wire taken = valid && !end_byte && !esc_byte;
+    // A link leads further than a command has bytes.
+    reg far = 0;
+    wire end_byte = octet == 0;
+    wire link = until == 0;
+    wire [7:0] plain = link ? 0 : octet;
+    wire taken = valid && !end_byte;
     always @(posedge clock) begin
         if (reset || (valid && end_byte)) begin
-            behind_esc <= 0;
-            wrong <= 0;
             length <= 0;
-        end else if (valid && esc_byte) begin
-            behind_esc <= 1;
+            until <= 0;
+            far <= 0;
         end else if (taken) begin
-            behind_esc <= 0;
-            wrong <= wrong || (behind_esc && octet != 8'hdc && octet != 8'hdd);
-            if (length != 15) length <= length + 1;
-            check <= check_of(length == 0 ? 16'hffff : check, plain);
-            if (length < LENGTH - 2) whole <= {whole[WHOLE-9:0], plain};
+            if (length != 31) length <= length + 1;
+            until <= (link ? octet : until) - 1;
+            far <= far || (link && octet > 15);
+            check <= length == 0 ? 32'hffffffff : check_of(check, plain);
+            if (length != 0 && length < LENGTH - 4) whole <= {whole[WHOLE-9:0], plain};
         end
     end
 
@@ -50,13 +51,14 @@
     reg counts = 0, refuses = 0;
     reg [15:0] where = 0;
     reg [8*DATA-1:0] what = 0;
-    wire whole_and_right = length == LENGTH && check == 0 && !wrong && !behind_esc;
+    // With the complement of the CRC behind them, bytes have this CRC, whatever they are.
+    wire whole_and_right = length == LENGTH && until == 0 && check == 32'hdebb20e3;
     wire for_adc = whole[WHOLE-1] && whole[WHOLE-14:WHOLE-16] == 3;
     // The command before may still be enabling the board.
     wire enabled = counts && where[15] && where[2:0] == 2 ? what[0] : enable;
     always @(posedge clock) begin
         counts <= !reset && valid && end_byte && whole_and_right && !(for_adc && enabled);
-        refuses <= !reset && valid && end_byte && !(length == 0 && !behind_esc)
+        refuses <= !reset && valid && end_byte && length != 0
             && !(whole_and_right && !(for_adc && enabled));
         {where, what} <= whole;
     end
@@ -64,7 +66,7 @@
     wire [2:0] target = !counts ? NONE : where[15] ? (where[2:0] < 4 ? where[1:0] : NONE) : at < WORDS ? TABLE : NONE;
 
     // The ADC reader moves data on between commands only: its word is shorter than the bytes of the next.
-    wire packet = length != 0 || behind_esc;
+    wire packet = length != 0;
     always @(*) if (was_reset) assume (!(shift && (packet || valid)));
 
     reg past_valid = 0;
@@ -86,16 +88,17 @@
     end
 
     // Bits of place and data that this command's bytes have filled.
-    wire [3:0] kept = length < LENGTH - 2 ? length : LENGTH - 2;
+    wire [4:0] kept = length == 0 ? 0 : length < LENGTH - 4 ? length - 1 : LENGTH - 5;
     wire [WHOLE-1:0] open = {WHOLE{1'b1}} << (8 * kept);
 
     always @(posedge clock) if (was_reset) begin
         // Invariants.
-        assert (escaped == behind_esc);
-        assert (count == (wrong || length > LENGTH ? LENGTH + 1 : length));
-        if (length == 0) assert (!wrong);
-        if (!wrong && length != 0 && length <= LENGTH) assert (crc == check);
-        if (!wrong) assert ((({place_q, data} ^ whole) & ~open) == 0);
+        assert (count == (far || length > LENGTH ? LENGTH + 1 : length));
+        if (length == 0) assert (!far && until == 0);
+        if (far && length <= LENGTH) assert (until + length > 15);
+        if (!far) assert (left == until);
+        if (!far && length != 0 && length <= LENGTH) assert (crc == check);
+        if (!far) assert ((({place_q, data} ^ whole) & ~open) == 0);
         if (counts) assert ({place_q, data} == {where, what});
         // Properties. A command acts if it counts, and in the clock after its END.
         assert (act == counts);

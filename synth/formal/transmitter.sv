@@ -35,5 +35,6 @@
         // Properties.
         assert (tx == (bits == 10 || line[bits]));
         assert (taken == (valid && bits == 10));
+        assert (ending == (bits == 9 && last));
         cover (bits == 1 && sent == 8'b10100101);
     end

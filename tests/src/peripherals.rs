@@ -16,7 +16,7 @@ use hapticore_rtl::board::drive_output::pulses::Pulses;
 use hapticore_rtl::board::drive_output::serial::{Frame, Serial};
 use hapticore_rtl::board::drive_output::sine::Sine;
 use hapticore_rtl::board::drive_output::{Converter, DriveOutput, Wave};
-use hapticore_rtl::board::framing::{END, ESC, ESC_END, ESC_ESC, Register};
+use hapticore_rtl::board::framing::{END, Register};
 use hapticore_rtl::board::pads::Pads;
 use hapticore_rtl::board::registers::CommandRegisters;
 use hapticore_rtl::board::sigma_delta::SigmaDelta;
@@ -77,10 +77,13 @@ fn any(rng: &mut Rng, format: Format) -> i64 {
     rng.i64(format.min_code() as i64..=format.max_code() as i64)
 }
 
-/// A byte: often one of the framing's own.
+/// A byte: often END, or as small as links are.
 fn octet(rng: &mut Rng) -> u8 {
-    let special = [END, ESC, ESC_END, ESC_ESC];
-    if rng.u8(..3) == 0 { special[rng.usize(..4)] } else { rng.u8(..) }
+    match rng.u8(..6) {
+        0 => END,
+        1 => rng.u8(..20),
+        _ => rng.u8(..),
+    }
 }
 
 /// Bits that are too long or too short, bytes without a stop bit, glitches, breaks.
@@ -95,6 +98,8 @@ fn receiver(divisor: u64) -> Alone {
             let frame: Vec<i64> =
                 [0].into_iter().chain(bits).chain([i64::from(rng.u8(..8) != 0)]).collect();
             frame.iter().for_each(|&level| levels.extend(std::iter::repeat_n(level, bit)));
+            let breaks = frame[9] == 0 && rng.bool();
+            levels.extend(std::iter::repeat_n(0, usize::from(breaks) * rng.usize(..4 * bit)));
             levels.extend(std::iter::repeat_n(1, rng.usize(..3 * bit)));
             levels.extend(std::iter::repeat_n(0, rng.usize(..8) / 7 * rng.usize(..bit)));
             levels.extend(std::iter::repeat_n(1, 1 + rng.usize(..2) * bit));
@@ -138,7 +143,7 @@ fn adc_reader(block: &AdcReader, parameters: &Parameters) -> Alone {
     })
 }
 
-/// The bytes of a command that may be damaged: too long, too short, escaped wrongly, or changed.
+/// The bytes of a command that may be damaged: too long, too short, or changed, its links among them.
 fn command(block: &CommandRegisters, profile: &Profile, words: u16, rng: &mut Rng) -> Vec<u8> {
     let data = block.outputs().data;
     let address = match rng.u8(..8) {
@@ -163,7 +168,7 @@ fn command(block: &CommandRegisters, profile: &Profile, words: u16, rng: &mut Rn
         1 => drop(bytes.remove(at)),
         2 => bytes.insert(at, octet(rng)),
         3 => bytes.insert(at, END),
-        4 => bytes.splice(at..at, (0..24).map(|_| 0)).for_each(drop),
+        4 => bytes.splice(at..at, (0..24).map(|_| 1)).for_each(drop),
         _ => (),
     }
     bytes
@@ -196,34 +201,45 @@ fn stream(block: &Stream, divisor: u64) -> Alone {
     // The first packet is a heartbeat, which comes after 2^14 clocks.
     let first = 20_000 + packet;
     let (mut enable, mut wait, mut index) = (Level { value: 0, left: first }, first, 0);
-    // Frames come without a pause until the next one's number is to be escaped, so that heartbeats
+    // Frames come without a pause until the next one's number has a zero byte, so that heartbeats
     // with that number follow.
-    let (mut number, mut hurries) = (0u8, false);
+    let (mut number, mut hurries) = (0u16, false);
+    // Frames without a zero byte: no link leads further.
+    let mut dense = false;
     let (mut place, mut data, mut pad) = (0, 0, 0);
-    // Clocks until something is to be told just when the flags are sent, two bytes behind a frame.
-    let (flags, mut told) = (20 * divisor as u32 + 1, u32::MAX);
+    // Clocks until something is to be told just when the flags are sent, three bytes behind a frame.
+    let (flags, mut told) = (30 * divisor as u32 + 1, u32::MAX);
+    // Clocks until a word is to be kept just when the next byte of a frame's words is read.
+    let (byte, mut kept) = (10 * divisor as u32 + 1, u32::MAX);
     alone(block, 100_000 * divisor as usize, move |rng| {
         let enabled = enable.next(rng, 20 * packet);
         if index == 8 {
             // In any clock of the packet before, as soon as it is gone, or later: while disabled,
             // after some heartbeats.
-            let escapes = [END, ESC].contains(&number);
-            hurries = !escapes && (hurries || enabled == 0 && rng.u8(..3) == 0);
+            let zero = number & 0xff == 0;
+            hurries = !zero && (hurries || enabled == 0 && rng.u8(..3) == 0);
+            dense = rng.u8(..3) == 0;
             wait = match rng.u8(..4) {
                 _ if hurries => 0,
-                0 if !escapes => rng.u32(..packet),
-                1 if !escapes => 0,
+                0 if !zero => rng.u32(..packet),
+                1 if !zero => 0,
                 _ => packet + rng.u32(..packet) + (1 - enabled as u32) * 12 * packet,
             };
             (index, pad) = (0, any(rng, of.frames.pad));
         }
         wait = wait.saturating_sub(1);
         let valid = wait == 0 && rng.u8(..3) != 0;
-        let keep = now(rng, 6 * packet);
+        kept = kept.saturating_sub(1);
+        let keep = if kept == 0 { 1 } else { now(rng, 6 * packet) };
         if keep == 1 {
+            kept = u32::MAX;
             (place, data) = (any(rng, of.place), any(rng, of.data));
         }
         let frame = match rng.u8(..4) {
+            _ if dense => {
+                let format = of.frames.frame;
+                any(rng, format) | format.min_code() as i64 | 0x01_0101
+            }
             0 => any(rng, of.frames.frame),
             _ => i64::from(octet(rng)) << (8 * rng.u8(..2)) & of.frames.frame.max_code() as i64,
         };
@@ -239,7 +255,10 @@ fn stream(block: &Stream, divisor: u64) -> Alone {
             ("place", place),
             ("data", data),
         ];
-        told = if valid && index == 7 { flags + rng.u32(..6) } else { told.saturating_sub(1) };
+        told = if valid && index == 7 { flags + rng.u32(1..4) } else { told.saturating_sub(1) };
+        if valid && index == 7 {
+            kept = rng.u32(4..20) * byte - rng.u32(0..3);
+        }
         for name in ["late", "refused"] {
             given.push((name, if told == 0 { 1 } else { now(rng, 12 * packet) }));
         }

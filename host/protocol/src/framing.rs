@@ -2,8 +2,8 @@
 //! Framing: how packets lie in the bytes of the serial line, either way.
 //!
 //! ```text
-//! packet:    payload … │ CRC high │ CRC low │ END         END inside: ESC, DC; ESC inside: ESC, DD (hex; SLIP, RFC 1055)
-//! frame:     sequence │ commands accepted (4 bits), pad (4 bits) │ flags │ 8 words of B bytes, most significant first
+//! packet:    payload … │ CRC, 4 bytes, least significant first              stuffed, then END, a zero byte
+//! frame:     sequence, 2 bytes │ commands accepted (4 bits), pad (4 bits) │ flags │ 8 words of B bytes
 //! heartbeat: the same with the flag of that name; its words are those last written to [`Register::ALL`], but for
 //!            the profile's digest in place of the control register, and for the ADC's answer to the last word sent to it;
 //!            where one of them is written meanwhile, END comes early, behind the flags or later, and the heartbeat is void
@@ -11,12 +11,29 @@
 //!                                                         position table; other bits are ignored
 //! ```
 //!
-//! The CRC is CRC-16/IBM-3740 (polynomial 1021, initial value FFFF, hex) over the payload before
-//! escaping.
+//! Numbers are most significant byte first. The CRC is CRC-32/ISO-HDLC (polynomial 04C11DB7, hex,
+//! least significant bit first, initial value and final exclusive or all ones) over the payload
+//! before stuffing.
 //!
-//! SLIP rather than COBS or a length: END is nowhere but at the end, so that a reader who has lost
-//! its place has it again after one END, for certain; and the sender needs no look ahead, so that
-//! no packet is buffered. Escapes cost on average 0.8 %.
+//! **Stuffing** is COBS (S. Cheshire and M. Baker, "Consistent overhead byte stuffing", IEEE/ACM
+//! Transactions on Networking 7(2), 1999). One byte is added, and each zero byte is replaced by a
+//! *link*, the distance to the next link; the added byte is a link, too. Packets are shorter than
+//! 254 bytes, so that every packet of a kind has one length on the line, whatever it contains, and
+//! END is nowhere but at its end. The board neither buffers nor looks ahead in either direction:
+//!
+//! | direction | links | the added byte | with a COBS library |
+//! | --- | --- | --- | --- |
+//! | host to board | point to the next link, as in the paper | is the first byte | `encode(bytes)` |
+//! | board to host | point back to the link before | is the last byte before END | `reverse(decode(reverse(bytes)))` |
+//!
+//! ```text
+//! to the board    11 00 22 33 00      →   02 11 03 22 33 01 00       02 ─→ 03 ──→ 01 ─→ END
+//! to the host     11 00 22 33 00      →   11 02 22 33 03 01 00       start ←── 02 ←── 03 ← 01
+//! ```
+//!
+//! A character without a stop bit counts as END at either end (POSIX terminals read it as a zero
+//! byte unless they are told otherwise). END on the line is nine low bits, so that whoever has lost
+//! the place of the characters' start bits finds no stop bit within the next END.
 //!
 //! [`Register::ALL`]: crate::Register::ALL
 
@@ -27,19 +44,19 @@ use hapticore_contract::profile::{Force, Profile};
 use hapticore_hdl::format::Format;
 
 /// Ends a packet.
-pub const END: u8 = 0xc0;
-/// Stands before the replacement of END or ESC.
-pub const ESC: u8 = 0xdb;
-/// END, after ESC.
-pub const ESC_END: u8 = 0xdc;
-/// ESC, after ESC.
-pub const ESC_ESC: u8 = 0xdd;
+pub const END: u8 = 0;
 
 /// Bytes of a frame packet before its words: sequence number, commands accepted and pad, flags.
-pub const STATUS_BYTES: u64 = 3;
+pub const STATUS_BYTES: u64 = 4;
 
-/// Bytes of the CRC at the end of a packet.
-pub const CRC_BYTES: u64 = 2;
+/// Bytes of the CRC behind the payload.
+pub const CRC_BYTES: u64 = 4;
+
+/// Bytes that stuffing adds, and END.
+pub const STUFFING_BYTES: u64 = 2;
+
+/// Bytes of the place at the beginning of a command.
+pub const PLACE_BYTES: u64 = 2;
 
 /// The bits of a frame packet's flags.
 pub mod flags {
@@ -58,8 +75,7 @@ pub mod flags {
     /// A frame was dropped since the packet before.
     pub const OVERRUN: u8 = 6;
     /// The packet is no frame but a heartbeat, and the first four flags are others: [`CALIBRATED`],
-    /// and from [`VERSION`] on [`super::VERSION`]. That one is neither 0 nor 5, so that no flags of
-    /// a heartbeat are END or ESC.
+    /// and from [`VERSION`] on [`super::VERSION`].
     pub const HEARTBEAT: u8 = 7;
     /// Of a heartbeat: since reset the last calibration register has been written.
     pub const CALIBRATED: u8 = 0;
@@ -67,8 +83,9 @@ pub mod flags {
     pub const VERSION: u8 = 1;
 }
 
-/// The version of what this file says: 1 to 7, but not 5.
-pub const VERSION: u8 = 1;
+/// The version of what this file says: 1 to 7. Version 1 was SLIP with CRC-16 and a sequence number
+/// of 8 bits; to one version the other's packets are damaged ones.
+pub const VERSION: u8 = 2;
 
 /// The format of a count of commands, and of a pad.
 pub const NIBBLE: Format = Format::unsigned(4, 0);
@@ -102,6 +119,24 @@ pub fn digest(profile: &Profile) -> u16 {
 /// Bytes of a frame's word.
 pub fn word_bytes(profile: &Profile) -> u64 {
     u64::from(Field::word(profile).width.div_ceil(8))
+}
+
+/// Bytes of a frame or a heartbeat on the line, END included, whatever it contains.
+///
+/// ```
+/// # use hapticore_contract::profile::Profile;
+/// # use hapticore_protocol::framing::packet_bytes;
+/// assert_eq!(packet_bytes(&Profile::bundled("small")?), 4 + 8 * 2 + 4 + 2);
+/// assert_eq!(packet_bytes(&Profile::bundled("standard")?), 4 + 8 * 4 + 4 + 2);
+/// # Ok::<(), hapticore_contract::profile::ProfileError>(())
+/// ```
+pub fn packet_bytes(profile: &Profile) -> u64 {
+    STATUS_BYTES + Field::ALL.len() as u64 * word_bytes(profile) + CRC_BYTES + STUFFING_BYTES
+}
+
+/// Bytes of a command on the line, END included, for a core whose calibration has these formats.
+pub fn command_bytes(formats: &WordFormats) -> u64 {
+    PLACE_BYTES + data_bytes(formats) + CRC_BYTES + STUFFING_BYTES
 }
 
 /// Bytes of a command's data, for a core whose calibration has these formats.

@@ -9,7 +9,7 @@
 //! | [`sigma_delta`] | the carrier, out |
 //! | [`pads`] | one pad at a time, out |
 //! | [`drive_output`] | drive words of a force loop, out through converters |
-//! | [`uart`], [`crc16`], [`framing`] | the serial line and its packets; the host's side of it is `hapticore-host` |
+//! | [`uart`], [`crc32`], [`framing`] | the serial line and its packets; the host's side of it is `hapticore-host` |
 //! | [`stream`] | frames, out |
 //! | [`registers`] | calibration, in |
 //! | [`parameters`] | what a board adds to a profile |
@@ -17,7 +17,7 @@
 
 pub mod adc_reader;
 mod bits;
-pub mod crc16;
+pub mod crc32;
 pub mod drive_output;
 pub mod framing;
 pub mod pads;

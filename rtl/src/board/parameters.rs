@@ -84,6 +84,9 @@ impl Parameters {
         within("ADC channels", channels, 2, 8)?;
         within("ADC bits", bits, 2, 18)?;
         within("pads", profile.pads, 1, 16)?;
+        // A frame's number is on the line before the next frame's comes.
+        let byte = 10 * self.divisor() + 2;
+        within("clocks of a byte on the serial line", byte, 1, profile.slot_clocks())?;
         within("clocks_per_sample", period, bits + channels - 1, 1 << 16)?;
         within("sclk_latency", self.sclk_latency, 0, self.conversion())?;
         let least = period + Self::CONVERSION_LEAST_NS * self.clock_hz / 1_000_000_000;

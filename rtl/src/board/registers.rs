@@ -3,24 +3,25 @@
 //! registers, on and off.
 //!
 //! ```text
-//! bytes ─(unescape)─┬─[place, data: as they come]─┬─ registers
-//!                   └─[CRC]── zero at END? ───────┴─ a word of the position table, or of the ADC
+//! bytes ─(links to zeros)─┬─[place, data: as they come]─┬─ registers
+//!                         └─[CRC]── right at END? ──────┴─ a word of the position table, or of the ADC
 //! ```
 //!
-//! | signal   | format                   | overflow                                  |
-//! | place    | u16                      | shifted out by bytes too many: refused    |
-//! | data     | D bytes                  | as above                                  |
-//! | count    | counter D + 5            | held at its end, which no command reaches |
-//! | commands | u4                       | wraps, meant                              |
+//! | signal   | format                   | overflow                                           |
+//! | place    | u16                      | shifted out by bytes too many: refused             |
+//! | data     | D bytes                  | as above                                           |
+//! | count    | counter D + 8            | held at its end, which no command reaches          |
+//! | left     | counter D + 7            | bytes to the next link; a link beyond it: refused  |
+//! | commands | u4                       | wraps, meant                                       |
 //!
-//! Nothing is written before a command's END has come with the right length and CRC; all else is
+//! Nothing is written before a command's END has come with the right length, links and CRC; all else is
 //! refused, says so for a clock, and changes nothing. So is a command for the ADC while the board
 //! is enabled. The data of a command for the ADC leave at one end of their register while the ADC's
 //! answer comes in at the other. Latency: two clocks from the byte END. Source: [`super::framing`].
 
-use super::bits::{next, read_as};
-use super::crc16;
-use super::framing::{Control, END, ESC, ESC_END, ESC_ESC, NIBBLE, PLACE, Register, data_bytes};
+use super::bits::{next, previous, read_as};
+use super::crc32;
+use super::framing::{CRC_BYTES, Control, END, NIBBLE, PLACE, Register, command_bytes, data_bytes};
 use super::uart::BYTE;
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format};
@@ -36,7 +37,7 @@ block! {
         calibration: Calibration<Format>,
         words: u64,
         data: Format,
-        /// Bytes of a command, CRC included.
+        /// Bytes of a command on the line before its END.
         length: u64,
     }
     submodules {}
@@ -78,9 +79,9 @@ block! {
         calibrated: BIT,
     }
     registers(block) {
-        escaped: BIT,
         count: Format::counter(block.length + 1),
-        crc: crc16::CRC,
+        left: Format::counter(block.length),
+        crc: crc32::CRC,
         place: Format::unsigned(16, 0),
         data: block.data,
         act: BIT,
@@ -95,56 +96,54 @@ block! {
 
 /// Bits of a register of the ADC.
 const ADC_WORD: u8 = 16;
-/// Bytes of a command's place and of its CRC.
-const AROUND: u64 = 4;
 
 impl CommandRegisters {
     /// The registers of a core with this calibration, whose position table has so many words.
     pub fn new(calibration: Calibration<Format>, words: u64) -> Self {
-        let bytes = data_bytes(&calibration);
         CommandRegisters {
             calibration,
             words,
-            data: Format::unsigned(8 * bytes as u8, 0),
-            length: bytes + AROUND,
+            data: Format::unsigned(8 * data_bytes(&calibration) as u8, 0),
+            length: command_bytes(&calibration) - 1,
         }
     }
 
-    /// A byte that is no END: part of a command, or the escape before one.
+    /// A byte that is no END: part of a command, or a link, which stands for a zero byte unless it is
+    /// the first.
     #[inline(always)]
     fn part<V: Interpretation>(&self, r: Regs<V>, byte: Signal<V>) -> Regs<V> {
-        let is = |value: u8| byte.is(value.into());
-        let (escape, known) = (is(ESC) & !r.escaped, is(ESC_END) | is(ESC_ESC));
-        let meant = is(ESC_END).select(code(END.into(), BYTE), code(ESC.into(), BYTE));
-        let byte = r.escaped.select(meant, byte);
-        let payload = r.count.less_than(int(self.length - 2));
+        let (first, link) = (r.count.is(0), r.left.is(0));
         let full = r.count.is(self.length + 1);
-        let bad = r.escaped & !known;
+        let (low, high) = (r.left.format.width, 8 - r.left.format.width);
+        let beyond = link & !byte.bits(low, high).is(0);
+        let left = link.select(byte.bits(0, low), r.left);
+        let byte = link.select(code(0, BYTE), byte);
+        // The first moves on, too: it is gone when the data have come.
+        let payload = r.count.less_than(int(self.length - CRC_BYTES));
         let shifted = r.place.concat(r.data).concat(byte);
-        let taken = Registers {
-            escaped: bit(false),
-            count: bad
+        Registers {
+            count: beyond
                 .select(int(self.length + 1), full.select(r.count, next(r.count)))
                 .resize(r.count.format, Wrap),
-            crc: crc16::with(r.crc, byte),
+            left: previous(left),
+            crc: first.select(crc32::begin(), crc32::with(r.crc, byte)),
             place: payload.select(shifted.bits(self.data.width, 16), r.place),
             data: payload.select(shifted.bits(0, self.data.width), r.data),
             ..r
-        };
-        let escaped = Registers { escaped: bit(true), ..r };
-        when!(escape => escaped, else taken)
+        }
     }
 
     /// END: the command counts, or it does not.
     #[inline(always)]
     fn end<V: Interpretation>(&self, r: Regs<V>) -> Regs<V> {
         let forbidden = self.is(&r, Register::Adc) & r.control.bits(Control::ENABLE, 1);
-        let good = r.count.is(self.length) & r.crc.is(0) & !r.escaped & !forbidden;
+        let whole = r.count.is(self.length) & r.left.is(0) & r.crc.is(crc32::RESIDUE);
+        let good = whole & !forbidden;
         // END twice is nothing, not a command: a sender may clear the line with it.
-        let nothing = r.count.is(0) & !r.escaped;
+        let nothing = r.count.is(0);
         let commands = good.select(next(r.commands), r.commands);
         let refused = !(good | nothing);
-        Registers { act: good, refused, commands, escaped: bit(false), count: int(0), ..r }
+        Registers { act: good, refused, commands, count: int(0), left: int(0), ..r }
     }
 
     /// The registers that a command writes.
@@ -178,13 +177,9 @@ impl Block for CommandRegisters {
     fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
         let r = state.load(self);
         let table = self.calibration.table;
-        // The CRC begins anew with a command's first octet: a register is zero at reset, a CRC is
-        // not at its beginning.
-        let crc = r.count.is(0).select(crc16::begin(), r.crc);
         let data = i.shift.select(r.data.concat(i.answer).bits(0, self.data.width), r.data);
         let quiet = Registers { act: bit(false), refused: bit(false), data, ..self.written(r) };
-        let fresh = Registers { crc, ..quiet };
-        let got = when!(i.octet.is(END.into()) => self.end(quiet), else self.part(fresh, i.octet));
+        let got = when!(i.octet.is(END.into()) => self.end(quiet), else self.part(quiet, i.octet));
         let next = when!(i.valid => got, else quiet);
         state.store(self, next);
         let address = r.place.bits(0, table.address.width);

@@ -6,34 +6,41 @@
 //! frame words ──────────┐
 //! written registers ────┴─[words: a frame, a heartbeat]─┐
 //! number, commands, pad, flags ─────────────────────────┼─(group, left)── byte ─┬─[CRC]─┐
-//!                                                       └───────────────────────┴───────┴─(escape)─ transmitter ─ tx
+//!                                                       └───────────────────────┴───────┴─(zero? distance)─ transmitter ─ tx
 //! ```
 //!
-//! | group   | 15                            | 0 … 7      | 8             |
-//! | bytes   | sequence, commands/pad, flags | B a word   | CRC, CRC, END |
+//! | group   | 15                                | 0 … 7      | 8                          |
+//! | bytes   | sequence (2), commands/pad, flags | B a word   | CRC (4), the last link, END |
 //!
-//! | signal | format      | overflow                          |
-//! | number | u8          | wraps, meant: losses show as gaps |
-//! | group  | u4          | wraps, meant: 15 comes before 0   |
-//! | left   | counter 3   | reloaded, by compare              |
-//! | pause  | u BEAT + 1  | held at zero while anything is sent or the board is enabled; its top bit ends the pause |
+//! | signal   | format           | overflow                          |
+//! | number   | u16              | wraps, meant: losses show as gaps |
+//! | group    | u4               | wraps, meant: 15 comes before 0   |
+//! | left     | counter 5        | reloaded, by compare; more where a word has more bytes |
+//! | distance | counter 8·B + 9  | from a packet's beginning or its last zero byte; no packet is longer |
+//! | pause    | u BEAT + 1       | held at zero while anything is sent or the board is enabled; its top bit ends the pause |
+//!
+//! A zero byte goes out as the distance to the zero byte before it, so links point back: neither the
+//! next zero nor any other byte need be known in advance, and a packet is as long on the line
+//! whatever it contains.
 //!
 //! A heartbeat is a packet whose words are those that have been written into registers. A word that
-//! is to be kept for it waits for the words of a frame to be through, and while one is written none
-//! is read: the line rests for a clock. A heartbeat whose words are being sent then ends at once,
-//! too short for a packet: bytes of the word before and of this one would otherwise stand side by
-//! side, under a CRC that is right.
+//! is to be kept for it waits for the words of a frame to be through, and a clock for the one in
+//! which the next byte is read: no byte of a packet waits for it. A heartbeat whose words are being
+//! sent then ends at once, too short for a packet: bytes of the word before and of this one would
+//! otherwise stand side by side, under a CRC that is right.
 //!
 //! A frame that comes while one is being sent is dropped whole, takes its number along, and sets a
-//! flag in the next packet. A packet's own number is its first byte, gone long before another frame
-//! can come. What happened since the packet before (late, refused, overrun) is kept until it is
-//! told. Latency: (8·B + 6)·10·D clocks for a packet, and as much again for each byte that is
-//! escaped. Source: [`super::framing`].
+//! flag in the next packet. A packet's own number is its first two bytes, gone before another frame
+//! comes: [`super::parameters`] asks for slots longer than a byte. What happened since the packet
+//! before (late, refused, overrun) is kept until it is told. Latency: (8·B + 10)·(10·D + 1) clocks
+//! from a frame's last word to the end of the packet's last stop bit, whatever the frame contains
+//! and whatever is commanded meanwhile. Source: [`super::framing`].
 
 use super::bits::{flag, next, previous, word as bits_side_by_side};
-use super::crc16;
+use super::crc32;
 use super::framing::{
-    END, ESC, ESC_END, ESC_ESC, NIBBLE, PLACE, Register, STATUS_BYTES, VERSION, digest, word_bytes,
+    CRC_BYTES, END, NIBBLE, PLACE, Register, STATUS_BYTES, STUFFING_BYTES, VERSION, digest,
+    packet_bytes, word_bytes,
 };
 use super::uart::BYTE;
 use super::uart::transmitter::{self, Transmitter};
@@ -51,7 +58,10 @@ block! {
     pub struct Stream("stream") {
         pad: Format,
         data: Format,
+        /// Bytes of a word.
         bytes: u64,
+        /// Bytes of a packet on the line.
+        length: u64,
     }
     submodules {
         words: Memory,
@@ -85,10 +95,10 @@ block! {
         busy: BIT,
         heartbeat: BIT,
         group: Format::counter(STATUS),
-        left: Format::counter(3),
-        escaped: BIT,
-        crc: crc16::CRC,
-        number: BYTE,
+        left: Format::counter(TRAILER_BYTES.max(stream.bytes) - 1),
+        distance: Format::counter(stream.length - 1),
+        crc: crc32::CRC,
+        number: Format::unsigned(16, 0),
         pad: stream.pad,
         commands: NIBBLE,
         clipped: BIT,
@@ -99,7 +109,6 @@ block! {
         refused: BIT,
         overrun: BIT,
         keep: BIT,
-        wrote: BIT,
         pause: Format::unsigned(BEAT + 1, 0),
     }
 }
@@ -108,10 +117,10 @@ block! {
 const WORDS: u64 = Field::ALL.len() as u64;
 /// The group before the words, by wrapping: the status.
 const STATUS: u64 = 15;
-/// The last group: the CRC and END.
+/// The last group: the CRC, the last link and END.
 const TRAILER: u64 = WORDS;
 /// Bytes of it.
-const TRAILER_BYTES: u64 = 3;
+const TRAILER_BYTES: u64 = CRC_BYTES + STUFFING_BYTES;
 /// Heartbeats pause for two to the power of so many clocks.
 const BEAT: u8 = 14;
 
@@ -142,6 +151,7 @@ impl Stream {
             transmitter: Transmitter::new(divisor),
             pad: Format::counter(profile.pads - 1),
             bytes: word_bytes(profile),
+            length: packet_bytes(profile),
         }
     }
 
@@ -155,10 +165,9 @@ impl Stream {
         }
     }
 
-    /// Clocks of a packet without escapes, from a frame's last word to the end of its last stop
-    /// bit.
+    /// Clocks of a packet, from a frame's last word to the end of its last stop bit.
     pub fn packet_clocks(&self, divisor: u64) -> u64 {
-        (STATUS_BYTES + WORDS * self.bytes + TRAILER_BYTES) * 10 * divisor + 1
+        self.length * (10 * divisor + 1)
     }
 
     /// The byte of the packet that is due.
@@ -181,25 +190,38 @@ impl Stream {
             r.heartbeat,
         ]);
         let pad = r.pad.resize(NIBBLE, Wrap);
-        let status = pick(&[flags, r.commands.concat(pad), r.number]);
-        // The CRC takes its own high byte in as it is sent; what is left is the low byte, moved up.
-        let check = r.crc.bits(8, 8);
-        let trailer = pick(&[code(END.into(), BYTE), check, check]);
+        let (low, high) = (r.number.bits(0, 8), r.number.bits(8, 8));
+        let status = pick(&[flags, r.commands.concat(pad), low, high]);
+        // The CRC moves on by each of its bytes. Both the last link and END are zero bytes.
+        let check = bits_side_by_side((0..8).map(|k| !r.crc.bits(k, 1)));
+        let trailer = r.left.less_than(int(STUFFING_BYTES)).select(code(0, BYTE), check);
         r.group.is(TRAILER).select(trailer, r.group.is(STATUS).select(status, pick(&words)))
     }
 
-    /// What is written: a frame's word, or, between frames, the one that is kept for heartbeats.
+    /// What is written: a frame's word, or, between frames and where no byte is read, the one that is
+    /// kept for heartbeats.
     #[inline(always)]
-    fn write<V: Interpretation>(&self, r: &Regs<V>, i: &In<V>, taking: Signal<V>) -> Write<V> {
+    fn write<V: Interpretation>(
+        &self,
+        r: &Regs<V>,
+        i: &In<V>,
+        [taking, free]: [Signal<V>; 2],
+    ) -> Write<V> {
         let (format, address) = (self.words.format, self.words.address());
         let kept = i.data.resize(Format::unsigned(format.width, 0), Wrap).as_code(format);
         Write {
-            enable: i.frames.valid.select(taking, r.keep),
+            enable: i.frames.valid.select(taking, r.keep & free),
             address: (!i.frames.valid)
                 .concat(i.frames.valid.select(i.frames.index, i.place))
                 .as_code(address),
             data: i.frames.valid.select(i.frames.frame, kept),
         }
+    }
+
+    /// The CRC behind a byte: of its own bytes it takes none in, but moves on.
+    #[inline(always)]
+    fn check<V: Interpretation>(&self, r: &Regs<V>, byte: Signal<V>) -> Signal<V> {
+        crc32::with(r.crc, r.group.is(TRAILER).select(r.crc.bits(0, 8), byte))
     }
 
     /// Where the packet goes on after a byte: the bytes of a group are counted down.
@@ -217,7 +239,17 @@ impl Block for Stream {
         let r = state.load(self);
         let taking = (i.frames.valid & i.frames.index.is(0)).select(!r.busy, r.taking);
         let data = self.words.data(&mut state.submodules.words);
-        let write = self.write(&r, &i, taking);
+        let byte = self.byte(&r, data).named("plain");
+        let at_end = r.group.is(TRAILER) & r.left.is(0);
+        let zero = byte.is(0);
+        let link = r.distance.resize(BYTE, Wrap);
+        let line = at_end.select(code(END.into(), BYTE), zero.select(link, byte));
+        let transmitter =
+            call!(self.transmitter, state, transmitter::Inputs { valid: r.busy, octet: line });
+        let sent = transmitter.taken;
+
+        let free = !transmitter.ending;
+        let write = self.write(&r, &i, [taking, free]);
         // A word is never read while it is written, and in plain sight: the block RAM then needs no
         // logic for that case.
         let address = write
@@ -225,17 +257,6 @@ impl Block for Stream {
             .select(next(write.address), r.heartbeat.concat(r.group.bits(0, PLACE.width)));
         self.words.access(&mut state.submodules.words, address, write);
 
-        let byte = self.byte(&r, data);
-        let at_end = r.group.is(TRAILER) & r.left.is(0);
-        let (is_end, is_esc) = (byte.is(END.into()), byte.is(ESC.into()));
-        let special = (is_end | is_esc) & !at_end;
-        let replaced = is_end.select(code(ESC_END.into(), BYTE), code(ESC_ESC.into(), BYTE));
-        let escape = special & !r.escaped;
-        let line = special.select(r.escaped.select(replaced, code(ESC.into(), BYTE)), byte);
-        let inputs = transmitter::Inputs { valid: r.busy & !r.wrote, octet: line };
-        let transmitter = call!(self.transmitter, state, inputs);
-
-        let sent = transmitter.taken & !escape;
         let told = sent & r.group.is(STATUS) & r.left.is(0);
         let frame = i.frames.done & taking;
         let heartbeat = r.pause.msb() & !r.busy & !i.enable & !i.frames.valid;
@@ -256,8 +277,10 @@ impl Block for Stream {
                     .resize(r.group.format, Wrap),
                 left: take(int(STATUS_BYTES - 1), onward(0, left, r.left))
                     .resize(r.left.format, Wrap),
-                escaped: transmitter.taken.select(escape, r.escaped),
-                crc: take(crc16::begin(), sent.select(crc16::with(r.crc, byte), r.crc)),
+                distance: (begin | (sent & zero))
+                    .select(int(1), sent.select(next(r.distance), r.distance))
+                    .resize(r.distance.format, Wrap),
+                crc: take(crc32::begin(), sent.select(self.check(&r, byte), r.crc)),
                 number: i.frames.done.select(next(r.number), r.number),
                 pad: take(i.frames.pad, r.pad),
                 commands: take(i.commands, r.commands),
@@ -268,8 +291,7 @@ impl Block for Stream {
                 late: flag(r.late, i.late, told),
                 refused: flag(r.refused, i.refused, told),
                 overrun: flag(r.overrun, i.frames.done & !taking, told),
-                keep: flag(r.keep, i.keep, !i.frames.valid),
-                wrote: write.enable,
+                keep: flag(r.keep, i.keep, !i.frames.valid & free),
                 pause: (i.enable | r.busy)
                     .select(int(0), next(r.pause))
                     .resize(r.pause.format, Wrap),

@@ -7,16 +7,25 @@
 //!
 //! | signal   | format        | overflow             |
 //! | count    | counter D − 1 | reloaded, by compare |
-//! | position | counter 9     | reloaded, by compare |
+//! | position | counter 10    | reloaded, by compare |
 //!
-//! A bit takes D clocks, the divisor. The receiver looks at the middle of each bit and drops a byte
-//! without a stop bit; the line passes two registers first. Latency: 10·D clocks a byte. Source:
-//! the usual asynchronous serial line (EIA-232 character).
+//! A bit takes D clocks, the divisor. The receiver looks at the middle of each bit; the line passes
+//! two registers first. A character without a stop bit is heard as a zero byte, which ends a packet,
+//! and nothing more until the line is high: a line that stays low is one such byte, and a receiver
+//! that has taken another bit for a start bit finds the right one behind the next zero byte, nine
+//! low bits. Latency: 10·D clocks a byte, and one more from byte to byte for the transmitter to take
+//! the next.
+//!
+//! **Clocks that differ.** The receiver looks at the stop bit ⌊9½·D⌋ clocks behind the clock that
+//! sees the start bit's edge, which is up to a clock late; that must be within the sender's bit from
+//! 9 to 10. So a sender's bit of b clocks is heard from b = (⌊9½·D⌋ + 1)/10 to b = ⌊9½·D⌋/9: −4.2 %
+//! to +5.6 % with 12 clocks a bit, −4.8 % to +5.3 % with 25 (`rtl/tests/board/clock_error.rs`
+//! measures it). Source: the usual asynchronous serial line (EIA-232 character).
 
 use super::bits::{next, previous};
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format};
-use hapticore_hdl::signal::{bit, int};
+use hapticore_hdl::signal::{Wrap, bit, code, int};
 use hapticore_hdl::{block, when};
 
 /// The format of a byte.
@@ -24,6 +33,9 @@ pub const BYTE: Format = Format::unsigned(8, 0);
 
 /// The position of the stop bit; that of the start bit is 0.
 const STOP: u64 = 9;
+
+/// The position behind a stop bit that was low, until the line is high.
+const BROKEN: u64 = 10;
 
 /// Receiver: 8N1 line to bytes.
 pub mod receiver {
@@ -43,7 +55,7 @@ pub mod receiver {
         outputs(receiver) {
             /// Asserted for one cycle with each byte.
             valid: BIT,
-            /// Byte, least significant bit first on the line.
+            /// Byte, least significant bit first on the line; zero where the stop bit was low.
             octet: BYTE,
         }
         registers(receiver) {
@@ -51,7 +63,7 @@ pub mod receiver {
             low: BIT,
             busy: BIT,
             count: Format::counter(receiver.divisor - 1),
-            position: Format::counter(STOP),
+            position: Format::counter(BROKEN),
             octet: BYTE,
             valid: BIT,
         }
@@ -66,20 +78,26 @@ pub mod receiver {
         /// Waits for a start bit.
         #[inline(always)]
         fn wait<V: Interpretation>(&self, r: Regs<V>) -> Regs<V> {
-            Registers { busy: r.low, count: int(self.divisor / 2), position: int(0), ..r }
+            // The start bit has been low for a clock when this is seen.
+            let half = int(self.divisor / 2 - 1);
+            Registers { busy: r.low, count: half, position: int(0), ..r }
         }
 
-        /// The middle of a bit.
+        /// The middle of a bit, or any clock behind a stop bit that was low.
         #[inline(always)]
         fn sample<V: Interpretation>(&self, r: Regs<V>) -> Regs<V> {
             let (start, stop) = (r.position.is(0), r.position.is(STOP));
+            let broken = r.position.is(BROKEN);
+            let heard = r.low.select(code(0, BYTE), r.octet);
             let shifted = (!r.low).concat(r.octet.bits(1, 7));
             Registers {
-                busy: !(stop | (start & !r.low)),
-                count: int(self.divisor - 1),
-                position: next(r.position),
-                octet: (start | stop).select(r.octet, shifted),
-                valid: stop & !r.low,
+                busy: r.low | !(start | stop | broken),
+                count: (stop | broken)
+                    .select(int(0), int(self.divisor - 1))
+                    .resize(r.count.format, Wrap),
+                position: broken.select(r.position, next(r.position)),
+                octet: stop.select(heard, shifted),
+                valid: stop,
                 ..r
             }
         }
@@ -119,6 +137,8 @@ pub mod transmitter {
         outputs(transmitter) {
             /// The byte is accepted in this cycle.
             taken: BIT,
+            /// A byte may be accepted in the next cycle, as not in this one.
+            ending: BIT,
             /// Pin: the line, high at rest.
             tx: BIT,
         }
@@ -170,7 +190,8 @@ pub mod transmitter {
             let busy = when!(r.count.is(0) => self.advance(r), else counting);
             let next = when!(r.busy => busy, else self.begin(&i));
             state.store(self, next);
-            Outputs { taken: i.valid & !r.busy, tx: !r.low }
+            let ending = r.busy & r.count.is(0) & r.position.is(STOP);
+            Outputs { taken: i.valid & !r.busy, ending, tx: !r.low }
         }
     }
 }

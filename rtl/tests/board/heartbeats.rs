@@ -14,8 +14,8 @@ use hapticore_rtl::board::registers::CommandRegisters;
 use hapticore_rtl::board::stream::{self, Stream};
 
 const DIVISOR: u64 = 4;
-/// Clocks from one command to the next at the same rate: eight bytes at least.
-const COMMAND: u64 = 80 * DIVISOR;
+/// Clocks from one command to the next at the same rate: ten bytes at least.
+const COMMAND: u64 = 100 * DIVISOR;
 const REGISTERS: [Register; 2] =
     [Register::Constant(Constant::CapacitanceGain), Register::Constant(Constant::ForceGain)];
 

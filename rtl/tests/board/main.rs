@@ -11,9 +11,11 @@ mod random;
 
 mod bench;
 mod blocks;
+mod clock_error;
 mod commands;
 mod drive_output;
 mod heartbeats;
+mod line;
 mod part;
 mod pins;
 mod ranges;

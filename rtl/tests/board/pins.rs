@@ -184,23 +184,38 @@ impl Adc {
     }
 }
 
-/// The host's end of a serial line: bytes in, bytes out, at its own pace.
+/// The host's end of a serial line: bytes in, bytes out, at its own pace. It looks for a start bit
+/// as soon as it has looked at a stop bit, and gives a zero byte where that was low, as POSIX
+/// terminals do.
 pub struct Host {
-    divisor: u64,
+    /// Clocks of the board in a bit of the host.
+    bit: f64,
     sending: VecDeque<bool>,
-    clocks: u64,
-    hearing: Option<(u64, Vec<bool>)>,
+    /// Clocks since the bit that is being sent began.
+    sent: f64,
+    /// Clocks until the next bit is looked at, and the bits so far.
+    hearing: Option<(f64, Vec<bool>)>,
     pub heard: Vec<u8>,
 }
 
 impl Host {
     pub fn new(divisor: u64) -> Self {
-        Host { divisor, sending: VecDeque::new(), clocks: 0, hearing: None, heard: Vec::new() }
+        Host::with_bit(divisor as f64)
+    }
+
+    /// A host whose bits take so many clocks of the board.
+    pub fn with_bit(bit: f64) -> Self {
+        Host { bit, sending: VecDeque::new(), sent: 0.0, hearing: None, heard: Vec::new() }
     }
 
     pub fn send(&mut self, bytes: impl IntoIterator<Item = u8>) {
+        self.send_early(bytes, 0.0);
+    }
+
+    /// Sends bytes, the first edge, if none are being sent, so much of a clock before it is seen.
+    pub fn send_early(&mut self, bytes: impl IntoIterator<Item = u8>, early: f64) {
         if self.can_skip() {
-            self.clocks = 0;
+            self.sent = early;
         }
         for byte in bytes {
             let bits = (0..8).map(|bit| byte >> bit & 1 != 0);
@@ -220,22 +235,22 @@ impl Host {
 
     /// One clock, with the line from the board.
     pub fn clock(&mut self, tx: i64) {
-        self.clocks += 1;
-        if self.clocks.is_multiple_of(self.divisor) {
+        self.sent += 1.0;
+        if self.sent >= self.bit {
+            self.sent -= self.bit;
             self.sending.pop_front();
         }
         let Some((left, bits)) = &mut self.hearing else {
-            self.hearing = (tx == 0).then(|| (self.divisor / 2 + self.divisor, Vec::new()));
+            self.hearing = (tx == 0).then(|| (1.5 * self.bit, Vec::new()));
             return;
         };
-        *left -= 1;
-        if *left == 0 {
-            *left = self.divisor;
+        *left -= 1.0;
+        if *left < 1.0 {
+            *left += self.bit;
             bits.push(tx != 0);
             if bits.len() == 9 {
-                assert!(bits[8], "a byte ends with a stop bit");
-                self.heard
-                    .push(bits[..8].iter().rev().fold(0, |byte, &bit| byte << 1 | u8::from(bit)));
+                let byte = bits[..8].iter().rev().fold(0, |byte, &bit| byte << 1 | u8::from(bit));
+                self.heard.push(if bits[8] { byte } else { 0 });
                 self.hearing = None;
             }
         }

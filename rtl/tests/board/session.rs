@@ -20,6 +20,8 @@ pub struct Session {
     pub profile: Profile,
     pub adc: Adc,
     pub host: Host,
+    /// The level that either end sees while the line is unplugged.
+    pub unplugged: Option<i64>,
     decoder: Decoder,
     pub packets: Vec<Result<Packet, Damage>>,
     pub heartbeats: Vec<Heartbeat>,
@@ -44,6 +46,7 @@ impl Session {
             profile: profile.clone(),
             adc,
             host: Host::new(parameters.divisor()),
+            unplugged: None,
             decoder: Decoder::new(profile),
             packets: Vec::new(),
             heartbeats: Vec::new(),
@@ -53,9 +56,10 @@ impl Session {
 
     pub fn clock(&mut self) {
         let (busy, dout) = self.adc.pins();
-        let outputs = self.bench.clock(Inputs { dout, busy, rx: self.host.line() });
+        let rx = self.unplugged.unwrap_or(self.host.line());
+        let outputs = self.bench.clock(Inputs { dout, busy, rx });
         self.adc.clock(&outputs);
-        self.host.clock(outputs.tx);
+        self.host.clock(self.unplugged.unwrap_or(outputs.tx));
         if self.closed.last() != Some(&outputs.select) {
             self.closed.push(outputs.select);
         }
@@ -76,6 +80,14 @@ impl Session {
     pub fn send(&mut self, commands: &[Command]) {
         self.host.send(encode(commands, &self.profile));
         while !self.host.can_skip() {
+            self.clock();
+        }
+    }
+
+    /// Runs until the end of a packet.
+    pub fn next_packet(&mut self) {
+        let before = self.packets.len();
+        while self.packets.len() == before {
             self.clock();
         }
     }

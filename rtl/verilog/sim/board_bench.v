@@ -63,7 +63,7 @@ module board_bench #(
         end
     end
 
-    // The third byte of a packet, escaped or not, says whether it is a heartbeat.
+    // The fourth byte of a packet, its flags or, where these are zero, a small distance, says whether it is a heartbeat.
     integer heard_bit, place;
     reg heartbeat;
     initial begin
@@ -80,11 +80,11 @@ module board_bench #(
                 heard[heard_bit] = tx;
             end
             $fdisplay(file, "%02x", heard);
-            if (heard === 8'hc0) begin
-                if (place > 3 && !heartbeat) packets = packets + 1;
+            if (heard === 8'h00) begin
+                if (place > 4 && !heartbeat) packets = packets + 1;
                 place = 0;
-            end else if (heard !== 8'hdb) begin
-                if (place == 2) heartbeat = heard[7];
+            end else begin
+                if (place == 3) heartbeat = heard[7];
                 place = place + 1;
             end
             #(BIT);

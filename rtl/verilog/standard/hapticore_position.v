@@ -82,6 +82,7 @@ module hapticore_position (
     wire [13:0] sum_c848 = {1'd0, base} + {11'd0, is_multiply_table ? instruction[2:0] : 3'd0}; // u14.0
     wire bit_4434 = does & is_store; // u1.0
     wire is_input = instruction[15:12] == 4'd8; // u1.0
+    wire [6:0] variable = {1'd1, slot[5:0]}; // u7.0
     wire [2:0] bits_0096 = instruction[2:0]; // u3.0
     wire signed [21:0] choice_c7fb = bits_0096[1] ? {1'd0, share} : surface[0] ? r_y : r_x; // s22.20
     wire [8:0] fetched_plus_1 = {1'd0, fetched} + 9'd1; // u9.0
@@ -180,68 +181,68 @@ module hapticore_position (
     end
 
     always @(posedge clock) begin
-        if (bit_4434 | (does & is_input)) scratch[slot] <= is_input ? (bits_0096[0] ? {1'd0, choice_c7fb[3:0], 13'd0} : choice_c7fb[21:4]) : bits_0096[0] ? sum[34:17] : result;
+        if (bit_4434 | (does & is_input)) scratch[variable] <= is_input ? (bits_0096[0] ? {1'd0, choice_c7fb[3:0], 13'd0} : choice_c7fb[21:4]) : bits_0096[0] ? sum[34:17] : result;
         scratch_word <= scratch[slot];
     end
 
     initial begin : initial_instructions
-        instructions[0] = 16'ha004; instructions[1] = 16'h822a; instructions[2] = 16'h0080; instructions[3] = 16'h3228;
-        instructions[4] = 16'h3228; instructions[5] = 16'h4097; instructions[6] = 16'h622c; instructions[7] = 16'ha004;
-        instructions[8] = 16'h8540; instructions[9] = 16'h8229; instructions[10] = 16'h4228; instructions[11] = 16'h6228;
-        instructions[12] = 16'h0080; instructions[13] = 16'h3540; instructions[14] = 16'h3540; instructions[15] = 16'h4091;
-        instructions[16] = 16'h6540; instructions[17] = 16'ha079; instructions[18] = 16'h4540; instructions[19] = 16'h4540;
-        instructions[20] = 16'hb012; instructions[21] = 16'h00c0; instructions[22] = 16'h3228; instructions[23] = 16'h6540;
+        instructions[0] = 16'ha004; instructions[1] = 16'h82ea; instructions[2] = 16'h0080; instructions[3] = 16'h32e8;
+        instructions[4] = 16'h32e8; instructions[5] = 16'h4097; instructions[6] = 16'h62ec; instructions[7] = 16'ha004;
+        instructions[8] = 16'h8600; instructions[9] = 16'h82e9; instructions[10] = 16'h42e8; instructions[11] = 16'h62e8;
+        instructions[12] = 16'h0080; instructions[13] = 16'h3600; instructions[14] = 16'h3600; instructions[15] = 16'h4091;
+        instructions[16] = 16'h6600; instructions[17] = 16'ha079; instructions[18] = 16'h4600; instructions[19] = 16'h4600;
+        instructions[20] = 16'hb012; instructions[21] = 16'h00c0; instructions[22] = 16'h32e8; instructions[23] = 16'h6600;
         instructions[24] = 16'hc007; instructions[25] = 16'ha004; instructions[26] = 16'ha019; instructions[27] = 16'h4092;
-        instructions[28] = 16'h4143; instructions[29] = 16'h414c; instructions[30] = 16'hb01b; instructions[31] = 16'h6550;
-        instructions[32] = 16'h0080; instructions[33] = 16'h3550; instructions[34] = 16'h3550; instructions[35] = 16'h34d0;
-        instructions[36] = 16'h34d0; instructions[37] = 16'h6550; instructions[38] = 16'h3550; instructions[39] = 16'h3550;
-        instructions[40] = 16'h0090; instructions[41] = 16'h34d0; instructions[42] = 16'h34d0; instructions[43] = 16'h6550;
-        instructions[44] = 16'h0080; instructions[45] = 16'h3550; instructions[46] = 16'h3550; instructions[47] = 16'h34d0;
-        instructions[48] = 16'h34d0; instructions[49] = 16'h6550; instructions[50] = 16'hc019; instructions[51] = 16'h0080;
-        instructions[52] = 16'h3550; instructions[53] = 16'h3550; instructions[54] = 16'h30b8; instructions[55] = 16'h6560;
-        instructions[56] = 16'h0550; instructions[57] = 16'h3090; instructions[58] = 16'h3090; instructions[59] = 16'h3090;
+        instructions[28] = 16'h4203; instructions[29] = 16'h420c; instructions[30] = 16'hb01b; instructions[31] = 16'h6610;
+        instructions[32] = 16'h0080; instructions[33] = 16'h3610; instructions[34] = 16'h3610; instructions[35] = 16'h34d0;
+        instructions[36] = 16'h34d0; instructions[37] = 16'h6610; instructions[38] = 16'h3610; instructions[39] = 16'h3610;
+        instructions[40] = 16'h0090; instructions[41] = 16'h34d0; instructions[42] = 16'h34d0; instructions[43] = 16'h6610;
+        instructions[44] = 16'h0080; instructions[45] = 16'h3610; instructions[46] = 16'h3610; instructions[47] = 16'h34d0;
+        instructions[48] = 16'h34d0; instructions[49] = 16'h6610; instructions[50] = 16'hc019; instructions[51] = 16'h0080;
+        instructions[52] = 16'h3610; instructions[53] = 16'h3610; instructions[54] = 16'h30b8; instructions[55] = 16'h6620;
+        instructions[56] = 16'h0610; instructions[57] = 16'h3090; instructions[58] = 16'h3090; instructions[59] = 16'h3090;
         instructions[60] = 16'h3090; instructions[61] = 16'h3090; instructions[62] = 16'h3090; instructions[63] = 16'h3090;
-        instructions[64] = 16'h3090; instructions[65] = 16'h6211; instructions[66] = 16'h0210; instructions[67] = 16'h3090;
+        instructions[64] = 16'h3090; instructions[65] = 16'h62d1; instructions[66] = 16'h02d0; instructions[67] = 16'h3090;
         instructions[68] = 16'h3090; instructions[69] = 16'h3090; instructions[70] = 16'h3090; instructions[71] = 16'h3090;
-        instructions[72] = 16'h3090; instructions[73] = 16'h3090; instructions[74] = 16'h3090; instructions[75] = 16'h6211;
-        instructions[76] = 16'h0090; instructions[77] = 16'h3210; instructions[78] = 16'h65c0; instructions[79] = 16'h0210;
-        instructions[80] = 16'h3210; instructions[81] = 16'h6218; instructions[82] = 16'h0098; instructions[83] = 16'h3080;
-        instructions[84] = 16'h35c0; instructions[85] = 16'h00a8; instructions[86] = 16'h3218; instructions[87] = 16'h6580;
-        instructions[88] = 16'h0098; instructions[89] = 16'h3080; instructions[90] = 16'h3210; instructions[91] = 16'h00a8;
-        instructions[92] = 16'h3218; instructions[93] = 16'h65a0; instructions[94] = 16'h0090; instructions[95] = 16'h3090;
-        instructions[96] = 16'h3580; instructions[97] = 16'h35a0; instructions[98] = 16'h6590; instructions[99] = 16'h0080;
-        instructions[100] = 16'h3210; instructions[101] = 16'h3090; instructions[102] = 16'h65b0; instructions[103] = 16'h3210;
-        instructions[104] = 16'h0088; instructions[105] = 16'h3090; instructions[106] = 16'h65d0; instructions[107] = 16'hc033;
-        instructions[108] = 16'h1160; instructions[109] = 16'h30c0; instructions[110] = 16'h1168; instructions[111] = 16'h3500;
-        instructions[112] = 16'h0090; instructions[113] = 16'h3520; instructions[114] = 16'h6220; instructions[115] = 16'ha011;
-        instructions[116] = 16'h0080; instructions[117] = 16'h3220; instructions[118] = 16'h3220; instructions[119] = 16'h7000;
-        instructions[120] = 16'h00b8; instructions[121] = 16'h3500; instructions[122] = 16'h6220; instructions[123] = 16'h4180;
-        instructions[124] = 16'h4191; instructions[125] = 16'h41a2; instructions[126] = 16'h6a40; instructions[127] = 16'h41b0;
-        instructions[128] = 16'h41c1; instructions[129] = 16'h41d2; instructions[130] = 16'h6a60; instructions[131] = 16'hb074;
-        instructions[132] = 16'h0188; instructions[133] = 16'h3250; instructions[134] = 16'h0198; instructions[135] = 16'h3248;
-        instructions[136] = 16'h01a8; instructions[137] = 16'h3240; instructions[138] = 16'he0e7; instructions[139] = 16'h0090;
-        instructions[140] = 16'h3540; instructions[141] = 16'h6572; instructions[142] = 16'h3570; instructions[143] = 16'h6570;
-        instructions[144] = 16'h0188; instructions[145] = 16'h3270; instructions[146] = 16'h0198; instructions[147] = 16'h3268;
-        instructions[148] = 16'h01a8; instructions[149] = 16'h3260; instructions[150] = 16'h6228; instructions[151] = 16'h04e0;
-        instructions[152] = 16'h3228; instructions[153] = 16'h3228; instructions[154] = 16'h6de8; instructions[155] = 16'h01b8;
-        instructions[156] = 16'h3250; instructions[157] = 16'h01c8; instructions[158] = 16'h3248; instructions[159] = 16'h01d8;
-        instructions[160] = 16'h3240; instructions[161] = 16'h6228; instructions[162] = 16'h04f0; instructions[163] = 16'h3228;
-        instructions[164] = 16'h3228; instructions[165] = 16'h6de0; instructions[166] = 16'hc06c; instructions[167] = 16'h0090;
-        instructions[168] = 16'h31f8; instructions[169] = 16'h6228; instructions[170] = 16'ha019; instructions[171] = 16'h01e8;
-        instructions[172] = 16'h31f0; instructions[173] = 16'h01e0; instructions[174] = 16'h3228; instructions[175] = 16'hb0ab;
-        instructions[176] = 16'h6208; instructions[177] = 16'h0090; instructions[178] = 16'h3208; instructions[179] = 16'h6200;
-        instructions[180] = 16'h05f0; instructions[181] = 16'h3170; instructions[182] = 16'h05e0; instructions[183] = 16'h3178;
-        instructions[184] = 16'h0208; instructions[185] = 16'h3000; instructions[186] = 16'h0080; instructions[187] = 16'h3118;
-        instructions[188] = 16'ha071; instructions[189] = 16'h5200; instructions[190] = 16'h3800; instructions[191] = 16'hb0bd;
-        instructions[192] = 16'h2000; instructions[193] = 16'h6228; instructions[194] = 16'h3080; instructions[195] = 16'h3080;
-        instructions[196] = 16'h0080; instructions[197] = 16'h3550; instructions[198] = 16'h3550; instructions[199] = 16'h6550;
-        instructions[200] = 16'h0080; instructions[201] = 16'h3550; instructions[202] = 16'h3550; instructions[203] = 16'h34d0;
-        instructions[204] = 16'h34d0; instructions[205] = 16'h6550; instructions[206] = 16'h3550; instructions[207] = 16'h3550;
-        instructions[208] = 16'h0090; instructions[209] = 16'h34d0; instructions[210] = 16'h34d0; instructions[211] = 16'h6550;
-        instructions[212] = 16'h0080; instructions[213] = 16'h3550; instructions[214] = 16'h3550; instructions[215] = 16'h34d0;
-        instructions[216] = 16'h34d0; instructions[217] = 16'h6550; instructions[218] = 16'hc0b4; instructions[219] = 16'hd033;
-        instructions[220] = 16'ha004; instructions[221] = 16'h4555; instructions[222] = 16'h4555; instructions[223] = 16'h4096;
-        instructions[224] = 16'h9000; instructions[225] = 16'h00c8; instructions[226] = 16'h3550; instructions[227] = 16'h6550;
+        instructions[72] = 16'h3090; instructions[73] = 16'h3090; instructions[74] = 16'h3090; instructions[75] = 16'h62d1;
+        instructions[76] = 16'h0090; instructions[77] = 16'h32d0; instructions[78] = 16'h6680; instructions[79] = 16'h02d0;
+        instructions[80] = 16'h32d0; instructions[81] = 16'h62d8; instructions[82] = 16'h0098; instructions[83] = 16'h3080;
+        instructions[84] = 16'h3680; instructions[85] = 16'h00a8; instructions[86] = 16'h32d8; instructions[87] = 16'h6640;
+        instructions[88] = 16'h0098; instructions[89] = 16'h3080; instructions[90] = 16'h32d0; instructions[91] = 16'h00a8;
+        instructions[92] = 16'h32d8; instructions[93] = 16'h6660; instructions[94] = 16'h0090; instructions[95] = 16'h3090;
+        instructions[96] = 16'h3640; instructions[97] = 16'h3660; instructions[98] = 16'h6650; instructions[99] = 16'h0080;
+        instructions[100] = 16'h32d0; instructions[101] = 16'h3090; instructions[102] = 16'h6670; instructions[103] = 16'h32d0;
+        instructions[104] = 16'h0088; instructions[105] = 16'h3090; instructions[106] = 16'h6690; instructions[107] = 16'hc033;
+        instructions[108] = 16'h1220; instructions[109] = 16'h30c0; instructions[110] = 16'h1228; instructions[111] = 16'h3500;
+        instructions[112] = 16'h0090; instructions[113] = 16'h3520; instructions[114] = 16'h62e0; instructions[115] = 16'ha011;
+        instructions[116] = 16'h0080; instructions[117] = 16'h32e0; instructions[118] = 16'h32e0; instructions[119] = 16'h7000;
+        instructions[120] = 16'h00b8; instructions[121] = 16'h3500; instructions[122] = 16'h62e0; instructions[123] = 16'h4240;
+        instructions[124] = 16'h4251; instructions[125] = 16'h4262; instructions[126] = 16'h6b00; instructions[127] = 16'h4270;
+        instructions[128] = 16'h4281; instructions[129] = 16'h4292; instructions[130] = 16'h6b20; instructions[131] = 16'hb074;
+        instructions[132] = 16'h0248; instructions[133] = 16'h3310; instructions[134] = 16'h0258; instructions[135] = 16'h3308;
+        instructions[136] = 16'h0268; instructions[137] = 16'h3300; instructions[138] = 16'he0e7; instructions[139] = 16'h0090;
+        instructions[140] = 16'h3600; instructions[141] = 16'h6632; instructions[142] = 16'h3630; instructions[143] = 16'h6630;
+        instructions[144] = 16'h0248; instructions[145] = 16'h3330; instructions[146] = 16'h0258; instructions[147] = 16'h3328;
+        instructions[148] = 16'h0268; instructions[149] = 16'h3320; instructions[150] = 16'h62e8; instructions[151] = 16'h04e0;
+        instructions[152] = 16'h32e8; instructions[153] = 16'h32e8; instructions[154] = 16'h6ea8; instructions[155] = 16'h0278;
+        instructions[156] = 16'h3310; instructions[157] = 16'h0288; instructions[158] = 16'h3308; instructions[159] = 16'h0298;
+        instructions[160] = 16'h3300; instructions[161] = 16'h62e8; instructions[162] = 16'h04f0; instructions[163] = 16'h32e8;
+        instructions[164] = 16'h32e8; instructions[165] = 16'h6ea0; instructions[166] = 16'hc06c; instructions[167] = 16'h0090;
+        instructions[168] = 16'h32b8; instructions[169] = 16'h62e8; instructions[170] = 16'ha019; instructions[171] = 16'h02a8;
+        instructions[172] = 16'h32b0; instructions[173] = 16'h02a0; instructions[174] = 16'h32e8; instructions[175] = 16'hb0ab;
+        instructions[176] = 16'h62c8; instructions[177] = 16'h0090; instructions[178] = 16'h32c8; instructions[179] = 16'h62c0;
+        instructions[180] = 16'h06b0; instructions[181] = 16'h3230; instructions[182] = 16'h06a0; instructions[183] = 16'h3238;
+        instructions[184] = 16'h02c8; instructions[185] = 16'h3000; instructions[186] = 16'h0080; instructions[187] = 16'h3118;
+        instructions[188] = 16'ha071; instructions[189] = 16'h52c0; instructions[190] = 16'h3800; instructions[191] = 16'hb0bd;
+        instructions[192] = 16'h2000; instructions[193] = 16'h62e8; instructions[194] = 16'h3080; instructions[195] = 16'h3080;
+        instructions[196] = 16'h0080; instructions[197] = 16'h3610; instructions[198] = 16'h3610; instructions[199] = 16'h6610;
+        instructions[200] = 16'h0080; instructions[201] = 16'h3610; instructions[202] = 16'h3610; instructions[203] = 16'h34d0;
+        instructions[204] = 16'h34d0; instructions[205] = 16'h6610; instructions[206] = 16'h3610; instructions[207] = 16'h3610;
+        instructions[208] = 16'h0090; instructions[209] = 16'h34d0; instructions[210] = 16'h34d0; instructions[211] = 16'h6610;
+        instructions[212] = 16'h0080; instructions[213] = 16'h3610; instructions[214] = 16'h3610; instructions[215] = 16'h34d0;
+        instructions[216] = 16'h34d0; instructions[217] = 16'h6610; instructions[218] = 16'hc0b4; instructions[219] = 16'hd033;
+        instructions[220] = 16'ha004; instructions[221] = 16'h4615; instructions[222] = 16'h4615; instructions[223] = 16'h4096;
+        instructions[224] = 16'h9000; instructions[225] = 16'h00c8; instructions[226] = 16'h3610; instructions[227] = 16'h6610;
         instructions[228] = 16'hc0dc; instructions[229] = 16'ha002; instructions[230] = 16'he033; instructions[231] = 16'h9000;
         instructions[232] = 16'hf000; instructions[233] = 16'hf000;
     end
