@@ -75,7 +75,7 @@ mod tests {
     #[test]
     fn it_is_the_catalogue_s() {
         let theirs = crc::Crc::<u32>::new(&crc::CRC_32_ISO_HDLC);
-        let all: String = (0..=255).map(|code| char::from(code)).collect();
+        let all: String = (0..=255).map(char::from).collect();
         for text in ["123456789", "", "a", "\u{0}\u{0}", &all] {
             let ours = !over(text.bytes()) as u32;
             assert_eq!(ours, theirs.checksum(text.as_bytes()), "{text:?}");
