@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Hands at a wall, closed loop on the plant: what each rule may leave of sticking force, release
 //! time, flips and vanished walls. The figures of a hundred hands are in docs/physics.md §6
-//! (`cargo run --release -p hapticore-tests --example walls`); these are the first eight of them.
+//! (`cargo run --release -p hapticore-tests --example walls`); these are the first twelve of them.
 
 use hapticore_tests::walls::core::InCore;
 use hapticore_tests::walls::device::{Drive, Pad};
@@ -9,7 +9,7 @@ use hapticore_tests::walls::hand::Hand;
 use hapticore_tests::walls::measures::{Measures, Row};
 use hapticore_tests::walls::trial::{Kind, Setup};
 
-const HANDS: u64 = if cfg!(optimised) { 8 } else { 2 };
+const HANDS: u64 = if cfg!(optimised) { 12 } else { 2 };
 
 /// 0.5 N/mm, 1 ms frames, 1 % noise.
 fn setup(kind: Kind) -> Setup {
