@@ -78,7 +78,6 @@ impl Controller {
         self.faults.sensor |= invalid >= self.control.invalid_frames;
         self.faults.force |= !prompt.invalid && prompt.force_n > self.tuning.force_cap;
         let (correction, wanted) = self.wanted(prompt, target_n, pad.correction);
-        let base = wanted - correction;
         let (low, high) = (wanted < 0.0, wanted > self.tuning.rail);
         let to = match (self.faults.any(), prompt.invalid) {
             (true, _) => 0.0,
@@ -87,15 +86,15 @@ impl Controller {
         };
         let slew = self.tuning.slew;
         let drive = to.min(pad.drive + slew).max(pad.drive - slew);
-        let correction = match prompt.invalid {
-            true => pad.correction,
-            false if wanted > drive && correction >= pad.correction => {
-                pad.correction.max(drive - base)
-            }
-            false if wanted < drive && correction <= pad.correction => {
-                pad.correction.min(drive - base)
-            }
-            false => correction,
+        let limit = drive - (wanted - correction);
+        let correction = if prompt.invalid {
+            pad.correction
+        } else if wanted > drive && correction >= pad.correction {
+            pad.correction.max(limit)
+        } else if wanted < drive && correction <= pad.correction {
+            pad.correction.min(limit)
+        } else {
+            correction
         };
         self.pads[prompt.pad] = Pad { invalid, drive, correction };
         Drive { pad: prompt.pad, fraction: drive, low, high, faults: self.faults, walled: None }

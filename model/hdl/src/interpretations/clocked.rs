@@ -57,7 +57,8 @@ fn limit(code: i64, to: Format, overflow: Overflow) -> i64 {
 
 #[inline(always)]
 fn max(format: Format) -> i64 {
-    (1i64 << (format.width - u8::from(format.signed))) - 1
+    // Of 63 bits without a sign it is the largest code: 2^63 is none.
+    i64::MAX >> (63 - (format.width - u8::from(format.signed)))
 }
 
 #[inline(always)]

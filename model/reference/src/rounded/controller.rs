@@ -8,8 +8,9 @@
 //! integral       e = s − [√(F/4^h)],  d = D + [K·e] + [c + [K_i·e]]
 //! ```
 //!
-//! In laws with an error, s, D and what is added to it are finer than a drive word, so that the roots
-//! of two forces differ: 2^-b with b ≥ (bits of a force) + 2·h + 1. c is 8 bits finer still. It stays as it
+//! In laws with an error, s, D and what is added to it are finer than a drive word, by 8 bits at most, so that
+//! the roots of two forces differ: 2^-b with b ≥ (bits of a force) + 2·h + 1; F has no more bits than that
+//! lets differ. c is 8 bits finer still. It stays as it
 //! is while estimates are invalid. Against a limit that holds the drive it goes as far as drive − (D + K·e),
 //! and not back.
 //!
@@ -176,8 +177,21 @@ impl Controller {
         let drive = self.control.drive.frac;
         match self.control.law {
             Law::Open | Law::Inverse => drive,
-            _ => drive.max(self.profile.formats.force.frac + self.control.target_shift() + 1),
+            _ => self
+                .profile
+                .formats
+                .force
+                .frac
+                .saturating_add(self.control.target_shift() + 1)
+                .clamp(drive, drive + 8),
         }
+    }
+
+    /// A measured force below 4^h, in words whose roots differ.
+    fn measured(&self) -> Format {
+        let shift = self.control.target_shift();
+        let frac = self.profile.formats.force.frac.clamp(0, self.bits() - shift - 1);
+        Format::unsigned((frac + shift) as u8, frac)
     }
 
     fn signed(&self) -> Format {
@@ -216,8 +230,8 @@ impl Controller {
                 (Exact::ZERO, if inverse > curve { curve } else { inverse })
             }
             Law::Proportional => {
-                let (target, force) = (self.control.target, self.profile.formats.force);
-                let frac = target.frac.max(force.frac);
+                let target = self.control.target;
+                let frac = target.frac.max(self.measured().frac);
                 let format = Format::signed(target.integer_bits() as u8 + frac as u8 + 1, frac);
                 let error = round(request.target - request.force, format).value;
                 let scaled = round(error * t.proportional, signed).value;
@@ -227,9 +241,8 @@ impl Controller {
                 (correction, curve + correction)
             }
             Law::Integral => {
-                let (bits, shift) = (self.profile.formats.force.frac, self.control.target_shift());
-                let below = Format::unsigned((bits + shift) as u8, bits);
-                let error = root - self.root(round(request.force, below).value);
+                let force = round(request.force, self.measured()).value;
+                let error = root - self.root(force);
                 let proportional = round(error * t.proportional, signed).value;
                 let step = round(error * t.correction, self.kept()).value;
                 let correction = round(pad.correction + step, self.kept()).value;

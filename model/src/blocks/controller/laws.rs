@@ -39,7 +39,7 @@ impl Controller {
             Law::Open | Law::Proportional => small(i.target),
             Law::Inverse => r.task.at(Task::InverseRoot).select(quotient, small(i.target)),
             Law::Integral => {
-                let force = i.measured.resize(self.force_format(), Saturate);
+                let force = i.measured.quantize(self.measured_format(), HalfEven, Saturate);
                 small(r.task.at(Task::ForceRoot).select(force, i.target))
             }
         }

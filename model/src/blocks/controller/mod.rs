@@ -191,6 +191,12 @@ impl Controller {
             return Err(ProfileError::value("control", "a table", "none"));
         };
         control.check()?;
+        // A root tells no more bits apart than half of its radicand's.
+        let most = 2 * words::fine(control, &profile.formats).frac - control.target_shift();
+        if control.target.frac > most {
+            let expected = format_args!("{most} fractional bits at most beside control.drive");
+            return Err(ProfileError::value("control.target", expected, control.target));
+        }
         let block = Self::of(profile, control);
         fits("control.drive", "the dividend of the inverse law", block.divider.dividend.width)?;
         for (name, product, to) in block.products() {
@@ -206,12 +212,13 @@ impl Controller {
         let words = 1 << pad.width;
         let square = Format::unsigned(2 * drive.width, 2 * drive.frac);
         let fine = words::fine(control, f);
+        let radicand = words::radicand(control, fine);
         let (left, right) = words::operands(control, f);
         let invalid = Format::counter(control.invalid_frames);
         let word = Format::unsigned(invalid.width + drive.width, 0);
         Controller {
             multiplier: Multiplier::new(left, right, profile.multiplier),
-            sqrt: SquareRoot::new(square, fine.frac),
+            sqrt: SquareRoot::new(radicand, fine.frac),
             divider: Divider::new(words::numerator(target), words::stiffness(f.square), square),
             points: Memory::new("points", cells as usize + 1, drive).dont_care_on_collision(),
             // Few pads would make registers of them, a word after the other.
@@ -219,7 +226,7 @@ impl Controller {
             corrections: Memory::new("corrections", words, words::kept(fine))
                 .dont_care_on_collision()
                 .in_block(),
-            radicand: square,
+            radicand,
             law,
             drive,
             fine,

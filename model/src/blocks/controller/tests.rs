@@ -6,6 +6,7 @@ use crate::support::random::Random;
 use crate::support::{Bench, MILLION, check_latency_of, operations};
 use hapticore_contract::control::{Control, Law, Tuning};
 use hapticore_contract::profile::Profile;
+use hapticore_hdl::format::Format;
 use hapticore_reference::rounded::{self, Exact, Request};
 
 const LAWS: [Law; 4] = [Law::Open, Law::Proportional, Law::Integral, Law::Inverse];
@@ -127,6 +128,47 @@ fn drive_words_are_those_of_the_law() {
             (0..operations(MILLION / 2500)).for_each(|_| pair.check(&mut random));
         }
     }
+}
+
+/// A controller of any law whose words are as long or short as its checks and those of a profile allow.
+fn any_words(random: &mut Random) -> Profile {
+    let mut profile = Profile::bundled("standard").expect("bundled");
+    let mut within = |least: u64, most: u64| least + random.below(most - least + 1);
+    let drive = within(8, 20) as u8;
+    let mut word = |least: u64, integer: u64| {
+        let width = within(least, 20) as u8;
+        Format::unsigned(width, width as i8 - within(1, integer) as i8)
+    };
+    let (target, gain) = (word(8, 4), word(8, 8));
+    let law = LAWS[within(0, 3) as usize];
+    profile.formats.force = Format::unsigned(within(4, 28) as u8, within(0, 44) as i8 - 4);
+    profile.multiplier = within(8, 19) as u8;
+    profile.control = Some(Control {
+        drive: Format::unsigned(drive, drive as i8),
+        target,
+        gain,
+        cells: 1 << within(2, u64::from(drive - 4).min(10)),
+        ..Control::of(&profile, law)
+    });
+    profile
+}
+
+/// None panics: what cannot be built is refused.
+#[test]
+fn drive_words_of_any_formats_are_those_of_the_law() {
+    let (mut random, mut accepted, mut refused) = (Random::new(1), 0, 0);
+    for _ in 0..operations(400).max(60) {
+        let profile = any_words(&mut random);
+        if Controller::try_new(&profile).is_err() {
+            refused += 1;
+            continue;
+        }
+        accepted += 1;
+        let mut pair = Pair::tuned(&profile, &mut random);
+        (0..25).for_each(|_| pair.check(&mut random));
+    }
+    println!("{accepted} controllers, {refused} refused");
+    assert!(accepted > 3 * refused && refused > 0, "{accepted} accepted, {refused} refused");
 }
 
 #[test]

@@ -33,15 +33,16 @@ impl Controller {
 
     /// A measured force, below the scale of targets.
     #[inline(always)]
-    pub(super) fn force_format(&self) -> Format {
-        Format::unsigned((self.force.frac + self.shift) as u8, self.force.frac)
+    pub(super) fn measured_format(&self) -> Format {
+        let frac = measured_frac(self.fine, self.force, self.shift);
+        Format::unsigned((frac + self.shift) as u8, frac)
     }
 
     /// The error of forces, or of their roots.
     #[inline(always)]
     pub(super) fn error_format(&self) -> Format {
         match self.law {
-            Law::Proportional => error(self.target, self.force),
+            Law::Proportional => error(self.target, self.measured_format().frac),
             Law::Integral => correction(self.fine),
             Law::Open | Law::Inverse => Format::NONE,
         }
@@ -123,7 +124,8 @@ pub(super) fn operands(control: &Control, f: &Formats) -> (Format, Format) {
         Law::Proportional | Law::Integral => {
             let fine = fine(control, f);
             let part = fine.width - control.cells.ilog2() as u8;
-            (fine.width.max(error(*target, f.force).width - 1), part.max(gain.width))
+            let measured = measured_frac(fine, f.force, control.target_shift());
+            (fine.width.max(error(*target, measured).width - 1), part.max(gain.width))
         }
         Law::Inverse => (
             drive.width.max(target.width).max(f.capacitance.width).max(f.square.width),
@@ -141,6 +143,9 @@ pub(super) const fn numerator(target: Format) -> Format {
     Format::unsigned(target.width + 3, target.frac)
 }
 
+/// Bits by which roots are finer than drive words at most: those of forces in words beyond that are alike.
+const FINEST: i8 = 8;
+
 /// Roots of forces, the curve and what is added to it. In laws with an error they are so fine that the
 /// roots of two forces are never the same: below 2^shift, √(F + step) − √F is over step/2^(shift/2 + 1).
 pub(super) fn fine(control: &Control, f: &Formats) -> Format {
@@ -148,14 +153,33 @@ pub(super) fn fine(control: &Control, f: &Formats) -> Format {
     let bits = match law {
         Law::Open | Law::Inverse => 0,
         Law::Proportional | Law::Integral => {
-            (f.force.frac + control.target_shift() + 1 - drive.frac).max(0)
+            (f.force.frac + control.target_shift() + 1 - drive.frac).clamp(0, FINEST)
         }
     };
     Format::unsigned(drive.width + bits as u8, drive.frac + bits)
 }
 
-const fn error(target: Format, force: Format) -> Format {
-    let finer = if force.frac > target.frac { force.frac - target.frac } else { 0 };
+/// Fractional bits of a measured force: as many as its root tells apart.
+const fn measured_frac(fine: Format, force: Format, shift: i8) -> i8 {
+    let most = fine.frac - shift - 1;
+    if force.frac < 0 {
+        0
+    } else if force.frac > most {
+        most
+    } else {
+        force.frac
+    }
+}
+
+/// What a square root is taken of: a target or force below one, or the inverse law's quotient.
+pub(super) fn radicand(control: &Control, fine: Format) -> Format {
+    let Control { drive, target, .. } = control;
+    let bits = (2 * drive.frac).max(target.frac + control.target_shift()).max(fine.frac);
+    Format::unsigned(bits as u8, bits)
+}
+
+const fn error(target: Format, measured_frac: i8) -> Format {
+    let finer = if measured_frac > target.frac { measured_frac - target.frac } else { 0 };
     Format::signed(target.width + finer as u8 + 1, target.frac + finer)
 }
 

@@ -147,6 +147,8 @@ struct Writer {
 
 impl Writer {
     fn add(&mut self, operation: Operation, slot: Slot, option: u8) {
+        let writes = matches!(operation, Store | Input);
+        assert!(!writes || slot.0 >= VARIABLES, "{operation:?} to a constant, {slot:?}");
         self.instructions.push(Instruction { operation, slot, option, target: 0 });
     }
 

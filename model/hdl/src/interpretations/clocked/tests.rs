@@ -137,6 +137,17 @@ fn long_words_narrow_as_short_ones() {
 }
 
 /// The bit that says so, and the limited number, over every sign of both formats.
+/// The largest code of 63 bits is that of an `i64`.
+#[test]
+fn the_widest_word_saturates_at_its_largest_code() {
+    let [unsigned, signed] = [Format::unsigned(63, 0), Format::signed(63, 0)];
+    for (format, largest) in [(unsigned, i64::MAX), (signed, i64::MAX >> 1)] {
+        assert_eq!(signal(largest, format).resize(format, Saturate).value, largest, "{format}");
+    }
+    assert_eq!(signal(i64::MAX, unsigned).resize(signed, Saturate).value, i64::MAX >> 1);
+    assert_eq!(signal(-1, signed).resize(unsigned, Saturate).value, 0);
+}
+
 #[test]
 fn saturate_tells_what_it_limits() {
     let from = ["s6.3", "u6.3", "s4.1", "u3.0", "s1.0", "u1.0"]
