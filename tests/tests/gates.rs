@@ -81,7 +81,6 @@ fn ice40_gates_run_a_wall_as_the_model_does() {
     gates_close_the_loop_as_the_model_does("ice40", "small", Closed::at_a_wall);
 }
 
-/// The smallest core in cells of this family is within it.
 #[test]
 fn ecp5_gates_run_a_wall_as_the_model_does() {
     gates_close_the_loop_as_the_model_does("ecp5", "small", Closed::at_a_wall);
@@ -101,6 +100,11 @@ fn ecp5_gates_close_the_force_loop_with_a_table_as_the_model_does() {
 #[test]
 fn ice40_gates_run_what_the_model_runs_small() {
     gates_run_what_the_model_runs("ice40", "small");
+}
+
+#[test]
+fn ecp5_gates_run_what_the_model_runs_small() {
+    gates_run_what_the_model_runs("ecp5", "small");
 }
 
 #[test]

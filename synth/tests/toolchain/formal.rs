@@ -101,8 +101,9 @@ fn breaks(tools: &Tools, module: &Module, parameters: &Parameters, clocks: u64, 
     );
 }
 
-/// The widest of this name in the bundled profiles. That others keep their remainders is decided by
-/// another solver, in seconds (`claims.rs`).
+/// The widest of this name in the bundled profiles. That the others keep their remainders is decided by
+/// another solver, in seconds (`claims.rs`); their results and clocks are those of the reference in tests
+/// of the model, not for all operands.
 fn widest_of_profiles(name: &str) -> Module {
     let netlists = Profile::all().into_iter().map(|profile| Netlist::of(&Core::new(&profile)));
     netlists

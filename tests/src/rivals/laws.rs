@@ -191,7 +191,8 @@ impl SuServo {
 
     /// An integral gain, V/N a frame, from a state at a fraction of full scale.
     pub fn new(volts_per_newton: f64, start: f64) -> Self {
-        SuServo { integral: gain(volts_per_newton, 11), state: (start * Self::MOST as f64) as i64 }
+        // x at full scale is 2^23, y 2^24.
+        SuServo { integral: gain(volts_per_newton, 12), state: (start * Self::MOST as f64) as i64 }
     }
 }
 

@@ -58,19 +58,13 @@ fn unexpected_flags(table: &Table, summary: &Value) -> Vec<String> {
     unexpected
 }
 
-/// Of scenes that take minutes of clocks, every clock of so long: force loops, whose plant waits for the
-/// core and whose cases are many, and seconds of creep.
-fn clocked_part(scene: &str, closes: bool) -> Option<&'static str> {
-    match scene {
-        "fig7" => Some("duration_s=0.6"),
-        _ => closes.then_some("duration_s=0.07"),
-    }
-}
+/// A force loop has a plant that waits for it, and many cases: of each, every clock of so long.
+const LOOP_S: &str = "duration_s=0.07";
 
-/// Holds that `fixed` is `clock`, to the bit, in the first clocks of each case.
-fn check_part(folder: &Path, scene: &str, part: &str) {
+/// Holds that `fixed` is `clock`, to the bit, in the first clocks of each case of a force loop.
+fn check_loop(folder: &Path, scene: &str) {
     let frames = |core: &str| {
-        let args = ["simulate", scene, "--core", core, "--set", part, "--out", core];
+        let args = ["simulate", scene, "--core", core, "--set", LOOP_S, "--out", core];
         finish(folder, &args);
         let frames = fs::read_to_string(folder.join(core).join("frames.csv")).unwrap();
         assert!(frames.lines().count() > 100, "{scene}: {} frames", frames.lines().count());
@@ -116,11 +110,7 @@ fn check(scene: &str, text: &str) {
     let folder = tempfile::tempdir().unwrap();
     let mut summary = Value::Null;
     let closes = text.lines().any(|line| line == "[control]");
-    let part = clocked_part(scene, closes);
-    let cores = match part {
-        Some(_) => &["float", "fixed"][..],
-        None => &["float", "fixed", "clock"],
-    };
+    let cores = if closes { &["float", "fixed"][..] } else { &["float", "fixed", "clock"] };
     for core in cores.iter().copied() {
         summary = simulate(folder.path(), scene, core);
         for key in ["scene", "profile", "fidelity", "effects", "simulated_seconds", "wall_seconds"]
@@ -140,7 +130,7 @@ fn check(scene: &str, text: &str) {
         }
     }
     let frames = |core: &str| fs::read(folder.path().join(core).join("frames.csv")).unwrap();
-    if part.is_none() {
+    if !closes {
         assert!(frames("fixed") == frames("clock"), "{scene}: fixed is clock, to the bit");
     }
     let table = Table::read(&folder.path().join("fixed/frames.csv"));
@@ -152,8 +142,8 @@ fn check(scene: &str, text: &str) {
     assert!(
         report.contains("<svg") && !report.contains("src=\"http") && !report.contains("<script")
     );
-    if let Some(part) = part {
-        check_part(folder.path(), scene, part);
+    if closes {
+        check_loop(folder.path(), scene);
     }
 }
 

@@ -4,13 +4,9 @@
 //! The core is calibrated and tuned to the scene's own device; the plant may be another.
 
 use hapticore_contract::control::Drive;
-use hapticore_model::fidelity::force_loop::FixedLoop;
-use hapticore_run::case::Case;
-use hapticore_run::inputs;
-use hapticore_run::maker::Maker;
-use hapticore_scene::{Scene, gallery};
 use rayon::prelude::*;
 
+use super::scenes;
 use crate::stability::Outcome;
 use crate::tracking::{LAWS, TARGETS, follow, overshoot_n};
 
@@ -33,46 +29,24 @@ struct Slot {
 
 type Setting = (&'static str, &'static str);
 
-fn scene(law: usize, of: &[Setting]) -> Scene {
+fn settings(law: usize, of: &[Setting]) -> Vec<(String, String)> {
     let quoted = |value: &str| match value.parse::<f64>() {
         Ok(_) => value.to_string(),
         Err(_) => format!("\"{value}\""),
     };
     let law = LAWS[law].set.iter().map(|(key, value)| (format!("control.{key}"), quoted(value)));
     let others = of.iter().map(|(key, value)| (key.to_string(), quoted(value)));
-    let set: Vec<_> =
-        law.chain(others).chain([("sensor.noise_ppm_rms".to_string(), "0".to_string())]).collect();
-    Scene::parse(gallery::find("fig9").expect("bundled"), "fig9.toml", &set)
-        .unwrap_or_else(|error| panic!("{error}"))
-}
-
-fn case(scene: &Scene) -> Case<'_> {
-    let profile = inputs::profile("standard").expect("bundled");
-    let profile = inputs::windowed(profile, scene).expect("a window");
-    let index = scene.cases.iter().position(|case| case.name == CASE).expect("a case");
-    Case::new(scene, index, &profile, &[]).expect("a case")
+    law.chain(others).chain([("sensor.noise_ppm_rms".to_string(), "0".to_string())]).collect()
 }
 
 /// The slots of a law around a plant with these settings; `invalid` slots reach the core as zeros.
 fn run(law: usize, plant: &[Setting], invalid: impl Fn(usize) -> bool) -> Vec<Slot> {
-    let (nominal, other) = (scene(law, &[]), scene(law, plant));
-    let (tuned, driven) = (case(&nominal), case(&other));
-    let tuning = tuned.plant().and_then(|plant| tuned.tuning(&plant)).expect("gains that fit");
-    let calibration = tuned.calibration().expect("a calibration");
-    let mut core = FixedLoop::new(&tuned.profile, calibration, &tuning.expect("a controller"))
-        .expect("a force loop");
-    let maker = Maker::new(driven.plant().expect("a plant"), &driven.profile, true, false);
-    let mut plant = driven.loop_plant(maker).expect("a loop");
-    let slot = |number: usize| {
-        let made = plant.slot(number);
-        core.set_target(made.slot.pad, made.target_n);
-        let zeros = vec![0; made.slot.window().len()];
-        let codes = if invalid(number) { &zeros[..] } else { made.slot.window() };
-        let (_, drive) = core.slot(|core| core.slot(made.slot.pad, codes));
-        plant.drive(&made, drive).expect("a drive that the plant takes");
-        Slot { force_n: made.truth.force_n, drive: drive.expect("a drive word") }
-    };
-    (0..driven.slots).map(slot).collect()
+    let [nominal, other] = [&[], plant].map(|set| scenes::scene("fig9", &settings(law, set)));
+    let [tuned, driven] = [&nominal, &other].map(|scene| scenes::case(scene, CASE, "standard"));
+    let slots = scenes::run(&tuned, &driven, |number, _| invalid(number)).into_iter();
+    slots
+        .map(|slot| Slot { force_n: slot.truth.force_n, drive: slot.drive.expect("a drive word") })
+        .collect()
 }
 
 /// Drive words' spread, and mean of the true force, over the last 50 ms of the target.

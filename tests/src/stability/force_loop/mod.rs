@@ -5,6 +5,7 @@
 //! | --- | --- |
 //! | `words` | cases of the controller's block around a plant whose state comes back |
 //! | `device` | cases of the whole loop around a simulated device |
+//! | `scenes` | the loop of a scene, slot by slot |
 //! | `rig` | the block and its plant |
 //! | `wall` | a wall that holds a hand |
 //! | `rivals` | laws of other controllers around the same plant |
@@ -12,6 +13,7 @@
 mod device;
 mod rig;
 mod rivals;
+mod scenes;
 mod wall;
 mod words;
 

@@ -2,12 +2,9 @@
 //! A wall that holds a hand: scene `fig15`, rule A with split drive, profile `fast`, fidelity `fixed`.
 
 use hapticore_contract::control::Drive;
-use hapticore_model::fidelity::force_loop::FixedLoop;
-use hapticore_run::case::Case;
-use hapticore_run::inputs;
-use hapticore_run::maker::Maker;
-use hapticore_scene::{Scene, Truth, gallery};
+use hapticore_scene::Truth;
 
+use super::scenes;
 use crate::stability::Outcome;
 
 /// When the lines fail, and come back: the hand rests 1.28 mm within the wall until 0.95 s.
@@ -19,39 +16,21 @@ struct Driven {
     drive: Drive,
 }
 
-/// The drive words of the scene; slots within [`LOST_S`] reach the core as zeros.
-fn run(scene: &Scene) -> (Vec<Driven>, u64) {
-    let profile = inputs::profile("fast").expect("bundled");
-    let profile = inputs::windowed(profile, scene).expect("a window");
-    let case = Case::new(scene, 0, &profile, &[]).expect("a case");
-    let plant = case.plant().expect("a plant");
-    let tuning = case.tuning(&plant).expect("gains that fit").expect("a controller");
-    let calibration = case.calibration().expect("a calibration");
-    let mut core = FixedLoop::new(&case.profile, calibration, &tuning).expect("a force loop");
-    let maker = Maker::new(plant, &case.profile, true, false);
-    let mut plant = case.loop_plant(maker).expect("a loop");
-    let mut driven = Vec::new();
-    for number in 0..case.slots {
-        let made = plant.slot(number);
-        core.set_target(made.slot.pad, made.target_n);
-        if let Some(surface_mm) = made.surface_mm {
-            core.set_surface(made.slot.pad, surface_mm);
-        }
-        let zeros = vec![0; made.slot.window().len()];
-        let is_lost = (LOST_S[0]..LOST_S[1]).contains(&made.truth.time_s);
-        let codes = if is_lost { &zeros[..] } else { made.slot.window() };
-        let (_, drive) = core.slot(|core| core.slot(made.slot.pad, codes));
-        plant.drive(&made, drive).expect("a drive that the plant takes");
-        driven.extend(drive.map(|drive| Driven { truth: made.truth.clone(), drive }));
-    }
-    (driven, case.profile.control.as_ref().expect("a controller").invalid_frames)
+/// The drive words of the scene; slots within [`LOST_S`] reach the core as zeros. And how many invalid
+/// frames are a fault.
+fn run() -> (Vec<Driven>, u64) {
+    let scene = scenes::scene("fig15", &[]);
+    let case = scenes::case(&scene, "rule A, split drive", "fast");
+    let lost_s = LOST_S[0]..LOST_S[1];
+    let slots = scenes::run(&case, &case, |_, truth| lost_s.contains(&truth.time_s));
+    let driven = slots.into_iter().filter_map(|slot| Some((slot.truth, slot.drive?)));
+    let most = case.profile.control.as_ref().expect("a controller").invalid_frames;
+    (driven.map(|(truth, drive)| Driven { truth, drive }).collect(), most)
 }
 
 /// The sensor's lines fail while a hand rests in the wall.
 pub fn sensor_invalid_in_mid_wall() -> Outcome {
-    let toml = gallery::find("fig15").expect("bundled");
-    let scene = Scene::parse(toml, "fig15.toml", &[]).unwrap_or_else(|error| panic!("{error}"));
-    let (driven, most) = run(&scene);
+    let (driven, most) = run();
     let first = driven
         .iter()
         .position(|driven| driven.truth.time_s >= LOST_S[0])

@@ -61,8 +61,13 @@ fn upsets(sites: fn(&Device) -> Vec<Site>, few: [usize; 3], many: [usize; 3]) ->
 
 fn happens(all: &Fates) -> Outcome {
     let [wrong, flagged] = all.frames;
+    let repeats: Vec<_> = all.repeats.iter().map(|name| format!("`{name}`")).collect();
+    let repeats = match repeats.is_empty() {
+        true => String::new(),
+        false => format!("; a pad has more than one after some of {}", repeats.join(", ")),
+    };
     Outcome::new(format!(
-        "{} upsets, {} of them in no frame; {wrong} wrong frames, {flagged} flagged; frames stay wrong after some of (upsets that left a trace; with wrong frames): {}",
+        "{} upsets, {} of them in no frame; {wrong} wrong frames, {flagged} flagged{repeats}; frames stay wrong after some of (upsets that left a trace; with wrong frames): {}",
         all.unseen + all.seen,
         all.unseen,
         list(all)

@@ -215,7 +215,6 @@ impl Fates {
             self.recovered += 1;
             self.most = self.most.max(fate.most_wrong());
             if fate.most_wrong() > 1 {
-                println!("{name}: {fate:?}");
                 self.repeats.insert(name.into());
             }
             self.rounds = self.rounds.max(fate.right_after as f64 / round as f64);
