@@ -25,7 +25,11 @@ pub type Registers<B, T> = <<B as Interface>::Registers as Bundle>::Of<T>;
 /// skipped.
 pub trait Interpretation: Storage {
     /// One cycle of a block within another; the netlist makes it an instance of a module.
-    #[inline(always)]
+    ///
+    /// In one piece with its caller where speed is asked for. With debug assertions large blocks are
+    /// functions of their own: a core in one piece takes six times as long to compile, and tests run
+    /// its clocks for less than that.
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn instance<B: Block>(
         block: &B,
         _name: &'static str,

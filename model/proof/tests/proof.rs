@@ -53,8 +53,9 @@ fn no_signal_of_a_bundled_profile_can_overflow() {
 #[test]
 fn a_mean_over_windows_cannot_overflow() {
     let mut profile = with("small", "windows", "64").expect("a profile");
-    // The program's loop is the same, however often it is run through.
+    // The program's loop is the same, however often it is run through; so are pads.
     profile.position.steps = 1;
+    profile.pads = 2;
     let proof = prove(&profile);
     assert!(proof.holds(), "{:?}", proof.violations.first());
 }
@@ -276,8 +277,10 @@ fn tried(key: &str) -> [usize; 2] {
                     continue;
                 };
                 accepted += 1;
-                // The program's loop is the same, however often it is run through.
+                // The program's loop is the same, however often it is run through; so are pads, and
+                // the samples before a window.
                 profile.position.steps = 1;
+                (profile.pads, profile.slot.settle) = (2, 100);
                 Netlist::of(&Core::new(&profile));
                 let violations = prove(&profile).violations;
                 assert!(

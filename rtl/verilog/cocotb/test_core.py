@@ -28,9 +28,10 @@ def rows(name):
 class Core:
     """The core's pins; inputs change at falling edges, so that each is there before the rising edge that takes it."""
 
-    def __init__(self, dut):
+    def __init__(self, dut, expected):
         self.dut = dut
-        self.words = []
+        self.expected = expected
+        self.words = 0
         self.asked = 0
         self.clocks = CLOCKS_PER_SAMPLE
         for pin in INPUTS + CONSTANTS:
@@ -48,7 +49,13 @@ class Core:
         await FallingEdge(self.dut.clock)
         if self.dut.valid.value == 1:
             word = [int(self.dut.pad.value), int(self.dut.index.value), self.dut.frame.value.to_signed()]
-            self.words.append(word + [int(getattr(self.dut, flag).value) for flag in FLAGS])
+            self.compare(word + [int(getattr(self.dut, flag).value) for flag in FLAGS])
+
+    def compare(self, got):
+        number, self.words = self.words, self.words + 1
+        assert number < len(self.expected), f"more than the expected {number} words: {got}"
+        wanted = self.expected[number]
+        assert got == wanted, f"word {number}: got {got}, expected {wanted} (pad, index, word, {', '.join(FLAGS)})"
 
     async def pulse(self, pin):
         getattr(self.dut, pin).value = 1
@@ -76,7 +83,8 @@ class Core:
 @cocotb.test()
 async def slots_give_the_frames_of_the_model(dut):
     cocotb.start_soon(Clock(dut.clock, 40, unit="ns").start())
-    core = Core(dut)
+    expected = [[int(code) for code in row.values()] for row in rows("frames.csv")]
+    core = Core(dut, expected)
     await core.reset()
     written = collections.defaultdict(list)
     for row in rows("calibration.csv"):
@@ -88,7 +96,4 @@ async def slots_give_the_frames_of_the_model(dut):
     dut.strobe.value = 0
     for _ in range(10000):  # the last slot's estimate
         await core.tick()
-    expected = [[int(code) for code in row.values()] for row in rows("frames.csv")]
-    assert len(core.words) == len(expected), f"got {len(core.words)} words, expected {len(expected)}"
-    for number, (got, wanted) in enumerate(zip(core.words, expected)):
-        assert got == wanted, f"word {number}: got {got}, expected {wanted} (pad, index, word, {', '.join(FLAGS)})"
+    assert core.words == len(expected), f"got {core.words} words, expected {len(expected)}"

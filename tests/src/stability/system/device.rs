@@ -96,7 +96,7 @@ impl Device {
         let words = self.bench.calibration.words(&self.bench.profile);
         for (address, word) in words.into_iter().enumerate() {
             let inputs = self.inputs(&now, Ask { table: Some((address, word)), clear: false });
-            self.core.clock(&mut now.core, inputs);
+            step(&self.core, &mut now.core, inputs);
         }
         now
     }
