@@ -26,9 +26,8 @@ pub type Registers<B, T> = <<B as Interface>::Registers as Bundle>::Of<T>;
 pub trait Interpretation: Storage {
     /// One cycle of a block within another; the netlist makes it an instance of a module.
     ///
-    /// In one piece with its caller where speed is asked for. With debug assertions large blocks are
-    /// functions of their own: a core in one piece takes six times as long to compile, and tests run
-    /// its clocks for less than that.
+    /// In one piece with its caller where speed is asked for. With debug assertions the compiler
+    /// decides: a crate whose cores are in one piece takes six times as long to compile.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn instance<B: Block>(
         block: &B,

@@ -136,7 +136,6 @@ fn long_words_narrow_as_short_ones() {
     }
 }
 
-/// The bit that says so, and the limited number, over every sign of both formats.
 /// The largest code of 63 bits is that of an `i64`.
 #[test]
 fn the_widest_word_saturates_at_its_largest_code() {
@@ -148,6 +147,7 @@ fn the_widest_word_saturates_at_its_largest_code() {
     assert_eq!(signal(-1, signed).resize(unsigned, Saturate).value, 0);
 }
 
+/// The bit that says so, and the limited number, over every sign of both formats.
 #[test]
 fn saturate_tells_what_it_limits() {
     let from = ["s6.3", "u6.3", "s4.1", "u3.0", "s1.0", "u1.0"]
