@@ -3,7 +3,7 @@
 //! is refused is refused with the name of its field or signal, and the bits that a word lacks.
 
 use hapticore_contract::control::{Control, Law};
-use hapticore_contract::profile::{ForceLaw, Method, Profile, ProfileError};
+use hapticore_contract::profile::{ForceLaw, Method, Profile, ProfileError, Window};
 use hapticore_hdl::format::{Format, MAX_WIDTH};
 use hapticore_proof::prove;
 use std::collections::BTreeSet;
@@ -25,6 +25,9 @@ fn random(rng: &mut fastrand::Rng, formats: usize) -> Profile {
         Method::Polyphase => (5 * times, times),
         Method::Products => (8 * times, times),
     };
+    if rng.u8(..4) == 0 {
+        profile.carrier.window = Window::Rectangular;
+    }
     profile.haptic.windows = 1 << rng.u8(0..=2);
     (profile.position.columns, profile.position.rows) =
         (2 * rng.u64(2..=20) + 1, 2 * rng.u64(2..=20) + 1);

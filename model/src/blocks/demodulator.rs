@@ -43,7 +43,7 @@ mod polyphase;
 pub(crate) use self::polyphase::{GAIN as POLYPHASE_GAIN, Polyphase};
 use super::multiplier::{self, Multiplier};
 use crate::buildable::fits;
-use hapticore_contract::profile::{Method, Profile, ProfileError};
+use hapticore_contract::profile::{Method, Profile, ProfileError, Window};
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format, MAX_WIDTH};
 use hapticore_hdl::memory::{Memory, Write};
@@ -153,7 +153,10 @@ impl Demodulator {
         // Of products with nothing to join, two more are looked at.
         let products =
             if polyphase.is_some() { profile.slot.integrate + 2 } else { profile.slot.integrate };
-        let growth = 64 - (products - 1).leading_zeros() as u8;
+        // A flat window of the most negative haptic code sums to its number of samples: one code more than fits where that
+        // is a power of two. Tapered windows sum to less.
+        let reached = products - u64::from(profile.carrier.window != Window::Rectangular);
+        let growth = 64 - reached.leading_zeros() as u8;
         let operand = if polyphase.is_some() { polyphase::OPERAND } else { adc.join(oscillator) };
         let product =
             if polyphase.is_some() { polyphase::PRODUCT } else { operand.product(operand) };
