@@ -8,7 +8,8 @@ use hapticore_contract::control::{Control, Law};
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::verilog::Design;
 use hapticore_rtl::board::Target;
-use hapticore_rtl::component;
+use hapticore_rtl::board::drive_output::{Converter, Wave};
+use hapticore_rtl::board::target::Printed;
 use hapticore_rtl::header;
 use serde_json::json;
 
@@ -39,13 +40,16 @@ pub fn run(args: &HdlArgs) -> Result<bool> {
         Some(law) => with_controller(profile, law)?,
         None => profile,
     };
-    ensure!(args.dac.is_none() || board.is_none(), "--dac: a board's top has no drive yet");
-    let pins =
-        args.dac.as_deref().map(|dac| drive_output(&profile, dac, &args.wave)).transpose()?;
+    let drive = args.dac.as_deref().map(|dac| drive(&profile, dac, &args.wave)).transpose()?;
+    let printed = board.map(|board| print_board(board, &profile, drive)).transpose()?;
+    let options = format!("--dac {} --wave {}", args.dac.as_deref().unwrap_or(""), args.wave);
+    let pins = drive.filter(|_| board.is_none());
+    let pins = pins.map(|(wave, dac)| header::drive_output(&profile, wave, dac, &options));
+    let pins = pins.transpose().context("--dac")?;
     let output = Output::new(&args.out)?;
-    let top = match board {
-        Some(board) => write_board(&output, board, &profile)?,
-        None => write_core(&output, &profile)?,
+    let top = match (board, printed) {
+        (Some(board), Some(printed)) => write_board(&output, (board, drive.is_some()), &printed)?,
+        _ => write_core(&output, &profile)?,
     };
     pins.iter().try_for_each(|design| write_modules(&output, design))?;
     print_result(args, &profile, &top, &output.keep()?)
@@ -62,12 +66,11 @@ fn with_controller(profile: Profile, name: &str) -> Result<Profile> {
     inputs::buildable(Profile { control: Some(control), ..profile })
 }
 
-/// The drive output of a profile's force loop.
-fn drive_output(profile: &Profile, dac: &str, wave: &str) -> Result<Design> {
-    let options = format!("--dac {dac} --wave {wave}");
+/// The converter of a profile's force loop, and its wave.
+fn drive(profile: &Profile, dac: &str, wave: &str) -> Result<(Wave, Converter)> {
     let (wave, converter) = (wave.parse().context("--wave")?, dac.parse().context("--dac")?);
     ensure!(profile.control.is_some(), "--dac: expected a force controller too: --control LAW");
-    header::drive_output(profile, wave, converter, &options).context("--dac")
+    Ok((wave, converter))
 }
 
 /// The core, and what a bench must know of it.
@@ -84,27 +87,41 @@ fn write_modules(output: &Output, design: &Design) -> Result<()> {
     files.try_for_each(|file| output.write(&format!("{}.v", file.name), &file.text))
 }
 
-/// A board: its Verilog, its constraints, and the script that makes its bitstream.
-fn write_board(output: &Output, board: Target, profile: &Profile) -> Result<String> {
+/// A board with the core of a profile, or its force loop and drive.
+fn print_board(
+    board: Target,
+    profile: &Profile,
+    drive: Option<(Wave, Converter)>,
+) -> Result<Printed> {
+    let converts = drive.is_some() || profile.control.is_none();
     ensure!(
-        profile.control.is_none(),
-        "--board: expected a profile without a controller: a board's top has no drive yet"
+        converts,
+        "--board: expected a converter for the controller's drives too: --dac ad5664"
     );
-    let top = board
-        .top_of(profile)
-        .with_context(|| format!("board {}, profile {}", board.name(), profile.name))?;
-    output.write("top.v", &component::verilog(&top))?;
-    let (name, constraints) = board.constraints();
-    output.write(&name, &constraints)?;
-    output.write_script("build.sh", script(board))?;
+    let of = || format!("board {}, profile {}", board.name(), profile.name);
+    board.printed(profile, drive).with_context(of)
+}
+
+/// A board: its Verilog, its constraints, and the script that makes its bitstream.
+fn write_board(
+    output: &Output,
+    (board, drives): (Target, bool),
+    printed: &Printed,
+) -> Result<String> {
+    let (name, constraints) = &printed.constraints;
+    output.write("top.v", &printed.verilog)?;
+    output.write(name, constraints)?;
+    output.write_script("build.sh", &script(board, drives))?;
     Ok("top".to_owned())
 }
 
-fn script(board: Target) -> &'static str {
-    match board {
+/// The script of a board's bitstream. A force loop is slower than the core alone; twice the board's clock is left.
+fn script(board: Target, drives: bool) -> String {
+    let script = match board {
         Target::Ulx3s => include_str!("../../synth/scripts/ulx3s.sh"),
         Target::Icebreaker => include_str!("../../synth/scripts/icebreaker.sh"),
-    }
+    };
+    if drives { script.replace("--freq 100", "--freq 50") } else { script.to_owned() }
 }
 
 fn print_result(args: &HdlArgs, profile: &Profile, top: &str, files: &[PathBuf]) -> Result<bool> {

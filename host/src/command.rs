@@ -4,7 +4,7 @@
 use crate::line::to_board;
 use hapticore_contract::profile::Profile;
 use hapticore_protocol::framing::{END, data_bytes};
-use hapticore_protocol::{Control, Register, WordFormats};
+use hapticore_protocol::{Control, DriveWord, Register, WordFormats};
 
 /// Something to be written on the board.
 ///
@@ -28,6 +28,8 @@ pub enum Command {
         /// Raw code of the word.
         code: i64,
     },
+    /// A word of a board that drives its pads, as a raw code.
+    Drive(DriveWord, i64),
 }
 
 impl Command {
@@ -44,6 +46,7 @@ impl Command {
         let (place, code) = match self {
             Command::Register(register, code) => (register.place(), code),
             Command::Table { address, code } => (address, code),
+            Command::Drive(word, code) => (word.place(), code),
         };
         let data = &code.to_be_bytes()[8 - data_bytes(&WordFormats::new(profile)) as usize..];
         to_board(&[&place.to_be_bytes(), data].concat())

@@ -15,6 +15,7 @@
 //! | --- | --- |
 //! | [`decoder`], [`packet`] | messages from bytes: frames, heartbeats, and what was damaged |
 //! | [`command`], [`startup`] | bytes to the board: calibration, ADC, on and off; whether it took them |
+//! | [`drive`] | bytes to a board that drives its pads: tuning, targets, walls |
 //! | [`device`], [`residual`] | the calibration of a device: its file, its words for a core, how well its table fits |
 //! | [`profile`] | the core's profile, for the terminals and pads of a device |
 //! | [`units`], [`quantities`] | physical units; the one list of what a slot measures |
@@ -53,6 +54,7 @@ pub mod command;
 pub mod crosstalk;
 pub mod decoder;
 pub mod device;
+pub mod drive;
 #[cfg(test)]
 mod garbled;
 pub mod laws;
@@ -76,7 +78,7 @@ pub use decoder::Decoder;
 pub use device::{DeviceCalibration, DeviceError, Found, Raster, Scales, Signs, found, open_share};
 pub use laws::{ForceLaws, Laws};
 pub use line::Damage;
-pub use packet::{Heartbeat, Message, Packet, Status};
+pub use packet::{Driven, Heartbeat, Message, Packet, Status};
 pub use placement::Placement;
 pub use profile::LoadProfileError;
 pub use quantities::{QUANTITIES, Quantities, Quantity, quantity};
@@ -86,7 +88,10 @@ pub use typed::{Word, WordError};
 pub use units::{SlotClock, Units, flag_names};
 
 pub use hapticore_contract::calibration::Calibration;
+pub use hapticore_contract::control;
 pub use hapticore_contract::frame::{Field, Flags, Frame, Measurement};
 pub use hapticore_contract::profile::{Profile, ProfileError};
 pub use hapticore_protocol::framing::{END, VERSION, digest};
-pub use hapticore_protocol::{CalibrationWords, Constant, ConstantWord, Register, WordFormats};
+pub use hapticore_protocol::{
+    CalibrationWords, Constant, ConstantWord, DriveWord, Register, Request, Setting, WordFormats,
+};

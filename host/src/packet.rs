@@ -9,9 +9,12 @@
 use crate::line::{Crc32, from_board};
 use bitvec::prelude::{BitArray, Lsb0};
 use bitvec::view::BitView;
+use hapticore_contract::control::Faults;
+use hapticore_contract::format::Format;
 use hapticore_contract::frame::Field;
 use hapticore_contract::frame::{Flags, Frame};
 use hapticore_contract::profile::Profile;
+use hapticore_protocol::drive::{PACKET_WORDS, status};
 use hapticore_protocol::framing::{STATUS_BYTES, VERSION, data_bytes, flags, word_bytes};
 use hapticore_protocol::{Register, WordFormats};
 
@@ -31,6 +34,62 @@ pub struct Status {
     pub overrun: bool,
     /// Commands accepted since reset, modulo 16.
     pub commands: u8,
+    /// The drive, of a board that has one.
+    pub driven: Option<Driven>,
+}
+
+/// What a packet says of the drive, as it was when the packet began.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Driven {
+    /// The last drive word, a raw code of the profile's `control.drive`.
+    pub word: i64,
+    /// Its pad; of a split one the last part.
+    pub pad: u8,
+    /// The drive is at zero and should be less.
+    pub low: bool,
+    /// The drive is at its rail and should be more.
+    pub high: bool,
+    /// The user leaves the pad's wall.
+    pub free: bool,
+    /// Every channel of the converter has been set to zero since reset.
+    pub live: bool,
+    /// What keeps all drives at zero.
+    pub faults: Faults,
+}
+
+impl Driven {
+    /// Of two words of a packet.
+    fn of([word, bits]: [i64; 2], format: Format) -> Self {
+        let is = |bit: u8| bits >> bit & 1 != 0;
+        Driven {
+            word: word & ((1 << format.width) - 1),
+            pad: (bits >> status::PAD & 0xf) as u8,
+            low: is(status::LOW),
+            high: is(status::HIGH),
+            free: is(status::FREE),
+            live: is(status::LIVE),
+            faults: Faults {
+                silence: is(status::SILENCE),
+                sensor: is(status::SENSOR),
+                force: is(status::FORCE),
+            },
+        }
+    }
+
+    /// The words of a packet.
+    fn words(&self) -> [i64; 2] {
+        let bits = [
+            (status::SILENCE, self.faults.silence),
+            (status::SENSOR, self.faults.sensor),
+            (status::FORCE, self.faults.force),
+            (status::LOW, self.low),
+            (status::HIGH, self.high),
+            (status::FREE, self.free),
+            (status::LIVE, self.live),
+        ];
+        let pad = i64::from(self.pad) << status::PAD;
+        [self.word, bits.into_iter().fold(pad, |word, (bit, is)| word | i64::from(is) << bit)]
+    }
 }
 
 /// A frame as it came over the line.
@@ -156,18 +215,23 @@ pub(crate) struct Layout {
     /// Bits of a register that a heartbeat tells.
     register_bits: u8,
     pads: u64,
+    /// Of drive words, where the board has a drive.
+    drive: Option<Format>,
 }
 
 impl Layout {
     pub fn new(profile: &Profile) -> Self {
         let data_bits = 8 * data_bytes(&WordFormats::new(profile)) as u8;
         let register_bits = Field::word(profile).width.min(data_bits);
-        Layout { word_bytes: word_bytes(profile) as usize, register_bits, pads: profile.pads }
+        let drive = profile.control.as_ref().map(|control| control.drive);
+        let word_bytes = word_bytes(profile) as usize;
+        Layout { word_bytes, register_bits, pads: profile.pads, drive }
     }
 
     /// Bytes of a payload.
     pub fn payload_bytes(&self) -> usize {
-        STATUS_BYTES as usize + Field::ALL.len() * self.word_bytes
+        let of_drive = self.drive.map_or(0, |_| PACKET_WORDS as usize);
+        STATUS_BYTES as usize + (Field::ALL.len() + of_drive) * self.word_bytes
     }
 
     /// Whether these are the first bytes of a heartbeat, stuffed, that ended early because one of its
@@ -183,15 +247,19 @@ impl Layout {
     pub fn message(&self, payload: &[u8]) -> Result<Message, u8> {
         let (&[high, low, pad, bits], words) =
             payload.split_first_chunk().expect("the length was checked");
-        let words = words.chunks_exact(self.word_bytes).map(signed).collect::<Vec<_>>();
+        let mut words = words.chunks_exact(self.word_bytes).map(signed).collect::<Vec<_>>();
+        let of_drive = words.split_off(Field::ALL.len());
         let words = Words::try_from(words).expect("the length was checked");
+        let driven = self
+            .drive
+            .map(|format| Driven::of(of_drive.try_into().expect("the length was checked"), format));
         let sequence = u16::from_be_bytes([high, low]);
         let (commands, pad) = (pad >> 4, pad & 0xf);
         let version = bits >> flags::VERSION & 7;
         let bits = BitArray::<_, Lsb0>::new([bits]);
         let is = |flag: u8| bits[usize::from(flag)];
         let [late, refused, overrun] = [flags::LATE, flags::REFUSED, flags::OVERRUN].map(is);
-        let status = Status { sequence, late, refused, overrun, commands };
+        let status = Status { sequence, late, refused, overrun, commands, driven };
         if is(flags::HEARTBEAT) {
             let (calibrated, bits) = (is(flags::CALIBRATED), self.register_bits);
             return Ok(Message::Heartbeat(Heartbeat { status, calibrated, version, words, bits }));
@@ -222,7 +290,11 @@ impl Layout {
             .for_each(|(flag, is)| bits.set(usize::from(flag), is));
         let [high, low] = status.sequence.to_be_bytes();
         let mut payload = vec![high, low, status.commands << 4 | pad, bits.into_inner()];
-        words.iter().for_each(|word| payload.extend(&word.to_be_bytes()[8 - self.word_bytes..]));
+        let of_drive = self.drive.map(|_| status.driven.unwrap_or_default().words());
+        words
+            .iter()
+            .chain(of_drive.iter().flatten())
+            .for_each(|word| payload.extend(&word.to_be_bytes()[8 - self.word_bytes..]));
         payload
     }
 

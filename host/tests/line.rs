@@ -1,25 +1,38 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The line as a stranger feeds it: from the middle, damaged, cut, endless.
 
+use hapticore_host::control::{Control, Faults, Law};
 use hapticore_host::{
-    Damage, Decoder, END, Flags, Frame, Heartbeat, Message, Packet, Profile, Status,
+    Damage, Decoder, Driven, END, Flags, Frame, Heartbeat, Message, Packet, Profile, Status,
 };
 use hapticore_protocol::framing::packet_bytes;
 use proptest::prelude::*;
 
-/// A bundled profile.
+/// A bundled profile, with a controller or without.
 fn profiles() -> impl Strategy<Value = Profile> {
-    (0..Profile::all().len()).prop_map(|index| Profile::all().swap_remove(index))
+    (0..Profile::all().len(), any::<bool>()).prop_map(|(index, drives)| {
+        let mut profile = Profile::all().swap_remove(index);
+        profile.control = drives.then(|| Control::of(&profile, Law::Inverse));
+        profile
+    })
 }
 
-fn status() -> impl Strategy<Value = Status> {
-    (any::<(u16, u8)>(), any::<[bool; 3]>()).prop_map(
-        |((sequence, commands), [late, refused, overrun])| Status {
-            sequence,
-            late,
-            refused,
-            overrun,
-            commands: commands % 16,
+fn status(profile: &Profile) -> impl Strategy<Value = Status> + use<> {
+    let format = profile.control.as_ref().map(|control| control.drive);
+    (any::<(u16, u8, u64)>(), any::<[bool; 10]>()).prop_map(
+        move |((sequence, commands, word), flags)| {
+            let [late, refused, overrun, low, high, free, live, silence, sensor, force] = flags;
+            let faults = Faults { silence, sensor, force };
+            let driven = format.map(|format| Driven {
+                word: (word & ((1 << format.width) - 1)) as i64,
+                pad: commands >> 4,
+                low,
+                high,
+                free,
+                live,
+                faults,
+            });
+            Status { sequence, late, refused, overrun, commands: commands % 16, driven }
         },
     )
 }
@@ -35,12 +48,12 @@ fn message(profile: &Profile) -> impl Strategy<Value = Message> + use<> {
         invalid,
         lost,
     });
-    let frame = (status(), 0..pads, prop::array::uniform8(word), flags).prop_map(
+    let frame = (status(&profile), 0..pads, prop::array::uniform8(word), flags).prop_map(
         |(status, pad, codes, flags)| {
             Message::Frame(Packet { status, frame: Frame { pad, codes, flags } })
         },
     );
-    let heartbeat = (status(), any::<bool>()).prop_map(move |(status, calibrated)| {
+    let heartbeat = (status(&profile), any::<bool>()).prop_map(move |(status, calibrated)| {
         let mut heartbeat = Heartbeat::new(status, &profile);
         heartbeat.calibrated = calibrated;
         Message::Heartbeat(heartbeat)

@@ -9,7 +9,7 @@ use hapticore_protocol::{Constant, WordFormats};
 
 pub use hapticore_protocol::{CalibrationWords, ConstantWord};
 
-/// The formats of a calibration's words, of a core with these ports.
+/// The formats of a calibration's words, of a core with these ports and no drive.
 ///
 /// # Panics
 /// If the core has no port for a constant.
@@ -17,6 +17,7 @@ pub fn word_formats(ports: &Calibration<Format>) -> WordFormats {
     WordFormats {
         constants: Constant::ALL.map(|constant| port(ports, constant)),
         table: ports.table.word,
+        drive_bits: 0,
     }
 }
 

@@ -2,7 +2,7 @@
 //! The Verilog that a report is about.
 
 use hapticore_hdl::verilog::Design;
-use hapticore_rtl::board::target::Target;
+use hapticore_rtl::board::target::{Printed, Target};
 
 /// A file by name.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -24,8 +24,8 @@ pub fn files(design: &Design) -> Vec<File> {
 
 /// The Verilog of a board's top and all within it, and its constraints.
 pub fn board(target: Target) -> Vec<File> {
-    let (name, text) = target.constraints();
-    vec![File { name: "top.v".into(), text: target.top_verilog() }, File { name, text }]
+    let Printed { verilog, constraints: (name, text) } = target.bundled();
+    vec![File { name: "top.v".into(), text: verilog }, File { name, text }]
 }
 
 /// A hash of bytes that does not change with the compiler: FNV-1a, 64 bits.

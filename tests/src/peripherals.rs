@@ -3,19 +3,23 @@
 //! what no surroundings should.
 
 use fastrand::Rng;
-use hapticore_contract::profile::Profile;
+use hapticore_contract::control::{Control, Law};
+use hapticore_contract::profile::{Profile, Wall};
 use hapticore_hdl::block::Block;
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::Format;
 use hapticore_hdl::verilog::Design;
 use hapticore_host::Command;
 use hapticore_model::blocks::core::Core;
+use hapticore_model::blocks::force_loop::ForceLoop;
+use hapticore_protocol::drive::{Kind, widest};
 use hapticore_rtl::board::adc_reader::AdcReader;
 use hapticore_rtl::board::drive_output::parallel::Parallel;
 use hapticore_rtl::board::drive_output::pulses::Pulses;
 use hapticore_rtl::board::drive_output::serial::{Frame, Serial};
 use hapticore_rtl::board::drive_output::sine::Sine;
 use hapticore_rtl::board::drive_output::{Converter, DriveOutput, Wave};
+use hapticore_rtl::board::drive_registers::DriveRegisters;
 use hapticore_rtl::board::framing::{END, Register};
 use hapticore_rtl::board::pads::Pads;
 use hapticore_rtl::board::registers::CommandRegisters;
@@ -46,7 +50,11 @@ fn alone<B: Block>(block: &B, clocks: usize, mut given: impl FnMut(&mut Rng) -> 
         let given = given(&mut rng);
         let code =
             |name: &&str| given.iter().find(|(of, _)| of == name).map_or(0, |(_, code)| *code);
-        Some(B::Inputs::FIELDS.iter().map(|field| code(&field.name)).collect())
+        let mut codes = Vec::with_capacity(B::Inputs::FIELDS.len());
+        B::Inputs::each(block.inputs(), |field, format| {
+            codes.extend((!format.is_none()).then(|| code(&field.name)));
+        });
+        Some(codes)
     });
     Alone { design, trace }
 }
@@ -254,6 +262,8 @@ fn stream(block: &Stream, divisor: u64) -> Alone {
             ("keep", keep),
             ("place", place),
             ("data", data),
+            ("driven", any(rng, of.driven.driven)),
+            ("driven_status", any(rng, of.driven.driven_status)),
         ];
         told = if valid && index == 7 { flags + rng.u32(1..4) } else { told.saturating_sub(1) };
         if valid && index == 7 {
@@ -348,12 +358,44 @@ fn drive_outputs() -> Vec<Alone> {
     ]
 }
 
+/// Words at any place, with any data.
+fn drive_registers(block: &DriveRegisters) -> Alone {
+    let of = block.inputs();
+    alone(block, 20_000, move |rng| {
+        let kind = rng.i64(0..4) << Kind::AT;
+        let number = if rng.bool() { rng.i64(0..12) } else { rng.i64(0..1 << Kind::AT) };
+        vec![("write", now(rng, 2)), ("place", kind | number), ("data", corner(rng, of.data))]
+    })
+}
+
+/// Clocks of a bit of the serial line, so few that Icarus comes to an end.
+const DIVISOR: u64 = 4;
+
+/// What a board that drives its pads has besides, or otherwise.
+pub fn blocks_of_a_drive(target: Target) -> Vec<Alone> {
+    let mut profile = target.profile();
+    profile.control = Some(Control::of(&profile, Law::Inverse));
+    let force_loop = ForceLoop::try_new(&profile).expect("a force loop");
+    let words = force_loop.core.estimator().table().words as u64;
+    let calibration = force_loop.core.inputs().calibration;
+    let block = CommandRegisters::new(calibration, words, Some(widest(&profile)));
+    let data = block.outputs().data;
+    let walled = Profile { wall: Some(Wall { parts: 2, ..Wall::B }), ..profile.clone() };
+    let walled = ForceLoop::try_new(&walled).expect("a force loop with walls");
+    vec![
+        drive_registers(&DriveRegisters::new(&force_loop, data)),
+        drive_registers(&DriveRegisters::new(&walled, data)),
+        stream(&Stream::new(&profile, DIVISOR, data), DIVISOR),
+        registers(&block, profile, words),
+    ]
+}
+
 /// The blocks of a board, with its own parameters, and those that no board's parameters change.
 pub fn blocks(target: Target) -> Vec<Alone> {
     let (profile, parameters) = (target.profile(), target.parameters());
     let (core, divisor) = (Core::new(&profile), parameters.divisor());
     let words = core.estimator().table().words as u64;
-    let block = CommandRegisters::new(core.inputs().calibration, words);
+    let block = CommandRegisters::new(core.inputs().calibration, words, None);
     let mut all = drive_outputs();
     all.extend([
         stream(&Stream::new(&profile, divisor, block.outputs().data), divisor),

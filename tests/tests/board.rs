@@ -13,16 +13,19 @@ mod recording;
 
 use device::{Sight, calibration, codes};
 use hapticore_contract::calibration::Calibration;
+use hapticore_contract::control::{Control, Law, Tuning};
 use hapticore_contract::frame::Frame;
 use hapticore_contract::profile::Profile;
 use hapticore_host::startup::{AdcSetup, check, prepare};
-use hapticore_host::{Command as BoardCommand, Decoder, Message, encode};
+use hapticore_host::{Command as BoardCommand, Decoder, Message, Packet, drive, encode};
 use hapticore_host::{Constant, WordFormats};
 use hapticore_model::blocks::core::Core;
 use hapticore_model::fidelity::clock::ClockSimulation;
+use hapticore_model::fidelity::force_loop::FixedLoop;
+use hapticore_rtl::board::drive_output::serial::Frame as SerialFrame;
+use hapticore_rtl::board::drive_output::{Converter, Wave};
 use hapticore_rtl::board::framing::Register;
 use hapticore_rtl::board::{Parameters, Target};
-use hapticore_rtl::component;
 use hapticore_run::case::Case;
 use hapticore_run::engine::Fidelity;
 use hapticore_run::engine::{Slot, engine};
@@ -96,7 +99,7 @@ enum Simulator {
 
 impl Simulator {
     /// Compiles and runs the bench with these parameters; its output.
-    fn run(self, parameters: &[(&str, String)], folder: &Path) -> String {
+    fn run(self, drives: bool, parameters: &[(&str, String)], folder: &Path) -> String {
         let mut compiler = match self {
             Simulator::Icarus => Command::new("iverilog"),
             Simulator::Verilator => Command::new("verilator"),
@@ -124,6 +127,7 @@ impl Simulator {
                 "-G"
             }
         };
+        compiler.args(drives.then_some("-DDRIVE"));
         for (name, value) in parameters {
             compiler.arg(format!("{prefix}{name}={value}"));
         }
@@ -143,8 +147,9 @@ fn bench(
     let Parameters { clock_hz, .. } = target.parameters();
     let width = profile.formats.adc.width;
     let mask = (1u32 << width) - 1;
-    let top = target.top_of(profile).expect("the board serves the profile");
-    fs::write(folder.join("top.v"), component::verilog(&top)).expect("a file");
+    let drive = profile.control.as_ref().map(|_| DRIVE);
+    let printed = target.printed(profile, drive).expect("the board serves the profile");
+    fs::write(folder.join("top.v"), printed.verilog).expect("a file");
     fs::write(folder.join("bytes.hex"), hex(commands.iter().map(|&byte| byte.into())))
         .expect("a file");
     fs::write(folder.join("codes.hex"), hex(samples.iter().map(|&code| code as u32 & mask)))
@@ -157,7 +162,7 @@ fn bench(
         ("PERIOD", format!("{:.3}", 1e9 / clock_hz as f64)),
         ("ACTIVE_LOW", u8::from(target == Target::Icebreaker).to_string()),
     ];
-    let log = simulator.run(&parameters, folder);
+    let log = simulator.run(drive.is_some(), &parameters, folder);
     let heard =
         fs::read_to_string(folder.join("heard.hex")).expect("the bench wrote what it heard");
     (log, heard.lines().map(|line| u8::from_str_radix(line, 16).expect("a known byte")).collect())
@@ -171,7 +176,11 @@ fn boards_tell_over_their_line_what_the_model_computes_from_what_their_adc_saw()
     for target in Target::ALL {
         let profile = shortened(target);
         let (calibration, samples) = (calibration(&profile), samples(&profile));
-        let (heard, _) = heard(Simulator::Icarus, (target, &profile), &calibration, &samples);
+        let folder = tempfile::tempdir().expect("a folder");
+        let given = (&calibration, &[][..]);
+        let (packets, _) =
+            heard(Simulator::Icarus, (target, &profile), given, &samples, folder.path());
+        let heard: Vec<_> = packets.iter().map(|packet| packet.frame).collect();
         assert_eq!(heard, simulated(&profile, &calibration, &samples), "{target:?}");
     }
 }
@@ -195,8 +204,11 @@ fn returns_what_simulate_gives(target: Target, simulator: Simulator) {
         expected.extend(engine.slot(&slot));
     }
     expected.extend(engine.finish());
-    let (heard, bytes) = heard(simulator, (target, &profile), &calibration, &samples);
-    let measurements: Vec<_> = heard.iter().map(|frame| frame.measurement(&profile)).collect();
+    let folder = tempfile::tempdir().expect("a folder");
+    let given = (&calibration, &[][..]);
+    let (packets, bytes) = heard(simulator, (target, &profile), given, &samples, folder.path());
+    let measurements: Vec<_> =
+        packets.iter().map(|packet| packet.frame.measurement(&profile)).collect();
     assert_eq!(measurements, expected);
     if target == Target::Icebreaker {
         recording::check(&bytes[bytes.len() - recording::BYTES..], &profile, &case.device);
@@ -212,6 +224,63 @@ fn icebreaker_returns_over_its_line_the_frames_that_simulate_gives() {
 fn ulx3s_returns_over_its_line_the_frames_that_simulate_gives() {
     // The calibration alone takes ten million clocks.
     returns_what_simulate_gives(Target::Ulx3s, Simulator::Verilator);
+}
+
+/// A converter whose words are the drive words, as they are.
+const DRIVE: (Wave, Converter) = (Wave::Dc, Converter::Serial(SerialFrame::AD5664));
+
+/// A controller whose drive is most of its target's root.
+fn tuning(control: &Control) -> Tuning {
+    let cells = control.cells as f64;
+    let curve = (0..=control.cells).map(|cell| 0.9 * cell as f64 / cells).collect();
+    Tuning { curve, full_drive: 2.0, slew: 0.2, ..Tuning::idle(control) }
+}
+
+#[test]
+fn ulx3s_gives_its_converter_the_drive_words_of_the_force_loop() {
+    if !tools::have(&["verilator", "g++"]) {
+        return;
+    }
+    let (target, targets_n) = (Target::Ulx3s, [0.3, 0.8, 0.05, 0.5]);
+    let plain = shortened(target);
+    let control = Control::of(&plain, Law::Inverse);
+    let tuning = tuning(&control);
+    let mut profile = Profile { control: Some(control), ..plain };
+    profile.slot.settle += 400;
+    let (calibration, samples) = (calibration(&profile), samples(&profile));
+    let mut commands = drive::tune(&profile, &tuning).expect("a controller");
+    let mut of = FixedLoop::new(&profile, &calibration, &tuning).expect("a force loop");
+    for (pad, newtons) in (0..).zip(targets_n) {
+        commands.push(drive::target(&profile, pad, newtons).expect("a controller"));
+        of.set_target(pad.into(), newtons);
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let given = (&calibration, &commands[..]);
+    let (packets, _) =
+        heard(Simulator::Verilator, (target, &profile), given, &samples, folder.path());
+    let slots = samples.chunks(profile.channels() * profile.slot.samples() as usize);
+    let blanking = profile.channels() * profile.slot.blanking() as usize;
+    let expected: Vec<_> = (0..)
+        .zip(slots)
+        .map(|(slot, codes)| of.slot(|core| core.slot(slot % 4, &codes[blanking..])))
+        .collect();
+    for (number, (packet, (frame, _))) in packets.iter().zip(&expected).enumerate() {
+        assert_eq!(packet.frame, *frame, "frame {number}");
+        let driven = packet.status.driven.expect("a board with a drive");
+        assert!(driven.live && !driven.faults.any(), "frame {number}: {driven:?}");
+    }
+    let told = fs::read_to_string(folder.path().join("dac.hex")).expect("what the converter heard");
+    let told = told.lines().map(|line| u32::from_str_radix(line, 16).expect("a known frame"));
+    let told: Vec<(u32, u32)> = told.map(|frame| (frame >> 16, frame & 0xffff)).collect();
+    // Write and update channel n: 18 + n (hex). A channel begins with 0 V, half of the range.
+    let begin = (0..4).map(|pad| (0x18 + pad, 0x8000));
+    let words = expected.iter().filter_map(|(_, drive)| drive.as_ref()).map(|drive| {
+        (0x18 + drive.pad as u32, 0x8000 + (drive.fraction * 32768.0).round_ties_even() as u32)
+    });
+    let words: Vec<_> = begin.chain(words).collect();
+    assert!(told.len() >= 4 + SLOTS - 1, "{told:x?}");
+    assert_eq!(told, words[..told.len()]);
+    assert!(told[4..].iter().any(|&(_, code)| code > 0x8000), "something is driven");
 }
 
 /// Commands that change nothing, to be taken while frames come: a register's own code, with any
@@ -241,11 +310,12 @@ fn storm(profile: &Profile, calibration: &Calibration) -> Vec<BoardCommand> {
 fn heard(
     simulator: Simulator,
     (target, profile): (Target, &Profile),
-    calibration: &Calibration,
+    (calibration, tuned): (&Calibration, &[BoardCommand]),
     samples: &[i32],
-) -> (Vec<Frame>, Vec<u8>) {
+    folder: &Path,
+) -> (Vec<Packet>, Vec<u8>) {
     let setup = AdcSetup::default();
-    let prepared = prepare(profile, calibration, &setup);
+    let prepared = [&prepare(profile, calibration, &setup), tuned].concat();
     let mut commands = prepared.clone();
     // The time of a heartbeat and more.
     commands.extend([BoardCommand::DISABLE; 64]);
@@ -253,8 +323,7 @@ fn heard(
     commands.push(BoardCommand::ENABLE);
     let storm = storm(profile, calibration);
     let commands = encode(&[commands.as_slice(), &storm].concat(), profile);
-    let folder = tempfile::tempdir().expect("a folder");
-    let (log, heard) = bench(simulator, (target, profile), &commands, samples, folder.path());
+    let (log, heard) = bench(simulator, (target, profile), &commands, samples, folder);
     let log: Vec<_> =
         log.lines().filter(|line| !line.contains("$finish") && !line.starts_with("- ")).collect();
     assert_eq!(log, [format!("faults 0, commands {}", setup.words().len())], "{target:?}");
@@ -280,13 +349,13 @@ fn heard(
     for packet in &packets {
         assert!(!(packet.status.late || packet.status.overrun), "{target:?}: {packet:?}");
     }
-    (packets.into_iter().map(|packet| packet.frame).collect(), heard)
+    (packets, heard)
 }
 
 #[test]
 fn every_port_of_a_top_has_one_pin_of_its_own() {
     for target in Target::ALL {
-        let (name, text) = target.constraints();
+        let (name, text) = target.bundled().constraints;
         assert!(name.starts_with(target.name()), "{name}");
         let locations =
             text.lines().filter(|line| line.contains("set_io") || line.contains("LOCATE"));

@@ -11,11 +11,13 @@ use hapticore_model::blocks::controller::{self, Controller};
 use hapticore_model::blocks::divider::Divider;
 use hapticore_model::blocks::haptic_voltage::HapticVoltage;
 use hapticore_model::blocks::wall::{Inputs, Wall};
+use hapticore_rtl::board::Target;
 use hapticore_rtl::board::drive_output::serial::Frame;
 use hapticore_rtl::board::drive_output::{self, Converter, DriveOutput, Wave};
 use hapticore_tests::force_loop::Closed;
 use hapticore_tests::lockstep::verilator::{Start, Verilated, Version};
 use hapticore_tests::lockstep::{Bench, Mismatch, Trace, cxxrtl, icarus};
+use hapticore_tests::peripherals::{Alone, blocks_of_a_drive};
 use hapticore_tests::{stimulus, tools};
 use std::collections::BTreeSet;
 use std::time::Instant;
@@ -482,5 +484,17 @@ fn both_simulators_run_a_wall_as_the_model_does() {
             }
         }
         println!("{profile}: {} clocks equal", trace.clocks());
+    }
+}
+
+#[test]
+fn blocks_of_a_board_with_a_drive_run_as_in_the_model() {
+    if !tools::have(&["iverilog", "vvp"]) {
+        return;
+    }
+    for Alone { design, trace } in blocks_of_a_drive(Target::Ulx3s) {
+        if let Err(mismatch) = icarus::check(design.top(), &design.text(), &trace) {
+            panic!("{}: {mismatch:?}", design.top());
+        }
     }
 }

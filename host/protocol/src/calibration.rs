@@ -58,13 +58,15 @@ impl Constant {
     }
 }
 
-/// The formats of all words of a calibration.
+/// The formats of all words that commands write: those of a calibration, and how wide others are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct WordFormats {
     /// Of the constants, in the order of [`Constant::ALL`].
     pub constants: [Format; Constant::ALL.len()],
     /// Of the words of the position table.
     pub table: Format,
+    /// Bits of the widest word of the drive, where the board has one; else none.
+    pub drive_bits: u8,
 }
 
 impl WordFormats {
@@ -73,6 +75,7 @@ impl WordFormats {
         WordFormats {
             constants: Constant::ALL.map(|constant| constant.format(profile)),
             table: profile.formats.table,
+            drive_bits: crate::drive::widest(profile),
         }
     }
 }

@@ -8,7 +8,8 @@
 //!            the profile's digest in place of the control register, and for the ADC's answer to the last word sent to it;
 //!            where one of them is written meanwhile, END comes early, behind the flags or later, and the heartbeat is void
 //! command:   place, 2 bytes │ data, D bytes               place: 8000 (hex) + register, or the address of a word of the
-//!                                                         position table; other bits are ignored
+//!                                                         position table; other bits are ignored. Boards that drive pads
+//!                                                         have more places, and two words more in a packet: see `drive`
 //! ```
 //!
 //! Numbers are most significant byte first. The CRC is CRC-32/ISO-HDLC (polynomial 04C11DB7, hex,
@@ -38,6 +39,7 @@
 //! [`Register::ALL`]: crate::Register::ALL
 
 use crate::calibration::WordFormats;
+use crate::drive::PACKET_WORDS;
 use crate::register::Register;
 use hapticore_contract::frame::Field;
 use hapticore_contract::profile::{Force, Profile};
@@ -121,6 +123,12 @@ pub fn word_bytes(profile: &Profile) -> u64 {
     u64::from(Field::word(profile).width.div_ceil(8))
 }
 
+/// Words of a packet: those of a frame, and of the drive, where the profile has a controller.
+pub fn packet_words(profile: &Profile) -> u64 {
+    let of_drive = if profile.control.is_some() { PACKET_WORDS } else { 0 };
+    Field::ALL.len() as u64 + of_drive
+}
+
 /// Bytes of a frame or a heartbeat on the line, END included, whatever it contains.
 ///
 /// ```
@@ -131,7 +139,7 @@ pub fn word_bytes(profile: &Profile) -> u64 {
 /// # Ok::<(), hapticore_contract::profile::ProfileError>(())
 /// ```
 pub fn packet_bytes(profile: &Profile) -> u64 {
-    STATUS_BYTES + Field::ALL.len() as u64 * word_bytes(profile) + CRC_BYTES + STUFFING_BYTES
+    STATUS_BYTES + packet_words(profile) * word_bytes(profile) + CRC_BYTES + STUFFING_BYTES
 }
 
 /// Bytes of a command on the line, END included, for a core whose calibration has these formats.
@@ -143,6 +151,10 @@ pub fn command_bytes(formats: &WordFormats) -> u64 {
 pub fn data_bytes(formats: &WordFormats) -> u64 {
     let registers = Register::ALL.into_iter().map(|register| register.format(formats).width);
     u64::from(
-        registers.chain([formats.table.width]).max().expect("there are registers").div_ceil(8),
+        registers
+            .chain([formats.table.width, formats.drive_bits])
+            .max()
+            .expect("there are registers")
+            .div_ceil(8),
     )
 }

@@ -116,6 +116,13 @@ pub struct Walls {
     pub right: bool,
 }
 
+impl Walls {
+    /// The format of a stiffness, N/mm.
+    pub const STIFFNESS: Format = Format::unsigned(16, 12);
+    /// The format of a direction u.
+    pub const DIRECTION: Format = Format::signed(13, 13);
+}
+
 impl Tuning {
     /// A controller that does nothing but hold its drive within full scale.
     pub fn idle(control: &Control) -> Self {

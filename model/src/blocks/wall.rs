@@ -35,6 +35,7 @@
 use super::divider::{self, Divider};
 use super::multiplier::{self, Multiplier};
 use crate::buildable::{fits, rounds};
+use hapticore_contract::control::Walls;
 use hapticore_contract::profile::{self, Profile, ProfileError};
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::bundle::Bundle;
@@ -162,8 +163,8 @@ block! {
     }
 }
 
-const STIFFNESS: Format = Format::unsigned(16, 12);
-const U: Format = Format::signed(13, 13);
+const STIFFNESS: Format = Walls::STIFFNESS;
+const U: Format = Walls::DIRECTION;
 const LEARNT: Format = Format::signed(20, 19);
 const CHANGE: Format = Format::unsigned(19, 19);
 const OFFSET: Format = Format::signed(22, 20);

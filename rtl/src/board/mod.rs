@@ -12,6 +12,7 @@
 //! | [`uart`], [`crc32`], [`framing`] | the serial line and its packets; the host's side of it is `hapticore-host` |
 //! | [`stream`] | frames, out |
 //! | [`registers`] | calibration, in |
+//! | [`drive_registers`] | settings, targets and walls of a force loop, in |
 //! | [`parameters`] | what a board adds to a profile |
 //! | [`top`], [`target`] | tops in rust-hdl, and the boards that one can buy: pins, constraints |
 
@@ -19,6 +20,7 @@ pub mod adc_reader;
 mod bits;
 pub mod crc32;
 pub mod drive_output;
+pub mod drive_registers;
 pub mod framing;
 pub mod pads;
 pub mod parameters;

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What a board adds to a profile: its clock, its serial port, its ADC's pins.
 
+use super::drive_output::{Converter, Wave};
+use super::framing::word_bytes;
 use hapticore_contract::profile::Profile;
+use hapticore_protocol::drive::Kind;
 
 /// A board's own numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -12,6 +15,8 @@ pub struct Parameters {
     pub baud: u64,
     /// Clocks from `sclk_run` to the pulse at the pin: those of the output primitive.
     pub sclk_latency: u64,
+    /// The converter that drives the pads, and its wave; there is one exactly if the profile has a controller.
+    pub drive: Option<(Wave, Converter)>,
 }
 
 /// A board that cannot be.
@@ -74,6 +79,7 @@ impl Parameters {
     pub fn check(&self, profile: &Profile) -> Result<(), ParametersError> {
         let (period, bits) = (profile.clocks_per_sample, u64::from(profile.formats.adc.width));
         let channels = profile.channels() as u64;
+        let control = u64::from(profile.control.is_some());
         within("clock_hz", self.clock_hz, 1_000_000, 200_000_000)?;
         let least = self.least_divisor();
         within("baud", self.divisor(), least, 1 << 16).map_err(|error| ParametersError {
@@ -88,6 +94,13 @@ impl Parameters {
         let byte = 10 * self.divisor() + 2;
         within("clocks of a byte on the serial line", byte, 1, profile.slot_clocks())?;
         within("clocks_per_sample", period, bits + channels - 1, 1 << 16)?;
+        let drives = u64::from(self.drive.is_some());
+        within("drives", drives, control, control)?;
+        if let Some(control) = &profile.control {
+            let bits = 8 * word_bytes(profile);
+            within("bits of a drive word", control.drive.width.into(), 1, bits)?;
+            within("words of the curve", control.cells + 1, 1, 1 << Kind::AT)?;
+        }
         within("sclk_latency", self.sclk_latency, 0, self.conversion())?;
         let least = period + Self::CONVERSION_LEAST_NS * self.clock_hz / 1_000_000_000;
         within(

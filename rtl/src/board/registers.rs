@@ -23,19 +23,22 @@ use super::bits::{next, previous, read_as};
 use super::crc32;
 use super::framing::{CRC_BYTES, Control, END, NIBBLE, PLACE, Register, command_bytes, data_bytes};
 use super::uart::BYTE;
+use crate::codes::word_formats;
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format};
 use hapticore_hdl::signal::{Signal, Wrap, bit, code, int};
 use hapticore_hdl::{block, when};
 use hapticore_model::blocks::estimator::Calibration;
 use hapticore_model::blocks::position::TablePort;
-use hapticore_protocol::Constant;
+use hapticore_protocol::{Constant, WordFormats, drive};
 
 block! {
     /// The registers that commands write.
     pub struct CommandRegisters("registers") {
         calibration: Calibration<Format>,
         words: u64,
+        /// There is a drive.
+        drives: bool,
         data: Format,
         /// Bytes of a command on the line before its END.
         length: u64,
@@ -77,6 +80,10 @@ block! {
         data: block.data,
         /// The last calibration register was written since reset.
         calibrated: BIT,
+        /// Asserted for one cycle to write a word of the drive.
+        drive_write: BIT.where_present(block.drives),
+        /// Place of the word.
+        drive_place: drive::PLACE.where_present(block.drives),
     }
     registers(block) {
         count: Format::counter(block.length + 1),
@@ -98,13 +105,17 @@ block! {
 const ADC_WORD: u8 = 16;
 
 impl CommandRegisters {
-    /// The registers of a core with this calibration, whose position table has so many words.
-    pub fn new(calibration: Calibration<Format>, words: u64) -> Self {
+    /// The registers of a core with this calibration, whose position table has so many words; of a drive whose widest word
+    /// has so many bits, where there is one.
+    pub fn new(calibration: Calibration<Format>, words: u64, drive_bits: Option<u8>) -> Self {
+        let formats =
+            WordFormats { drive_bits: drive_bits.unwrap_or(0), ..word_formats(&calibration) };
         CommandRegisters {
             calibration,
             words,
-            data: Format::unsigned(8 * data_bytes(&calibration) as u8, 0),
-            length: command_bytes(&calibration) - 1,
+            drives: drive_bits.is_some(),
+            data: Format::unsigned(8 * data_bytes(&formats) as u8, 0),
+            length: command_bytes(&formats) - 1,
         }
     }
 
@@ -184,6 +195,11 @@ impl Block for CommandRegisters {
         state.store(self, next);
         let address = r.place.bits(0, table.address.width);
         let of_table = !r.place.msb() & address.less_than(int(self.words));
+        let of_drive = match self.drives {
+            true => !r.place.msb() & r.place.bits(drive::PLACE.width, 1),
+            false => bit(false),
+        };
+        let of_table = if self.drives { of_table & !of_drive } else { of_table };
         Outputs {
             capacitance_gain: r.capacitance_gain,
             force_gain: r.force_gain,
@@ -202,6 +218,11 @@ impl Block for CommandRegisters {
             place: r.place.bits(0, PLACE.width),
             data: r.data,
             calibrated: r.calibrated,
+            drive_write: (r.act & of_drive).where_present(BIT.where_present(self.drives)),
+            drive_place: r
+                .place
+                .bits(0, drive::PLACE.width)
+                .where_present(drive::PLACE.where_present(self.drives)),
         }
     }
 }

@@ -12,6 +12,9 @@
 //! | group   | 15                                | 0 … 7      | 8                          |
 //! | bytes   | sequence (2), commands/pad, flags | B a word   | CRC (4), the last link, END |
 //!
+//! With a drive, groups 8 and 9 are its last drive word and what is said of it, as of the packet's beginning, and the last
+//! group is 10.
+//!
 //! | signal   | format           | overflow                          |
 //! | number   | u16              | wraps, meant: losses show as gaps |
 //! | group    | u4               | wraps, meant: 15 comes before 0   |
@@ -40,18 +43,30 @@ use super::bits::{flag, next, previous, word as bits_side_by_side};
 use super::crc32;
 use super::framing::{
     CRC_BYTES, END, NIBBLE, PLACE, Register, STATUS_BYTES, STUFFING_BYTES, VERSION, digest,
-    packet_bytes, word_bytes,
+    packet_bytes, packet_words, word_bytes,
 };
 use super::uart::BYTE;
 use super::uart::transmitter::{self, Transmitter};
 use hapticore_contract::frame::Field;
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::block::{Block, Interpretation, State};
+use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::{BIT, Format};
 use hapticore_hdl::memory::{Memory, Write};
 use hapticore_hdl::signal::{Signal, Wrap, bit, code, int};
-use hapticore_hdl::{block, call};
+use hapticore_hdl::{block, bundle, call};
 use hapticore_model::blocks::estimator::FramePort;
+use hapticore_protocol::drive;
+
+bundle! {
+    /// The last drive word, and what is said of it: `hapticore_protocol::drive::status`.
+    pub struct DrivenPort {
+        /// Drive word.
+        driven,
+        /// Bits of `status`.
+        driven_status,
+    }
+}
 
 block! {
     /// The stream of packets.
@@ -62,6 +77,10 @@ block! {
         bytes: u64,
         /// Bytes of a packet on the line.
         length: u64,
+        /// The last group: the CRC, the last link and END.
+        trailer: u64,
+        /// Of drive words, where there are some.
+        driven: DrivenPort<Format>,
     }
     submodules {
         words: Memory,
@@ -85,6 +104,7 @@ block! {
         data: stream.data,
         /// Flag `calibrated` of heartbeats.
         calibrated: BIT,
+        driven as DrivenPort: stream.driven,
     }
     outputs(stream) {
         /// Pin: serial output, high when idle.
@@ -110,6 +130,7 @@ block! {
         overrun: BIT,
         keep: BIT,
         pause: Format::unsigned(BEAT + 1, 0),
+        told as DrivenPort: stream.driven,
     }
 }
 
@@ -117,9 +138,7 @@ block! {
 const WORDS: u64 = Field::ALL.len() as u64;
 /// The group before the words, by wrapping: the status.
 const STATUS: u64 = 15;
-/// The last group: the CRC, the last link and END.
-const TRAILER: u64 = WORDS;
-/// Bytes of it.
+/// Bytes of the last group.
 const TRAILER_BYTES: u64 = CRC_BYTES + STUFFING_BYTES;
 /// Heartbeats pause for two to the power of so many clocks.
 const BEAT: u8 = 14;
@@ -133,6 +152,17 @@ fn version<V: Interpretation>(at: u8) -> Signal<V> {
 fn as_word(bits: u16, word: Format) -> i32 {
     let bits = i32::from(bits);
     if word.width <= 16 && bits > word.max_code() as i32 { bits - (1 << 16) } else { bits }
+}
+
+/// The formats of what packets say of the drive.
+fn driven(profile: &Profile) -> DrivenPort<Format> {
+    match &profile.control {
+        Some(control) => DrivenPort {
+            driven: control.drive,
+            driven_status: Format::unsigned(drive::status::BITS, 0),
+        },
+        None => DrivenPort::of(Format::NONE),
+    }
 }
 
 impl Stream {
@@ -152,6 +182,8 @@ impl Stream {
             pad: Format::counter(profile.pads - 1),
             bytes: word_bytes(profile),
             length: packet_bytes(profile),
+            trailer: packet_words(profile),
+            driven: driven(profile),
         }
     }
 
@@ -170,10 +202,22 @@ impl Stream {
         self.length * (10 * divisor + 1)
     }
 
+    /// The word of the packet that is due: of the frame or heartbeat, or of the drive.
+    #[inline(always)]
+    fn word<V: Interpretation>(&self, r: &Regs<V>, data: Signal<V>) -> Signal<V> {
+        if self.driven.driven.is_none() {
+            return data;
+        }
+        let word = Format::signed(8 * self.bytes as u8, 0);
+        let [data, driven, status] = [data, r.told.driven.integer(), r.told.driven_status]
+            .map(|signal| signal.resize(word, Wrap));
+        r.group.is(WORDS).select(driven, r.group.is(WORDS + 1).select(status, data))
+    }
+
     /// The byte of the packet that is due.
     #[inline(always)]
     fn byte<V: Interpretation>(&self, r: &Regs<V>, data: Signal<V>) -> Signal<V> {
-        let wide = data.resize(Format::signed(8 * self.bytes as u8, 0), Wrap);
+        let wide = self.word(r, data).resize(Format::signed(8 * self.bytes as u8, 0), Wrap);
         let pick = |bytes: &[Signal<V>]| {
             let (first, rest) = bytes.split_first().expect("a group has bytes");
             (1..).zip(rest).fold(*first, |other, (left, byte)| r.left.is(left).select(*byte, other))
@@ -195,7 +239,7 @@ impl Stream {
         // The CRC moves on by each of its bytes. Both the last link and END are zero bytes.
         let check = bits_side_by_side((0..8).map(|k| !r.crc.bits(k, 1)));
         let trailer = r.left.less_than(int(STUFFING_BYTES)).select(code(0, BYTE), check);
-        r.group.is(TRAILER).select(trailer, r.group.is(STATUS).select(status, pick(&words)))
+        r.group.is(self.trailer).select(trailer, r.group.is(STATUS).select(status, pick(&words)))
     }
 
     /// What is written: a frame's word, or, between frames and where no byte is read, the one that is
@@ -218,17 +262,32 @@ impl Stream {
         }
     }
 
+    /// What the packet says of the drive: as of its beginning, so that the bytes of a word belong together.
+    #[inline(always)]
+    fn told<V: Interpretation>(
+        &self,
+        held: DrivenPort<Signal<V>>,
+        now: DrivenPort<Signal<V>>,
+        begin: Signal<V>,
+    ) -> DrivenPort<Signal<V>> {
+        DrivenPort::map(DrivenPort::zip(now, held), |(now, held)| match held.format.is_none() {
+            true => held,
+            false => begin.select(now, held),
+        })
+    }
+
     /// The CRC behind a byte: of its own bytes it takes none in, but moves on.
     #[inline(always)]
     fn check<V: Interpretation>(&self, r: &Regs<V>, byte: Signal<V>) -> Signal<V> {
-        crc32::with(r.crc, r.group.is(TRAILER).select(r.crc.bits(0, 8), byte))
+        crc32::with(r.crc, r.group.is(self.trailer).select(r.crc.bits(0, 8), byte))
     }
 
     /// Where the packet goes on after a byte: the bytes of a group are counted down.
     #[inline(always)]
     fn advance<V: Interpretation>(&self, r: &Regs<V>) -> (Signal<V>, Signal<V>) {
         let last = r.left.is(0);
-        let of_next = r.group.is(WORDS - 1).select(int(TRAILER_BYTES - 1), int(self.bytes - 1));
+        let of_next =
+            r.group.is(self.trailer - 1).select(int(TRAILER_BYTES - 1), int(self.bytes - 1));
         (last.select(next(r.group), r.group), last.select(of_next, previous(r.left)))
     }
 }
@@ -240,7 +299,7 @@ impl Block for Stream {
         let taking = (i.frames.valid & i.frames.index.is(0)).select(!r.busy, r.taking);
         let data = self.words.data(&mut state.submodules.words);
         let byte = self.byte(&r, data).named("plain");
-        let at_end = r.group.is(TRAILER) & r.left.is(0);
+        let at_end = r.group.is(self.trailer) & r.left.is(0);
         let zero = byte.is(0);
         let link = r.distance.resize(BYTE, Wrap);
         let line = at_end.select(code(END.into(), BYTE), zero.select(link, byte));
@@ -273,7 +332,7 @@ impl Block for Stream {
                 taking,
                 busy: flag(r.busy, begin, sent & at_end),
                 heartbeat: take(heartbeat, r.heartbeat),
-                group: take(int(STATUS), onward(TRAILER, group, r.group))
+                group: take(int(STATUS), onward(self.trailer, group, r.group))
                     .resize(r.group.format, Wrap),
                 left: take(int(STATUS_BYTES - 1), onward(0, left, r.left))
                     .resize(r.left.format, Wrap),
@@ -295,6 +354,7 @@ impl Block for Stream {
                 pause: (i.enable | r.busy)
                     .select(int(0), next(r.pause))
                     .resize(r.pause.format, Wrap),
+                told: self.told(r.told, i.driven, begin),
             },
         );
         Outputs { tx: transmitter.tx }

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Boards that one can buy: their profiles, clocks, pins, tops and constraints.
 //!
-//! | board | part | clock | profile | pins of the ADC | carrier, pads |
-//! | --- | --- | --- | --- | --- | --- |
-//! | ULX3S | ECP5 85F, CABGA381 | 25 MHz | standard | gp and gn 0 … 6 | gp 9, gp and gn 7 … 8 |
-//! | iCEBreaker | iCE40UP5K, SG48 | 12 MHz | small | PMOD 1A and 1B | PMOD 2 |
+//! | board | part | clock | profile | pins of the ADC | carrier, pads | drive |
+//! | --- | --- | --- | --- | --- | --- | --- |
+//! | ULX3S | ECP5 85F, CABGA381 | 25 MHz | standard | gp and gn 0 … 6 | gp 9, gp and gn 7 … 8 | gp and gn 10 … 11 |
+//! | iCEBreaker | iCE40UP5K, SG48 | 12 MHz | small | PMOD 1A and 1B | PMOD 2 | none: a force loop does not fit |
 //!
 //! A pin is written once, on the top's signal; constraints are read off the top. Sources: the
 //! boards' schematics.
 
-use super::parameters::{Parameters, ParametersError};
-use super::top::{Primitive, Top};
-use super::whole::Board;
+use super::drive_output::{Converter, Wave};
+use super::parameters::Parameters;
+use super::top::{DriveTop, Primitive, Top};
+use super::whole::{Board, BoardError};
 use crate::component;
 use hapticore_contract::profile::Profile;
 use rust_hdl_core::prelude::{Atom, Block, Constraint, PinConstraint, Probe};
@@ -54,6 +55,52 @@ macro_rules! locate {
     };
 }
 
+/// The ports of a ULX3S's top.
+macro_rules! ulx3s {
+    ($top:ident) => {
+        locate!($top:
+            clock ["G2"];
+            button ["R1"] => "PULLMODE=DOWN";
+            tx ["L4"];
+            rx ["M1"] => "PULLMODE=UP";
+            enabled ["B2"];
+            late ["C2"];
+            dout ["B11", "C11", "A10", "A11", "A9", "B10", "B9", "C10"];
+            convst ["A7"];
+            busy ["A8"] => "PULLMODE=DOWN";
+            cs_n ["C8"];
+            sclk ["B8"];
+            sdi ["C6"];
+            adc_reset ["C7"];
+            pads ["A6", "B6", "A4", "A5"];
+            carrier ["A2"];
+        )
+    };
+}
+
+/// The ports of an iCEBreaker's top.
+macro_rules! icebreaker {
+    ($top:ident) => {
+        locate!($top:
+            clock ["35"];
+            button ["10"] => "-pullup yes";
+            tx ["9"];
+            rx ["6"] => "-pullup yes";
+            enabled ["37"];
+            late ["11"];
+            dout ["4", "2", "47", "45", "3", "48", "46", "44"];
+            convst ["43"];
+            busy ["38"];
+            cs_n ["34"];
+            sclk ["31"];
+            sdi ["42"];
+            adc_reset ["36"];
+            pads ["27", "25", "21", "19"];
+            carrier ["26"];
+        )
+    };
+}
+
 impl Target {
     /// All supported boards.
     pub const ALL: [Target; 2] = [Target::Ulx3s, Target::Icebreaker];
@@ -90,7 +137,8 @@ impl Target {
             Target::Ulx3s => 25_000_000,
             Target::Icebreaker => 12_000_000,
         };
-        Parameters { clock_hz, baud: 1_000_000, sclk_latency: self.primitive().latency() }
+        let sclk_latency = self.primitive().latency();
+        Parameters { clock_hz, baud: 1_000_000, sclk_latency, drive: None }
     }
 
     fn primitive(self) -> Primitive {
@@ -100,34 +148,53 @@ impl Target {
         }
     }
 
-    /// Its top, connected and with every port on its pins.
-    pub fn top(self) -> Top {
-        self.top_of(&self.profile()).expect("bundled profiles fit their boards")
+    /// What the board with its own profile is made from.
+    pub fn bundled(self) -> Printed {
+        self.printed(&self.profile(), None).expect("bundled profiles fit their boards")
     }
 
-    /// Its top with the core of another profile.
+    /// What the board with the core of another profile is made from; where that has a controller, with a converter for the
+    /// drives of its pads and their wave.
     ///
     /// # Errors
-    /// Where the board cannot serve the profile.
-    pub fn top_of(self, profile: &Profile) -> Result<Top, ParametersError> {
-        let board = Board::new(profile, &self.parameters())?;
-        let mut top = Top::new(board, self.primitive(), self == Target::Icebreaker);
-        match self {
-            Target::Ulx3s => ulx3s(&mut top),
-            Target::Icebreaker => icebreaker(&mut top),
+    /// Where the board cannot serve the profile or has no pins for the converter.
+    pub fn printed(
+        self,
+        profile: &Profile,
+        drive: Option<(Wave, Converter)>,
+    ) -> Result<Printed, BoardError> {
+        let board = Board::new(profile, &Parameters { drive, ..self.parameters() })?;
+        let (primitive, active_low) = (self.primitive(), self == Target::Icebreaker);
+        match (self, drive) {
+            (Target::Ulx3s, Some((_, Converter::Serial(_)))) => {
+                let mut top = DriveTop::new(board, primitive, active_low);
+                ulx3s!(top);
+                locate!(top: dac_sync_n ["C4"]; dac_sclk ["B4"]; dac_sdi ["F4"]; dac_live ["E3"];);
+                Ok(self.print(&mut top))
+            }
+            (Target::Ulx3s, None) => {
+                let mut top = Top::new(board, primitive, active_low);
+                ulx3s!(top);
+                Ok(self.print(&mut top))
+            }
+            (Target::Icebreaker, None) => {
+                let mut top = Top::new(board, primitive, active_low);
+                icebreaker!(top);
+                Ok(self.print(&mut top))
+            }
+            (_, Some(_)) => Err(BoardError::NoPins(self)),
         }
+    }
+
+    /// Verilog and constraints of a top whose ports have their pins.
+    fn print(self, top: &mut impl Block) -> Printed {
         top.connect_all();
-        Ok(top)
+        Printed { verilog: component::verilog(top), constraints: self.constraints(top) }
     }
 
-    /// Its Verilog: the module `top` and all within it.
-    pub fn top_verilog(self) -> String {
-        component::verilog(&self.top())
-    }
-
-    /// Its constraints: a file's name, and what stands in it.
-    pub fn constraints(self) -> (String, String) {
-        let pins = Pins::of(&self.top()).0;
+    /// A file's name, and what stands in it.
+    fn constraints(self, top: &impl Block) -> (String, String) {
+        let pins = Pins::of(top).0;
         let mut text = String::new();
         match self {
             Target::Ulx3s => {
@@ -149,44 +216,13 @@ impl Target {
     }
 }
 
-fn ulx3s(top: &mut Top) {
-    locate!(top:
-        clock ["G2"];
-        button ["R1"] => "PULLMODE=DOWN";
-        tx ["L4"];
-        rx ["M1"] => "PULLMODE=UP";
-        enabled ["B2"];
-        late ["C2"];
-        dout ["B11", "C11", "A10", "A11", "A9", "B10", "B9", "C10"];
-        convst ["A7"];
-        busy ["A8"] => "PULLMODE=DOWN";
-        cs_n ["C8"];
-        sclk ["B8"];
-        sdi ["C6"];
-        adc_reset ["C7"];
-        pads ["A6", "B6", "A4", "A5"];
-        carrier ["A2"];
-    );
-}
-
-fn icebreaker(top: &mut Top) {
-    locate!(top:
-        clock ["35"];
-        button ["10"] => "-pullup yes";
-        tx ["9"];
-        rx ["6"] => "-pullup yes";
-        enabled ["37"];
-        late ["11"];
-        dout ["4", "2", "47", "45", "3", "48", "46", "44"];
-        convst ["43"];
-        busy ["38"];
-        cs_n ["34"];
-        sclk ["31"];
-        sdi ["42"];
-        adc_reset ["36"];
-        pads ["27", "25", "21", "19"];
-        carrier ["26"];
-    );
+/// What a board is made from.
+#[derive(Debug, Clone)]
+pub struct Printed {
+    /// Verilog: the module `top` and all within it.
+    pub verilog: String,
+    /// Constraints: a file's name, and what stands in it.
+    pub constraints: (String, String),
 }
 
 /// A bit of a port, and its pin.
@@ -200,7 +236,7 @@ struct Pin {
 struct Pins(Vec<Pin>, usize);
 
 impl Pins {
-    fn of(top: &Top) -> Self {
+    fn of(top: &impl Block) -> Self {
         let mut pins = Pins(Vec::new(), 0);
         top.accept("top", &mut pins);
         pins

@@ -26,6 +26,17 @@ crate::component! {
     }
 }
 
+crate::component! {
+    /// The board with a serial converter for its pads, as a rust-hdl component.
+    pub struct DriveBoardComponent of whole::Board {
+        inputs { dout: Bits<8>, busy: Bit, rx: Bit }
+        outputs {
+            convst: Bit, cs_n: Bit, sclk_run: Bit, sdi: Bit, carrier: Bit, select: Bits<4>, tx: Bit, enabled: Bit, late: Bit,
+            adc_reset: Bit, dac_sync_n: Bit, dac_sclk: Bit, dac_sdi: Bit, dac_live: Bit
+        }
+    }
+}
+
 /// Which primitive puts SCLK out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Primitive {
@@ -120,86 +131,104 @@ impl Block for SclkOutput {
     }
 }
 
-/// A board's top.
-#[derive(LogicBlock)]
-#[allow(missing_docs)]
-pub struct Top {
-    pub clock: Signal<In, Clock>,
-    pub button: Signal<In, Bit>,
-    pub rx: Signal<In, Bit>,
-    pub tx: Signal<Out, Bit>,
-    pub adc_reset: Signal<Out, Bit>,
-    pub convst: Signal<Out, Bit>,
-    pub busy: Signal<In, Bit>,
-    pub cs_n: Signal<Out, Bit>,
-    pub sclk: Signal<Out, Bit>,
-    pub sdi: Signal<Out, Bit>,
-    pub dout: Signal<In, Bits<8>>,
-    pub carrier: Signal<Out, Bit>,
-    pub pads: Signal<Out, Bits<4>>,
-    pub enabled: Signal<Out, Bit>,
-    pub late: Signal<Out, Bit>,
-    active_low: Constant<Bit>,
-    power_up: AutoReset,
-    pressed: BitSynchronizer,
-    hold: DFF<Bit>,
-    board: BoardComponent,
-    pulses: SclkOutput,
-}
-
-impl Top {
-    /// The top of a board, whose button and lamps may be active low.
-    pub fn new(board: whole::Board, primitive: Primitive, active_low: bool) -> Self {
-        Top {
-            clock: Signal::default(),
-            button: Signal::default(),
-            rx: Signal::default(),
-            tx: Signal::default(),
-            adc_reset: Signal::default(),
-            convst: Signal::default(),
-            busy: Signal::default(),
-            cs_n: Signal::default(),
-            sclk: Signal::default(),
-            sdi: Signal::default(),
-            dout: Signal::default(),
-            carrier: Signal::default(),
-            pads: Signal::default(),
-            enabled: Signal::default(),
-            late: Signal::default(),
-            active_low: Constant::new(active_low),
-            power_up: AutoReset::default(),
-            pressed: BitSynchronizer::default(),
-            hold: DFF::default(),
-            board: BoardComponent::new(board),
-            pulses: SclkOutput::new(primitive),
+/// A board's top: with further pins of the board, as they are.
+macro_rules! top {
+    ($(#[$meta:meta])* $name:ident of $board:ident, $($pin:ident)*) => {
+        $(#[$meta])*
+        #[derive(LogicBlock)]
+        #[allow(missing_docs)]
+        pub struct $name {
+            pub clock: Signal<In, Clock>,
+            pub button: Signal<In, Bit>,
+            pub rx: Signal<In, Bit>,
+            pub tx: Signal<Out, Bit>,
+            pub adc_reset: Signal<Out, Bit>,
+            pub convst: Signal<Out, Bit>,
+            pub busy: Signal<In, Bit>,
+            pub cs_n: Signal<Out, Bit>,
+            pub sclk: Signal<Out, Bit>,
+            pub sdi: Signal<Out, Bit>,
+            pub dout: Signal<In, Bits<8>>,
+            pub carrier: Signal<Out, Bit>,
+            pub pads: Signal<Out, Bits<4>>,
+            pub enabled: Signal<Out, Bit>,
+            pub late: Signal<Out, Bit>,
+            $(pub $pin: Signal<Out, Bit>,)*
+            active_low: Constant<Bit>,
+            power_up: AutoReset,
+            pressed: BitSynchronizer,
+            hold: DFF<Bit>,
+            board: $board,
+            pulses: SclkOutput,
         }
-    }
+
+        impl $name {
+            /// The top of a board, whose button and lamps may be active low.
+            pub fn new(board: whole::Board, primitive: Primitive, active_low: bool) -> Self {
+                $name {
+                    clock: Signal::default(),
+                    button: Signal::default(),
+                    rx: Signal::default(),
+                    tx: Signal::default(),
+                    adc_reset: Signal::default(),
+                    convst: Signal::default(),
+                    busy: Signal::default(),
+                    cs_n: Signal::default(),
+                    sclk: Signal::default(),
+                    sdi: Signal::default(),
+                    dout: Signal::default(),
+                    carrier: Signal::default(),
+                    pads: Signal::default(),
+                    enabled: Signal::default(),
+                    late: Signal::default(),
+                    $($pin: Signal::default(),)*
+                    active_low: Constant::new(active_low),
+                    power_up: AutoReset::default(),
+                    pressed: BitSynchronizer::default(),
+                    hold: DFF::default(),
+                    board: $board::new(board),
+                    pulses: SclkOutput::new(primitive),
+                }
+            }
+        }
+
+        impl Logic for $name {
+            #[hdl_gen]
+            fn update(&mut self) {
+                self.power_up.clock.next = self.clock.val();
+                self.pressed.clock.next = self.clock.val();
+                self.pressed.sig_in.next = self.button.val() ^ self.active_low.val();
+                self.hold.clock.next = self.clock.val();
+                self.hold.d.next = self.power_up.reset.val() | self.pressed.sig_out.val();
+                self.board.clock.next = self.clock.val();
+                self.board.reset.next = self.hold.q.val();
+                self.adc_reset.next = self.hold.q.val() | self.board.adc_reset.val();
+                self.board.busy.next = self.busy.val();
+                self.board.dout.next = self.dout.val();
+                self.board.rx.next = self.rx.val();
+                self.convst.next = self.board.convst.val();
+                self.cs_n.next = self.board.cs_n.val();
+                self.sdi.next = self.board.sdi.val();
+                self.carrier.next = self.board.carrier.val();
+                self.pads.next = self.board.select.val();
+                self.tx.next = self.board.tx.val();
+                self.enabled.next = self.board.enabled.val() ^ self.active_low.val();
+                self.late.next = self.board.late.val() ^ self.active_low.val();
+                self.pulses.clock.next = self.clock.val();
+                self.pulses.run.next = self.board.sclk_run.val();
+                self.sclk.next = self.pulses.sclk.val();
+                $(self.$pin.next = self.board.$pin.val();)*
+            }
+        }
+    };
 }
 
-impl Logic for Top {
-    #[hdl_gen]
-    fn update(&mut self) {
-        self.power_up.clock.next = self.clock.val();
-        self.pressed.clock.next = self.clock.val();
-        self.pressed.sig_in.next = self.button.val() ^ self.active_low.val();
-        self.hold.clock.next = self.clock.val();
-        self.hold.d.next = self.power_up.reset.val() | self.pressed.sig_out.val();
-        self.board.clock.next = self.clock.val();
-        self.board.reset.next = self.hold.q.val();
-        self.adc_reset.next = self.hold.q.val() | self.board.adc_reset.val();
-        self.board.busy.next = self.busy.val();
-        self.board.dout.next = self.dout.val();
-        self.board.rx.next = self.rx.val();
-        self.convst.next = self.board.convst.val();
-        self.cs_n.next = self.board.cs_n.val();
-        self.sdi.next = self.board.sdi.val();
-        self.carrier.next = self.board.carrier.val();
-        self.pads.next = self.board.select.val();
-        self.tx.next = self.board.tx.val();
-        self.enabled.next = self.board.enabled.val() ^ self.active_low.val();
-        self.late.next = self.board.late.val() ^ self.active_low.val();
-        self.pulses.clock.next = self.clock.val();
-        self.pulses.run.next = self.board.sclk_run.val();
-        self.sclk.next = self.pulses.sclk.val();
-    }
+top! {
+    /// A board's top.
+    Top of BoardComponent,
+}
+
+top! {
+    /// The top of a board that drives its pads through a serial converter.
+    DriveTop of DriveBoardComponent, dac_sync_n dac_sclk dac_sdi dac_live
 }

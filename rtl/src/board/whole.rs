@@ -5,6 +5,9 @@
 //! ADC ═ adc_reader ─[codes: two sets]─ core ─ stream ─ tx
 //!           └ strobe ───────────────────┘ ├── sigma_delta ─ carrier
 //! rx ─ receiver ─ registers ─ calibration ┘ └ pads ─ select
+//!
+//! with a drive, in place of the core:
+//! rx ─ receiver ─ registers ─ drive_registers ─ force_loop ─ drive_output ─ converter of the pads' voltages
 //! ```
 //!
 //! Ports are pins; what they need of a device (the clock pulses of SCLK, the reset) is the top's.
@@ -15,20 +18,28 @@
 //! core and the stream, one after the other.
 
 use super::adc_reader::{self, AdcReader};
+use super::bits::word as bits_side_by_side;
+use super::drive_output::{self, DacPort, DriveOutput};
+use super::drive_registers::{self, DriveRegisters};
+use super::framing::NIBBLE;
 use super::pads::{self, Pads};
 use super::parameters::{Parameters, ParametersError};
 use super::registers::{self, CommandRegisters};
 use super::sigma_delta::{self, SigmaDelta};
-use super::stream::{self, Stream};
+use super::stream::{self, DrivenPort, Stream};
+use super::target::Target;
 use super::uart::receiver::{self, Receiver};
-use hapticore_contract::profile::Profile;
+use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_hdl::block::{Block, Interpretation, State};
-use hapticore_hdl::format::BIT;
+use hapticore_hdl::bundle::Bundle;
+use hapticore_hdl::format::{BIT, Format};
 use hapticore_hdl::memory::{Memory, Write};
-use hapticore_hdl::signal::{Clocked, Signal};
+use hapticore_hdl::signal::{Clocked, Signal, Wrap, bit, zero};
 use hapticore_hdl::{block, call};
 use hapticore_model::blocks::core::{self, Core};
 use hapticore_model::blocks::estimator::Calibration;
+use hapticore_model::blocks::force_loop::{self, ForceLoop};
+use hapticore_protocol::drive::{status, widest};
 
 block! {
     /// The board: the core with its converters, commands and packets.
@@ -38,7 +49,11 @@ block! {
         registers: CommandRegisters,
         adc_reader: AdcReader,
         codes: Memory,
-        core: Core,
+        /// The core of a board without a drive, or its force loop.
+        core: Option<Core>,
+        force_loop: Option<ForceLoop>,
+        drive_registers: Option<DriveRegisters>,
+        drive_output: Option<DriveOutput>,
         sigma_delta: SigmaDelta,
         pads: Pads,
         stream: Stream,
@@ -72,40 +87,82 @@ block! {
         late: BIT,
         /// Pin: reset of the ADC, active high.
         adc_reset: BIT,
+        dac as DacPort: board.dac(),
     }
     registers(board) {
         shift: BIT,
         late: BIT,
+        driven as DrivenPort: board.stream.inputs().driven,
     }
 }
 
+/// A board that cannot be.
+#[derive(Debug, thiserror::Error)]
+pub enum BoardError {
+    /// A number of the board is out of its range, or cannot serve the profile.
+    #[error(transparent)]
+    Parameters(#[from] ParametersError),
+    /// A core, a force loop or a drive that cannot be.
+    #[error(transparent)]
+    Profile(#[from] ProfileError),
+    /// A board without pins for a drive, or for this converter.
+    #[error("{name} has no pins for such a drive: expected ulx3s, with ad5664 or ad5668", name = .0.name())]
+    NoPins(Target),
+}
+
 impl Board {
-    /// The board of a profile.
+    /// The board of a profile: with a controller, of a force loop and its drive.
     ///
     /// # Errors
     /// Where a number of the board is out of its range, or cannot serve the profile.
-    pub fn new(profile: &Profile, parameters: &Parameters) -> Result<Self, ParametersError> {
+    pub fn new(profile: &Profile, parameters: &Parameters) -> Result<Self, BoardError> {
         parameters.check(profile)?;
-        let core = Core::new(profile);
+        let force_loop = match profile.control {
+            Some(_) => Some(ForceLoop::try_new(profile)?),
+            None => None,
+        };
+        let core = match &force_loop {
+            Some(force_loop) => force_loop.core.clone(),
+            None => Core::try_new(profile)?,
+        };
         let reader = AdcReader::new(profile, parameters);
         let words = core.estimator().table().words as u64;
-        let registers = CommandRegisters::new(core.inputs().calibration, words);
+        let drive_bits = force_loop.is_some().then(|| widest(profile));
+        let registers = CommandRegisters::new(core.inputs().calibration, words, drive_bits);
+        let data = registers.outputs().data;
+        let drive_output = match parameters.drive {
+            Some((wave, converter)) => Some(DriveOutput::of_profile(profile, wave, converter)?),
+            None => None,
+        };
         let sets = 1usize << reader.outputs().address.width;
         Ok(Board {
             receiver: Receiver::new(parameters.divisor()),
-            stream: Stream::new(profile, parameters.divisor(), registers.outputs().data),
+            stream: Stream::new(profile, parameters.divisor(), data),
             registers,
             adc_reader: reader,
             codes: Memory::new("codes", sets, profile.formats.adc).dont_care_on_collision(),
             sigma_delta: SigmaDelta::new(core.outputs().carrier),
             pads: Pads::new(profile.pads, parameters.dead()),
-            core,
+            drive_registers: force_loop.as_ref().map(|of| DriveRegisters::new(of, data)),
+            drive_output,
+            core: force_loop.is_none().then_some(core),
+            force_loop,
         })
     }
 
     /// The core's configuration.
     pub fn core(&self) -> &Core {
-        &self.core
+        let of_loop = self.force_loop.as_ref().map(|force_loop| &force_loop.core);
+        self.core.as_ref().or(of_loop).expect("a board has a core")
+    }
+
+    /// The force loop of a board that drives its pads.
+    pub fn force_loop(&self) -> Option<&ForceLoop> {
+        self.force_loop.as_ref()
+    }
+
+    fn dac(&self) -> DacPort<Format> {
+        self.drive_output.as_ref().map_or(DacPort::of(Format::NONE), |output| output.outputs().dac)
     }
 
     /// The reader of the ADC.
@@ -124,6 +181,112 @@ fn core_inputs<V: Interpretation>(
     let registers::Outputs { capacitance_gain, force_gain, table, .. } = *registers;
     let calibration = Calibration { capacitance_gain, force_gain, table };
     core::Inputs { strobe, clear: !registers.enable, code, calibration }
+}
+
+/// What a core gives; with a drive, what packets say of it, and the converter's pins.
+struct Measured<V: Interpretation> {
+    core: core::Out<V>,
+    driven: DrivenPort<Signal<V>>,
+    dac: DacPort<Signal<V>>,
+}
+
+impl Board {
+    #[inline(always)]
+    fn measure<V: Interpretation>(
+        &self,
+        state: &mut State<Self, V>,
+        r: &Regs<V>,
+        inputs: core::In<V>,
+        registers: &registers::Out<V>,
+    ) -> Measured<V> {
+        let Some((block, within)) = self.core.as_ref().zip(state.submodules.core.as_mut()) else {
+            return self.drive(state, r, inputs, registers);
+        };
+        let core = block.call("core", within, inputs);
+        let dac = DacPort::map(DacPort::of(Format::NONE), zero);
+        Measured { core, driven: r.driven, dac }
+    }
+
+    /// The force loop, as commands have set it, and its drive.
+    #[inline(always)]
+    fn drive<V: Interpretation>(
+        &self,
+        state: &mut State<Self, V>,
+        r: &Regs<V>,
+        inputs: core::In<V>,
+        registers: &registers::Out<V>,
+    ) -> Measured<V> {
+        let within = &mut state.submodules;
+        let given = self.drive_registers.as_ref().zip(within.drive_registers.as_mut());
+        let (block, state) = given.expect("a force loop has registers");
+        let set = block.call(
+            "drive_registers",
+            state,
+            drive_registers::Inputs {
+                write: registers.drive_write,
+                place: registers.drive_place,
+                data: registers.data,
+            },
+        );
+        let given = self.force_loop.as_ref().zip(within.force_loop.as_mut());
+        let (block, state) = given.expect("a board has a core or a force loop");
+        let inputs = force_loop::Inputs {
+            core: inputs,
+            target: set.target,
+            tuning: set.tuning,
+            wall: set.wall,
+            extremes_read: bit(false),
+        };
+        let of_loop = block.call("force_loop", state, inputs);
+        let given = self.drive_output.as_ref().zip(within.drive_output.as_mut());
+        let (block, state) = given.expect("a force loop has a drive");
+        let core = of_loop.core;
+        let inputs = drive_output::Inputs {
+            drive_valid: of_loop.drive.drive_valid,
+            drive_pad: of_loop.drive.drive_pad,
+            drive: of_loop.drive.drive,
+            serve: core.serve,
+            closed: core.closed & registers.enable,
+            enable: registers.enable,
+        };
+        let dac = block.call("drive_output", state, inputs).dac;
+        let driven = driven(r.driven, &of_loop, dac.dac_live);
+        Measured { core, driven, dac }
+    }
+}
+
+/// What packets say of the drive: its last word, and what was said of that; faults as they are.
+#[inline(always)]
+fn driven<V: Interpretation>(
+    held: DrivenPort<Signal<V>>,
+    of_loop: &force_loop::Out<V>,
+    live: Signal<V>,
+) -> DrivenPort<Signal<V>> {
+    let (drive, faults) = (&of_loop.drive, &of_loop.faults);
+    let old = |bit: u8| held.driven_status.bits(bit, 1);
+    let given = |now: Signal<V>, bit: u8| drive.drive_valid.select(now, old(bit));
+    let free = match drive.drive_free.format.is_none() {
+        true => bit(false),
+        false => given(drive.drive_free, status::FREE),
+    };
+    let bits = [
+        faults.silence_fault,
+        faults.sensor_fault,
+        faults.force_fault,
+        given(drive.drive_low, status::LOW),
+        given(drive.drive_high, status::HIGH),
+        free,
+        live,
+        bit(false),
+    ];
+    let pad = drive.drive_valid.select(
+        drive.drive_pad.resize(NIBBLE, Wrap),
+        held.driven_status.bits(status::PAD, NIBBLE.width),
+    );
+    DrivenPort {
+        driven: drive.drive_valid.select(drive.drive, held.driven),
+        driven_status: pad.concat(bits_side_by_side(bits)),
+    }
 }
 
 impl Block for Board {
@@ -151,7 +314,7 @@ impl Block for Board {
         let shift = adc.shift;
         let inputs =
             core_inputs(&registers, adc.strobe, self.codes.data(&mut state.submodules.codes));
-        let core = call!(self.core, state, inputs);
+        let Measured { core, driven, dac } = self.measure(state, &r, inputs, &registers);
         let write = Write { enable: adc.store, address: adc.address, data: adc.code };
         self.codes.access(&mut state.submodules.codes, adc.bank.concat(core.channel), write);
         let inputs = sigma_delta::Inputs { carrier: core.carrier };
@@ -168,9 +331,11 @@ impl Block for Board {
             place: registers.place,
             data: registers.data,
             calibrated: registers.calibrated,
+            driven: r.driven,
         };
         let stream = call!(self.stream, state, inputs);
-        state.store(self, Registers { shift, late: registers.enable & (r.late | adc.late) });
+        let late = registers.enable & (r.late | adc.late);
+        state.store(self, Registers { shift, late, driven });
         Outputs {
             convst: adc.convst,
             cs_n: adc.cs_n,
@@ -182,6 +347,7 @@ impl Block for Board {
             enabled: registers.enable,
             late: r.late,
             adc_reset: registers.adc_reset,
+            dac,
         }
     }
 }

@@ -125,7 +125,7 @@ fn the_transmitter_is_heard_and_takes_a_byte_each_ten_bits() {
 #[test]
 fn a_board_that_cannot_be_says_what_was_expected() {
     let profile = Profile::bundled("standard").expect("bundled");
-    let board = Parameters { clock_hz: 25_000_000, baud: 1_000_000, sclk_latency: 3 };
+    let board = Parameters { clock_hz: 25_000_000, baud: 1_000_000, sclk_latency: 3, drive: None };
     assert!(Board::new(&profile, &board).is_ok());
     for (parameters, words) in [
         (Parameters { baud: 20_000_000, ..board }, "baud: expected 381 to 6250000, got 20000000"),
@@ -162,7 +162,7 @@ fn strobes_that_come_closer_than_the_profile_s_are_told_until_the_slot_is_abando
 fn every_command_is_taken() {
     let profile = Profile::bundled("small").expect("bundled");
     let core = Core::new(&profile).inputs();
-    let mut bench = Bench::new(CommandRegisters::new(core.calibration, 100));
+    let mut bench = Bench::new(CommandRegisters::new(core.calibration, 100, None));
     let mut random = Random::new(9);
     for count in 1..2_000 {
         let (address, code) = (random.below(100) as u16, random.word(core.calibration.table.word));

@@ -18,23 +18,33 @@ const WRITTEN: u64 = 4 * 55;
 const STALE: u64 = 9_000;
 
 /// What a converter's pins have told it.
-struct Dac {
+pub struct Dac {
     pins: DacPort<i64>,
     clocks: u64,
     bits: u64,
     taken: u8,
     high_since: u64,
     codes: [Option<i64>; 8],
+    /// Channels and codes, as they were updated.
+    pub updates: Vec<(usize, i64)>,
 }
 
 impl Dac {
-    fn new() -> Dac {
+    pub fn new() -> Dac {
         let pins = DacPort::of(0);
-        Dac { pins, clocks: 0, bits: 0, taken: 0, high_since: 0, codes: [None; 8] }
+        Dac {
+            pins,
+            clocks: 0,
+            bits: 0,
+            taken: 0,
+            high_since: 0,
+            codes: [None; 8],
+            updates: Vec::new(),
+        }
     }
 
     /// AD5664 and AD5668: bits are taken at falling edges, the last of a frame updates its channel.
-    fn serial(&mut self, frame: &Frame, now: DacPort<i64>) {
+    pub fn serial(&mut self, frame: &Frame, now: DacPort<i64>) {
         let before = std::mem::replace(&mut self.pins, now);
         self.clocks += 1;
         if before.dac_sync_n > now.dac_sync_n {
@@ -59,7 +69,9 @@ impl Dac {
         let address = frame.tail_bits + frame.word_bits;
         assert_eq!(field(address + frame.address_bits, 3), 0b011, "write and update a channel");
         let channel = field(address, frame.address_bits) as usize;
-        self.codes[channel] = Some(field(frame.tail_bits, frame.word_bits) as i64);
+        let code = field(frame.tail_bits, frame.word_bits) as i64;
+        self.codes[channel] = Some(code);
+        self.updates.push((channel, code));
     }
 
     /// A word is taken as the strobe ends.

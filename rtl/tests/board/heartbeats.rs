@@ -23,8 +23,9 @@ const REGISTERS: [Register; 2] =
 fn a_heartbeat_tells_words_that_were_written_or_ends_early() {
     for profile in Profile::all() {
         let mut random = Random::new(11);
-        let data =
-            CommandRegisters::new(Core::new(&profile).inputs().calibration, 100).outputs().data;
+        let data = CommandRegisters::new(Core::new(&profile).inputs().calibration, 100, None)
+            .outputs()
+            .data;
         let stream = Stream::new(&profile, DIVISOR, data);
         let quiet = stream::Inputs::map(stream.inputs(), |_| 0);
         let (mut bench, mut host) = (Bench::new(stream), Host::new(DIVISOR));

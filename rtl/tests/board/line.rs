@@ -36,7 +36,7 @@ impl Port {
         let calibration = Core::new(profile).inputs().calibration;
         Port {
             receiver: Bench::new(Receiver::new(DIVISOR)),
-            registers: Bench::new(CommandRegisters::new(calibration, 100)),
+            registers: Bench::new(CommandRegisters::new(calibration, 100, None)),
             written: Vec::new(),
             word: calibration.table.word,
         }
@@ -182,8 +182,9 @@ fn a_wire_unplugged_in_mid_frame_costs_no_frame_but_those_meanwhile_and_one() {
 #[test]
 fn a_packet_takes_the_same_clocks_whatever_it_contains_and_whatever_is_written_meanwhile() {
     for profile in Profile::all() {
-        let data =
-            CommandRegisters::new(Core::new(&profile).inputs().calibration, 100).outputs().data;
+        let data = CommandRegisters::new(Core::new(&profile).inputs().calibration, 100, None)
+            .outputs()
+            .data;
         for divisor in [4, DIVISOR] {
             let stream = Stream::new(&profile, divisor, data);
             let (packet, of) = (stream.packet_clocks(divisor), stream.inputs());

@@ -14,6 +14,7 @@ mod blocks;
 mod clock_error;
 mod commands;
 mod drive_output;
+mod driven;
 mod heartbeats;
 mod line;
 mod part;

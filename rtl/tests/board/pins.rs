@@ -3,6 +3,7 @@
 
 use crate::part::Part;
 use hapticore_rtl::board::Parameters;
+use hapticore_rtl::board::drive_output::DacPort;
 use hapticore_rtl::board::whole::Outputs;
 use std::collections::VecDeque;
 
@@ -70,6 +71,7 @@ impl Adc {
             enabled: 0,
             late: 0,
             adc_reset: 0,
+            dac: DacPort::of(0),
         };
         Adc {
             health: Health::Well,

@@ -67,15 +67,18 @@ fn prove<B: Block>(block: &B) {
 fn no_signal_of_a_peripheral_can_overflow() {
     for profile in Profile::of_distinct_words() {
         let clock_hz = if profile.name == "small" { 12_000_000 } else { 25_000_000 };
-        let parameters = Parameters { clock_hz, baud: 1_000_000, sclk_latency: 2 };
+        let parameters = Parameters { clock_hz, baud: 1_000_000, sclk_latency: 2, drive: None };
         let core = Core::new(&profile);
         prove(&AdcReader::new(&profile, &parameters));
         prove(&SigmaDelta::new(core.outputs().carrier));
         prove(&Pads::new(profile.pads, parameters.dead()));
         prove(&Receiver::new(parameters.divisor()));
         prove(&Transmitter::new(parameters.divisor()));
-        let registers =
-            CommandRegisters::new(core.inputs().calibration, core.estimator().table().words as u64);
+        let registers = CommandRegisters::new(
+            core.inputs().calibration,
+            core.estimator().table().words as u64,
+            None,
+        );
         prove(&Stream::new(&profile, parameters.divisor(), registers.outputs().data));
         prove(&registers);
         let board = Board::new(&profile, &parameters).expect("bundled profiles fit");

@@ -3,14 +3,17 @@
 
 use crate::bench::Bench;
 use crate::device::{Sight, calibration, codes, short_profiles};
+use crate::drive_output::Dac;
 use crate::pins::{Adc, Health, Host};
 use crate::random::Random;
 use hapticore_contract::calibration::Calibration;
-use hapticore_contract::frame::Frame;
+use hapticore_contract::frame::Frame as Measured;
 use hapticore_contract::profile::Profile;
 use hapticore_host::startup::start;
 use hapticore_host::{Command, Damage, Decoder, Heartbeat, Message, Packet, encode};
 use hapticore_model::fidelity::clock::ClockSimulation;
+use hapticore_rtl::board::drive_output::Converter;
+use hapticore_rtl::board::drive_output::serial::Frame;
 use hapticore_rtl::board::whole::Inputs;
 use hapticore_rtl::board::{Board, Parameters};
 
@@ -26,6 +29,9 @@ pub struct Session {
     pub packets: Vec<Result<Packet, Damage>>,
     pub heartbeats: Vec<Heartbeat>,
     closed: Vec<i64>,
+    /// The converter of a board with a drive.
+    pub dac: Dac,
+    converter: Option<Frame>,
 }
 
 const SEED: u64 = 11;
@@ -33,7 +39,7 @@ const SEED: u64 = 11;
 /// A line fast enough for the short slots of the tests.
 pub fn parameters(profile: &Profile, divisor: u64, sclk_latency: u64) -> Parameters {
     let clock_hz = if profile.name == "small" { 12_000_000 } else { 25_000_000 };
-    Parameters { clock_hz, baud: clock_hz / divisor, sclk_latency }
+    Parameters { clock_hz, baud: clock_hz / divisor, sclk_latency, drive: None }
 }
 
 impl Session {
@@ -51,6 +57,11 @@ impl Session {
             packets: Vec::new(),
             heartbeats: Vec::new(),
             closed: Vec::new(),
+            dac: Dac::new(),
+            converter: match parameters.drive {
+                Some((_, Converter::Serial(frame))) => Some(frame),
+                _ => None,
+            },
         }
     }
 
@@ -59,6 +70,9 @@ impl Session {
         let rx = self.unplugged.unwrap_or(self.host.line());
         let outputs = self.bench.clock(Inputs { dout, busy, rx });
         self.adc.clock(&outputs);
+        if let Some(frame) = &self.converter {
+            self.dac.serial(frame, outputs.dac);
+        }
         self.host.clock(self.unplugged.unwrap_or(outputs.tx));
         if self.closed.last() != Some(&outputs.select) {
             self.closed.push(outputs.select);
@@ -106,8 +120,13 @@ impl Session {
 
 /// Samples of some slots, whatever the ADC may see.
 pub fn samples(profile: &Profile, slots: usize) -> Vec<Vec<i32>> {
+    samples_of(profile, &Sight::ALL, slots)
+}
+
+/// Samples of some slots, of these sights in turn.
+pub fn samples_of(profile: &Profile, sights: &[Sight], slots: usize) -> Vec<Vec<i32>> {
     let mut random = Random::new(SEED);
-    let sights = Sight::ALL.into_iter().cycle().take(slots);
+    let sights = sights.iter().copied().cycle().take(slots);
     sights
         .flat_map(|sight| {
             let codes = codes(profile, sight, &mut random);
@@ -116,7 +135,11 @@ pub fn samples(profile: &Profile, slots: usize) -> Vec<Vec<i32>> {
         .collect()
 }
 
-pub fn simulated(profile: &Profile, calibration: &Calibration, samples: &[Vec<i32>]) -> Vec<Frame> {
+pub fn simulated(
+    profile: &Profile,
+    calibration: &Calibration,
+    samples: &[Vec<i32>],
+) -> Vec<Measured> {
     let mut simulation = ClockSimulation::new(profile, calibration);
     let mut frames = Vec::new();
     for sample in samples {

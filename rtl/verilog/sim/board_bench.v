@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // Bench of a board's top with an ADC model at its pins and a host at its serial line: sends the bytes of one file, writes the
 // received bytes to another, one per line, and ends after PACKETS frames (heartbeats do not count). Output pins change T_OUT ns
-// after their clock; data lines take T_IN ns to the core.
+// after their clock; data lines take T_IN ns to the core. With DRIVE defined the top has a serial converter of 24 bits a frame,
+// an AD5664, whose frames go to a third file.
 
 `timescale 1ns / 1ps
 `default_nettype none
@@ -36,7 +37,25 @@ module board_bench #(
     top uut (
         .clock(clock), .button(ACTIVE_LOW != 0), .rx(rx), .tx(tx), .adc_reset(adc_reset), .convst(convst), .busy(busy),
         .cs_n(cs_n), .sclk(sclk), .sdi(sdi), .dout(dout_in), .carrier(carrier), .pads(pads), .enabled(enabled), .late(late)
+`ifdef DRIVE
+        , .dac_sync_n(dac_sync_n), .dac_sclk(dac_sclk), .dac_sdi(dac_sdi), .dac_live(dac_live)
+`endif
     );
+
+`ifdef DRIVE
+    wire dac_sync_n, dac_sclk, dac_sdi, dac_live;
+    reg [23:0] dac_frame;
+    integer dac_file, dac_bits;
+    initial dac_file = $fopen("dac.hex", "w");
+    always @(negedge dac_sync_n) dac_bits = 0;
+    always @(negedge dac_sclk) if (!dac_sync_n) begin
+        dac_frame = {dac_frame[22:0], dac_sdi};
+        dac_bits = dac_bits + 1;
+        if (dac_bits == 24) $fdisplay(dac_file, "%06x", dac_frame);
+    end
+    always @(posedge dac_sync_n) if ($realtime > 600 * PERIOD && dac_bits != 24)
+        $display("a frame of %0d bits for the converter", dac_bits);
+`endif
 
     adc_model #(.BITS(BITS), .SAMPLES(SAMPLES)) adc (
         .reset(adc_reset), .convst(convst_pin), .cs_n(cs_n_pin), .sclk(sclk), .sdi(sdi_pin), .busy(busy), .dout(dout)

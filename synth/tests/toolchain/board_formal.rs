@@ -14,6 +14,7 @@ use hapticore_rtl::board::registers::CommandRegisters;
 use hapticore_rtl::board::stream::Stream;
 use hapticore_rtl::board::uart::transmitter::Transmitter;
 use hapticore_rtl::board::{Board, Parameters, Target};
+use hapticore_rtl::codes::word_formats;
 use hapticore_synth::formal::{Claim, Mode, Verdict, print};
 use hapticore_synth::tools::Tools;
 
@@ -100,11 +101,11 @@ fn registers(target: Target) -> (String, Known) {
     let words = core.estimator().table().words as u64;
     let address = u64::from(core.inputs().calibration.table.address.width);
     let verilog =
-        print(Netlist::of(&CommandRegisters::new(core.inputs().calibration, words)).top());
+        print(Netlist::of(&CommandRegisters::new(core.inputs().calibration, words, None)).top());
     (
         verilog,
         vec![
-            ("DATA", data_bytes(&core.inputs().calibration)),
+            ("DATA", data_bytes(&word_formats(&core.inputs().calibration))),
             ("WORDS", words),
             ("ADDRESS", address),
         ],
@@ -114,7 +115,7 @@ fn registers(target: Target) -> (String, Known) {
 /// The stream of a board with its transmitter, and what goes into that, as `line`.
 fn stream(target: Target) -> (String, Known) {
     let (profile, core) = (target.profile(), Core::new(&target.profile()));
-    let data = CommandRegisters::new(core.inputs().calibration, 1).outputs().data;
+    let data = CommandRegisters::new(core.inputs().calibration, 1, None).outputs().data;
     let text =
         Design::of(&Stream::new(&profile, target.parameters().divisor(), data), "a formal check")
             .text();

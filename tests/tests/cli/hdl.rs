@@ -45,9 +45,20 @@ fn drives_that_cannot_be_are_refused() {
         ),
         (&["--control", "inverse", "--wave", "dc"], "--dac"),
         (&["--dac", "pulses"], "expected a force controller too: --control LAW"),
-        (&["--board", "ulx3s", "--dac", "pulses"], "a board's top has no drive yet"),
+        (
+            &["--board", "ulx3s", "--control", "inverse", "--dac", "pulses"],
+            "ulx3s has no pins for such a drive: expected ulx3s, with ad5664 or ad5668",
+        ),
+        (
+            &["--board", "icebreaker", "--control", "open", "--dac", "ad5664"],
+            "icebreaker has no pins for such a drive: expected ulx3s",
+        ),
+        (
+            &["--board", "ulx3s", "--control", "open"],
+            "expected a converter for the controller's drives too: --dac ad5664",
+        ),
     ] {
-        if args.contains(&"--dac") {
+        if args.contains(&"--dac") || args.contains(&"--board") {
             refuse(folder.path(), &[&["hdl"], args].concat(), &[words]);
         } else {
             let out = [&["hdl"], args, &["--out", "results"]].concat();
