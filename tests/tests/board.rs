@@ -352,25 +352,29 @@ fn heard(
     (packets, heard)
 }
 
+/// Holds that so many bits of a top's ports have a pin each.
+fn has_pins((name, text): (String, String), count: usize) {
+    let locations = text.lines().filter(|line| line.contains("set_io") || line.contains("LOCATE"));
+    let mut pins: Vec<&str> =
+        locations.map(|line| line.trim_end_matches(';').rsplit(' ').next().unwrap()).collect();
+    assert_eq!(pins.len(), count, "{name}: ports of a bit, eight data lines and four pads");
+    pins.sort_unstable();
+    pins.dedup();
+    assert_eq!(pins.len(), count, "{name}: a pin twice");
+}
+
 #[test]
 fn every_port_of_a_top_has_one_pin_of_its_own() {
     for target in Target::ALL {
-        let (name, text) = target.bundled().constraints;
-        assert!(name.starts_with(target.name()), "{name}");
-        let locations =
-            text.lines().filter(|line| line.contains("set_io") || line.contains("LOCATE"));
-        let mut pins: Vec<&str> =
-            locations.map(|line| line.trim_end_matches(';').rsplit(' ').next().unwrap()).collect();
-        assert_eq!(
-            pins.len(),
-            25,
-            "{name}: thirteen ports of a bit, eight data lines and four pads"
-        );
-        pins.sort_unstable();
-        pins.dedup();
-        assert_eq!(pins.len(), 25, "{name}: a pin twice");
+        let constraints = target.bundled().constraints;
+        assert!(constraints.0.starts_with(target.name()), "{}", constraints.0);
+        has_pins(constraints, 13 + 8 + 4);
         assert_eq!(target.name().parse::<Target>().unwrap(), target);
     }
+    let profile = Target::Ulx3s.profile();
+    let control = Some(Control::of(&profile, Law::Inverse));
+    let driven = Target::Ulx3s.printed(&Profile { control, ..profile }, Some(DRIVE));
+    has_pins(driven.expect("a board with a drive").constraints, 17 + 8 + 4);
     let error = "arty".parse::<Target>().unwrap_err().to_string();
     assert_eq!(error, "expected a board among ulx3s, icebreaker, got \"arty\"");
 }

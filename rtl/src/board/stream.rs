@@ -35,8 +35,8 @@
 //! A frame that comes while one is being sent is dropped whole, takes its number along, and sets a
 //! flag in the next packet. A packet's own number is its first two bytes, gone before another frame
 //! comes: [`super::parameters`] asks for slots longer than a byte. What happened since the packet
-//! before (late, refused, overrun) is kept until it is told. Latency: (8·B + 10)·(10·D + 1) clocks
-//! from a frame's last word to the end of the packet's last stop bit, whatever the frame contains
+//! before (late, refused, overrun) is kept until it is told. Latency: (8·B + 10)·(10·D + 1)
+//! clocks, with a drive (10·B + 10)·(10·D + 1), from a frame's last word to the end of the packet's last stop bit, whatever the frame contains
 //! and whatever is commanded meanwhile. Source: [`super::framing`].
 
 use super::bits::{flag, next, previous, word as bits_side_by_side};

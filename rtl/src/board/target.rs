@@ -3,7 +3,7 @@
 //!
 //! | board | part | clock | profile | pins of the ADC | carrier, pads | drive |
 //! | --- | --- | --- | --- | --- | --- | --- |
-//! | ULX3S | ECP5 85F, CABGA381 | 25 MHz | standard | gp and gn 0 … 6 | gp 9, gp and gn 7 … 8 | gp and gn 10 … 11 |
+//! | ULX3S | ECP5 85F, CABGA381 | 25 MHz | standard | gp and gn 0 … 6 | gp 9, gp and gn 7 … 8 | gn 9 … 10, gp 10 … 11 |
 //! | iCEBreaker | iCE40UP5K, SG48 | 12 MHz | small | PMOD 1A and 1B | PMOD 2 | none: a force loop does not fit |
 //!
 //! A pin is written once, on the top's signal; constraints are read off the top. Sources: the
@@ -169,7 +169,7 @@ impl Target {
             (Target::Ulx3s, Some((_, Converter::Serial(_)))) => {
                 let mut top = DriveTop::new(board, primitive, active_low);
                 ulx3s!(top);
-                locate!(top: dac_sync_n ["C4"]; dac_sclk ["B4"]; dac_sdi ["F4"]; dac_live ["E3"];);
+                locate!(top: dac_sync_n ["C4"]; dac_sclk ["B4"]; dac_sdi ["F4"]; dac_live ["B1"];);
                 Ok(self.print(&mut top))
             }
             (Target::Ulx3s, None) => {

@@ -248,7 +248,8 @@ fn a_host_that_falls_silent_takes_drives_to_zero() {
 fn a_controller_without_a_converter_is_refused_and_the_other_way_round() {
     let profile = controlled(0, Law::Open, None);
     let error = |profile: &Profile, parameters: Parameters| {
-        Board::new(profile, &parameters).err().expect("refused").to_string()
+        let Err(error) = Board::new(profile, &parameters) else { panic!("refused") };
+        error.to_string()
     };
     let plain = Profile { control: None, ..profile.clone() };
     assert_eq!(error(&profile, parameters(&profile, 4, 0)), "drives: expected 1 to 1, got 0");
