@@ -2,7 +2,7 @@
 //! Drive: the commands that tune a board's force controller, and move its targets and walls.
 //!
 //! ```text
-//! startup: prepare, check ─ tune ─ ENABLE ─ targets and surfaces, often enough to be heard
+//! startup: prepare, check ─ targets, surfaces ─ tune ─ ENABLE ─ targets and surfaces, often enough to be heard
 //! ```
 //!
 //! A board drives nothing until its settings have come: after a reset its rail, its slew and its force cap are zero. Faults
@@ -23,8 +23,8 @@ fn command(profile: &Profile, word: DriveWord, value: f64) -> Result<Command, Pr
     Ok(Command::Drive(word, format.code_saturating(value)))
 }
 
-/// The commands that tune a controller and its walls, clear its faults and switch it on; no drive moves before its pad has a
-/// target or a wall.
+/// The commands that tune a controller and its walls, clear its faults and switch it on. Targets and surfaces outlive a reset
+/// of the board: write them before.
 ///
 /// ```
 /// use hapticore_host::control::{Control, Law, Tuning};

@@ -19,7 +19,7 @@
 //! | number   | u16              | wraps, meant: losses show as gaps |
 //! | group    | u4               | wraps, meant: 15 comes before 0   |
 //! | left     | counter 5        | reloaded, by compare; more where a word has more bytes |
-//! | distance | counter 8·B + 9  | from a packet's beginning or its last zero byte; no packet is longer |
+//! | distance | counter 8·B + 9, with a drive 10·B + 9 | from a packet's beginning or its last zero byte; no packet is longer |
 //! | pause    | u BEAT + 1       | held at zero while anything is sent or the board is enabled; its top bit ends the pause |
 //!
 //! A zero byte goes out as the distance to the zero byte before it, so links point back: neither the

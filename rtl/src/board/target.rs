@@ -4,7 +4,7 @@
 //! | board | part | clock | profile | pins of the ADC | carrier, pads | drive |
 //! | --- | --- | --- | --- | --- | --- | --- |
 //! | ULX3S | ECP5 85F, CABGA381 | 25 MHz | standard | gp and gn 0 … 6 | gp 9, gp and gn 7 … 8 | gn 9 … 10, gp 10 … 11 |
-//! | iCEBreaker | iCE40UP5K, SG48 | 12 MHz | small | PMOD 1A and 1B | PMOD 2 | none: a force loop does not fit |
+//! | iCEBreaker | iCE40UP5K, SG48 | 12 MHz | small | PMOD 1A and 1B | PMOD 2 | none |
 //!
 //! A pin is written once, on the top's signal; constraints are read off the top. Sources: the
 //! boards' schematics.
@@ -182,7 +182,7 @@ impl Target {
                 icebreaker!(top);
                 Ok(self.print(&mut top))
             }
-            (_, Some(_)) => Err(BoardError::NoPins(self)),
+            (_, Some(_)) => Err(BoardError::NoPins(self.name())),
         }
     }
 

@@ -27,7 +27,6 @@ use super::parameters::{Parameters, ParametersError};
 use super::registers::{self, CommandRegisters};
 use super::sigma_delta::{self, SigmaDelta};
 use super::stream::{self, DrivenPort, Stream};
-use super::target::Target;
 use super::uart::receiver::{self, Receiver};
 use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_hdl::block::{Block, Interpretation, State};
@@ -106,8 +105,8 @@ pub enum BoardError {
     #[error(transparent)]
     Profile(#[from] ProfileError),
     /// A board without pins for a drive, or for this converter.
-    #[error("{name} has no pins for such a drive: expected ulx3s, with ad5664 or ad5668", name = .0.name())]
-    NoPins(Target),
+    #[error("{0} has no pins for such a drive: expected ulx3s, with ad5664 or ad5668")]
+    NoPins(&'static str),
 }
 
 impl Board {

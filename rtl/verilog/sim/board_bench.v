@@ -34,6 +34,10 @@ module board_bench #(
     always @(convst, cs_n, sdi) #(T_OUT) {convst_pin, cs_n_pin, sdi_pin} = {convst, cs_n, sdi};
     always @(dout) dout_in <= #(T_IN) dout;
 
+`ifdef DRIVE
+    wire dac_sync_n, dac_sclk, dac_sdi, dac_live;
+`endif
+
     top uut (
         .clock(clock), .button(ACTIVE_LOW != 0), .rx(rx), .tx(tx), .adc_reset(adc_reset), .convst(convst), .busy(busy),
         .cs_n(cs_n), .sclk(sclk), .sdi(sdi), .dout(dout_in), .carrier(carrier), .pads(pads), .enabled(enabled), .late(late)
@@ -43,7 +47,6 @@ module board_bench #(
     );
 
 `ifdef DRIVE
-    wire dac_sync_n, dac_sclk, dac_sdi, dac_live;
     reg [23:0] dac_frame;
     integer dac_file, dac_bits;
     initial dac_file = $fopen("dac.hex", "w");
