@@ -76,7 +76,7 @@ impl Claim<'_> {
         let defines: String = self.defines.iter().map(|name| format!("-D{name} ")).collect();
         hapticore_files::write(&folder.join("claim.sv"), &self.text()?)?;
         let script = format!(
-            "[options]\nmode {mode}\ndepth {depth}\n[engines]\nsmtbmc z3\n[script]\nread -formal {defines}claim.sv\n\
+            "[options]\nmode {mode}\ndepth {depth}\nvcd off\n[engines]\nsmtbmc z3\n[script]\nread -formal {defines}claim.sv\n\
              prep -top {module}\n[files]\nclaim.sv\n"
         );
         hapticore_files::write(&folder.join("claim.sby"), &script)?;
@@ -104,6 +104,38 @@ impl Claim<'_> {
             status => bail!("sby: {status:?}\n{log}"),
         }
     }
+}
+
+/// Which of several claims some input breaks within so many clocks after reset. Their modules are read in one run of Yosys:
+/// SymbiYosys would start it three times for each.
+///
+/// # Errors
+/// The tools do not run, or do not understand a module.
+pub fn broken(tools: &Tools, claims: &[Claim], clocks: u64, folder: &Path) -> Result<Vec<bool>> {
+    let mut script = String::new();
+    for (number, claim) in claims.iter().enumerate() {
+        let module = top(claim.verilog).context("a module begins")?;
+        let defines: String = claim.defines.iter().map(|name| format!("-D{name} ")).collect();
+        hapticore_files::write(&folder.join(format!("{number}.sv")), &claim.text()?)?;
+        script += &format!(
+            "design -reset; read_verilog -formal -sv {defines}{number}.sv; prep -top {module}; async2sync; \
+             chformal -assume -early; dffunmap; opt_clean; write_smt2 -wires {number}.smt2\n"
+        );
+    }
+    hapticore_files::write(&folder.join("all.ys"), &script)?;
+    tools.run("yosys", &["-q", "all.ys"], folder)?;
+    let is_broken = |number: usize| {
+        let (file, clocks) = (format!("{number}.smt2"), clocks.to_string());
+        let mut command = tools.command("yosys-smtbmc");
+        command.args(["-s", "z3", "--noinfo", "-t", &clocks, &file]).current_dir(folder);
+        let log = String::from_utf8_lossy(&command.output()?.stdout).into_owned();
+        match (log.contains("Status: PASSED"), log.contains("Status: FAILED")) {
+            (true, false) => Ok(false),
+            (false, true) => Ok(true),
+            _ => bail!("yosys-smtbmc: {log}"),
+        }
+    };
+    (0..claims.len()).map(is_broken).collect()
 }
 
 /// The name of the last module of a text, which all others are within.
