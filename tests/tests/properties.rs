@@ -9,7 +9,7 @@ use std::path::PathBuf;
 use hapticore_contract::frame::Measurement;
 use hapticore_model::blocks::core::Core;
 use hapticore_model::fidelity::clock::ClockSimulation;
-use hapticore_tests::stability::bench::{Bench, PROFILES, Pad};
+use hapticore_tests::stability::bench::{Bench, Pad};
 use hapticore_waveforms::tracer::{Settings, Tracer};
 use hapticore_waveforms::vcd_file::VcdFile;
 use proptest::prelude::*;
@@ -48,19 +48,30 @@ fn check<S: Strategy>(
     pad: impl Fn(&S::Value) -> &Pad,
     property: impl Fn(&Bench, &S::Value) -> TestCaseResult,
 ) {
-    for profile in PROFILES {
-        let bench = Bench::of(profile);
+    check_on(&Bench::all(), name, strategy, pad, property);
+}
+
+/// [`check`] on profiles of the property's own.
+fn check_on<S: Strategy>(
+    benches: &[Bench],
+    name: &str,
+    strategy: S,
+    pad: impl Fn(&S::Value) -> &Pad,
+    property: impl Fn(&Bench, &S::Value) -> TestCaseResult,
+) {
+    for bench in benches {
+        let profile = &bench.profile.name;
         let config = Config {
             cases: CASES,
             failure_persistence: None,
             rng_seed: RngSeed::Fixed(15),
             ..Config::default()
         };
-        let outcome = TestRunner::new(config).run(&strategy, |value| property(&bench, &value));
+        let outcome = TestRunner::new(config).run(&strategy, |value| property(bench, &value));
         match outcome {
             Ok(()) => {}
             Err(TestError::Fail(reason, value)) => {
-                let file = waveforms(&bench, name, pad(&value));
+                let file = waveforms(bench, name, pad(&value));
                 panic!(
                     "`{profile}`: {reason}; smallest case {value:?}, waveforms in {}",
                     file.display()
@@ -195,6 +206,56 @@ fn codes_of_the_opposite_sign_give_the_same_frame_within_its_rounding() {
                     <= step + 2.0 * bench.profile.formats.capacitance.lsb() / plus.capacitance_pf,
                 "{relative}"
             );
+            Ok(())
+        },
+    );
+}
+
+/// Behind the sheet's resistance the capacitance bends with the current: here nothing is taken out.
+#[test]
+fn capacitance_is_proportional_to_the_currents() {
+    let linear = |bench: Bench| {
+        let mut profile = bench.profile;
+        profile.capacitance.sheet_correction = false;
+        Bench::with(profile)
+    };
+    let benches: Vec<_> = Bench::all().into_iter().map(linear).collect();
+    check_on(
+        &benches,
+        "linearity",
+        (pads(), thousandths(100..1000)),
+        |(pad, _)| pad,
+        |bench, (pad, by)| {
+            let (whole, part) = (tones(bench, pad), tones(bench, &scaled(pad, *by)));
+            let formats = &bench.profile.formats;
+            // Half a step of either word, and what rounding of the currents' words leaves of either.
+            let word = 0.5 * (1.0 + by) * formats.capacitance.lsb();
+            let currents = (ratio_step(bench, &scaled(pad, *by)) + ratio_step(bench, pad))
+                * by
+                * whole.capacitance_pf;
+            let off = (part.capacitance_pf - by * whole.capacitance_pf).abs();
+            prop_assert!(off <= word + currents, "{} of {}", off, word + currents);
+            Ok(())
+        },
+    );
+}
+
+#[test]
+fn force_is_proportional_to_the_square_of_the_haptic_voltage() {
+    check(
+        "square",
+        (pads(), thousandths(100..1000)),
+        |(pad, _)| pad,
+        |bench, (pad, by)| {
+            let part = Pad { haptic: by * pad.haptic, ..pad.clone() };
+            let (whole, part) = (tones(bench, pad), tones(bench, &part));
+            let (formats, by) = (&bench.profile.formats, by * by);
+            // Of either, half a step of the force, of C²·m, and of the mean square m.
+            let energy = formats.square.lsb() * bench.calibration.force_gain;
+            let square = formats.mean_square.lsb() / (0.5 * pad.haptic * pad.haptic);
+            let limit = 0.5 * (1.0 + by) * (formats.force.lsb() + energy + square * whole.force_n);
+            let off = (part.force_n - by * whole.force_n).abs();
+            prop_assert!(pad.haptic == 0.0 || off <= limit, "{off} of {limit}");
             Ok(())
         },
     );
