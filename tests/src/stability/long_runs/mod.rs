@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The same stimulus again and again: nothing drifts, and nothing is wrong where counters wrap.
 //!
-//! `cargo run --release -p hapticore-tests --example long_run -- 1000000000` is the whole of it.
+//! `cargo run --release -p hapticore-tests --example long_run` is the whole of it: 10⁹ samples, slot by slot or every clock.
 
 use hapticore_contract::frame::Frame;
 use hapticore_contract::profile::Profile;
@@ -26,7 +26,7 @@ pub const GROUP: Group = Group {
         },
         Case {
             name: "every_clock",
-            stimulus: "10⁵ samples of each profile, fidelity `clock`",
+            stimulus: "10⁵ samples of each profile, fidelity `clock` (10⁹: `long_run -- 1000000000 standard clock`)",
             must: "every frame that of the first round of fidelity `fixed`",
             run: every_clock,
         },
@@ -90,20 +90,28 @@ fn ten_million_samples() -> Outcome {
     Outcome::new("force, position, flags and all: the same").equal(slots)
 }
 
-fn every_clock() -> Outcome {
-    let mut compared = 0;
-    for bench in Bench::all() {
-        let profile = Profile { pads: 4, ..bench.profile.clone() };
-        let (slots, first) = (round(&bench), frames_of_first_round(&bench));
-        let mut clock = ClockSimulation::new(&profile, &bench.calibration);
-        for slot in 0..(100_000 / profile.slot.samples()) as usize {
-            clock.samples(&slots[slot % 4]);
-            let frame = clock.finish_slot().expect("a frame for every slot");
-            assert!(slot < 4 || frame == first[slot % 4], "{}: slot {slot}", profile.name);
-            compared += 1;
-        }
+/// The same at every clock, until so many samples of whole slots have been seen: slots, each but those of the first round
+/// with the frame of the first round of fidelity `fixed`.
+///
+/// # Panics
+/// Where a frame is another.
+pub fn repeat_every_clock(bench: &Bench, samples: u64) -> u64 {
+    let profile = Profile { pads: 4, ..bench.profile.clone() };
+    let (slots, first) = (round(bench), frames_of_first_round(bench));
+    let mut clock = ClockSimulation::new(&profile, &bench.calibration);
+    let count = samples.div_ceil(profile.slot.samples());
+    for slot in 0..count {
+        let of = (slot % 4) as usize;
+        clock.samples(&slots[of]);
+        let frame = clock.finish_slot().expect("a frame for every slot");
+        assert!(slot < 4 || frame == first[of], "{}: slot {slot}", profile.name);
     }
-    Outcome::new("the same").equal(compared)
+    count
+}
+
+fn every_clock() -> Outcome {
+    let slots = Bench::all().iter().map(|bench| repeat_every_clock(bench, 100_000)).sum();
+    Outcome::new("the same").equal(slots)
 }
 
 fn phase_for_ever() -> Outcome {
