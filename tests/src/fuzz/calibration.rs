@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 use hapticore_contract::profile::Profile;
 use hapticore_host::DeviceCalibration;
 
-use super::{Planted, TOML, planted, refused};
+use super::{Planted, TOML, all_hold, planted, refused};
 
 static PROFILE: LazyLock<Profile> =
     LazyLock::new(|| Profile::bundled("small").expect("a bundled profile"));
@@ -32,8 +32,10 @@ pub(super) fn check_text(device: &DeviceCalibration) {
 
 fn written(device: &DeviceCalibration) -> String {
     let mut device = device.clone();
-    if planted(Planted::Calibration) && device.map.columns == 12 && device.pads > 4 {
-        device.map.columns -= 1;
+    let rows = device.map.places.len() / device.map.columns;
+    let is_odd = [device.force.is_some(), device.pads > 4, rows > device.map.columns];
+    if planted(Planted::Calibration) && all_hold(&is_odd) {
+        device.map.columns = rows;
     }
     device.text()
 }

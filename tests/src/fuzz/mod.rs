@@ -73,18 +73,27 @@ fn refused(error: impl Into<Error>, file: &str) -> bool {
 
 /// The planted bugs, each in a wrapper of this library: with the feature `planted`, that which
 /// the environment's `HAPTICORE_PLANTED` names is there, so that a fuzzer can be seen to find it.
+/// No seed meets all of a bug's conditions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Planted {
-    /// A panic at an accepted profile of several odd values.
+    /// A panic at an accepted profile of four odd values.
     Profile,
-    /// A column too few in a calibration that is written again.
+    /// Rows for columns in a calibration that is written again: a raster that is taller than wide, of a device with a
+    /// force table and many pads.
     Calibration,
-    /// A code off by one in a capture that is written again.
+    /// The most negative code of a terminal, beside another pad than the first, comes out positive in a capture that is
+    /// written again.
     Csv,
-    /// A sequence number that is not counted on in a message that is sent again.
+    /// A sequence number that begins again too early in a packet that is sent again after the ADC was late.
     Packets,
-    /// A result that is rounded the wrong way at one pattern of its bits.
+    /// A capacitance that is rounded the wrong way at one pattern of six of its bits.
     Core,
+}
+
+/// Whether all conditions of a planted bug hold. They are looked at one by one, as a program's statements would: in one
+/// expression the compiler makes one branch of them, and a fuzzer that counts branches sees nothing come nearer.
+fn all_hold(conditions: &[bool]) -> bool {
+    conditions.iter().take_while(|holds| std::hint::black_box(**holds)).count() == conditions.len()
 }
 
 /// Whether a bug is there.

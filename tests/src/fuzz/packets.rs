@@ -1,22 +1,26 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A board's line: bytes in, messages out.
 //!
-//! The first byte chooses the profile of the board.
+//! The first byte chooses the profile of the board, and whether what follows is the line itself or payloads of packets, which
+//! are given the CRC and the stuffing that a board gives them: by chance no line has a right CRC.
 
 use std::sync::LazyLock;
 
+use crc::{CRC_32_ISO_HDLC, Crc};
 use hapticore_contract::profile::Profile;
 use hapticore_host::{Decoder, Heartbeat, Message, Packet, Status};
+use hapticore_protocol::framing::{CRC_BYTES, END, STUFFING_BYTES, packet_bytes};
 
-use super::{Planted, planted};
+use super::{Planted, all_hold, planted};
 
 static PROFILES: LazyLock<Vec<Profile>> = LazyLock::new(Profile::all);
 
 pub(super) fn check(data: &[u8]) -> bool {
     let Some((choice, data)) = data.split_first() else { return false };
     let profile = &PROFILES[usize::from(*choice) % PROFILES.len()];
+    let line = if choice & 0x80 == 0 { data.to_vec() } else { packed(data, profile) };
     let (mut decoder, mut heard) = (Decoder::new(profile), false);
-    for message in data.iter().filter_map(|byte| decoder.push(*byte)).flatten() {
+    for message in line.into_iter().filter_map(|byte| decoder.push(byte)).flatten() {
         let sent = mistaken(message).encode(profile);
         let again: Vec<_> = Decoder::new(profile).decode(sent).collect();
         assert_eq!(again, [Ok(message)]);
@@ -24,6 +28,21 @@ pub(super) fn check(data: &[u8]) -> bool {
     }
     check_recovery(&mut decoder, profile);
     heard
+}
+
+/// Payloads one after the other, as a board sends them.
+fn packed(payloads: &[u8], profile: &Profile) -> Vec<u8> {
+    const CRC: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
+    let length = packet_bytes(profile) - CRC_BYTES - STUFFING_BYTES;
+    let packet = |payload: &[u8]| {
+        let mut packet = [payload, &CRC.checksum(payload).to_le_bytes()].concat();
+        packet.reverse();
+        let mut stuffed = cobs::encode_vec(&packet);
+        stuffed.reverse();
+        stuffed.push(END);
+        stuffed
+    };
+    payloads.chunks_exact(length as usize).flat_map(packet).collect()
 }
 
 /// Whatever came before: of two packets the second is heard.
@@ -38,7 +57,7 @@ fn check_recovery(decoder: &mut Decoder, profile: &Profile) {
 fn mistaken(message: Message) -> Message {
     match message {
         Message::Frame(Packet { mut status, frame })
-            if planted(Planted::Packets) && status.sequence >= 240 && status.late =>
+            if planted(Planted::Packets) && all_hold(&[status.sequence >= 0xf000, status.late]) =>
         {
             status.sequence = 0;
             Message::Frame(Packet { status, frame })

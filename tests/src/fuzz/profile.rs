@@ -4,7 +4,7 @@
 use hapticore_contract::profile::{Profile, Window};
 use hapticore_model::parse_profile;
 
-use super::{Planted, planted};
+use super::{Planted, all_hold, planted};
 
 pub(super) fn check(data: &[u8]) -> bool {
     let Ok(text) = str::from_utf8(data) else { return false };
@@ -26,9 +26,11 @@ pub(super) fn check(data: &[u8]) -> bool {
 
 /// The planted panic.
 fn odd(profile: &Profile) {
-    let is_odd = profile.pads == 7
-        && profile.haptic.windows == 8
-        && profile.slot.open == 3
-        && profile.carrier.window == Window::Rectangular;
-    assert!(!(planted(Planted::Profile) && is_odd), "planted");
+    let is_odd = [
+        profile.pads == 7,
+        profile.haptic.windows == 8,
+        profile.slot.open == 3,
+        profile.carrier.window == Window::Rectangular,
+    ];
+    assert!(!(planted(Planted::Profile) && all_hold(&is_odd)), "planted");
 }

@@ -202,5 +202,9 @@ fn packets() -> Vec<Vec<u8>> {
         let bytes = messages.iter().flat_map(|message| message.encode(profile));
         std::iter::once(choice).chain(bytes).collect()
     };
-    (0..).zip(&Profile::all()).map(of).collect()
+    let profiles = Profile::all();
+    // Payloads of two packets each, which are packed where they are read.
+    let payloads = (0x80..0x80 + profiles.len() as u8)
+        .map(|choice| std::iter::once(choice).chain(1..=2 * 40).collect::<Vec<u8>>());
+    (0..).zip(&profiles).map(of).chain(payloads).collect()
 }
