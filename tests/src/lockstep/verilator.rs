@@ -106,6 +106,10 @@ impl Program {
         // The package's Verilator calls whatever `python` is.
         make.args(["-C", "obj_dir", "-f", "Vtop.mk", "-j2", "PYTHON3=python3"]);
         make.arg(format!("OPT_FAST={optimise}"));
+        // Verilator's own library is compiled for each program, and little of it runs at each clock.
+        if speed == Speed::Compile {
+            make.arg("OPT_GLOBAL=-O0");
+        }
         run(&mut make, &program.at(""));
         program
     }
