@@ -18,6 +18,9 @@
 //! profile's slots are longer than the latency, so that a frame is finished before the next sums
 //! come. A prompt estimate therefore finds the resistance of the pad's last slot, whichever pads
 //! came between. Latency: the sum of the stages', from the last sum to the last word.
+//!
+//! Sums that come earlier, after an upset of the multiplexer, are dropped. Those of the window after
+//! them are taken whatever is under way, so that an upset of `busy` does not stop the core.
 
 mod run_on;
 
@@ -136,6 +139,8 @@ block! {
     }
     registers(estimator) {
         busy: BIT,
+        /// The window's sums are dropped: they came before the last frame was finished.
+        dropping: BIT,
         /// The prompt estimate is under way.
         early: BIT.where_present(estimator.prompts),
         /// The prompt estimate has been given: the frame's follows.
@@ -353,7 +358,10 @@ impl Estimator {
         if (i.valid | r.busy | i.calibration.table.write | i.clear).can_skip() {
             return self.quiet(state, r, &i);
         }
-        let Inputs { valid, index, sum, .. } = i;
+        let Inputs { index, sum, .. } = i;
+        let early = r.busy & !r.dropping;
+        let drops = index.is(0).select(early, r.dropping).named("drops");
+        let valid = i.valid & !drops;
         let to_currents = currents::Inputs { valid, index, sum };
         let currents = call!(self.currents, state, to_currents);
         let pad = valid.select(i.pad, r.pad);
@@ -422,6 +430,7 @@ impl Estimator {
         let prompt = self.where_prompt(prompt);
         let next = Registers {
             busy: valid | (r.busy & !frames.done),
+            dropping: i.valid.select(drops, r.dropping),
             early: (currents.done | (self.early(&r) & !force.done)).where_present(r.early.format),
             follow: prompt_done.where_present(r.follow.format),
             pad,

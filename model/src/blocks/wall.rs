@@ -30,7 +30,7 @@
 //! is 0, the safe side, for a wall that cannot be felt is better than one that holds. With a part
 //! open (|u| ≥ ½) there is no evidence and play alone decides. One state word per field and pad is
 //! kept in a memory; a pad that is lifted, or calibrated anew, is started anew by `restart`.
-//! Latency: 2·17 + divider + two products + 9 clocks from `start` to `done`, whatever the data.
+//! Latency: 2·17 + divider + two products + 10 clocks from `start` to `done`, whatever the data.
 
 use super::divider::{self, Divider};
 use super::multiplier::{self, Multiplier};
@@ -50,7 +50,7 @@ mod rule;
 states! {
     /// The steps of a frame.
     pub enum Step {
-        Idle, Load, Divide, Follow, Learn, Calibrate, Weigh, Test, Decide, Depth, Ramp, Save,
+        Idle, Load, Divide, Follow, Learn, Calibrate, Weigh, Test, Judge, Decide, Depth, Ramp, Save,
     }
 }
 
@@ -338,6 +338,7 @@ impl Wall {
             at(Calibrate) => self.calibrate(r, i),
             at(Weigh) => self.weigh(r),
             at(Test) => self.test(r),
+            at(Judge) => self.judge(r),
             at(Decide) => self.decide(r, i),
             at(Depth) => Registers { target: self.limited(i, product), ..r },
             at(Ramp) => self.ramped(r, product),

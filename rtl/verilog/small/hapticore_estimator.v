@@ -29,6 +29,8 @@ module hapticore_estimator (
     output wire lost // u1.0  A terminal is open.
 );
 
+    reg busy; // u1.0
+    reg dropping; // u1.0  The window's sums are dropped: they came before the last frame was finished.
     reg [1:0] pad_q; // u2.0
     reg clipped_q; // u1.0
     wire currents_done; // u1.0
@@ -65,7 +67,9 @@ module hapticore_estimator (
     wire signed [15:0] frames_word; // s16.0
     wire frames_done; // u1.0
 
-    wire [1:0] next_pad_q = valid ? pad : pad_q; // u2.0
+    wire drops = (index == 4'd0) ? (busy & (~dropping)) : dropping; // u1.0
+    wire currents_valid = valid & (~drops); // u1.0
+    wire [1:0] next_pad_q = currents_valid ? pad : pad_q; // u2.0
     wire frames_invalid = (ratio_invalid | position_invalid) | capacitance_invalid; // u1.0
     wire signed [16:0] rounded = {ratio_r_x[17], ratio_r_x[17:2]} + {16'd0, ratio_r_x[1] & (ratio_r_x[2] | ratio_r_x[0])};
     wire signed [16:0] rounded_2 = {ratio_r_y[17], ratio_r_y[17:2]} + {16'd0, ratio_r_y[1] & (ratio_r_y[2] | ratio_r_y[0])};
@@ -75,7 +79,7 @@ module hapticore_estimator (
     hapticore_currents u_currents (
         .clock(clock),
         .reset(reset),
-        .valid(valid),
+        .valid(currents_valid),
         .index(index),
         .sum(sum),
         .done(currents_done),
@@ -93,7 +97,7 @@ module hapticore_estimator (
         .reset(reset),
         .clear(clear),
         .pad(next_pad_q),
-        .valid(valid),
+        .valid(currents_valid),
         .index(index),
         .sum(sum),
         .mean_square(haptic_voltage_mean_square),
@@ -182,12 +186,18 @@ module hapticore_estimator (
 
     always @(posedge clock) begin
         if (reset) begin
+            busy <= 1'd0;
+            dropping <= 1'd0;
             pad_q <= 2'd0;
             clipped_q <= 1'd0;
         end else begin
+            busy <= currents_valid | (busy & (~frames_done));
             pad_q <= next_pad_q;
-            if (valid) begin
+            if (currents_valid) begin
                 clipped_q <= clipped;
+            end
+            if (valid) begin
+                dropping <= drops;
             end
         end
     end

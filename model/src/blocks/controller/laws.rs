@@ -21,6 +21,8 @@ pub(super) struct Found<V> {
     pub invalid: Signal<V>,
     /// Of the pad: its drive word.
     pub last: Signal<V>,
+    /// Of the pad: both, as they are in its memory.
+    pub pad_word: Signal<V>,
     /// Of the pad: what corrects its curve.
     pub correction: Signal<V>,
 }
@@ -233,10 +235,15 @@ impl Controller {
     ) -> Signal<V> {
         let valid = i.invalid.select(last, r.wanted);
         let to = self.off(r, i).select(zero(self.drive), valid);
-        let most = (last + i.tuning.slew).resize(self.drive, Saturate);
-        let least = (last - i.tuning.slew).resize(self.drive, Saturate);
-        let up = most.less_than(to).select(most, to);
-        let down = to.less_than(least).select(least, to);
+        let up = r.most.less_than(to).select(r.most, to);
+        let down = to.less_than(r.least).select(r.least, to);
         last.less_than(to).select(up, down)
+    }
+
+    /// The least and the largest drive word that the slew limit allows after the last.
+    #[inline(always)]
+    pub(super) fn slewed<V: Interpretation>(&self, i: &In<V>, last: Signal<V>) -> [Signal<V>; 2] {
+        let least = (last - i.tuning.slew).resize(self.drive, Saturate);
+        [least, (last + i.tuning.slew).resize(self.drive, Saturate)]
     }
 }

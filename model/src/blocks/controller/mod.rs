@@ -168,8 +168,13 @@ block! {
         proportional: block.of_feedback(block.correction_format()),
         /// The filter's new state, or the integral with this frame.
         correction: block.of_feedback(block.kept_format()),
+        /// Of the pad, as its memory has it: a clock late, so that no path goes from memory to memory.
+        pad_word: block.pads.format,
         /// Before slew: within 0 and the rail.
         wanted: block.drive,
+        /// What slew allows.
+        least: block.drive,
+        most: block.drive,
         drive: block.drive,
         low: BIT,
         high: BIT,
@@ -341,7 +346,7 @@ impl Controller {
         let inputs = sqrt::Inputs { start: r.sqrt_start, radicand };
         let root = call!(self.sqrt, state, inputs);
         let within = &mut state.submodules;
-        let pad = self.pads.data(&mut within.pads);
+        let (pad, pad_word) = (r.pad_word, self.pads.data(&mut within.pads));
         let correction = match self.feeds_back() {
             true => self.corrections.data(&mut within.corrections),
             false => zero(self.kept_format()),
@@ -352,6 +357,7 @@ impl Controller {
             curve: self.curve_word(state, r, i),
             invalid: pad.bits(self.drive.width, pad.format.width - self.drive.width),
             last: pad.bits(0, self.drive.width).as_code(self.drive),
+            pad_word,
             correction,
         };
         (found, self.ends(r, root.done, divided))
@@ -405,6 +411,7 @@ impl Controller {
         let (left, right) = self.operands(&r, i, found);
         let (combine, limit) = (self.at(&r, Task::Combine), self.at(&r, Task::Limit));
         let [wanted, low, high] = self.wanted(&r, i);
+        let [least, most] = self.slewed(i, found.last);
         let next = Registers {
             task: ends.select(self.following(&r), r.task),
             count: ends.select(int(0), r.count.increment()),
@@ -415,7 +422,10 @@ impl Controller {
             wanted: combine.select(wanted, r.wanted),
             low: combine.select(low, r.low),
             high: combine.select(high, r.high),
+            least: combine.select(least, r.least),
+            most: combine.select(most, r.most),
             drive: limit.select(self.limited(&r, i, found.last), r.drive),
+            pad_word: found.pad_word,
             done: limit,
             ..self.take(r, found, ends)
         };

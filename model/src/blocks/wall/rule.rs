@@ -173,22 +173,36 @@ impl Wall {
         }
     }
 
-    /// Evidence and play, and whether they end the state.
+    /// Evidence, and how far in or out the pad has been.
     #[inline(always)]
     pub(super) fn test<V: Interpretation>(&self, r: Regs<V>) -> Regs<V> {
         let k = r.kept;
-        let fast = |sign: f64| number(sign * 1e-3 * self.rule.fast_um as f64, self.speed());
-        let play = number(1e-3 * self.rule.play_um as f64, self.filtered());
         let half = number(0.5, EVIDENCE);
-        let [h1, h2] = [self.rule.release, self.rule.engage].map(|h| number(h as f64, EVIDENCE));
-        // How far inside of the extreme it is: of either state by the one difference.
         let inside = k.filtered - k.extreme;
         let farther = k.free.select(int(0).less_than(inside), inside.less_than(int(0)));
-        let back = k.free.select(inside.less_than(-play), play.less_than(inside));
         // S + y + b − ½, or E − y − b − ½.
         let push = r.y + r.bias;
         let evidence = k.evidence - half + k.free.select(-push, push);
-        let evidence = evidence.resize(EVIDENCE, Saturate);
+        let kept = Kept {
+            extreme: farther.select(k.filtered, k.extreme),
+            evidence: evidence.resize(EVIDENCE, Saturate),
+            ..k
+        };
+        Registers { kept, ..r }
+    }
+
+    /// Whether evidence or play ends the state. A clock of its own, as sum and comparison in one clock would be the
+    /// longest path of a force loop.
+    #[inline(always)]
+    pub(super) fn judge<V: Interpretation>(&self, r: Regs<V>) -> Regs<V> {
+        let k = r.kept;
+        let fast = |sign: f64| number(sign * 1e-3 * self.rule.fast_um as f64, self.speed());
+        let play = number(1e-3 * self.rule.play_um as f64, self.filtered());
+        let [h1, h2] = [self.rule.release, self.rule.engage].map(|h| number(h as f64, EVIDENCE));
+        // How far inside of the extreme it is: of either state by the one difference.
+        let inside = k.filtered - k.extreme;
+        let back = k.free.select(inside.less_than(-play), play.less_than(inside));
+        let evidence = k.evidence;
         let releases = h1.less_than(evidence);
         let [inwards, outwards] = [k.speed.less_than(fast(-1.0)), fast(1.0).less_than(k.speed)];
         let engages = h2.less_than(evidence) & !outwards;
@@ -198,11 +212,7 @@ impl Wall {
             0 => bit(true),
             dwell => k.since.is(dwell),
         };
-        let kept = Kept {
-            extreme: farther.select(k.filtered, k.extreme),
-            evidence: held.select(h1, evidence),
-            ..k
-        };
+        let kept = Kept { evidence: held.select(h1, evidence), ..k };
         Registers { kept, leaves: decided & over, ..r }
     }
 
