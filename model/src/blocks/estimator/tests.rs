@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The clocks from the last sum to the last word.
+//! The clocks from the last sum to the last word, and sums that come before it.
 
 use super::{Estimator, Inputs};
 use crate::support::Bench;
@@ -21,5 +21,58 @@ fn latency_is_the_clocks_measured() {
             Some(bench.block.latency()),
             "clocks from the last sum to the last word"
         );
+    }
+}
+
+/// Sums of all channels for a pad, one after the other, then so many clocks: the pads of frames that are finished, each with
+/// the words.
+fn frames_of(
+    bench: &mut Bench<Estimator>,
+    profile: &Profile,
+    pad: i64,
+    clocks: u64,
+) -> Vec<(i64, Vec<i64>)> {
+    let quiet = Inputs::map(bench.block.inputs(), |_| 0);
+    let sums = 1 + 2 * profile.demodulated() as i64;
+    let (mut words, mut frames) = (Vec::new(), Vec::new());
+    for clock in 0..sums + clocks as i64 {
+        let inputs = match clock < sums {
+            true => Inputs { valid: 1, index: clock, sum: (4 + pad) << 18, pad, ..quiet },
+            false => quiet,
+        };
+        let port = bench.clock(inputs).frames;
+        if port.valid == 1 {
+            words.push(port.frame);
+        }
+        if port.done == 1 {
+            frames.push((port.pad, std::mem::take(&mut words)));
+        }
+    }
+    frames
+}
+
+#[test]
+fn sums_that_come_before_the_last_frame_are_dropped_once() {
+    for profile in Profile::all().into_iter().filter(|profile| profile.control.is_none()) {
+        let new = || Bench::new(Estimator::try_new(&profile).unwrap());
+        let (mut alone, mut early) = (new(), new());
+        let latency = alone.block.latency();
+        let expected = frames_of(&mut alone, &profile, 0, latency);
+        assert_eq!(expected.len(), 1);
+        // In each third of the estimate another pad's sums.
+        for wait in [0, latency / 3, 2 * latency / 3] {
+            assert_eq!(frames_of(&mut early, &profile, 0, wait), []);
+            assert_eq!(
+                frames_of(&mut early, &profile, 1, latency),
+                expected,
+                "after {wait} clocks"
+            );
+            // The next ones are taken, and so are those that come early after early ones.
+            assert_eq!(frames_of(&mut early, &profile, 0, latency), expected);
+        }
+        frames_of(&mut early, &profile, 0, 0);
+        frames_of(&mut early, &profile, 1, 0);
+        let taken = frames_of(&mut early, &profile, 0, latency);
+        assert_eq!(taken.last().map(|(pad, _)| *pad), Some(0), "sums are dropped once");
     }
 }
