@@ -84,7 +84,7 @@ enum Planted {
     /// The most negative code of a terminal, beside another pad than the first, comes out positive in a capture that is
     /// written again.
     Csv,
-    /// A sequence number that begins again too early in a packet that is sent again after the ADC was late.
+    /// A sequence number that begins again in a packet of a later pad that is sent again after the ADC was late.
     Packets,
     /// A capacitance that is rounded the wrong way at one pattern of six of its bits.
     Core,

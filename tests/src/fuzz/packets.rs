@@ -57,7 +57,12 @@ fn check_recovery(decoder: &mut Decoder, profile: &Profile) {
 fn mistaken(message: Message) -> Message {
     match message {
         Message::Frame(Packet { mut status, frame })
-            if planted(Planted::Packets) && all_hold(&[status.sequence >= 0xf000, status.late]) =>
+            if planted(Planted::Packets)
+                && all_hold(&[
+                    (0xf000..0xff00).contains(&status.sequence),
+                    status.late,
+                    frame.pad > 1,
+                ]) =>
         {
             status.sequence = 0;
             Message::Frame(Packet { status, frame })
