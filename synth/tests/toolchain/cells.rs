@@ -67,7 +67,7 @@ fn bench(wrong: bool) -> String {
         "module bench;\n    reg clock = 0;\n    reg [63:0] a = 0, b = 0;\n    wire [63:0] sum, gate_sum;\n    integer clock_number;\n\
          \x20   mixture one (.clock(clock), .a(a), .b(b), .sum(sum));\n\
          \x20   mixture_gate other (.clock(clock), .a({gate_a}), .b(b), .sum(gate_sum));\n\
-         \x20   initial begin\n        for (clock_number = 0; clock_number < 1500; clock_number = clock_number + 1) begin\n\
+         \x20   initial begin\n        for (clock_number = 0; clock_number < 3000; clock_number = clock_number + 1) begin\n\
          \x20           a = {{$urandom, $urandom}};\n            b = {{$urandom, $urandom}};\n\
          \x20           if (a[62:61] == 0) b[15:0] = a[15:0];\n            if (a[60:58] == 0) {{a[13:5], b[13:5]}} = 0;\n\
          \x20           #5 clock = 1;\n            #5 clock = 0;\n\

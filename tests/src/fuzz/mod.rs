@@ -73,7 +73,6 @@ fn refused(error: impl Into<Error>, file: &str) -> bool {
 
 /// The planted bugs, each in a wrapper of this library: with the feature `planted`, that which
 /// the environment's `HAPTICORE_PLANTED` names is there, so that a fuzzer can be seen to find it.
-/// No seed meets all of a bug's conditions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Planted {
     /// A panic at an accepted profile of four odd values.

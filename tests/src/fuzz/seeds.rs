@@ -203,7 +203,7 @@ fn packets() -> Vec<Vec<u8>> {
         std::iter::once(choice).chain(bytes).collect()
     };
     let profiles = Profile::all();
-    // Payloads of two packets each, which are packed where they are read.
+    // Payloads of two packets or more, which are packed where they are read.
     let payloads = (0x80..0x80 + profiles.len() as u8)
         .map(|choice| std::iter::once(choice).chain(1..=2 * 40).collect::<Vec<u8>>());
     (0..).zip(&profiles).map(of).chain(payloads).collect()

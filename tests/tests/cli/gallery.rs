@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The bundled scenes, whole: their criteria hold at every fidelity, `fixed` is `clock` on every
-//! frame (of scenes that take long on a part of them), and nothing depends on the number of threads.
+//! frame, and nothing depends on the number of threads.
 
 use std::collections::HashMap;
 use std::fs;
@@ -58,19 +58,13 @@ fn unexpected_flags(table: &Table, summary: &Value) -> Vec<String> {
     unexpected
 }
 
-/// What is run at every clock of a scene that takes long; of all others everything is.
-fn part(scene: &str, text: &str) -> Option<[&'static str; 2]> {
-    // A force loop has a plant that waits for it, and many cases: of each so long.
-    let closes = text.lines().any(|line| line == "[control]");
-    // Its cases are the same four seconds, with drives that differ little.
-    let alike = (scene == "fig7").then_some(["--case", "sine"]);
-    if closes { Some(["--set", "duration_s=0.07"]) } else { alike }
-}
+/// A force loop has a plant that waits for it, and many cases: of each, every clock of so long.
+const LOOP_S: &str = "duration_s=0.07";
 
-/// Holds that `fixed` is `clock`, to the bit, in a part of a scene.
-fn check_part(folder: &Path, scene: &str, [option, value]: [&str; 2]) {
+/// Holds that `fixed` is `clock`, to the bit, in the first clocks of each case of a force loop.
+fn check_loop(folder: &Path, scene: &str) {
     let frames = |core: &str| {
-        let args = ["simulate", scene, "--core", core, option, value, "--out", core];
+        let args = ["simulate", scene, "--core", core, "--set", LOOP_S, "--out", core];
         finish(folder, &args);
         let frames = fs::read_to_string(folder.join(core).join("frames.csv")).unwrap();
         assert!(frames.lines().count() > 100, "{scene}: {} frames", frames.lines().count());
@@ -115,8 +109,8 @@ fn a_wall_is_met_and_left_alike_in_fixed_and_clock() {
 fn check(scene: &str, text: &str) {
     let folder = tempfile::tempdir().unwrap();
     let mut summary = Value::Null;
-    let part = part(scene, text);
-    let cores = if part.is_some() { &["float", "fixed"][..] } else { &["float", "fixed", "clock"] };
+    let closes = text.lines().any(|line| line == "[control]");
+    let cores = if closes { &["float", "fixed"][..] } else { &["float", "fixed", "clock"] };
     for core in cores.iter().copied() {
         summary = simulate(folder.path(), scene, core);
         for key in ["scene", "profile", "fidelity", "effects", "simulated_seconds", "wall_seconds"]
@@ -136,7 +130,7 @@ fn check(scene: &str, text: &str) {
         }
     }
     let frames = |core: &str| fs::read(folder.path().join(core).join("frames.csv")).unwrap();
-    if part.is_none() {
+    if !closes {
         assert!(frames("fixed") == frames("clock"), "{scene}: fixed is clock, to the bit");
     }
     let table = Table::read(&folder.path().join("fixed/frames.csv"));
@@ -148,8 +142,8 @@ fn check(scene: &str, text: &str) {
     assert!(
         report.contains("<svg") && !report.contains("src=\"http") && !report.contains("<script")
     );
-    if let Some(part) = part {
-        check_part(folder.path(), scene, part);
+    if closes {
+        check_loop(folder.path(), scene);
     }
 }
 
