@@ -9,7 +9,7 @@ use std::time::Instant;
 use anyhow::{Context, Result, bail, ensure};
 use hapticore_contract::profile::Profile;
 use hapticore_host::profile::serving;
-use hapticore_host::{DeviceCalibration, SlotClock, residual};
+use hapticore_host::{DeviceCalibration, Residual, SlotClock, residual};
 use hapticore_run::capture::{self, Adc, Described, Source};
 use hapticore_run::engine::{Signals, Slot};
 use hapticore_run::haptic::{self, Meter};
@@ -108,6 +108,7 @@ fn check_rate(source: &dyn Source, device: &DeviceCalibration, profile: &Profile
 /// A capture on its way through the core.
 struct Replay {
     session: Session,
+    residual: Residual,
     frames: Frames,
     rows: Thinned,
     clock: SlotClock,
@@ -130,10 +131,12 @@ impl Replay {
     ) -> Result<Self> {
         let clock = SlotClock::new(profile, device.device.sample_rate_hz, 0.0);
         let channels = profile.channels();
+        let calibration = device.for_profile(profile)?;
         Ok(Replay {
+            residual: device.residual(&calibration),
             session: Session::new(
                 profile,
-                (device, &device.for_profile(profile)?),
+                (device, &calibration),
                 (args.core.fidelity(), None),
                 args.core.errors,
                 (0, clock),
@@ -215,7 +218,7 @@ impl Replay {
     }
 
     fn finish(self, name: String, profile: &Profile, args: &ReplayArgs) -> Result<Record> {
-        let of_table = self.session.residual().warning(residual::LIMIT_MM);
+        let of_table = self.residual.warning(residual::LIMIT_MM);
         let warnings = self.haptic_warning(profile).into_iter().chain(of_table).collect();
         self.frames.finish()?;
         Ok(Record {
@@ -234,7 +237,7 @@ impl Replay {
             simulated_seconds: self.clock.seconds(self.slots),
             wall_seconds: self.start.elapsed().as_secs_f64(),
             warnings,
-            position_table: Some(self.session.residual()),
+            position_table: Some(self.residual),
             sheet_mm: None,
             swept: Vec::new(),
             laws: BTreeMap::new(),

@@ -206,6 +206,7 @@ fn simulate(
     let settings = settings(args);
     let bar = progress::bar(Some(cases.iter().map(|case| case.slots as u64).sum()), args.core.json);
     let tick = || bar.inc(1);
+    Case::prepare(cases)?;
     let outcomes = match recorder.as_deref_mut() {
         Some(recorder) => vec![cases[0].run(&settings, Some(recorder), &tick)?],
         None => cases
@@ -215,6 +216,7 @@ fn simulate(
     };
     bar.finish_and_clear();
     let mut record = gather(scene, cases, outcomes);
+    record.position_table = position_table(cases)?;
     record.fidelity = args.core.fidelity().name().into();
     record.wall_seconds = start.elapsed().as_secs_f64();
     record.provenance = Provenance::of_scene(scene, &args.set);
@@ -224,6 +226,12 @@ fn simulate(
     record.warnings.extend(warned);
     add_errors(&mut record.effects, cases)?;
     Ok((record, recorder))
+}
+
+/// What the position tables leave of their own places, at the worst of the cases.
+fn position_table(cases: &[Case]) -> Result<Option<Residual>> {
+    let residuals = cases.iter().map(Case::residual).collect::<Result<Vec<_>>>()?;
+    Ok(residuals.into_iter().reduce(Residual::worse))
 }
 
 fn settings(args: &SimulateArgs) -> Settings {
@@ -262,7 +270,6 @@ fn gather(scene: &Scene, cases: &[Case], outcomes: Vec<Outcome>) -> Record {
     });
     let criteria = criteria::measure(&scene.criteria, &rows.collect::<Vec<_>>());
     let (mut effects, mut signal_errors, mut all) = (Vec::new(), Vec::new(), Vec::new());
-    let position_table = outcomes.iter().map(|outcome| outcome.residual).reduce(Residual::worse);
     for outcome in outcomes {
         add_effects(&mut effects, &outcome);
         errors::merge(&mut signal_errors, outcome.errors);
@@ -285,7 +292,7 @@ fn gather(scene: &Scene, cases: &[Case], outcomes: Vec<Outcome>) -> Record {
         simulated_seconds: cases.iter().map(Case::seconds).sum(),
         wall_seconds: 0.0,
         warnings: Vec::new(),
-        position_table,
+        position_table: None,
         sheet_mm: Some([device.width_mm, device.height_mm]),
         swept: swept(scene, cases),
         laws: laws(scene, cases),

@@ -204,7 +204,7 @@ pub fn disturbed_rows(
         session.slot(&slot, Some(record_truth(&truth))).expect("a reading with each slot")
     };
     let rows = (0..case.slots).map(row).collect();
-    (rows, session.residual())
+    (rows, case.residual().expect("a calibration"))
 }
 
 /// How far a row's position is from where the pad is, mm.

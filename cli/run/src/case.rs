@@ -18,6 +18,7 @@ use hapticore_host::{CrosstalkCanceller, DeviceCalibration, Residual, SlotClock,
 use hapticore_scene::{
     ControlPlan, EffectCost, Figure, LevelDeviation, Plant, Scene, Truth, signs_by_place,
 };
+use rayon::prelude::*;
 
 use crate::calibrate::{self, bench::Bench};
 use crate::capture::Recorder;
@@ -57,12 +58,19 @@ pub struct Case<'a> {
     pub clock: SlotClock,
     /// What decides the device's forces, where it was calibrated for a force table.
     bench: Option<Bench>,
-    /// The device's calibration as words of the core, made when they are first asked for.
-    calibration: Words,
+    calibrated: Arc<Calibrated>,
+    /// The controller's tuning, once it has been asked for.
+    tuned: OnceLock<Option<Tuning>>,
 }
 
-/// Words that cases of one device share.
-type Words = Arc<OnceLock<Result<Calibration, DeviceWordsError>>>;
+/// What cases of one device share, made when it is first asked for.
+#[derive(Default)]
+struct Calibrated {
+    /// The device's calibration as words of the core.
+    words: OnceLock<Result<Calibration, DeviceWordsError>>,
+    /// What their position table leaves of its own places.
+    residual: OnceLock<Residual>,
+}
 
 /// What a case left.
 pub struct Outcome {
@@ -74,8 +82,6 @@ pub struct Outcome {
     pub peak: f64,
     /// Rounding errors, where they were asked for.
     pub errors: Vec<SignalError>,
-    /// What the position table leaves of its own places.
-    pub residual: Residual,
 }
 
 /// How to run cases.
@@ -129,7 +135,8 @@ impl<'a> Case<'a> {
             other.device == device && uncontrolled(&other.profile) == uncontrolled(&profile)
         });
         Ok(Case {
-            calibration: same.next().map(|same| same.calibration.clone()).unwrap_or_default(),
+            calibrated: same.next().map(|same| same.calibrated.clone()).unwrap_or_default(),
+            tuned: OnceLock::new(),
             number: others.len(),
             slots: plant.slots(),
             scene,
@@ -146,8 +153,35 @@ impl<'a> Case<'a> {
     /// # Errors
     /// A number that the profile's formats do not hold, a map that no position table fits.
     pub fn calibration(&self) -> Result<&Calibration> {
-        let words = self.calibration.get_or_init(|| self.device.for_profile(&self.profile));
+        let words = self.calibrated.words.get_or_init(|| self.device.for_profile(&self.profile));
         words.as_ref().map_err(|error| error.clone().into())
+    }
+
+    /// What the position table of [`Case::calibration`] leaves of its own places.
+    ///
+    /// # Errors
+    /// As [`Case::calibration`].
+    pub fn residual(&self) -> Result<Residual> {
+        let words = self.calibration()?;
+        Ok(*self.calibrated.residual.get_or_init(|| self.device.residual(words)))
+    }
+
+    /// Makes what runs of these cases begin with, on all processors: words of calibrations, and beside
+    /// them tunings, which wait for no words.
+    ///
+    /// # Errors
+    /// As [`Case::calibration`] and [`Case::tuning`].
+    pub fn prepare(cases: &[Case]) -> Result<()> {
+        let is_first = |&n: &usize| {
+            let same = |other: &Case| Arc::ptr_eq(&other.calibrated, &cases[n].calibrated);
+            !cases[..n].iter().any(same)
+        };
+        let devices: Vec<_> = (0..cases.len()).filter(is_first).collect();
+        let (words, tunings) = rayon::join(
+            || devices.into_par_iter().try_for_each(|n| cases[n].calibration().map(drop)),
+            || cases.par_iter().try_for_each(|case| case.tuning(&case.plant()?).map(drop)),
+        );
+        words.and(tunings)
     }
 
     /// Name of the case, as the scene gives it.
@@ -264,6 +298,14 @@ impl Case<'_> {
     /// # Errors
     /// A gain that its word does not hold.
     pub fn tuning(&self, plant: &Plant) -> Result<Option<Tuning>> {
+        if let Some(tuned) = self.tuned.get() {
+            return Ok(tuned.clone());
+        }
+        let tuned = self.tune(plant)?;
+        Ok(self.tuned.get_or_init(|| tuned).clone())
+    }
+
+    fn tune(&self, plant: &Plant) -> Result<Option<Tuning>> {
         let (Some(plan), Some(control)) = (self.plan(), &self.profile.control) else {
             return Ok(None);
         };
@@ -331,13 +373,7 @@ impl Case<'_> {
         }
         let last = session.finish();
         rows.extend(last.map(|row| Row { driven: drives.pop_front().flatten(), ..row }));
-        Ok(Outcome {
-            rows,
-            effects: plant.effects(),
-            peak,
-            errors: session.errors(),
-            residual: session.residual(),
-        })
+        Ok(Outcome { rows, effects: plant.effects(), peak, errors: session.errors() })
     }
 }
 
@@ -359,13 +395,7 @@ fn consume(
         progress();
     }
     rows.extend(session.finish());
-    Ok(Outcome {
-        rows,
-        effects: Vec::new(),
-        peak,
-        errors: session.errors(),
-        residual: session.residual(),
-    })
+    Ok(Outcome { rows, effects: Vec::new(), peak, errors: session.errors() })
 }
 
 /// What the record keeps of the plant's truth.

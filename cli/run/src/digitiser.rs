@@ -7,6 +7,9 @@ use hapticore_hdl::format::Format;
 /// additions: a call for each sample would cost as much as all else.
 const ROUNDER: f64 = 6_755_399_441_055_744.0;
 
+/// Samples that are rounded side by side.
+const LANES: usize = 8;
+
 /// An ADC: fractions of full scale to codes, rounded to nearest even, saturated.
 #[derive(Debug, Clone, Copy)]
 pub struct Digitiser {
@@ -33,13 +36,83 @@ impl Digitiser {
 
     /// Appends the codes of some fractions; the largest magnitude among them, as a fraction.
     pub fn codes(&self, fractions: &[f64], into: &mut Vec<i32>) -> f64 {
-        let mut peak = 0f64;
-        into.extend(fractions.iter().map(|fraction| {
-            let code = (fraction * self.scale + ROUNDER) - ROUNDER;
-            let code = code.max(self.low).min(self.high);
-            peak = peak.max(code.abs());
-            code as i32
-        }));
+        // Lanes of their own for the peak: a single one would wait for the sample before.
+        let mut peaks = [0f64; LANES];
+        let start = into.len();
+        into.resize(start + fractions.len(), 0);
+        let (groups, rest) = fractions.as_chunks::<LANES>();
+        let (codes, of_rest) = into[start..].as_chunks_mut::<LANES>();
+        for (group, codes) in groups.iter().zip(codes) {
+            for lane in 0..LANES {
+                codes[lane] = self.take(group[lane], &mut peaks[lane]);
+            }
+        }
+        let mut peak = peaks.into_iter().fold(0.0, larger);
+        for (fraction, code) in rest.iter().zip(of_rest) {
+            *code = self.take(*fraction, &mut peak);
+        }
         peak / self.scale
+    }
+
+    /// The code of a fraction; its magnitude counts for the peak.
+    #[inline(always)]
+    fn take(&self, fraction: f64, peak: &mut f64) -> i32 {
+        let raised = lesser(larger(fraction * self.scale, self.low), self.high) + ROUNDER;
+        *peak = larger(*peak, (raised - ROUNDER).abs());
+        // Above `ROUNDER` the low bits of the mantissa are the integer, in two's complement.
+        raised.to_bits() as i32
+    }
+}
+
+/// The larger of two numbers; the second, where the first is none. Without the cases of `f64::max`
+/// this is an instruction, for two lanes at once.
+#[inline(always)]
+fn larger(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+/// The lesser of two numbers, as [`larger`].
+#[inline(always)]
+fn lesser(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Ties, rails and what lies beyond, in whole groups and in the rest.
+    #[test]
+    fn codes_of_many_are_those_of_each() {
+        for bits in [8, 16, 18, 24, 31] {
+            let adc = Format::signed(bits, bits as i8 - 1);
+            let digitiser = Digitiser::new(adc);
+            let fraction = |k: i32| f64::from(k) / 2.0 * adc.lsb();
+            let most = adc.max_code() as f64 * adc.lsb();
+            let special =
+                [0.0, -0.0, most, -1.0, 1.0, 7.0, -7.0, f64::INFINITY, most + 0.6 * adc.lsb()];
+            for count in 0..40 {
+                let fractions: Vec<_> =
+                    (-20..).map(fraction).take(count).chain(special).chain([0.3, -0.4]).collect();
+                let mut codes = vec![5];
+                let peak = digitiser.codes(&fractions, &mut codes);
+                let each: Vec<_> = fractions.iter().map(|&x| digitiser.code(x).0).collect();
+                assert_eq!(codes[1..], each, "{bits} bits");
+                assert_eq!(peak, 1.0, "the most negative code");
+            }
+        }
+    }
+
+    #[test]
+    fn the_peak_is_that_of_the_codes() {
+        let digitiser = Digitiser::new(Format::signed(16, 15));
+        for count in 1..30 {
+            for at in 0..count {
+                let mut fractions = vec![0.0; count];
+                fractions[at] = -0.25;
+                assert_eq!(digitiser.codes(&fractions, &mut Vec::new()), 0.25, "{at} of {count}");
+            }
+        }
+        assert_eq!(digitiser.codes(&[], &mut Vec::new()), 0.0);
     }
 }

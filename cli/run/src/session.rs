@@ -10,9 +10,7 @@ use hapticore_contract::calibration::Calibration;
 use hapticore_contract::control::{Drive, Tuning};
 use hapticore_contract::frame::Measurement;
 use hapticore_contract::profile::Profile;
-use hapticore_host::{
-    CrosstalkCanceller, DeviceCalibration, ForceLaws, Readout, Residual, SlotClock,
-};
+use hapticore_host::{CrosstalkCanceller, DeviceCalibration, ForceLaws, Readout, SlotClock};
 use hapticore_reference::Reference as FloatCore;
 use hapticore_scene::Plant;
 
@@ -24,7 +22,6 @@ use crate::record::{Reference, Row, SignalError, Truth};
 
 /// A core at work on one stream of slots.
 pub struct Session {
-    residual: Residual,
     engine: Box<dyn Engine>,
     reference: FloatCore,
     errors: Option<Errors>,
@@ -58,7 +55,6 @@ impl Session {
             None => engine(fidelity, profile, calibration),
         };
         Ok(Session {
-            residual: device.residual(calibration),
             engine,
             reference: FloatCore::new(profile, calibration),
             errors: errors.then(|| Errors::new(profile, calibration)),
@@ -127,11 +123,6 @@ impl Session {
     pub fn finish(&mut self) -> Option<Row> {
         let measurement = self.engine.finish()?;
         self.finished(&measurement)
-    }
-
-    /// What the position table leaves of its own places.
-    pub fn residual(&self) -> Residual {
-        self.residual
     }
 
     /// Rounding errors, where they were asked for.

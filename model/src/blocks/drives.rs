@@ -395,6 +395,22 @@ impl Block for Drives {
             tuning: self.held(&r.settings, i.tuning),
         };
         let controller = call!(self.controller, state, inputs);
+        let of_walls = self.drive();
+        let drive = DrivePort {
+            drive_valid: controller.done,
+            drive_pad: r.pad,
+            drive: controller.drive,
+            drive_low: controller.low,
+            drive_high: controller.high,
+            drive_target: begin.target.where_present(of_walls.drive_target),
+            drive_free: begin.free.where_present(of_walls.drive_free),
+        };
+        let outputs = Outputs { drive, extremes: r.extremes, faults: controller.faults };
+        let rests = controller.drive.is(0).where_present(r.rests.format);
+        let steps = i.estimate.prompt | r.asked | r.start | controller.done | r.driven;
+        if (steps | target_write | i.extremes_read | rests.select(!r.rests, r.rests)).can_skip() {
+            return outputs;
+        }
         let found = self.targets.data(&mut state.submodules.targets);
         let prompt = i.estimate.prompt;
         let pad = prompt.select(i.estimate.prompt_pad, r.pad);
@@ -409,19 +425,9 @@ impl Block for Drives {
             settings: self.taken(&r, &i),
             extremes: self.extremes_with(&r, &i, &controller, &begin),
             driven: controller.done.where_present(r.driven.format),
-            rests: controller.drive.is(0).where_present(r.rests.format),
+            rests,
         };
         state.store(self, next);
-        let of_walls = self.drive();
-        let drive = DrivePort {
-            drive_valid: controller.done,
-            drive_pad: r.pad,
-            drive: controller.drive,
-            drive_low: controller.low,
-            drive_high: controller.high,
-            drive_target: begin.target.where_present(of_walls.drive_target),
-            drive_free: begin.free.where_present(of_walls.drive_free),
-        };
-        Outputs { drive, extremes: r.extremes, faults: controller.faults }
+        outputs
     }
 }

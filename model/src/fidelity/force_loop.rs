@@ -132,7 +132,8 @@ impl FixedLoop {
         calibration: &Calibration,
         tuning: &Tuning,
     ) -> Result<Self, ProfileError> {
-        let drives = ForceLoop::try_new(profile)?.drives;
+        let mut drives = ForceLoop::try_new(profile)?.drives;
+        drives.controller.hurry();
         let (state, idle) = (drives.reset(), idle(&drives, tuning));
         let core = FixedSimulation::new(profile, calibration);
         let mut of = FixedLoop { core, drives, state, idle };
@@ -170,6 +171,8 @@ impl FixedLoop {
             inputs.estimate.prompt = bit(false);
             if outputs.drive.drive_valid.value != 0 {
                 drive = Some(given(outputs.drive, outputs.faults));
+            } else if drive.is_some() {
+                break; // Whether the drive is zero has been written, too.
             }
         }
         self.place(&frame);

@@ -1,53 +1,189 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Least squares over tables: which entries make interpolation come nearest to given values.
-
-use nalgebra::DMatrix;
-use nalgebra_sparse::factorization::CscCholesky;
-use nalgebra_sparse::{CooMatrix, CscMatrix};
+//!
+//! Interpolation is local, so that the normal equations of a raster have a narrow band, as wide as two lines
+//! along its shorter side. Cholesky's factor stays within it. Why the band is ours, with figures:
+//! docs/decisions.md §7.
 
 /// A table whose entries are sought.
 pub struct Fit {
-    /// Of each entry the others that it meets, with the normal equations' coefficients: few, as
-    /// interpolation is local.
-    normal: Vec<Vec<(usize, f64)>>,
-    right: DMatrix<f64>,
+    /// The number of each entry in the equations below.
+    order: Vec<usize>,
+    /// Entries whose numbers differ by more never meet in an equation.
+    reach: usize,
+    /// Of each entry: the coefficients of the normal equations with the `reach` entries before it,
+    /// then its own.
+    normal: Vec<f64>,
+    /// Right-hand sides, one per layer.
+    right: Vec<Vec<f64>>,
 }
 
 impl Fit {
     /// A table of `entries`, each of `layers` numbers.
     pub fn new(entries: usize, layers: usize) -> Self {
-        Fit { normal: vec![Vec::new(); entries], right: DMatrix::zeros(entries, layers) }
+        Fit::banded((0..entries).collect(), entries.saturating_sub(1), layers)
+    }
+
+    /// A table of the entries of a raster, row after row, each of `layers` numbers. Equations may have
+    /// entries that are two columns and two rows apart at most.
+    pub fn of_raster([columns, rows]: [usize; 2], layers: usize) -> Self {
+        let along_rows = |entry: usize| entry;
+        let along_columns = |entry: usize| entry % columns * rows + entry / columns;
+        let entries = 0..columns * rows;
+        let order = match columns <= rows {
+            true => entries.map(along_rows).collect(),
+            false => entries.map(along_columns).collect(),
+        };
+        Fit::banded(order, 2 * columns.min(rows) + 2, layers)
+    }
+
+    fn banded(order: Vec<usize>, reach: usize, layers: usize) -> Self {
+        let entries = order.len();
+        let (normal, right) = (vec![0.0; entries * (reach + 1)], vec![vec![0.0; entries]; layers]);
+        Fit { order, reach, normal, right }
     }
 
     /// Adds an equation: the weighted sum of some entries equals the values, one per layer.
+    ///
+    /// # Panics
+    /// In debug builds, where entries are too far apart.
     pub fn ask(&mut self, terms: &[(usize, f64)], values: &[f64], importance: f64) {
-        for &(row, a) in terms {
-            for &(column, b) in terms {
-                self.add(row, column, importance * a * b);
+        for &(entry, a) in terms {
+            let row = self.order[entry];
+            for &(entry, b) in terms {
+                let column = self.order[entry];
+                if column <= row {
+                    let at = self.at(row, column);
+                    self.normal[at] += importance * a * b;
+                }
             }
-            for (layer, value) in values.iter().enumerate() {
-                self.right[(row, layer)] += importance * a * value;
+            for (right, value) in self.right.iter_mut().zip(values) {
+                right[row] += importance * a * value;
             }
         }
     }
 
-    fn add(&mut self, row: usize, column: usize, by: f64) {
-        let row = &mut self.normal[row];
-        match row.iter_mut().find(|(known, _)| *known == column) {
-            Some((_, sum)) => *sum += by,
-            None => row.push((column, by)),
-        }
+    /// Where the coefficient of a row with an entry before it stands.
+    fn at(&self, row: usize, column: usize) -> usize {
+        debug_assert!(column <= row && row - column <= self.reach, "{row}, {column}");
+        row * (self.reach + 1) + self.reach + column - row
     }
 
-    /// The entries: a row each, a column a layer. None where what was asked does not settle them
+    /// The entries: of each layer one after the other. None where what was asked does not settle them
     /// all.
-    pub fn solve(self) -> Option<DMatrix<f64>> {
-        let entries = self.normal.len();
-        let mut normal = CooMatrix::new(entries, entries);
-        for (row, columns) in self.normal.iter().enumerate() {
-            columns.iter().for_each(|&(column, sum)| normal.push(row, column, sum));
+    pub fn solve(mut self) -> Option<Vec<Vec<f64>>> {
+        self.factor()?;
+        let mut right = std::mem::take(&mut self.right);
+        right.iter_mut().for_each(|layer| self.substitute(layer));
+        let in_order = |layer: &Vec<f64>| self.order.iter().map(|&number| layer[number]).collect();
+        Some(right.iter().map(in_order).collect())
+    }
+
+    /// The normal equations' factor L, M = L·Lᵀ, in their place.
+    fn factor(&mut self) -> Option<()> {
+        for row in 0..self.order.len() {
+            for column in self.first(row)..=row {
+                let rest = self.normal[self.at(row, column)] - self.dot(row, column);
+                let factor = match column < row {
+                    true => rest / self.normal[self.at(column, column)],
+                    false => Some(rest.sqrt()).filter(|root| *root > 0.0)?,
+                };
+                let at = self.at(row, column);
+                self.normal[at] = factor;
+            }
         }
-        let factor = CscCholesky::factor(&CscMatrix::from(&normal)).ok()?;
-        Some(factor.solve(&self.right))
+        Some(())
+    }
+
+    /// The first entry within a row's reach.
+    fn first(&self, row: usize) -> usize {
+        row.saturating_sub(self.reach)
+    }
+
+    /// Σ L[row, k]·L[column, k] over the entries k before both.
+    fn dot(&self, row: usize, column: usize) -> f64 {
+        let first = self.first(row);
+        let of = |line: usize| &self.normal[self.at(line, first)..self.at(line, column)];
+        of(row).iter().zip(of(column)).map(|(a, b)| a * b).sum()
+    }
+
+    /// The solution of L·Lᵀ·x = right, in its place.
+    fn substitute(&self, x: &mut [f64]) {
+        for row in 0..x.len() {
+            let line = &self.normal[self.at(row, self.first(row))..=self.at(row, row)];
+            let (own, before) = line.split_last().expect("a row has itself");
+            let known: f64 = before.iter().zip(&x[self.first(row)..row]).map(|(l, x)| l * x).sum();
+            x[row] = (x[row] - known) / own;
+        }
+        for row in (0..x.len()).rev() {
+            let first = self.first(row);
+            let line = &self.normal[self.at(row, first)..=self.at(row, row)];
+            let (own, before) = line.split_last().expect("a row has itself");
+            let found = x[row] / own;
+            x[row] = found;
+            x[first..row].iter_mut().zip(before).for_each(|(x, l)| *x -= l * found);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A number without a pattern, within ± 1.
+    fn random(state: &mut u64) -> f64 {
+        *state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        (*state >> 11) as f64 / 2f64.powi(52) - 1.0
+    }
+
+    /// Equations of nine entries about a place, more than there are entries.
+    fn ask(fit: &mut Fit, [columns, rows]: [usize; 2], entries: &[Vec<f64>; 2], state: &mut u64) {
+        for _ in 0..20 * columns * rows {
+            let mut place =
+                |size: usize| ((random(state) + 1.0) / 2.0 * (size - 2) as f64) as usize;
+            let corner = place(rows) * columns + place(columns);
+            let terms: [_; 9] =
+                std::array::from_fn(|k| (corner + k / 3 * columns + k % 3, random(state)));
+            let value = |of: &Vec<f64>| terms.iter().map(|(entry, by)| by * of[*entry]).sum();
+            fit.ask(&terms, &entries.each_ref().map(value), 1.0 + random(state).abs());
+        }
+    }
+
+    #[test]
+    fn entries_that_satisfy_all_equations_are_found_whatever_the_shape() {
+        for size in [[3, 3], [9, 4], [4, 9], [12, 12], [51, 27]] {
+            let (mut state, count) = (size[0] as u64, size[0] * size[1]);
+            let entries =
+                [0; 2].map(|_| (0..count).map(|_| random(&mut state)).collect::<Vec<_>>());
+            for mut fit in [Fit::of_raster(size, 2), Fit::new(count, 2)] {
+                if fit.reach > 200 {
+                    continue; // Dense: the small ones show it.
+                }
+                ask(&mut fit, size, &entries, &mut state);
+                let found = fit.solve().expect("settled");
+                for (found, entry) in found.iter().flatten().zip(entries.iter().flatten()) {
+                    assert!((found - entry).abs() < 1e-9, "{size:?}: {found} for {entry}");
+                }
+            }
+        }
+    }
+
+    /// Of contradicting equations the mean by importance is taken.
+    #[test]
+    fn contradictions_are_weighed() {
+        let mut fit = Fit::new(1, 1);
+        fit.ask(&[(0, 1.0)], &[1.0], 3.0);
+        fit.ask(&[(0, 1.0)], &[5.0], 1.0);
+        assert_eq!(fit.solve(), Some(vec![vec![2.0]]));
+    }
+
+    #[test]
+    fn entries_that_nothing_settles_are_told() {
+        let mut fit = Fit::new(2, 1);
+        fit.ask(&[(0, 1.0)], &[1.0], 1.0);
+        assert_eq!(fit.solve(), None);
+        let mut fit = Fit::new(1, 1);
+        fit.ask(&[(0, f64::NAN)], &[1.0], 1.0);
+        assert_eq!(fit.solve(), None);
     }
 }

@@ -271,6 +271,13 @@ impl Controller {
         self.points.words
     }
 
+    /// From now on interpretations that know every bit have roots and quotients in the clock after
+    /// they are asked for: a drive word then comes before [`Controller::latency`] is over.
+    pub(crate) fn hurry(&mut self) {
+        self.sqrt.hurry();
+        self.divider.hurry();
+    }
+
     /// Clocks from `start` to `done`.
     pub fn latency(&self) -> u64 {
         1 + Task::of(self.law).iter().map(|task| self.clocks(*task)).sum::<u64>()

@@ -177,7 +177,7 @@ impl PositionTable {
             fit.ask(&[(0, 1.0), (1, r_x), (2, r_y)], &from_middle, 1.0);
         }
         let found = fit.solve().ok_or(PositionError::Ambiguous)?;
-        self.start = [0, 1].map(|axis| [0, 1, 2].map(|k| found[(k, axis)]));
+        self.start = [0, 1].map(|axis| [0, 1, 2].map(|k| found[axis][k]));
         Ok(())
     }
 
@@ -222,7 +222,7 @@ impl PositionTable {
     ) -> Result<(), PositionError> {
         let surface = Surface::RatioX;
         let size = self.size(surface);
-        let mut fit = Fit::new(size[0] * size[1], 2);
+        let mut fit = Fit::of_raster(size, 2);
         for ((&place, point), &importance) in places.iter().zip(points).zip(importance) {
             let terms = self.terms(surface, place);
             fit.ask(&terms.map(|term| (term.0, term.1)), &[point.r_x, point.r_y], importance);
@@ -230,7 +230,7 @@ impl PositionTable {
         let total: f64 = importance.iter().sum();
         smooth(&mut fit, size, 2, SMOOTHNESS * total / (size[0] * size[1]) as f64);
         let found = fit.solve().ok_or(PositionError::Ambiguous)?;
-        self.ratios = [0, 1].map(|k| found.column(k).iter().copied().collect());
+        self.ratios = found.try_into().expect("a layer per ratio");
         Ok(())
     }
 
@@ -241,14 +241,13 @@ impl PositionTable {
     ) -> Result<(), PositionError> {
         let surface = Surface::Resistance;
         let size = self.size(surface);
-        let mut fit = Fit::new(size[0] * size[1], 1);
+        let mut fit = Fit::of_raster(size, 1);
         for (&place, point) in places.iter().zip(points) {
             let terms = self.terms(surface, place);
             fit.ask(&terms.map(|term| (term.0, term.1)), &[point.sheet], 1.0);
         }
         smooth(&mut fit, size, 1, SMOOTHNESS * points.len() as f64 / (size[0] * size[1]) as f64);
-        let found = fit.solve().ok_or(PositionError::Ambiguous)?;
-        self.resistance = found.as_slice().to_vec();
+        self.resistance = fit.solve().ok_or(PositionError::Ambiguous)?.concat();
         Ok(())
     }
 
