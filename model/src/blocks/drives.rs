@@ -395,20 +395,24 @@ impl Block for Drives {
             tuning: self.held(&r.settings, i.tuning),
         };
         let controller = call!(self.controller, state, inputs);
-        let of_walls = self.drive();
+        let formats = self.drive();
         let drive = DrivePort {
             drive_valid: controller.done,
             drive_pad: r.pad,
             drive: controller.drive,
             drive_low: controller.low,
             drive_high: controller.high,
-            drive_target: begin.target.where_present(of_walls.drive_target),
-            drive_free: begin.free.where_present(of_walls.drive_free),
+            drive_target: begin.target.where_present(formats.drive_target),
+            drive_free: begin.free.where_present(formats.drive_free),
         };
         let outputs = Outputs { drive, extremes: r.extremes, faults: controller.faults };
         let rests = controller.drive.is(0).where_present(r.rests.format);
-        let steps = i.estimate.prompt | r.asked | r.start | controller.done | r.driven;
-        if (steps | target_write | i.extremes_read | rests.select(!r.rests, r.rests)).can_skip() {
+        let steps = i.estimate.prompt | r.asked | r.start | controller.done;
+        let of_walls = match self.has_walls() {
+            true => r.driven | rests.select(!r.rests, r.rests),
+            false => bit(false),
+        };
+        if (steps | target_write | i.extremes_read | of_walls).can_skip() {
             return outputs;
         }
         let found = self.targets.data(&mut state.submodules.targets);
