@@ -41,8 +41,8 @@ pub struct Case {
     /// The force controller that drives the pads, where the scene has one.
     pub control: Option<ControlPlan>,
     pub(crate) pads: Vec<PadPlan>,
-    /// Where what each slot of a pad serves lies, mm right of the pad's centre.
-    pub(crate) parts_mm: Vec<f64>,
+    /// Where what each slot of a pad serves lies, mm right of the pad's centre and above it.
+    pub(crate) parts_mm: Vec<[f64; 2]>,
     pub(crate) effects: Vec<Spec>,
     pub(crate) length: Length,
     /// Error that all levels together may leave, where the scene names one: until they are chosen,
@@ -94,6 +94,7 @@ impl Case {
     pub fn served_names(&self) -> Vec<String> {
         let parts: &[&str] = match self.parts_mm.len() {
             1 => &[""],
+            4 => &[", top left", ", bottom left", ", bottom right", ", top right"],
             parts => &[", left", ", right", ", brake"][..parts],
         };
         let of_pad = |pad: &PadPlan| {

@@ -108,10 +108,11 @@ pub(crate) struct PadDrive<'a> {
 /// What is done to one electrode of a split pad in particular; nothing of a pad that is whole.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Electrode {
-    /// By what share of itself the load is more for each millimetre of the push's eccentricity.
-    pub lean_per_mm: f64,
+    /// By what share of itself the load is more for each millimetre of the push's eccentricity along x
+    /// and y.
+    pub lean_per_mm: [f64; 2],
     /// What the push of the hand adds to the eccentricity, mm.
-    pub tilt_mm: f64,
+    pub tilt_mm: [f64; 2],
     /// The eccentricity at which the pad tips, mm.
     pub reach_mm: f64,
     /// The most that its source gives.
@@ -121,19 +122,30 @@ pub(crate) struct Electrode {
 impl Electrode {
     /// The whole pad.
     pub const WHOLE: Electrode = Electrode {
-        lean_per_mm: 0.0,
-        tilt_mm: 0.0,
+        lean_per_mm: [0.0; 2],
+        tilt_mm: [0.0; 2],
         reach_mm: f64::INFINITY,
         most_v_rms: f64::INFINITY,
     };
 
     /// What pulls and presses the electrode, of what does the pad.
     pub fn of_pad(&self, source_v_rms: f64, load_g: f64, eccentricity_mm: f64) -> Pull {
-        let eccentricity_mm = (eccentricity_mm + self.tilt_mm).clamp(-self.reach_mm, self.reach_mm);
+        let [x_mm, y_mm] = self.within_reach([eccentricity_mm + self.tilt_mm[0], self.tilt_mm[1]]);
+        let [along_x, along_y] = self.lean_per_mm;
         Pull {
             source_v_rms: source_v_rms.min(self.most_v_rms),
-            load_g: load_g * (1.0 + self.lean_per_mm * eccentricity_mm),
+            load_g: load_g * (1.0 + along_x * x_mm + along_y * y_mm),
         }
+    }
+
+    /// The eccentricity at which the pad lies on its electrodes still: of quadrants, whose centres are a
+    /// square, within the one that joins the middles of its sides.
+    fn within_reach(&self, [x_mm, y_mm]: [f64; 2]) -> [f64; 2] {
+        if y_mm == 0.0 {
+            return [x_mm.clamp(-self.reach_mm, self.reach_mm), y_mm];
+        }
+        let share = (self.reach_mm / (x_mm.abs() + y_mm.abs())).min(1.0);
+        [share * x_mm, share * y_mm]
     }
 }
 

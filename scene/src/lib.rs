@@ -110,5 +110,5 @@ pub use scene::{Figure, Record, Scene};
 pub use terminals::{LEAST_TERMINALS, MOST_TERMINALS};
 pub use timing::Timing;
 pub use truth::{ForcePoint, MapPoint, PadMeasurement, Setpoint, Truth};
-pub use wall::{WallPlan, WallRule};
+pub use wall::{WallAlongY, WallPlan, WallRule};
 pub use wave::HapticWave;

@@ -248,8 +248,8 @@ impl Plant {
         self.case.parts_mm.len()
     }
 
-    /// Where they lie, mm right of the pad's centre.
-    pub fn parts_mm(&self) -> &[f64] {
+    /// Where they lie, mm right of the pad's centre and above it.
+    pub fn parts_mm(&self) -> &[[f64; 2]] {
         &self.case.parts_mm
     }
 

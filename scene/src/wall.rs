@@ -11,6 +11,8 @@
 //! rule = "sequential"        # sequential | direct (eq. 12) | never (eq. 11): when it lets go
 //! surface_mm = 0             # along x; may move: see `stimulus`
 //! inside = "left"            # left | right of its surface
+//! surface_y_mm = 0           # with halves.quadrants: of the wall along y, which may move, too
+//! inside_y = "below"         # below | above its surface
 //! stiffness_n_per_mm = 0.5
 //! force_n = 1                # the most that it gives
 //! play_mm = 0.2              # way back after which the hand has turned, whatever the push reads
@@ -70,7 +72,40 @@ pub struct WallPlan {
     pub play_mm: Option<f64>,
     /// The direction's offset is taken out.
     pub calibrated: bool,
+    /// The wall along y, where pads are split in quadrants.
+    pub along_y: Option<WallAlongY>,
     surface_mm: Stimulus,
+}
+
+/// The wall along y.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WallAlongY {
+    /// Its inside is above its surface.
+    pub above: bool,
+    surface_mm: Stimulus,
+}
+
+impl WallAlongY {
+    /// The table's, of pads that are split in quadrants.
+    fn read(table: &Table, quadrants: bool) -> Result<Option<WallAlongY>, SceneError> {
+        if !quadrants {
+            let keys = ["surface_y_mm", "inside_y"];
+            return match keys.into_iter().find(|key| table.get(key).is_some()) {
+                Some(key) => Err(table.error(key, "expected [halves] with quadrants = true too")),
+                None => Ok(None),
+            };
+        }
+        let surface = Stimulus::read(table, "surface_y_mm", Limits::within(-1e4, 1e4))?;
+        Ok(Some(WallAlongY {
+            above: table.choice("inside_y", &["below", "above"])? == Some("above"),
+            surface_mm: over_time(table, "surface_y_mm", "a place", surface)?,
+        }))
+    }
+
+    /// Where its surface is at a time, mm above the sheet's centre.
+    pub fn surface_mm(&self, time_s: f64) -> f64 {
+        self.surface_mm.at(0, Moment::at(time_s))
+    }
 }
 
 impl WallPlan {
@@ -87,6 +122,7 @@ impl WallPlan {
         if root.get("control").is_none() {
             return Err(table.error("", "expected [control] too, which gives the wall's force"));
         }
+        let quadrants = halves.map_or(Ok(false), |halves| halves.flag("quadrants"))?;
         let surface = Stimulus::read(table, "surface_mm", Limits::within(-1e4, 1e4))?;
         let surface_mm = over_time(table, "surface_mm", "a place", surface)?;
         Ok(Some(WallPlan {
@@ -100,6 +136,7 @@ impl WallPlan {
             force_n: table.number_or("force_n", Limits::within(0.0, 100.0), 1.0)?,
             play_mm: table.number("play_mm", Limits::within(0.001, 10.0))?,
             calibrated: !table.flag("uncalibrated")?,
+            along_y: WallAlongY::read(table, quadrants)?,
             surface_mm,
         }))
     }

@@ -13,6 +13,7 @@ use hapticore_model::blocks::position::TablePort;
 use hapticore_model::blocks::split_pad::WallPort;
 use hapticore_model::fidelity::force_loop::{curve_writes, tuning_codes, wall_codes};
 use hapticore_run::case::Case;
+use hapticore_run::control::plant::surface_of;
 use hapticore_run::engine::Signals;
 use hapticore_run::inputs;
 use hapticore_run::maker::Maker;
@@ -101,10 +102,28 @@ impl Closed {
     /// # Panics
     /// As [`Closed::new`].
     pub fn at_a_wall(profile: &Profile) -> Self {
-        let there_and_back =
-            "{ timeline = { x_mm = [[0, 0.3], [0.006, -0.8], [0.012, -0.8], [0.02, 0.5]] } }";
+        Closed::drawn(
+            profile,
+            "fig15",
+            "x_mm = [[0, 0.3], [0.006, -0.8], [0.012, -0.8], [0.02, 0.5]]",
+        )
+    }
+
+    /// The same of a pad split in four and the corner of two walls.
+    ///
+    /// # Panics
+    /// As [`Closed::new`].
+    pub fn in_a_corner(profile: &Profile) -> Self {
+        let along_x = "x_mm = [[0, 0.3], [0.006, -0.6], [0.012, -0.6], [0.016, 0.5]]";
+        let along_y = "y_mm = [[0, 0.5], [0.008, -0.9], [0.016, -0.9], [0.02, 0.5]]";
+        Closed::drawn(profile, "wall-2d", &format!("{along_x}, {along_y}"))
+    }
+
+    /// A scene's pad whose hand goes there and back.
+    fn drawn(profile: &Profile, scene: &str, there_and_back: &str) -> Self {
+        let there_and_back = format!("{{ timeline = {{ {there_and_back} }} }}");
         let set = [
-            ("pad.0.position_mm", there_and_back),
+            ("pad.0.position_mm", there_and_back.as_str()),
             ("hand.stiffness_n_per_m", "20000"),
             ("hand.damping_n_s_per_m", "30"),
             ("hand.mass_kg", "0.01"),
@@ -113,7 +132,7 @@ impl Closed {
             ("window_samples", "600"),
         ];
         let set = set.map(|(key, value)| (key.to_string(), value.to_string()));
-        Closed::new(profile, ("fig15", 0), &set, 24)
+        Closed::new(profile, (scene, 0), &set, 24)
     }
 
     /// What is printed of the loop, and what its model did until the end.
@@ -203,11 +222,12 @@ fn surfaces(case: &Case, constants: Inputs<i64>, format: Format) -> Vec<Inputs<i
     let plan = case.scene.cases[case.index].control.as_ref();
     let Some(wall) = plan.and_then(|plan| plan.wall.as_ref()) else { return Vec::new() };
     let plant = case.plant().expect("a plant");
-    let last_mm = plant.parts_mm().last().copied().unwrap_or(0.0);
     let write = |pad: usize| {
         let mut inputs = constants;
+        let surface = surface_of(wall, plant.parts_mm(), pad, 0.0);
         (inputs.wall.wall_write, inputs.wall.wall_pad) = (1, pad as i64);
-        inputs.wall.wall_surface = format.code_saturating(wall.surface_mm(0.0) + last_mm);
+        inputs.wall.wall_surface = format.code_saturating(surface.mm);
+        inputs.wall.wall_right = surface.right.into();
         inputs
     };
     (0..plant.served()).map(write).collect()

@@ -323,6 +323,24 @@ fn verilator_runs_a_wall_as_the_model_does() {
     }
 }
 
+/// A pad that is split in four, in the corner of two walls.
+#[test]
+fn verilator_runs_walls_along_both_axes_as_the_model_does() {
+    if !tools::have(&["verilator", "make", "g++"]) {
+        return;
+    }
+    let (design, trace) =
+        Closed::in_a_corner(&Profile::bundled("small").expect("bundled")).record();
+    let targets: BTreeSet<_> = of_port(&trace, "drive_target").into_iter().collect();
+    assert!(targets.len() > 4, "walls along both axes make targets of their own: {targets:?}");
+    assert!(of_port(&trace, "drive").into_iter().any(|drive| drive > 0), "the walls hold the pad");
+    let verilated = Verilated::new(design.top(), &design.ports, &design.text(), Start::Zero);
+    if let Err(mismatch) = verilated.check(&trace) {
+        panic!("{mismatch}");
+    }
+    println!("small, quadrants: {} clocks equal", trace.clocks());
+}
+
 /// The drive words of a wall reach the pins of a converter, with the polarity of their slots.
 #[test]
 fn verilator_drives_a_converter_as_the_model_does() {

@@ -274,11 +274,13 @@ impl<'a> Case<'a> {
 }
 
 /// The profile for pads that are served part by part: half a pad has half its capacitance, so that
-/// the gain of (C·V)² is four times the pad's.
+/// the gain of (C·V)² is four times the pad's, that of a quadrant sixteen times.
 fn for_parts(mut profile: Profile, parts: usize) -> Profile {
-    if parts > 1 {
-        profile.formats.force_gain.frac -= 2;
-    }
+    profile.formats.force_gain.frac -= match parts {
+        1 => 0,
+        4 => 4,
+        _ => 2,
+    };
     profile
 }
 
@@ -359,8 +361,8 @@ impl Case<'_> {
             interrupt::check()?;
             let made = plant.slot(number);
             session.set_target(made.slot.pad, made.target_n);
-            if let Some(surface_mm) = made.surface_mm {
-                session.set_surface(made.slot.pad, surface_mm);
+            if let Some(surface) = made.surface {
+                session.set_surface(made.slot.pad, surface);
             }
             if let Some(recorder) = recorder.as_mut() {
                 recorder.slot(made.slot.pad, made.slot.whole())?;

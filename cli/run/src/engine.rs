@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use hapticore_contract::calibration::Calibration;
-use hapticore_contract::control::Drive;
+use hapticore_contract::control::{Drive, Surface};
 use hapticore_contract::frame::{Frame, Measurement};
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::block::Interpretation;
@@ -120,8 +120,8 @@ pub trait Engine: Send {
     /// Sets a pad's target force, N, where there is a controller.
     fn set_target(&mut self, _pad: usize, _newtons: f64) {}
 
-    /// Sets where the wall of a pad begins, mm, where there are walls.
-    fn set_surface(&mut self, _pad: usize, _surface_mm: f64) {}
+    /// Sets where the wall that is known by this number begins, where there are walls.
+    fn set_surface(&mut self, _pad: usize, _surface: Surface) {}
 
     /// The drive that the last slot led to, where there is a controller: after each slot, or after
     /// the last of a split pad.

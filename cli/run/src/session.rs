@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use anyhow::Result;
 use hapticore_contract::calibration::Calibration;
-use hapticore_contract::control::{Drive, Tuning};
+use hapticore_contract::control::{Drive, Surface, Tuning};
 use hapticore_contract::frame::Measurement;
 use hapticore_contract::profile::Profile;
 use hapticore_host::{CrosstalkCanceller, DeviceCalibration, ForceLaws, Readout, SlotClock};
@@ -109,9 +109,9 @@ impl Session {
         self.engine.set_target(pad, newtons);
     }
 
-    /// Sets where the wall of a pad begins, mm, from its next slot on.
-    pub fn set_surface(&mut self, pad: usize, surface_mm: f64) {
-        self.engine.set_surface(pad, surface_mm);
+    /// Sets where the wall that is known by this number begins, from the pad's next slot on.
+    pub fn set_surface(&mut self, pad: usize, surface: Surface) {
+        self.engine.set_surface(pad, surface);
     }
 
     /// The drive of the last slot's pad, where there is a controller.

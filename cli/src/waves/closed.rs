@@ -56,8 +56,8 @@ fn step<W: Wave>(
     let mut outcome = Ok(());
     let mut clocks = 0..;
     core.set_target(made.slot.pad, made.target_n);
-    if let Some(surface_mm) = made.surface_mm {
-        core.set_surface(made.slot.pad, surface_mm);
+    if let Some(surface) = made.surface {
+        core.set_surface(made.slot.pad, surface);
     }
     let (_, drive) = core.slot_with(made.slot.window(), |core| {
         if clocks.next() == Some(window_clocks) {

@@ -6,7 +6,7 @@
 //!
 //! ```toml
 //! pads = 1
-//! parts = 1                        # 2 or 3 of them in a row are parts of one split pad
+//! parts = 1                        # 2 to 4 of them in a row are parts of one split pad
 //! [terminals]                     # signs in the ratios; those of eqs. 2 and 3 where the table is left out
 //! x = [-1, -1, 1, 1, 0, 0]
 //! y = [1, -1, -1, 1, -1, 1]

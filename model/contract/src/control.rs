@@ -110,9 +110,19 @@ pub struct Walls {
     pub stiffness_n_per_mm: f64,
     /// The largest force, N.
     pub most_n: f64,
-    /// What the direction u of a wall on the left reads without a push.
+    /// What the direction u of a wall on the left reads without a push; that of a wall along y reads
+    /// nothing.
     pub factory: f64,
-    /// The walls are right of their surfaces.
+    /// The walls are right of their surfaces, until a surface is set.
+    pub right: bool,
+}
+
+/// Where a wall begins.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Surface {
+    /// Place along the wall's axis, mm.
+    pub mm: f64,
+    /// The wall is right of it, or above it.
     pub right: bool,
 }
 

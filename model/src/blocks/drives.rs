@@ -23,7 +23,7 @@ use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::{BIT, Format};
 use hapticore_hdl::memory::{Memory, Write};
-use hapticore_hdl::signal::{HalfEven, Signal, bit};
+use hapticore_hdl::signal::{HalfEven, Signal, Wrap, bit, int};
 use hapticore_hdl::{block, bundle, call};
 
 bundle! {
@@ -163,6 +163,17 @@ impl Drives {
         self.split_pad.as_ref().map_or(2, SplitPad::latency) + self.controller.latency()
     }
 
+    /// Whether pads have walls along both axes.
+    pub fn has_walls_along_y(&self) -> bool {
+        self.split_pad.as_ref().is_some_and(SplitPad::has_quadrants)
+    }
+
+    /// Whether this is the number of a pad's last part.
+    pub fn is_last(&self, pad: usize) -> bool {
+        let parts = self.split_pad.as_ref().map_or(1, SplitPad::parts);
+        (pad as u64 + 1).is_multiple_of(parts)
+    }
+
     #[inline(always)]
     fn has_walls(&self) -> bool {
         self.split_pad.is_some()
@@ -221,7 +232,8 @@ impl Drives {
         }
     }
 
-    /// A frame's word that is a valid place: whether it is, of which pad, and the place.
+    /// A frame's word that is a valid place: whether it is, of which number, and the place. Of pads with
+    /// walls along both axes the last part's places count, y by the number before it.
     #[inline(always)]
     pub fn place<V: Interpretation>(
         &self,
@@ -231,8 +243,17 @@ impl Drives {
             let none = |format: Format| frame.valid.where_present(format);
             return (none(Format::NONE), none(Format::NONE), none(Format::NONE));
         }
-        let placed = frame.valid & frame.index.is(Field::X as u64) & !frame.invalid;
-        (placed, frame.pad, frame.frame.as_code(self.position))
+        let is = |field: Field| frame.index.is(field as u64);
+        let place = frame.frame.as_code(self.position);
+        match self.split_pad.as_ref().filter(|of| of.has_quadrants()) {
+            None => (frame.valid & is(Field::X) & !frame.invalid, frame.pad, place),
+            Some(of) => {
+                let along_y = is(Field::Y);
+                let placed = frame.valid & (is(Field::X) | along_y) & !frame.invalid;
+                let before = (frame.pad - int(1)).resize(self.pad, Wrap);
+                (placed & of.is_last(frame.pad), along_y.select(before, frame.pad), place)
+            }
+        }
     }
 }
 

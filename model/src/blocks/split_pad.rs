@@ -2,10 +2,12 @@
 //! Split pad: the estimates of a pad's parts as one of the pad, and the force of its wall.
 //!
 //! ```text
-//! parts of a pad, slot after slot:   left | right          both sense and brake
-//!                                    left | right | brake   the outer two sense
-//! C = (C_left + C_right)/2,  F likewise;    or those of the brake
-//! x_w = ±(x − surface),   a wall on the right is a mirrored one on the left
+//! parts of a pad, slot after slot:   left | right            both sense and brake
+//!                                    left | right | brake    the outer two sense
+//!                                    tl | bl | br | tr       quadrants, all sense and brake
+//! C = (C_left + C_right)/2,  F likewise;    those of the brake;    or the mean of all quadrants
+//! C_left = (C_tl + C_bl)/2,  C_right = (C_br + C_tr)/2;    C_bottom = (C_bl + C_br)/2,  C_top = (C_tl + C_tr)/2
+//! x_w = ±(x − surface),   a wall on the right is a mirrored one on the left;    y_w likewise
 //! ```
 //!
 //! ```text
@@ -20,14 +22,16 @@
 //!
 //! A pad is known by the number of its last part, whose place is the pad's. The wall acts from the
 //! pad's first valid place on; where the estimate of a sensing part is invalid it lets go, the safe
-//! side. Latency: three clocks and the wall's, from the last part's estimate to `done`.
+//! side. Quadrants have a wall along either axis, one after the other: that along y is known by the
+//! number of the pad's third part, its bottom is the left of that along x, and the pad takes the larger
+//! force. Latency: three clocks and the wall's for each axis, from the last part's estimate to `done`.
 
 use super::wall::{self, Wall};
-use hapticore_contract::profile::{Profile, ProfileError};
+use hapticore_contract::profile::{self, Profile, ProfileError};
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format};
 use hapticore_hdl::memory::{Memory, Write};
-use hapticore_hdl::signal::{HalfEven, Proved, Saturate, Signal, bit, zero};
+use hapticore_hdl::signal::{HalfEven, Proved, Saturate, Signal, Wrap, bit, int, zero};
 use hapticore_hdl::{block, bundle, call};
 
 bundle! {
@@ -84,9 +88,9 @@ block! {
         invalid: BIT,
         /// A frame has a valid place.
         placed: BIT,
-        /// Number of its part.
+        /// Number of its part, or of that by which the pad's wall along y is known.
         placed_pad: block.pad(),
-        /// Place, mm.
+        /// Place along the wall's axis, mm.
         place: block.position,
         /// A drive word is given.
         driven: BIT,
@@ -112,8 +116,20 @@ block! {
     }
     registers(block) {
         pad: block.pad(),
+        /// Of quadrants the first.
         left: block.capacitance,
+        /// Of quadrants the second.
         right: block.capacitance,
+        third: block.of_quadrants(block.capacitance),
+        fourth: block.of_quadrants(block.capacitance),
+        /// Capacitances and forces of the quadrants so far.
+        sum: block.of_quadrants(four(block.capacitance)),
+        force_sum: block.of_quadrants(four(block.force)),
+        /// The wall along y is next, or under way.
+        along_y: block.of_quadrants(BIT),
+        /// What the wall along x has given.
+        target: block.of_quadrants(block.force),
+        free: block.of_quadrants(BIT),
         /// The estimate of a sensing part is invalid.
         invalid: BIT,
         /// That of what brakes is.
@@ -186,7 +202,24 @@ impl SplitPad {
 
     /// Clocks from the estimate of a pad's last part to `done`.
     pub fn latency(&self) -> u64 {
-        3 + self.wall.latency()
+        let axes = if self.has_quadrants() { 2 } else { 1 };
+        axes * (3 + self.wall.latency())
+    }
+
+    /// Whether pads have walls along both axes.
+    pub fn has_quadrants(&self) -> bool {
+        self.parts == profile::Wall::QUADRANTS.parts
+    }
+
+    #[inline(always)]
+    fn of_quadrants(&self, format: Format) -> Format {
+        format.where_present(self.has_quadrants())
+    }
+
+    /// The part is the last of its pad.
+    #[inline(always)]
+    pub fn is_last<V: Interpretation>(&self, pad: Signal<V>) -> Signal<V> {
+        self.is_part(pad, self.parts - 1)
     }
 
     /// The part is this one of its pad.
@@ -200,10 +233,11 @@ impl SplitPad {
     /// The registers after a part's estimate.
     #[inline(always)]
     fn gathered<V: Interpretation>(&self, r: Regs<V>, i: &In<V>) -> Regs<V> {
+        if self.has_quadrants() {
+            return self.gathered_quadrants(r, i);
+        }
         let [first, second] = [0, 1].map(|part| i.estimate & self.is_part(i.pad, part));
         let last = i.estimate & self.is_part(i.pad, self.parts - 1);
-        let mean =
-            |a: Signal<V>, b: Signal<V>| (a + b).scaled(-1).quantize(a.format, HalfEven, Proved);
         let (capacitance, measured) = match self.parts {
             2 => (mean(r.left, i.capacitance), mean(r.measured, i.measured)),
             _ => (i.capacitance, i.measured),
@@ -217,6 +251,39 @@ impl SplitPad {
             unknown: last.select(if self.parts == 2 { invalid } else { i.invalid }, r.unknown),
             capacitance: last.select(capacitance, r.capacitance),
             measured: last.select(measured, first.select(i.measured, r.measured)),
+            asked: last,
+            found: r.asked,
+            start: r.found,
+            ..r
+        }
+    }
+
+    /// The registers after a quadrant's estimate; after the wall along x that along y is asked for.
+    #[inline(always)]
+    fn gathered_quadrants<V: Interpretation>(&self, r: Regs<V>, i: &In<V>) -> Regs<V> {
+        let [first, second, third, last] =
+            [0, 1, 2, 3].map(|part| i.estimate & self.is_part(i.pad, part));
+        let sum = |of: Signal<V>, more: Signal<V>| {
+            let before = first.select(zero(of.format), of);
+            i.estimate.select((before + more).resize(of.format, Wrap), of)
+        };
+        let (sum, force_sum) = (sum(r.sum, i.capacitance), sum(r.force_sum, i.measured));
+        // Saturated where a pad's first quadrants have not been seen.
+        let quarter = |of: Signal<V>, to: Format| of.scaled(-2).quantize(to, HalfEven, Saturate);
+        let invalid = i.estimate.select((!first & r.invalid) | i.invalid, r.invalid);
+        Registers {
+            pad: i.estimate.select(i.pad, r.pad),
+            left: first.select(i.capacitance, r.left),
+            right: second.select(i.capacitance, r.right),
+            third: third.select(i.capacitance, r.third),
+            fourth: last.select(i.capacitance, r.fourth),
+            sum,
+            force_sum,
+            along_y: !i.estimate & r.along_y,
+            invalid,
+            unknown: last.select(invalid, r.unknown),
+            capacitance: last.select(quarter(sum, self.capacitance), r.capacitance),
+            measured: last.select(quarter(force_sum, self.force), r.measured),
             asked: last,
             found: r.asked,
             start: r.found,
@@ -243,13 +310,14 @@ impl SplitPad {
             address: i.placed_pad,
             data: bit(true).concat(i.place.bits(0, self.position.width)),
         };
-        self.places.access(&mut within.places, r.pad, write);
+        let number = self.number(r);
+        self.places.access(&mut within.places, number, write);
         let write = Write {
             enable: i.wall.wall_write,
             address: i.wall.wall_pad,
             data: i.wall.wall_right.concat(i.wall.wall_surface.bits(0, self.position.width)),
         };
-        self.surfaces.access(&mut within.surfaces, r.pad, write);
+        self.surfaces.access(&mut within.surfaces, number, write);
         let write = Write { enable: i.driven, address: r.pad, data: i.rests };
         self.rests.access(&mut within.rests, r.pad, write);
         let of = |word: Signal<V>| word.bits(0, self.position.width).as_code(self.position);
@@ -267,19 +335,58 @@ impl SplitPad {
     }
 }
 
+/// The mean of two.
+#[inline(always)]
+fn mean<V: Interpretation>(a: Signal<V>, b: Signal<V>) -> Signal<V> {
+    (a + b).scaled(-1).quantize(a.format, HalfEven, Proved)
+}
+
+/// A sum of four.
+#[inline(always)]
+const fn four(of: Format) -> Format {
+    Format { width: of.width + 2, ..of }
+}
+
 impl SplitPad {
+    /// The number by which the wall is known whose turn it is.
+    #[inline(always)]
+    fn number<V: Interpretation>(&self, r: &Regs<V>) -> Signal<V> {
+        if !self.has_quadrants() {
+            return r.pad;
+        }
+        r.along_y.select((r.pad - int(1)).resize(self.pad(), Wrap), r.pad)
+    }
+
+    /// Capacitances on the left and on the right, or at the bottom and at the top.
+    #[inline(always)]
+    fn sides<V: Interpretation>(&self, r: &Regs<V>) -> [Signal<V>; 2] {
+        if !self.has_quadrants() {
+            return [r.left, r.right];
+        }
+        let [top_left, bottom_left, bottom_right, top_right] = [r.left, r.right, r.third, r.fourth];
+        let y = r.along_y;
+        [
+            mean(y.select(bottom_right, top_left), bottom_left),
+            mean(y.select(top_left, bottom_right), top_right),
+        ]
+    }
+
     /// What the wall is given: without current where no part can be trusted, so that it lets go.
     #[inline(always)]
     fn of_wall<V: Interpretation>(&self, r: &Regs<V>, i: &In<V>) -> wall::In<V> {
         let trusted = r.placed & !r.invalid;
         let current = |part: Signal<V>| trusted.select(part, zero(self.capacitance));
-        let factory = i.wall.wall_factory;
+        let [left, right] = self.sides(r);
+        let factory = match self.has_quadrants() {
+            true => r.along_y.select(zero(i.wall.wall_factory.format), i.wall.wall_factory),
+            false => i.wall.wall_factory,
+        };
         wall::Inputs {
             start: r.start,
-            pad: r.pad,
+            pad: self.number(r),
             restart: i.wall.wall_restart | !r.placed,
-            c_left: current(r.mirrored.select(r.right, r.left)),
-            c_right: current(r.mirrored.select(r.left, r.right)),
+            c_left: current(r.mirrored.select(right, left)),
+            c_right: current(r.mirrored.select(left, right)),
             x: r.x,
             at_zero: r.rests,
             stiffness: i.wall.wall_stiffness,
@@ -303,14 +410,41 @@ impl Block for SplitPad {
             free: walled.free,
             reads: walled.valid,
         };
+        let outputs = if self.has_quadrants() { of_both(outputs, &r) } else { outputs };
         let written = i.placed | i.driven | i.wall.wall_write;
-        if (i.estimate | r.asked | r.found | r.start | written).can_skip() {
+        let turns = if self.has_quadrants() { walled.done } else { bit(false) };
+        if (i.estimate | r.asked | r.found | r.start | written | turns).can_skip() {
             return outputs;
         }
         let gathered = self.gathered(r, &i);
+        let gathered = if self.has_quadrants() { turned(gathered, &r, walled) } else { gathered };
         let next = self.located(state, &i, &r, gathered);
         state.store(self, next);
         outputs
+    }
+}
+
+/// What both walls of a pad give: the larger force, and whether the user leaves either.
+#[inline(always)]
+fn of_both<V: Interpretation>(along: Out<V>, r: &Regs<V>) -> Out<V> {
+    Outputs {
+        done: along.done & r.along_y,
+        target: along.target.less_than(r.target).select(r.target, along.target),
+        free: along.free | r.free,
+        ..along
+    }
+}
+
+/// The registers where the wall along x is done: that along y is asked for.
+#[inline(always)]
+fn turned<V: Interpretation>(next: Regs<V>, r: &Regs<V>, walled: wall::Out<V>) -> Regs<V> {
+    let turns = walled.done & !r.along_y;
+    Registers {
+        asked: next.asked | turns,
+        along_y: next.along_y | turns,
+        target: turns.select(walled.target, r.target),
+        free: turns.select(walled.free, r.free),
+        ..next
     }
 }
 

@@ -15,7 +15,7 @@ use crate::blocks::force_loop::{ForceLoop, Inputs, Outputs};
 use crate::blocks::position::TablePort;
 use crate::blocks::split_pad::WallPort;
 use hapticore_contract::calibration::Calibration;
-use hapticore_contract::control::{Drive, Faults, Tuning, Walled, Walls};
+use hapticore_contract::control::{Drive, Faults, Surface, Tuning, Walled, Walls};
 use hapticore_contract::frame::{Field, Frame};
 use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_hdl::block::{Block, State};
@@ -103,12 +103,13 @@ fn surface_write(
     formats: &WallPort<Format>,
     idle: WallPort<i64>,
     pad: usize,
-    surface_mm: f64,
+    surface: Surface,
 ) -> WallPort<i64> {
     WallPort {
         wall_write: 1,
         wall_pad: pad as i64,
-        wall_surface: formats.wall_surface.code_saturating(surface_mm),
+        wall_surface: formats.wall_surface.code_saturating(surface.mm),
+        wall_right: surface.right.into(),
         ..idle
     }
 }
@@ -149,9 +150,9 @@ impl FixedLoop {
         self.clock(drives::Inputs { target, ..self.idle });
     }
 
-    /// Sets where the wall of a pad begins, mm.
-    pub fn set_surface(&mut self, pad: usize, surface_mm: f64) {
-        let wall = surface_write(&self.drives.inputs().wall, self.idle.wall, pad, surface_mm);
+    /// Sets where the wall that is known by this number begins.
+    pub fn set_surface(&mut self, pad: usize, surface: Surface) {
+        let wall = surface_write(&self.drives.inputs().wall, self.idle.wall, pad, surface);
         self.clock(drives::Inputs { wall, ..self.idle });
     }
 
@@ -184,8 +185,18 @@ impl FixedLoop {
         if frame.flags.invalid || self.drives.split_pad.is_none() {
             return;
         }
-        let (placed_pad, place) = (frame.pad as i64, frame.codes[Field::X as usize]);
-        self.clock(drives::Inputs { placed: 1, placed_pad, place, ..self.idle });
+        let of = |field: Field| frame.codes[field as usize];
+        let number = frame.pad as i64;
+        let places = match self.drives.has_walls_along_y() {
+            false => vec![(number, of(Field::X))],
+            true if self.drives.is_last(frame.pad) => {
+                vec![(number, of(Field::X)), (number - 1, of(Field::Y))]
+            }
+            true => Vec::new(),
+        };
+        for (placed_pad, place) in places {
+            self.clock(drives::Inputs { placed: 1, placed_pad, place, ..self.idle });
+        }
     }
 
     fn clock(&mut self, inputs: drives::Inputs<i64>) {
@@ -310,10 +321,10 @@ impl ClockLoop {
         self.write(Inputs { target, ..self.inputs });
     }
 
-    /// Sets where the wall of a pad begins, mm.
-    pub fn set_surface(&mut self, pad: usize, surface_mm: f64) {
+    /// Sets where the wall that is known by this number begins.
+    pub fn set_surface(&mut self, pad: usize, surface: Surface) {
         let formats = self.block.inputs().wall;
-        let wall = surface_write(&formats, self.wall, pad, surface_mm);
+        let wall = surface_write(&formats, self.wall, pad, surface);
         let wall = signals::<WallPort, i64>(wall, formats);
         self.write(Inputs { wall, ..self.inputs });
     }

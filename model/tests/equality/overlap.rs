@@ -5,7 +5,7 @@
 use crate::device::{self, Sight, calibration, overlapping_profiles};
 use crate::harness::operations;
 use crate::random::Random;
-use hapticore_contract::control::{Drive, Law, Tuning, Walls};
+use hapticore_contract::control::{Drive, Law, Surface, Tuning, Walls};
 use hapticore_contract::frame::Frame;
 use hapticore_contract::profile::{Profile, ProfileError, Wall};
 use hapticore_model::blocks::core::Core;
@@ -70,14 +70,14 @@ fn tuning(profile: &Profile) -> Tuning {
     }
 }
 
-/// The profiles with a controller; those for one pad also with a wall and two or three parts of it.
+/// The profiles with a controller; those for one pad also with a wall and two, three or four parts of it.
 fn controlled() -> impl Iterator<Item = Profile> {
     profiles().filter(|profile| profile.control.is_some()).flat_map(|profile| {
         let with_wall = |wall: Wall| {
             let pads = wall.parts * profile.pads.div_ceil(wall.parts);
             Profile { wall: Some(wall), pads, ..profile.clone() }
         };
-        let walls = [Wall::A, Wall::B].map(with_wall);
+        let walls = [Wall::A, Wall::B, Wall::QUADRANTS].map(with_wall);
         let one = if profile.pads == 1 { walls.to_vec() } else { Vec::new() };
         [profile].into_iter().chain(one).collect::<Vec<_>>()
     })
@@ -101,9 +101,10 @@ fn drives_and_frames_of_a_loop_are_the_same_at_fixed_and_clock() {
             fixed.set_target(pad, target);
             clock.set_target(pad, target);
             if profile.wall.is_some() {
-                let surface_mm = 40.0 * (slot as f64 / 7.0).sin();
-                fixed.set_surface(pad, surface_mm);
-                clock.set_surface(pad, surface_mm);
+                let mm = 40.0 * (slot as f64 / 7.0).sin();
+                let surface = Surface { mm, right: slot % 50 > 40 };
+                fixed.set_surface(pad, surface);
+                clock.set_surface(pad, surface);
             }
             let codes = window(&profile, &codes);
             let (frame, drive) = fixed.slot(|core| core.slot(pad, codes));

@@ -4,7 +4,7 @@
 
 use crate::device::{Sight, calibration, short_profiles};
 use crate::session::{Session, parameters, samples_of};
-use hapticore_contract::control::{Control, Drive, Law, Tuning, Walls};
+use hapticore_contract::control::{Control, Drive, Law, Surface, Tuning, Walls};
 use hapticore_contract::frame::Frame as Measured;
 use hapticore_contract::profile::{ForceLaw, Profile, Wall};
 use hapticore_host::startup::{AdcSetup, prepare};
@@ -87,7 +87,7 @@ fn modelled(
     for (pad, newtons) in pads(profile).into_iter().zip(TARGETS_N) {
         of.set_target(pad.into(), newtons);
         if profile.wall.is_some() {
-            of.set_surface(pad.into(), SURFACE_MM);
+            of.set_surface(pad.into(), Surface { mm: SURFACE_MM, right: false });
         }
     }
     let slots = samples.chunks_exact(profile.slot.samples() as usize).enumerate();

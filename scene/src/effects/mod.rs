@@ -24,7 +24,7 @@ mod sensor;
 pub(crate) mod sheet;
 mod shunt;
 mod spec;
-mod split_electrode;
+pub(crate) mod split_electrode;
 mod supply;
 mod switching;
 mod temperature;

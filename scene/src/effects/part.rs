@@ -6,6 +6,7 @@
 //! | --- | --- |
 //! | 2 | left half, right half |
 //! | 4 | left outer strip, right outer strip, the inner two together |
+//! | none, with `quadrants` | top left, bottom left, bottom right, top right |
 //!
 //! What is measured in a slot is the part: its capacitance, its place and its haptic voltage. The
 //! force stays the pad's. With `senses = "together"`, as where it is absent, a pad has one slot, in
@@ -20,11 +21,11 @@ use crate::device::Device;
 use crate::error::SceneError;
 use crate::format::Table;
 
-/// Where the part of each slot of a pad lies, mm right of the pad's centre: one, 0, of a pad that is
-/// served as a whole.
-pub(crate) fn centres_mm(root: &Table, device: &Device) -> Result<Vec<f64>, SceneError> {
+/// Where the part of each slot of a pad lies, mm right of the pad's centre and above it: one, 0, of a pad
+/// that is served as a whole.
+pub(crate) fn centres_mm(root: &Table, device: &Device) -> Result<Vec<[f64; 2]>, SceneError> {
     match parts(root, device)? {
-        None => Ok(vec![0.0]),
+        None => Ok(vec![[0.0; 2]]),
         Some(parts) => Ok(parts.iter().map(|part| part.centre_mm).collect()),
     }
 }
@@ -56,8 +57,8 @@ pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneE
 #[derive(Clone, Debug)]
 struct Part {
     electrodes: Vec<usize>,
-    /// Where its centre lies, mm right of the pad's.
-    centre_mm: f64,
+    /// Where its centre lies, mm right of the pad's and above it.
+    centre_mm: [f64; 2],
     most_v_rms: f64,
 }
 
@@ -68,8 +69,11 @@ fn parts_of(strips: &[Strip]) -> Vec<Part> {
         centre_mm: strips[n].centre_mm,
         most_v_rms: strips[n].electrode.most_v_rms,
     };
+    if strips[0].centre_mm[1] != 0.0 {
+        return (0..strips.len()).map(side).collect();
+    }
     let inner = (1..last).collect::<Vec<_>>();
-    let brake = Part { electrodes: inner, centre_mm: 0.0, most_v_rms: f64::INFINITY };
+    let brake = Part { electrodes: inner, centre_mm: [0.0; 2], most_v_rms: f64::INFINITY };
     [side(0), side(last)].into_iter().chain((last > 1).then_some(brake)).collect()
 }
 
@@ -86,7 +90,8 @@ impl PadEffect for Parts {
         if pad.source_v_rms > part.most_v_rms {
             pad.haptic_v_rms *= part.most_v_rms / pad.source_v_rms;
         }
-        pad.x_mm += part.centre_mm;
+        pad.x_mm += part.centre_mm[0];
+        pad.y_mm += part.centre_mm[1];
         pad.split = ideal_split(pad.x_mm, pad.y_mm, &self.device);
     }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `[halves]`: a pad of electrodes side by side along x, which reads the direction of the push.
+//! `[halves]`: a pad of several electrodes, which reads the direction of the push.
 //!
-//!   W_i = W·(1 + e·x_i/ρ²),   ρ² = Σs_i·x_i²                                               (CoP)
+//!   W_i = W·(1 + e·x_i/ρ²),   ρ² = Σs_i·x_i²;   of quadrants + e_y·y_i/ρ_y², too           (CoP)
 //!   Δx = Σa_i·x_i/Σa_i − Σx_i/2,   x_i = ∓x_c,   a_i ∝ C_i                                 (eq. 10)
 //!
 //! A push off the centre, a pad's `eccentricity_mm`, presses one side more than the other; its gap
@@ -15,6 +15,7 @@
 //! | --- | --- | --- |
 //! | 2 | halves, whose centres lie a quarter of the pad's diameter off its own | both |
 //! | 4 | strips of a disc: the outer two have `outer_share_percent` of its area | the outer two, at `sensing_v_rms` at most where that is given |
+//! | `quadrants = true` in place of strips | quadrants of a disc: top left, bottom left, bottom right, top right; the hand's push tilts the pad along y, too | all |
 //!
 //! With `senses = "each"` a pad has a slot for each of its parts: see `part`. The truth's direction is Δx over half the sheet's width, as the ratios of eq. 10 are. Source:
 //! docs/physics.md §4.
@@ -61,17 +62,26 @@ pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneE
 pub(super) struct Strip {
     /// Share of the pad's area.
     area: f64,
-    /// Where its centre lies, mm right of the pad's.
-    pub centre_mm: f64,
+    /// Where its centre lies, mm right of the pad's and above it.
+    pub centre_mm: [f64; 2],
     pub electrode: Electrode,
 }
 
-/// The electrodes from left to right.
+/// The electrodes from left to right; of quadrants from the top left one anticlockwise.
 pub(super) fn read_strips(
     table: &Table,
     mismatch: f64,
     device: &Device,
 ) -> Result<Vec<Strip>, SceneError> {
+    if table.flag("quadrants")? {
+        if let Some(key) = ["strips", "outer_share_percent", "sensing_v_rms"]
+            .into_iter()
+            .find(|key| table.get(key).is_some())
+        {
+            return Err(table.error(key, "expected none with quadrants, which all sense and brake"));
+        }
+        return Ok(quadrants(0.5 * device.pad_diameter_mm, mismatch));
+    }
     let strips = table.whole("strips", 2, 4)?.unwrap_or(2);
     if strips == 3 {
         return Err(table.error("strips", "expected 2 or 4, got 3"));
@@ -88,9 +98,9 @@ pub(super) fn read_strips(
     let mean_square_mm2: f64 = sides.iter().map(|[area, mm]| 2.0 * area * mm * mm).sum();
     let strip = |side: f64, n: usize| Strip {
         area: sides[n][0] * if n == 0 { 1.0 - 0.5 * side * mismatch } else { 1.0 },
-        centre_mm: side * sides[n][1],
+        centre_mm: [side * sides[n][1], 0.0],
         electrode: Electrode {
-            lean_per_mm: side * sides[n][1] / mean_square_mm2,
+            lean_per_mm: [side * sides[n][1] / mean_square_mm2, 0.0],
             reach_mm: mean_square_mm2 / outer_mm,
             most_v_rms: if n == 0 { sensing_v_rms } else { f64::INFINITY },
             ..Electrode::WHOLE
@@ -98,6 +108,21 @@ pub(super) fn read_strips(
     };
     let left = (0..sides.len()).map(|n| strip(-1.0, n));
     Ok(left.chain((0..sides.len()).rev().map(|n| strip(1.0, n))).collect())
+}
+
+/// The quadrants of a disc, whose centres are 4r/3π off its own along either axis.
+fn quadrants(radius_mm: f64, mismatch: f64) -> Vec<Strip> {
+    let centre_mm = 4.0 * radius_mm / (3.0 * std::f64::consts::PI);
+    let quadrant = |[x, y]: [f64; 2]| Strip {
+        area: 0.25 * (1.0 - 0.5 * x * mismatch),
+        centre_mm: [x * centre_mm, y * centre_mm],
+        electrode: Electrode {
+            lean_per_mm: [x / centre_mm, y / centre_mm],
+            reach_mm: centre_mm,
+            ..Electrode::WHOLE
+        },
+    };
+    [[-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0], [1.0, 1.0]].map(quadrant).to_vec()
 }
 
 /// Area share and centre of the outer and of the inner strip on one side of a disc, whose outer
@@ -146,15 +171,31 @@ impl SplitElectrode {
         pad.capacitance_f = electrodes_f.iter().sum();
         pad.haptic_v_rms = pad.haptic_v_at(pad.capacitance_f);
         pad.attraction_n = attraction_n;
-        let last = self.strips.len() - 1;
-        let [a, b] = [electrodes_f[0], electrodes_f[last]];
-        pad.direction = self.strips[last].centre_mm * (b - a) / (a + b) / self.half_width_mm;
+        let last = &self.strips[self.strips.len() - 1];
+        let [a, b] = sides_f(&electrodes_f, self.has_quadrants(), self.strips.len());
+        pad.direction = last.centre_mm[0] * (b - a) / (a + b) / self.half_width_mm;
     }
 
-    /// What the push of the hand adds to the eccentricity.
-    fn tilt_mm(&self, pad: &Pad) -> f64 {
-        let moment_mm_g = self.push_mm_g_per_n * pad.hand_n[0];
-        if moment_mm_g == 0.0 || pad.load_g <= 0.0 { 0.0 } else { moment_mm_g / pad.load_g }
+    fn has_quadrants(&self) -> bool {
+        self.strips[0].centre_mm[1] != 0.0
+    }
+
+    /// What the push of the hand adds to the eccentricity: along y of quadrants only.
+    fn tilt_mm(&self, pad: &Pad) -> [f64; 2] {
+        let along = |newtons: f64| {
+            let moment_mm_g = self.push_mm_g_per_n * newtons;
+            if moment_mm_g == 0.0 || pad.load_g <= 0.0 { 0.0 } else { moment_mm_g / pad.load_g }
+        };
+        let [x_n, y_n] = pad.hand_n;
+        [along(x_n), if self.has_quadrants() { along(y_n) } else { 0.0 }]
+    }
+}
+
+/// Capacitances that sense on the left and on the right.
+pub(crate) fn sides_f(electrodes_f: &[f64; 4], quadrants: bool, count: usize) -> [f64; 2] {
+    match (quadrants, electrodes_f) {
+        (true, [a, b, c, d]) => [a + b, c + d],
+        (false, all) => [all[0], all[count - 1]],
     }
 }
 

@@ -4,6 +4,7 @@
 
 use super::Plant;
 use crate::effects::Pad;
+use crate::effects::split_electrode::sides_f;
 use crate::pad::resting;
 use crate::trajectory::raster;
 use crate::truth::{ForcePoint, MapPoint, PadMeasurement};
@@ -89,13 +90,15 @@ impl Plant {
         self.settle(still).map(point).collect()
     }
 
-    /// What the left and the right part of a split pad read at rest under a load, pF: the direction
-    /// that a device has when it leaves the factory. None of a pad that is whole.
+    /// What the parts on the left and on the right of a split pad read at rest under a load, pF: the
+    /// direction that a device has when it leaves the factory. None of a pad that is whole.
     pub fn parts_at_rest_pf(&self, load_g: f64) -> Option<[f64; 2]> {
         let still = [resting([0.0, 0.0], load_g, 0.0, &self.device)];
+        let quadrants = self.parts() == 4;
         let of = |pad: Pad| {
             let right = pad.electrodes_f.iter().rposition(|farad| *farad > 0.0)?;
-            (right > 0).then(|| [0, right].map(|n| 1e12 * pad.electrodes_f[n]))
+            let sides_f = sides_f(&pad.electrodes_f, quadrants, right + 1);
+            (right > 0).then(|| sides_f.map(|farad| 1e12 * farad))
         };
         self.settle(still.into_iter()).find_map(of)
     }

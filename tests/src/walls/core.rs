@@ -57,7 +57,7 @@ impl InCore {
         let settings = Settings { fidelity: Fidelity::Fixed, errors: false };
         let outcome = case.run(&settings, None, &|| ()).expect("a run");
         let parts = case.plant().expect("a plant").parts();
-        let last_mm = case.plant().expect("a plant").parts_mm()[parts - 1];
+        let [last_mm, _] = case.plant().expect("a plant").parts_mm()[parts - 1];
         let frames = outcome.rows.iter().filter(|row| row.pad == parts - 1);
         (frames.map(|row| seen(row, hand, last_mm)).collect(), 1e3 * case.clock.seconds(parts))
     }

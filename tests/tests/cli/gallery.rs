@@ -106,6 +106,15 @@ fn a_wall_is_met_and_left_alike_in_fixed_and_clock() {
     check_loop_with("fig15", &["hand.stiffness_n_per_m=20000", "duration_s=0.024", &place]);
 }
 
+/// In `wall-2d` a pad that is pushed into the corner of two walls and drawn out of it.
+#[test]
+#[cfg_attr(not(optimised), ignore = "every clock of a loop: run with --release")]
+fn walls_along_both_axes_are_met_and_left_alike_in_fixed_and_clock() {
+    let line = "[[0, 0.3], [0.008, -0.8], [0.016, -0.8], [0.026, 0.5]]";
+    let place = format!("pad.0.position_mm={{ timeline = {{ x_mm = {line}, y_mm = {line} }} }}");
+    check_loop_with("wall-2d", &["hand.stiffness_n_per_m=20000", "duration_s=0.032", &place]);
+}
+
 fn check(scene: &str, text: &str) {
     let folder = tempfile::tempdir().unwrap();
     let mut summary = Value::Null;

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use anyhow::Result;
 use hapticore_contract::calibration::Calibration;
-use hapticore_contract::control::{Drive, Tuning, Walled};
+use hapticore_contract::control::{Drive, Surface, Tuning, Walled};
 use hapticore_contract::frame::Measurement;
 use hapticore_contract::profile::Profile;
 use hapticore_model::fidelity::force_loop::{ClockLoop, FixedLoop};
@@ -38,7 +38,7 @@ trait Loop: Send + 'static {
     /// The measurement that is finished, if one is, and the drive that the slot led to.
     fn slot(&mut self, slot: &Slot, profile: &Profile) -> (Option<Measurement>, Option<Drive>);
     fn set_target(&mut self, pad: usize, newtons: f64);
-    fn set_surface(&mut self, pad: usize, surface_mm: f64);
+    fn set_surface(&mut self, pad: usize, surface: Surface);
 
     /// The measurement of the last slot, where it is still to come.
     fn finish(&mut self, _: &Profile) -> Option<Measurement> {
@@ -72,8 +72,8 @@ impl<L: Loop> Engine for Closed<L> {
         self.core.set_target(pad, newtons);
     }
 
-    fn set_surface(&mut self, pad: usize, surface_mm: f64) {
-        self.core.set_surface(pad, surface_mm);
+    fn set_surface(&mut self, pad: usize, surface: Surface) {
+        self.core.set_surface(pad, surface);
     }
 
     fn take_drive(&mut self) -> Option<Drive> {
@@ -117,14 +117,14 @@ impl Loop for Float {
             Drive { walled: Some(walled), ..drive }
         });
         if !measurement.flags.invalid {
-            split_pads.place(slot.pad, measurement.x_mm);
+            split_pads.place(slot.pad, [measurement.x_mm, measurement.y_mm]);
         }
         (Some(measurement), drive)
     }
 
-    fn set_surface(&mut self, pad: usize, surface_mm: f64) {
+    fn set_surface(&mut self, pad: usize, surface: Surface) {
         if let Some(split_pads) = &mut self.split_pads {
-            split_pads.set_surface(pad, surface_mm);
+            split_pads.set_surface(pad, surface);
         }
     }
 
@@ -144,8 +144,8 @@ impl Loop for FixedLoop {
         self.set_target(pad, newtons);
     }
 
-    fn set_surface(&mut self, pad: usize, surface_mm: f64) {
-        self.set_surface(pad, surface_mm);
+    fn set_surface(&mut self, pad: usize, surface: Surface) {
+        self.set_surface(pad, surface);
     }
 }
 
@@ -163,7 +163,7 @@ impl Loop for ClockLoop {
         self.set_target(pad, newtons);
     }
 
-    fn set_surface(&mut self, pad: usize, surface_mm: f64) {
-        self.set_surface(pad, surface_mm);
+    fn set_surface(&mut self, pad: usize, surface: Surface) {
+        self.set_surface(pad, surface);
     }
 }

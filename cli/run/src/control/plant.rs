@@ -8,8 +8,8 @@
 //! The target of slot n is what the scene asks for at its end, when its drive is made.
 
 use anyhow::Result;
-use hapticore_contract::control::Drive;
-use hapticore_contract::profile::Profile;
+use hapticore_contract::control::{Drive, Surface};
+use hapticore_contract::profile::{Profile, Wall};
 use hapticore_host::SlotClock;
 use hapticore_model::blocks::force_loop::ForceLoop;
 use hapticore_scene::{EffectCost, Truth, WallPlan};
@@ -47,8 +47,8 @@ pub struct LoopPlant {
     /// From a slot's end to the drive that follows from it, s.
     latency_s: f64,
     wall: Option<WallPlan>,
-    /// Where the wall of each pad has been set to begin, mm.
-    surfaces_mm: Vec<f64>,
+    /// Where the wall that is known by each number has been set to begin.
+    surfaces: Vec<Option<Surface>>,
     /// How each pad, or all parts of it, is driven.
     driven: Vec<Option<Driven>>,
     excitation: Option<Excitation>,
@@ -64,10 +64,23 @@ pub struct LoopSlot {
     pub peak: f64,
     /// The force that the pad shall have, N.
     pub target_n: f64,
-    /// Where the pad's wall begins as the core measures it, mm, where that is new.
-    pub surface_mm: Option<f64>,
+    /// Where the wall that is known by the slot's number begins as the core measures it, where that
+    /// is new.
+    pub surface: Option<Surface>,
     /// The slot's end, s.
     pub end_s: f64,
+}
+
+/// Where the wall that is known by a number begins, as the core measures it: a pad's place is that of
+/// its last part. Of quadrants the wall along y is known by the third.
+pub fn surface_of(wall: &WallPlan, parts_mm: &[[f64; 2]], pad: usize, time_s: f64) -> Surface {
+    let [x_mm, y_mm] = parts_mm.last().copied().unwrap_or_default();
+    let along_y =
+        wall.along_y.as_ref().filter(|_| pad % parts_mm.len() == Wall::PART_OF_Y as usize);
+    match along_y {
+        Some(along_y) => Surface { mm: along_y.surface_mm(time_s) + y_mm, right: along_y.above },
+        None => Surface { mm: wall.surface_mm(time_s) + x_mm, right: wall.right },
+    }
 }
 
 /// From a slot's end to the drive that follows from it, s.
@@ -96,14 +109,14 @@ impl LoopPlant {
         for pad in 0..pads {
             maker.plant().set_drive(pad, 0.0, 0.0)?;
         }
-        let (surfaces_mm, driven) = (vec![f64::NAN; pads], vec![None; pads]);
+        let (surfaces, driven) = (vec![None; pads], vec![None; pads]);
         Ok(LoopPlant {
             maker,
             clock,
             full_scale_v,
             latency_s,
             wall,
-            surfaces_mm,
+            surfaces,
             driven,
             excitation: None,
         })
@@ -123,19 +136,16 @@ impl LoopPlant {
             Some(sine) => sine.hold_n + sine.target_n * sine.wave(end_s),
             None => self.maker.plant().target_n(truth.pad, end_s),
         };
-        let surface_mm = self.surface_mm(truth.pad, end_s);
+        let surface = self.surface(truth.pad, end_s);
         let (signals, peak) = self.maker.signals(number);
         let slot = Slot { pad: truth.pad, signals };
-        LoopSlot { slot, truth, peak, target_n, surface_mm, end_s }
+        LoopSlot { slot, truth, peak, target_n, surface, end_s }
     }
 
-    /// A pad's place is that of its last part.
-    fn surface_mm(&mut self, pad: usize, time_s: f64) -> Option<f64> {
-        let wall = self.wall.as_ref()?;
-        let surface_mm =
-            wall.surface_mm(time_s) + self.maker.plant().parts_mm().last().copied().unwrap_or(0.0);
-        let before = std::mem::replace(&mut self.surfaces_mm[pad], surface_mm);
-        (before != surface_mm).then_some(surface_mm)
+    fn surface(&mut self, pad: usize, time_s: f64) -> Option<Surface> {
+        let surface = surface_of(self.wall.as_ref()?, self.maker.plant().parts_mm(), pad, time_s);
+        let before = self.surfaces[pad].replace(surface);
+        (before != Some(surface)).then_some(surface)
     }
 
     /// Drives the pad of a slot, from the slot's end and the latency of its drive word on; without

@@ -33,7 +33,12 @@ pub fn controlled(
         ForceEstimate::Table => ForceLaw::Table,
     });
     let wall = plan.wall.as_ref().map(|wall| {
-        let usual = if parts == 2 { Wall::B } else { Wall::A }.at_frames_of(1e3 * frame_s);
+        let usual = match parts {
+            2 => Wall::B,
+            4 => Wall::QUADRANTS,
+            _ => Wall::A,
+        };
+        let usual = usual.at_frames_of(1e3 * frame_s);
         walled(profile.wall.unwrap_or(usual), wall)
     });
     Profile {

@@ -36,8 +36,9 @@ pub enum Release {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Wall {
-    /// Slots of a pad, one for each of its parts: 2 that sense and brake, left and right; or 3, of
-    /// which the last brakes alone.
+    /// Slots of a pad, one for each of its parts: 2 that sense and brake, left and right; 3, of
+    /// which the last brakes alone; or 4 quadrants that sense and brake, top left, bottom left, bottom
+    /// right and top right, with a wall along either axis.
     pub parts: u64,
     /// When it lets go.
     pub rule: Release,
@@ -85,9 +86,18 @@ impl Wall {
     /// Rule B, for halves that sense and brake.
     pub const B: Wall =
         Wall { parts: 2, release: 4, engage: 12, advance_16: 0, delay_16: 24, ..Wall::A };
+    /// Rule B along both axes, for quadrants that sense and brake.
+    pub const QUADRANTS: Wall = Wall { parts: 4, ..Wall::B };
+    /// The part of a pad by whose number its wall along y is known; that along x by the last one's.
+    pub const PART_OF_Y: u64 = 2;
 }
 
 impl Wall {
+    /// The axes along which a pad has a wall: x alone, or x and y.
+    pub fn axes(&self) -> u64 {
+        if self.parts == 4 { 2 } else { 1 }
+    }
+
     /// The same times and speeds with frames of another length than 1 ms.
     ///
     /// ```
@@ -120,7 +130,7 @@ impl Profile {
     pub(super) fn check_wall(&self) -> Result<(), ProfileError> {
         let Some(wall) = self.wall else { return Ok(()) };
         for (field, value, low, high) in [
-            ("wall.parts", wall.parts, 2, 3),
+            ("wall.parts", wall.parts, 2, 4),
             ("wall.release", wall.release, 1, 63),
             ("wall.engage", wall.engage, 1, 63),
             ("wall.advance_16", wall.advance_16, 0, 255),

@@ -2,8 +2,8 @@
 //! Parts of split pads as pads, each number rounded.
 //!
 //! ```text
-//! C = [(C_left + C_right)/2],  F likewise;   or those of a third part
-//! x_w = [±(x − surface)]
+//! C = [(C_left + C_right)/2],  F likewise;   those of a third part;   or [Σ C/4] of quadrants
+//! C_left = [(C_tl + C_bl)/2], …;   x_w = [±(x − surface)],  y_w likewise
 //! ```
 
 use super::{Exact, Wall, WallFrame, WallResult, round};
@@ -30,18 +30,25 @@ pub struct WholePad {
     pub wall: WallResult,
 }
 
-/// One split pad and its wall.
+/// The wall of a pad along one axis.
+#[derive(Debug, Clone)]
+pub struct WallAlong {
+    wall: Wall,
+    /// Place of the last valid frame.
+    pub place: Option<Exact>,
+    /// The wall's surface, and whether the wall is right of it, or above it.
+    pub surface: (Exact, bool),
+}
+
+/// One split pad and its walls.
 #[derive(Debug, Clone)]
 pub struct SplitPads {
     parts: u64,
     position: Format,
     capacitance: Format,
     force: Format,
-    wall: Wall,
-    /// Place of the last valid frame.
-    pub place: Option<Exact>,
-    /// The wall's surface, and whether the wall is right of it.
-    pub surface: (Exact, bool),
+    /// Along x, and of quadrants along y.
+    pub axes: Vec<WallAlong>,
     /// The pad is not driven.
     pub rests: bool,
 }
@@ -53,45 +60,77 @@ impl SplitPads {
     /// Where the profile has none.
     pub fn new(profile: &Profile) -> Self {
         let f = &profile.formats;
+        let rule = profile.wall.expect("a profile with walls");
+        let along =
+            |_| WallAlong { wall: Wall::new(profile), place: None, surface: (Exact::ZERO, false) };
         SplitPads {
-            parts: profile.wall.expect("a profile with walls").parts,
+            parts: rule.parts,
             position: f.position,
             capacitance: f.capacitance,
             force: f.force,
-            wall: Wall::new(profile),
-            place: None,
-            surface: (Exact::ZERO, false),
+            axes: (0..rule.axes()).map(along).collect(),
             rests: false,
+        }
+    }
+
+    fn mean(&self, parts: &[Estimate]) -> Estimate {
+        let shift = -(parts.len().ilog2() as i8);
+        let mean = |of: fn(&Estimate) -> Exact, to| {
+            let sum = parts.iter().map(of).fold(Exact::ZERO, |a, b| a + b);
+            round(sum.scaled(shift), to).value
+        };
+        Estimate {
+            capacitance: mean(|part| part.capacitance, self.capacitance),
+            force: mean(|part| part.force, self.force),
+            invalid: parts.iter().any(|part| part.invalid),
         }
     }
 
     /// The estimates of a pad's parts in the order of their slots; `port` has stiffness, largest
     /// force and factory offset, and whether the pad starts anew.
     pub fn estimates(&mut self, parts: &[Estimate], port: &WallFrame) -> WholePad {
-        let [left, right] = [parts[0], parts[1]];
-        let mean = |a: Exact, b: Exact, to| round((a + b).scaled(-1), to).value;
-        let brake = match self.parts {
-            2 => Estimate {
-                capacitance: mean(left.capacitance, right.capacitance, self.capacitance),
-                force: mean(left.force, right.force, self.force),
-                invalid: left.invalid | right.invalid,
-            },
-            _ => parts[2],
+        let (brake, sensing) = match self.parts {
+            3 => (parts[2], &parts[..2]),
+            _ => (self.mean(parts), parts),
         };
-        let trusted = self.place.is_some() && !left.invalid && !right.invalid;
-        let current = |part: Estimate| if trusted { part.capacitance } else { Exact::ZERO };
+        let of = |these: &[usize]| {
+            let these: Vec<_> = these.iter().map(|&n| parts[n]).collect();
+            self.mean(&these).capacitance
+        };
+        let sides = match self.parts {
+            4 => vec![[of(&[0, 1]), of(&[2, 3])], [of(&[1, 2]), of(&[0, 3])]],
+            _ => vec![[of(&[0]), of(&[1])]],
+        };
+        let trusted = sensing.iter().all(|part| !part.invalid);
+        let position = self.position;
+        let walls = self.axes.iter_mut().zip(sides).enumerate().map(|(axis, (along, sides))| {
+            let factory = if axis == 0 { port.factory } else { Exact::ZERO };
+            let port = WallFrame { at_zero: self.rests, factory, ..*port };
+            along.frame(if trusted { sides } else { [Exact::ZERO; 2] }, position, port)
+        });
+        let larger = |a: Exact, b: Exact| if a < b { b } else { a };
+        let both = |a: WallResult, b: WallResult| WallResult {
+            target: larger(a.target, b.target),
+            free: a.free | b.free,
+            valid: b.valid,
+        };
+        WholePad { brake, wall: walls.reduce(both).expect("a pad has an axis") }
+    }
+}
+
+impl WallAlong {
+    fn frame(&mut self, sides: [Exact; 2], position: Format, port: WallFrame) -> WallResult {
         let (surface, mirrored) = self.surface;
         let depth = self.place.unwrap_or(Exact::ZERO) - surface;
-        let sides = [current(left), current(right)];
+        let [left, right] = if self.place.is_some() { sides } else { [Exact::ZERO; 2] };
         let frame = WallFrame {
             restart: port.restart | self.place.is_none(),
-            parts: if mirrored { [sides[1], sides[0]] } else { sides },
-            x: round(if mirrored { -depth } else { depth }, self.position).value,
-            at_zero: self.rests,
+            parts: if mirrored { [right, left] } else { [left, right] },
+            x: round(if mirrored { -depth } else { depth }, position).value,
             factory: if mirrored { round(-port.factory, U).value } else { port.factory },
-            ..*port
+            ..port
         };
-        WholePad { brake, wall: self.wall.frame(&frame) }
+        self.wall.frame(&frame)
     }
 }
 

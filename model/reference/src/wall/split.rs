@@ -2,13 +2,13 @@
 //! The parts of split pads as pads, and their walls, in floating point.
 //!
 //! ```text
-//! C = (C_left + C_right)/2,  F likewise;   or those of a third part, which brakes alone
-//! x_w = ±(x − surface)
+//! C = (C_left + C_right)/2,  F likewise;   those of a third part, which brakes alone;   or the mean of quadrants
+//! x_w = ±(x − surface);   of quadrants y_w likewise, with those at the bottom and at the top for left and right
 //! ```
 
 use super::{Direction, Frame, Rule, Sequential, Stiffness, Target};
 use crate::control::Prompt;
-use hapticore_contract::control::{Walled, Walls};
+use hapticore_contract::control::{Surface, Walled, Walls};
 use hapticore_contract::profile::Wall;
 
 /// A pad whose parts have all been seen.
@@ -20,14 +20,21 @@ pub struct Whole {
     pub walled: Walled,
 }
 
+/// The wall along one axis.
+#[derive(Clone, Debug)]
+struct Axis {
+    wall: Sequential,
+    surface: Surface,
+    /// Place of the last valid frame, mm.
+    place_mm: Option<f64>,
+}
+
 #[derive(Clone, Debug)]
 struct Pad {
-    wall: Sequential,
-    surface_mm: f64,
-    /// Place of the last valid frame.
-    x_mm: Option<f64>,
-    /// Left and right estimate.
-    sensed: [Option<Prompt>; 2],
+    /// Along x, and of quadrants along y.
+    axes: Vec<Axis>,
+    /// Estimates of the parts that sense, in the order of their slots.
+    sensed: Vec<Option<Prompt>>,
     /// It is not driven.
     rests: bool,
 }
@@ -36,7 +43,6 @@ struct Pad {
 #[derive(Clone, Debug)]
 pub struct SplitPads {
     parts: usize,
-    right: bool,
     pads: Vec<Pad>,
 }
 
@@ -44,27 +50,41 @@ impl SplitPads {
     /// So many parts of pads with walls of a profile.
     pub fn new(wall: &Wall, walls: &Walls, parts: usize) -> Self {
         let stiffness = Stiffness { n_per_mm: walls.stiffness_n_per_mm, most_n: walls.most_n };
-        let factory = if walls.right { -walls.factory } else { walls.factory };
-        let wall_of_pad = Sequential::of_profile(stiffness, wall, factory);
-        let pad =
-            Pad { wall: wall_of_pad, surface_mm: 0.0, x_mm: None, sensed: [None; 2], rests: false };
+        let along_x = if walls.right { -walls.factory } else { walls.factory };
+        let axis = |factory: f64| Axis {
+            wall: Sequential::of_profile(stiffness, wall, factory),
+            surface: Surface { mm: 0.0, right: walls.right },
+            place_mm: None,
+        };
+        let axes = [along_x, 0.0].into_iter().take(wall.axes() as usize).map(axis).collect();
         let of_pad = wall.parts as usize;
-        SplitPads { parts: of_pad, right: walls.right, pads: vec![pad; parts / of_pad] }
+        let sensed = vec![None; if of_pad == 3 { 2 } else { of_pad }];
+        let pad = Pad { axes, sensed, rests: false };
+        SplitPads { parts: of_pad, pads: vec![pad; parts / of_pad] }
     }
 
     fn pad(&mut self, part: usize) -> &mut Pad {
         &mut self.pads[part / self.parts]
     }
 
-    /// Sets where the wall of a pad begins, mm.
-    pub fn set_surface(&mut self, pad: usize, surface_mm: f64) {
-        self.pad(pad).surface_mm = surface_mm;
+    /// Sets where the wall that is known by this number begins.
+    pub fn set_surface(&mut self, pad: usize, surface: Surface) {
+        let (last, part) = (self.parts - 1, pad % self.parts);
+        let axis = match part {
+            part if part == last => 0,
+            part if part as u64 == Wall::PART_OF_Y => 1,
+            _ => return,
+        };
+        if let Some(axis) = self.pad(pad).axes.get_mut(axis) {
+            axis.surface = surface;
+        }
     }
 
-    /// The place of a valid frame.
-    pub fn place(&mut self, part: usize, x_mm: f64) {
+    /// The place of a valid frame, x and y.
+    pub fn place(&mut self, part: usize, place_mm: [f64; 2]) {
         if part % self.parts == self.parts - 1 {
-            self.pad(part).x_mm = Some(x_mm);
+            let axes = self.pad(part).axes.iter_mut().zip(place_mm);
+            axes.for_each(|(axis, mm)| axis.place_mm = Some(mm));
         }
     }
 
@@ -75,37 +95,60 @@ impl SplitPads {
 
     /// A part's estimate: of the pad, where it is its last.
     pub fn estimate(&mut self, prompt: &Prompt) -> Option<Whole> {
-        let (parts, right, part) = (self.parts, self.right, prompt.pad % self.parts);
+        let (parts, part) = (self.parts, prompt.pad % self.parts);
         let pad = self.pad(prompt.pad);
-        if part < 2 {
-            pad.sensed[part] = Some(*prompt);
+        if let Some(sensed) = pad.sensed.get_mut(part) {
+            *sensed = Some(*prompt);
         }
         if part < parts - 1 {
             return None;
         }
-        let [left, last] = [pad.sensed[0]?, pad.sensed[1]?];
+        let sensed = pad.sensed.iter().copied().collect::<Option<Vec<_>>>()?;
         let whole = match parts {
-            2 => Prompt {
-                capacitance_pf: 0.5 * (left.capacitance_pf + last.capacitance_pf),
-                force_n: 0.5 * (left.force_n + last.force_n),
-                invalid: left.invalid | last.invalid,
+            3 => *prompt,
+            _ => Prompt {
+                capacitance_pf: mean(sensed.iter().map(|part| part.capacitance_pf)),
+                force_n: mean(sensed.iter().map(|part| part.force_n)),
+                invalid: sensed.iter().any(|part| part.invalid),
                 ..*prompt
             },
-            _ => *prompt,
         };
-        Some(Whole { prompt: whole, walled: pad.walled([left, last], right) })
+        Some(Whole { prompt: whole, walled: pad.walled(&sensed) })
     }
 }
 
+fn mean(of: impl ExactSizeIterator<Item = f64>) -> f64 {
+    let count = of.len() as f64;
+    of.sum::<f64>() / count
+}
+
 impl Pad {
-    fn walled(&mut self, sensed: [Prompt; 2], right: bool) -> Walled {
-        let Some(x_mm) = self.x_mm else { return Walled { target_n: 0.0, free: false } };
+    /// The larger force of the walls; whether the user leaves either.
+    fn walled(&mut self, sensed: &[Prompt]) -> Walled {
         let trusted = sensed.iter().all(|part| !part.invalid);
-        let [a, b] = sensed.map(|part| if trusted { part.capacitance_pf } else { 0.0 });
-        let depth_mm = x_mm - self.surface_mm;
-        let frame = match right {
-            true => Frame { left: b, right: a, x_mm: -depth_mm, at_zero: self.rests },
-            false => Frame { left: a, right: b, x_mm: depth_mm, at_zero: self.rests },
+        let sides = |axis: usize| {
+            let of = |parts: &[usize]| mean(parts.iter().map(|&n| sensed[n].capacitance_pf));
+            match (trusted, sensed.len(), axis) {
+                (false, ..) => [0.0; 2],
+                (_, 4, 0) => [of(&[0, 1]), of(&[2, 3])],
+                (_, 4, _) => [of(&[1, 2]), of(&[0, 3])],
+                _ => [of(&[0]), of(&[1])],
+            }
+        };
+        let rests = self.rests;
+        let each = self.axes.iter_mut().enumerate().map(|(n, axis)| axis.walled(sides(n), rests));
+        each.reduce(|a, b| Walled { target_n: a.target_n.max(b.target_n), free: a.free | b.free })
+            .expect("a pad has an axis")
+    }
+}
+
+impl Axis {
+    fn walled(&mut self, [a, b]: [f64; 2], at_zero: bool) -> Walled {
+        let Some(place_mm) = self.place_mm else { return Walled { target_n: 0.0, free: false } };
+        let depth_mm = place_mm - self.surface.mm;
+        let frame = match self.surface.right {
+            true => Frame { left: b, right: a, x_mm: -depth_mm, at_zero },
+            false => Frame { left: a, right: b, x_mm: depth_mm, at_zero },
         };
         let (target, direction) = self.wall.frame(&frame);
         let target_n = match target {

@@ -16,9 +16,9 @@ use hapticore_hdl::probe::sample;
 use hapticore_hdl::signal::Signal;
 use hapticore_reference::rounded::{Estimate, Exact, SplitPads, WallFrame};
 
-/// The bundled profiles with two pads of two parts, and of three.
+/// The bundled profiles with two pads of two parts, of three, and of quadrants.
 fn profiles() -> Vec<Profile> {
-    let walls = [profile::Wall::A, profile::Wall::B];
+    let walls = [profile::Wall::A, profile::Wall::B, profile::Wall::QUADRANTS];
     let with = |wall: profile::Wall| {
         Profile::all().into_iter().map(move |profile| Profile {
             control: Some(Control::of(&profile, Law::Inverse)),
@@ -55,22 +55,33 @@ impl Pair {
         }
     }
 
-    fn last(&self, pad: usize) -> i64 {
-        (self.parts * (pad + 1) - 1) as i64
+    /// The number by which a pad's wall along x is known, or that along y.
+    fn number(&self, pad: usize, axis: usize) -> i64 {
+        (self.parts * (pad + 1) - 1 - axis) as i64
     }
 
-    fn surface(&mut self, pad: usize, code: i64, right: bool) {
+    fn axes(&self) -> usize {
+        self.pads[0].axes.len()
+    }
+
+    fn surface(&mut self, pad: usize, axis: usize, code: i64, right: bool) {
         let mut write = self.quiet;
-        (write.wall.wall_write, write.wall.wall_pad) = (1, self.last(pad));
+        (write.wall.wall_write, write.wall.wall_pad) = (1, self.number(pad, axis));
         (write.wall.wall_surface, write.wall.wall_right) = (code, right.into());
         self.bench.clock(write);
-        self.pads[pad].surface = (Exact::of(code, self.formats.wall.wall_surface), right);
+        let surface = Exact::of(code, self.formats.wall.wall_surface);
+        self.pads[pad].axes[axis].surface = (surface, right);
     }
 
-    fn place(&mut self, pad: usize, code: i64) {
-        let placed_pad = self.last(pad);
+    fn place(&mut self, pad: usize, axis: usize, code: i64) {
+        let placed_pad = self.number(pad, axis);
         self.bench.clock(Inputs { placed: 1, placed_pad, place: code, ..self.quiet });
-        self.pads[pad].place = Some(Exact::of(code, self.formats.place));
+        self.pads[pad].axes[axis].place = Some(Exact::of(code, self.formats.place));
+    }
+
+    /// The same place along every axis.
+    fn place_on_all(&mut self, pad: usize, code: i64) {
+        (0..self.axes()).for_each(|axis| self.place(pad, axis, code));
     }
 
     /// The estimates of a pad's parts, capacitance, force and whether they are invalid: what is given
@@ -132,20 +143,24 @@ fn pads_are_those_of_the_reference() {
         let (mut pair, mut random) = (Pair::new(&profile), Random::new(seed));
         let (formats, parts) = (pair.formats, pair.parts);
         let (mut freed, mut forced) = (0, 0);
-        let mut places = [0i64; 2];
+        let mut places = [[0i64; 2]; 2];
         for n in 0..operations(MILLION / 1000) {
             let pad = (n % 2) as usize;
-            if random.below(50) == 0 {
-                let near = random.between(-200.0, 200.0) as i64;
-                let word = random.word(formats.wall.wall_surface);
-                pair.surface(pad, if random.below(4) == 0 { word } else { near }, pad == 1);
-            }
-            if random.below(4) != 0 {
-                let near = places[pad] + random.below(9) as i64 - 4;
-                let word = random.word(formats.place);
-                places[pad] = if random.below(200) == 0 { word } else { near };
-                places[pad] = places[pad].clamp(-(1 << 12), 1 << 12);
-                pair.place(pad, places[pad]);
+            for axis in 0..pair.axes() {
+                if random.below(50) == 0 {
+                    let near = random.between(-200.0, 200.0) as i64;
+                    let word = random.word(formats.wall.wall_surface);
+                    let code = if random.below(4) == 0 { word } else { near };
+                    pair.surface(pad, axis, code, (pad == 1) ^ (axis == 1));
+                }
+                if random.below(4) != 0 {
+                    let place = &mut places[pad][axis];
+                    let near = *place + random.below(9) as i64 - 4;
+                    let word = random.word(formats.place);
+                    *place = if random.below(200) == 0 { word } else { near };
+                    *place = (*place).clamp(-(1 << 12), 1 << 12);
+                    pair.place(pad, axis, places[pad][axis]);
+                }
             }
             let middle = random.word(formats.capacitance) / 2;
             let estimates: Vec<_> = (0..parts)
@@ -174,9 +189,9 @@ fn pushed(profile: &Profile) -> (Pair, Vec<(i64, i64, bool)>, i64) {
     let half_n = f.wall.wall_most.code_saturating(0.5);
     let estimate = (f.capacitance.code_saturating(180.0), 0, false);
     let parts = vec![estimate; pair.parts];
-    pair.place(0, f.place.code_saturating(0.5));
+    pair.place_on_all(0, f.place.code_saturating(0.5));
     pair.frame(0, &parts, true);
-    pair.place(0, f.place.code_saturating(-1.0));
+    pair.place(0, 0, f.place.code_saturating(-1.0));
     for _ in 0..50 {
         assert_eq!(pair.frame(0, &parts, false).free, 0);
     }
@@ -187,7 +202,8 @@ fn pushed(profile: &Profile) -> (Pair, Vec<(i64, i64, bool)>, i64) {
 #[test]
 fn an_invalid_sensing_part_lets_go_in_mid_wall_and_the_wall_is_back_after_it() {
     for profile in profiles() {
-        for dead in 0..2 {
+        let sensing = if profile.wall.unwrap().parts == 4 { 4 } else { 2 };
+        for dead in 0..sensing {
             let (mut pair, parts, half_n) = pushed(&profile);
             let mut broken = parts.clone();
             broken[dead].2 = true;
@@ -198,19 +214,37 @@ fn an_invalid_sensing_part_lets_go_in_mid_wall_and_the_wall_is_back_after_it() {
     }
 }
 
+/// The larger of both walls' forces counts, and either may let go.
+#[test]
+fn a_quadrant_pad_meets_both_walls() {
+    for profile in profiles().into_iter().filter(|of| of.wall.unwrap().axes() == 2) {
+        let (mut pair, parts, _) = pushed(&profile);
+        let f = pair.formats;
+        for (y_mm, newtons) in [(-0.5, 0.5), (-1.5, 0.75), (-9.0, 1.0), (0.25, 0.5)] {
+            pair.place(0, 1, f.place.code_saturating(y_mm));
+            let out = pair.frame(0, &parts, false);
+            let expected = f.wall.wall_most.code_saturating(newtons);
+            assert_eq!(out.target, expected, "{y_mm} mm");
+        }
+        let right = pair.formats.wall.wall_surface.code_saturating(0.0);
+        pair.surface(0, 0, right, true);
+        assert_eq!(pair.frame(0, &parts, false).target, 0, "of neither inside");
+    }
+}
+
 #[test]
 fn a_pad_that_has_no_place_yet_meets_no_wall() {
     for profile in profiles() {
         let mut pair = Pair::new(&profile);
         let far = pair.formats.wall.wall_surface.max_code() as i64;
-        pair.surface(0, far, false);
+        (0..pair.axes()).for_each(|axis| pair.surface(0, axis, far, false));
         let parts = vec![(pair.formats.capacitance.code_saturating(180.0), 0, false); pair.parts];
         for _ in 0..20 {
             let out = pair.frame(0, &parts, true);
             assert_eq!((out.target, out.reads), (0, 0));
         }
         // Its first place begins where it is: it does not come there from somewhere else.
-        pair.place(0, far - 64);
+        pair.place_on_all(0, far - 64);
         let first = pair.frame(0, &parts, true);
         assert_eq!((first.reads, first.free), (1, 0), "with its first place it does");
         for frame in 0..20 {
@@ -223,16 +257,16 @@ fn a_pad_that_has_no_place_yet_meets_no_wall() {
 fn skipping_changes_no_bit_on_any_clock() {
     for profile in profiles() {
         let block = SplitPad::try_new(&profile).unwrap();
-        let formats = block.inputs();
+        let (formats, block_latency) = (block.inputs(), block.latency());
         let mut skips = Bench::new(block.clone());
         let mut never = Bench::<_, NeverSkips>::read(block);
-        let mut random = Random::new(5);
+        let (mut random, apart) = (Random::new(5), block_latency + 30);
         for clock in 0..operations(20_000) {
             let mut inputs = <Inputs as Bundle>::map(formats, |format| random.word(format));
             inputs.pad %= profile.pads as i64;
             inputs.placed_pad %= profile.pads as i64;
             inputs.wall.wall_pad %= profile.pads as i64;
-            inputs.estimate = i64::from(clock % 97 == 0);
+            inputs.estimate = i64::from(clock % apart == 0);
             assert_eq!(skips.clock(inputs), never.clock(inputs), "clock {}", skips.clock);
         }
     }

@@ -52,8 +52,8 @@ pub fn run(tuned: &Case, driven: &Case, is_lost: impl Fn(usize, &Truth) -> bool)
     let slot = |number: usize| {
         let made = plant.slot(number);
         core.set_target(made.slot.pad, made.target_n);
-        if let Some(surface_mm) = made.surface_mm {
-            core.set_surface(made.slot.pad, surface_mm);
+        if let Some(surface) = made.surface {
+            core.set_surface(made.slot.pad, surface);
         }
         let zeros = vec![0; made.slot.window().len()];
         let codes = if is_lost(number, &made.truth) { &zeros[..] } else { made.slot.window() };
