@@ -20,6 +20,7 @@ mod calibration;
 mod captures;
 mod core;
 mod lab;
+mod mutate;
 mod mutations;
 mod packets;
 mod plan;
@@ -27,6 +28,7 @@ mod profile;
 mod scene;
 pub mod seeds;
 
+pub use mutate::{Bytes, cross, mutate};
 pub use mutations::Mutations;
 
 use anyhow::Error;
