@@ -1,8 +1,4 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 #![no_main]
 
-hapticore_fuzz::mutate_values!("scene");
-
-libfuzzer_sys::fuzz_target!(|data: &[u8]| {
-    hapticore_tests::fuzz::run("scene", data);
-});
+hapticore_fuzz::text_target!("scene");
