@@ -61,9 +61,12 @@ impl Mutator {
             1 => {
                 [integer.wrapping_mul(2), integer / 2, integer.wrapping_neg()][self.rng.usize(..3)]
             }
-            2 | 3 => self.rng.i64(-1..16),
+            2 | 3 => {
+                let end = self.one_of(&[4, 10, 16]);
+                self.rng.i64(-1..end)
+            }
             4 | 5 => {
-                let power = 1_i64 << self.rng.u8(..63) / self.one_of(&[1, 2, 4]);
+                let power = 1_i64 << (self.rng.u8(..63) / self.one_of(&[1, 2, 4]));
                 self.one_of(&[power, -power]) + self.one_of(&[-1, 0, 0, 1])
             }
             6 => self.one_of(&[i64::MIN, i64::MAX]),
@@ -88,10 +91,11 @@ impl Mutator {
         }
     }
 
-    /// Another string of the document, a word, one with another number in it, or other bytes.
+    /// A word, another string of the document, one with another number in it, or other bytes.
     pub(super) fn string(&mut self, string: &str, others: &[&str]) -> String {
         match self.rng.u8(..6) {
-            0 | 1 => self.word(),
+            0 => self.word(),
+            1 => self.neighbour(string),
             2 | 3 => self.with_other_number(string),
             4 if !others.is_empty() => self.one_of(others).to_string(),
             _ => {
@@ -106,6 +110,13 @@ impl Mutator {
     /// A word of the dictionary.
     pub(super) fn word(&mut self) -> String {
         self.one_of(&WORDS).to_string()
+    }
+
+    /// The word before or after in the dictionary, where alternatives stand together; any, where the string is none.
+    fn neighbour(&mut self, string: &str) -> String {
+        let Some(at) = WORDS.iter().position(|word| *word == string) else { return self.word() };
+        let neighbours = [at.checked_sub(1), Some(at + 1)].map(|at| WORDS.get(at?).copied());
+        self.one_of(&neighbours).unwrap_or(string).to_string()
     }
 
     /// Of the numbers in a string one is another.
