@@ -2,6 +2,9 @@
 //! Every fuzz target on its committed corpus, its seeds and mutations of both: what a fuzzer has
 //! found once stays found, and what it would find at once is found here (docs/fuzzing.md).
 
+#[path = "fuzz/values.rs"]
+mod values;
+
 use std::fs;
 use std::path::Path;
 
@@ -20,12 +23,13 @@ fn corpus(target: &str) -> Vec<Vec<u8>> {
 
 /// Runs a target on what there is of it and on so many mutations of what is accepted: those of what is
 /// refused at once try little.
-fn hold(target: &str, mutations: usize) {
+fn hold(target: &'static str, mutations: usize) {
     let mut all = corpus(target);
     all.extend(seeds::of(target));
     all.retain(|data| run(target, data));
     assert!(!all.is_empty(), "{target}: nothing is accepted");
-    let accepted = Mutations::new(all, 1).take(mutations).filter(|data| run(target, data)).count();
+    let accepted =
+        Mutations::new(target, all, 1).take(mutations).filter(|data| run(target, data)).count();
     println!("{target}: {accepted} of {mutations} mutations accepted");
     assert!(accepted > 0 && accepted < mutations, "{target}: {accepted} of {mutations} accepted");
 }

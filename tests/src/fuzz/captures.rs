@@ -104,7 +104,11 @@ fn again(rows: &[Row], name: &str) -> Vec<Row> {
     let mut recorder = capture::create(&path, ADC, 1e6).expect("a folder that takes files");
     for (pad, codes) in rows {
         let mut codes = codes.clone();
-        let is_odd = [codes[2] == ADC.format.min_code() as i32, pad.is_some_and(|pad| pad > 0)];
+        let is_odd = [
+            pad.is_some_and(|pad| pad > 0),
+            codes[3] == ADC.format.max_code() as i32,
+            codes[2] == ADC.format.min_code() as i32,
+        ];
         if planted(Planted::Csv) && all_hold(&is_odd) {
             codes[2] = ADC.format.max_code() as i32;
         }

@@ -20,6 +20,7 @@ mod calibration;
 mod captures;
 mod core;
 mod lab;
+mod mutate;
 mod mutations;
 mod packets;
 mod plan;
@@ -27,6 +28,7 @@ mod profile;
 mod scene;
 pub mod seeds;
 
+pub use mutate::{Bytes, cross, mutate};
 pub use mutations::Mutations;
 
 use anyhow::Error;
@@ -80,12 +82,13 @@ enum Planted {
     /// Rows for columns in a calibration that is written again: a raster that is taller than wide, of a device with a
     /// force table and many pads.
     Calibration,
-    /// The most negative code of a terminal, beside another pad than the first, comes out positive in a capture that is
-    /// written again.
+    /// The most negative code of a terminal, in a row of another pad than the first in which the sensing voltage is
+    /// at its largest code, comes out positive in a capture that is written again.
     Csv,
     /// A sequence number that begins again in a packet of a later pad that is sent again after the ADC was late.
     Packets,
-    /// A capacitance that is rounded the wrong way at one pattern of six of its bits.
+    /// A capacitance that is rounded the wrong way at one pattern of six of its bits, where it is valid, of a later pad,
+    /// and of a profile that averages four windows.
     Core,
 }
 

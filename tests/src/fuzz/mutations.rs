@@ -3,6 +3,8 @@
 
 use fastrand::Rng;
 
+use super::mutate;
+
 /// Words that readers know or stumble over.
 const WORDS: [&str; 28] = [
     "0",
@@ -35,24 +37,41 @@ const WORDS: [&str; 28] = [
     "# ",
 ];
 
+/// Targets whose values are mutated, in half of the inputs.
+const TEXTS: [&str; 6] = ["profile", "scene", "calibration", "plan", "lab", "csv"];
+
 /// Inputs made of others, without end.
 pub struct Mutations {
     rng: Rng,
+    target: &'static str,
     corpus: Vec<Vec<u8>>,
 }
 
 impl Mutations {
-    /// Of a corpus, which must not be empty.
-    pub fn new(corpus: Vec<Vec<u8>>, seed: u64) -> Self {
+    /// Of a target's corpus, which must not be empty.
+    pub fn new(target: &'static str, corpus: Vec<Vec<u8>>, seed: u64) -> Self {
         assert!(!corpus.is_empty(), "there is something to mutate");
-        Mutations { rng: Rng::with_seed(seed), corpus }
+        Mutations { rng: Rng::with_seed(seed), target, corpus }
     }
 
     fn one(&mut self) -> Vec<u8> {
         let mut data = self.corpus[self.rng.usize(..self.corpus.len())].clone();
+        if TEXTS.contains(&self.target) && self.rng.bool() {
+            return self.values(data);
+        }
         for _ in 0..self.rng.usize(1..=3) {
             self.mutate(&mut data);
         }
+        data
+    }
+
+    /// The input with other values.
+    fn values(&mut self, mut data: Vec<u8>) -> Vec<u8> {
+        let (size, most) = (data.len(), 2 * data.len() + 64);
+        data.resize(most, 0);
+        let as_it_is = |_: &mut [u8], size, _| size;
+        let size = mutate(self.target, &mut data, size, most, self.rng.u32(..), as_it_is);
+        data.truncate(size);
         data
     }
 
