@@ -47,6 +47,11 @@ impl Area {
         }
     }
 
+    /// Whether it is a block of the model.
+    pub fn is_block(&self) -> bool {
+        matches!(self, Area::Block(_))
+    }
+
     /// Its files, as glob patterns.
     pub fn files(&self) -> Vec<String> {
         match self {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Weaves and builds, without the mutants that do not compile, until it builds.
 
+use crate::area::Area;
 use crate::errors::{Blame, blame, called_by_constant};
 use crate::mutant::Mutant;
 use crate::tree;
@@ -87,7 +88,7 @@ pub fn build(mutants: &[Mutant], uncompiled: BTreeSet<Index>) -> Result<Build> {
     for round in 1.. {
         let woven = weave_all(mutants, &files, &mut build)?;
         eprintln!("build {round}: {} mutants woven", build.numbers.0.len());
-        let (errors, programs) = cargo()?;
+        let (errors, programs) = cargo(&files)?;
         if errors.is_empty() {
             build.programs = programs;
             break;
@@ -127,12 +128,10 @@ fn weave_all(
     Ok(texts)
 }
 
-/// Errors and, where there are none, test programs.
-fn cargo() -> Result<(Vec<Message>, Vec<Program>)> {
-    let mut child = Command::new("cargo")
-        .args(["test", "--no-run", "--quiet", "--profile", "mutants", "--message-format", "json"])
-        .args(["--config", "profile.mutants.opt-level=2"])
-        .args([
+/// The programs that judge mutants of files: those of the model only where some are its own.
+fn judges(files: &BTreeSet<String>) -> &'static [&'static str] {
+    match files.iter().any(|file| Area::of(file).is_block()) {
+        true => &[
             "--package",
             "hapticore-hdl",
             "--package",
@@ -140,7 +139,17 @@ fn cargo() -> Result<(Vec<Message>, Vec<Program>)> {
             "--lib",
             "--test",
             "equality",
-        ])
+        ],
+        false => &["--package", "hapticore-hdl", "--lib"],
+    }
+}
+
+/// Errors and, where there are none, test programs.
+fn cargo(files: &BTreeSet<String>) -> Result<(Vec<Message>, Vec<Program>)> {
+    let mut child = Command::new("cargo")
+        .args(["test", "--no-run", "--quiet", "--profile", "mutants", "--message-format", "json"])
+        .args(["--config", "profile.mutants.opt-level=2"])
+        .args(judges(files))
         .current_dir(tree::WOVEN)
         .env("CARGO_TARGET_DIR", std::path::absolute("target/mutants/woven-build")?)
         .env("RUSTFLAGS", "--cap-lints=allow")

@@ -30,31 +30,40 @@ use area::Area;
 use mutant::Mutant;
 use std::process::ExitCode;
 use std::{fs, thread};
-use verdict::{Fate, Verdicts};
+use verdict::{Fate, Kept, Verdicts};
 
 /// What the command line asks for.
 struct Request {
     areas: Vec<Area>,
     jobs: usize,
-    resume: bool,
+    kept: Kept,
     compare: bool,
+    sample: usize,
     options: Vec<String>,
 }
 
 impl Request {
     fn parse(mut words: impl Iterator<Item = String>) -> Result<Self> {
         let jobs = thread::available_parallelism().map_or(1, |count| count.get());
-        let (areas, options) = (Vec::new(), Vec::new());
-        let mut request = Request { areas, jobs, resume: false, compare: false, options };
+        let mut request = Request {
+            areas: Vec::new(),
+            jobs,
+            kept: Kept::Nothing,
+            compare: false,
+            sample: usize::MAX,
+            options: Vec::new(),
+        };
+        let count = |word: Option<String>, option: &'static str| {
+            word.context("how many?").and_then(|word| Ok(word.parse()?)).context(option)
+        };
         while let Some(word) = words.next() {
             match &*word {
                 "--" => request.options.extend(words.by_ref()),
-                "--resume" => request.resume = true,
+                "--resume" => request.kept = Kept::Settled,
+                "--report" => request.kept = Kept::All,
                 "--compare" => request.compare = true,
-                "--jobs" => {
-                    request.jobs =
-                        words.next().context("--jobs: how many?")?.parse().context("--jobs")?
-                }
+                "--jobs" => request.jobs = count(words.next(), "--jobs")?,
+                "--sample" => request.sample = count(words.next(), "--sample")?,
                 area => request.areas.extend(Area::named(area)?),
             }
         }
@@ -88,16 +97,18 @@ fn judge_all() -> Result<bool> {
         return Ok(false);
     }
     fs::create_dir_all("target/mutants")?;
-    let mut verdicts = Verdicts::open(&mutants, request.resume)?;
-    settle(&mutants, request.jobs.max(1), &mut verdicts)?;
+    let mut verdicts = Verdicts::open(&mutants, request.kept)?;
+    if request.kept != Kept::All {
+        settle(&mutants, request.jobs.max(1), request.sample, &mut verdicts)?;
+    }
     if request.compare {
         return compare(&mutants, &verdicts);
     }
     report::report(&mutants, &verdicts)
 }
 
-/// Judges all mutants about which nothing is known.
-fn settle(mutants: &[Mutant], jobs: usize, verdicts: &mut Verdicts) -> Result<()> {
+/// Judges mutants about which nothing is known: all, or those in a sample.
+fn settle(mutants: &[Mutant], jobs: usize, sample: usize, verdicts: &mut Verdicts) -> Result<()> {
     if mutants.iter().all(|mutant| verdicts.known.contains_key(&mutant.name)) {
         return Ok(());
     }
@@ -112,12 +123,17 @@ fn settle(mutants: &[Mutant], jobs: usize, verdicts: &mut Verdicts) -> Result<()
         }
     }
     let tests = run::baseline(&build.programs, jobs)?;
+    let lines = tests.iter().map(|t| format!("{} {:?} {}\n", t.name, t.time, t.reached.len()));
+    fs::write("target/mutants/tests.txt", lines.collect::<String>())?;
     eprintln!("{} tests pass", tests.len());
-    let open: Vec<_> = (1..)
-        .zip(build.numbers.0.iter().copied())
-        .filter(|(_, index)| !verdicts.known.contains_key(&mutants[*index].name))
-        .collect();
+    let mut open: Vec<_> = (1..).zip(build.numbers.0.iter().copied()).collect();
+    open.sort_by_key(|(_, index)| mutants[*index].draw());
+    open.truncate(sample);
+    open.retain(|(_, index)| !verdicts.known.contains_key(&mutants[*index].name));
     judge::judge(mutants, &open, &tests, jobs, verdicts)?;
+    if sample < build.numbers.0.len() {
+        return Ok(());
+    }
     let unwoven = build.unwoven.iter().map(|(&index, &reason)| (&mutants[index], reason));
     let unwoven: Vec<_> =
         unwoven.filter(|(mutant, _)| !verdicts.known.contains_key(&mutant.name)).collect();

@@ -3,6 +3,7 @@
 
 use anyhow::{Context, Result, ensure};
 use serde::Deserialize;
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::process::{Command, Stdio};
 
 /// A change of the code at one place.
@@ -64,6 +65,13 @@ impl Mutant {
         let (place, change) = self.name.split_once(": ").unwrap_or((&self.name, ""));
         let file = place.split(':').next().expect("a file");
         format!("{file}: {change}")
+    }
+
+    /// By which mutants are shuffled: the first are a sample, always the same.
+    pub fn draw(&self) -> u64 {
+        let mut hasher = DefaultHasher::new();
+        self.name.hash(&mut hasher);
+        hasher.finish()
     }
 }
 

@@ -49,12 +49,23 @@ impl Fate {
 pub struct Verdict {
     /// The mutant.
     pub name: String,
-    /// Of the file that has it: a verdict holds as long as this stays.
+    /// Of the file that has it, without its tests: a verdict holds as long as this stays.
     pub hash: u64,
     /// What became of it.
     pub fate: Fate,
     /// Why it was judged in a build of its own.
     pub unwoven: Option<String>,
+}
+
+/// Which verdicts of earlier runs stay, of mutants in unchanged files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kept {
+    /// None.
+    Nothing,
+    /// What was killed and what did not compile.
+    Settled,
+    /// All, the last of each mutant.
+    All,
 }
 
 /// The verdicts of this run, and those of earlier ones that hold.
@@ -66,14 +77,14 @@ pub struct Verdicts {
 }
 
 impl Verdicts {
-    /// None yet, or with `resume` those of earlier runs: of mutants in unchanged files, what was killed
-    /// and what did not compile.
-    pub fn open(mutants: &[Mutant], resume: bool) -> Result<Self> {
+    /// Those that are kept of earlier runs.
+    pub fn open(mutants: &[Mutant], kept: Kept) -> Result<Self> {
+        let resume = kept != Kept::Nothing;
         let mut hashes = BTreeMap::new();
         for mutant in mutants.iter() {
             if !hashes.contains_key(&mutant.file) {
                 let mut hasher = DefaultHasher::new();
-                fs::read(&mutant.file)?.hash(&mut hasher);
+                untested(&fs::read_to_string(&mutant.file)?).as_bytes().hash(&mut hasher);
                 hashes.insert(mutant.file.clone(), hasher.finish());
             }
         }
@@ -84,7 +95,9 @@ impl Verdicts {
             for line in fs::read_to_string(FILE).unwrap_or_default().lines() {
                 let verdict: Verdict = serde_json::from_str(line)?;
                 let settled = matches!(verdict.fate, Fate::Killed { .. } | Fate::Uncompiled);
-                if settled && wanted.get(&*verdict.name) == Some(&verdict.hash) {
+                if (settled || kept == Kept::All)
+                    && wanted.get(&*verdict.name) == Some(&verdict.hash)
+                {
                     known.insert(verdict.name.clone(), verdict);
                 }
             }
@@ -105,5 +118,21 @@ impl Verdicts {
         writeln!(self.file, "{}", serde_json::to_string(&verdict)?)?;
         self.known.insert(verdict.name.clone(), verdict);
         Ok(())
+    }
+}
+
+/// A file's text without the tests at its end.
+fn untested(text: &str) -> &str {
+    text.split_once("\n#[cfg(test)]\nmod tests {").map_or(text, |(code, _)| code)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tests_at_the_end_are_not_of_the_code() {
+        assert_eq!(untested("fn f() {}\n\n#[cfg(test)]\nmod tests {\n}\n"), "fn f() {}\n");
+        assert_eq!(untested("#[cfg(test)]\nmod tests;\n"), "#[cfg(test)]\nmod tests;\n");
     }
 }
