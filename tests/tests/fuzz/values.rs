@@ -79,6 +79,7 @@ fn a_document_has_every_kind_of_change() {
             ("removed", |t| pads(t).is_none() && t.len() == 6),
             ("renamed", |t| pads(t).is_none() && t.get("k") == Some(&Value::Integer(4))),
             ("copied", |t| t.get("force").is_some_and(|force| force.get("places").is_some())),
+            ("restored", |t| t.get("haptic").is_some_and(Value::is_table)),
             ("longer", |t| places(t).is_some_and(|places| places.len() == 4)),
             ("shorter", |t| places(t).is_some_and(|places| places.len() == 2)),
             ("columns for rows", |t| {

@@ -4,24 +4,47 @@
 //! Where something is changed is chosen from the root down, each key and element of a table or
 //! array alike: a key of a small table is met as often as all rows of a long array.
 
+use std::sync::OnceLock;
+
 use toml::{Table, Value};
 
 use super::Mutator;
+use crate::fuzz::{TARGETS, seeds};
 
 /// Of so many choices of a table or array, one stops there rather than go further down.
 const STOPS: u8 = 6;
 
 impl Mutator {
-    /// The document with a few changes.
-    pub(super) fn toml(&mut self, text: &str) -> Option<String> {
+    /// The document of a target with a few changes.
+    pub(super) fn toml(&mut self, target: &str, text: &str) -> Option<String> {
         let mut root = Value::Table(text.parse().ok()?);
         if self.rng.u8(..8) == 0 {
             return self.lines(text);
         }
         for _ in 0..self.changes() {
-            self.change(&mut root);
+            match root.as_table_mut().filter(|_| self.rng.u8(..8) == 0) {
+                Some(table) => {
+                    let seed = self.rng.choice(documents(target)).expect("a document");
+                    self.restore(table, seed);
+                }
+                None => self.change(&mut root),
+            }
         }
         toml::to_string(root.as_table()?).ok()
+    }
+
+    /// A value of a seed in its place. libFuzzer prefers short inputs, so that it loses what has a default: without
+    /// this, a key that is gone does not come again.
+    fn restore(&mut self, table: &mut Table, seed: &Table) {
+        let chosen = self.rng.usize(..seed.len().max(1));
+        match seed.iter().nth(chosen) {
+            Some((key, Value::Table(inner))) if table.get(key).is_some_and(Value::is_table) => {
+                let own = table.get_mut(key).and_then(Value::as_table_mut);
+                self.restore(own.expect("a table"), inner);
+            }
+            Some((key, value)) => drop(table.insert(key.clone(), value.clone())),
+            None => {}
+        }
     }
 
     /// A line twice, or in another's place: keys and tables that are there already.
@@ -118,6 +141,20 @@ impl Mutator {
             }
         }
     }
+}
+
+/// The documents that fuzzing of a target begins with.
+fn documents(target: &str) -> &'static [Table] {
+    static SEEDS: [OnceLock<Vec<Table>>; TARGETS.len()] =
+        [const { OnceLock::new() }; TARGETS.len()];
+    let number = TARGETS.iter().position(|(name, _)| *name == target).expect("a target");
+    SEEDS[number].get_or_init(|| {
+        let document = |seed: &Vec<u8>| {
+            let text = str::from_utf8(seed).ok()?;
+            text.split('\0').next()?.parse().ok()
+        };
+        seeds::of(target).iter().filter_map(document).collect()
+    })
 }
 
 /// All keys of all tables, with their values.

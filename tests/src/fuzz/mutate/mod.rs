@@ -62,7 +62,7 @@ impl Mutator {
                 Some(format!("{options}{}", self.table(text)?))
             }
             "lab" => self.files(text),
-            _ => self.toml(text),
+            _ => self.toml(target, text),
         }
     }
 
@@ -71,7 +71,7 @@ impl Mutator {
         let mut files: Vec<String> = text.split('\0').map(String::from).collect();
         let chosen = self.rng.usize(..files.len());
         files[chosen] = match chosen {
-            0 => self.toml(&files[0])?,
+            0 => self.toml("lab", &files[0])?,
             _ => self.table(&files[chosen])?,
         };
         Some(files.join("\0"))
