@@ -39,7 +39,8 @@ fn fates(
     fs::create_dir_all(out)?;
     let status = cargo_mutants(&files, &[])
         .args(["--re", &format!("^({})$", names.join("|")), "--output", out, "--cargo-arg=--lib"])
-        .args(["--test-package", package, "--"])
+        // A constant of which a mutant never has the value.
+        .args(["--build-timeout", "120", "--test-package", package, "--"])
         .args(filter)
         .env("CARGO_TARGET_DIR", std::path::absolute("target/mutants/build")?)
         .status()?;
