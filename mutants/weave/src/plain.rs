@@ -62,10 +62,22 @@ fn fates(
     Ok(lists.into_iter().flatten().collect())
 }
 
-/// A text as a regular expression that it alone matches.
+/// A text as a regular expression that it alone matches. There `\<` is the beginning of a word.
 fn escaped(text: &str) -> String {
     text.chars()
-        .flat_map(|c| [c.is_ascii_punctuation().then_some('\\'), Some(c)])
+        .flat_map(|c| {
+            [(c.is_ascii_punctuation() && !matches!(c, '<' | '>')).then_some('\\'), Some(c)]
+        })
         .flatten()
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn angles_stay_and_other_punctuation_is_escaped() {
+        assert_eq!(escaped("+ in <A>::b"), r"\+ in <A>\:\:b");
+    }
 }
