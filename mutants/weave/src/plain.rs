@@ -39,7 +39,8 @@ fn fates(
     fs::create_dir_all(out)?;
     let status = cargo_mutants(&files, &[])
         .args(["--re", &format!("^({})$", names.join("|")), "--output", out, "--cargo-arg=--lib"])
-        .args(["--test-package", package, "--"])
+        // A constant of which a mutant never has the value.
+        .args(["--build-timeout", "120", "--test-package", package, "--"])
         .args(filter)
         .env("CARGO_TARGET_DIR", std::path::absolute("target/mutants/build")?)
         .status()?;
@@ -61,10 +62,22 @@ fn fates(
     Ok(lists.into_iter().flatten().collect())
 }
 
-/// A text as a regular expression that it alone matches.
+/// A text as a regular expression that it alone matches. There `\<` is the beginning of a word.
 fn escaped(text: &str) -> String {
     text.chars()
-        .flat_map(|c| [c.is_ascii_punctuation().then_some('\\'), Some(c)])
+        .flat_map(|c| {
+            [(c.is_ascii_punctuation() && !matches!(c, '<' | '>')).then_some('\\'), Some(c)]
+        })
         .flatten()
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn angles_stay_and_other_punctuation_is_escaped() {
+        assert_eq!(escaped("+ in <A>::b"), r"\+ in <A>\:\:b");
+    }
 }

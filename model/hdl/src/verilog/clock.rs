@@ -107,3 +107,6 @@ fn alternatives(condition: &str, operand: &str, set: &str, unset: &str, indent: 
     let _ = writeln!(text, " else begin\n{unset}{:indent$}end", "");
     text
 }
+
+#[cfg(test)]
+mod tests;

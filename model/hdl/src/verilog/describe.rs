@@ -128,3 +128,6 @@ fn operands(module: &Module, op: &Op, hashes: &[u64]) -> String {
         Op::Constant(_) | Op::Input(_) | Op::Register(_) | Op::Data(_) => String::new(),
     }
 }
+
+#[cfg(test)]
+mod tests;

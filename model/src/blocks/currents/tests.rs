@@ -13,17 +13,37 @@ fn currents_are_amplitudes_and_their_sums() {
         let (mut bench, mut random) =
             (Bench::new(Currents::try_new(&profile).unwrap()), Random::new(seed));
         for _ in 0..operations(MILLION / 20) {
-            check_currents(&mut bench, &profile, &mut random);
+            let sum = bench.block.inputs().sum;
+            let smaller = random.below(u64::from(sum.width) / 2);
+            let count = 2 * profile.demodulated();
+            let codes = (0..count).map(|_| random.word(sum) >> smaller).collect();
+            check_currents(&mut bench, &profile, codes);
         }
     }
 }
 
-fn check_currents(bench: &mut Bench<Currents>, profile: &Profile, random: &mut Random) {
+/// The terminals of one side at full scale, the others without current: sums as large as there are.
+#[test]
+fn currents_of_one_side_alone_are_their_sums() {
+    for profile in Profile::of_distinct_words() {
+        let mut bench = Bench::new(Currents::try_new(&profile).unwrap());
+        let full = bench.block.inputs().sum.max_code() as i64;
+        for (signs, side) in [(&profile.terminals.x, 1), (&profile.terminals.y, -1)] {
+            let of = |channel: usize| match signs.get(channel) {
+                Some(sign) if *sign != side => 0,
+                _ => full,
+            };
+            let codes =
+                (0..profile.demodulated() as usize).flat_map(|channel| [of(channel); 2]).collect();
+            check_currents(&mut bench, &profile, codes);
+        }
+    }
+}
+
+fn check_currents(bench: &mut Bench<Currents>, profile: &Profile, codes: Vec<i64>) {
     let (sum, amplitude, sums) =
         (bench.block.inputs().sum, bench.block.amplitude(), bench.block.sums());
-    let count = 2 * profile.demodulated();
-    let smaller = random.below(u64::from(sum.width) / 2);
-    let codes: Vec<i64> = (0..count).map(|_| random.word(sum) >> smaller).collect();
+    let count = codes.len();
     for (index, &sum) in (0..).zip(&codes) {
         bench.clock(Inputs { valid: 1, index, sum });
     }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The clocks from the last sum to the last word, and sums that come before it.
 
-use super::{Estimator, Inputs};
+use super::{Estimator, Inputs, TablePort};
 use crate::support::Bench;
+use crate::support::device::short_table_profiles;
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::bundle::Bundle;
+use hapticore_hdl::signal::{Signal, bit, code};
 
 #[test]
 fn latency_is_the_clocks_measured() {
@@ -75,5 +77,25 @@ fn sums_that_come_before_the_last_frame_are_dropped_once() {
         // Early ones after early ones are taken.
         let taken = frames_of(&mut early, &profile, 1, latency);
         assert_eq!(taken.last().map(|(pad, _)| *pad), Some(1), "sums are dropped once");
+    }
+}
+
+/// The words of the position table come first; the port goes on to those of the force table.
+#[test]
+fn a_word_is_written_into_one_table() {
+    for profile in short_table_profiles() {
+        let block = Estimator::try_new(&profile).unwrap();
+        let (words, port) = (block.position.table().words as i64, block.calibration().table);
+        for address in [0, 1, words - 1, words, words + 1, words + 7] {
+            let [position, force]: [TablePort<Signal<i64>>; 2] = block.table_ports(TablePort {
+                write: bit(true),
+                address: code(address, port.address),
+                word: code(1, port.word),
+            });
+            let is_of_force = i64::from(address >= words);
+            assert_eq!((position.write.value, force.write.value), (1 - is_of_force, is_of_force));
+            let written = if is_of_force == 1 { force } else { position };
+            assert_eq!(written.address.value, address - is_of_force * words);
+        }
     }
 }

@@ -150,3 +150,11 @@ fn a_flat_table_is_eq_8() {
         });
     }
 }
+
+#[test]
+fn a_root_of_too_many_digits_is_refused() {
+    let mut profile = Profile::bundled("standard").expect("bundled");
+    profile.formats.mean_square = Format::unsigned(63, 63);
+    let refused = ForceTable::try_new(&profile).expect_err("64 digits").to_string();
+    assert!(refused.contains("the radicand of its root"), "{refused}");
+}

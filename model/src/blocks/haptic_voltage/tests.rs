@@ -5,6 +5,7 @@ use super::{HapticVoltage, Inputs, Outputs};
 use crate::support::random::Random;
 use crate::support::{Bench, MILLION, operations};
 use hapticore_contract::profile::Profile;
+use hapticore_hdl::format::Format;
 use hapticore_reference::rounded::{self, Exact};
 
 #[test]
@@ -62,5 +63,17 @@ fn mean_squares_of_several_windows_are_the_mean_of_the_pads_last() {
                 );
             }
         }
+    }
+}
+
+/// A bit more of the pad would double the memory.
+#[test]
+fn squares_are_as_many_as_windows_of_pads() {
+    for (pads, bits) in [(2, 1), (4, 2), (5, 3)] {
+        let mut profile = Profile::bundled("small").expect("bundled");
+        (profile.pads, profile.haptic.windows) = (pads, 8);
+        let block = HapticVoltage::try_new(&profile).unwrap();
+        assert_eq!(block.inputs().pad, Format::unsigned(bits, 0));
+        assert_eq!(block.squares.words, 8 << bits);
     }
 }

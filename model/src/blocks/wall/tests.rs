@@ -100,7 +100,8 @@ fn walls_are_those_of_the_reference_where_a_hand_drags_the_pad() {
     for (seed, profile) in (0..).zip(of_all_rules()) {
         let (mut pair, mut random) = (Pair::new(&profile), Random::new(seed));
         let (mut frees, mut targets) = (0, 0);
-        for n in 0..operations(MILLION / 500) {
+        // One turn of the drag at least: less would not meet the wall.
+        for n in 0..operations(MILLION / 500).max(700) {
             for pad in 0..2 {
                 let (parts, x_mm) = dragged(&mut random, n + 300 * pad);
                 let mut inputs = pair.given(pad as i64, parts, x_mm, x_mm > 0.0);

@@ -119,6 +119,7 @@ fn constants_have_a_number_beside_their_code() {
     assert_eq!(crate::signal::code::<Shadow>(-3, format).value, Shadow { code: -3, real: -1.5 });
     let a = constant::<Shadow>(0.3, format);
     assert_eq!((<Shadow as Value>::code(a), Shadow::real(a), Shadow::unrounded(a)), (1, 0.5, 0.3));
+    assert_eq!(<Shadow as Value>::code(crate::signal::code(-3, format)), -3);
     assert_eq!(Shadow::with_unrounded(a, 0.2), Shadow { code: 1, real: 0.2 });
     assert_eq!(a.resize(Format::signed(6, 2), Proved).value, Shadow { code: 2, real: 0.3 });
 }
