@@ -24,12 +24,12 @@ pub(super) fn check(data: &[u8]) -> bool {
     }
 }
 
-/// The planted panic.
+/// The planted panic: a corner of four ranges.
 fn odd(profile: &Profile) {
     let is_odd = [
-        profile.pads == 7,
-        profile.haptic.windows == 8,
-        profile.slot.open == 3,
+        profile.pads > 4,
+        profile.haptic.windows > 2,
+        profile.slot.open % 2 == 1,
         profile.carrier.window == Window::Rectangular,
     ];
     assert!(!(planted(Planted::Profile) && all_hold(&is_odd)), "planted");
