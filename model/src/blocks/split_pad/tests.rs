@@ -146,7 +146,7 @@ fn pads_are_those_of_the_reference() {
         let mut places = [[0i64; 2]; 2];
         for n in 0..operations(MILLION / 1000) {
             let pad = (n % 2) as usize;
-            for axis in 0..pair.axes() {
+            for (axis, place) in places[pad].iter_mut().enumerate().take(pair.axes()) {
                 if random.below(50) == 0 {
                     let near = random.between(-200.0, 200.0) as i64;
                     let word = random.word(formats.wall.wall_surface);
@@ -154,12 +154,11 @@ fn pads_are_those_of_the_reference() {
                     pair.surface(pad, axis, code, (pad == 1) ^ (axis == 1));
                 }
                 if random.below(4) != 0 {
-                    let place = &mut places[pad][axis];
                     let near = *place + random.below(9) as i64 - 4;
                     let word = random.word(formats.place);
                     *place = if random.below(200) == 0 { word } else { near };
                     *place = (*place).clamp(-(1 << 12), 1 << 12);
-                    pair.place(pad, axis, places[pad][axis]);
+                    pair.place(pad, axis, *place);
                 }
             }
             let middle = random.word(formats.capacitance) / 2;
