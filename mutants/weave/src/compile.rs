@@ -131,15 +131,7 @@ fn weave_all(
 /// The programs that judge mutants of files: those of the model only where some are its own.
 fn judges(files: &BTreeSet<String>) -> &'static [&'static str] {
     match files.iter().any(|file| Area::of(file).is_block()) {
-        true => &[
-            "--package",
-            "hapticore-hdl",
-            "--package",
-            "hapticore-model",
-            "--lib",
-            "--test",
-            "equality",
-        ],
+        true => &["--package", "hapticore-hdl", "--package", "hapticore-model", "--lib", "--tests"],
         false => &["--package", "hapticore-hdl", "--lib"],
     }
 }

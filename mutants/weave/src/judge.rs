@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Judges woven mutants: only by tests that meet them, the quickest first.
+//! Judges woven mutants: only by tests that meet them, the quickest first. What survives is judged again,
+//! by the same tests with more operations.
 
 use crate::area::Area;
 use crate::mutant::Mutant;
-use crate::run::{End, Test, parallel, run};
+use crate::run::{End, SHARES, Test, parallel, run};
 use crate::verdict::{Fate, Verdicts};
 use crate::weave::Index;
 use anyhow::Result;
@@ -14,8 +15,9 @@ use std::time::{Duration, Instant};
 const FLOOR_S: u64 = 3;
 /// Where so many tests of a mutant do not end, no more are asked.
 const ENDLESS: usize = 2;
-/// Tests of others than the area itself are asked where they take no longer.
-const QUICK: Duration = Duration::from_secs(2);
+/// Tests of others than the area itself are asked where they take no longer, in each pass; longer ones where
+/// no other test meets the mutant.
+const QUICK: [Duration; SHARES.len()] = [Duration::from_secs(2), Duration::from_secs(5)];
 
 /// Judges mutants, given with their numbers in the build.
 pub fn judge(
@@ -39,18 +41,36 @@ pub fn judge(
 
 /// What the tests say of a mutant.
 fn fate(mutant: &Mutant, number: usize, tests: &[Test]) -> Result<Fate> {
+    let mut met = false;
+    for pass in 0..SHARES.len() {
+        match fate_in_pass(pass, mutant, number, tests)? {
+            Fate::Survived { reached } => met |= reached,
+            other => return Ok(other),
+        }
+    }
+    Ok(Fate::Survived { reached: met })
+}
+
+fn fate_in_pass(pass: usize, mutant: &Mutant, number: usize, tests: &[Test]) -> Result<Fate> {
     let area = Area::of(&mutant.file);
-    let stage = |test: &Test| area.stage(&test.program.name, &test.name);
-    let asked =
-        |test: &&Test| test.reached.contains(&number) && (stage(test) == 0 || test.time <= QUICK);
-    let mut asked: Vec<&Test> = tests.iter().filter(asked).collect();
-    asked.sort_by_key(|test| (stage(test), test.time));
+    let mut asked: Vec<(u8, Duration, &Test)> = tests
+        .iter()
+        .filter(|test| test.reached.contains(&number))
+        .filter_map(|test| {
+            Some((area.stage(&test.program.name, &test.name), test.times[pass]?, test))
+        })
+        .collect();
+    asked.sort_by_key(|(stage, time, _)| (*stage, *time));
+    let quick = |&(stage, time, _): &(u8, Duration, &Test)| stage == 0 || time <= QUICK[pass];
+    if asked.iter().any(quick) {
+        asked.retain(quick);
+    }
     let mut endless = 0;
-    for test in &asked {
-        let limit = FLOOR_S.max(3 * test.time.as_secs());
-        match run(test, number, limit)? {
+    for &(stage, time, test) in &asked {
+        let limit = FLOOR_S.max(3 * time.as_secs());
+        match run(test, number, SHARES[pass], limit)? {
             End::Passed => (),
-            End::Failed => return Ok(Fate::Killed { by: test.name.clone(), stage: stage(test) }),
+            End::Failed => return Ok(Fate::Killed { by: test.name.clone(), stage }),
             End::TimedOut => endless += 1,
         }
         if endless == ENDLESS {

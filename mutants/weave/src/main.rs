@@ -123,7 +123,7 @@ fn settle(mutants: &[Mutant], jobs: usize, sample: usize, verdicts: &mut Verdict
         }
     }
     let tests = run::baseline(&build.programs, jobs)?;
-    let lines = tests.iter().map(|t| format!("{} {:?} {}\n", t.name, t.time, t.reached.len()));
+    let lines = tests.iter().map(|t| format!("{} {:?} {}\n", t.name, t.times, t.reached.len()));
     fs::write("target/mutants/tests.txt", lines.collect::<String>())?;
     eprintln!("{} tests pass", tests.len());
     let mut open: Vec<_> = (1..).zip(build.numbers.0.iter().copied()).collect();

@@ -17,11 +17,15 @@ pub struct Test {
     pub program: Program,
     /// Its name within that.
     pub name: String,
-    /// Processor time that it takes.
-    pub time: Duration,
+    /// Processor time that it takes in each pass. None: it is not asked there.
+    pub times: [Option<Duration>; SHARES.len()],
     /// The numbers of the mutants that it meets.
     pub reached: BTreeSet<usize>,
 }
+
+/// The passes: of a test's random operations one of so many is done, what `HAPTICORE_SHARE` tells
+/// `operations` of `model/tests/equality/harness.rs`.
+pub const SHARES: [u64; 2] = [200, 20];
 
 /// How a test ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -39,12 +43,14 @@ const MEMORY: u64 = 8 << 20;
 /// Where a machine is busy, a second of its processor may take so many.
 const PATIENCE: u32 = 60;
 /// Tests that take more seconds of the processor are not asked.
-const SLOW_S: u64 = 20;
+const SLOW_S: u64 = 100;
+/// Tests that take longer in a pass are not asked in the next.
+const LONG: Duration = Duration::from_secs(5);
 /// The signal of a process that has used up its processor time.
 const SIGXCPU: i32 = 24;
 
-/// The tests of all programs that pass with no mutant enabled. Others are named and not asked: of a
-/// statistic the few operations of an unoptimised build may be too few.
+/// The tests of all programs that pass with no mutant enabled, in a pass at least. Others are named and not
+/// asked: for a statistic a pass may have too few operations.
 pub fn baseline(programs: &[Program], jobs: usize) -> Result<Vec<Test>> {
     let mut names = Vec::new();
     for program in programs {
@@ -62,18 +68,37 @@ pub fn baseline(programs: &[Program], jobs: usize) -> Result<Vec<Test>> {
     fs::create_dir_all(&folder)?;
     let tests = parallel(jobs, &names, |number, (program, name)| {
         let record = folder.join(number.to_string());
-        // Which prints its processor time and that of the test.
-        let script = format!("ulimit -S -t {SLOW_S}; \"$0\" \"$@\" >&2 || exit; times");
-        let output = command(&script, program, name).env("HAPTICORE_REACHED", &record).output()?;
-        if !output.status.success() {
-            eprintln!("not asked, it fails or is slow with no mutant enabled: {name}");
-            return Ok(None);
+        let mut test = Test {
+            program: program.clone(),
+            name: name.clone(),
+            times: [None; SHARES.len()],
+            reached: BTreeSet::new(),
+        };
+        for (time, share) in test.times.iter_mut().zip(SHARES) {
+            *time = passes(program, name, share, &record)?;
+            test.reached.extend(read(&record)?);
+            match time {
+                Some(time) if *time > LONG => break,
+                Some(_) => (),
+                None => eprintln!("fails or is slow with no mutant enabled, 1/{share}: {name}"),
+            }
         }
-        let time = seconds(&String::from_utf8(output.stdout)?).context("what `times` prints")?;
-        let reached = read(&record)?;
-        Ok(Some(Test { program: program.clone(), name: name.clone(), time, reached }))
+        Ok(test.times.iter().any(Option::is_some).then_some(test))
     });
     tests.into_iter().filter_map(Result::transpose).collect()
+}
+
+/// The processor time of a test that passes with no mutant enabled, and does not take too much of it. The
+/// mutants that it meets are written into a record.
+fn passes(program: &Program, name: &str, share: u64, record: &Path) -> Result<Option<Duration>> {
+    // Which prints its processor time and that of the test.
+    let script = format!("ulimit -S -t {SLOW_S}; \"$0\" \"$@\" >&2 || exit; times");
+    let output =
+        command(&script, program, name, share).env("HAPTICORE_REACHED", record).output()?;
+    if !output.status.success() {
+        return Ok(None);
+    }
+    seconds(&String::from_utf8(output.stdout)?).context("what `times` prints").map(Some)
 }
 
 /// The numbers in a record; there is none where no mutant is met.
@@ -96,24 +121,25 @@ fn seconds(times: &str) -> Option<Duration> {
     Some(Duration::from_secs_f64(60.0 * minutes.parse::<f64>().ok()? + seconds))
 }
 
-/// A script that runs a test, in the folder where cargo would.
-fn command(script: &str, program: &Program, test: &str) -> Command {
+/// A script that runs a test with a share of its operations, in the folder where cargo would.
+fn command(script: &str, program: &Program, test: &str, share: u64) -> Command {
     let mut command = Command::new("sh");
     command
         .args(["-c", &format!("ulimit -v {MEMORY}; ulimit -c 0; {script}")])
         .arg(&program.path)
         .args(["--exact", test, "--test-threads", "1"])
         .env("RUST_BACKTRACE", "0")
+        .env("HAPTICORE_SHARE", share.to_string())
         .current_dir(&program.folder)
         .stdin(Stdio::null())
         .stderr(Stdio::null());
     command
 }
 
-/// Runs a test with a mutant enabled, for so many seconds of processor time.
-pub fn run(test: &Test, mutant: usize, limit: u64) -> Result<End> {
+/// Runs a test with a mutant enabled and a share of its operations, for so many seconds of processor time.
+pub fn run(test: &Test, mutant: usize, share: u64, limit: u64) -> Result<End> {
     let script = format!("ulimit -S -t {limit}; exec \"$0\" \"$@\"");
-    let mut child = command(&script, &test.program, &test.name)
+    let mut child = command(&script, &test.program, &test.name, share)
         .env("HAPTICORE_MUTANT", mutant.to_string())
         .stdout(Stdio::null())
         .spawn()?;
