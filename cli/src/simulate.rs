@@ -206,7 +206,6 @@ fn simulate(
     let settings = settings(args);
     let bar = progress::bar(Some(cases.iter().map(|case| case.slots as u64).sum()), args.core.json);
     let tick = || bar.inc(1);
-    Case::prepare(cases)?;
     let outcomes = match recorder.as_deref_mut() {
         Some(recorder) => vec![cases[0].run(&settings, Some(recorder), &tick)?],
         None => cases

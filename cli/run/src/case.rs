@@ -18,7 +18,6 @@ use hapticore_host::{CrosstalkCanceller, DeviceCalibration, Residual, SlotClock,
 use hapticore_scene::{
     ControlPlan, EffectCost, Figure, LevelDeviation, Plant, Scene, Truth, signs_by_place,
 };
-use rayon::prelude::*;
 
 use crate::calibrate::{self, bench::Bench};
 use crate::capture::Recorder;
@@ -113,8 +112,10 @@ impl<'a> Case<'a> {
         let profile = for_parts(serving(&profile, plant.served()), plant.parts());
         let rate_hz = plant.device().sample_rate_hz;
         let frame_s = (profile.slot.samples() as usize * plant.served()) as f64 / rate_hz;
-        let profile = control
-            .map_or(profile.clone(), |plan| controlled(&profile, plan, (plant.parts(), frame_s)));
+        let profile = match control {
+            Some(plan) => controlled(&profile, plan, (plant.parts(), frame_s))?,
+            None => profile,
+        };
         let profile = Arc::new(buildable(profile)?);
         let calibrated = plant.as_calibrated()?;
         let mut device = calibrate::of_plant(calibrated.as_ref().unwrap_or(&plant), &profile);
@@ -164,24 +165,6 @@ impl<'a> Case<'a> {
     pub fn residual(&self) -> Result<Residual> {
         let words = self.calibration()?;
         Ok(*self.calibrated.residual.get_or_init(|| self.device.residual(words)))
-    }
-
-    /// Makes what runs of these cases begin with, on all processors: words of calibrations, and beside
-    /// them tunings, which wait for no words.
-    ///
-    /// # Errors
-    /// As [`Case::calibration`] and [`Case::tuning`].
-    pub fn prepare(cases: &[Case]) -> Result<()> {
-        let is_first = |&n: &usize| {
-            let same = |other: &Case| Arc::ptr_eq(&other.calibrated, &cases[n].calibrated);
-            !cases[..n].iter().any(same)
-        };
-        let devices: Vec<_> = (0..cases.len()).filter(is_first).collect();
-        let (words, tunings) = rayon::join(
-            || devices.into_par_iter().try_for_each(|n| cases[n].calibration().map(drop)),
-            || cases.par_iter().try_for_each(|case| case.tuning(&case.plant()?).map(drop)),
-        );
-        words.and(tunings)
     }
 
     /// Name of the case, as the scene gives it.

@@ -20,7 +20,7 @@ use hapticore_hdl::format::Format;
 use hapticore_model::fidelity::fixed::FixedSimulation;
 use hapticore_reference::Reference;
 
-const SLOTS: usize = if cfg!(optimised) { 300 } else { 20 };
+const SLOTS: usize = if cfg!(optimised) { 300 } else { 60 };
 const NAMES: [&str; 5] = ["r_x", "x_mm", "capacitance", "force", "mean_square"];
 /// By how much a deviation may be more, and less, than predicted.
 const MORE: f64 = 1.5;

@@ -15,9 +15,9 @@ use std::time::{Duration, Instant};
 const FLOOR_S: u64 = 3;
 /// Where so many tests of a mutant do not end, no more are asked.
 const ENDLESS: usize = 2;
-/// Tests of others than the area itself are asked where they take no longer, in each pass; longer ones where
-/// no other test meets the mutant.
-const QUICK: [Duration; SHARES.len()] = [Duration::from_secs(2), Duration::from_secs(5)];
+/// Tests of others than the area itself are asked where they take no longer; longer ones where no other test
+/// meets the mutant.
+const QUICK: Duration = Duration::from_secs(5);
 
 /// Judges mutants, given with their numbers in the build.
 pub fn judge(
@@ -57,11 +57,11 @@ fn fate_in_pass(pass: usize, mutant: &Mutant, number: usize, tests: &[Test]) -> 
         .iter()
         .filter(|test| test.reached.contains(&number))
         .filter_map(|test| {
-            Some((area.stage(&test.program.name, &test.name), test.times[pass]?, test))
+            Some((area.stage(&test.program.name, &test.name), test.time(pass)?, test))
         })
         .collect();
     asked.sort_by_key(|(stage, time, _)| (*stage, *time));
-    let quick = |&(stage, time, _): &(u8, Duration, &Test)| stage == 0 || time <= QUICK[pass];
+    let quick = |&(stage, time, _): &(u8, Duration, &Test)| stage == 0 || time <= QUICK;
     if asked.iter().any(quick) {
         asked.retain(quick);
     }

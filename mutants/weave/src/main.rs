@@ -28,6 +28,7 @@ mod weave;
 use anyhow::{Context, Result, bail};
 use area::Area;
 use mutant::Mutant;
+use run::Test;
 use std::process::ExitCode;
 use std::{fs, thread};
 use verdict::{Fate, Kept, Verdicts};
@@ -123,8 +124,7 @@ fn settle(mutants: &[Mutant], jobs: usize, sample: usize, verdicts: &mut Verdict
         }
     }
     let tests = run::baseline(&build.programs, jobs)?;
-    let lines = tests.iter().map(|t| format!("{} {:?} {}\n", t.name, t.times, t.reached.len()));
-    fs::write("target/mutants/tests.txt", lines.collect::<String>())?;
+    fs::write("target/mutants/tests.txt", tests.iter().map(Test::line).collect::<String>())?;
     eprintln!("{} tests pass", tests.len());
     let mut open: Vec<_> = (1..).zip(build.numbers.0.iter().copied()).collect();
     open.sort_by_key(|(_, index)| mutants[*index].draw());

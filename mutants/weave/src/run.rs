@@ -17,8 +17,8 @@ pub struct Test {
     pub program: Program,
     /// Its name within that.
     pub name: String,
-    /// Processor time that it takes in each pass. None: it is not asked there.
-    pub times: [Option<Duration>; SHARES.len()],
+    /// Processor time that it takes in each pass, none where it does not pass.
+    times: [Option<Duration>; SHARES.len()],
     /// The numbers of the mutants that it meets.
     pub reached: BTreeSet<usize>,
 }
@@ -26,6 +26,21 @@ pub struct Test {
 /// The passes: of a test's random operations one of so many is done, what `HAPTICORE_SHARE` tells
 /// `operations` of `model/tests/equality/harness.rs`.
 pub const SHARES: [u64; 2] = [200, 20];
+
+impl Test {
+    /// A line of `tests.txt`.
+    pub fn line(&self) -> String {
+        format!("{} {:?} {}\n", self.name, self.times, self.reached.len())
+    }
+
+    /// What it takes in a pass in which it is asked: it does more than in the pass before.
+    pub fn time(&self, pass: usize) -> Option<Duration> {
+        let time = self.times[pass]?;
+        let before = self.times[..pass].last().copied().flatten();
+        let more = before.is_none_or(|before| time < MEASURABLE || time > before.mul_f64(1.3));
+        more.then_some(time)
+    }
+}
 
 /// How a test ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -44,6 +59,8 @@ const MEMORY: u64 = 8 << 20;
 const PATIENCE: u32 = 60;
 /// Tests that take more seconds of the processor are not asked.
 const SLOW_S: u64 = 100;
+/// What is measured of shorter times says nothing.
+const MEASURABLE: Duration = Duration::from_millis(100);
 /// Tests that take longer in a pass are not asked in the next.
 const LONG: Duration = Duration::from_secs(5);
 /// The signal of a process that has used up its processor time.

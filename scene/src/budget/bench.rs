@@ -14,6 +14,9 @@ use crate::plant::Plant;
 use crate::scene::Scene;
 use crate::timing::Timing;
 
+/// The most slots of a case whose levels are compared: some 300 bytes of each are kept.
+const MOST_SLOTS: usize = 1_000_000;
+
 /// Where plants are set up.
 #[derive(Clone, Copy)]
 pub(super) struct Bench<'a> {
@@ -26,7 +29,7 @@ pub(super) struct Bench<'a> {
 #[derive(Clone)]
 pub(super) struct Mechanics {
     /// The truth of every slot; its R_p is none.
-    pub slots: Vec<Quantities>,
+    pub slots: Arc<Vec<Quantities>>,
     /// The largest difference from what it was compared with, percent.
     pub percent: f64,
     recording: Arc<Recording>,
@@ -51,19 +54,41 @@ impl Bench<'_> {
             .map_err(|error| error.in_file(&self.scene.name))
     }
 
+    /// The mechanics of a case alone, which a tape records.
+    fn moving(&self, case: &Case, tape: &Tape) -> Result<Plant, SceneError> {
+        let joined = case.effects.iter().any(|effect| JOINING.contains(&effect.name));
+        let mut alone = case.clone();
+        alone.effects.truncate(electrics(&case.effects));
+        alone.effects.extend(tape.recorders(joined));
+        self.plant(alone)
+    }
+
+    /// Whether a case has more slots than are compared.
+    ///
+    /// # Errors
+    /// A case that no plant can be made of.
+    pub fn is_too_long(&self, case: &Case) -> Result<bool, SceneError> {
+        Ok(self.moving(case, &Tape::default())?.slots() > MOST_SLOTS)
+    }
+
     /// Runs the mechanics of a case, until they are too far off where they are compared; what they
     /// did up to there has no use then.
+    ///
+    /// # Errors
+    /// A case of too many slots, a case that no plant can be made of.
     pub fn mechanics(
         &self,
         case: &Case,
         against: Option<&Against>,
     ) -> Result<Mechanics, SceneError> {
         let tape = Tape::default();
-        let joined = case.effects.iter().any(|effect| JOINING.contains(&effect.name));
-        let mut alone = case.clone();
-        alone.effects.truncate(electrics(&case.effects));
-        alone.effects.extend(tape.recorders(joined));
-        let mut plant = self.plant(alone)?;
+        let mut plant = self.moving(case, &tape)?;
+        if plant.slots() > MOST_SLOTS {
+            let expected =
+                format!("expected at most {MOST_SLOTS} slots of a case whose levels are compared");
+            let message = format!("{expected}, got {}", plant.slots());
+            return Err(SceneError::new(Place::File, "", message).in_file(&self.scene.name));
+        }
         let (mut slots, mut percent) = (Vec::with_capacity(plant.slots()), 0.0);
         for slot in 0..plant.slots() {
             let found = of_truth(&plant.truth(slot));
@@ -75,7 +100,7 @@ impl Bench<'_> {
             }
             slots.push(found);
         }
-        Ok(Mechanics { slots, percent, recording: Arc::new(tape.take()) })
+        Ok(Mechanics { slots: Arc::new(slots), percent, recording: Arc::new(tape.take()) })
     }
 
     /// A case over mechanics that are known.

@@ -34,7 +34,7 @@ pub struct LevelDeviation {
     /// Fidelity level in use.
     pub level: String,
     /// A finer level and the error against it, percent; none where there is no finer one of the
-    /// same question.
+    /// same question, and for cases of more than a million slots.
     pub finer: Option<(String, f64)>,
 }
 
@@ -68,12 +68,16 @@ impl Scene {
         timing: &Timing,
     ) -> Result<Vec<LevelDeviation>, SceneError> {
         let (case, bench) = (&self.cases[index], Bench { scene: self, index, timing });
-        let mechanics = bench.mechanics(case, None)?;
+        let mechanics = match bench.is_too_long(case)? {
+            true => None,
+            false => Some(bench.mechanics(case, None)?),
+        };
         let of = |(n, effect): (usize, &Spec)| {
+            let off_finer = |mechanics| search::off_finer(&bench, case, mechanics, n);
             Ok(LevelDeviation {
                 effect: effect.name,
                 level: effect.level().label.clone(),
-                finer: search::off_finer(&bench, case, &mechanics, n)?,
+                finer: mechanics.as_ref().map(off_finer).transpose()?.flatten(),
             })
         };
         case.effects.iter().enumerate().map(of).collect()

@@ -135,7 +135,7 @@ pub(super) fn off_finer(
     if n < electrics(&case.effects) {
         let finer = bench.mechanics(&finer, None)?.slots;
         let norm = Norm::new(&case.device, &finer);
-        let slots = mechanics.slots.iter().zip(&finer);
+        let slots = mechanics.slots.iter().zip(finer.iter());
         let percent = slots.map(|(coarse, fine)| norm.of(coarse, fine)).fold(0.0, f64::max);
         return Ok(Some((label, percent)));
     }

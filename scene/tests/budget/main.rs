@@ -203,3 +203,16 @@ fn a_calibration_has_the_levels_that_the_budget_chose() {
     assert_ne!(scene.cases[0].effects()[0], ("sheet", "bicubic 128 × 75"), "not the usual level");
     assert_eq!(then.calibration_map(5, 3, 20.0), plant.calibration_map(5, 3, 20.0));
 }
+
+/// A million slots and more are run, but not kept for a comparison.
+#[test]
+fn levels_of_a_very_long_case_are_not_compared() {
+    let long = |budget: &str| scene(&format!("dwell_slots = 30_000\n{budget}"), "");
+    let deviations = long("").level_deviations(0, &timing()).unwrap();
+    assert!(!deviations.is_empty() && deviations.iter().all(|of| of.finer.is_none()));
+    let error = long("error_budget_percent = 1\n").within_budget(&timing()).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "s: expected at most 1000000 slots of a case whose levels are compared, got 1050000"
+    );
+}

@@ -3,6 +3,8 @@
 
 use std::fs;
 
+use hapticore_contract::control::{Control, Law};
+use hapticore_contract::profile::{Profile, Wall};
 use hapticore_scene::gallery;
 use serde_json::Value;
 
@@ -224,4 +226,32 @@ fn an_interrupted_run_leaves_nothing() {
     std::process::Command::new("kill").args(["-INT", &run.id().to_string()]).status().unwrap();
     assert_eq!(run.wait().unwrap().code(), Some(130));
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0, "nothing stays behind");
+}
+
+#[test]
+fn a_profile_with_walls_of_other_pads_than_the_scenes_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let standard = Profile::bundled("standard").unwrap();
+    let (control, wall) = (Some(Control::of(&standard, Law::Inverse)), Some(Wall::B));
+    let profile = Profile { control, wall, pads: 2, ..standard };
+    fs::write(folder.path().join("halves.toml"), toml::to_string(&profile).unwrap()).unwrap();
+    refuse(
+        folder.path(),
+        &["simulate", "wall-2d", "--profile", "halves.toml"],
+        &["wall.parts", "expected 4", "got 2"],
+    );
+}
+
+#[test]
+fn levels_are_chosen_for_a_million_slots_at_most() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = gallery::find("hockey").unwrap();
+    let long = scene.lines().map(|line| match line.split_once(" = ") {
+        Some(("duration_s", _)) => "duration_s = 3600\nerror_budget_percent = 0.1\n".into(),
+        Some(("rung", _)) => String::new(),
+        _ => format!("{line}\n"),
+    });
+    fs::write(folder.path().join("long.toml"), long.collect::<String>()).unwrap();
+    let words = ["long: ", "expected at most 1000000 slots of a case whose levels are compared"];
+    refuse(folder.path(), &["simulate", "long.toml"], &words);
 }

@@ -16,11 +16,14 @@ const MEASURED: usize = 401;
 /// where it has one.
 /// Those of the walls are for the time from a pad's slot to its next, where the profile has none of
 /// its own; `parts` are the slots of each pad.
+///
+/// # Errors
+/// A profile whose walls are of pads with another number of parts.
 pub fn controlled(
     profile: &Profile,
     plan: &ControlPlan,
     (parts, frame_s): (usize, f64),
-) -> Profile {
+) -> Result<Profile> {
     let law = match plan.law {
         ControlLaw::Open => Law::Open,
         ControlLaw::Proportional => Law::Proportional,
@@ -32,21 +35,24 @@ pub fn controlled(
         ForceEstimate::Eq8 => ForceLaw::Eq8,
         ForceEstimate::Table => ForceLaw::Table,
     });
-    let wall = plan.wall.as_ref().map(|wall| {
-        let usual = match parts {
-            2 => Wall::B,
-            4 => Wall::QUADRANTS,
-            _ => Wall::A,
-        };
-        let usual = usual.at_frames_of(1e3 * frame_s);
-        walled(profile.wall.unwrap_or(usual), wall)
-    });
-    Profile {
-        wall,
+    let usual = match parts {
+        2 => Wall::B,
+        4 => Wall::QUADRANTS,
+        _ => Wall::A,
+    };
+    let own = profile.wall.unwrap_or(usual.at_frames_of(1e3 * frame_s));
+    ensure!(
+        plan.wall.is_none() || own.parts as usize == parts,
+        "{}: wall.parts: expected {parts}, the parts of the scene's pads, got {}",
+        profile.name,
+        own.parts
+    );
+    Ok(Profile {
+        wall: plan.wall.as_ref().map(|wall| walled(own, wall)),
         control: Some(Control { law, ..control }),
         force: Force { law: force, ..profile.force },
         ..profile.clone()
-    }
+    })
 }
 
 /// The rule of a profile's walls as a scene asks for it.
