@@ -8,6 +8,7 @@ use crate::effects::{EFFECTS, SPLITTING, Spec, carrier, part};
 use crate::error::SceneError;
 use crate::format::{Limits, Node, Table, Value};
 use crate::pad::{PadPlan, Tables};
+use crate::timing::Timing;
 
 /// The most pads of a scene.
 const MOST_PADS: usize = 16;
@@ -102,6 +103,19 @@ impl Case {
             parts.iter().map(move |part| format!("{name}{part}"))
         };
         self.pads.iter().flat_map(of_pad).collect()
+    }
+
+    /// Finished slots under a core of this timing.
+    pub fn slots(&self, timing: &Timing) -> usize {
+        match self.length {
+            Length::Sweep { points, dwell_slots } => {
+                points * dwell_slots * self.pads.len() * self.parts_mm.len()
+            }
+            Length::Time { duration_s } => {
+                let rate_hz = self.device.clone().sampled(timing).sample_rate_hz;
+                (duration_s * rate_hz / timing.slot_samples as f64).floor() as usize
+            }
+        }
     }
 
     /// The keys of the pads that are swept, as [`Setpoint::get`](crate::Setpoint::get) knows them.

@@ -215,12 +215,7 @@ impl Plant {
 
     /// Finished slots of this case.
     pub fn slots(&self) -> usize {
-        match self.case.length {
-            Length::Sweep { points, dwell_slots } => points * dwell_slots * self.served(),
-            Length::Time { duration_s } => (duration_s * self.device.sample_rate_hz
-                / self.timing.slot_samples as f64)
-                .floor() as usize,
-        }
+        self.case.slots(&self.timing)
     }
 
     /// Number of ADC channels: terminals, sensing voltage, haptic voltage.

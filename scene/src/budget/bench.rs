@@ -54,21 +54,9 @@ impl Bench<'_> {
             .map_err(|error| error.in_file(&self.scene.name))
     }
 
-    /// The mechanics of a case alone, which a tape records.
-    fn moving(&self, case: &Case, tape: &Tape) -> Result<Plant, SceneError> {
-        let joined = case.effects.iter().any(|effect| JOINING.contains(&effect.name));
-        let mut alone = case.clone();
-        alone.effects.truncate(electrics(&case.effects));
-        alone.effects.extend(tape.recorders(joined));
-        self.plant(alone)
-    }
-
     /// Whether a case has more slots than are compared.
-    ///
-    /// # Errors
-    /// A case that no plant can be made of.
-    pub fn is_too_long(&self, case: &Case) -> Result<bool, SceneError> {
-        Ok(self.moving(case, &Tape::default())?.slots() > MOST_SLOTS)
+    pub fn is_too_long(&self, case: &Case) -> bool {
+        case.slots(self.timing) > MOST_SLOTS
     }
 
     /// Runs the mechanics of a case, until they are too far off where they are compared; what they
@@ -81,14 +69,18 @@ impl Bench<'_> {
         case: &Case,
         against: Option<&Against>,
     ) -> Result<Mechanics, SceneError> {
-        let tape = Tape::default();
-        let mut plant = self.moving(case, &tape)?;
-        if plant.slots() > MOST_SLOTS {
+        if self.is_too_long(case) {
             let expected =
                 format!("expected at most {MOST_SLOTS} slots of a case whose levels are compared");
-            let message = format!("{expected}, got {}", plant.slots());
+            let message = format!("{expected}, got {}", case.slots(self.timing));
             return Err(SceneError::new(Place::File, "", message).in_file(&self.scene.name));
         }
+        let tape = Tape::default();
+        let joined = case.effects.iter().any(|effect| JOINING.contains(&effect.name));
+        let mut alone = case.clone();
+        alone.effects.truncate(electrics(&case.effects));
+        alone.effects.extend(tape.recorders(joined));
+        let mut plant = self.plant(alone)?;
         let (mut slots, mut percent) = (Vec::with_capacity(plant.slots()), 0.0);
         for slot in 0..plant.slots() {
             let found = of_truth(&plant.truth(slot));
