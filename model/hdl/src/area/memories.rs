@@ -132,6 +132,8 @@ mod tests {
         assert_eq!(ice40.block.takes(2049, 2, true), (2, 0.5 * (2.0 + 2.0) + 130.0));
         assert_eq!(ice40.block.takes(2049, 2, false), (2, 0.5 * 2.0 + 130.0));
         assert_eq!(ecp5.block.takes(512, 36, true), (1, 130.0));
+        // 11 cells of 16 bits cost the same: the narrower ones are taken.
+        assert_eq!(ice40.block.takes(2591, 16, false), (12, 786.0));
         // At the same cost as flip-flops, 33 × 2 bits, there is no block.
         assert_eq!(
             (ice40.block.takes(33, 2, true).1, ice40.block_rams(&memory(33, 2, true))),

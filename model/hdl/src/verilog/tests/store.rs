@@ -46,7 +46,7 @@ impl Block for Store {
     fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
         let r = state.load(self);
         let sum = (i.place + r.turn).resize(r.turn.format, Wrap);
-        let word = i.place.resize(Format::unsigned(3, 0), Wrap);
+        let word = i.place.bits(0, 3);
         self.either.access(
             &mut state.submodules.either,
             sum,

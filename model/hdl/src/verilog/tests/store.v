@@ -29,7 +29,7 @@ module hapticore_store (
     reg [2:0] before_2_word; // its read register
 
     wire [3:0] place_plus_turn = {2'd0, place} + {1'd0, turn}; // u4.0
-    wire [2:0] either_write_word = {1'd0, place}; // u3.0
+    wire [2:0] place_wide = {{1{1'b0}}, place};
     wire signed [4:0] difference_bf9f = {{1{change[3]}}, change} - {{1{last[3]}}, last}; // s5.1
     wire [4:0] magnitude_4821 = difference_bf9f[4] ? 5'd0 - difference_bf9f : difference_bf9f; // u5.1
     wire [3:0] joined_5db0 = {either_word[2:1], before_2_word[1:0]}; // u4.0
@@ -44,7 +44,7 @@ module hapticore_store (
     end
 
     always @(posedge clock) begin
-        if (start) either[place] <= either_write_word;
+        if (start) either[place] <= place_wide;
         either_word <= either[place_plus_turn[2:0]];
     end
 
@@ -54,7 +54,7 @@ module hapticore_store (
     end
 
     always @(posedge clock) begin
-        if (start) before_2[place_plus_turn[2:0]] <= either_write_word;
+        if (start) before_2[place_plus_turn[2:0]] <= place_wide;
         before_2_word <= before_2[place];
     end
 
