@@ -137,6 +137,19 @@ mod tests {
         assert_eq!(narrow.map(|(a, b)| ecp5.count(a, b)), [0, 0, 1, 1, 1, 1, 4, 4, 6]);
     }
 
+    #[test]
+    fn operations_of_two_parts_are_their_sums() {
+        let of = |n: f64| Operations {
+            flip_flops: n,
+            adders: 2.0 * n,
+            selects: 3.0 * n,
+            memory_bits: 4.0 * n,
+            multipliers: [5.0 * n, 6.0 * n],
+            block_rams: [7.0 * n, 8.0 * n],
+        };
+        assert_eq!(of(1.0).plus(of(10.0)), of(11.0));
+    }
+
     /// Counted by hand in `verilog/tests/parts.v`: each instance counts, what nothing needs does not.
     #[test]
     fn operations_are_those_of_the_netlist() {

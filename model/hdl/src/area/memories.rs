@@ -116,6 +116,7 @@ mod tests {
         assert_eq!(of(32, 24, true), [2, 0], "LUTs as memory");
         assert_eq!(of(4, 4, true), [0, 0], "flip-flops");
         assert_eq!(of(16, 8, false), [0, 0], "a table as logic");
+        assert_eq!(of(64, 6, false), [0, 0], "a longer table as logic");
         assert_eq!(of(2500, 24, true), [15, 4]);
         assert_eq!(of(512, 36, true), [5, 1]);
         let shortened = Ram { format: Format::unsigned(20, 0), ..memory(512, 16, false) };
@@ -131,6 +132,13 @@ mod tests {
         assert_eq!(ice40.block.takes(2049, 2, true), (2, 0.5 * (2.0 + 2.0) + 130.0));
         assert_eq!(ice40.block.takes(2049, 2, false), (2, 0.5 * 2.0 + 130.0));
         assert_eq!(ecp5.block.takes(512, 36, true), (1, 130.0));
+        // 11 cells of 16 bits cost the same: the narrower ones are taken.
+        assert_eq!(ice40.block.takes(2591, 16, false), (12, 786.0));
+        // At the same cost as flip-flops, 33 × 2 bits, there is no block.
+        assert_eq!(
+            (ice40.block.takes(33, 2, true).1, ice40.block_rams(&memory(33, 2, true))),
+            (66.0, 0)
+        );
         assert_eq!(ecp5.block.takes(512, 37, true), (2, 258.0), "a byte has nine bits");
         let distributed = ecp5.distributed.as_ref().expect("it has some");
         assert_eq!(distributed.takes(16, 4, true), (1, 6.0));

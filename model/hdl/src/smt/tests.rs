@@ -9,7 +9,7 @@ use super::{Property, System};
 use crate::format::Format;
 use crate::interpretations::netlist::Netlist;
 use crate::verilog::tests::narrowings::Narrowings;
-use crate::verilog::tests::{check_text, parts};
+use crate::verilog::tests::{check_text, parts, store};
 
 #[test]
 fn every_narrowing_is_a_term() {
@@ -46,6 +46,18 @@ fn every_part_is_in_the_problems() {
         text += &format!("; {name}: {}\n{}\n", variables.join(", "), problem.text);
     }
     check_text("smt/tests/problems.smt2", include_str!("tests/problems.smt2"), &text);
+}
+
+#[test]
+fn memories_are_arrays_in_the_problems() {
+    let netlist = Netlist::of(&store::store());
+    let system = System::of(&netlist, 0);
+    let mut text = String::new();
+    for (name, claim) in system.claims() {
+        text += &format!("; base of {name}\n{}\n", system.base(claim, 3).text);
+        text += &format!("; step of {name}\n{}\n", system.step(claim, 1).text);
+    }
+    check_text("smt/tests/store.smt2", include_str!("tests/store.smt2"), &text);
 }
 
 #[test]

@@ -341,3 +341,17 @@ fn initial(ram: &Ram, name: &str) -> String {
     }
     text + "    end\n\n"
 }
+
+#[cfg(test)]
+mod tests {
+    use super::folded;
+
+    #[test]
+    fn a_list_goes_up_to_column_118() {
+        let items = |length: usize| ["a".repeat(length), "b".to_string()];
+        let long = "a".repeat(88);
+        assert_eq!(folded(&items(88)), format!("{long},\n        b"));
+        let fits = |length| !folded(&[String::new(), "b".repeat(length)]).contains('\n');
+        assert!(fits(118 - 30) && !fits(118 - 29));
+    }
+}

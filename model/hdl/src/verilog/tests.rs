@@ -7,6 +7,7 @@
 
 pub(crate) mod narrowings;
 pub(crate) mod parts;
+pub(crate) mod store;
 
 use super::*;
 
@@ -43,4 +44,10 @@ fn every_part_is_printed() {
         ports.take(3).collect::<Vec<_>>(),
         ["Input start u1.0", "Input case_2 s5.2", "Input count u3.0"]
     );
+}
+
+#[test]
+fn memories_and_what_nothing_needs_are_printed() {
+    let design = Design::of(&store::store(), "a test");
+    check_text("verilog/tests/store.v", include_str!("tests/store.v"), &design.text());
 }

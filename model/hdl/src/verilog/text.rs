@@ -59,3 +59,19 @@ pub fn broken(text: &Text, indent: usize) -> String {
 
 /// A space where a line may end: before the other alternative.
 pub const BREAK: char = '\u{b}';
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn alternatives_are_on_one_line_up_to_79_characters() {
+        let text = |kind, length: usize| Text {
+            kind,
+            text: "a ? b".to_string() + &"b".repeat(length - 7) + &BREAK.to_string() + ":",
+        };
+        assert!(!broken(&text(Kind::Select, 79), 4).contains('\n'));
+        assert!(broken(&text(Kind::Select, 80), 4).contains("\n    :"));
+        assert!(!broken(&text(Kind::Operation, 80), 4).contains('\n'));
+    }
+}

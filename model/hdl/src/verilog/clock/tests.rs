@@ -68,3 +68,12 @@ fn conditions_are_shared_and_what_is_kept_is_left_out() {
     assert_eq!(clock, CLOCK);
     assert!(rest.contains("{1'b0, a_plus_b[0], a_plus_b[3]}"), "{rest}");
 }
+
+#[test]
+fn branches_that_are_empty_are_left_out() {
+    let of = |set, unset| super::alternatives("a", "a", set, unset, 0);
+    assert_eq!(of("", ""), "");
+    assert_eq!(of("    x;\n", ""), "if (a) begin\n    x;\nend\n");
+    assert_eq!(of("", "    y;\n"), "if (~a) begin\n    y;\nend\n");
+    assert_eq!(of("    x;\n", "    y;\n"), "if (a) begin\n    x;\nend else begin\n    y;\nend\n");
+}

@@ -21,6 +21,7 @@ module hapticore_narrowings (
     output wire even_bit, // u1.2
     output wire signed [8:0] even_wide, // s9.2
     output wire [8:0] even_wide_unsigned, // u9.2
+    output wire [6:0] even_unsigned_same, // u7.2
     output wire signed [3:0] even_of_less, // s4.0
     output wire signed [5:0] floor, // s6.2
     output wire [2:0] floor_wrapped, // u3.2
@@ -57,15 +58,16 @@ module hapticore_narrowings (
     wire signed [8:0] rounded_7_wide = {{2{rounded_7[6]}}, rounded_7};
     wire [6:0] rounded_8 = {1'b0, u[7:2]} + {6'd0, u[1] & (u[2] | u[0])};
     wire [8:0] rounded_8_wide = {{2{1'b0}}, rounded_8};
+    wire [6:0] rounded_9 = {1'b0, u[7:2]} + {6'd0, u[1] & (u[2] | u[0])};
     wire signed [3:0] one_wide = {{2{one[1]}}, one};
-    wire signed [1:0] rounded_9 = {one_wide[3], one_wide[3]} + {1'd0, one_wide[2] & (one_wide[3] | (|one_wide[1:0]))};
-    wire signed [3:0] rounded_9_wide = {{2{rounded_9[1]}}, rounded_9};
-    wire signed [5:0] rounded_10 = s[7:2];
+    wire signed [1:0] rounded_10 = {one_wide[3], one_wide[3]} + {1'd0, one_wide[2] & (one_wide[3] | (|one_wide[1:0]))};
+    wire signed [3:0] rounded_10_wide = {{2{rounded_10[1]}}, rounded_10};
     wire signed [5:0] rounded_11 = s[7:2];
-    wire signed [8:0] rounded_11_wide = {{3{rounded_11[5]}}, rounded_11};
+    wire signed [5:0] rounded_12 = s[7:2];
+    wire signed [8:0] rounded_12_wide = {{3{rounded_12[5]}}, rounded_12};
     wire signed [3:0] one_wide_2 = {{2{one[1]}}, one};
-    wire signed [0:0] rounded_12 = one_wide_2[3];
-    wire signed [1:0] rounded_12_wide = {{1{rounded_12}}, rounded_12};
+    wire signed [0:0] rounded_13 = one_wide_2[3];
+    wire signed [1:0] rounded_13_wide = {{1{rounded_13}}, rounded_13};
     wire signed [9:0] s_wide = {{2{s[7]}}, s};
     wire [9:0] u_wide = {{2{1'b0}}, u};
     wire signed [9:0] shifted_2 = {s, 2'd0};
@@ -83,12 +85,13 @@ module hapticore_narrowings (
     assign even_bit = u[2] + (u[1] & (u[2] | u[0]));
     assign even_wide = rounded_7_wide;
     assign even_wide_unsigned = rounded_8_wide;
-    assign even_of_less = rounded_9_wide;
+    assign even_unsigned_same = rounded_9;
+    assign even_of_less = rounded_10_wide;
     assign floor = s[7:2];
     assign floor_wrapped = s[4:2];
-    assign floor_saturated = (rounded_10[5:2] == {4{rounded_10[5]}}) ? rounded_10[2:0] : {rounded_10[5], {2{~rounded_10[5]}}};
-    assign floor_wide = rounded_11_wide;
-    assign floor_of_less = rounded_12_wide;
+    assign floor_saturated = (rounded_11[5:2] == {4{rounded_11[5]}}) ? rounded_11[2:0] : {rounded_11[5], {2{~rounded_11[5]}}};
+    assign floor_wide = rounded_12_wide;
+    assign floor_of_less = rounded_13_wide;
     assign saturated = (s[7:4] == {4{s[7]}}) ? s[4:0] : {s[7], {4{~s[7]}}};
     assign saturated_bit = (s == {8{s[7]}}) ? s[0] : s[7];
     assign saturated_unsigned = (|u[7:5]) ? {5{1'b1}} : u[4:0];
