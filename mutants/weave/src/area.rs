@@ -9,6 +9,10 @@ const HDL: &str = "model/hdl/src";
 const BLOCKS: &str = "model/src/blocks";
 const PRINTER: [&str; 3] = ["verilog", "smt", "area"];
 
+/// The stage of tests that compare a core's printed Verilog with the committed one. They notice any change
+/// of the circuit, right or wrong, so that they are asked last and counted apart.
+pub const PRINTED: u8 = 3;
+
 /// A part of the code whose mutants are counted together.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Area {
@@ -82,7 +86,8 @@ impl Area {
     }
 
     /// When a test of a program is asked about a mutant: 0 for the area's own unit tests, 1 for others of
-    /// the same crate and of blocks, 2 for those of whole cores.
+    /// the same crate and of blocks, 2 for those of whole cores, [`PRINTED`] for those that compare printed
+    /// text.
     pub fn stage(&self, program: &str, test: &str) -> u8 {
         match (self, program) {
             (Area::Block(name), "hapticore_model")
@@ -92,6 +97,7 @@ impl Area {
             }
             (Area::Language | Area::Printer, "hapticore_hdl") => 0,
             (_, "hapticore_model" | "hapticore_hdl") => 1,
+            (_, "committed") => PRINTED,
             _ => 2,
         }
     }
@@ -162,6 +168,7 @@ mod tests {
         assert_eq!(wall.stage("hapticore_model", "blocks::wall::tests::a"), 0);
         assert_eq!(wall.stage("hapticore_model", "blocks::ratio::tests::a"), 1);
         assert_eq!(wall.stage("equality", "slots::a"), 2);
+        assert_eq!(wall.stage("committed", "a"), PRINTED);
         assert_eq!(Area::Printer.stage("hapticore_hdl", "smt::tests::a"), 0);
     }
 }

@@ -131,7 +131,17 @@ fn weave_all(
 /// The programs that judge mutants of files: those of the model only where some are its own.
 fn judges(files: &BTreeSet<String>) -> &'static [&'static str] {
     match files.iter().any(|file| Area::of(file).is_block()) {
-        true => &["--package", "hapticore-hdl", "--package", "hapticore-model", "--lib", "--tests"],
+        true => &[
+            "--package=hapticore-hdl",
+            "--package=hapticore-model",
+            "--package=hapticore-rtl",
+            "--lib",
+            "--test=equality",
+            "--test=fixed",
+            "--test=lock_in",
+            "--test=noise",
+            "--test=committed",
+        ],
         false => &["--package", "hapticore-hdl", "--lib"],
     }
 }

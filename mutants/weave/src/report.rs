@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The table of what became of all mutants, and the survivors that nobody has argued about.
 
-use crate::area::{Area, row};
+use crate::area::{Area, PRINTED, row};
 use crate::mutant::Mutant;
 use crate::verdict::{Fate, Verdict, Verdicts};
 use anyhow::Result;
@@ -15,6 +15,7 @@ const ARGUED: &str = "mutants/survivors.txt";
 struct Count {
     own: usize,
     others: usize,
+    printed: usize,
     survive: usize,
     timeouts: usize,
     uncompiled: usize,
@@ -31,6 +32,7 @@ impl Count {
         self.unwoven += usize::from(verdict.unwoven.is_some());
         *match verdict.fate {
             Fate::Killed { stage: 0, .. } => &mut self.own,
+            Fate::Killed { stage: PRINTED, .. } => &mut self.printed,
             Fate::Killed { .. } => &mut self.others,
             Fate::Survived { .. } => &mut self.survive,
             Fate::TimedOut => &mut self.timeouts,
@@ -39,12 +41,12 @@ impl Count {
     }
 
     fn print(&self, name: &str) {
-        let Count { own, others, survive, timeouts, uncompiled, unwoven, unjudged } = self;
-        let compile = own + others + survive + timeouts;
-        let share = 100.0 * (own + others) as f64 / compile.max(1) as f64;
+        let Count { own, others, printed, survive, timeouts, uncompiled, unwoven, unjudged } = self;
+        let killed = own + others + printed;
+        let compile = killed + survive + timeouts;
+        let share = 100.0 * killed as f64 / compile.max(1) as f64;
         println!(
-            "| {name} | {compile} | {} | {share:.1} % | {others} | {survive} | {timeouts} | {uncompiled} | {unwoven} | {unjudged} |",
-            own + others
+            "| {name} | {compile} | {killed} | {share:.1} % | {others} | {printed} | {survive} | {timeouts} | {uncompiled} | {unwoven} | {unjudged} |",
         );
     }
 }
@@ -52,9 +54,9 @@ impl Count {
 /// Prints the table; whether a mutant survives that is not argued about.
 pub fn report(mutants: &[Mutant], verdicts: &Verdicts) -> Result<bool> {
     println!(
-        "| mutants of | compile | killed | of 100 | not by its own tests | survive | timeouts | do not compile | not woven | not judged |"
+        "| mutants of | compile | killed | of 100 | by others' tests | by the printed text alone | survive | timeouts | do not compile | not woven | not judged |"
     );
-    println!("|{}", " --- |".repeat(10));
+    println!("|{}", " --- |".repeat(11));
     for area in ["language", "printer", "blocks"] {
         let mut rows = BTreeMap::<String, Count>::new();
         let mut all = Count::default();
