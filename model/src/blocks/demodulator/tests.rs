@@ -4,7 +4,7 @@
 use super::{Demodulator, Inputs};
 use crate::support::random::Random;
 use crate::support::{Bench, MILLION, operations};
-use hapticore_contract::profile::{Method, Profile};
+use hapticore_contract::profile::{Method, Profile, Window};
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::Format;
 use hapticore_reference::rounded::{self, Exact, Sample};
@@ -100,5 +100,78 @@ fn latency_is_the_clocks_measured() {
         bench.clock(Inputs { start: 1, first: 1, last: 1, ..quiet });
         let last = (1..2000).filter(|_| bench.clock(quiet).valid == 1).last();
         assert_eq!(last, Some(bench.block.latency()), "clocks from start to the last sum");
+    }
+}
+
+/// By phase, a result of the read-out takes 40 clocks: four a product, of five phases' two halves.
+#[test]
+fn the_first_sum_takes_the_clocks_that_it_says() {
+    for profile in Profile::all() {
+        let mut bench = Bench::new(Demodulator::try_new(&profile).unwrap());
+        let quiet = Inputs::map(bench.block.inputs(), |_| 0);
+        bench.clock(Inputs { start: 1, first: 1, last: 1, ..quiet });
+        let first = (1..2000).find(|_| bench.clock(quiet).valid == 1);
+        let reading = if profile.carrier.method == Method::Polyphase { 40 } else { 0 };
+        assert_eq!(first, Some(bench.block.first_sum() + reading), "clocks from start");
+    }
+}
+
+/// Sums are right, each has a word, and the registers that count have no bit that is never used.
+#[test]
+fn demodulators_have_as_many_terminals_as_a_profile_says() {
+    for name in ["small", "standard"] {
+        for terminals in 3..=16 {
+            let mut profile = Profile::bundled(name).expect("bundled");
+            profile.terminals.x = vec![1; terminals];
+            profile.terminals.y = vec![1; terminals];
+            let block = Demodulator::try_new(&profile).unwrap();
+            if profile.carrier.method == Method::Products {
+                assert!((block.sums()..2 * block.sums()).contains(&(block.sums.words as u64)));
+            }
+            let (mut bench, mut random) = (Bench::new(block), Random::new(terminals as u64));
+            for _ in 0..2 {
+                check_window(&mut bench, &profile, 7, &mut random);
+            }
+            check_steps(&mut bench);
+        }
+    }
+}
+
+/// Holds that the register of steps is as wide as the last step of a sample needs.
+fn check_steps(bench: &mut Bench<Demodulator>) {
+    let quiet = Inputs::map(bench.block.inputs(), |_| 0);
+    bench.clock(Inputs { start: 1, first: 1, ..quiet });
+    let steps = (0..bench.block.least_clocks_per_sample()).map(|_| {
+        bench.clock(quiet);
+        bench.registers().find(|(register, _)| register.name == "step").expect("there is one")
+    });
+    let (register, last) = steps.max_by_key(|&(_, step)| step).expect("a sample takes clocks");
+    assert_eq!(register.format, Format::counter(last as u64), "step {last} is the last");
+}
+
+/// As narrow as the largest products let it be. By phase, two products more are looked at; a tapered
+/// window's first word is zero.
+#[test]
+fn sums_have_the_bits_that_the_largest_products_need() {
+    for profile in Profile::all() {
+        for window in [Window::Hann, Window::Rectangular] {
+            for integrate in [60, 61, 62, 63, 64, 65, 126, 127, 128, 129] {
+                let mut profile = profile.clone();
+                (profile.carrier.window, profile.slot.integrate) = (window, integrate);
+                let f = &profile.formats;
+                let (largest, more) = match profile.carrier.method {
+                    Method::Polyphase => (1 << 32, 2),
+                    Method::Products => {
+                        let frac = f.adc.frac.max(f.oscillator.frac);
+                        (1i128 << (2 * frac), 0)
+                    }
+                };
+                let products = integrate + more - u64::from(window == Window::Hann);
+                let sum = Demodulator::try_new(&profile).unwrap().sum();
+                let needed = largest * i128::from(products);
+                assert!(needed <= sum.max_code(), "{integrate} samples: {sum}");
+                assert!(needed > sum.max_code() / 2, "{integrate} samples: {sum}");
+            }
+        }
     }
 }

@@ -5,7 +5,9 @@ use super::{HapticVoltage, Inputs, Outputs};
 use crate::support::random::Random;
 use crate::support::{Bench, MILLION, operations};
 use hapticore_contract::profile::Profile;
-use hapticore_hdl::format::Format;
+use hapticore_hdl::bundle::Bundle;
+use hapticore_hdl::format::{Format, MAX_WIDTH};
+use hapticore_hdl::signal::Signal;
 use hapticore_reference::rounded::{self, Exact};
 
 #[test]
@@ -75,5 +77,79 @@ fn squares_are_as_many_as_windows_of_pads() {
         let block = HapticVoltage::try_new(&profile).unwrap();
         assert_eq!(block.inputs().pad, Format::unsigned(bits, 0));
         assert_eq!(block.squares.words, 8 << bits);
+    }
+}
+
+fn of_windows(windows: u64) -> HapticVoltage {
+    let mut profile = Profile::bundled("small").expect("bundled");
+    profile.haptic.windows = windows;
+    HapticVoltage::try_new(&profile).unwrap()
+}
+
+#[test]
+fn latency_is_the_clocks_measured() {
+    for windows in [1, 2, 4, 8, 64] {
+        let mut bench = Bench::new(of_windows(windows));
+        let (index, sum) = (bench.block.sums as i64 - 1, bench.block.sum.max_code() as i64);
+        let inputs = Inputs { clear: 0, pad: 0, valid: 1, index, sum };
+        bench.clock(inputs);
+        let quiet = Inputs { valid: 0, ..inputs };
+        let measured = (1..1000).find(|_| bench.clock(quiet).mean_square != 0);
+        assert_eq!(measured, Some(bench.block.latency()), "clocks from the sum to its square");
+    }
+}
+
+#[test]
+fn mean_squares_stay_until_the_next_window() {
+    for windows in [2, 4, 8] {
+        let (mut bench, mut random) = (Bench::new(of_windows(windows)), Random::new(windows));
+        let (index, sum) = (bench.block.sums as i64 - 1, bench.block.sum);
+        for window in 0..6 * windows {
+            let sum = random.word(sum).abs();
+            let inputs = Inputs { clear: 0, pad: 0, valid: 1, index, sum };
+            bench.clock(inputs);
+            let quiet = Inputs { valid: 0, ..inputs };
+            (1..bench.block.latency()).for_each(|_| _ = bench.clock(quiet));
+            let out = bench.clock(quiet);
+            for clock in 0..10 * windows {
+                assert_eq!(bench.clock(quiet), out, "window {window}, {clock} clocks later");
+            }
+        }
+    }
+}
+
+#[test]
+fn mean_squares_that_are_run_on_are_the_same() {
+    for windows in [1, 2, 4, 8] {
+        let [mut clocked, mut hurried] = [0; 2].map(|_| Bench::new(of_windows(windows)));
+        let mut random = Random::new(windows);
+        let (index, sum) = (clocked.block.sums as i64 - 1, clocked.block.sum);
+        for window in 0..10 * windows {
+            let clear = i64::from(random.below(3 * windows) == 0);
+            let sum = random.word(sum).abs();
+            let inputs = Inputs { clear, pad: 0, valid: 1, index, sum };
+            clocked.clock(inputs);
+            hurried.clock(inputs);
+            let with_formats = Inputs::zip(inputs, hurried.block.inputs());
+            let signals = Inputs::map(with_formats, |(value, format)| Signal { value, format });
+            hurried.block.run_on(&mut hurried.state, signals);
+            let quiet = Inputs { clear: 0, valid: 0, ..inputs };
+            let at_once = hurried.clock(quiet);
+            (1..clocked.block.latency()).for_each(|_| _ = clocked.clock(quiet));
+            assert_eq!(at_once, clocked.clock(quiet), "{windows} windows, window {window}");
+        }
+    }
+}
+
+/// A half step of a mean square has as many bits as the model has, and then one more.
+#[test]
+fn a_mean_square_that_cannot_be_rounded_is_refused() {
+    for mut profile in Profile::all() {
+        let sum = HapticVoltage::try_new(&profile).unwrap().sum;
+        profile.formats.mean_square.frac = sum.frac + profile.square_shift() - MAX_WIDTH as i8;
+        assert!(HapticVoltage::try_new(&profile).is_ok(), "half a step is a word");
+        profile.formats.mean_square.frac -= 1;
+        let refused = HapticVoltage::try_new(&profile).err().expect("half a step is no word");
+        assert!(refused.to_string().contains("formats.mean_square"), "{refused}");
     }
 }

@@ -5,6 +5,7 @@ use super::{Inputs, Oscillator, Outputs};
 use crate::support::random::Random;
 use crate::support::{Bench, MILLION, operations};
 use hapticore_contract::profile::{Method, Profile, Window};
+use hapticore_hdl::format::Format;
 use hapticore_reference::rounded::{self, Sample};
 
 #[test]
@@ -79,4 +80,52 @@ fn latency_is_the_clocks_measured() {
         let measured = (1..100).find(|_| bench.clock(quiet).ready == 1);
         assert_eq!(measured, Some(bench.block.latency()), "clocks from sample to ready");
     }
+}
+
+/// A quarter of a turn in steps of a window's part, or half a window: both ends are among them.
+#[test]
+fn tables_have_no_word_twice() {
+    for profile in Profile::all() {
+        let parts = match profile.carrier.method {
+            Method::Products => 4,
+            Method::Polyphase => 2,
+        };
+        let words = profile.slot.integrate / parts + 1;
+        assert_eq!(Oscillator::new(&profile).quarter.words as u64, words);
+    }
+}
+
+/// As wide as the largest phase that there is, where one more would need another bit.
+#[test]
+fn phases_have_the_bits_that_they_need() {
+    for (name, samples) in [("small", 64), ("small", 128), ("standard", 64), ("standard", 256)] {
+        let mut profile = Profile::bundled(name).expect("bundled");
+        (profile.slot.integrate, profile.carrier.periods) = (samples, 3);
+        let mut bench = Bench::new(Oscillator::new(&profile));
+        let counted = match profile.carrier.method {
+            Method::Products => vec!["phase", "window_phase"],
+            Method::Polyphase => vec!["window_phase"],
+        };
+        let mut most = vec![0; counted.len()];
+        for clock in 0..24 * samples {
+            let first = i64::from(clock == 0);
+            let sample = i64::from(clock % 24 == 0);
+            bench.clock(Inputs { sample, restart: first, first });
+            for (most, name) in most.iter_mut().zip(&counted) {
+                *most = register(&bench, name).1.max(*most);
+            }
+        }
+        for (most, name) in most.into_iter().zip(counted) {
+            let (format, _) = register(&bench, name);
+            assert_eq!(format, Format::counter(most as u64), "{name} comes to {most}");
+        }
+    }
+}
+
+/// The format of a register, and what it holds.
+fn register(bench: &Bench<Oscillator>, name: &str) -> (Format, i64) {
+    let mut registers = bench.registers();
+    let (variable, code) =
+        registers.find(|(register, _)| register.name == name).expect("a register has this name");
+    (variable.format, code)
 }
