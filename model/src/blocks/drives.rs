@@ -456,3 +456,6 @@ impl Block for Drives {
         outputs
     }
 }
+
+#[cfg(test)]
+mod tests;

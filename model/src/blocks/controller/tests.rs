@@ -202,3 +202,151 @@ fn the_host_is_missed_after_as_many_frames_as_the_profile_says() {
     assert_eq!(silent, [0, 0, 0, 0, 1, 1]);
     assert_eq!(frame(1).faults.silence_fault, 1, "it stays until it is cleared");
 }
+
+#[test]
+fn a_silence_is_over_once_it_is_cleared_and_the_host_is_heard() {
+    let mut profile = Profile::bundled("standard").expect("bundled");
+    profile.control = Some(Control { silent_frames: 2, ..Control::of(&profile, Law::Open) });
+    let mut bench = Bench::new(Controller::try_new(&profile).unwrap());
+    let mut frame = |alive: i64, clear_faults: i64| {
+        bench.clock(Inputs { alive, clear_faults, ..Inputs::of(0) });
+        bench.operate(Inputs::of(0)).0.faults.silence_fault
+    };
+    assert_eq!([frame(0, 0), frame(0, 0)], [0, 1]);
+    assert_eq!(frame(0, 1), 1, "it is silent still");
+    assert_eq!(frame(1, 1), 0);
+}
+
+/// Roots and quotients at once change no drive word, and the clocks alone.
+#[test]
+fn a_hurried_controller_has_the_drive_words_of_the_law_earlier() {
+    for (seed, profile) in profiles() {
+        let mut random = Random::new(seed);
+        let mut pair = Pair::tuned(&profile, &mut random);
+        pair.bench.block.hurry();
+        (0..operations(200).max(20)).for_each(|_| pair.check(&mut random));
+        let (_, clocks) = pair.bench.operate(pair.inputs);
+        let latency = pair.bench.block.latency();
+        assert!(clocks < latency, "{}: {clocks} of {latency} clocks", profile.name);
+    }
+}
+
+#[test]
+fn what_is_kept_has_a_word_for_every_number_of_a_pad() {
+    for pads in 2..=9 {
+        let mut profile = Profile { pads, ..Profile::bundled("small").expect("bundled") };
+        profile.control = Some(Control::of(&profile, Law::Integral));
+        let block = Controller::try_new(&profile).unwrap();
+        let words = (pads as usize).next_power_of_two();
+        assert_eq!([block.pads.words, block.corrections.words], [words; 2], "{pads} pads");
+    }
+}
+
+#[test]
+fn only_laws_with_an_error_have_registers_of_a_correction() {
+    for (_, profile) in profiles() {
+        let bench = Bench::new(Controller::try_new(&profile).unwrap());
+        let kept: Vec<String> = bench
+            .registers()
+            .filter(|(of, _)| !of.format.is_none() && of.scope.len() == 1)
+            .map(|(of, _)| of.name)
+            .collect();
+        let law = bench.block.law;
+        let has_error = [Law::Proportional, Law::Integral].contains(&law);
+        for name in ["proportional", "correction"] {
+            assert_eq!(kept.iter().any(|of| of == name), has_error, "{law:?}: {name} in {kept:?}");
+        }
+    }
+}
+
+/// Roots of drive words of 8 bits tell 16 bits of a radicand apart: two of them move a target of two
+/// integer bits below one, 14 are left.
+#[test]
+fn a_target_of_more_bits_than_roots_tell_apart_is_refused() {
+    let built = |target: Format| {
+        let mut profile = Profile::bundled("standard").expect("bundled");
+        let drive = Format::unsigned(8, 8);
+        let control = Control { drive, target, cells: 16, ..Control::of(&profile, Law::Open) };
+        profile.control = Some(control);
+        Controller::try_new(&profile).map_err(|error| error.to_string())
+    };
+    assert!(built(Format::unsigned(16, 14)).is_ok());
+    let error = built(Format::unsigned(17, 15)).unwrap_err();
+    assert!(error.starts_with("control.target: expected 14 fractional bits at most"), "{error}");
+}
+
+/// The product of a squared capacitance and a gain is as wide as a word of the model at most.
+#[test]
+fn a_product_that_is_no_word_of_the_model_is_refused_by_name() {
+    let mut profile = Profile::bundled("standard").expect("bundled");
+    profile.control = Some(Control::of(&profile, Law::Inverse));
+    let square = profile.formats.square.width;
+    let mut refusals = Vec::new();
+    for width in 8..=63 {
+        profile.formats.force_gain = Format::unsigned(width, width as i8);
+        match Controller::try_new(&profile) {
+            Ok(block) => {
+                let _: Controller = block;
+                assert!(refusals.is_empty() && square + width <= 63, "{width} bits");
+            }
+            Err(error) => {
+                assert!(square + width > 63, "{width} bits: {error}");
+                refusals.push(error.to_string());
+            }
+        }
+    }
+    let named = refusals.iter().all(|text| text.contains("the product of square and gain"));
+    assert!(!refusals.is_empty() && named, "{refusals:?}");
+}
+
+/// An operand is as wide as the widest word that is multiplied, a radicand as the longest of which a
+/// root is taken.
+#[test]
+fn words_are_as_wide_as_what_they_hold() {
+    let (mut random, mut seen) = (Random::new(7), [0; 2]);
+    for _ in 0..2000 {
+        let profile = any_words(&mut random);
+        let Ok(block) = Controller::try_new(&profile) else { continue };
+        let control = profile.control.as_ref().unwrap();
+        let (target, shift, fine) = (control.target, control.target_shift(), block.fine);
+        let quotient = block.divider.outputs().quotient;
+        let bits = quotient.frac.max(target.frac + shift).max(fine.frac);
+        assert_eq!(block.radicand, Format::unsigned(bits as u8, bits), "{control:?}");
+        if ![Law::Proportional, Law::Integral].contains(&control.law) {
+            continue;
+        }
+        // Of a force below 4^h that is a bit finer, the root is no other.
+        let told_apart = fine.frac - shift - 1;
+        let frac = profile.formats.force.frac.max(0).min(told_apart);
+        assert_eq!(block.measured_format(), Format::unsigned((frac + shift) as u8, frac));
+        let finer = (frac - target.frac).max(0);
+        let error = target.width + finer as u8;
+        let part = fine.width - control.cells.trailing_zeros() as u8;
+        let operands = [
+            Format::signed(fine.width.max(error) + 1, 0),
+            Format::unsigned(part.max(control.gain.width), 0),
+        ];
+        assert_eq!([block.left, block.right], operands, "{control:?}");
+        if control.law == Law::Proportional {
+            assert_eq!(block.error_format(), Format::signed(error + 1, target.frac + finer));
+        }
+        seen[0] += u64::from(error > fine.width);
+        seen[1] += u64::from(part > control.gain.width);
+    }
+    assert!(seen.iter().all(|&count| count > 20), "{seen:?}");
+}
+
+/// Steps of a force of a newton and more.
+#[test]
+fn drive_words_of_coarse_forces_are_those_of_the_law() {
+    for (seed, frac) in (0..).zip(-4..=1) {
+        for law in [Law::Proportional, Law::Integral] {
+            let mut profile = Profile::bundled("standard").expect("bundled");
+            profile.formats.force = Format::unsigned(8, frac);
+            profile.control = Some(Control::of(&profile, law));
+            let mut random = Random::new(seed);
+            let mut pair = Pair::tuned(&profile, &mut random);
+            (0..25).for_each(|_| pair.check(&mut random));
+        }
+    }
+}

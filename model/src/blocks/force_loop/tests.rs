@@ -96,6 +96,40 @@ fn latency_is_the_clocks_measured() {
     }
 }
 
+/// A window's samples begin with a strobe, and the drive word is there before the next window's first.
+#[test]
+fn a_drive_word_within_the_next_window_is_refused() {
+    // Of drive words that come between samples, and with one.
+    let mut met = [0; 2];
+    for law in Law::ALL {
+        for profile in with_both_forces(law) {
+            // A window in which the estimate of the one before is finished; then more clocks for a sample.
+            let mut profile = profile.with_window(4000);
+            for more in 0..4 {
+                profile.clocks_per_sample += u64::from(more > 0);
+                let (latency, clocks) =
+                    (ForceLoop::try_new(&profile).unwrap().latency(), profile.clocks_per_sample);
+                let least = latency / clocks;
+                let built = |blanking: u64| {
+                    let mut profile = profile.clone();
+                    profile.slot.settle = blanking - profile.slot.open;
+                    ForceLoop::try_new(&profile).map_err(|error| error.to_string())
+                };
+                let refused = |blanking: u64| {
+                    built(blanking)
+                        .is_err_and(|error| error.starts_with("slot.settle: expected more than"))
+                };
+                let name = &profile.name;
+                assert!(!refused(least) && built(least - 1).is_err(), "{name}: {least} samples");
+                if refused(least - 1) {
+                    met[usize::from(latency.is_multiple_of(clocks))] += 1;
+                }
+            }
+        }
+    }
+    assert!(met.iter().all(|&count| count > 0), "{met:?}");
+}
+
 /// The drive word after a target of this code that is written so many clocks after the last strobe.
 fn after(profile: &Profile, target: i64, written: u64) -> i64 {
     let mut bench = Bench::new(ForceLoop::try_new(profile).unwrap());

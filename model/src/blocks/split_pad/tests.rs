@@ -181,6 +181,58 @@ fn pads_are_those_of_the_reference() {
     }
 }
 
+/// Two pads that are dragged to and fro over their walls' surfaces, the one's on the left, the other's on the
+/// right, not driven outside. What the direction reads without a push is not what the factory says.
+#[test]
+fn pads_are_those_of_the_reference_where_a_hand_drags_them() {
+    let small = |of: &Profile| of.name == "small";
+    for (seed, profile) in (0..).zip(profiles().into_iter().filter(small)) {
+        let (mut pair, mut random) = (Pair::new(&profile), Random::new(seed));
+        let f = pair.formats;
+        pair.quiet.wall.wall_factory = f.wall.wall_factory.code_saturating(0.015);
+        (0..2).for_each(|pad| pair.surface(pad, 0, 0, pad == 1));
+        let (mut freed, mut forced) = ([0; 2], [0; 2]);
+        for n in 0..800 {
+            for pad in 0..2 {
+                let side = [1.0, -1.0][pad];
+                let (sin, cos) = (std::f64::consts::TAU * f64::from(n) / 400.0).sin_cos();
+                let x_mm = 1.5 * cos + 0.002 * random.between(-1.0, 1.0);
+                pair.place(pad, 0, f.place.code_saturating(side * x_mm));
+                if pair.axes() == 2 {
+                    pair.place(pad, 1, f.place.code_saturating(1.0));
+                }
+                let u = side * (0.02 - 0.015 * sin);
+                let part = |part: usize| {
+                    // Of quadrants the first two are on the left.
+                    let right = if pair.parts == 4 { part >= 2 } else { part == 1 };
+                    let share = if right { 1.0 + u } else { 1.0 - u };
+                    (f.capacitance.code_saturating(170.0 * share), 0, false)
+                };
+                let parts: Vec<_> = (0..pair.parts).map(part).collect();
+                let out = pair.frame(pad, &parts, x_mm > 0.0);
+                freed[pad] += out.free;
+                forced[pad] += i64::from(out.target > 0);
+            }
+        }
+        let met = freed.iter().chain(&forced).all(|&frames| frames > 20);
+        assert!(met, "{} parts: {freed:?} free, {forced:?} forces", pair.parts);
+    }
+}
+
+#[test]
+fn what_is_kept_has_a_word_for_every_number_of_a_part() {
+    for profile in profiles() {
+        let parts = profile.wall.unwrap().parts;
+        for pads in 1..=4 {
+            let block =
+                SplitPad::try_new(&Profile { pads: pads * parts, ..profile.clone() }).unwrap();
+            let words = ((pads * parts) as usize).next_power_of_two();
+            let kept = [&block.places, &block.surfaces, &block.rests].map(|of| of.words);
+            assert_eq!((block.parts(), kept), (parts, [words; 3]), "{pads} pads");
+        }
+    }
+}
+
 /// A wall on the left that a pad has been pushed into by a millimetre.
 fn pushed(profile: &Profile) -> (Pair, Vec<(i64, i64, bool)>, i64) {
     let mut pair = Pair::new(profile);

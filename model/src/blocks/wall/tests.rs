@@ -123,6 +123,127 @@ fn walls_are_those_of_the_reference_where_a_hand_drags_the_pad() {
     }
 }
 
+/// A hand that does as it likes: it goes somewhere, inside or outside, at some speed, pushing some way.
+struct Hand {
+    x_mm: f64,
+    to_mm: f64,
+    step_mm: f64,
+    push: f64,
+    driven: bool,
+    /// Frames that are left with a part open.
+    open: u64,
+}
+
+impl Hand {
+    /// A hand that puts the pad on, somewhere.
+    fn puts_on(random: &mut Random) -> Self {
+        let x_mm = random.between(-0.5, 1.5);
+        let open = if random.below(3) == 0 { 15 } else { 0 };
+        Hand { x_mm, to_mm: x_mm, step_mm: 0.0, push: 0.0, driven: false, open }
+    }
+
+    /// What the parts read and where the pad is in the next frame.
+    fn goes_on(&mut self, random: &mut Random, u: f64, noise: f64) -> ([f64; 2], f64) {
+        if (self.to_mm - self.x_mm).abs() <= self.step_mm {
+            self.to_mm = random.between(-1.2, 1.2);
+            self.step_mm = random.between(0.004, 0.04);
+            let along = 0.02 * (self.to_mm - self.x_mm).signum();
+            let any = random.between(-0.03, 0.03);
+            self.push = if random.below(2) == 0 { along } else { any };
+            self.driven = random.below(4) == 0;
+        }
+        self.x_mm += self.step_mm * (self.to_mm - self.x_mm).signum();
+        let u = u + self.push + noise * random.between(-1.0, 1.0);
+        let right = if self.open > 0 { 0.0 } else { 170.0 * (1.0 + u) };
+        self.open = self.open.saturating_sub(1);
+        ([170.0 * (1.0 - u), right], self.x_mm)
+    }
+}
+
+/// States are entered and left inside of the wall too, and the direction is learnt: of a quiet pad and of a
+/// noisy one, whose factory has told something else.
+#[test]
+fn walls_are_those_of_the_reference_where_a_hand_does_as_it_likes() {
+    for (seed, wall) in (0..).zip([profile::Wall::A, profile::Wall::B]) {
+        let wall = Some(profile::Wall { zero_frames: 4, ramp_frames: 13, ..wall });
+        let profile = Profile { wall, ..Profile::bundled("small").unwrap() };
+        let (mut pair, mut random) = (Pair::new(&profile), Random::new(seed));
+        let mut hands = [0, 1].map(|_| Hand::puts_on(&mut random));
+        let factories = [0.4, -0.3].map(|u| pair.formats.factory.code_saturating(u));
+        let mut states = [0; 4];
+        for _ in 0..3000 {
+            for (pad, hand) in hands.iter_mut().enumerate() {
+                let restarts = random.below(600) == 0;
+                if restarts {
+                    *hand = Hand::puts_on(&mut random);
+                }
+                let (u, noise) = [(0.41, 0.002), (-0.28, 0.04)][pad];
+                let (parts, x_mm) = hand.goes_on(&mut random, u, noise);
+                let mut inputs = pair.given(pad as i64, parts, x_mm, x_mm > 0.0 && !hand.driven);
+                (inputs.restart, inputs.factory) = (restarts.into(), factories[pad]);
+                let out = pair.frame(inputs);
+                if x_mm < 0.0 {
+                    states[2 * pad + out.free as usize] += 1;
+                }
+            }
+        }
+        assert!(states.iter().all(|&frames| frames > 100), "{states:?}");
+    }
+}
+
+/// A pad that was put on with a part open: from the first direction on that it reads it is quiet, for nothing
+/// has changed since the factory. Were it noisy, what it reads would count half.
+#[test]
+fn a_part_that_was_open_at_first_makes_no_noise() {
+    let mut pair = Pair::new(&Profile::bundled("small").unwrap());
+    let u = 0.47;
+    let reads = |push: f64| [170.0 * (1.0 - u - push), 170.0 * (1.0 + u + push)];
+    let factory = pair.formats.factory.code_saturating(u);
+    let mut frame = |parts: [f64; 2], x_mm: f64, at_zero: bool| {
+        let inputs = pair.given(0, parts, x_mm, at_zero);
+        pair.frame(Inputs { factory, ..inputs })
+    };
+    let x_mm = |n: u64| 0.6 - 0.015 * n as f64;
+    for n in 0..16 {
+        frame([170.0, 0.0], x_mm(n), true);
+    }
+    for n in 16..18 {
+        frame(reads(0.0), x_mm(n), true);
+    }
+    for _ in 0..40 {
+        assert_eq!(frame(reads(0.0), -0.3, false).free, 0);
+    }
+    let pulled = (0..40).position(|_| frame(reads(0.004), -0.3, false).free == 1);
+    assert!(pulled.is_some_and(|frames| frames < 8), "it lets go in frame {pulled:?}");
+}
+
+#[test]
+fn what_is_kept_has_sixteen_words_for_every_number_of_a_pad() {
+    for pads in 2..=9 {
+        let profile = Profile { pads, ..Profile::bundled("small").unwrap() };
+        let words = 16 * (pads as usize).next_power_of_two();
+        assert_eq!(Wall::try_new(&profile).unwrap().kept.words, words, "{pads} pads");
+    }
+}
+
+/// The speed has seven bits more than the position, and its filter eight more than those; the product of depth
+/// and stiffness has sixteen more.
+#[test]
+fn a_position_is_refused_where_its_words_cannot_be_held() {
+    for width in 16..=60 {
+        let mut profile = Profile::bundled("small").unwrap();
+        profile.formats.position = Format::signed(width, width as i8 - 12);
+        let refused = Wall::try_new(&profile).err().map(|error| error.to_string());
+        let field = refused.as_ref().and_then(|text| text.split(':').next());
+        let expected = match width {
+            _ if width + 7 + 8 > 63 => Some("formats.position"),
+            _ if width + 16 > 63 => Some("formats.force"),
+            _ => None,
+        };
+        assert_eq!(field, expected, "{width} bits: {refused:?}");
+    }
+}
+
 #[test]
 fn walls_are_those_of_the_reference_whatever_the_words() {
     for (seed, profile) in (0..).zip(of_all_rules()) {
