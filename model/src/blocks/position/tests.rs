@@ -12,7 +12,7 @@ use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::Format;
 use hapticore_hdl::interpretations::real::Real;
 use hapticore_hdl::interpretations::shadow::Shadow;
-use hapticore_hdl::signal::{constant, zero};
+use hapticore_hdl::signal::{code, constant, zero};
 use hapticore_reference::rounded::{self, Exact};
 
 /// Half of the tables are a device's, and half are any words, of which few have a place for any
@@ -141,28 +141,36 @@ fn numbers_that_are_not_rounded_take_the_step_of_the_codes() {
     }
 }
 
-/// Flags among them, and those of the place before gone.
+/// Flags among them, and those of the place before gone: with any words most places are saturated and invalid, with
+/// those of a device few.
 #[test]
 fn places_that_are_found_at_once_are_those_of_the_program() {
     let profile = Profile::bundled("small").expect("bundled");
-    let words: Vec<i64> = calibration(&profile)
-        .position
-        .words
-        .into_iter()
-        .map(|word| profile.formats.table.code_saturating(word))
-        .collect();
-    let [mut clocked, mut at_once] = [(); 2].map(|()| calibrated::<i64>(&profile));
+    let (word, mut random) = (profile.formats.table, Random::new(5));
+    let of_device = calibration(&profile).position.words;
+    let any = of_device.iter().map(|_| random.word(word)).collect();
+    let of_device = of_device.into_iter().map(|real| word.code_saturating(real)).collect();
+    for words in [of_device, any] {
+        check_at_once(&profile, words);
+    }
+}
+
+fn check_at_once(profile: &Profile, words: Vec<i64>) {
+    let [mut clocked, mut at_once] = [(); 2].map(|()| Bench::new(Position::new(profile)));
+    for (address, &word) in words.iter().enumerate() {
+        let word = code(word, profile.formats.table);
+        clocked.block.set_word(&mut clocked.state, address, word);
+    }
     at_once.block.place_at_once(words);
-    let sheet = profile.formats.ratio.max_code() as i64 / 2;
+    let half = profile.formats.ratio.max_code() as i64 / 2;
     let quiet = |i: Inputs<i64>| Inputs { table: TablePort { write: 0, ..i.table }, start: 0, ..i };
-    for (k, i) in (0..).zip(cases(&clocked.block, MILLION / 1000, 3).map(quiet)) {
-        // Along one axis or both within the sheet.
-        let i = if k % 2 == 0 { Inputs { r_x: i.r_x % sheet, ..i } } else { i };
-        let i = if k % 3 == 0 { Inputs { r_y: i.r_y % sheet, ..i } } else { i };
+    for (k, i) in (0..).zip(cases(&clocked.block, MILLION / 5000, 3).map(quiet)) {
+        // Along one axis, both or none surely on the sheet.
+        let i = if k % 2 == 0 { Inputs { r_x: i.r_x % half, ..i } } else { i };
+        let i = if k % 3 == 0 { Inputs { r_y: i.r_y % half, ..i } } else { i };
         let (expected, _) = clocked.operate(i);
         at_once.clock(Inputs { start: 1, ..i });
-        let placed = at_once.clock(i);
-        let [placed, expected] = [placed, expected].map(show::<super::Outputs>);
+        let [placed, expected] = [at_once.clock(i), expected].map(show::<super::Outputs>);
         assert_eq!(placed, expected, "of {}", show::<Inputs>(i));
     }
 }
