@@ -6,6 +6,7 @@ use super::{Inputs, Position, TablePort};
 use crate::support::device::calibration;
 use crate::support::random::Random;
 use crate::support::{Bench, MILLION, cases, check, check_latency_of, show, within};
+use hapticore_contract::calibration::PositionTable;
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::block::Interpretation;
 use hapticore_hdl::bundle::Bundle;
@@ -95,18 +96,18 @@ fn ideal_place<V: Interpretation>(bench: &mut Bench<Position, V>, ratios: [f64; 
     [outputs.x, outputs.y, outputs.sheet].map(V::unrounded)
 }
 
-/// The block of a profile in an interpretation with numbers, with the table of a device.
-fn calibrated<V: Interpretation>(profile: &Profile) -> Bench<Position, V> {
+/// The block of a profile in an interpretation with numbers, with a table's words.
+fn calibrated<V: Interpretation>(profile: &Profile, table: &PositionTable) -> Bench<Position, V> {
     let mut bench = Bench::<_, V>::read(Position::new(profile));
-    for (address, word) in calibration(profile).position.words.into_iter().enumerate() {
+    for (address, &word) in table.words.iter().enumerate() {
         bench.block.set_word(&mut bench.state, address, constant(word, profile.formats.table));
     }
     bench
 }
 
-fn check_numbers<V: Interpretation>(profile: &Profile, ratios: [f64; 2]) {
-    let [x, y, sheet] = ideal_place(&mut calibrated::<V>(profile), ratios);
-    let found = calibration(profile).position.look_up(ratios[0], ratios[1]);
+fn check_numbers<V: Interpretation>(profile: &Profile, table: &PositionTable, ratios: [f64; 2]) {
+    let [x, y, sheet] = ideal_place(&mut calibrated::<V>(profile, table), ratios);
+    let found = table.look_up(ratios[0], ratios[1]);
     let off = [x - found.x, y - found.y, sheet - found.sheet];
     assert!(off.iter().all(|off| off.abs() < 1e-9), "{}, {ratios:?}: {off:?}", profile.name);
 }
@@ -115,10 +116,11 @@ fn check_numbers<V: Interpretation>(profile: &Profile, ratios: [f64; 2]) {
 #[test]
 fn numbers_that_are_not_rounded_have_the_place_of_the_splines() {
     for profile in Profile::of_distinct_words() {
+        let table = calibration(&profile).position;
         for ratios in [[-0.48671, 0.26713], [0.19329, -0.35787]] {
-            check_numbers::<Shadow>(&profile, ratios);
+            check_numbers::<Shadow>(&profile, &table, ratios);
         }
-        check_numbers::<Real>(&profile, [0.53329, 0.01713]);
+        check_numbers::<Real>(&profile, &table, [0.53329, 0.01713]);
     }
 }
 
@@ -128,7 +130,7 @@ fn numbers_that_are_not_rounded_take_the_step_of_the_codes() {
     for profile in Profile::of_distinct_words() {
         let mut profile = profile;
         profile.position.steps = 1;
-        let mut bench = calibrated::<Shadow>(&profile);
+        let mut bench = calibrated::<Shadow>(&profile, &calibration(&profile).position);
         for ratios in [[0.77, 0.68], [-0.79, 0.05], [0.98, -0.9], [0.31, -0.22]] {
             let place = ideal_place(&mut bench, ratios);
             let codes = &bench.state.registers;
@@ -178,7 +180,7 @@ fn check_at_once(profile: &Profile, words: Vec<i64>) {
 #[test]
 fn an_instruction_names_a_word_of_the_scratch_memory() {
     for profile in Profile::of_distinct_words() {
-        let bench = calibrated::<i64>(&profile);
+        let bench = Bench::new(Position::new(&profile));
         let registers = bench.state.load(&bench.block);
         let decoded = bench.block.decode(&registers);
         assert_eq!(decoded.slot.format, bench.block.scratch.address(), "{}", profile.name);
