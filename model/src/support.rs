@@ -14,6 +14,6 @@ pub mod never_skips;
 pub mod random;
 
 pub use comparison::{
-    MILLION, cases, check, check_latency, check_latency_of, check_run_on, within,
+    MILLION, cases, check, check_latency, check_latency_of, check_restart, check_run_on, within,
 };
-pub use harness::{Bench, operations};
+pub use harness::{Bench, operations, show};

@@ -117,6 +117,34 @@ pub fn check_run_on<B: Block>(
     }
 }
 
+/// Holds that a start while an operation is under way, or in the clock in which it is done, begins anew: results and
+/// clocks are those of the same block that was started once. The operation before is left after so many clocks, of the
+/// latency.
+pub fn check_restart<B: Block>(
+    [mut alone, mut restarted]: [Bench<B>; 2],
+    after: impl Fn(u64) -> std::ops::RangeInclusive<u64>,
+    legal: impl Fn(Inputs<B, i64>) -> Inputs<B, i64>,
+) {
+    let mut cases = cases(&alone.block, 2 * MILLION, 4).map(legal);
+    let mut next = || cases.next().expect("as many as are asked for");
+    let (_, latency) = alone.operate(next());
+    for clocks in after(latency) {
+        let (before, inputs) = (next(), next());
+        restarted.clock(with::<B::Inputs>(before, "start", 1));
+        for _ in 1..clocks {
+            restarted.clock(with::<B::Inputs>(before, "start", 0));
+        }
+        restarted.clock(with::<B::Inputs>(inputs, "start", 1));
+        let held = with::<B::Inputs>(inputs, "start", 0);
+        let outputs: Vec<_> = (0..latency).map(|_| restarted.clock(held)).collect();
+        let done = outputs.iter().position(|&out| field::<B::Outputs>(out, "done") == 1);
+        assert_eq!(done, Some(latency as usize - 1), "{}: after {clocks} clocks", B::NAME);
+        let (expected, _) = alone.operate(inputs);
+        let got = show::<B::Outputs>(outputs[latency as usize - 1]);
+        assert_eq!(got, show::<B::Outputs>(expected), "{}: after {clocks} clocks", B::NAME);
+    }
+}
+
 /// Random inputs of a block, corners among them.
 pub fn cases<B: Block>(
     block: &B,

@@ -4,13 +4,20 @@
 use super::{Estimator, Inputs, TablePort};
 use crate::support::Bench;
 use crate::support::device::short_table_profiles;
-use hapticore_contract::profile::Profile;
+use hapticore_contract::calibration::{ForceTable, Layout};
+use hapticore_contract::control::{Control, Law};
+use hapticore_contract::profile::{ForceLaw, Profile};
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::signal::{Signal, bit, code};
 
 #[test]
 fn latency_is_the_clocks_measured() {
-    for profile in Profile::all() {
+    let with_control = |profile: Profile| {
+        let control = Some(Control::of(&profile, Law::Inverse));
+        Profile { control, ..profile }
+    };
+    let controlled = Profile::of_distinct_words().into_iter().map(with_control);
+    for profile in Profile::all().into_iter().chain(controlled) {
         let mut bench = Bench::new(Estimator::try_new(&profile).unwrap());
         let quiet = Inputs::map(bench.block.inputs(), |_| 0);
         let sums = 2 * profile.demodulated() as i64;
@@ -96,6 +103,33 @@ fn a_word_is_written_into_one_table() {
             assert_eq!((position.write.value, force.write.value), (1 - is_of_force, is_of_force));
             let written = if is_of_force == 1 { force } else { position };
             assert_eq!(written.address.value, address - is_of_force * words);
+            // The other port's is an address of its table, too.
+            assert!(position.address.value < words, "{address}");
+            assert_eq!(position.address.format, block.position.table().address());
         }
+    }
+}
+
+/// Also where the words of the force table need one more bit of the address.
+#[test]
+fn the_table_port_reaches_every_word_of_both_tables() {
+    let profile = Profile::bundled("standard").expect("bundled");
+    let bits = |words: usize| (words - 1).ilog2() + 1;
+    let sized = |k: u64| {
+        let mut profile = profile.clone();
+        profile.force.law = ForceLaw::Table;
+        (profile.position.columns, profile.position.rows) = (10 + k % 20, 10 + k / 20);
+        profile
+    };
+    let needs_more = |profile: &Profile| {
+        let words = Layout::new(profile).words();
+        bits(words) < bits(words + ForceTable::WORDS)
+    };
+    let needing = (0..400).map(sized).find(needs_more).expect("a table of nearly as many words");
+    for profile in [sized(0), needing] {
+        let words = Layout::new(&profile).words() + ForceTable::WORDS;
+        let block = Estimator::try_new(&profile).unwrap();
+        assert_eq!(block.table().words, words);
+        assert_eq!(u32::from(block.calibration().table.address.width), bits(words));
     }
 }

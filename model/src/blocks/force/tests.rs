@@ -2,7 +2,7 @@
 //! Forces: those of eq. 8, rounded; the clocks they take.
 
 use super::Force;
-use crate::support::{Bench, MILLION, cases, check, check_latency};
+use crate::support::{Bench, MILLION, cases, check, check_latency, check_restart, check_run_on};
 use hapticore_contract::profile::Profile;
 use hapticore_reference::rounded::{self, Exact};
 
@@ -30,5 +30,21 @@ fn latency_is_the_clocks_measured() {
     for profile in Profile::all() {
         let block = Force::try_new(&profile).unwrap();
         check_latency(block.clone(), block.latency());
+    }
+}
+
+#[test]
+fn a_force_is_begun_anew_while_another_is_computed() {
+    for profile in Profile::of_distinct_words() {
+        let new = || Bench::new(Force::try_new(&profile).unwrap());
+        check_restart([new(), new()], |latency| 1..=latency, |inputs| inputs);
+    }
+}
+
+#[test]
+fn forces_that_are_run_on_are_the_same() {
+    for profile in Profile::of_distinct_words() {
+        let block = || Force::try_new(&profile).unwrap();
+        check_run_on([block(), block()], |i| i, |block, state, inputs| block.run_on(state, inputs));
     }
 }

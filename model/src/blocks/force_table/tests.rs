@@ -3,11 +3,17 @@
 //! another; the clocks they take.
 
 use super::{ForceTable, Inputs, Table, TablePort};
+use crate::support::device::calibration;
 use crate::support::random::Random;
 use crate::support::{Bench, MILLION, cases, check, check_latency_of, operations};
+use hapticore_contract::calibration::PastVoltage;
 use hapticore_contract::control::{Control, Law};
 use hapticore_contract::profile::Profile;
-use hapticore_hdl::format::Format;
+use hapticore_hdl::block::Block;
+use hapticore_hdl::bundle::Bundle;
+use hapticore_hdl::format::{BIT, Format};
+use hapticore_hdl::interpretations::shadow::Shadow;
+use hapticore_hdl::signal::{bit, constant, zero};
 use hapticore_reference::rounded::{self, Exact};
 use std::cell::RefCell;
 
@@ -157,4 +163,63 @@ fn a_root_of_too_many_digits_is_refused() {
     profile.formats.mean_square = Format::unsigned(63, 63);
     let refused = ForceTable::try_new(&profile).expect_err("64 digits").to_string();
     assert!(refused.contains("the radicand of its root"), "{refused}");
+    // Two digits for each bit of the root; a bit before the point makes one more.
+    for (mean_square, is_refused) in [("u62.62", false), ("u63.62", true), ("u62.60", false)] {
+        profile.formats.mean_square = mean_square.parse().expect("a format");
+        let refused = ForceTable::try_new(&profile).err().map(|error| error.to_string());
+        let by_root = refused.is_some_and(|refused| refused.contains("the radicand of its root"));
+        assert_eq!(by_root, is_refused, "{mean_square}");
+    }
+}
+
+/// Three words of a row, sixteen times their fraction at most, of which one is added as it is, one times a voltage, and one times a
+/// difference of two; rows to the last, and no twice as many.
+#[test]
+fn sums_and_rows_have_the_range_of_the_table() {
+    for profile in Profile::of_distinct_words() {
+        let block = ForceTable::try_new(&profile).unwrap();
+        let most = profile.force.voltage.real(profile.force.voltage.max_code() as i64);
+        let sum = 16.0 * (1.0 + 2.0 * most);
+        let range = block.sum();
+        assert!(range.real(range.max_code() as i64) >= sum, "{range}: {sum}");
+        let last = Table::STEP_PF * (Table::ROWS - 1) as f64;
+        let offset = block.offset();
+        let reach = offset.real(offset.max_code() as i64);
+        assert!((last..2.0 * last).contains(&reach), "{offset}: {last} pF");
+    }
+}
+
+/// A force without rounding is that of the table in floating point.
+#[test]
+fn numbers_that_are_not_rounded_have_the_force_of_the_table() {
+    for profile in Profile::of_distinct_words() {
+        let (f, table) = (&profile.formats, calibration(&profile).force_table);
+        let mut bench = Bench::<_, Shadow>::read(ForceTable::try_new(&profile).unwrap());
+        for (address, word) in table.words().into_iter().enumerate() {
+            bench.block.set_word(&mut bench.state, address, constant(word, f.table));
+        }
+        let formats = bench.block.inputs();
+        let number = |real: f64, format: Format| constant::<Shadow>(real, format);
+        let (mut past, pad) = (PastVoltage::default(), number(0.0, formats.pad));
+        for (capacitance, mean_square) in [(401.234_567, 0.123_456_7), (777.765_432, 0.345_678_9)] {
+            let quiet = Inputs {
+                start: bit(false),
+                hold: number(0.0, formats.hold),
+                pad,
+                capacitance: number(capacitance, formats.capacitance),
+                mean_square: number(mean_square, formats.mean_square),
+                gain: number(2e-6, formats.gain),
+                table: TablePort::map(formats.table, zero),
+            };
+            bench.block.clock(&mut bench.state, Inputs { start: number(1.0, BIT), ..quiet });
+            for _ in 0..bench.block.latency() {
+                bench.block.clock(&mut bench.state, quiet);
+            }
+            past.follow(&table, mean_square.sqrt());
+            let eq8 = 2e-6 * capacitance * capacitance * mean_square;
+            let expected = eq8 * table.factor(capacitance, past);
+            let got = bench.state.registers.haptic_force.real;
+            assert!((got / expected - 1.0).abs() < 1e-9, "{}: {got}, {expected}", profile.name);
+        }
+    }
 }

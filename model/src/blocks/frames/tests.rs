@@ -60,3 +60,24 @@ fn latency_is_the_clocks_measured() {
         check_latency(block.clone(), block.latency());
     }
 }
+
+/// No word of the frame before comes after the start, and no end.
+#[test]
+fn a_frame_is_begun_anew_while_another_is_given_out() {
+    let profile = Profile::bundled("standard").expect("bundled");
+    let latency = Frames::new(&profile).latency();
+    for clocks in 1..=latency + 1 {
+        let mut bench = Bench::new(Frames::new(&profile));
+        let quiet = Inputs { start: 0, ..Inputs::of(0) };
+        bench.clock(Inputs { start: 1, ..quiet });
+        for _ in 1..clocks {
+            bench.clock(quiet);
+        }
+        bench.clock(Inputs { start: 1, ..quiet });
+        let outputs: Vec<_> = (0..latency).map(|_| bench.clock(quiet)).collect();
+        let indices = outputs.iter().filter(|out| out.valid == 1).map(|out| out.index);
+        assert!(indices.eq(0..Field::ALL.len() as i64), "after {clocks} clocks");
+        let done = outputs.iter().position(|out| out.done == 1);
+        assert_eq!(done, Some(latency as usize - 1), "after {clocks} clocks");
+    }
+}

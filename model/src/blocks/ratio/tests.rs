@@ -3,7 +3,7 @@
 
 use super::{Inputs, Ratio};
 use crate::blocks::currents::Currents;
-use crate::support::{Bench, MILLION, cases, check, check_latency_of, check_run_on};
+use crate::support::{Bench, MILLION, cases, check, check_latency_of, check_restart, check_run_on};
 use hapticore_contract::profile::Profile;
 use hapticore_reference::rounded::{self, Exact};
 
@@ -53,4 +53,13 @@ fn ratios_that_are_run_on_are_the_same() {
     let mut hurried = block();
     hurried.hurry();
     check_run_on([block(), hurried], bounded, |block, state, inputs| block.run_on(state, inputs));
+}
+
+#[test]
+fn ratios_are_begun_as_soon_as_others_are_done() {
+    for profile in Profile::of_distinct_words() {
+        let currents = Currents::try_new(&profile).unwrap();
+        let block = || Ratio::try_new(&profile, currents.sums(), currents.least()).unwrap();
+        check_restart([block(), block()].map(Bench::new), |latency| latency..=latency, bounded);
+    }
 }
