@@ -131,7 +131,7 @@ fn words_that_cannot_be_rounded_are_refused() {
         profile.formats.iq.frac = scaled - MAX_WIDTH as i8;
         assert!(Currents::try_new(&profile).is_ok(), "{name}: half a step is a word");
         profile.formats.iq.frac -= 1;
-        let refused = Currents::try_new(&profile).err().expect("half a step is no word");
+        let refused = Currents::try_new(&profile).expect_err("half a step is no word");
         assert!(refused.to_string().contains("a sum over the window"), "{refused}");
     }
 }

@@ -149,7 +149,7 @@ fn a_mean_square_that_cannot_be_rounded_is_refused() {
         profile.formats.mean_square.frac = sum.frac + profile.square_shift() - MAX_WIDTH as i8;
         assert!(HapticVoltage::try_new(&profile).is_ok(), "half a step is a word");
         profile.formats.mean_square.frac -= 1;
-        let refused = HapticVoltage::try_new(&profile).err().expect("half a step is no word");
+        let refused = HapticVoltage::try_new(&profile).expect_err("half a step is no word");
         assert!(refused.to_string().contains("formats.mean_square"), "{refused}");
     }
 }
