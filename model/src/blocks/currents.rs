@@ -152,7 +152,7 @@ impl Currents {
         let sqrt = SquareRoot::new(power, part.frac);
         fits("formats.total", "the radicand of an amplitude", sqrt.widest())?;
         let amplitude = sqrt.sqrt();
-        let words = Memory::new("words", (2 * terminals + 4).next_power_of_two() as usize, wide)
+        let words = Memory::new("words", (2 * terminals + 2).next_power_of_two() as usize, wide)
             .dont_care_on_collision();
         Ok(Currents {
             words,

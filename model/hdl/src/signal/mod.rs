@@ -336,7 +336,8 @@ impl<V: Value> Signal<V> {
         Signal { value: V::square(self, to), format: to }
     }
 
-    /// `width` bits of the code from bit `low` up, as an unsigned integer.
+    /// `width` bits of the code from bit `low` up, as an unsigned integer. Bits beyond the word are zero, or
+    /// copies of its sign.
     #[inline(always)]
     pub fn bits(self, low: u8, width: u8) -> Self {
         let to = Format::unsigned(width, 0);

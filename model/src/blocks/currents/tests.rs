@@ -88,8 +88,8 @@ fn words_of_currents_have_the_bits_that_all_terminals_need() {
             if profile.formats.block_shift > 0 {
                 check_narrowest((terminals as i128) << (profile.formats.iq.width - 1), block.total);
             }
-            // In-phase and quadrature of the terminals, the sensing voltage and the total.
-            let places = 2 * (terminals + 2);
+            // In-phase and quadrature of the terminals and the sensing voltage.
+            let places = 2 * (terminals + 1);
             assert!((places..2 * places).contains(&block.words.words), "{terminals} terminals");
         }
     }

@@ -5,9 +5,13 @@ use super::{Demodulator, Inputs};
 use crate::support::random::Random;
 use crate::support::{Bench, MILLION, operations};
 use hapticore_contract::profile::{Method, Profile, Window};
+use hapticore_hdl::block::Block;
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::Format;
+use hapticore_hdl::interpretations::shadow::Shadow;
+use hapticore_hdl::signal::{Signal, bit, code, zero};
 use hapticore_reference::rounded::{self, Exact, Sample};
+use std::f64::consts::TAU;
 
 #[test]
 fn sums_are_those_of_the_products() {
@@ -174,4 +178,102 @@ fn sums_have_the_bits_that_the_largest_products_need() {
             }
         }
     }
+}
+
+/// A sample whose waves and codes are numbers: a word each, and a part of its step.
+struct Unrounded {
+    codes: Vec<Signal<Shadow>>,
+    cosine: Signal<Shadow>,
+    sine: Signal<Shadow>,
+    window: Signal<Shadow>,
+}
+
+impl Unrounded {
+    fn draw(profile: &Profile, random: &mut Random) -> Self {
+        let mut number = |format: Format, shrunk: i64| {
+            let code = random.word(format) / shrunk;
+            let real = format.real(code) + format.lsb() * (random.below(100) as f64 / 200.0);
+            Signal { value: Shadow { code, real }, format }
+        };
+        let (adc, wave) = (profile.formats.adc, profile.formats.oscillator);
+        let window = number(Format { signed: false, width: wave.width - 1, ..wave }, 2);
+        Unrounded {
+            codes: (0..profile.channels()).map(|_| number(adc, 1)).collect(),
+            cosine: number(wave, 1),
+            sine: number(wave, 1),
+            window: Signal { format: wave, ..window },
+        }
+    }
+
+    /// What the sample, the m-th of its window, adds to each sum.
+    fn products(&self, profile: &Profile, shift: i8, m: usize) -> Vec<f64> {
+        let (square, channels) = self.codes.split_last().expect("the haptic channel is the last");
+        let [window, h] = [self.window, *square].map(|number| number.value.real);
+        let turn = TAU * m as f64 / 5.0;
+        let (waves, raised) = match profile.carrier.method {
+            Method::Products => ([self.cosine, self.sine].map(|wave| wave.value.real), 0.0),
+            Method::Polyphase => {
+                let tap = |wave: f64| (57230.0 * wave).round() / 65536.0 / f64::from(shift).exp2();
+                ([turn.cos(), turn.sin()].map(tap), 1.0)
+            }
+        };
+        let of =
+            |code: &Signal<Shadow>| waves.map(|wave| window * wave * (code.value.real + raised));
+        channels.iter().flat_map(of).chain([window * h * h]).collect()
+    }
+}
+
+/// By phase, a result may be off by two steps of its own.
+#[test]
+fn numbers_that_are_not_rounded_are_the_sums_of_the_products() {
+    for (seed, profile) in (0..).zip(Profile::all()) {
+        let block = Demodulator::try_new(&profile).unwrap();
+        let mut random = Random::new(seed);
+        let samples: Vec<_> = (0..40).map(|_| Unrounded::draw(&profile, &mut random)).collect();
+        let mut expected = vec![0.0; block.sums() as usize];
+        for (m, sample) in samples.iter().enumerate() {
+            let products = sample.products(&profile, block.shift(), m);
+            expected.iter_mut().zip(products).for_each(|(sum, product)| *sum += product);
+        }
+        let allowed = match profile.carrier.method {
+            Method::Products => 1e-9,
+            Method::Polyphase => 2.0 * block.sum().lsb(),
+        };
+        let sums = ideal_sums(&block, &samples);
+        assert_eq!(sums.len(), expected.len(), "{}", profile.name);
+        for (k, (sum, expected)) in sums.into_iter().zip(expected).enumerate() {
+            let off = (sum - expected).abs();
+            assert!(off < allowed, "{}, sum {k}: {sum}, expected {expected}", profile.name);
+        }
+    }
+}
+
+/// The sums of samples, without their rounding.
+fn ideal_sums(block: &Demodulator, samples: &[Unrounded]) -> Vec<f64> {
+    let (mut state, mut sums, mut channel) = (block.reset::<Shadow>(), Vec::new(), 0);
+    let mut clock = |inputs: Inputs<Signal<Shadow>>| {
+        let out = block.clock(&mut state, inputs);
+        sums.extend((out.valid.value.code == 1).then_some(out.sum.value.real));
+        out.channel.value.code as usize
+    };
+    let quiet = Inputs::map(block.inputs(), zero);
+    for (m, sample) in samples.iter().enumerate() {
+        let by_phase = || code(m as i64 % 5, quiet.phase.format);
+        let phase = block.polyphase().map_or(quiet.phase, |_| by_phase());
+        for clocks in 0..block.least_clocks_per_sample() {
+            channel = clock(Inputs {
+                start: bit(clocks == 0),
+                first: bit(m == 0),
+                last: bit(m + 1 == samples.len()),
+                code: sample.codes[channel],
+                phase,
+                cosine: sample.cosine,
+                sine: sample.sine,
+                window: sample.window,
+                ..quiet
+            });
+        }
+    }
+    (0..block.latency()).for_each(|_| _ = clock(quiet));
+    sums
 }

@@ -5,8 +5,12 @@ use super::{Inputs, Oscillator, Outputs};
 use crate::support::random::Random;
 use crate::support::{Bench, MILLION, operations};
 use hapticore_contract::profile::{Method, Profile, Window};
-use hapticore_hdl::format::Format;
+use hapticore_hdl::block::Block;
+use hapticore_hdl::format::{BIT, Format};
+use hapticore_hdl::interpretations::shadow::Shadow;
+use hapticore_hdl::signal::code;
 use hapticore_reference::rounded::{self, Sample};
+use std::f64::consts::TAU;
 
 #[test]
 fn waves_are_those_of_the_table_at_the_phase() {
@@ -37,6 +41,30 @@ fn waves_half_way_between_two_codes_are_the_even_ones() {
     (profile.slot.integrate, profile.carrier.amplitude) = (24, 5);
     let table = Oscillator::new(&profile).quarter.codes();
     assert_eq!(table, [0, 1, 2, 4, 4, 5, 5], "5·sin 30° is 2.5, its even neighbour 2");
+}
+
+/// A word's step is a million times as large as what is allowed here.
+#[test]
+fn windows_that_are_not_rounded_are_those_of_the_formula() {
+    for profile in Profile::all() {
+        let block = Oscillator::new(&profile);
+        let mut state = block.reset::<Shadow>();
+        let bit = |set: bool| code(i64::from(set), BIT);
+        for m in 0..profile.slot.integrate {
+            let mut real = 0.0;
+            for clock in 0..=block.latency() + 1 {
+                let sample = bit(clock == 0);
+                let inputs = Inputs { sample, restart: bit(m == 0), first: bit(m == 0) };
+                real = block.clock(&mut state, inputs).window.value.real;
+            }
+            let turn = TAU * m as f64 / profile.slot.integrate as f64;
+            let expected = match profile.carrier.window {
+                Window::Hann => profile.amplitude() * (1.0 - turn.cos()) / 2.0,
+                Window::Rectangular => profile.amplitude(),
+            };
+            assert!((real - expected).abs() < 1e-11, "{}, sample {m}: {real}", profile.name);
+        }
+    }
 }
 
 /// Holds so many samples, begun anew at random, to the reference.

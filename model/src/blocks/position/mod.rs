@@ -291,7 +291,7 @@ impl Block for Position {
             running: bit(true),
             bubble: bit(true),
             sum: self.half(),
-            // Of the slot before, another pad's, nothing is left.
+            // Of the slot before, another pad's, nothing is left; its program has ended.
             quotient: int(0),
             surface: Spline::RX.signal(),
             step: int(0),
@@ -508,9 +508,10 @@ impl Position {
         let step =
             code(1, Format::unsigned(1, i8::try_from(bits).expect("sixteen digits at most")));
         // What the remainder, over the determinant in `left`, leaves; nothing where the quotient is
-        // at full scale. The program has taken the half of rounding out of the sum.
+        // at full scale: its largest code is two steps below one, the next four. The program has
+        // taken the half of rounding out of the sum.
         coded.as_code(quotient).golden(&[coded.as_code(quotient), r.sum, r.left, step], |of| {
-            let is_held = 8.0 * of[0].abs() > 1.0 - 4.0 * of[3];
+            let is_held = 8.0 * of[0].abs() > 1.0 - 3.0 * of[3];
             if is_held { of[0] } else { of[0] + of[1] / of[2].abs() / 8.0 }
         })
     }
