@@ -101,6 +101,10 @@ pub struct TradeoffArgs {
     /// Search the cheapest profile with these errors at most: force=1mN,position=0.1mm,capacitance=0.1%
     #[arg(long, value_name = "ERRORS")]
     pub target: Option<String>,
+    /// The FPGA family whose LUT4 a search saves [default: ice40 where the profile's multipliers take at most
+    /// 16 bits, else ecp5]
+    #[arg(long, value_name = "FAMILY", value_parser = ["ecp5", "ice40"])]
+    pub family: Option<String>,
     /// Also tell what one more bit of each word that is searched would buy
     #[arg(long)]
     pub explain: bool,

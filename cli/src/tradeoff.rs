@@ -6,10 +6,11 @@ use hapticore_contract::profile::Profile;
 use hapticore_run::record::Provenance;
 use hapticore_run::{inputs, interrupt};
 use hapticore_scene::{Scene, Timing};
+use hapticore_tradeoff::cost;
 use hapticore_tradeoff::errors::Quantity;
 use hapticore_tradeoff::model::{Model, NextBit};
 use hapticore_tradeoff::points;
-use hapticore_tradeoff::search::{Found, search};
+use hapticore_tradeoff::search::{Found, models, search};
 use hapticore_tradeoff::sweep::{Point, Trial};
 use hapticore_tradeoff::synthesis::{self, Synthesised, synthesise};
 use hapticore_tradeoff::target::Target;
@@ -74,12 +75,16 @@ pub fn run(args: &TradeoffArgs) -> Result<bool> {
     let bar = progress::bar_of(plan.len() as u64, "profiles", args.json);
     let points = trial.run(&plan, &|| bar.inc(1))?;
     bar.finish_and_clear();
-    let asked = target.is_some() || args.explain;
-    let model = asked.then(|| Model::new(trial.profile(), &points));
-    let found = target.zip(model.as_ref()).map(|(target, model)| search(&trial, model, &target));
-    let found = found.transpose()?;
-    let explained = model.filter(|_| args.explain);
+    let family = args.family.as_deref().and_then(cost::named);
+    let family = family.unwrap_or_else(|| cost::family(trial.profile()));
+    let models = match target {
+        Some(_) => models(&trial, family, &points)?,
+        None if args.explain => vec![Model::new(trial.profile(), family, &points)],
+        None => Vec::new(),
+    };
+    let found = target.map(|target| search(&trial, &models, &target)).transpose()?;
     let of = found.as_ref().map_or(trial.profile(), |found| &found.profile);
+    let explained = models.iter().find(|model| args.explain && model.is_about(of));
     let next_bits = explained.map(|model| model.next_bits(of)).unwrap_or_default();
     let synthesised = match args.synth {
         true => synthesised(trial.profile(), &points[0], found.as_ref(), args.json)?,

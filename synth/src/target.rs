@@ -50,6 +50,14 @@ impl Family {
     /// All supported families.
     pub const ALL: [Family; 2] = [Family::Ice40, Family::Ecp5];
 
+    /// Its name, as options have it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Family::Ice40 => "ice40",
+            Family::Ecp5 => "ecp5",
+        }
+    }
+
     /// The part, for people.
     pub fn part(self) -> &'static str {
         match self {

@@ -6,6 +6,7 @@ use hapticore_contract::profile::Profile;
 use hapticore_hdl::area::Operations;
 use hapticore_hdl::interpretations::netlist::Netlist;
 use hapticore_model::blocks::core::Core;
+use hapticore_synth::target::Family;
 use serde::{Deserialize, Serialize};
 
 /// Time and area of a core.
@@ -35,6 +36,26 @@ pub struct Cost {
     pub block_rams: f64,
     /// Block RAMs of 4 kbit, as an iCE40 has.
     pub block_rams_ice40: f64,
+}
+
+impl Cost {
+    /// Estimated LUT4 of a family.
+    pub fn luts_of(&self, family: Family) -> f64 {
+        match family {
+            Family::Ecp5 => self.luts,
+            Family::Ice40 => self.luts_ice40,
+        }
+    }
+}
+
+/// The family that a profile is for: that with multipliers as wide as it says.
+pub fn family(profile: &Profile) -> Family {
+    if profile.multiplier <= 16 { Family::Ice40 } else { Family::Ecp5 }
+}
+
+/// The family of a name.
+pub fn named(name: &str) -> Option<Family> {
+    Family::ALL.into_iter().find(|family| family.name() == name)
 }
 
 /// Samples per second of the nominal board (docs/decisions.md §6).

@@ -7,6 +7,7 @@
 //! | [`points`] | slots of a scene: what every profile is tried on |
 //! | [`bench`](mod@bench) | those slots with the device's calibration, shared by profiles that differ in words alone |
 //! | [`errors`] | errors of force, capacitance and position, predicted and measured |
+//! | [`mod@forecast`] | errors and cost over all scenes, before a core has run |
 //! | [`mod@cost`] | latency, and area from the core's own netlist |
 //! | [`mod@sweep`] | one knob after the other about a profile |
 //! | [`mod@front`] | the points that no other beats |
@@ -23,6 +24,7 @@ pub mod bench;
 pub mod cost;
 pub mod errors;
 pub mod exact;
+pub mod forecast;
 pub mod front;
 pub mod knobs;
 pub mod model;

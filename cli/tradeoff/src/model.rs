@@ -10,11 +10,15 @@
 //! bit is taken away that saves most area for the error that it adds, as long as the limits hold;
 //! branch and bound ([`super::exact`]) then finds what is cheaper.
 
-use super::cost::Cost;
+use super::cost::{Cost, cost};
+use super::errors::Errors;
 use super::exact::{self, Choice};
+use super::forecast::Forecast;
 use super::knobs::Knob;
-use super::sweep::Point;
+use super::sweep::{Point, Trial};
+use anyhow::Result;
 use hapticore_contract::profile::Profile;
+use hapticore_synth::target::Family;
 use serde::Serialize;
 
 /// What one more bit of a knob would buy.
@@ -26,7 +30,7 @@ pub struct NextBit {
     pub bits: u64,
     /// By how much the predicted errors of force, capacitance and position would fall, each in its unit.
     pub less: [f64; 3],
-    /// LUT4 of an ECP5 that it would take.
+    /// LUT4 that it would take.
     pub luts: f64,
 }
 
@@ -44,16 +48,26 @@ struct Slope {
 
 impl Slope {
     /// What a knob's word does between a profile and the same with [`STEP`] bits less.
-    fn between(knob: Knob, profile: &Profile, itself: &Point, shorter: &Point) -> Self {
+    fn between(knob: Knob, about: (&Profile, Family), itself: Told, shorter: Told) -> Self {
+        let (profile, family) = about;
         let grown = 4f64.powi(STEP as i32) - 1.0;
-        let variance = |n| ((square(shorter, n) - square(itself, n)) / grown).max(0.0);
+        let variance = |n| ((shorter.square(n) - itself.square(n)) / grown).max(0.0);
         Slope {
             knob,
             base: knob.value(profile),
             range: range(knob, profile),
             variance: [0, 1, 2].map(variance),
-            luts: (itself.cost.luts - shorter.cost.luts) / STEP as f64,
+            luts: (itself.cost.luts_of(family) - shorter.cost.luts_of(family)) / STEP as f64,
         }
+    }
+
+    /// The same in another profile with the same word, whose LUT4 are known: the area is its own.
+    fn about(&self, (profile, family): (&Profile, Family), luts: f64) -> Result<Self> {
+        let shorter = self.knob.set(profile, self.base - STEP);
+        let cost = shorter.map(|shorter| cost(&shorter)).transpose()?;
+        let per_bit = |shorter: Cost| (luts - shorter.luts_of(family)) / STEP as f64;
+        let luts = cost.map_or(self.luts, per_bit);
+        Ok(Slope { range: range(self.knob, profile), luts, ..*self })
     }
 
     /// The variance that the word adds with so many bits beyond that at `base`, over the latter.
@@ -79,14 +93,31 @@ impl Slope {
     }
 }
 
-/// Mean square of a predicted error.
-fn square(point: &Point, quantity: usize) -> f64 {
-    point.predicted[quantity].rms.powi(2)
+/// Cost and predicted errors of a profile.
+#[derive(Clone, Copy)]
+struct Told {
+    cost: Cost,
+    predicted: Errors,
+}
+
+impl From<Forecast> for Told {
+    fn from(of: Forecast) -> Self {
+        Told { cost: of.cost, predicted: of.predicted }
+    }
+}
+
+impl Told {
+    /// Mean square of a predicted error.
+    fn square(self, quantity: usize) -> f64 {
+        self.predicted[quantity].rms.powi(2)
+    }
 }
 
 /// The additive model of a profile's errors and area.
 #[derive(Debug, Clone)]
 pub struct Model {
+    profile: Profile,
+    family: Family,
     /// Of the profile itself.
     cost: Cost,
     squares: [f64; 3],
@@ -100,29 +131,68 @@ const REACH: u64 = 8;
 
 impl Model {
     /// What predictions and netlists about a profile say: those of its sweep, the profile itself
-    /// first, as [`Trial::plan`](super::sweep::Trial::plan) has them.
+    /// first, as [`Trial::plan`] has them. LUT4 are a family's.
     ///
     /// # Panics
     /// Where there is no point.
-    pub fn new(profile: &Profile, swept: &[Point]) -> Self {
-        let itself = &swept[0];
+    pub fn new(profile: &Profile, family: Family, swept: &[Point]) -> Self {
+        let told = |point: &Point| Told { cost: point.cost, predicted: point.predicted };
+        let itself = told(&swept[0]);
         let slope = |knob: Knob| {
-            let base = knob.value(profile);
-            let shorter = base.checked_sub(STEP)?;
+            let shorter = knob.value(profile).checked_sub(STEP)?;
             let is_it = |point: &&Point| point.knob == knob.key() && point.value == shorter;
-            Some(Slope::between(knob, profile, itself, swept.iter().find(is_it)?))
+            let shorter = told(swept.iter().find(is_it)?);
+            Some(Slope::between(knob, (profile, family), itself, shorter))
         };
         Model {
+            profile: profile.clone(),
+            family,
             cost: itself.cost,
-            squares: [0, 1, 2].map(|n| square(itself, n)),
+            squares: [0, 1, 2].map(|n| itself.square(n)),
             slopes: Knob::searched().filter_map(slope).collect(),
         }
+    }
+
+    /// The model of the same profile with other block-floating words. What words after these add to
+    /// errors does not depend on them: it is not predicted again.
+    ///
+    /// # Errors
+    /// As [`Trial::forecast`].
+    pub fn with_blocks(&self, trial: &Trial, profile: &Profile) -> Result<Self> {
+        let words = Knob::Words.value(profile).checked_sub(STEP);
+        let shorter = words.and_then(|words| Knob::Words.set(profile, words));
+        let profiles: Vec<Profile> = [profile.clone()].into_iter().chain(shorter).collect();
+        let told = trial.forecast(&profiles)?.into_iter().map(Told::from).collect::<Vec<_>>();
+        let about = (profile, self.family);
+        let slope = |slope: &Slope| match (slope.knob, told.get(1)) {
+            (Knob::Words, Some(shorter)) => {
+                Ok(Slope::between(slope.knob, about, told[0], *shorter))
+            }
+            _ => slope.about(about, told[0].cost.luts_of(self.family)),
+        };
+        Ok(Model {
+            profile: profile.clone(),
+            family: self.family,
+            cost: told[0].cost,
+            squares: [0, 1, 2].map(|n| told[0].square(n)),
+            slopes: self.slopes.iter().map(slope).collect::<Result<_>>()?,
+        })
     }
 
     /// The model of these knobs alone: the others keep their lengths.
     pub fn only(&self, knobs: &[Knob]) -> Model {
         let of_them = self.slopes.iter().filter(|slope| knobs.contains(&slope.knob));
-        Model { slopes: of_them.cloned().collect(), ..*self }
+        Model { slopes: of_them.cloned().collect(), ..self.clone() }
+    }
+
+    /// Whether a profile differs from the model's own in word lengths alone.
+    pub fn is_about(&self, profile: &Profile) -> bool {
+        Knob::BlockShift.value(&self.profile) == Knob::BlockShift.value(profile)
+    }
+
+    /// The family whose LUT4 are counted.
+    pub fn family(&self) -> Family {
+        self.family
     }
 
     /// What the profile itself costs.
@@ -133,6 +203,11 @@ impl Model {
     /// How far each word may be shortened and lengthened, bits.
     pub fn ranges(&self) -> Vec<[u64; 2]> {
         self.slopes.iter().map(|slope| slope.range).collect()
+    }
+
+    /// The longest words.
+    pub fn longest(&self) -> Vec<u64> {
+        self.slopes.iter().map(|slope| slope.range[1]).collect()
     }
 
     /// Mean squares of the errors with these bits.
@@ -149,7 +224,7 @@ impl Model {
     /// Estimated LUT4 with these bits.
     pub fn luts(&self, bits: &[u64]) -> f64 {
         let more = |(slope, bits): (&Slope, &u64)| slope.more_luts(*bits);
-        self.cost.luts + self.slopes.iter().zip(bits).map(more).sum::<f64>()
+        self.cost.luts_of(self.family) + self.slopes.iter().zip(bits).map(more).sum::<f64>()
     }
 
     /// What one more bit of each knob would buy in a profile.
@@ -170,14 +245,15 @@ impl Model {
     /// The bits that cost least with errors within limits; the longest words where no length meets
     /// them.
     pub fn cheapest(&self, most: &[Option<f64>; 3]) -> Vec<u64> {
-        let mut bits: Vec<u64> = self.slopes.iter().map(|slope| slope.range[1]).collect();
+        let mut bits = self.longest();
         while let Some(next) = self.shorter(&bits, most) {
             bits = next;
         }
         let knobs: Vec<Vec<Choice>> = self.slopes.iter().map(|slope| slope.choices(most)).collect();
         let part = |n: usize| most[n].map_or(0.0, |most| self.squares[n] / (most * most));
         let room = [0, 1, 2].map(|n| 1.0 - part(n));
-        let cheaper = exact::cheapest(&knobs, room, self.luts(&bits) - self.cost.luts);
+        let cheaper =
+            exact::cheapest(&knobs, room, self.luts(&bits) - self.cost.luts_of(self.family));
         let value = |(slope, option): (&Slope, usize)| slope.range[0] + option as u64;
         cheaper.map_or(bits, |options| self.slopes.iter().zip(options).map(value).collect())
     }
@@ -221,8 +297,8 @@ impl Model {
     }
 
     /// The profile with these bits; a word that no core can have keeps its length.
-    pub fn profile(&self, profile: &Profile, bits: &[u64]) -> Profile {
-        let mut found = profile.clone();
+    pub fn profile(&self, bits: &[u64]) -> Profile {
+        let mut found = self.profile.clone();
         // A word that must not be longer than another's waits for it.
         for _ in 0..2 {
             for (slope, bits) in self.slopes.iter().zip(bits) {

@@ -10,6 +10,7 @@ use super::sweep::{Point, Trial};
 use super::target::Target;
 use anyhow::Result;
 use hapticore_contract::profile::Profile;
+use hapticore_synth::target::Family;
 use serde::Serialize;
 
 /// What a search found.
@@ -17,7 +18,12 @@ use serde::Serialize;
 pub struct Found {
     /// What was asked for.
     pub target: Target,
-    /// Bits of each knob.
+    /// The part whose LUT4 are counted.
+    pub part: &'static str,
+    /// Its family.
+    #[serde(skip)]
+    pub family: Family,
+    /// Bits of each knob, and the shift of block-floating words.
     pub bits: Vec<(String, u64)>,
     /// Predicted and measured errors.
     pub predicted: Errors,
@@ -64,8 +70,14 @@ impl Found {
             ));
         }
         lines.push(format!(
-            "LUT4 {:.0} instead of {:.0} (estimated), flip-flops {:.0} instead of {:.0}",
-            self.cost.luts, self.before.luts, self.cost.flip_flops, self.before.flip_flops
+            "LUT4 {:.0} instead of {:.0} (estimated, {}), flip-flops {:.0} instead of {:.0}, latency {} clocks instead of {}",
+            self.cost.luts_of(self.family),
+            self.before.luts_of(self.family),
+            self.part,
+            self.cost.flip_flops,
+            self.before.flip_flops,
+            self.cost.latency_clocks,
+            self.before.latency_clocks
         ));
         let bits: Vec<_> = self.bits.iter().map(|(knob, bits)| format!("{knob} {bits}")).collect();
         lines.push(format!("bits: {}", bits.join(", ")));
@@ -84,52 +96,135 @@ impl Found {
     }
 }
 
-/// The cheapest profile about that of a trial whose errors are within the target.
+/// The models that a search looks into: that of a trial's sweep, the first, and those of the same
+/// profile with other block-floating words.
 ///
 /// # Errors
 /// As [`Trial::run`].
-pub fn search(trial: &Trial, model: &Model, target: &Target) -> Result<Found> {
-    let longest: Vec<u64> = model.ranges().iter().map(|range| range[1]).collect();
-    let least = model.squares(&longest).map(|square| square.max(0.0).sqrt());
+pub fn models(trial: &Trial, family: Family, swept: &[Point]) -> Result<Vec<Model>> {
+    let mut models = vec![Model::new(trial.profile(), family, swept)];
+    for profile in Knob::other_blocks(trial.profile()) {
+        models.push(models[0].with_blocks(trial, &profile)?);
+    }
+    Ok(models)
+}
+
+/// The cheapest profile of some models whose errors are within the target. The first model is of the
+/// profile that the search begins with.
+///
+/// # Errors
+/// As [`Trial::run`].
+///
+/// # Panics
+/// Where there is no model.
+pub fn search(trial: &Trial, models: &[Model], target: &Target) -> Result<Found> {
+    let (least, family) = (least(models), models[0].family());
     let missed: Vec<_> = (0..3)
         .filter(|n| target.0[*n].is_some_and(|most| least[*n] > most))
         .map(|n| (Quantity::ALL[n], least[n]))
         .collect();
-    let mut most = target.0;
-    let mut found = None;
-    for _ in 0..TRIES {
-        let bits = if missed.is_empty() { model.cheapest(&most) } else { longest.clone() };
-        let profile = model.profile(trial.profile(), &bits);
-        let plan = [(None, Profile { name: format!("{}-found", profile.name), ..profile })];
-        let point = trial.run(&plan, &|| ())?.remove(0);
-        let over = over(&point.measured, target);
-        found = Some((point, plan[0].1.clone()));
-        if over <= 1.0 || !missed.is_empty() {
-            break;
-        }
-        most = most.map(|limit| limit.map(|limit| limit / (over * 1.01)));
-    }
-    let (point, profile) = found.expect("there is a try");
+    let Verified { point, profile, .. } = verified(trial, models, target, missed.is_empty())?;
+    let listed = Knob::words().chain([Knob::BlockShift]);
     Ok(Found {
         target: *target,
-        bits: Knob::words().map(|knob| (knob.key().into(), knob.value(&profile))).collect(),
+        part: family.part(),
+        family,
+        bits: listed.map(|knob| (knob.key().into(), knob.value(&profile))).collect(),
         predicted: point.predicted,
         measured: point.measured,
         cost: point.cost,
-        before: model.cost(),
+        before: models[0].cost(),
         limit: limit(&point, target),
         missed,
         profile,
     })
 }
 
+/// The least errors that any word lengths have.
+fn least(models: &[Model]) -> [f64; 3] {
+    let of = |model: &Model| model.squares(&model.longest()).map(|square| square.max(0.0).sqrt());
+    let each: Vec<[f64; 3]> = models.iter().map(of).collect();
+    [0, 1, 2].map(|n| each.iter().map(|errors| errors[n]).fold(f64::INFINITY, f64::min))
+}
+
+/// A profile that was run.
+struct Verified {
+    point: Point,
+    profile: Profile,
+    /// By how much measured errors are beyond the target, the largest ratio.
+    over: f64,
+    luts: f64,
+}
+
+impl Verified {
+    fn run(trial: &Trial, model: &Model, bits: &[u64], target: &Target) -> Result<Self> {
+        let name = format!("{}-found", trial.profile().name);
+        let profile = Profile { name, ..model.profile(bits) };
+        let point = trial.run(&[(None, profile.clone())], &|| ())?.remove(0);
+        let ratio = |(of, most): (&Error, &Option<f64>)| most.map_or(0.0, |most| of.rms / most);
+        let over = point.measured.iter().zip(&target.0).map(ratio).fold(0.0, f64::max);
+        Ok(Verified { over, luts: point.cost.luts_of(model.family()), point, profile })
+    }
+
+    fn holds(&self) -> bool {
+        self.over <= 1.0
+    }
+
+    /// One that meets the target is better than one that does not; then the smaller, or the less beyond.
+    fn is_better(&self, than: &Verified) -> bool {
+        match [self.holds(), than.holds()] {
+            [true, true] => self.luts < than.luts,
+            [false, false] => self.over < than.over,
+            [holds, _] => holds,
+        }
+    }
+}
+
 /// How often a target is tightened where the profile that was found misses it.
 const TRIES: usize = 6;
 
-/// By how much measured errors are beyond the target, the largest ratio.
-fn over(measured: &[Error; 3], target: &Target) -> f64 {
-    let ratio = |(of, most): (&Error, &Option<f64>)| most.map_or(0.0, |most| of.rms / most);
-    measured.iter().zip(&target.0).map(ratio).fold(0.0, f64::max)
+/// The best profile of all models, as measured. The model of fewest predicted LUT4 comes first; of the
+/// others nothing is run that would not be smaller than what holds.
+fn verified(trial: &Trial, models: &[Model], target: &Target, tightens: bool) -> Result<Verified> {
+    let luts = |model: &Model| model.luts(&model.cheapest(&target.0));
+    let mut by_luts: Vec<_> = models.iter().map(|model| (luts(model), model)).collect();
+    by_luts.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut best: Option<Verified> = None;
+    for (_, model) in by_luts {
+        let mut most = target.0;
+        for _ in 0..if tightens { TRIES } else { 1 } {
+            let bits = model.cheapest(&most);
+            let smaller = |best: &Verified| !best.holds() || model.luts(&bits) < best.luts;
+            if !best.as_ref().is_none_or(smaller) {
+                break;
+            }
+            let tried = Verified::run(trial, model, &bits, target)?;
+            let holds = tried.holds();
+            most = tightened(most, &model.squares(&bits), &tried.point.measured, target);
+            if best.as_ref().is_none_or(|best| tried.is_better(best)) {
+                best = Some(tried);
+            }
+            if holds {
+                break;
+            }
+        }
+    }
+    Ok(best.expect("there is a model"))
+}
+
+/// Limits of what is predicted, so much smaller as measured errors are beyond the target.
+fn tightened(
+    most: [Option<f64>; 3],
+    squares: &[f64; 3],
+    measured: &[Error; 3],
+    target: &Target,
+) -> [Option<f64>; 3] {
+    let limit = |n: usize| {
+        let of = target.0[n].filter(|of| measured[n].rms > *of);
+        let tighter = of.map(|of| 0.99 * squares[n].max(0.0).sqrt() * of / measured[n].rms);
+        tighter.or(most[n])
+    };
+    [0, 1, 2].map(limit)
 }
 
 /// The quantity nearest to its target, and the source that adds most to it.

@@ -2,11 +2,12 @@
 //! Profiles about a profile, one knob after the other: what each costs and what it is off.
 
 use super::bench::Bench;
-use super::cost::{Cost, cost};
-use super::errors::{Errors, Quantity, Sources, errors, predicted, results};
+use super::cost::Cost;
+use super::errors::{Errors, Quantity, Sources, errors, results};
+use super::forecast::{Forecast, forecast, mean};
 use super::front::front;
 use super::knobs::Knob;
-use anyhow::{Context, Result};
+use anyhow::Result;
 use hapticore_contract::profile::Profile;
 use hapticore_model::fidelity::noise::Predictor;
 use hapticore_run::engine::Fidelity;
@@ -50,9 +51,6 @@ pub struct Trial {
     /// Those that were made: profiles of later runs share them, too.
     benches: Mutex<Vec<Arc<Vec<Bench>>>>,
 }
-
-/// How many slots of a scene a prediction is made of.
-const PREDICTED: usize = 24;
 
 impl Point {
     /// Whether some channel met too few codes for a prediction to hold.
@@ -120,6 +118,20 @@ impl Trial {
         Ok(points)
     }
 
+    /// What is told of profiles before a core of any has run, on all cores.
+    ///
+    /// # Errors
+    /// As [`run`](Self::run).
+    pub fn forecast(&self, profiles: &[Profile]) -> Result<Vec<Forecast>> {
+        let benches = profiles.iter().map(|profile| self.benches(profile));
+        let benches = benches.collect::<Result<Vec<_>>>()?;
+        let of = |(profile, benches): (&Profile, &Arc<Vec<Bench>>)| {
+            interrupt::check()?;
+            forecast(profile, benches)
+        };
+        profiles.par_iter().zip(&benches).map(of).collect()
+    }
+
     fn benches(&self, profile: &Profile) -> Result<Arc<Vec<Bench>>> {
         let mut made = self.benches.lock().expect("nobody panics with it");
         if let Some(known) = made.iter().find(|of| of[0].suits(profile)) {
@@ -133,43 +145,20 @@ impl Trial {
 }
 
 fn point(knob: Option<Knob>, profile: &Profile, benches: &[Bench]) -> Result<Point> {
-    let (mut sum, mut of_sources) = ([Errors::default(); 2], Sources::default());
-    let mut least_codes = f64::INFINITY;
-    for bench in benches {
-        let what = || format!("profile {}", profile.name);
-        let (profile, calibration) =
-            (bench.serve(profile).with_context(what)?, bench.calibration());
-        let (expected, sources, codes) =
-            predicted(&profile, calibration, bench.some(PREDICTED)).with_context(what)?;
-        least_codes = least_codes.min(codes);
+    let Forecast { cost, predicted, sources, least_codes } = forecast(profile, benches)?;
+    let measured = benches.iter().map(|bench| {
+        let (profile, calibration) = (bench.serve(profile)?, bench.calibration());
         let results = results(Fidelity::Fixed, &profile, calibration, bench.slots());
-        let found = errors(&results.values, bench.slots().iter().map(|slot| &slot.ideal));
-        for (sum, errors) in sum.iter_mut().zip([expected, found]) {
-            for (sum, error) in sum.iter_mut().zip(errors) {
-                sum.rms += error.rms * error.rms / benches.len() as f64;
-                sum.mean += error.mean / benches.len() as f64;
-                sum.largest = sum.largest.max(error.largest);
-            }
-        }
-        for (of, sources) in of_sources.iter_mut().zip(sources) {
-            for (name, rms) in sources {
-                *of.entry(name).or_default() += rms * rms / benches.len() as f64;
-            }
-        }
-    }
-    for error in sum.iter_mut().flatten() {
-        error.rms = error.rms.sqrt();
-    }
-    of_sources.iter_mut().flat_map(|of| of.values_mut()).for_each(|square| *square = square.sqrt());
-    let [predicted, measured] = sum;
+        Ok(errors(&results.values, bench.slots().iter().map(|slot| &slot.ideal)))
+    });
     Ok(Point {
         knob: knob.map_or(String::new(), |knob| knob.key().into()),
         value: knob.map_or(0, |knob| knob.value(profile)),
-        cost: cost(profile)?,
+        cost,
         predicted,
-        measured,
+        measured: mean(&measured.collect::<Result<Vec<_>>>()?),
         least_codes,
-        sources: of_sources,
+        sources,
         front: [false; 3],
         profile: Arc::new(profile.clone()),
     })

@@ -50,10 +50,7 @@ pub fn synthesise(profile: &Profile, cost: &Cost) -> Result<Vec<Synthesised>> {
     let one = |family: Family| {
         let (cells, mhz) = placed(&tools, family, profile, folder.path())
             .with_context(|| format!("profile {} on {}", profile.name, family.part()))?;
-        let estimated_luts = match family {
-            Family::Ecp5 => cost.luts,
-            Family::Ice40 => cost.luts_ice40,
-        };
+        let estimated_luts = cost.luts_of(family);
         let profile = profile.name.clone();
         Ok(Synthesised { profile, part: family.part(), estimated_luts, cells, mhz })
     };

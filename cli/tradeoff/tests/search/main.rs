@@ -9,6 +9,7 @@ mod rivals;
 
 use hapticore_contract::profile::Profile;
 use hapticore_run::inputs;
+use hapticore_synth::target::Family;
 use hapticore_tradeoff::knobs::Knob;
 use hapticore_tradeoff::model::Model;
 use hapticore_tradeoff::sweep::Trial;
@@ -36,15 +37,14 @@ fn model() -> &'static Model {
             knob.is_none_or(|knob| knob.value(of) + 2 == knob.value(&profile))
         });
         let points = trial.run(&plan, &|| ()).expect("a sweep");
-        Model::new(&profile, &points)
+        Model::new(&profile, Family::Ecp5, &points)
     })
 }
 
 /// Targets between half and thirty times the profile's own errors; some ask nothing of a quantity.
 fn limits(model: &Model, count: usize) -> Vec<Limits> {
     let mut random = fastrand::Rng::with_seed(3);
-    let longest: Vec<u64> = model.ranges().iter().map(|range| range[1]).collect();
-    let least = model.squares(&longest).map(|square| square.max(0.0).sqrt());
+    let least = model.squares(&model.longest()).map(|square| square.max(0.0).sqrt());
     let mut of =
         |least: f64| (random.u8(0..4) > 0).then(|| least * 10f64.powf(2.0 * random.f64()) * 1.2);
     let drawn = std::iter::repeat_with(|| least.map(&mut of));
