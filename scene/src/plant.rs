@@ -69,7 +69,7 @@ impl Plant {
     /// error budget for which no levels have been [chosen](Scene::within_budget).
     pub fn new(scene: &Scene, case: usize, timing: &Timing) -> Result<Plant, SceneError> {
         let fail = |key: &str, message: String| {
-            SceneError::new(Place::File, key, message).in_file(&scene.name)
+            SceneError::new(Place::File, key, message).in_file(&scene.file)
         };
         let Some(chosen) = scene.cases.get(case) else {
             return Err(fail(
@@ -95,7 +95,7 @@ impl Plant {
             ));
         }
         Plant::of_case(chosen.clone(), scene.seed, case, timing)
-            .map_err(|error| error.in_file(&scene.name))
+            .map_err(|error| error.in_file(&scene.file))
     }
 
     pub(crate) fn of_case(

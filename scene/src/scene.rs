@@ -105,6 +105,8 @@ pub enum Record {
 pub struct Scene {
     /// The file's name without folder and `.toml`.
     pub name: String,
+    /// The file, as messages name it.
+    pub file: String,
     /// Title of the scene, one line.
     pub title: String,
     /// A few sentences.
@@ -148,7 +150,7 @@ impl Scene {
         override_all(&mut root, overrides)?;
         let variants = variants(&root)?;
         let names: Vec<String> = variants.iter().map(|variant| variant.name.clone()).collect();
-        let mut scene = Scene::read_head(&root, stem(file), &names)?;
+        let mut scene = Scene::read_head(&root, file, &names)?;
         for variant in variants {
             let mut tree = root.clone();
             for (key, node) in variant.set {
@@ -180,7 +182,7 @@ impl Scene {
         Ok(case)
     }
 
-    fn read_head(root: &Table, name: &str, cases: &[String]) -> Result<Scene, SceneError> {
+    fn read_head(root: &Table, file: &str, cases: &[String]) -> Result<Scene, SceneError> {
         let figures = [
             ("fig3", Figure::Fig3),
             ("fig4", Figure::Fig4),
@@ -193,7 +195,8 @@ impl Scene {
         ];
         let figure = root.choice("figure", &figures.map(|(name, _)| name))?;
         Ok(Scene {
-            name: name.to_string(),
+            name: stem(file).to_string(),
+            file: file.to_string(),
             title: root.require("title", "text", root.text("title")?)?,
             summary: root.text("summary")?.unwrap_or_default(),
             profile: root.text("profile")?.unwrap_or_else(|| "standard".to_string()),

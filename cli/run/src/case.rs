@@ -23,6 +23,7 @@ use crate::calibrate::{self, bench::Bench};
 use crate::capture::Recorder;
 use crate::control::plant::LoopPlant;
 use crate::control::{self, controlled};
+use crate::direction::Directions;
 use crate::engine::Fidelity;
 use crate::inputs::{buildable, timing};
 use crate::interrupt;
@@ -30,8 +31,8 @@ use crate::maker::{Made, Maker};
 use crate::record::{self, Row, SignalError};
 use crate::session::Session;
 
-/// Slots made ahead of the core.
-const AHEAD: usize = 8;
+/// Bytes of the slots that are made ahead of the core.
+const AHEAD: usize = 2 << 20;
 
 /// The most slots of all cases that are run: a row of each is kept until the end.
 const MOST_SLOTS: usize = 10_000_000;
@@ -229,10 +230,12 @@ impl<'a> Case<'a> {
         let cancellers = canceller().zip(canceller()).map(<[_; 2]>::from);
         let tuning = self.tuning(&plant)?;
         let fidelity = (settings.fidelity, tuning.as_ref());
-        let device = (&self.device, self.calibration()?);
-        let session = Session::new(&self.profile, device, fidelity, settings.errors, at)?
-            .with_cancellers(cancellers)
-            .with_directions(&plant);
+        let directions = [0, 1].map(|_| Directions::of(&plant));
+        let session = || {
+            let device = (&self.device, self.calibration()?);
+            let session = Session::new(&self.profile, device, fidelity, settings.errors, at)?;
+            anyhow::Ok(session.with_cancellers(cancellers).with_directions(directions))
+        };
         let whole = settings.fidelity == Fidelity::Clock || recorder.is_some();
         let mut maker = Maker::new(
             plant.metered(),
@@ -241,18 +244,27 @@ impl<'a> Case<'a> {
             whole,
         );
         if tuning.is_some() {
-            return self.close(session, maker, recorder, progress);
+            return self.close(session()?, maker, recorder, progress);
         }
-        let (sender, receiver) = sync_channel(AHEAD);
+        let (sender, receiver) = sync_channel(self.ahead());
         thread::scope(|scope| {
             let maker = scope.spawn(move || {
                 maker.make(self.slots, &sender);
                 maker.plant().effects()
             });
-            let mut outcome = consume(session, receiver, recorder, progress)?;
+            // The first slots are made while the device is calibrated.
+            let mut outcome = consume(session()?, receiver, recorder, progress)?;
             outcome.effects = maker.join().expect("the plant does not panic");
             Ok(outcome)
         })
+    }
+}
+
+impl Case<'_> {
+    /// Slots made ahead of the core: eight at least.
+    fn ahead(&self) -> usize {
+        let codes = self.profile.slot.samples() as usize * self.profile.channels() as usize;
+        (AHEAD / (codes * size_of::<i32>())).max(8)
     }
 }
 

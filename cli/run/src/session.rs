@@ -12,7 +12,6 @@ use hapticore_contract::frame::Measurement;
 use hapticore_contract::profile::Profile;
 use hapticore_host::{CrosstalkCanceller, DeviceCalibration, ForceLaws, Readout, SlotClock};
 use hapticore_reference::Reference as FloatCore;
-use hapticore_scene::Plant;
 
 use crate::control::closed;
 use crate::direction::Directions;
@@ -77,10 +76,10 @@ impl Session {
         self
     }
 
-    /// The same session, whose measurements have the direction of the push in a plant whose pads
-    /// are served part by part.
-    pub fn with_directions(self, plant: &Plant) -> Self {
-        Session { directions: [0, 1].map(|_| Directions::of(plant)), ..self }
+    /// The same session, whose measurements and references have the direction of the push, where pads are
+    /// served part by part.
+    pub fn with_directions(self, directions: [Option<Directions>; 2]) -> Self {
+        Session { directions, ..self }
     }
 
     /// Takes a slot and what is known of it; the row that is finished, if one is.

@@ -51,7 +51,7 @@ pub(super) fn electrics(effects: &[Spec]) -> usize {
 impl Bench<'_> {
     fn plant(&self, case: Case) -> Result<Plant, SceneError> {
         Plant::of_case(case, self.scene.seed, self.index, self.timing)
-            .map_err(|error| error.in_file(&self.scene.name))
+            .map_err(|error| error.in_file(&self.scene.file))
     }
 
     /// Whether a case has more slots than are compared.
@@ -73,7 +73,7 @@ impl Bench<'_> {
             let expected =
                 format!("expected at most {MOST_SLOTS} slots of a case whose levels are compared");
             let message = format!("{expected}, got {}", case.slots(self.timing));
-            return Err(SceneError::new(Place::File, "", message).in_file(&self.scene.name));
+            return Err(SceneError::new(Place::File, "", message).in_file(&self.scene.file));
         }
         let tape = Tape::default();
         let joined = case.effects.iter().any(|effect| JOINING.contains(&effect.name));

@@ -76,7 +76,7 @@ fn a_budget_without_chosen_levels_cannot_be_run() {
     let scene = scene("error_budget_percent = 1\n", "");
     let error = Plant::new(&scene, 0, &timing()).map(|_| ()).unwrap_err().to_string();
     assert!(
-        error.starts_with("s: error_budget_percent: expected levels that have been chosen"),
+        error.starts_with("s.toml: error_budget_percent: expected levels that have been chosen"),
         "{error}"
     );
 }
@@ -213,6 +213,6 @@ fn levels_of_a_very_long_case_are_not_compared() {
     let error = long("error_budget_percent = 1\n").within_budget(&timing()).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "s: expected at most 1000000 slots of a case whose levels are compared, got 1050000"
+        "s.toml: expected at most 1000000 slots of a case whose levels are compared, got 1050000"
     );
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Scenes: TOML in, a plant out.
 
+use std::ops::RangeInclusive;
+
 use hapticore_scene::{Case, Plant, Scene, Timing};
 
 use super::{TOML, refused};
@@ -37,8 +39,8 @@ fn is_quick(case: &Case) -> bool {
     sheets.all(|(_, level)| QUICK.contains(&level))
 }
 
-/// The most slots of a case for which levels are chosen here: each of them is looked at.
-const MOST_SLOTS: usize = 100_000;
+/// Numbers of slots of a case for which levels are not chosen here: each of them is looked at. More are refused.
+const MANY_SLOTS: RangeInclusive<usize> = 100_000..=1_000_000;
 
 /// A slot of each pad, of a few samples.
 fn run(scene: Scene) {
@@ -50,7 +52,7 @@ fn run(scene: Scene) {
         samples_per_period: 5.0,
         signs: None,
     };
-    if scene.cases.iter().any(|case| case.slots(&timing) > MOST_SLOTS) {
+    if scene.cases.iter().any(|case| MANY_SLOTS.contains(&case.slots(&timing))) {
         return;
     }
     let Ok(scene) = scene.within_budget(&timing).map_err(|error| refused(error, TOML)) else {

@@ -50,15 +50,16 @@ impl Fit {
     pub fn ask(&mut self, terms: &[(usize, f64)], values: &[f64], importance: f64) {
         for &(entry, a) in terms {
             let row = self.order[entry];
+            let (a, own) = (importance * a, self.at(row, row));
             for &(entry, b) in terms {
                 let column = self.order[entry];
                 if column <= row {
-                    let at = self.at(row, column);
-                    self.normal[at] += importance * a * b;
+                    debug_assert!(row - column <= self.reach, "{row}, {column}");
+                    self.normal[own + column - row] += a * b;
                 }
             }
             for (right, value) in self.right.iter_mut().zip(values) {
-                right[row] += importance * a * value;
+                right[row] += a * value;
             }
         }
     }
@@ -82,15 +83,15 @@ impl Fit {
     /// The normal equations' factor L, M = L·Lᵀ, in their place.
     fn factor(&mut self) -> Option<()> {
         for row in 0..self.order.len() {
-            for column in self.first(row)..=row {
-                let rest = self.normal[self.at(row, column)] - self.dot(row, column);
-                let factor = match column < row {
-                    true => rest / self.normal[self.at(column, column)],
-                    false => Some(rest.sqrt()).filter(|root| *root > 0.0)?,
-                };
-                let at = self.at(row, column);
-                self.normal[at] = factor;
-            }
+            let (first, start) = (self.first(row), self.at(row, self.first(row)));
+            let (above, line) = self.normal.split_at_mut(start);
+            let above = Above { lines: above, reach: self.reach, first };
+            let own = row - first;
+            let blocks = own / COLUMNS;
+            (0..blocks).for_each(|block| above.factors::<COLUMNS>(line, block * COLUMNS));
+            (blocks * COLUMNS..own).for_each(|known| above.factors::<1>(line, known));
+            let square = line[own] - line[..own].iter().map(|l| l * l).sum::<f64>();
+            line[own] = Some(square.sqrt()).filter(|root| *root > 0.0)?;
         }
         Some(())
     }
@@ -98,13 +99,6 @@ impl Fit {
     /// The first entry within a row's reach.
     fn first(&self, row: usize) -> usize {
         row.saturating_sub(self.reach)
-    }
-
-    /// Σ L[row, k]·L[column, k] over the entries k before both.
-    fn dot(&self, row: usize, column: usize) -> f64 {
-        let first = self.first(row);
-        let of = |line: usize| &self.normal[self.at(line, first)..self.at(line, column)];
-        of(row).iter().zip(of(column)).map(|(a, b)| a * b).sum()
     }
 
     /// The solution of L·Lᵀ·x = right, in its place.
@@ -122,6 +116,43 @@ impl Fit {
             let found = x[row] / own;
             x[row] = found;
             x[first..row].iter_mut().zip(before).for_each(|(x, l)| *x -= l * found);
+        }
+    }
+}
+
+/// Factors of a row that are made at once: their sums do not wait for each other.
+const COLUMNS: usize = 4;
+
+/// The lines of L above a row.
+struct Above<'a> {
+    lines: &'a [f64],
+    reach: usize,
+    /// The first entry within the row's reach.
+    first: usize,
+}
+
+impl Above<'_> {
+    /// The line of an entry from the first entry within the row's reach to itself.
+    fn line(&self, entry: usize) -> &[f64] {
+        let own = entry * (self.reach + 1) + self.reach;
+        &self.lines[own + self.first - entry..=own]
+    }
+
+    /// The next N factors of a row whose first `known` are known:
+    /// L[row, c] = (M[row, c] − Σ L[row, k]·L[c, k]) / L[c, c], over the entries k before c.
+    fn factors<const N: usize>(&self, row: &mut [f64], known: usize) {
+        let lines: [&[f64]; N] = std::array::from_fn(|n| self.line(self.first + known + n));
+        let before = lines.map(|line| &line[..known]);
+        let mut sums = [0.0; N];
+        for (k, factor) in row[..known].iter().enumerate() {
+            for (sum, line) in sums.iter_mut().zip(before) {
+                *sum += factor * line[k];
+            }
+        }
+        for (n, line) in lines.into_iter().enumerate() {
+            let here = row[known..known + n].iter().zip(&line[known..]);
+            let sum = here.fold(sums[n], |sum, (a, b)| sum + a * b);
+            row[known + n] = (row[known + n] - sum) / line[known + n];
         }
     }
 }
