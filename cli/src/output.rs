@@ -52,8 +52,8 @@ impl Output {
     ///
     /// # Errors
     /// It cannot be written.
-    pub fn write(&self, name: &str, text: &str) -> Result<()> {
-        fs::write(self.partial_path().join(name), text)
+    pub fn write(&self, name: &str, content: impl AsRef<[u8]>) -> Result<()> {
+        fs::write(self.partial_path().join(name), content)
             .with_context(|| self.folder.path().join(name).display().to_string())
     }
 

@@ -139,6 +139,8 @@ fn collect(places: &Places) -> Result<bool> {
     let output = Output::new(out)?;
     output.write("results.csv", &collected.csv(plan))?;
     output.write("results.json", &collected.json(plan))?;
+    #[cfg(feature = "parquet")]
+    output.write("results.parquet", collected.parquet(plan)?)?;
     output.write("times.csv", &collected.times_csv())?;
     output.write("report.html", &report::of_sweep(plan, &collected))?;
     let files = output.keep()?;

@@ -99,6 +99,17 @@ impl Collected {
         table([head(axes)].into_iter().chain(rows))
     }
 
+    /// `results.parquet`: what `results.csv` has.
+    ///
+    /// # Errors
+    /// A plan that sets one key twice.
+    #[cfg(feature = "parquet")]
+    pub fn parquet(&self, plan: &Plan) -> Result<Vec<u8>> {
+        let axes = plan.axes();
+        let rows: Vec<_> = self.points.iter().map(|point| row(axes, point)).collect();
+        crate::parquet::file(&head(axes), &rows)
+    }
+
     /// `times.csv`.
     pub fn times_csv(&self) -> String {
         let head = ["key", "seconds", "plant_s_per_s", "core_s_per_s"].map(String::from);

@@ -16,6 +16,7 @@
 //! | [`host`] | whether a host makes the same bytes as others |
 //! | [`work`] | chunks of points, run on all threads or one at a time |
 //! | [`collect`] | results sorted, missing and failed points, the Pareto front |
+//! | `parquet` | results as a Parquet file, with the feature of this name |
 //! | [`engines`] | commands for HyperQueue, Slurm, GNU parallel and Snakemake |
 
 pub mod axis;
@@ -24,6 +25,8 @@ pub mod collect;
 pub mod engines;
 mod file;
 pub mod host;
+#[cfg(feature = "parquet")]
+mod parquet;
 pub mod plan;
 pub mod point;
 pub mod result;

@@ -8,6 +8,8 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use hapticore_tests::tools;
+use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::record::Field;
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -31,7 +33,7 @@ sheet.rung = ["bilinear", "bicubic"]
 const SCENE: &str = "title = \"t\"\n[[pad]]\nposition_mm = [90, 40]\nhaptic_v_rms = 150\n\
                      [sheet]\n[carrier]\nrung = \"samples\"\n[sensor]\nnoise_ppm_rms = 18\n";
 
-const FILES: [&str; 2] = ["results.csv", "results.json"];
+const FILES: [&str; 3] = ["results.csv", "results.json", "results.parquet"];
 
 fn folder(plan: &str) -> TempDir {
     let folder = tempfile::tempdir().unwrap();
@@ -41,7 +43,7 @@ fn folder(plan: &str) -> TempDir {
 }
 
 /// Runs the plan into a store of this name; what is collected of it.
-fn swept(folder: &Path, store: &str, more: &[&str]) -> [Vec<u8>; 2] {
+fn swept(folder: &Path, store: &str, more: &[&str]) -> [Vec<u8>; 3] {
     let args = ["sweep", "plan.toml", "--store", store, "--out", "results"];
     expect(folder, &[&args[..], more].concat(), 0);
     FILES.map(|name| fs::read(folder.join("results").join(name)).unwrap())
@@ -88,6 +90,34 @@ fn threads_lines_and_stops_leave_the_same_bytes() {
     let before = parts(&folder.join("lines"));
     assert!(first == swept(folder, "lines", &[]));
     assert_eq!(parts(&folder.join("lines")), before);
+}
+
+/// What is a number in one is the same double in the other, which a reader of its own finds there.
+#[test]
+fn the_parquet_file_has_the_rows_of_the_table() {
+    let folder = folder(PLAN);
+    swept(folder.path(), "store", &[]);
+    let table = Table::read(&folder.path().join("results/results.csv"));
+    let file = fs::File::open(folder.path().join("results/results.parquet")).unwrap();
+    let reader = SerializedFileReader::new(file).unwrap();
+    let rows: Vec<_> = reader.get_row_iter(None).unwrap().map(Result::unwrap).collect();
+    assert_eq!(rows.len(), table.rows.len());
+    let text = |cell: &Field| match cell {
+        Field::Null => String::new(),
+        Field::Str(text) => text.clone(),
+        other => panic!("expected a text, got {other:?}"),
+    };
+    for (name, cells) in rows[0].get_column_iter().map(|(name, _)| (name, table.column(name))) {
+        let of = rows.iter().map(|row| row.get_column_iter().find(|of| of.0 == name).unwrap().1);
+        for (cell, read) in cells.iter().zip(of) {
+            match read {
+                Field::Double(number) => assert_eq!(cell.parse(), Ok(*number), "{name}"),
+                other => assert_eq!(*cell, text(other), "{name}"),
+            }
+        }
+    }
+    let numbers = rows[0].get_column_iter().filter(|of| matches!(of.1, Field::Double(_))).count();
+    assert!(numbers > 20, "{numbers} columns of numbers");
 }
 
 #[test]

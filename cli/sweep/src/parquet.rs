@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `results.parquet`: the rows of `results.csv`, with types. Names, fronts and errors are texts; of the other
+//! columns one whose cells are all numbers, or empty, has doubles, and any other texts. An empty cell is null.
+
+use std::sync::Arc;
+
+use anyhow::Result;
+use parquet::basic::{LogicalType, Repetition, Type as Physical};
+use parquet::column::writer::ColumnWriter;
+use parquet::data_type::ByteArray;
+use parquet::file::properties::WriterProperties;
+use parquet::file::writer::SerializedFileWriter;
+use parquet::schema::types::{Type, TypePtr};
+
+/// The cells of a column.
+enum Column {
+    Numbers(Vec<Option<f64>>),
+    Texts(Vec<Option<String>>),
+}
+
+/// Columns that are texts whatever they hold.
+const TEXTS: [&str; 3] = ["key", "front", "error"];
+
+impl Column {
+    fn of(name: &str, cells: Vec<String>) -> Self {
+        let number = |cell: &String| match cell.as_str() {
+            "" => Some(None),
+            text => text.parse().ok().map(Some),
+        };
+        let numbers = || cells.iter().map(number).collect();
+        match Some(name).filter(|name| !TEXTS.contains(name)).and_then(|_| numbers()) {
+            Some(numbers) => Column::Numbers(numbers),
+            None => {
+                let some = |cell: String| Some(cell).filter(|cell| !cell.is_empty());
+                Column::Texts(cells.into_iter().map(some).collect())
+            }
+        }
+    }
+
+    fn field(&self, name: &str) -> Result<TypePtr> {
+        let (physical, logical) = match self {
+            Column::Numbers(_) => (Physical::DOUBLE, None),
+            Column::Texts(_) => (Physical::BYTE_ARRAY, Some(LogicalType::String)),
+        };
+        let field = Type::primitive_type_builder(name, physical).with_logical_type(logical);
+        Ok(Arc::new(field.with_repetition(Repetition::OPTIONAL).build()?))
+    }
+
+    fn write(&self, to: &mut ColumnWriter) -> Result<()> {
+        match (self, to) {
+            (Column::Numbers(cells), ColumnWriter::DoubleColumnWriter(to)) => {
+                let some: Vec<f64> = cells.iter().flatten().copied().collect();
+                to.write_batch(&some, Some(&levels(cells)), None)?;
+            }
+            (Column::Texts(cells), ColumnWriter::ByteArrayColumnWriter(to)) => {
+                let some: Vec<_> =
+                    cells.iter().flatten().map(|text| ByteArray::from(text.as_str())).collect();
+                to.write_batch(&some, Some(&levels(cells)), None)?;
+            }
+            _ => unreachable!("a column's writer is of its field's type"),
+        }
+        Ok(())
+    }
+}
+
+/// Which cells are there: 1, and 0 of null.
+fn levels<T>(cells: &[Option<T>]) -> Vec<i16> {
+    cells.iter().map(|cell| i16::from(cell.is_some())).collect()
+}
+
+/// A table of named columns as a Parquet file: the same bytes for the same cells.
+///
+/// # Errors
+/// A table that is none: two columns of one name.
+pub fn file(head: &[String], rows: &[Vec<String>]) -> Result<Vec<u8>> {
+    let cells = |n: usize| rows.iter().map(|row| row[n].clone()).collect();
+    let column = |(n, name): (usize, &String)| Column::of(name, cells(n));
+    let columns: Vec<Column> = head.iter().enumerate().map(column).collect();
+    let fields = head.iter().zip(&columns).map(|(name, column)| column.field(name));
+    let fields = fields.collect::<Result<Vec<_>>>()?;
+    let schema = Type::group_type_builder("results").with_fields(fields).build()?;
+    let properties = WriterProperties::builder().set_created_by("hapticore".into()).build();
+    let mut writer = SerializedFileWriter::new(Vec::new(), Arc::new(schema), Arc::new(properties))?;
+    let mut group = writer.next_row_group()?;
+    for column in &columns {
+        let mut to = group.next_column()?.expect("a writer per column");
+        column.write(to.untyped())?;
+        to.close()?;
+    }
+    group.close()?;
+    Ok(writer.into_inner()?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use parquet::file::reader::{FileReader, SerializedFileReader};
+    use parquet::record::{Field, Row};
+    use std::io::Write;
+
+    #[test]
+    fn cells_are_read_again_with_their_types() {
+        let text = |cells: [&str; 3]| cells.map(String::from).to_vec();
+        let head = text(["key", "profile.adc", "error"]);
+        let rows = [["12e4", "16", ""], ["7b", "-2.5e-7", "no core"], ["", "", ""]].map(text);
+        let bytes = file(&head, &rows).expect("a table");
+        assert_eq!(bytes, file(&head, &rows).expect("a table"), "the same bytes");
+        let mut kept = tempfile::tempfile().expect("a file");
+        kept.write_all(&bytes).expect("written");
+        let reader = SerializedFileReader::new(kept).expect("a table");
+        let cells = |row: Row| row.into_columns().into_iter().map(|(_, cell)| cell).collect();
+        let rows = reader.get_row_iter(None).expect("rows").map(|row| cells(row.expect("a row")));
+        let of = |text: &str| Field::Str(text.into());
+        let expected = [
+            vec![of("12e4"), Field::Double(16.0), Field::Null],
+            vec![of("7b"), Field::Double(-2.5e-7), of("no core")],
+            vec![Field::Null; 3],
+        ];
+        assert_eq!(rows.collect::<Vec<Vec<Field>>>(), expected);
+    }
+}
