@@ -4,6 +4,7 @@
 use super::{Estimator, Inputs, TablePort};
 use crate::support::Bench;
 use crate::support::device::short_table_profiles;
+use crate::support::never_skips::NeverSkips;
 use hapticore_contract::calibration::{ForceTable, Layout};
 use hapticore_contract::control::{Control, Law};
 use hapticore_contract::profile::{ForceLaw, Profile};
@@ -84,6 +85,31 @@ fn sums_that_come_before_the_last_frame_are_dropped_once() {
         // Early ones after early ones are taken.
         let taken = frames_of(&mut early, &profile, 1, latency);
         assert_eq!(taken.last().map(|(pad, _)| *pad), Some(1), "sums are dropped once");
+    }
+}
+
+/// Pad and flag of the last window stay on the outputs while nothing is under way.
+#[test]
+fn clocks_that_are_skipped_give_out_what_others_do() {
+    for mut profile in Profile::of_distinct_words() {
+        profile.control = Some(Control::of(&profile, Law::Inverse));
+        let block = Estimator::try_new(&profile).unwrap();
+        let (latency, sums) = (block.latency(), 2 * profile.demodulated() as i64);
+        let quiet = Inputs::map(block.inputs(), |_| 0);
+        let mut skips = Bench::new(block.clone());
+        let mut never = Bench::<_, NeverSkips>::read(block);
+        for pad in [1, 0, 1] {
+            for clock in 0..=sums + latency as i64 + 20 {
+                let window =
+                    Inputs { valid: 1, index: clock, sum: 1 << 20, pad, clipped: pad, ..quiet };
+                let inputs = if clock <= sums { window } else { quiet };
+                let [given, expected] = [skips.clock(inputs), never.clock(inputs)];
+                assert_eq!(given, expected, "clock {clock} of pad {pad}");
+            }
+            let left = skips.clock(quiet).frames;
+            assert_eq!([left.pad, left.clipped], [pad; 2], "after the frame");
+            assert_eq!(left, never.clock(quiet).frames);
+        }
     }
 }
 
