@@ -77,7 +77,7 @@ fn drive(profile: &Profile, dac: &str, wave: &str) -> Result<(Wave, Converter)> 
 fn write_core(output: &Output, profile: &Profile) -> Result<String> {
     let design = header::design(profile);
     write_modules(output, &design)?;
-    output.write(header::NAME, &header::of_core(profile, &design))?;
+    output.write(header::NAME, header::of_core(profile, &design))?;
     Ok(design.top().to_owned())
 }
 

@@ -63,8 +63,8 @@ pub fn run(args: &ReplayArgs) -> Result<bool> {
     record.warnings.extend(calibration.is_none().then(|| uncalibrated(args)));
     record.warnings.extend(source.notes());
     record.provenance.calibration = calibration;
-    output.write("summary.json", &summary(&record))?;
-    output.write("report.html", &report::html(&record))?;
+    output.write("summary.json", summary(&record))?;
+    output.write("report.html", report::html(&record))?;
     let files = output.keep()?;
     print_result(args, &record, left, &files);
     Ok(true)

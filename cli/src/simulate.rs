@@ -63,7 +63,7 @@ fn write(
     record.stability = stability;
     if let Some(force_n) = args.bode {
         record.bode = stability::measure(&cases, &settings(args), force_n)?;
-        output.write("bode.csv", &stability::csv(&record.bode))?;
+        output.write("bode.csv", stability::csv(&record.bode))?;
     }
     if let Some(kind) = wave_kind(args, scene) {
         waves::trace(
@@ -83,8 +83,8 @@ fn write(
     let mut frames = Frames::create(&output, Some(of_scene))?;
     record.rows.iter().try_for_each(|row| frames.row(row))?;
     frames.finish()?;
-    output.write("summary.json", &summary(&record))?;
-    output.write("report.html", &report::html(&record))?;
+    output.write("summary.json", summary(&record))?;
+    output.write("report.html", report::html(&record))?;
     let mut files = Vec::new();
     if let (Some(path), Some(recorder)) = (capture, recorder) {
         let calibration = capture::calibration_path(&path);

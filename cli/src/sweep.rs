@@ -137,12 +137,12 @@ fn collect(places: &Places) -> Result<bool> {
     let collected = Collected::of(store, plan)?;
     collected.problems.iter().for_each(|problem| console::warn(problem));
     let output = Output::new(out)?;
-    output.write("results.csv", &collected.csv(plan))?;
-    output.write("results.json", &collected.json(plan))?;
+    output.write("results.csv", collected.csv(plan))?;
+    output.write("results.json", collected.json(plan))?;
     #[cfg(feature = "parquet")]
     output.write("results.parquet", collected.parquet(plan)?)?;
-    output.write("times.csv", &collected.times_csv())?;
-    output.write("report.html", &report::of_sweep(plan, &collected))?;
+    output.write("times.csv", collected.times_csv())?;
+    output.write("report.html", report::of_sweep(plan, &collected))?;
     let files = output.keep()?;
     let failed: Vec<_> = collected.failed().collect();
     if *json {

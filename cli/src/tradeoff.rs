@@ -160,9 +160,9 @@ fn windowed(profile: Profile, scenes: &[Scene]) -> Result<Profile> {
 }
 
 fn write(output: &Output, tradeoff: &Tradeoff) -> Result<()> {
-    output.write("tradeoff.csv", &csv(&tradeoff.points))?;
+    output.write("tradeoff.csv", csv(&tradeoff.points))?;
     output.write("tradeoff.json", &serde_json::to_string_pretty(tradeoff)?)?;
-    output.write("report.html", &report::of_tradeoff(tradeoff))?;
+    output.write("report.html", report::of_tradeoff(tradeoff))?;
     if let Some(found) = &tradeoff.found {
         output.write("profile.toml", &text_of(&found.profile)?)?;
     }

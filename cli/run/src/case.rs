@@ -263,7 +263,7 @@ impl<'a> Case<'a> {
 impl Case<'_> {
     /// Slots made ahead of the core: eight at least.
     fn ahead(&self) -> usize {
-        let codes = self.profile.slot.samples() as usize * self.profile.channels() as usize;
+        let codes = self.profile.slot.samples() as usize * self.profile.channels();
         (AHEAD / (codes * size_of::<i32>())).max(8)
     }
 }
