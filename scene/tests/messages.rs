@@ -335,7 +335,7 @@ fn signs_for_other_terminals() {
         signs,
     };
     let error = Plant::new(&scene, 0, &timing).map(|_| ()).unwrap_err().to_string();
-    assert_eq!(error, "s: profile: expected 4 signs, as the device has terminals, got 6");
+    assert_eq!(error, "s.toml: profile: expected 4 signs, as the device has terminals, got 6");
 }
 
 #[test]
@@ -465,7 +465,7 @@ fn too_many_pads_for_the_profile() {
         signs: None,
     };
     let error = Plant::new(&scene, 0, &timing).map(|_| ()).unwrap_err().to_string();
-    assert_eq!(error, "s: pad: expected at most 1 pads, as profile standard serves, got 2");
+    assert_eq!(error, "s.toml: pad: expected at most 1 pads, as profile standard serves, got 2");
 }
 
 #[test]

@@ -97,7 +97,7 @@ fn euler_is_refused_where_a_step_is_longer_than_two_tau() {
     assert!(Plant::new(&scene(&text(318.0)), 0, &timing()).is_ok());
     let error = Plant::new(&scene(&text(31.8)), 0, &timing()).map(|_| ()).unwrap_err().to_string();
     assert!(
-        error.starts_with("s: switching.rung: expected steps of at most 2·R_p·C = "),
+        error.starts_with("s.toml: switching.rung: expected steps of at most 2·R_p·C = "),
         "{error}"
     );
     assert!(error.ends_with("got 15.6 ns"), "{error}");

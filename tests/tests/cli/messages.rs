@@ -252,6 +252,7 @@ fn levels_are_chosen_for_a_million_slots_at_most() {
         _ => format!("{line}\n"),
     });
     fs::write(folder.path().join("long.toml"), long.collect::<String>()).unwrap();
-    let words = ["long: ", "expected at most 1000000 slots of a case whose levels are compared"];
+    let words =
+        ["long.toml: ", "expected at most 1000000 slots of a case whose levels are compared"];
     refuse(folder.path(), &["simulate", "long.toml"], &words);
 }

@@ -263,6 +263,7 @@ fn check_whole(folder: &Path) -> [usize; 2] {
             let bytes = fs::read(&path).unwrap();
             let end: &[u8] = match path.extension().and_then(|of| of.to_str()) {
                 Some("json") => b"}",
+                Some("parquet") => b"PAR1",
                 Some("html") => b"</html>",
                 _ => b"",
             };
