@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `results.parquet`: the rows of `results.csv`, with types. Names, fronts and errors are texts; of the other
-//! columns one whose cells are all numbers, or empty, has doubles, and any other texts. An empty cell is null.
+//! `results.parquet`: the rows of `results.csv`, with types. Names, fronts and errors are texts, and seeds whole numbers,
+//! which a double does not always hold; of the other columns one whose cells are all finite numbers, or empty, has doubles,
+//! and any other texts. An empty cell is null.
 
+use std::str::FromStr;
 use std::sync::Arc;
 
 use anyhow::Result;
@@ -14,31 +16,39 @@ use parquet::schema::types::{Type, TypePtr};
 
 /// The cells of a column.
 enum Column {
+    Whole(Vec<Option<i64>>),
     Numbers(Vec<Option<f64>>),
     Texts(Vec<Option<String>>),
 }
 
 /// Columns that are texts whatever they hold.
 const TEXTS: [&str; 3] = ["key", "front", "error"];
+/// The column of whole numbers.
+const WHOLE: &str = "seed";
+
+/// The cells as numbers, none where one is empty; none at all where one is no number.
+fn parsed<T: FromStr>(cells: &[String], holds: fn(&T) -> bool) -> Option<Vec<Option<T>>> {
+    let number = |cell: &String| match cell.as_str() {
+        "" => Some(None),
+        text => text.parse().ok().filter(holds).map(Some),
+    };
+    cells.iter().map(number).collect()
+}
 
 impl Column {
     fn of(name: &str, cells: Vec<String>) -> Self {
-        let number = |cell: &String| match cell.as_str() {
-            "" => Some(None),
-            text => text.parse().ok().map(Some),
+        let numbers = match name {
+            WHOLE => parsed(&cells, |_| true).map(Column::Whole),
+            _ if TEXTS.contains(&name) => None,
+            _ => parsed(&cells, |number: &f64| number.is_finite()).map(Column::Numbers),
         };
-        let numbers = || cells.iter().map(number).collect();
-        match Some(name).filter(|name| !TEXTS.contains(name)).and_then(|_| numbers()) {
-            Some(numbers) => Column::Numbers(numbers),
-            None => {
-                let some = |cell: String| Some(cell).filter(|cell| !cell.is_empty());
-                Column::Texts(cells.into_iter().map(some).collect())
-            }
-        }
+        let some = |cell: String| Some(cell).filter(|cell| !cell.is_empty());
+        numbers.unwrap_or_else(|| Column::Texts(cells.into_iter().map(some).collect()))
     }
 
     fn field(&self, name: &str) -> Result<TypePtr> {
         let (physical, logical) = match self {
+            Column::Whole(_) => (Physical::INT64, None),
             Column::Numbers(_) => (Physical::DOUBLE, None),
             Column::Texts(_) => (Physical::BYTE_ARRAY, Some(LogicalType::String)),
         };
@@ -48,6 +58,10 @@ impl Column {
 
     fn write(&self, to: &mut ColumnWriter) -> Result<()> {
         match (self, to) {
+            (Column::Whole(cells), ColumnWriter::Int64ColumnWriter(to)) => {
+                let some: Vec<i64> = cells.iter().flatten().copied().collect();
+                to.write_batch(&some, Some(&levels(cells)), None)?;
+            }
             (Column::Numbers(cells), ColumnWriter::DoubleColumnWriter(to)) => {
                 let some: Vec<f64> = cells.iter().flatten().copied().collect();
                 to.write_batch(&some, Some(&levels(cells)), None)?;
@@ -100,9 +114,14 @@ mod tests {
 
     #[test]
     fn cells_are_read_again_with_their_types() {
-        let text = |cells: [&str; 3]| cells.map(String::from).to_vec();
-        let head = text(["key", "profile.adc", "error"]);
-        let rows = [["12e4", "16", ""], ["7b", "-2.5e-7", "no core"], ["", "", ""]].map(text);
+        let text = |cells: [&str; 5]| cells.map(String::from).to_vec();
+        let head = ["key", "seed", "profile.adc", "scene.mode", "error"].map(String::from);
+        let rows = [
+            ["12e4", "9223372036854775807", "16", "inf", ""],
+            ["7b", "1", "-2.5e-7", "2", "no core"],
+            ["", "", "", "", ""],
+        ]
+        .map(text);
         let bytes = file(&head, &rows).expect("a table");
         assert_eq!(bytes, file(&head, &rows).expect("a table"), "the same bytes");
         let mut kept = tempfile::tempfile().expect("a file");
@@ -112,9 +131,9 @@ mod tests {
         let rows = reader.get_row_iter(None).expect("rows").map(|row| cells(row.expect("a row")));
         let of = |text: &str| Field::Str(text.into());
         let expected = [
-            vec![of("12e4"), Field::Double(16.0), Field::Null],
-            vec![of("7b"), Field::Double(-2.5e-7), of("no core")],
-            vec![Field::Null; 3],
+            vec![of("12e4"), Field::Long(i64::MAX), Field::Double(16.0), of("inf"), Field::Null],
+            vec![of("7b"), Field::Long(1), Field::Double(-2.5e-7), of("2"), of("no core")],
+            vec![Field::Null; 5],
         ];
         assert_eq!(rows.collect::<Vec<Vec<Field>>>(), expected);
     }

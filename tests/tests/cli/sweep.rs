@@ -112,6 +112,7 @@ fn the_parquet_file_has_the_rows_of_the_table() {
         for (cell, read) in cells.iter().zip(of) {
             match read {
                 Field::Double(number) => assert_eq!(cell.parse(), Ok(*number), "{name}"),
+                Field::Long(number) => assert_eq!(*cell, number.to_string(), "{name}"),
                 other => assert_eq!(*cell, text(other), "{name}"),
             }
         }
