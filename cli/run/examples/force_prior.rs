@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The prior of the force table: the numbers of 60 random simulated devices, their mean and their
+//! The prior of the force table: the numbers of 240 random simulated devices, their mean and their
 //! covariance.
 //!
 //! `cargo run --release -p hapticore-run --example force_prior > cli/run/src/lab/force_prior.csv`
@@ -17,7 +17,7 @@ use hapticore_run::calibrate::random::{Normal, scene};
 use hapticore_run::lab::force_table::{Covariance, Knowledge, NUMBERS, Numbers, Reading, eq8};
 use rayon::prelude::*;
 
-const DEVICES: usize = 60;
+const DEVICES: usize = 240;
 const SEED: u64 = 7000;
 
 const SETTLED_G: [f64; 9] = [10.0, 20.0, 35.0, 50.0, 75.0, 100.0, 125.0, 150.0, 200.0];
