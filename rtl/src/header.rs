@@ -35,7 +35,8 @@ pub fn design(profile: &Profile) -> Design {
     };
     let Some(control) = &profile.control else { return Design::of(&core, heading) };
     let force_loop = ForceLoop::try_new(profile).unwrap_or_else(|error| panic!("{error}"));
-    heading.command += &format!(" --control {}", control.law.name());
+    let folded = if control.folded { " --folded" } else { "" };
+    heading.command += &format!(" --control {}{folded}", control.law.name());
     heading.interface.extend(interface_of_loop(&force_loop));
     Design::of(&force_loop, heading)
 }

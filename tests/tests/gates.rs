@@ -9,6 +9,7 @@
 
 use std::fs;
 
+use hapticore_contract::control::{Control, Law};
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::verilog::Design;
 use hapticore_synth::tools::{Tools, root};
@@ -79,6 +80,22 @@ fn gates_close_the_loop_as_the_model_does(
 #[test]
 fn ice40_gates_run_a_wall_as_the_model_does() {
     gates_close_the_loop_as_the_model_does("ice40", "small", Closed::at_a_wall);
+}
+
+/// Controller and walls on one arithmetic unit.
+fn folded_at_a_wall(profile: &Profile) -> Closed {
+    let control = Control { folded: true, ..Control::of(profile, Law::Inverse) };
+    Closed::at_a_wall(&Profile { control: Some(control), ..profile.clone() })
+}
+
+#[test]
+fn ice40_gates_run_a_folded_wall_as_the_model_does() {
+    gates_close_the_loop_as_the_model_does("ice40", "small", folded_at_a_wall);
+}
+
+#[test]
+fn ecp5_gates_run_a_folded_wall_as_the_model_does() {
+    gates_close_the_loop_as_the_model_does("ecp5", "standard", folded_at_a_wall);
 }
 
 #[test]

@@ -8,7 +8,9 @@ use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::verilog::Design;
 use hapticore_host::profile::for_terminals;
 use hapticore_model::blocks::controller::{self, Controller};
+use hapticore_model::blocks::core::Core;
 use hapticore_model::blocks::divider::Divider;
+use hapticore_model::blocks::drives::{self, Drives};
 use hapticore_model::blocks::haptic_voltage::HapticVoltage;
 use hapticore_model::blocks::wall::{Inputs, Wall};
 use hapticore_rtl::board::Target;
@@ -311,16 +313,30 @@ fn verilator_runs_a_wall_as_the_model_does() {
         return;
     }
     for name in ["small", "standard"] {
-        let profile = Profile::bundled(name).expect("bundled");
-        let (design, trace) = Closed::at_a_wall(&profile).record();
-        let [drive, free] = ["drive", "drive_free"].map(|port| of_port(&trace, port));
-        assert!(drive.iter().max() > Some(&0), "{name}: the wall holds the pad");
-        assert!(free.iter().max() > Some(&0), "{name}: the wall lets it go");
-        let verilated = Verilated::new(design.top(), &design.ports, &design.text(), Start::Zero);
-        if let Err(mismatch) = verilated.check(&trace) {
-            panic!("{name}: {mismatch}");
-        }
+        let own = runs_a_wall(name, &Profile::bundled(name).expect("bundled"));
+        let on_a_unit = runs_a_wall(&format!("{name}, folded"), &folded(name));
+        assert!(own.len() > 4 && own == on_a_unit, "{name}: {own:?}, {on_a_unit:?}");
     }
+}
+
+fn runs_a_wall(name: &str, profile: &Profile) -> Vec<(i64, i64)> {
+    let (design, trace) = Closed::at_a_wall(profile).record();
+    let [drive, free] = ["drive", "drive_free"].map(|port| of_port(&trace, port));
+    assert!(drive.iter().max() > Some(&0), "{name}: the wall holds the pad");
+    assert!(free.iter().max() > Some(&0), "{name}: the wall lets it go");
+    let verilated = Verilated::new(design.top(), &design.ports, &design.text(), Start::Zero);
+    if let Err(mismatch) = verilated.check(&trace) {
+        panic!("{name}: {mismatch}");
+    }
+    driven(&trace)
+}
+
+/// A bundled profile whose controller and walls are folded onto one arithmetic unit.
+fn folded(name: &str) -> Profile {
+    let mut profile = Profile::bundled(name).expect("bundled");
+    let control = Control { folded: true, ..Control::of(&profile, Law::Inverse) };
+    profile.control = Some(control);
+    profile
 }
 
 /// A pad that is split in four, in the corner of two walls.
@@ -329,16 +345,31 @@ fn verilator_runs_walls_along_both_axes_as_the_model_does() {
     if !tools::have(&["verilator", "make", "g++"]) {
         return;
     }
-    let (design, trace) =
-        Closed::in_a_corner(&Profile::bundled("small").expect("bundled")).record();
-    let targets: BTreeSet<_> = of_port(&trace, "drive_target").into_iter().collect();
-    assert!(targets.len() > 4, "walls along both axes make targets of their own: {targets:?}");
+    let own = runs_walls_along_both_axes("own", &Profile::bundled("small").expect("bundled"));
+    let on_a_unit = runs_walls_along_both_axes("folded", &folded("small"));
+    assert!(own.len() > 4 && own == on_a_unit, "{own:?}, {on_a_unit:?}");
+    let targets: BTreeSet<_> = own.iter().map(|(_, target)| target).collect();
+    assert!(targets.len() > 2, "walls along both axes make targets of their own: {targets:?}");
+}
+
+/// The drive words, and the forces that they are for.
+fn runs_walls_along_both_axes(kind: &str, profile: &Profile) -> Vec<(i64, i64)> {
+    let (design, trace) = Closed::in_a_corner(profile).record();
     assert!(of_port(&trace, "drive").into_iter().any(|drive| drive > 0), "the walls hold the pad");
     let verilated = Verilated::new(design.top(), &design.ports, &design.text(), Start::Zero);
     if let Err(mismatch) = verilated.check(&trace) {
-        panic!("{mismatch}");
+        panic!("{kind}: {mismatch}");
     }
-    println!("small, quadrants: {} clocks equal", trace.clocks());
+    println!("small, quadrants, {kind}: {} clocks equal", trace.clocks());
+    driven(&trace)
+}
+
+/// The drive words of a trace, and the forces that they are for.
+fn driven(trace: &Trace) -> Vec<(i64, i64)> {
+    let [valid, drive, target] =
+        ["drive_valid", "drive", "drive_target"].map(|port| of_port(trace, port));
+    let given = valid.into_iter().zip(drive.into_iter().zip(target));
+    given.filter(|(valid, _)| *valid == 1).map(|(_, given)| given).collect()
 }
 
 /// The drive words of a wall reach the pins of a converter, with the polarity of their slots.
@@ -423,6 +454,64 @@ fn icarus_runs_each_law_of_the_controller_as_the_model_does() {
                 panic!("{name}, {law:?}: {mismatch}");
             }
         }
+    }
+}
+
+/// Controller and walls on one arithmetic unit, of each law, their operands anywhere.
+#[test]
+fn icarus_runs_folded_drives_as_the_model_does() {
+    if !tools::have(&["iverilog", "vvp"]) {
+        return;
+    }
+    let walls = [None, Some(profile::Wall::A), Some(profile::Wall::B), None];
+    for (law, wall) in Law::ALL.into_iter().zip(walls) {
+        for name in ["small", "standard"] {
+            let mut profile = folded(name);
+            profile.control = profile.control.map(|control| Control { law, ..control });
+            (profile.wall, profile.pads) = (wall, 2 * wall.map_or(1, |wall| wall.parts));
+            let prompt = Core::try_new(&profile).expect("a core").outputs().prompt;
+            let block = Drives::try_new(&profile, prompt).expect("drives");
+            let design = Design::of(&block, "a test");
+            let estimates = estimates(&block, profile.pads);
+            let trace = Trace::record(&block, design.ports.clone(), estimates);
+            let driven = of_port(&trace, "drive_valid").iter().sum::<i64>();
+            assert!(driven > 5, "{name}, {law:?}: {driven} drive words");
+            if let Err(mismatch) = icarus::check(design.top(), &design.text(), &trace) {
+                panic!("{name}, {law:?}: {mismatch}");
+            }
+        }
+    }
+}
+
+/// Estimates of pads in turn, as far apart as their drive words take, and anything else at any clock.
+fn estimates(block: &Drives, pads: u64) -> impl FnMut(&[i64]) -> Option<Vec<i64>> + use<> {
+    let (formats, apart, pads) = (block.inputs(), block.latency() as i64 + 5, pads as i64);
+    let (mut rng, mut clock) = (fastrand::Rng::with_seed(9), 0);
+    let mut estimate = drives::Inputs::of(0).estimate;
+    move |_| {
+        let mut inputs = <drives::Inputs as Bundle>::map(formats, |format| match format.width {
+            0 => 0,
+            1 => i64::from(rng.u32(..30) == 0),
+            _ => stimulus::shaped(&mut rng, format),
+        });
+        let any = &mut inputs;
+        for pad in [&mut any.placed_pad, &mut any.target.target_pad, &mut any.wall.wall_pad] {
+            *pad %= pads;
+        }
+        inputs.tuning.enable = i64::from(rng.u32(..20) != 0);
+        if clock % apart == 0 {
+            (estimate, estimate.prompt) = (inputs.estimate, 1);
+            estimate.prompt_pad = clock / apart % pads;
+        }
+        inputs.estimate = estimate;
+        inputs.estimate.prompt = i64::from(clock % apart == 0);
+        clock += 1;
+        let mut codes = Vec::new();
+        <drives::Inputs as Bundle>::each(
+            <drives::Inputs as Bundle>::zip(inputs, formats),
+            |_, (code, format)| codes.extend((!format.is_none()).then_some(code)),
+        );
+        (clock < 24 * apart).then_some(codes)
     }
 }
 

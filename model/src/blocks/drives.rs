@@ -11,11 +11,13 @@
 //! what is written later counts from the next frame on. The curve is not: it is written while no drive
 //! word is being made. Writing a target is a sign of life of the host. A split pad has a drive word after
 //! the slot of its last part, by whose number it is known; its target is the larger of the one
-//! written and the wall's. Latency: two clocks, or those of the split pad, and the
+//! written and the wall's. Controller and walls may be folded onto one arithmetic unit (`drives/folded.rs`). Latency: two clocks, or those of the split pad, and the
 //! controller's.
 
+use super::arithmetic_unit::ArithmeticUnit;
 use super::controller::{self, Controller, Faults, Tuning};
 use super::estimator::{FramePort, PromptPort};
+use super::sided_wall;
 use super::split_pad::{self, SplitPad, WallPort};
 use hapticore_contract::frame::Field;
 use hapticore_contract::profile::{Profile, ProfileError};
@@ -24,7 +26,11 @@ use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::{BIT, Format};
 use hapticore_hdl::memory::{Memory, Write};
 use hapticore_hdl::signal::{HalfEven, Signal, Wrap, bit, int};
-use hapticore_hdl::{block, bundle, call};
+use hapticore_hdl::{block, bundle};
+
+mod folded;
+
+pub use folded::Folded;
 
 bundle! {
     /// Writes the target of a pad.
@@ -100,13 +106,23 @@ block! {
         estimates: PromptPort<Format>,
         position: Format,
         pad: Format,
+        of_controller: controller::Inputs<Format>,
+        of_drive: controller::Outputs<Format>,
+        silent_frames: u64,
+        words_of_curve: usize,
+        /// What the unit's numbers mean.
+        numbers: Option<folded::Unit>,
     }
     submodules {
-        /// The controller.
-        pub controller: Controller,
+        /// The controller, where it is not folded.
+        pub controller: Option<Controller>,
         /// Split pads and their walls, where there are some.
         pub split_pad: Option<SplitPad>,
+        /// Onto which controller and walls are folded, where they are.
+        pub unit: Option<ArithmeticUnit>,
         targets: Memory,
+        /// The curve of a folded controller.
+        points: Memory,
     }
     inputs(block) {
         estimate as PromptPort: block.estimates,
@@ -117,7 +133,7 @@ block! {
         /// Place, mm.
         place: block.position.where_present(block.has_walls()),
         target as TargetPort: block.target(),
-        tuning as Tuning: block.controller.inputs().tuning,
+        tuning as Tuning: block.of_controller.tuning,
         wall as WallPort: block.wall(),
         /// Extremes are read: they begin anew.
         extremes_read: BIT,
@@ -141,6 +157,7 @@ block! {
         driven: BIT.where_present(block.has_walls()),
         /// It is zero.
         rests: BIT.where_present(block.has_walls()),
+        folded as Folded: block.folded(),
     }
 }
 
@@ -151,16 +168,48 @@ impl Drives {
     /// A profile without a controller; a controller or a wall that cannot be.
     pub fn try_new(profile: &Profile, estimates: PromptPort<Format>) -> Result<Self, ProfileError> {
         let controller = Controller::try_new(profile)?;
-        let controller::Inputs { target, pad, .. } = controller.inputs();
-        let split_pad = profile.wall.map(|_| SplitPad::try_new(profile)).transpose()?;
-        let targets = Memory::new("targets", 1 << pad.width, target).in_block();
-        let position = profile.formats.position;
-        Ok(Drives { estimates, position, pad, controller, split_pad, targets })
+        let (of_controller, of_drive) = (controller.inputs(), controller.outputs());
+        let controller::Inputs { target, pad, .. } = of_controller;
+        let curve = controller.points();
+        let (numbers, unit) = folded::unit(profile, &controller)?.unzip();
+        Ok(Drives {
+            estimates,
+            position: profile.formats.position,
+            pad,
+            of_controller,
+            of_drive,
+            silent_frames: controller.silent_frames(),
+            numbers,
+            split_pad: profile.wall.map(|_| SplitPad::try_new(profile)).transpose()?,
+            targets: Memory::new("targets", 1 << pad.width, target).in_block(),
+            words_of_curve: controller.words_of_curve(),
+            points: Memory { words: 1 << curve.address().width, ..curve.clone() },
+            controller: unit.is_none().then_some(controller),
+            unit,
+        })
     }
 
     /// Clocks from the prompt estimate to the drive word.
     pub fn latency(&self) -> u64 {
-        self.split_pad.as_ref().map_or(2, SplitPad::latency) + self.controller.latency()
+        let pad = self.split_pad.as_ref();
+        match (&self.controller, &self.unit) {
+            (Some(controller), _) => pad.map_or(2, SplitPad::latency) + controller.latency(),
+            (None, Some(unit)) => {
+                let of = |program| folded::BEGIN + unit.latency(program);
+                pad.map_or(2, |pad| pad.latency_with(of(folded::WALL))) + of(folded::CONTROLLER)
+            }
+            (None, None) => unreachable!("a controller, or a unit that does its work"),
+        }
+    }
+
+    /// Words of the controller's curve: one more than its cells.
+    pub fn words_of_curve(&self) -> usize {
+        self.words_of_curve
+    }
+
+    /// As [`Controller::hurry`].
+    pub(crate) fn hurry(&mut self) {
+        self.controller.iter_mut().for_each(Controller::hurry);
     }
 
     /// Whether pads have walls along both axes.
@@ -193,7 +242,7 @@ impl Drives {
         DrivePort {
             drive_valid: BIT,
             drive_pad: self.pad,
-            drive: self.controller.outputs().drive,
+            drive: self.of_drive.drive,
             drive_low: BIT,
             drive_high: BIT,
             drive_target: self.targets.format.where_present(self.has_walls()),
@@ -206,7 +255,7 @@ impl Drives {
     }
 
     fn extremes(&self) -> ExtremesPort<Format> {
-        let (drive, force) = (self.controller.outputs().drive, self.estimates.prompt_force);
+        let (drive, force) = (self.of_drive.drive, self.estimates.prompt_force);
         ExtremesPort {
             extremes_valid: BIT,
             least_drive: drive,
@@ -217,7 +266,7 @@ impl Drives {
     }
 
     fn settings(&self) -> Settings<Format> {
-        let (tuning, wall) = (self.controller.inputs().tuning, self.wall());
+        let (tuning, wall) = (self.of_controller.tuning, self.wall());
         Settings {
             set_enable: tuning.enable,
             set_full_drive: tuning.full_drive,
@@ -265,6 +314,8 @@ struct Begin<V: Interpretation> {
     measured: Signal<V>,
     target: Signal<V>,
     free: Signal<V>,
+    /// What is asked of its wall.
+    wall: Option<sided_wall::In<V>>,
 }
 
 impl Drives {
@@ -278,6 +329,7 @@ impl Drives {
             measured: i.estimate.prompt_force,
             target: r.target,
             free: bit(false),
+            wall: None,
         }
     }
 
@@ -288,6 +340,7 @@ impl Drives {
         state: &mut State<Self, V>,
         r: &Regs<V>,
         i: &In<V>,
+        walled: sided_wall::Out<V>,
     ) -> Begin<V> {
         let within = self.split_pad.as_ref().zip(state.submodules.split_pad.as_mut());
         let (block, within) = within.expect("there are walls");
@@ -308,6 +361,7 @@ impl Drives {
                 wall_factory: r.settings.set_factory,
                 ..i.wall
             },
+            walled,
         };
         let pad = block.call("split_pad", within, inputs);
         let (wall, _) = pad.target.saturate(self.targets.format, HalfEven);
@@ -318,6 +372,7 @@ impl Drives {
             measured: pad.measured,
             target: wall.less_than(r.target).select(r.target, wall),
             free: pad.free,
+            wall: Some(pad.asks),
         }
     }
 }
@@ -398,8 +453,9 @@ impl Block for Drives {
     #[inline(always)]
     fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
         let r = state.load(self);
+        let unit = self.unit_now(state, &r);
         let begin = match self.has_walls() {
-            true => self.split(state, &r, &i),
+            true => self.split(state, &r, &i, self.walled(&r, &unit)),
             false => self.whole(&r, &i),
         };
         let TargetPort { target_write, target_pad, target_word, alive, clear_faults } = i.target;
@@ -415,7 +471,7 @@ impl Block for Drives {
             clear_faults,
             tuning: self.held(&r.settings, i.tuning),
         };
-        let controller = call!(self.controller, state, inputs);
+        let controller = self.controlled(state, &r, &unit, inputs);
         let formats = self.drive();
         let drive = DrivePort {
             drive_valid: controller.done,
@@ -433,7 +489,8 @@ impl Block for Drives {
             true => r.driven | rests.select(!r.rests, r.rests),
             false => bit(false),
         };
-        if (steps | target_write | i.extremes_read | of_walls).can_skip() {
+        let of_unit = self.is_busy(&r, &inputs, &begin);
+        if (steps | target_write | i.extremes_read | of_walls | of_unit).can_skip() {
             return outputs;
         }
         let found = self.targets.data(&mut state.submodules.targets);
@@ -451,6 +508,7 @@ impl Block for Drives {
             extremes: self.extremes_with(&r, &i, &controller, &begin),
             driven: controller.done.where_present(r.driven.format),
             rests,
+            folded: self.next_folded(state, &r, &unit, &begin, &inputs),
         };
         state.store(self, next);
         outputs

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The blocks of the core, one file each, from the ADC's codes to frames.
 
+pub mod arithmetic_unit;
 pub mod capacitance;
 pub mod controller;
 pub mod core;
@@ -20,6 +21,7 @@ pub mod oscillator;
 pub mod pace;
 pub mod position;
 pub mod ratio;
+pub mod sided_wall;
 pub mod split_pad;
 pub mod sqrt;
 pub mod wall;

@@ -7,18 +7,18 @@
 //!                                    tl | bl | br | tr       quadrants, all sense and brake
 //! C = (C_left + C_right)/2,  F likewise;    those of the brake;    or the mean of all quadrants
 //! C_left = (C_tl + C_bl)/2,  C_right = (C_br + C_tr)/2;    C_bottom = (C_bl + C_br)/2,  C_top = (C_tl + C_tr)/2
-//! x_w = ±(x − surface),   a wall on the right is a mirrored one on the left;    y_w likewise
+//! depth = x − surface, and likewise along y
 //! ```
 //!
 //! ```text
 //! estimate ─[left, right]─ C_left, C_right ─┐
-//! frame ─[x of every pad]─(− surface, ±)────┴─ wall ─ target        (docs/physics.md §6)
+//! frame ─[x of every pad]─(− surface)───────┴─ sided wall ─ target  (docs/physics.md §6)
 //! drive ─[zero, of every pad]───────────────┘
 //! ```
 //!
 //! | signal  | format              | unit | overflow                              |
 //! | C, F    | profile             | pF, N | cannot: a mean                       |
-//! | x_w     | that of positions   | mm   | saturates, meant: far from the wall   |
+//! | depth   | positions', one bit more | mm | cannot                              |
 //!
 //! A pad is known by the number of its last part, whose place is the pad's. The wall acts from the
 //! pad's first valid place on; where the estimate of a sensing part is invalid it lets go, the safe
@@ -26,13 +26,14 @@
 //! number of the pad's third part, its bottom is the left of that along x, and the pad takes the larger
 //! force. Latency: three clocks and the wall's for each axis, from the last part's estimate to `done`.
 
-use super::wall::{self, Wall};
+use super::sided_wall::{self, Inputs as WallInputs, Outputs as WallOutputs, SidedWall};
 use hapticore_contract::profile::{self, Profile, ProfileError};
 use hapticore_hdl::block::{Block, Interpretation, State};
+use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::{BIT, Format};
 use hapticore_hdl::memory::{Memory, Write};
 use hapticore_hdl::signal::{HalfEven, Proved, Saturate, Signal, Wrap, bit, int, zero};
-use hapticore_hdl::{block, bundle, call};
+use hapticore_hdl::{block, bundle};
 
 bundle! {
     /// Where the walls of pads are, and what they are made of.
@@ -64,10 +65,12 @@ block! {
         position: Format,
         capacitance: Format,
         force: Format,
+        of_wall: sided_wall::Inputs<Format>,
+        of_result: sided_wall::Outputs<Format>,
     }
     submodules {
-        /// The walls.
-        pub wall: Wall,
+        /// The walls, where they are not computed outside.
+        pub wall: Option<SidedWall>,
         /// Of each pad: it has a place, and which.
         places: Memory,
         /// Of each pad: the wall is on the right, and its surface.
@@ -97,6 +100,8 @@ block! {
         /// It is zero.
         rests: BIT,
         wall as WallPort: block.port(),
+        /// What the wall that is computed outside gives.
+        walled as WallOutputs: block.of_result(),
     }
     outputs(block) {
         /// Asserted for one cycle when the estimate of a pad is there.
@@ -113,6 +118,8 @@ block! {
         free: BIT,
         /// The direction was read.
         reads: BIT,
+        /// What is asked of a wall that is computed outside.
+        asks as WallInputs: block.of_wall(),
     }
     registers(block) {
         pad: block.pad(),
@@ -142,7 +149,8 @@ block! {
         found: BIT,
         start: BIT,
         placed: BIT,
-        x: block.position,
+        /// Place less surface.
+        depth: block.of_wall.depth,
         mirrored: BIT,
         rests: BIT,
     }
@@ -157,7 +165,9 @@ impl SplitPad {
         let Some(rule) = &profile.wall else {
             return Err(ProfileError::value("wall", "a table", "none"));
         };
-        let (wall, f) = (Wall::try_new(profile)?, &profile.formats);
+        let (wall, f) = (SidedWall::try_new(profile)?, &profile.formats);
+        let (of_wall, of_result) = (wall.inputs(), wall.outputs());
+        let outside = profile.control.as_ref().is_some_and(|control| control.folded);
         let words = 1 << Format::counter(profile.pads - 1).width;
         let memory = |name, format| Memory::new(name, words, format).dont_care_on_collision();
         let place = Format::unsigned(f.position.width + 1, 0);
@@ -167,7 +177,9 @@ impl SplitPad {
             position: f.position,
             capacitance: f.capacitance,
             force: f.force,
-            wall,
+            of_wall,
+            of_result,
+            wall: (!outside).then_some(wall),
             places: memory("places", place).in_block(),
             surfaces: Memory::new("surfaces", words, place).in_block(),
             rests: memory("rests", BIT),
@@ -187,7 +199,7 @@ impl SplitPad {
     /// The formats of the walls' port.
     #[inline(always)]
     pub fn port(&self) -> WallPort<Format> {
-        let wall = self.wall.inputs();
+        let wall = self.of_wall;
         WallPort {
             wall_write: BIT,
             wall_pad: self.pad(),
@@ -202,8 +214,45 @@ impl SplitPad {
 
     /// Clocks from the estimate of a pad's last part to `done`.
     pub fn latency(&self) -> u64 {
+        self.latency_with(self.wall.as_ref().map_or(0, SidedWall::latency))
+    }
+
+    /// The same, where a wall takes so many.
+    pub fn latency_with(&self, of_wall: u64) -> u64 {
         let axes = if self.has_quadrants() { 2 } else { 1 };
-        axes * (3 + self.wall.latency())
+        axes * (3 + of_wall)
+    }
+
+    /// What is asked of a wall, where it is computed outside.
+    #[inline(always)]
+    fn outside<V: Interpretation>(&self, asks: sided_wall::In<V>) -> sided_wall::In<V> {
+        let pairs = <sided_wall::Inputs as Bundle>::zip(asks, self.of_wall());
+        <sided_wall::Inputs as Bundle>::map(pairs, |(asked, format)| asked.where_present(format))
+    }
+
+    /// The ports to a wall that is computed outside.
+    fn of_wall(&self) -> sided_wall::Inputs<Format> {
+        let outside = self.wall.is_none();
+        <sided_wall::Inputs as Bundle>::map(self.of_wall, |format| format.where_present(outside))
+    }
+
+    fn of_result(&self) -> sided_wall::Outputs<Format> {
+        let outside = self.wall.is_none();
+        <sided_wall::Outputs as Bundle>::map(self.of_result, |format| format.where_present(outside))
+    }
+
+    /// The wall of a pad, within or outside.
+    #[inline(always)]
+    fn walled<V: Interpretation>(
+        &self,
+        state: &mut State<Self, V>,
+        i: &In<V>,
+        asks: sided_wall::In<V>,
+    ) -> sided_wall::Out<V> {
+        match self.wall.as_ref().zip(state.submodules.wall.as_mut()) {
+            Some((block, within)) => block.call("wall", within, asks),
+            None => i.walled,
+        }
     }
 
     /// Whether pads have walls along both axes.
@@ -322,13 +371,10 @@ impl SplitPad {
         self.rests.access(&mut within.rests, r.pad, write);
         let of = |word: Signal<V>| word.bits(0, self.position.width).as_code(self.position);
         let flag = |word: Signal<V>| word.bits(self.position.width, 1);
-        let right = flag(surface);
-        let depth = of(place) - of(surface);
-        let (x, _) = right.select(-depth, depth).saturate(self.position, HalfEven);
         Registers {
             placed: r.found.select(flag(place), r.placed),
-            x: r.found.select(x, r.x),
-            mirrored: r.found.select(right, r.mirrored),
+            depth: r.found.select(of(place) - of(surface), r.depth),
+            mirrored: r.found.select(flag(surface), r.mirrored),
             rests: r.found.select(rests, r.rests),
             ..next
         }
@@ -371,27 +417,27 @@ impl SplitPad {
         ]
     }
 
-    /// What the wall is given: without current where no part can be trusted, so that it lets go.
+    /// What the wall is asked for.
     #[inline(always)]
-    fn of_wall<V: Interpretation>(&self, r: &Regs<V>, i: &In<V>) -> wall::In<V> {
-        let trusted = r.placed & !r.invalid;
-        let current = |part: Signal<V>| trusted.select(part, zero(self.capacitance));
+    fn asks<V: Interpretation>(&self, r: &Regs<V>, i: &In<V>) -> sided_wall::In<V> {
         let [left, right] = self.sides(r);
         let factory = match self.has_quadrants() {
             true => r.along_y.select(zero(i.wall.wall_factory.format), i.wall.wall_factory),
             false => i.wall.wall_factory,
         };
-        wall::Inputs {
+        sided_wall::Inputs {
             start: r.start,
             pad: self.number(r),
             restart: i.wall.wall_restart | !r.placed,
-            c_left: current(r.mirrored.select(right, left)),
-            c_right: current(r.mirrored.select(left, right)),
-            x: r.x,
+            left,
+            right,
+            trusted: r.placed & !r.invalid,
+            depth: r.depth,
+            mirrored: r.mirrored,
             at_zero: r.rests,
             stiffness: i.wall.wall_stiffness,
             most: i.wall.wall_most,
-            factory: r.mirrored.select(-factory, factory).resize(factory.format, Saturate),
+            factory,
         }
     }
 }
@@ -400,7 +446,8 @@ impl Block for SplitPad {
     #[inline(always)]
     fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
         let r = state.load(self);
-        let walled = call!(self.wall, state, self.of_wall(&r, &i));
+        let asks = self.asks(&r, &i);
+        let walled = self.walled(state, &i, asks);
         let outputs = Outputs {
             done: walled.done,
             capacitance: r.capacitance,
@@ -409,6 +456,7 @@ impl Block for SplitPad {
             target: walled.target,
             free: walled.free,
             reads: walled.valid,
+            asks: self.outside(asks),
         };
         let outputs = if self.has_quadrants() { of_both(outputs, &r) } else { outputs };
         let written = i.placed | i.driven | i.wall.wall_write;
@@ -437,7 +485,7 @@ fn of_both<V: Interpretation>(along: Out<V>, r: &Regs<V>) -> Out<V> {
 
 /// The registers where the wall along x is done: that along y is asked for.
 #[inline(always)]
-fn turned<V: Interpretation>(next: Regs<V>, r: &Regs<V>, walled: wall::Out<V>) -> Regs<V> {
+fn turned<V: Interpretation>(next: Regs<V>, r: &Regs<V>, walled: sided_wall::Out<V>) -> Regs<V> {
     let turns = walled.done & !r.along_y;
     Registers {
         asked: next.asked | turns,

@@ -428,4 +428,4 @@ impl Block for Wall {
 }
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;

@@ -114,6 +114,13 @@ fn surface_write(
     }
 }
 
+/// The profile with controller and walls of their own: what they give is the same.
+fn unfolded(profile: &Profile) -> Profile {
+    let mut profile = profile.clone();
+    profile.control.iter_mut().for_each(|control| control.folded = false);
+    profile
+}
+
 /// Fidelity `fixed`: the clocks of drives follow those of the estimator, both without those of the
 /// samples.
 pub struct FixedLoop {
@@ -133,8 +140,10 @@ impl FixedLoop {
         calibration: &Calibration,
         tuning: &Tuning,
     ) -> Result<Self, ProfileError> {
-        let mut drives = ForceLoop::try_new(profile)?.drives;
-        drives.controller.hurry();
+        // What a folded profile lacks is to be said, too.
+        ForceLoop::try_new(profile)?;
+        let mut drives = ForceLoop::try_new(&unfolded(profile))?.drives;
+        drives.hurry();
         let (state, idle) = (drives.reset(), idle(&drives, tuning));
         let core = FixedSimulation::new(profile, calibration);
         let mut of = FixedLoop { core, drives, state, idle };

@@ -6,6 +6,8 @@ use std::collections::HashMap;
 use std::fs;
 use std::path::Path;
 
+use hapticore_contract::control::{Control, Law};
+use hapticore_contract::profile::Profile;
 use hapticore_scene::gallery;
 use rayon::prelude::*;
 use serde_json::Value;
@@ -75,10 +77,19 @@ fn check_loop(folder: &Path, scene: &str) {
 
 /// Holds the same where a loop does what its first clocks do not show.
 fn check_loop_with(scene: &str, set: &[&str]) {
+    check_loop_of(None, scene, set);
+}
+
+/// The same with a profile of its own.
+fn check_loop_of(profile: Option<&Profile>, scene: &str, set: &[&str]) {
     let folder = tempfile::tempdir().unwrap();
+    if let Some(profile) = profile {
+        fs::write(folder.path().join("own.toml"), toml::to_string(profile).unwrap()).unwrap();
+    }
     let frames = |core: &str| {
         let mut args = vec!["simulate", scene, "--core", core, "--out", core];
         set.iter().for_each(|set| args.extend(["--set", set]));
+        args.extend(profile.iter().flat_map(|_| ["--profile", "own.toml"]));
         finish(folder.path(), &args);
         Table::read(&folder.path().join(core).join("frames.csv"))
     };
@@ -104,6 +115,20 @@ fn a_wall_is_met_and_left_alike_in_fixed_and_clock() {
     let place = "{ timeline = { x_mm = [[0, 0.3], [0.006, -0.8], [0.012, -0.8], [0.02, 0.5]] } }";
     let place = format!("pad.0.position_mm={place}");
     check_loop_with("fig15", &["hand.stiffness_n_per_m=20000", "duration_s=0.024", &place]);
+}
+
+/// In both scenes with controller and walls on one arithmetic unit, which `clock` runs and `fixed` does not.
+#[test]
+#[cfg_attr(not(optimised), ignore = "every clock of a loop: run with --release")]
+fn folded_loops_are_the_same_in_fixed_and_clock() {
+    let mut profile = Profile::bundled("small").unwrap();
+    let control = Control { folded: true, ..Control::of(&profile, Law::Inverse) };
+    profile.control = Some(control);
+    let place = "{ timeline = { x_mm = [[0, 0.3], [0.006, -0.8], [0.012, -0.8], [0.02, 0.5]] } }";
+    let place = format!("pad.0.position_mm={place}");
+    let of_wall = ["hand.stiffness_n_per_m=20000", "duration_s=0.024", &place];
+    check_loop_of(Some(&profile), "fig15", &of_wall);
+    check_loop_of(Some(&profile), "fig9", &["duration_s=0.05"]);
 }
 
 /// In `wall-2d` a pad that is pushed into the corner of two walls and drawn out of it.

@@ -405,6 +405,7 @@ impl Control {
             cells: 64,
             invalid_frames: 8,
             silent_frames: 1 << 12,
+            folded: false,
         }
     }
 }

@@ -9,10 +9,10 @@
 //!
 //! What causes a fault and still holds when it is cleared causes it again.
 
-use super::{Controller, In, Registers, Regs};
+use super::{Controller, In, Regs};
 use hapticore_hdl::block::Interpretation;
 use hapticore_hdl::bundle;
-use hapticore_hdl::format::Format;
+use hapticore_hdl::format::{BIT, Format};
 use hapticore_hdl::signal::{Signal, Wrap, int};
 
 bundle! {
@@ -27,31 +27,77 @@ bundle! {
     }
 }
 
-impl Controller {
-    /// Whether drives go to zero.
+bundle! {
+    /// What keeps drives at zero, and what may.
+    pub struct Watch {
+        /// Frames since the host was heard.
+        silent,
+        latched as Faults,
+    }
+}
+
+impl Watch<Format> {
+    /// The registers, where so many silent frames are a fault.
+    pub(in crate::blocks) fn registers(silent_frames: u64) -> Self {
+        Watch { silent: Format::counter(silent_frames), latched: Faults::of(BIT) }
+    }
+}
+
+impl<V: Interpretation> Watch<Signal<V>> {
+    /// Whether there is a fault.
     #[inline(always)]
-    pub(super) fn off<V: Interpretation>(&self, r: &Regs<V>, i: &In<V>) -> Signal<V> {
-        !i.tuning.enable | r.silence_fault | r.sensor_fault | r.force_fault
+    pub(in crate::blocks) fn any(self) -> Signal<V> {
+        let Faults { silence_fault, sensor_fault, force_fault } = self.latched;
+        silence_fault | sensor_fault | force_fault
     }
 
     /// A clock in which the host may be heard, and may clear faults.
     #[inline(always)]
-    pub(super) fn heard<V: Interpretation>(&self, r: Regs<V>, i: &In<V>) -> Regs<V> {
-        let keep = !i.clear_faults;
-        Registers {
-            silence_fault: r.silence_fault & keep,
-            sensor_fault: r.sensor_fault & keep,
-            force_fault: r.force_fault & keep,
-            silent: i.alive.select(int(0), r.silent),
-            ..r
+    pub(in crate::blocks) fn heard(self, alive: Signal<V>, clear_faults: Signal<V>) -> Self {
+        let keep = !clear_faults;
+        Watch {
+            silent: alive.select(int(0), self.silent),
+            latched: Faults {
+                silence_fault: self.latched.silence_fault & keep,
+                sensor_fault: self.latched.sensor_fault & keep,
+                force_fault: self.latched.force_fault & keep,
+            },
         }
     }
 
     /// Frames since the host was heard, with this one.
     #[inline(always)]
-    pub(super) fn silence<V: Interpretation>(&self, r: &Regs<V>, i: &In<V>) -> Signal<V> {
-        let more = r.silent.is(self.silent_frames).select(r.silent, r.silent + int(1));
-        i.alive.select(int(0), more).resize(r.silent.format, Wrap)
+    pub(in crate::blocks) fn counted(self, alive: Signal<V>, silent_frames: u64) -> Signal<V> {
+        let silent = self.silent;
+        let more = silent.is(silent_frames).select(silent, silent + int(1));
+        alive.select(int(0), more).resize(silent.format, Wrap)
+    }
+
+    /// With the faults of an estimate, and of a host that has been silent for too long where it is `now` that
+    /// this is looked for.
+    #[inline(always)]
+    pub(in crate::blocks) fn found(
+        self,
+        now: Signal<V>,
+        silent_frames: u64,
+        sensor: Signal<V>,
+        force: Signal<V>,
+    ) -> Self {
+        let Faults { silence_fault, sensor_fault, force_fault } = self.latched;
+        let latched = Faults {
+            silence_fault: silence_fault | (now & self.silent.is(silent_frames)),
+            sensor_fault: sensor_fault | sensor,
+            force_fault: force_fault | force,
+        };
+        Watch { latched, ..self }
+    }
+}
+
+impl Controller {
+    /// Whether drives go to zero.
+    #[inline(always)]
+    pub(super) fn off<V: Interpretation>(&self, r: &Regs<V>, i: &In<V>) -> Signal<V> {
+        !i.tuning.enable | r.watch.any()
     }
 
     /// Invalid estimates of the pad in a row, with this one.
@@ -70,18 +116,13 @@ impl Controller {
     #[inline(always)]
     pub(super) fn faults_found<V: Interpretation>(
         &self,
-        r: Regs<V>,
+        watch: Watch<Signal<V>>,
         i: &In<V>,
         invalid: Signal<V>,
         now: Signal<V>,
-    ) -> Regs<V> {
+    ) -> Watch<Signal<V>> {
         let sensor = self.invalid_count(i, invalid).is(self.invalid_frames);
         let force = !i.invalid & i.tuning.force_cap.less_than(i.measured);
-        Registers {
-            silence_fault: r.silence_fault | (now & r.silent.is(self.silent_frames)),
-            sensor_fault: r.sensor_fault | (now & sensor),
-            force_fault: r.force_fault | (now & force),
-            ..r
-        }
+        watch.found(now, self.silent_frames, now & sensor, now & force)
     }
 }

@@ -45,11 +45,12 @@ use super::divider::{self, Divider};
 use super::multiplier::{self, Multiplier};
 use super::sqrt::{self, SquareRoot};
 use crate::buildable::{fits, rounds};
-pub use faults::Faults;
+pub use faults::{Faults, Watch};
 use hapticore_contract::control::{Control, Law};
 use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format};
+use hapticore_hdl::interpretations::expression::Expression;
 use hapticore_hdl::memory::{Memory, Write};
 use hapticore_hdl::signal::{Proved, Signal, bit, int, zero};
 use hapticore_hdl::states::States;
@@ -178,10 +179,7 @@ block! {
         drive: block.drive,
         low: BIT,
         high: BIT,
-        silent: Format::counter(block.silent_frames),
-        silence_fault: BIT,
-        sensor_fault: BIT,
-        force_fault: BIT,
+        watch as Watch: Watch::registers(block.silent_frames),
         done: BIT,
     }
 }
@@ -278,6 +276,26 @@ impl Controller {
         self.divider.hurry();
     }
 
+    /// A drive word as an expression: of a host that is heard, with no fault before, so that its faults are
+    /// those that the estimate causes.
+    pub(super) fn expression(&self) -> Expression {
+        let inputs = Inputs { alive: Some(1), clear_faults: Some(0), ..Inputs::of(None) };
+        let tuning = Tuning { curve_write: Some(0), ..inputs.tuning };
+        let held = Inputs { start: Some(0), tuning, ..inputs };
+        let begins = Inputs { start: Some(1), ..held };
+        Expression::of(self, begins, held, |outputs| outputs.done)
+    }
+
+    /// Frames without a sign of life that are a fault.
+    pub(super) fn silent_frames(&self) -> u64 {
+        self.silent_frames
+    }
+
+    /// The curve's memory.
+    pub(super) fn points(&self) -> &Memory {
+        &self.points
+    }
+
     /// Clocks from `start` to `done`.
     pub fn latency(&self) -> u64 {
         1 + Task::of(self.law).iter().map(|task| self.clocks(*task)).sum::<u64>()
@@ -310,13 +328,14 @@ impl Block for Controller {
             sqrt_start: bit(false),
             divide: bit(false),
             done: bit(false),
-            ..self.heard(r, &i)
+            watch: r.watch.heard(i.alive, i.clear_faults),
+            ..r
         };
         let begin = Registers {
             task: Task::Root.signal(),
             count: int(0),
             sqrt_start: bit(true),
-            silent: self.silence(&r, &i),
+            watch: Watch { silent: r.watch.counted(i.alive, self.silent_frames), ..still.watch },
             ..still
         };
         let next = when!(i.start => begin, idle => still, else self.work(still, &i, &found, ends));
@@ -329,11 +348,7 @@ impl Block for Controller {
 impl Controller {
     #[inline(always)]
     fn outputs_now<V: Interpretation>(&self, r: &Regs<V>) -> Out<V> {
-        let faults = faults::Faults {
-            silence_fault: r.silence_fault,
-            sensor_fault: r.sensor_fault,
-            force_fault: r.force_fault,
-        };
+        let faults = r.watch.latched;
         Outputs { done: r.done, drive: r.drive, low: r.low, high: r.high, faults }
     }
 
@@ -419,7 +434,7 @@ impl Controller {
         let (combine, limit) = (self.at(&r, Task::Combine), self.at(&r, Task::Limit));
         let [wanted, low, high] = self.wanted(&r, i);
         let [least, most] = self.slewed(i, found.last);
-        let next = Registers {
+        Registers {
             task: ends.select(self.following(&r), r.task),
             count: ends.select(int(0), r.count.increment()),
             left: loads.select(left, r.left),
@@ -434,9 +449,9 @@ impl Controller {
             drive: limit.select(self.limited(&r, i, found.last), r.drive),
             pad_word: found.pad_word,
             done: limit,
+            watch: self.faults_found(r.watch, i, found.invalid, combine),
             ..self.take(r, found, ends)
-        };
-        self.faults_found(next, i, found.invalid, combine)
+        }
     }
 
     /// What is known of the pad is written with the last task; until then it is read.

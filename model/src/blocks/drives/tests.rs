@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Drives: which words of a frame are places, what is taken with the estimate, signs of life.
 
-use super::{Drives, Inputs};
+use super::{DrivePort, Drives, Inputs, Outputs};
 use crate::blocks::core::{self, Core};
-use crate::blocks::estimator::FramePort;
-use crate::support::Bench;
+use crate::blocks::estimator::{FramePort, PromptPort};
 use crate::support::never_skips::NeverSkips;
 use crate::support::random::Random;
+use crate::support::{Bench, MILLION, operations};
 use hapticore_contract::control::{Control, Law};
 use hapticore_contract::frame::Field;
 use hapticore_contract::profile::{self, Profile, Release};
+use hapticore_hdl::block::Block;
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::Format;
+use hapticore_hdl::interpretations::range::{Range, take_assumptions, take_violations, whole};
 use hapticore_hdl::signal::Signal;
 
 const WALLS: [Option<profile::Wall>; 4] =
@@ -22,6 +24,12 @@ fn profile(law: Law, wall: Option<profile::Wall>) -> Profile {
     let mut profile = Profile::bundled("standard").expect("bundled");
     profile.control = Some(Control::of(&profile, law));
     (profile.wall, profile.pads) = (wall, 2 * parts(wall));
+    profile
+}
+
+/// The same, with controller and walls on one arithmetic unit.
+fn folded(mut profile: Profile) -> Profile {
+    profile.control.iter_mut().for_each(|control| control.folded = true);
     profile
 }
 
@@ -105,7 +113,7 @@ impl Twins {
     fn new(block: Drives, random: &mut Random) -> Self {
         let mut twins = Twins([block.clone(), block].map(Bench::new));
         let formats = twins.0[0].block.inputs();
-        for address in 0..twins.0[0].block.controller.words_of_curve() as i64 {
+        for address in 0..twins.0[0].block.words_of_curve() as i64 {
             let mut write = Inputs::of(0);
             (write.tuning.curve_write, write.tuning.curve_address) = (1, address);
             write.tuning.curve_word = random.word(formats.tuning.curve_word);
@@ -157,8 +165,9 @@ fn settings_after_the_estimate_change_no_drive_word() {
     let direct = |wall: profile::Wall| Some(profile::Wall { rule: Release::Direct, ..wall });
     let walls = [None, direct(profile::Wall::B), direct(profile::Wall::QUADRANTS)];
     for (seed, law) in (0..).zip(Law::ALL) {
-        for wall in walls {
+        for (wall, is_folded) in walls.into_iter().flat_map(|wall| [(wall, false), (wall, true)]) {
             let profile = profile(law, wall);
+            let profile = if is_folded { folded(profile) } else { profile };
             let (block, _) = with_core(&profile);
             let (mut random, mut driven) = (Random::new(seed), 0);
             let formats = block.inputs();
@@ -207,11 +216,14 @@ fn a_host_that_writes_targets_is_alive() {
 
 #[test]
 fn skipping_changes_no_bit_on_any_clock() {
-    for (seed, wall) in (0..).zip(WALLS) {
+    let both = |wall| {
         let profile = profile(Law::Inverse, wall);
+        [profile.clone(), folded(profile)]
+    };
+    for (seed, profile) in (0..).zip(WALLS.into_iter().flat_map(both)) {
         let (block, _) = with_core(&profile);
         let (formats, apart) = (block.inputs(), block.latency() + 30);
-        let words = block.controller.words_of_curve() as i64;
+        let words = block.words_of_curve() as i64;
         let mut skips = Bench::new(block.clone());
         let mut never = Bench::<_, NeverSkips>::read(block);
         let mut random = Random::new(seed);
@@ -247,4 +259,140 @@ fn skipping_changes_no_bit_on_any_clock() {
             assert_eq!(differ, Vec::<String>::new(), "clock {clock}");
         }
     }
+}
+
+/// Every word anywhere in its format: the programs of a unit go their one way through it.
+#[test]
+fn no_signal_of_folded_drives_can_overflow() {
+    for (law, wall) in Law::ALL.into_iter().zip(WALLS) {
+        for name in ["small", "standard"] {
+            let mut profile = Profile::bundled(name).unwrap();
+            profile.control = Some(Control { folded: true, ..Control::of(&profile, law) });
+            (profile.wall, profile.pads) = (wall, 2 * parts(wall));
+            let (block, _) = with_core(&profile);
+            let mut state = block.reset::<Range>();
+            let point = |code| Range::point(code);
+            let (parts, apart) = (parts(wall), block.latency() + 5);
+            take_violations();
+            take_assumptions();
+            for clock in 0..2 * parts * apart {
+                let mut any = <Inputs as Bundle>::map(block.inputs(), |format| Signal {
+                    value: if format.is_none() { point(0) } else { whole(format) },
+                    format,
+                });
+                any.estimate.prompt.value = point((clock % apart == 0).into());
+                any.estimate.prompt_pad.value = point((clock / apart % (2 * parts)).into());
+                block.clock(&mut state, any);
+            }
+            assert_eq!(take_violations(), [], "{name}, {law:?}, {wall:?}");
+            assert_eq!(take_assumptions(), Vec::<&str>::new());
+        }
+    }
+}
+
+/// Drives of either kind with the same curve, targets and places.
+struct Kinds([Bench<Drives>; 2]);
+
+impl Kinds {
+    fn new(profile: &Profile) -> Self {
+        let of = |profile: Profile| Bench::new(with_core(&profile).0);
+        Kinds([of(profile.clone()), of(folded(profile.clone()))])
+    }
+
+    fn both(&mut self, inputs: Inputs<i64>) {
+        self.0.iter_mut().for_each(|bench| _ = bench.clock(inputs));
+    }
+
+    /// The drive words that follow an estimate, each after its latency, and faults and extremes then.
+    fn estimate(&mut self, inputs: Inputs<i64>) -> [Vec<Outputs<i64>>; 2] {
+        let quiet = Inputs { estimate: PromptPort { prompt: 0, ..inputs.estimate }, ..inputs };
+        self.0.each_mut().map(|bench| {
+            let latency = bench.block.latency();
+            bench.clock(inputs);
+            let mut given = Vec::new();
+            for clock in 1..=latency + 2 {
+                let out = bench.clock(quiet);
+                assert!(
+                    out.drive.drive_valid == 0 || clock == latency,
+                    "clock {clock} of {latency}"
+                );
+                if out.drive.drive_valid == 1 || clock == latency + 2 {
+                    let drive = DrivePort { drive_valid: 0, ..out.drive };
+                    given.push(Outputs { drive, ..out });
+                }
+            }
+            given
+        })
+    }
+}
+
+/// To the bit, with anything as inputs: every law, pads whole and split, words of 15 to 24 bits.
+#[test]
+fn folded_drives_give_what_others_give() {
+    let profiles = ["small", "standard"].map(|name| Profile::bundled(name).unwrap());
+    let rules = WALLS.into_iter().flat_map(|wall| {
+        let with = |rule| wall.map(|wall| profile::Wall { rule, ..wall });
+        [wall, with(Release::Direct)]
+    });
+    for (seed, wall) in (0..).zip(rules) {
+        for (law, of) in
+            Law::ALL.into_iter().flat_map(|law| profiles.each_ref().map(|of| (law, of)))
+        {
+            let mut profile = of.clone();
+            let control = Control { invalid_frames: 3, ..Control::of(of, law) };
+            profile.control = Some(Control { silent_frames: 40, ..control });
+            (profile.wall, profile.pads) = (wall, 2 * parts(wall));
+            let driven = give_the_same(&profile, seed);
+            assert!(driven > 3, "{law:?}, {wall:?}: {driven} words that are not zero");
+        }
+    }
+}
+
+/// How many drive words of both kinds of drives are not zero; all are the same.
+fn give_the_same(profile: &Profile, seed: u64) -> usize {
+    let (mut kinds, mut random) = (Kinds::new(profile), Random::new(seed));
+    let formats = kinds.0[0].block.inputs();
+    let parts = parts(profile.wall);
+    for address in 0..kinds.0[0].block.words_of_curve() as i64 {
+        let mut write = Inputs::of(0);
+        (write.tuning.curve_write, write.tuning.curve_address) = (1, address);
+        write.tuning.curve_word = random.word(formats.tuning.curve_word);
+        kinds.both(write);
+    }
+    let mut driven = 0;
+    for n in 0..operations(MILLION / 25_000).max(24) {
+        let mut told = Inputs::of(0);
+        let pad = random.below(2);
+        let last = ((pad + 1) * parts - 1) as i64;
+        (told.target.target_write, told.target.target_pad) = (i64::from(n % 8 != 0), last);
+        told.target.target_word = random.word(formats.target.target_word) >> random.below(8);
+        told.target.clear_faults = i64::from(random.below(4) == 0);
+        told.extremes_read = i64::from(random.below(4) == 0);
+        (told.placed, told.placed_pad) = (i64::from(random.below(4) != 0), last);
+        if parts > 1 {
+            told.place = -(random.below(2000) as i64) + 500;
+            told.wall.wall_write = i64::from(random.below(8) == 0);
+            told.wall.wall_pad = last;
+            told.wall.wall_right = random.below(2) as i64;
+        } else {
+            told.placed = 0;
+        }
+        kinds.both(told);
+        let mut quiet = Inputs::of(0);
+        quiet.estimate.prompt_gain = random.word(formats.estimate.prompt_gain);
+        let inputs = settings(&formats, &mut random, quiet);
+        for part in 0..parts {
+            let mut estimate = inputs;
+            let words = &mut estimate.estimate;
+            (words.prompt, words.prompt_pad) = (1, (pad * parts + part) as i64);
+            words.prompt_capacitance =
+                random.word(formats.estimate.prompt_capacitance) >> random.below(3);
+            words.prompt_force = random.word(formats.estimate.prompt_force) >> random.below(16);
+            words.prompt_invalid = i64::from(random.below(5) == 0);
+            let [own, on_unit] = kinds.estimate(estimate);
+            assert_eq!(own, on_unit, "{}, {:?}, frame {n}", profile.name, profile.control);
+            driven += usize::from(own.iter().any(|out| out.drive.drive > 0));
+        }
+    }
+    driven
 }

@@ -138,7 +138,7 @@ fn after(profile: &Profile, target: i64, written: u64) -> i64 {
     (quiet.tuning.enable, quiet.tuning.rail) = (1, formats.rail.max_code() as i64);
     (quiet.tuning.slew, quiet.tuning.force_cap) =
         (formats.slew.max_code() as i64, formats.force_cap.max_code() as i64);
-    for address in 0..bench.block.drives.controller.words_of_curve() as i64 {
+    for address in 0..bench.block.drives.words_of_curve() as i64 {
         let mut write = quiet;
         (write.tuning.curve_write, write.tuning.curve_address) = (1, address);
         write.tuning.curve_word = 100 * address;
@@ -162,7 +162,7 @@ fn after_rail(profile: &Profile, rail: i64, written: u64) -> i64 {
     (quiet.tuning.enable, quiet.tuning.rail) = (1, 1 << 10);
     (quiet.tuning.slew, quiet.tuning.force_cap) =
         (formats.slew.max_code() as i64, formats.force_cap.max_code() as i64);
-    for address in 0..bench.block.drives.controller.words_of_curve() as i64 {
+    for address in 0..bench.block.drives.words_of_curve() as i64 {
         let mut write = quiet;
         (write.tuning.curve_write, write.tuning.curve_address) = (1, address);
         write.tuning.curve_word = 1 << 13;
@@ -204,7 +204,7 @@ fn extremes_are_those_since_they_were_read() {
     (quiet.tuning.enable, quiet.tuning.rail) = (1, formats.rail.max_code() as i64);
     (quiet.tuning.slew, quiet.tuning.force_cap) =
         (formats.slew.max_code() as i64, formats.force_cap.max_code() as i64);
-    for address in 0..bench.block.drives.controller.words_of_curve() as i64 {
+    for address in 0..bench.block.drives.words_of_curve() as i64 {
         let mut write = quiet;
         (write.tuning.curve_write, write.tuning.curve_address) = (1, address);
         write.tuning.curve_word = 100 * address;
@@ -234,7 +234,7 @@ fn extremes_are_those_since_they_were_read() {
 fn a_target_that_is_written_in_mid_frame_is_taken_whole_or_not_at_all() {
     let profile = controlled(Law::Open).next().expect("a profile");
     let block = ForceLoop::try_new(&profile).unwrap();
-    let given = block.latency() - block.drives.controller.latency();
+    let given = block.latency() - block.drives.controller.as_ref().unwrap().latency();
     let (old, new) = (after(&profile, 1 << 8, 1), after(&profile, 1 << 12, 1));
     assert!(old > 0 && new > old, "{old}, {new}");
     for written in given - 8..=block.latency() {

@@ -87,7 +87,7 @@ impl Pair {
 
 /// A pad that is dragged to and fro over the wall's surface, pushing the way it goes: what it reads
 /// and where it is in frame n.
-fn dragged(random: &mut Random, n: u64) -> ([f64; 2], f64) {
+pub(in crate::blocks) fn dragged(random: &mut Random, n: u64) -> ([f64; 2], f64) {
     let turns = n as f64 / 700.0;
     let x_mm = 2.0 * (std::f64::consts::TAU * turns).cos() + 0.005 * random.between(-1.0, 1.0);
     let push = -0.02 * (std::f64::consts::TAU * turns).sin() + 0.004;
