@@ -9,6 +9,8 @@ use hapticore_hdl::interpretations::range::Range;
 
 /// Bits of remainder and digits side by side: a quotient of more is made in parts.
 const SIDE_BY_SIDE: u32 = 31;
+/// Digits of a part at least, whatever the remainder has.
+const LEAST_DIGITS: u32 = 8;
 
 impl Translation<'_> {
     /// Restoring division, as the divider's: remainder and digits are side by side in the sum, and
@@ -17,7 +19,8 @@ impl Translation<'_> {
         let (n, d) = (self.format(numerator), self.format(denominator));
         let pad = i32::from(to.frac) - i32::from(n.frac) + i32::from(d.frac);
         let digits = u32::from(to.width);
-        let parts = digits.div_ceil(SIDE_BY_SIDE - u32::from(d.width));
+        let most = SIDE_BY_SIDE.saturating_sub(d.width.into()).max(LEAST_DIGITS);
+        let parts = digits.div_ceil(most);
         let part = digits.div_ceil(parts);
         let [numerator, denominator] = [numerator, denominator].map(|term| self.operand(term));
         let fits = self.fits(numerator, denominator, pad - digits as i32);

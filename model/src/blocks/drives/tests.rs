@@ -342,14 +342,54 @@ fn folded_drives_give_what_others_give() {
             let control = Control { invalid_frames: 3, ..Control::of(of, law) };
             profile.control = Some(Control { silent_frames: 40, ..control });
             (profile.wall, profile.pads) = (wall, 2 * parts(wall));
-            let driven = give_the_same(&profile, seed);
+            let driven = give_the_same(&profile, seed, operations(MILLION / 25_000).max(24));
             assert!(driven > 3, "{law:?}, {wall:?}: {driven} words that are not zero");
         }
     }
 }
 
+/// In words of any profile that can be: where a folded one cannot, it says so.
+#[test]
+fn folded_drives_in_words_at_random_give_what_others_give() {
+    let (mut random, mut compared) = (Random::new(77), 0);
+    for n in 0..operations(MILLION / 5000).max(100) {
+        let name = ["small", "standard"][random.below(2) as usize];
+        let mut profile = Profile::bundled(name).unwrap();
+        let law = Law::ALL[random.below(4) as usize];
+        let wall = WALLS[random.below(4) as usize];
+        let mut control = Control::of(&profile, law);
+        let mut words = |least: u64, most: u64, integer: u64| {
+            let width = least + random.below(most - least + 1);
+            Format::unsigned(width as u8, (width - integer.min(width)) as i8)
+        };
+        control.drive = words(8, 20, 0);
+        control.target = words(8, 20, 1 + n % 4);
+        control.gain = words(8, 20, 1 + n % 8);
+        let f = &mut profile.formats;
+        for format in [&mut f.capacitance, &mut f.force, &mut f.square, &mut f.force_gain] {
+            let more = random.below(9) as i8 - 4;
+            (format.width, format.frac) =
+                (format.width.saturating_add_signed(more), format.frac + more);
+        }
+        control.cells = 4 << random.below(5);
+        profile.control = Some(control);
+        (profile.wall, profile.pads) = (wall, 2 * parts(wall));
+        let Ok(_) = crate::check(&profile) else { continue };
+        match crate::check(&folded(profile.clone())) {
+            Ok(()) => _ = give_the_same(&profile, n, 6),
+            Err(error) => {
+                let text = error.to_string();
+                assert!(text.starts_with("control.folded") || text.starts_with("slot."), "{text}");
+                continue;
+            }
+        }
+        compared += 1;
+    }
+    assert!(compared > 20, "{compared} profiles");
+}
+
 /// How many drive words of both kinds of drives are not zero; all are the same.
-fn give_the_same(profile: &Profile, seed: u64) -> usize {
+fn give_the_same(profile: &Profile, seed: u64, frames: u64) -> usize {
     let (mut kinds, mut random) = (Kinds::new(profile), Random::new(seed));
     let formats = kinds.0[0].block.inputs();
     let parts = parts(profile.wall);
@@ -360,7 +400,7 @@ fn give_the_same(profile: &Profile, seed: u64) -> usize {
         kinds.both(write);
     }
     let mut driven = 0;
-    for n in 0..operations(MILLION / 25_000).max(24) {
+    for n in 0..frames {
         let mut told = Inputs::of(0);
         let pad = random.below(2);
         let last = ((pad + 1) * parts - 1) as i64;
