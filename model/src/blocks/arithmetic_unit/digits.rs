@@ -10,7 +10,7 @@ use hapticore_hdl::interpretations::range::Range;
 /// Bits of remainder and digits side by side: a quotient of more is made in parts.
 const SIDE_BY_SIDE: u32 = 31;
 /// Digits of a part at least, whatever the remainder has.
-const LEAST_DIGITS: u32 = 8;
+const LEAST_DIGITS: u32 = 4;
 
 impl Translation<'_> {
     /// Restoring division, as the divider's: remainder and digits are side by side in the sum, and
