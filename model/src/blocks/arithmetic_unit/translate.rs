@@ -39,7 +39,8 @@ pub struct Translation<'a> {
     slots: HashMap<Term, Slot>,
 }
 
-/// Translates an expression: words that are kept are stored last, before results are given.
+/// Translates an expression: results are given, then words that are kept are stored, for until then they are
+/// read as they were.
 pub fn translate(expression: &Expression, ports: &dyn Ports, writer: &mut Writer) {
     let mut of = Translation {
         expression,

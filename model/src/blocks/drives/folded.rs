@@ -164,8 +164,7 @@ impl Drives {
     /// The registers beside the unit, where there is one.
     pub(super) fn folded(&self) -> Folded<Format> {
         let Some(unit) = &self.unit else {
-            let none = Format::NONE;
-            return Folded::of(none);
+            return Folded::of(Format::NONE);
         };
         let walls = self.has_walls();
         let force = self.estimates.prompt_force;
@@ -236,8 +235,8 @@ impl Drives {
             return block.call("controller", within, inputs);
         }
         let of = r.folded;
-        let of_controller = if self.has_walls() { !of.of_wall } else { bit(true) };
-        let done = unit.expect("a unit where there is no controller").done & of_controller;
+        let unit = unit.expect("a unit where there is no controller");
+        let done = unit.done & self.of_controller(&of);
         controller::Outputs {
             done,
             drive: of.next_drive,

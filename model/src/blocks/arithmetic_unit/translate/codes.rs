@@ -102,7 +102,7 @@ impl Translation<'_> {
                 let width = node.format.width;
                 let fits = low == 0 && self.is_given_within(place, width);
                 let width = fits.then_some(width);
-                let known = words_width(&mut widths, place, width);
+                let known = widths.entry(place).or_insert(width);
                 *known = if *known == width { width } else { None };
             }
         }
@@ -123,7 +123,6 @@ impl Translation<'_> {
             Op::Abs(a) => <Range as Value>::abs(of(a), to),
             Op::Fit(a, rounding, overflow) => Range::quantize(of(a), to, rounding, overflow),
             Op::Scale(a) => self.range(a),
-            // A signed code as its word holds it.
             Op::Bits(a, low) => Range::bits(of(a), low, to),
             Op::Concat(a, b) => Range::concat(of(a), of(b), to),
             Op::Less(a, b) => Range::less(of(a), of(b)),
@@ -178,12 +177,4 @@ pub(super) fn live(expression: &Expression) -> Vec<bool> {
         }
     }
     live
-}
-
-fn words_width(
-    widths: &mut HashMap<Place, Option<u8>>,
-    place: Place,
-    width: Option<u8>,
-) -> &mut Option<u8> {
-    widths.entry(place).or_insert(width)
 }
