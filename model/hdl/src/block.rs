@@ -306,12 +306,12 @@ impl<B: Block> Submodule for B {
     }
 }
 
-/// A block that only some configurations have.
-impl<B: Block> Submodule for Option<B> {
-    type State<V: Interpretation> = Option<State<B, V>>;
+/// A block or memory that only some configurations have.
+impl<S: Submodule> Submodule for Option<S> {
+    type State<V: Interpretation> = Option<S::State<V>>;
 
     fn reset_state<V: Interpretation>(&self) -> Self::State<V> {
-        self.as_ref().map(Block::reset)
+        self.as_ref().map(S::reset_state)
     }
 
     fn visit<V: Interpretation>(
@@ -320,14 +320,14 @@ impl<B: Block> Submodule for Option<B> {
         state: &Self::State<V>,
         visitor: &mut impl Visitor<V>,
     ) {
-        if let Some((block, state)) = self.as_ref().zip(state.as_ref()) {
-            block.visit(name, state, visitor);
+        if let Some((submodule, state)) = self.as_ref().zip(state.as_ref()) {
+            submodule.visit(name, state, visitor);
         }
     }
 
     fn edit<V: Interpretation>(&self, state: &mut Self::State<V>, edit: &mut impl Edit<V>) {
-        if let Some((block, state)) = self.as_ref().zip(state.as_mut()) {
-            block.edit(state, edit);
+        if let Some((submodule, state)) = self.as_ref().zip(state.as_mut()) {
+            submodule.edit(state, edit);
         }
     }
 }

@@ -458,11 +458,12 @@ impl Block for Drives {
             true => self.split(state, &r, &i, self.walled(&r, &unit)),
             false => self.whole(&r, &i),
         };
+        let target = if self.registers_target() { r.folded.wanted } else { begin.target };
         let TargetPort { target_write, target_pad, target_word, alive, clear_faults } = i.target;
         let inputs = controller::Inputs {
             start: begin.start,
             pad: r.pad,
-            target: begin.target,
+            target,
             capacitance: begin.capacitance,
             measured: begin.measured,
             force_gain: i.estimate.prompt_gain,
@@ -479,7 +480,7 @@ impl Block for Drives {
             drive: controller.drive,
             drive_low: controller.low,
             drive_high: controller.high,
-            drive_target: begin.target.where_present(formats.drive_target),
+            drive_target: target.where_present(formats.drive_target),
             drive_free: begin.free.where_present(formats.drive_free),
         };
         let outputs = Outputs { drive, extremes: r.extremes, faults: controller.faults };

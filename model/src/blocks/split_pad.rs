@@ -24,7 +24,8 @@
 //! pad's first valid place on; where the estimate of a sensing part is invalid it lets go, the safe
 //! side. Quadrants have a wall along either axis, one after the other: that along y is known by the
 //! number of the pad's third part, its bottom is the left of that along x, and the pad takes the larger
-//! force. Latency: three clocks and the wall's for each axis, from the last part's estimate to `done`.
+//! force. Latency: three clocks and the wall's for each axis, from the last part's estimate to `done`; four where
+//! words of block RAMs have registers.
 
 use super::sided_wall::{self, Inputs as WallInputs, Outputs as WallOutputs, SidedWall};
 use hapticore_contract::profile::{self, Profile, ProfileError};
@@ -67,6 +68,8 @@ block! {
         force: Format,
         of_wall: sided_wall::Inputs<Format>,
         of_result: sided_wall::Outputs<Format>,
+        /// Words that were read have a register before they are subtracted.
+        registers_words: bool,
     }
     submodules {
         /// The walls, where they are not computed outside.
@@ -147,6 +150,10 @@ block! {
         /// The pad's place and wall are asked for, then there.
         asked: BIT,
         found: BIT,
+        /// Their words, where they have a register.
+        kept: BIT.where_present(block.registers_words),
+        place_word: block.places.format.where_present(block.registers_words),
+        surface_word: block.surfaces.format.where_present(block.registers_words),
         start: BIT,
         placed: BIT,
         /// Place less surface.
@@ -179,6 +186,7 @@ impl SplitPad {
             force: f.force,
             of_wall,
             of_result,
+            registers_words: profile.registers_block_rams(),
             wall: (!outside).then_some(wall),
             places: memory("places", place).in_block(),
             surfaces: Memory::new("surfaces", words, place).in_block(),
@@ -220,7 +228,7 @@ impl SplitPad {
     /// The same, where a wall takes so many.
     pub fn latency_with(&self, of_wall: u64) -> u64 {
         let axes = if self.has_quadrants() { 2 } else { 1 };
-        axes * (3 + of_wall)
+        axes * (3 + u64::from(self.registers_words) + of_wall)
     }
 
     /// What is asked of a wall, where it is computed outside.
@@ -301,8 +309,6 @@ impl SplitPad {
             capacitance: last.select(capacitance, r.capacitance),
             measured: last.select(measured, first.select(i.measured, r.measured)),
             asked: last,
-            found: r.asked,
-            start: r.found,
             ..r
         }
     }
@@ -334,8 +340,6 @@ impl SplitPad {
             capacitance: last.select(quarter(sum, self.capacitance), r.capacitance),
             measured: last.select(quarter(force_sum, self.force), r.measured),
             asked: last,
-            found: r.asked,
-            start: r.found,
             ..r
         }
     }
@@ -371,10 +375,25 @@ impl SplitPad {
         self.rests.access(&mut within.rests, r.pad, write);
         let of = |word: Signal<V>| word.bits(0, self.position.width).as_code(self.position);
         let flag = |word: Signal<V>| word.bits(self.position.width, 1);
+        let (there, place_word, surface_word) = match self.registers_words {
+            true => (r.kept, r.place_word, r.surface_word),
+            false => (r.found, place, surface),
+        };
+        let next = match self.registers_words {
+            true => Registers {
+                kept: r.found,
+                place_word: r.found.select(place, r.place_word),
+                surface_word: r.found.select(surface, r.surface_word),
+                ..next
+            },
+            false => next,
+        };
         Registers {
-            placed: r.found.select(flag(place), r.placed),
-            depth: r.found.select(of(place) - of(surface), r.depth),
-            mirrored: r.found.select(flag(surface), r.mirrored),
+            found: r.asked,
+            start: there,
+            placed: there.select(flag(place_word), r.placed),
+            depth: there.select(of(place_word) - of(surface_word), r.depth),
+            mirrored: there.select(flag(surface_word), r.mirrored),
             rests: r.found.select(rests, r.rests),
             ..next
         }
@@ -461,7 +480,9 @@ impl Block for SplitPad {
         let outputs = if self.has_quadrants() { of_both(outputs, &r) } else { outputs };
         let written = i.placed | i.driven | i.wall.wall_write;
         let turns = if self.has_quadrants() { walled.done } else { bit(false) };
-        if (i.estimate | r.asked | r.found | r.start | written | turns).can_skip() {
+        let kept = if self.registers_words { r.kept } else { bit(false) };
+        let under_way = r.asked | r.found | kept | r.start;
+        if (i.estimate | under_way | written | turns).can_skip() {
             return outputs;
         }
         let gathered = self.gathered(r, &i);

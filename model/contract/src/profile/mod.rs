@@ -377,6 +377,12 @@ impl Profile {
         }
     }
 
+    /// Whether a word of a block RAM goes into a register before anything is done with it. Parts with wide
+    /// multipliers have quick clocks, of which a block RAM alone takes more than half (ECP5, speed 6: 5.8 of 10 ns).
+    pub fn registers_block_rams(&self) -> bool {
+        self.multiplier > 16
+    }
+
     /// The core's clocks in a slot.
     pub fn slot_clocks(&self) -> u64 {
         self.slot.samples() * self.clocks_per_sample

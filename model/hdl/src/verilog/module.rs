@@ -2,7 +2,7 @@
 //! A module as text: head, ports, registers, wires, memories, instances, clock.
 
 use super::clock::Next;
-use super::names::{Names, ports};
+use super::names::{Names, ports, read_register};
 use super::scope::{Scope, range};
 use super::text::{BREAK, bits, literal};
 use super::{Direction, Heading, Port};
@@ -148,8 +148,8 @@ impl Printer<'_> {
                 let _ = writeln!(text, "    reg {range}{name}; // {}{about}", register.format);
             }
         }
-        self.memories =
-            module.memories.iter().map(|ram| self.scope.names.unique(ram.name)).collect();
+        let names = &mut self.scope.names;
+        self.memories = module.memories.iter().map(|ram| names.of_memory(ram.name)).collect();
         let memories = self.memories.clone();
         for (index, ram) in
             module.memories.iter().enumerate().filter(|(index, _)| self.scope.live.memories[*index])
@@ -168,7 +168,7 @@ impl Printer<'_> {
                 words - 1,
                 ram.format
             );
-            let _ = writeln!(text, "    reg {range}{name}_word; // its read register");
+            let _ = writeln!(text, "    reg {range}{}; // its read register", read_register(name));
         }
         for (index, wire) in module.wires.iter().enumerate() {
             let node = Node(index as u32);
@@ -177,7 +177,7 @@ impl Printer<'_> {
                 Op::Register(register) if self.registers[register].is_some() => {
                     self.registers[register].clone().expect("is some").0
                 }
-                Op::Data(ram) if self.scope.live.memories[ram] => format!("{}_word", memories[ram]),
+                Op::Data(ram) if self.scope.live.memories[ram] => read_register(&memories[ram]),
                 Op::Output(instance, port) => {
                     let of = &module.instances[instance];
                     let port = &self.netlist.modules[of.module].outputs[port];
@@ -266,7 +266,8 @@ impl Printer<'_> {
         if let Some(address) = ram.address {
             let _ = writeln!(
                 text,
-                "        {name}_word <= {name}[{}];",
+                "        {} <= {name}[{}];",
+                read_register(name),
                 self.scope.whole(address).text
             );
         }

@@ -56,6 +56,11 @@ pub fn ports(module: &Module) -> Vec<Port> {
     all
 }
 
+/// The name of a memory's read register.
+pub fn read_register(memory: &str) -> String {
+    format!("{memory}_word")
+}
+
 /// The names taken in a module.
 pub struct Names {
     taken: HashSet<String>,
@@ -80,6 +85,16 @@ impl Names {
         free
     }
 
+    /// The name of a memory, whose read register's is free, too, and taken with it.
+    pub fn of_memory(&mut self, name: &str) -> String {
+        loop {
+            let memory = self.unique(name);
+            if self.taken.insert(read_register(&memory)) {
+                return memory;
+            }
+        }
+    }
+
     /// Takes a name that is known to be free, or to be shared on purpose.
     pub fn reserve(&mut self, name: &str) {
         self.taken.insert(name.to_owned());
@@ -88,5 +103,19 @@ impl Names {
     /// Whether a name is taken.
     pub fn has(&self, name: &str) -> bool {
         self.taken.contains(name)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_memory_is_numbered_where_its_read_register_has_the_name_of_another_thing() {
+        let mut names = Names::default();
+        assert_eq!(names.unique("scratch_word"), "scratch_word");
+        assert_eq!(names.of_memory("scratch"), "scratch_2");
+        assert!(names.has("scratch_2_word"));
+        assert_eq!(names.unique("scratch_2_word"), "scratch_2_word_2");
     }
 }

@@ -110,6 +110,8 @@ block! {
         /// The instruction after it, whose word is being read.
         ahead as Ahead: unit.ahead(),
         word: unit.words.format.where_present(unit.registers_words),
+        /// The instruction has not ended with the clock before: its word, and that of the one ahead, were taken.
+        waited: BIT.where_present(unit.registers_words),
         /// A product is under way for so many clocks.
         multiplies: Format::unsigned(unit.multiplier.latency() as u8, 0),
         sum: unit.sum,
@@ -174,6 +176,11 @@ impl ArithmeticUnit {
             words: Memory { initial: initial.into(), ..of_words.in_block() },
             multiplier,
         }
+    }
+
+    /// Whether words of block RAMs have a register before they are used.
+    pub fn registers_words(&self) -> bool {
+        self.registers_words
     }
 
     /// Where a program begins.
@@ -297,12 +304,7 @@ impl Block for ArithmeticUnit {
             address: self.address(r.operand, i.row),
             data: r.sum.resize(self.words.format, Wrap),
         };
-        // What is ahead is read again while it waits.
-        let operand = match self.registers_words {
-            true => now.ends.select(fields.operand, r.ahead.next_operand),
-            false => fields.operand,
-        };
-        self.words.access(&mut within.words, self.address(operand, i.row), write);
+        self.words.access(&mut within.words, self.address(fields.operand, i.row), write);
         let fetched = self.fetched(&r, &i, &now);
         self.program.read(&mut within.program, fetched);
         let next = Registers { fetched, sum: takes.select(taken, r.sum), ..r };
@@ -388,8 +390,9 @@ impl ArithmeticUnit {
                     next_action: rest(on.select(fetched.action, ahead.next_action)),
                     next_operand: on.select(fetched.operand, ahead.next_operand),
                 };
+                // A product has taken its word in its first clock, and a shift takes none.
                 let acts = !(following.when.is(0) & following.action.is(0));
-                (following, ahead, (on & acts).select(read, r.word))
+                (following, ahead, (r.running & !r.waited & acts).select(read, r.word))
             }
         };
         let places = (r.operand - now.shifts).resize(r.operand.format, Wrap);
@@ -402,6 +405,10 @@ impl ArithmeticUnit {
             operand: (on & !now.jumps).select(following.operand, places),
             ahead,
             word,
+            waited: match self.registers_words {
+                true => r.running & !now.ends,
+                false => r.waited,
+            },
             ..r
         }
     }

@@ -57,7 +57,7 @@ impl Programs {
         let mut programs = Vec::new();
         for (expression, ports) in expressions {
             writer.lines.clear();
-            translate(expression, *ports, &mut writer);
+            translate(expression, *ports, behind, &mut writer);
             programs.push(without_superfluous(std::mem::take(&mut writer.lines), behind));
         }
         let slots = Slots::of(&programs)?;

@@ -30,6 +30,8 @@ pub struct Translation<'a> {
     pub(super) expression: &'a Expression,
     pub(super) writer: &'a mut Writer,
     ports: &'a dyn Ports,
+    /// Clocks from an address to its word, of memories that ports give.
+    of_memory: usize,
     ranges: Vec<Range>,
     /// Words that hold signed codes, though their memory does not.
     signed: HashMap<Place, Format>,
@@ -40,12 +42,13 @@ pub struct Translation<'a> {
 }
 
 /// Translates an expression: results are given, then words that are kept are stored, for until then they are
-/// read as they were.
-pub fn translate(expression: &Expression, ports: &dyn Ports, writer: &mut Writer) {
+/// read as they were. So many instructions are on their way behind the one that is carried out.
+pub fn translate(expression: &Expression, ports: &dyn Ports, behind: usize, writer: &mut Writer) {
     let mut of = Translation {
         expression,
         writer,
         ports,
+        of_memory: behind + 1,
         ranges: Vec::new(),
         signed: HashMap::new(),
         live: codes::live(expression),
@@ -206,7 +209,7 @@ impl Translation<'_> {
             Op::Input(input) => self.ask(self.ports.input(input), 1, whole(to)),
             Op::Lookup(memory, address) => {
                 self.sum(address);
-                self.ask(self.ports.memory(memory), 2, whole(to));
+                self.ask(self.ports.memory(memory), self.of_memory, whole(to));
             }
             Op::Add(a, b) => {
                 let [of_a, of_b] = self.places([a, b], to.frac);

@@ -52,6 +52,9 @@ bundle! {
         row,
         /// What was asked for.
         word,
+        /// A word of the curve, and the target with the wall's, where they have registers.
+        curve,
+        wanted,
         /// Of the wall.
         wall_target,
         wall_free,
@@ -117,8 +120,7 @@ pub fn unit(
     let mut expressions: Vec<(Expression, &dyn Ports)> =
         vec![(controller.expression(), &of_controller)];
     expressions.extend(wall.as_ref().map(|wall| (wall.expression(), &of_wall as &dyn Ports)));
-    // Where multipliers are wide, clocks are quick.
-    let behind = if profile.multiplier > 16 { 2 } else { 1 };
+    let behind = if profile.registers_block_rams() { 2 } else { 1 };
     let mut programs = Programs::of(&expressions, behind).map_err(|too_large| {
         let expected = format_args!("programs of at most {} {}", too_large.most, too_large.what);
         ProfileError::value("control.folded", expected, too_large.got)
@@ -161,6 +163,12 @@ fn widths(controller: &Controller, wall: Option<&SidedWall>) -> HashMap<u8, u8> 
 }
 
 impl Drives {
+    /// Whether the target has a register between walls and unit: sums, comparisons and the choice of what the unit
+    /// asks for are too long a path for a quick clock.
+    pub(super) fn registers_target(&self) -> bool {
+        self.has_walls() && self.unit.as_ref().is_some_and(ArithmeticUnit::registers_words)
+    }
+
     /// The registers beside the unit, where there is one.
     pub(super) fn folded(&self) -> Folded<Format> {
         let Some(unit) = &self.unit else {
@@ -174,6 +182,8 @@ impl Drives {
             of_wall: BIT.where_present(walls),
             row: self.pad,
             word: unit.inputs().given,
+            curve: self.points.format.where_present(unit.registers_words()),
+            wanted: self.targets.format.where_present(self.registers_target()),
             wall_target: force.where_present(walls),
             wall_free: BIT.where_present(walls),
             wall_valid: BIT.where_present(walls),
@@ -274,7 +284,11 @@ impl Drives {
     ) -> Folded<Signal<V>> {
         let of = r.folded;
         let Some(unit) = unit else { return of };
-        let curve = self.looked_up(state, unit, controller);
+        let found = self.looked_up(state, unit, controller);
+        let (curve, kept) = match of.curve.format.is_none() {
+            true => (found, of.curve),
+            false => (of.curve, of.runs.select(found, of.curve)),
+        };
         let asks = begin.wall.map_or(bit(false), |wall| wall.start);
         let begins = asks | controller.start;
         let row = begin.wall.map_or(controller.pad, |wall| asks.select(wall.pad, controller.pad));
@@ -289,15 +303,15 @@ impl Drives {
         let of_drive = |name, old: Signal<V>| {
             given(drive, OF_CONTROLLER, name).select(unit.sum.as_code(old.format), old)
         };
-        let found = |name| given(drive, OF_CONTROLLER, name) & unit.sum.bits(0, 1);
+        let is_set = |name| given(drive, OF_CONTROLLER, name) & unit.sum.bits(0, 1);
         let heard = of.watch.heard(controller.alive, controller.clear_faults);
         let counted = of.watch.counted(controller.alive, self.silent_frames);
         let silent = controller.start.select(counted, heard.silent);
         let watch = Watch { silent, ..heard }.found(
             of.begins & self.of_controller(&of),
             self.silent_frames,
-            found("sensor_fault"),
-            found("force_fault"),
+            is_set("sensor_fault"),
+            is_set("force_fault"),
         );
         Folded {
             begins,
@@ -308,6 +322,11 @@ impl Drives {
             },
             row: begins.select(row, of.row),
             word: of.runs.select(self.word(r, unit, begin, controller, curve), of.word),
+            curve: kept,
+            wanted: match of.wanted.format.is_none() {
+                true => of.wanted,
+                false => begin.start.select(begin.target, of.wanted),
+            },
             wall_target: of_wall("target", of.wall_target),
             wall_free: of_wall("free", of.wall_free),
             wall_valid: of_wall("valid", of.wall_valid),

@@ -316,8 +316,11 @@ impl Kinds {
                     out.drive.drive_valid == 0 || clock == latency,
                     "clock {clock} of {latency}"
                 );
-                if out.drive.drive_valid == 1 || clock == latency + 2 {
-                    let drive = DrivePort { drive_valid: 0, ..out.drive };
+                let valid = out.drive.drive_valid;
+                if valid == 1 || clock == latency + 2 {
+                    // Without a drive word the target may be the one before, or the next.
+                    let drive_target = valid * out.drive.drive_target;
+                    let drive = DrivePort { drive_valid: 0, drive_target, ..out.drive };
                     given.push(Outputs { drive, ..out });
                 }
             }

@@ -34,11 +34,13 @@
 //! Nakamura & Yamamoto 2016, eqs. 2 and 3, for the ratios.
 
 mod at_once;
+mod banks;
 mod instruction;
 mod program;
 mod trace;
 
 use self::at_once::AtOnce;
+use self::banks::Banks;
 use self::instruction::{COUNT, LOW, OPEN, Operation, SCALARS, SHARE, SURFACE, WRAP};
 use self::program::Program;
 use super::multiplier::{self, Multiplier};
@@ -62,6 +64,21 @@ bundle! {
     }
 }
 
+bundle! {
+    /// What has a register of its own where words do that were read.
+    pub struct Held {
+        /// A product's operands were read.
+        read,
+        /// One is a word of the table.
+        read_table,
+        read_word,
+        /// The instruction waits.
+        waits,
+        /// It has waited long enough.
+        settled,
+    }
+}
+
 states! {
     /// What a spline of the table gives.
     pub enum Spline {
@@ -77,6 +94,7 @@ block! {
         steps: u64,
         /// Cycles from a product's operands to its place in the sum.
         wait: u64,
+        words: Memory,
         /// Digits of a quotient.
         digits: u8,
         ratio: Format,
@@ -87,7 +105,10 @@ block! {
         at_once: Option<AtOnce>,
     }
     submodules {
-        table: Memory,
+        /// The words, where those that are read have no register.
+        table: Option<Memory>,
+        /// Else in two banks.
+        banks: Option<Banks>,
         scratch: Memory,
         program: Memory,
         multiplier: Multiplier,
@@ -101,7 +122,7 @@ block! {
         r_y: block.ratio,
         /// Smallest amplitude over the ratios' denominator.
         share: block.share(),
-        table as TablePort: TablePort { write: BIT, address: block.table.address(), word: block.word },
+        table as TablePort: TablePort { write: BIT, address: block.words.address(), word: block.word },
     }
     outputs(block) {
         /// Asserted for one cycle when the others are valid.
@@ -131,13 +152,14 @@ block! {
         digits: BIT,
         multiplies: BIT,
         tables: BIT,
-        pending: Format::unsigned(block.wait as u8, 0),
+        held as Held: block.held(),
+        pending: Format::unsigned(1 + block.multiplier.latency() as u8, 0),
         left: block.word,
         factor: block.word,
         word: block.word,
         sum: Format::signed(2 * block.word.width + 6, 2 * block.word.frac),
         quotient: Format::unsigned(block.digits, 0),
-        base: block.table.address(),
+        base: block.words.address(),
         surface in Spline,
         count: Format::unsigned(4, 0),
         step: Format::counter(block.steps),
@@ -198,7 +220,8 @@ impl Position {
         let scratch =
             Memory::new("scratch", constants.len(), word).dont_care_on_collision().in_block();
         let multiplier = Multiplier::new(word.integer(), word.integer(), profile.multiplier);
-        let wait = 1 + multiplier.latency();
+        let banks = profile.registers_block_rams().then(|| Banks::new(&table));
+        let wait = 1 + u64::from(banks.is_some()) + multiplier.latency();
         Position {
             clocks: program.clocks(profile.position.steps, wait),
             digits: program.digits(),
@@ -206,7 +229,9 @@ impl Position {
             program: Memory::table("instructions", Format::unsigned(instruction::BITS, 0), codes),
             // A slot whose table is written meanwhile gives a frame of neither calibration in any
             // case.
-            table,
+            words: table.clone(),
+            table: banks.is_none().then_some(table),
+            banks,
             scratch: Memory { initial: constants.into(), ..scratch },
             multiplier,
             steps: profile.position.steps,
@@ -246,6 +271,12 @@ impl Position {
         }
     }
 
+    fn held(&self) -> Held<Format> {
+        let of = |format: Format| format.where_present(self.banks.is_some());
+        let flag = of(BIT);
+        Held { read: flag, read_table: flag, read_word: of(self.word), waits: flag, settled: flag }
+    }
+
     /// The format of a share: that of a ratio's magnitude.
     fn share(&self) -> Format {
         Format::unsigned(self.ratio.width - 1, self.ratio.frac)
@@ -258,14 +289,18 @@ impl Position {
         address: usize,
         word: Signal<V>,
     ) {
-        let address = int(address as u64).resize(self.table.address(), Proved);
-        let write = Write { enable: bit(true), address, data: word };
-        self.table.access(&mut state.submodules.table, address, write);
+        let within = &mut state.submodules;
+        if let Some((banks, within)) = self.banks.as_ref().zip(within.banks.as_mut()) {
+            return banks.set_word(within, address, word);
+        }
+        let (table, words) = self.table.as_ref().zip(within.table.as_mut()).expect("no banks");
+        let address = int(address as u64).resize(table.address(), Proved);
+        table.access(words, address, Write { enable: bit(true), address, data: word });
     }
 
     /// The memory of the position table.
     pub fn table(&self) -> &Memory {
-        &self.table
+        &self.words
     }
 }
 
@@ -285,7 +320,7 @@ impl Block for Position {
         let now = self.decode(&r);
         let (result, held) = self.result(&r);
         let read = self.read(state, &r, &i, &now, result);
-        let next = self.follow(self.compute(r, &read, &now), &r, &now, read.instruction);
+        let next = self.follow(self.compute(r, &read, &now), &r, &now, &read);
         let next = self.give_out(next, &r, &now, result, held);
         let begun = Registers {
             running: bit(true),
@@ -308,8 +343,7 @@ impl Block for Position {
 struct Read<V> {
     instruction: Signal<V>,
     word: Signal<V>,
-    /// What it is multiplied by.
-    factor: Signal<V>,
+    of_table: Signal<V>,
     product: Signal<V>,
 }
 
@@ -323,13 +357,13 @@ impl Position {
     #[inline(always)]
     fn decode<V: Interpretation>(&self, r: &Regs<V>) -> Decoded<V> {
         let word = r.instruction;
-        let operation =
-            word.bits(instruction::BITS - instruction::OPERATION_BITS, instruction::OPERATION_BITS);
+        let operation = operation(word);
         let option = word.bits(0, instruction::OPTION_BITS);
         let is = |other: Operation| operation.is(other as u64).named(other.name());
-        let waiting = Operation::WAITING.map(is).into_iter().reduce(|a, b| a | b);
-        let waits = waiting.unwrap_or(bit(false)).named("waits");
-        let settled = r.waited.is(self.multiplier.latency() + 2);
+        let (waits, settled) = match self.banks {
+            Some(_) => (r.held.waits, r.held.settled),
+            None => (waits(operation).named("waits"), r.waited.is(self.wait + 1)),
+        };
         let done = (r.running & !r.bubble & (!waits | settled)).named("does");
         let group = word.bits(instruction::OPTION_BITS, instruction::SLOT_BITS);
         let index = word.bits(instruction::OPTION_BITS + instruction::SLOT_BITS, 2);
@@ -366,13 +400,11 @@ impl Position {
         now: &Decoded<V>,
         result: Signal<V>,
     ) -> Read<V> {
-        let of_table = self.table.data(&mut state.submodules.table);
         let word = self.scratch.data(&mut state.submodules.scratch);
         let instruction = self.program.data(&mut state.submodules.program);
         let option = now.is(Operation::MultiplyTable).select(now.option, int(0));
         let address = (r.base + option).resize(r.base.format, Wrap);
-        let write = Write { enable: i.table.write, address: i.table.address, data: i.table.word };
-        self.table.access(&mut state.submodules.table, address, write);
+        let of_table = self.of_table(state, r, i.table, address);
         let enable = now.does(Operation::Store) | now.does(Operation::Input);
         let write =
             Write { enable, address: variable(now.slot), data: self.stored(r, i, now, result) };
@@ -384,8 +416,28 @@ impl Position {
         let inputs =
             multiplier::Inputs { enable, left: r.factor.integer(), right: r.word.integer() };
         let product = call!(self.multiplier, state, inputs).product;
-        let factor = r.tables.select(of_table, r.left);
-        Read { instruction, word, factor, product: product.scaled(-2 * self.word.frac) }
+        Read { instruction, word, of_table, product: product.scaled(-2 * self.word.frac) }
+    }
+
+    /// The word of the table that was asked for, and a clock of its memories.
+    #[inline(always)]
+    fn of_table<V: Interpretation>(
+        &self,
+        state: &mut State<Self, V>,
+        r: &Regs<V>,
+        port: TablePort<Signal<V>>,
+        address: Signal<V>,
+    ) -> Signal<V> {
+        let within = &mut state.submodules;
+        if let Some((banks, within)) = self.banks.as_ref().zip(within.banks.as_mut()) {
+            let inputs = banks::Inputs { read_address: address, takes: r.multiplies, table: port };
+            return banks.call("banks", within, inputs).word;
+        }
+        let (table, words) = self.table.as_ref().zip(within.table.as_mut()).expect("no banks");
+        let word = table.data(words);
+        let write = Write { enable: port.write, address: port.address, data: port.word };
+        table.access(words, address, write);
+        word
     }
 
     /// What goes into the scratch memory.
@@ -464,7 +516,12 @@ impl Position {
         let whole = read.word.quantize(cell, Floor, Proved);
         let word = r.floors.select(whole, read.word);
         let operand = r.digits.select(self.of_digits(&r), word);
-        let pending = r.pending.concat(r.multiplies);
+        let (multiplies, tables_word, right) = match self.banks {
+            Some(_) => (r.held.read, r.held.read_table, r.held.read_word),
+            None => (r.multiplies, r.tables, read.word),
+        };
+        let factor = tables_word.select(read.of_table, r.left);
+        let pending = r.pending.concat(multiplies);
         let bits = r.quotient.format.width;
         Registers {
             loads,
@@ -474,12 +531,33 @@ impl Position {
             tables,
             pending: pending.bits(0, r.pending.format.width),
             left: r.loads.select(operand, r.left),
-            factor: r.multiplies.select(read.factor, r.factor),
-            word: r.multiplies.select(read.word, r.word),
+            factor: multiplies.select(factor, r.factor),
+            word: multiplies.select(right, r.word),
             sum: when!(clears => self.half(), else added),
             quotient: digit.select(r.quotient.concat(!r.sum.msb()).bits(0, bits), r.quotient),
             base: self.next_base(&r, now),
             ..r
+        }
+    }
+
+    /// What has registers of its own, after this clock; `on`: the next instruction is taken.
+    #[inline(always)]
+    fn next_held<V: Interpretation>(
+        &self,
+        r: &Regs<V>,
+        on: Signal<V>,
+        read: &Read<V>,
+    ) -> Held<Signal<V>> {
+        if self.banks.is_none() {
+            return r.held;
+        }
+        let operation = operation(read.instruction);
+        Held {
+            read: r.multiplies,
+            read_table: r.tables,
+            read_word: r.multiplies.select(read.word, r.held.read_word),
+            waits: on.select(waits(operation), r.held.waits),
+            settled: r.running & !on & r.waited.is(self.wait),
         }
     }
 
@@ -491,7 +569,7 @@ impl Position {
         let from_sum = r.sum.bits(self.word.frac as u8, r.base.format.width);
         // Halves of a wide product have wider ranges than the whole: what cannot be is ruled out
         // once more.
-        let last = code(self.table.words as i64 - 3, r.base.format);
+        let last = code(self.words.words as i64 - 3, r.base.format);
         let from_sum =
             if self.multiplier.latency() == 1 { from_sum } else { from_sum.at_most(last) };
         let kept = now.does(Operation::Base).select(from_sum, r.base);
@@ -523,7 +601,7 @@ impl Position {
         next: Regs<V>,
         r: &Regs<V>,
         now: &Decoded<V>,
-        instruction: Signal<V>,
+        read: &Read<V>,
     ) -> Regs<V> {
         let does = |operation: Operation| now.does(operation);
         let set = does(Operation::Set);
@@ -542,7 +620,8 @@ impl Position {
             running: r.running & !ends,
             bubble: self.jumps(r, now),
             fetched: self.fetch(r, now),
-            instruction: on.select(instruction, r.instruction),
+            instruction: on.select(read.instruction, r.instruction),
+            held: self.next_held(r, on, read),
             waited: (on | !r.running).select(int(0), more),
             count: (set & now.has(COUNT)).select(value, counted),
             surface: (set & now.has(SURFACE)).select(Spline::RX.signal(), surface),
@@ -582,6 +661,19 @@ impl Position {
             ..next
         }
     }
+}
+
+/// The operation of an instruction.
+#[inline(always)]
+fn operation<V: Interpretation>(instruction: Signal<V>) -> Signal<V> {
+    instruction.bits(instruction::BITS - instruction::OPERATION_BITS, instruction::OPERATION_BITS)
+}
+
+/// Whether an operation is one that waits for products.
+#[inline(always)]
+fn waits<V: Interpretation>(operation: Signal<V>) -> Signal<V> {
+    let is = |other: Operation| operation.is(other as u64).named(other.name());
+    Operation::WAITING.map(is).into_iter().reduce(|a, b| a | b).unwrap_or(bit(false))
 }
 
 /// The slot, or the variable in its place where it is a constant's. No program stores to a constant;
