@@ -7,7 +7,7 @@
 // - code: the code of the channel that `channel` named one cycle earlier, of the set announced by the last strobe;
 //   a set is read from the strobe's cycle on, and is stable for 24 cycles.
 // - channels 0 to 7: terminals, sensing voltage, haptic voltage.
-// - slots of 1700 samples, pad after pad; a frame follows its slot's last strobe by at most 8079 cycles.
+// - slots of 1700 samples, pad after pad; a frame follows its slot's last strobe by at most 8956 cycles.
 // - capacitance_gain, force_gain: stable from a slot's last strobe to its frame's `done`.
 // - write, address, word: a word of the position table per cycle; a slot that is estimated meanwhile gives a frame of
 //   neither table. Reset does not clear the table.
@@ -20,7 +20,7 @@
 //   5 CAPACITANCE  u24.13 (fraction 13)
 //   6 FORCE        u20.17 (fraction 17)
 //   7 MEAN_SQUARE  u22.22 (fraction 22)
-// - drive_valid: a drive word, 727 cycles after its slot's last strobe.
+// - drive_valid: a drive word, 729 cycles after its slot's last strobe.
 // - target_write, target_pad, target_word: a pad's target, taken as its slot's estimate is given; a sign of life.
 // - curve_write, curve_address, curve_word: a word of the curve per cycle, while no drive word is being made.
 // - proportional, correction, full_drive, rail, slew, force_cap: taken as a slot's estimate is given.

@@ -50,6 +50,9 @@ module hapticore_split_pad (
     reg [19:0] measured_q; // u20.17  Of the left part, then of the pad.
     reg asked; // u1.0  The pad's place and wall are asked for, then there.
     reg found; // u1.0
+    reg kept; // u1.0  Their words, where they have a register.
+    reg [18:0] place_word; // u19.0
+    reg [18:0] surface_word; // u19.0
     reg start; // u1.0
     reg placed_q; // u1.0
     reg signed [18:0] depth; // s19.7  Place less surface.
@@ -84,8 +87,8 @@ module hapticore_split_pad (
     wire [24:0] rounded = {1'b0, next_sum[25:2]} + {24'd0, next_sum[1] & (next_sum[2] | next_sum[0])};
     wire [20:0] rounded_2 = {1'b0, next_force_sum[21:2]} + {20'd0, next_force_sum[1] & (next_force_sum[2] | next_force_sum[0])};
     wire bit_bbf1 = wall_done & (~along_y); // u1.0
-    wire signed [17:0] quantized_308d = places_word[17:0]; // s18.0
-    wire signed [17:0] quantized_1b5d = surfaces_word[17:0]; // s18.0
+    wire signed [17:0] quantized_f439 = place_word[17:0]; // s18.0
+    wire signed [17:0] quantized_8683 = surface_word[17:0]; // s18.0
 
     hapticore_sided_wall u_wall (
         .clock(clock),
@@ -156,6 +159,9 @@ module hapticore_split_pad (
             measured_q <= 20'd0;
             asked <= 1'd0;
             found <= 1'd0;
+            kept <= 1'd0;
+            place_word <= 19'd0;
+            surface_word <= 19'd0;
             start <= 1'd0;
             placed_q <= 1'd0;
             depth <= 19'd0;
@@ -168,7 +174,8 @@ module hapticore_split_pad (
             invalid_q <= next_invalid_q;
             asked <= bit_18e8 | bit_bbf1;
             found <= asked;
-            start <= found;
+            kept <= found;
+            start <= kept;
             if (estimate & (pad == 2'd2)) begin
                 third <= capacitance;
             end
@@ -185,10 +192,14 @@ module hapticore_split_pad (
                 target_q <= wall_target;
                 free_q <= wall_free;
             end
+            if (kept) begin
+                placed_q <= place_word[18];
+                depth <= {{1{quantized_f439[17]}}, quantized_f439} - {{1{quantized_8683[17]}}, quantized_8683};
+                mirrored <= surface_word[18];
+            end
             if (found) begin
-                placed_q <= places_word[18];
-                depth <= {{1{quantized_308d[17]}}, quantized_308d} - {{1{quantized_1b5d[17]}}, quantized_1b5d};
-                mirrored <= surfaces_word[18];
+                place_word <= places_word;
+                surface_word <= surfaces_word;
                 rests_q <= rests_2_word;
             end
             if (bit_18e8) begin

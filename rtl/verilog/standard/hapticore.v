@@ -7,7 +7,7 @@
 // - code: the code of the channel that `channel` named one cycle earlier, of the set announced by the last strobe;
 //   a set is read from the strobe's cycle on, and is stable for 24 cycles.
 // - channels 0 to 7: terminals, sensing voltage, haptic voltage.
-// - slots of 1700 samples, pad after pad; a frame follows its slot's last strobe by at most 7829 cycles.
+// - slots of 1700 samples, pad after pad; a frame follows its slot's last strobe by at most 8706 cycles.
 // - capacitance_gain, force_gain: stable from a slot's last strobe to its frame's `done`.
 // - write, address, word: a word of the position table per cycle; a slot that is estimated meanwhile gives a frame of
 //   neither table. Reset does not clear the table.

@@ -27,12 +27,17 @@ module hapticore_position (
     reg bubble; // u1.0
     reg [7:0] fetched; // u8.0
     reg [15:0] instruction; // u16.0
-    reg [1:0] waited; // u2.0
+    reg [2:0] waited; // u3.0
     reg loads; // u1.0  What becomes of the word that was read, as the next four.
     reg floors; // u1.0
     reg digits; // u1.0
     reg multiplies; // u1.0
     reg tables; // u1.0
+    reg read; // u1.0  A product's operands were read.
+    reg read_table; // u1.0  One is a word of the table.
+    reg signed [17:0] read_word; // s18.17
+    reg waits; // u1.0  The instruction waits.
+    reg settled; // u1.0  It has waited long enough.
     reg [1:0] pending; // u2.0
     reg signed [17:0] left; // s18.17
     reg signed [17:0] factor; // s18.17
@@ -44,24 +49,17 @@ module hapticore_position (
     reg [3:0] count; // u4.0
     reg [3:0] step; // u4.0
     (* no_rw_check *) // read-during-write: don't care
-    reg signed [17:0] words [0:6248]; // 6249 words s18.17
-    reg signed [17:0] words_word; // its read register
-    (* no_rw_check *) // read-during-write: don't care
     (* ram_style = "block" *)
     reg signed [17:0] scratch [0:127]; // 128 words s18.17
     reg signed [17:0] scratch_word; // its read register
     reg [15:0] instructions [0:233]; // 234 words u16.0
     reg [15:0] instructions_word; // its read register
+    wire signed [17:0] banks_word; // s18.17
     wire signed [35:0] multiplier_product; // s36.0
 
-    wire is_base = instruction[15:12] == 4'd7; // u1.0
-    wire is_load_digit = instruction[15:12] == 4'd5; // u1.0
-    wire is_load_quotient = instruction[15:12] == 4'd2; // u1.0
-    wire is_output = instruction[15:12] == 4'd9; // u1.0
-    wire is_store = instruction[15:12] == 4'd6; // u1.0
-    wire waits = (((is_base | is_load_digit) | is_load_quotient) | is_output) | is_store; // u1.0
-    wire does = (running & (~bubble)) & ((~waits) | (waited == 2'd3)); // u1.0
+    wire does = (running & (~bubble)) & ((~waits) | settled); // u1.0
     wire [1:0] bits_55ce = instruction[11:10]; // u2.0
+    wire is_load_digit = instruction[15:12] == 4'd5; // u1.0
     wire [3:0] of_group =
         bits_55ce[1] ? (bits_55ce[0] ? {2'd0, {surface[0], 1'd0}}
         : count)
@@ -80,51 +78,71 @@ module hapticore_position (
     wire held = ~((sum_to_26[25:17] == 9'd0) | (sum_to_26[25:17] == 9'd511)); // u1.0
     wire is_multiply_table = instruction[15:12] == 4'd4; // u1.0
     wire [13:0] sum_c848 = {1'd0, base} + {11'd0, is_multiply_table ? instruction[2:0] : 3'd0}; // u14.0
-    wire bit_4434 = does & is_store; // u1.0
+    wire is_store = instruction[15:12] == 4'd6; // u1.0
+    wire bit_4d3f = does & is_store; // u1.0
     wire is_input = instruction[15:12] == 4'd8; // u1.0
     wire [6:0] variable = {1'd1, slot[5:0]}; // u7.0
     wire [2:0] bits_0096 = instruction[2:0]; // u3.0
     wire signed [21:0] choice_c7fb = bits_0096[1] ? {1'd0, share} : surface[0] ? r_y : r_x; // s22.20
     wire [8:0] fetched_plus_1 = {1'd0, fetched} + 9'd1; // u9.0
     wire is_repeat = instruction[15:12] == 4'd11; // u1.0
-    wire bit_1a03 = (does & is_repeat) & (~(count == 4'd0)); // u1.0
+    wire bit_8232 = (does & is_repeat) & (~(count == 4'd0)); // u1.0
     wire is_surfaces = instruction[15:12] == 4'd12; // u1.0
-    wire bit_6bd2 = does & is_surfaces; // u1.0
+    wire bit_f3eb = does & is_surfaces; // u1.0
     wire surface_is_r_x = surface == 2'd0; // u1.0
     wire is_pass = instruction[15:12] == 4'd13; // u1.0
     wire does_and_is_pass = does & is_pass; // u1.0
     wire is_found = instruction[15:12] == 4'd14; // u1.0
     wire step_is_8 = step == 4'd8; // u1.0
-    wire jumps = ((bit_1a03 | (bit_6bd2 & surface_is_r_x)) | (does_and_is_pass & (~(step == 4'd7)))) | ((does & is_found) & step_is_8); // u1.0
+    wire jumps = ((bit_8232 | (bit_f3eb & surface_is_r_x)) | (does_and_is_pass & (~(step == 4'd7)))) | ((does & is_found) & step_is_8); // u1.0
     wire does_or_bubble = does | bubble; // u1.0
     wire is_end = instruction[15:12] == 4'd15; // u1.0
     wire next_done = does & is_end; // u1.0
-    wire bit_ade8 = running & (~next_done); // u1.0
+    wire bit_d443 = running & (~next_done); // u1.0
     wire [7:0] fetch =
-        bit_ade8 ? (jumps ? instruction[7:0]
+        bit_d443 ? (jumps ? instruction[7:0]
         : does_or_bubble ? fetched_plus_1[7:0]
         : fetched)
         : 8'd0; // u8.0
-    wire bit_0acc = does & is_load_digit; // u1.0
+    wire bit_95e6 = does & is_load_digit; // u1.0
+    wire is_load_quotient = instruction[15:12] == 4'd2; // u1.0
     wire next_digits = does & is_load_quotient; // u1.0
     wire is_load = instruction[15:12] == 4'd0; // u1.0
     wire is_load_cell = instruction[15:12] == 4'd1; // u1.0
     wire next_floors = does & is_load_cell; // u1.0
     wire next_tables = does & is_multiply_table; // u1.0
     wire signed [42:0] sum_dbe1 = {{1{sum[41]}}, sum} + {{7{multiplier_product[35]}}, multiplier_product}; // s43.34
-    wire bit_385d = does & is_output; // u1.0
+    wire is_output = instruction[15:12] == 4'd9; // u1.0
+    wire bit_9236 = does & is_output; // u1.0
     wire signed [14:0] quantized_89c5 = {~quotient[14], quotient[13:0]}; // s15.0
     wire is_multiply = instruction[15:12] == 4'd3; // u1.0
-    wire [2:0] joined_111e = {pending, multiplies}; // u3.0
+    wire [2:0] joined_eb3b = {pending, read}; // u3.0
     wire [15:0] joined_bbf3 = {quotient, ~sum[41]}; // u16.0
     wire is_set = instruction[15:12] == 4'd10; // u1.0
     wire does_and_is_set = does & is_set; // u1.0
+    wire is_base = instruction[15:12] == 4'd7; // u1.0
     wire signed [4:0] count_minus_1 = {1'd0, count} - 5'd1; // s5.0
-    wire [2:0] waited_plus_1 = {1'd0, waited} + 3'd1; // u3.0
+    wire [3:0] waited_plus_1 = {1'd0, waited} + 4'd1; // u4.0
+    wire is_base_2 = instructions_word[15:12] == 4'd7; // u1.0
+    wire is_load_digit_2 = instructions_word[15:12] == 4'd5; // u1.0
+    wire is_load_quotient_2 = instructions_word[15:12] == 4'd2; // u1.0
+    wire is_output_2 = instructions_word[15:12] == 4'd9; // u1.0
+    wire is_store_2 = instructions_word[15:12] == 4'd6; // u1.0
     wire [4:0] step_plus_1 = {1'd0, step} + 5'd1; // u5.0
-    wire bit_ad55 = bit_385d & surface_is_r_x; // u1.0
+    wire bit_b1fe = bit_9236 & surface_is_r_x; // u1.0
     wire surface_is_r_y = surface == 2'd1; // u1.0
-    wire bit_f723 = bit_385d & surface_is_r_y; // u1.0
+    wire bit_e354 = bit_9236 & surface_is_r_y; // u1.0
+
+    hapticore_position_table u_banks (
+        .clock(clock),
+        .reset(reset),
+        .read_address(sum_c848[12:0]),
+        .takes(multiplies),
+        .write(write),
+        .address(address),
+        .word(word),
+        .word_out(banks_word)
+    );
 
     hapticore_multiplier u_multiplier (
         .clock(clock),
@@ -134,16 +152,6 @@ module hapticore_position (
         .right(word_q),
         .product(multiplier_product)
     );
-
-    initial begin : initial_words
-        integer i;
-        for (i = 0; i < 6249; i = i + 1) words[i] = 18'd0;
-    end
-
-    always @(posedge clock) begin
-        if (write) words[address] <= word;
-        words_word <= words[sum_c848[12:0]];
-    end
 
     initial begin : initial_scratch
         scratch[0] = 18'h00004; scratch[1] = 18'h00008; scratch[2] = 18'h00010; scratch[3] = 18'h00020;
@@ -181,7 +189,7 @@ module hapticore_position (
     end
 
     always @(posedge clock) begin
-        if (bit_4434 | (does & is_input)) scratch[variable] <= is_input ? (bits_0096[0] ? {1'd0, choice_c7fb[3:0], 13'd0} : choice_c7fb[21:4]) : bits_0096[0] ? sum[34:17] : result;
+        if (bit_4d3f | (does & is_input)) scratch[variable] <= is_input ? (bits_0096[0] ? {1'd0, choice_c7fb[3:0], 13'd0} : choice_c7fb[21:4]) : bits_0096[0] ? sum[34:17] : result;
         scratch_word <= scratch[slot];
     end
 
@@ -257,12 +265,17 @@ module hapticore_position (
             bubble <= 1'd0;
             fetched <= 8'd0;
             instruction <= 16'd0;
-            waited <= 2'd0;
+            waited <= 3'd0;
             loads <= 1'd0;
             floors <= 1'd0;
             digits <= 1'd0;
             multiplies <= 1'd0;
             tables <= 1'd0;
+            read <= 1'd0;
+            read_table <= 1'd0;
+            read_word <= 18'd0;
+            waits <= 1'd0;
+            settled <= 1'd0;
             pending <= 2'd0;
             left <= 18'd0;
             factor <= 18'd0;
@@ -282,32 +295,35 @@ module hapticore_position (
             done <= 1'd0;
         end else begin
             fetched <= fetch;
-            waited <= (does_or_bubble | (~running)) ? 2'd0 : waited_plus_1[1:0];
-            loads <= (((does & is_load) | next_floors) | bit_0acc) | next_digits;
+            waited <= (does_or_bubble | (~running)) ? 3'd0 : waited_plus_1[2:0];
+            loads <= (((does & is_load) | next_floors) | bit_95e6) | next_digits;
             floors <= next_floors;
             digits <= next_digits;
             multiplies <= (does & is_multiply) | next_tables;
             tables <= next_tables;
-            pending <= joined_111e[1:0];
+            read <= multiplies;
+            read_table <= tables;
+            settled <= (running & (~does_or_bubble)) & (waited == 3'd3);
+            pending <= joined_eb3b[1:0];
             base <=
                 (does_and_is_set & bits_0096[2]) ? {9'd0, {surface[0], 3'd0}}
                 : (does & is_base) ? sum[29:17]
                 : base;
             count <=
                 (does_and_is_set & bits_0096[0]) ? instruction[6:3]
-                : bit_1a03 ? count_minus_1[3:0]
+                : bit_8232 ? count_minus_1[3:0]
                 : count;
             done <= next_done;
-            if (bit_4434 & bits_0096[2]) begin
+            if (bit_4d3f & bits_0096[2]) begin
                 lost <= result < $signed(18'd0);
             end
-            if (bit_385d & (surface == 2'd2)) begin
+            if (bit_9236 & (surface == 2'd2)) begin
                 sheet <= result[17] ? 17'd0 : result[16:0];
             end
-            if (bit_f723) begin
+            if (bit_e354) begin
                 y <= result;
             end
-            if (bit_ad55) begin
+            if (bit_b1fe) begin
                 x <= result;
             end
             if (loads) begin
@@ -316,12 +332,16 @@ module hapticore_position (
                     : floors ? {scratch_word[17:12], 12'd0}
                     : scratch_word;
             end
+            if (multiplies) begin
+                read_word <= scratch_word;
+            end
+            if (read) begin
+                factor <= read_table ? banks_word : left;
+                word_q <= read_word;
+            end
             if (does_or_bubble) begin
                 instruction <= instructions_word;
-            end
-            if (multiplies) begin
-                factor <= tables ? words_word : left;
-                word_q <= scratch_word;
+                waits <= (((is_base_2 | is_load_digit_2) | is_load_quotient_2) | is_output_2) | is_store_2;
             end
             if (start) begin
                 running <= 1'd1;
@@ -333,23 +353,23 @@ module hapticore_position (
                 invalid <= 1'd0;
                 saturated <= 1'd0;
             end else begin
-                running <= bit_ade8;
+                running <= bit_d443;
                 bubble <= jumps;
-                sum <= (bit_4434 | bit_385d) ? 42'd65536 : pending[1] ? sum_dbe1[41:0] : sum;
+                sum <= (bit_4d3f | bit_9236) ? 42'd65536 : pending[1] ? sum_dbe1[41:0] : sum;
                 surface <=
                     (does_and_is_set & bits_0096[1]) ? 2'd0
-                    : bit_6bd2 ? (surface_is_r_x ? 2'd1
+                    : bit_f3eb ? (surface_is_r_x ? 2'd1
                     : step_is_8 ? 2'd2
                     : 2'd0)
                     : surface;
-                saturated <= saturated | ((bit_ad55 | bit_f723) & held);
-                if (bit_4434 & bits_0096[1]) begin
+                saturated <= saturated | ((bit_b1fe | bit_e354) & held);
+                if (bit_4d3f & bits_0096[1]) begin
                     invalid <= (surface_is_r_y & invalid) | (~((result[17:8] == 10'd0) | (result[17:8] == 10'd1023)));
                 end
                 if (does_and_is_pass) begin
                     step <= step_plus_1[3:0];
                 end
-                if (bit_0acc) begin
+                if (bit_95e6) begin
                     quotient <= joined_bbf3[14:0];
                 end
             end
@@ -357,8 +377,8 @@ module hapticore_position (
     end
 
     // Unused bits.
-    wire unused = &{1'b0, sum_c848[13], fetched_plus_1[8], sum_dbe1[42], joined_111e[2], joined_bbf3[15],
-        count_minus_1[4], waited_plus_1[2], step_plus_1[4]};
+    wire unused = &{1'b0, sum_c848[13], fetched_plus_1[8], sum_dbe1[42], joined_eb3b[2], joined_bbf3[15],
+        count_minus_1[4], waited_plus_1[3], step_plus_1[4]};
 
 endmodule
 

@@ -169,3 +169,14 @@ fn fields_are_as_the_unit_reads_them() {
     assert_eq!(BITS, 16);
     assert_eq!(Operation::Rest.fields().1 as u64, 0, "nothing is nothing in all fields");
 }
+
+impl ArithmeticUnit {
+    /// What its programs cost: instructions, the bits of sum, words and factors, and the clocks of each program.
+    pub(in super::super) fn costs(&self) -> (usize, [u8; 4], Vec<u64>) {
+        let instructions = self.program.codes();
+        let last = instructions.iter().rposition(|code| *code != 0).expect("a program");
+        let factors = self.multiplier.inputs();
+        let widths = [self.sum, self.words.format, factors.left, factors.right];
+        (last + 1, widths.map(|format| format.width), self.clocks.clone())
+    }
+}

@@ -274,3 +274,6 @@ impl Writer {
         self.know(Range { low: 0, high: most });
     }
 }
+
+#[cfg(test)]
+mod tests;

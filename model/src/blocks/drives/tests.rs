@@ -439,3 +439,58 @@ fn give_the_same(profile: &Profile, seed: u64, frames: u64) -> usize {
     }
     driven
 }
+
+/// A program that is longer, or words that are wider, would give the same: this holds what folding costs.
+#[test]
+fn folded_drives_cost_so_many_instructions_bits_and_clocks() {
+    let costs = |name: &str, law, wall: Option<profile::Wall>| {
+        let mut profile = Profile::bundled(name).expect("bundled");
+        profile.control = Some(Control::of(&profile, law));
+        (profile.wall, profile.pads) = (wall, 2 * parts(wall));
+        let (block, _) = with_core(&folded(profile));
+        block.unit.expect("folded").costs()
+    };
+    for (name, law, wall, expected) in [
+        ("small", Law::Inverse, Some(profile::Wall::B), (1001, [32, 32, 16, 16], vec![1220, 985])),
+        ("small", Law::Inverse, Some(profile::Wall::A), (1002, [32, 32, 16, 16], vec![1220, 985])),
+        ("small", Law::Integral, None, (332, [31, 31, 15, 15], vec![980])),
+        ("small", Law::Proportional, None, (309, [31, 31, 16, 15], vec![731])),
+        (
+            "standard",
+            Law::Inverse,
+            Some(profile::Wall::B),
+            (1180, [49, 36, 24, 24], vec![1574, 1065]),
+        ),
+        (
+            "standard",
+            Law::Open,
+            Some(profile::Wall::QUADRANTS),
+            (954, [35, 34, 20, 17], vec![634, 1065]),
+        ),
+        ("standard", Law::Integral, None, (353, [41, 41, 20, 20], vec![1342])),
+        ("fine", Law::Inverse, None, (522, [57, 36, 28, 28], vec![1647])),
+    ] {
+        assert_eq!(costs(name, law, wall), expected, "{name}, {law:?}, {wall:?}");
+    }
+}
+
+#[test]
+fn folded_drives_stop_where_the_host_is_silent_as_others_do() {
+    const MOST: i64 = 3;
+    let mut profile = profile(Law::Inverse, None);
+    profile.control.iter_mut().for_each(|control| control.silent_frames = MOST as u64);
+    let mut kinds = Kinds::new(&profile);
+    let mut told = Inputs::of(0);
+    let mut estimate = Inputs::of(0);
+    (estimate.estimate.prompt, estimate.tuning.enable) = (1, 1);
+    (told.target.alive, told.target.clear_faults) = (1, 1);
+    for round in 0..3 {
+        kinds.both(told);
+        for silent in 1..=2 * MOST {
+            let [own, on_unit] = kinds.estimate(estimate);
+            assert_eq!(own, on_unit, "round {round}, {silent} frames without a sign of life");
+            let faults = own.last().expect("a drive word's").faults;
+            assert_eq!(faults.silence_fault, i64::from(silent > MOST - 1), "{silent} frames");
+        }
+    }
+}

@@ -2,8 +2,8 @@
 //! Banks: the words of the position table as two memories with registers behind them, for parts with quick clocks.
 //!
 //! ```text
-//! address ─┬─ low ──[low_word]──┐
-//!          ├─ high ─[high_word]─┴─(choose)─ word
+//! address ─┬─ low ──[of_low]──┐
+//!          ├─ high ─[of_high]─┴─(choose)─ word
 //!          └─[asked_high]─[is_high]───┘
 //! ```
 //!
@@ -45,8 +45,8 @@ block! {
         /// What was asked for is in the upper bank.
         asked_high: BIT,
         is_high: BIT,
-        low_word: block.word,
-        high_word: block.word,
+        of_low: block.word,
+        of_high: block.word,
     }
 }
 
@@ -84,7 +84,7 @@ impl Block for Banks {
     #[inline(always)]
     fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
         let r = state.load(self);
-        let outputs = Outputs { word: r.is_high.select(r.high_word, r.low_word) };
+        let outputs = Outputs { word: r.is_high.select(r.of_high, r.of_low) };
         let within = &mut state.submodules;
         let (low, high) = (self.low.data(&mut within.low), self.high.data(&mut within.high));
         let (bits, write) = (self.low.address().width, i.table);
@@ -96,8 +96,8 @@ impl Block for Banks {
         let next = Registers {
             asked_high: read.0,
             is_high: i.takes.select(r.asked_high, r.is_high),
-            low_word: i.takes.select(low, r.low_word),
-            high_word: i.takes.select(high, r.high_word),
+            of_low: i.takes.select(low, r.of_low),
+            of_high: i.takes.select(high, r.of_high),
         };
         state.store(self, next);
         outputs

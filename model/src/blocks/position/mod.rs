@@ -400,11 +400,11 @@ impl Position {
         now: &Decoded<V>,
         result: Signal<V>,
     ) -> Read<V> {
-        let word = self.scratch.data(&mut state.submodules.scratch);
-        let instruction = self.program.data(&mut state.submodules.program);
         let option = now.is(Operation::MultiplyTable).select(now.option, int(0));
         let address = (r.base + option).resize(r.base.format, Wrap);
         let of_table = self.of_table(state, r, i.table, address);
+        let word = self.scratch.data(&mut state.submodules.scratch);
+        let instruction = self.program.data(&mut state.submodules.program);
         let enable = now.does(Operation::Store) | now.does(Operation::Input);
         let write =
             Write { enable, address: variable(now.slot), data: self.stored(r, i, now, result) };

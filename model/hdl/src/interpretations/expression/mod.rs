@@ -267,3 +267,6 @@ pub struct Words {
     memory: Memory,
     data: Term,
 }
+
+#[cfg(test)]
+mod tests;
