@@ -83,6 +83,29 @@ fn latency_is_the_clocks_measured_with_walls() {
     }
 }
 
+/// Folded onto one adder it comes later, by as many clocks as both programs have.
+#[test]
+fn latency_is_the_clocks_measured_where_controller_and_walls_are_folded() {
+    for wall in [None, Some(Wall::B)] {
+        for mut profile in controlled(Law::Inverse).filter(|of| of.name != "fast") {
+            let pads = wall.map_or(1, |wall| wall.parts);
+            profile.control.iter_mut().for_each(|control| control.folded = true);
+            let profile = Profile { wall, pads, ..profile };
+            let mut bench = Bench::new(ForceLoop::try_new(&profile).unwrap());
+            let quiet = Inputs::of(0);
+            for clock in 0..profile.slot_clocks() * (pads - 1) {
+                let mut inputs = quiet;
+                inputs.core.strobe = i64::from(clock % profile.clocks_per_sample == 0);
+                bench.clock(inputs);
+            }
+            let (measured, _) = slot(&mut bench, &profile, quiet, |_| quiet);
+            let (name, latency) = (&profile.name, bench.block.latency());
+            assert_eq!(measured, latency, "{name}, {pads} parts");
+            println!("{name}, {pads} parts, folded: {latency} clocks");
+        }
+    }
+}
+
 #[test]
 fn latency_is_the_clocks_measured() {
     for law in Law::ALL {
