@@ -499,6 +499,8 @@ fn estimates(block: &Drives, pads: u64) -> impl FnMut(&[i64]) -> Option<Vec<i64>
             *pad %= pads;
         }
         inputs.tuning.enable = i64::from(rng.u32(..20) != 0);
+        // A place is not written in the clock in which it is read: what is read then, is not said.
+        inputs.placed &= i64::from(clock % apart > 4);
         if clock % apart == 0 {
             (estimate, estimate.prompt) = (inputs.estimate, 1);
             estimate.prompt_pad = clock / apart % pads;

@@ -110,7 +110,7 @@ block! {
         /// The instruction after it, whose word is being read.
         ahead as Ahead: unit.ahead(),
         word: unit.words.format.where_present(unit.registers_words),
-        /// The instruction has not ended with the clock before: its word, and that of the one ahead, were taken.
+        /// The instruction did not end with the clock before, in which the word of the one ahead was taken.
         waited: BIT.where_present(unit.registers_words),
         /// A product is under way for so many clocks.
         multiplies: Format::unsigned(unit.multiplier.latency() as u8, 0),
