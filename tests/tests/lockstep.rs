@@ -483,6 +483,9 @@ fn icarus_runs_folded_drives_as_the_model_does() {
     }
 }
 
+/// The clock after a part's estimate in which `split_pad` reads its pad's place.
+const PLACE_IS_READ: i64 = 1;
+
 /// Estimates of pads in turn, as far apart as their drive words take, and anything else at any clock.
 fn estimates(block: &Drives, pads: u64) -> impl FnMut(&[i64]) -> Option<Vec<i64>> + use<> {
     let (formats, apart, pads) = (block.inputs(), block.latency() as i64 + 5, pads as i64);
@@ -499,8 +502,8 @@ fn estimates(block: &Drives, pads: u64) -> impl FnMut(&[i64]) -> Option<Vec<i64>
             *pad %= pads;
         }
         inputs.tuning.enable = i64::from(rng.u32(..20) != 0);
-        // A place is not written in the clock in which it is read: what is read then, is not said.
-        inputs.placed &= i64::from(clock % apart > 4);
+        // A memory that does not care gives anything for a place that is written in the clock in which it is read.
+        inputs.placed &= i64::from(clock % apart != PLACE_IS_READ);
         if clock % apart == 0 {
             (estimate, estimate.prompt) = (inputs.estimate, 1);
             estimate.prompt_pad = clock / apart % pads;

@@ -29,6 +29,9 @@
 //! | x, y          | profile         | mm                         | saturate, flagged                                      |
 //! | R             | a word's, unsigned | full scales, voltage / current | saturates at zero and at the top               |
 //!
+//! Where words of block RAMs have registers ([`Profile::registers_block_rams`]) the table is in two banks
+//! (`banks.rs`), and both factors come a clock later.
+//!
 //! `invalid` where the last step began at a place that does not have the normalised ratios, to
 //! `2^-TOLERANCE_BITS`. Control does not depend on data. Latency: [`Position::latency`]. Source:
 //! Nakamura & Yamamoto 2016, eqs. 2 and 3, for the ratios.
