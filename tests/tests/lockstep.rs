@@ -464,7 +464,8 @@ fn icarus_runs_folded_drives_as_the_model_does() {
         return;
     }
     let walls = [None, Some(profile::Wall::A), Some(profile::Wall::B), None];
-    for (law, wall) in Law::ALL.into_iter().zip(walls) {
+    let quadrants = (Law::Inverse, Some(profile::Wall::QUADRANTS));
+    for (law, wall) in Law::ALL.into_iter().zip(walls).chain([quadrants]) {
         for name in ["small", "standard"] {
             let mut profile = folded(name);
             profile.control = profile.control.map(|control| Control { law, ..control });
@@ -489,6 +490,7 @@ const PLACE_IS_READ: i64 = 1;
 /// Estimates of pads in turn, as far apart as their drive words take, and anything else at any clock.
 fn estimates(block: &Drives, pads: u64) -> impl FnMut(&[i64]) -> Option<Vec<i64>> + use<> {
     let (formats, apart, pads) = (block.inputs(), block.latency() as i64 + 5, pads as i64);
+    let of_quadrants = block.has_walls_along_y();
     let (mut rng, mut clock) = (fastrand::Rng::with_seed(9), 0);
     let mut estimate = drives::Inputs::of(0).estimate;
     move |_| {
@@ -502,8 +504,11 @@ fn estimates(block: &Drives, pads: u64) -> impl FnMut(&[i64]) -> Option<Vec<i64>
             *pad %= pads;
         }
         inputs.tuning.enable = i64::from(rng.u32(..20) != 0);
-        // A memory that does not care gives anything for a place that is written in the clock in which it is read.
-        inputs.placed &= i64::from(clock % apart != PLACE_IS_READ);
+        // A memory that does not care gives anything for a place that is written in the clock in which it is read; that of
+        // quadrants, whose second place may be, gives the one before.
+        if !of_quadrants {
+            inputs.placed &= i64::from(clock % apart != PLACE_IS_READ);
+        }
         if clock % apart == 0 {
             (estimate, estimate.prompt) = (inputs.estimate, 1);
             estimate.prompt_pad = clock / apart % pads;

@@ -25,7 +25,7 @@ use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::{BIT, Format};
 use hapticore_hdl::memory::{Memory, Write};
-use hapticore_hdl::signal::{HalfEven, Signal, Wrap, bit, int};
+use hapticore_hdl::signal::{Signal, Wrap, bit, int, zero};
 use hapticore_hdl::{block, bundle};
 
 mod folded;
@@ -312,7 +312,8 @@ struct Begin<V: Interpretation> {
     invalid: Signal<V>,
     capacitance: Signal<V>,
     measured: Signal<V>,
-    target: Signal<V>,
+    /// Force that its wall asks for.
+    of_wall: Signal<V>,
     free: Signal<V>,
     /// What is asked of its wall.
     wall: Option<sided_wall::In<V>>,
@@ -327,7 +328,7 @@ impl Drives {
             invalid: r.invalid,
             capacitance: i.estimate.prompt_capacitance,
             measured: i.estimate.prompt_force,
-            target: r.target,
+            of_wall: zero(Format::NONE),
             free: bit(false),
             wall: None,
         }
@@ -364,13 +365,12 @@ impl Drives {
             walled,
         };
         let pad = block.call("split_pad", within, inputs);
-        let (wall, _) = pad.target.saturate(self.targets.format, HalfEven);
         Begin {
             start: pad.done,
             invalid: pad.invalid,
             capacitance: pad.capacitance,
             measured: pad.measured,
-            target: wall.less_than(r.target).select(r.target, wall),
+            of_wall: pad.target,
             free: pad.free,
             wall: Some(pad.asks),
         }
@@ -436,7 +436,8 @@ impl Drives {
             counts.select(lesser, old)
         };
         let most = |old: Signal<V>, now: Signal<V>| {
-            let greater = known.select(now.less_than(old).select(old, now), now);
+            // `now` is subtracted in both: its bits are inverted once.
+            let greater = known.select(old.less_than(now).select(now, old), now);
             counts.select(greater, old)
         };
         ExtremesPort {
@@ -458,12 +459,12 @@ impl Block for Drives {
             true => self.split(state, &r, &i, self.walled(&r, &unit)),
             false => self.whole(&r, &i),
         };
-        let target = if self.registers_target() { r.folded.wanted } else { begin.target };
         let TargetPort { target_write, target_pad, target_word, alive, clear_faults } = i.target;
         let inputs = controller::Inputs {
             start: begin.start,
             pad: r.pad,
-            target,
+            target: r.target,
+            of_wall: begin.of_wall,
             capacitance: begin.capacitance,
             measured: begin.measured,
             force_gain: i.estimate.prompt_gain,
@@ -480,7 +481,7 @@ impl Block for Drives {
             drive: controller.drive,
             drive_low: controller.low,
             drive_high: controller.high,
-            drive_target: target.where_present(formats.drive_target),
+            drive_target: controller.target,
             drive_free: begin.free.where_present(formats.drive_free),
         };
         let outputs = Outputs { drive, extremes: r.extremes, faults: controller.faults };

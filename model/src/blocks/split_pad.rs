@@ -145,8 +145,9 @@ block! {
         /// That of what brakes is.
         unknown: BIT,
         capacitance: block.capacitance,
-        /// Of the left part, then of the pad.
         measured: block.force,
+        /// Of the left half.
+        left_measured: block.force.where_present(block.parts == 2),
         /// The pad's place and wall are asked for, then there.
         asked: BIT,
         found: BIT,
@@ -188,7 +189,12 @@ impl SplitPad {
             of_result,
             registers_words: profile.registers_block_rams(),
             wall: (!outside).then_some(wall),
-            places: memory("places", place).in_block(),
+            places: match rule.parts == profile::Wall::QUADRANTS.parts {
+                // The second is read when that of a frame may be written: what is read then is the word before.
+                true => Memory::new("places", words, place).in_block(),
+                false => memory("places", place).in_block(),
+            },
+            // Written at any time, likewise.
             surfaces: Memory::new("surfaces", words, place).in_block(),
             rests: memory("rests", BIT),
         })
@@ -296,7 +302,7 @@ impl SplitPad {
         let [first, second] = [0, 1].map(|part| i.estimate & self.is_part(i.pad, part));
         let last = i.estimate & self.is_part(i.pad, self.parts - 1);
         let (capacitance, measured) = match self.parts {
-            2 => (mean(r.left, i.capacitance), mean(r.measured, i.measured)),
+            2 => (mean(r.left, i.capacitance), mean(r.left_measured, i.measured)),
             _ => (i.capacitance, i.measured),
         };
         let invalid = (!first & r.invalid) | i.invalid;
@@ -307,7 +313,11 @@ impl SplitPad {
             invalid: (first | second).select(invalid, r.invalid),
             unknown: last.select(if self.parts == 2 { invalid } else { i.invalid }, r.unknown),
             capacitance: last.select(capacitance, r.capacitance),
-            measured: last.select(measured, first.select(i.measured, r.measured)),
+            measured: last.select(measured, r.measured),
+            left_measured: match self.parts {
+                2 => first.select(i.measured, r.left_measured),
+                _ => r.left_measured,
+            },
             asked: last,
             ..r
         }

@@ -10,6 +10,7 @@ module hapticore_controller (
     input wire start, // u1.0  Begins; all others are valid and stable until `done`.
     input wire [1:0] pad, // u2.0  Pad whose drive word is made.
     input wire [17:0] target, // u18.17  The force that the pad shall have, N.
+    input wire [19:0] of_wall, // u20.17  The force that its wall asks for, N: the pad shall have it where it is larger.
     input wire [23:0] capacitance, // u24.13  Capacitance of the pad, pF.
     input wire [19:0] measured, // u20.17  Haptic force of the pad, N.
     input wire [17:0] force_gain, // u18.34  Gain of the force, N/pF² at a full-scale haptic mean square.
@@ -28,6 +29,7 @@ module hapticore_controller (
     input wire [17:0] curve_word, // u18.18  Controller: word of the curve, a drive word.
     output reg done, // u1.0  Asserted for one cycle when the drive word is valid.
     output reg [17:0] drive, // u18.18  Drive word of the pad, drive's full scale; stable until the next `done`.
+    output wire [17:0] target_out, // u18.17  The larger of both forces.
     output reg low, // u1.0  The drive is at zero and should be less.
     output reg high, // u1.0  The drive is at its rail and should be more.
     output reg silence_fault, // u1.0  The host was silent for too long.
@@ -65,9 +67,12 @@ module hapticore_controller (
     wire sqrt_done; // u1.0
     wire [20:0] sqrt_sqrt; // u21.20
 
+    wire [20:0] of_wall_to_21 = {1'd0, of_wall}; // u21.17
+    wire [17:0] quantized_56e3 = (|of_wall_to_21[20:18]) ? {18{1'b1}} : of_wall_to_21[17:0]; // u18.17
+    wire [17:0] choice_8566 = (target < quantized_56e3) ? quantized_56e3 : target; // u18.17
     wire task_is_idle = task_q == 4'd0; // u1.0
     wire task_is_force_root = task_q == 4'd9; // u1.0
-    wire [35:0] sqrt_radicand = {task_is_force_root ? ((|measured[19]) ? {19{1'b1}} : measured[18:0]) : {1'd0, target}, 17'd0}; // u36.36
+    wire [35:0] sqrt_radicand = {task_is_force_root ? ((|measured[19]) ? {19{1'b1}} : measured[18:0]) : {1'd0, choice_8566}, 17'd0}; // u36.36
     wire task_is_curve = task_q == 4'd2; // u1.0
     wire count_is_0 = count == 3'd0; // u1.0
     wire task_is_root = task_q == 4'd1; // u1.0
@@ -84,10 +89,7 @@ module hapticore_controller (
     wire bit_d6ef = silence_fault & not_clear_faults; // u1.0
     wire bit_9e74 = sensor_fault & not_clear_faults; // u1.0
     wire bit_cbc2 = force_fault & not_clear_faults; // u1.0
-    wire [13:0] choice_66cf =
-        alive ? 14'd0
-        : (silent == 13'd4096) ? {1'd0, silent}
-        : ({1'd0, silent} + 14'd1); // u14.0
+    wire [13:0] choice_b1ca = alive ? 14'd0 : ({1'd0, silent} + {13'd0, ~(silent == 13'd4096)}); // u14.0
     wire bit_a0db = bit_4b82 & count_is_0; // u1.0
     wire signed [21:0] sum_ec7d = {2'd0, curve_drive} + {{1{proportional_q[20]}}, proportional_q}; // s22.20
     wire signed [30:0] sum_8a80 = {{1{sum_ec7d[21]}}, sum_ec7d, 8'd0} + {{2{correction_q[28]}}, correction_q}; // s31.28
@@ -208,7 +210,7 @@ module hapticore_controller (
                 task_q <= 4'd1;
                 count <= 3'd0;
                 sqrt_start <= 1'd1;
-                silent <= choice_66cf[12:0];
+                silent <= choice_b1ca[12:0];
                 silence_fault <= bit_d6ef;
                 sensor_fault <= bit_9e74;
                 force_fault <= bit_cbc2;
@@ -283,8 +285,10 @@ module hapticore_controller (
         end
     end
 
+    assign target_out = choice_8566;
+
     // Unused bits.
-    wire unused = &{1'b0, capacitance, force_gain, full_drive, choice_66cf[13], count_plus_1[3], choice_1e97[4]};
+    wire unused = &{1'b0, capacitance, force_gain, full_drive, choice_b1ca[13], count_plus_1[3], choice_1e97[4]};
 
 endmodule
 

@@ -84,15 +84,13 @@ module hapticore_drives (
     wire split_pad_reads; // u1.0
     wire controller_done; // u1.0
     wire [17:0] controller_drive; // u18.18
+    wire [17:0] controller_target; // u18.17
     wire controller_low; // u1.0
     wire controller_high; // u1.0
     wire controller_silence_fault; // u1.0
     wire controller_sensor_fault; // u1.0
     wire controller_force_fault; // u1.0
 
-    wire [20:0] quantized_7caf = {1'd0, split_pad_target}; // u21.17
-    wire [17:0] quantized_8219 = (|quantized_7caf[20:18]) ? {18{1'b1}} : quantized_7caf[17:0]; // u18.17
-    wire [17:0] controller_target = (quantized_8219 < target) ? target : quantized_8219; // u18.17
     wire [1:0] next_pad = prompt ? prompt_pad : pad; // u2.0
     wire bit_d4db = extremes_valid & (~extremes_read); // u1.0
     wire bit_7ccb = controller_done & (~split_pad_invalid); // u1.0
@@ -132,7 +130,8 @@ module hapticore_drives (
         .reset(reset),
         .start(split_pad_done),
         .pad(pad),
-        .target(controller_target),
+        .target(target),
+        .of_wall(split_pad_target),
         .capacitance(split_pad_capacitance),
         .measured(split_pad_measured),
         .force_gain(prompt_gain),
@@ -151,6 +150,7 @@ module hapticore_drives (
         .curve_word(curve_word),
         .done(controller_done),
         .drive(controller_drive),
+        .target_out(controller_target),
         .low(controller_low),
         .high(controller_high),
         .silence_fault(controller_silence_fault),
@@ -201,13 +201,13 @@ module hapticore_drives (
             end
             if (bit_7ccb) begin
                 if (bit_d4db) begin
-                    if (~(split_pad_measured < most_force)) begin
+                    if (most_force < split_pad_measured) begin
                         most_force <= split_pad_measured;
                     end
                     if (~(least_force < split_pad_measured)) begin
                         least_force <= split_pad_measured;
                     end
-                    if (~(controller_drive < most_drive)) begin
+                    if (most_drive < controller_drive) begin
                         most_drive <= controller_drive;
                     end
                     if (~(least_drive < controller_drive)) begin

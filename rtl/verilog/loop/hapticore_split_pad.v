@@ -47,7 +47,7 @@ module hapticore_split_pad (
     reg invalid_q; // u1.0  The estimate of a sensing part is invalid.
     reg unknown; // u1.0  That of what brakes is.
     reg [23:0] capacitance_q; // u24.13
-    reg [19:0] measured_q; // u20.17  Of the left part, then of the pad.
+    reg [19:0] measured_q; // u20.17
     reg asked; // u1.0  The pad's place and wall are asked for, then there.
     reg found; // u1.0
     reg kept; // u1.0  Their words, where they have a register.
@@ -58,7 +58,6 @@ module hapticore_split_pad (
     reg signed [18:0] depth; // s19.7  Place less surface.
     reg mirrored; // u1.0
     reg rests_q; // u1.0
-    (* no_rw_check *) // read-during-write: don't care
     (* ram_style = "block" *)
     reg [18:0] places [0:3]; // 4 words u19.0
     reg [18:0] places_word; // its read register

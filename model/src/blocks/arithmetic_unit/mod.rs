@@ -228,21 +228,22 @@ impl ArithmeticUnit {
     }
 
     /// The sum and the word, twice the sum, or the difference of sum and word: one adder for all, as the
-    /// difference is the sum with all bits of the word inverted and one more.
+    /// difference is the sum with all bits of the word inverted and one more. A sum holds every difference whose
+    /// sign is looked at.
     #[inline(always)]
     fn total<V: Interpretation>(&self, r: &Regs<V>, word: Signal<V>) -> Signal<V> {
         let is_difference = r.source.is(Source::Difference as u64);
         let subtracts = (is_difference | r.when.is(When::Less as u64)).named("subtracts");
-        let longer = Format::signed(self.sum.width + 1, 0);
+        let width = self.sum.width;
         let carried = |signal: Signal<V>, carry: Signal<V>| {
-            let bits = signal.resize(longer, Proved).bits(0, longer.width);
-            bits.concat(carry).as_code(Format { width: longer.width + 1, ..longer })
+            let bits = signal.resize(self.sum, Proved).bits(0, width);
+            bits.concat(carry).as_code(Format::signed(width + 1, 0))
         };
         let inverted = (code::<V>(-1, Format::signed(1, 0)) - word).resize(word.format, Proved);
         let twice = r.source.is(Source::Left as u64).named("twice");
         let other = twice.select(r.sum, subtracts.select(inverted, word));
         let total = carried(r.sum, bit(true)) + carried(other, subtracts);
-        total.bits(1, longer.width).as_code(longer).named("total")
+        total.bits(1, width).as_code(self.sum).named("total")
     }
 
     /// What the sum takes, and whether it does.
@@ -259,21 +260,26 @@ impl ArithmeticUnit {
         let width = self.sum.width;
         let wide = |signal: Signal<V>| signal.resize(self.sum, Proved);
         let total = self.total(r, word);
-        let less = total.bits(width, 1);
+        let less = total.msb();
         // A digit of a quotient.
         let digit = total.bits(0, 1) | r.when.is(When::Less as u64);
         let total = total.bits(1, width - 1).concat(digit).as_code(self.sum);
         let right = wide(r.sum.bits(1, width - 1).as_code(Format::signed(width - 1, 0)));
         let told = wide(odd.select(r.sum.is(0), r.sum.msb()));
         let product = product.resize(self.sum, Wrap);
-        let [low, middle, high] = [0, 1, 2].map(|place| r.source.bits(place, 1));
-        let pair = |set: Signal<V>, clear: Signal<V>| low.select(set, clear);
-        let first = middle.select(pair(right, total), pair(told, wide(word)));
-        let second = middle.select(pair(wide(i.given), product), total);
+        let odd_source = r.source.bits(0, 1);
+        let pair = |set: Signal<V>, clear: Signal<V>| odd_source.select(set, clear);
+        // A pair and whether it is meant are one lookup table, which a tree of all bits is not.
+        let pairs =
+            [pair(told, wide(word)), pair(right, total), total, pair(wide(i.given), product)];
+        let of_pair = r.source.bits(1, SOURCE_BITS - 1);
+        let source = (0..4).rev().fold(zero(self.sum), |others, number| {
+            of_pair.is(number).select(pairs[number as usize], others)
+        });
         let by_less = r.when.bits(0, 1).select(odd.select(less, !less), r.flag);
         let takes = r.when.bits(1, 1).select(by_less, r.when.bits(0, 1));
         let waits = now.multiplies & !now.ends;
-        (high.select(second, first), r.running & takes & !waits)
+        (source, r.running & takes & !waits)
     }
 }
 

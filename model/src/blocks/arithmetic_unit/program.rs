@@ -25,7 +25,7 @@ pub struct Programs {
     pub products: Vec<u64>,
     /// Instructions on their way behind the one that is carried out.
     pub behind: usize,
-    /// The words of no row at reset: constants, then variables.
+    /// The words of no row at reset: constants; variables come behind them.
     pub words: Vec<i64>,
     /// Of the sum.
     pub sum: Format,
@@ -292,7 +292,6 @@ impl Slots {
                     return Err(TooLarge { what: "constants and variables", most, got: most + 1 });
                 };
                 self.variables.insert(variable, address as u8);
-                self.words.resize(self.words.len().max(address + 1), 0);
             }
         }
         Ok(())
@@ -331,3 +330,6 @@ fn loops(lines: &[Line]) -> Vec<(usize, usize)> {
 fn within(what: &'static str, most: usize, got: usize) -> Result<(), TooLarge> {
     if got <= most { Ok(()) } else { Err(TooLarge { what, most, got }) }
 }
+
+#[cfg(test)]
+mod tests;

@@ -54,6 +54,7 @@ impl<B: Block> Folded<B> {
         let programs =
             Programs::of(&[(expression, &Numbers(names.clone()))], behind).expect("it fits");
         let unit = ArithmeticUnit::new(programs, PADS, GIVEN, 16);
+        assert_eq!(unit.registers_words(), behind == 2, "instructions on their way");
         Folded { block: Bench::new(block), unit: Bench::new(unit), names }
     }
 
@@ -118,7 +119,7 @@ fn every_operation_is_folded_in_any_format() {
         let any = everything::Inputs { start: Some(0), ..everything::Inputs::of(None) };
         let begins = everything::Inputs { start: Some(1), ..any };
         let expression = Expression::of(&block, begins, any, |outputs| outputs.done);
-        assert_eq!(expression.results.len(), 17, "all but `done`");
+        assert_eq!(expression.results.len(), 20, "all but `done`");
         let mut folded = Folded::new(block, expression, 1 + n % 2);
         let formats = folded.block.block.inputs();
         for _ in 0..60 {
@@ -133,7 +134,8 @@ fn every_operation_is_folded_in_any_format() {
 fn quotients_and_roots_are_those_of_the_serial_blocks() {
     let mut random = Random::new(4);
     for number in 0..operations(MILLION / 20_000).max(20) as usize {
-        let [n, d] = [(); 2].map(|()| Format::unsigned(2 + random.below(14) as u8, 3));
+        // Up to quotients of three parts.
+        let [n, d] = [(); 2].map(|()| Format::unsigned(2 + random.below(18) as u8, 3));
         let divides = Divider::new(n, d, Format::unsigned(1 + random.below(30) as u8, 9));
         let held = divider::Inputs { start: Some(0), ..divider::Inputs::of(None) };
         let begins = divider::Inputs { start: Some(1), ..held };
@@ -160,6 +162,32 @@ fn quotients_and_roots_are_those_of_the_serial_blocks() {
             folded.check(0, sqrt::Inputs { start: 0, radicand }, &[]);
         }
     }
+}
+
+/// Words that are wider, or more lines, would give the same quotients.
+#[test]
+fn quotients_and_roots_cost_so_many_instructions_bits_and_clocks() {
+    let unsigned = Format::unsigned;
+    // By how many places the dividend is to be moved: more than there are digits, as many, fewer; in three parts.
+    for (n, d, quotient, expected) in [
+        (unsigned(12, 3), unsigned(4, 3), unsigned(8, 12), (65, [21, 13, 1, 1], 144)),
+        (unsigned(12, 3), unsigned(4, 3), unsigned(12, 12), (61, [21, 17, 1, 1], 173)),
+        (unsigned(12, 3), unsigned(4, 3), unsigned(16, 12), (62, [22, 21, 1, 1], 213)),
+        (unsigned(19, 3), unsigned(19, 3), unsigned(30, 16), (120, [32, 31, 1, 1], 440)),
+    ] {
+        let divides = Divider::new(n, d, quotient);
+        let held = divider::Inputs { start: Some(0), ..divider::Inputs::of(None) };
+        let begins = divider::Inputs { start: Some(1), ..held };
+        let expression = Expression::of(&divides, begins, held, |outputs| outputs.done);
+        let costs = Folded::new(divides, expression, 1).unit.block.costs();
+        assert_eq!((costs.0, costs.1, costs.2[0]), expected, "{n:?} / {d:?}: {quotient:?}");
+    }
+    let root = SquareRoot::new(unsigned(15, 8), 6);
+    let held = sqrt::Inputs { start: Some(0), radicand: None };
+    let begins = sqrt::Inputs { start: Some(1), radicand: None };
+    let expression = Expression::of(&root, begins, held, |outputs| outputs.done);
+    let costs = Folded::new(root, expression, 1).unit.block.costs();
+    assert_eq!((costs.0, costs.1, costs.2[0]), (31, [21, 20, 10, 10], 182), "a root");
 }
 
 /// Sources that take a clock for each place are told by two of their bits, and all fields fit their word.

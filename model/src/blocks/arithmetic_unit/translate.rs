@@ -262,8 +262,8 @@ impl Translation<'_> {
 
     /// sum ← what a port gives, so many clocks after it is asked for.
     fn ask(&mut self, number: u8, clocks: usize, range: Range) {
-        // An address stays in the sum until then.
-        let sum = if clocks > 1 { self.writer.sum() } else { Range::point(0) };
+        // The sum stays as it is until then: its range is among those of all sums already.
+        let sum = Range::point(0);
         (0..clocks).for_each(|_| self.writer.number(Operation::Ask, number, sum));
         self.writer.alone(Operation::Take, range);
     }
@@ -397,3 +397,6 @@ impl Translation<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -69,23 +69,21 @@ impl<V: Interpretation> Watch<Signal<V>> {
     #[inline(always)]
     pub(in crate::blocks) fn counted(self, alive: Signal<V>, silent_frames: u64) -> Signal<V> {
         let silent = self.silent;
-        let more = silent.is(silent_frames).select(silent, silent + int(1));
+        let more = silent + !silent.is(silent_frames);
         alive.select(int(0), more).resize(silent.format, Wrap)
     }
 
-    /// With the faults of an estimate, and of a host that has been silent for too long where it is `now` that
-    /// this is looked for.
+    /// With the faults of an estimate, and of a host that has been silent for too long.
     #[inline(always)]
     pub(in crate::blocks) fn found(
         self,
-        now: Signal<V>,
-        silent_frames: u64,
+        silence: Signal<V>,
         sensor: Signal<V>,
         force: Signal<V>,
     ) -> Self {
         let Faults { silence_fault, sensor_fault, force_fault } = self.latched;
         let latched = Faults {
-            silence_fault: silence_fault | (now & self.silent.is(silent_frames)),
+            silence_fault: silence_fault | silence,
             sensor_fault: sensor_fault | sensor,
             force_fault: force_fault | force,
         };
@@ -123,6 +121,7 @@ impl Controller {
     ) -> Watch<Signal<V>> {
         let sensor = self.invalid_count(i, invalid).is(self.invalid_frames);
         let force = !i.invalid & i.tuning.force_cap.less_than(i.measured);
-        watch.found(now, self.silent_frames, now & sensor, now & force)
+        let silence = watch.silent.is(self.silent_frames);
+        watch.found(now & silence, now & sensor, now & force)
     }
 }

@@ -52,7 +52,7 @@ use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format};
 use hapticore_hdl::interpretations::expression::Expression;
 use hapticore_hdl::memory::{Memory, Write};
-use hapticore_hdl::signal::{Proved, Signal, bit, int, zero};
+use hapticore_hdl::signal::{HalfEven, Proved, Signal, bit, int, zero};
 use hapticore_hdl::states::States;
 use hapticore_hdl::{block, bundle, call, when};
 use laws::Found;
@@ -107,6 +107,7 @@ block! {
         right: Format,
         invalid_frames: u64,
         silent_frames: u64,
+        has_walls: bool,
     }
     submodules {
         multiplier: Multiplier,
@@ -126,6 +127,8 @@ block! {
         pad: block.pad,
         /// The force that the pad shall have, N.
         target: block.target,
+        /// The force that its wall asks for, N: the pad shall have it where it is larger.
+        of_wall: block.force.where_present(block.has_walls),
         /// Capacitance of the pad, pF.
         capacitance: block.capacitance,
         /// Haptic force of the pad, N.
@@ -145,6 +148,8 @@ block! {
         done: BIT,
         /// Drive word of the pad, drive's full scale; stable until the next `done`.
         drive: block.drive,
+        /// The larger of both forces.
+        target: block.target.where_present(block.has_walls),
         /// The drive is at zero and should be less.
         low: BIT,
         /// The drive is at its rail and should be more.
@@ -245,6 +250,7 @@ impl Controller {
             right,
             invalid_frames: control.invalid_frames,
             silent_frames: control.silent_frames,
+            has_walls: profile.wall.is_some(),
         }
     }
 
@@ -317,7 +323,8 @@ impl Block for Controller {
     #[inline(always)]
     fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
         let r = state.load(self);
-        let outputs = self.outputs_now(&r);
+        let i = Inputs { target: self.larger(&i), ..i };
+        let outputs = self.outputs_now(&r, &i);
         let idle = r.task.at(Task::Idle);
         let woken = i.start | i.alive | i.clear_faults | i.tuning.curve_write;
         if (woken | !idle | r.done).can_skip() {
@@ -346,10 +353,21 @@ impl Block for Controller {
 }
 
 impl Controller {
+    /// The force that the pad shall have: the host's, or the wall's where it is larger.
     #[inline(always)]
-    fn outputs_now<V: Interpretation>(&self, r: &Regs<V>) -> Out<V> {
+    fn larger<V: Interpretation>(&self, i: &In<V>) -> Signal<V> {
+        if !self.has_walls {
+            return i.target;
+        }
+        let (of_wall, _) = i.of_wall.saturate(self.target, HalfEven);
+        i.target.less_than(of_wall).select(of_wall, i.target)
+    }
+
+    #[inline(always)]
+    fn outputs_now<V: Interpretation>(&self, r: &Regs<V>, i: &In<V>) -> Out<V> {
+        let target = i.target.where_present(self.outputs().target);
         let faults = r.watch.latched;
-        Outputs { done: r.done, drive: r.drive, low: r.low, high: r.high, faults }
+        Outputs { done: r.done, drive: r.drive, target, low: r.low, high: r.high, faults }
     }
 
     /// What the blocks and memories within give, and whether the task ends with it.

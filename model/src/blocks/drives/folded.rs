@@ -52,15 +52,15 @@ bundle! {
         row,
         /// What was asked for.
         word,
-        /// A word of the curve, and the target with the wall's, where they have registers.
+        /// A word of the curve, where it has a register.
         curve,
-        wanted,
         /// Of the wall.
         wall_target,
         wall_free,
         wall_valid,
         /// Of the controller.
         next_drive,
+        next_target,
         next_low,
         next_high,
         watch as Watch,
@@ -125,11 +125,7 @@ pub fn unit(
         let expected = format_args!("programs of at most {} {}", too_large.most, too_large.what);
         ProfileError::value("control.folded", expected, too_large.got)
     })?;
-    let (width, most) = (programs.sum.width, MAX_WIDTH - ArithmeticUnit::CARRIES);
-    if width > most {
-        let expected = format_args!("sums of at most {most} bits");
-        return Err(ProfileError::value("control.folded", expected, width));
-    }
+    sums_fit(programs.sum.width)?;
     let widths = widths(controller, wall.as_ref());
     let width = |number: u8| widths.get(&number).copied().unwrap_or(0);
     // What is alike in width is side by side, which takes fewer multiplexers.
@@ -140,12 +136,22 @@ pub fn unit(
     Ok(Some((Unit { asked, given }, block)))
 }
 
+/// Whether a unit can hold sums of so many bits.
+pub(super) fn sums_fit(width: u8) -> Result<(), ProfileError> {
+    let most = MAX_WIDTH - ArithmeticUnit::CARRIES;
+    if width <= most {
+        return Ok(());
+    }
+    let expected = format_args!("sums of at most {most} bits");
+    Err(ProfileError::value("control.folded", expected, width))
+}
+
 /// The bits of each input as a signed integer, by its number.
 fn widths(controller: &Controller, wall: Option<&SidedWall>) -> HashMap<u8, u8> {
     let mut widths = HashMap::new();
     let mut number = 0;
     let mut see = |format: Format| {
-        widths.insert(number, format.width + u8::from(!format.signed));
+        widths.insert(number, as_signed(format));
         number += 1;
     };
     if let Some(wall) = wall {
@@ -153,22 +159,21 @@ fn widths(controller: &Controller, wall: Option<&SidedWall>) -> HashMap<u8, u8> 
     }
     number = OF_CONTROLLER;
     let mut see = |format: Format| {
-        widths.insert(number, format.width + u8::from(!format.signed));
+        widths.insert(number, as_signed(format));
         number += 1;
     };
     let inputs = controller.inputs();
     <controller::Inputs as Bundle>::map(inputs, &mut see);
-    widths.insert(CURVE, inputs.tuning.curve_word.width + 1);
+    widths.insert(CURVE, as_signed(inputs.tuning.curve_word));
     widths
 }
 
-impl Drives {
-    /// Whether the target has a register between walls and unit: sums, comparisons and the choice of what the unit
-    /// asks for are too long a path for a quick clock.
-    pub(super) fn registers_target(&self) -> bool {
-        self.has_walls() && self.unit.as_ref().is_some_and(ArithmeticUnit::registers_words)
-    }
+/// The bits of a word as a signed integer.
+fn as_signed(format: Format) -> u8 {
+    format.width + u8::from(!format.signed)
+}
 
+impl Drives {
     /// The registers beside the unit, where there is one.
     pub(super) fn folded(&self) -> Folded<Format> {
         let Some(unit) = &self.unit else {
@@ -183,11 +188,11 @@ impl Drives {
             row: self.pad,
             word: unit.inputs().given,
             curve: self.points.format.where_present(unit.registers_words()),
-            wanted: self.targets.format.where_present(self.registers_target()),
             wall_target: force.where_present(walls),
             wall_free: BIT.where_present(walls),
             wall_valid: BIT.where_present(walls),
             next_drive: self.of_drive.drive,
+            next_target: self.of_drive.target,
             next_low: BIT,
             next_high: BIT,
             watch: Watch::registers(self.silent_frames),
@@ -250,6 +255,7 @@ impl Drives {
         controller::Outputs {
             done,
             drive: of.next_drive,
+            target: of.next_target,
             low: of.next_low,
             high: of.next_high,
             faults: of.watch.latched,
@@ -300,16 +306,18 @@ impl Drives {
             true => old,
             false => given(wall, 0, name).select(unit.sum.as_code(old.format), old),
         };
-        let of_drive = |name, old: Signal<V>| {
-            given(drive, OF_CONTROLLER, name).select(unit.sum.as_code(old.format), old)
+        let of_drive = |name, old: Signal<V>| match old.format.is_none() {
+            true => old,
+            false => given(drive, OF_CONTROLLER, name).select(unit.sum.as_code(old.format), old),
         };
         let is_set = |name| given(drive, OF_CONTROLLER, name) & unit.sum.bits(0, 1);
         let heard = of.watch.heard(controller.alive, controller.clear_faults);
         let counted = of.watch.counted(controller.alive, self.silent_frames);
         let silent = controller.start.select(counted, heard.silent);
+        // Of the register, so that nothing is compared that is still being counted.
+        let silence = of.watch.silent.is(self.silent_frames) & !controller.alive;
         let watch = Watch { silent, ..heard }.found(
-            of.begins & self.of_controller(&of),
-            self.silent_frames,
+            of.begins & self.of_controller(&of) & silence,
             is_set("sensor_fault"),
             is_set("force_fault"),
         );
@@ -323,14 +331,11 @@ impl Drives {
             row: begins.select(row, of.row),
             word: of.runs.select(self.word(r, unit, begin, controller, curve), of.word),
             curve: kept,
-            wanted: match of.wanted.format.is_none() {
-                true => of.wanted,
-                false => begin.start.select(begin.target, of.wanted),
-            },
             wall_target: of_wall("target", of.wall_target),
             wall_free: of_wall("free", of.wall_free),
             wall_valid: of_wall("valid", of.wall_valid),
             next_drive: of_drive("drive", of.next_drive),
+            next_target: of_drive("target", of.next_target),
             next_low: of_drive("low", of.next_low),
             next_high: of_drive("high", of.next_high),
             watch,
@@ -410,30 +415,23 @@ impl Drives {
             see(field, signal);
             field += 1;
         });
-        chosen(words, asked.len(), unit.number)
+        chosen(&words[..asked.len()], unit.number)
     }
 }
 
 /// Most inputs that programs ask for.
 const MOST_ASKED: usize = 32;
 
-/// The word of a number below `count`: bit by bit of the number.
+/// The word of a number: of a pair by the number's lowest bit, of all pairs by the others. In lookup tables with four inputs a
+/// pair and whether it is meant are one, which a tree of all bits is not.
 #[inline(always)]
-fn chosen<V: Interpretation>(
-    mut words: [Signal<V>; MOST_ASKED],
-    mut count: usize,
-    number: Signal<V>,
-) -> Signal<V> {
-    let mut place = 0;
-    while count > 1 {
-        let bit = number.bits(place, 1);
-        for pair in 0..count.div_ceil(2) {
-            let (clear, set) = (words[2 * pair], words[2 * pair + 1]);
-            words[pair] = if 2 * pair + 1 < count { bit.select(set, clear) } else { clear };
-        }
-        (count, place) = (count.div_ceil(2), place + 1);
-    }
-    words[0]
+fn chosen<V: Interpretation>(words: &[Signal<V>], number: Signal<V>) -> Signal<V> {
+    let (to, odd) = (words[0].format, number.bits(0, 1));
+    let of_pair = number.bits(1, Format::counter(words.len() as u64 - 1).width - 1);
+    words.chunks(2).enumerate().rev().fold(zero(to), |others, (number, pair)| {
+        let second = pair.get(1).copied().unwrap_or(zero(to));
+        of_pair.is(number as u64).select(odd.select(second, pair[0]), others)
+    })
 }
 
 /// Whether a number below `count` is this one.

@@ -52,6 +52,11 @@ block! {
         mean: of.a,
         /// Of b, as it was kept below a bit.
         before: Format::unsigned(2, 0),
+        /// a and a constant, whose points differ.
+        raised: of.to,
+        /// The lesser or another; one of both where they differ.
+        otherwise: of.a.join(of.b),
+        different: of.a.join(of.b),
     }
     registers(of) {
         step: Format::counter(4),
@@ -64,7 +69,7 @@ bundle! {
     /// What it gives.
     pub struct Results {
         sum, difference, product, magnitude, floor, wrapped, low_bits, joined, less, equal, logic, lesser,
-        greater, selected, looked_up, mean, before,
+        greater, selected, looked_up, mean, before, raised, otherwise, different,
     }
 }
 
@@ -89,6 +94,9 @@ impl Results<Format> {
             looked_up: o.looked_up,
             mean: o.mean,
             before: o.before,
+            raised: o.raised,
+            otherwise: o.otherwise,
+            different: o.different,
         }
     }
 }
@@ -137,6 +145,9 @@ impl Everything {
             lesser: less.select(a, b),
             greater: less.select(b, a),
             selected: (i.bit & less).select(a, b),
+            raised: (i.a + int(3)).quantize(to, HalfEven, Saturate),
+            otherwise: less.select(b, a.abs().resize(join, Wrap)),
+            different: (!i.a.equals(i.b)).select(a, b),
             ..r.results
         };
         Registers { results, ..r }
@@ -194,6 +205,9 @@ impl Block for Everything {
             looked_up: o.looked_up,
             mean: o.mean,
             before: o.before,
+            raised: o.raised,
+            otherwise: o.otherwise,
+            different: o.different,
         }
     }
 }

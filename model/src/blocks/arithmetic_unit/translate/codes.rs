@@ -118,7 +118,6 @@ impl Translation<'_> {
             }
             Op::Add(a, b) => Range::add(of(a), of(b), to),
             Op::Sub(a, b) => Range::sub(of(a), of(b), to),
-            Op::Mul(a, b) if a == b => Range::square(of(a), to),
             Op::Mul(a, b) => Range::mul(of(a), of(b), to),
             Op::Abs(a) => <Range as Value>::abs(of(a), to),
             Op::Fit(a, rounding, overflow) => Range::quantize(of(a), to, rounding, overflow),

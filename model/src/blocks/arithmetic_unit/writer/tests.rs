@@ -38,6 +38,9 @@ fn comparisons_are_differences_that_the_sum_holds() {
         let (mut writer, slot) = with(range(-5, 7), range(-20, 300));
         compare(&mut writer, slot);
         assert_eq!(writer.sums, Some(range(-305, 300)));
+        let (mut writer, slot) = with(range(-5, 7), range(-400, 20));
+        compare(&mut writer, slot);
+        assert_eq!(writer.sums, Some(range(-400, 407)));
     }
 }
 
@@ -79,6 +82,9 @@ fn shifts_move_both_ends_and_rounding_adds_one() {
 
 #[test]
 fn digits_leave_less_than_the_divisor() {
+    let (mut writer, divisor) = with(range(0, 100), range(1, 300));
+    writer.digits(9, divisor);
+    assert_eq!(writer.sums, Some(range(-300, 599)), "twice the remainder, and less the divisor");
     let (mut writer, divisor) = with(range(0, 1000), range(1, 300));
     writer.digits(9, divisor);
     assert_eq!(writer.sum(), range(0, 299));
