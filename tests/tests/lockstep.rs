@@ -504,6 +504,9 @@ fn estimates(block: &Drives, pads: u64) -> impl FnMut(&[i64]) -> Option<Vec<i64>
             *pad %= pads;
         }
         inputs.tuning.enable = i64::from(rng.u32(..20) != 0);
+        // The curve is written while no drive word is being made.
+        let rests = clock % apart > apart - 5;
+        inputs.tuning.curve_write = i64::from(rests && rng.bool());
         // A memory that does not care gives anything for a place that is written in the clock in which it is read; that of
         // quadrants, whose second place may be, gives the one before.
         if !of_quadrants {

@@ -173,6 +173,7 @@ fn quotients_and_roots_cost_so_many_instructions_bits_and_clocks() {
         (unsigned(12, 3), unsigned(4, 3), unsigned(8, 12), (65, [21, 13, 1, 1], 144)),
         (unsigned(12, 3), unsigned(4, 3), unsigned(12, 12), (61, [21, 17, 1, 1], 173)),
         (unsigned(12, 3), unsigned(4, 3), unsigned(16, 12), (62, [22, 21, 1, 1], 213)),
+        (unsigned(19, 3), unsigned(4, 3), unsigned(8, 20), (65, [21, 20, 1, 1], 160)),
         (unsigned(19, 3), unsigned(19, 3), unsigned(30, 16), (120, [32, 31, 1, 1], 440)),
     ] {
         let divides = Divider::new(n, d, quotient);

@@ -76,11 +76,13 @@ fn the_points_of_constants_are_aligned_as_the_program_is_made() {
 
 #[test]
 fn a_narrowing_that_cannot_wrap_takes_no_lines_to_do_so() {
-    let narrowed = |to| {
-        let nodes = [(Op::Input(0), u(6, 2)), (Op::Fit(A, HalfEven, Wrap), to)];
+    let narrowed = |from, to| {
+        let nodes = [(Op::Input(0), from), (Op::Fit(A, HalfEven, Wrap), to)];
         written(&expression(&nodes, &[B], None)).lines.len()
     };
-    assert!(narrowed(u(5, 0)) < narrowed(u(4, 0)), "16 is rounded up to");
+    assert!(narrowed(u(6, 2), u(5, 0)) < narrowed(u(6, 2), u(4, 0)), "16 is rounded up to");
+    assert!(narrowed(s(6, 2), s(5, 0)) < narrowed(s(6, 2), s(4, 0)), "8 is");
+    assert_eq!(narrowed(s(6, 2), s(5, 0)), narrowed(u(6, 2), u(5, 0)), "no line for a sign");
 }
 
 /// A code that is the same in a wider word is one word, and is had once.
