@@ -135,9 +135,17 @@ pub fn operations<B: Block>(
     clocks: u32,
 ) -> impl FnMut(&[i64]) -> Option<Vec<i64>> + use<B> {
     let (mut rng, mut formats) = (Rng::with_seed(seed), Vec::new());
-    B::Inputs::each(block.inputs(), |field, format| formats.push((field.name, format)));
-    let at = move |wanted: &str| B::Inputs::FIELDS.iter().position(|field| field.name == wanted);
-    let done = B::Outputs::FIELDS.iter().position(|field| field.name == "done");
+    // Only what is there is a port.
+    B::Inputs::each(block.inputs(), |field, format| {
+        formats.extend((!format.is_none()).then_some((field.name, format)));
+    });
+    let mut outputs = Vec::new();
+    B::Outputs::each(block.outputs(), |field, format| {
+        outputs.extend((!format.is_none()).then_some(field.name));
+    });
+    let names: Vec<_> = formats.iter().map(|(name, _)| *name).collect();
+    let at = move |wanted: &str| names.iter().position(|name| *name == wanted);
+    let done = outputs.iter().position(|name| *name == "done");
     let mut operands = vec![0; formats.len()];
     let mut script: VecDeque<Vec<i64>> = VecDeque::new();
     let (mut left, mut first, mut waiting) = (operations, true, 0);
@@ -157,7 +165,7 @@ pub fn operations<B: Block>(
                 // The oscillator's window is not negative, and the demodulator relies on it.
                 operands[window] = operands[window].abs().min(formats[window].1.max_code() as i64);
             }
-            let strobes = ["start", "valid", "write"].map(at);
+            let strobes = ["start", "valid", "write"].map(&at);
             strobes.iter().flatten().for_each(|&strobe| operands[strobe] = 0);
             let with = |of: &[(Option<usize>, i64)]| {
                 let mut row = operands.clone();

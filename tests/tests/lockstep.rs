@@ -530,7 +530,10 @@ fn estimates(block: &Drives, pads: u64) -> impl FnMut(&[i64]) -> Option<Vec<i64>
 
 /// A curve of any words, then operations.
 fn with_curve(block: &Controller, words: i64) -> impl FnMut(&[i64]) -> Option<Vec<i64>> {
-    let names: Vec<&str> = controller::Inputs::FIELDS.iter().map(|field| field.name).collect();
+    let mut names = Vec::new();
+    <controller::Inputs as Bundle>::each(block.inputs(), |field, format| {
+        names.extend((!format.is_none()).then_some(field.name));
+    });
     let at = |name: &str| names.iter().position(|found| *found == name).expect("a port");
     let [write, address, word] = ["curve_write", "curve_address", "curve_word"].map(at);
     let (start, format) = (at("start"), block.inputs().tuning.curve_word);
