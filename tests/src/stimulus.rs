@@ -134,18 +134,12 @@ pub fn operations<B: Block>(
     words: i64,
     clocks: u32,
 ) -> impl FnMut(&[i64]) -> Option<Vec<i64>> + use<B> {
-    let (mut rng, mut formats) = (Rng::with_seed(seed), Vec::new());
-    // Only what is there is a port.
-    B::Inputs::each(block.inputs(), |field, format| {
-        formats.extend((!format.is_none()).then_some((field.name, format)));
-    });
-    let mut outputs = Vec::new();
-    B::Outputs::each(block.outputs(), |field, format| {
-        outputs.extend((!format.is_none()).then_some(field.name));
-    });
+    let mut rng = Rng::with_seed(seed);
+    let (formats, outputs) =
+        (ports::<B::Inputs>(block.inputs()), ports::<B::Outputs>(block.outputs()));
     let names: Vec<_> = formats.iter().map(|(name, _)| *name).collect();
     let at = move |wanted: &str| names.iter().position(|name| *name == wanted);
-    let done = outputs.iter().position(|name| *name == "done");
+    let done = outputs.iter().position(|(name, _)| *name == "done");
     let mut operands = vec![0; formats.len()];
     let mut script: VecDeque<Vec<i64>> = VecDeque::new();
     let (mut left, mut first, mut waiting) = (operations, true, 0);
@@ -211,6 +205,15 @@ pub fn operations<B: Block>(
         }
         Some(script.pop_front().unwrap_or_else(|| operands.clone()))
     }
+}
+
+/// The names and formats of a bundle's ports: of its fields, those that are there.
+pub fn ports<S: Bundle>(formats: S::Of<Format>) -> Vec<(&'static str, Format)> {
+    let mut ports = Vec::new();
+    S::each(formats, |field, format| {
+        ports.extend((!format.is_none()).then_some((field.name, format)));
+    });
+    ports
 }
 
 /// Now and then, makes one operand such that the lowest bits of its product with another, odd one

@@ -509,7 +509,10 @@ fn estimates(block: &Drives, pads: u64) -> impl FnMut(&[i64]) -> Option<Vec<i64>
         inputs.tuning.curve_write = i64::from(rests && rng.bool());
         // A memory that does not care gives anything for a place that is written in the clock in which it is read; that of
         // quadrants, whose second place may be, gives the one before.
-        if !of_quadrants {
+        if of_quadrants {
+            let last = clock / apart % pads;
+            (inputs.placed, inputs.placed_pad) = (1, (last - rng.i64(0..2)).max(0));
+        } else {
             inputs.placed &= i64::from(clock % apart != PLACE_IS_READ);
         }
         if clock % apart == 0 {
@@ -530,11 +533,8 @@ fn estimates(block: &Drives, pads: u64) -> impl FnMut(&[i64]) -> Option<Vec<i64>
 
 /// A curve of any words, then operations.
 fn with_curve(block: &Controller, words: i64) -> impl FnMut(&[i64]) -> Option<Vec<i64>> {
-    let mut names = Vec::new();
-    <controller::Inputs as Bundle>::each(block.inputs(), |field, format| {
-        names.extend((!format.is_none()).then_some(field.name));
-    });
-    let at = |name: &str| names.iter().position(|found| *found == name).expect("a port");
+    let names = stimulus::ports::<controller::Inputs>(block.inputs());
+    let at = |name: &str| names.iter().position(|found| found.0 == name).expect("a port");
     let [write, address, word] = ["curve_write", "curve_address", "curve_word"].map(at);
     let (start, format) = (at("start"), block.inputs().tuning.curve_word);
     let (mut operations, mut rng) =

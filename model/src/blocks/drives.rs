@@ -2,9 +2,9 @@
 //! Drives: from estimates to drive words.
 //!
 //! ```text
-//! prompt estimate ─┬───────────────── controller ─ drive word of the pad
-//!                  └ split pad ─ wall ─[max]─┘        (where pads are split and have walls)
-//! targets ─[of every pad]─ target ───────┘
+//! prompt estimate ─┬────────────────────── controller ─ drive word of the pad
+//!                  └ split pad ─ wall ─────────┤           (where pads are split and have walls)
+//! targets ─[of every pad]─ target ─────────────┘
 //! ```
 //!
 //! A pad's target and the settings of controller and walls are taken once, as its estimate is given:

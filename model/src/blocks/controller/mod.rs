@@ -7,6 +7,7 @@
 //! proportional   d = D + c,         c += α·(K·(F_t − F) − c)                      (paper, Fig. 8b: α = 1)
 //! integral       d = D + K·e + c,   c += K_i·e,   e = √F_t − √F
 //! inverse        d = min(√(F_t/G / (k·C²)), D)                                    (docs/physics.md §6)
+//! F_t = the host's force, or that of the pad's wall where it is larger
 //! drive = d, held within 0 … rail, then within slew of the pad's last
 //! c as before of an invalid estimate; against a limit that holds the drive as far as drive − (D + K·e), never back
 //! ```
