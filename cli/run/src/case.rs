@@ -34,6 +34,10 @@ use crate::session::Session;
 /// Bytes of the slots that are made ahead of the core.
 const AHEAD: usize = 2 << 20;
 
+/// What is made ahead goes to the core in so many parts: to wake its thread for each slot takes a tenth
+/// of the slot's time.
+const BATCHES: usize = 4;
+
 /// The most slots of all cases that are run: a row of each is kept until the end.
 const MOST_SLOTS: usize = 10_000_000;
 
@@ -246,10 +250,11 @@ impl<'a> Case<'a> {
         if tuning.is_some() {
             return self.close(session()?, maker, recorder, progress);
         }
-        let (sender, receiver) = sync_channel(self.ahead());
+        let at_a_time = (self.ahead() / BATCHES).max(1);
+        let (sender, receiver) = sync_channel(BATCHES);
         thread::scope(|scope| {
             let maker = scope.spawn(move || {
-                maker.make(self.slots, &sender);
+                maker.make(self.slots, at_a_time, &sender);
                 maker.plant().effects()
             });
             // The first slots are made while the device is calibrated.
@@ -377,12 +382,12 @@ impl Case<'_> {
 /// Takes slots to the core until there are no more.
 fn consume(
     mut session: Session,
-    slots: Receiver<Made>,
+    slots: Receiver<Vec<Made>>,
     mut recorder: Option<&mut (dyn Recorder + Send)>,
     progress: &(dyn Fn() + Sync),
 ) -> Result<Outcome> {
     let (mut rows, mut peak) = (Vec::new(), 0f64);
-    for Made { slot, truth, peak: of_slot } in slots {
+    for Made { slot, truth, peak: of_slot } in slots.into_iter().flatten() {
         interrupt::check()?;
         if let Some(recorder) = recorder.as_mut() {
             recorder.slot(slot.pad, slot.whole())?;

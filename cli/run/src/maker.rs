@@ -39,16 +39,20 @@ impl Maker {
         Maker { plant, digitiser, sampled, blanking, samples, whole, fractions: Vec::new() }
     }
 
-    /// Slots from the first on, as far as they are taken.
-    pub(crate) fn make(&mut self, slots: usize, to: &SyncSender<Made>) {
-        for slot in 0..slots {
-            let truth = self.plant.truth(slot);
-            let (signals, peak) = self.signals(slot);
-            let slot = Slot { pad: truth.pad, signals };
-            if to.send(Made { slot, truth, peak }).is_err() {
+    /// Slots from the first on, so many at a time, as far as they are taken.
+    pub(crate) fn make(&mut self, slots: usize, at_a_time: usize, to: &SyncSender<Vec<Made>>) {
+        for first in (0..slots).step_by(at_a_time) {
+            let some = (first..slots.min(first + at_a_time)).map(|slot| self.slot(slot)).collect();
+            if to.send(some).is_err() {
                 return; // The core has stopped: it tells why.
             }
         }
+    }
+
+    fn slot(&mut self, slot: usize) -> Made {
+        let truth = self.plant.truth(slot);
+        let (signals, peak) = self.signals(slot);
+        Made { slot: Slot { pad: truth.pad, signals }, truth, peak }
     }
 
     /// What the core is given of a slot, and the largest sample.

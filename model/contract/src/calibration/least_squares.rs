@@ -11,6 +11,10 @@ pub struct Fit {
     order: Vec<usize>,
     /// Entries whose numbers differ by more never meet in an equation.
     reach: usize,
+    /// The numbers of neighbours across the raster's lines differ by so many.
+    pitch: usize,
+    /// The lines along which entries are numbered are the raster's columns.
+    along_columns: bool,
     /// Of each entry: the coefficients of the normal equations with the `reach` entries before it,
     /// then its own.
     normal: Vec<f64>,
@@ -21,45 +25,77 @@ pub struct Fit {
 impl Fit {
     /// A table of `entries`, each of `layers` numbers.
     pub fn new(entries: usize, layers: usize) -> Self {
-        Fit::banded((0..entries).collect(), entries.saturating_sub(1), layers)
+        Fit::banded((0..entries).collect(), (entries.saturating_sub(1), 1), layers)
     }
 
     /// A table of the entries of a raster, row after row, each of `layers` numbers. Equations may have
     /// entries that are two columns and two rows apart at most.
     pub fn of_raster([columns, rows]: [usize; 2], layers: usize) -> Self {
-        let along_rows = |entry: usize| entry;
-        let along_columns = |entry: usize| entry % columns * rows + entry / columns;
-        let entries = 0..columns * rows;
-        let order = match columns <= rows {
-            true => entries.map(along_rows).collect(),
-            false => entries.map(along_columns).collect(),
+        let along_columns = columns > rows;
+        let number = |entry: usize| match along_columns {
+            true => entry % columns * rows + entry / columns,
+            false => entry,
         };
-        Fit::banded(order, 2 * columns.min(rows) + 2, layers)
+        let (order, pitch) = ((0..columns * rows).map(number).collect(), columns.min(rows));
+        Fit { along_columns, ..Fit::banded(order, (2 * pitch + 2, pitch), layers) }
     }
 
-    fn banded(order: Vec<usize>, reach: usize, layers: usize) -> Self {
+    fn banded(order: Vec<usize>, (reach, pitch): (usize, usize), layers: usize) -> Self {
         let entries = order.len();
         let (normal, right) = (vec![0.0; entries * (reach + 1)], vec![vec![0.0; entries]; layers]);
-        Fit { order, reach, normal, right }
+        Fit { order, reach, pitch, along_columns: false, normal, right }
     }
 
     /// Adds an equation: the weighted sum of some entries equals the values, one per layer.
     ///
     /// # Panics
     /// In debug builds, where entries are too far apart.
-    pub fn ask(&mut self, terms: &[(usize, f64)], values: &[f64], importance: f64) {
-        for &(entry, a) in terms {
-            let row = self.order[entry];
-            let (a, own) = (importance * a, self.at(row, row));
-            for &(entry, b) in terms {
-                let column = self.order[entry];
-                if column <= row {
-                    debug_assert!(row - column <= self.reach, "{row}, {column}");
-                    self.normal[own + column - row] += a * b;
-                }
+    pub fn ask<const N: usize>(
+        &mut self,
+        terms: [(usize, f64); N],
+        values: &[f64],
+        importance: f64,
+    ) {
+        let numbers = terms.map(|(entry, _)| self.order[entry]);
+        for (n, (_, a)) in terms.into_iter().enumerate() {
+            let a = importance * a;
+            // A pair of entries once: its coefficient is kept with the later one.
+            for m in 0..=n {
+                let (row, column) = (numbers[n].max(numbers[m]), numbers[n].min(numbers[m]));
+                let at = self.at(row, column);
+                self.normal[at] += a * terms[m].1;
             }
             for (right, value) in self.right.iter_mut().zip(values) {
-                right[row] += a * value;
+                right[numbers[n]] += a * value;
+            }
+        }
+    }
+
+    /// As [`Fit::ask`], of nine entries of a raster: three of each of three rows from the one that is
+    /// told on.
+    pub fn ask_square(
+        &mut self,
+        first: usize,
+        mut weights: [[f64; 3]; 3],
+        values: &[f64],
+        importance: f64,
+    ) {
+        if self.along_columns {
+            weights = [0, 1, 2].map(|n| weights.map(|row| row[n]));
+        }
+        for (p, of_line) in weights.iter().enumerate() {
+            for (n, weight) in of_line.iter().enumerate() {
+                let (row, a) = (self.order[first] + p * self.pitch + n, importance * weight);
+                let own = self.at(row, row);
+                for (q, others) in weights[..p].iter().enumerate() {
+                    let start = own - n - (p - q) * self.pitch;
+                    add(&mut self.normal[start..start + 3], a, others);
+                }
+                add(&mut self.normal[own - n..=own], a, &of_line[..=n]);
+                self.right
+                    .iter_mut()
+                    .zip(values)
+                    .for_each(|(right, value)| right[row] += a * value);
             }
         }
     }
@@ -67,7 +103,7 @@ impl Fit {
     /// Where the coefficient of a row with an entry before it stands.
     fn at(&self, row: usize, column: usize) -> usize {
         debug_assert!(column <= row && row - column <= self.reach, "{row}, {column}");
-        row * (self.reach + 1) + self.reach + column - row
+        row * self.reach + self.reach + column
     }
 
     /// The entries: of each layer one after the other. None where what was asked does not settle them
@@ -80,20 +116,38 @@ impl Fit {
         Some(right.iter().map(in_order).collect())
     }
 
-    /// The normal equations' factor L, M = L·Lᵀ, in their place.
+    /// The normal equations' factor L, M = L·Lᵀ, in their place: some columns are made, and what they
+    /// add to M is taken from all that comes after them.
     fn factor(&mut self) -> Option<()> {
-        for row in 0..self.order.len() {
-            let (first, start) = (self.first(row), self.at(row, self.first(row)));
-            let (above, line) = self.normal.split_at_mut(start);
-            let above = Above { lines: above, reach: self.reach, first };
-            let own = row - first;
-            let blocks = own / COLUMNS;
-            (0..blocks).for_each(|block| above.factors::<COLUMNS>(line, block * COLUMNS));
-            (blocks * COLUMNS..own).for_each(|known| above.factors::<1>(line, known));
-            let square = line[own] - line[..own].iter().map(|l| l * l).sum::<f64>();
-            line[own] = Some(square.sqrt()).filter(|root| *root > 0.0)?;
+        let entries = self.order.len();
+        let mut panel = [(); COLUMNS].map(|()| vec![0.0; self.reach + COLUMNS]);
+        for first in (0..entries).step_by(COLUMNS) {
+            let rows = (entries - first).min(self.reach + COLUMNS);
+            let columns = rows.min(COLUMNS);
+            for (n, column) in panel.iter_mut().enumerate().take(columns) {
+                column.fill(0.0);
+                let kept = self.column(first + n, rows - n);
+                column[n..].iter_mut().zip(kept).for_each(|(of, at)| *of = self.normal[at]);
+            }
+            make(&mut panel[..columns], rows)?;
+            for (n, column) in panel.iter().enumerate().take(columns) {
+                let kept = self.column(first + n, rows - n);
+                column[n..].iter().zip(kept).for_each(|(of, at)| self.normal[at] = *of);
+            }
+            for k in COLUMNS..rows {
+                let row = first + k;
+                let line = self.at(row, first + COLUMNS)..=self.at(row, row);
+                take(&mut self.normal[line], &panel, k);
+            }
         }
         Some(())
+    }
+
+    /// Where the coefficients of an entry with itself and with the entries after it stand: with so many
+    /// at most.
+    fn column(&self, entry: usize, most: usize) -> impl Iterator<Item = usize> + use<> {
+        let (own, next) = (self.at(entry, entry), self.reach);
+        (0..most.min(self.reach + 1)).map(move |k| own + k * next)
     }
 
     /// The first entry within a row's reach.
@@ -120,40 +174,38 @@ impl Fit {
     }
 }
 
-/// Factors of a row that are made at once: their sums do not wait for each other.
-const COLUMNS: usize = 4;
-
-/// The lines of L above a row.
-struct Above<'a> {
-    lines: &'a [f64],
-    reach: usize,
-    /// The first entry within the row's reach.
-    first: usize,
+/// Adds weights to coefficients, each `by` times.
+#[inline(always)]
+fn add(coefficients: &mut [f64], by: f64, weights: &[f64]) {
+    coefficients.iter_mut().zip(weights).for_each(|(sum, weight)| *sum += by * weight);
 }
 
-impl Above<'_> {
-    /// The line of an entry from the first entry within the row's reach to itself.
-    fn line(&self, entry: usize) -> &[f64] {
-        let own = entry * (self.reach + 1) + self.reach;
-        &self.lines[own + self.first - entry..=own]
-    }
+/// Columns of L that are made at once: what comes after them is read and written once for all.
+const COLUMNS: usize = 4;
 
-    /// The next N factors of a row whose first `known` are known:
-    /// L[row, c] = (M[row, c] − Σ L[row, k]·L[c, k]) / L[c, c], over the entries k before c.
-    fn factors<const N: usize>(&self, row: &mut [f64], known: usize) {
-        let lines: [&[f64]; N] = std::array::from_fn(|n| self.line(self.first + known + n));
-        let before = lines.map(|line| &line[..known]);
-        let mut sums = [0.0; N];
-        for (k, factor) in row[..known].iter().enumerate() {
-            for (sum, line) in sums.iter_mut().zip(before) {
-                *sum += factor * line[k];
-            }
+/// The columns of L from those of M, less what the columns before them have added; the first number of
+/// each that counts is the one on the diagonal.
+fn make(panel: &mut [Vec<f64>], rows: usize) -> Option<()> {
+    for n in 0..panel.len() {
+        let (made, later) = panel.split_at_mut(n + 1);
+        let made = &mut made[n][..rows];
+        let root = Some(made[n].sqrt()).filter(|root| *root > 0.0)?;
+        made[n..].iter_mut().for_each(|factor| *factor /= root);
+        for (m, column) in later.iter_mut().enumerate() {
+            let by = made[n + 1 + m];
+            column[..rows].iter_mut().zip(&*made).for_each(|(left, factor)| *left -= by * factor);
         }
-        for (n, line) in lines.into_iter().enumerate() {
-            let here = row[known..known + n].iter().zip(&line[known..]);
-            let sum = here.fold(sums[n], |sum, (a, b)| sum + a * b);
-            row[known + n] = (row[known + n] - sum) / line[known + n];
-        }
+    }
+    Some(())
+}
+
+/// Takes what the columns add to a row of M, from the first entry after them to row `k` of the panel
+/// itself.
+fn take(row: &mut [f64], panel: &[Vec<f64>; COLUMNS], k: usize) {
+    let by = panel.each_ref().map(|column| column[k]);
+    let [a, b, c, d] = panel.each_ref().map(|column| &column[COLUMNS..=k]);
+    for ((((left, a), b), c), d) in row.iter_mut().zip(a).zip(b).zip(c).zip(d) {
+        *left -= (by[0] * a + by[1] * b) + (by[2] * c + by[3] * d);
     }
 }
 
@@ -176,7 +228,7 @@ mod tests {
             let terms: [_; 9] =
                 std::array::from_fn(|k| (corner + k / 3 * columns + k % 3, random(state)));
             let value = |of: &Vec<f64>| terms.iter().map(|(entry, by)| by * of[*entry]).sum();
-            fit.ask(&terms, &entries.each_ref().map(value), 1.0 + random(state).abs());
+            fit.ask(terms, &entries.each_ref().map(value), 1.0 + random(state).abs());
         }
     }
 
@@ -203,18 +255,18 @@ mod tests {
     #[test]
     fn contradictions_are_weighed() {
         let mut fit = Fit::new(1, 1);
-        fit.ask(&[(0, 1.0)], &[1.0], 3.0);
-        fit.ask(&[(0, 1.0)], &[5.0], 1.0);
+        fit.ask([(0, 1.0)], &[1.0], 3.0);
+        fit.ask([(0, 1.0)], &[5.0], 1.0);
         assert_eq!(fit.solve(), Some(vec![vec![2.0]]));
     }
 
     #[test]
     fn entries_that_nothing_settles_are_told() {
         let mut fit = Fit::new(2, 1);
-        fit.ask(&[(0, 1.0)], &[1.0], 1.0);
+        fit.ask([(0, 1.0)], &[1.0], 1.0);
         assert_eq!(fit.solve(), None);
         let mut fit = Fit::new(1, 1);
-        fit.ask(&[(0, f64::NAN)], &[1.0], 1.0);
+        fit.ask([(0, f64::NAN)], &[1.0], 1.0);
         assert_eq!(fit.solve(), None);
     }
 }

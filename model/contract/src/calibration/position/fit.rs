@@ -4,7 +4,7 @@
 //! Splines by least squares with a little smoothness, which settles coefficients that no point
 //! does.
 
-use super::PositionTable;
+use super::{PositionTable, Term};
 use crate::calibration::layout::{Axis, Layout, Scalar, Surface};
 use crate::calibration::least_squares::Fit;
 use crate::profile::Profile;
@@ -174,7 +174,7 @@ impl PositionTable {
             let [r_x, r_y] = self.normalised([point.r_x, point.r_y]);
             let from_middle =
                 [place[0] - self.cells(Axis::X) / 2.0, place[1] - self.cells(Axis::Y) / 2.0];
-            fit.ask(&[(0, 1.0), (1, r_x), (2, r_y)], &from_middle, 1.0);
+            fit.ask([(0, 1.0), (1, r_x), (2, r_y)], &from_middle, 1.0);
         }
         let found = fit.solve().ok_or(PositionError::Ambiguous)?;
         self.start = [0, 1].map(|axis| [0, 1, 2].map(|k| found[axis][k]));
@@ -225,7 +225,7 @@ impl PositionTable {
         let mut fit = Fit::of_raster(size, 2);
         for ((&place, point), &importance) in places.iter().zip(points).zip(importance) {
             let terms = self.terms(surface, place);
-            fit.ask(&terms.map(|term| (term.0, term.1)), &[point.r_x, point.r_y], importance);
+            fit.ask_square(terms[0].0, square(&terms), &[point.r_x, point.r_y], importance);
         }
         let total: f64 = importance.iter().sum();
         smooth(&mut fit, size, 2, SMOOTHNESS * total / (size[0] * size[1]) as f64);
@@ -244,7 +244,7 @@ impl PositionTable {
         let mut fit = Fit::of_raster(size, 1);
         for (&place, point) in places.iter().zip(points) {
             let terms = self.terms(surface, place);
-            fit.ask(&terms.map(|term| (term.0, term.1)), &[point.sheet], 1.0);
+            fit.ask_square(terms[0].0, square(&terms), &[point.sheet], 1.0);
         }
         smooth(&mut fit, size, 1, SMOOTHNESS * points.len() as f64 / (size[0] * size[1]) as f64);
         self.resistance = fit.solve().ok_or(PositionError::Ambiguous)?.concat();
@@ -257,8 +257,8 @@ impl PositionTable {
         let [[_, xu, xv], [_, yu, yv]] = self.at(place);
         let [[_, along], [_, across]] = self.geometry;
         let determinant = xu * yv - xv * yu;
-        let norm = ((along * yv).hypot(along * xv).hypot(across * xu)).hypot(across * yu)
-            / determinant.abs();
+        let parts = [along * yv, along * xv, across * xu, across * yu];
+        let norm = parts.map(|part| part * part).iter().sum::<f64>().sqrt() / determinant.abs();
         norm.is_finite().then_some(norm)
     }
 
@@ -290,11 +290,16 @@ fn extent(values: impl Iterator<Item = f64>) -> [f64; 2] {
     values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
 }
 
+/// The weights of the nine coefficients about a place in the value, row by row.
+fn square(terms: &[Term<f64>; 9]) -> [[f64; 3]; 3] {
+    [0, 3, 6].map(|row| [0, 1, 2].map(|column| terms[row + column].1))
+}
+
 /// Asks that second differences along rows and columns be small.
 fn smooth(fit: &mut Fit, [columns, rows]: [usize; 2], layers: usize, importance: f64) {
     let mut bend = |at: usize, step: usize| {
         fit.ask(
-            &[(at - step, 1.0), (at, -2.0), (at + step, 1.0)],
+            [(at - step, 1.0), (at, -2.0), (at + step, 1.0)],
             &[0.0, 0.0][..layers],
             importance,
         );

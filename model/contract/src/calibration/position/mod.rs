@@ -237,14 +237,15 @@ fn slopes<T: Real>(terms: &[Term<T>; 9], coefficients: &[f64]) -> [T; 3] {
 
 /// The cell of a place, and of its three coefficients the weight in the value and in the slope.
 fn basis<T: Real>(place: T, cells: usize) -> (usize, [[T; 2]; 3]) {
-    let cell = clamp(place.floor(), 0.0, cells as f64 - 1.0);
-    let (f, one, two, half) = (place - cell, T::one(), real::<T>(2.0), real::<T>(0.5));
+    // Of a number that is not negative, the integer is its floor.
+    let cell = clamp(place, 0.0, cells as f64 - 1.0).to_usize().unwrap_or(0);
+    let (f, one, two, half) = (place - real(cell as f64), T::one(), real::<T>(2.0), real::<T>(0.5));
     let weights = [
         [(one - f) * (one - f) / two, f - one],
         [half + f * (one - f), one - two * f],
         [f * f / two, f],
     ];
-    (cell.to_usize().unwrap_or(0), weights)
+    (cell, weights)
 }
 
 #[cfg(test)]
