@@ -80,6 +80,7 @@ searched, verified by running it, and written as profile.toml.
 Examples:
   hapticore tradeoff
   hapticore tradeoff --profile small --scene fig6
+  hapticore tradeoff --scene fig9                      # drive words, too
   hapticore tradeoff --target force=1mN,position=0.1mm
 
 Exit status: 0 done, 1 no profile that was found meets the target, 2 bad input.";
@@ -91,11 +92,11 @@ pub struct TradeoffArgs {
     /// [default: standard]
     #[arg(long, value_name = "PROFILE")]
     pub profile: Option<String>,
-    /// A scene whose first case profiles are tried on, without `control`; may be given several times
-    /// [default: fig3, fig6, hockey]
+    /// A scene that profiles are tried on: its first case, of a force loop the first that is closed; may be
+    /// given several times [default: fig3, fig6, hockey]
     #[arg(long, value_name = "SCENE")]
     pub scene: Vec<String>,
-    /// Slots of each scene
+    /// Slots of each scene; of force loops and split pads twenty times as many, from the beginning on
     #[arg(long, value_name = "N", default_value_t = 96)]
     pub slots: usize,
     /// Search the cheapest profile with these errors at most: force=1mN,position=0.1mm,capacitance=0.1%

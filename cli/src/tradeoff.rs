@@ -7,7 +7,8 @@ use hapticore_run::record::Provenance;
 use hapticore_run::{inputs, interrupt};
 use hapticore_scene::{Scene, Timing};
 use hapticore_tradeoff::cost;
-use hapticore_tradeoff::errors::Quantity;
+use hapticore_tradeoff::errors::{Error, Quantity};
+use hapticore_tradeoff::loops::{self, LoopErrors, case_of};
 use hapticore_tradeoff::model::{Model, NextBit};
 use hapticore_tradeoff::points;
 use hapticore_tradeoff::search::{Found, models, search};
@@ -56,11 +57,7 @@ pub fn run(args: &TradeoffArgs) -> Result<bool> {
     let profile = inputs::profile(args.profile.as_deref().unwrap_or(PROFILE))?;
     let target =
         args.target.as_deref().map(str::parse::<Target>).transpose().context("--target")?;
-    let names: Vec<String> = match args.scene.is_empty() {
-        true => SCENES.map(String::from).to_vec(),
-        false => args.scene.clone(),
-    };
-    let scenes = names.iter().map(|name| scene(name)).collect::<Result<Vec<_>>>()?;
+    let (names, scenes) = scenes(&args.scene)?;
     let profile = windowed(profile, &scenes)?;
     let timing = Timing { signs: None, ..inputs::timing(&profile) };
     let scenes = scenes.into_iter().map(|scene| scene.within_budget(&timing));
@@ -131,10 +128,28 @@ fn synthesised(
     Ok(all)
 }
 
+/// The scenes that were named, with their names. Those whose slots depend on the core show what its words
+/// change of drives and directions; where all are such, the usual ones show all else.
+fn scenes(named: &[String]) -> Result<(Vec<String>, Vec<Scene>)> {
+    let mut scenes = named.iter().map(|name| scene(name)).collect::<Result<Vec<_>>>()?;
+    let mut names = named.to_vec();
+    if scenes.iter().all(is_loop) {
+        for (n, name) in SCENES.iter().enumerate() {
+            scenes.insert(n, scene(name)?);
+            names.insert(n, name.to_string());
+        }
+    }
+    Ok((names, scenes))
+}
+
+fn is_loop(scene: &Scene) -> bool {
+    loops::is_loop(&scene.cases[case_of(scene)])
+}
+
 /// A scene whose sensors leave the rounding to the core's ADC.
 fn scene(name: &str) -> Result<Scene> {
     let scene = inputs::scene(name, &[])?;
-    inputs::scene(name, &points::unrounded(&scene.cases[0])?)
+    inputs::scene(name, &points::unrounded(&scene.cases[case_of(&scene)])?)
 }
 
 /// The profile with the slot that the scenes ask for, as `simulate` runs them. Where they do not all
@@ -142,13 +157,15 @@ fn scene(name: &str) -> Result<Scene> {
 fn windowed(profile: Profile, scenes: &[Scene]) -> Result<Profile> {
     let slot = |scene: &Scene| (scene.window_samples, scene.settle_samples);
     let asking = |scene: &&Scene| slot(scene) != (None, None);
-    match scenes.iter().find(asking) {
+    // Force loops are run in their own.
+    let scenes: Vec<&Scene> = scenes.iter().filter(|scene| !is_loop(scene)).collect();
+    match scenes.iter().copied().find(asking) {
         None => Ok(profile),
         Some(first) if scenes.iter().all(|scene| slot(scene) == slot(first)) => {
             inputs::windowed(profile, first)
         }
         Some(_) => {
-            let names = scenes.iter().filter(asking).map(|scene| scene.name.as_str());
+            let names = scenes.iter().copied().filter(asking).map(|scene| scene.name.as_str());
             console::warn(&format!(
                 "{}: window_samples and settle_samples are not taken, since not all scenes ask for the same; slots are those of profile {}",
                 names.collect::<Vec<_>>().join(", "),
@@ -184,6 +201,11 @@ fn csv(points: &[Point]) -> String {
             }
         }
     }
+    for (name, _) in LoopErrors::QUANTITIES {
+        for what in ["rms", "mean", "largest"] {
+            head += &format!(",measured_{name}_{what}");
+        }
+    }
     let row = |point: &Point| {
         let cost = &point.cost;
         let mut row = format!(
@@ -206,27 +228,21 @@ fn csv(points: &[Point]) -> String {
         for error in point.predicted.iter().chain(&point.measured) {
             row += &format!(",{:e},{:e},{:e}", error.rms, error.mean, error.largest);
         }
+        for error in point.looped.all() {
+            let of =
+                |error: Error| format!(",{:e},{:e},{:e}", error.rms, error.mean, error.largest);
+            row += &error.map_or(",,,".into(), of);
+        }
         row + "\n"
     };
     points.iter().fold(head + "\n", |text, point| text + &row(point))
 }
 
 fn print(tradeoff: &Tradeoff) {
-    let head = [
-        "knob",
-        "bits",
-        "force mN",
-        "pred.",
-        "C %",
-        "pred.",
-        "place µm",
-        "pred.",
-        "age µs",
-        "LUT4",
-        "FF",
-        "BRAM",
-        "front",
-    ];
+    let looped = looped(&tradeoff.points);
+    let mut head = vec!["knob", "bits", "force mN", "pred.", "C %", "pred.", "place µm", "pred."];
+    head.extend(looped.iter().map(|(_, head)| *head));
+    head.extend(["age µs", "LUT4", "FF", "BRAM", "front"]);
     let row = |point: &Point| {
         let mut cells = vec![
             if point.knob.is_empty() { tradeoff.profile.clone() } else { point.knob.clone() },
@@ -235,6 +251,7 @@ fn print(tradeoff: &Tradeoff) {
         for (measured, predicted) in point.measured.iter().zip(&point.predicted) {
             cells.extend([number(measured.rms), prediction(point, predicted.rms)]);
         }
+        cells.extend(looped.iter().map(|(n, _)| loop_error(point, *n)));
         cells.push(number(point.cost.age_us));
         cells.push(format!("{:.0}", point.cost.luts));
         cells.push(format!("{:.0}", point.cost.flip_flops));
@@ -259,6 +276,18 @@ fn print(tradeoff: &Tradeoff) {
         let rows = synthesised_rows(&tradeoff.synthesised);
         console::print(format_args!("{}", table(&SYNTHESISED, &rows)));
     }
+}
+
+/// Which of the errors of loops there are, by their place, and the heads of their columns.
+pub fn looped(points: &[Point]) -> Vec<(usize, &'static str)> {
+    let there = |n: &usize| points.iter().any(|point| point.looped.all()[*n].is_some());
+    let heads = ["loop mN", "drive V", "dir. ppm"];
+    (0..heads.len()).filter(there).map(|n| (n, heads[n])).collect()
+}
+
+/// An error of loops, RMS; empty where there is none.
+pub fn loop_error(point: &Point, n: usize) -> String {
+    point.looped.all()[n].map_or(String::new(), |error| number(error.rms))
 }
 
 /// The head of the table of what one more bit would buy.
@@ -313,6 +342,8 @@ pub const FEW_CODES: &str = "?  some amplitude is below 128 steps of the ADC, wh
 
 /// The quantities in which a point is on the front.
 pub fn front(point: &Point) -> String {
-    let on = Quantity::ALL.iter().zip(point.front).filter(|(_, on)| *on);
-    on.map(|(quantity, _)| quantity.name()).collect::<Vec<_>>().join(" ")
+    let quantities = Quantity::ALL.map(Quantity::name).into_iter().zip(point.front);
+    let of_loops = LoopErrors::QUANTITIES.map(|(name, _)| name).into_iter();
+    let on = quantities.chain(of_loops.zip(point.front_in_loops)).filter(|(_, on)| *on);
+    on.map(|(name, _)| name).collect::<Vec<_>>().join(" ")
 }

@@ -81,6 +81,11 @@ impl Case {
         self.pads.iter().map(|pad| pad.name.as_str()).collect()
     }
 
+    /// The parts of each pad that have slots of their own; one where it is served as a whole.
+    pub fn parts(&self) -> usize {
+        self.parts_mm.len()
+    }
+
     /// What a core serves, slot after slot: the pads, or the parts of each.
     ///
     /// ```

@@ -240,7 +240,7 @@ impl Plant {
 
     /// The parts of each pad that have slots of their own; one where it is served as a whole.
     pub fn parts(&self) -> usize {
-        self.case.parts_mm.len()
+        self.case.parts()
     }
 
     /// Where they lie, mm right of the pad's centre and above it.

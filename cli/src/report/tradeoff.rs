@@ -11,17 +11,19 @@ use super::plot::Plot;
 use super::series::{Mark, Series};
 use super::tables;
 use crate::tradeoff::{
-    FEW_CODES, NEXT_BIT, SYNTHESISED, Tradeoff, front, next_bit_rows, prediction, synthesised_rows,
+    FEW_CODES, NEXT_BIT, SYNTHESISED, Tradeoff, front, loop_error, looped, next_bit_rows,
+    prediction, synthesised_rows,
 };
 use hapticore_tradeoff::errors::Quantity;
 use hapticore_tradeoff::knobs::Knob;
+use hapticore_tradeoff::loops::LoopErrors;
 use hapticore_tradeoff::sweep::Point;
 
 /// The page.
 pub fn of_tradeoff(tradeoff: &Tradeoff) -> String {
     let title = format!("What accuracy costs: {}", tradeoff.profile);
     let about = format!(
-        "Each point is the profile with one word longer or shorter, or another window, tried on {} slots each of {}. Errors are those of the core against the ideal estimator, RMS.",
+        "Each point is the profile with one word longer or shorter, or another window, tried on {} slots each of {}. Errors are those of the core against the ideal estimator, RMS; in force loops, and of pads that are served part by part, against the loop that the ideal core closes.",
         tradeoff.slots,
         tradeoff.scenes.join(", ")
     );
@@ -32,8 +34,11 @@ pub fn of_tradeoff(tradeoff: &Tradeoff) -> String {
         .iter()
         .enumerate()
         .flat_map(|(n, quantity)| {
-            [over_bits(tradeoff, n, *quantity), over_area(tradeoff, n, *quantity)]
+            let error =
+                Measured { of: quantity.name(), unit: quantity.unit(), rms: Rms::OfSlots(n) };
+            [over_bits(tradeoff, &error), over_area(tradeoff, n, *quantity)]
         })
+        .chain(of_loops(tradeoff).iter().map(|error| over_bits(tradeoff, error)))
         .chain([agreement(tradeoff)])
         .map(|figure| figure.html())
         .collect();
@@ -49,22 +54,55 @@ pub fn of_tradeoff(tradeoff: &Tradeoff) -> String {
     page::document(&title, &body.concat())
 }
 
+/// A measured error that is drawn over word lengths.
+struct Measured {
+    of: &'static str,
+    unit: &'static str,
+    rms: Rms,
+}
+
+/// Which of a point's errors, by its place.
+#[derive(Clone, Copy)]
+enum Rms {
+    OfSlots(usize),
+    OfLoops(usize),
+}
+
+impl Rms {
+    fn of(self, point: &Point) -> Option<f64> {
+        match self {
+            Rms::OfSlots(n) => Some(point.measured[n].rms),
+            Rms::OfLoops(n) => Some(point.looped.all()[n]?.rms),
+        }
+    }
+}
+
+/// Those of force loops and split pads, where there are any.
+fn of_loops(tradeoff: &Tradeoff) -> Vec<Measured> {
+    let error = |(n, _): (usize, &str)| Measured {
+        of: ["force in the loop", "drive", "direction"][n],
+        unit: LoopErrors::QUANTITIES[n].1,
+        rms: Rms::OfLoops(n),
+    };
+    looped(&tradeoff.points).into_iter().map(error).collect()
+}
+
 /// Errors of one quantity over each knob's values, rising, the profile itself among its neighbours.
-fn by_knob(tradeoff: &Tradeoff, n: usize) -> Vec<(Knob, Vec<(f64, f64)>)> {
-    let rms = |point: &Point| point.measured[n].rms;
+fn by_knob(tradeoff: &Tradeoff, error: &Measured) -> Vec<(Knob, Vec<(f64, f64)>)> {
     let curve = |knob: Knob| {
+        let place = |point: &Point, value: u64| Some((value as f64, error.rms.of(point)?));
         let own = tradeoff.points.iter().filter(|point| point.knob == knob.key());
-        let mut curve: Vec<_> = own.map(|point| (point.value as f64, rms(point))).collect();
+        let mut curve: Vec<_> = own.filter_map(|point| place(point, point.value)).collect();
         let itself = tradeoff.points.iter().filter(|point| point.knob.is_empty());
-        curve.extend(itself.map(|point| (knob.value(&point.profile) as f64, rms(point))));
+        curve.extend(itself.filter_map(|point| place(point, knob.value(&point.profile))));
         curve.sort_by(|a, b| a.0.total_cmp(&b.0));
         (knob, curve)
     };
     Knob::ALL.into_iter().map(curve).filter(|(_, curve)| curve.len() > 1).collect()
 }
 
-fn over_bits(tradeoff: &Tradeoff, n: usize, quantity: Quantity) -> Figure {
-    let words = by_knob(tradeoff, n).into_iter().filter(|(knob, _)| *knob != Knob::Window);
+fn over_bits(tradeoff: &Tradeoff, error: &Measured) -> Figure {
+    let words = by_knob(tradeoff, error).into_iter().filter(|(knob, _)| *knob != Knob::Window);
     let line = |(at, (knob, curve)): (usize, (Knob, Vec<_>))| {
         Series::line(knob.key(), Paint::series(at), curve)
     };
@@ -75,11 +113,11 @@ fn over_bits(tradeoff: &Tradeoff, n: usize, quantity: Quantity) -> Figure {
     };
     let series: Vec<_> = words.filter(matters).enumerate().map(line).collect();
     let all = || series.iter().flat_map(|series| series.points.iter());
-    let title = format!("Error of the {} over word lengths", quantity.name());
+    let title = format!("Error of the {} over word lengths", error.of);
     let plot = Plot::new(
         &title,
         Axis::linear("bits of the word", all().map(|point| point.0)),
-        Axis::log(&format!("RMS error ({})", quantity.unit()), all().map(|point| point.1)),
+        Axis::log(&format!("RMS error ({})", error.unit), all().map(|point| point.1)),
         series.clone(),
     );
     let note = "Measured. Words that change the error by less than half of it are left out. A word whose error halves with every bit limits; where its line is flat, it is longer than it need be.";
@@ -184,6 +222,7 @@ fn printed(label: &str, heads: &[&str], rows: &[Vec<String>]) -> String {
 }
 
 fn points(tradeoff: &Tradeoff) -> String {
+    let loops = looped(&tradeoff.points);
     let cells = |point: &Point| {
         let knob = if point.knob.is_empty() { &tradeoff.profile } else { &point.knob };
         let value = if point.knob.is_empty() { String::new() } else { point.value.to_string() };
@@ -191,6 +230,7 @@ fn points(tradeoff: &Tradeoff) -> String {
         for (measured, predicted) in point.measured.iter().zip(&point.predicted) {
             cells.extend([number::short(measured.rms), prediction(point, predicted.rms)]);
         }
+        cells.extend(loops.iter().map(|(n, _)| loop_error(point, *n)));
         let cost = &point.cost;
         cells.extend([
             number::short(cost.age_us),
@@ -204,7 +244,7 @@ fn points(tradeoff: &Tradeoff) -> String {
         ]);
         cells
     };
-    let head = [
+    let mut head = vec![
         "knob",
         "#bits",
         "#force, mN",
@@ -213,6 +253,11 @@ fn points(tradeoff: &Tradeoff) -> String {
         "#predicted",
         "#position, µm",
         "#predicted",
+    ];
+    head.extend(
+        loops.iter().map(|(n, _)| ["#force in the loop, mN", "#drive, V", "#direction, ppm"][*n]),
+    );
+    head.extend([
         "#age, µs",
         "#LUT4",
         "#flip-flops",
@@ -221,7 +266,7 @@ fn points(tradeoff: &Tradeoff) -> String {
         "#block RAM, ECP5",
         "#block RAM, iCE40",
         "on the front of",
-    ];
+    ]);
     let few = tradeoff.points.iter().any(Point::has_few_codes);
     let note = if few { format!("<p class=\"note\">{FEW_CODES}</p>\n") } else { String::new() };
     tables::texts("All points", &head, &tradeoff.points.iter().map(cells).collect::<Vec<_>>())

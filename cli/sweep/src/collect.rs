@@ -7,6 +7,7 @@ use std::collections::{BTreeMap, HashSet};
 use anyhow::Result;
 use hapticore_tradeoff::errors::{Error, Quantity};
 use hapticore_tradeoff::front::front;
+use hapticore_tradeoff::loops::LoopErrors;
 use rayon::prelude::*;
 use serde::Serialize;
 use serde_json::Value;
@@ -172,6 +173,12 @@ fn head(axes: &[Axis]) -> Vec<String> {
             head.extend(["rms", "mean", "largest"].map(name));
         }
     }
+    for kind in ["measured", "truth"] {
+        for (quantity, _) in LoopErrors::QUANTITIES {
+            let name = |what: &str| format!("{kind}_{quantity}_{what}");
+            head.extend(["rms", "mean", "largest"].map(name));
+        }
+    }
     head.extend(["front", "error"].map(String::from));
     head
 }
@@ -183,7 +190,7 @@ fn row(axes: &[Axis], Collect { line, front }: &Collect) -> Vec<String> {
         of.get(&axis.key).map_or(String::new(), plain)
     };
     row.extend(axes.iter().map(set));
-    let none = || vec![String::new(); COSTS.len() + 27];
+    let none = || vec![String::new(); COSTS.len() + 45];
     row.extend(line.results.as_ref().map_or_else(none, numbers));
     let names: Vec<_> = front.iter().map(|quantity| quantity.name()).collect();
     row.extend([names.join(" "), line.error.clone().unwrap_or_default()]);
@@ -214,12 +221,23 @@ fn numbers(of: &Results) -> Vec<String> {
     cells.extend(predicted.map_or_else(|| vec![String::new(); 9], |of| three(&of.errors)));
     cells.extend(three(&of.measured));
     cells.extend(three(&of.truth));
+    let [measured, truth] =
+        of.looped.map_or_else(Default::default, |looped| [looped.measured, looped.truth]);
+    cells.extend(measured.all().into_iter().chain(truth.all()).flat_map(looped));
     cells
 }
 
+/// An error of a loop, where there is one.
+fn looped(of: Option<Error>) -> [String; 3] {
+    of.map_or_else(Default::default, number)
+}
+
 fn three(of: &Three) -> Vec<String> {
-    let number = |of: Error| [of.rms, of.mean, of.largest].map(|number| format!("{number:e}"));
     of.all().into_iter().flat_map(number).collect()
+}
+
+fn number(of: Error) -> [String; 3] {
+    [of.rms, of.mean, of.largest].map(|number| format!("{number:e}"))
 }
 
 fn table(rows: impl Iterator<Item = Vec<String>>) -> String {

@@ -39,6 +39,7 @@ use hapticore_host::text::read;
 use hapticore_run::inputs;
 use hapticore_scene::{Place, Scene, SceneError, gallery};
 use hapticore_tradeoff::cost::netlist;
+use hapticore_tradeoff::loops::controlled;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
@@ -159,13 +160,8 @@ impl Plan {
                 known_case(&scene, case.get_ref()).with_context(|| lines.at(&file.case, "case"))?
             }
         };
-        let chosen = scene.cases.iter().find(|of| of.name == case);
-        ensure!(
-            chosen.is_none_or(|case| case.control.is_none()),
-            "{}: expected a scene without [control]: its slots depend on the core",
-            lines.at(&Some(file.scene.clone()), "scene")
-        );
         let profile = inputs::windowed(profile, &scene)?;
+        let profile = controlled(profile, scene.cases.iter().filter(|of| of.name == case));
         let plan = Plan {
             schema: SCHEMA,
             core: core_hash(&profile)?,

@@ -3,6 +3,7 @@
 
 use hapticore_tradeoff::cost::Cost;
 use hapticore_tradeoff::errors::{Error, Errors};
+use hapticore_tradeoff::loops::LoopErrors;
 use serde::{Deserialize, Serialize};
 
 use crate::axis::Settings;
@@ -29,7 +30,7 @@ pub struct Line {
 }
 
 /// What a point costs, and what it is off.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Results {
     /// Time and area of the core.
@@ -45,6 +46,9 @@ pub struct Results {
     /// What is predicted, where it was asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub predicted: Option<Prediction>,
+    /// Of a case whose slots depend on the core: what else is measured.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub looped: Option<Looped>,
     /// What the device's levels are off finer ones, where anything of the scene is set.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub levels: Vec<Level>,
@@ -74,8 +78,18 @@ pub struct Prediction {
     pub least_codes: f64,
 }
 
-/// An error of each quantity.
+/// What is measured of a force loop, and of pads that are served part by part.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Looped {
+    /// Against the loop that the ideal core closes.
+    pub measured: LoopErrors,
+    /// Of the true force against its target, of the direction against the true one.
+    pub truth: LoopErrors,
+}
+
+/// An error of each quantity.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Three {
     /// Haptic force, mN.
@@ -123,8 +137,9 @@ impl Results {
     pub fn is_finite(&self) -> bool {
         let predicted = self.predicted.as_ref().map(|of| of.errors.all());
         let errors = [self.measured.all(), self.truth.all()].into_iter().chain(predicted);
+        let of_loop = self.looped.iter().flat_map(|of| [of.measured.all(), of.truth.all()]);
         let finite = |of: Error| [of.rms, of.mean, of.largest].iter().all(|of| of.is_finite());
-        errors.flatten().all(finite)
+        errors.flatten().chain(of_loop.flatten().flatten()).all(finite)
             && self.levels.iter().all(|level| level.percent.is_finite())
             && self.predicted.as_ref().is_none_or(|of| of.least_codes.is_finite())
     }

@@ -8,17 +8,19 @@ use std::time::Instant;
 use anyhow::{Context, Result, anyhow, ensure};
 use hapticore_contract::profile::Profile;
 use hapticore_model::fidelity::noise::Predictor;
+use hapticore_run::record::Row;
 use hapticore_run::{inputs, interrupt};
 use hapticore_scene::{LevelDeviation, Scene, Timing};
 use hapticore_tradeoff::bench::Bench;
 use hapticore_tradeoff::cost::{Cost, cost};
 use hapticore_tradeoff::errors::{errors, predicted, results};
-use hapticore_tradeoff::points::unrounded;
+use hapticore_tradeoff::loops::{LOOP_SLOTS, LoopBench, is_flagged, is_loop};
+use hapticore_tradeoff::points::{Values, unrounded};
 
 use crate::axis::Settings;
 use crate::plan::{Fidelity, Plan};
 use crate::point::{Names, Point};
-use crate::result::{Level, Line, Prediction, Results, Times};
+use crate::result::{Level, Line, Looped, Prediction, Results, Times};
 use crate::settings;
 
 /// Runs points of a plan, one after the other.
@@ -34,10 +36,16 @@ pub struct Runner<'a> {
 #[derive(Default)]
 pub struct Benches(Mutex<Vec<(Settings, Arc<Ground>)>>);
 
-/// What points are tried on: slots and calibration, and how exact the simulated device is.
+/// What points are tried on, and how exact the simulated device is.
 struct Ground {
-    bench: Bench,
+    tried: Tried,
     levels: Vec<Level>,
+}
+
+/// Slots and calibration, or a case whose slots depend on the core.
+enum Tried {
+    Slots(Bench),
+    Loop(LoopBench),
 }
 
 /// How many benches are kept for each thread: one is some megabytes.
@@ -73,26 +81,62 @@ impl<'a> Runner<'a> {
             .map_err(|message| anyhow!("profile: {message}"))?;
         hapticore_model::check(&profile).context("profile")?;
         let ground = self.ground(point, &profile)?;
-        let bench = &ground.bench;
-        times.plant = bench.seconds() / bench.simulated_s();
-        let (served, slots) = (bench.serve(&profile)?, bench.slots());
-        let start = Instant::now();
-        let found = results(self.plan.fidelity.into(), &served, bench.calibration(), slots);
-        times.core = start.elapsed().as_secs_f64() / bench.simulated_s();
         let of = Results {
-            cost: self.cost(&profile)?,
-            slots: slots.len(),
-            flagged: found.flagged,
-            measured: errors(&found.values, slots.iter().map(|slot| &slot.ideal)).into(),
-            truth: errors(&found.values, slots.iter().map(|slot| &slot.truth)).into(),
-            predicted: self.prediction(bench, &served)?,
             levels: ground.levels.clone(),
+            cost: self.cost(&profile)?,
+            ..match &ground.tried {
+                Tried::Slots(bench) => self.on_slots(bench, &profile, times)?,
+                Tried::Loop(bench) => self.in_loop(bench, &profile, times)?,
+            }
         };
         ensure!(
             of.is_finite(),
             "expected finite errors; some result or true value is zero or none"
         );
         Ok(of)
+    }
+
+    /// What a core makes of slots.
+    fn on_slots(&self, bench: &Bench, profile: &Profile, times: &mut Times) -> Result<Results> {
+        times.plant = bench.seconds() / bench.simulated_s();
+        let (served, slots) = (bench.serve(profile)?, bench.slots());
+        let start = Instant::now();
+        let found = results(self.plan.fidelity.into(), &served, bench.calibration(), slots);
+        times.core = start.elapsed().as_secs_f64() / bench.simulated_s();
+        Ok(Results {
+            slots: slots.len(),
+            flagged: found.flagged,
+            measured: errors(&found.values, slots.iter().map(|slot| &slot.ideal)).into(),
+            truth: errors(&found.values, slots.iter().map(|slot| &slot.truth)).into(),
+            predicted: self.prediction(bench, &served)?,
+            ..Results::default()
+        })
+    }
+
+    /// What a core makes of a case whose slots depend on it.
+    fn in_loop(&self, bench: &LoopBench, profile: &Profile, times: &mut Times) -> Result<Results> {
+        let start = Instant::now();
+        let rows = bench.run(profile, self.plan.fidelity.into())?;
+        // Plant and core take turns: their times are not told apart.
+        times.plant = start.elapsed().as_secs_f64() / bench.simulated_s();
+        let valid: Vec<[&Row; 2]> = bench.valid(&rows).collect();
+        let of =
+            |values: &dyn Fn(&[&Row; 2]) -> Values| valid.iter().map(values).collect::<Vec<_>>();
+        let found = of(&|[row, _]| Values::of_quantities(&row.measured));
+        let ideal = of(&|[_, ideal]| Values::of_quantities(&ideal.measured));
+        let known = |row: &Row| row.truth.expect("a plant knows its slots").quantities;
+        let truth = of(&|[row, _]| Values::of_quantities(&known(row)));
+        Ok(Results {
+            slots: valid.len(),
+            flagged: valid.iter().filter(|[row, _]| is_flagged(row)).count(),
+            measured: errors(&found, ideal.iter()).into(),
+            truth: errors(&found, truth.iter()).into(),
+            looped: Some(Looped {
+                measured: bench.errors(&rows),
+                truth: bench.errors_of_truth(&rows),
+            }),
+            ..Results::default()
+        })
     }
 
     fn prediction(&self, bench: &Bench, profile: &Profile) -> Result<Option<Prediction>> {
@@ -145,13 +189,22 @@ impl<'a> Runner<'a> {
         let timing = Timing { signs: None, ..inputs::timing(profile) };
         let scene = scene.within_budget(&timing)?;
         let sampled = scene.cases[index].sampled();
-        let bench = Bench::new((&scene, index), profile, self.plan.slots, sampled)?;
         // Beside the seed, which every point sets.
-        let levels = match set.len() > 1 {
-            true => levels(&scene, index, &*bench.serve(profile)?)?,
-            false => Vec::new(),
+        let of_levels = |profile: &Profile| match set.len() > 1 {
+            true => levels(&scene, index, profile),
+            false => Ok(Vec::new()),
         };
-        Ok(Ground { bench, levels })
+        if is_loop(&scene.cases[index]) {
+            let of = (&Arc::new(scene.clone()), index);
+            let slots = LOOP_SLOTS * self.plan.slots;
+            let bench = LoopBench::new(of, &self.plan.profile, profile, slots)?;
+            return Ok(Ground {
+                levels: of_levels(&*bench.served(profile)?)?,
+                tried: Tried::Loop(bench),
+            });
+        }
+        let bench = Bench::new((&scene, index), profile, self.plan.slots, sampled)?;
+        Ok(Ground { levels: of_levels(&*bench.serve(profile)?)?, tried: Tried::Slots(bench) })
     }
 }
 
@@ -168,7 +221,7 @@ fn levels(scene: &Scene, index: usize, profile: &Profile) -> Result<Vec<Level>> 
 impl Benches {
     fn find(&self, set: &Settings, profile: &Profile) -> Option<Arc<Ground>> {
         let suits =
-            |(of, ground): &&(Settings, Arc<Ground>)| of == set && ground.bench.suits(profile);
+            |(of, ground): &&(Settings, Arc<Ground>)| of == set && ground.tried.suits(profile);
         self.all().iter().rfind(suits).map(|(_, ground)| ground.clone())
     }
 
@@ -182,6 +235,15 @@ impl Benches {
 
     fn all(&self) -> std::sync::MutexGuard<'_, Vec<(Settings, Arc<Ground>)>> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Tried {
+    fn suits(&self, profile: &Profile) -> bool {
+        match self {
+            Tried::Slots(bench) => bench.suits(profile),
+            Tried::Loop(bench) => bench.suits(profile),
+        }
     }
 }
 

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a profile's core costs: time from its latency, area from its netlist.
+//! What a profile's core costs, with its controller where it has one: time from the core's latency, area from
+//! the netlist.
 
 use anyhow::Result;
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::area::Operations;
 use hapticore_hdl::interpretations::netlist::Netlist;
 use hapticore_model::blocks::core::Core;
+use hapticore_model::blocks::force_loop::ForceLoop;
 use hapticore_synth::target::Family;
 use serde::{Deserialize, Serialize};
 
 /// Time and area of a core.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Cost {
     /// From the strobe of a window's last sample to the frame's last word, clocks.
@@ -70,12 +72,15 @@ fn luts(of: &Operations, [adders, selects, every]: [f64; 3]) -> f64 {
     adders * of.adders + selects * of.selects + every
 }
 
-/// The netlist of a profile's core.
+/// The netlist of a profile's core, with its force controller where it has one.
 ///
 /// # Errors
-/// A core that cannot be.
+/// A core or controller that cannot be.
 pub fn netlist(profile: &Profile) -> Result<Netlist> {
-    Ok(Netlist::of(&Core::try_new(profile)?))
+    Ok(match profile.control {
+        Some(_) => Netlist::of(&ForceLoop::try_new(profile)?),
+        None => Netlist::of(&Core::try_new(profile)?),
+    })
 }
 
 /// What a profile's core costs.

@@ -76,7 +76,7 @@ pub type Sources = [BTreeMap<String, f64>; 3];
 
 /// Sums over slots.
 #[derive(Debug, Clone, Copy, Default)]
-struct Sum {
+pub(crate) struct Sum {
     mean: f64,
     square: f64,
     largest: f64,
@@ -84,17 +84,28 @@ struct Sum {
 }
 
 impl Sum {
-    fn add(&mut self, mean: f64, square: f64, largest: f64) {
+    pub(crate) fn add(&mut self, mean: f64, square: f64, largest: f64) {
         self.mean += mean;
         self.square += square;
         self.largest = self.largest.max(largest);
         self.count += 1.0;
     }
 
-    fn error(self) -> Error {
+    pub(crate) fn error(self) -> Error {
         let count = self.count.max(1.0);
         Error { rms: (self.square / count).sqrt(), mean: self.mean / count, largest: self.largest }
     }
+}
+
+/// Errors over scenes of the same weight.
+pub fn pooled(of_scenes: &[Error]) -> Error {
+    let count = of_scenes.len() as f64;
+    let sum = of_scenes.iter().fold(Error::default(), |sum, of| Error {
+        rms: sum.rms + of.rms * of.rms / count,
+        mean: sum.mean + of.mean / count,
+        largest: sum.largest.max(of.largest),
+    });
+    Error { rms: sum.rms.sqrt(), ..sum }
 }
 
 /// What a profile's core is expected to be off on slots, by which rounding, and the least amplitude in

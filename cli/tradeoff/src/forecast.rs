@@ -4,7 +4,7 @@
 
 use super::bench::Bench;
 use super::cost::{Cost, cost};
-use super::errors::{Error, Errors, Sources, predicted};
+use super::errors::{Errors, Sources, pooled, predicted};
 use anyhow::{Context, Result};
 use hapticore_contract::profile::Profile;
 
@@ -51,16 +51,7 @@ pub fn forecast(profile: &Profile, benches: &[Bench]) -> Result<Forecast> {
 
 /// Errors over scenes of the same weight.
 pub fn mean(of_scenes: &[Errors]) -> Errors {
-    let count = of_scenes.len() as f64;
     [0, 1, 2].map(|quantity| {
-        let sum =
-            of_scenes.iter().map(|errors| errors[quantity]).fold(Error::default(), |sum, of| {
-                Error {
-                    rms: sum.rms + of.rms * of.rms / count,
-                    mean: sum.mean + of.mean / count,
-                    largest: sum.largest.max(of.largest),
-                }
-            });
-        Error { rms: sum.rms.sqrt(), ..sum }
+        pooled(&of_scenes.iter().map(|errors| errors[quantity]).collect::<Vec<_>>())
     })
 }

@@ -3,9 +3,11 @@
 //!
 //! A word that gets shorter loses its last bits; its range stays. Words that are one choice move
 //! together: those of a channel and of the total, those of the position table and of the positions.
+//! The words of a force controller are turned where the profile has one.
 //! Block-floating words are another way to have small currents keep their bits: with them the words may
 //! stay short.
 
+use hapticore_contract::control::Control;
 use hapticore_contract::profile::{Method, Profile};
 use hapticore_hdl::format::Format;
 
@@ -32,6 +34,12 @@ pub enum Knob {
     Square,
     /// Bits of the force.
     Force,
+    /// Bits of a controller's drive words, and of its roots of forces.
+    Drive,
+    /// Bits of a controller's target forces.
+    Target,
+    /// Bits of a controller's gains.
+    Gain,
     /// Bits by which the in-phase and quadrature words may be moved up together; none: they all have
     /// one point.
     BlockShift,
@@ -41,7 +49,7 @@ pub enum Knob {
 
 impl Knob {
     /// All of them.
-    pub const ALL: [Knob; 12] = [
+    pub const ALL: [Knob; 15] = [
         Knob::Adc,
         Knob::Oscillator,
         Knob::Words,
@@ -52,13 +60,22 @@ impl Knob {
         Knob::MeanSquare,
         Knob::Square,
         Knob::Force,
+        Knob::Drive,
+        Knob::Target,
+        Knob::Gain,
         Knob::BlockShift,
         Knob::Window,
     ];
 
-    /// The words, which are counted in bits.
+    /// The words of a core, which are counted in bits.
     pub fn words() -> impl Iterator<Item = Knob> {
-        Knob::ALL.into_iter().filter(|knob| !matches!(knob, Knob::BlockShift | Knob::Window))
+        let others = [Knob::BlockShift, Knob::Window];
+        Knob::ALL.into_iter().filter(move |knob| !others.contains(knob) && !knob.is_of_controller())
+    }
+
+    /// The words of a force controller, which not every profile has.
+    pub fn is_of_controller(self) -> bool {
+        matches!(self, Knob::Drive | Knob::Target | Knob::Gain)
     }
 
     /// The words that a search may change. Not the oscillator's: what they reject, disturbances and
@@ -80,14 +97,20 @@ impl Knob {
             Knob::MeanSquare => "mean_square",
             Knob::Square => "square",
             Knob::Force => "force",
+            Knob::Drive => "drive",
+            Knob::Target => "target",
+            Knob::Gain => "gain",
             Knob::BlockShift => "block_shift",
             Knob::Window => "slot.integrate",
         }
     }
 
-    /// Where it stands: bits, or samples.
+    /// Where it stands: bits, or samples; zero, where the profile has no controller.
     pub fn value(self, profile: &Profile) -> u64 {
         let f = &profile.formats;
+        let controls = |word: fn(&Control) -> Format| {
+            profile.control.as_ref().map_or(0, |of| word(of).width.into())
+        };
         let format = match self {
             Knob::Adc => f.adc,
             Knob::Oscillator => f.oscillator,
@@ -99,6 +122,9 @@ impl Knob {
             Knob::MeanSquare => f.mean_square,
             Knob::Square => f.square,
             Knob::Force => f.force,
+            Knob::Drive => return controls(|of| of.drive),
+            Knob::Target => return controls(|of| of.target),
+            Knob::Gain => return controls(|of| of.gain),
             Knob::BlockShift => return f.block_shift.into(),
             Knob::Window => return profile.slot.integrate,
         };
@@ -137,7 +163,7 @@ impl Knob {
     }
 
     fn lengthen(self, profile: &mut Profile, by: i8) -> Option<()> {
-        let f = &mut profile.formats;
+        let (f, control) = (&mut profile.formats, profile.control.as_mut());
         let formats: Vec<&mut Format> = match self {
             Knob::Adc => vec![&mut f.adc],
             Knob::Oscillator => vec![&mut f.oscillator],
@@ -149,6 +175,9 @@ impl Knob {
             Knob::MeanSquare => vec![&mut f.mean_square],
             Knob::Square => vec![&mut f.square],
             Knob::Force => vec![&mut f.force],
+            Knob::Drive => vec![&mut control?.drive],
+            Knob::Target => vec![&mut control?.target],
+            Knob::Gain => vec![&mut control?.gain],
             Knob::BlockShift | Knob::Window => vec![],
         };
         for format in formats {

@@ -6,6 +6,7 @@
 //! | [`knobs`] | what of a profile is varied, and within which limits |
 //! | [`points`] | slots of a scene: what every profile is tried on |
 //! | [`bench`](mod@bench) | those slots with the device's calibration, shared by profiles that differ in words alone |
+//! | [`loops`] | what a core changes of force loops and of pads that are served part by part |
 //! | [`errors`] | errors of force, capacitance and position, predicted and measured |
 //! | [`mod@forecast`] | errors and cost over all scenes, before a core has run |
 //! | [`mod@cost`] | latency, and area from the core's own netlist |
@@ -27,6 +28,7 @@ pub mod exact;
 pub mod forecast;
 pub mod front;
 pub mod knobs;
+pub mod loops;
 pub mod model;
 pub mod points;
 pub mod search;

@@ -12,6 +12,7 @@ use hapticore_run::case::Case;
 use hapticore_run::digitiser::Digitiser;
 use hapticore_run::engine::{self, Fidelity, engine};
 use hapticore_run::interrupt;
+use hapticore_run::record::Quantities;
 use hapticore_scene::{Case as SceneCase, Complex, Plant, Truth};
 use toml::{Table, Value};
 
@@ -170,6 +171,15 @@ impl Values {
             force_n: measured.force_n,
             capacitance_pf: measured.capacitance_pf,
             position_mm: [measured.x_mm, measured.y_mm],
+        }
+    }
+
+    /// Those among the quantities of a slot.
+    pub fn of_quantities(of: &Quantities) -> Self {
+        Values {
+            force_n: of.force_n,
+            capacitance_pf: of.capacitance_pf,
+            position_mm: [of.x_mm, of.y_mm],
         }
     }
 

@@ -7,6 +7,7 @@ use super::errors::{Errors, Quantity, Sources, errors, results};
 use super::forecast::{Forecast, forecast, mean};
 use super::front::front;
 use super::knobs::Knob;
+use super::loops::{LOOP_SLOTS, LoopBench, LoopErrors, case_of, controlled, is_loop};
 use anyhow::Result;
 use hapticore_contract::profile::Profile;
 use hapticore_model::fidelity::noise::Predictor;
@@ -31,6 +32,8 @@ pub struct Point {
     pub predicted: Errors,
     /// Measured ones.
     pub measured: Errors,
+    /// Measured ones of force loops and split pads, where scenes have them.
+    pub looped: LoopErrors,
     /// The least amplitude of a channel in steps of the ADC.
     pub least_codes: f64,
     /// What the predicted errors are made of.
@@ -38,6 +41,8 @@ pub struct Point {
     pub sources: Sources,
     /// No other point has less measured error of the quantity, and is neither larger nor slower.
     pub front: [bool; 3],
+    /// The same of force, drive and direction in loops.
+    pub front_in_loops: [bool; 3],
     /// The profile.
     #[serde(skip)]
     pub profile: Arc<Profile>,
@@ -46,10 +51,13 @@ pub struct Point {
 /// What profiles are tried on.
 pub struct Trial {
     scenes: Vec<Scene>,
+    /// Scenes whose slots depend on the core.
+    loops: Vec<Arc<Scene>>,
     profile: Profile,
     slots: usize,
     /// Those that were made: profiles of later runs share them, too.
     benches: Mutex<Vec<Arc<Vec<Bench>>>>,
+    loop_benches: Mutex<Vec<Arc<Vec<LoopBench>>>>,
 }
 
 impl Point {
@@ -60,9 +68,16 @@ impl Point {
 }
 
 impl Trial {
-    /// A trial of a profile, and of others about it, on so many slots of each scene.
+    /// A trial of a profile, and of others about it, on so many slots of each scene. Of scenes whose
+    /// slots depend on the core it is the first twenty times as many.
     pub fn new(scenes: Vec<Scene>, profile: Profile, slots: usize) -> Self {
-        Trial { scenes, profile, slots, benches: Mutex::default() }
+        let tried = scenes.iter().map(|scene| &scene.cases[case_of(scene)]);
+        let profile = controlled(profile, tried);
+        let (loops, scenes): (Vec<_>, _) =
+            scenes.into_iter().partition(|scene| is_loop(&scene.cases[case_of(scene)]));
+        let loops = loops.into_iter().map(Arc::new).collect();
+        let (benches, loop_benches) = (Mutex::default(), Mutex::default());
+        Trial { scenes, loops, profile, slots, benches, loop_benches }
     }
 
     /// The profile itself.
@@ -101,14 +116,16 @@ impl Trial {
         plan: &[(Option<Knob>, Profile)],
         progress: &(dyn Fn() + Sync),
     ) -> Result<Vec<Point>> {
-        let benches = plan.iter().map(|(_, profile)| self.benches(profile));
+        let benches = plan
+            .iter()
+            .map(|(_, profile)| Ok((self.benches(profile)?, self.loop_benches(profile)?)));
         let benches = benches.collect::<Result<Vec<_>>>()?;
         let points: Result<Vec<Point>> = plan
             .par_iter()
             .zip(&benches)
-            .map(|((knob, profile), benches)| {
+            .map(|((knob, profile), (benches, loops))| {
                 interrupt::check()?;
-                let point = point(*knob, profile, benches)?;
+                let point = point(*knob, profile, (benches, loops))?;
                 progress();
                 Ok(point)
             })
@@ -134,7 +151,7 @@ impl Trial {
 
     fn benches(&self, profile: &Profile) -> Result<Arc<Vec<Bench>>> {
         let mut made = self.benches.lock().expect("nobody panics with it");
-        if let Some(known) = made.iter().find(|of| of[0].suits(profile)) {
+        if let Some(known) = made.iter().find(|of| of.iter().all(|bench| bench.suits(profile))) {
             return Ok(known.clone());
         }
         let bench = |scene| Bench::new((scene, 0), profile, self.slots, true);
@@ -142,24 +159,48 @@ impl Trial {
         made.push(benches.clone());
         Ok(benches)
     }
+
+    fn loop_benches(&self, profile: &Profile) -> Result<Arc<Vec<LoopBench>>> {
+        let mut made = self.loop_benches.lock().expect("nobody panics with it");
+        let suits = |benches: &&Arc<Vec<LoopBench>>| benches.iter().all(|of| of.suits(profile));
+        if let Some(known) = made.iter().find(suits) {
+            return Ok(known.clone());
+        }
+        let slots = LOOP_SLOTS * self.slots;
+        let bench = |scene: &Arc<Scene>| {
+            LoopBench::new((scene, case_of(scene)), &self.profile, profile, slots)
+        };
+        let benches = Arc::new(self.loops.par_iter().map(bench).collect::<Result<Vec<_>>>()?);
+        made.push(benches.clone());
+        Ok(benches)
+    }
 }
 
-fn point(knob: Option<Knob>, profile: &Profile, benches: &[Bench]) -> Result<Point> {
+fn point(
+    knob: Option<Knob>,
+    profile: &Profile,
+    (benches, loops): (&[Bench], &[LoopBench]),
+) -> Result<Point> {
     let Forecast { cost, predicted, sources, least_codes } = forecast(profile, benches)?;
     let measured = benches.iter().map(|bench| {
         let (profile, calibration) = (bench.serve(profile)?, bench.calibration());
         let results = results(Fidelity::Fixed, &profile, calibration, bench.slots());
         Ok(errors(&results.values, bench.slots().iter().map(|slot| &slot.ideal)))
     });
+    let of_loop = |bench: &LoopBench| Ok(bench.errors(&bench.run(profile, Fidelity::Fixed)?));
+    let looped = loops.iter().map(of_loop);
+    let looped = LoopErrors::pooled(&looped.collect::<Result<Vec<_>>>()?);
     Ok(Point {
         knob: knob.map_or(String::new(), |knob| knob.key().into()),
         value: knob.map_or(0, |knob| knob.value(profile)),
         cost,
         predicted,
         measured: mean(&measured.collect::<Result<Vec<_>>>()?),
+        looped,
         least_codes,
         sources,
         front: [false; 3],
+        front_in_loops: [false; 3],
         profile: Arc::new(profile.clone()),
     })
 }
@@ -167,8 +208,16 @@ fn point(knob: Option<Knob>, profile: &Profile, benches: &[Bench]) -> Result<Poi
 /// Marks the points that none beats in error, size and age together.
 fn mark_front(points: &mut [Point]) {
     for quantity in 0..Quantity::ALL.len() {
-        let of = |point: &Point| [point.measured[quantity].rms, point.cost.luts, point.cost.age_us];
-        let on = front(&points.iter().map(of).collect::<Vec<_>>());
+        let on = on_front(points, |point| Some(point.measured[quantity].rms));
         points.iter_mut().zip(on).for_each(|(point, on)| point.front[quantity] = on);
+        let on = on_front(points, |point| Some(point.looped.all()[quantity]?.rms));
+        points.iter_mut().zip(on).for_each(|(point, on)| point.front_in_loops[quantity] = on);
     }
+}
+
+/// Which points none beats in an error, size and age together; none where there is no such error.
+fn on_front(points: &[Point], error: impl Fn(&Point) -> Option<f64>) -> Vec<bool> {
+    let of = |point: &Point| Some([error(point)?, point.cost.luts, point.cost.age_us]);
+    let all: Option<Vec<_>> = points.iter().map(of).collect();
+    all.map_or_else(|| vec![false; points.len()], |all| front(&all))
 }

@@ -353,7 +353,6 @@ fn plans_that_are_none_are_one_line_with_file_line_and_what_was_expected() {
             "plan.toml:11: random: expected either",
         ),
         ("mine.toml", "none.toml", "plan.toml:1: scene: none.toml"),
-        ("mine.toml", "fig9", "plan.toml:1: scene: expected a scene without [control]"),
     ] {
         fs::write(folder.path().join("plan.toml"), PLAN.replacen(from, to, 1)).unwrap();
         refuse(folder.path(), &["sweep", "plan.toml", "--store", "store"], &[words]);
@@ -363,6 +362,41 @@ fn plans_that_are_none_are_one_line_with_file_line_and_what_was_expected() {
     assert!(log.contains("expected a line of `sweep --list`"), "{log}");
     let log = String::from_utf8(run("{\"plan\":\"00\",\"first\":0,\"count\":1}")).unwrap();
     assert!(log.contains("s/plans/00.json"), "{log}");
+}
+
+/// Slots of a force loop depend on the core: each point closes it.
+#[test]
+fn a_force_loop_is_swept() {
+    const LOOP: &str = "scene = \"mine.toml\"\nprofile = \"standard\"\nslots = 2\nseeds = [1, 2]\n\
+                        [axes.profile]\ndrive = [11, 17]\n\
+                        [axes.scene]\ncontrol.law = [\"inverse\", \"integral\"]\n";
+    let folder = folder(LOOP);
+    let scene = format!("{SCENE}haptic_full_scale_v = 550\n[gap]\n[control]\n[friction]\n");
+    let scene = scene
+        .replace("title = \"t\"", "title = \"t\"\nduration_s = 0.1")
+        .replace("haptic_v_rms = 150", "target_n = 0.2");
+    fs::write(folder.path().join("mine.toml"), scene).unwrap();
+    let first = swept(folder.path(), "one", &["--threads", "1"]);
+    assert!(first == swept(folder.path(), "two", &["--threads", "2"]), "by two threads");
+    let table = Table::read(&folder.path().join("results/results.csv"));
+    assert!(
+        table.column("error").iter().all(|cell| cell.is_empty()),
+        "{:?}",
+        table.column("error")
+    );
+    assert_eq!(table.numbers("slots"), [40.0; 8]);
+    let drive = table.numbers("measured_drive_rms");
+    let bits = table.numbers("profile.drive");
+    let of = |bits_of: f64| {
+        drive.iter().zip(&bits).filter(move |(_, bits)| **bits == bits_of).map(|(rms, _)| *rms)
+    };
+    let (short, long) = (of(11.0).fold(f64::MAX, f64::min), of(17.0).fold(0.0, f64::max));
+    assert!(short > 2.0 * long && long > 0.0, "{short} V, {long} V");
+    assert!(table.numbers("truth_loop_force_rms").iter().all(|rms| *rms > 0.0));
+    assert!(
+        table.column("measured_direction_rms").iter().all(|cell| cell.is_empty()),
+        "whole pads"
+    );
 }
 
 #[test]

@@ -93,7 +93,5 @@ fn targets_and_scenes_that_cannot_be_are_one_line() {
     refused(&["--target", "force"], &["--target", "force=1mN", "got \"force\""]);
     refused(&["--target", "force=1mm"], &["--target", "force", "mN", "got \"mm\""]);
     refused(&["--target", "force=-1mN"], &["--target", "got \"force=-1mN\""]);
-    refused(&["--scene", "fig9"], &["fig9", "expected a scene without [control]"]);
     refused(&["--scene", "nowhere"], &["nowhere"]);
-    refused(&["--scene", "fig13"], &["fig13", "halves.senses", "\"together\"", "\"each\""]);
 }
