@@ -269,18 +269,30 @@ impl ArithmeticUnit {
         let product = product.resize(self.sum, Wrap);
         let odd_source = r.source.bits(0, 1);
         let pair = |set: Signal<V>, clear: Signal<V>| odd_source.select(set, clear);
-        // A pair and whether it is meant are one lookup table, which a tree of all bits is not.
         let pairs =
             [pair(told, wide(word)), pair(right, total), total, pair(wide(i.given), product)];
         let of_pair = r.source.bits(1, SOURCE_BITS - 1);
-        let source = (0..4).rev().fold(zero(self.sum), |others, number| {
-            of_pair.is(number).select(pairs[number as usize], others)
-        });
+        let source = by_pair(of_pair, zero(self.sum), pairs.len(), |number| pairs[number]);
         let by_less = r.when.bits(0, 1).select(odd.select(less, !less), r.flag);
         let takes = r.when.bits(1, 1).select(by_less, r.when.bits(0, 1));
         let waits = now.multiplies & !now.ends;
         (source, r.running & takes & !waits)
     }
+}
+
+/// One of `pairs` choices between two words, each by the lowest bit of a number: that of the number's other
+/// bits. In lookup tables with four inputs a pair and whether it is meant are one, which a tree of all bits is
+/// not.
+#[inline(always)]
+pub(super) fn by_pair<V: Interpretation>(
+    of_pair: Signal<V>,
+    none: Signal<V>,
+    pairs: usize,
+    pair: impl Fn(usize) -> Signal<V>,
+) -> Signal<V> {
+    (0..pairs)
+        .rev()
+        .fold(none, |others, number| of_pair.is(number as u64).select(pair(number), others))
 }
 
 impl Block for ArithmeticUnit {

@@ -14,7 +14,7 @@
 use super::super::arithmetic_unit::instruction::Operation;
 use super::super::arithmetic_unit::program::Programs;
 use super::super::arithmetic_unit::translate::Ports;
-use super::super::arithmetic_unit::{self, ArithmeticUnit};
+use super::super::arithmetic_unit::{self, ArithmeticUnit, by_pair};
 use super::super::controller::{self, Controller, Watch};
 use super::super::sided_wall::{self, SidedWall};
 use super::{Begin, Drives, Regs};
@@ -422,15 +422,14 @@ impl Drives {
 /// Most inputs that programs ask for.
 const MOST_ASKED: usize = 32;
 
-/// The word of a number: of a pair by the number's lowest bit, of all pairs by the others. In lookup tables with four inputs a
-/// pair and whether it is meant are one, which a tree of all bits is not.
+/// The word of a number.
 #[inline(always)]
 fn chosen<V: Interpretation>(words: &[Signal<V>], number: Signal<V>) -> Signal<V> {
     let (to, odd) = (words[0].format, number.bits(0, 1));
     let of_pair = number.bits(1, Format::counter(words.len() as u64 - 1).width - 1);
-    words.chunks(2).enumerate().rev().fold(zero(to), |others, (number, pair)| {
-        let second = pair.get(1).copied().unwrap_or(zero(to));
-        of_pair.is(number as u64).select(odd.select(second, pair[0]), others)
+    by_pair(of_pair, zero(to), words.len().div_ceil(2), |number| {
+        let second = words.get(2 * number + 1).copied().unwrap_or(zero(to));
+        odd.select(second, words[2 * number])
     })
 }
 
