@@ -94,6 +94,11 @@ fn ice40_gates_run_a_folded_wall_as_the_model_does() {
 }
 
 #[test]
+fn ecp5_gates_run_a_folded_wall_as_the_model_does() {
+    gates_close_the_loop_as_the_model_does("ecp5", "small", folded_at_a_wall);
+}
+
+#[test]
 fn ecp5_gates_run_a_wall_as_the_model_does() {
     gates_close_the_loop_as_the_model_does("ecp5", "small", Closed::at_a_wall);
 }
