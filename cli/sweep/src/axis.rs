@@ -49,6 +49,23 @@ pub enum Values {
     Between(Number, Number),
 }
 
+/// What is varied.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Points {
+    /// Every combination of the axes' values, the last axis fastest.
+    Grid(Vec<Axis>),
+    /// So many draws, each of all axes.
+    Random {
+        /// How many.
+        count: u64,
+        /// Of the draws.
+        seed: u64,
+        /// What is drawn.
+        axes: Vec<Axis>,
+    },
+}
+
 /// The most values of an axis, and of all axes together: all of them are held in memory.
 pub(crate) const MOST: f64 = 1e6;
 

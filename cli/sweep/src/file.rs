@@ -2,13 +2,39 @@
 //! A plan's file as it is written, and the lines that its messages name.
 
 use std::collections::{BTreeMap, HashSet};
+use std::fmt::Display;
 
 use anyhow::{Result, bail, ensure};
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use toml::Spanned;
 
-use crate::axis::{Axis, MOST, Side, Values};
-use crate::plan::{Fidelity, Points};
+use crate::axis::{Axis, MOST, Points, Side, Values};
+
+/// How exactly the core is run: what needs no clocks.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Fidelity {
+    /// The equations in floating point.
+    Float,
+    /// The core's results to the bit.
+    #[default]
+    Fixed,
+}
+
+impl Display for Fidelity {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(hapticore_run::engine::Fidelity::from(*self).name())
+    }
+}
+
+impl From<Fidelity> for hapticore_run::engine::Fidelity {
+    fn from(fidelity: Fidelity) -> Self {
+        match fidelity {
+            Fidelity::Float => hapticore_run::engine::Fidelity::Float,
+            Fidelity::Fixed => hapticore_run::engine::Fidelity::Fixed,
+        }
+    }
+}
 
 /// A plan's file.
 #[derive(Debug, Deserialize)]

@@ -29,7 +29,6 @@
 //! iq = { from = 18, to = 26 }
 //! ```
 
-use std::fmt::Display;
 use std::path::Path;
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
@@ -43,7 +42,8 @@ use hapticore_tradeoff::loops::controlled;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use crate::axis::{Axis, Settings, Side};
+use crate::axis::{Axis, Points, Settings, Side};
+pub use crate::file::Fidelity;
 use crate::file::{File, Lines};
 use crate::{canonical, settings};
 
@@ -99,34 +99,6 @@ pub struct SceneText {
     pub file: String,
     /// Its text.
     pub text: String,
-}
-
-/// How exactly the core is run: what needs no clocks.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Fidelity {
-    /// The equations in floating point.
-    Float,
-    /// The core's results to the bit.
-    #[default]
-    Fixed,
-}
-
-/// What is varied.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Points {
-    /// Every combination of the axes' values, the last axis fastest.
-    Grid(Vec<Axis>),
-    /// So many draws, each of all axes.
-    Random {
-        /// How many.
-        count: u64,
-        /// Of the draws.
-        seed: u64,
-        /// What is drawn.
-        axes: Vec<Axis>,
-    },
 }
 
 impl Plan {
@@ -273,21 +245,6 @@ fn told(error: &SceneError) -> String {
     match error.place {
         Place::Line(_) => error.to_string(),
         Place::Override | Place::File => error.message.clone(),
-    }
-}
-
-impl Display for Fidelity {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(hapticore_run::engine::Fidelity::from(*self).name())
-    }
-}
-
-impl From<Fidelity> for hapticore_run::engine::Fidelity {
-    fn from(fidelity: Fidelity) -> Self {
-        match fidelity {
-            Fidelity::Float => hapticore_run::engine::Fidelity::Float,
-            Fidelity::Fixed => hapticore_run::engine::Fidelity::Fixed,
-        }
     }
 }
 

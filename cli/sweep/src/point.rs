@@ -4,9 +4,9 @@
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use crate::axis::{Axis, Settings, Side};
+use crate::axis::{Axis, Points, Settings, Side};
 use crate::canonical;
-use crate::plan::{Plan, Points};
+use crate::plan::Plan;
 
 /// One run of a plan.
 #[derive(Debug, Clone, PartialEq)]

@@ -2,7 +2,7 @@
 //! Changes of format: the rounded number is made in as many bits as it can have, then the overflow
 //! is applied to it.
 
-use super::terms::{extend, literal, width as bits};
+use super::bits::{extend, literal, width as bits};
 use crate::format::Format;
 use crate::signal::{Overflow, Rounding};
 

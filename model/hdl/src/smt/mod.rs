@@ -20,13 +20,16 @@
 //! the circuit does: memories and registers without reset begin with anything, and so does a word
 //! that is read while it is written, if the memory declares "don't care".
 
+mod bits;
 mod fit;
+mod places;
 mod state;
 mod system;
 mod terms;
 mod used;
 
-pub use system::{Problem, Property, System, Variable};
+pub use state::Variable;
+pub use system::{Problem, Property, System};
 
 #[cfg(test)]
 mod tests;

@@ -2,8 +2,8 @@
 //! Time unrolled: inputs, registers and memories at each clock, each declared where it is first
 //! needed.
 
-use super::system::{System, Variable};
-use super::terms::{extend, literal, width};
+use super::bits::{extend, literal, width};
+use super::places::Place;
 use crate::format::Format;
 use crate::interpretations::netlist::{Module, Node, Ram};
 use crate::memory::Collision;
@@ -30,9 +30,18 @@ impl At {
     }
 }
 
+/// A signal of a counterexample.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Variable {
+    /// Its name, with the clock behind `@`.
+    pub name: String,
+    /// How its bits are read as a number.
+    pub format: Format,
+}
+
 /// What a problem's text is made of.
 pub struct Unrolled<'a> {
-    system: &'a System<'a>,
+    places: &'a [Place<'a>],
     /// The first state is that at reset.
     reset: bool,
     text: String,
@@ -41,13 +50,13 @@ pub struct Unrolled<'a> {
 }
 
 impl<'a> Unrolled<'a> {
-    pub fn new(system: &'a System<'a>, reset: bool) -> Self {
+    pub fn new(places: &'a [Place<'a>], reset: bool) -> Self {
         let (text, variables) = (String::new(), Vec::new());
-        Unrolled { system, reset, text, variables, declared: HashSet::new() }
+        Unrolled { places, reset, text, variables, declared: HashSet::new() }
     }
 
     pub fn module(&self, at: At) -> &'a Module {
-        self.system.places[at.place].module
+        self.places[at.place].module
     }
 
     pub fn format(&self, at: At, node: Node) -> Format {
@@ -65,7 +74,7 @@ impl<'a> Unrolled<'a> {
 
     /// The name of something of a place at a clock.
     fn name(&self, at: At, name: &str) -> String {
-        format!("|{}{name}@{}|", self.system.places[at.place].path, at.clock)
+        format!("|{}{name}@{}|", self.places[at.place].path, at.clock)
     }
 
     /// As in Verilog: a register with the name of an input gets `_q`.
@@ -102,7 +111,7 @@ impl<'a> Unrolled<'a> {
     }
 
     pub fn input(&mut self, at: At, port: usize) -> String {
-        match self.system.places[at.place].parent {
+        match self.places[at.place].parent {
             Some((place, instance)) => {
                 let parent = At { place, ..at };
                 let node = self.module(parent).instances[instance].inputs[port];
@@ -118,7 +127,7 @@ impl<'a> Unrolled<'a> {
     }
 
     pub fn output(&mut self, at: At, instance: usize, port: usize) -> String {
-        let place = self.system.places[at.place].children[instance];
+        let place = self.places[at.place].children[instance];
         let within = At { place, ..at };
         let node = self.module(within).outputs[port].node;
         self.term(within, node)

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A block as a transition system, and the problems that decide its properties.
 
+use super::bits::{any, literal, width};
 use super::fit;
-use super::state::{At, Unrolled};
-use super::terms::{any, literal, width};
+use super::places::Place;
+use super::state::{At, Unrolled, Variable};
 use super::used::Uses;
 use crate::format::Format;
 use crate::interpretations::netlist::{Module, Netlist, Node, Op, Wire};
@@ -12,20 +13,9 @@ use crate::verilog::live::Live;
 
 /// A block and all within it.
 pub struct System<'a> {
-    pub(super) places: Vec<Place<'a>>,
+    places: Vec<Place<'a>>,
     live: Live,
     uses: Uses,
-}
-
-/// An instance of a module.
-pub(super) struct Place<'a> {
-    pub module: &'a Module,
-    /// Its instances' names, with a dot behind each.
-    pub path: String,
-    /// The place that it is within, and which instance it is there.
-    pub parent: Option<(usize, usize)>,
-    /// The places within.
-    pub children: Vec<usize>,
 }
 
 /// What shall hold at every clock.
@@ -47,42 +37,13 @@ pub struct Problem {
     pub variables: Vec<Variable>,
 }
 
-/// A signal of a counterexample.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Variable {
-    /// Its name, with the clock behind `@`.
-    pub name: String,
-    /// How its bits are read as a number.
-    pub format: Format,
-}
-
 impl<'a> System<'a> {
     /// A module of a netlist, with all its instances in place.
     pub fn of(netlist: &'a Netlist, module: usize) -> System<'a> {
         let top = &netlist.modules[module];
         let live = Live::of(top);
         let uses = Uses::of(top, &live);
-        let mut system = System { places: Vec::new(), live, uses };
-        system.place(netlist, top, String::new(), None);
-        system
-    }
-
-    fn place(
-        &mut self,
-        netlist: &'a Netlist,
-        module: &'a Module,
-        path: String,
-        parent: Option<(usize, usize)>,
-    ) -> usize {
-        let index = self.places.len();
-        self.places.push(Place { module, path: path.clone(), parent, children: Vec::new() });
-        for (nth, instance) in module.instances.iter().enumerate() {
-            let (module, path) =
-                (&netlist.modules[instance.module], format!("{path}{}.", instance.name));
-            let child = self.place(netlist, module, path, Some((index, nth)));
-            self.places[index].children.push(child);
-        }
-        index
+        System { places: Place::all(netlist, top), live, uses }
     }
 
     fn top(&self) -> &'a Module {
@@ -115,7 +76,7 @@ impl<'a> System<'a> {
 
     /// Whether a property can fail within so many clocks after reset.
     pub fn base(&self, property: Property, clocks: usize) -> Problem {
-        let mut unrolled = Unrolled::new(self, true);
+        let mut unrolled = Unrolled::new(&self.places, true);
         let fails: Vec<String> = (0..clocks)
             .map(|clock| {
                 self.keep_inputs(&mut unrolled, clock);
@@ -129,7 +90,7 @@ impl<'a> System<'a> {
     /// Whether a property can fail after so many clocks, where it held so far and all invariants
     /// hold from the first state to the last; an invariant itself is then in question.
     pub fn step(&self, property: Property, clocks: usize) -> Problem {
-        let mut unrolled = Unrolled::new(self, false);
+        let mut unrolled = Unrolled::new(&self.places, false);
         for clock in 0..=clocks {
             self.keep_inputs(&mut unrolled, clock);
             for (_, invariant) in self.invariants() {
@@ -147,7 +108,7 @@ impl<'a> System<'a> {
     /// Whether this relation can differ from a trace of the model from reset on: registers of the
     /// block and all within at each clock, by name, and what each clock was given.
     pub fn replay(&self, registers: &[Vec<(String, i64)>], inputs: &[Vec<i64>]) -> Problem {
-        let mut unrolled = Unrolled::new(self, false);
+        let mut unrolled = Unrolled::new(&self.places, false);
         let mut differs = Vec::new();
         self.initial_words(&mut unrolled);
         for (clock, (registers, inputs)) in registers.iter().zip(inputs).enumerate() {

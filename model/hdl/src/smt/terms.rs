@@ -1,39 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Operations as terms of bit vectors, every operand at the width of its operation.
 
+use super::bits::{extend, literal, width};
 use super::fit;
 use super::state::{At, Unrolled};
 use crate::format::Format;
 use crate::interpretations::netlist::{Node, Op};
-
-/// The bits of a format in a solver, which knows no vector of none.
-pub fn width(format: Format) -> u32 {
-    u32::from(format.width.max(1))
-}
-
-/// A constant by its code.
-pub fn literal(code: i128, width: u32) -> String {
-    let mask = if width >= 128 { u128::MAX } else { (1 << width) - 1 };
-    format!("(_ bv{} {width})", code as u128 & mask)
-}
-
-/// A term with its sign, or zeros, in front.
-pub fn extend(term: &str, format: Format, to: u32) -> String {
-    match to - width(format) {
-        0 => term.into(),
-        more if format.signed => format!("((_ sign_extend {more}) {term})"),
-        more => format!("((_ zero_extend {more}) {term})"),
-    }
-}
-
-/// Whether any of these Boolean terms is true.
-pub fn any(terms: &[String]) -> String {
-    match terms {
-        [] => "false".into(),
-        [one] => one.clone(),
-        all => format!("(or {})", all.join(" ")),
-    }
-}
 
 /// One bit as a vector, of a Boolean term.
 fn bit(term: &str) -> String {

@@ -3,8 +3,9 @@
 //! committed text. That the relation is the model's, and that solvers decide it, is the matter of
 //! the tests of assumptions; this holds each piece of text where it is made.
 
+use super::bits::{any, extend, literal};
+use super::places::Place;
 use super::state::{At, Unrolled};
-use super::terms::{any, extend, literal};
 use super::{Property, System};
 use crate::format::Format;
 use crate::interpretations::netlist::Netlist;
@@ -14,8 +15,8 @@ use crate::verilog::tests::{check_text, parts, store};
 #[test]
 fn every_narrowing_is_a_term() {
     let netlist = Netlist::of(&Narrowings {});
-    let system = System::of(&netlist, 0);
-    let mut unrolled = Unrolled::new(&system, false);
+    let places = Place::all(&netlist, &netlist.modules[0]);
+    let mut unrolled = Unrolled::new(&places, false);
     let mut text = String::new();
     for output in &netlist.top().outputs {
         text += &format!("; {} = {}\n", output.name, unrolled.term(At::top(0), output.node));

@@ -2,8 +2,8 @@
 //! Where the value of a wire matters: whether a register, an output, a memory or a block within
 //! takes it at a clock. What a multiplexer does not choose does not matter.
 
+use super::bits::any;
 use super::state::{At, Unrolled};
-use super::terms::any;
 use crate::interpretations::netlist::{Module, Node, Op};
 use crate::verilog::live::{Live, operands};
 
