@@ -163,6 +163,10 @@ const COSTS: [&str; 15] = [
     "least_codes",
 ];
 
+/// Columns of errors: predicted, measured and true ones, then measured and true ones of loops; three
+/// quantities each, three numbers of each.
+const ERRORS: usize = (3 + 2) * 3 * 3;
+
 fn head(axes: &[Axis]) -> Vec<String> {
     let mut head = vec!["key".to_string(), "seed".to_string()];
     head.extend(axes.iter().map(column));
@@ -190,7 +194,7 @@ fn row(axes: &[Axis], Collect { line, front }: &Collect) -> Vec<String> {
         of.get(&axis.key).map_or(String::new(), plain)
     };
     row.extend(axes.iter().map(set));
-    let none = || vec![String::new(); COSTS.len() + 45];
+    let none = || vec![String::new(); COSTS.len() + ERRORS];
     row.extend(line.results.as_ref().map_or_else(none, numbers));
     let names: Vec<_> = front.iter().map(|quantity| quantity.name()).collect();
     row.extend([names.join(" "), line.error.clone().unwrap_or_default()]);

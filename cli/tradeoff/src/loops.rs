@@ -23,7 +23,6 @@ use hapticore_run::record::Row;
 use hapticore_scene::{Case as SceneCase, ControlLaw, Scene};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
-use std::time::Instant;
 
 /// Of a loop, which is run from its beginning, so many times as many slots as of other scenes.
 pub const LOOP_SLOTS: usize = 20;
@@ -97,7 +96,6 @@ pub struct LoopBench {
     of: Profile,
     ideal: Vec<Row>,
     slot_s: f64,
-    seconds: f64,
 }
 
 impl LoopBench {
@@ -121,16 +119,13 @@ impl LoopBench {
             of: with_words(profile, words),
             ideal: Vec::new(),
             slot_s: 0.0,
-            seconds: 0.0,
         };
-        let start = Instant::now();
         let mut ideal = bench.of.clone();
         ideal.formats.adc = FINE;
         (bench.ideal, bench.slot_s) = {
             let case = bench.case(&ideal)?;
             (rows(&case, Fidelity::Float)?, case.clock.seconds(1))
         };
-        bench.seconds = start.elapsed().as_secs_f64();
         Ok(bench)
     }
 
@@ -179,11 +174,6 @@ impl LoopBench {
     /// Simulated time of the slots, s.
     pub fn simulated_s(&self) -> f64 {
         self.ideal.len() as f64 * self.slot_s
-    }
-
-    /// What the ideal core's run took, s.
-    pub fn seconds(&self) -> f64 {
-        self.seconds
     }
 
     /// The profile as the scene's pads and controller have it.

@@ -60,8 +60,8 @@ fn areas_are_those_of_synthesis() {
     }
 }
 
-/// Loops of `synth/reports/loops.json`, none of which was fitted to. The sequential test of walls that is
-/// not folded is mostly selections between wide words, which an ECP5 takes more for.
+/// Loops of `synth/reports/loops.json`, none of which was fitted to. Walls that are not folded take more of an
+/// ECP5 than is estimated.
 #[test]
 fn force_loops_are_estimated_too() {
     let report = include_str!("../../../synth/reports/loops.json");

@@ -11,11 +11,10 @@ use hapticore_tradeoff::points::unrounded;
 use std::sync::Arc;
 
 /// A scene whose sensors round nothing, and `standard` with the controller that it needs.
-fn scene(name: &str, set: &[(&str, &str)]) -> (Arc<Scene>, Profile) {
-    let set: Vec<_> = set.iter().map(|(key, value)| (key.to_string(), value.to_string())).collect();
-    let rounded = inputs::scene(name, &set).expect("bundled");
+fn scene(name: &str) -> (Arc<Scene>, Profile) {
+    let rounded = inputs::scene(name, &[]).expect("bundled");
     let finer = unrounded(&rounded.cases[case_of(&rounded)]).expect("a document");
-    let scene = inputs::scene(name, &[set, finer].concat()).expect("bundled");
+    let scene = inputs::scene(name, &finer).expect("bundled");
     let profile = Profile::bundled("standard").expect("bundled");
     let profile = controlled(profile, [&scene.cases[case_of(&scene)]]);
     (Arc::new(scene), profile)
@@ -36,7 +35,7 @@ fn turned(profile: &Profile, knob: Knob, bits: u64) -> Profile {
 /// The square of 0.3 N is on from 0.05 s on: 50 of the slots.
 #[test]
 fn a_bit_of_the_drive_word_halves_the_errors_of_drive_and_force() {
-    let (scene, profile) = scene("fig9", &[]);
+    let (scene, profile) = scene("fig9");
     assert!(is_loop(&scene.cases[case_of(&scene)]));
     assert_eq!(scene.cases[case_of(&scene)].name, "square 0.3 N, closed loop");
     let bench = bench(&scene, &profile, &profile, 160);
@@ -59,7 +58,7 @@ fn a_bit_of_the_drive_word_halves_the_errors_of_drive_and_force() {
 
 #[test]
 fn short_words_of_the_currents_show_in_the_direction() {
-    let (scene, profile) = scene("fig13", &[]);
+    let (scene, profile) = scene("fig13");
     let bench = bench(&scene, &profile, &profile, 60);
     let direction = |profile: &Profile| {
         let of = errors(&bench, profile);
@@ -72,7 +71,7 @@ fn short_words_of_the_currents_show_in_the_direction() {
 
 #[test]
 fn the_ideal_core_does_not_depend_on_which_profile_is_the_first() {
-    let (scene, profile) = scene("fig9", &[]);
+    let (scene, profile) = scene("fig9");
     for (knob, bits) in [(Knob::Oscillator, 14), (Knob::Table, 15), (Knob::Drive, 12)] {
         let other = turned(&profile, knob, bits);
         let [first, second] = [&profile, &other].map(|of| bench(&scene, &profile, of, 70));
@@ -89,7 +88,7 @@ fn the_ideal_core_does_not_depend_on_which_profile_is_the_first() {
 
 #[test]
 fn a_profile_keeps_its_controller_and_gets_one_where_a_case_needs_it() {
-    let (scene, with) = scene("fig9", &[]);
+    let (scene, with) = scene("fig9");
     let plain = Profile::bundled("standard").expect("bundled");
     assert_eq!(controlled(plain.clone(), []), plain);
     let own = turned(&with, Knob::Drive, 12);

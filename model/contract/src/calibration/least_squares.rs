@@ -251,6 +251,28 @@ mod tests {
         }
     }
 
+    /// Wherever the square lies and whichever way entries are numbered.
+    #[test]
+    fn a_square_of_entries_is_asked_as_nine_terms_are() {
+        for size @ [columns, rows] in [[7, 5], [5, 7], [6, 6]] {
+            let mut state = columns as u64;
+            let [mut square, mut terms] = [0; 2].map(|_| Fit::of_raster(size, 2));
+            for first in 0..columns * (rows - 2) {
+                if first % columns + 2 >= columns {
+                    continue;
+                }
+                let weights = [0; 3].map(|_| [0; 3].map(|_| random(&mut state)));
+                let term = |k: usize| (first + k / 3 * columns + k % 3, weights[k / 3][k % 3]);
+                square.ask_square(first, weights, &[0.3, -2.0], 1.5);
+                terms.ask(std::array::from_fn::<_, 9, _>(term), &[0.3, -2.0], 1.5);
+            }
+            let sums = |fit: &Fit| [fit.normal.clone(), fit.right.concat()].concat();
+            for (a, b) in sums(&square).into_iter().zip(sums(&terms)) {
+                assert!((a - b).abs() < 1e-12, "{size:?}: {a}, {b}");
+            }
+        }
+    }
+
     /// Of contradicting equations the mean by importance is taken.
     #[test]
     fn contradictions_are_weighed() {
