@@ -13,6 +13,7 @@ use hapticore_hdl::verilog::{Design, Heading};
 
 use crate::board::drive_output::{Converter, DriveOutput, Wave};
 use crate::board::framing::digest;
+use crate::netlist;
 
 /// The file's name.
 pub const NAME: &str = "hapticore.vh";
@@ -33,12 +34,14 @@ pub fn design(profile: &Profile) -> Design {
         source: source(profile),
         interface: interface(&core, profile),
     };
-    let Some(control) = &profile.control else { return Design::of(&core, heading) };
+    let Some(control) = &profile.control else {
+        return Design::print(&netlist::of_core(&core), heading);
+    };
     let force_loop = ForceLoop::try_new(profile).unwrap_or_else(|error| panic!("{error}"));
     let folded = if control.folded { " --folded" } else { "" };
     heading.command += &format!(" --control {}{folded}", control.law.name());
     heading.interface.extend(interface_of_loop(&force_loop));
-    Design::of(&force_loop, heading)
+    Design::print(&netlist::of_force_loop(&force_loop), heading)
 }
 
 /// Prints the drive output of a profile's force loop, as `hapticore hdl --dac` does beside the loop.

@@ -7,8 +7,10 @@
 //! | [`codes`] | which port of the core takes which word of a calibration |
 //! | [`mod@component`] | any block as a rust-hdl component |
 //! | [`header`] | prints the core of a profile, and what a bench of it must know |
+//! | [`netlist`] | netlists of cores and boards, compiled once for all crates |
 
 pub mod board;
 pub mod codes;
 pub mod component;
 pub mod header;
+pub mod netlist;

@@ -12,6 +12,7 @@ use hapticore_model::blocks::force_loop::{ForceLoop, Inputs, Outputs};
 use hapticore_model::blocks::position::TablePort;
 use hapticore_model::blocks::split_pad::WallPort;
 use hapticore_model::fidelity::force_loop::{curve_writes, tuning_codes, wall_codes};
+use hapticore_rtl::netlist;
 use hapticore_run::case::Case;
 use hapticore_run::control::plant::surface_of;
 use hapticore_run::engine::Signals;
@@ -138,7 +139,7 @@ impl Closed {
     /// What is printed of the loop, and what its model did until the end.
     pub fn record(mut self) -> (Design, Trace) {
         let block = self.block.clone();
-        let design = Design::of(&block, "a test");
+        let design = Design::print(&netlist::of_force_loop(&block), "a test");
         let trace = Trace::record(&block, design.ports.clone(), |outputs| self.next(outputs));
         (design, trace)
     }

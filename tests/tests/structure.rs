@@ -91,9 +91,10 @@ const IMPORTS: [(&str, &[&str]); 17] = [
 ///
 /// Tests of boards take the host's side of the line, those of scenes its crosstalk cancellation; other
 /// lock-ins have the estimator of the reference behind them.
-const DEVELOPMENT: [(&str, &[&str]); 4] = [
+const DEVELOPMENT: [(&str, &[&str]); 5] = [
     ("cli/tradeoff", &["hapticore-reference"]),
     ("model", &["hapticore-reference"]),
+    ("model/proof", &["hapticore-rtl"]),
     ("rtl", &["hapticore-host"]),
     ("scene", &["hapticore-host"]),
 ];

@@ -7,8 +7,7 @@
 use anyhow::Result;
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::area::Operations;
-use hapticore_hdl::interpretations::netlist::Netlist;
-use hapticore_model::blocks::core::Core;
+use hapticore_rtl::netlist::of_profile;
 use hapticore_synth::cells::Cells;
 use hapticore_synth::flow::Flow;
 use hapticore_synth::sources;
@@ -32,7 +31,7 @@ fn main() -> Result<()> {
         let (base, family) = (BASES[run / 2 % 2], Family::ALL[run % 2]);
         let profile = random_profile(&Profile::bundled(base)?, &mut random);
         let cells = synthesise(&tools, family, &profile)?;
-        let of = Operations::of(&Netlist::of(&Core::try_new(&profile)?));
+        let of = Operations::of(&of_profile(&profile)?);
         let bits: Vec<String> =
             Knob::words().map(|knob| knob.value(&profile).to_string()).collect();
         let Cells { luts, carries, registers, multipliers, block_rams, lut_rams } = cells;

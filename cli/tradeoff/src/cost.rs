@@ -5,9 +5,8 @@
 use anyhow::Result;
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::area::Operations;
-use hapticore_hdl::interpretations::netlist::Netlist;
 use hapticore_model::blocks::core::Core;
-use hapticore_model::blocks::force_loop::ForceLoop;
+pub use hapticore_rtl::netlist::of_profile as netlist;
 use hapticore_synth::target::Family;
 use serde::{Deserialize, Serialize};
 
@@ -70,17 +69,6 @@ const LUTS: [[f64; 3]; 2] = [[-0.191, 0.246, 780.0], [0.955, 0.218, 612.0]];
 
 fn luts(of: &Operations, [adders, selects, every]: [f64; 3]) -> f64 {
     adders * of.adders + selects * of.selects + every
-}
-
-/// The netlist of a profile's core, with its force controller where it has one.
-///
-/// # Errors
-/// A core or controller that cannot be.
-pub fn netlist(profile: &Profile) -> Result<Netlist> {
-    Ok(match profile.control {
-        Some(_) => Netlist::of(&ForceLoop::try_new(profile)?),
-        None => Netlist::of(&Core::try_new(profile)?),
-    })
 }
 
 /// What a profile's core costs.

@@ -9,7 +9,6 @@ use hapticore_hdl::block;
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::Format;
-use hapticore_hdl::interpretations::netlist::Netlist;
 use hapticore_hdl::interpretations::range::{Range, take_violations, whole};
 use hapticore_hdl::memory::{Memory, Storage};
 use hapticore_hdl::signal::{HalfEven, Proved, Signal, bit, int, zero};
@@ -18,6 +17,7 @@ use hapticore_model::blocks::core::Core;
 use hapticore_model::blocks::demodulator::Demodulator;
 use hapticore_model::parse_profile;
 use hapticore_proof::{close, prove};
+use hapticore_rtl::netlist;
 
 /// What relates several signals: solvers prove it from the netlists
 /// (`synth/tests/toolchain/claims.rs`), and every test build checks each of these narrowings at each
@@ -281,7 +281,7 @@ fn tried(key: &str) -> [usize; 2] {
                 // the samples before a window.
                 profile.position.steps = 1;
                 (profile.pads, profile.slot.settle) = (2, 100);
-                Netlist::of(&Core::new(&profile));
+                netlist::of_core(&Core::new(&profile));
                 let violations = prove(&profile).violations;
                 assert!(
                     violations.is_empty(),
@@ -324,7 +324,7 @@ fn longer_words_are_refused_or_elaborate() {
             }
             match hapticore_model::check(&profile) {
                 Ok(()) => {
-                    Netlist::of(&Core::new(&profile));
+                    netlist::of_core(&Core::new(&profile));
                     accepted += 1;
                 }
                 Err(_) => refused += 1,

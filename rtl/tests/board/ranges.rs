@@ -5,7 +5,6 @@ use hapticore_contract::profile::Profile;
 use hapticore_hdl::block::Block;
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::Format;
-use hapticore_hdl::interpretations::netlist::Netlist;
 use hapticore_hdl::interpretations::range::{Range, take_assumptions, take_violations, whole};
 use hapticore_hdl::probe::sample;
 use hapticore_hdl::signal::Signal;
@@ -20,6 +19,7 @@ use hapticore_rtl::board::stream::Stream;
 use hapticore_rtl::board::uart::receiver::Receiver;
 use hapticore_rtl::board::uart::transmitter::Transmitter;
 use hapticore_rtl::board::{Board, Parameters};
+use hapticore_rtl::netlist;
 
 /// Clocks after which a register that still grows may be anything at once: a counter of many bits
 /// would take as many clocks.
@@ -82,7 +82,7 @@ fn no_signal_of_a_peripheral_can_overflow() {
         prove(&Stream::new(&profile, parameters.divisor(), registers.outputs().data));
         prove(&registers);
         let board = Board::new(&profile, &parameters).expect("bundled profiles fit");
-        assert_eq!(Netlist::of(&board).top().name, "board");
+        assert_eq!(netlist::of_board(&board).top().name, "board");
     }
 }
 

@@ -15,6 +15,7 @@ use hapticore_rtl::board::stream::Stream;
 use hapticore_rtl::board::uart::transmitter::Transmitter;
 use hapticore_rtl::board::{Board, Parameters, Target};
 use hapticore_rtl::codes::word_formats;
+use hapticore_rtl::netlist;
 use hapticore_synth::formal::{Claim, Mode, Verdict, print};
 use hapticore_synth::tools::Tools;
 
@@ -141,9 +142,9 @@ fn transmitter(target: Target) -> (String, Known) {
 /// The board, the blocks within it free to do anything: only their ports are left of them.
 fn board(target: Target) -> (String, Known) {
     let board = Board::new(&target.profile(), &target.parameters()).expect("a board");
-    let design = Design::of(&board, "a formal check");
+    let within = netlist::of_board(&board);
+    let design = Design::print(&within, "a formal check");
     let (top, _) = design.modules.split_last().expect("modules");
-    let within = Netlist::of(&board);
     let names = design.modules.iter().map(|file| file.name.as_str());
     let blocks = names
         .zip(&within.modules)

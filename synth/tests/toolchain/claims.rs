@@ -17,6 +17,7 @@ use hapticore_model::blocks::currents::Currents;
 use hapticore_model::blocks::divider::Divider;
 use hapticore_model::blocks::sqrt::SquareRoot;
 use hapticore_model::blocks::wall::Wall;
+use hapticore_rtl::netlist;
 use hapticore_synth::claims::{Answer, Solver, decide, prove};
 use hapticore_synth::tools::Tools;
 use std::collections::{BTreeMap, BTreeSet};
@@ -36,7 +37,7 @@ fn blocks(profile: &Profile) -> Vec<Netlist> {
     };
     let laws = [Law::Open, Law::Proportional, Law::Integral, Law::Inverse].map(controlled);
     let mut all: Vec<Netlist> =
-        [profile, &table(profile)].map(|profile| Netlist::of(&Core::new(profile))).into();
+        [profile, &table(profile)].map(|profile| netlist::of_core(&Core::new(profile))).into();
     all.extend(laws.map(|profile| Netlist::of(&Controller::try_new(&profile).expect("a law"))));
     all.extend([Rule::A, Rule::B].map(|rule| {
         let profile = Profile { wall: Some(rule), ..profile.clone() };

@@ -17,6 +17,7 @@ use hapticore_contract::profile::Profile;
 use hapticore_hdl::interpretations::netlist::Netlist;
 use hapticore_model::blocks::core::Core;
 use hapticore_rtl::board::pads::Pads;
+use hapticore_rtl::netlist;
 use hapticore_synth::formal::{print, top};
 use hapticore_synth::tools::Tools;
 use std::fs;
@@ -54,7 +55,7 @@ fn equivalent(
 }
 
 fn block(name: &str) -> String {
-    let netlist = Netlist::of(&Core::new(&Profile::bundled("small").expect("bundled")));
+    let netlist = netlist::of_core(&Core::new(&Profile::bundled("small").expect("bundled")));
     print(
         netlist
             .modules

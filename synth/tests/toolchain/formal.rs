@@ -11,6 +11,7 @@ use hapticore_model::blocks::divider::Divider;
 use hapticore_model::blocks::multiplexer::Multiplexer;
 use hapticore_model::blocks::sqrt::SquareRoot;
 use hapticore_rtl::board::pads::Pads;
+use hapticore_rtl::netlist;
 use hapticore_synth::formal::{Claim, Mode, Verdict, broken, mutants, print};
 use hapticore_synth::tools::Tools;
 
@@ -104,7 +105,7 @@ fn breaks(tools: &Tools, module: &Module, parameters: &Parameters, clocks: u64) 
 /// another solver, in seconds (`claims.rs`); their results and clocks are those of the reference in tests
 /// of the model, not for all operands.
 fn widest_of_profiles(name: &str) -> Module {
-    let netlists = Profile::all().into_iter().map(|profile| Netlist::of(&Core::new(&profile)));
+    let netlists = Profile::all().into_iter().map(|profile| netlist::of_core(&Core::new(&profile)));
     netlists
         .flat_map(|netlist| netlist.modules)
         .filter(|module| module.name == name)

@@ -5,6 +5,7 @@
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::interpretations::netlist::{Module, Named, Netlist, Op};
 use hapticore_model::blocks::core::Core;
+use hapticore_rtl::netlist;
 use hapticore_synth::isolation::{Seen, State};
 
 /// A profile with slots as short as they may be: what happens within does not depend on their
@@ -85,7 +86,7 @@ fn follow(netlist: &Netlist, profile: &Profile, pad: u64, own: bool) -> Found {
 }
 
 fn netlist(profile: &Profile) -> Netlist {
-    Netlist::of(&Core::new(profile))
+    netlist::of_core(&Core::new(profile))
 }
 
 #[test]

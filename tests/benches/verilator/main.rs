@@ -11,6 +11,7 @@ mod speed;
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::verilog::Design;
 use hapticore_model::blocks::core::Core;
+use hapticore_rtl::netlist;
 use hapticore_tests::{stimulus, tools};
 use speed::verilator::Verilated;
 use speed::{Lap, Workload, model};
@@ -37,7 +38,7 @@ fn main() {
 fn race(profile: &Profile) {
     let core = Core::new(profile);
     let workload = Workload::new(profile, stimulus::scene(profile, SCENE, SLOTS), PASSES);
-    let verilated = Verilated::new(&Design::of(&core, "a bench"), &workload);
+    let verilated = Verilated::new(&Design::print(&netlist::of_core(&core), "a bench"), &workload);
     let (mut ours, mut theirs) = (Vec::new(), Vec::new());
     for _ in 0..ROUNDS {
         let (model, verilog) = (model::run(&core, &workload), verilated.run());

@@ -4,6 +4,7 @@
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::verilog::Design;
 use hapticore_model::blocks::core::Core;
+use hapticore_rtl::netlist;
 
 use super::Trace;
 use crate::stimulus::Stimulus;
@@ -33,7 +34,7 @@ impl Bench {
     /// Where no core can be built of it.
     pub fn of(profile: Profile) -> Bench {
         let core = Core::new(&profile);
-        Bench { design: Design::of(&core, "a test"), core, profile }
+        Bench { design: Design::print(&netlist::of_core(&core), "a test"), core, profile }
     }
 
     /// The trace that the model leaves of a stimulus.
