@@ -6,9 +6,13 @@
 //! | --- | --- | --- |
 //! | settled | 20, 100 | 18 from 60 to 400, up and down |
 //! | steps of 4 s, 98 readings each, evenly over the logarithm of time | 20, 100, 100 | 350, 350, 400 |
+//! | rise and fall of 0.5 s, as half a sine, 72 readings each, evenly | 20, 100 | 400 |
 //!
-//! As many as a laboratory takes, 366, of one gap that moves; of a gap without time (`static`) the
-//! settled readings on the way up, for the way down is another device's.
+//! As many as a laboratory takes, 510, of one gap that moves: a table that has seen no voltage fall
+//! reads a force that falls too high. Of a gap without time (`static`) the settled readings on the
+//! way up, for the way down is another device's.
+
+use std::f64::consts::PI;
 
 use anyhow::{Context, Result};
 use hapticore_contract::profile::Profile;
@@ -27,6 +31,11 @@ const STEPS: [[f64; 2]; 3] = [[20.0, 350.0], [100.0, 350.0], [100.0, 400.0]];
 const OF_STEP: usize = 98;
 /// Slots of a step: one a millisecond.
 const STEP_SLOTS: usize = 4000;
+/// Load and largest voltage of rises and falls.
+const SINES: [[f64; 2]; 2] = [[20.0, 400.0], [100.0, 400.0]];
+/// Slots of a rise and fall, one a millisecond, and of how many of them one is read.
+const SINE_SLOTS: usize = 500;
+const SINE_EVERY: usize = 7;
 /// Slots that each settled voltage is held for.
 const HELD: usize = 4;
 
@@ -137,6 +146,21 @@ impl Bench {
         Ok(moving(&self.record("tr-bdf2", load_g, &steps, slots)?))
     }
 
+    /// Readings each millisecond of a voltage that rises and falls as half a sine, its filters as
+    /// those of a step.
+    ///
+    /// # Errors
+    /// As [`Bench::record`].
+    pub fn sine(&self, load_g: f64, volt: f64, slots: usize) -> Result<Vec<Reading>> {
+        let at_s = |slot: usize| slot as f64 / 1000.0;
+        let held = |slot: usize| {
+            let volt = volt * (PI * slot as f64 / slots as f64).sin();
+            [[at_s(slot), volt], [at_s(slot + 1), volt]]
+        };
+        let steps: Vec<_> = (0..slots).flat_map(held).collect();
+        Ok(moving(&self.record("tr-bdf2", load_g, &steps, slots)?))
+    }
+
     /// The readings of a calibration.
     ///
     /// # Errors
@@ -154,6 +178,10 @@ impl Bench {
             interrupt::check()?;
             let step = self.step(load_g, volt, STEP_SLOTS)?;
             readings.extend(logarithmic(OF_STEP, STEP_SLOTS).map(|slot| step[slot]));
+        }
+        for [load_g, volt] in SINES.into_iter().filter(|_| !self.is_static()) {
+            interrupt::check()?;
+            readings.extend(self.sine(load_g, volt, SINE_SLOTS)?.iter().step_by(SINE_EVERY));
         }
         Ok(readings)
     }

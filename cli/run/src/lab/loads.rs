@@ -238,7 +238,7 @@ impl Loads {
         let count = readings.len();
         ensure!(
             count >= TABLE_READINGS,
-            "{}: time_s: expected {TABLE_READINGS} readings at least for a force table, better 366, got {count}",
+            "{}: time_s: expected {TABLE_READINGS} readings at least for a force table, better 510, got {count}",
             self.file
         );
         Ok(force_table::fit(readings, force_k))
