@@ -34,14 +34,14 @@ pub fn design(profile: &Profile) -> Design {
         source: source(profile),
         interface: interface(&core, profile),
     };
-    let Some(control) = &profile.control else {
-        return Design::print(&netlist::of_core(&core), heading);
-    };
-    let force_loop = ForceLoop::try_new(profile).unwrap_or_else(|error| panic!("{error}"));
-    let folded = if control.folded { " --folded" } else { "" };
-    heading.command += &format!(" --control {}{folded}", control.law.name());
-    heading.interface.extend(interface_of_loop(&force_loop));
-    Design::print(&netlist::of_force_loop(&force_loop), heading)
+    if let Some(control) = &profile.control {
+        let force_loop = ForceLoop::try_new(profile).unwrap_or_else(|error| panic!("{error}"));
+        let folded = if control.folded { " --folded" } else { "" };
+        heading.command += &format!(" --control {}{folded}", control.law.name());
+        heading.interface.extend(interface_of_loop(&force_loop));
+    }
+    let netlist = netlist::of_profile(profile).unwrap_or_else(|error| panic!("{error}"));
+    Design::print(&netlist, heading)
 }
 
 /// Prints the drive output of a profile's force loop, as `hapticore hdl --dac` does beside the loop.

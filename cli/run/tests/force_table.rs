@@ -171,48 +171,74 @@ fn the_scenes() {
     }
 }
 
-/// What `hapticore calibrate` makes of loads with times: a table that leaves little of other readings.
-#[test]
-fn a_laboratory() {
-    let bench = Bench::of(&scene(None)).unwrap().expect("a gap and friction");
+/// What a laboratory takes: settled readings, and from each step every twentieth millisecond; from
+/// rises and falls, where it makes some, every seventh.
+fn laboratory(bench: &Bench, volts: &[f64], sines: &[[f64; 2]]) -> Loads {
     let mut normal = Normal::new(NOISE + 3);
-    let mut load = |reading: &Reading, time_s: Option<f64>| Load {
+    let mut load = |load_g: f64, reading: &Reading, time_s: Option<f64>| Load {
         haptic_v_rms: reading.haptic_v_rms,
         newtons: reading.force_n + NOISE_N * normal.deviate(),
-        load_g: None,
+        load_g: Some(load_g),
         reference_pf: Some(reading.capacitance_pf),
         sensed_pf: None,
         time_s,
     };
-    let volts: Vec<f64> = (3..=20).map(|n| 20.0 * f64::from(n)).collect();
     let mut loads = Vec::new();
     for load_g in [20.0, 100.0] {
-        let settled = bench.settled(load_g, &volts).unwrap();
-        loads.extend(
-            settled.iter().map(|reading| Load { load_g: Some(load_g), ..load(reading, None) }),
-        );
+        let settled = bench.settled(load_g, volts).unwrap();
+        loads.extend(settled.iter().map(|reading| load(load_g, reading, None)));
     }
-    for [load_g, volt] in [[20.0, 350.0], [100.0, 350.0]] {
-        let step = bench.step(load_g, volt, 1000).unwrap();
+    let steps = [[20.0, 350.0], [100.0, 350.0]]
+        .map(|[load_g, volt]| (load_g, bench.step(load_g, volt, 1000), 20));
+    let sines = sines.iter().map(|&[load_g, volt]| (load_g, bench.sine(load_g, volt, 500), 7));
+    for (load_g, record, every) in steps.into_iter().chain(sines) {
         // Times of slots: their middles.
         let at_s = |slot: usize| (slot as f64 + 0.5) * 1e-3;
-        let rows = step.iter().enumerate().step_by(20);
-        loads.extend(rows.map(|(slot, reading)| Load {
-            load_g: Some(load_g),
-            ..load(reading, Some(at_s(slot)))
-        }));
+        let record = record.unwrap();
+        let rows = record.iter().enumerate().step_by(every);
+        loads.extend(rows.map(|(slot, reading)| load(load_g, reading, Some(at_s(slot)))));
     }
+    Loads { file: "loads.csv".into(), loads, friction: false, timed: true }
+}
+
+/// The gain of eq. 8 and the table that `hapticore calibrate` makes of loads.
+fn fitted(lab: &Loads) -> anyhow::Result<(f64, Force)> {
     let setup = "pads = 1\nsample_rate_hz = 1e6\ncarrier_hz = 101000.0\ncurrent_full_scale_a = 0.004\n\
                  sense_full_scale_v = 8.0\nhaptic_full_scale_v = 600.0\n";
-    let setup = toml::from_str(setup).unwrap();
-    let lab = Loads { file: "loads.csv".into(), loads, friction: false, timed: true };
-    let force = lab.fit(&setup).unwrap();
-    let table = force.table.expect("a table");
-    let others = bench.settled(60.0, &volts).unwrap();
-    let [[of_table, _], [of_eq8, _]] = residuals(&others, force.force_k.value, &table);
+    let force = lab.fit(&toml::from_str(setup).unwrap())?;
+    Ok((force.force_k.value, force.table.expect("a table")))
+}
+
+/// 18 voltages to 400 V, V.
+fn eighteen() -> Vec<f64> {
+    (3..=20).map(|n| 20.0 * f64::from(n)).collect()
+}
+
+/// What `hapticore calibrate` makes of loads with times: a table that leaves little of other readings.
+#[test]
+fn a_laboratory() {
+    let bench = Bench::of(&scene(None)).unwrap().expect("a gap and friction");
+    let lab = laboratory(&bench, &eighteen(), &[]);
+    let (force_k, table) = fitted(&lab).unwrap();
+    let others = bench.settled(60.0, &eighteen()).unwrap();
+    let [[of_table, _], [of_eq8, _]] = residuals(&others, force_k, &table);
     println!("60 g, settled: table {:.1} mN, eq. 8 {:.1} mN", 1e3 * of_table, 1e3 * of_eq8);
     assert!(of_table <= 0.008 && of_eq8 > 0.02, "{of_table} {of_eq8}");
     let few = Loads { loads: lab.loads[..40].to_vec(), ..lab };
-    let refused = few.fit(&setup).unwrap_err().to_string();
+    let refused = fitted(&few).unwrap_err().to_string();
     assert!(refused.starts_with("loads.csv: time_s: expected 60 readings"), "{refused}");
+}
+
+/// Rises and falls in its loads, with rows some milliseconds apart, tell of others, faster and not as high.
+#[test]
+fn a_laboratory_records_rises_and_falls() {
+    let bench = Bench::of(&scene(None)).unwrap().expect("a gap and friction");
+    let others = bench.sine(50.0, 380.0, 350).unwrap();
+    let [without, with] = [&[][..], &[[20.0, 400.0], [100.0, 400.0]]].map(|sines| {
+        let (force_k, table) = fitted(&laboratory(&bench, &eighteen(), sines)).unwrap();
+        residuals(&others, force_k, &table)[0]
+    });
+    let [without, with] = [without, with].map(|[_, rms_n]| 1e3 * rms_n);
+    println!("50 g, rise and fall: {with:.2} mN RMS, {without:.2} without any in the loads");
+    assert!(with <= 4.5 && with < 0.85 * without, "{with} {without}");
 }

@@ -9,7 +9,7 @@
 //! | rise and fall of 0.5 s, as half a sine, 72 readings each, evenly | 20, 100 | 400 |
 //!
 //! As many as a laboratory takes, 510, of one gap that moves: a table that has seen no voltage fall
-//! reads a force that falls too high. Of a gap without time (`static`) the settled readings on the
+//! gradually reads a force that falls too high. Of a gap without time (`static`) the settled readings on the
 //! way up, for the way down is another device's.
 
 use std::f64::consts::PI;

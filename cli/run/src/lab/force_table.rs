@@ -23,8 +23,8 @@ pub const VOLTS: f64 = 400.0;
 
 /// The deviation that a settled reading counts with, N: 5 mN of measurement, and what a table cannot
 /// follow. The latter is alike in neighbouring readings, so that together they tell less than as many
-/// independent ones. With 16 mN for [`STEP_N`] all limits (`tests/force_table.rs`, the force loop's
-/// `tests/tracking.rs`) hold from 7 to 8 mN for this.
+/// independent ones. Chosen with [`STEP_N`] so that all limits of the model device hold
+/// (`tests/force_table.rs`, the force loop's `tests/tracking.rs`).
 pub const SETTLED_N: f64 = 0.0075;
 
 /// The deviation that a reading of a voltage that has changed counts with, N: neighbours are more

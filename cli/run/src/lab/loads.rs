@@ -13,7 +13,7 @@
 //! | `capacitance_pf` | measured otherwise, by a bridge |
 //! | `i_total` or `i1` … `iN`, `v_sense` | amplitudes as for places, of the sum or of each terminal |
 //! | `x_mm`, `y_mm` | where the pad is; the sheet's middle without them |
-//! | `time_s` | since the voltage was switched on, of step records; −1 of settled readings. With it a force table is fitted, too |
+//! | `time_s` | since the voltage was switched on, of a step or of a rise and fall; −1 of settled readings. With it a force table is fitted, too |
 
 use std::f64::consts::TAU;
 
