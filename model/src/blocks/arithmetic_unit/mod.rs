@@ -73,9 +73,13 @@ block! {
         given: Format,
         /// A word that was read has a register before it is used.
         registers_words: bool,
+        /// Of an instruction.
+        address: Format,
     }
     submodules {
         program: Memory,
+        /// The instructions beyond the program's memory.
+        rest: Option<Memory>,
         words: Memory,
         multiplier: Multiplier,
     }
@@ -83,7 +87,7 @@ block! {
         /// Begins a program.
         start: BIT,
         /// Its first instruction.
-        entry: unit.program.address(),
+        entry: unit.address,
         /// The row of words that the program means; stable until `done`.
         row: unit.row,
         /// What was asked for in the clock before.
@@ -102,7 +106,7 @@ block! {
     registers(unit) {
         running: BIT,
         /// Address of the instruction that is fetched.
-        fetched: unit.program.address(),
+        fetched: unit.address,
         source: FIELDS.source,
         when: FIELDS.when,
         action: FIELDS.action,
@@ -155,9 +159,9 @@ impl ArithmeticUnit {
         let Programs { instructions, entries, clocks, products, behind, words, sum, word, factors } =
             programs;
         let row = Format::counter(rows - 1);
-        let mut codes: Vec<f64> = instructions.iter().map(|of| of.code().into()).collect();
-        // Instructions behind the last are fetched, and not carried out.
-        codes.resize(codes.len().next_power_of_two(), 0.0);
+        let codes: Vec<f64> = instructions.iter().map(|of| of.code().into()).collect();
+        let address = Format::counter(codes.len() as u64 - 1);
+        let (program, rest) = memories(codes, behind == 2);
         let [left, right] = factors;
         let multiplier = Multiplier::new(left, right, hardware);
         let of_products = products.iter().map(|products| products * multiplier.latency());
@@ -172,7 +176,9 @@ impl ArithmeticUnit {
             row,
             given,
             registers_words: behind == 2,
-            program: Memory::table("instructions", Format::unsigned(BITS, 0), codes),
+            address,
+            program,
+            rest,
             words: Memory { initial: initial.into(), ..of_words.in_block() },
             multiplier,
         }
@@ -305,8 +311,7 @@ impl Block for ArithmeticUnit {
             return outputs;
         }
         let within = &mut state.submodules;
-        let (instruction, read) =
-            (self.program.data(&mut within.program), self.words.data(&mut within.words));
+        let read = self.words.data(&mut within.words);
         let word = if self.registers_words { r.word } else { read };
         let inputs = multiplier::Inputs {
             enable: now.multiplies,
@@ -315,7 +320,7 @@ impl Block for ArithmeticUnit {
         };
         let product = call!(self.multiplier, state, inputs).product;
         let (taken, takes) = self.taken(&r, &i, &now, word, product);
-        let fields = fields(instruction);
+        let fields = fields(self.instruction(state, &r));
         let within = &mut state.submodules;
         let write = Write {
             enable: now.stores,
@@ -324,7 +329,7 @@ impl Block for ArithmeticUnit {
         };
         self.words.access(&mut within.words, self.address(fields.operand, i.row), write);
         let fetched = self.fetched(&r, &i, &now);
-        self.program.read(&mut within.program, fetched);
+        self.fetch(state, fetched);
         let next = Registers { fetched, sum: takes.select(taken, r.sum), ..r };
         let next = self.followed(next, &r, &now, word);
         state.store(self, self.decoded(next, &i, &now, fields, read));
@@ -333,6 +338,31 @@ impl Block for ArithmeticUnit {
 }
 
 impl ArithmeticUnit {
+    /// The instruction that was fetched.
+    #[inline(always)]
+    fn instruction<V: Interpretation>(&self, state: &mut State<Self, V>, r: &Regs<V>) -> Signal<V> {
+        let within = &mut state.submodules;
+        let first = self.program.data(&mut within.program);
+        match self.rest.as_ref().zip(within.rest.as_mut()) {
+            Some((rest, words)) => r.fetched.msb().select(rest.data(words), first),
+            None => first,
+        }
+    }
+
+    /// Fetches an instruction, of either memory.
+    #[inline(always)]
+    fn fetch<V: Interpretation>(&self, state: &mut State<Self, V>, address: Signal<V>) {
+        let within = &mut state.submodules;
+        let low = |memory: &Memory| {
+            let to = memory.address();
+            address.bits(0, to.width).as_code(to)
+        };
+        self.program.read(&mut within.program, low(&self.program));
+        if let Some((rest, words)) = self.rest.as_ref().zip(within.rest.as_mut()) {
+            rest.read(words, low(rest));
+        }
+    }
+
     /// The address of the instruction that is fetched next.
     #[inline(always)]
     fn fetched<V: Interpretation>(&self, r: &Regs<V>, i: &In<V>, now: &Now<V>) -> Signal<V> {
@@ -441,6 +471,20 @@ impl ArithmeticUnit {
             next_operand: of(FIELDS.operand),
         }
     }
+}
+
+/// The memories of a program: one, or where block RAMs are small and the program is at most a quarter longer than
+/// a power of two, one of that and one of the rest.
+fn memories(mut codes: Vec<f64>, large: bool) -> (Memory, Option<Memory>) {
+    let table = |name, mut codes: Vec<f64>| {
+        // Instructions behind the last are fetched, and not carried out.
+        codes.resize(codes.len().next_power_of_two(), 0.0);
+        Memory::table(name, Format::unsigned(BITS, 0), codes)
+    };
+    let full = codes.len().next_power_of_two() / 2;
+    let splits = !large && full < codes.len() && 4 * (codes.len() - full) <= full;
+    let rest = splits.then(|| table("rest", codes.split_off(full)));
+    (table("instructions", codes), rest)
 }
 
 /// The fields of an instruction.

@@ -202,7 +202,8 @@ fn fields_are_as_the_unit_reads_them() {
 impl ArithmeticUnit {
     /// What its programs cost: instructions, the bits of sum, words and factors, and the clocks of each program.
     pub(in super::super) fn costs(&self) -> (usize, [u8; 4], Vec<u64>) {
-        let instructions = self.program.codes();
+        let mut instructions = self.program.codes();
+        instructions.extend(self.rest.iter().flat_map(|rest| rest.codes()));
         let last = instructions.iter().rposition(|code| *code != 0).expect("a program");
         let factors = self.multiplier.inputs();
         let widths = [self.sum, self.words.format, factors.left, factors.right];
