@@ -45,10 +45,11 @@ fn the_block_is_felt_as_the_rule_is() {
 #[test]
 fn rules_on_two_halves_stick_in_the_order_of_what_they_know() {
     let [eq11, fused, b, known] = [Kind::Eq11, Kind::Fused, Kind::B, Kind::True].map(felt);
-    assert!(eq11.sticking_n > 2.0 * fused.sticking_n && fused.sticking_n > 1.2 * b.sticking_n);
+    assert!(eq11.sticking_n > 2.0 * fused.sticking_n && fused.sticking_n > 2.0 * b.sticking_n);
     assert!(b.sticking_n > 10.0 * known.sticking_n, "{b:?} {known:?}");
-    assert!(b.sticking_n <= 0.08 && b.release_ms <= 35.0 && b.release_p95_ms <= 280.0, "{b:?}");
-    assert!(b.vanished_ms <= 6.0, "{b:?}");
+    assert!(b.sticking_n <= 0.06 && b.worst_n <= 0.26 && b.slow_peak_n <= 0.17, "{b:?}");
+    assert!(b.release_ms <= 35.0 && b.release_p95_ms <= 280.0 && b.vanished_ms <= 6.0, "{b:?}");
+    assert!(b.excess_flips <= 5.0 && b.peak_n > 0.7, "{b:?}");
 }
 
 /// Hands that press slowly at 1 N/mm feel half of it up to 0.7 N (A), 0.79 of it up to 1 N (B); at half
@@ -64,11 +65,13 @@ fn a_wall_is_as_stiff_as_it_is_to_be() {
     }
 }
 
-/// At frames of 1 ms no hand at a stiff wall by rule A makes it come and go.
+/// At frames of 1 ms no hand at a stiff wall makes it come and go.
 #[test]
-fn a_stiff_wall_by_rule_a_has_no_bursts() {
-    let row = Setup { n_per_mm: 8.0, ..setup(Kind::A) }.hands(0..HANDS);
-    assert_eq!(row.bursts, 0.0, "{row:?}");
+fn a_stiff_wall_has_no_bursts() {
+    for kind in [Kind::A, Kind::B] {
+        let row = Setup { n_per_mm: 8.0, ..setup(kind) }.hands(0..HANDS);
+        assert_eq!(row.bursts, 0.0, "{kind:?}: {row:?}");
+    }
 }
 
 /// In by 4 mm beyond the surface, a rest, out again, with 300 N/m: sticking at most 0.008 N, and

@@ -10,13 +10,14 @@
 //! F = min(k_w·|x|, F_max)·gain                                           (docs/physics.md §6)
 //! ```
 //!
-//! That is the rule `sequential`. By `never` the state stays PUSH (eq. 11, with a force that is linear
+//! That is the rule `sequential`. Where `quiet_frames` is given, as by rule B, the force of a push at rest that
+//! reads weaker falls (`wall/pressed.rs`). By `never` the state stays PUSH (eq. 11, with a force that is linear
 //! in the depth), by `direct` it is FREE in each frame within the wall where y > 0 (eq. 12).
 //!
 //! ```text
 //! C_L, C_R ─(−, +)─[divider]─ u ─┐
 //! x ─[follow]─ x̄, v ─[learn]─ off, b, σ ─[test]─ PUSH/FREE ─(k_w·|x|)─(× gain)─[round half even]─ force
-//! [state: 16 words of every pad] ─ loaded first, saved last
+//! [state: 16 words of every pad, 21 where forces fall] ─ loaded first, saved last
 //! ```
 //!
 //! | signal | format | unit | overflow |
@@ -30,7 +31,7 @@
 //! is 0, the safe side, for a wall that cannot be felt is better than one that holds. With a part
 //! open (|u| ≥ ½) there is no evidence and play alone decides. One state word per field and pad is
 //! kept in a memory; a pad that is lifted, or calibrated anew, is started anew by `restart`.
-//! Latency: 2·17 + divider + two products + 10 clocks from `start` to `done`, whatever the data.
+//! Latency: 2·words + divider + two products + 12 clocks from `start` to `done`, whatever the data.
 
 use super::divider::{self, Divider};
 use super::multiplier::{self, Multiplier};
@@ -45,7 +46,10 @@ use hapticore_hdl::signal::{HalfEven, Proved, Saturate, Signal, Wrap, bit, int, 
 use hapticore_hdl::states::States;
 use hapticore_hdl::{block, bundle, call, next, states, when};
 
+mod pressed;
 mod rule;
+
+use pressed::Pressed;
 
 states! {
     /// The steps of a frame.
@@ -87,6 +91,7 @@ bundle! {
         since,
         /// Gain of the force.
         gain,
+        pressed as Pressed,
     }
 }
 
@@ -156,6 +161,10 @@ block! {
         bias: EVIDENCE,
         /// The state is to be left.
         leaves: BIT,
+        /// The pad slips inwards.
+        slips: BIT.where_present(wall.fades()),
+        /// The push has become weaker since it did.
+        weaker: BIT.where_present(wall.fades()),
         target: wall.force,
         free: BIT,
         valid: BIT,
@@ -175,9 +184,6 @@ const GAIN: Format = Format::unsigned(11, 10);
 /// Frames that are learnt fast.
 const FAST: u64 = 16;
 const FRAMES: Format = Format::counter(FAST);
-/// Words of a pad.
-const WORDS: u64 = <Kept as Bundle>::FIELDS.len() as u64;
-const INDEX: Format = Format::counter(WORDS - 1);
 
 /// A sum one bit longer than its terms.
 const fn sum(capacitance: Format) -> Format {
@@ -215,7 +221,7 @@ impl Wall {
         let [stiff, ramped] = block.products();
         rounds("formats.force", "the product of depth and stiffness", stiff, force)?;
         rounds("formats.force", "the product of force and gain", ramped, force)?;
-        let words = (WORDS as usize) << pad.width;
+        let words = 1 << (pad.width + block.index().width);
         let kept = Memory::new("kept", words, Format::unsigned(width, 0)).dont_care_on_collision();
         Ok(Wall { kept, ..block })
     }
@@ -255,24 +261,39 @@ impl Wall {
             extreme: self.filtered(),
             since: Format::counter(self.rule.dwell_frames.max(1)),
             gain: GAIN,
+            pressed: self.pressed_formats(),
         }
+    }
+
+    /// Words of a pad.
+    #[inline(always)]
+    fn words(&self) -> u64 {
+        let mut words = 0;
+        Kept::map(self.kept_formats(), |format| words += u64::from(!format.is_none()));
+        words
+    }
+
+    /// The number of a word.
+    #[inline(always)]
+    fn index(&self) -> Format {
+        Format::counter(self.words() - 1)
     }
 
     /// The number of the last clock of a step.
     #[inline(always)]
     fn last(&self, step: Step) -> u64 {
         match step {
-            Step::Load => WORDS,
+            Step::Load => self.words(),
             Step::Divide => self.divider.latency(),
             Step::Depth | Step::Ramp => self.multiplier.latency(),
-            Step::Save => WORDS - 1,
+            Step::Save => self.words() - 1,
             _ => 0,
         }
     }
 
     #[inline(always)]
     fn count(&self) -> Format {
-        Format::counter(WORDS.max(self.divider.latency()))
+        Format::counter(self.words().max(self.divider.latency()))
     }
 
     /// Clocks from `start` to `done`.
@@ -299,6 +320,9 @@ impl Wall {
         let of_pad = r.kept.known.select(word, self.word(r, self.anew(i), 1));
         let mut index = 0;
         let kept = Kept::map(r.kept, |old| {
+            if old.format.is_none() {
+                return old;
+            }
             index += 1;
             let word = of_pad.bits(0, old.format.width).as_code(old.format);
             r.count.is(index).select(word, old)
@@ -312,6 +336,9 @@ impl Wall {
     fn word<V: Interpretation>(&self, r: &Regs<V>, kept: Kept<Signal<V>>, from: u64) -> Signal<V> {
         let (mut index, mut word) = (from, zero(self.kept.format));
         Kept::map(kept, |of| {
+            if of.format.is_none() {
+                return;
+            }
             let bits = of.bits(0, of.format.width).resize(self.kept.format, Proved);
             word = r.count.is(index).select(bits, word);
             index += 1;
@@ -404,9 +431,9 @@ impl Block for Wall {
         let quotient = call!(self.divider, state, inputs).quotient;
         let product = call!(self.multiplier, state, self.operands(&r, &i)).product;
         let word = self.kept.data(&mut state.submodules.kept);
-        let address = i.pad.concat(r.count.bits(0, INDEX.width));
-        let write =
-            Write { enable: r.step.at(Step::Save), address, data: self.word(&r, r.kept, 0) };
+        let address = i.pad.concat(r.count.bits(0, self.index().width));
+        let kept = self.with_force(r.kept, r.target);
+        let write = Write { enable: r.step.at(Step::Save), address, data: self.word(&r, kept, 0) };
         self.kept.access(&mut state.submodules.kept, address, write);
         let idle = Registers { done: bit(false), ..r };
         let ends = self.ends(&r);

@@ -41,13 +41,15 @@ pub enum Kind {
     SmallA,
     /// Rule A as the wall's block, in the words of profile `standard`.
     StandardA,
+    /// Rule B as the wall's block, in the words of profile `small`.
+    SmallB,
     /// A wall that knows the force of the hand.
     True,
 }
 
 impl Kind {
     /// All, in the order of the table.
-    pub const ALL: [Kind; 9] = [
+    pub const ALL: [Kind; 10] = [
         Kind::Eq11,
         Kind::Eq12,
         Kind::Eq12Linear,
@@ -56,6 +58,7 @@ impl Kind {
         Kind::A,
         Kind::SmallA,
         Kind::StandardA,
+        Kind::SmallB,
         Kind::True,
     ];
 
@@ -147,6 +150,7 @@ impl Setup {
             Kind::A => Box::new(Sequential::new(stiffness, Test::A, factory, self.frame_ms)),
             Kind::SmallA => Box::new(Clocked::new("small", Wall::A, stiffness, factory)),
             Kind::StandardA => Box::new(Clocked::new("standard", Wall::A, stiffness, factory)),
+            Kind::SmallB => Box::new(Clocked::new("small", Wall::B, stiffness, factory)),
             Kind::True => {
                 return Judge::Knows(Omniscient { stiffness, direction: Direction::Push });
             }

@@ -65,7 +65,9 @@ fn walled(wall: Wall, plan: &WallPlan) -> Wall {
     // Nothing moves so fast that it would be learnt from.
     let learn_um = if plan.calibrated { wall.learn_um } else { 10_000 };
     let play_um = plan.play_mm.map_or(wall.play_um, |mm| (1e3 * mm).round() as u64);
-    Wall { rule, learn_um, play_um, ..wall }
+    // Both are to be beyond the noise of the place.
+    let slip_um = (wall.slip_um * play_um).div_ceil(wall.play_um);
+    Wall { rule, learn_um, play_um, slip_um, ..wall }
 }
 
 /// The walls, as the factory calibrates them.

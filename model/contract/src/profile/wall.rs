@@ -64,6 +64,13 @@ pub struct Wall {
     pub play_um: u64,
     /// Distance from the wall at which air is free, µm.
     pub clear_um: u64,
+    /// Frames without a slip inwards after which the force of a push that reads weaker falls; 0 where it never
+    /// does.
+    pub quiet_frames: u64,
+    /// What counts as a slip, µm.
+    pub slip_um: u64,
+    /// The force beyond which no reading lets go, where a push at rest may fall, mN.
+    pub latch_mn: u64,
 }
 
 impl Wall {
@@ -82,10 +89,21 @@ impl Wall {
         fast_um: 20,
         play_um: 200,
         clear_um: 200,
+        quiet_frames: 0,
+        slip_um: 25,
+        latch_mn: 750,
     };
     /// Rule B, for halves that sense and brake.
-    pub const B: Wall =
-        Wall { parts: 2, release: 4, engage: 12, advance_16: 0, delay_16: 24, ..Wall::A };
+    pub const B: Wall = Wall {
+        parts: 2,
+        release: 4,
+        engage: 12,
+        advance_16: 0,
+        delay_16: 24,
+        dwell_frames: 64,
+        quiet_frames: 100,
+        ..Wall::A
+    };
     /// Rule B along both axes, for quadrants that sense and brake.
     pub const QUADRANTS: Wall = Wall { parts: 4, ..Wall::B };
     /// The part of a pad by whose number its wall along y is known; that along x by the last one's.
@@ -113,6 +131,10 @@ impl Wall {
             dwell_frames: frames(self.dwell_frames).min(1023),
             ramp_frames: frames(self.ramp_frames).clamp(1, 1023),
             zero_frames: frames(self.zero_frames).clamp(1, 1023),
+            quiet_frames: match self.quiet_frames {
+                0 => 0,
+                quiet => frames(quiet).clamp(1, 1023),
+            },
             learn_um: um(self.learn_um),
             fast_um: um(self.fast_um),
             ..self
@@ -142,6 +164,9 @@ impl Profile {
             ("wall.fast_um", wall.fast_um, 1, 10_000),
             ("wall.play_um", wall.play_um, 1, 10_000),
             ("wall.clear_um", wall.clear_um, 1, 10_000),
+            ("wall.quiet_frames", wall.quiet_frames, 0, 1023),
+            ("wall.slip_um", wall.slip_um, 1, 10_000),
+            ("wall.latch_mn", wall.latch_mn, 0, 10_000),
         ] {
             within(field, value, low, high)?;
         }

@@ -5,6 +5,7 @@
 //! x̄ = [(3x̄ + x)/4],  v = [(7v + Δx)/8],  u_in, u_out = [(3u + new)/4] or [(63u + new)/64]
 //! y = [(u − off)/σ],  b/σ·bf = […],  S, E in [0, 64)
 //! F = [min([k_w·|x|], F_max)·gain]
+//! ū = [(7ū + u)/8],  r = [(3r + ū)/4],  d = [(d + x̄)/2] or [(15d + x̄ − slip)/16]     (rule B)
 //! ```
 
 use super::{Exact, round, round_quotient, round_real};
@@ -18,6 +19,7 @@ const FRICTION: Format = Format::unsigned(21, 20);
 const Y: Format = Format::signed(11, 8);
 const EVIDENCE: Format = Format::unsigned(14, 8);
 const GAIN: Format = Format::unsigned(11, 10);
+const SLOW: Format = Format::signed(16, 16);
 
 /// What a wall is given in a frame of a pad.
 #[derive(Debug, Clone, Copy)]
@@ -76,6 +78,17 @@ struct Kept {
     extreme: Exact,
     since: u64,
     gain: Exact,
+    slow: Exact,
+    push: Push,
+    latched: bool,
+}
+
+/// A push since its last slip inwards.
+#[derive(Debug, Clone, Copy)]
+struct Push {
+    slow: Exact,
+    deep: Exact,
+    frames: u64,
 }
 
 fn times(x: Exact, by: i128) -> Exact {
@@ -84,6 +97,11 @@ fn times(x: Exact, by: i128) -> Exact {
 
 fn mean(old: Exact, new: Exact, shift: u32, to: Format) -> Exact {
     round((times(old, (1 << shift) - 1) + new).scaled(-(shift as i8)), to).value
+}
+
+/// The standard deviation of u is 2 to the minus this.
+fn deviation(k: &Kept) -> i8 {
+    if k.change > round_real(0.0055 / 0.886, CHANGE) { 7 } else { 8 }
 }
 
 fn lesser(a: Exact, b: Exact) -> Exact {
@@ -124,6 +142,9 @@ impl Wall {
             extreme: i.x,
             since: self.rule.dwell_frames,
             gain: Exact::ZERO,
+            slow: i.factory,
+            push: Push { slow: i.factory, deep: i.x, frames: 0 },
+            latched: false,
         };
         let known = self.kept.take().filter(|_| !i.restart);
         let is_new = known.is_none();
@@ -138,9 +159,11 @@ impl Wall {
         if let Some(u) = read {
             self.learn(&mut k, u);
         }
+        k.slow = mean(k.slow, k.u, 3, SLOW);
         let y = self.weigh(&mut k, i, read.is_some());
         self.test(&mut k, y, i.x);
         let target = self.target(&k, i, sum);
+        k.latched = target > round_real(1e-3 * self.rule.latch_mn as f64, self.force);
         let free = k.free;
         self.kept = Some(k).filter(|_| !is_new || sum != Exact::ZERO);
         WallResult { target, free, valid: sum != Exact::ZERO }
@@ -189,12 +212,13 @@ impl Wall {
             (false, true) => (out.0 - first, first),
             (false, false) => (i.factory, first),
         };
-        let by = if k.change > round_real(0.0055 / 0.886, CHANGE) { 7 } else { 8 };
+        let by = deviation(k);
         let y = if reads { round((k.u - offset).scaled(by), Y).value } else { Exact::ZERO };
         let sixteenths = if k.free { self.rule.delay_16 } else { self.rule.advance_16 };
         let bias = times(friction, sixteenths.into()).scaled(by - 4);
-        let step = round_real(1.0 / self.rule.ramp_frames as f64, GAIN);
-        k.gain = lesser(k.gain + step, Exact::new(1, 0));
+        if !self.fades() {
+            k.gain = lesser(k.gain + self.gain_step(), Exact::new(1, 0));
+        }
         k.since = (k.since + 1).min(self.rule.dwell_frames.max(1));
         [y, round(bias, EVIDENCE).value]
     }
@@ -212,6 +236,7 @@ impl Wall {
             k.evidence > h2 && k.speed <= fast
         } else {
             k.extreme = lesser(k.extreme, k.filtered);
+            let y = if self.fades() && k.latched { lesser(y, Exact::ZERO) } else { y };
             k.evidence = round(k.evidence + y + bias - half, EVIDENCE).value;
             if k.speed < -fast {
                 k.evidence = lesser(k.evidence, h1);
@@ -233,12 +258,53 @@ impl Wall {
         if outside || leaves {
             (k.evidence, k.extreme) = (Exact::ZERO, k.filtered);
         }
+        if outside || leaves {
+            k.push = Push { slow: k.slow, deep: k.filtered, frames: 0 };
+        } else if self.fades() && !k.free {
+            self.press(k);
+        }
         if outside {
-            (k.free, k.since, k.gain) = (false, self.rule.dwell_frames, Exact::new(1, 0));
+            (k.free, k.gain) = (false, Exact::new(1, 0));
+            k.since = if self.fades() { k.since } else { self.rule.dwell_frames };
         } else if leaves {
             k.gain = if k.free { Exact::ZERO } else { k.gain };
             (k.free, k.since) = (!k.free, 0);
         }
+    }
+
+    fn fades(&self) -> bool {
+        self.rule.quiet_frames > 0 && self.rule.rule == Release::Sequential
+    }
+
+    fn gain_step(&self) -> Exact {
+        round_real(1.0 / self.rule.ramp_frames as f64, GAIN)
+    }
+
+    /// A push goes on: its force comes back where it slips inwards, and may fall where it does not.
+    fn press(&self, k: &mut Kept) {
+        let step = self.gain_step();
+        let slip = self.millimetres(self.rule.slip_um, self.filtered());
+        let push = k.push;
+        let is_weaker = k.slow - push.slow > Exact::new(1, 0).scaled(-deviation(k));
+        let gain = if push.deep - k.filtered > slip {
+            let deep = round((push.deep + k.filtered).scaled(-1), self.filtered()).value;
+            k.push = Push { slow: k.slow, deep, frames: 0 };
+            k.gain + times(step, 4)
+        } else {
+            let behind = k.filtered - slip;
+            k.push = Push {
+                slow: if k.slow < push.slow { mean(push.slow, k.slow, 2, SLOW) } else { push.slow },
+                deep: match behind > push.deep {
+                    true => mean(push.deep, behind, 4, self.filtered()),
+                    false => push.deep,
+                },
+                frames: push.frames + 1,
+            };
+            let falls = is_weaker && k.push.frames > self.rule.quiet_frames;
+            if falls { k.gain - step } else { k.gain + step }
+        };
+        let gain = lesser(gain, Exact::new(1, 0));
+        k.gain = if gain < Exact::ZERO { Exact::ZERO } else { gain };
     }
 
     fn target(&self, k: &Kept, i: &WallFrame, sum: Exact) -> Exact {

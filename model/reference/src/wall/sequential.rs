@@ -10,7 +10,20 @@
 //! x ≥ 0   PUSH, S = E = 0, gain = 1
 //! PUSH    S = max(0, S + y + bf·b/σ − ½);  v < −20 mm/s: S = min(S, h1);  S > h1 or x̄ − min x̄ > 0.2 mm → FREE
 //! FREE    E = max(0, E − y − ½ − kb·b/σ);  E > h2 and v ≤ 20 mm/s, or max x̄ − x̄ > 0.2 mm → PUSH, gain = 0
-//! F = min(k_w·|x|, F_max)·gain,   gain += 1/40 per ms
+//! F = min(k_w·|x|, F_max)·gain,   gain += 1/40 per ms, up to 1
+//! ```
+//!
+//! Rule B, whose halves brake too, cannot read the level of a push that has pulled patches in, but its
+//! change. Where the pad has not slipped inwards for a while and the push reads weaker than at its last
+//! slip, the force falls, until the pad slips or the direction can be read:
+//!
+//! ```text
+//! ū += (u − ū)/8;   r, d: ū and the deepest x̄ of the push, taken where PUSH is entered
+//! PUSH, last F > 0.75 N               y = min(y, 0)
+//! x̄ < d − 25 µm (slips inwards)       gain += 4/40 per ms;   r = ū,   d += (x̄ − d)/2,   q = 0
+//! otherwise                           ū < r: r += (ū − r)/4;   d < x̄ − 25 µm: d += (x̄ − 25 µm − d)/16;   q counts
+//!   q > 100 ms and ū − r > σ           gain −= 1/40 per ms
+//!   otherwise                         gain += 1/40 per ms
 //! ```
 //!
 //! A state is left when its dwell is over. u's mean |Δu| is taken in free air. Without current, or
@@ -42,13 +55,33 @@ pub struct Test {
     pub bf: f64,
     /// How long a state lasts at least, ms.
     pub dwell_ms: f64,
+    /// When the force of a push at rest falls, if it may.
+    pub fade: Option<Fade>,
+}
+
+/// How a push that has pulled patches in is doubted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fade {
+    /// Time without a slip inwards after which the force may fall, ms.
+    pub quiet_ms: f64,
+    /// What counts as a slip, mm.
+    pub slip_mm: f64,
+    /// The force beyond which no reading lets go, N.
+    pub latch_n: f64,
 }
 
 impl Test {
     /// Rule A, for a pad whose sensing strips stay at a low voltage.
-    pub const A: Test = Test { h1: 3.0, h2: 8.0, kb: 1.0, bf: 0.3, dwell_ms: 20.0 };
+    pub const A: Test = Test { h1: 3.0, h2: 8.0, kb: 1.0, bf: 0.3, dwell_ms: 20.0, fade: None };
     /// Rule B, for halves that sense and brake.
-    pub const B: Test = Test { h1: 4.0, h2: 12.0, kb: 1.5, bf: 0.0, dwell_ms: 20.0 };
+    pub const B: Test = Test {
+        h1: 4.0,
+        h2: 12.0,
+        kb: 1.5,
+        bf: 0.0,
+        dwell_ms: 64.0,
+        fade: Some(Fade { quiet_ms: 100.0, slip_mm: 0.025, latch_n: 0.75 }),
+    };
 }
 
 /// The direction as it reads in free air, moving one way.
@@ -133,6 +166,22 @@ pub struct Sequential {
     extreme_mm: f64,
     since_ms: f64,
     gain: f64,
+    /// Filtered u.
+    slow_u: f64,
+    pressed: Pressed,
+    /// The force that was asked for last, N.
+    last_n: f64,
+}
+
+/// What is known of a push from its last slip inwards on.
+#[derive(Clone, Copy, Debug)]
+struct Pressed {
+    /// Filtered u, at least, r.
+    u: f64,
+    /// The place to which it has slipped, d, mm.
+    deep_mm: f64,
+    /// The time since then, q, ms.
+    quiet_ms: f64,
 }
 
 impl Sequential {
@@ -156,6 +205,9 @@ impl Sequential {
             extreme_mm: 0.0,
             since_ms: f64::INFINITY,
             gain: 0.0,
+            slow_u: factory,
+            pressed: Pressed { u: factory, deep_mm: 0.0, quiet_ms: 0.0 },
+            last_n: 0.0,
         }
     }
 
@@ -167,6 +219,11 @@ impl Sequential {
             kb: wall.delay_16 as f64 / 16.0,
             bf: wall.advance_16 as f64 / 16.0,
             dwell_ms: wall.dwell_frames as f64,
+            fade: (wall.quiet_frames > 0).then_some(Fade {
+                quiet_ms: wall.quiet_frames as f64,
+                slip_mm: 1e-3 * wall.slip_um as f64,
+                latch_n: 1e-3 * wall.latch_mn as f64,
+            }),
         };
         Sequential { numbers: Numbers::of(wall), ..Sequential::new(stiffness, test, factory, 1.0) }
     }
@@ -208,16 +265,21 @@ impl Sequential {
         self.direction = direction;
         self.evidence = 0.0;
         self.extreme_mm = filtered_mm;
-        self.since_ms = 0.0;
+        self.pressed = Pressed { u: self.slow_u, deep_mm: filtered_mm, quiet_ms: 0.0 };
     }
 
     /// Whether the state is to be left.
     fn test(&mut self, y: f64, bias: f64, filtered_mm: f64, speed_mm_s: f64) -> bool {
-        let Test { h1, h2, kb, bf, dwell_ms } = self.test;
+        let Test { h1, h2, kb, bf, dwell_ms, fade } = self.test;
         let Numbers { fast_mm_s, play_mm, .. } = self.numbers;
         let is_over = match self.direction {
             Direction::Push => {
                 self.extreme_mm = self.extreme_mm.min(filtered_mm);
+                let y = if fade.is_some_and(|fade| self.last_n > fade.latch_n) {
+                    y.min(0.0)
+                } else {
+                    y
+                };
                 self.evidence = (self.evidence + y + bf * bias - 0.5).max(0.0);
                 if speed_mm_s < -fast_mm_s {
                     self.evidence = self.evidence.min(h1);
@@ -232,6 +294,25 @@ impl Sequential {
             }
         };
         is_over && self.since_ms >= dwell_ms
+    }
+
+    /// What a frame adds to the gain: the force of a push that may have ended falls.
+    fn gain_step(&mut self, sigma: f64, filtered_mm: f64) -> f64 {
+        let step = self.frame_ms / self.numbers.ramp_ms;
+        let Some(fade) = self.test.fade.filter(|_| self.direction == Direction::Push) else {
+            return step;
+        };
+        let pressed = &mut self.pressed;
+        if filtered_mm < pressed.deep_mm - fade.slip_mm {
+            let deep_mm = (pressed.deep_mm + filtered_mm) / 2.0;
+            *pressed = Pressed { u: self.slow_u, deep_mm, quiet_ms: 0.0 };
+            return 4.0 * step;
+        }
+        pressed.quiet_ms += self.frame_ms;
+        pressed.deep_mm += (filtered_mm - fade.slip_mm - pressed.deep_mm).max(0.0) / 16.0;
+        pressed.u += (self.slow_u - pressed.u).min(0.0) / 4.0;
+        let is_weaker = self.slow_u - pressed.u > sigma;
+        if is_weaker && pressed.quiet_ms > fade.quiet_ms { -step } else { step }
     }
 }
 
@@ -249,28 +330,33 @@ impl Rule for Sequential {
         let sigma = if 0.886 * self.change > 0.0055 { 2f64.powi(-7) } else { 2f64.powi(-8) };
         let y = read.map_or(0.0, |u| ((u - offset) / sigma).clamp(-4.0, 4.0));
         self.since_ms += self.frame_ms;
-        self.gain = (self.gain + self.frame_ms / self.numbers.ramp_ms).min(1.0);
+        self.slow_u += (u - self.slow_u) / 8.0;
         if self.numbers.rule != Release::Sequential {
             let leads_out = self.numbers.rule == Release::Direct && frame.x_mm < 0.0 && y > 0.0;
             self.direction = if leads_out { Direction::Free } else { Direction::Push };
             self.gain = 1.0;
         } else if frame.x_mm >= 0.0 {
             self.enter(Direction::Push, filtered_mm);
-            (self.since_ms, self.gain) = (f64::INFINITY, 1.0);
+            if self.test.fade.is_none() {
+                self.since_ms = f64::INFINITY;
+            }
+            self.gain = 1.0;
         } else if self.test(y, friction / sigma, filtered_mm, speed_mm_s) {
+            self.since_ms = 0.0;
+            self.gain = 0.0;
             match self.direction {
                 Direction::Push => self.enter(Direction::Free, filtered_mm),
-                Direction::Free => {
-                    self.enter(Direction::Push, filtered_mm);
-                    self.gain = 0.0;
-                }
+                Direction::Free => self.enter(Direction::Push, filtered_mm),
             }
+        } else {
+            self.gain = (self.gain + self.gain_step(sigma, filtered_mm)).clamp(0.0, 1.0);
         }
         let force_n = match self.direction {
             _ if frame.left + frame.right <= 0.0 => 0.0,
             Direction::Push => self.stiffness.at(frame.x_mm) * self.gain,
             Direction::Free => 0.0,
         };
+        self.last_n = force_n;
         (Target::Force(force_n), self.direction)
     }
 }

@@ -2,8 +2,8 @@
 //! The steps of the wall's rule, each one clock: equations at the head of the block.
 
 use super::{
-    CHANGE, EVIDENCE, FAST, FRAMES, FRICTION, GAIN, In, Kept, LEARNT, OFFSET, Registers, Regs, U,
-    Wall, Y,
+    CHANGE, EVIDENCE, FAST, FRAMES, FRICTION, GAIN, In, Kept, LEARNT, OFFSET, Pressed, Registers,
+    Regs, U, Wall, Y,
 };
 use hapticore_contract::profile::Release;
 use hapticore_hdl::block::Interpretation;
@@ -12,6 +12,7 @@ use hapticore_hdl::format::Format;
 use hapticore_hdl::signal::{
     Assumed, HalfEven, Proved, Saturate, Signal, Wrap, bit, code, int, zero,
 };
+use hapticore_hdl::when;
 
 /// The code of a number of a format, to the nearest.
 fn nearest(real: f64, format: Format) -> i64 {
@@ -20,7 +21,7 @@ fn nearest(real: f64, format: Format) -> i64 {
 
 /// A constant by its number.
 #[inline(always)]
-fn number<V: Interpretation>(real: f64, format: Format) -> Signal<V> {
+pub(super) fn number<V: Interpretation>(real: f64, format: Format) -> Signal<V> {
     code(nearest(real, format), format)
 }
 
@@ -30,7 +31,12 @@ const MEAN: &str = "a mean of old and new value lies between them";
 /// The mean of an old value and a new one that has a share of 2^−shift. Shifts and a difference take
 /// no multiplier.
 #[inline(always)]
-fn filtered<V: Interpretation>(old: Signal<V>, new: Signal<V>, shift: u8, to: Format) -> Signal<V> {
+pub(super) fn filtered<V: Interpretation>(
+    old: Signal<V>,
+    new: Signal<V>,
+    shift: u8,
+    to: Format,
+) -> Signal<V> {
     let sum = old.scaled(shift as i8) - old + new;
     sum.scaled(-(shift as i8)).quantize(to, HalfEven, Assumed(MEAN))
 }
@@ -44,8 +50,14 @@ fn times<V: Interpretation>(signal: Signal<V>, constant: u64, to: Format) -> Sig
 
 /// One more, up to `most`.
 #[inline(always)]
-fn counted<V: Interpretation>(count: Signal<V>, most: u64) -> Signal<V> {
+pub(super) fn counted<V: Interpretation>(count: Signal<V>, most: u64) -> Signal<V> {
     count.at_least(int(most)).select(int(most), count + int(1)).resize(count.format, Wrap)
+}
+
+/// The direction is noisy.
+#[inline(always)]
+fn rough<V: Interpretation>(k: &Kept<Signal<V>>) -> Signal<V> {
+    number(0.0055 / 0.886, CHANGE).less_than(k.change)
 }
 
 impl Wall {
@@ -61,6 +73,7 @@ impl Wall {
             outwards: i.factory.resize(LEARNT, Proved),
             extreme: i.x.resize(formats.extreme, Proved),
             since: code(self.rule.dwell_frames as i64, formats.since),
+            pressed: self.unpressed(i.factory, i.x),
             ..Kept::map(formats, zero)
         }
     }
@@ -89,6 +102,7 @@ impl Wall {
             speed: filtered(kept.speed, i.x - kept.last, 3, self.speed()),
             u,
             zero: i.at_zero.select(counted(kept.zero, zeros), zero(kept.zero.format)),
+            pressed: Pressed { slow: self.slow(kept.pressed.slow, u), ..kept.pressed },
             ..kept
         };
         let moved = (u - before).abs().resize(r.moved.format, Wrap);
@@ -152,7 +166,7 @@ impl Wall {
     #[inline(always)]
     pub(super) fn weigh<V: Interpretation>(&self, r: Regs<V>) -> Regs<V> {
         let k = r.kept;
-        let rough = number(0.0055 / 0.886, CHANGE).less_than(k.change);
+        let rough = rough(&k);
         let off = k.u - r.offset;
         let in_deviations = |of: Signal<V>, to: Format| {
             rough.select(of.scaled(7), of.scaled(8)).quantize(to, HalfEven, Saturate)
@@ -160,10 +174,14 @@ impl Wall {
         let most = r.friction.format.product(Format::unsigned(8, 4));
         let [delay, advance] = [self.rule.delay_16, self.rule.advance_16]
             .map(|sixteenths| times(r.friction.scaled(-4), sixteenths, most));
-        let step = number((1.0f64 / self.rule.ramp_frames as f64).min(1.0), GAIN);
         let one = number(1.0, GAIN);
-        let gain = k.gain + step;
-        let gain = one.less_than(gain).select(one, gain).resize(GAIN, Wrap);
+        let gain = match self.fades() {
+            true => k.gain,
+            false => {
+                let gain = k.gain + self.gain_step();
+                one.less_than(gain).select(one, gain).resize(GAIN, Wrap)
+            }
+        };
         let since = counted(k.since, self.rule.dwell_frames.max(1));
         Registers {
             y: r.reads.select(in_deviations(off, Y), zero(Y)),
@@ -171,6 +189,12 @@ impl Wall {
             kept: Kept { since, gain, ..k },
             ..r
         }
+    }
+
+    /// The step by which a gain comes back.
+    #[inline(always)]
+    pub(super) fn gain_step<V: Interpretation>(&self) -> Signal<V> {
+        number((1.0f64 / self.rule.ramp_frames as f64).min(1.0), GAIN)
     }
 
     /// Evidence, and how far in or out the pad has been.
@@ -181,7 +205,7 @@ impl Wall {
         let inside = k.filtered - k.extreme;
         let farther = k.free.select(int(0).less_than(inside), inside.less_than(int(0)));
         // S + y + b − ½, or E − y − b − ½.
-        let push = r.y + r.bias;
+        let push = self.heard(&k, r.y) + r.bias;
         let evidence = k.evidence - half + k.free.select(-push, push);
         let kept = Kept {
             extreme: farther.select(k.filtered, k.extreme),
@@ -213,7 +237,7 @@ impl Wall {
             dwell => k.since.is(dwell),
         };
         let kept = Kept { evidence: held.select(h1, evidence), ..k };
-        Registers { kept, leaves: decided & over, ..r }
+        self.doubted(Registers { kept, leaves: decided & over, ..r }, rough(&k))
     }
 
     /// The state of the next frames.
@@ -240,12 +264,17 @@ impl Wall {
         let k = r.kept;
         let enters = outside | r.leaves;
         let dwell = code(self.rule.dwell_frames as i64, k.since.format);
-        let since = outside.select(dwell, r.leaves.select(zero(k.since.format), k.since));
+        // By a rule that lets forces fall a dwell goes on outside.
+        let outside_since = if self.fades() { k.since } else { dwell };
+        let since = outside.select(outside_since, r.leaves.select(zero(k.since.format), k.since));
         let restarts = r.leaves & k.free;
-        let gain = outside.select(number(1.0, GAIN), restarts.select(zero(GAIN), k.gain));
+        // Of what is free neither gain nor push counts: both begin anew when it engages.
+        let goes_on = if self.fades() { self.pressed(&r) } else { k };
+        let gain = outside.select(number(1.0, GAIN), restarts.select(zero(GAIN), goes_on.gain));
         let free = !outside & (r.leaves.select(!k.free, k.free));
         let kept = Kept {
             free,
+            pressed: when!(enters => self.begun(&k), else goes_on.pressed),
             evidence: enters.select(zero(EVIDENCE), k.evidence),
             extreme: enters.select(k.filtered, k.extreme),
             since,

@@ -218,11 +218,13 @@ fn a_part_that_was_open_at_first_makes_no_noise() {
 }
 
 #[test]
-fn what_is_kept_has_sixteen_words_for_every_number_of_a_pad() {
-    for pads in 2..=9 {
-        let profile = Profile { pads, ..Profile::bundled("small").unwrap() };
-        let words = 16 * (pads as usize).next_power_of_two();
-        assert_eq!(Wall::try_new(&profile).unwrap().kept.words, words, "{pads} pads");
+fn what_is_kept_has_a_power_of_two_of_words_for_every_number_of_a_pad() {
+    for (wall, of_pad) in [(None, 16), (Some(profile::Wall::B), 32)] {
+        for pads in 2..=9 {
+            let profile = Profile { pads, wall, ..Profile::bundled("small").unwrap() };
+            let words = of_pad * (pads as usize).next_power_of_two();
+            assert_eq!(Wall::try_new(&profile).unwrap().kept.words, words, "{pads} pads");
+        }
     }
 }
 
@@ -312,6 +314,58 @@ fn at_the_surface_there_is_no_force_and_no_push_is_no_release() {
         let last = (0..100).map(|_| pair.frame(rail)).last().unwrap();
         assert_eq!(last.target, still.most, "at the rail the largest force holds it");
     }
+}
+
+/// A pad on a wall by rule B that is pressed in to some depth, mm.
+fn pressed_by_rule_b(depth_mm: f64) -> Pair {
+    let profile = Profile { wall: Some(profile::Wall::B), ..Profile::bundled("small").unwrap() };
+    let mut pair = Pair::new(&profile);
+    for n in 0..=200 {
+        let inputs = pair.given(0, reads(-0.03), 0.5 - (depth_mm + 0.5) * n as f64 / 200.0, false);
+        pair.frame(inputs);
+    }
+    pair
+}
+
+/// What parts read under a push.
+fn reads(push: f64) -> [f64; 2] {
+    [170.0 * (1.0 - push), 170.0 * (1.0 + push)]
+}
+
+/// A push of 0.6 N that becomes weaker, and is not to be told from one that has ended: the force falls, and
+/// is back within ten frames of a slip.
+#[test]
+fn the_force_of_a_push_that_becomes_weaker_falls_until_the_pad_slips() {
+    let mut pair = pressed_by_rule_b(1.2);
+    let force = pair.force;
+    let mut frame = |push: f64, x_mm: f64| {
+        let out = pair.frame(pair.given(0, reads(push), x_mm, false));
+        assert_eq!(out.free, 0);
+        force.real(out.target)
+    };
+    let steady: Vec<f64> = (0..200).map(|_| frame(-0.03, -1.2)).collect();
+    assert!(
+        steady.iter().all(|force_n| (force_n - 0.6).abs() < 0.01),
+        "the push goes on: {steady:?}"
+    );
+    let weaker: Vec<f64> = (0..60).map(|_| frame(-0.01, -1.2)).collect();
+    assert_eq!(weaker.last(), Some(&0.0), "{weaker:?}");
+    let slips: Vec<f64> = (1..=20).map(|n| frame(-0.01, -1.2 - 0.01 * f64::from(n))).collect();
+    assert!(slips[12] > 0.6, "{slips:?}");
+}
+
+/// Beyond 0.75 N patches are taken to have been pulled in: what they read does not let go. The force falls
+/// first.
+#[test]
+fn a_large_force_lets_go_later_than_a_small_one() {
+    let frames_to_free = |depth_mm: f64| {
+        let mut pair = pressed_by_rule_b(depth_mm);
+        let inputs = pair.given(0, reads(0.03), -depth_mm, false);
+        (0..300).position(|_| pair.frame(inputs).free == 1)
+    };
+    let [small, large] = [1.4, 1.6].map(frames_to_free);
+    assert!(small.is_some_and(|frames| frames < 5), "0.7 N: frame {small:?}");
+    assert!(large.is_some_and(|frames| (20..130).contains(&frames)), "0.8 N: frame {large:?}");
 }
 
 #[test]
