@@ -71,6 +71,21 @@ fn luts(of: &Operations, [adders, selects, every]: [f64; 3]) -> f64 {
     adders * of.adders + selects * of.selects + every
 }
 
+/// LUT4 of an ECP5 by bits of adders and of selections beyond a core: fitted to the same cores, but without
+/// what every core has, which a controller and walls do not have once more.
+const BEYOND_A_CORE: [f64; 3] = [-0.963, 0.520, 0.0];
+
+/// LUT4 of an ECP5: those of the core, and of what is around it.
+fn luts_ecp5(profile: &Profile, whole: &Operations) -> Result<f64> {
+    if profile.control.is_none() {
+        return Ok(luts(whole, LUTS[0]));
+    }
+    let alone = Profile { control: None, wall: None, ..profile.clone() };
+    let core = Operations::of(&netlist(&alone)?);
+    let beyond = luts(whole, BEYOND_A_CORE) - luts(&core, BEYOND_A_CORE);
+    Ok(luts(&core, LUTS[0]) + beyond)
+}
+
 /// What a profile's core costs.
 ///
 /// # Errors
@@ -86,7 +101,7 @@ pub fn cost(profile: &Profile) -> Result<Cost> {
         latency_clocks,
         age_us: 1e6 * (0.5 * window_s + latency_clocks as f64 * clock_s),
         frames_per_second: 1.0 / (slot_s * profile.pads as f64),
-        luts: luts(&operations, LUTS[0]),
+        luts: luts_ecp5(profile, &operations)?,
         luts_ice40: luts(&operations, LUTS[1]),
         flip_flops: operations.flip_flops,
         multipliers: operations.multipliers[1],

@@ -28,7 +28,7 @@ mod split;
 
 pub use fused::{Fused, Linear};
 pub use paper::{Eq11, Eq12};
-pub use sequential::{Sequential, Test};
+pub use sequential::{Fade, Sequential, Test};
 pub use split::{SplitPads, Whole};
 
 /// What a rule sees of one pad in one frame.

@@ -333,7 +333,7 @@ fn reads(push: f64) -> [f64; 2] {
 }
 
 /// A push of 0.6 N that becomes weaker, and is not to be told from one that has ended: the force falls, and
-/// is back within ten frames of a slip.
+/// is back within a dozen frames of slipping.
 #[test]
 fn the_force_of_a_push_that_becomes_weaker_falls_until_the_pad_slips() {
     let mut pair = pressed_by_rule_b(1.2);
