@@ -104,6 +104,8 @@ block! {
         capacitance: Format,
         force: Format,
         left: Format,
+        /// Words of a pad.
+        words: u64,
     }
     submodules {
         divider: Divider,
@@ -204,7 +206,8 @@ impl Wall {
         let multiplier = Multiplier::new(left, STIFFNESS.integer(), profile.multiplier);
         let pad = Format::counter(profile.pads - 1);
         let empty = Memory::new("kept", 0, BIT);
-        let block = Wall {
+        let mut block = Wall {
+            words: 0,
             rule,
             pad,
             position,
@@ -216,7 +219,10 @@ impl Wall {
             kept: empty,
         };
         let mut width = 1;
-        Kept::map(block.kept_formats(), |format| width = width.max(format.width));
+        Kept::map(block.kept_formats(), |format| {
+            width = width.max(format.width);
+            block.words += u64::from(!format.is_none());
+        });
         fits("formats.position", "what is kept of it", width + 8)?;
         let [stiff, ramped] = block.products();
         rounds("formats.force", "the product of depth and stiffness", stiff, force)?;
@@ -265,35 +271,27 @@ impl Wall {
         }
     }
 
-    /// Words of a pad.
-    #[inline(always)]
-    fn words(&self) -> u64 {
-        let mut words = 0;
-        Kept::map(self.kept_formats(), |format| words += u64::from(!format.is_none()));
-        words
-    }
-
     /// The number of a word.
     #[inline(always)]
     fn index(&self) -> Format {
-        Format::counter(self.words() - 1)
+        Format::counter(self.words - 1)
     }
 
     /// The number of the last clock of a step.
     #[inline(always)]
     fn last(&self, step: Step) -> u64 {
         match step {
-            Step::Load => self.words(),
+            Step::Load => self.words,
             Step::Divide => self.divider.latency(),
             Step::Depth | Step::Ramp => self.multiplier.latency(),
-            Step::Save => self.words() - 1,
+            Step::Save => self.words - 1,
             _ => 0,
         }
     }
 
     #[inline(always)]
     fn count(&self) -> Format {
-        Format::counter(self.words().max(self.divider.latency()))
+        Format::counter(self.words.max(self.divider.latency()))
     }
 
     /// Clocks from `start` to `done`.
