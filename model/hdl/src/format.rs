@@ -39,7 +39,9 @@ pub const BIT: Format = Format::unsigned(1, 0);
 impl Format {
     /// No bits: an output or a register of this format is absent, which a block's configuration may
     /// decide. It is neither printed nor traced, and holds 0.
-    pub const NONE: Format = Format::unsigned(0, 0);
+    ///
+    /// Its point is to the left of every word's: joined with another format, the other's stays.
+    pub const NONE: Format = Format::unsigned(0, -64);
 
     /// Whether there are no bits.
     #[inline(always)]
@@ -193,13 +195,17 @@ impl Format {
     /// The narrowest format that holds every number of both.
     #[inline(always)]
     pub fn join(self, other: Format) -> Format {
-        if self.is_none() || other.is_none() {
-            return if self.is_none() { other } else { self };
-        }
         let signed = self.signed || other.signed;
         let frac = self.frac.max(other.frac);
-        let integer = self.integer_bits().max(other.integer_bits());
-        Format { signed, width: clip(integer + i16::from(frac) + i16::from(signed)), frac }
+        let width = match (self.is_none(), other.is_none()) {
+            (true, _) => other.width,
+            (_, true) => self.width,
+            _ => {
+                let integer = self.integer_bits().max(other.integer_bits());
+                clip(integer + i16::from(frac) + i16::from(signed))
+            }
+        };
+        Format { signed, width, frac }
     }
 
     /// The exact format of a sum.

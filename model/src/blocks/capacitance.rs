@@ -23,6 +23,7 @@
 
 use super::divider::{self, Divider};
 use super::multiplier::{self, Multiplier};
+use super::rests::Rests;
 use super::sqrt::{self, SquareRoot};
 use crate::buildable::{fits, rounds};
 use hapticore_contract::profile::{Profile, ProfileError};
@@ -167,11 +168,6 @@ impl Capacitance {
         }
     }
 
-    /// Whether one is under way.
-    pub(crate) fn is_busy<V: Interpretation>(&self, state: &State<Self, V>) -> bool {
-        V::known_bit((!state.load(self).step.at(Step::Idle)).value) == Some(true)
-    }
-
     /// Clocks from `start` to `done`.
     pub fn latency(&self) -> u64 {
         let clocks = |step: &Step| match step {
@@ -265,13 +261,20 @@ impl Capacitance {
     }
 }
 
+impl Rests for Capacitance {
+    #[inline(always)]
+    fn under_way<V: Interpretation>(&self, r: &Regs<V>) -> Signal<V> {
+        !r.step.at(Step::Idle) | r.done
+    }
+}
+
 impl Block for Capacitance {
     #[inline(always)]
     fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
         let r = state.load(self);
         let Registers { done, capacitance, invalid, saturated, .. } = r;
         let outputs = Outputs { done, capacitance, invalid, saturated };
-        if (i.start | !r.step.at(Step::Idle) | r.done).can_skip() {
+        if (i.start | self.under_way(&r)).can_skip() {
             return outputs;
         }
         let inputs =

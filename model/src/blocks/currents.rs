@@ -30,6 +30,7 @@ mod block_floating;
 use self::block_floating::wide;
 use super::demodulator::Demodulator;
 use super::multiplier::{self, Multiplier};
+use super::rests::Rests;
 use super::sqrt::{self, SquareRoot};
 use crate::buildable::{fits, rounds};
 use hapticore_contract::profile::{Profile, ProfileError};
@@ -394,6 +395,13 @@ impl Currents {
     }
 }
 
+impl Rests for Currents {
+    #[inline(always)]
+    fn under_way<V: Interpretation>(&self, r: &Regs<V>) -> Signal<V> {
+        r.arrived | !r.step.at(Step::Idle) | r.done
+    }
+}
+
 impl Block for Currents {
     #[inline(always)]
     fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
@@ -404,7 +412,7 @@ impl Block for Currents {
         let sqrt = sqrt::Outputs { done, sqrt: sqrt.align_point(r.sense.format) };
         let outputs = self.results(&r, sqrt.sqrt);
         let busy = !r.step.at(Step::Idle);
-        if (i.valid | r.arrived | busy | r.done).can_skip() {
+        if (i.valid | self.under_way(&r)).can_skip() {
             return outputs;
         }
         let (word, held) = self.word(i.sum);

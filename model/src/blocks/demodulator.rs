@@ -319,8 +319,9 @@ impl Demodulator {
         window_word: Signal<V>,
     ) -> (Signal<V>, Signal<V>) {
         let windowing = r.step.less_than(int(WINDOWING)).named("windowing");
-        let [code, window, cosine, sine] =
-            [i.code, i.window, i.cosine, i.sine].map(|a| a.align_point(r.left.format));
+        let operand = r.left.format;
+        let (code, window) = (i.code.align_point(operand), i.window.align_point(operand));
+        let (cosine, sine) = (i.cosine.align_point(operand), i.sine.align_point(operand));
         let wave = r.step.is(0).select(cosine, r.step.is(1).select(sine, code));
         let windowed = r.step.less_than(int(WINDOWING + PIPELINE)).select(r.windowed, window_word);
         (windowing.select(window, code), windowing.select(wave, windowed))

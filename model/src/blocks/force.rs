@@ -17,6 +17,7 @@
 //! Latency: 9 steps and a clock from `start` to `done`.
 
 use super::multiplier::{self, Multiplier};
+use super::rests::Rests;
 use crate::buildable::rounds;
 use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_hdl::block::{Block, Interpretation, State};
@@ -153,13 +154,20 @@ impl Force {
     }
 }
 
+impl Rests for Force {
+    #[inline(always)]
+    fn under_way<V: Interpretation>(&self, r: &Regs<V>) -> Signal<V> {
+        !r.step.at(Step::Idle) | r.done
+    }
+}
+
 impl Block for Force {
     #[inline(always)]
     fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
         let r = state.load(self);
         let Registers { done, haptic_force, saturated, .. } = r;
         let outputs = Outputs { done, haptic_force, saturated };
-        if (i.start | !r.step.at(Step::Idle) | r.done).can_skip() {
+        if (i.start | self.under_way(&r)).can_skip() {
             return outputs;
         }
         let inputs =

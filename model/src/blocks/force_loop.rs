@@ -11,7 +11,7 @@
 //! that of the core's prompt estimate, and the drives'.
 
 use super::controller::{Faults, Tuning};
-use super::core::{Core, Inputs as CoreInputs, Outputs as CoreOutputs};
+use super::core::{self, Core, Inputs as CoreInputs, Outputs as CoreOutputs};
 use super::drives::{self, DrivePort, Drives, ExtremesPort, TargetPort};
 use super::split_pad::WallPort;
 use hapticore_contract::profile::{Profile, ProfileError};
@@ -79,6 +79,37 @@ impl ForceLoop {
     }
 }
 
+impl ForceLoop {
+    /// What the drives are given in a clock.
+    #[inline(always)]
+    fn to_drives<V: Interpretation>(&self, core: &core::Out<V>, i: &In<V>) -> drives::In<V> {
+        let (placed, placed_pad, place) = self.drives.place(&core.frames);
+        drives::Inputs {
+            estimate: core.prompt,
+            placed,
+            placed_pad,
+            place,
+            target: i.target,
+            tuning: i.tuning,
+            wall: i.wall,
+            extremes_read: i.extremes_read,
+        }
+    }
+
+    /// A clock for whoever looks at the core's outputs and at drive words as they are given: see
+    /// [`Drives::clock_unseen`].
+    #[inline(always)]
+    pub(crate) fn clock_unseen<V: Interpretation>(
+        &self,
+        state: &mut State<Self, V>,
+        i: In<V>,
+    ) -> (core::Out<V>, Option<drives::Out<V>>) {
+        let core = self.core.clock(&mut state.submodules.core, i.core);
+        let to_drives = self.to_drives(&core, &i);
+        (core, self.drives.clock_unseen(&mut state.submodules.drives, to_drives))
+    }
+}
+
 impl Block for ForceLoop {
     #[inline(never)]
     fn step(&self, state: &mut State<Self, Clocked>, i: In<Clocked>) -> Out<Clocked> {
@@ -88,18 +119,7 @@ impl Block for ForceLoop {
     #[inline(always)]
     fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
         let core = call!(self.core, state, i.core);
-        let (placed, placed_pad, place) = self.drives.place(&core.frames);
-        let inputs = drives::Inputs {
-            estimate: core.prompt,
-            placed,
-            placed_pad,
-            place,
-            target: i.target,
-            tuning: i.tuning,
-            wall: i.wall,
-            extremes_read: i.extremes_read,
-        };
-        let drives = call!(self.drives, state, inputs);
+        let drives = call!(self.drives, state, self.to_drives(&core, &i));
         let drives::Outputs { drive, extremes, faults } = drives;
         Outputs { core, drive, extremes, faults }
     }

@@ -30,6 +30,7 @@
 
 use super::multiplier::{self, Multiplier};
 use super::position::TablePort;
+use super::rests::Rests;
 use super::sqrt::{self, SquareRoot};
 use crate::buildable::{fits, rounds};
 use hapticore_contract::calibration::ForceTable as Table;
@@ -419,13 +420,20 @@ const fn factor(word: Format) -> Format {
     Format::signed(word.width + 6, word.frac)
 }
 
+impl Rests for ForceTable {
+    #[inline(always)]
+    fn under_way<V: Interpretation>(&self, r: &Regs<V>) -> Signal<V> {
+        !r.step.at(Step::Idle) | r.done
+    }
+}
+
 impl Block for ForceTable {
     #[inline(always)]
     fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
         let r = state.load(self);
         let Registers { done, haptic_force, factored_gain, saturated, .. } = r;
         let outputs = Outputs { done, haptic_force, factored_gain, saturated };
-        if (i.start | i.table.write | !r.step.at(Step::Idle) | r.done).can_skip() {
+        if (i.start | i.table.write | self.under_way(&r)).can_skip() {
             return outputs;
         }
         let multiplies = r.step.at(Step::Multiply);

@@ -11,6 +11,7 @@
 //! always valid and never held. Latency: fields + 2 clocks from `start` to the last word. Source:
 //! docs/decisions.md §6 (invalid: last value held).
 
+use super::rests::Rests;
 use hapticore_contract::frame::Field;
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::block::{Block, Interpretation, State};
@@ -116,12 +117,19 @@ impl Frames {
     }
 }
 
+impl Rests for Frames {
+    #[inline(always)]
+    fn under_way<V: Interpretation>(&self, r: &Regs<V>) -> Signal<V> {
+        r.busy | r.valid
+    }
+}
+
 impl Block for Frames {
     #[inline(always)]
     fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
         let r = state.load(self);
         let outputs = Outputs { valid: r.valid, index: r.index, word: r.word, done: r.done };
-        if (i.start | r.busy | r.valid).can_skip() {
+        if (i.start | self.under_way(&r)).can_skip() {
             return outputs;
         }
         // While the word of `count − 1` goes out, that of `count` is asked for.

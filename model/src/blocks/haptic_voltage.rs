@@ -23,6 +23,7 @@
 //! force follows the square); docs/physics.md §3 (the gap follows the RMS).
 
 use super::demodulator::Demodulator;
+use super::rests::Rests;
 use crate::buildable::rounds;
 use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_hdl::block::{Block, Interpretation, State};
@@ -170,12 +171,19 @@ impl HapticVoltage {
     }
 }
 
+impl Rests for HapticVoltage {
+    #[inline(always)]
+    fn under_way<V: Interpretation>(&self, r: &Regs<V>) -> Signal<V> {
+        r.busy
+    }
+}
+
 impl Block for HapticVoltage {
     #[inline(always)]
     fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
         let r = state.load(self);
         let outputs = Outputs { mean_square: r.mean_square, saturated: r.saturated };
-        if (i.valid | r.busy | i.clear).can_skip() {
+        if (i.valid | self.under_way(&r) | i.clear).can_skip() {
             return outputs;
         }
         let squares = (i.valid & i.index.is(self.sums - 1)).named("squares_valid");

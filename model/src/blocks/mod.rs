@@ -21,6 +21,7 @@ pub mod oscillator;
 pub mod pace;
 pub mod position;
 pub mod ratio;
+mod rests;
 pub mod sided_wall;
 pub mod split_pad;
 pub mod sqrt;

@@ -203,6 +203,18 @@ impl Oscillator {
         [quadrant, over.select(rest, sum.resize(phase.format, Wrap))]
     }
 
+    /// The phase, further on by a step where a sample ends.
+    #[inline(always)]
+    fn advanced<V: Interpretation>(
+        &self,
+        end: Signal<V>,
+        phase: Phase<V>,
+        step: [u64; 2],
+    ) -> Phase<V> {
+        let [quadrant, rest] = self.advance(phase, step);
+        [end.select(quadrant, phase[0]), end.select(rest, phase[1])]
+    }
+
     /// (1 − cos) / 2 and what the halving drops, or one throughout.
     #[inline(always)]
     fn window_value<V: Interpretation>(
@@ -229,13 +241,12 @@ impl Oscillator {
     #[inline(always)]
     fn address_phase<V: Interpretation>(&self, r: &Regs<V>, i: &In<V>) -> Phase<V> {
         let begins = i.sample & i.first;
-        let of = |carrier: Signal<V>, window: Signal<V>| {
-            let begun = begins.select(int(0), window);
-            (r.step.at(Step::LookUp) | r.step.at(Step::Wave)).select(carrier, begun)
-        };
-        let quadrant = of(r.quadrant, r.window_quadrant);
+        let of_carrier = r.step.at(Step::LookUp) | r.step.at(Step::Wave);
+        let window_quadrant = begins.select(int(0), r.window_quadrant);
+        let window_phase = begins.select(int(0), r.window_phase);
+        let quadrant = of_carrier.select(r.quadrant, window_quadrant);
         let turned = quadrant.increment();
-        [r.step.at(Step::Wave).select(quadrant, turned), of(r.phase, r.window_phase)]
+        [r.step.at(Step::Wave).select(quadrant, turned), of_carrier.select(r.phase, window_phase)]
     }
 
     /// Polyphase: a sample begins, with the next phase and the next place in the window.
@@ -307,12 +318,9 @@ impl Oscillator {
         use Step::*;
         let at = |step: Step| r.step.at(step);
         let end = at(Sine);
-        let advanced = |phase: Phase<V>, step: [u64; 2]| {
-            let [quadrant, rest] = self.advance(phase, step);
-            [end.select(quadrant, phase[0]), end.select(rest, phase[1])]
-        };
-        let [quadrant, phase] = advanced([r.quadrant, r.phase], self.step);
-        let [window_quadrant, window_phase] = advanced([r.window_quadrant, r.window_phase], [0, 1]);
+        let [quadrant, phase] = self.advanced(end, [r.quadrant, r.phase], self.step);
+        let [window_quadrant, window_phase] =
+            self.advanced(end, [r.window_quadrant, r.window_phase], [0, 1]);
         let wave = r.sign.select(-r.wave, r.wave).resize(r.sine.format, Wrap).named("signed_wave");
         let (window_value, residue) = self.window_value(r.window, r.residue);
         Registers {

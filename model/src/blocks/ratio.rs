@@ -17,11 +17,12 @@
 //! `done`.
 
 use super::divider::{self, Divider};
+use super::rests::Rests;
 use crate::buildable::fits;
 use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format};
-use hapticore_hdl::signal::{Proved, bit, int};
+use hapticore_hdl::signal::{Proved, Signal, bit, int};
 use hapticore_hdl::states::States;
 use hapticore_hdl::{block, call, next, states};
 
@@ -148,6 +149,13 @@ impl Ratio {
     }
 }
 
+impl Rests for Ratio {
+    #[inline(always)]
+    fn under_way<V: Interpretation>(&self, r: &Regs<V>) -> Signal<V> {
+        !r.step.at(Step::Idle) | r.done
+    }
+}
+
 impl Block for Ratio {
     #[inline(always)]
     fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
@@ -160,7 +168,7 @@ impl Block for Ratio {
         let divided = call!(self.divider, state, inputs);
         let Registers { done, r_x, r_y, invalid, .. } = r;
         let outputs = Outputs { done, r_x, r_y, share: divided.quotient, invalid };
-        if (i.start | !r.step.at(Step::Idle) | r.done).can_skip() {
+        if (i.start | self.under_way(&r)).can_skip() {
             return outputs;
         }
         let begin = Registers { step: Step::X.signal(), divide: bit(true), done: bit(false), ..r };

@@ -16,6 +16,7 @@
 //!
 //! Latency: the wall's.
 
+use super::rests::Rests;
 use super::wall::{self, Wall};
 use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_hdl::block::{Block, Interpretation, State};
@@ -87,6 +88,11 @@ impl SidedWall {
     /// Clocks from `start` to `done`.
     pub fn latency(&self) -> u64 {
         self.wall.latency()
+    }
+
+    /// As [`Wall::is_busy`].
+    pub(super) fn is_busy<V: Interpretation>(&self, state: &State<Self, V>) -> bool {
+        self.wall.is_busy(&state.submodules.wall)
     }
 
     /// A frame as an expression.

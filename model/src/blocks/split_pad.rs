@@ -33,7 +33,7 @@ use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::{BIT, Format};
 use hapticore_hdl::memory::{Memory, Write};
-use hapticore_hdl::signal::{HalfEven, Proved, Saturate, Signal, Wrap, bit, int, zero};
+use hapticore_hdl::signal::{HalfEven, Proved, Saturate, Signal, Wrap, bit, int, is_set, zero};
 use hapticore_hdl::{block, bundle};
 
 bundle! {
@@ -269,6 +269,19 @@ impl SplitPad {
         }
     }
 
+    /// Whether a pad is being asked for, or its wall is busy: else, given nothing, a clock changes nothing.
+    pub(super) fn is_busy<V: Interpretation>(&self, state: &State<Self, V>) -> bool {
+        let wall = self.wall.as_ref().zip(state.submodules.wall.as_ref());
+        is_set(self.under_way(&state.load(self)))
+            || wall.is_some_and(|(of, state)| of.is_busy(state))
+    }
+
+    #[inline(always)]
+    fn under_way<V: Interpretation>(&self, r: &Regs<V>) -> Signal<V> {
+        let kept = if self.registers_words { r.kept } else { bit(false) };
+        r.asked | r.found | kept | r.start
+    }
+
     /// Whether pads have walls along both axes.
     pub fn has_quadrants(&self) -> bool {
         self.parts == profile::Wall::QUADRANTS.parts
@@ -490,9 +503,7 @@ impl Block for SplitPad {
         let outputs = if self.has_quadrants() { of_both(outputs, &r) } else { outputs };
         let written = i.placed | i.driven | i.wall.wall_write;
         let turns = if self.has_quadrants() { walled.done } else { bit(false) };
-        let kept = if self.registers_words { r.kept } else { bit(false) };
-        let under_way = r.asked | r.found | kept | r.start;
-        if (i.estimate | under_way | written | turns).can_skip() {
+        if (i.estimate | self.under_way(&r) | written | turns).can_skip() {
             return outputs;
         }
         let gathered = self.gathered(r, &i);

@@ -35,6 +35,7 @@
 
 use super::divider::{self, Divider};
 use super::multiplier::{self, Multiplier};
+use super::rests::Rests;
 use crate::buildable::{fits, rounds};
 use hapticore_contract::control::Walls;
 use hapticore_contract::profile::{self, Profile, ProfileError};
@@ -413,13 +414,20 @@ const fn depth(position: Format) -> Format {
     Format::unsigned(position.width, position.frac)
 }
 
+impl Rests for Wall {
+    #[inline(always)]
+    fn under_way<V: Interpretation>(&self, r: &Regs<V>) -> Signal<V> {
+        !r.step.at(Step::Idle) | r.done
+    }
+}
+
 impl Block for Wall {
     #[inline(always)]
     fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
         let r = state.load(self);
         let Registers { done, target, free, valid, .. } = r;
         let outputs = Outputs { done, target, free, valid };
-        if (i.start | !r.step.at(Step::Idle) | r.done).can_skip() {
+        if (i.start | self.under_way(&r)).can_skip() {
             return outputs;
         }
         let numerator = (i.c_right - i.c_left).abs().resize(self.capacitance, Proved);

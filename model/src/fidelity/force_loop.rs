@@ -177,7 +177,7 @@ impl FixedLoop {
         inputs.estimate = prompt;
         let mut drive = None;
         for _ in 0..=self.drives.latency() {
-            let outputs = clock(&self.drives, &mut self.state, inputs);
+            let outputs = self.drives.clock_apart(&mut self.state, inputs);
             inputs.estimate.prompt = bit(false);
             if outputs.drive.drive_valid.value != 0 {
                 drive = Some(given(outputs.drive, outputs.faults));
@@ -210,18 +210,8 @@ impl FixedLoop {
 
     fn clock(&mut self, inputs: drives::Inputs<i64>) {
         let inputs = signals::<drives::Inputs, i64>(inputs, self.drives.inputs());
-        clock(&self.drives, &mut self.state, inputs);
+        self.drives.clock_apart(&mut self.state, inputs);
     }
-}
-
-/// A clock, out of line: once is enough of what is large.
-#[inline(never)]
-fn clock(
-    drives: &Drives,
-    state: &mut State<Drives, i64>,
-    inputs: drives::In<i64>,
-) -> drives::Out<i64> {
-    drives.clock(state, inputs)
 }
 
 /// The drive word that is given.
@@ -339,8 +329,9 @@ impl ClockLoop {
     }
 
     fn write(&mut self, inputs: Inputs<Signal<i64>>) {
-        let outputs = self.block.step(&mut self.state.block, inputs);
-        self.state.collect(outputs);
+        let Outputs { core, drive, extremes, faults } =
+            self.block.step(&mut self.state.block, inputs);
+        self.state.collect(core, Some(drives::Outputs { drive, extremes, faults }));
     }
 
     /// The drive word of a slot, as in [`FixedLoop::slot`], and the frame that is finished before
@@ -380,8 +371,9 @@ impl ClockLoop {
 
     fn clock(&mut self, strobe: bool, codes: &[i32]) {
         let inputs = self.state.inputs(&self.inputs, strobe, codes);
-        let outputs = self.block.step(&mut self.state.block, inputs);
-        self.state.collect(outputs);
+        let Outputs { core, drive, extremes, faults } =
+            self.block.step(&mut self.state.block, inputs);
+        self.state.collect(core, Some(drives::Outputs { drive, extremes, faults }));
     }
 
     fn results(&mut self) -> (Option<Frame>, Option<Drive>) {
@@ -418,8 +410,8 @@ impl ClockState {
         for codes in samples {
             for count in 0..clocks {
                 let inputs = self.inputs(inputs, count == 0, codes);
-                let outputs = block.clock(&mut self.block, inputs);
-                self.collect(outputs);
+                let (core, drives) = block.clock_unseen(&mut self.block, inputs);
+                self.collect(core, drives);
             }
         }
     }
@@ -438,16 +430,16 @@ impl ClockState {
     }
 
     #[inline(always)]
-    fn collect(&mut self, outputs: Outputs<Signal<i64>>) {
+    fn collect(&mut self, core: core::Out<i64>, drives: Option<drives::Out<i64>>) {
         self.clocks += 1;
-        self.channel = outputs.core.channel.value as usize;
-        let frame = outputs.core.frames;
+        self.channel = core.channel.value as usize;
+        let frame = core.frames;
         self.gathered.accept_word(frame.valid.value, frame.index.value, frame.frame.value);
         if frame.done.value != 0 {
             self.frame = Some(self.gathered.frame(frame));
         }
-        if outputs.drive.drive_valid.value != 0 {
-            self.drive = Some(given(outputs.drive, outputs.faults));
+        if let Some(drives) = drives.filter(|drives| drives.drive.drive_valid.value != 0) {
+            self.drive = Some(given(drives.drive, drives.faults));
         }
     }
 }

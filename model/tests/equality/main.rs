@@ -26,3 +26,4 @@ mod phasors;
 mod random;
 mod signals;
 mod slots;
+mod unseen;

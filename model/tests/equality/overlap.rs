@@ -14,7 +14,11 @@ use hapticore_model::fidelity::force_loop::{ClockLoop, FixedLoop};
 use hapticore_reference::rounded::Slots;
 
 /// Pads by turns, one alone, and the codes of so many slots.
-fn slots(profile: &Profile, count: usize, seed: u64) -> impl Iterator<Item = (usize, Vec<i32>)> {
+pub fn slots(
+    profile: &Profile,
+    count: usize,
+    seed: u64,
+) -> impl Iterator<Item = (usize, Vec<i32>)> {
     let mut random = Random::new(seed);
     (0..count).map(move |slot| {
         let sight = Sight::ALL[(slot + slot / Sight::ALL.len()) % Sight::ALL.len()];
@@ -22,7 +26,7 @@ fn slots(profile: &Profile, count: usize, seed: u64) -> impl Iterator<Item = (us
     })
 }
 
-fn window<'a>(profile: &Profile, codes: &'a [i32]) -> &'a [i32] {
+pub fn window<'a>(profile: &Profile, codes: &'a [i32]) -> &'a [i32] {
     &codes[profile.slot.blanking() as usize * profile.channels()..]
 }
 
@@ -51,7 +55,7 @@ fn frames_come_within_the_next_window_and_are_the_reference() {
 }
 
 /// A tuning that drives as the targets and the measured forces say.
-fn tuning(profile: &Profile) -> Tuning {
+pub fn tuning(profile: &Profile) -> Tuning {
     let cells = profile.control.as_ref().expect("a controller").cells;
     Tuning {
         curve: (0..=cells).map(|cell| 0.9 * cell as f64 / cells as f64).collect(),
@@ -71,7 +75,7 @@ fn tuning(profile: &Profile) -> Tuning {
 }
 
 /// The profiles with a controller; those for one pad also with a wall and two, three or four parts of it.
-fn controlled() -> impl Iterator<Item = Profile> {
+pub fn controlled() -> impl Iterator<Item = Profile> {
     profiles().filter(|profile| profile.control.is_some()).flat_map(|profile| {
         let with_wall = |wall: Wall| {
             let pads = wall.parts * profile.pads.div_ceil(wall.parts);

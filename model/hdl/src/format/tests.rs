@@ -44,6 +44,18 @@ fn limits_are_powers_of_two() {
 }
 
 #[test]
+fn joined_with_no_bits_a_format_stays() {
+    for (width, frac) in (1..=63).flat_map(|width| (-63..=63).map(move |frac| (width, frac))) {
+        for signed in [false, true] {
+            let format = Format { signed, width, frac };
+            assert_eq!(format.join(Format::NONE), format);
+            assert_eq!(Format::NONE.join(format), format);
+        }
+    }
+    assert_eq!(Format::NONE.join(Format::NONE), Format::NONE);
+}
+
+#[test]
 fn a_counter_holds_its_most_and_no_bit_more() {
     assert_eq!(Format::counter(0), Format::unsigned(1, 0));
     for width in 1..=63u8 {

@@ -18,7 +18,11 @@ pub struct Codes {
 fn align(a: Signal<i64>, to: Format) -> i64 {
     // Mostly there is nothing to move; a branch that a loop can be rid of is cheaper than a shift
     // that it cannot.
-    if to.frac == a.format.frac { a.value } else { a.value << (to.frac - a.format.frac) }
+    if to.frac == a.format.frac {
+        return a.value;
+    }
+    // Of no bits at all the point is further away than a code is wide, and the code is zero.
+    a.value.wrapping_shl((to.frac - a.format.frac) as u32)
 }
 
 /// The code with `drop` fewer fractional bits.

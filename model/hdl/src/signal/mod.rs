@@ -230,6 +230,12 @@ pub fn is_set<V: Value>(bit: Signal<V>) -> bool {
     V::known_bit(bit.value) == Some(true)
 }
 
+/// Whether a bit is not set, in interpretations that know every bit as they run.
+#[inline(always)]
+pub fn is_clear<V: Value>(bit: Signal<V>) -> bool {
+    V::DECIDES && V::known_bit(bit.value) == Some(false)
+}
+
 /// Whether the interpretation knows a bit.
 #[inline(always)]
 pub fn is_known<V: Value>(bit: &Signal<V>) -> bool {

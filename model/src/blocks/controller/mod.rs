@@ -44,6 +44,7 @@ mod words;
 
 use super::divider::{self, Divider};
 use super::multiplier::{self, Multiplier};
+use super::rests::Rests;
 use super::sqrt::{self, SquareRoot};
 use crate::buildable::{fits, rounds};
 pub use faults::{Faults, Watch};
@@ -320,6 +321,13 @@ impl Controller {
     }
 }
 
+impl Rests for Controller {
+    #[inline(always)]
+    fn under_way<V: Interpretation>(&self, r: &Regs<V>) -> Signal<V> {
+        !r.task.at(Task::Idle) | r.done
+    }
+}
+
 impl Block for Controller {
     #[inline(always)]
     fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
@@ -328,7 +336,7 @@ impl Block for Controller {
         let outputs = self.outputs_now(&r, &i);
         let idle = r.task.at(Task::Idle);
         let woken = i.start | i.alive | i.clear_faults | i.tuning.curve_write;
-        if (woken | !idle | r.done).can_skip() {
+        if (woken | self.under_way(&r)).can_skip() {
             return outputs;
         }
         let (found, ends) = self.find(state, &r, &i, idle);

@@ -264,7 +264,7 @@ impl Drives {
 
     /// Whether there is something to do beside the unit.
     #[inline(always)]
-    pub(super) fn is_busy<V: Interpretation>(
+    pub(super) fn beside_unit<V: Interpretation>(
         &self,
         r: &Regs<V>,
         controller: &controller::In<V>,

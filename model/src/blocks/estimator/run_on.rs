@@ -6,6 +6,7 @@
 //! where every bit is known is it known that a block has been started.
 
 use super::{Estimator, capacitance, currents, force, haptic_voltage, ratio};
+use crate::blocks::rests::Rests;
 use hapticore_hdl::block::{Interpretation, State};
 use hapticore_hdl::signal::Signal;
 

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A force loop at fidelity `clock`, in which drives that rest are left out, beside one that is looked at in each clock.
+
+use crate::device::calibration;
+use crate::harness::operations;
+use crate::overlap::{controlled, slots, tuning, window};
+use hapticore_contract::control::Surface;
+use hapticore_contract::profile::Profile;
+use hapticore_hdl::probe::Probe;
+use hapticore_model::fidelity::force_loop::ClockLoop;
+
+/// Blanking in which a folded controller and a folded wall are done, in samples.
+const SETTLE: u64 = 400;
+
+fn with_folded(profile: Profile) -> [Profile; 2] {
+    let mut folded = profile.clone();
+    folded.control.as_mut().expect("a controller").folded = true;
+    folded.slot.settle += SETTLE;
+    [profile, folded]
+}
+
+fn registers(of: &ClockLoop) -> Vec<i64> {
+    let mut codes = Vec::new();
+    of.sample(&mut codes);
+    codes
+}
+
+/// After each slot every register is the same: what is left out changes nothing.
+#[test]
+fn drives_that_rest_are_left_out_of_no_clock_that_changes_them() {
+    let mut folded = 0;
+    for (seed, profile) in (30..).zip(controlled().flat_map(with_folded)) {
+        let (calibration, tuning) = (calibration(&profile), tuning(&profile));
+        let new = || ClockLoop::new(&profile, &calibration, &tuning).expect("a loop");
+        let (mut unseen, mut seen) = (new(), new());
+        let mut drives = 0;
+        for (slot, (pad, codes)) in slots(&profile, operations(40) as usize, seed).enumerate() {
+            for of in [&mut unseen, &mut seen] {
+                if slot % 3 == 0 {
+                    of.set_target(pad, 0.02 * (slot % 50) as f64);
+                }
+                if profile.wall.is_some() && slot % 5 == 0 {
+                    let mm = 40.0 * (slot as f64 / 7.0).sin();
+                    of.set_surface(pad, Surface { mm, right: slot % 50 > 40 });
+                }
+            }
+            let codes = window(&profile, &codes);
+            let (got, expected) = (unseen.slot(codes), seen.slot_with(codes, |_| ()));
+            let case = format!("{}, {} pads, slot {slot}", profile.name, profile.pads);
+            assert_eq!(got, expected, "{case}");
+            assert_eq!(registers(&unseen), registers(&seen), "{case}: registers");
+            drives += usize::from(got.1.is_some());
+        }
+        assert!(drives > 0, "{}: drive words are given", profile.name);
+        folded += usize::from(profile.control.expect("a controller").folded);
+    }
+    assert!(folded > 0, "some are folded");
+}
