@@ -38,6 +38,9 @@ fn the_block_is_felt_as_the_rule_is() {
     let a = felt(Kind::SmallA);
     assert!(a.sticking_n <= 0.03 && a.slow_peak_n <= 0.08 && a.release_p95_ms <= 90.0, "{a:?}");
     assert!(a.vanished_ms <= 2.0 && a.excess_flips <= 6.0, "{a:?}");
+    let b = felt(Kind::SmallB);
+    assert!(b.sticking_n <= 0.06 && b.worst_n <= 0.26 && b.slow_peak_n <= 0.17, "{b:?}");
+    assert!(b.release_p95_ms <= 280.0 && b.vanished_ms <= 6.0 && b.excess_flips <= 6.0, "{b:?}");
 }
 
 /// Halves that sense and brake: what pulled in under the push hides its end. The wall of eq. 11

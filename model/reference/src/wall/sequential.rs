@@ -103,7 +103,7 @@ impl Side {
 }
 
 /// What a wall's rule goes by besides its test.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 struct Numbers {
     rule: Release,
     /// Distance from the wall at which air is free, mm.
@@ -358,5 +358,22 @@ impl Rule for Sequential {
         };
         self.last_n = force_n;
         (Target::Force(force_n), self.direction)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A number that is turned in one place alone is noticed.
+    #[test]
+    fn numbers_of_profiles_are_those_of_the_rules_at_frames_of_a_millisecond() {
+        let stiffness = Stiffness { n_per_mm: 0.5, most_n: 1.0 };
+        for (wall, test) in [(Wall::A, Test::A), (Wall::B, Test::B), (Wall::QUADRANTS, Test::B)] {
+            let of = Sequential::of_profile(stiffness, &wall, 0.0);
+            let sixteenths = |of: f64| (16.0 * of).round() / 16.0;
+            assert_eq!(of.test, Test { bf: sixteenths(test.bf), kb: sixteenths(test.kb), ..test });
+            assert_eq!(of.numbers, Numbers::USUAL);
+        }
     }
 }
