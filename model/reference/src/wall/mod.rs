@@ -23,12 +23,14 @@
 
 mod fused;
 mod paper;
+mod pressed;
 mod sequential;
 mod split;
 
 pub use fused::{Fused, Linear};
 pub use paper::{Eq11, Eq12};
-pub use sequential::{Fade, Sequential, Test};
+pub use pressed::Fade;
+pub use sequential::{Sequential, Test};
 pub use split::{SplitPads, Whole};
 
 /// What a rule sees of one pad in one frame.

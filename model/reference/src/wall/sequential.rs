@@ -13,23 +13,13 @@
 //! F = min(k_w·|x|, F_max)·gain,   gain += 1/40 per ms, up to 1
 //! ```
 //!
-//! Rule B, whose halves brake too, cannot read the level of a push that has pulled patches in, but its
-//! change. Where the pad has not slipped inwards for a while and the push reads weaker than at its last
-//! slip, the force falls, until the pad slips or the direction can be read:
-//!
-//! ```text
-//! ū += (u − ū)/8;   r, d: ū and the deepest x̄ of the push, taken where PUSH is entered
-//! PUSH, last F > 0.75 N               y = min(y, 0)
-//! x̄ < d − 25 µm (slips inwards)       gain += 4/40 per ms;   r = ū,   d += (x̄ − d)/2,   q = 0
-//! otherwise                           ū < r: r += (ū − r)/4;   d < x̄ − 25 µm: d += (x̄ − 25 µm − d)/16;   q counts
-//!   q > 100 ms and ū − r > σ           gain −= 1/40 per ms
-//!   otherwise                         gain += 1/40 per ms
-//! ```
+//! Rule B, whose halves brake too, lets the force of a push that may have ended fall: see `pressed.rs`.
 //!
 //! A state is left when its dwell is over. u's mean |Δu| is taken in free air. Without current, or
 //! with a part open, there is no evidence, y = 0, and nothing is learnt; a pad without any current is
 //! let go. Source: docs/physics.md §6.
 
+use super::pressed::{Fade, Pressed};
 use super::{Direction, Frame, Rule, Stiffness, Target};
 use hapticore_contract::profile::{Release, Wall};
 
@@ -57,17 +47,6 @@ pub struct Test {
     pub dwell_ms: f64,
     /// When the force of a push at rest falls, if it may.
     pub fade: Option<Fade>,
-}
-
-/// How a push that has pulled patches in is doubted.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Fade {
-    /// Time without a slip inwards after which the force may fall, ms.
-    pub quiet_ms: f64,
-    /// What counts as a slip, mm.
-    pub slip_mm: f64,
-    /// The force beyond which no reading lets go, N.
-    pub latch_n: f64,
 }
 
 impl Test {
@@ -173,17 +152,6 @@ pub struct Sequential {
     last_n: f64,
 }
 
-/// What is known of a push from its last slip inwards on.
-#[derive(Clone, Copy, Debug)]
-struct Pressed {
-    /// Filtered u, at least, r.
-    u: f64,
-    /// The place to which it has slipped, d, mm.
-    deep_mm: f64,
-    /// The time since then, q, ms.
-    quiet_ms: f64,
-}
-
 impl Sequential {
     /// A wall of a pad whose direction reads `factory` without a push when it leaves the factory.
     pub fn new(stiffness: Stiffness, test: Test, factory: f64, frame_ms: f64) -> Self {
@@ -206,7 +174,7 @@ impl Sequential {
             since_ms: f64::INFINITY,
             gain: 0.0,
             slow_u: factory,
-            pressed: Pressed { u: factory, deep_mm: 0.0, quiet_ms: 0.0 },
+            pressed: Pressed::at(factory, 0.0),
             last_n: 0.0,
         }
     }
@@ -265,7 +233,7 @@ impl Sequential {
         self.direction = direction;
         self.evidence = 0.0;
         self.extreme_mm = filtered_mm;
-        self.pressed = Pressed { u: self.slow_u, deep_mm: filtered_mm, quiet_ms: 0.0 };
+        self.pressed = Pressed::at(self.slow_u, filtered_mm);
     }
 
     /// Whether the state is to be left.
@@ -296,23 +264,15 @@ impl Sequential {
         is_over && self.since_ms >= dwell_ms
     }
 
-    /// What a frame adds to the gain: the force of a push that may have ended falls.
+    /// What a frame adds to the gain.
     fn gain_step(&mut self, sigma: f64, filtered_mm: f64) -> f64 {
-        let step = self.frame_ms / self.numbers.ramp_ms;
-        let Some(fade) = self.test.fade.filter(|_| self.direction == Direction::Push) else {
-            return step;
+        let steps = match self.test.fade.filter(|_| self.direction == Direction::Push) {
+            Some(fade) => {
+                self.pressed.steps(&fade, (self.slow_u, sigma), filtered_mm, self.frame_ms)
+            }
+            None => 1.0,
         };
-        let pressed = &mut self.pressed;
-        if filtered_mm < pressed.deep_mm - fade.slip_mm {
-            let deep_mm = (pressed.deep_mm + filtered_mm) / 2.0;
-            *pressed = Pressed { u: self.slow_u, deep_mm, quiet_ms: 0.0 };
-            return 4.0 * step;
-        }
-        pressed.quiet_ms += self.frame_ms;
-        pressed.deep_mm += (filtered_mm - fade.slip_mm - pressed.deep_mm).max(0.0) / 16.0;
-        pressed.u += (self.slow_u - pressed.u).min(0.0) / 4.0;
-        let is_weaker = self.slow_u - pressed.u > sigma;
-        if is_weaker && pressed.quiet_ms > fade.quiet_ms { -step } else { step }
+        steps * self.frame_ms / self.numbers.ramp_ms
     }
 }
 
