@@ -13,7 +13,7 @@ use crate::format::Format;
 pub struct Variable {
     /// The instances from the top down to the one that owns the variable.
     pub scope: Vec<String>,
-    /// Its name within the instance, as declared by its bundle.
+    /// Its name within the instance, as declared by its bundle; with a number where another's is the same.
     pub name: String,
     /// How its code is read as a number.
     pub format: Format,
@@ -36,18 +36,24 @@ pub fn variables<B: Block>(block: &B, name: &'static str) -> Vec<Variable> {
         scope: Vec<String>,
         found: Vec<Variable>,
     }
+    impl Names {
+        /// The name, with a number where a variable of this scope has it.
+        fn unique(&self, name: &str) -> String {
+            let taken = |name: &String| {
+                self.found.iter().any(|of| of.scope == self.scope && of.name == *name)
+            };
+            let numbered = (2..).map(|number| format!("{name}_{number}"));
+            let mut names = std::iter::once(name.to_owned()).chain(numbered);
+            names.find(|name| !taken(name)).expect("there are numbers enough")
+        }
+    }
     impl Visitor<i64> for Names {
         fn enter(&mut self, name: &'static str) {
             self.scope.push(name.into());
         }
         fn register(&mut self, field: &'static Field, format: Format, _value: i64) {
-            let &Field { name, states, .. } = field;
-            self.found.push(Variable {
-                scope: self.scope.clone(),
-                name: name.into(),
-                format,
-                states,
-            });
+            let (scope, name) = (self.scope.clone(), self.unique(field.name));
+            self.found.push(Variable { scope, name, format, states: field.states });
         }
         fn leave(&mut self) {
             self.scope.pop();

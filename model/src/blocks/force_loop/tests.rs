@@ -6,6 +6,8 @@ use crate::support::Bench;
 use crate::support::device::short_profiles;
 use hapticore_contract::control::{Control, Law};
 use hapticore_contract::profile::{Force, ForceLaw, Profile, Wall};
+use hapticore_hdl::probe::variables;
+use std::collections::HashSet;
 
 /// The short profiles, with a controller of this law.
 fn controlled(law: Law) -> impl Iterator<Item = Profile> {
@@ -102,6 +104,23 @@ fn latency_is_the_clocks_measured_where_controller_and_walls_are_folded() {
             let (name, latency) = (&profile.name, bench.block.latency());
             assert_eq!(measured, latency, "{name}, {pads} parts");
             println!("{name}, {pads} parts, folded: {latency} clocks");
+        }
+    }
+}
+
+/// A waveform tells variables apart by instance and name.
+#[test]
+fn variables_have_names_of_their_own() {
+    for law in Law::ALL {
+        for profile in with_both_forces(law) {
+            for wall in [None, Some(Wall::A), Some(Wall::B), Some(Wall::QUADRANTS)] {
+                let pads = wall.map_or(profile.pads, |wall| wall.parts);
+                let profile = Profile { wall, pads, ..profile.clone() };
+                let block = ForceLoop::try_new(&profile).expect("time for a wall");
+                let variables = variables(&block, "loop");
+                let names: HashSet<_> = variables.iter().map(|of| (&of.scope, &of.name)).collect();
+                assert_eq!(names.len(), variables.len(), "{} {wall:?}", profile.name);
+            }
         }
     }
 }
