@@ -17,7 +17,6 @@
 use super::arithmetic_unit::ArithmeticUnit;
 use super::controller::{self, Controller, Faults, Tuning};
 use super::estimator::{FramePort, PromptPort};
-use super::rests::Rests;
 use super::sided_wall;
 use super::split_pad::{self, SplitPad, WallPort};
 use hapticore_contract::frame::Field;
@@ -26,10 +25,11 @@ use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::{BIT, Format};
 use hapticore_hdl::memory::{Memory, Write};
-use hapticore_hdl::signal::{Signal, Wrap, bit, int, is_set, zero};
+use hapticore_hdl::signal::{Signal, Wrap, bit, int, zero};
 use hapticore_hdl::{block, bundle};
 
 mod folded;
+mod unseen;
 
 pub use folded::Folded;
 
@@ -211,53 +211,6 @@ impl Drives {
     /// As [`Controller::hurry`].
     pub(crate) fn hurry(&mut self) {
         self.controller.iter_mut().for_each(Controller::hurry);
-    }
-
-    /// Whether a drive word is under way: else, given nothing, a clock changes nothing. While the unit runs,
-    /// `runs` is set.
-    #[inline(always)]
-    fn is_busy<V: Interpretation>(&self, state: &State<Self, V>) -> bool {
-        let (r, within) = (state.load(self), &state.submodules);
-        let own = [r.asked, r.start, r.driven, r.folded.begins, r.folded.runs];
-        let controller = self.controller.as_ref().zip(within.controller.as_ref());
-        let split_pad = self.split_pad.as_ref().zip(within.split_pad.as_ref());
-        own.into_iter().any(is_set)
-            || controller.is_some_and(|(of, state)| of.is_busy(state))
-            || split_pad.is_some_and(|(of, state)| of.is_busy(state))
-    }
-
-    /// Whether these inputs are nothing: neither an estimate nor a place, nothing that the host does.
-    #[inline(always)]
-    fn is_nothing<V: Interpretation>(i: &In<V>) -> bool {
-        let TargetPort { target_write, alive, clear_faults, .. } = i.target;
-        let given = [i.estimate.prompt, i.placed, target_write, alive, clear_faults];
-        let written = [i.tuning.curve_write, i.wall.wall_write, i.extremes_read];
-        !given.into_iter().chain(written).any(is_set)
-    }
-
-    /// A clock for whoever looks at drive words as they are given and at nothing else: nothing where none is, and none
-    /// is evaluated that changes nothing.
-    #[inline(always)]
-    pub(crate) fn clock_unseen<V: Interpretation>(
-        &self,
-        state: &mut State<Self, V>,
-        i: In<V>,
-    ) -> Option<Out<V>> {
-        if Self::is_nothing(&i) && !self.is_busy(state) {
-            return None;
-        }
-        let outputs = self.clock_apart(state, i);
-        is_set(outputs.drive.drive_valid).then_some(outputs)
-    }
-
-    /// A clock, out of line: once is enough of what is large.
-    #[inline(never)]
-    pub(crate) fn clock_apart<V: Interpretation>(
-        &self,
-        state: &mut State<Self, V>,
-        i: In<V>,
-    ) -> Out<V> {
-        self.clock(state, i)
     }
 
     /// Whether pads have walls along both axes.

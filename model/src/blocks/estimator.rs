@@ -22,6 +22,7 @@
 //! Sums that come earlier, after an upset of the multiplexer, are dropped. Those of the window after
 //! them are taken whatever is under way, so that an upset of `busy` does not stop the core.
 
+mod position_alone;
 mod run_on;
 
 use self::run_on::Given;
@@ -33,14 +34,13 @@ use super::frames::{self, Frames};
 use super::haptic_voltage::{self, HapticVoltage};
 use super::position::{self, Position, TablePort};
 use super::ratio::{self, Ratio};
-use super::rests::Rests;
 use hapticore_contract::calibration::ForceTable as Words;
 use hapticore_contract::profile::{ForceLaw, Profile, ProfileError};
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::{BIT, Format};
 use hapticore_hdl::memory::{Memory, Write};
-use hapticore_hdl::signal::{Proved, Saturate, Signal, bit, code, constant, int, is_set, zero};
+use hapticore_hdl::signal::{Proved, Saturate, Signal, bit, code, constant, int, zero};
 use hapticore_hdl::{block, bundle, call, when};
 
 bundle! {
@@ -465,42 +465,6 @@ impl Estimator {
 }
 
 impl Estimator {
-    /// Whether the position's program is all that is under way, to interpretations that may skip what is not: most
-    /// of a slot's clocks outside its window are such.
-    #[inline(always)]
-    fn only_position<V: Interpretation>(
-        &self,
-        state: &State<Self, V>,
-        r: &Regs<V>,
-        i: &In<V>,
-    ) -> bool {
-        let within = &state.submodules;
-        let by_eq8 = self.force_estimator.as_ref().zip(within.force_estimator.as_ref());
-        let by_table = self.force_table.as_ref().zip(within.force_table.as_ref());
-        V::DECIDES
-            && bit::<V>(false).can_skip()
-            && self.position.is_running(&within.position)
-            && ![i.valid, i.clear, i.calibration.table.write, r.follow].into_iter().any(is_set)
-            && !self.currents.is_busy(&within.currents)
-            && !self.haptic_voltage.is_busy(&within.haptic_voltage)
-            && !self.ratio.is_busy(&within.ratio)
-            && !self.capacitance.is_busy(&within.capacitance)
-            && !by_eq8.is_some_and(|(block, state)| block.is_busy(state))
-            && !by_table.is_some_and(|(block, state)| block.is_busy(state))
-            && !self.frames.is_busy(&within.frames)
-    }
-
-    /// A clock of the position's program alone.
-    #[inline(always)]
-    fn clock_position<V: Interpretation>(&self, state: &mut State<Self, V>) {
-        let nothing = ratio::Inputs::map(self.ratio.inputs(), zero);
-        let within = &mut state.submodules;
-        let ratio::Outputs { r_x, r_y, share, .. } = self.ratio.clock(&mut within.ratio, nothing);
-        let table = TablePort::map(self.position.inputs().table, zero);
-        let inputs = position::Inputs { start: bit(false), r_x, r_y, share, table };
-        self.position.clock(&mut within.position, inputs);
-    }
-
     /// The outputs while nothing is under way: no frame, and so nothing about one; of the last
     /// prompt estimate, the words.
     #[inline(always)]

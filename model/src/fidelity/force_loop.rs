@@ -317,7 +317,7 @@ impl ClockLoop {
     pub fn set_target(&mut self, pad: usize, newtons: f64) {
         let formats = self.block.inputs().target;
         let target = signals::<TargetPort, i64>(target_write(&formats, pad, newtons), formats);
-        self.write(Inputs { target, ..self.inputs });
+        self.step(Inputs { target, ..self.inputs });
     }
 
     /// Sets where the wall that is known by this number begins.
@@ -325,10 +325,10 @@ impl ClockLoop {
         let formats = self.block.inputs().wall;
         let wall = surface_write(&formats, self.wall, pad, surface);
         let wall = signals::<WallPort, i64>(wall, formats);
-        self.write(Inputs { wall, ..self.inputs });
+        self.step(Inputs { wall, ..self.inputs });
     }
 
-    fn write(&mut self, inputs: Inputs<Signal<i64>>) {
+    fn step(&mut self, inputs: Inputs<Signal<i64>>) {
         let Outputs { core, drive, extremes, faults } =
             self.block.step(&mut self.state.block, inputs);
         self.state.collect(core, Some(drives::Outputs { drive, extremes, faults }));
@@ -370,10 +370,7 @@ impl ClockLoop {
     }
 
     fn clock(&mut self, strobe: bool, codes: &[i32]) {
-        let inputs = self.state.inputs(&self.inputs, strobe, codes);
-        let Outputs { core, drive, extremes, faults } =
-            self.block.step(&mut self.state.block, inputs);
-        self.state.collect(core, Some(drives::Outputs { drive, extremes, faults }));
+        self.step(self.state.inputs(&self.inputs, strobe, codes));
     }
 
     fn results(&mut self) -> (Option<Frame>, Option<Drive>) {

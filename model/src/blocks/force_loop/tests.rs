@@ -115,11 +115,15 @@ fn variables_have_names_of_their_own() {
         for profile in with_both_forces(law) {
             for wall in [None, Some(Wall::A), Some(Wall::B), Some(Wall::QUADRANTS)] {
                 let pads = wall.map_or(profile.pads, |wall| wall.parts);
-                let profile = Profile { wall, pads, ..profile.clone() };
-                let block = ForceLoop::try_new(&profile).expect("time for a wall");
-                let variables = variables(&block, "loop");
-                let names: HashSet<_> = variables.iter().map(|of| (&of.scope, &of.name)).collect();
-                assert_eq!(names.len(), variables.len(), "{} {wall:?}", profile.name);
+                for folded in [false, true] {
+                    let mut profile = Profile { wall, pads, ..profile.clone() };
+                    profile.control.iter_mut().for_each(|control| control.folded = folded);
+                    let block = ForceLoop::try_new(&profile).expect("time for a wall");
+                    let variables = variables(&block, "loop");
+                    let names: HashSet<_> =
+                        variables.iter().map(|of| (&of.scope, &of.name)).collect();
+                    assert_eq!(names.len(), variables.len(), "{} {wall:?}", profile.name);
+                }
             }
         }
     }
