@@ -8,13 +8,14 @@
 //! is Stefan's for a disc of the patch's area: 1.5πηR⁴ over the area πR². Source: docs/physics.md
 //! §3.
 
+use super::lanes::{Lanes, Real};
 use crate::device::EPSILON_0;
 
 /// A value and its derivative by the gap.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Sloped {
-    pub value: f64,
-    pub slope: f64,
+pub(super) struct Sloped<R = f64> {
+    pub value: R,
+    pub slope: R,
 }
 
 /// What presses and pulls a patch.
@@ -32,15 +33,42 @@ impl Drive {
     }
 }
 
-/// Where a patch is and how it moves.
+/// Where a patch is and how it moves; several, where `R` is [`Lanes`].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct State {
+pub(super) struct State<R = f64> {
     /// Gap g, m.
-    pub gap_m: f64,
+    pub gap_m: R,
     /// Speed ġ of the gap, m/s.
-    pub speed_m_s: f64,
+    pub speed_m_s: R,
     /// Crept part z of the compression, m.
-    pub creep_m: f64,
+    pub creep_m: R,
+}
+
+impl<const N: usize> State<Lanes<N>> {
+    /// Patches side by side.
+    #[inline(always)]
+    pub fn of_patches(patches: &[State; N]) -> Self {
+        State {
+            gap_m: Lanes::each(|k| patches[k].gap_m),
+            speed_m_s: Lanes::each(|k| patches[k].speed_m_s),
+            creep_m: Lanes::each(|k| patches[k].creep_m),
+        }
+    }
+
+    /// One of the patches.
+    #[inline(always)]
+    pub fn patch(&self, k: usize) -> State {
+        let (gap_m, speed_m_s) = (self.gap_m.0[k], self.speed_m_s.0[k]);
+        State { gap_m, speed_m_s, creep_m: self.creep_m.0[k] }
+    }
+
+    /// Replaces one of the patches.
+    #[inline(always)]
+    pub fn set_patch(&mut self, k: usize, patch: State) {
+        self.gap_m.0[k] = patch.gap_m;
+        self.speed_m_s.0[k] = patch.speed_m_s;
+        self.creep_m.0[k] = patch.creep_m;
+    }
 }
 
 /// The mechanics of a patch, per unit of area.
@@ -68,44 +96,46 @@ pub(super) struct Law {
 
 impl Law {
     /// Pressure that opens a patch of relaxed rubber, resting at `rest_m`, Pa.
-    #[inline]
-    pub fn relaxed(&self, gap_m: f64, rest_m: f64, drive: Drive) -> Sloped {
-        let contact = self.contact_pa * (-gap_m / self.contact_decay_m).exp();
-        let height = gap_m + self.insulator_m;
-        let attraction = drive.pull_n / (height * height);
+    #[inline(always)]
+    pub fn relaxed<R: Real>(&self, gap_m: R, rest_m: R, drive: Drive) -> Sloped<R> {
+        let of = R::of;
+        let contact = of(self.contact_pa) * (-gap_m / of(self.contact_decay_m)).exp();
+        let height = gap_m + of(self.insulator_m);
+        let attraction = of(drive.pull_n) / (height * height);
         Sloped {
-            value: self.spring_pa_per_m * (rest_m - gap_m) + contact
+            value: of(self.spring_pa_per_m) * (rest_m - gap_m) + contact
                 - attraction
-                - drive.pressure_pa,
-            slope: -self.spring_pa_per_m - contact / self.contact_decay_m
-                + 2.0 * attraction / height,
+                - of(drive.pressure_pa),
+            slope: of(-self.spring_pa_per_m) - contact / of(self.contact_decay_m)
+                + of(2.0) * attraction / height,
         }
     }
 
     /// Pressure of the rubber that has not crept yet, with z brought along implicitly: z = (crept +
     /// share·x)/(1 + share).
-    #[inline]
-    pub fn creeping(&self, gap_m: f64, rest_m: f64, crept_m: f64, share: f64) -> Sloped {
+    #[inline(always)]
+    pub fn creeping<R: Real>(&self, gap_m: R, rest_m: R, crept_m: R, share: f64) -> Sloped<R> {
         let spring = self.creep_spring_pa_per_m / (1.0 + share);
-        Sloped { value: spring * (rest_m - gap_m - crept_m), slope: -spring }
+        Sloped { value: R::of(spring) * (rest_m - gap_m - crept_m), slope: R::of(-spring) }
     }
 
     /// Damping c(g) of the air film, Pa·s/m, and its derivative.
-    #[inline]
-    pub fn film(&self, gap_m: f64) -> Sloped {
-        let thickness = gap_m + self.film_rest_m;
-        let damping = self.film_n_s / (thickness * thickness * thickness);
-        Sloped { value: damping, slope: -3.0 * damping / thickness }
+    #[inline(always)]
+    pub fn film<R: Real>(&self, gap_m: R) -> Sloped<R> {
+        let thickness = gap_m + R::of(self.film_rest_m);
+        let damping = R::of(self.film_n_s) / (thickness * thickness * thickness);
+        Sloped { value: damping, slope: R::of(-3.0) * damping / thickness }
     }
 
     /// g̈ and ż.
-    #[inline]
-    pub fn rates(&self, state: State, rest_m: f64, drive: Drive) -> (f64, f64) {
+    #[inline(always)]
+    pub fn rates<R: Real>(&self, state: State<R>, rest_m: R, drive: Drive) -> (R, R) {
         let State { gap_m, speed_m_s, creep_m } = state;
         let opening = self.relaxed(gap_m, rest_m, drive).value
             + self.creeping(gap_m, rest_m, creep_m, 0.0).value;
-        let acceleration = (opening - self.film(gap_m).value * speed_m_s) / self.inertia_kg_m2;
-        (acceleration, (rest_m - gap_m - creep_m) / self.creep_s)
+        let acceleration =
+            (opening - self.film(gap_m).value * speed_m_s) / R::of(self.inertia_kg_m2);
+        (acceleration, (rest_m - gap_m - creep_m) / R::of(self.creep_s))
     }
 }
 
@@ -113,20 +143,40 @@ impl Law {
 /// `high` where it has none. Newton's steps from `at`, halving the bracket wherever one would leave
 /// it.
 #[inline(always)]
-pub(super) fn root(mut low: f64, mut high: f64, mut at: f64, f: impl Fn(f64) -> Sloped) -> f64 {
+pub(super) fn root(low: f64, high: f64, at: f64, f: impl Fn(f64) -> Sloped) -> f64 {
+    let of_one = |Lanes([at]): Lanes<1>| {
+        let Sloped { value, slope } = f(at);
+        Sloped { value: Lanes([value]), slope: Lanes([slope]) }
+    };
+    roots(Lanes([low]), Lanes([high]), Lanes([at]), of_one).0[0]
+}
+
+/// The [`root`] of each of several functions, all of which are evaluated until the last has its own.
+#[inline(always)]
+pub(super) fn roots<const N: usize>(
+    mut low: Lanes<N>,
+    mut high: Lanes<N>,
+    mut at: Lanes<N>,
+    f: impl Fn(Lanes<N>) -> Sloped<Lanes<N>>,
+) -> Lanes<N> {
+    let mut found = [false; N];
     for _ in 0..100 {
         let Sloped { value, slope } = f(at);
-        *(if value >= 0.0 { &mut low } else { &mut high }) = at;
         let newton = at - value / slope;
-        let next = if slope < 0.0 && newton >= low && newton <= high {
-            newton
-        } else {
-            0.5 * (low + high)
-        };
-        if (next - at).abs() <= 1e-15 * high {
-            return next;
+        for k in 0..N {
+            if found[k] {
+                continue;
+            }
+            let (low, high, at) = (&mut low.0[k], &mut high.0[k], &mut at.0[k]);
+            *(if value.0[k] >= 0.0 { &mut *low } else { &mut *high }) = *at;
+            let is_within = slope.0[k] < 0.0 && newton.0[k] >= *low && newton.0[k] <= *high;
+            let next = if is_within { newton.0[k] } else { 0.5 * (*low + *high) };
+            found[k] = (next - *at).abs() <= 1e-15 * *high;
+            *at = next;
         }
-        at = next;
+        if found == [true; N] {
+            break;
+        }
     }
     at
 }

@@ -23,6 +23,7 @@
 
 mod dynamic;
 mod equilibrium;
+mod lanes;
 mod law;
 mod pad;
 mod quasi_static;

@@ -193,19 +193,14 @@ impl Gap {
             let charge = pad.charge.map(|charge| charge.ago(to_s - moment.time_s));
             self.drive(seen, drive.pull(moment), moment.time_s, charge)
         };
-        let law = &self.rubber.law;
-        let each = patches.iter_mut().zip(&self.rubber.rest_m);
+        let (law, rest_m) = (&self.rubber.law, &self.rubber.rest_m);
         if let Motion::Dynamic(method) = self.motion {
-            let stages = method.stages(at);
-            each.for_each(|(patch, rest)| {
-                *patch = method.step(law, *rest, *patch, span_s, &stages)
-            });
-            return;
+            return method.step(law, rest_m, patches, span_s, &method.stages(at));
         }
         let end = at(1.0);
-        each.for_each(|(patch, rest)| {
-            *patch = quasi_static::advance(law, *rest, *patch, span_s, end);
-        });
+        for (patch, rest_m) in patches.iter_mut().zip(rest_m) {
+            *patch = quasi_static::advance(law, *rest_m, *patch, span_s, end);
+        }
     }
 
     /// What pulls and presses the patches, where this part of the source's mean square is at the

@@ -32,7 +32,7 @@ fn a_squeezed_film_takes_stefans_time() {
         let mut at = State { gap_m: from_m - 0.7e-6, speed_m_s: 0.0, creep_m: 0.0 };
         let pressed = method.stages(|_| Drive { pull_n: 0.0, pressure_pa });
         for _ in 0..10_000 {
-            at = method.step(&law, REST_M, at, stefan_s / 10_000.0, &pressed);
+            at = step_alone(method, &law, REST_M, at, stefan_s / 10_000.0, &pressed);
         }
         let off = (at.gap_m + 0.7e-6) / to_m - 1.0;
         assert!(off.abs() < 1e-5, "{method:?}: {off:e}");
@@ -52,7 +52,7 @@ fn delay_above_the_fold_tends_to_the_closed_form() {
         let (mut at, mut time_s, step_s) = (at_rest(&law), 0.0, 20e-6);
         let pulled = Method::TrBdf2.stages(|_| Drive { pull_n, pressure_pa: 0.0 });
         while at.gap_m > 4e-6 {
-            at = Method::TrBdf2.step(&law, REST_M, at, step_s, &pulled);
+            at = step_alone(Method::TrBdf2, &law, REST_M, at, step_s, &pulled);
             time_s += step_s;
         }
         time_s / (PI * fold / (1.5 * epsilon).sqrt()) - 1.0

@@ -2,7 +2,10 @@
 //! Each method against the reference: the order at which its error falls, the table of
 //! docs/physics.md §3, and what it must survive.
 
+use rand_xoshiro::rand_core::{Rng, SeedableRng};
+
 use super::*;
+use crate::random::Stream;
 
 const ALL: [By; 5] = [
     By::QuasiStatic,
@@ -141,5 +144,35 @@ fn a_patch_without_load_lifts_off_from_contact_and_comes_to_rest() {
             .fold(f64::NEG_INFINITY, f64::max);
         let rest = states.last().unwrap().gap_m / at_rest(&law).gap_m - 1.0;
         assert!(rest.abs() < 1e-6 && over < 0.1, "{by:?}: {rest:e} {over}");
+    }
+}
+
+/// Patches of all kinds, as many as two of those together and a rest: open, pulled in, closed, thrown open.
+#[test]
+fn patches_side_by_side_are_those_of_each_alone() {
+    let mut random = Stream::seed_from_u64(7);
+    let mut share = || (random.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
+    let law = Law { creep_spring_pa_per_m: 1.75e8, ..law(AIR_PA_S) };
+    for method in [Method::SemiImplicit, Method::ImplicitEuler, Method::Trapezoid, Method::TrBdf2] {
+        let mut closed = 0;
+        for _ in 0..200 {
+            let rest_m: Vec<f64> = (0..11).map(|_| 30e-6 * share()).collect();
+            let patch = |rest_m: &f64| State {
+                gap_m: rest_m * share() * f64::from(u8::from(share() < 0.8)),
+                speed_m_s: 20.0 * (share() - 0.5),
+                creep_m: rest_m * share(),
+            };
+            let from: Vec<State> = rest_m.iter().map(patch).collect();
+            let (volt, step_s) = (600.0 * share(), 1e-4 * share());
+            let stages = method.stages(|fraction| Drive::new(volt * fraction, 700.0));
+            let mut together = from.clone();
+            method.step(&law, &rest_m, &mut together, step_s, &stages);
+            for ((from, rest_m), together) in from.into_iter().zip(&rest_m).zip(&together) {
+                let alone = step_alone(method, &law, *rest_m, from, step_s, &stages);
+                assert_eq!(alone, *together, "{method:?}, {rest_m} m, from {from:?}");
+                closed += usize::from(alone.gap_m == 0.0);
+            }
+        }
+        assert!(closed > 100, "{method:?}: {closed} closed patches");
     }
 }

@@ -6,7 +6,7 @@ mod equilibria;
 mod methods;
 mod sine;
 
-use super::dynamic::Method;
+use super::dynamic::{Method, Stages};
 use super::equilibrium::equilibrium;
 use super::law::{Drive, Law, State};
 use super::quasi_static;
@@ -62,6 +62,19 @@ enum By {
     Dynamic(Method),
 }
 
+/// A step of a patch that is computed alone.
+fn step_alone(
+    method: Method,
+    law: &Law,
+    rest_m: f64,
+    mut at: State,
+    step_s: f64,
+    stages: &Stages,
+) -> State {
+    method.step(law, &[rest_m], std::slice::from_mut(&mut at), step_s, stages);
+    at
+}
+
 impl By {
     fn is(self, method: Method) -> bool {
         matches!(self, By::Dynamic(same) if same == method)
@@ -71,7 +84,9 @@ impl By {
         match self {
             By::Rk4 => rk4(law, from, step_s, drive(0.5)),
             By::QuasiStatic => quasi_static::advance(law, REST_M, from, step_s, drive(1.0)),
-            By::Dynamic(method) => method.step(law, REST_M, from, step_s, &method.stages(drive)),
+            By::Dynamic(method) => {
+                step_alone(method, law, REST_M, from, step_s, &method.stages(drive))
+            }
         }
     }
 }

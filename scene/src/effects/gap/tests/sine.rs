@@ -23,7 +23,7 @@ fn tail(volt: f64, sine_hz: Option<f64>) -> [Vec<f64>; 2] {
         let mut at = State { gap_m, speed_m_s: 0.0, creep_m: rest_m - gap_m };
         for n in 0..STEPS {
             let stages = Method::TrBdf2.stages(|fraction| drive((n as f64 + fraction) * STEP_S));
-            at = Method::TrBdf2.step(&law, rest_m, at, STEP_S, &stages);
+            at = step_alone(Method::TrBdf2, &law, rest_m, at, STEP_S, &stages);
             if let Some(n_tail) = (n + TAIL).checked_sub(STEPS) {
                 let inverse = 1.0 / (at.gap_m + 5e-6);
                 sums[0][n_tail] += inverse;
