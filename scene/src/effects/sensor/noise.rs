@@ -83,6 +83,9 @@ pub(in super::super) fn read_dither(root: &Table, _: &Device) -> Result<Option<S
     Ok(Spec::new("sensor.dither", format!("{lsb} LSB"), build))
 }
 
+/// Numbers of white noise that are drawn at a time.
+const DRAWN: usize = 256;
+
 struct Noise {
     /// Standard deviation per sample of each channel.
     sigma: [f64; MOST_CHANNELS],
@@ -122,11 +125,15 @@ impl Noise {
 
     /// White noise of each channel's size.
     fn add_white(&self, run: &Run, random: &mut Stream, samples: &mut [f64]) {
-        run.rows(samples, |row| {
-            row.iter_mut()
-                .zip(&self.sigma)
-                .for_each(|(sample, sigma)| *sample += sigma * normal(random));
-        });
+        let mut numbers = [0.0; DRAWN];
+        for rows in samples.chunks_mut(DRAWN / run.channels * run.channels) {
+            draw(random, &mut numbers[..rows.len()]);
+            let mut numbers = numbers.chunks_exact(run.channels);
+            run.rows(rows, |row| {
+                let each = row.iter_mut().zip(&self.sigma).zip(numbers.next().unwrap_or(&[]));
+                each.for_each(|((sample, sigma), number)| *sample += sigma * number);
+            });
+        }
     }
 
     /// Noise of each channel's size of which each sample keeps a share of the one before.
@@ -184,6 +191,18 @@ impl Source {
     }
 }
 
+/// A standard normal number.
 pub(in super::super) fn normal(random: &mut Stream) -> f64 {
-    StandardNormal.sample(random)
+    let mut number = [0.0];
+    draw(random, &mut number);
+    number[0]
+}
+
+/// Standard normal numbers one after the other. Drawn here alone: so the library's function is in one piece with the
+/// loop, and the generator's state stays in registers.
+#[inline(never)]
+fn draw(random: &mut Stream, numbers: &mut [f64]) {
+    let mut state = random.clone();
+    numbers.iter_mut().for_each(|number| *number = StandardNormal.sample(&mut state));
+    *random = state;
 }
