@@ -195,8 +195,8 @@ impl Capacitance {
         i: &In<V>,
         admittance: Signal<V>,
     ) -> (Signal<V>, Signal<V>) {
-        let [total, sense, drop, admittance] =
-            [i.total, i.sense, r.drop, admittance].map(Signal::integer);
+        let (total, sense) = (i.total.integer(), i.sense.integer());
+        let (drop, admittance) = (r.drop.integer(), admittance.integer());
         let sheet = if self.correct { i.sheet } else { zero(self.sheet) }.integer();
         use Step::*;
         let at = |step: Step| r.step.at(step);

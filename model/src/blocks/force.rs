@@ -133,10 +133,13 @@ impl Force {
     fn step<V: Interpretation>(&self, r: Regs<V>, i: In<V>, product: Signal<V>) -> Regs<V> {
         use Step::*;
         let at = |step: Step| r.step.at(step);
-        let narrowed = self.products().map(|(of, to)| product.as_code(of).saturate(to, HalfEven));
-        let [(square, square_held), (energy, energy_held), (force, force_held)] = narrowed;
-        let [capacitance, mean_square, gain] =
-            [i.capacitance, i.mean_square, i.gain].map(Signal::integer);
+        let narrowed = |(of, to): (Format, Format)| product.as_code(of).saturate(to, HalfEven);
+        let [of_square, of_energy, of_force] = self.products();
+        let (square, square_held) = narrowed(of_square);
+        let (energy, energy_held) = narrowed(of_energy);
+        let (force, force_held) = narrowed(of_force);
+        let (capacitance, mean_square) = (i.capacitance.integer(), i.mean_square.integer());
+        let gain = i.gain.integer();
         let factor = at(NarrowSquare).select(square, energy);
         let saturated = (at(NarrowSquare) & square_held)
             | (at(NarrowEnergy) & energy_held)

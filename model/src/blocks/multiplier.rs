@@ -130,7 +130,10 @@ impl Multiplier {
             high_high: left * right,
             high_low: right_low.map_or(r.high_low, |low| left * low),
             low_high: left_low.map_or(r.low_high, |low| low * right),
-            low_low: left_low.zip(right_low).map_or(r.low_low, |(a, b)| a * b),
+            low_low: match (left_low, right_low) {
+                (Some(left), Some(right)) => left * right,
+                _ => r.low_low,
+            },
             ..r
         }
     }

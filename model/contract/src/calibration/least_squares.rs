@@ -42,7 +42,10 @@ impl Fit {
 
     fn banded(order: Vec<usize>, (reach, pitch): (usize, usize), layers: usize) -> Self {
         let entries = order.len();
-        let (normal, right) = (vec![0.0; entries * (reach + 1)], vec![vec![0.0; entries]; layers]);
+        let (mut normal, right) = (Vec::new(), vec![vec![0.0; entries]; layers]);
+        // Written, not asked for as zeros: pages that are read before they are written come from the system twice, and
+        // the second time all threads wait for it.
+        normal.resize(entries * (reach + 1), 0.0);
         Fit { order, reach, pitch, along_columns: false, normal, right }
     }
 
