@@ -47,7 +47,7 @@ fn record(figure: &str, rows: Vec<Row>) -> Record {
         errors: errors(),
         simulated_seconds: rows.last().map_or(0.0, |r| r.time_s),
         wall_seconds: 1.23,
-        rows,
+        rows: rows.into_iter().collect(),
         ..Record::default()
     }
 }

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result};
 use hapticore_files::AtomicFolder;
 use hapticore_host::{COLUMNS, QUANTITIES};
+use rayon::prelude::*;
 
 use hapticore_run::record::{Driven, Record, Row, Truth};
 
@@ -23,6 +24,9 @@ const WALLED: [&str; 3] = ["released", "true_hand_x_n", "true_haptic_friction_n"
 
 /// The last columns of a scene with a controller.
 const DRIVEN: [&str; 4] = ["target_n", "drive_v_rms", "drive_limited", "drive_fault"];
+
+/// Rows whose text a thread makes at a time.
+const AT_A_TIME: usize = 256;
 
 /// The file by which a folder is known for one of a run.
 const SUMMARY: &str = "summary.json";
@@ -164,25 +168,27 @@ impl Frames {
     /// # Errors
     /// It cannot be written.
     pub fn row(&mut self, row: &Row) -> Result<()> {
-        self.write(row).with_context(|| self.path.display().to_string())
+        write_row(&mut self.file, row, self.scene.as_ref())
+            .with_context(|| self.path.display().to_string())
     }
 
-    fn write(&mut self, row: &Row) -> io::Result<()> {
-        write!(self.file, "{},{}", row.time_s, row.pad)?;
-        row.measured.values().iter().try_for_each(|number| write!(self.file, ",{number}"))?;
-        write!(self.file, ",{}", row.flags)?;
-        if let (Some(scene), Some(truth)) = (&self.scene, &row.truth) {
-            scene.write(&mut self.file, row.case, truth)?;
-            if scene.driven {
-                write_driven(&mut self.file, &row.driven.unwrap_or_default())?;
-            }
-            if scene.walled {
-                let free = row.driven.and_then(|driven| driven.free).unwrap_or_default();
-                let Truth { hand_x_n, haptic_friction_n, .. } = truth;
-                write!(self.file, ",{},{hand_x_n},{haptic_friction_n}", u8::from(free))?;
-            }
+    /// Writes rows, whose text all threads make.
+    ///
+    /// # Errors
+    /// They cannot be written.
+    pub fn rows(&mut self, rows: &[Row]) -> Result<()> {
+        let scene = self.scene.as_ref();
+        let text = |rows: &[Row]| {
+            let mut text = Vec::new();
+            rows.iter().try_for_each(|row| write_row(&mut text, row, scene)).map(|()| text)
+        };
+        for rows in rows.chunks(AT_A_TIME * rayon::current_num_threads()) {
+            let texts: io::Result<Vec<_>> = rows.par_chunks(AT_A_TIME).map(text).collect();
+            texts
+                .and_then(|texts| texts.iter().try_for_each(|text| self.file.write_all(text)))
+                .with_context(|| self.path.display().to_string())?;
         }
-        writeln!(self.file)
+        Ok(())
     }
 
     /// Completes the file.
@@ -202,6 +208,24 @@ impl OfScene {
         self.swept.iter().try_for_each(|name| write!(file, ",{}", truth.set.get(name)))?;
         write!(file, ",{},{}", u8::from(truth.over_edge), u8::from(truth.touching))
     }
+}
+
+fn write_row(file: &mut impl Write, row: &Row, scene: Option<&OfScene>) -> io::Result<()> {
+    write!(file, "{},{}", row.time_s, row.pad)?;
+    row.measured.values().iter().try_for_each(|number| write!(file, ",{number}"))?;
+    write!(file, ",{}", row.flags)?;
+    if let (Some(scene), Some(truth)) = (scene, &row.truth) {
+        scene.write(file, row.case, truth)?;
+        if scene.driven {
+            write_driven(file, &row.driven.unwrap_or_default())?;
+        }
+        if scene.walled {
+            let free = row.driven.and_then(|driven| driven.free).unwrap_or_default();
+            let Truth { hand_x_n, haptic_friction_n, .. } = truth;
+            write!(file, ",{},{hand_x_n},{haptic_friction_n}", u8::from(free))?;
+        }
+    }
+    writeln!(file)
 }
 
 fn write_driven(file: &mut impl Write, driven: &Driven) -> io::Result<()> {

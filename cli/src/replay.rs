@@ -13,7 +13,7 @@ use hapticore_host::{DeviceCalibration, Residual, SlotClock, residual};
 use hapticore_run::capture::{self, Adc, Described, Source};
 use hapticore_run::engine::{Signals, Slot};
 use hapticore_run::haptic::{self, Meter};
-use hapticore_run::record::{Provenance, Record, Row};
+use hapticore_run::record::{Provenance, Record, Row, Rows};
 use hapticore_run::session::Session;
 use hapticore_run::{calibrate, inputs, interrupt};
 
@@ -244,7 +244,7 @@ impl Replay {
             stability: BTreeMap::new(),
             bode: Vec::new(),
             provenance: Provenance::new(),
-            rows: self.rows.kept,
+            rows: Rows::of_cases([self.rows.kept]),
         })
     }
 }

@@ -10,9 +10,11 @@ use hapticore_contract::profile::Profile;
 use hapticore_run::capture::{self, Adc, Recorder};
 use hapticore_run::case::{Case, Outcome, Settings};
 use hapticore_run::criteria::{self, CaseRows};
-use hapticore_run::record::{Effect, ForceLawErrors, Provenance, Record, Row};
+use hapticore_run::record::{Effect, ForceLawErrors, Provenance, Record, Row, Rows};
 use hapticore_run::{errors, haptic, inputs};
-use hapticore_scene::{Figure, HapticWave, Quantity, Record as Wanted, Scene, Timing};
+use hapticore_scene::{
+    Figure, HapticWave, LevelDeviation, Quantity, Record as Wanted, Scene, Timing,
+};
 use hapticore_waveforms::kind::Kind;
 use rayon::prelude::*;
 
@@ -74,17 +76,10 @@ fn write(
             args.core.json,
         )?;
     }
-    let of_scene = OfScene {
-        cases: record.cases.clone(),
-        swept: record.swept.clone(),
-        driven: record.rows.iter().any(|row| row.driven.is_some()),
-        walled: record.rows.iter().any(|row| row.driven.is_some_and(|it| it.free.is_some())),
-    };
-    let mut frames = Frames::create(&output, Some(of_scene))?;
-    record.rows.iter().try_for_each(|row| frames.row(row))?;
-    frames.finish()?;
+    let report = || output.write("report.html", report::html(&record));
+    let (frames, report) = rayon::join(|| write_frames(&output, &record), report);
+    frames.and(report)?;
     output.write("summary.json", summary(&record))?;
-    output.write("report.html", report::html(&record))?;
     let mut files = Vec::new();
     if let (Some(path), Some(recorder)) = (capture, recorder) {
         let calibration = capture::calibration_path(&path);
@@ -94,6 +89,19 @@ fn write(
     }
     files.splice(0..0, output.keep()?);
     Ok((record, files))
+}
+
+/// Writes `frames.csv`.
+fn write_frames(output: &Output, record: &Record) -> Result<()> {
+    let of_scene = OfScene {
+        cases: record.cases.clone(),
+        swept: record.swept.clone(),
+        driven: record.rows.iter().any(|row| row.driven.is_some()),
+        walled: record.rows.iter().any(|row| row.driven.is_some_and(|it| it.free.is_some())),
+    };
+    let mut frames = Frames::create(output, Some(of_scene))?;
+    record.rows.cases().try_for_each(|rows| frames.rows(rows))?;
+    frames.finish()
 }
 
 /// The cases to be run, one after the other in time.
@@ -215,7 +223,9 @@ fn simulate(
     };
     bar.finish_and_clear();
     let mut record = gather(scene, cases, outcomes);
-    record.position_table = position_table(cases)?;
+    let (residual, deviations) = rayon::join(|| position_table(cases), || deviations(cases));
+    record.position_table = residual?;
+    add_deviations(&mut record.effects, deviations?);
     record.fidelity = args.core.fidelity().name().into();
     record.wall_seconds = start.elapsed().as_secs_f64();
     record.provenance = Provenance::of_scene(scene, &args.set);
@@ -223,7 +233,6 @@ fn simulate(
     let warned =
         record.position_table.and_then(|residual| residual.warning(position_limit_mm(scene)));
     record.warnings.extend(warned);
-    add_errors(&mut record.effects, cases)?;
     Ok((record, recorder))
 }
 
@@ -272,8 +281,9 @@ fn gather(scene: &Scene, cases: &[Case], outcomes: Vec<Outcome>) -> Record {
     for outcome in outcomes {
         add_effects(&mut effects, &outcome);
         errors::merge(&mut signal_errors, outcome.errors);
-        all.extend(outcome.rows);
+        all.push(outcome.rows);
     }
+    let rows = Rows::of_cases(all);
     let device = &scene.cases[cases[0].index].device;
     Record {
         scene: scene.name.clone(),
@@ -286,7 +296,7 @@ fn gather(scene: &Scene, cases: &[Case], outcomes: Vec<Outcome>) -> Record {
         pads: scene.cases[cases[0].index].served_names(),
         effects,
         criteria,
-        force_laws: ForceLawErrors::of(&all),
+        force_laws: ForceLawErrors::of(&rows),
         errors: signal_errors,
         simulated_seconds: cases.iter().map(Case::seconds).sum(),
         wall_seconds: 0.0,
@@ -298,7 +308,7 @@ fn gather(scene: &Scene, cases: &[Case], outcomes: Vec<Outcome>) -> Record {
         stability: BTreeMap::new(),
         bode: Vec::new(),
         provenance: Provenance::default(),
-        rows: all,
+        rows,
     }
 }
 
@@ -340,15 +350,19 @@ fn add_effects(effects: &mut Vec<Effect>, outcome: &Outcome) {
     }
 }
 
-/// Adds how far each level is from a finer one: in the case where that is furthest.
-fn add_errors(effects: &mut [Effect], cases: &[Case]) -> Result<()> {
-    for error in cases
-        .par_iter()
-        .map(Case::level_deviations)
-        .collect::<Result<Vec<_>>>()?
-        .into_iter()
-        .flatten()
-    {
+/// How far each level is from a finer one, in each case whose pads do something of their own.
+fn deviations(cases: &[Case]) -> Result<Vec<LevelDeviation>> {
+    let of = |n: usize| &cases[n].scene.cases[cases[n].index];
+    let is_first = |n: &usize| !(0..*n).any(|other| of(*n).differs_in_targets_alone(of(other)));
+    let first: Vec<_> = (0..cases.len()).filter(is_first).collect();
+    let found: Vec<_> =
+        first.into_par_iter().map(|n| cases[n].level_deviations()).collect::<Result<_>>()?;
+    Ok(found.into_iter().flatten().collect())
+}
+
+/// Adds to each effect how far its level is from a finer one: in the case where that is furthest.
+fn add_deviations(effects: &mut [Effect], deviations: Vec<LevelDeviation>) {
+    for error in deviations {
         let same = effects
             .iter_mut()
             .find(|effect| effect.name == error.effect && effect.level == error.level);
@@ -357,7 +371,6 @@ fn add_errors(effects: &mut [Effect], cases: &[Case]) -> Result<()> {
             effect.finer = Some((finer, percent));
         }
     }
-    Ok(())
 }
 
 fn figure_name(figure: Figure) -> String {

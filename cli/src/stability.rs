@@ -21,16 +21,32 @@ const PARTS: [f64; 2] = [0.5, 1.0];
 /// # Errors
 /// A loop that is predicted to be unstable, unless it may be.
 pub fn of_cases(cases: &[Case], unstable: bool) -> Result<BTreeMap<String, Stability>> {
-    // Cases that differ in the course of their target alone have one loop.
-    let keys: Vec<_> = cases.iter().map(key).collect::<Result<_>>()?;
-    let first = |n: usize| keys.iter().position(|key| *key == keys[n]).unwrap_or(n);
-    let of_first = |(n, case): (usize, &Case)| match first(n) == n {
-        true => of_case(case),
-        false => Ok(None),
+    let most_n: Vec<f64> = cases.iter().map(largest_n).collect::<Result<_>>()?;
+    let looked_at = |n: usize| PARTS.map(|part| part * most_n[n]).into_iter().filter(|n| *n > 0.0);
+    let mut asked: Vec<(&Case, f64)> = Vec::new();
+    for (n, case) in cases.iter().enumerate() {
+        for force_n in looked_at(n) {
+            if !asked.iter().any(|(other, known_n)| *known_n == force_n && is_same(other, case)) {
+                asked.push((case, force_n));
+            }
+        }
+    }
+    let predict =
+        || asked.par_iter().map(|(case, force_n)| at(case, *force_n)).collect::<Result<Vec<_>>>();
+    // All loops of a device wait for its calibration, and what is wrong with it they will say.
+    let closed = cases.iter().find(|case| case.plan().is_some());
+    let (_, found) = rayon::join(|| closed.map(|case| case.calibration().is_ok()), predict);
+    let found = found?;
+    let worst = |(n, case): (usize, &Case)| {
+        let of_case = |force_n: f64| {
+            let same =
+                |(other, known_n): &(&Case, f64)| *known_n == force_n && is_same(other, case);
+            found[asked.iter().position(same)?]
+        };
+        let worst = looked_at(n).filter_map(of_case).min_by(|a, b| room(a).total_cmp(&room(b)))?;
+        Some((case.name().to_string(), worst))
     };
-    let found: Vec<_> = cases.par_iter().enumerate().map(of_first).collect::<Result<_>>()?;
-    let named = |(n, case): (usize, &Case)| Some((case.name().to_string(), found[first(n)]?));
-    let found: BTreeMap<_, _> = cases.iter().enumerate().filter_map(named).collect();
+    let found: BTreeMap<_, _> = cases.iter().enumerate().filter_map(worst).collect();
     for (name, margins) in &found {
         if !margins.stable() && !unstable {
             bail!(
@@ -44,36 +60,19 @@ pub fn of_cases(cases: &[Case], unstable: bool) -> Result<BTreeMap<String, Stabi
     Ok(found)
 }
 
-/// What a case's loop depends on: its scene without the course of its targets, and the largest.
-fn key(case: &Case) -> Result<(String, u64)> {
-    let mut scene: toml::Table = toml::from_str(&case.scene.cases[case.index].document)?;
-    for pad in scene.get_mut("pad").and_then(|pads| pads.as_array_mut()).into_iter().flatten() {
-        if let Some(pad) = pad.as_table_mut() {
-            pad.remove("target_n");
-        }
-    }
-    scene.remove("criterion");
-    Ok((scene.to_string(), largest_n(case)?.to_bits()))
+/// Whether the loops of two cases are one: the cases differ in the course of their targets alone.
+fn is_same(a: &Case, b: &Case) -> bool {
+    let [a, b] = [a, b].map(|case| &case.scene.cases[case.index]);
+    a.control == b.control && a.differs_in_targets_alone(b)
 }
 
 fn largest_n(case: &Case) -> Result<f64> {
     Ok(case.plant()?.largest_targets_n().into_iter().fold(0.0, f64::max))
 }
 
-fn of_case(case: &Case) -> Result<Option<Stability>> {
-    let most_n = largest_n(case)?;
-    if most_n <= 0.0 {
-        return Ok(None);
-    }
-    let mut worst: Option<Stability> = None;
-    for part in PARTS {
-        let Some(open) = OpenLoop::of(case, part * most_n)? else { return Ok(None) };
-        let margins = open.margins(part * most_n);
-        if worst.is_none_or(|worst| room(&margins) < room(&worst)) {
-            worst = Some(margins);
-        }
-    }
-    Ok(worst)
+/// How stable the loop of a case is at a force, where it has one.
+fn at(case: &Case, force_n: f64) -> Result<Option<Stability>> {
+    Ok(OpenLoop::of(case, force_n)?.map(|open| open.margins(force_n)))
 }
 
 /// How far a loop is from the limit: its gain margin, or its phase margin over 60°.

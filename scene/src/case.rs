@@ -16,6 +16,22 @@ const MOST_PADS: usize = 16;
 /// The most points of a sweep, every combination of all that a pad sweeps.
 const MOST_POINTS: usize = 10_000_000;
 
+/// Keys of a scene that say what is done with its device, and not what that is.
+const DONE_WITH_IT: [&str; 9] = [
+    "title",
+    "summary",
+    "case",
+    "criterion",
+    "pad",
+    "control",
+    "wall",
+    "duration_s",
+    "dwell_slots",
+];
+
+/// Those of them that say what its pads do.
+const OF_PADS: [&str; 4] = ["pad", "wall", "duration_s", "dwell_slots"];
+
 /// Keys of `[sheet]` of which the host knows nothing: what makes a film non-uniform.
 const UNEVEN: [&str; 2] = ["slope_percent", "patch"];
 
@@ -42,6 +58,9 @@ pub struct Case {
     /// The force controller that drives the pads, where the scene has one.
     pub control: Option<ControlPlan>,
     pub(crate) pads: Vec<PadPlan>,
+    /// All that the scene says of the device, and what its pads do, but for their target forces.
+    of_device: toml::Table,
+    of_pads: toml::Table,
     /// Where what each slot of a pad serves lies, mm right of the pad's centre and above it.
     pub(crate) parts_mm: Vec<[f64; 2]>,
     pub(crate) effects: Vec<Spec>,
@@ -134,6 +153,57 @@ impl Case {
         keys
     }
 
+    /// Whether the device is another case's, at the same levels, and serves as many pads, whatever is done with it: both
+    /// have one calibration.
+    ///
+    /// ```
+    /// use hapticore_scene::Scene;
+    ///
+    /// let text = "title = \"t\"\n[[pad]]\nposition_mm = [0, 0]\n[gap]\n\
+    ///             [[case]]\nname = \"light\"\nset = { \"pad.0.load_g\" = 20 }\n\
+    ///             [[case]]\nname = \"heavy\"\nset = { \"pad.0.load_g\" = 100 }\n\
+    ///             [[case]]\nname = \"worn\"\nset = { \"device.mu\" = 0.3 }\n";
+    /// let cases = Scene::parse(text, "t.toml", &[])?.cases;
+    /// assert!(cases[1].has_device_of(&cases[0]) && !cases[2].has_device_of(&cases[0]));
+    /// # Ok::<(), hapticore_scene::SceneError>(())
+    /// ```
+    pub fn has_device_of(&self, other: &Case) -> bool {
+        self.of_device == other.of_device
+            && self.pads.len() == other.pads.len()
+            && self.effects() == other.effects()
+    }
+
+    /// Whether the pads do the same on the same device, but for the forces that a controller shall give them.
+    ///
+    /// ```
+    /// use hapticore_scene::Scene;
+    ///
+    /// let text = "title = \"t\"\n[[pad]]\nposition_mm = [0, 0]\nload_g = 50\ntarget_n = 0\n[gap]\n[friction]\n[control]\n\
+    ///             [[case]]\nname = \"weak\"\nset = { \"pad.0.target_n\" = 0.3 }\n\
+    ///             [[case]]\nname = \"strong\"\nset = { \"pad.0.target_n\" = 0.6 }\n\
+    ///             [[case]]\nname = \"heavy\"\nset = { \"pad.0.load_g\" = 80 }\n";
+    /// let cases = Scene::parse(text, "t.toml", &[])?.cases;
+    /// assert!(cases[1].differs_in_targets_alone(&cases[0]) && !cases[2].differs_in_targets_alone(&cases[0]));
+    /// # Ok::<(), hapticore_scene::SceneError>(())
+    /// ```
+    pub fn differs_in_targets_alone(&self, other: &Case) -> bool {
+        self.has_device_of(other) && self.of_pads == other.of_pads
+    }
+
+    /// The same case with the effects of the first of others that has the same device, so that what they compute
+    /// of it is computed once.
+    pub(crate) fn sharing_effects(self, others: &[Case]) -> Case {
+        match others.iter().find(|other| self.has_device_of(other)) {
+            Some(Case { effects, nominal, calibrated, .. }) => {
+                let calibrated = self.calibrated.zip(calibrated.as_ref());
+                let calibrated = calibrated
+                    .map(|(then, other)| Case { effects: other.effects.clone(), ..*then }.into());
+                Case { effects: effects.clone(), nominal: nominal.clone(), calibrated, ..self }
+            }
+            None => self,
+        }
+    }
+
     /// The effects that are on, with their levels.
     pub fn effects(&self) -> Vec<(&'static str, &str)> {
         self.effects.iter().map(|effect| (effect.name, effect.level().label.as_str())).collect()
@@ -183,6 +253,8 @@ impl Case {
         Ok(Case {
             name: name.to_string(),
             document: document(root, name),
+            of_device: of_device(root),
+            of_pads: of_pads(root),
             length,
             device,
             control,
@@ -207,6 +279,23 @@ fn document(root: &Table, name: &str) -> String {
         });
     }
     alone.to_toml().to_string()
+}
+
+/// What the scene says of its device.
+fn of_device(root: &Table) -> toml::Table {
+    let mut device = root.to_toml();
+    device.retain(|key, _| !DONE_WITH_IT.contains(&key));
+    device
+}
+
+/// What the scene says of its pads and their time, but for their target forces.
+fn of_pads(root: &Table) -> toml::Table {
+    let mut pads = root.to_toml();
+    pads.retain(|key, _| OF_PADS.contains(&key));
+    for pad in pads.get_mut("pad").and_then(|pads| pads.as_array_mut()).into_iter().flatten() {
+        pad.as_table_mut().and_then(|pad| pad.remove("target_n"));
+    }
+    pads
 }
 
 /// Whether a criterion covers the case; it then names cases no more.

@@ -159,7 +159,8 @@ impl Scene {
             // What belongs to the whole scene has been read, and no case can have changed it.
             let of_cases = overrides.iter().filter(|(key, _)| !is_whole(key)).cloned();
             override_all(&mut tree, &of_cases.collect::<Vec<_>>())?;
-            scene.cases.push(Scene::read_case(&tree, &variant.name)?);
+            let case = Scene::read_case(&tree, &variant.name)?;
+            scene.cases.push(case.sharing_effects(&scene.cases));
         }
         Ok(scene)
     }

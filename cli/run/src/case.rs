@@ -54,8 +54,8 @@ pub struct Case<'a> {
     pub number: usize,
     /// The profile of a core that serves the pads of the case.
     pub profile: Arc<Profile>,
-    /// The device's calibration.
-    pub device: DeviceCalibration,
+    /// The device's calibration, one for all cases of a device.
+    pub device: Arc<DeviceCalibration>,
     /// Number of slots of the case.
     pub slots: usize,
     /// The time of each slot.
@@ -122,23 +122,21 @@ impl<'a> Case<'a> {
             None => profile,
         };
         let profile = Arc::new(buildable(profile)?);
-        let calibrated = plant.as_calibrated()?;
-        let mut device = calibrate::of_plant(calibrated.as_ref().unwrap_or(&plant), &profile);
-        let mut bench = None;
         ensure!(
             plant.parts() == 1 || profile.force.law == ForceLaw::Eq8,
             "control.force: expected \"eq8\" with halves.senses = \"each\", for a force table is of whole pads"
         );
-        if profile.force.law == ForceLaw::Table || scene.figure.is_some_and(|of| BOTH.contains(&of))
-        {
-            bench = Bench::of(&scene.cases[index].document)?;
-            device.force = Some(force_table(bench.as_ref(), device.device.force_k, others)?);
-        }
+        let tabled = profile.force.law == ForceLaw::Table
+            || scene.figure.is_some_and(|figure| BOTH.contains(&figure));
+        let bench = if tabled { Bench::of(&scene.cases[index].document)? } else { None };
+        let device =
+            calibrated((&scene.cases[index], &plant), &profile, (tabled, bench.as_ref()), others)?;
         let start_s = others.iter().map(Case::seconds).sum();
         let clock = SlotClock::new(&profile, device.device.sample_rate_hz, start_s);
         let uncontrolled = |of: &Profile| Profile { control: None, wall: None, ..of.clone() };
         let mut same = others.iter().filter(|other| {
-            other.device == device && uncontrolled(&other.profile) == uncontrolled(&profile)
+            (Arc::ptr_eq(&other.device, &device) || other.device == device)
+                && uncontrolled(&other.profile) == uncontrolled(&profile)
         });
         Ok(Case {
             calibrated: same.next().map(|same| same.calibrated.clone()).unwrap_or_default(),
@@ -236,7 +234,7 @@ impl<'a> Case<'a> {
         let fidelity = (settings.fidelity, tuning.as_ref());
         let directions = [0, 1].map(|_| Directions::of(&plant));
         let session = || {
-            let device = (&self.device, self.calibration()?);
+            let device = (&*self.device, self.calibration()?);
             let session = Session::new(&self.profile, device, fidelity, settings.errors, at)?;
             anyhow::Ok(session.with_cancellers(cancellers).with_directions(directions))
         };
@@ -282,6 +280,29 @@ fn for_parts(mut profile: Profile, parts: usize) -> Profile {
         _ => 2,
     };
     profile
+}
+
+/// What is known of a case's device, with a force table or without; the same as of another case that has it.
+fn calibrated(
+    (case, plant): (&hapticore_scene::Case, &Plant),
+    profile: &Profile,
+    (tabled, bench): (bool, Option<&Bench>),
+    others: &[Case],
+) -> Result<Arc<DeviceCalibration>> {
+    let has_it = |other: &&Case| {
+        case.has_device_of(&other.scene.cases[other.index])
+            && timing(&other.profile) == timing(profile)
+    };
+    let mut same = others.iter().filter(has_it).map(|other| &other.device);
+    if let Some(device) = same.clone().find(|device| device.force.is_some() == tabled) {
+        return Ok(device.clone());
+    }
+    let device = match same.next() {
+        Some(device) => (**device).clone(),
+        None => calibrate::of_plant(plant.as_calibrated()?.as_ref().unwrap_or(plant), profile),
+    };
+    let force = tabled.then(|| force_table(bench, device.device.force_k, others));
+    Ok(Arc::new(DeviceCalibration { force: force.transpose()?, ..device }))
 }
 
 /// The force table of a device on its bench, or the same of another case.

@@ -35,6 +35,59 @@ pub struct Row {
     pub reference: Option<Reference>,
 }
 
+/// The rows of a run, as its cases left them: a long run's are not copied into one list.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Rows(Vec<Vec<Row>>);
+
+impl Rows {
+    /// The rows of cases, one after the other; of cases without any there is no trace.
+    pub fn of_cases(cases: impl IntoIterator<Item = Vec<Row>>) -> Self {
+        Rows(cases.into_iter().filter(|rows| !rows.is_empty()).collect())
+    }
+
+    /// The rows of each case, which are one at least.
+    pub fn cases(&self) -> impl Iterator<Item = &[Row]> {
+        self.0.iter().map(Vec::as_slice)
+    }
+
+    /// All rows.
+    pub fn iter(&self) -> std::iter::Flatten<std::slice::Iter<'_, Vec<Row>>> {
+        self.0.iter().flatten()
+    }
+
+    /// How many they are.
+    pub fn len(&self) -> usize {
+        self.0.iter().map(Vec::len).sum()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+}
+
+impl FromIterator<Row> for Rows {
+    fn from_iter<T: IntoIterator<Item = Row>>(rows: T) -> Self {
+        let mut cases: Vec<Vec<Row>> = Vec::new();
+        for row in rows {
+            match cases.last_mut() {
+                Some(last) if last[0].case == row.case => last.push(row),
+                _ => cases.push(vec![row]),
+            }
+        }
+        Rows(cases)
+    }
+}
+
+impl<'a> IntoIterator for &'a Rows {
+    type Item = &'a Row;
+    type IntoIter = std::iter::Flatten<std::slice::Iter<'a, Vec<Row>>>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.iter()
+    }
+}
+
 /// What a controller made of a slot.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 pub struct Driven {
@@ -154,7 +207,7 @@ pub struct ForceLawErrors {
 
 impl ForceLawErrors {
     /// The errors over rows; none where none has both a truth and a table.
-    pub fn of(rows: &[Row]) -> Option<ForceLawErrors> {
+    pub fn of(rows: &Rows) -> Option<ForceLawErrors> {
         let pair = |row: &Row| Some((row.laws?, row.truth?.quantities.force_n));
         let pairs: Vec<_> = rows.iter().filter_map(pair).collect();
         let errors = |of: fn(&Laws) -> f64| {
@@ -291,5 +344,5 @@ pub struct Record {
     pub bode: Vec<Bode>,
     /// One row per finished slot.
     #[serde(skip)]
-    pub rows: Vec<Row>,
+    pub rows: Rows,
 }

@@ -23,7 +23,7 @@ pub struct Panel<'a> {
 pub fn panels(record: &Record) -> Vec<Panel<'_>> {
     let several = pads(record).len() > 1;
     let mut panels = Vec::new();
-    for rows in record.rows.chunk_by(|a, b| a.case == b.case) {
+    for rows in record.rows.cases() {
         for pad in pads(record) {
             let case = record.cases.get(rows[0].case).map_or("", String::as_str);
             let of_several = several.then(|| pad_name(record, pad));

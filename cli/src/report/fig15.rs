@@ -42,7 +42,7 @@ struct Panel<'a> {
 pub fn figures(record: &Record) -> Vec<Figure> {
     let panels: Vec<Panel> = record
         .rows
-        .chunk_by(|a, b| a.case == b.case)
+        .cases()
         .map(|rows| Panel { name: select::case_name(record, rows[0].case), frames: frames(rows) })
         .filter(|panel| !panel.frames.is_empty())
         .collect();

@@ -45,7 +45,7 @@ fn cases(record: &Record) -> Figure {
     };
     let series: Vec<Series> = record
         .rows
-        .chunk_by(|a, b| a.case == b.case)
+        .cases()
         .enumerate()
         .map(|(n, rows)| {
             let name = select::case_name(record, rows[0].case);

@@ -173,8 +173,10 @@ pub fn time_axis(record: &Record) -> Axis {
 
 /// When a case follows another.
 pub fn breaks(record: &Record) -> Vec<f64> {
-    let pairs = record.rows.windows(2).filter(|pair| pair[0].case != pair[1].case);
-    pairs.map(|pair| (pair[0].time_s + pair[1].time_s) / 2.0).collect()
+    let cases = || record.rows.cases();
+    let ends_s = cases().filter_map(|rows| rows.last()).map(|row| row.time_s);
+    let starts_s = cases().skip(1).map(|rows| rows[0].time_s);
+    ends_s.zip(starts_s).map(|(end_s, start_s)| (end_s + start_s) / 2.0).collect()
 }
 
 fn breaks_note(record: &Record) -> String {

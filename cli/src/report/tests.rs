@@ -49,7 +49,7 @@ fn record(figure: Option<&str>, rows: Vec<Row>) -> Record {
         }],
         simulated_seconds: 1.0,
         wall_seconds: 0.0,
-        rows,
+        rows: rows.into_iter().collect(),
         ..Record::default()
     }
 }
@@ -478,10 +478,12 @@ fn limits_and_faults_are_marked_where_there_are_any() {
     let mut record = controlled(&[("open", 0.3, off(0.3, 0.0))]);
     let plain = check(&record);
     assert!(!plain.contains("drive limited") && !plain.contains("off by a fault"));
+    let mut rows: Vec<Row> = record.rows.iter().cloned().collect();
     for (row, limited, fault) in [(2, true, false), (3, true, false), (7, false, true)] {
-        let driven = record.rows[row].driven.as_mut().expect("driven");
+        let driven = rows[row].driven.as_mut().expect("driven");
         (driven.limited, driven.fault) = (limited, fault);
     }
+    record.rows = rows.into_iter().collect();
     let page = check(&record);
     assert!(page.contains("limited in 2 of 10 slots; fault in 1 of 10 slots"));
     assert!(page.contains("drive limited") && page.contains("drives off by a fault"));
