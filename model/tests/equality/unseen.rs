@@ -34,14 +34,14 @@ fn drives_that_rest_are_left_out_of_no_clock_that_changes_them() {
         let new = || ClockLoop::new(&profile, &calibration, &tuning).expect("a loop");
         let (mut unseen, mut seen) = (new(), new());
         let mut drives = 0;
-        for (slot, (pad, codes)) in slots(&profile, operations(40) as usize, seed).enumerate() {
+        for (slot, (pad, codes)) in slots(&profile, operations(24) as usize, seed).enumerate() {
             for of in [&mut unseen, &mut seen] {
                 if slot % 3 == 0 {
                     of.set_target(pad, 0.02 * (slot % 50) as f64);
                 }
                 if profile.wall.is_some() && slot % 5 == 0 {
                     let mm = 40.0 * (slot as f64 / 7.0).sin();
-                    of.set_surface(pad, Surface { mm, right: slot % 50 > 40 });
+                    of.set_surface(pad, Surface { mm, right: slot % 25 > 17 });
                 }
             }
             let codes = window(&profile, &codes);

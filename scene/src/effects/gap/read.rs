@@ -36,10 +36,10 @@ const LEVELS: [(&str, Motion, f64); 7] = [
     ("static", Motion::Static, 500.0),
     ("hysteresis", Motion::Hysteresis, 4e3),
     ("quasi-static", Motion::QuasiStatic, 400.0),
-    ("semi-implicit", Motion::Dynamic(Method::SemiImplicit), 2.4e3),
-    ("implicit-euler", Motion::Dynamic(Method::ImplicitEuler), 10e3),
-    ("trapezoid", Motion::Dynamic(Method::Trapezoid), 12e3),
-    ("tr-bdf2", Motion::Dynamic(Method::TrBdf2), 14e3),
+    ("semi-implicit", Motion::Dynamic(Method::SemiImplicit), 1.4e3),
+    ("implicit-euler", Motion::Dynamic(Method::ImplicitEuler), 3.6e3),
+    ("trapezoid", Motion::Dynamic(Method::Trapezoid), 4.3e3),
+    ("tr-bdf2", Motion::Dynamic(Method::TrBdf2), 6.9e3),
 ];
 
 pub(in super::super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneError> {
