@@ -21,58 +21,67 @@ const PARTS: [f64; 2] = [0.5, 1.0];
 /// # Errors
 /// A loop that is predicted to be unstable, unless it may be.
 pub fn of_cases(cases: &[Case], unstable: bool) -> Result<BTreeMap<String, Stability>> {
-    let most_n: Vec<f64> = cases.iter().map(largest_n).collect::<Result<_>>()?;
-    let looked_at = |n: usize| PARTS.map(|part| part * most_n[n]).into_iter().filter(|n| *n > 0.0);
-    let mut asked: Vec<(&Case, f64)> = Vec::new();
-    for (n, case) in cases.iter().enumerate() {
-        for force_n in looked_at(n) {
-            if !asked.iter().any(|(other, known_n)| *known_n == force_n && is_same(other, case)) {
-                asked.push((case, force_n));
-            }
+    let looks: Vec<_> = cases.iter().map(Look::of).collect::<Result<_>>()?;
+    let mut once: Vec<Look> = Vec::new();
+    for look in looks.iter().flatten() {
+        if !once.contains(look) {
+            once.push(*look);
         }
     }
-    let predict =
-        || asked.par_iter().map(|(case, force_n)| at(case, *force_n)).collect::<Result<Vec<_>>>();
-    // All loops of a device wait for its calibration, and what is wrong with it they will say.
-    let closed = cases.iter().find(|case| case.plan().is_some());
-    let (_, found) = rayon::join(|| closed.map(|case| case.calibration().is_ok()), predict);
-    let found = found?;
-    let worst = |(n, case): (usize, &Case)| {
-        let of_case = |force_n: f64| {
-            let same =
-                |(other, known_n): &(&Case, f64)| *known_n == force_n && is_same(other, case);
-            found[asked.iter().position(same)?]
-        };
-        let worst = looked_at(n).filter_map(of_case).min_by(|a, b| room(a).total_cmp(&room(b)))?;
+    let margins = predicted(&once)?;
+    let seen = |look: &Look| margins[once.iter().position(|other| other == look)?];
+    let worst = |(case, looks): (&Case, &Vec<Look>)| {
+        let worst = looks.iter().filter_map(seen).min_by(|a, b| room(a).total_cmp(&room(b)))?;
         Some((case.name().to_string(), worst))
     };
-    let found: BTreeMap<_, _> = cases.iter().enumerate().filter_map(worst).collect();
-    for (name, margins) in &found {
-        if !margins.stable() && !unstable {
-            bail!(
-                "control: expected a stable loop, got a gain margin of {} at {} N in case \"{name}\"; \
-                 lower gains, or --unstable, which runs it",
-                number(margins.gain_margin.unwrap_or_default()),
-                margins.force_n
-            );
-        }
+    let found: BTreeMap<_, _> = cases.iter().zip(&looks).filter_map(worst).collect();
+    let refused = found.iter().find(|(_, margins)| !margins.stable() && !unstable);
+    if let Some((name, margins)) = refused {
+        bail!(
+            "control: expected a stable loop, got a gain margin of {} at {} N in case \"{name}\"; \
+             lower gains, or --unstable, which runs it",
+            number(margins.gain_margin.unwrap_or_default()),
+            margins.force_n
+        );
     }
     Ok(found)
 }
 
-/// Whether the loops of two cases are one: the cases differ in the course of their targets alone.
-fn is_same(a: &Case, b: &Case) -> bool {
-    let [a, b] = [a, b].map(|case| &case.scene.cases[case.index]);
-    a.control == b.control && a.differs_in_targets_alone(b)
+/// A look at a loop at a force.
+#[derive(Clone, Copy)]
+struct Look<'a> {
+    case: &'a Case<'a>,
+    force_n: f64,
 }
 
-fn largest_n(case: &Case) -> Result<f64> {
-    Ok(case.plant()?.largest_targets_n().into_iter().fold(0.0, f64::max))
+impl<'a> Look<'a> {
+    /// Those at a case, none where nothing is asked of its pads.
+    fn of(case: &'a Case<'a>) -> Result<Vec<Self>> {
+        let most_n = case.plant()?.largest_targets_n().into_iter().fold(0.0, f64::max);
+        let forces_n = PARTS.map(|part| part * most_n).into_iter().filter(|force_n| *force_n > 0.0);
+        Ok(forces_n.map(|force_n| Look { case, force_n }).collect())
+    }
+
+    fn margins(&self) -> Result<Option<Stability>> {
+        let open = OpenLoop::of(self.case, self.force_n)?;
+        Ok(open.map(|open| open.margins(self.force_n)))
+    }
 }
 
-/// How stable the loop of a case is at a force, where it has one.
-fn at(case: &Case, force_n: f64) -> Result<Option<Stability>> {
-    Ok(OpenLoop::of(case, force_n)?.map(|open| open.margins(force_n)))
+/// Cases that differ in the course of their targets alone have one loop.
+impl PartialEq for Look<'_> {
+    fn eq(&self, other: &Self) -> bool {
+        let [a, b] = [self, other].map(|look| &look.case.scene.cases[look.case.index]);
+        self.force_n == other.force_n && a.control == b.control && a.differs_in_targets_alone(b)
+    }
+}
+
+/// What is seen at each look. Meanwhile the device is calibrated, for which all loops wait once they run; what is wrong
+/// with it they will say.
+fn predicted(looks: &[Look]) -> Result<Vec<Option<Stability>>> {
+    let calibrate = || looks.first().map(|look| look.case.calibration().is_ok());
+    let predict = || looks.par_iter().map(Look::margins).collect();
+    rayon::join(calibrate, predict).1
 }
 
 /// How far a loop is from the limit: its gain margin, or its phase margin over 60°.

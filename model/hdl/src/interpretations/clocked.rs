@@ -44,16 +44,36 @@ pub(super) fn wrap(code: i64, to: Format) -> i64 {
     if to.signed { (code << unused) >> unused } else { code & (-1i64 as u64 >> unused) as i64 }
 }
 
+/// Out of line: each of a block's many operations would carry the making of the message.
+#[cold]
+#[inline(never)]
+fn does_not_fit(code: i64, to: Format) -> ! {
+    panic!("{code} does not fit {to}, which is declared impossible")
+}
+
+/// In test builds, that a code is as wide as the format.
+#[inline(always)]
+fn check_width(to: Format) {
+    if cfg!(debug_assertions) && to.width > MAX_WIDTH {
+        is_too_wide(to);
+    }
+}
+
+#[cold]
+#[inline(never)]
+fn is_too_wide(to: Format) -> ! {
+    panic!("{to} is wider than a code")
+}
+
 #[inline(always)]
 fn limit(code: i64, to: Format, overflow: Overflow) -> i64 {
     match overflow {
         Overflow::Saturate => code.clamp(min(to), max(to)),
         Overflow::Wrap => wrap(code, to),
         Overflow::Proved | Overflow::Assumed(_) => {
-            debug_assert!(
-                code >= min(to) && code <= max(to),
-                "{code} does not fit {to}, which is declared impossible"
-            );
+            if cfg!(debug_assertions) && !(min(to)..=max(to)).contains(&code) {
+                does_not_fit(code, to);
+            }
             code
         }
     }
@@ -81,19 +101,19 @@ impl Value for i64 {
 
     #[inline(always)]
     fn add(a: Signal<i64>, b: Signal<i64>, to: Format) -> i64 {
-        debug_assert!(to.width <= MAX_WIDTH, "{to} is wider than a code");
+        check_width(to);
         align(a, to) + align(b, to)
     }
 
     #[inline(always)]
     fn sub(a: Signal<i64>, b: Signal<i64>, to: Format) -> i64 {
-        debug_assert!(to.width <= MAX_WIDTH, "{to} is wider than a code");
+        check_width(to);
         align(a, to) - align(b, to)
     }
 
     #[inline(always)]
     fn mul(a: Signal<i64>, b: Signal<i64>, to: Format) -> i64 {
-        debug_assert!(to.width <= MAX_WIDTH, "{to} is wider than a code");
+        check_width(to);
         a.value * b.value
     }
 

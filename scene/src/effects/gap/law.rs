@@ -163,15 +163,12 @@ pub(super) fn roots<const N: usize>(
     for _ in 0..100 {
         let Sloped { value, slope } = f(at);
         let newton = at - value / slope;
-        for k in 0..N {
-            if found[k] {
-                continue;
-            }
+        for (k, found) in found.iter_mut().enumerate().filter(|(_, found)| !**found) {
             let (low, high, at) = (&mut low.0[k], &mut high.0[k], &mut at.0[k]);
             *(if value.0[k] >= 0.0 { &mut *low } else { &mut *high }) = *at;
             let is_within = slope.0[k] < 0.0 && newton.0[k] >= *low && newton.0[k] <= *high;
             let next = if is_within { newton.0[k] } else { 0.5 * (*low + *high) };
-            found[k] = (next - *at).abs() <= 1e-15 * *high;
+            *found = (next - *at).abs() <= 1e-15 * *high;
             *at = next;
         }
         if found == [true; N] {
