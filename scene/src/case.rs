@@ -2,6 +2,8 @@
 //! One variant of a scene, read: the device, what its pads do, which effects are on and how long it
 //! lasts.
 
+use std::sync::Arc;
+
 use crate::control::ControlPlan;
 use crate::device::Device;
 use crate::effects::{EFFECTS, SPLITTING, Spec, carrier, part};
@@ -59,8 +61,8 @@ pub struct Case {
     pub control: Option<ControlPlan>,
     pub(crate) pads: Vec<PadPlan>,
     /// All that the scene says of the device, and what its pads do, but for their target forces.
-    of_device: toml::Table,
-    of_pads: toml::Table,
+    of_device: Arc<toml::Table>,
+    of_pads: Arc<toml::Table>,
     /// Where what each slot of a pad serves lies, mm right of the pad's centre and above it.
     pub(crate) parts_mm: Vec<[f64; 2]>,
     pub(crate) effects: Vec<Spec>,
@@ -253,8 +255,8 @@ impl Case {
         Ok(Case {
             name: name.to_string(),
             document: document(root, name),
-            of_device: of_device(root),
-            of_pads: of_pads(root),
+            of_device: of_device(root).into(),
+            of_pads: of_pads(root).into(),
             length,
             device,
             control,
