@@ -40,7 +40,7 @@ pub struct Row {
 pub struct Rows(Vec<Vec<Row>>);
 
 impl Rows {
-    /// The rows of cases, one after the other; of cases without any there is no trace.
+    /// The rows of cases, one after the other; cases without rows are left out.
     pub fn of_cases(cases: impl IntoIterator<Item = Vec<Row>>) -> Self {
         Rows(cases.into_iter().filter(|rows| !rows.is_empty()).collect())
     }
