@@ -223,11 +223,11 @@ fn simulate(
     };
     bar.finish_and_clear();
     let mut record = gather(scene, cases, outcomes);
+    record.wall_seconds = start.elapsed().as_secs_f64();
     let (residual, deviations) = rayon::join(|| position_table(cases), || deviations(cases));
     record.position_table = residual?;
     add_deviations(&mut record.effects, deviations?);
     record.fidelity = args.core.fidelity().name().into();
-    record.wall_seconds = start.elapsed().as_secs_f64();
     record.provenance = Provenance::of_scene(scene, &args.set);
     record.warnings.extend(haptic_warning(&record, cases));
     let warned =

@@ -9,7 +9,10 @@
 use std::env;
 
 use hapticore_contract::profile::Profile;
+use hapticore_run::case::Case;
+use hapticore_run::inputs;
 use hapticore_run::record::Row;
+use hapticore_scene::{Scene, Timing, gallery};
 use hapticore_tests::devices::{Device, Found, Raster, error_mm, find, rms, rows};
 use rayon::prelude::*;
 
@@ -168,4 +171,38 @@ fn positions_have_less_noise_than_with_the_papers_ratios() {
     let [ours, paper] = [noise_mm(&ours), noise_mm(&paper)];
     println!("{ours:.4} mm; with eqs. 2 and 3 {paper:.4} mm; ratio {:.3}", ours / paper);
     assert!(ours <= 0.4 * paper);
+}
+
+/// What a scene's cases share is what each would have alone, whatever the scene's cases change.
+#[test]
+fn a_case_after_others_has_the_calibration_that_it_has_alone() {
+    const PAD: &str =
+        "title = \"changed\"\n[[pad]]\nposition_mm = [0, 0]\n[sheet]\n[gap]\n[friction]\n";
+    let changed = PAD.to_string()
+        + &[
+            ("as it is", ""),
+            ("heavier", "\"pad.0.load_g\" = 80"),
+            ("other terminals", "\"sheet.terminal_ohm\" = 100"),
+            ("another pad", "\"device.pad_diameter_mm\" = 40"),
+            ("another film", "\"sheet.slope_percent\" = [5, 0]"),
+            ("another friction", "\"device.mu\" = 0.2"),
+            ("another rubber", "\"gap.spring_pa_per_m\" = 4e8"),
+            ("worn", "\"calibration.set\" = { \"device.mu\" = 0.3 }"),
+        ]
+        .map(|(name, set)| format!("[[case]]\nname = \"{name}\"\nset = {{ {set} }}\n"))
+        .concat();
+    let bundled = gallery::all().iter().map(|(_, text)| *text);
+    for text in bundled.chain([changed.as_str()]) {
+        let scene = Scene::parse(text, "scene.toml", &[]).expect("a scene");
+        let profile = inputs::windowed(profile(&scene.profile), &scene).expect("a profile");
+        let timing = Timing { signs: None, ..inputs::timing(&profile) };
+        let scene = scene.within_budget(&timing).expect("levels within the budget");
+        let mut others: Vec<Case> = Vec::new();
+        for index in 0..scene.cases.len() {
+            let alone = Case::new(&scene, index, &profile, &[]).expect("a case");
+            let after = Case::new(&scene, index, &profile, &others).expect("a case");
+            assert!(after.device == alone.device, "{}, case {}", scene.title, alone.name());
+            others.push(after);
+        }
+    }
 }

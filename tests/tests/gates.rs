@@ -77,7 +77,12 @@ fn gates_close_the_loop_as_the_model_does(
     println!("{family}, {profile}: {} clocks of a force loop equal in gates", trace.clocks());
 }
 
-/// Controller and walls on one arithmetic unit: with adders of their own they fit no iCE40.
+#[test]
+fn ice40_gates_run_a_wall_as_the_model_does() {
+    gates_close_the_loop_as_the_model_does("ice40", "small", Closed::at_a_wall);
+}
+
+/// Controller and walls on one arithmetic unit.
 fn folded_at_a_wall(profile: &Profile) -> Closed {
     let control = Control { folded: true, ..Control::of(profile, Law::Inverse) };
     Closed::at_a_wall(&Profile { control: Some(control), ..profile.clone() })

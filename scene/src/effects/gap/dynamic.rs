@@ -73,108 +73,151 @@ impl Method {
         let (some, left) = patches.as_chunks_mut::<TOGETHER>();
         let (rest_of_some, rest_of_left) = rest_m.as_chunks::<TOGETHER>();
         for (patches, rest_m) in some.iter_mut().zip(rest_of_some) {
-            self.step_lanes(law, rest_m, patches, step_s, drive);
+            Together::of(law, rest_m, patches, step_s).step(self, drive, patches);
         }
         for (patch, rest_m) in left.iter_mut().zip(rest_of_left) {
-            self.step_lanes(law, &[*rest_m], std::array::from_mut(patch), step_s, drive);
+            let patch = std::array::from_mut(patch);
+            Together::of(law, &[*rest_m], patch, step_s).step(self, drive, patch);
         }
     }
+}
 
+/// Patches that take a step together.
+struct Together<'a, const N: usize> {
+    law: &'a Law,
+    rest_m: Lanes<N>,
+    from: State<Lanes<N>>,
+    step_s: f64,
+}
+
+impl<'a, const N: usize> Together<'a, N> {
+    #[inline(always)]
+    fn of(law: &'a Law, rest_m: &[f64; N], patches: &[State; N], step_s: f64) -> Self {
+        Together { law, rest_m: Lanes(*rest_m), from: State::of_patches(patches), step_s }
+    }
+
+    /// Brings the patches to where they are after the step.
     #[inline]
-    fn step_lanes<const N: usize>(
-        self,
-        law: &Law,
-        rest_m: &[f64; N],
-        patches: &mut [State; N],
-        step_s: f64,
-        drive: &Stages,
-    ) {
-        let (rest_m, from) = (Lanes(*rest_m), State::of_patches(patches));
-        let to = match self {
-            Method::SemiImplicit => semi_implicit(law, rest_m, from, step_s, drive.end),
-            Method::ImplicitEuler => stage(law, rest_m, from, from, step_s, drive.end),
-            Method::Trapezoid => trapezoid(law, rest_m, from, step_s, drive),
-            Method::TrBdf2 => tr_bdf2(law, rest_m, from, step_s, drive),
+    fn step(&self, method: Method, drive: &Stages, patches: &mut [State; N]) {
+        let to = match method {
+            Method::SemiImplicit => self.semi_implicit(drive.end),
+            Method::ImplicitEuler => self.euler(drive.end),
+            Method::Trapezoid => self.trapezoid(drive),
+            Method::TrBdf2 => self.tr_bdf2(drive),
         };
         for (k, patch) in patches.iter_mut().enumerate() {
             *patch = to.patch(k);
         }
     }
-}
 
-fn semi_implicit<const N: usize>(
-    law: &Law,
-    rest_m: Lanes<N>,
-    from: State<Lanes<N>>,
-    step_s: f64,
-    drive: Drive,
-) -> State<Lanes<N>> {
-    let of = Lanes::of;
-    let share = step_s / law.creep_s;
-    let opening = law.relaxed(from.gap_m, rest_m, drive).value
-        + law.creeping(from.gap_m, rest_m, from.creep_m, share).value;
-    let damping = of(1.0) + of(step_s) * law.film(from.gap_m).value / of(law.inertia_kg_m2);
-    let speed_m_s = (from.speed_m_s + of(step_s) * opening / of(law.inertia_kg_m2)) / damping;
-    settled(rest_m, from.creep_m, share, from.gap_m + of(step_s) * speed_m_s, speed_m_s)
-}
-
-/// Where it would close the gap, it has overshot: then implicit Euler, for a start from closed
-/// throws the patch open again.
-fn trapezoid<const N: usize>(
-    law: &Law,
-    rest_m: Lanes<N>,
-    from: State<Lanes<N>>,
-    step_s: f64,
-    drive: &Stages,
-) -> State<Lanes<N>> {
-    let base = ahead(from, law.rates(from, rest_m, drive.start), 0.5 * step_s);
-    let to = stage(law, rest_m, base, from, 0.5 * step_s, drive.end);
-    or_euler(to, to.gap_m, law, rest_m, from, step_s, drive.end)
-}
-
-/// The trapezoid over γ of the step, then a backward difference over the whole, both with the same
-/// θ; closed, as above.
-fn tr_bdf2<const N: usize>(
-    law: &Law,
-    rest_m: Lanes<N>,
-    from: State<Lanes<N>>,
-    step_s: f64,
-    drive: &Stages,
-) -> State<Lanes<N>> {
-    const MIDDLE: f64 = 1.0 / (GAMMA * (2.0 - GAMMA));
-    let theta = 0.5 * GAMMA * step_s;
-    let base = ahead(from, law.rates(from, rest_m, drive.start), theta);
-    let middle = stage(law, rest_m, base, from, theta, drive.middle);
-    let mix = |middle: Lanes<N>, from: Lanes<N>| {
-        Lanes::of(MIDDLE) * middle + Lanes::of(1.0 - MIDDLE) * from
-    };
-    let base = State {
-        gap_m: mix(middle.gap_m, from.gap_m),
-        speed_m_s: mix(middle.speed_m_s, from.speed_m_s),
-        creep_m: mix(middle.creep_m, from.creep_m),
-    };
-    let to = stage(law, rest_m, base, middle, theta, drive.end);
-    let least_m = Lanes::each(|k| middle.gap_m.0[k].min(to.gap_m.0[k]));
-    or_euler(to, least_m, law, rest_m, from, step_s, drive.end)
-}
-
-/// Patches after a step, those whose gap has closed in it by implicit Euler.
-#[inline(always)]
-fn or_euler<const N: usize>(
-    mut to: State<Lanes<N>>,
-    least_m: Lanes<N>,
-    law: &Law,
-    rest_m: Lanes<N>,
-    from: State<Lanes<N>>,
-    step_s: f64,
-    drive: Drive,
-) -> State<Lanes<N>> {
-    for k in (0..N).filter(|k| least_m.0[*k] <= 0.0) {
-        let from = State::of_patches(&[from.patch(k)]);
-        let closed = stage(law, Lanes([rest_m.0[k]]), from, from, step_s, drive);
-        to.set_patch(k, closed.patch(0));
+    fn semi_implicit(&self, drive: Drive) -> State<Lanes<N>> {
+        let (Together { law, rest_m, from, .. }, of) = (self, Lanes::of);
+        let (step_s, share) = (of(self.step_s), self.step_s / law.creep_s);
+        let opening = law.relaxed(from.gap_m, *rest_m, drive).value
+            + law.creeping(from.gap_m, *rest_m, from.creep_m, share).value;
+        let damping = of(1.0) + step_s * law.film(from.gap_m).value / of(law.inertia_kg_m2);
+        let speed_m_s = (from.speed_m_s + step_s * opening / of(law.inertia_kg_m2)) / damping;
+        self.settled(from.creep_m, share, from.gap_m + step_s * speed_m_s, speed_m_s)
     }
-    to
+
+    fn euler(&self, drive: Drive) -> State<Lanes<N>> {
+        self.stage(self.from, self.from, self.step_s, drive)
+    }
+
+    /// Where it would close the gap, it has overshot: then implicit Euler, for a start from closed
+    /// throws the patch open again.
+    fn trapezoid(&self, drive: &Stages) -> State<Lanes<N>> {
+        let Together { law, rest_m, from, step_s } = *self;
+        let base = ahead(from, law.rates(from, rest_m, drive.start), 0.5 * step_s);
+        let to = self.stage(base, from, 0.5 * step_s, drive.end);
+        self.or_euler(to, to.gap_m, drive.end)
+    }
+
+    /// The trapezoid over γ of the step, then a backward difference over the whole, both with the same
+    /// θ; closed, as above.
+    fn tr_bdf2(&self, drive: &Stages) -> State<Lanes<N>> {
+        const MIDDLE: f64 = 1.0 / (GAMMA * (2.0 - GAMMA));
+        let Together { law, rest_m, from, step_s } = *self;
+        let theta = 0.5 * GAMMA * step_s;
+        let base = ahead(from, law.rates(from, rest_m, drive.start), theta);
+        let middle = self.stage(base, from, theta, drive.middle);
+        let mix = |middle: Lanes<N>, from: Lanes<N>| {
+            Lanes::of(MIDDLE) * middle + Lanes::of(1.0 - MIDDLE) * from
+        };
+        let base = State {
+            gap_m: mix(middle.gap_m, from.gap_m),
+            speed_m_s: mix(middle.speed_m_s, from.speed_m_s),
+            creep_m: mix(middle.creep_m, from.creep_m),
+        };
+        let to = self.stage(base, middle, theta, drive.end);
+        let least_m = Lanes::each(|k| middle.gap_m.0[k].min(to.gap_m.0[k]));
+        self.or_euler(to, least_m, drive.end)
+    }
+
+    /// Patches after the step, those whose gap has closed in it by implicit Euler.
+    #[inline(always)]
+    fn or_euler(
+        &self,
+        mut to: State<Lanes<N>>,
+        least_m: Lanes<N>,
+        drive: Drive,
+    ) -> State<Lanes<N>> {
+        for k in (0..N).filter(|k| least_m.0[*k] <= 0.0) {
+            let (rest_m, from) = ([self.rest_m.0[k]], [self.from.patch(k)]);
+            let alone = Together::of(self.law, &rest_m, &from, self.step_s);
+            to.set_patch(k, alone.euler(drive).patch(0));
+        }
+        to
+    }
+
+    /// An implicit stage of length θ from `base`, sought from `near` on.
+    #[inline(always)]
+    fn stage(
+        &self,
+        base: State<Lanes<N>>,
+        near: State<Lanes<N>>,
+        theta_s: f64,
+        drive: Drive,
+    ) -> State<Lanes<N>> {
+        let (Together { law, rest_m, .. }, of) = (self, Lanes::of);
+        let share = theta_s / law.creep_s;
+        let inertia = of(law.inertia_kg_m2 / theta_s);
+        let excess = |gap_m: Lanes<N>| {
+            let speed = (gap_m - base.gap_m) / of(theta_s);
+            let (film, opening) = (law.film(gap_m), law.relaxed(gap_m, *rest_m, drive));
+            let creeping = law.creeping(gap_m, *rest_m, base.creep_m, share);
+            Sloped {
+                value: opening.value + creeping.value
+                    - film.value * speed
+                    - inertia * (speed - base.speed_m_s),
+                slope: opening.slope + creeping.slope
+                    - film.slope * speed
+                    - (film.value + inertia) / of(theta_s),
+            }
+        };
+        let top = of(2.0) * (*rest_m + of(law.insulator_m))
+            + base.gap_m.abs()
+            + of(law.contact_pa / law.spring_pa_per_m);
+        let gap_m = roots(of(0.0), top, near.gap_m, excess);
+        self.settled(base.creep_m, share, gap_m, (gap_m - base.gap_m) / of(theta_s))
+    }
+
+    /// The states at these gaps, their creep brought along implicitly; a gap that would be negative is
+    /// closed, and still.
+    #[inline(always)]
+    fn settled(
+        &self,
+        crept_m: Lanes<N>,
+        share: f64,
+        gap_m: Lanes<N>,
+        speed_m_s: Lanes<N>,
+    ) -> State<Lanes<N>> {
+        let rest_m = self.rest_m;
+        let creep_m = (crept_m + Lanes::of(share) * (rest_m - gap_m)) / Lanes::of(1.0 + share);
+        let is_open = |k: usize| gap_m.0[k] > f64::EPSILON * rest_m.0[k];
+        let where_open = |of: Lanes<N>| Lanes::each(|k| if is_open(k) { of.0[k] } else { 0.0 });
+        State { gap_m: where_open(gap_m), speed_m_s: where_open(speed_m_s), creep_m }
+    }
 }
 
 /// Explicitly ahead by θ.
@@ -186,54 +229,4 @@ fn ahead<R: Real>(from: State<R>, (acceleration, creep_m_s): (R, R), theta_s: f6
         speed_m_s: from.speed_m_s + theta_s * acceleration,
         creep_m: from.creep_m + theta_s * creep_m_s,
     }
-}
-
-/// An implicit stage of length θ from `base`, sought from `near` on.
-#[inline(always)]
-fn stage<const N: usize>(
-    law: &Law,
-    rest_m: Lanes<N>,
-    base: State<Lanes<N>>,
-    near: State<Lanes<N>>,
-    theta_s: f64,
-    drive: Drive,
-) -> State<Lanes<N>> {
-    let of = Lanes::of;
-    let share = theta_s / law.creep_s;
-    let inertia = of(law.inertia_kg_m2 / theta_s);
-    let excess = |gap_m: Lanes<N>| {
-        let speed = (gap_m - base.gap_m) / of(theta_s);
-        let (film, opening) = (law.film(gap_m), law.relaxed(gap_m, rest_m, drive));
-        let creeping = law.creeping(gap_m, rest_m, base.creep_m, share);
-        Sloped {
-            value: opening.value + creeping.value
-                - film.value * speed
-                - inertia * (speed - base.speed_m_s),
-            slope: opening.slope + creeping.slope
-                - film.slope * speed
-                - (film.value + inertia) / of(theta_s),
-        }
-    };
-    let top = of(2.0) * (rest_m + of(law.insulator_m))
-        + base.gap_m.abs()
-        + of(law.contact_pa / law.spring_pa_per_m);
-    let gap_m = roots(of(0.0), top, near.gap_m, excess);
-    let speed_m_s = (gap_m - base.gap_m) / of(theta_s);
-    settled(rest_m, base.creep_m, share, gap_m, speed_m_s)
-}
-
-/// The states at these gaps, their creep brought along implicitly; a gap that would be negative is closed,
-/// and still.
-#[inline(always)]
-fn settled<const N: usize>(
-    rest_m: Lanes<N>,
-    crept_m: Lanes<N>,
-    share: f64,
-    gap_m: Lanes<N>,
-    speed_m_s: Lanes<N>,
-) -> State<Lanes<N>> {
-    let creep_m = (crept_m + Lanes::of(share) * (rest_m - gap_m)) / Lanes::of(1.0 + share);
-    let is_open = |k: usize| gap_m.0[k] > f64::EPSILON * rest_m.0[k];
-    let where_open = |of: Lanes<N>| Lanes::each(|k| if is_open(k) { of.0[k] } else { 0.0 });
-    State { gap_m: where_open(gap_m), speed_m_s: where_open(speed_m_s), creep_m }
 }
