@@ -193,16 +193,23 @@ fn a_case_after_others_has_the_calibration_that_it_has_alone() {
         .concat();
     let bundled = gallery::all().iter().map(|(_, text)| *text);
     for text in bundled.chain([changed.as_str()]) {
-        let scene = Scene::parse(text, "scene.toml", &[]).expect("a scene");
-        let profile = inputs::windowed(profile(&scene.profile), &scene).expect("a profile");
-        let timing = Timing { signs: None, ..inputs::timing(&profile) };
-        let scene = scene.within_budget(&timing).expect("levels within the budget");
+        let (scene, profile) = chosen(text);
         let mut others: Vec<Case> = Vec::new();
         for index in 0..scene.cases.len() {
-            let alone = Case::new(&scene, index, &profile, &[]).expect("a case");
             let after = Case::new(&scene, index, &profile, &others).expect("a case");
-            assert!(after.device == alone.device, "{}, case {}", scene.title, alone.name());
+            // A scene of its own, for cases of one scene share effects, too.
+            let (own, profile) = chosen(&scene.cases[index].document);
+            let alone = Case::new(&own, 0, &profile, &[]).expect("a case");
+            assert!(after.device == alone.device, "{}, case {}", scene.title, after.name());
             others.push(after);
         }
     }
+}
+
+/// A scene with its levels chosen, and its profile.
+fn chosen(text: &str) -> (Scene, Profile) {
+    let scene = Scene::parse(text, "scene.toml", &[]).expect("a scene");
+    let profile = inputs::windowed(profile(&scene.profile), &scene).expect("a profile");
+    let timing = Timing { signs: None, ..inputs::timing(&profile) };
+    (scene.within_budget(&timing).expect("levels within the budget"), profile)
 }
