@@ -10,6 +10,9 @@
 //! `closed`, break before make. The estimate of a slot may run on while the next window is taken; it
 //! is over before that window's sums come.
 
+mod samples;
+
+pub use self::samples::Observer;
 use super::demodulator::{self, Demodulator};
 use super::estimator::{self, Calibration, Estimator, FramePort, PromptPort};
 use super::multiplexer::{self, Multiplexer};

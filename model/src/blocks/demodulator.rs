@@ -42,12 +42,13 @@ mod polyphase;
 
 pub(crate) use self::polyphase::{GAIN as POLYPHASE_GAIN, Polyphase};
 use super::multiplier::{self, Multiplier};
+use super::rests::Rests;
 use crate::buildable::fits;
 use hapticore_contract::profile::{Method, Profile, ProfileError, Window};
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format, MAX_WIDTH};
 use hapticore_hdl::memory::{Memory, Write};
-use hapticore_hdl::signal::{Floor, HalfEven, Proved, Signal, bit, code, int, zero};
+use hapticore_hdl::signal::{Floor, HalfEven, Proved, Signal, bit, code, int, is_set, zero};
 use hapticore_hdl::{block, call, next, when};
 
 block! {
@@ -199,6 +200,11 @@ impl Demodulator {
     /// The sums of a window.
     pub fn sums(&self) -> u64 {
         2 * self.channels + 1
+    }
+
+    /// Codes of a sample: one per channel, the haptic voltage's last.
+    pub(super) fn codes(&self) -> usize {
+        self.channels as usize + 1
     }
 
     /// What is particular to polyphase sums, where they are used.
@@ -410,6 +416,23 @@ impl Demodulator {
     }
 }
 
+impl Demodulator {
+    /// Whether sums of a window are being given, or will be without another sample.
+    #[inline(always)]
+    pub(super) fn gives_sums<V: Interpretation>(&self, state: &State<Self, V>) -> bool {
+        let r = state.load(self);
+        is_set(r.valid | r.reading | (r.last & self.under_way(&r)))
+    }
+}
+
+impl Rests for Demodulator {
+    #[inline(always)]
+    fn under_way<V: Interpretation>(&self, r: &Regs<V>) -> Signal<V> {
+        let sample = r.busy | r.summed;
+        if self.polyphase.is_some() { sample | r.reading | r.valid } else { sample }
+    }
+}
+
 impl Block for Demodulator {
     #[inline(always)]
     fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
@@ -426,7 +449,7 @@ impl Block for Demodulator {
             pad: r.pad,
             clipped: r.clipped,
         };
-        if (i.start | r.busy | r.summed).can_skip() {
+        if (i.start | self.under_way(&r)).can_skip() {
             return outputs;
         }
         let place = |ahead: u64| {

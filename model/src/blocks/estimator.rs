@@ -359,10 +359,6 @@ impl Estimator {
         if (i.valid | r.busy | i.calibration.table.write | i.clear).can_skip() {
             return self.quiet(state, r, &i);
         }
-        if self.only_position(state, &r, &i) {
-            self.clock_position(state);
-            return self.quiet(state, r, &i);
-        }
         let Inputs { index, sum, .. } = i;
         let early = r.busy & !r.dropping;
         let drops = index.is(0).select(early, r.dropping).named("drops");

@@ -11,7 +11,7 @@
 //! that of the core's prompt estimate, and the drives'.
 
 use super::controller::{Faults, Tuning};
-use super::core::{self, Core, Inputs as CoreInputs, Outputs as CoreOutputs};
+use super::core::{self, Core, Inputs as CoreInputs, Observer, Outputs as CoreOutputs};
 use super::drives::{self, DrivePort, Drives, ExtremesPort, TargetPort};
 use super::split_pad::WallPort;
 use hapticore_contract::profile::{Profile, ProfileError};
@@ -96,17 +96,57 @@ impl ForceLoop {
         }
     }
 
-    /// A clock for whoever looks at the core's outputs and at drive words as they are given: see
-    /// [`Drives::clock_unseen`].
+    /// [`Core::samples`] for whoever looks at frames and at drive words as they are given: in each clock `look` is
+    /// given the core's outputs where they may have a frame's word, and those of drives that do not rest.
     #[inline(always)]
-    pub(crate) fn clock_unseen<V: Interpretation>(
+    pub(crate) fn samples(
         &self,
-        state: &mut State<Self, V>,
-        i: In<V>,
-    ) -> (core::Out<V>, Option<drives::Out<V>>) {
-        let core = self.core.clock(&mut state.submodules.core, i.core);
-        let to_drives = self.to_drives(&core, &i);
-        (core, self.drives.clock_unseen(&mut state.submodules.drives, to_drives))
+        state: &mut State<Self, Clocked>,
+        i: &In<Clocked>,
+        codes: &[i32],
+        channel: &mut usize,
+        look: &mut impl FnMut(Option<&core::Out<Clocked>>, Option<drives::Out<Clocked>>),
+    ) {
+        let within = &mut state.submodules;
+        let mut driven = Driven { block: self, drives: &mut within.drives, i, rest: false, look };
+        self.core.samples(&mut within.core, &i.core, codes, channel, &mut driven);
+    }
+}
+
+/// Drives that follow a core.
+struct Driven<'a, L> {
+    block: &'a ForceLoop,
+    drives: &'a mut State<Drives, Clocked>,
+    i: &'a In<Clocked>,
+    /// The drives rest until the core gives them something.
+    rest: bool,
+    look: &'a mut L,
+}
+
+impl<L> Driven<'_, L> {
+    #[inline(always)]
+    fn drive(&mut self, outputs: &core::Out<Clocked>) -> Option<drives::Out<Clocked>> {
+        let to_drives = self.block.to_drives(outputs, self.i);
+        let drives = self.block.drives.clock_unseen(self.drives, to_drives);
+        self.rest = drives.is_none();
+        drives
+    }
+}
+
+impl<L> Observer for Driven<'_, L>
+where
+    L: FnMut(Option<&core::Out<Clocked>>, Option<drives::Out<Clocked>>),
+{
+    #[inline(always)]
+    fn outputs(&mut self, outputs: core::Out<Clocked>) {
+        let drives = self.drive(&outputs);
+        (self.look)(Some(&outputs), drives);
+    }
+
+    #[inline(always)]
+    fn without_results(&mut self, outputs: core::Out<Clocked>) {
+        let drives = if self.rest { None } else { self.drive(&outputs) };
+        (self.look)(None, drives);
     }
 }
 

@@ -15,6 +15,7 @@
 //!
 //! Latency: one clock from a strobe to its `sample`; the flags then hold until the next strobe.
 
+use super::rests::Rests;
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::bundle::Bundle;
@@ -81,6 +82,13 @@ impl Multiplexer {
         Format::counter(self.pads - 1)
     }
 
+    /// Samples to come before a slot's last.
+    #[inline(always)]
+    pub(super) fn samples_before_last<V: Interpretation>(&self, state: &State<Self, V>) -> u64 {
+        let next = V::code(state.load(self).count) as u64;
+        (self.end - 1).saturating_sub(next)
+    }
+
     /// What a strobe makes of the registers.
     #[inline(always)]
     fn advance<V: Interpretation>(&self, r: Regs<V>) -> Regs<V> {
@@ -104,13 +112,20 @@ impl Multiplexer {
     }
 }
 
+impl Rests for Multiplexer {
+    #[inline(always)]
+    fn under_way<V: Interpretation>(&self, r: &Regs<V>) -> Signal<V> {
+        r.sample
+    }
+}
+
 impl Block for Multiplexer {
     #[inline(always)]
     fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
         let r = state.load(self);
         let Registers { sample, restart, integrate, first, last, pad, closed, .. } = r;
         let outputs = Outputs { sample, restart, integrate, first, last, pad, closed };
-        if (i.strobe | r.sample | i.clear).can_skip() {
+        if (i.strobe | self.under_way(&r) | i.clear).can_skip() {
             return outputs;
         }
         let next = when!(i.strobe => self.advance(r), else r);

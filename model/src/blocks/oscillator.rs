@@ -25,6 +25,7 @@
 //! Latency: 4 clocks from `sample` to `ready`, polyphase 2. Source: paper, eq. 5; Harris, Proc.
 //! IEEE 66 (1978) 51, for the window.
 
+use super::rests::Rests;
 use hapticore_contract::profile::{Method, Profile, Window};
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format};
@@ -339,6 +340,13 @@ impl Oscillator {
             ready: at(Cosine),
             ..r
         }
+    }
+}
+
+impl Rests for Oscillator {
+    #[inline(always)]
+    fn under_way<V: Interpretation>(&self, r: &Regs<V>) -> Signal<V> {
+        !r.step.at(Step::Idle) | r.ready
     }
 }
 

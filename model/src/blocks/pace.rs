@@ -13,11 +13,12 @@
 //! earlier breaks into the one before. `overrun` stays from the strobe that was too early until
 //! `clear` or a reset. Latency: one clock.
 
+use super::rests::Rests;
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::block;
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format};
-use hapticore_hdl::signal::int;
+use hapticore_hdl::signal::{Signal, int};
 
 block! {
     /// The check of the samples' distance.
@@ -45,6 +46,18 @@ impl Pace {
     /// The pace of a profile's samples.
     pub fn new(profile: &Profile) -> Self {
         Pace { clocks: profile.clocks_per_sample }
+    }
+
+    /// The fewest clocks from one strobe to the next.
+    pub fn clocks(&self) -> u64 {
+        self.clocks
+    }
+}
+
+impl Rests for Pace {
+    #[inline(always)]
+    fn under_way<V: Interpretation>(&self, r: &Regs<V>) -> Signal<V> {
+        !r.left.is(0)
     }
 }
 

@@ -2,7 +2,7 @@
 //! Fidelity `clock`: every clock of the core, as the board runs it.
 
 use super::{Gathered, signals};
-use crate::blocks::core::{Core, Inputs, Outputs};
+use crate::blocks::core::{Core, Inputs, Observer, Outputs};
 use crate::blocks::position::TablePort;
 use hapticore_contract::calibration::Calibration;
 use hapticore_contract::frame::Frame;
@@ -10,7 +10,6 @@ use hapticore_contract::profile::Profile;
 use hapticore_hdl::block::{self, Block};
 use hapticore_hdl::probe::{Probe, Variable, sample, variables};
 use hapticore_hdl::signal::{Signal, bit};
-use std::slice::ChunksExact;
 
 /// A core at work, clock by clock. Its memory does not grow with time.
 pub struct ClockSimulation {
@@ -25,7 +24,14 @@ pub struct ClockSimulation {
 /// at formats again after every word that is written.
 struct State {
     core: block::State<Core, i64>,
+    /// The channel that was asked for last.
     channel: usize,
+    results: Results,
+}
+
+/// What a core has given.
+#[derive(Default)]
+struct Results {
     gathered: Gathered,
     frame: Option<Frame>,
     clocks: u64,
@@ -42,13 +48,7 @@ impl ClockSimulation {
             core,
             clocks_per_sample: profile.clocks_per_sample,
             channels: profile.channels(),
-            state: State {
-                core: state,
-                channel: 0,
-                gathered: Gathered::default(),
-                frame: None,
-                clocks: 0,
-            },
+            state: State { core: state, channel: 0, results: Results::default() },
         }
     }
 
@@ -60,8 +60,7 @@ impl ClockSimulation {
     /// Where `codes` has not one code per channel per sample.
     pub fn samples(&mut self, codes: &[i32]) {
         assert_eq!(codes.len() % self.channels, 0, "one code per channel per sample");
-        let samples = codes.chunks_exact(self.channels);
-        self.state.samples(&self.core, &self.inputs, self.clocks_per_sample, samples);
+        self.state.samples(&self.core, &self.inputs, codes);
     }
 
     /// As [`ClockSimulation::samples`] for one of them, with a look at the simulation after each
@@ -79,14 +78,14 @@ impl ClockSimulation {
 
     /// The frame that has been finished since the last call.
     pub fn take_frame(&mut self) -> Option<Frame> {
-        self.state.frame.take()
+        self.state.results.frame.take()
     }
 
     /// Runs on without samples until the frame of the slot that has just ended is there.
     pub fn finish_slot(&mut self) -> Option<Frame> {
         let codes = vec![0; self.channels];
         let mut left = self.core.latency();
-        while self.state.frame.is_none() && left > 0 {
+        while self.state.results.frame.is_none() && left > 0 {
             self.state.clock(&self.core, &self.inputs, false, &codes);
             left -= 1;
         }
@@ -95,7 +94,7 @@ impl ClockSimulation {
 
     /// Clocks since the first sample.
     pub fn clocks(&self) -> u64 {
-        self.state.clocks
+        self.state.results.clocks
     }
 }
 
@@ -117,26 +116,16 @@ fn calibrated(
 impl State {
     /// Not inlined: what it borrows is then known to be apart.
     #[inline(never)]
-    fn samples(
-        &mut self,
-        core: &Core,
-        inputs: &Inputs<Signal<i64>>,
-        clocks: u64,
-        samples: ChunksExact<'_, i32>,
-    ) {
-        for codes in samples {
-            for count in 0..clocks {
-                let inputs = self.inputs_for_cycle(inputs, count == 0, codes);
-                let outputs = core.clock(&mut self.core, inputs);
-                self.collect_outputs(outputs);
-            }
-        }
+    fn samples(&mut self, core: &Core, inputs: &Inputs<Signal<i64>>, codes: &[i32]) {
+        let State { core: state, channel, results } = self;
+        core.samples(state, inputs, codes, channel, results);
     }
 
     fn clock(&mut self, core: &Core, inputs: &Inputs<Signal<i64>>, strobe: bool, codes: &[i32]) {
         let inputs = self.inputs_for_cycle(inputs, strobe, codes);
         let outputs = core.step(&mut self.core, inputs);
-        self.collect_outputs(outputs);
+        self.channel = outputs.channel.value as usize;
+        self.results.outputs(outputs);
     }
 
     /// The inputs of a clock: the code is that of the channel that was asked for.
@@ -150,16 +139,22 @@ impl State {
         let code = Signal { value: i64::from(codes[self.channel]), format: inputs.code.format };
         Inputs { strobe: bit(strobe), code, ..*inputs }
     }
+}
 
+impl Observer for Results {
     #[inline(always)]
-    fn collect_outputs(&mut self, outputs: Outputs<Signal<i64>>) {
+    fn outputs(&mut self, outputs: Outputs<Signal<i64>>) {
         self.clocks += 1;
-        self.channel = outputs.channel.value as usize;
         let frame = outputs.frames;
         self.gathered.accept_word(frame.valid.value, frame.index.value, frame.frame.value);
         if frame.done.value != 0 {
             self.frame = Some(self.gathered.frame(frame));
         }
+    }
+
+    #[inline(always)]
+    fn without_results(&mut self, _outputs: Outputs<Signal<i64>>) {
+        self.clocks += 1;
     }
 }
 

@@ -23,7 +23,6 @@ use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::Format;
 use hapticore_hdl::probe::{Probe, Variable, sample, variables};
 use hapticore_hdl::signal::{Signal, bit};
-use std::slice::ChunksExact;
 
 /// The tuning's words as codes, all drives on, nothing written.
 pub fn tuning_codes(
@@ -248,7 +247,14 @@ pub struct ClockLoop {
 /// at formats again after every word that is written.
 struct ClockState {
     block: State<ForceLoop, i64>,
+    /// The channel that was asked for last.
     channel: usize,
+    results: Results,
+}
+
+/// What a loop has given.
+#[derive(Default)]
+struct Results {
     gathered: Gathered,
     frame: Option<Frame>,
     drive: Option<Drive>,
@@ -277,14 +283,7 @@ impl ClockLoop {
         };
         let channels = profile.channels();
         let mut of = ClockLoop {
-            state: ClockState {
-                block: block.reset(),
-                channel: 0,
-                gathered: Gathered::default(),
-                frame: None,
-                drive: None,
-                clocks: 0,
-            },
+            state: ClockState { block: block.reset(), channel: 0, results: Results::default() },
             inputs: signals::<Inputs, i64>(codes, formats),
             clocks_per_sample: profile.clocks_per_sample,
             silence: vec![0; profile.slot.blanking() as usize * channels],
@@ -331,7 +330,8 @@ impl ClockLoop {
     fn step(&mut self, inputs: Inputs<Signal<i64>>) {
         let Outputs { core, drive, extremes, faults } =
             self.block.step(&mut self.state.block, inputs);
-        self.state.collect(core, Some(drives::Outputs { drive, extremes, faults }));
+        self.state.channel = core.channel.value as usize;
+        self.state.results.collect(Some(&core), Some(drives::Outputs { drive, extremes, faults }));
     }
 
     /// The drive word of a slot, as in [`FixedLoop::slot`], and the frame that is finished before
@@ -362,11 +362,11 @@ impl ClockLoop {
     pub fn finish(&mut self) -> Option<Frame> {
         let codes = vec![0; self.channels];
         let mut left = self.block.core.latency();
-        while self.state.frame.is_none() && left > 0 {
+        while self.state.results.frame.is_none() && left > 0 {
             self.clock(false, &codes);
             left -= 1;
         }
-        self.state.frame.take()
+        self.state.results.frame.take()
     }
 
     fn clock(&mut self, strobe: bool, codes: &[i32]) {
@@ -374,12 +374,12 @@ impl ClockLoop {
     }
 
     fn results(&mut self) -> (Option<Frame>, Option<Drive>) {
-        (self.state.frame.take(), self.state.drive.take())
+        (self.state.results.frame.take(), self.state.results.drive.take())
     }
 
     /// Clocks since the first sample.
     pub fn clocks(&self) -> u64 {
-        self.state.clocks
+        self.state.results.clocks
     }
 
     fn blank(&mut self) {
@@ -389,28 +389,18 @@ impl ClockLoop {
     }
 
     fn samples(&mut self, codes: &[i32]) {
-        let samples = codes.chunks_exact(self.channels);
-        self.state.samples(&self.block, &self.inputs, self.clocks_per_sample, samples);
+        self.state.samples(&self.block, &self.inputs, codes);
     }
 }
 
 impl ClockState {
     /// Not inlined: what it borrows is then known to be apart.
     #[inline(never)]
-    fn samples(
-        &mut self,
-        block: &ForceLoop,
-        inputs: &Inputs<Signal<i64>>,
-        clocks: u64,
-        samples: ChunksExact<'_, i32>,
-    ) {
-        for codes in samples {
-            for count in 0..clocks {
-                let inputs = self.inputs(inputs, count == 0, codes);
-                let (core, drives) = block.clock_unseen(&mut self.block, inputs);
-                self.collect(core, drives);
-            }
-        }
+    fn samples(&mut self, block: &ForceLoop, inputs: &Inputs<Signal<i64>>, codes: &[i32]) {
+        let ClockState { block: state, channel, results } = self;
+        block.samples(state, inputs, codes, channel, &mut |core, drives| {
+            results.collect(core, drives)
+        });
     }
 
     /// The inputs of a clock: the code is that of the channel that was asked for.
@@ -425,15 +415,17 @@ impl ClockState {
         let code = Signal { value: i64::from(codes[self.channel]), format };
         Inputs { core: core::Inputs { strobe: bit(strobe), code, ..inputs.core }, ..*inputs }
     }
+}
 
+impl Results {
     #[inline(always)]
-    fn collect(&mut self, core: core::Out<i64>, drives: Option<drives::Out<i64>>) {
+    fn collect(&mut self, core: Option<&core::Out<i64>>, drives: Option<drives::Out<i64>>) {
         self.clocks += 1;
-        self.channel = core.channel.value as usize;
-        let frame = core.frames;
-        self.gathered.accept_word(frame.valid.value, frame.index.value, frame.frame.value);
-        if frame.done.value != 0 {
-            self.frame = Some(self.gathered.frame(frame));
+        if let Some(frame) = core.map(|core| core.frames) {
+            self.gathered.accept_word(frame.valid.value, frame.index.value, frame.frame.value);
+            if frame.done.value != 0 {
+                self.frame = Some(self.gathered.frame(frame));
+            }
         }
         if let Some(drives) = drives.filter(|drives| drives.drive.drive_valid.value != 0) {
             self.drive = Some(given(drives.drive, drives.faults));

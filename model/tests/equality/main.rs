@@ -6,6 +6,7 @@
 //! | --- | --- |
 //! | [`idle`] | skipping an idle block changes no bit on any clock |
 //! | [`netlists`] | the captured graph, run by an interpreter of its own = the clocked model, on every clock |
+//! | [`samples`] | a core whose blocks are clocked apart, through whole samples = the core clocked as a whole |
 //! | [`slots`] | frames of fidelities `fixed` and `clock` = the rounded reference |
 //! | [`overlap`] | the same where an estimate runs on within the next window, with a controller too |
 //! | [`phasors`] | frames from amplitudes = frames from the same tones' samples, but for the ADC's rounding |
@@ -24,6 +25,7 @@ mod never_skips;
 mod overlap;
 mod phasors;
 mod random;
+mod samples;
 mod signals;
 mod slots;
 mod unseen;

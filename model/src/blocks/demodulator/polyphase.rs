@@ -26,6 +26,7 @@
 use super::{Demodulator, In, Out, Outputs, PIPELINE, Registers, Regs};
 use crate::blocks::multiplier;
 use crate::blocks::oscillator::PHASES;
+use crate::blocks::rests::Rests;
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::block::{Interpretation, State};
 use hapticore_hdl::format::Format;
@@ -303,7 +304,7 @@ impl Demodulator {
             pad: r.pad,
             clipped: r.clipped,
         };
-        if (i.start | r.busy | r.summed | r.reading | r.valid).can_skip() {
+        if (i.start | self.under_way(&r)).can_skip() {
             return outputs;
         }
         let inputs =

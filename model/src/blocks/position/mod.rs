@@ -40,6 +40,7 @@ mod at_once;
 mod banks;
 mod instruction;
 mod program;
+mod run;
 mod trace;
 
 use self::at_once::AtOnce;
@@ -52,9 +53,7 @@ use hapticore_contract::profile::Profile;
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format};
 use hapticore_hdl::memory::{Memory, Write};
-use hapticore_hdl::signal::{
-    Floor, Proved, Saturate, Signal, Wrap, bit, code, int, is_clear, is_set, zero,
-};
+use hapticore_hdl::signal::{Floor, Proved, Saturate, Signal, Wrap, bit, code, int, is_set, zero};
 use hapticore_hdl::states::States;
 use hapticore_hdl::{block, bundle, call, states, when};
 
@@ -330,13 +329,7 @@ impl Block for Position {
             return outputs;
         }
         let now = self.decode(&r);
-        // Most clocks only wait: in a copy of its own the compiler sees how little those do.
-        if is_clear(now.done | i.start) {
-            let (now, i) = (Decoded { done: bit(false), ..now }, Inputs { start: bit(false), ..i });
-            self.cycle(state, r, i, &now);
-        } else {
-            self.cycle(state, r, i, &now);
-        }
+        self.cycle(state, r, i, &now);
         outputs
     }
 }

@@ -6,7 +6,7 @@ use std::time::Instant;
 use hapticore_hdl::block::{Block, State};
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::signal::Signal;
-use hapticore_model::blocks::core::{Core, Inputs, Outputs};
+use hapticore_model::blocks::core::{Core, Inputs, Observer, Outputs};
 use hapticore_model::blocks::position::TablePort;
 
 use super::{Lap, ROTATED, Workload, moved};
@@ -28,20 +28,21 @@ pub fn run(core: &Core, workload: &Workload) -> Lap {
 #[inline(never)]
 fn timed(core: &Core, state: &mut State<Core, i64>, workload: &Workload) -> u64 {
     let constants = signals(core, workload.constants);
-    let signal = |value, of: Signal<i64>| Signal { value, ..of };
-    let (mut channel, mut sum) = (0, 0);
+    let (mut channel, mut sum) = (0, Sum(0));
     for _ in 0..workload.passes {
-        for set in workload.samples.chunks_exact(workload.channels) {
-            for clock in 0..workload.clocks_per_sample {
-                let strobe = signal(i64::from(clock == 0), constants.strobe);
-                let code = signal(set[channel].into(), constants.code);
-                let outputs = core.clock(state, Inputs { strobe, code, ..constants });
-                channel = outputs.channel.value as usize;
-                sum = added(sum, outputs);
-            }
-        }
+        core.samples(state, &constants, &workload.samples, &mut channel, &mut sum);
     }
-    sum
+    sum.0
+}
+
+/// Every output of each clock.
+struct Sum(u64);
+
+impl Observer for Sum {
+    #[inline(always)]
+    fn outputs(&mut self, outputs: Outputs<Signal<i64>>) {
+        self.0 = added(self.0, outputs);
+    }
 }
 
 fn signals(core: &Core, codes: Inputs<i64>) -> Inputs<Signal<i64>> {
@@ -52,7 +53,7 @@ fn signals(core: &Core, codes: Inputs<i64>) -> Inputs<Signal<i64>> {
 fn added(sum: u64, outputs: Outputs<Signal<i64>>) -> u64 {
     let mut sum = sum.rotate_left(ROTATED);
     let mut index = 0;
-    Outputs::each(outputs, |_, output| {
+    Outputs::map(outputs, |output| {
         if output.format.is_none() {
             return;
         }
