@@ -7,11 +7,19 @@
 //! An instant is a time of sampling, in which all channels are sampled; each has two products and the
 //! haptic one a third. A channel sample is one code.
 
+#[path = "../tests/equality/never_skips.rs"]
+mod never_skips;
+
 use dsp_process::SplitProcess;
 use hapticore_contract::calibration::{Calibration, ForceTable, Point, PositionTable};
 use hapticore_contract::profile::Profile;
+use hapticore_hdl::block::{Block, State};
+use hapticore_hdl::bundle::Bundle;
+use hapticore_hdl::signal::Signal;
+use hapticore_model::blocks::core::{Core, Inputs};
 use hapticore_model::fidelity::{clock::ClockSimulation, fixed::FixedSimulation};
 use idsp::{Lockin, Lowpass, Lowpass2, LowpassState};
+use never_skips::NeverSkips;
 use std::f64::consts::{SQRT_2, TAU};
 use std::num::Wrapping;
 use std::ops::AddAssign;
@@ -24,18 +32,21 @@ const BOARD_HZ: f64 = 25e6;
 const SAMPLE_HZ: f64 = 1e6;
 
 fn main() {
-    let name = std::env::args().nth(1).filter(|argument| !argument.starts_with('-'));
+    // Cargo adds an option of its own.
+    let name = std::env::args().skip(1).find(|argument| !argument.starts_with('-'));
     let profile =
         Profile::bundled(name.as_deref().unwrap_or("standard")).expect("a bundled profile");
     let calibration = calibration(&profile);
     let codes = slot(&profile, 0.2);
     let mut clock = ClockSimulation::new(&profile, &calibration);
     let mut fixed: FixedSimulation = FixedSimulation::new(&profile, &calibration);
+    let mut never_skips = NeverSkipping::new(&profile, &calibration);
     let memory = resident_kib();
-    let mut rates: [Vec<f64>; 6] = Default::default();
+    let mut rates: [Vec<f64>; 7] = Default::default();
     for _ in 0..ROUNDS {
         let round = [
             rate(|| run_clock(&mut clock, &codes)),
+            rate(|| never_skips.run(&codes)),
             rate(|| run_fixed(&mut fixed, &profile, &codes)),
             rate(|| run_sums(&mut fixed, &profile, &codes)),
             rate(|| run_limit(&profile, &codes, f64::from, |code, word| f64::from(code) * word)),
@@ -51,7 +62,7 @@ fn main() {
         ];
         rates.iter_mut().zip(round).for_each(|(rates, rate)| rates.push(rate));
     }
-    let [clocks, instants, sums, floats, integers, lockin] = rates.map(median);
+    let [clocks, unskipped, instants, sums, floats, integers, lockin] = rates.map(median);
     let channels = profile.channels() as f64;
     let share = profile.slot.integrate as f64 / profile.slot.samples() as f64;
     println!("profile {}, {ROUNDS} rounds, medians", profile.name);
@@ -60,6 +71,10 @@ fn main() {
         clocks / 1e6,
         clocks / BOARD_HZ,
         BOARD_HZ / 1e6
+    );
+    println!(
+        "        {:8.1} M clocks/s, no block skips a clock in which it rests",
+        unskipped / 1e6
     );
     println!(
         "fixed   {:8.1} M instants/s in window {:6.1} × 1 MS/s, whole slots with their estimates",
@@ -143,6 +158,47 @@ fn run_clock(clock: &mut ClockSimulation, codes: &[i32]) -> f64 {
         clock.samples(codes);
     }
     (clock.clocks() - before) as f64
+}
+
+/// A core of which every block works in each clock.
+struct NeverSkipping {
+    core: Core,
+    state: State<Core, NeverSkips>,
+    inputs: Inputs<Signal<NeverSkips>>,
+    channels: usize,
+    clocks: u64,
+}
+
+impl NeverSkipping {
+    fn new(profile: &Profile, calibration: &Calibration) -> Self {
+        let core = Core::new(profile);
+        let codes = Inputs::zip(core.idle_inputs(calibration), core.inputs());
+        let signal = |(code, format)| Signal { value: NeverSkips(code), format };
+        NeverSkipping {
+            state: core.reset(),
+            inputs: Inputs::map(codes, signal),
+            channels: profile.channels(),
+            clocks: profile.clocks_per_sample,
+            core,
+        }
+    }
+
+    /// A slot.
+    #[inline(never)]
+    fn run(&mut self, codes: &[i32]) -> f64 {
+        let Self { core, state, inputs, channels, clocks } = self;
+        let mut channel = 0;
+        for codes in codes.chunks_exact(*channels) {
+            for clock in 0..*clocks {
+                let signal = |value, of| Signal { value: NeverSkips(value), ..of };
+                let strobe = signal(i64::from(clock == 0), inputs.strobe);
+                let code = signal(i64::from(codes[channel]), inputs.code);
+                let outputs = core.clock(state, Inputs { strobe, code, ..*inputs });
+                channel = outputs.channel.value.0 as usize;
+            }
+        }
+        (codes.len() / *channels) as f64 * *clocks as f64
+    }
 }
 
 fn run_fixed(fixed: &mut FixedSimulation, profile: &Profile, codes: &[i32]) -> f64 {

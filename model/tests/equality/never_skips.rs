@@ -99,8 +99,9 @@ impl Storage for NeverSkips {
 }
 
 impl Interpretation for NeverSkips {
-    /// Out of line: a core in one piece takes long to compile.
-    #[inline(never)]
+    /// Out of line in tests: a core in one piece takes long to compile. Benches ask for its speed.
+    #[cfg_attr(debug_assertions, inline(never))]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn instance<B: Block>(
         block: &B,
         _name: &'static str,
