@@ -48,7 +48,9 @@ use hapticore_contract::profile::{Method, Profile, ProfileError, Window};
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format, MAX_WIDTH};
 use hapticore_hdl::memory::{Memory, Write};
-use hapticore_hdl::signal::{Floor, HalfEven, Proved, Signal, bit, code, int, is_set, zero};
+use hapticore_hdl::signal::{
+    Clocked, Floor, HalfEven, Proved, Signal, bit, code, int, is_set, zero,
+};
 use hapticore_hdl::{block, call, next, when};
 
 block! {
@@ -419,7 +421,7 @@ impl Demodulator {
 impl Demodulator {
     /// Whether sums of a window are being given, or will be without another sample.
     #[inline(always)]
-    pub(super) fn gives_sums<V: Interpretation>(&self, state: &State<Self, V>) -> bool {
+    pub(super) fn gives_sums(&self, state: &State<Self, Clocked>) -> bool {
         let r = state.load(self);
         is_set(r.valid | r.reading | (r.last & self.under_way(&r)))
     }

@@ -20,7 +20,7 @@ use hapticore_contract::profile::Profile;
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::{BIT, Format};
-use hapticore_hdl::signal::{Proved, Signal, bit, int, zero};
+use hapticore_hdl::signal::{Clocked, Proved, Signal, bit, int, zero};
 use hapticore_hdl::{block, when};
 
 block! {
@@ -84,9 +84,8 @@ impl Multiplexer {
 
     /// Samples to come before a slot's last.
     #[inline(always)]
-    pub(super) fn samples_before_last<V: Interpretation>(&self, state: &State<Self, V>) -> u64 {
-        let next = V::code(state.load(self).count) as u64;
-        (self.end - 1).saturating_sub(next)
+    pub(super) fn samples_before_last(&self, state: &State<Self, Clocked>) -> u64 {
+        (self.end - 1).saturating_sub(state.registers.count as u64)
     }
 
     /// What a strobe makes of the registers.

@@ -6,7 +6,7 @@ use crate::harness::{operations, show};
 use crate::idle::flat;
 use crate::overlap::slots;
 use crate::random::Random;
-use hapticore_contract::profile::Profile;
+use hapticore_contract::profile::{Profile, Terminals};
 use hapticore_hdl::block::{Block, State};
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::probe::sample;
@@ -83,7 +83,8 @@ impl Pair<'_> {
 /// strobe that comes too early, a slot that is abandoned, a table that is written.
 #[test]
 fn blocks_clocked_apart_are_the_core_clocked_as_a_whole() {
-    let profiles = [short_profiles(), short_table_profiles(), overlapping_profiles()];
+    let profiles =
+        [short_profiles(), short_table_profiles(), overlapping_profiles(), other_devices()];
     for (seed, profile) in (70..).zip(profiles.into_iter().flatten()) {
         let (core, calibration) = (Core::new(&profile), calibration(&profile));
         let constants = core.idle_inputs(&calibration);
@@ -109,6 +110,19 @@ fn blocks_clocked_apart_are_the_core_clocked_as_a_whole() {
             }
         }
     }
+}
+
+/// Four terminals, one pad, and clocks between samples that the demodulator does not fill.
+fn other_devices() -> Vec<Profile> {
+    let other = |mut profile: Profile| {
+        let Terminals { x, y } = &mut profile.terminals;
+        x.truncate(4);
+        y.truncate(4);
+        profile.pads = 1;
+        profile.clocks_per_sample += 13;
+        profile
+    };
+    short_profiles().into_iter().map(other).collect()
 }
 
 fn case(profile: &Profile, slot: usize) -> String {

@@ -9,8 +9,8 @@
 //! position     ███████████████████████████████████████████                its program, beside all this
 //! ```
 //!
-//! From a window's last sums to the next window's, nothing but these is under way in most clocks: the
-//! estimator's other blocks rest, and its outputs stand still. In such clocks each of these blocks is clocked
+//! From the end of a window's read-out to the next window's last sample, nothing but these is under way in most
+//! clocks: the estimator's other blocks rest, and its outputs stand still. In such clocks each of these blocks is clocked
 //! by itself, clock by clock: they do not depend on one another but from the left to the right of the core, and
 //! the demodulator gives no sum. All other clocks are those of [`Core::clock`].
 
@@ -37,6 +37,9 @@ pub trait Observer {
 impl Core {
     /// The clocks of samples that follow one another at the profile's pace: `codes` are those of every channel, sample
     /// by sample, `channel` the channel that was asked for last. All other inputs are as given in each clock.
+    ///
+    /// # Panics
+    /// Where `codes` has not one code per channel per sample.
     #[inline(always)]
     pub fn samples(
         &self,
@@ -47,6 +50,7 @@ impl Core {
         observer: &mut impl Observer,
     ) {
         let (clocks, channels) = (self.pace.clocks(), self.demodulator.codes());
+        assert_eq!(codes.len() % channels, 0, "one code per channel per sample");
         let mut codes = codes;
         while !codes.is_empty() {
             let most = (codes.len() / channels) as u64;

@@ -4,13 +4,13 @@
 
 use super::{Estimator, In, Out, Regs, TablePort, position, ratio};
 use crate::blocks::rests::Rests;
-use hapticore_hdl::block::{Block, Interpretation, State};
+use hapticore_hdl::block::{Block, State};
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::signal::{Clocked, bit, is_clear, is_set, zero};
 
 impl Estimator {
     /// Whether the position's program is all that is under way, while nothing is given.
-    fn only_position<V: Interpretation>(&self, state: &State<Self, V>, r: &Regs<V>) -> bool {
+    fn only_position(&self, state: &State<Self, Clocked>, r: &Regs<Clocked>) -> bool {
         let within = &state.submodules;
         let by_eq8 = self.force_estimator.as_ref().zip(within.force_estimator.as_ref());
         let by_table = self.force_table.as_ref().zip(within.force_table.as_ref());
@@ -50,11 +50,11 @@ impl Estimator {
 
     /// The outputs while at most the position's program is under way.
     #[inline(always)]
-    pub(in crate::blocks) fn held<V: Interpretation>(
+    pub(in crate::blocks) fn held(
         &self,
-        state: &State<Self, V>,
-        i: &In<V>,
-    ) -> Out<V> {
+        state: &State<Self, Clocked>,
+        i: &In<Clocked>,
+    ) -> Out<Clocked> {
         self.quiet(state, state.load(self), i)
     }
 }
