@@ -13,6 +13,7 @@ use crate::format::Format;
 use crate::memory::{Memory, Storage};
 use crate::signal::{Clocked, Proved, Signal, Value};
 use std::marker::PhantomData;
+use std::mem::{self, ManuallyDrop};
 
 /// The inputs of a block, each field a `T`.
 pub type Inputs<B, T> = <<B as Interface>::Inputs as Bundle>::Of<T>;
@@ -189,6 +190,32 @@ impl<B: Interface, V: Interpretation> State<B, V> {
     }
 }
 
+impl<B: Interface> State<B, Clocked> {
+    /// The state as a value of whoever clocks it many times, until it is [put back](Self::put_back).
+    ///
+    /// The compiler then has the registers in those of the processor. Behind a reference it writes each of them into
+    /// memory in every clock, for a word that is written into a block's memory might be one of them. What is dropped
+    /// has an address, and is in memory, too; so this is not: where it is not put back, its memories are lost.
+    #[inline(always)]
+    pub fn take_out(&mut self) -> ManuallyDrop<Self> {
+        ManuallyDrop::new(self.take())
+    }
+
+    /// Puts back what has been [taken out](Self::take_out).
+    #[inline(always)]
+    pub fn put_back(&mut self, own: ManuallyDrop<Self>) {
+        mem::forget(mem::replace(self, ManuallyDrop::into_inner(own)));
+    }
+}
+
+impl<B: Interface, V: Interpretation> State<B, V> {
+    /// The state, of which nothing that is used again need be left behind.
+    #[inline(always)]
+    fn take(&mut self) -> Self {
+        State { registers: self.registers, submodules: self.submodules.take() }
+    }
+}
+
 /// The values of signals in the formats declared for them, which must be able to represent theirs.
 #[inline(always)]
 pub fn widen<S: Bundle, V: Value>(
@@ -238,6 +265,8 @@ fn check_formats<S: Bundle, V: Value>(
 pub trait Submodules<B, V: Interpretation>: Clone {
     /// The states at reset.
     fn reset(block: &B) -> Self;
+    /// The states, as [`State::take_out`] takes them.
+    fn take(&mut self) -> Self;
     /// Shows a visitor each block within.
     fn visit(&self, block: &B, visitor: &mut impl Visitor<V>);
     /// Lets `edit` change what each block and memory within holds.
@@ -252,6 +281,9 @@ impl<B, V: Interpretation> Submodules<B, V> for NoSubmodules<V> {
     fn reset(_block: &B) -> Self {
         NoSubmodules(PhantomData)
     }
+    fn take(&mut self) -> Self {
+        NoSubmodules(PhantomData)
+    }
     fn visit(&self, _block: &B, _visitor: &mut impl Visitor<V>) {}
     fn edit(&mut self, _block: &B, _edit: &mut impl Edit<V>) {}
 }
@@ -262,6 +294,8 @@ pub trait Submodule {
     type State<V: Interpretation>: Clone;
     /// Its state at reset.
     fn reset_state<V: Interpretation>(&self) -> Self::State<V>;
+    /// Its state, as [`State::take_out`] takes it.
+    fn take_state<V: Interpretation>(state: &mut Self::State<V>) -> Self::State<V>;
     /// Shows a visitor what is in it.
     fn visit<V: Interpretation>(
         &self,
@@ -278,6 +312,11 @@ impl<B: Block> Submodule for B {
 
     fn reset_state<V: Interpretation>(&self) -> State<B, V> {
         self.reset()
+    }
+
+    #[inline(always)]
+    fn take_state<V: Interpretation>(state: &mut State<B, V>) -> State<B, V> {
+        state.take()
     }
 
     fn visit<V: Interpretation>(
@@ -314,6 +353,11 @@ impl<S: Submodule> Submodule for Option<S> {
         self.as_ref().map(S::reset_state)
     }
 
+    #[inline(always)]
+    fn take_state<V: Interpretation>(state: &mut Self::State<V>) -> Self::State<V> {
+        state.as_mut().map(S::take_state)
+    }
+
     fn visit<V: Interpretation>(
         &self,
         name: &'static str,
@@ -337,6 +381,11 @@ impl Submodule for Memory {
 
     fn reset_state<V: Interpretation>(&self) -> V::Words {
         V::words(self)
+    }
+
+    #[inline(always)]
+    fn take_state<V: Interpretation>(words: &mut V::Words) -> V::Words {
+        V::take(words)
     }
 
     fn visit<V: Interpretation>(

@@ -176,6 +176,11 @@ macro_rules! block {
                 Submodules { $($part: <$part_type as $crate::block::Submodule>::reset_state::<V>(&block.$part)),* }
             }
 
+            #[inline(always)]
+            fn take(&mut self) -> Self {
+                Submodules { $($part: <$part_type as $crate::block::Submodule>::take_state::<V>(&mut self.$part)),* }
+            }
+
             fn visit(&self, block: &$name, visitor: &mut impl $crate::block::Visitor<V>) {
                 $(<$part_type as $crate::block::Submodule>::visit::<V>(&block.$part, stringify!($part), &self.$part, visitor);)*
             }

@@ -17,6 +17,11 @@ pub trait Storage: Value {
     fn words(memory: &Memory) -> Self::Words;
     /// What the read register of a memory holds.
     fn data(memory: &Memory, words: &mut Self::Words) -> Self;
+    /// The words and the read register, of which nothing that is used again need be left behind.
+    #[inline(always)]
+    fn take(words: &mut Self::Words) -> Self::Words {
+        words.clone()
+    }
     /// One clock of a memory: reads the old word at `address` into the read register, and writes.
     #[track_caller]
     fn access(

@@ -427,6 +427,14 @@ impl Demodulator {
     }
 }
 
+impl Demodulator {
+    /// The output `channel` that asks for this one.
+    #[inline(always)]
+    pub(super) fn asked(&self, channel: usize) -> Signal<Clocked> {
+        code(channel as i64, self.channel.as_uint())
+    }
+}
+
 impl Rests for Demodulator {
     #[inline(always)]
     fn under_way<V: Interpretation>(&self, r: &Regs<V>) -> Signal<V> {
@@ -464,6 +472,7 @@ impl Block for Demodulator {
             multiplier::Inputs { enable: r.busy, left: r.left.integer(), right: r.right.integer() };
         let product = call!(self.multiplier, state, inputs).product;
         let product = product.scaled(-2 * r.left.format.frac);
+        let product = Signal { format: product.format.assume_frac(self.point), ..product };
         let so_far = Signal { format: self.sum(), ..self.sums.data(&mut state.submodules.sums) };
         let sum = self.accumulate(r.first, so_far, product);
         let write = Write { enable: r.summed, address: r.index, data: r.sum };

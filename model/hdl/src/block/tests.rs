@@ -143,6 +143,28 @@ fn a_visitor_sees_what_is_present_in_order() {
     }
 }
 
+/// Of every part: what is put back is what a block clocked in place holds.
+#[test]
+fn a_state_that_was_taken_out_is_put_back_with_its_memories() {
+    let block = parent(true);
+    let [mut in_place, mut moved] = [(); 2].map(|()| block.reset::<i64>());
+    for value in [3, -2] {
+        for state in [&mut in_place, &mut moved] {
+            Submodule::edit(&block, state, &mut Raise(0));
+        }
+        block.clock(&mut in_place, word(value));
+        let mut own = moved.take_out();
+        block.clock(&mut own, word(value));
+        moved.put_back(own);
+        let seen = [&in_place, &moved].map(|state| {
+            let mut seen = Seen::default();
+            Submodule::visit(&block, "top", state, &mut seen);
+            (seen.0, format!("{:?}", state.submodules.words))
+        });
+        assert_eq!(seen[1], seen[0]);
+    }
+}
+
 /// Adds 1 to every register, and 2 to the word that a memory has read.
 struct Raise(usize);
 

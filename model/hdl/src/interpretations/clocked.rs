@@ -7,7 +7,7 @@ use crate::memory::{Collision, Memory, Storage, Write};
 use crate::signal::{Overflow, Rounding, Signal, Value};
 
 /// A memory of the clocked interpretation.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Codes {
     words: Vec<i64>,
     data: i64,
@@ -203,6 +203,11 @@ impl Storage for i64 {
     #[inline(always)]
     fn data(_memory: &Memory, words: &mut Codes) -> i64 {
         words.data
+    }
+
+    #[inline(always)]
+    fn take(words: &mut Codes) -> Codes {
+        std::mem::take(words)
     }
 
     #[inline(always)]

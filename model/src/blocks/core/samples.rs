@@ -16,11 +16,14 @@
 
 use super::{Core, In, Inputs, Outputs};
 use crate::blocks::demodulator::{self, Demodulator};
+use crate::blocks::multiplexer::Multiplexer;
+use crate::blocks::oscillator::Oscillator;
 use crate::blocks::rests::Rests;
 use crate::blocks::{estimator, multiplexer, oscillator, pace};
 use hapticore_hdl::block::{Block, State};
 use hapticore_hdl::bundle::Bundle;
-use hapticore_hdl::signal::{Clocked, Signal, bit, is_clear, zero};
+use hapticore_hdl::signal::{Clocked, Signal, bit, is_clear, is_set, zero};
+use std::mem::ManuallyDrop;
 
 /// Who looks at the outputs of a core, clock by clock.
 pub trait Observer {
@@ -106,18 +109,34 @@ impl Core {
             ..estimator::Inputs::map(self.estimator.inputs(), zero)
         };
         let estimator = self.estimator.held(&state.submodules.estimator, &nothing);
+        let within = &mut state.submodules;
+        let mut front = Front {
+            core: self,
+            code: i.code,
+            multiplexer: within.multiplexer.take_out(),
+            oscillator: within.oscillator.take_out(),
+            demodulator: within.demodulator.take_out(),
+            channel: self.demodulator.asked(*channel),
+            rests: false,
+            estimator,
+            overrun: bit(false),
+            left: 0,
+        };
         let mut left = clocks;
         for codes in codes.chunks_exact(self.demodulator.codes()) {
-            let clocks = left.min(self.pace.clocks());
-            let overrun = self.pace(&mut state.submodules.pace, clocks);
-            let mut sample = Sample { core: self, i, codes, channel, observer, estimator, overrun };
-            let begun = sample.begin(state, clocks);
-            sample.end(state, clocks - begun);
-            left -= clocks;
+            front.left = left.min(self.pace.clocks());
+            left -= front.left;
+            front.overrun = self.pace(&mut within.pace, front.left);
+            front.begin(codes, observer);
+            front.end(codes, observer);
             if left == 0 {
-                return;
+                break;
             }
         }
+        *channel = front.channel.value as usize;
+        within.multiplexer.put_back(front.multiplexer);
+        within.oscillator.put_back(front.oscillator);
+        within.demodulator.put_back(front.demodulator);
     }
 
     /// The clocks of a strobe and those after it, of which none comes too early: whether one has before.
@@ -125,117 +144,142 @@ impl Core {
     fn pace(&self, state: &mut State<pace::Pace, Clocked>, clocks: u64) -> Signal<Clocked> {
         let idle = pace::Inputs { strobe: bit(false), clear: bit(false) };
         let strobe = pace::Inputs { strobe: bit(true), ..idle };
-        let overrun = self.pace.clock(state, strobe).overrun;
+        let mut own = state.take_out();
+        let overrun = self.pace.clock(&mut own, strobe).overrun;
         for _ in 1..clocks {
-            self.pace.clock(state, idle);
+            self.pace.clock(&mut own, idle);
         }
+        state.put_back(own);
         overrun
     }
-
-    #[inline(always)]
-    fn oscillate(
-        &self,
-        state: &mut State<oscillator::Oscillator, Clocked>,
-        slot: &multiplexer::Out<Clocked>,
-    ) -> oscillator::Out<Clocked> {
-        let inputs =
-            oscillator::Inputs { sample: slot.sample, restart: slot.restart, first: slot.first };
-        self.oscillator.clock(state, inputs)
-    }
 }
 
-/// A sample while it is demodulated.
-struct Sample<'a, O> {
+/// Multiplexer, oscillator and demodulator while they are clocked apart.
+struct Front<'a> {
     core: &'a Core,
-    i: &'a In<Clocked>,
-    codes: &'a [i32],
+    /// The input of the codes.
+    code: Signal<Clocked>,
+    multiplexer: ManuallyDrop<State<Multiplexer, Clocked>>,
+    oscillator: ManuallyDrop<State<Oscillator, Clocked>>,
+    demodulator: ManuallyDrop<State<Demodulator, Clocked>>,
     /// The channel that was asked for last.
-    channel: &'a mut usize,
-    observer: &'a mut O,
+    channel: Signal<Clocked>,
+    /// The demodulator rests, and has asked for that channel since.
+    rests: bool,
+    /// What the estimator gives all the while.
     estimator: estimator::Out<Clocked>,
     overrun: Signal<Clocked>,
+    /// Clocks to come of the sample.
+    left: u64,
 }
 
-impl<O: Observer> Sample<'_, O> {
-    /// The clocks from the strobe until multiplexer and oscillator rest, `most` at most: how many there were.
+impl Front<'_> {
+    /// The clocks from the strobe until multiplexer and oscillator rest.
     #[inline(always)]
-    fn begin(&mut self, state: &mut State<Core, Clocked>, most: u64) -> u64 {
-        let (core, within) = (self.core, &mut state.submodules);
-        for clock in 0..most {
-            let inputs = multiplexer::Inputs { strobe: bit(clock == 0), clear: bit(false) };
-            let slot = core.multiplexer.clock(&mut within.multiplexer, inputs);
-            let oscillator = core.oscillate(&mut within.oscillator, &slot);
-            let start = oscillator.ready & slot.integrate;
-            self.clock(&mut within.demodulator, &slot, &oscillator, start);
-            if !core.multiplexer.is_busy(&within.multiplexer)
-                && !core.oscillator.is_busy(&within.oscillator)
-            {
-                return clock + 1;
-            }
+    fn begin(&mut self, codes: &[i32], observer: &mut impl Observer) {
+        let mut strobe = bit(true);
+        while self.left > 0 && (is_set(strobe) || self.oscillates()) {
+            let (slot, wave) = self.oscillate(strobe);
+            self.demodulate(codes, &slot, &wave, wave.ready & slot.integrate, observer);
+            strobe = bit(false);
         }
-        most
     }
 
-    /// So many clocks in which multiplexer and oscillator rest.
+    /// The clocks in which multiplexer and oscillator rest.
+    #[expect(
+        clippy::if_same_then_else,
+        reason = "either kind of sums has a loop of its own, from which the compiler drops what the other needs"
+    )]
     #[inline(always)]
-    fn end(&mut self, state: &mut State<Core, Clocked>, clocks: u64) {
-        if clocks == 0 {
+    fn end(&mut self, codes: &[i32], observer: &mut impl Observer) {
+        if self.left == 0 {
             return;
         }
-        let (core, within) = (self.core, &mut state.submodules);
-        let nothing = multiplexer::Inputs { strobe: bit(false), clear: bit(false) };
-        let slot = core.multiplexer.clock(&mut within.multiplexer, nothing);
-        let oscillator = core.oscillate(&mut within.oscillator, &slot);
-        for clock in 0..clocks {
-            let rests = !core.demodulator.is_busy(&within.demodulator);
-            let channel = self.clock(&mut within.demodulator, &slot, &oscillator, bit(false));
-            if rests {
-                (clock + 1..clocks).for_each(|_| self.observe(&slot, &oscillator, channel));
-                return;
-            }
+        let (slot, wave) = self.oscillate(bit(false));
+        if self.core.demodulator.polyphase().is_some() {
+            self.until_rest(codes, &slot, &wave, observer);
+        } else {
+            self.until_rest(codes, &slot, &wave, observer);
+        }
+        (0..self.left).for_each(|_| self.observe(&slot, &wave, observer));
+    }
+
+    #[inline(always)]
+    fn until_rest(
+        &mut self,
+        codes: &[i32],
+        slot: &multiplexer::Out<Clocked>,
+        wave: &oscillator::Out<Clocked>,
+        observer: &mut impl Observer,
+    ) {
+        while self.left > 0 && !self.rests {
+            self.demodulate(codes, slot, wave, bit(false), observer);
         }
     }
 
-    /// A clock of the demodulator: the channel that it asks for.
+    /// Whether multiplexer or oscillator are under way.
     #[inline(always)]
-    fn clock(
+    fn oscillates(&self) -> bool {
+        self.core.multiplexer.is_busy(&self.multiplexer)
+            || self.core.oscillator.is_busy(&self.oscillator)
+    }
+
+    /// A clock of multiplexer and oscillator.
+    #[inline(always)]
+    fn oscillate(
         &mut self,
-        state: &mut State<Demodulator, Clocked>,
+        strobe: Signal<Clocked>,
+    ) -> (multiplexer::Out<Clocked>, oscillator::Out<Clocked>) {
+        let inputs = multiplexer::Inputs { strobe, clear: bit(false) };
+        let slot = self.core.multiplexer.clock(&mut self.multiplexer, inputs);
+        let inputs =
+            oscillator::Inputs { sample: slot.sample, restart: slot.restart, first: slot.first };
+        (slot, self.core.oscillator.clock(&mut self.oscillator, inputs))
+    }
+
+    /// A clock of the demodulator.
+    #[inline(always)]
+    fn demodulate(
+        &mut self,
+        codes: &[i32],
         slot: &multiplexer::Out<Clocked>,
-        oscillator: &oscillator::Out<Clocked>,
+        wave: &oscillator::Out<Clocked>,
         start: Signal<Clocked>,
-    ) -> Signal<Clocked> {
-        let code = i64::from(self.codes[*self.channel]);
-        let inputs = demodulator::Inputs {
-            start,
-            first: slot.first,
-            last: slot.last,
-            pad: slot.pad,
-            code: Signal { value: code, ..self.i.code },
-            cosine: oscillator.cosine,
-            sine: oscillator.sine,
-            window: oscillator.window,
-            phase: oscillator.phase,
-        };
-        let channel = self.core.demodulator.clock(state, inputs).channel;
-        *self.channel = channel.value as usize;
-        self.observe(slot, oscillator, channel);
-        channel
+        observer: &mut impl Observer,
+    ) {
+        self.left -= 1;
+        if !self.rests || is_set(start) {
+            self.rests = is_clear(start) && !self.core.demodulator.is_busy(&self.demodulator);
+            let code = i64::from(codes[self.channel.value as usize]);
+            let inputs = demodulator::Inputs {
+                start,
+                first: slot.first,
+                last: slot.last,
+                pad: slot.pad,
+                code: Signal { value: code, ..self.code },
+                cosine: wave.cosine,
+                sine: wave.sine,
+                window: wave.window,
+                phase: wave.phase,
+            };
+            self.channel = self.core.demodulator.clock(&mut self.demodulator, inputs).channel;
+        }
+        self.observe(slot, wave, observer);
     }
 
     #[inline(always)]
     fn observe(
-        &mut self,
+        &self,
         slot: &multiplexer::Out<Clocked>,
-        oscillator: &oscillator::Out<Clocked>,
-        channel: Signal<Clocked>,
+        wave: &oscillator::Out<Clocked>,
+        observer: &mut impl Observer,
     ) {
         let estimator::Outputs { frames, prompt } = self.estimator;
-        self.observer.without_results(Outputs {
-            channel,
+        observer.without_results(Outputs {
+            channel: self.channel,
             serve: slot.pad,
             closed: slot.closed,
-            carrier: oscillator.cosine,
+            carrier: wave.cosine,
             frames,
             overrun: self.overrun,
             prompt,

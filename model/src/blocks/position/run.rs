@@ -17,11 +17,12 @@ impl Position {
         most: u64,
     ) -> u64 {
         let i = Inputs { start: bit(false), ..*i };
-        let mut clocks = 0;
-        while clocks < most && self.is_running(state) {
-            self.run_clock(state, i);
+        let (mut own, mut clocks) = (state.take_out(), 0);
+        while clocks < most && self.is_running(&own) {
+            self.run_clock(&mut own, i);
             clocks += 1;
         }
+        state.put_back(own);
         clocks
     }
 
