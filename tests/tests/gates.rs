@@ -77,11 +77,6 @@ fn gates_close_the_loop_as_the_model_does(
     println!("{family}, {profile}: {} clocks of a force loop equal in gates", trace.clocks());
 }
 
-#[test]
-fn ice40_gates_run_a_wall_as_the_model_does() {
-    gates_close_the_loop_as_the_model_does("ice40", "small", Closed::at_a_wall);
-}
-
 /// Controller and walls on one arithmetic unit.
 fn folded_at_a_wall(profile: &Profile) -> Closed {
     let control = Control { folded: true, ..Control::of(profile, Law::Inverse) };
@@ -98,6 +93,7 @@ fn ecp5_gates_run_a_folded_wall_as_the_model_does() {
     gates_close_the_loop_as_the_model_does("ecp5", "small", folded_at_a_wall);
 }
 
+/// Not on iCE40: walls of their own fit no such part.
 #[test]
 fn ecp5_gates_run_a_wall_as_the_model_does() {
     gates_close_the_loop_as_the_model_does("ecp5", "small", Closed::at_a_wall);
