@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use hapticore_hdl::verilog::{Direction, Port};
+use tempfile::TempDir;
 
 use super::{Mismatch, Trace, program, verdict};
 use crate::tools::{find, run};
@@ -23,22 +24,33 @@ pub const COMMANDS: [&str; 2] = ["yosys", "g++"];
 /// # Panics
 /// Where a tool fails, and where an assertion does.
 pub fn check(top: &str, verilog: &str, traces: &[Trace]) -> Result<(), Mismatch> {
-    let folder = tempfile::tempdir().expect("a folder");
-    let at = |name: &str| folder.path().join(name);
     let ports = &traces.first().expect("a trace").ports;
-    fs::write(at("design.v"), verilog).expect("written");
-    fs::write(at("main.cpp"), main(top, ports)).expect("written");
-    // Without what only debuggers need.
-    let script = format!("read_verilog design.v; hierarchy -top {top}; write_cxxrtl -g0 design.cc");
-    run(Command::new("yosys").args(["-q", "-p", &script]), folder.path());
-    let mut compiler = Command::new("g++");
-    compiler.args(["-O1", "-std=c++14", "-I"]).arg(runtime()).args(["-o", "design", "main.cpp"]);
-    run(&mut compiler, folder.path());
+    let folder = compile(top, &main(top, ports), verilog, &["-O1"]);
+    let at = |name: &str| folder.path().join(name);
     for trace in traces {
         fs::write(at("trace"), trace.bytes()).expect("written");
         verdict(&run(Command::new(at("design")).arg("trace"), folder.path()), trace)?;
     }
     Ok(())
+}
+
+/// Compiles a design given as Verilog text with `main`, the C++ around it, which includes `design.cc`: the folder in which
+/// the program `design` lies.
+///
+/// # Panics
+/// Where a tool fails.
+pub fn compile(top: &str, main: &str, verilog: &str, options: &[&str]) -> TempDir {
+    let folder = tempfile::tempdir().expect("a folder");
+    let at = |name: &str| folder.path().join(name);
+    fs::write(at("design.v"), verilog).expect("written");
+    fs::write(at("main.cpp"), main).expect("written");
+    // Without what only debuggers need.
+    let script = format!("read_verilog design.v; hierarchy -top {top}; write_cxxrtl -g0 design.cc");
+    run(Command::new("yosys").args(["-q", "-p", &script]), folder.path());
+    let mut compiler = Command::new("g++");
+    compiler.args(options).args(["-std=c++14", "-I"]).arg(runtime());
+    run(compiler.args(["-o", "design", "main.cpp"]), folder.path());
+    folder
 }
 
 /// The headers that a printed design includes, beside the Yosys that is called.
@@ -71,6 +83,6 @@ fn main(top: &str, ports: &[Port]) -> String {
 }
 
 /// A name as CXXRTL has it.
-fn escaped(name: &str) -> String {
+pub fn escaped(name: &str) -> String {
     format!("p_{}", name.replace('_', "__"))
 }

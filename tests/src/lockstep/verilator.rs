@@ -22,6 +22,9 @@ pub enum Speed {
     Run,
 }
 
+/// How the compiler is to make fast programs.
+const FAST: &str = "-O3 -march=native";
+
 /// What a design holds before its first clock, where it does not say.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Start {
@@ -78,7 +81,11 @@ impl Program {
         Program::compile_with(Version::Distribution, top, main, verilog, speed)
     }
 
-    fn compile_with(
+    /// As [`Program::compile`], with one Verilator or the other.
+    ///
+    /// # Panics
+    /// Where a tool fails.
+    pub fn compile_with(
         version: Version,
         top: &str,
         main: &str,
@@ -101,17 +108,33 @@ impl Program {
             "Vtop",
         ]);
         run(verilate.arg("--exe").arg(program.at("main.cpp")).arg("design.v"), &program.at(""));
-        let optimise = if speed == Speed::Run { "-O3 -march=native" } else { "-O1" };
+        match speed {
+            Speed::Run => program.make(FAST, &[]),
+            // Verilator's own library is compiled for each program, and little of it runs at each clock.
+            Speed::Compile => program.make("-O1", &["OPT_GLOBAL=-O0"]),
+        }
+        program
+    }
+
+    fn make(&self, optimise: &str, more: &[&str]) {
         let mut make = Command::new("make");
         // The package's Verilator calls whatever `python` is.
         make.args(["-C", "obj_dir", "-f", "Vtop.mk", "-j2", "PYTHON3=python3"]);
-        make.arg(format!("OPT_FAST={optimise}"));
-        // Verilator's own library is compiled for each program, and little of it runs at each clock.
-        if speed == Speed::Compile {
-            make.arg("OPT_GLOBAL=-O0");
-        }
-        run(&mut make, &program.at(""));
-        program
+        run(make.arg(format!("OPT_FAST={optimise}")).args(more), &self.at(""));
+    }
+
+    /// Compiles it anew for what it did in a run (gcc's profile-guided optimisation).
+    ///
+    /// # Panics
+    /// Where a tool fails.
+    pub fn optimise_for(&self, run: impl FnOnce(&Program)) {
+        let build = |option: &str| {
+            let options = format!("{FAST} {option} -Wno-missing-profile");
+            self.make(&options, &["--always-make", &format!("LDFLAGS={option}")]);
+        };
+        build("-fprofile-generate");
+        run(self);
+        build("-fprofile-use");
     }
 
     /// A file beside it.

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Clocks a second of the model and of Verilator on the Verilog that is printed of it, both over
+//! Clocks a second of the model and of simulators on the Verilog that is printed of it, all over
 //! the same [`Workload`].
 //!
 //! | file | runs a workload in |
 //! | --- | --- |
 //! | [`model`] | the clocked model |
-//! | [`verilator`] | Verilator, as fast as it can be |
+//! | [`simulator`] | Verilator and CXXRTL, as fast as they can be |
 //!
-//! What is outside of the core is the same few instructions on both sides: a set of codes for each
+//! What is outside of the core is the same few instructions everywhere: a set of codes for each
 //! strobe, the code of the channel that was asked for, and at every clock all outputs into a sum,
 //! so that none is spared. Equal sums are equal outputs (the lock-step tests compare them one by
 //! one).
 
 pub mod model;
-pub mod verilator;
+pub mod simulator;
 mod workload;
 
 pub use workload::Workload;

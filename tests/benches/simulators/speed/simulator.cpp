@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Runs @TOP@ over a course and takes the time: arguments TABLE SAMPLES PASSES.
-#include "Vtop.h"
-#include "verilated.h"
+// Runs a design over a workload and takes the time: arguments TABLE SAMPLES PASSES.
+@DESIGN@
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
@@ -11,13 +10,13 @@
 static const size_t CHANNELS = @CHANNELS@;
 static const unsigned CLOCKS_PER_SAMPLE = @CLOCKS_PER_SAMPLE@;
 
-static inline void edge(Vtop* top) {
-    top->clock = 1;
-    top->eval();
-    top->clock = 0;
+static inline void edge(Top* top) {
+    SET(clock, 1);
+    evaluate(top);
+    SET(clock, 0);
 }
 
-static inline uint64_t added(uint64_t sum, const Vtop* top) {
+static inline uint64_t added(uint64_t sum, const Top* top) {
     sum = sum << @ROTATED@ | sum >> (64 - @ROTATED@);
 @SUM@    return sum;
 }
@@ -31,31 +30,31 @@ template <typename T> static std::vector<T> read(const char* path) {
     return words;
 }
 
-static void prepare(Vtop* top, const std::vector<uint64_t>& table) {
-@CONSTANTS@    top->reset = 1;
-    top->clock = 0;
-    for (int clock = 0; clock < 2; clock++) { top->eval(); edge(top); }
-    top->reset = 0;
-    top->write = 1;
+static void prepare(Top* top, const std::vector<uint64_t>& table) {
+@CONSTANTS@    SET(reset, 1);
+    SET(clock, 0);
+    for (int clock = 0; clock < 2; clock++) { evaluate(top); edge(top); }
+    SET(reset, 0);
+    SET(write, 1);
     for (size_t word = 0; word < table.size(); word += 2) {
-        top->address = table[word];
-        top->word = table[word + 1] & @WORD@;
-        top->eval();
+        SET(address, table[word]);
+        SET(word, table[word + 1] & @WORD@);
+        evaluate(top);
         edge(top);
     }
-    top->write = 0;
+    SET(write, 0);
 @CONSTANTS@}
 
-static uint64_t timed(Vtop* top, const std::vector<int32_t>& samples, unsigned passes) {
+static uint64_t timed(Top* top, const std::vector<int32_t>& samples, unsigned passes) {
     size_t channel = 0;
     uint64_t sum = 0;
     for (unsigned pass = 0; pass < passes; pass++) {
         for (size_t set = 0; set < samples.size(); set += CHANNELS) {
             for (unsigned clock = 0; clock < CLOCKS_PER_SAMPLE; clock++) {
-                top->strobe = clock == 0;
-                top->code = samples[set + channel] & @CODE@;
-                top->eval();
-                channel = top->channel;
+                SET(strobe, clock == 0);
+                SET(code, samples[set + channel] & @CODE@);
+                evaluate(top);
+                channel = GET(channel);
                 sum = added(sum, top);
                 edge(top);
             }
@@ -67,7 +66,7 @@ static uint64_t timed(Vtop* top, const std::vector<int32_t>& samples, unsigned p
 int main(int, char** arguments) {
     const auto table = read<uint64_t>(arguments[1]);
     const auto samples = read<int32_t>(arguments[2]);
-    Vtop* top = new Vtop;
+    Top* top = new Top;
     prepare(top, table);
     const auto start = std::chrono::steady_clock::now();
     const uint64_t sum = timed(top, samples, std::atoi(arguments[3]));
