@@ -193,9 +193,10 @@ impl<B: Interface, V: Interpretation> State<B, V> {
 impl<B: Interface> State<B, Clocked> {
     /// The state as a value of whoever clocks it many times, until it is [put back](Self::put_back).
     ///
-    /// The compiler then has the registers in those of the processor. Behind a reference it writes each of them into
-    /// memory in every clock, for a word that is written into a block's memory might be one of them. What is dropped
-    /// has an address, and is in memory, too; so this is not: where it is not put back, its memories are lost.
+    /// The compiler then keeps registers in those of the processor. Behind a reference it writes each of them into
+    /// memory in every clock, for a word that is written into a block's memory might be one of them. A value with a
+    /// destructor has an address, and lies in memory, too; so this one has none: where it is not put back, its memories
+    /// are lost.
     #[inline(always)]
     pub fn take_out(&mut self) -> ManuallyDrop<Self> {
         ManuallyDrop::new(self.take())

@@ -425,9 +425,7 @@ impl Demodulator {
         let r = state.load(self);
         is_set(r.valid | r.reading | (r.last & self.under_way(&r)))
     }
-}
 
-impl Demodulator {
     /// The output `channel` that asks for this one.
     #[inline(always)]
     pub(super) fn asked(&self, channel: usize) -> Signal<Clocked> {
