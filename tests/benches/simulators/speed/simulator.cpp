@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // Runs a design over a workload and takes the time: arguments TABLE SAMPLES PASSES.
-@DESIGN@
+@INCLUDES@
 #include <chrono>
 #include <cstdint>
 #include <cstdio>

@@ -177,7 +177,7 @@ fn main(simulator: Simulator, design: &Design, workload: &Workload) -> String {
     };
     let mask = |name: &str| format!("{:#x}", bits(-1, width(name)));
     include_str!("simulator.cpp")
-        .replace("@DESIGN@", &simulator.design(design.top()))
+        .replace("@INCLUDES@", &simulator.design(design.top()))
         .replace("@CHANNELS@", &workload.channels.to_string())
         .replace("@CLOCKS_PER_SAMPLE@", &workload.clocks_per_sample.to_string())
         .replace("@ROTATED@", &ROTATED.to_string())
