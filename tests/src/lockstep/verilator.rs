@@ -77,15 +77,7 @@ impl Program {
     ///
     /// # Panics
     /// Where a tool fails.
-    pub fn compile(top: &str, main: &str, verilog: &str, speed: Speed) -> Program {
-        Program::compile_with(Version::Distribution, top, main, verilog, speed)
-    }
-
-    /// As [`Program::compile`], with one Verilator or the other.
-    ///
-    /// # Panics
-    /// Where a tool fails.
-    pub fn compile_with(
+    pub fn compile(
         version: Version,
         top: &str,
         main: &str,
@@ -174,7 +166,7 @@ impl Verilated {
         verilog: &str,
         start: Start,
     ) -> Verilated {
-        let program = Program::compile_with(version, top, &main(ports), verilog, Speed::Compile);
+        let program = Program::compile(version, top, &main(ports), verilog, Speed::Compile);
         Verilated { program, start }
     }
 

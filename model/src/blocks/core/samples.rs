@@ -30,10 +30,6 @@ pub trait Observer {
     /// The outputs of a clock.
     fn outputs(&mut self, outputs: Outputs<Signal<Clocked>>);
 
-    /// What the estimator gives in each of the clocks without results that follow.
-    #[inline(always)]
-    fn holds(&mut self, _estimator: &estimator::Out<Clocked>) {}
-
     /// The outputs of a clock that gives neither a word of a frame nor a prompt estimate.
     #[inline(always)]
     fn without_results(&mut self, outputs: Outputs<Signal<Clocked>>) {
@@ -113,7 +109,6 @@ impl Core {
             ..estimator::Inputs::map(self.estimator.inputs(), zero)
         };
         let estimator = self.estimator.held(&state.submodules.estimator, &nothing);
-        observer.holds(&estimator);
         let within = &mut state.submodules;
         let mut front = Front {
             core: self,

@@ -7,7 +7,6 @@ use hapticore_hdl::block::{Block, State};
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::signal::Signal;
 use hapticore_model::blocks::core::{Core, Inputs, Observer, Outputs};
-use hapticore_model::blocks::estimator::{self, FramePort, PromptPort};
 use hapticore_model::blocks::position::TablePort;
 
 use super::{Lap, ROTATED, Workload, moved};
@@ -29,77 +28,37 @@ pub fn run(core: &Core, workload: &Workload) -> Lap {
 #[inline(never)]
 fn timed(core: &Core, state: &mut State<Core, i64>, workload: &Workload) -> u64 {
     let constants = signals(core, workload.constants);
-    let (mut channel, mut sum) = (0, Sum::new(core));
+    let (mut channel, mut sum) = (0, Sum(0));
     for _ in 0..workload.passes {
         core.samples(state, &constants, &workload.samples, &mut channel, &mut sum);
     }
-    sum.sum
+    sum.0
 }
 
 /// Every output of each clock.
-struct Sum {
-    sum: u64,
-    /// By how many bits each output is moved; by as many as there are, where it is absent.
-    moved: Outputs<u32>,
-    /// The share of what the estimator holds.
-    held: u64,
-}
-
-impl Sum {
-    fn new(core: &Core) -> Sum {
-        let mut index = 0;
-        let moved = Outputs::map(core.outputs(), |format| {
-            let present = !format.is_none();
-            index += usize::from(present);
-            if present { moved(index - 1) } else { u64::BITS }
-        });
-        Sum { sum: 0, moved, held: 0 }
-    }
-
-    #[inline(always)]
-    fn add(&mut self, share: u64) {
-        self.sum = self.sum.rotate_left(ROTATED).wrapping_add(share);
-    }
-}
+struct Sum(u64);
 
 impl Observer for Sum {
     #[inline(always)]
     fn outputs(&mut self, outputs: Outputs<Signal<i64>>) {
-        let mut all = 0u64;
-        Outputs::map(Outputs::zip(outputs, self.moved), |(output, moved)| {
-            all = all.wrapping_add(share(output, moved));
-        });
-        self.add(all);
+        self.0 = added(self.0, outputs);
     }
-
-    fn holds(&mut self, estimator: &estimator::Outputs<Signal<i64>>) {
-        let mut held = 0u64;
-        let mut add = |(output, moved)| held = held.wrapping_add(share(output, moved));
-        FramePort::map(FramePort::zip(estimator.frames, self.moved.frames), &mut add);
-        PromptPort::map(PromptPort::zip(estimator.prompt, self.moved.prompt), &mut add);
-        self.held = held;
-    }
-
-    #[inline(always)]
-    fn without_results(&mut self, outputs: Outputs<Signal<i64>>) {
-        let Outputs { channel, serve, closed, carrier, overrun, .. } = outputs;
-        let moved = self.moved;
-        let changing = [
-            share(channel, moved.channel),
-            share(serve, moved.serve),
-            share(closed, moved.closed),
-            share(carrier, moved.carrier),
-            share(overrun, moved.overrun),
-        ];
-        self.add(changing.into_iter().fold(self.held, u64::wrapping_add));
-    }
-}
-
-#[inline(always)]
-fn share(output: Signal<i64>, moved: u32) -> u64 {
-    (output.value as u64).checked_shl(moved).unwrap_or(0)
 }
 
 fn signals(core: &Core, codes: Inputs<i64>) -> Inputs<Signal<i64>> {
     Inputs::map(Inputs::zip(codes, core.inputs()), |(value, format)| Signal { value, format })
+}
+
+#[inline(always)]
+fn added(sum: u64, outputs: Outputs<Signal<i64>>) -> u64 {
+    let mut sum = sum.rotate_left(ROTATED);
+    let mut index = 0;
+    Outputs::map(outputs, |output| {
+        if output.format.is_none() {
+            return;
+        }
+        sum = sum.wrapping_add((output.value as u64) << moved(index));
+        index += 1;
+    });
+    sum
 }

@@ -117,7 +117,7 @@ impl Simulated {
     pub fn new(simulator: Simulator, design: &Design, workload: &Workload) -> Simulated {
         let (main, text) = (main(simulator, design, workload), design.text());
         let verilated = |version| {
-            let program = Program::compile_with(version, design.top(), &main, &text, Speed::Run);
+            let program = Program::compile(version, design.top(), &main, &text, Speed::Run);
             write(workload, &program.at(""));
             program
         };
