@@ -28,37 +28,43 @@ pub fn run(core: &Core, workload: &Workload) -> Lap {
 #[inline(never)]
 fn timed(core: &Core, state: &mut State<Core, i64>, workload: &Workload) -> u64 {
     let constants = signals(core, workload.constants);
-    let (mut channel, mut sum) = (0, Sum(0));
+    let (mut channel, mut sum) = (0, Sum::new(core));
     for _ in 0..workload.passes {
         core.samples(state, &constants, &workload.samples, &mut channel, &mut sum);
     }
-    sum.0
+    sum.sum
 }
 
-/// Every output of each clock.
-struct Sum(u64);
+/// Every output of each clock, as the simulators' program adds them up.
+struct Sum {
+    sum: u64,
+    /// By how many bits each output is moved.
+    moved: Outputs<u32>,
+}
+
+impl Sum {
+    fn new(core: &Core) -> Self {
+        let mut present = 0..;
+        let moved = Outputs::map(core.outputs(), |format| match format.is_none() {
+            true => 0,
+            false => moved(present.next().expect("endless")),
+        });
+        Sum { sum: 0, moved }
+    }
+}
 
 impl Observer for Sum {
+    /// An output that is absent is zero.
     #[inline(always)]
     fn outputs(&mut self, outputs: Outputs<Signal<i64>>) {
-        self.0 = added(self.0, outputs);
+        let mut all = 0u64;
+        Outputs::map(Outputs::zip(outputs, self.moved), |(output, moved)| {
+            all = all.wrapping_add((output.value as u64).wrapping_shl(moved));
+        });
+        self.sum = self.sum.rotate_left(ROTATED).wrapping_add(all);
     }
 }
 
 fn signals(core: &Core, codes: Inputs<i64>) -> Inputs<Signal<i64>> {
     Inputs::map(Inputs::zip(codes, core.inputs()), |(value, format)| Signal { value, format })
-}
-
-#[inline(always)]
-fn added(sum: u64, outputs: Outputs<Signal<i64>>) -> u64 {
-    let mut sum = sum.rotate_left(ROTATED);
-    let mut index = 0;
-    Outputs::map(outputs, |output| {
-        if output.format.is_none() {
-            return;
-        }
-        sum = sum.wrapping_add((output.value as u64) << moved(index));
-        index += 1;
-    });
-    sum
 }
