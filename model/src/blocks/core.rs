@@ -10,6 +10,7 @@
 //! `closed`, break before make. The estimate of a slot may run on while the next window is taken; it
 //! is over before that window's sums come.
 
+mod front;
 mod samples;
 
 pub use self::samples::Observer;

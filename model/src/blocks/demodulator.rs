@@ -38,8 +38,10 @@
 //! `code`. Latency: products + 3 clocks from `start` to the last sum. Source: paper, eqs. 1 and 5,
 //! detected synchronously; docs/physics.md §5 for the window.
 
+mod at_once;
 mod polyphase;
 
+pub(super) use self::at_once::Sample;
 pub(crate) use self::polyphase::{GAIN as POLYPHASE_GAIN, Polyphase};
 use super::multiplier::{self, Multiplier};
 use super::rests::Rests;
@@ -49,7 +51,7 @@ use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format, MAX_WIDTH};
 use hapticore_hdl::memory::{Memory, Write};
 use hapticore_hdl::signal::{
-    Clocked, Floor, HalfEven, Proved, Signal, bit, code, int, is_set, zero,
+    Clocked, Floor, HalfEven, Proved, Signal, Wrap, bit, code, int, is_set, zero,
 };
 use hapticore_hdl::{block, call, next, when};
 
@@ -308,14 +310,31 @@ impl Demodulator {
             | code.equals(hapticore_hdl::signal::code(least, code.format))
     }
 
-    /// The channel whose code the next clock's operand needs.
+    /// The channel whose code the next clock's operand needs, in a step of a sample.
     #[inline(always)]
-    fn channel<V: Interpretation>(&self, r: &Regs<V>) -> Signal<V> {
-        let format = self.channel.as_uint();
-        let ahead = (r.step - int(WINDOWING - 1)).bits(1, format.width);
-        let of_channels = r.step.at_least(int(WINDOWING - 1))
-            & r.step.less_than(int(WINDOWING - 1 + 2 * self.channels));
-        of_channels.select(ahead, code(self.channels as i64, format))
+    fn channel<V: Interpretation>(&self, busy: Signal<V>, step: Signal<V>) -> Signal<V> {
+        let (format, haptic) = (self.channel.as_uint(), self.asked(self.channels as usize));
+        if self.polyphase.is_some() {
+            let asked = step.resize(format, Wrap);
+            return (busy & step.less_than(int(self.channels))).select(asked, haptic);
+        }
+        let ahead = (step - int(WINDOWING - 1)).bits(1, format.width);
+        let of_channels = step.at_least(int(WINDOWING - 1))
+            & step.less_than(int(WINDOWING - 1 + 2 * self.channels));
+        of_channels.select(ahead, haptic)
+    }
+
+    /// The output `channel` that asks for this one.
+    #[inline(always)]
+    pub(super) fn asked<V: Interpretation>(&self, channel: usize) -> Signal<V> {
+        code(channel as i64, self.channel.as_uint())
+    }
+
+    /// What the multiplier gives of two operands, with the point of their product.
+    #[inline(always)]
+    fn of_operands<V: Interpretation>(&self, product: Signal<V>) -> Signal<V> {
+        let product = product.scaled(-2 * self.operand.frac);
+        Signal { format: product.format.assume_frac(self.point), ..product }
     }
 
     /// The multiplier's operands of this step.
@@ -368,12 +387,21 @@ impl Demodulator {
         }
     }
 
+    /// Polyphase: whether a sample begins the sums of its phase, as a window's first five do.
+    #[inline(always)]
+    fn fresh<V: Interpretation>(
+        &self,
+        r: &Regs<V>,
+        first: Signal<V>,
+        phase: Signal<V>,
+    ) -> Signal<V> {
+        first | (r.fresh & !phase.is(0))
+    }
+
     #[inline(always)]
     fn begin<V: Interpretation>(&self, r: Regs<V>, i: In<V>) -> Regs<V> {
         let clipped = i.first.select(bit(false), r.clipped);
-        // Polyphase: a window's first five samples begin the sums of their phases.
-        let fresh = i.first | (r.fresh & !i.phase.is(0));
-        let phase = i.phase;
+        let (fresh, phase) = (self.fresh(&r, i.first, i.phase), i.phase);
         Registers {
             busy: bit(true),
             step: int(0),
@@ -425,12 +453,6 @@ impl Demodulator {
         let r = state.load(self);
         is_set(r.valid | r.reading | (r.last & self.under_way(&r)))
     }
-
-    /// The output `channel` that asks for this one.
-    #[inline(always)]
-    pub(super) fn asked(&self, channel: usize) -> Signal<Clocked> {
-        code(channel as i64, self.channel.as_uint())
-    }
 }
 
 impl Rests for Demodulator {
@@ -442,13 +464,18 @@ impl Rests for Demodulator {
 }
 
 impl Block for Demodulator {
+    #[inline(never)]
+    fn step(&self, state: &mut State<Self, Clocked>, i: In<Clocked>) -> Out<Clocked> {
+        self.clock(state, i)
+    }
+
     #[inline(always)]
     fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
         if let Some(polyphase) = &self.polyphase {
             return self.clock_polyphase(polyphase, state, i);
         }
         let r = state.load(self);
-        let channel = self.channel(&r);
+        let channel = self.channel(r.busy, r.step);
         let outputs = Outputs {
             channel,
             valid: r.valid,
@@ -468,9 +495,7 @@ impl Block for Demodulator {
         let ((summed, index), (_, next_index)) = (place(0), place(1));
         let inputs =
             multiplier::Inputs { enable: r.busy, left: r.left.integer(), right: r.right.integer() };
-        let product = call!(self.multiplier, state, inputs).product;
-        let product = product.scaled(-2 * r.left.format.frac);
-        let product = Signal { format: product.format.assume_frac(self.point), ..product };
+        let product = self.of_operands(call!(self.multiplier, state, inputs).product);
         let so_far = Signal { format: self.sum(), ..self.sums.data(&mut state.submodules.sums) };
         let sum = self.accumulate(r.first, so_far, product);
         let write = Write { enable: r.summed, address: r.index, data: r.sum };

@@ -22,7 +22,7 @@
 //! Sums that come earlier, after an upset of the multiplexer, are dropped. Those of the window after
 //! them are taken whatever is under way, so that an upset of `busy` does not stop the core.
 
-mod position_alone;
+mod alone;
 mod run_on;
 
 use self::run_on::Given;

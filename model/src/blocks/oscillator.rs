@@ -30,7 +30,7 @@ use hapticore_contract::profile::{Method, Profile, Window};
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format};
 use hapticore_hdl::memory::Memory;
-use hapticore_hdl::signal::{Floor, Proved, Signal, Wrap, bit, code, int, zero};
+use hapticore_hdl::signal::{Clocked, Floor, Proved, Signal, Wrap, bit, code, int, is_set, zero};
 use hapticore_hdl::states::States;
 use hapticore_hdl::{block, next, states};
 use std::f64::consts::TAU;
@@ -340,6 +340,28 @@ impl Oscillator {
             ready: at(Cosine),
             ..r
         }
+    }
+}
+
+impl Oscillator {
+    /// A clock of a sample that is under way, with code of its own for each step: in each copy the compiler sees how
+    /// little that is.
+    #[inline(always)]
+    pub(super) fn clock_step(
+        &self,
+        state: &mut State<Self, Clocked>,
+        i: In<Clocked>,
+    ) -> Out<Clocked> {
+        macro_rules! copies {
+            ($($step:ident)*) => {
+                $(if is_set(state.load(self).step.at(Step::$step)) {
+                    state.registers.step = Step::$step.code() as i64;
+                    return self.clock(state, i);
+                })*
+            };
+        }
+        copies!(LookUp Wave Cosine Sine);
+        self.clock(state, i)
     }
 }
 

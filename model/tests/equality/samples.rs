@@ -99,8 +99,14 @@ fn blocks_clocked_apart_are_the_core_clocked_as_a_whole() {
         for (slot, (_, codes)) in slots(&profile, operations(12) as usize, seed).enumerate() {
             let mut codes = &codes[..];
             while !codes.is_empty() {
-                let count = 1 + random.below(40) as usize;
+                // Now and then all that are left, in which a whole program of the position is carried out.
+                let some = 1 + random.below(40) as usize;
+                let count = if random.below(4) == 0 { codes.len() } else { some };
                 let (now, later) = codes.split_at(codes.len().min(count * channels));
+                // Samples that come late, so that strobes meet each step of an estimate.
+                if random.below(2) == 0 {
+                    (0..random.below(2 * clocks)).for_each(|_| pair.clock(constants));
+                }
                 pair.samples(constants, now, &case(&profile, slot));
                 codes = later;
                 // Most slots pass undisturbed: else no window would ever end.

@@ -13,6 +13,20 @@ pub struct Codes {
     data: i64,
 }
 
+impl Codes {
+    /// The words.
+    #[inline(always)]
+    pub fn words(&self) -> &[i64] {
+        &self.words
+    }
+
+    /// The words, for whoever does at once what takes several clocks.
+    #[inline(always)]
+    pub fn words_mut(&mut self) -> &mut [i64] {
+        &mut self.words
+    }
+}
+
 /// The code of `a` with the point where `to` has it, which is never further left than in `a`.
 #[inline(always)]
 fn align(a: Signal<i64>, to: Format) -> i64 {

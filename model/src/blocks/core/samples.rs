@@ -6,24 +6,21 @@
 //! multiplexer  ████                     ████                     ████
 //! oscillator     ███████                  ███████                  ███
 //! demodulator  ██       ██████████████████       █████████████████      within a window
-//! position     ███████████████████████████████████████████                its program, beside all this
+//! estimator    ███████████████████████████████████████████                one of its blocks, beside all this
 //! ```
 //!
-//! From the end of a window's read-out to the next window's last sample, nothing but these is under way in most
-//! clocks: the estimator's other blocks rest, and its outputs stand still. In such clocks each of these blocks is clocked
-//! by itself, clock by clock: they do not depend on one another but from the left to the right of the core, and
-//! the demodulator gives no sum. All other clocks are those of [`Core::clock`].
+//! From the end of a window's read-out to the next window's last sample, the estimator is given nothing, and in most
+//! clocks one of its blocks at most is under way, so that its outputs stand still. For such clocks that block is
+//! carried out by itself (`estimator/alone.rs`), and so are the blocks before the estimator (`front.rs`), for the
+//! demodulator gives no sum. All other clocks are those of [`Core::clock`].
 
+use super::front::Front;
 use super::{Core, In, Inputs, Outputs};
-use crate::blocks::demodulator::{self, Demodulator};
-use crate::blocks::multiplexer::Multiplexer;
-use crate::blocks::oscillator::Oscillator;
+use crate::blocks::estimator;
 use crate::blocks::rests::Rests;
-use crate::blocks::{estimator, multiplexer, oscillator, pace};
 use hapticore_hdl::block::{Block, State};
 use hapticore_hdl::bundle::Bundle;
-use hapticore_hdl::signal::{Clocked, Signal, bit, is_clear, is_set, zero};
-use std::mem::ManuallyDrop;
+use hapticore_hdl::signal::{Clocked, Signal, bit, is_clear, zero};
 
 /// Who looks at the outputs of a core, clock by clock.
 pub trait Observer {
@@ -57,9 +54,10 @@ impl Core {
         let mut codes = codes;
         while !codes.is_empty() {
             let most = (codes.len() / channels) as u64;
+            let estimator = self.held(state, i);
             let apart = self.clocks_apart(state, i, most);
             if apart > 0 {
-                self.apart(state, i, apart, codes, channel, observer);
+                self.apart(state, (i.code, estimator), apart, codes, channel, observer);
             }
             codes = &codes[(apart / clocks) as usize * channels..];
             let Some(sample) = codes.get(..channels) else { return };
@@ -87,10 +85,21 @@ impl Core {
         if !rests || ahead == 0 {
             return 0;
         }
-        self.estimator.run_position(&mut within.estimator, ahead * self.pace.clocks())
+        let gain = i.calibration.capacitance_gain;
+        self.estimator.run_alone(&mut within.estimator, gain, ahead * self.pace.clocks())
     }
 
-    /// So many clocks of everything but the estimator.
+    /// What the estimator gives while it is clocked apart.
+    #[inline(always)]
+    fn held(&self, state: &State<Self, Clocked>, i: &In<Clocked>) -> estimator::Out<Clocked> {
+        let nothing = estimator::Inputs {
+            calibration: i.calibration,
+            ..estimator::Inputs::map(self.estimator.inputs(), zero)
+        };
+        self.estimator.held(&state.submodules.estimator, &nothing)
+    }
+
+    /// So many clocks of what is before the estimator, which gives the same all the while; `code` has a code's format.
     ///
     /// Not inlined: what it borrows is then known to be apart, and its loops have the processor's registers to
     /// themselves.
@@ -98,191 +107,39 @@ impl Core {
     fn apart(
         &self,
         state: &mut State<Self, Clocked>,
-        i: &In<Clocked>,
+        (code, estimator): (Signal<Clocked>, estimator::Out<Clocked>),
         clocks: u64,
         codes: &[i32],
         channel: &mut usize,
         observer: &mut impl Observer,
     ) {
-        let nothing = estimator::Inputs {
-            calibration: i.calibration,
-            ..estimator::Inputs::map(self.estimator.inputs(), zero)
-        };
-        let estimator = self.estimator.held(&state.submodules.estimator, &nothing);
         let within = &mut state.submodules;
         let mut front = Front {
             core: self,
-            code: i.code,
+            code,
             multiplexer: within.multiplexer.take_out(),
             oscillator: within.oscillator.take_out(),
-            demodulator: within.demodulator.take_out(),
+            demodulator: &mut within.demodulator,
             channel: self.demodulator.asked(*channel),
             rests: false,
+            passing: None,
             estimator,
-            overrun: bit(false),
+            // Nothing is left of a sample's pace at its end, and so nothing at its beginning.
+            overrun: within.pace.load(&self.pace).overrun,
             left: 0,
+            later: clocks,
         };
-        let mut left = clocks;
         for codes in codes.chunks_exact(self.demodulator.codes()) {
-            front.left = left.min(self.pace.clocks());
-            left -= front.left;
-            front.overrun = self.pace(&mut within.pace, front.left);
-            front.begin(codes, observer);
-            front.end(codes, observer);
-            if left == 0 {
+            front.left = front.later.min(self.pace.clocks());
+            front.later -= front.left;
+            front.sample(codes, observer);
+            if front.later == 0 {
                 break;
             }
         }
+        debug_assert!(front.passing.is_none(), "a sample behind it is clocked");
         *channel = front.channel.value as usize;
         within.multiplexer.put_back(front.multiplexer);
         within.oscillator.put_back(front.oscillator);
-        within.demodulator.put_back(front.demodulator);
-    }
-
-    /// The clocks of a strobe and those after it, of which none comes too early: whether one has before.
-    #[inline(always)]
-    fn pace(&self, state: &mut State<pace::Pace, Clocked>, clocks: u64) -> Signal<Clocked> {
-        let idle = pace::Inputs { strobe: bit(false), clear: bit(false) };
-        let strobe = pace::Inputs { strobe: bit(true), ..idle };
-        let mut own = state.take_out();
-        let overrun = self.pace.clock(&mut own, strobe).overrun;
-        for _ in 1..clocks {
-            self.pace.clock(&mut own, idle);
-        }
-        state.put_back(own);
-        overrun
-    }
-}
-
-/// Multiplexer, oscillator and demodulator while they are clocked apart.
-struct Front<'a> {
-    core: &'a Core,
-    /// The input of the codes.
-    code: Signal<Clocked>,
-    multiplexer: ManuallyDrop<State<Multiplexer, Clocked>>,
-    oscillator: ManuallyDrop<State<Oscillator, Clocked>>,
-    demodulator: ManuallyDrop<State<Demodulator, Clocked>>,
-    /// The channel that was asked for last.
-    channel: Signal<Clocked>,
-    /// The demodulator rests, and has asked for that channel since.
-    rests: bool,
-    /// What the estimator gives all the while.
-    estimator: estimator::Out<Clocked>,
-    overrun: Signal<Clocked>,
-    /// Clocks to come of the sample.
-    left: u64,
-}
-
-impl Front<'_> {
-    /// The clocks from the strobe until multiplexer and oscillator rest.
-    #[inline(always)]
-    fn begin(&mut self, codes: &[i32], observer: &mut impl Observer) {
-        let mut strobe = bit(true);
-        while self.left > 0 && (is_set(strobe) || self.oscillates()) {
-            let (slot, wave) = self.oscillate(strobe);
-            self.demodulate(codes, &slot, &wave, wave.ready & slot.integrate, observer);
-            strobe = bit(false);
-        }
-    }
-
-    /// The clocks in which multiplexer and oscillator rest.
-    #[expect(
-        clippy::if_same_then_else,
-        reason = "either kind of sums has a loop of its own, from which the compiler drops what the other needs"
-    )]
-    #[inline(always)]
-    fn end(&mut self, codes: &[i32], observer: &mut impl Observer) {
-        if self.left == 0 {
-            return;
-        }
-        let (slot, wave) = self.oscillate(bit(false));
-        if self.core.demodulator.polyphase().is_some() {
-            self.until_rest(codes, &slot, &wave, observer);
-        } else {
-            self.until_rest(codes, &slot, &wave, observer);
-        }
-        (0..self.left).for_each(|_| self.observe(&slot, &wave, observer));
-    }
-
-    #[inline(always)]
-    fn until_rest(
-        &mut self,
-        codes: &[i32],
-        slot: &multiplexer::Out<Clocked>,
-        wave: &oscillator::Out<Clocked>,
-        observer: &mut impl Observer,
-    ) {
-        while self.left > 0 && !self.rests {
-            self.demodulate(codes, slot, wave, bit(false), observer);
-        }
-    }
-
-    /// Whether multiplexer or oscillator are under way.
-    #[inline(always)]
-    fn oscillates(&self) -> bool {
-        self.core.multiplexer.is_busy(&self.multiplexer)
-            || self.core.oscillator.is_busy(&self.oscillator)
-    }
-
-    /// A clock of multiplexer and oscillator.
-    #[inline(always)]
-    fn oscillate(
-        &mut self,
-        strobe: Signal<Clocked>,
-    ) -> (multiplexer::Out<Clocked>, oscillator::Out<Clocked>) {
-        let inputs = multiplexer::Inputs { strobe, clear: bit(false) };
-        let slot = self.core.multiplexer.clock(&mut self.multiplexer, inputs);
-        let inputs =
-            oscillator::Inputs { sample: slot.sample, restart: slot.restart, first: slot.first };
-        (slot, self.core.oscillator.clock(&mut self.oscillator, inputs))
-    }
-
-    /// A clock of the demodulator.
-    #[inline(always)]
-    fn demodulate(
-        &mut self,
-        codes: &[i32],
-        slot: &multiplexer::Out<Clocked>,
-        wave: &oscillator::Out<Clocked>,
-        start: Signal<Clocked>,
-        observer: &mut impl Observer,
-    ) {
-        self.left -= 1;
-        if !self.rests || is_set(start) {
-            self.rests = is_clear(start) && !self.core.demodulator.is_busy(&self.demodulator);
-            let code = i64::from(codes[self.channel.value as usize]);
-            let inputs = demodulator::Inputs {
-                start,
-                first: slot.first,
-                last: slot.last,
-                pad: slot.pad,
-                code: Signal { value: code, ..self.code },
-                cosine: wave.cosine,
-                sine: wave.sine,
-                window: wave.window,
-                phase: wave.phase,
-            };
-            self.channel = self.core.demodulator.clock(&mut self.demodulator, inputs).channel;
-        }
-        self.observe(slot, wave, observer);
-    }
-
-    #[inline(always)]
-    fn observe(
-        &self,
-        slot: &multiplexer::Out<Clocked>,
-        wave: &oscillator::Out<Clocked>,
-        observer: &mut impl Observer,
-    ) {
-        let estimator::Outputs { frames, prompt } = self.estimator;
-        observer.without_results(Outputs {
-            channel: self.channel,
-            serve: slot.pad,
-            closed: slot.closed,
-            carrier: wave.cosine,
-            frames,
-            overrun: self.overrun,
-            prompt,
-        });
     }
 }

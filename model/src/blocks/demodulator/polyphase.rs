@@ -80,6 +80,12 @@ impl Polyphase {
         Polyphase { dropped: width.saturating_sub(2 * LIMB), channel_bits }
     }
 
+    /// The format of a channel's number.
+    #[inline(always)]
+    pub(super) fn channel(&self) -> Format {
+        Format::unsigned(self.channel_bits, 0)
+    }
+
     /// By what a sample of the window joins the in-phase and quadrature results.
     pub fn waves(&self, sample: usize) -> [f64; 2] {
         WAVES.map(|wave| {
@@ -293,11 +299,8 @@ impl Demodulator {
         i: In<V>,
     ) -> Out<V> {
         let r = state.load(self);
-        let haptic = code(self.channels as i64, self.channel.as_uint());
-        let asked = r.step.resize(self.channel.as_uint(), Wrap);
-        let channel = (r.busy & r.step.less_than(int(self.channels))).select(asked, haptic);
         let outputs = Outputs {
-            channel,
+            channel: self.channel(r.busy, r.step),
             valid: r.valid,
             index: self.result(&r),
             sum: r.sum,
@@ -353,7 +356,17 @@ impl Demodulator {
     ) -> Signal<V> {
         // The first channel's product is the second; it joins its sum two steps later.
         let channel = (r.step - int(PIPELINE + 1 - ahead)).bits(0, polyphase.channel_bits);
+        self.word(r.phase, channel)
+    }
+
+    /// Where the sum of a phase and channel lies; that of squares is beside the first phase's.
+    #[inline(always)]
+    pub(super) fn word<V: Interpretation>(
+        &self,
+        phase: Signal<V>,
+        channel: Signal<V>,
+    ) -> Signal<V> {
         let square = channel.is(self.channels);
-        square.select(int(0), r.phase).resize(PHASE, Proved).concat(channel)
+        square.select(int(0), phase).resize(PHASE, Proved).concat(channel)
     }
 }

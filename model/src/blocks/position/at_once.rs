@@ -8,24 +8,30 @@
 use super::Position;
 use super::instruction::{CHECK, LOW, OPEN, SHARE, SLOT_BITS, WRAP};
 use super::program::Program;
-use super::trace::{CELL, QUOTIENT, ROW, ROW_WORDS, TABLE_SCALARS, Term, Then, Trace};
+use super::trace::{CELL, QUOTIENT, ROW, ROW_WORDS, Statement, TABLE_SCALARS, Term, Then, Trace};
 use hapticore_contract::calibration::{Layout, Surface};
 use hapticore_hdl::format::Format;
 
 /// All words that a term can name: a run has a copy of its own, without an allocation.
 type Words = [i64; 256];
 
-/// A program, its constants and a calibration's words.
+/// A program whose jumps have been followed.
 #[derive(Debug, Clone)]
-pub struct AtOnce {
-    trace: Trace,
-    words: Words,
-    table: Vec<i64>,
+pub(super) struct Followed {
+    pub trace: Trace,
     word: Format,
     /// Digits of a quotient.
     digits: u32,
     /// Bits of half a ratio that a word does not have.
     rest: u32,
+}
+
+/// A program, its constants and a calibration's words.
+#[derive(Debug, Clone)]
+pub struct AtOnce {
+    program: Followed,
+    words: Words,
+    table: Vec<i64>,
 }
 
 /// What the program gives out, as codes.
@@ -42,53 +48,42 @@ pub struct Placed {
 }
 
 /// The registers of a run.
-struct Run<'a> {
-    of: &'a AtOnce,
+pub(super) struct Run<'a> {
+    program: &'a Followed,
+    /// The table's words; those that the first part does not have are in the second.
+    table: [&'a [i64]; 2],
     ratios: [i64; 3],
     words: Words,
     sum: i64,
-    quotient: i64,
-    placed: Placed,
+    /// Where the table's words were last read from.
+    pub base: i64,
+    pub quotient: i64,
+    pub placed: Placed,
 }
 
-impl AtOnce {
-    /// The program of a position block over a table of these codes.
-    pub(super) fn new(position: &Position, table: Vec<i64>) -> Self {
+impl Followed {
+    /// The program of a position block.
+    pub fn new(position: &Position) -> Self {
         let (word, ratio) = (position.word, position.ratio);
-        let (constants, program) = (position.scratch.codes(), Program::new(word));
-        assert!(constants.len() <= 1 << SLOT_BITS, "slots are numbered with {SLOT_BITS} bits");
-        let mut words = [0; 256];
-        words[..constants.len()].copy_from_slice(&constants);
-        let scalars = &table[..2 * Layout::SCALARS];
-        words[TABLE_SCALARS.into()..][..scalars.len()].copy_from_slice(scalars);
-        AtOnce {
-            trace: Trace::of(&program, position.steps),
-            words,
-            table,
+        let program = Program::new(word);
+        Followed {
+            trace: Trace::of(&program, position.steps, position.wait),
             word,
             digits: program.digits().into(),
             rest: (ratio.frac + 1 - word.frac) as u32,
         }
     }
 
-    /// What the program makes of r_x, r_y and the share.
-    pub(super) fn run(&self, ratios: [i64; 3]) -> Placed {
-        let mut run = Run {
-            of: self,
-            ratios,
-            words: self.words,
-            sum: self.half(),
-            quotient: 0,
-            placed: Placed::default(),
-        };
-        let mut terms = &self.trace.terms[..];
-        for statement in &self.trace.statements {
-            let (these, others) = terms.split_at(statement.terms);
-            run.add(these);
-            run.conclude(statement.then);
-            terms = others;
-        }
-        run.placed
+    /// A run with nothing in the sum, with these words of the scratch memory.
+    #[inline]
+    pub fn run<'a>(&'a self, table: [&'a [i64]; 2], scratch: &[i64], ratios: [i64; 3]) -> Run<'a> {
+        let mut words = [0; 256];
+        words[..scratch.len()].copy_from_slice(scratch);
+        let [first, second] = table;
+        let scalars = words[TABLE_SCALARS.into()..].iter_mut().take(2 * Layout::SCALARS);
+        scalars.zip(first.iter().chain(second)).for_each(|(word, &of_table)| *word = of_table);
+        let placed = Placed::default();
+        Run { program: self, table, ratios, words, sum: self.half(), base: 0, quotient: 0, placed }
     }
 
     fn bits(&self) -> u32 {
@@ -100,7 +95,47 @@ impl AtOnce {
     }
 }
 
+impl AtOnce {
+    /// The program of a position block over a table of these codes.
+    pub(super) fn new(position: &Position, table: Vec<i64>) -> Self {
+        let constants = position.scratch.codes();
+        assert!(constants.len() <= 1 << SLOT_BITS, "slots are numbered with {SLOT_BITS} bits");
+        let program = Followed::new(position);
+        let words = program.run([&table, &[]], &constants, [0; 3]).words;
+        AtOnce { program, words, table }
+    }
+
+    /// What the program makes of r_x, r_y and the share.
+    pub(super) fn run(&self, ratios: [i64; 3]) -> Placed {
+        let Followed { trace, .. } = &self.program;
+        let (sum, placed) = (self.program.half(), Placed::default());
+        let table = [&self.table[..], &[]];
+        let program = &self.program;
+        let words = self.words;
+        let mut run = Run { program, table, ratios, words, sum, base: 0, quotient: 0, placed };
+        run.execute(&trace.statements, &trace.terms);
+        run.placed
+    }
+}
+
 impl Run<'_> {
+    /// Executes statements with their terms.
+    #[inline]
+    pub fn execute(&mut self, statements: &[Statement], terms: &[Term]) {
+        let mut terms = terms;
+        for statement in statements {
+            let (these, others) = terms.split_at(statement.terms);
+            self.add(these);
+            self.conclude(statement.then);
+            terms = others;
+        }
+    }
+
+    /// The words of the scratch memory.
+    pub fn scratch(&self) -> &[i64] {
+        &self.words[..1 << SLOT_BITS]
+    }
+
     #[inline(always)]
     fn word(&self, number: u8) -> i64 {
         self.words[usize::from(number)]
@@ -124,12 +159,12 @@ impl Run<'_> {
             Then::Store { slot } => {
                 let (result, _) = self.result();
                 self.set(slot, result);
-                self.sum = self.of.half();
+                self.sum = self.program.half();
             }
             Then::StoreWith { slot, option, surface } => self.store(slot, option, surface),
             Then::Row => self.row(),
             Then::Cell { slot } => {
-                let fraction = self.of.bits() - 5;
+                let fraction = self.program.bits() - 5;
                 self.set(CELL, self.word(slot) >> fraction << fraction);
             }
             Then::Digits { pair, first, count } => self.divide(pair, first, count),
@@ -142,10 +177,13 @@ impl Run<'_> {
     /// The table's words from the sum, as an integer, on.
     #[inline(always)]
     fn row(&mut self) {
-        let table = &self.of.table;
-        let base = (self.sum >> self.of.bits()) as usize & (table.len().next_power_of_two() - 1);
-        for (number, word) in (ROW..).zip(0..ROW_WORDS) {
-            self.set(number, table.get(base + word).copied().unwrap_or(0));
+        let [first, second] = self.table;
+        let words = first.len() + second.len();
+        let base = (self.sum >> self.program.bits()) as usize & (words.next_power_of_two() - 1);
+        self.base = base as i64;
+        for (number, address) in (ROW..).zip(base..base + ROW_WORDS) {
+            let word = first.get(address).or_else(|| second.get(address - first.len()));
+            self.set(number, word.copied().unwrap_or(0));
         }
     }
 
@@ -159,39 +197,40 @@ impl Run<'_> {
             self.quotient = self.quotient << 1 | i64::from(!is_negative);
             self.sum += if is_negative { negative } else { positive } * power;
         }
-        self.quotient &= (1 << self.of.digits) - 1;
+        self.quotient &= (1 << self.program.digits) - 1;
     }
 
     /// The sum as a word, and whether it was saturated.
     #[inline(always)]
     fn result(&self) -> (i64, bool) {
-        let floor = self.sum >> self.of.bits();
-        let (low, high) = (self.of.word.min_code() as i64, self.of.word.max_code() as i64);
+        let floor = self.sum >> self.program.bits();
+        let (low, high) =
+            (self.program.word.min_code() as i64, self.program.word.max_code() as i64);
         (floor.clamp(low, high), !(low..=high).contains(&floor))
     }
 
     fn store(&mut self, slot: u8, option: u8, surface: u8) {
         let (result, _) = self.result();
         if option & CHECK != 0 {
-            let tolerance = 1 << (self.of.bits() - u32::from(Position::TOLERANCE_BITS));
+            let tolerance = 1 << (self.program.bits() - u32::from(Position::TOLERANCE_BITS));
             let beyond = !(-tolerance..tolerance).contains(&result);
             self.placed.invalid = beyond | (surface == 1 && self.placed.invalid);
         }
         if option & OPEN != 0 {
             self.placed.lost = result < 0;
         }
-        let unused = 64 - u32::from(self.of.word.width);
-        let wrapped = self.sum >> self.of.bits() << unused >> unused;
+        let unused = 64 - u32::from(self.program.word.width);
+        let wrapped = self.sum >> self.program.bits() << unused >> unused;
         self.set(slot, if option & WRAP != 0 { wrapped } else { result });
-        self.sum = self.of.half();
+        self.sum = self.program.half();
     }
 
     fn input(&self, option: u8, surface: u8) -> i64 {
         let ratio = self.ratios[if option & SHARE != 0 { 2 } else { usize::from(surface & 1) }];
-        let rest = self.of.rest;
+        let rest = self.program.rest;
         match option & LOW {
             0 => ratio >> rest,
-            _ => (ratio & ((1 << rest) - 1)) << (self.of.bits() - rest),
+            _ => (ratio & ((1 << rest) - 1)) << (self.program.bits() - rest),
         }
     }
 
@@ -200,15 +239,15 @@ impl Run<'_> {
         let is_place = surface != Surface::Resistance as usize;
         self.placed.outputs[surface] = if is_place { result } else { result.max(0) };
         self.placed.saturated |= is_place && held;
-        self.sum = self.of.half();
+        self.sum = self.program.half();
     }
 
     /// The quotient of its digits, of which a set bit is +1 and another −1, as a place.
     fn of_digits(&self) -> i64 {
-        let digits = self.of.digits;
+        let digits = self.program.digits;
         let unused = 64 - digits;
         let coded = (self.quotient ^ 1 << (digits - 1)) << unused >> unused;
-        coded << (self.of.bits() - digits - 2)
+        coded << (self.program.bits() - digits - 2)
     }
 }
 

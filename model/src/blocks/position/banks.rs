@@ -20,7 +20,7 @@ use hapticore_hdl::block;
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format};
 use hapticore_hdl::memory::{Memory, Write};
-use hapticore_hdl::signal::{Proved, Signal, bit, int};
+use hapticore_hdl::signal::{Clocked, Proved, Signal, bit, int};
 
 block! {
     /// A table in two banks.
@@ -77,6 +77,13 @@ impl Banks {
         };
         let address = int((address % bank.words) as u64).resize(bank.address(), Proved);
         bank.access(words, address, Write { enable: bit(true), address, data: word });
+    }
+}
+
+impl Submodules<Clocked> {
+    /// The words of the lower and of the upper bank.
+    pub(super) fn words(&self) -> [&[i64]; 2] {
+        [self.low.words(), self.high.words()]
     }
 }
 

@@ -39,6 +39,7 @@
 mod at_once;
 mod banks;
 mod instruction;
+mod leaps;
 mod program;
 mod run;
 mod trace;
@@ -46,6 +47,7 @@ mod trace;
 use self::at_once::AtOnce;
 use self::banks::Banks;
 use self::instruction::{COUNT, LOW, OPEN, Operation, SCALARS, SHARE, SURFACE, WRAP};
+use self::leaps::Leaps;
 use self::program::Program;
 use super::multiplier::{self, Multiplier};
 use hapticore_contract::calibration::Layout;
@@ -56,6 +58,7 @@ use hapticore_hdl::memory::{Memory, Write};
 use hapticore_hdl::signal::{Floor, Proved, Saturate, Signal, Wrap, bit, code, int, is_set, zero};
 use hapticore_hdl::states::States;
 use hapticore_hdl::{block, bundle, call, states, when};
+use std::sync::{Arc, OnceLock};
 
 bundle! {
     /// The port through which a calibration writes the position table.
@@ -107,6 +110,8 @@ block! {
         sheet: Format,
         /// For interpretations as codes, which need not step the program's cycles.
         at_once: Option<AtOnce>,
+        /// For clocks of codes at which nobody looks; made when first used.
+        leaps: Arc<OnceLock<Leaps>>,
     }
     submodules {
         /// The words, where those that are read have no register.
@@ -244,6 +249,7 @@ impl Position {
             position: profile.formats.position,
             sheet: profile.sheet(),
             at_once: None,
+            leaps: Arc::default(),
         }
     }
 

@@ -139,6 +139,14 @@ pub struct Executed<'a> {
     pub jumps: bool,
 }
 
+impl Executed<'_> {
+    /// Its clocks, where a product takes so many from its operands' clock.
+    pub fn clocks(&self, product: u64) -> u64 {
+        let own = if self.instruction.waits() { 2 + product } else { 1 };
+        own + u64::from(self.jumps)
+    }
+}
+
 /// Writes a program.
 #[derive(Default)]
 struct Writer {
@@ -233,9 +241,7 @@ impl Program {
     /// operands' clock.
     pub fn clocks(&self, steps: u64, product: u64) -> u64 {
         let mut clocks = 0;
-        self.execute(steps, |Executed { instruction, jumps, .. }| {
-            clocks += if instruction.waits() { 2 + product } else { 1 } + u64::from(jumps);
-        });
+        self.execute(steps, |executed| clocks += executed.clocks(product));
         clocks
     }
 

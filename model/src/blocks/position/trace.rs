@@ -58,11 +58,27 @@ pub(super) struct Statement {
     pub then: Then,
 }
 
+/// A jump that a program makes while nothing is under way: all products are in the sum, and that has been stored. No
+/// program goes on after one with a row, a cell or a quotient that it has read before.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Jump {
+    /// Clocks up to it, without that which it adds.
+    pub clocks: u64,
+    /// Clocks up to that in which operands and products from before it are all replaced.
+    pub replaced: u64,
+    /// Where the base lies among the scalars; none where the sum has set it.
+    pub scalars: Option<u8>,
+    /// How many terms, and statements, come before it.
+    pub terms: usize,
+    pub statements: usize,
+}
+
 /// A program as it is run.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Trace {
     pub terms: Vec<Term>,
     pub statements: Vec<Statement>,
+    pub jumps: Vec<Jump>,
 }
 
 /// Follows a program.
@@ -80,11 +96,39 @@ struct Tracer {
 }
 
 impl Trace {
-    /// The program with so many steps.
-    pub fn of(program: &Program, steps: u64) -> Self {
-        let mut tracer = Tracer::default();
-        program.execute(steps, |executed| tracer.add(&executed));
-        tracer.trace
+    /// The program with so many steps, where a product takes so many clocks from its operands'.
+    pub fn of(program: &Program, steps: u64, product: u64) -> Self {
+        let (mut tracer, mut clocks) = (Tracer::default(), 0);
+        let [mut loads, mut products] = [Vec::new(), Vec::new()];
+        program.execute(steps, |executed| {
+            clocks += executed.clocks(product);
+            tracer.add(&executed);
+            match executed.instruction.operation {
+                Operation::Load | Operation::LoadCell => loads.push(clocks),
+                Operation::Multiply | Operation::MultiplyTable => products.push(clocks),
+                _ => (),
+            }
+            if executed.jumps && tracer.nothing_is_under_way() {
+                tracer.trace.jumps.push(Jump {
+                    clocks: clocks - 1,
+                    replaced: 0,
+                    scalars: tracer.scalars,
+                    terms: tracer.trace.terms.len(),
+                    statements: tracer.trace.statements.len(),
+                });
+            }
+        });
+        let mut trace = tracer.trace;
+        let mut jumps = std::mem::take(&mut trace.jumps);
+        jumps.retain_mut(|jump| {
+            let next = |of: &[u64]| of.iter().copied().find(|&clocks| clocks > jump.clocks);
+            let replaced = next(&loads).zip(next(&products));
+            // A product that has begun is in the sum by then.
+            jump.replaced = replaced.map_or(0, |(load, begun)| load.max(begun) + product + 1);
+            replaced.is_some()
+        });
+        trace.jumps = jumps;
+        trace
     }
 }
 
@@ -124,6 +168,17 @@ impl Tracer {
             Operation::Set | Operation::Repeat | Operation::Surfaces => (),
             Operation::Pass | Operation::Found | Operation::End => (),
         }
+    }
+
+    /// Whether all products are in the sum, and that has been stored.
+    fn nothing_is_under_way(&self) -> bool {
+        let stores = |then: &Then| {
+            matches!(then, Then::Store { .. } | Then::StoreWith { .. } | Then::Output { .. })
+        };
+        let adds = |of: &&Statement| of.terms > 0 || matches!(of.then, Then::Digits { .. });
+        let mut statements = self.trace.statements.iter().rev();
+        self.trace.terms.len() == self.ended
+            && statements.find(|of| stores(&of.then) || adds(of)).is_some_and(|of| stores(&of.then))
     }
 
     fn multiply(&mut self, slot: u8) {
