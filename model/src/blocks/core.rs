@@ -11,9 +11,10 @@
 //! is over before that window's sums come.
 
 mod front;
+mod observer;
 mod samples;
 
-pub use self::samples::Observer;
+pub use self::observer::Observer;
 use super::demodulator::{self, Demodulator};
 use super::estimator::{self, Calibration, Estimator, FramePort, PromptPort};
 use super::multiplexer::{self, Multiplexer};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Fidelity `clock`: every clock of the core, as the board runs it.
+//! Fidelity `clock`: every clock of the core, as the board runs it. What nobody looks at between clocks of whole samples
+//! is carried out at once (`blocks/core/samples.rs`).
 
 use super::{Gathered, signals};
 use crate::blocks::core::{Core, Inputs, Observer, Outputs};

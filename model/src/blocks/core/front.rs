@@ -5,7 +5,7 @@
 //! taken at once (`demodulator/at_once.rs`), with `channel` in each of their clocks, but for the last one: its clocks are
 //! carried out, and leave every register as if all had been.
 
-use super::samples::Observer;
+use super::observer::Observer;
 use super::{Core, Outputs};
 use crate::blocks::demodulator::{self, Demodulator, Sample};
 use crate::blocks::estimator;

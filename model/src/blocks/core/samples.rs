@@ -15,24 +15,13 @@
 //! demodulator gives no sum. All other clocks are those of [`Core::clock`].
 
 use super::front::Front;
-use super::{Core, In, Inputs, Outputs};
+use super::observer::Observer;
+use super::{Core, In, Inputs};
 use crate::blocks::estimator;
 use crate::blocks::rests::Rests;
 use hapticore_hdl::block::{Block, State};
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::signal::{Clocked, Signal, bit, is_clear, zero};
-
-/// Who looks at the outputs of a core, clock by clock.
-pub trait Observer {
-    /// The outputs of a clock.
-    fn outputs(&mut self, outputs: Outputs<Signal<Clocked>>);
-
-    /// The outputs of a clock that gives neither a word of a frame nor a prompt estimate.
-    #[inline(always)]
-    fn without_results(&mut self, outputs: Outputs<Signal<Clocked>>) {
-        self.outputs(outputs);
-    }
-}
 
 impl Core {
     /// The clocks of samples that follow one another at the profile's pace: `codes` are those of every channel, sample

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The program's results without its clocks, for fidelity `fixed`: most of a slot's clocks are the
-//! program's, and two in three of those wait for products.
+//! The program's results without its clocks: most of a slot's clocks are the program's, and two in three of those wait
+//! for products. Fidelity `fixed` has all of it at once, `clock` what lies between two jumps (`leaps.rs`).
 //!
 //! Its jumps are followed once for all slots (`trace.rs`). Instructions are as `instruction.rs` says, on
 //! raw codes. `fixed` and `clock` are held to be equal to the bit.
@@ -13,7 +13,7 @@ use hapticore_contract::calibration::{Layout, Surface};
 use hapticore_hdl::format::Format;
 
 /// All words that a term can name: a run has a copy of its own, without an allocation.
-type Words = [i64; 256];
+pub(super) type Words = [i64; 256];
 
 /// A program whose jumps have been followed.
 #[derive(Debug, Clone)]
@@ -74,14 +74,18 @@ impl Followed {
         }
     }
 
-    /// A run with nothing in the sum, with these words of the scratch memory.
-    #[inline]
-    pub fn run<'a>(&'a self, table: [&'a [i64]; 2], scratch: &[i64], ratios: [i64; 3]) -> Run<'a> {
+    /// The words of a run over this table, from those of the scratch memory.
+    pub fn words(table: [&[i64]; 2], scratch: &[i64]) -> Words {
         let mut words = [0; 256];
         words[..scratch.len()].copy_from_slice(scratch);
         let [first, second] = table;
         let scalars = words[TABLE_SCALARS.into()..].iter_mut().take(2 * Layout::SCALARS);
         scalars.zip(first.iter().chain(second)).for_each(|(word, &of_table)| *word = of_table);
+        words
+    }
+
+    /// A run with nothing in the sum.
+    pub fn run<'a>(&'a self, table: [&'a [i64]; 2], words: Words, ratios: [i64; 3]) -> Run<'a> {
         let placed = Placed::default();
         Run { program: self, table, ratios, words, sum: self.half(), base: 0, quotient: 0, placed }
     }
@@ -101,18 +105,14 @@ impl AtOnce {
         let constants = position.scratch.codes();
         assert!(constants.len() <= 1 << SLOT_BITS, "slots are numbered with {SLOT_BITS} bits");
         let program = Followed::new(position);
-        let words = program.run([&table, &[]], &constants, [0; 3]).words;
+        let words = Followed::words([&table, &[]], &constants);
         AtOnce { program, words, table }
     }
 
     /// What the program makes of r_x, r_y and the share.
     pub(super) fn run(&self, ratios: [i64; 3]) -> Placed {
-        let Followed { trace, .. } = &self.program;
-        let (sum, placed) = (self.program.half(), Placed::default());
-        let table = [&self.table[..], &[]];
-        let program = &self.program;
-        let words = self.words;
-        let mut run = Run { program, table, ratios, words, sum, base: 0, quotient: 0, placed };
+        let trace = &self.program.trace;
+        let mut run = self.program.run([&self.table, &[]], self.words, ratios);
         run.execute(&trace.statements, &trace.terms);
         run.placed
     }

@@ -68,7 +68,8 @@ impl Position {
             _ => unreachable!("a table or its banks"),
         };
         let ratios = [i.r_x, i.r_y, i.share].map(|ratio| ratio.value);
-        let mut run = program.run(table, within.scratch.words(), ratios);
+        let words = Followed::words(table, within.scratch.words());
+        let mut run = program.run(table, words, ratios);
         (run.base, run.quotient) = (r.base, r.quotient);
         run.placed = Placed {
             outputs: [r.x, r.y, r.sheet],

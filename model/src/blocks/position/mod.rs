@@ -335,25 +335,10 @@ impl Block for Position {
             return outputs;
         }
         let now = self.decode(&r);
-        self.cycle(state, r, i, &now);
-        outputs
-    }
-}
-
-impl Position {
-    /// A clock in which something happens.
-    #[inline(always)]
-    fn cycle<V: Interpretation>(
-        &self,
-        state: &mut State<Self, V>,
-        r: Regs<V>,
-        i: In<V>,
-        now: &Decoded<V>,
-    ) {
         let (result, held) = self.result(&r);
-        let read = self.read(state, &r, &i, now, result);
-        let next = self.follow(self.compute(r, &read, now), &r, now, &read);
-        let next = self.give_out(next, &r, now, result, held);
+        let read = self.read(state, &r, &i, &now, result);
+        let next = self.follow(self.compute(r, &read, &now), &r, &now, &read);
+        let next = self.give_out(next, &r, &now, result, held);
         let begun = Registers {
             running: bit(true),
             bubble: bit(true),
@@ -367,6 +352,7 @@ impl Position {
             ..next
         };
         state.store(self, when!(i.start => begun, else next));
+        outputs
     }
 }
 
