@@ -207,7 +207,7 @@ impl DeviceCalibration {
     /// A number that the profile's formats cannot represent, a map that no position table fits.
     pub fn for_profile(&self, profile: &Profile) -> Result<Calibration, DeviceWordsError> {
         let device = &self.device;
-        let place = |&[x, y, r_x, r_y, sheet_ohm]: &[f64; 5]| Point {
+        let place = |[x, y, r_x, r_y, sheet_ohm]: [f64; 5]| Point {
             x,
             y,
             r_x,
@@ -215,7 +215,7 @@ impl DeviceCalibration {
             sheet: sheet_ohm / device.ohm(),
         };
         let (_, places) = refine::refine(self.map.columns, &self.map.places);
-        let points: Vec<_> = places.iter().map(place).collect();
+        let points: Vec<_> = places.into_iter().map(place).collect();
         let force_table = match (&self.force, profile.force.law) {
             (None, ForceLaw::Table) => return Err(DeviceWordsError::NoForceTable),
             (force, _) => force.clone().unwrap_or_default().for_profile(profile, device),

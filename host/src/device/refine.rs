@@ -12,44 +12,62 @@ pub type Place = [f64; 5];
 pub fn refine(columns: usize, places: &[Place]) -> (usize, Vec<Place>) {
     let rows = places.len() / columns;
     let times = |points: usize, least: usize| (least - 1).div_ceil(points - 1).max(1);
-    let wide: Vec<Place> =
-        places.chunks(columns).flat_map(|row| along(row, times(columns, LEAST[0]))).collect();
-    let columns = wide.len() / rows;
-    let column = |k: usize| wide.iter().skip(k).step_by(columns).copied().collect::<Vec<_>>();
-    let lines: Vec<Vec<Place>> =
-        (0..columns).map(|k| along(&column(k), times(rows, LEAST[1]))).collect();
-    let fine =
-        (0..lines[0].len()).flat_map(|row| lines.iter().map(move |line| line[row])).collect();
+    let across = steps(columns, times(columns, LEAST[0]));
+    let along =
+        |row: &[Place]| across.iter().map(|step| step.between(|k| row[k])).collect::<Vec<_>>();
+    let wide: Vec<Place> = places.chunks(columns).flat_map(along).collect();
+    let columns = across.len();
+    let down = steps(rows, times(rows, LEAST[1]));
+    let mut fine = Vec::with_capacity(down.len() * columns);
+    for step in down {
+        fine.extend((0..columns).map(|column| step.between(|row| wide[row * columns + column])));
+    }
     (columns, fine)
 }
 
-/// A line with `times` as many steps.
-fn along(line: &[Place], times: usize) -> Vec<Place> {
-    let at = |k: isize| point(line, k);
-    let step = |k: usize| {
-        let (k, of) = (k / times, (k % times) as f64 / times as f64);
-        let k = k as isize;
-        cubic([at(k - 1), at(k), at(k + 1), at(k + 2)], of)
-    };
-    (0..=(line.len() - 1) * times).map(step).collect()
+/// A place between two points of a line, or on the first of them.
+struct Step {
+    /// Points of the line.
+    points: usize,
+    /// The point before it, and how far it is from there to the next.
+    after: usize,
+    share: f64,
+}
+
+/// The places of a line of so many points with `times` as many steps.
+fn steps(points: usize, times: usize) -> Vec<Step> {
+    let step =
+        |k: usize| Step { points, after: k / times, share: (k % times) as f64 / times as f64 };
+    (0..=(points - 1) * times).map(step).collect()
+}
+
+impl Step {
+    /// The line at this place.
+    fn between(&self, line: impl Fn(usize) -> Place) -> Place {
+        let k = self.after as isize;
+        let near = [k - 1, k, k + 1, k + 2].map(|k| point(&line, self.points, k));
+        cubic(near, self.share)
+    }
 }
 
 /// A point of a line; beyond its ends as the parabola through the last three, or the line through
 /// two.
-fn point(line: &[Place], k: isize) -> Place {
-    let last = line.len() as isize - 1;
+fn point(line: impl Fn(usize) -> Place, points: usize, k: isize) -> Place {
+    let last = points as isize - 1;
     let beyond = |end: isize, inwards: isize| {
-        let at = |k: isize| line[(end + k * inwards) as usize];
-        let (a, b) = (at(0), at(1));
-        match line.get((end + 2 * inwards) as usize) {
-            Some(c) => std::array::from_fn(|n| 3.0 * a[n] - 3.0 * b[n] + c[n]),
-            None => std::array::from_fn(|n| 2.0 * a[n] - b[n]),
+        let [a, b] = [end, end + inwards].map(|k| line(k as usize));
+        match end + 2 * inwards {
+            c if (0..=last).contains(&c) => {
+                let c = line(c as usize);
+                std::array::from_fn(|n| 3.0 * a[n] - 3.0 * b[n] + c[n])
+            }
+            _ => std::array::from_fn(|n| 2.0 * a[n] - b[n]),
         }
     };
     match k {
         k if k < 0 => beyond(0, 1),
         k if k > last => beyond(last, -1),
-        k => line[k as usize],
+        k => line(k as usize),
     }
 }
 

@@ -100,11 +100,12 @@ impl Layout {
     /// Cells of a surface along an axis: those of the resistance reach at least as far as the
     /// ratios'.
     pub fn cells(&self, surface: Surface, axis: Axis) -> usize {
-        let cells = self.ratios[axis as usize] - 2;
-        match surface {
-            Surface::Resistance => cells.div_ceil(1 << self.shift) | 1,
-            _ => cells,
-        }
+        self.wider_cells(if surface == Surface::Resistance { self.shift } else { 0 }, axis)
+    }
+
+    /// Cells along an axis of which each is as wide as `2^shift` of the ratios'.
+    pub fn wider_cells(&self, shift: u8, axis: Axis) -> usize {
+        (self.ratios[axis as usize] - 2).div_ceil(1 << shift) | 1
     }
 
     /// Coefficients of a surface along an axis.

@@ -74,31 +74,41 @@ impl Fit {
         }
     }
 
-    /// As [`Fit::ask`], of nine entries of a raster: three of each of three rows from the one that is
-    /// told on.
-    pub fn ask_square(
+    /// As [`Fit::ask`], many equations of nine entries of a raster: three of each of three rows from the one
+    /// that is told on. A row's entries weigh what they weigh `across` times the row's own weight.
+    pub fn ask_square<const LAYERS: usize>(
         &mut self,
         first: usize,
-        mut weights: [[f64; 3]; 3],
-        values: &[f64],
-        importance: f64,
+        rows: [f64; 3],
+        across: &Moments<LAYERS>,
     ) {
-        if self.along_columns {
-            weights = [0, 1, 2].map(|n| weights.map(|row| row[n]));
-        }
-        for (p, of_line) in weights.iter().enumerate() {
-            for (n, weight) in of_line.iter().enumerate() {
-                let (row, a) = (self.order[first] + p * self.pitch + n, importance * weight);
+        let down = rows.map(|a| rows.map(|b| a * b));
+        let (lines, along) = match self.along_columns {
+            true => (&across.products, &down),
+            false => (&down, &across.products),
+        };
+        let first = self.order[first];
+        for (p, of_line) in lines.iter().enumerate() {
+            for (n, weights) in along.iter().enumerate() {
+                let row = first + p * self.pitch + n;
                 let own = self.at(row, row);
-                for (q, others) in weights[..p].iter().enumerate() {
+                for (q, by) in of_line[..p].iter().enumerate() {
                     let start = own - n - (p - q) * self.pitch;
-                    add(&mut self.normal[start..start + 3], a, others);
+                    add(&mut self.normal[start..start + 3], *by, weights);
                 }
-                add(&mut self.normal[own - n..=own], a, &of_line[..=n]);
-                self.right
-                    .iter_mut()
-                    .zip(values)
-                    .for_each(|(right, value)| right[row] += a * value);
+                add(&mut self.normal[own - n..=own], of_line[p], &weights[..=n]);
+            }
+        }
+        for (right, values) in self.right.iter_mut().zip(&across.values) {
+            for (p, row) in rows.iter().enumerate() {
+                for (n, value) in values.iter().enumerate() {
+                    right[first
+                        + if self.along_columns {
+                            n * self.pitch + p
+                        } else {
+                            p * self.pitch + n
+                        }] += row * value;
+                }
             }
         }
     }
@@ -174,6 +184,27 @@ impl Fit {
             x[row] = found;
             x[first..row].iter_mut().zip(before).for_each(|(x, l)| *x -= l * found);
         }
+    }
+}
+
+/// Equations of three neighbours in a row, one value per layer, added up: what they bring to the normal
+/// equations and to the right-hand sides.
+#[derive(Debug, Clone, Copy)]
+pub struct Moments<const LAYERS: usize> {
+    products: [[f64; 3]; 3],
+    values: [[f64; 3]; LAYERS],
+}
+
+impl<const LAYERS: usize> Moments<LAYERS> {
+    /// Of no equation.
+    pub const NONE: Self = Moments { products: [[0.0; 3]; 3], values: [[0.0; 3]; LAYERS] };
+
+    /// Adds an equation.
+    #[inline(always)]
+    pub fn add(&mut self, weights: [f64; 3], values: [f64; LAYERS], importance: f64) {
+        let important = weights.map(|weight| importance * weight);
+        self.products.iter_mut().zip(important).for_each(|(sums, by)| add(sums, by, &weights));
+        self.values.iter_mut().zip(values).for_each(|(sums, by)| add(sums, by, &important));
     }
 }
 
@@ -256,7 +287,7 @@ mod tests {
 
     /// Wherever the square lies and whichever way entries are numbered.
     #[test]
-    fn a_square_of_entries_is_asked_as_nine_terms_are() {
+    fn squares_of_entries_are_asked_as_nine_terms_each() {
         for size @ [columns, rows] in [[7, 5], [5, 7], [6, 6]] {
             let mut state = columns as u64;
             let [mut square, mut terms] = [0; 2].map(|_| Fit::of_raster(size, 2));
@@ -264,10 +295,16 @@ mod tests {
                 if first % columns + 2 >= columns {
                     continue;
                 }
-                let weights = [0; 3].map(|_| [0; 3].map(|_| random(&mut state)));
-                let term = |k: usize| (first + k / 3 * columns + k % 3, weights[k / 3][k % 3]);
-                square.ask_square(first, weights, &[0.3, -2.0], 1.5);
-                terms.ask(std::array::from_fn::<_, 9, _>(term), &[0.3, -2.0], 1.5);
+                let mut weights = || [0; 3].map(|_| random(&mut state));
+                let (down, mut across) = (weights(), Moments::NONE);
+                for values in [[0.3, -2.0], [-1.0, 0.7]] {
+                    let right = weights();
+                    let term =
+                        |k: usize| (first + k / 3 * columns + k % 3, down[k / 3] * right[k % 3]);
+                    across.add(right, values, 1.5);
+                    terms.ask(std::array::from_fn::<_, 9, _>(term), &values, 1.5);
+                }
+                square.ask_square(first, down, &across);
             }
             let sums = |fit: &Fit| [fit.normal.clone(), fit.right.concat()].concat();
             for (a, b) in sums(&square).into_iter().zip(sums(&terms)) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Fitting a position table to points of known place.
 //!
-//! Splines by least squares with a little smoothness, which settles coefficients that no point
-//! does.
+//! Splines by least squares ([`Spline::fit`]).
 
-use super::{PositionTable, Term};
+use super::PositionTable;
+use super::spline::Spline;
 use crate::calibration::layout::{Axis, Layout, Scalar, Surface};
 use crate::calibration::least_squares::Fit;
 use crate::profile::Profile;
@@ -63,8 +63,6 @@ pub enum PositionError {
     Ambiguous,
 }
 
-/// How much smoothness counts against nearness: it settles coefficients that no point does.
-const SMOOTHNESS: f64 = 1e-7;
 /// By how much of a cell the table reaches beyond the points, so that noise at their edge does not
 /// end at the table's.
 const BEYOND: f64 = 0.25;
@@ -113,12 +111,7 @@ impl PositionTable {
         };
         table.span(profile, points)?;
         let places: Vec<_> = points.iter().map(|point| table.place([point.x, point.y])).collect();
-        table.fit_ratios(&places, points, &vec![1.0; points.len()])?;
-        let importance =
-            places.iter().map(|&place| table.sensitivity(place)).collect::<Option<Vec<_>>>();
-        let importance = importance.ok_or(PositionError::Ambiguous)?;
-        table.fit_ratios(&places, points, &importance)?;
-        table.fit_resistance(&places, points)?;
+        table.fit_surfaces(&places, points).ok_or(PositionError::Ambiguous)?;
         table.scale(profile.formats.table);
         table.fit_start(&places, points)?;
         table.set_words(profile);
@@ -154,6 +147,20 @@ impl PositionTable {
             self.geometry[axis as usize] = [origin, (pitch / unit).ceil() * unit];
         }
         Ok(())
+    }
+
+    /// The coefficients of all surfaces; none where the points do not settle them, or do not depend on
+    /// the ratios.
+    fn fit_surfaces(&mut self, places: &[[f64; 2]], points: &[Point]) -> Option<()> {
+        let [narrow, wide] = [0, self.layout.shift()].map(|shift| Spline::new(&self.layout, shift));
+        let read = |point: usize| [points[point].r_x, points[point].r_y];
+        let pitch = self.geometry.map(|[_, pitch]| pitch);
+        let alike = narrow.fit(places, |point| (read(point), 1.0))?;
+        let importance = narrow.sensitivities(&alike, pitch, places)?;
+        let ratios = narrow.fit(places, |point| (read(point), importance[point]))?;
+        let [resistance] = wide.fit(places, |point| ([points[point].sheet], 1.0))?;
+        (self.ratios, self.resistance) = (ratios, resistance);
+        Some(())
     }
 
     /// Centres and gains that take the coefficients into the words' range, as words of the table
@@ -214,54 +221,6 @@ impl PositionTable {
         self.words[from..].copy_from_slice(&self.resistance);
     }
 
-    fn fit_ratios(
-        &mut self,
-        places: &[[f64; 2]],
-        points: &[Point],
-        importance: &[f64],
-    ) -> Result<(), PositionError> {
-        let surface = Surface::RatioX;
-        let size = self.size(surface);
-        let mut fit = Fit::of_raster(size, 2);
-        for ((&place, point), &importance) in places.iter().zip(points).zip(importance) {
-            let terms = self.terms(surface, place);
-            fit.ask_square(terms[0].0, square(&terms), &[point.r_x, point.r_y], importance);
-        }
-        let total: f64 = importance.iter().sum();
-        smooth(&mut fit, size, 2, SMOOTHNESS * total / (size[0] * size[1]) as f64);
-        let found = fit.solve().ok_or(PositionError::Ambiguous)?;
-        self.ratios = found.try_into().expect("a layer per ratio");
-        Ok(())
-    }
-
-    fn fit_resistance(
-        &mut self,
-        places: &[[f64; 2]],
-        points: &[Point],
-    ) -> Result<(), PositionError> {
-        let surface = Surface::Resistance;
-        let size = self.size(surface);
-        let mut fit = Fit::of_raster(size, 1);
-        for (&place, point) in places.iter().zip(points) {
-            let terms = self.terms(surface, place);
-            fit.ask_square(terms[0].0, square(&terms), &[point.sheet], 1.0);
-        }
-        smooth(&mut fit, size, 1, SMOOTHNESS * points.len() as f64 / (size[0] * size[1]) as f64);
-        self.resistance = fit.solve().ok_or(PositionError::Ambiguous)?.concat();
-        Ok(())
-    }
-
-    /// How many millimetres a place moves with its ratios: the norm of J⁻¹. None where it does not
-    /// depend on them.
-    fn sensitivity(&self, place: [f64; 2]) -> Option<f64> {
-        let [[_, xu, xv], [_, yu, yv]] = self.at(place);
-        let [[_, along], [_, across]] = self.geometry;
-        let determinant = xu * yv - xv * yu;
-        let parts = [along * yv, along * xv, across * xu, across * yu];
-        let norm = parts.map(|part| part * part).iter().sum::<f64>().sqrt() / determinant.abs();
-        norm.is_finite().then_some(norm)
-    }
-
     /// Each point's distance from where the table finds it, in mm; infinite where it finds none.
     pub fn errors<'a>(&'a self, points: &'a [Point]) -> impl Iterator<Item = f64> + 'a {
         points.iter().map(|point| {
@@ -288,31 +247,6 @@ fn range_of(from: usize, count: usize) -> std::ops::Range<usize> {
 /// The least and the greatest.
 fn extent(values: impl Iterator<Item = f64>) -> [f64; 2] {
     values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
-}
-
-/// The weights of the nine coefficients about a place in the value, row by row.
-fn square(terms: &[Term<f64>; 9]) -> [[f64; 3]; 3] {
-    [0, 3, 6].map(|row| [0, 1, 2].map(|column| terms[row + column].1))
-}
-
-/// Asks that second differences along rows and columns be small.
-fn smooth(fit: &mut Fit, [columns, rows]: [usize; 2], layers: usize, importance: f64) {
-    let mut bend = |at: usize, step: usize| {
-        fit.ask(
-            [(at - step, 1.0), (at, -2.0), (at + step, 1.0)],
-            &[0.0, 0.0][..layers],
-            importance,
-        );
-    };
-    for at in 0..columns * rows {
-        let (column, row) = (at % columns, at / columns);
-        if column > 0 && column + 1 < columns {
-            bend(at, 1);
-        }
-        if row > 0 && row + 1 < rows {
-            bend(at, columns);
-        }
-    }
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 //! by Newton steps.
 
 mod fit;
+mod spline;
 
 pub use fit::{Point, PositionError};
 
