@@ -14,7 +14,7 @@
 use crate::MOST_TERMINALS;
 use crate::few::Few;
 use crate::linear::{Square, dot};
-use crate::neumann::Neumann;
+use crate::neumann::{AlongX, AlongY, Neumann};
 use crate::uniform::UniformSheet;
 
 /// Of the bordered system: a number for each terminal, then the border's.
@@ -42,30 +42,61 @@ impl Analytic {
         Analytic { sheet, neumann, inverse }
     }
 
-    /// R_s·N from a position to each terminal, Ω, then the border's 1.
-    fn to_terminals(&self, at: [f64; 2]) -> Bordered {
-        let sheet = &self.sheet;
-        let ohm =
-            |there| sheet.ohm_per_square * self.neumann.at(there, at, sheet.terminal_radius_m);
-        let terminals = sheet.terminals_m.iter().zip(&sheet.terminal_ohm);
-        let known =
-            terminals.map(|(there, series)| if series.is_finite() { ohm(*there) } else { 0.0 });
-        known.chain([1.0]).collect()
-    }
-
     /// A place, for [`Analytic::between`].
     pub fn source(&self, x_mm: f64, y_mm: f64) -> Source {
-        let at = self.sheet.place_m(x_mm, y_mm);
-        let known = self.to_terminals(at);
+        let (at, sheet) = (self.sheet.place_m(x_mm, y_mm), &self.sheet);
+        self.source_at(at, |n| self.neumann.at(sheet.terminals_m[n], at, sheet.terminal_radius_m))
+    }
+
+    /// A place from N to each terminal.
+    fn source_at(&self, at: [f64; 2], to_terminal: impl Fn(usize) -> f64) -> Source {
+        let known = |(n, series): (usize, &f64)| {
+            if series.is_finite() { self.sheet.ohm_per_square * to_terminal(n) } else { 0.0 }
+        };
+        let terminals = self.sheet.terminal_ohm.iter().enumerate();
+        // The last is the border's.
+        let known: Bordered = terminals.map(known).chain([1.0]).collect();
         let unknown = self.inverse.rows().map(|row| dot(row, &known)).collect();
         Source { at, known, unknown }
+    }
+
+    /// The places of this x, mm from the middle, for [`Analytic::crossing`].
+    pub fn column(&self, x_mm: f64) -> Column {
+        let [x, _] = self.sheet.place_m(x_mm, 0.0);
+        let to = |[there, _]: &[f64; 2]| self.neumann.along_x(*there, x);
+        let to_terminals = self.sheet.terminals_m.iter().map(to).collect();
+        Column { x, to_terminals, own: self.neumann.along_x(x, x) }
+    }
+
+    /// The places of this y, mm from the middle, for [`Analytic::crossing`].
+    pub fn row(&self, y_mm: f64) -> Row {
+        let [_, y] = self.sheet.place_m(0.0, y_mm);
+        let to = |[_, there]: &[f64; 2]| self.neumann.along_y(*there, y);
+        let to_terminals = self.sheet.terminals_m.iter().map(to).collect();
+        Row { y, to_terminals, own: self.neumann.along_y(y, y) }
+    }
+
+    /// The place where a column and a row of a raster cross, and [`Analytic::between`] of it with itself: to
+    /// the bit as for a single place, in a third of the time.
+    pub fn crossing(&self, column: &Column, row: &Row) -> (Source, f64) {
+        let join = |x, y, near| self.neumann.join(x, y, near);
+        let source = self.source_at([column.x, row.y], |n| {
+            join(&column.to_terminals[n], &row.to_terminals[n], self.sheet.terminal_radius_m)
+        });
+        let ohm = self.ohm(join(&column.own, &row.own, self.sheet.disc_m()), &source, &source);
+        (source, ohm)
     }
 
     /// Potential at one place for a unit current into another, Ω; where both are the same, that of
     /// the pad's own disc.
     pub fn between(&self, a: &Source, b: &Source) -> f64 {
-        let free = self.sheet.ohm_per_square * self.neumann.at(a.at, b.at, self.sheet.disc_m());
+        self.ohm(self.neumann.at(a.at, b.at, self.sheet.disc_m()), a, b)
+    }
+
+    /// The same from N between the two.
+    fn ohm(&self, between: f64, a: &Source, b: &Source) -> f64 {
         let terminals = self.sheet.terminals();
+        let free = self.sheet.ohm_per_square * between;
         free + b.unknown[terminals] - dot(&b.unknown[..terminals], &a.known)
     }
 }
@@ -76,6 +107,20 @@ pub struct Source {
     at: [f64; 2],
     known: Bordered,
     unknown: Bordered,
+}
+
+/// Places of one x, m, and what N takes from it: to each terminal, and to the place itself.
+pub struct Column {
+    x: f64,
+    to_terminals: Vec<AlongX>,
+    own: AlongX,
+}
+
+/// The same of one y.
+pub struct Row {
+    y: f64,
+    to_terminals: Vec<AlongY>,
+    own: AlongY,
 }
 
 impl Source {
@@ -99,4 +144,30 @@ fn bordered(sheet: &UniformSheet, neumann: &Neumann) -> Square<f64> {
         (i, _) if i < border => -1.0,
         (_, j) => f64::from(u8::from(closed(j))),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of places on a raster, on the rim too, with a terminal that is open.
+    #[test]
+    fn where_a_column_and_a_row_cross_is_the_single_place_to_the_bit() {
+        let exact = Analytic::new(UniformSheet {
+            size_m: [0.86, 0.5],
+            ohm_per_square: 150.0,
+            pad_radius_m: 0.015,
+            terminals_m: vec![[0.0, 0.5], [0.0, 0.0], [0.86, 0.0], [0.86, 0.5], [0.43, 0.0]],
+            terminal_ohm: vec![0.0, 20.0, 0.0, crate::uniform::OPEN, 5.0],
+            terminal_radius_m: 1.7e-3,
+        });
+        for x in [-430.0, -17.3, 0.0, 200.0, 430.0] {
+            for y in [-250.0, -0.1, 33.0, 250.0] {
+                let single = exact.source(x, y);
+                let (source, ohm) = exact.crossing(&exact.column(x), &exact.row(y));
+                assert_eq!(source.shares(), single.shares(), "{x}, {y}");
+                assert_eq!(ohm, exact.between(&single, &single), "{x}, {y}");
+            }
+        }
+    }
 }

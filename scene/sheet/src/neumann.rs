@@ -14,6 +14,19 @@ use std::f64::consts::PI;
 /// What is left of the first image that is left out; 2 images for the paper's sheet.
 const CUT_OFF: f64 = 1e-9;
 
+/// What N takes from the places' x alone.
+#[derive(Clone, Copy, Debug)]
+pub struct AlongX {
+    /// e^(−πX/b) of the nearest images.
+    decay: [f64; 4],
+    /// g₀/b.
+    slope: f64,
+}
+
+/// What N takes from the places' y alone: sin²(θ±/2).
+#[derive(Clone, Copy, Debug)]
+pub struct AlongY([f64; 2]);
+
 /// Rectangle `[0, a] × [0, b]`, metres.
 #[derive(Clone, Copy, Debug)]
 pub struct Neumann {
@@ -40,13 +53,28 @@ impl Neumann {
     /// taken as `near`: the radius of a terminal, or R·e^(−1/4) for a disc of even current averaged
     /// over itself.
     pub fn at(&self, p: [f64; 2], q: [f64; 2], near: f64) -> f64 {
-        let (larger, smaller) = (p[0].max(q[0]), p[0].min(q[0]));
-        let half_sine = |y: f64| (y * PI / (2.0 * self.b)).sin().powi(2);
-        let angles = [half_sine(p[1] + q[1]), half_sine(p[1] - q[1])];
+        self.join(&self.along_x(p[0], q[0]), &self.along_y(p[1], q[1]), near)
+    }
+
+    /// What [`Neumann::at`] takes from the x of both places, for rasters: most of the time goes into this and
+    /// [`Neumann::along_y`].
+    pub fn along_x(&self, x: f64, x1: f64) -> AlongX {
+        let (larger, smaller) = (x.max(x1), x.min(x1));
         let (delta, sum) = (larger - smaller, larger + smaller);
         let decay = [delta, 2.0 * self.a - delta, sum, 2.0 * self.a - sum]
             .map(|x| (-PI * x / self.b).exp());
-        self.slope(p[0], q[0]) / self.b - self.product(decay, angles, near).ln() / (4.0 * PI)
+        AlongX { decay, slope: self.slope(x, x1) / self.b }
+    }
+
+    /// What it takes from the y of both places.
+    pub fn along_y(&self, y: f64, y1: f64) -> AlongY {
+        let half_sine = |y: f64| (y * PI / (2.0 * self.b)).sin().powi(2);
+        AlongY([half_sine(y + y1), half_sine(y - y1)])
+    }
+
+    /// [`Neumann::at`] from what it takes along either axis.
+    pub fn join(&self, x: &AlongX, y: &AlongY, near: f64) -> f64 {
+        x.slope - self.product(x.decay, y.0, near).ln() / (4.0 * PI)
     }
 
     /// g₀: the part that is linear in the slower direction.

@@ -22,6 +22,13 @@ impl From<&Sheet> for UniformSheet {
 impl Solver for Analytic {
     fn split(&self, x_mm: f64, y_mm: f64) -> Split {
         let source = self.source(x_mm, y_mm);
-        Split { share: Few::from_slice(source.shares()), ohm: self.between(&source, &source) }
+        Split::of_source(&source, self.between(&source, &source))
+    }
+}
+
+impl Split {
+    /// Of a place and its resistance.
+    pub(super) fn of_source(source: &Source, ohm: f64) -> Split {
+        Split { share: Few::from_slice(source.shares()), ohm }
     }
 }

@@ -16,7 +16,7 @@ use super::lines::Lines;
 use super::network::Network;
 use super::neumann::Neumann;
 use super::nodes::Values;
-use super::spline::{Axis, Spline};
+use super::spline::{AS_IT_IS, Axis, Spline};
 use super::split::Solver;
 
 /// From one node of the table of R_p to the next, by the mesh's spacing, and from where to where,
@@ -56,7 +56,9 @@ pub(super) fn own(sheet: &Sheet, network: &Network) -> Spline {
     };
     let table_mm = (TABLE * step_mm).clamp(TABLE_MM[0], TABLE_MM[1]);
     let axes = reach_mm.map(|mm| Axis::symmetric(mm, ((2.0 * mm / table_mm) as usize + 2).max(5)));
-    Spline::of(axes, 1, |x, y| std::iter::once(even(x, y) * ratio(x, y)).collect::<Values>())
+    Spline::of(axes, 1, AS_IT_IS, |&x, &y| {
+        std::iter::once(even(x, y) * ratio(x, y)).collect::<Values>()
+    })
 }
 
 /// The pad's disc on a mesh.

@@ -42,21 +42,23 @@ impl Axis {
         (interval, at - interval as f64)
     }
 
-    /// A function as a spline takes it: its values at the nodes, and before and after those its
-    /// slopes per spacing.
-    fn ask(&self, index: usize, f: impl Fn(f64) -> Values) -> Values {
-        const STEP_MM: f64 = 0.02;
-        let slope = |at: f64| {
-            let rise = f(at + STEP_MM)
-                .into_iter()
-                .zip(f(at - STEP_MM))
-                .map(|(after, before)| after - before);
-            rise.map(|value| value * self.spacing_mm() / (2.0 * STEP_MM)).collect()
-        };
-        match index {
-            0 => slope(self.first_mm),
-            last if last == self.nodes + 1 => slope(self.last_mm),
-            node => f(self.node_mm(node - 1)),
+    /// Where a spline asks for its function, each place prepared: at the nodes, and before and after those
+    /// for a slope.
+    fn asked<T>(&self, prepare: impl Fn(f64) -> T) -> Vec<Asked<T>> {
+        let slope = |at: f64| Asked::Slope([at + STEP_MM, at - STEP_MM].map(&prepare));
+        let nodes = (0..self.nodes).map(|node| Asked::Node(prepare(self.node_mm(node))));
+        [slope(self.first_mm)].into_iter().chain(nodes).chain([slope(self.last_mm)]).collect()
+    }
+
+    /// A function as a spline takes it: its value at a node, or its slope per spacing.
+    fn ask<T>(&self, asked: &Asked<T>, f: impl Fn(&T) -> Values) -> Values {
+        match asked {
+            Asked::Node(at) => f(at),
+            Asked::Slope([after, before]) => {
+                let rise =
+                    f(after).into_iter().zip(f(before)).map(|(after, before)| after - before);
+                rise.map(|value| value * self.spacing_mm() / (2.0 * STEP_MM)).collect()
+            }
         }
     }
 
@@ -70,6 +72,22 @@ impl Axis {
     }
 }
 
+/// How far before and after the rim a function is asked for its slope there.
+const STEP_MM: f64 = 0.02;
+
+/// Where a function is asked for along an axis.
+enum Asked<T> {
+    Node(T),
+    /// After and before the rim.
+    Slope([T; 2]),
+}
+
+/// What prepares a coordinate.
+type Prepare = fn(f64) -> f64;
+
+/// For a function that needs x and y themselves.
+pub(crate) const AS_IT_IS: (Prepare, Prepare) = (|x| x, |y| y);
+
 /// A bicubic spline of several values.
 pub(crate) struct Spline {
     axes: [Axis; 2],
@@ -78,10 +96,17 @@ pub(crate) struct Spline {
 }
 
 impl Spline {
-    /// Through a function of so many values at the nodes, with its slopes at the rim.
-    pub fn of(axes: [Axis; 2], values: usize, f: impl Fn(f64, f64) -> Values) -> Self {
+    /// Through a function of so many values at the nodes, with its slopes at the rim. What the function needs
+    /// of an x or of a y alone is prepared once for all places that have it.
+    pub fn of<X, Y>(
+        axes: [Axis; 2],
+        values: usize,
+        (x, y): (impl Fn(f64) -> X, impl Fn(f64) -> Y),
+        f: impl Fn(&X, &Y) -> Values,
+    ) -> Self {
+        let (columns, rows) = (axes[0].asked(x), axes[1].asked(y));
         Spline::filtered(axes, values, |column, row| {
-            axes[0].ask(column, |x| axes[1].ask(row, |y| f(x, y)))
+            axes[0].ask(&columns[column], |x| axes[1].ask(&rows[row], |y| f(x, y)))
         })
     }
 

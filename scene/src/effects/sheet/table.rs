@@ -21,8 +21,10 @@ pub(super) struct Bicubic(Spline);
 impl Bicubic {
     pub fn new(sheet: &Sheet, nodes: [usize; 2]) -> Self {
         let exact = Analytic::new(sheet);
-        Bicubic(Spline::of(axes(sheet, nodes), sheet.terminals() + 1, |x, y| {
-            exact.split(x, y).node()
+        let prepare = (|x| exact.column(x), |y| exact.row(y));
+        Bicubic(Spline::of(axes(sheet, nodes), sheet.terminals() + 1, prepare, |column, row| {
+            let (source, ohm) = exact.crossing(column, row);
+            Split::of_source(&source, ohm).node()
         }))
     }
 }

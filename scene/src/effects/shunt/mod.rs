@@ -31,7 +31,7 @@ use super::effect::{Effect, PadEffect};
 use super::pad::Pad;
 use super::sheet::analytic::Analytic;
 use super::sheet::nodes::Values;
-use super::sheet::spline::{Axis, Spline};
+use super::sheet::spline::{AS_IT_IS, Axis, Spline};
 use super::sheet::{Following, OfSheet, Sheet, Solver, Split};
 use super::spec::{Level, Spec};
 use crate::device::Device;
@@ -102,7 +102,9 @@ impl Screening {
         let (with, reach_mm) = (Screened::new(sheet, siemens_per_m2), sheet.reach_mm());
         let table = nodes.map(|nodes| {
             let axes = [0, 1].map(|axis| Axis::symmetric(reach_mm[axis], nodes[axis]));
-            Spline::of(axes, 2 * (sheet.terminals() + 1), |x, y| node(&with.screens(x, y)))
+            Spline::of(axes, 2 * (sheet.terminals() + 1), AS_IT_IS, |&x, &y| {
+                node(&with.screens(x, y))
+            })
         });
         Screening { with, without: Analytic::new(sheet), table }
     }
