@@ -44,7 +44,7 @@
 //! | to | see |
 //! | --- | --- |
 //! | read a scene, choose its fidelity by an error budget | [`Scene`], [`Case`], [`SceneError`] |
-//! | run a case: truth, phasors, ADC samples, calibrations | [`Plant`], [`Truth`], [`Timing`], [`EffectCost`] |
+//! | run a case: truth, phasors, ADC samples, calibrations | [`Plant`], [`Slot`], [`Truth`], [`Timing`], [`EffectCost`] |
 //! | drive a pad by a controller or a recording | [`Plant::set_drive`], [`DriveError`] |
 //! | know the display that a scene describes | [`Device`], [`signs_by_place`] |
 //! | name a quantity, its unit and its truth | [`Quantity`] |
@@ -103,7 +103,7 @@ pub use effects::EffectCost;
 pub use error::{Place, SceneError};
 pub use nominal::NominalSheet;
 pub use num_complex::Complex64 as Complex;
-pub use plant::Plant;
+pub use plant::{Plant, Slot};
 pub use quantity::Quantity;
 pub use ratios::signs_by_place;
 pub use scene::{Figure, Record, Scene};

@@ -25,6 +25,13 @@ use crate::stimulus::Moment;
 use crate::timing::Timing;
 use crate::truth::Truth;
 
+/// A slot that a plant has looked at: the pad that it serves, on which all effects have acted.
+#[derive(Clone, Debug)]
+pub struct Slot {
+    slot: usize,
+    pad: Pad,
+}
+
 /// One case of a scene at work.
 ///
 /// ```
@@ -362,9 +369,17 @@ impl Plant {
     /// # Panics
     /// If `out` is shorter than that.
     pub fn phasors(&mut self, slot: usize, out: &mut [Complex64]) -> f64 {
-        self.look(slot);
-        let mut phasors = Phasors { slot: slot as u64, ..Phasors::default() };
-        self.effects.on_channels(|effect| effect.phasors(&self.now.1, &mut phasors));
+        let at = self.slot(slot);
+        self.phasors_of(&at, out)
+    }
+
+    /// As [`Plant::phasors`], of a slot that this or another plant of the case has looked at.
+    ///
+    /// # Panics
+    /// As [`Plant::phasors`].
+    pub fn phasors_of(&mut self, Slot { slot, pad }: &Slot, out: &mut [Complex64]) -> f64 {
+        let mut phasors = Phasors { slot: *slot as u64, ..Phasors::default() };
+        self.effects.on_channels(|effect| effect.phasors(pad, &mut phasors));
         out[..phasors.carrier.len()].copy_from_slice(&phasors.carrier);
         phasors.haptic_mean_square
     }
@@ -375,13 +390,46 @@ impl Plant {
     /// The noise of a run depends on where it starts, not on which runs were asked for before. Take
     /// the blanking part and the window whole, so that it is the same each time.
     pub fn samples(&mut self, slot: usize, range: Range<usize>, out: &mut Vec<f64>) {
-        self.look(slot);
+        let at = self.slot(slot);
+        self.samples_of(&at, range, out);
+    }
+
+    /// As [`Plant::samples`], of a slot that this or another plant of the case has looked at: they follow
+    /// from the slot alone, so that several plants can make the samples of different slots at once.
+    ///
+    /// ```
+    /// # use hapticore_scene::{Plant, Scene, Timing};
+    /// # let text = "title = \"t\"\n[[pad]]\nposition_mm = [0, 0]\n[sensor]\nnoise_ppm_rms = 18\n";
+    /// # let scene = Scene::parse(text, "t.toml", &[])?;
+    /// # let timing = Timing {
+    /// #     pads: 4, slot_samples: 1700, window_start: 700, window_samples: 1000, samples_per_period: 10.0, signs: None,
+    /// # };
+    /// let plant = || Plant::new(&scene, 0, &timing);
+    /// let (mut looking, mut sampling) = (plant()?, plant()?);
+    /// let (mut samples, mut same) = (Vec::new(), Vec::new());
+    /// sampling.samples_of(&looking.slot(5), 700..1700, &mut samples);
+    /// looking.samples(5, 700..1700, &mut same);
+    /// assert_eq!(samples, same);
+    /// # Ok::<(), hapticore_scene::SceneError>(())
+    /// ```
+    pub fn samples_of(
+        &mut self,
+        Slot { slot, pad }: &Slot,
+        range: Range<usize>,
+        out: &mut Vec<f64>,
+    ) {
         let slot_start = (slot * self.timing.slot_samples) as u64;
         let start = out.len();
         out.resize(start + range.len() * self.channels(), 0.0);
-        let run = Run { slot, range, slot_start, channels: self.channels() };
-        self.effects.on_channels(|effect| effect.samples(&self.now.1, &run, &mut out[start..]));
+        let run = Run { slot: *slot, range, slot_start, channels: self.channels() };
+        self.effects.on_channels(|effect| effect.samples(pad, &run, &mut out[start..]));
         out[start..].iter_mut().for_each(|sample| *sample = sample.clamp(-1.0, 1.0));
+    }
+
+    /// A slot as it is looked at, for whoever makes its samples.
+    pub fn slot(&mut self, slot: usize) -> Slot {
+        self.look(slot);
+        Slot { slot, pad: self.now.1.clone() }
     }
 
     /// The middle of a slot's window.

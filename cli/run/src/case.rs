@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A case of a scene, run: its samples are made on one thread while the core works on another.
-//!
-//! The plant's samples depend on the slot alone, so that results do not depend on threads.
+//! A case of a scene, run: while the core works on some slots, the next ones are made ([`ahead`](crate::ahead)).
 
 use std::collections::VecDeque;
-use std::sync::mpsc::{Receiver, sync_channel};
 use std::sync::{Arc, OnceLock};
-use std::thread;
 
 use anyhow::{Result, ensure};
 use hapticore_contract::calibration::Calibration;
@@ -19,6 +15,7 @@ use hapticore_scene::{
     ControlPlan, EffectCost, Figure, LevelDeviation, Plant, Scene, Truth, signs_by_place,
 };
 
+use crate::ahead::{Look, Made, Makers};
 use crate::calibrate::{self, bench::Bench};
 use crate::capture::Recorder;
 use crate::control::plant::LoopPlant;
@@ -27,16 +24,12 @@ use crate::direction::Directions;
 use crate::engine::Fidelity;
 use crate::inputs::{buildable, timing};
 use crate::interrupt;
-use crate::maker::{Made, Maker};
+use crate::maker::Maker;
 use crate::record::{self, Row, SignalError};
 use crate::session::Session;
 
-/// Bytes of the slots that are made ahead of the core.
-const AHEAD: usize = 2 << 20;
-
-/// What is made ahead goes to the core in so many parts: to wake its thread for each slot takes a tenth
-/// of the slot's time.
-const BATCHES: usize = 4;
+/// Bytes of the slots that are made while the core works on as many.
+const AHEAD: usize = 4 << 20;
 
 /// The most slots of all cases that are run: a row of each is kept until the end.
 const MOST_SLOTS: usize = 10_000_000;
@@ -77,6 +70,7 @@ struct Calibrated {
 }
 
 /// What a case left.
+#[derive(Default)]
 pub struct Outcome {
     /// One row per finished slot.
     pub rows: Vec<Row>,
@@ -239,32 +233,47 @@ impl<'a> Case<'a> {
             anyhow::Ok(session.with_cancellers(cancellers).with_directions(directions))
         };
         let whole = settings.fidelity == Fidelity::Clock || recorder.is_some();
-        let mut maker = Maker::new(
-            plant.metered(),
-            &self.profile,
-            self.scene.cases[self.index].sampled(),
-            whole,
-        );
+        let sampled = self.scene.cases[self.index].sampled();
+        let maker = |plant: Plant| Maker::new(plant.metered(), &self.profile, sampled, whole);
         if tuning.is_some() {
-            return self.close(session()?, maker, recorder, progress);
+            return self.close(session()?, maker(plant), recorder, progress);
         }
-        let at_a_time = (self.ahead() / BATCHES).max(1);
-        let (sender, receiver) = sync_channel(BATCHES);
-        thread::scope(|scope| {
-            let maker = scope.spawn(move || {
-                maker.make(self.slots, at_a_time, &sender);
-                maker.plant().effects()
-            });
-            // The first slots are made while the device is calibrated.
-            let mut outcome = consume(session()?, receiver, recorder, progress)?;
-            outcome.effects = maker.join().expect("the plant does not panic");
-            Ok(outcome)
-        })
+        let another = || maker(self.plant().expect("as the first"));
+        let look = Look::new(plant.metered(), self.slots);
+        self.run_ahead(session, (look, Makers::new(another)), recorder, progress)
+    }
+
+    /// Runs the case with the next slots being made.
+    fn run_ahead(
+        &self,
+        session: impl FnOnce() -> Result<Session> + Send,
+        (mut look, makers): (Look, Makers<impl Fn() -> Maker + Sync>),
+        mut recorder: Option<&mut (dyn Recorder + Send)>,
+        progress: &(dyn Fn() + Sync),
+    ) -> Result<Outcome> {
+        let (at_a_time, mut outcome) = (self.ahead(), Outcome::default());
+        // The first are made while the device is calibrated, which takes longer.
+        let mut made = look.at(2 * at_a_time, Vec::new());
+        let mut next = look.at(at_a_time, Vec::new());
+        let (session, ()) = rayon::join(session, || makers.make(&mut made));
+        let mut session = session?;
+        while !made.is_empty() {
+            let core = || {
+                consume(&mut session, &made, &mut outcome, &mut recorder, progress)?;
+                anyhow::Ok(look.at(at_a_time, made))
+            };
+            let (after, ()) = rayon::join(core, || makers.make(&mut next));
+            made = std::mem::replace(&mut next, after?);
+        }
+        outcome.rows.extend(session.finish());
+        outcome.errors = session.errors();
+        outcome.effects = makers.effects(look.effects());
+        Ok(outcome)
     }
 }
 
 impl Case<'_> {
-    /// Slots made ahead of the core: eight at least.
+    /// Slots made while the core works on as many: eight at least.
     fn ahead(&self) -> usize {
         let codes = self.profile.slot.samples() as usize * self.profile.channels();
         (AHEAD / (codes * size_of::<i32>())).max(8)
@@ -400,25 +409,24 @@ impl Case<'_> {
     }
 }
 
-/// Takes slots to the core until there are no more.
+/// Takes slots to the core.
 fn consume(
-    mut session: Session,
-    slots: Receiver<Vec<Made>>,
-    mut recorder: Option<&mut (dyn Recorder + Send)>,
+    session: &mut Session,
+    slots: &[Made],
+    outcome: &mut Outcome,
+    recorder: &mut Option<&mut (dyn Recorder + Send)>,
     progress: &(dyn Fn() + Sync),
-) -> Result<Outcome> {
-    let (mut rows, mut peak) = (Vec::new(), 0f64);
-    for Made { slot, truth, peak: of_slot } in slots.into_iter().flatten() {
+) -> Result<()> {
+    for Made { slot, truth, peak, .. } in slots {
         interrupt::check()?;
         if let Some(recorder) = recorder.as_mut() {
             recorder.slot(slot.pad, slot.whole())?;
         }
-        peak = peak.max(of_slot);
-        rows.extend(session.slot(&slot, Some(record_truth(&truth))));
+        outcome.peak = outcome.peak.max(*peak);
+        outcome.rows.extend(session.slot(slot, Some(record_truth(truth))));
         progress();
     }
-    rows.extend(session.finish());
-    Ok(Outcome { rows, effects: Vec::new(), peak, errors: session.errors() })
+    Ok(())
 }
 
 /// What the record keeps of the plant's truth.

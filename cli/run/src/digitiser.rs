@@ -43,25 +43,36 @@ impl Digitiser {
         let (groups, rest) = fractions.as_chunks::<LANES>();
         let (codes, of_rest) = into[start..].as_chunks_mut::<LANES>();
         for (group, codes) in groups.iter().zip(codes) {
+            let mut raised = [0f64; LANES];
             for lane in 0..LANES {
-                codes[lane] = self.take(group[lane], &mut peaks[lane]);
+                raised[lane] = self.raise(group[lane], &mut peaks[lane]);
+            }
+            // In a loop of its own: the one above is of instructions for two lanes at once.
+            for lane in 0..LANES {
+                codes[lane] = low_bits(raised[lane]);
             }
         }
         let mut peak = peaks.into_iter().fold(0.0, larger);
         for (fraction, code) in rest.iter().zip(of_rest) {
-            *code = self.take(*fraction, &mut peak);
+            *code = low_bits(self.raise(*fraction, &mut peak));
         }
         peak / self.scale
     }
 
-    /// The code of a fraction; its magnitude counts for the peak.
+    /// The code of a fraction, with [`ROUNDER`] added; its magnitude counts for the peak.
     #[inline(always)]
-    fn take(&self, fraction: f64, peak: &mut f64) -> i32 {
+    fn raise(&self, fraction: f64, peak: &mut f64) -> f64 {
         let raised = lesser(larger(fraction * self.scale, self.low), self.high) + ROUNDER;
         *peak = larger(*peak, (raised - ROUNDER).abs());
-        // Above `ROUNDER` the low bits of the mantissa are the integer, in two's complement.
-        raised.to_bits() as i32
+        raised
     }
+}
+
+/// The integer that [`ROUNDER`] was added to: above it the low bits of the mantissa are the integer, in two's
+/// complement.
+#[inline(always)]
+fn low_bits(raised: f64) -> i32 {
+    raised.to_bits() as i32
 }
 
 /// The larger of two numbers; the second, where the first is none. Without the cases of `f64::max`

@@ -10,7 +10,8 @@
 //! | [`engine`] | the core at its three fidelities behind one trait |
 //! | [`session`] | slots in, rows out: the core, the reference beside it, rounding errors |
 //! | [`maker`] | what a plant gives the core of its slots |
-//! | [`case`] | a case of a scene, its samples made while the core works |
+//! | `ahead` | slots made by all processors, while the core works on those before |
+//! | [`case`] | a case of a scene, run |
 //! | [`control`] | the force loop of a scene: controller, tuning, and what closes it |
 //! | [`criteria`] | what a scene claims, measured |
 //! | [`errors`] | rounding errors of every signal |
@@ -20,6 +21,7 @@
 //! | [`record`], [`provenance`] | what a run leaves, and where it comes from |
 //! | [`interrupt`], [`number`] | a run that is told to stop; numbers in messages |
 
+mod ahead;
 pub mod calibrate;
 pub mod capture;
 pub mod case;

@@ -1,23 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What a plant gives the core of its slots: ADC codes or amplitudes.
 
-use std::sync::mpsc::SyncSender;
-
 use hapticore_contract::profile::Profile;
-use hapticore_scene::{Complex, Plant, Truth};
+use hapticore_scene::{Complex, Plant, Slot};
 
 use crate::digitiser::Digitiser;
-use crate::engine::{Signals, Slot};
-
-/// A slot on its way to the core.
-pub(crate) struct Made {
-    /// What the core is given.
-    pub slot: Slot,
-    /// What the plant knows.
-    pub truth: Truth,
-    /// The largest sample, as a fraction of full scale.
-    pub peak: f64,
-}
+use crate::engine::Signals;
 
 /// Produces the samples or amplitudes of slots in order.
 pub struct Maker {
@@ -39,39 +27,49 @@ impl Maker {
         Maker { plant, digitiser, sampled, blanking, samples, whole, fractions: Vec::new() }
     }
 
-    /// Slots from the first on, so many at a time, as far as they are taken.
-    pub(crate) fn make(&mut self, slots: usize, at_a_time: usize, to: &SyncSender<Vec<Made>>) {
-        for first in (0..slots).step_by(at_a_time) {
-            let some = (first..slots.min(first + at_a_time)).map(|slot| self.slot(slot)).collect();
-            if to.send(some).is_err() {
-                return; // The core has stopped: it tells why.
-            }
-        }
-    }
-
-    fn slot(&mut self, slot: usize) -> Made {
-        let truth = self.plant.truth(slot);
-        let (signals, peak) = self.signals(slot);
-        Made { slot: Slot { pad: truth.pad, signals }, truth, peak }
-    }
-
     /// What the core is given of a slot, and the largest sample.
     pub fn signals(&mut self, slot: usize) -> (Signals, f64) {
-        if self.sampled { self.sample(slot) } else { self.phasors(slot) }
+        let slot = self.plant.slot(slot);
+        let mut signals = Signals::NONE;
+        let peak = self.make(&slot, &mut signals);
+        (signals, peak)
     }
 
     /// The samples of a slot, and the largest.
     pub fn sample(&mut self, slot: usize) -> (Signals, f64) {
+        let (slot, mut codes) = (self.plant.slot(slot), Vec::new());
+        let (blanking, peak) = self.samples(&slot, &mut codes);
+        (Signals::Samples { codes, blanking }, peak)
+    }
+
+    /// What the core is given of a slot that a plant of the case has looked at, in place of the signals of
+    /// another, whose memory is used again; the largest sample.
+    pub(crate) fn make(&mut self, slot: &Slot, signals: &mut Signals) -> f64 {
+        if !self.sampled {
+            let (amplitudes, mean_square, peak) = self.phasors(slot);
+            *signals = Signals::Phasors { amplitudes, mean_square };
+            return peak;
+        }
+        let mut codes = match signals {
+            Signals::Samples { codes, .. } => std::mem::take(codes),
+            Signals::Phasors { .. } => Vec::new(),
+        };
+        codes.clear();
+        let (blanking, peak) = self.samples(slot, &mut codes);
+        *signals = Signals::Samples { codes, blanking };
+        peak
+    }
+
+    /// Appends the codes of a slot: how many of the blanking are among them, and the largest sample.
+    fn samples(&mut self, slot: &Slot, codes: &mut Vec<i32>) -> (usize, f64) {
         let first = if self.whole { 0 } else { self.blanking };
         self.fractions.clear();
         if self.whole {
-            self.plant.samples(slot, 0..self.blanking, &mut self.fractions);
+            self.plant.samples_of(slot, 0..self.blanking, &mut self.fractions);
         }
-        self.plant.samples(slot, self.blanking..self.samples, &mut self.fractions);
-        let mut codes = Vec::with_capacity(self.fractions.len());
-        let peak = self.digitiser.codes(&self.fractions, &mut codes);
-        let blanking = (self.blanking - first) * self.plant.channels();
-        (Signals::Samples { codes, blanking }, peak)
+        self.plant.samples_of(slot, self.blanking..self.samples, &mut self.fractions);
+        let peak = self.digitiser.codes(&self.fractions, codes);
+        ((self.blanking - first) * self.plant.channels(), peak)
     }
 
     /// Simulated device of the case.
@@ -79,12 +77,12 @@ impl Maker {
         &mut self.plant
     }
 
-    fn phasors(&mut self, slot: usize) -> (Signals, f64) {
+    fn phasors(&mut self, slot: &Slot) -> (Vec<(f64, f64)>, f64, f64) {
         let mut found = vec![Complex::default(); self.plant.channels() - 1];
-        let mean_square = self.plant.phasors(slot, &mut found);
+        let mean_square = self.plant.phasors_of(slot, &mut found);
         let largest =
             found.iter().map(|phasor| phasor.norm()).fold((2.0 * mean_square).sqrt(), f64::max);
         let amplitudes = found.iter().map(|phasor| (phasor.re, phasor.im)).collect();
-        (Signals::Phasors { amplitudes, mean_square }, largest)
+        (amplitudes, mean_square, largest)
     }
 }

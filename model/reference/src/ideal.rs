@@ -157,8 +157,10 @@ impl<T: Real> Reference<T> {
             "one code a channel and sample of the window"
         );
         let mean_square = match self.channels {
+            6 => self.demodulate::<6>(codes),
             8 => self.demodulate::<8>(codes),
-            _ => self.demodulate::<0>(codes),
+            10 => self.demodulate::<10>(codes),
+            _ => self.demodulate_each(codes),
         };
         let [low, high] = self.full_scale;
         let clipped =
@@ -196,25 +198,41 @@ impl<T: Real> Reference<T> {
         self.held[self.last].eq6
     }
 
-    /// Phasors into `sums`; gives the mean square. `N` is the number of channels where that is
-    /// known as this is compiled.
-    #[inline(always)]
-    fn demodulate<const N: usize>(&mut self, codes: &[i32]) -> T {
-        let channels = if N == 0 { self.channels } else { N };
-        let mut sums = [[T::zero(); 2]; 64];
-        let sums = &mut sums[..channels - 1];
+    /// Phasors into `sums`; gives the mean square. With the number of channels known as this is compiled,
+    /// those of two channels are added up at once.
+    fn demodulate<const CHANNELS: usize>(&mut self, codes: &[i32]) -> T {
+        // The haptic channel's are not used; to leave it out takes longer.
+        let [mut in_phase, mut quadrature] = [[T::zero(); CHANNELS]; 2];
         let mut mean_square = T::zero();
-        for (codes, windowed) in codes.chunks_exact(channels).zip(&self.window) {
+        let (samples, _) = codes.as_chunks::<CHANNELS>();
+        for (codes, windowed) in samples.iter().zip(&self.window) {
             let [cosine, sine] = windowed.carrier;
-            for (sum, &code) in sums.iter_mut().zip(codes) {
-                let x = of_code::<T>(code);
-                *sum = [sum[0] + x * cosine, sum[1] + x * sine];
+            for channel in 0..CHANNELS {
+                let x = of_code::<T>(codes[channel]);
+                in_phase[channel] = in_phase[channel] + x * cosine;
+                quadrature[channel] = quadrature[channel] + x * sine;
             }
-            let haptic = of_code::<T>(codes[channels - 1]);
+            let haptic = of_code::<T>(codes[CHANNELS - 1]);
             mean_square = mean_square + haptic * haptic * windowed.square;
         }
-        self.sums.copy_from_slice(sums);
+        let phasors = in_phase.into_iter().zip(quadrature);
+        self.sums.iter_mut().zip(phasors).for_each(|(sum, (i, q))| *sum = [i, q]);
         mean_square
+    }
+
+    /// As [`Reference::demodulate`], of any number of channels.
+    fn demodulate_each(&mut self, codes: &[i32]) -> T {
+        let of = |channel: usize| {
+            codes[channel..].iter().step_by(self.channels).map(|&code| of_code::<T>(code))
+        };
+        for (channel, sum) in self.sums.iter_mut().enumerate() {
+            *sum = of(channel).zip(&self.window).fold([T::zero(); 2], |[i, q], (x, windowed)| {
+                let [cosine, sine] = windowed.carrier;
+                [i + x * cosine, q + x * sine]
+            });
+        }
+        let squares = of(self.channels - 1).zip(&self.window);
+        squares.fold(T::zero(), |sum, (haptic, windowed)| sum + haptic * haptic * windowed.square)
     }
 
     fn estimate(
@@ -388,4 +406,51 @@ fn nothing<T: Real>(pad: usize) -> Held<T> {
         flags,
     };
     Held { measurement, eq6: T::zero() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use hapticore_contract::calibration::{ForceTable, Point, PositionTable};
+    use hapticore_contract::profile::Terminals;
+
+    /// The sums of channels that are added up together are those of each, for any number of them.
+    #[test]
+    fn channels_together_give_what_each_gives() {
+        let profile = Profile::bundled("small").expect("bundled");
+        let point = |k: i32| Point {
+            x: f64::from(k % 9),
+            y: f64::from(k / 9),
+            r_x: f64::from(k % 9) / 10.0,
+            r_y: f64::from(k / 9) / 10.0,
+            sheet: 0.0,
+        };
+        let points: Vec<_> = (0..81).map(point).collect();
+        let calibration = Calibration {
+            position: PositionTable::fit(&profile, &points).expect("a raster"),
+            capacitance_gain: 800.0,
+            force_gain: 2e-6,
+            force_table: ForceTable::default(),
+        };
+        for terminals in [4, 6, 8] {
+            let signs =
+                |of: usize| (0..terminals).map(|n| if n % 2 == of { 1 } else { -1 }).collect();
+            let terminals = Terminals { x: signs(0), y: signs(1) };
+            let profile = Profile { terminals, ..profile.clone() };
+            let mut reference = Reference::<f64>::with_precision(&profile, &calibration);
+            let count = reference.window.len() * reference.channels;
+            let codes: Vec<_> =
+                (0..count as i32).map(|n| n.wrapping_mul(40_503) % 30_000).collect();
+            let square = reference.demodulate_each(&codes);
+            let each = std::mem::take(&mut reference.sums);
+            reference.sums = vec![[0.0; 2]; each.len()];
+            let together = match reference.channels {
+                6 => reference.demodulate::<6>(&codes),
+                8 => reference.demodulate::<8>(&codes),
+                _ => reference.demodulate::<10>(&codes),
+            };
+            assert_eq!((together, &reference.sums), (square, &each));
+            assert!(each.iter().flatten().all(|sum| *sum != 0.0));
+        }
+    }
 }

@@ -23,6 +23,18 @@ pub struct EffectCost {
     pub evaluations: u64,
 }
 
+impl EffectCost {
+    /// With what the same effect has cost elsewhere.
+    #[must_use]
+    pub fn and(self, other: &EffectCost) -> EffectCost {
+        EffectCost {
+            seconds: self.seconds + other.seconds,
+            evaluations: self.evaluations + other.evaluations,
+            ..self
+        }
+    }
+}
+
 /// The effects of a run, in the order in which they act.
 pub(crate) struct Effects {
     list: Vec<Effect>,

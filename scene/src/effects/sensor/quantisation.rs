@@ -39,7 +39,7 @@ impl ChannelEffect for Quantisation {
         let (codes, step) = (self.codes, 1.0 / self.codes);
         for sample in samples {
             let code = (*sample * codes + ROUNDER) - ROUNDER;
-            *sample = code.max(-codes).min(codes - 1.0) * step;
+            *sample = code.clamp(-codes, codes - 1.0) * step;
         }
     }
 }
