@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A case of a scene, run: while the core works on some slots, the next ones are made ([`ahead`](crate::ahead)).
+//! A case of a scene, run: while the core works on some slots, the next ones are made (`ahead.rs`).
 
 use std::collections::VecDeque;
 use std::sync::{Arc, OnceLock};

@@ -4,6 +4,7 @@
 use super::geometry::Sheet;
 use super::split::{Solver, Split};
 use crate::few::Few;
+pub(super) use hapticore_sheet::analytic::{Column, Row};
 pub(crate) use hapticore_sheet::{Analytic, Source, UniformSheet};
 
 impl From<&Sheet> for UniformSheet {
@@ -22,13 +23,6 @@ impl From<&Sheet> for UniformSheet {
 impl Solver for Analytic {
     fn split(&self, x_mm: f64, y_mm: f64) -> Split {
         let source = self.source(x_mm, y_mm);
-        Split::of_source(&source, self.between(&source, &source))
-    }
-}
-
-impl Split {
-    /// Of a place and its resistance.
-    pub(super) fn of_source(source: &Source, ohm: f64) -> Split {
-        Split { share: Few::from_slice(source.shares()), ohm }
+        Split { share: Few::from_slice(source.shares()), ohm: self.between(&source, &source) }
     }
 }

@@ -27,8 +27,14 @@ impl Axis {
     }
 
     /// Where a node is.
-    pub fn node_mm(&self, node: usize) -> f64 {
+    fn node_mm(&self, node: usize) -> f64 {
         self.first_mm + node as f64 * self.spacing_mm()
+    }
+
+    /// Where the nodes are.
+    pub fn nodes_mm(&self) -> impl Iterator<Item = f64> + use<> {
+        let axis = *self;
+        (0..axis.nodes).map(move |node| axis.node_mm(node))
     }
 
     fn spacing_mm(&self) -> f64 {
@@ -46,7 +52,7 @@ impl Axis {
     /// for a slope.
     fn asked<T>(&self, prepare: impl Fn(f64) -> T) -> Vec<Asked<T>> {
         let slope = |at: f64| Asked::Slope([at + STEP_MM, at - STEP_MM].map(&prepare));
-        let nodes = (0..self.nodes).map(|node| Asked::Node(prepare(self.node_mm(node))));
+        let nodes = self.nodes_mm().map(|at| Asked::Node(prepare(at)));
         [slope(self.first_mm)].into_iter().chain(nodes).chain([slope(self.last_mm)]).collect()
     }
 

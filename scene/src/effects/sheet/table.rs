@@ -4,15 +4,22 @@
 //! Errors are largest in front of the terminals at the edges' middles. They fall with the second
 //! power of the spacing for the bilinear table and with the fourth for the bicubic one.
 
-use super::analytic::Analytic;
+use super::analytic::{Analytic, Column, Row};
 use super::geometry::Sheet;
-use super::nodes::Nodes;
+use super::nodes::{Nodes, Values};
 use super::spline::{Axis, Spline};
 use super::split::{Solver, Split};
+use crate::few::Few;
 
 fn axes(sheet: &Sheet, nodes: [usize; 2]) -> [Axis; 2] {
     let reach_mm = sheet.reach_mm();
     [0, 1].map(|axis| Axis::symmetric(reach_mm[axis], sheet.table[axis].unwrap_or(nodes[axis])))
+}
+
+/// The split where a column and a row of nodes cross.
+fn node(exact: &Analytic, column: &Column, row: &Row) -> Values {
+    let (source, ohm) = exact.crossing(column, row);
+    Split { share: Few::from_slice(source.shares()), ohm }.node()
 }
 
 /// A bicubic spline with the exact slopes at its rim.
@@ -23,8 +30,7 @@ impl Bicubic {
         let exact = Analytic::new(sheet);
         let prepare = (|x| exact.column(x), |y| exact.row(y));
         Bicubic(Spline::of(axes(sheet, nodes), sheet.terminals() + 1, prepare, |column, row| {
-            let (source, ohm) = exact.crossing(column, row);
-            Split::of_source(&source, ohm).node()
+            node(&exact, column, row)
         }))
     }
 }
@@ -44,14 +50,11 @@ pub(super) struct Bilinear {
 impl Bilinear {
     pub fn new(sheet: &Sheet, nodes: [usize; 2]) -> Self {
         let (exact, axes) = (Analytic::new(sheet), axes(sheet, nodes));
-        let columns = axes[0].nodes;
-        let node = |n: usize| {
-            exact.split(axes[0].node_mm(n % columns), axes[1].node_mm(n / columns)).node()
-        };
-        Bilinear {
-            axes,
-            nodes: Nodes::new(sheet.terminals() + 1, (0..columns * axes[1].nodes).map(node)),
-        }
+        let columns: Vec<_> = axes[0].nodes_mm().map(|x| exact.column(x)).collect();
+        let rows: Vec<_> = axes[1].nodes_mm().map(|y| exact.row(y)).collect();
+        let nodes = rows.iter().flat_map(|row| columns.iter().map(move |column| (column, row)));
+        let nodes = nodes.map(|(column, row)| node(&exact, column, row));
+        Bilinear { axes, nodes: Nodes::new(sheet.terminals() + 1, nodes) }
     }
 }
 
