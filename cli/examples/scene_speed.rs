@@ -3,8 +3,7 @@
 //! many of them went into choosing levels within an error budget.
 //!
 //! `cargo run --release -p hapticore --example scene_speed [-- SCENE…]`, `fig7` unless said
-//! otherwise; `taskset -c 0` before it keeps the plant's thread and the core's on one processor
-//! core.
+//! otherwise; `taskset -c 0` before it keeps all of it on one processor.
 
 use std::time::Instant;
 

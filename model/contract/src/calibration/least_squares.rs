@@ -74,22 +74,23 @@ impl Fit {
         }
     }
 
-    /// As [`Fit::ask`], many equations of nine entries of a raster: three of each of three rows from the one
-    /// that is told on. A row's entries weigh what they weigh `across` times the row's own weight.
+    /// As [`Fit::ask`], many equations of nine entries of a raster: three of each of three rows from the
+    /// `first` on. The weight of an entry is that of its row times that of its column; of the columns
+    /// `across` has what the equations add up to.
     pub fn ask_square<const LAYERS: usize>(
         &mut self,
         first: usize,
         rows: [f64; 3],
         across: &Moments<LAYERS>,
     ) {
-        let down = rows.map(|a| rows.map(|b| a * b));
-        let (lines, along) = match self.along_columns {
-            true => (&across.products, &down),
-            false => (&down, &across.products),
+        let of_rows = rows.map(|a| rows.map(|b| a * b));
+        let (lines, within) = match self.along_columns {
+            true => (&across.products, &of_rows),
+            false => (&of_rows, &across.products),
         };
         let first = self.order[first];
         for (p, of_line) in lines.iter().enumerate() {
-            for (n, weights) in along.iter().enumerate() {
+            for (n, weights) in within.iter().enumerate() {
                 let row = first + p * self.pitch + n;
                 let own = self.at(row, row);
                 for (q, by) in of_line[..p].iter().enumerate() {
@@ -99,15 +100,11 @@ impl Fit {
                 add(&mut self.normal[own - n..=own], of_line[p], &weights[..=n]);
             }
         }
+        let (down, along) = if self.along_columns { (1, self.pitch) } else { (self.pitch, 1) };
         for (right, values) in self.right.iter_mut().zip(&across.values) {
             for (p, row) in rows.iter().enumerate() {
                 for (n, value) in values.iter().enumerate() {
-                    right[first
-                        + if self.along_columns {
-                            n * self.pitch + p
-                        } else {
-                            p * self.pitch + n
-                        }] += row * value;
+                    right[first + p * down + n * along] += row * value;
                 }
             }
         }
