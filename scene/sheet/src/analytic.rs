@@ -77,7 +77,7 @@ impl Analytic {
     }
 
     /// The place where a column and a row of a raster cross, and [`Analytic::between`] of it with itself: to
-    /// the bit as for a single place, in a third of the time.
+    /// the bit as for a single place, in half the instructions.
     pub fn crossing(&self, column: &Column, row: &Row) -> (Source, f64) {
         let join = |x, y, near| self.neumann.join(x, y, near);
         let source = self.source_at([column.x, row.y], |n| {
