@@ -128,8 +128,8 @@ mod tests {
         effects.iter().map(|effect| (effect.name, effect.evaluations)).collect()
     }
 
-    /// Rows of a slot after the other, by one plant, and how often each effect was evaluated.
-    fn one_by_one(case: &Case) -> (String, Evaluations) {
+    /// Rows of a slot after the other, by one plant, how often each effect was evaluated, and the largest sample.
+    fn one_by_one(case: &Case) -> (String, Evaluations, f64) {
         let calibration = case.calibration().expect("words");
         let mut session = Session::new(
             &case.profile,
@@ -142,25 +142,28 @@ mod tests {
         let sampled = case.scene.cases[case.index].sampled();
         let plant = case.plant().expect("a plant").metered();
         let mut maker = Maker::new(plant, &case.profile, sampled, false);
+        let mut largest = 0f64;
         let rows = (0..case.slots).filter_map(|number| {
-            let (truth, (signals, _)) = (maker.plant().truth(number), maker.signals(number));
+            let (truth, (signals, peak)) = (maker.plant().truth(number), maker.signals(number));
+            largest = largest.max(peak);
             let slot = engine::Slot { pad: truth.pad, signals };
             session.slot(&slot, Some(record_truth(&truth)))
         });
         let rows = format!("{:?}", rows.collect::<Vec<_>>());
-        (rows, evaluations(&maker.plant().effects()))
+        (rows, evaluations(&maker.plant().effects()), largest)
     }
 
     #[test]
     fn rows_are_those_of_slots_made_one_by_one_whatever_the_threads() {
         for carrier in ["samples", "phasor"] {
             with_hockey(carrier, |case| {
-                let (rows, evaluated) = one_by_one(case);
+                let (rows, evaluated, largest) = one_by_one(case);
                 for threads in [1, 2, 5] {
                     let run = || case.run(&FIXED, None, &|| ());
                     let outcome = in_threads(threads, run).expect("a run");
                     assert_eq!(format!("{:?}", outcome.rows), rows, "{carrier}, {threads}");
                     assert_eq!(evaluations(&outcome.effects), evaluated, "{carrier}, {threads}");
+                    assert_eq!(outcome.peak, largest, "{carrier}, {threads}");
                 }
             });
         }
