@@ -252,10 +252,14 @@ impl<'a> Case<'a> {
         progress: &(dyn Fn() + Sync),
     ) -> Result<Outcome> {
         let (at_a_time, mut outcome) = (self.ahead(), Outcome::default());
-        // The first are made while the device is calibrated, which takes longer.
-        let mut made = look.at(2 * at_a_time, Vec::new());
-        let mut next = look.at(at_a_time, Vec::new());
-        let (session, ()) = rayon::join(session, || makers.make(&mut made));
+        // While the device is calibrated there is time for more of them.
+        let first = || {
+            let mut made = look.at(2 * at_a_time, Vec::new());
+            let next = look.at(at_a_time, Vec::new());
+            makers.make(&mut made);
+            (made, next)
+        };
+        let (session, (mut made, mut next)) = rayon::join(session, first);
         let mut session = session?;
         while !made.is_empty() {
             let core = || {

@@ -9,7 +9,7 @@ use std::ops::Range;
 
 use super::basis;
 use crate::calibration::layout::{Axis, Layout};
-use crate::calibration::least_squares::{Fit, Moments};
+use crate::calibration::least_squares::{Moments, RasterFit};
 
 /// How much smoothness counts against nearness.
 const SMOOTHNESS: f64 = 1e-7;
@@ -57,7 +57,7 @@ impl Spline {
         places: &[[f64; 2]],
         ask: impl Fn(usize) -> ([f64; LAYERS], f64),
     ) -> Option<[Vec<f64>; LAYERS]> {
-        let (mut fit, mut total) = (Fit::of_raster(self.size(), LAYERS), 0.0);
+        let (mut fit, mut total) = (RasterFit::<LAYERS>::new(self.size()), 0.0);
         for stretch in self.stretches(places) {
             let mut across = Moments::NONE;
             for point in stretch.points {
@@ -69,8 +69,8 @@ impl Spline {
             fit.ask_square(stretch.first, stretch.rows.map(|[weight, _]| weight), &across);
         }
         let [columns, rows] = self.size();
-        smooth::<LAYERS>(&mut fit, [columns, rows], SMOOTHNESS * total / (columns * rows) as f64);
-        fit.solve().map(|found| found.try_into().expect("a layer per value"))
+        smooth(&mut fit, [columns, rows], SMOOTHNESS * total / (columns * rows) as f64);
+        fit.solve()
     }
 
     /// How far each place moves with two surfaces of these coefficients, per unit of theirs: the norm of J⁻¹, in
@@ -136,18 +136,20 @@ fn norm_of_inverse([[ax, ay], [bx, by]]: [[f64; 2]; 2], [along, across]: [f64; 2
 }
 
 /// Asks that second differences along rows and columns be small.
-fn smooth<const LAYERS: usize>(fit: &mut Fit, [columns, rows]: [usize; 2], importance: f64) {
-    let mut bend = |at: usize, step: usize| {
-        let terms = [(at - step, 1.0), (at, -2.0), (at + step, 1.0)];
-        fit.ask(terms, &[0.0; LAYERS], importance);
+fn smooth<const LAYERS: usize>(
+    fit: &mut RasterFit<LAYERS>,
+    [columns, rows]: [usize; 2],
+    importance: f64,
+) {
+    let mut bend = |first: usize, step: usize| {
+        fit.ask_line(first, step, [1.0, -2.0, 1.0], importance);
     };
-    for at in 0..columns * rows {
-        let (column, row) = (at % columns, at / columns);
-        if column > 0 && column + 1 < columns {
-            bend(at, 1);
+    for first in 0..columns * rows {
+        if first % columns + 2 < columns {
+            bend(first, 1);
         }
-        if row > 0 && row + 1 < rows {
-            bend(at, columns);
+        if first / columns + 2 < rows {
+            bend(first, columns);
         }
     }
 }
