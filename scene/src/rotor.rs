@@ -23,6 +23,7 @@ impl Rotor {
     }
 
     /// The vector now; then one step on.
+    #[inline(always)]
     pub fn turn(&mut self) -> Complex64 {
         let now = self.at;
         self.at = now * self.step;

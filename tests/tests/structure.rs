@@ -8,12 +8,13 @@ use std::path::{Path, PathBuf};
 use toml::{Table, Value};
 
 /// Which crates of the workspace a crate may use; tests may use more ([`DEVELOPMENT`]).
-const IMPORTS: [(&str, &[&str]); 17] = [
+const IMPORTS: [(&str, &[&str]); 18] = [
     ("model/hdl", &[]),
+    ("model/wide", &[]),
     ("model/contract", &["hapticore-hdl"]),
     // Not the hardware language: its signals round, too.
-    ("model/reference", &["hapticore-contract"]),
-    ("model", &["hapticore-contract", "hapticore-hdl"]),
+    ("model/reference", &["hapticore-contract", "hapticore-wide"]),
+    ("model", &["hapticore-contract", "hapticore-hdl", "hapticore-wide"]),
     ("model/proof", &["hapticore-contract", "hapticore-hdl", "hapticore-model"]),
     ("host/protocol", &["hapticore-contract", "hapticore-hdl"]),
     ("host", &["hapticore-contract", "hapticore-protocol", "hapticore-sheet"]),
@@ -29,7 +30,7 @@ const IMPORTS: [(&str, &[&str]); 17] = [
         ],
     ),
     ("scene/sheet", &[]),
-    ("scene", &["hapticore-sheet"]),
+    ("scene", &["hapticore-sheet", "hapticore-wide"]),
     ("cli/files", &[]),
     ("waveforms", &["hapticore-files", "hapticore-hdl"]),
     (
@@ -42,6 +43,7 @@ const IMPORTS: [(&str, &[&str]); 17] = [
             "hapticore-model",
             "hapticore-reference",
             "hapticore-scene",
+            "hapticore-wide",
         ],
     ),
     (

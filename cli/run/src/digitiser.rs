@@ -2,6 +2,7 @@
 //! The one place where fractions of full scale meet codes.
 
 use hapticore_hdl::format::Format;
+use hapticore_wide::widest;
 
 /// Adding and taking away 1.5·2^52 rounds an f64 of up to 2^51 to an integer, half to even, in two
 /// additions: a call for each sample would cost as much as all else.
@@ -34,29 +35,42 @@ impl Digitiser {
         (code as i32, code == fraction * self.scale)
     }
 
-    /// Appends the codes of some fractions; the largest magnitude among them, as a fraction.
+    /// The codes of some fractions in place of others; the largest magnitude among them, as a fraction.
     pub fn codes(&self, fractions: &[f64], into: &mut Vec<i32>) -> f64 {
-        // Lanes of their own for the peak: a single one would wait for the sample before.
-        let mut peaks = [0f64; LANES];
-        let start = into.len();
-        into.resize(start + fractions.len(), 0);
+        into.resize(fractions.len(), 0);
         let (groups, rest) = fractions.as_chunks::<LANES>();
-        let (codes, of_rest) = into[start..].as_chunks_mut::<LANES>();
-        for (group, codes) in groups.iter().zip(codes) {
-            let mut raised = [0f64; LANES];
-            for lane in 0..LANES {
-                raised[lane] = self.raise(group[lane], &mut peaks[lane]);
-            }
-            // In a loop of its own: the one above is of instructions for two lanes at once.
-            for lane in 0..LANES {
-                codes[lane] = low_bits(raised[lane]);
-            }
-        }
-        let mut peak = peaks.into_iter().fold(0.0, larger);
+        let (codes, of_rest) = into.as_chunks_mut::<LANES>();
+        let mut peak = self.codes_of_groups(groups, codes);
         for (fraction, code) in rest.iter().zip(of_rest) {
             *code = low_bits(self.raise(*fraction, &mut peak));
         }
         peak / self.scale
+    }
+
+    /// The codes of groups of fractions, and the peak in codes.
+    fn codes_of_groups(&self, groups: &[[f64; LANES]], codes: &mut [[i32; LANES]]) -> f64 {
+        let digitiser = *self;
+        widest(
+            codes,
+            #[inline(always)]
+            move |codes: &mut [[i32; LANES]]| {
+                // Lanes of their own for the peak: a single one would wait for the sample before.
+                let mut peaks = [0f64; LANES];
+                for (group, codes) in groups.iter().zip(codes) {
+                    let mut raised = [0f64; LANES];
+                    for lane in 0..LANES {
+                        raised[lane] = digitiser.raise(group[lane], &mut peaks[lane]);
+                    }
+                    // In a loop of its own: the one above is of instructions for several lanes at once.
+                    for lane in 0..LANES {
+                        codes[lane] = low_bits(raised[lane]);
+                    }
+                }
+                peaks
+            },
+        )
+        .into_iter()
+        .fold(0.0, larger)
     }
 
     /// The code of a fraction, with [`ROUNDER`] added; its magnitude counts for the peak.
@@ -105,10 +119,10 @@ mod tests {
             for count in 0..40 {
                 let fractions: Vec<_> =
                     (-20..).map(fraction).take(count).chain(special).chain([0.3, -0.4]).collect();
-                let mut codes = vec![5];
+                let mut codes = vec![5; 20];
                 let peak = digitiser.codes(&fractions, &mut codes);
                 let each: Vec<_> = fractions.iter().map(|&x| digitiser.code(x).0).collect();
-                assert_eq!(codes[1..], each, "{bits} bits");
+                assert_eq!(codes, each, "{bits} bits");
                 assert_eq!(peak, 1.0, "the most negative code");
             }
         }

@@ -54,13 +54,12 @@ impl Maker {
             Signals::Samples { codes, .. } => std::mem::take(codes),
             Signals::Phasors { .. } => Vec::new(),
         };
-        codes.clear();
         let (blanking, peak) = self.samples(slot, &mut codes);
         *signals = Signals::Samples { codes, blanking };
         peak
     }
 
-    /// Appends the codes of a slot: how many of the blanking are among them, and the largest sample.
+    /// The codes of a slot in place of others: how many of the blanking are among them, and the largest sample.
     fn samples(&mut self, slot: &Slot, codes: &mut Vec<i32>) -> (usize, f64) {
         let first = if self.whole { 0 } else { self.blanking };
         self.fractions.clear();

@@ -10,6 +10,8 @@
 //! exactly, and of which a processor multiplies several at once. A test holds the frames equal to
 //! those of every clock. With the words that an unrounded core has, the same loop gives its sums.
 
+use hapticore_wide::widest;
+
 use crate::blocks::oscillator::PHASES;
 
 /// The words of a window, and how its haptic code is rounded.
@@ -124,16 +126,22 @@ fn square(words: &Words, window: f64, code: i32) -> f64 {
 
 fn products<const N: usize>(words: &Words, codes: &[i32], into: &mut [f64]) -> f64 {
     let Waves::Products(waves) = &words.waves else { unreachable!("chosen by the waves") };
-    let (mut in_phase, mut quadrature, mut squares) = ([0.0; N], [0.0; N], 0.0);
-    let (samples, _) = codes.as_chunks::<N>();
-    for ((codes, [cosine, sine]), window) in samples.iter().zip(waves).zip(&words.window) {
-        for channel in 0..N {
-            let code = f64::from(codes[channel]);
-            in_phase[channel] += code * cosine;
-            quadrature[channel] += code * sine;
-        }
-        squares += square(words, *window, codes[N - 1]);
-    }
+    let (in_phase, quadrature, squares) = widest(
+        codes.as_chunks::<N>().0,
+        #[inline(always)]
+        move |samples: &[[i32; N]]| {
+            let (mut in_phase, mut quadrature, mut squares) = ([0.0; N], [0.0; N], 0.0);
+            for ((codes, [cosine, sine]), window) in samples.iter().zip(waves).zip(&words.window) {
+                for channel in 0..N {
+                    let code = f64::from(codes[channel]);
+                    in_phase[channel] += code * cosine;
+                    quadrature[channel] += code * sine;
+                }
+                squares += square(words, *window, codes[N - 1]);
+            }
+            (in_phase, quadrature, squares)
+        },
+    );
     into[..N].copy_from_slice(&in_phase);
     into[N..].copy_from_slice(&quadrature);
     squares
@@ -142,17 +150,24 @@ fn products<const N: usize>(words: &Words, codes: &[i32], into: &mut [f64]) -> f
 fn phases<const N: usize>(words: &Words, codes: &[i32], into: &mut [f64]) -> f64 {
     const COUNT: usize = PHASES as usize;
     let Waves::Phases { offset } = words.waves else { unreachable!("chosen by the waves") };
-    let (mut sums, mut squares) = ([[0.0; N]; COUNT], 0.0);
-    let periods = codes.chunks_exact(COUNT * N).zip(words.window.as_chunks::<COUNT>().0);
-    for (codes, windows) in periods {
-        let (samples, _) = codes.as_chunks::<N>();
-        for ((sums, codes), window) in sums.iter_mut().zip(samples).zip(windows) {
-            for (sum, code) in sums.iter_mut().zip(codes) {
-                *sum += (f64::from(*code) + offset) * window;
+    let (periods, _) = codes.as_chunks::<N>().0.as_chunks::<COUNT>();
+    let (sums, squares) = widest(
+        periods,
+        #[inline(always)]
+        move |periods: &[[[i32; N]; COUNT]]| {
+            let (mut sums, mut squares) = ([[0.0; N]; COUNT], 0.0);
+            for (period, windows) in periods.iter().zip(words.window.as_chunks::<COUNT>().0) {
+                for phase in 0..COUNT {
+                    let (codes, window) = (&period[phase], windows[phase]);
+                    for channel in 0..N {
+                        sums[phase][channel] += (f64::from(codes[channel]) + offset) * window;
+                    }
+                    squares += square(words, window, codes[N - 1]);
+                }
             }
-            squares += square(words, *window, codes[N - 1]);
-        }
-    }
+            (sums, squares)
+        },
+    );
     into.copy_from_slice(sums.as_flattened());
     squares
 }

@@ -128,11 +128,21 @@ impl Noise {
         let mut numbers = [0.0; DRAWN];
         for rows in samples.chunks_mut(DRAWN / run.channels * run.channels) {
             draw(random, &mut numbers[..rows.len()]);
-            let mut numbers = numbers.chunks_exact(run.channels);
-            run.rows(rows, |row| {
-                let each = row.iter_mut().zip(&self.sigma).zip(numbers.next().unwrap_or(&[]));
-                each.for_each(|((sample, sigma), number)| *sample += sigma * number);
-            });
+            let (sigma, mut left) = (&self.sigma, &numbers[..]);
+            run.wide_rows(
+                rows,
+                #[inline(always)]
+                move |row: &mut [f64]| {
+                    let (numbers, rest) = left.split_at(row.len());
+                    left = rest;
+                    // All are multiplied before one is written, so that several are at once.
+                    let mut noise = [0.0; MOST_CHANNELS];
+                    for ((noise, sigma), number) in noise.iter_mut().zip(sigma).zip(numbers) {
+                        *noise = sigma * number;
+                    }
+                    row.iter_mut().zip(noise).for_each(|(sample, noise)| *sample += noise);
+                },
+            );
         }
     }
 

@@ -66,9 +66,7 @@ impl Factor {
             let far = far * reciprocal(2);
             let close = (close - far * pivots[1] * last) * reciprocal(1);
             let pivot = own - far * far * pivots[1] - close * close * pivots[0];
-            if !(pivot > 0.0) {
-                return None;
-            }
+            (pivot > 0.0).then_some(())?;
             pivots = [pivot, pivots[0]];
             before.push([close, far]);
             inverse.push(1.0 / pivot);
