@@ -86,6 +86,7 @@ mod rotor;
 mod scene;
 mod stimulus;
 mod terminals;
+mod threads;
 mod timing;
 mod trajectory;
 mod truth;

@@ -10,6 +10,7 @@ mod calibrating;
 
 use std::ops::Range;
 
+use hapticore_wide::widest;
 use num_complex::Complex64;
 
 use crate::case::{Case, Length};
@@ -187,25 +188,17 @@ impl Plant {
     /// does not ask for it.
     pub fn nominal_sheet(&self) -> Option<NominalSheet> {
         let nominal = self.case.nominal.as_ref()?;
-        let setting = Setting {
-            device: &self.device,
-            timing: &self.timing,
-            seed: self.seed,
-            case: self.index,
-        };
-        let effects = Effects::build(nominal, &setting);
+        let effects = Effects::build(nominal, &self.setting());
         Some(NominalSheet { effects, device: self.device(), ratios: self.ratios.clone() })
     }
 
     /// Effects of their own, for what must leave the run as it was.
     pub(crate) fn fresh_effects(&self) -> Effects {
-        let setting = Setting {
-            device: &self.device,
-            timing: &self.timing,
-            seed: self.seed,
-            case: self.index,
-        };
-        Effects::build(&self.case.effects, &setting)
+        Effects::build(&self.case.effects, &self.setting())
+    }
+
+    fn setting(&self) -> Setting<'_> {
+        Setting { device: &self.device, timing: &self.timing, seed: self.seed, case: self.index }
     }
 
     /// The ratios that truth tells.
@@ -423,7 +416,13 @@ impl Plant {
         out.resize(start + range.len() * self.channels(), 0.0);
         let run = Run { slot: *slot, range, slot_start, channels: self.channels() };
         self.effects.on_channels(|effect| effect.samples(pad, &run, &mut out[start..]));
-        out[start..].iter_mut().for_each(|sample| *sample = sample.clamp(-1.0, 1.0));
+        widest(
+            &mut out[start..],
+            #[inline(always)]
+            |samples: &mut [f64]| {
+                samples.iter_mut().for_each(|sample| *sample = sample.clamp(-1.0, 1.0));
+            },
+        );
     }
 
     /// A slot as it is looked at, for whoever makes its samples.

@@ -25,6 +25,9 @@ pub(crate) struct Made {
     pub peak: f64,
 }
 
+/// Slots that are worth being made apart.
+const LEAST: usize = 16;
+
 /// Slots of a case in their order, some at a time.
 pub(crate) struct Look {
     plant: Plant,
@@ -39,9 +42,11 @@ impl Look {
         Look { plant, next: 0, slots }
     }
 
-    /// Looks at the next slots, so many or as many as are left, in the memory of some that are done with.
+    /// Looks at the next slots, so many or half of those that are left, in the memory of some that are done
+    /// with: after the last have been made all processors but one wait for the core.
     pub fn at(&mut self, count: usize, done: Vec<Made>) -> Vec<Made> {
-        let slots = self.next..self.slots.min(self.next + count);
+        let left = self.slots - self.next;
+        let slots = self.next..self.next + count.min(left.div_ceil(2).max(LEAST)).min(left);
         self.next = slots.end;
         let used = done.into_iter().map(|made| made.slot.signals);
         let signals = used.chain(std::iter::repeat(Signals::NONE));

@@ -254,7 +254,7 @@ impl<'a> Case<'a> {
         let (at_a_time, mut outcome) = (self.ahead(), Outcome::default());
         // While the device is calibrated there is time for more of them.
         let first = || {
-            let mut made = look.at(2 * at_a_time, Vec::new());
+            let mut made = look.at(at_a_time, Vec::new());
             let next = look.at(at_a_time, Vec::new());
             makers.make(&mut made);
             (made, next)

@@ -153,9 +153,9 @@ pub const OPEN: f64 = 1e-4;
 /// The share of the ratios' denominator below which a terminal counts as open: half of the least
 /// that any has anywhere that is not open already. `shares` are those of each terminal, place by
 /// place.
-pub fn open_share(shares: &[Vec<f64>]) -> f64 {
-    let of = |terminal: usize| shares.iter().map(move |place| place[terminal]);
-    let terminals = 0..shares.first().map_or(0, Vec::len);
+pub fn open_share<'a>(shares: impl Iterator<Item = &'a [f64]> + Clone) -> f64 {
+    let of = |terminal: usize| shares.clone().map(move |place| place[terminal]);
+    let terminals = 0..shares.clone().next().map_or(0, <[f64]>::len);
     let connected = terminals.filter(|&terminal| of(terminal).fold(0.0, f64::max) >= OPEN);
     connected.flat_map(of).fold(1.0, f64::min) / 2.0
 }

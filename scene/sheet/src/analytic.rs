@@ -50,14 +50,19 @@ impl Analytic {
 
     /// A place from N to each terminal.
     fn source_at(&self, at: [f64; 2], to_terminal: impl Fn(usize) -> f64) -> Source {
-        let known = |(n, series): (usize, &f64)| {
-            if series.is_finite() { self.sheet.ohm_per_square * to_terminal(n) } else { 0.0 }
-        };
-        let terminals = self.sheet.terminal_ohm.iter().enumerate();
-        // The last is the border's.
-        let known: Bordered = terminals.map(known).chain([1.0]).collect();
-        let unknown = self.inverse.rows().map(|row| dot(row, &known)).collect();
-        Source { at, known, unknown }
+        let terminals = &self.sheet.terminal_ohm;
+        let none = Bordered::of(terminals.len() + 1, |_| ());
+        // Filled where it stays: it is large to be moved.
+        let mut source = Source { at, known: none, unknown: none };
+        for (n, (known, series)) in source.known.iter_mut().zip(terminals).enumerate() {
+            let connected = series.is_finite();
+            *known = if connected { self.sheet.ohm_per_square * to_terminal(n) } else { 0.0 };
+        }
+        source.known[terminals.len()] = 1.0; // The border's.
+        for (unknown, row) in source.unknown.iter_mut().zip(self.inverse.rows()) {
+            *unknown = dot(row, &source.known);
+        }
+        source
     }
 
     /// The places of this x, mm from the middle, for [`Analytic::crossing`].

@@ -43,6 +43,12 @@ impl<T: Copy + Default, const MOST: usize> Few<T, MOST> {
     pub fn padded(&self) -> [T; MOST] {
         self.values
     }
+
+    /// The same without a copy.
+    #[inline]
+    pub fn as_padded(&self) -> &[T; MOST] {
+        &self.values
+    }
 }
 
 impl<T: Copy + Default, const MOST: usize> Default for Few<T, MOST> {

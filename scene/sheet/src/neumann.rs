@@ -84,17 +84,18 @@ impl Neumann {
 
     fn product(&self, decay: [f64; 4], angles: [f64; 2], near: f64) -> f64 {
         let coincident = (PI * near / self.b).powi(2);
-        let factor = |e: f64, angle: f64| match (1.0 - e).powi(2) + 4.0 * e * angle {
-            tiny if tiny < 1e-24 => coincident,
-            factor => factor,
-        };
-        let mut product = 1.0;
-        for m in 0..self.images {
-            let image = self.next.powi(m);
-            product *= decay
-                .iter()
-                .map(|e| factor(e * image, angles[0]) * factor(e * image, angles[1]))
-                .product::<f64>();
+        let (mut product, mut image) = (1.0, 1.0);
+        for _ in 0..self.images {
+            let decay = decay.map(|e| e * image);
+            let (constant, by) = (decay.map(|e| (1.0 - e).powi(2)), decay.map(|e| 4.0 * e));
+            // All are there before one is asked whether it is tiny: two are computed at once.
+            let [of_sum, of_difference] = angles.map(|angle| {
+                let factors: [f64; 4] = std::array::from_fn(|n| constant[n] + by[n] * angle);
+                factors.map(|factor| if factor < 1e-24 { coincident } else { factor })
+            });
+            product *=
+                of_sum.iter().zip(of_difference).map(|(sum, diff)| sum * diff).product::<f64>();
+            image *= self.next;
         }
         product
     }

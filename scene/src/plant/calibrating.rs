@@ -3,11 +3,15 @@
 //! was.
 
 use super::Plant;
-use crate::effects::Pad;
 use crate::effects::split_electrode::sides_f;
+use crate::effects::{Effects, Pad};
 use crate::pad::resting;
+use crate::threads::in_parts;
 use crate::trajectory::raster;
 use crate::truth::{ForcePoint, MapPoint, PadMeasurement};
+
+/// Places that are worth a thread.
+const LEAST: usize = 2000;
 
 impl Plant {
     /// A raster of places with what the nominal device reads there: no noise, no mismatch, one pad
@@ -27,13 +31,12 @@ impl Plant {
     /// # Ok::<(), hapticore_scene::SceneError>(())
     /// ```
     pub fn calibration_map(&self, nx: usize, ny: usize, margin_mm: f64) -> Vec<MapPoint> {
-        let still = raster(nx, ny, margin_mm, &self.device)
-            .into_iter()
-            .map(|place| resting(place, 0.0, 0.0, &self.device));
-        let point = |pad: Pad| {
+        let places = raster(nx, ny, margin_mm, &self.device);
+        let (device, ratios) = (&self.device, &self.ratios);
+        let point = |pad: &Pad| {
             let amplitudes = pad.amplitudes();
             let ([r_x, r_y], shares) =
-                (self.ratios.of_amplitudes(&amplitudes), self.ratios.shares(&amplitudes));
+                (ratios.of_amplitudes(&amplitudes), ratios.shares(&amplitudes));
             MapPoint {
                 x_mm: pad.x_mm,
                 y_mm: pad.y_mm,
@@ -43,7 +46,16 @@ impl Plant {
                 sheet_ohm: pad.sheet_ohm.re,
             }
         };
-        self.settle(still).map(point).collect()
+        let (specs, setting) = (&self.case.effects, self.setting());
+        in_parts(places.len(), LEAST, |part| {
+            let mut effects = Effects::build(specs, &setting);
+            let settle = |place: &[f64; 2]| {
+                let mut pad = resting(*place, 0.0, 0.0, device);
+                effects.on_resting_pad(&mut pad);
+                point(&pad)
+            };
+            places[part].iter().map(settle).collect()
+        })
     }
 
     /// What the terminals of the nominal device measure of an isolated pad at rest at each of these

@@ -165,7 +165,8 @@ pub fn calibrate(data: &Data, profile: &Profile) -> Result<(DeviceCalibration, O
         .map(|ohm| if from == Resistance::Currents { ohm / scale } else { *ohm })
         .collect();
     let shares = |place: &Place| Places::shares(&place.siemens, [&signs.x, &signs.y]);
-    let open_share = open_share(&places.places.iter().map(shares).collect::<Vec<_>>());
+    let shares: Vec<_> = places.places.iter().map(shares).collect();
+    let open_share = open_share(shares.iter().map(Vec::as_slice));
     let measured = Measured {
         rows: rows(&places, &sheet, &signs),
         columns,

@@ -7,9 +7,13 @@
 
 use crate::few::Few;
 use crate::terminals::MOST_TERMINALS;
+use crate::threads::in_parts;
 
 /// Values to a lane.
 const WIDTH: usize = 4;
+
+/// Nodes that are worth a thread.
+const LEAST: usize = 2000;
 
 /// Values of a lane.
 pub(super) type Lane = [f64; WIDTH];
@@ -28,13 +32,22 @@ pub(super) struct Nodes {
 }
 
 impl Nodes {
-    /// Nodes of so many values each.
-    pub fn new(values: usize, nodes: impl Iterator<Item = Values>) -> Self {
+    /// Nodes of so many values each, in rows from left to right, from their column and row.
+    pub fn in_rows(
+        values: usize,
+        [columns, rows]: [usize; 2],
+        node: impl Fn(usize, usize) -> Values + Sync,
+    ) -> Self {
         let lanes = values.div_ceil(WIDTH);
-        let lane = |node: &Values, lane: usize| {
-            std::array::from_fn(|n| node.get(lane * WIDTH + n).copied().unwrap_or_default())
-        };
-        let list = nodes.flat_map(|node| (0..lanes).map(move |n| lane(&node, n))).collect();
+        let list = in_parts(rows, LEAST.div_ceil(columns), |rows| {
+            let mut list = Vec::with_capacity(lanes * columns * rows.len());
+            for n in rows.start * columns..rows.end * columns {
+                let node = node(n % columns, n / columns);
+                let (all, _) = node.as_padded().as_chunks();
+                list.extend_from_slice(&all[..lanes]);
+            }
+            list
+        });
         Nodes { values, lanes, list }
     }
 
@@ -56,11 +69,12 @@ impl Nodes {
 
     /// Weighted sums over nodes, four after each of these.
     pub fn weighted(&self, first: [usize; 4], weights: &[Lane; 4]) -> Values {
+        let rows = first.map(|node| &self.list[node * self.lanes..(node + WIDTH) * self.lanes]);
         self.gather(|lane| {
             let mut sum = [0.0; WIDTH];
-            for (first, weights) in first.into_iter().zip(weights) {
-                let nodes = self.list[first * self.lanes..][lane..].iter().step_by(self.lanes);
-                for (node, weight) in nodes.zip(weights) {
+            for (row, weights) in rows.iter().zip(weights) {
+                for (n, weight) in weights.iter().enumerate() {
+                    let node = &row[n * self.lanes + lane];
                     sum.iter_mut().zip(node).for_each(|(sum, value)| *sum += weight * value);
                 }
             }

@@ -104,11 +104,11 @@ pub(crate) struct Spline {
 impl Spline {
     /// Through a function of so many values at the nodes, with its slopes at the rim. What the function needs
     /// of an x or of a y alone is prepared once for all places that have it.
-    pub fn of<X, Y>(
+    pub fn of<X: Sync, Y: Sync>(
         axes: [Axis; 2],
         values: usize,
         (x, y): (impl Fn(f64) -> X, impl Fn(f64) -> Y),
-        f: impl Fn(&X, &Y) -> Values,
+        f: impl Fn(&X, &Y) -> Values + Sync,
     ) -> Self {
         let (columns, rows) = (axes[0].asked(x), axes[1].asked(y));
         Spline::filtered(axes, values, |column, row| {
@@ -117,7 +117,11 @@ impl Spline {
     }
 
     /// Through values at the nodes, level at the rim: what is insulated there.
-    pub fn level(axes: [Axis; 2], values: usize, node: impl Fn(usize, usize) -> Values) -> Self {
+    pub fn level(
+        axes: [Axis; 2],
+        values: usize,
+        node: impl Fn(usize, usize) -> Values + Sync,
+    ) -> Self {
         let inside = |n: usize, axis: usize| (1..=axes[axis].nodes).contains(&n);
         let sample = |column, row| match inside(column, 0) && inside(row, 1) {
             true => node(column - 1, row - 1),
@@ -128,7 +132,11 @@ impl Spline {
 
     /// Through values at the nodes, with the slopes at the rim that a parabola through three of
     /// them has.
-    pub fn free(axes: [Axis; 2], values: usize, node: impl Fn(usize, usize) -> Values) -> Self {
+    pub fn free(
+        axes: [Axis; 2],
+        values: usize,
+        node: impl Fn(usize, usize) -> Values + Sync,
+    ) -> Self {
         let along = |n: usize, axis: usize, f: &dyn Fn(usize) -> Values| {
             let last = axes[axis].nodes - 1;
             let slope = |a: usize, b: usize, c: usize, sign: f64| {
@@ -146,16 +154,16 @@ impl Spline {
         })
     }
 
-    fn filtered(axes: [Axis; 2], values: usize, sample: impl Fn(usize, usize) -> Values) -> Self {
+    fn filtered(
+        axes: [Axis; 2],
+        values: usize,
+        sample: impl Fn(usize, usize) -> Values + Sync,
+    ) -> Self {
         let (columns, rows) = (axes[0].nodes + 2, axes[1].nodes + 2);
-        let samples = (0..columns * rows).map(|n| sample(n % columns, n / columns));
-        let mut coefficients = Nodes::new(values, samples);
+        let mut coefficients = Nodes::in_rows(values, [columns, rows], sample);
         let (lanes, list) = (coefficients.lanes, &mut coefficients.list);
-        for lane in 0..lanes {
-            (0..rows).for_each(|row| filter(list, row * columns * lanes + lane, lanes, columns));
-            (0..columns)
-                .for_each(|column| filter(list, column * lanes + lane, columns * lanes, rows));
-        }
+        list.chunks_exact_mut(columns * lanes).for_each(|row| filter(row, lanes));
+        filter(list, columns * lanes);
         Spline { axes, coefficients }
     }
 
@@ -174,32 +182,39 @@ fn add(a: Lane, factor: f64, b: Lane) -> Lane {
     std::array::from_fn(|n| a[n] + factor * b[n])
 }
 
-/// Turns values between two end slopes into B-spline coefficients, in place: a lane of `count`
-/// nodes from `first`, `stride` apart.
+/// Turns values between two end slopes into B-spline coefficients, in place: of each node so many lanes,
+/// node after node.
 ///
 /// (c_(i−1) + 4c_i + c_(i+1))/6 = f_i inside, (c_1 − c_(−1))/2 = f′ at the ends: tridiagonal once
 /// the ends are folded in.
-fn filter(values: &mut [Lane], first: usize, stride: usize, count: usize) {
-    let at = |n: usize| first + n * stride;
+fn filter(values: &mut [Lane], lanes: usize) {
+    let count = values.len() / lanes;
     let last = count - 2;
     let mut upper = vec![0.0; count];
     for n in 1..=last {
         let (below, above) = (if n == last { 2.0 } else { 1.0 }, if n == 1 { 2.0 } else { 1.0 });
-        let mut right = values[at(n)].map(|value| 6.0 * value);
-        if n == 1 {
-            right = add(right, 2.0, values[at(0)]);
-        }
-        if n == last {
-            right = add(right, -2.0, values[at(count - 1)]);
-        }
         let (pivot, below) = if n == 1 { (4.0, 0.0) } else { (4.0 - below * upper[n - 1], below) };
-        right = add(right, -below, values[at(n - 1)]);
         upper[n] = if n == last { 0.0 } else { above / pivot };
-        values[at(n)] = right.map(|value| value / pivot);
+        for at in n * lanes..(n + 1) * lanes {
+            let mut right = values[at].map(|value| 6.0 * value);
+            if n == 1 {
+                right = add(right, 2.0, values[at - lanes]);
+            }
+            if n == last {
+                right = add(right, -2.0, values[at + lanes]);
+            }
+            right = add(right, -below, values[at - lanes]);
+            values[at] = right.map(|value| value / pivot);
+        }
     }
     for n in (1..last).rev() {
-        values[at(n)] = add(values[at(n)], -upper[n], values[at(n + 1)]);
+        for at in n * lanes..(n + 1) * lanes {
+            values[at] = add(values[at], -upper[n], values[at + lanes]);
+        }
     }
-    values[at(0)] = add(values[at(2)], -2.0, values[at(0)]);
-    values[at(count - 1)] = add(values[at(last - 1)], 2.0, values[at(count - 1)]);
+    let end = (count - 1) * lanes;
+    for lane in 0..lanes {
+        values[lane] = add(values[2 * lanes + lane], -2.0, values[lane]);
+        values[end + lane] = add(values[end + lane - 2 * lanes], 2.0, values[end + lane]);
+    }
 }

@@ -13,10 +13,6 @@ pub(crate) struct Split {
 }
 
 impl Split {
-    pub fn node(&self) -> Values {
-        self.share.iter().copied().chain([self.ohm]).collect()
-    }
-
     pub fn of_node(node: &Values) -> Split {
         let terminals = node.len() - 1;
         Split { share: Few::from_slice(&node[..terminals]), ohm: node[terminals] }

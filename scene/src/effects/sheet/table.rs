@@ -9,7 +9,6 @@ use super::geometry::Sheet;
 use super::nodes::{Nodes, Values};
 use super::spline::{Axis, Spline};
 use super::split::{Solver, Split};
-use crate::few::Few;
 
 fn axes(sheet: &Sheet, nodes: [usize; 2]) -> [Axis; 2] {
     let reach_mm = sheet.reach_mm();
@@ -19,7 +18,11 @@ fn axes(sheet: &Sheet, nodes: [usize; 2]) -> [Axis; 2] {
 /// The split where a column and a row of nodes cross.
 fn node(exact: &Analytic, column: &Column, row: &Row) -> Values {
     let (source, ohm) = exact.crossing(column, row);
-    Split { share: Few::from_slice(source.shares()), ohm }.node()
+    let shares = source.shares();
+    Values::of(shares.len() + 1, |values| {
+        values[..shares.len()].copy_from_slice(shares);
+        values[shares.len()] = ohm;
+    })
 }
 
 /// A bicubic spline with the exact slopes at its rim.
@@ -52,9 +55,9 @@ impl Bilinear {
         let (exact, axes) = (Analytic::new(sheet), axes(sheet, nodes));
         let columns: Vec<_> = axes[0].nodes_mm().map(|x| exact.column(x)).collect();
         let rows: Vec<_> = axes[1].nodes_mm().map(|y| exact.row(y)).collect();
-        let nodes = rows.iter().flat_map(|row| columns.iter().map(move |column| (column, row)));
-        let nodes = nodes.map(|(column, row)| node(&exact, column, row));
-        Bilinear { axes, nodes: Nodes::new(sheet.terminals() + 1, nodes) }
+        let node = |column: usize, row: usize| node(&exact, &columns[column], &rows[row]);
+        let size = axes.map(|axis| axis.nodes);
+        Bilinear { axes, nodes: Nodes::in_rows(sheet.terminals() + 1, size, node) }
     }
 }
 
