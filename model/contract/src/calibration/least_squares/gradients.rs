@@ -5,6 +5,8 @@
 //! Hestenes and Stiefel, Methods of conjugate gradients for solving linear systems, J. Res. NBS 49, 1952, with
 //! a preconditioner. Layers are solved side by side, each with steps of its own.
 
+use std::ops::Range;
+
 use super::raster::{NEAR, Near, REACH};
 use super::separable::Separable;
 
@@ -23,54 +25,105 @@ pub fn solve<const LAYERS: usize>(
     normal: &[Near],
     right: &[[f64; LAYERS]],
 ) -> Option<Entries<LAYERS>> {
-    let like = Separable::like(size, normal)?;
-    let zero = || {
-        let mut zeros = Vec::new();
-        zeros.resize(right.len(), [0.0; LAYERS]);
-        zeros
-    };
-    // The direction has zeros before and after it, for neighbours that are not there.
-    let beyond = REACH * size[0] + REACH;
-    let mut direction = zero();
-    direction.resize(right.len() + 2 * beyond, [0.0; LAYERS]);
-    let inner = beyond..beyond + right.len();
-    let (mut x, mut left, mut towards, mut change) = (zero(), right.to_vec(), zero(), zero());
-    let (mut before, mut least) = ([0.0; LAYERS], [0.0; LAYERS]);
-    for step in 0..STEPS {
-        like.solve(&left, &mut towards);
-        let now = dots(&left, &towards);
-        if step == 0 {
-            least = now.map(|now| LEFT * now);
+    let mut search = Search::new(size, normal, right)?;
+    let mut left = search.left();
+    let least = left.map(|left| LEFT * left);
+    search.turn([0.0; LAYERS]);
+    for _ in 0..STEPS {
+        if (0..LAYERS).all(|n| left[n] <= least[n]) {
+            return Some(search.x);
         }
-        if (0..LAYERS).all(|n| now[n] <= least[n]) {
-            return Some(x);
-        }
-        let kept: [f64; LAYERS] = std::array::from_fn(|n| ratio(now[n], before[n]));
-        for (direction, towards) in direction[inner.clone()].iter_mut().zip(&towards) {
+        let bend = search.bend()?;
+        search.go(ratios(left, bend));
+        let before = std::mem::replace(&mut left, search.left());
+        search.turn(ratios(left, before));
+    }
+    None
+}
+
+/// The entries as they were found so far, and where to go from there.
+struct Search<'a, const LAYERS: usize> {
+    columns: usize,
+    normal: &'a [Near],
+    like: Separable,
+    x: Entries<LAYERS>,
+    /// What the entries leave of the right-hand sides.
+    left: Entries<LAYERS>,
+    /// Where the entries would be, by what the equations are like.
+    towards: Entries<LAYERS>,
+    /// Along which they go, with zeros before and after it, for neighbours that are not there.
+    direction: Entries<LAYERS>,
+    /// What a step along it takes from what is left.
+    change: Entries<LAYERS>,
+}
+
+impl<'a, const LAYERS: usize> Search<'a, LAYERS> {
+    fn new(size: [usize; 2], normal: &'a [Near], right: &[[f64; LAYERS]]) -> Option<Self> {
+        let zeros = |count: usize| {
+            let mut zeros = Vec::new();
+            zeros.resize(count, [0.0; LAYERS]);
+            zeros
+        };
+        let entries = right.len();
+        Some(Search {
+            columns: size[0],
+            normal,
+            like: Separable::like(size, normal)?,
+            x: zeros(entries),
+            left: right.to_vec(),
+            towards: zeros(entries),
+            direction: zeros(entries + 2 * beyond(size[0])),
+            change: zeros(entries),
+        })
+    }
+
+    fn inner(&self) -> Range<usize> {
+        beyond(self.columns)..beyond(self.columns) + self.x.len()
+    }
+
+    /// How much is left of each layer, as a square.
+    fn left(&mut self) -> [f64; LAYERS] {
+        self.like.solve(&self.left, &mut self.towards);
+        dots(&self.left, &self.towards)
+    }
+
+    /// Turns the direction towards where the entries would be; so much of the one before is kept.
+    fn turn(&mut self, kept: [f64; LAYERS]) {
+        let inner = self.inner();
+        for (direction, towards) in self.direction[inner].iter_mut().zip(&self.towards) {
             *direction = std::array::from_fn(|n| towards[n] + kept[n] * direction[n]);
         }
-        multiply(size[0], normal, &direction, &mut change);
-        let bend = dots(&direction[inner.clone()], &change);
-        if !bend.iter().all(|bend| *bend >= 0.0) {
-            return None;
-        }
-        let far: [f64; LAYERS] = std::array::from_fn(|n| ratio(now[n], bend[n]));
-        for ((x, left), (direction, change)) in
-            x.iter_mut().zip(&mut left).zip(direction[inner.clone()].iter().zip(&change))
-        {
+    }
+
+    /// How fast a step along the direction has less and less effect; none where it has more and more, which no sum of
+    /// squares has.
+    fn bend(&mut self) -> Option<[f64; LAYERS]> {
+        multiply(self.columns, self.normal, &self.direction, &mut self.change);
+        let bend = dots(&self.direction[self.inner()], &self.change);
+        bend.iter().all(|bend| *bend >= 0.0).then_some(bend)
+    }
+
+    /// Goes so far along the direction.
+    fn go(&mut self, far: [f64; LAYERS]) {
+        let inner = self.inner();
+        let steps = self.direction[inner].iter().zip(&self.change);
+        for ((x, left), (direction, change)) in self.x.iter_mut().zip(&mut self.left).zip(steps) {
             for n in 0..LAYERS {
                 x[n] += far[n] * direction[n];
                 left[n] -= far[n] * change[n];
             }
         }
-        before = now;
     }
-    None
 }
 
-/// A quotient; 0 where there is nothing left to divide by.
-fn ratio(a: f64, b: f64) -> f64 {
-    if b > 0.0 { a / b } else { 0.0 }
+/// Entries that a neighbour may lie before the first or after the last one.
+fn beyond(columns: usize) -> usize {
+    REACH * columns + REACH
+}
+
+/// Quotients; 0 where there is nothing left to divide by.
+fn ratios<const LAYERS: usize>(a: [f64; LAYERS], b: [f64; LAYERS]) -> [f64; LAYERS] {
+    std::array::from_fn(|n| if b[n] > 0.0 { a[n] / b[n] } else { 0.0 })
 }
 
 fn dots<const LAYERS: usize>(a: &[[f64; LAYERS]], b: &[[f64; LAYERS]]) -> [f64; LAYERS] {

@@ -247,6 +247,39 @@ mod tests {
         }
     }
 
+    /// Points in one half alone: smoothness continues what they say.
+    #[test]
+    fn entries_that_smoothness_alone_settles_are_found() {
+        for size @ [columns, rows] in [[24, 9], [9, 24], [40, 30]] {
+            let rising: [Vec<f64>; 2] = [1.0, -0.3].map(|slope| {
+                (0..columns * rows).map(|k| slope * (k % columns) as f64 + 0.1).collect()
+            });
+            let mut fit = RasterFit::new(size);
+            let half = corners(size).filter(|first| first % columns < columns / 2);
+            let mut state = 7;
+            for first in half.flat_map(|first| [first; 4]) {
+                let (rows, weights) = (splines(&mut state), splines(&mut state));
+                let value = |of: &Vec<f64>| {
+                    (0..9)
+                        .map(|k| rows[k / 3] * weights[k % 3] * of[first + k / 3 * columns + k % 3])
+                        .sum()
+                };
+                let mut across = Moments::NONE;
+                across.add(weights, rising.each_ref().map(value), 1.0);
+                fit.ask_square(first, rows, &across);
+            }
+            for first in 0..columns * rows {
+                if first % columns + 2 < columns {
+                    fit.ask_line(first, 1, [1.0, -2.0, 1.0], 1e-7);
+                }
+                if first / columns + 2 < rows {
+                    fit.ask_line(first, columns, [1.0, -2.0, 1.0], 1e-7);
+                }
+            }
+            check(&fit.solve().expect("settled"), &rising, 1e-3, &format!("{size:?}"));
+        }
+    }
+
     /// Wherever the square lies.
     #[test]
     fn squares_of_entries_are_asked_as_nine_terms_each() {
