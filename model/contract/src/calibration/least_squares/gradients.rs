@@ -7,7 +7,7 @@
 
 use std::ops::Range;
 
-use super::raster::{NEAR, Near, REACH};
+use super::near::{NEAR, Near, REACH};
 use super::separable::Separable;
 
 /// Steps at most: points on a raster need some ten.

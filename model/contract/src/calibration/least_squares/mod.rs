@@ -6,6 +6,7 @@
 
 mod band;
 mod gradients;
+mod near;
 mod raster;
 mod separable;
 

@@ -3,15 +3,7 @@
 
 use super::band::Band;
 use super::gradients;
-
-/// Entries of a raster meet in equations up to so many columns and rows apart.
-pub(super) const REACH: usize = 2;
-
-/// Columns, and rows, about an entry that it may meet.
-pub(super) const NEAR: usize = 2 * REACH + 1;
-
-/// The coefficients of an entry with those about it: row by row, its own in the middle.
-pub(super) type Near = [[f64; NEAR]; NEAR];
+use super::near::{NEAR, Near, REACH};
 
 /// A raster of entries, each of `LAYERS` numbers, which are sought.
 pub struct RasterFit<const LAYERS: usize> {
@@ -247,7 +239,7 @@ mod tests {
         }
     }
 
-    /// Points in one half alone: smoothness continues what they say.
+    /// Points in one half alone: smoothness continues what they say, and Cholesky's factor finds it.
     #[test]
     fn entries_that_smoothness_alone_settles_are_found() {
         for size @ [columns, rows] in [[24, 9], [9, 24], [40, 30]] {
@@ -276,6 +268,8 @@ mod tests {
                     fit.ask_line(first, columns, [1.0, -2.0, 1.0], 1e-7);
                 }
             }
+            let usual = gradients::solve(size, &fit.normal, &fit.right);
+            assert!(usual.is_none(), "{size:?}: for the factor");
             check(&fit.solve().expect("settled"), &rising, 1e-3, &format!("{size:?}"));
         }
     }

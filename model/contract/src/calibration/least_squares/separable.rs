@@ -6,7 +6,7 @@
 //! together. For a raster of points that all count alike M = G_x ⊗ G_y up to a factor. Where they do not, the
 //! diagonal says how much those about an entry count: M ≈ D·(G_x ⊗ G_y)·D with D_e² = M_ee/(G_x ⊗ G_y)_ee.
 
-use super::raster::{NEAR, Near, REACH};
+use super::near::{NEAR, Near, REACH};
 
 /// M approached, ready to be solved.
 pub struct Separable {
@@ -39,8 +39,8 @@ impl Separable {
         for ((x, right), scale) in x.iter_mut().zip(right).zip(&self.scale) {
             *x = right.map(|right| scale * right);
         }
-        x.chunks_exact_mut(self.along.entries()).for_each(|row| self.along.solve_line(row));
-        self.down.solve_lines(x, self.along.entries());
+        x.chunks_exact_mut(self.along.entries()).for_each(|row| self.along.solve(row, 1));
+        self.down.solve(x, self.along.entries());
         for (x, scale) in x.iter_mut().zip(&self.scale) {
             *x = x.map(|x| scale * x);
         }
@@ -78,65 +78,32 @@ impl Factor {
         self.inverse.len()
     }
 
-    /// Solves for one number per layer and entry, in their place.
-    fn solve_line<const LAYERS: usize>(&self, x: &mut [[f64; LAYERS]]) {
-        let take = |x: &mut [f64; LAYERS], by: f64, of: &[f64; LAYERS]| {
-            x.iter_mut().zip(of).for_each(|(x, of)| *x -= by * of);
-        };
-        let [mut last, mut second] = [[0.0; LAYERS]; 2];
-        for (x, [close, far]) in x.iter_mut().zip(&self.before) {
-            take(x, *far, &second);
-            take(x, *close, &last);
-            (second, last) = (last, *x);
-        }
-        let ([mut next, mut after], [mut of_next, mut of_after]) =
-            ([[0.0; LAYERS]; 2], [[0.0; 2]; 2]);
-        for (x, (before, inverse)) in x.iter_mut().zip(self.before.iter().zip(&self.inverse)).rev()
-        {
-            *x = x.map(|x| x * inverse);
-            take(x, of_after[1], &after);
-            take(x, of_next[0], &next);
-            (after, next) = (next, *x);
-            (of_after, of_next) = (of_next, *before);
-        }
-    }
-
-    /// The same for whole rows of numbers, one row of so many per entry.
-    fn solve_lines<const LAYERS: usize>(&self, x: &mut [[f64; LAYERS]], width: usize) {
+    /// Solves for right-hand sides side by side, in their place: so many numbers per layer and entry.
+    fn solve<const LAYERS: usize>(&self, x: &mut [[f64; LAYERS]], width: usize) {
         let count = self.entries();
+        let take = |x: &mut [[f64; LAYERS]], from: usize, by: f64, of: usize| {
+            (0..LAYERS).for_each(|n| x[from][n] -= by * x[of][n]);
+        };
         for (n, [close, far]) in self.before.iter().enumerate() {
-            if n > 1 {
-                take(x, (n, n - 2), *far, width);
+            for at in n * width..(n + 1) * width {
+                if n > 1 {
+                    take(x, at, *far, at - 2 * width);
+                }
+                if n > 0 {
+                    take(x, at, *close, at - width);
+                }
             }
-            if n > 0 {
-                take(x, (n, n - 1), *close, width);
-            }
-        }
-        for (x, inverse) in x.chunks_exact_mut(width).zip(&self.inverse) {
-            x.iter_mut().for_each(|x| *x = x.map(|x| x * inverse));
         }
         for n in (0..count).rev() {
-            if n + 2 < count {
-                take(x, (n, n + 2), self.before[n + 2][1], width);
-            }
-            if n + 1 < count {
-                take(x, (n, n + 1), self.before[n + 1][0], width);
+            for at in n * width..(n + 1) * width {
+                x[at] = x[at].map(|x| x * self.inverse[n]);
+                if n + 2 < count {
+                    take(x, at, self.before[n + 2][1], at + 2 * width);
+                }
+                if n + 1 < count {
+                    take(x, at, self.before[n + 1][0], at + width);
+                }
             }
         }
-    }
-}
-
-/// Takes `by` times a row of numbers from another.
-fn take<const LAYERS: usize>(
-    x: &mut [[f64; LAYERS]],
-    (from, of): (usize, usize),
-    by: f64,
-    width: usize,
-) {
-    let (first, second) = x.split_at_mut(from.max(of) * width);
-    let (near, far) = (&mut first[from.min(of) * width..][..width], &mut second[..width]);
-    let (from, of) = if from < of { (near, far) } else { (far, near) };
-    for (from, of) in from.iter_mut().zip(of) {
-        from.iter_mut().zip(of).for_each(|(from, of)| *from -= by * *of);
     }
 }
