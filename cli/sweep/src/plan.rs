@@ -48,7 +48,7 @@ use crate::file::{File, Lines};
 use crate::{canonical, settings};
 
 /// Version of everything that is named by its content: keys, lines, plans.
-pub const SCHEMA: u32 = 2;
+pub const SCHEMA: u32 = 3;
 
 /// Keys of a scene that a plan sets in another way, and how.
 const WHOLE: [(&str, &str); 5] = [
