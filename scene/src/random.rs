@@ -2,8 +2,11 @@
 //! Random streams named by what they are for, so that no stream depends on how much another was
 //! used.
 
-use rand_distr::{Distribution, StandardNormal};
+mod normal;
+
 use rand_xoshiro::rand_core::SeedableRng;
+
+pub(crate) use normal::{draw, normal};
 
 /// A fast generator of good quality, started afresh for each name.
 pub(crate) type Stream = rand_xoshiro::Xoshiro256PlusPlus;
@@ -59,7 +62,8 @@ pub(crate) fn stream(seed: u64, place: [u64; 2], purpose: Purpose) -> Stream {
 
 /// Standard normal numbers that belong to the hardware: the same in every case and slot.
 pub(crate) fn normals(seed: u64, purpose: Purpose) -> impl Iterator<Item = f64> {
-    StandardNormal.sample_iter(stream(seed, [0, 0], purpose))
+    let mut random = stream(seed, [0, 0], purpose);
+    std::iter::repeat_with(move || normal(&mut random))
 }
 
 /// One step of SplitMix64: every bit of the input reaches every bit of the output (Steele, Lea and

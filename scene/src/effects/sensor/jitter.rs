@@ -13,11 +13,11 @@ use num_complex::Complex64;
 use super::super::effect::{ChannelEffect, Effect, Phasors, Run};
 use super::super::pad::Pad;
 use super::super::spec::{Setting, Spec};
-use super::noise::{HANN_NENBW, Source, normal};
+use super::noise::{HANN_NENBW, Source};
 use crate::device::Device;
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
-use crate::random::Purpose;
+use crate::random::{Purpose, normal};
 use crate::rotor::Rotor;
 use crate::terminals::MOST_CHANNELS;
 

@@ -20,7 +20,6 @@
 use std::f64::consts::{PI, TAU};
 
 use num_complex::Complex64;
-use rand_distr::{Distribution, StandardNormal};
 
 use super::super::effect::{ChannelEffect, Effect, Phasors, Run};
 use super::super::pad::Pad;
@@ -28,7 +27,7 @@ use super::super::spec::{Setting, Spec};
 use crate::device::Device;
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
-use crate::random::{Origin, Purpose, Stream, stream};
+use crate::random::{Origin, Purpose, Stream, draw, normal, stream};
 use crate::terminals::MOST_CHANNELS;
 
 /// Equivalent noise bandwidth of a Hann window, bins.
@@ -199,20 +198,4 @@ impl Source {
     pub fn stream(&self, slot: u64, purpose: Purpose) -> Stream {
         stream(self.seed, [self.case, slot], purpose)
     }
-}
-
-/// A standard normal number.
-pub(in super::super) fn normal(random: &mut Stream) -> f64 {
-    let mut number = [0.0];
-    draw(random, &mut number);
-    number[0]
-}
-
-/// Standard normal numbers one after the other. Drawn here alone: so the library's function is in one piece with the
-/// loop, and the generator's state stays in registers.
-#[inline(never)]
-fn draw(random: &mut Stream, numbers: &mut [f64]) {
-    let mut state = random.clone();
-    numbers.iter_mut().for_each(|number| *number = StandardNormal.sample(&mut state));
-    *random = state;
 }

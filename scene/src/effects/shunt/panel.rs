@@ -26,12 +26,12 @@ use super::{Screened, screened};
 use crate::device::Device;
 use crate::effects::effect::{ChannelEffect, Effect, Phasors, Run};
 use crate::effects::pad::Pad;
-use crate::effects::sensor::noise::{Source, normal};
+use crate::effects::sensor::noise::Source;
 use crate::effects::sheet::{Following, OfSheet};
 use crate::effects::spec::{Setting, Spec};
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
-use crate::random::{Origin, Purpose, Stream};
+use crate::random::{Origin, Purpose, Stream, normal};
 use crate::rotor::Rotor;
 use crate::terminals::PerTerminal;
 
