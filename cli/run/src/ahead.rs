@@ -1,105 +1,230 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Slots made ahead of the core: some are made, by all processors, while the core works on those before.
+//! Slots made ahead of the core, by all processors.
 //!
 //! A plant looks at slots in their order, since effects have states; their samples follow from what it saw,
-//! so that any plant of the case makes them, and results do not depend on threads.
+//! so that any plant of the case makes them, and results do not depend on threads. Whoever has nothing else
+//! to do looks at the next slot and makes it: helpers, and the core's thread while its own next slot is being
+//! made. A queue keeps so many slots at most. Helpers that find it full leave, and are called again when it is
+//! half empty.
 
-use std::sync::Mutex;
+use std::collections::VecDeque;
+use std::sync::{Mutex, MutexGuard, TryLockError};
 
-use hapticore_scene::{EffectCost, Plant, Slot, Truth};
-use rayon::prelude::*;
+use hapticore_scene::{EffectCost, Plant, Truth};
+use rayon::Scope;
 
-use crate::engine;
-use crate::engine::Signals;
+use crate::engine::{Signals, Slot};
 use crate::maker::Maker;
 
-/// A slot on its way to the core.
+/// More have nothing to do: slots are looked at one after the other, and a fifth of the time that a slot with
+/// samples takes is that.
+const MOST_HELPERS: usize = 3;
+
+/// A slot for the core.
 pub(crate) struct Made {
-    /// As the plant looked at it.
-    seen: Slot,
     /// What the plant knows.
     pub truth: Truth,
     /// What the core is given.
-    pub slot: engine::Slot,
+    pub slot: Slot,
     /// The largest sample, as a fraction of full scale.
     pub peak: f64,
 }
 
-/// Slots that are worth being made apart.
-const LEAST: usize = 16;
-
-/// Slots of a case in their order, some at a time.
-pub(crate) struct Look {
-    plant: Plant,
-    /// The first that it has not looked at.
-    next: usize,
-    slots: usize,
-}
-
-impl Look {
-    /// Slots up to the last of so many.
-    pub fn new(plant: Plant, slots: usize) -> Self {
-        Look { plant, next: 0, slots }
-    }
-
-    /// Looks at the next slots, so many or half of those that are left, in the memory of some that are done
-    /// with: after the last have been made all processors but one wait for the core.
-    pub fn at(&mut self, count: usize, done: Vec<Made>) -> Vec<Made> {
-        let left = self.slots - self.next;
-        let slots = self.next..self.next + count.min(left.div_ceil(2).max(LEAST)).min(left);
-        self.next = slots.end;
-        let used = done.into_iter().map(|made| made.slot.signals);
-        let signals = used.chain(std::iter::repeat(Signals::NONE));
-        slots.zip(signals).map(|(slot, signals)| self.look(slot, signals)).collect()
-    }
-
-    fn look(&mut self, slot: usize, signals: Signals) -> Made {
-        let (seen, truth) = (self.plant.slot(slot), self.plant.truth(slot));
-        let slot = engine::Slot { pad: truth.pad, signals };
-        Made { seen, truth, slot, peak: 0.0 }
-    }
-
-    /// What effects on pads have cost.
-    pub fn effects(&self) -> Vec<EffectCost> {
-        self.plant.effects()
-    }
-}
-
-/// Makers of samples, one for each processor that makes some.
-pub(crate) struct Makers<New> {
+/// Slots of a case, made ahead of whoever takes them.
+pub(crate) struct Ahead<New> {
+    /// Looks at slots.
+    plant: Mutex<Plant>,
+    queue: Mutex<Queue<Made>>,
+    /// Makes another maker, where all are at work.
     new: New,
     idle: Mutex<Vec<Maker>>,
 }
 
-impl<New: Fn() -> Maker + Sync> Makers<New> {
-    /// None yet: `new` makes one when it is needed.
-    pub fn new(new: New) -> Self {
-        Makers { new, idle: Mutex::new(Vec::new()) }
+impl<New: Fn() -> Maker + Sync> Ahead<New> {
+    /// Slots up to the last of `slots`, of which so many are kept at most; makers of samples are made when
+    /// they are needed.
+    pub fn new(plant: Plant, (slots, most): (usize, usize), new: New) -> Self {
+        let queue = Mutex::new(Queue::new(slots, most));
+        Ahead { plant: Mutex::new(plant), queue, new, idle: Mutex::default() }
     }
 
-    /// Makes what the core is given of slots that have been looked at.
-    pub fn make(&self, some: &mut [Made]) {
-        some.par_iter_mut().with_max_len(1).for_each(|made| {
-            let idle = || self.idle.lock().expect("no maker panics");
-            let maker = idle().pop();
-            let mut maker = maker.unwrap_or_else(&self.new);
-            made.peak = maker.make(&made.seen, &mut made.slot.signals);
-            idle().push(maker);
-        });
+    /// Calls helpers, if half of the queue is empty and there are slots left to make.
+    pub fn call_helpers<'s>(&'s self, scope: &Scope<'s>) {
+        let most = MOST_HELPERS.min(rayon::current_num_threads() - 1);
+        let missing = self.queue().missing_helpers(most);
+        (0..missing).for_each(|_| scope.spawn(|_| self.help()));
     }
 
-    /// What effects have cost here and, before, elsewhere.
-    pub fn effects(self, elsewhere: Vec<EffectCost>) -> Vec<EffectCost> {
+    fn help(&self) {
+        while self.queue().has_room() {
+            self.make_next_or_yield();
+        }
+        self.queue().helpers -= 1;
+    }
+
+    fn make_next_or_yield(&self) {
+        if !self.make_next() {
+            std::thread::yield_now();
+        }
+    }
+
+    /// The next slot in their order, none after the last. While another thread makes it, this one makes
+    /// those that come then.
+    pub fn take(&self) -> Option<Made> {
+        while !self.queue().is_done() {
+            let made = self.queue().take();
+            if made.is_some() {
+                return made;
+            }
+            self.make_next_or_yield();
+        }
+        None
+    }
+
+    /// Takes back the memory of a slot's signals.
+    pub fn give_back(&self, signals: Signals) {
+        self.queue().free.push(signals);
+    }
+
+    /// No slot is looked at any more.
+    pub fn stop(&self) {
+        self.queue().stop();
+    }
+
+    /// Looks at the next slot and makes it, if there is one, the queue has room for it, and nobody else looks
+    /// at one.
+    fn make_next(&self) -> bool {
+        let Some((number, seen, mut made)) = self.look() else {
+            return false;
+        };
+        let failing = StopIfPanicking(&self.queue);
+        let maker = self.idle().pop();
+        let mut maker = maker.unwrap_or_else(&self.new);
+        made.peak = maker.make(&seen, &mut made.slot.signals);
+        self.idle().push(maker);
+        drop(failing);
+        self.queue().put(number, made);
+        true
+    }
+
+    /// Looks at the next slot, whose place in the queue is taken from then on.
+    fn look(&self) -> Option<(usize, hapticore_scene::Slot, Made)> {
+        let mut plant = match self.plant.try_lock() {
+            Err(TryLockError::WouldBlock) => return None,
+            tried => tried.expect("no effect panics"),
+        };
+        let (number, signals) = self.queue().reserve()?;
+        let (seen, truth) = (plant.slot(number), plant.truth(number));
+        let slot = Slot { pad: truth.pad, signals };
+        Some((number, seen, Made { truth, slot, peak: 0.0 }))
+    }
+
+    /// What effects have cost.
+    pub fn effects(self) -> Vec<EffectCost> {
+        let looking = self.plant.into_inner().expect("no effect panics").effects();
         let makers = self.idle.into_inner().expect("no maker panics");
-        makers.into_iter().fold(elsewhere, |sum, mut maker| {
+        makers.into_iter().fold(looking, |sum, mut maker| {
             let costs = maker.plant().effects();
             sum.into_iter().zip(&costs).map(|(sum, cost)| sum.and(cost)).collect()
         })
+    }
+
+    fn queue(&self) -> MutexGuard<'_, Queue<Made>> {
+        self.queue.lock().expect("nobody panics at the queue")
+    }
+
+    fn idle(&self) -> MutexGuard<'_, Vec<Maker>> {
+        self.idle.lock().expect("nobody panics with idle makers")
+    }
+}
+
+/// Slots that have been looked at and are still to be taken.
+struct Queue<T> {
+    /// One after the other; none where a slot is still being made.
+    places: VecDeque<Option<T>>,
+    /// How many slots have been taken.
+    taken: usize,
+    /// How many slots there are.
+    slots: usize,
+    /// The most places.
+    most: usize,
+    /// Memory of slots that the core is done with.
+    free: Vec<Signals>,
+    /// Helpers that have been called and have not left.
+    helpers: usize,
+    /// A thread panicked at a slot, which nobody will make.
+    failed: bool,
+}
+
+impl<T> Queue<T> {
+    fn new(slots: usize, most: usize) -> Self {
+        let (places, free) = (VecDeque::with_capacity(most.min(slots)), Vec::new());
+        Queue { places, taken: 0, slots, most, free, helpers: 0, failed: false }
+    }
+
+    /// A place for the next slot: its number, and memory for its signals.
+    fn reserve(&mut self) -> Option<(usize, Signals)> {
+        self.has_room().then(|| {
+            self.places.push_back(None);
+            (self.reserved() - 1, self.free.pop().unwrap_or(Signals::NONE))
+        })
+    }
+
+    /// How many slots have been given a place.
+    fn reserved(&self) -> usize {
+        self.taken + self.places.len()
+    }
+
+    /// Whether another slot can be looked at.
+    fn has_room(&self) -> bool {
+        self.reserved() < self.slots && self.places.len() < self.most
+    }
+
+    fn put(&mut self, number: usize, made: T) {
+        self.places[number - self.taken] = Some(made);
+    }
+
+    fn take(&mut self) -> Option<T> {
+        assert!(!self.failed, "a slot was not made, since its maker panicked");
+        let made = self.places.front_mut()?.take()?;
+        self.places.pop_front();
+        self.taken += 1;
+        Some(made)
+    }
+
+    fn is_done(&self) -> bool {
+        self.taken == self.slots
+    }
+
+    fn stop(&mut self) {
+        self.slots = self.reserved();
+    }
+
+    /// How many helpers may be called, so that there are no more than `most`; they are counted as called.
+    fn missing_helpers(&mut self, most: usize) -> usize {
+        if !self.has_room() || 2 * self.places.len() > self.most {
+            return 0;
+        }
+        let missing = most.saturating_sub(self.helpers);
+        self.helpers += missing;
+        missing
+    }
+}
+
+/// Lets nobody wait for a slot whose maker panics.
+struct StopIfPanicking<'q>(&'q Mutex<Queue<Made>>);
+
+impl Drop for StopIfPanicking<'_> {
+    fn drop(&mut self) {
+        if std::thread::panicking() {
+            self.0.lock().expect("nobody panics at the queue").failed = true;
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use std::panic::AssertUnwindSafe;
     use std::sync::atomic::{AtomicUsize, Ordering};
 
     use anyhow::bail;
@@ -151,7 +276,7 @@ mod tests {
         let rows = (0..case.slots).filter_map(|number| {
             let (truth, (signals, peak)) = (maker.plant().truth(number), maker.signals(number));
             largest = largest.max(peak);
-            let slot = engine::Slot { pad: truth.pad, signals };
+            let slot = Slot { pad: truth.pad, signals };
             session.slot(&slot, Some(record_truth(&truth)))
         });
         let rows = format!("{:?}", rows.collect::<Vec<_>>());
@@ -172,6 +297,63 @@ mod tests {
                 }
             });
         }
+    }
+
+    #[test]
+    fn slots_are_taken_in_their_order_in_whatever_order_they_are_made() {
+        let mut queue = Queue::new(4, 3);
+        let numbers: Vec<_> = std::iter::from_fn(|| queue.reserve()).map(|place| place.0).collect();
+        assert_eq!(numbers, [0, 1, 2], "no more than there is room for");
+        queue.put(2, "slot 2");
+        queue.put(1, "slot 1");
+        assert!(queue.take().is_none(), "the first is being made");
+        queue.put(0, "slot 0");
+        assert_eq!(queue.take(), Some("slot 0"));
+        assert_eq!(queue.reserve().map(|place| place.0), Some(3));
+        assert!(queue.reserve().is_none(), "all have a place");
+        queue.put(3, "slot 3");
+        let left: Vec<_> = std::iter::from_fn(|| queue.take()).collect();
+        assert_eq!(left, ["slot 1", "slot 2", "slot 3"]);
+        assert!(queue.is_done());
+    }
+
+    #[test]
+    fn helpers_are_called_once_where_half_of_the_queue_is_empty() {
+        let mut queue = Queue::new(8, 4);
+        assert_eq!(queue.missing_helpers(2), 2);
+        assert_eq!(queue.missing_helpers(2), 0, "they have been called");
+        (0..3).for_each(|_| assert!(queue.reserve().is_some()));
+        queue.helpers = 0;
+        assert_eq!(queue.missing_helpers(2), 0, "three of four places are taken");
+        queue.put(0, "slot 0");
+        assert!(queue.take().is_some());
+        assert_eq!(queue.missing_helpers(2), 2);
+        queue.helpers = 1;
+        queue.stop();
+        assert_eq!(queue.missing_helpers(2), 0, "nothing is left to make");
+    }
+
+    #[test]
+    fn a_helper_that_panics_ends_the_run() {
+        with_hockey("samples", |case| {
+            let run = || {
+                let core = std::thread::current().id();
+                let new = || {
+                    assert_eq!(std::thread::current().id(), core, "a helper");
+                    Maker::new(case.plant().expect("a plant"), &case.profile, true, false)
+                };
+                let ahead = Ahead::new(case.plant().expect("a plant"), (case.slots, 16), new);
+                rayon::in_place_scope(|helpers| {
+                    ahead.call_helpers(helpers);
+                    while ahead.queue().places.is_empty() {
+                        std::thread::yield_now();
+                    }
+                    while ahead.take().is_some() {}
+                });
+            };
+            let ran = std::panic::catch_unwind(AssertUnwindSafe(|| in_threads(2, run)));
+            assert!(ran.is_err());
+        });
     }
 
     /// Takes so many slots, then no more.

@@ -15,7 +15,7 @@ use hapticore_scene::{
     ControlPlan, EffectCost, Figure, LevelDeviation, Plant, Scene, Truth, signs_by_place,
 };
 
-use crate::ahead::{Look, Made, Makers};
+use crate::ahead::{Ahead, Made};
 use crate::calibrate::{self, bench::Bench};
 use crate::capture::Recorder;
 use crate::control::plant::LoopPlant;
@@ -28,8 +28,8 @@ use crate::maker::Maker;
 use crate::record::{self, Row, SignalError};
 use crate::session::Session;
 
-/// Bytes of the slots that are made while the core works on as many.
-const AHEAD: usize = 4 << 20;
+/// Bytes of the slots that are made ahead of the core.
+const KEPT: usize = 8 << 20;
 
 /// The most slots of all cases that are run: a row of each is kept until the end.
 const MOST_SLOTS: usize = 10_000_000;
@@ -239,48 +239,47 @@ impl<'a> Case<'a> {
             return self.close(session()?, maker(plant), recorder, progress);
         }
         let another = || maker(self.plant().expect("as the first"));
-        let look = Look::new(plant.metered(), self.slots);
-        self.run_ahead(session, (look, Makers::new(another)), recorder, progress)
+        let ahead = Ahead::new(plant.metered(), (self.slots, self.kept()), another);
+        self.run_ahead(session, ahead, recorder, progress)
     }
 
-    /// Runs the case with the next slots being made.
+    /// Runs the case while its next slots are made.
     fn run_ahead(
         &self,
-        session: impl FnOnce() -> Result<Session> + Send,
-        (mut look, makers): (Look, Makers<impl Fn() -> Maker + Sync>),
+        session: impl FnOnce() -> Result<Session>,
+        ahead: Ahead<impl Fn() -> Maker + Sync>,
         mut recorder: Option<&mut (dyn Recorder + Send)>,
         progress: &(dyn Fn() + Sync),
     ) -> Result<Outcome> {
-        let (at_a_time, mut outcome) = (self.ahead(), Outcome::default());
-        // While the device is calibrated there is time for more of them.
-        let first = || {
-            let mut made = look.at(at_a_time, Vec::new());
-            let next = look.at(at_a_time, Vec::new());
-            makers.make(&mut made);
-            (made, next)
-        };
-        let (session, (mut made, mut next)) = rayon::join(session, first);
-        let mut session = session?;
-        while !made.is_empty() {
-            let core = || {
-                consume(&mut session, &made, &mut outcome, &mut recorder, progress)?;
-                anyhow::Ok(look.at(at_a_time, made))
+        let mut outcome = Outcome::default();
+        rayon::in_place_scope(|helpers| {
+            // There is time to make some while the device is calibrated.
+            ahead.call_helpers(helpers);
+            let run = || {
+                let mut session = session()?;
+                while let Some(made) = ahead.take() {
+                    consume(&mut session, &made, &mut outcome, &mut recorder, progress)?;
+                    ahead.give_back(made.slot.signals);
+                    ahead.call_helpers(helpers);
+                }
+                outcome.rows.extend(session.finish());
+                outcome.errors = session.errors();
+                anyhow::Ok(())
             };
-            let (after, ()) = rayon::join(core, || makers.make(&mut next));
-            made = std::mem::replace(&mut next, after?);
-        }
-        outcome.rows.extend(session.finish());
-        outcome.errors = session.errors();
-        outcome.effects = makers.effects(look.effects());
+            let ran = run();
+            ahead.stop();
+            ran
+        })?;
+        outcome.effects = ahead.effects();
         Ok(outcome)
     }
 }
 
 impl Case<'_> {
-    /// Slots made while the core works on as many: eight at least.
-    fn ahead(&self) -> usize {
+    /// Slots kept at most that are made ahead: sixteen at least.
+    fn kept(&self) -> usize {
         let codes = self.profile.slot.samples() as usize * self.profile.channels();
-        (AHEAD / (codes * size_of::<i32>())).max(8)
+        (KEPT / (codes * size_of::<i32>())).max(16)
     }
 }
 
@@ -413,23 +412,21 @@ impl Case<'_> {
     }
 }
 
-/// Takes slots to the core.
+/// Takes a slot to the core.
 fn consume(
     session: &mut Session,
-    slots: &[Made],
+    Made { slot, truth, peak }: &Made,
     outcome: &mut Outcome,
     recorder: &mut Option<&mut (dyn Recorder + Send)>,
     progress: &(dyn Fn() + Sync),
 ) -> Result<()> {
-    for Made { slot, truth, peak, .. } in slots {
-        interrupt::check()?;
-        if let Some(recorder) = recorder.as_mut() {
-            recorder.slot(slot.pad, slot.whole())?;
-        }
-        outcome.peak = outcome.peak.max(*peak);
-        outcome.rows.extend(session.slot(slot, Some(record_truth(truth))));
-        progress();
+    interrupt::check()?;
+    if let Some(recorder) = recorder.as_mut() {
+        recorder.slot(slot.pad, slot.whole())?;
     }
+    outcome.peak = outcome.peak.max(*peak);
+    outcome.rows.extend(session.slot(slot, Some(record_truth(truth))));
+    progress();
     Ok(())
 }
 
