@@ -38,8 +38,15 @@ pub(super) struct Gap {
     pads: Vec<Option<Moving>>,
     /// The patches at the time that is looked at.
     seen: Vec<State>,
-    /// The last equilibrium: over a raster load and voltage stay the same.
-    rested: Option<(Asked, f64, Vec<f64>)>,
+    /// The last equilibrium of each pad: load and voltage often stay the same.
+    rested: Vec<Option<Rested>>,
+}
+
+/// An equilibrium: what it is of, the voltage at the pad, and the gaps.
+struct Rested {
+    asked: Asked,
+    volt: f64,
+    gaps: Vec<f64>,
 }
 
 /// What an equilibrium is of: source, load, stiffness of the rubber, and charge.
@@ -54,15 +61,14 @@ struct Moving {
 impl PadEffect for Gap {
     fn act(&mut self, pad: &mut Pad) {
         let asked = ([pad.source_v_rms, pad.load_g, pad.stiffness], pad.charge);
-        let (volt, gaps) = match self.rested.take() {
-            Some((same, volt, gaps)) if same == asked => (volt, gaps),
-            _ => {
-                self.rubber.stiffen(pad.stiffness);
-                self.at_rest(pad)
-            }
-        };
-        self.set_results(pad, volt, gaps.iter().copied());
-        self.rested = Some((asked, volt, gaps));
+        let rested = self.rested_before(pad.index).filter(|rested| rested.asked == asked);
+        let rested = rested.unwrap_or_else(|| {
+            self.rubber.stiffen(pad.stiffness);
+            let (volt, gaps) = self.at_rest(pad);
+            Rested { asked, volt, gaps }
+        });
+        self.set_results(pad, rested.volt, rested.gaps.iter().copied());
+        self.rested[pad.index] = Some(rested);
     }
 
     fn follow(&mut self, pad: &mut Pad, drive: &PadDrive) {
@@ -93,13 +99,21 @@ impl PadEffect for Gap {
 
 impl Gap {
     pub fn new(rubber: Rubber, motion: Motion, step_s: f64, sine_rad_s: Option<f64>) -> Self {
-        let (pads, seen, rested) = (Vec::new(), Vec::new(), None);
+        let (pads, seen, rested) = (Vec::new(), Vec::new(), Vec::new());
         Gap { rubber, motion, step_s, sine_rad_s, led: false, pads, seen, rested }
     }
 
     /// The same gap, behind effects that change over time what acts on the patches.
     pub fn led(self, led: bool) -> Self {
         Gap { led, ..self }
+    }
+
+    /// The last equilibrium of a pad, for a while.
+    fn rested_before(&mut self, index: usize) -> Option<Rested> {
+        if self.rested.len() <= index {
+            self.rested.resize_with(index + 1, || None);
+        }
+        self.rested[index].take()
     }
 
     /// Voltage at the pad and relaxed gaps.
