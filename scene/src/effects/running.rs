@@ -54,12 +54,12 @@ impl Effects {
             seconds: 0.0,
             evaluations: 0,
         };
-        self.meter = Meter::On(specs.iter().map(idle).collect());
+        self.meter = Meter::On { costs: specs.iter().map(idle).collect(), since: Instant::now() };
     }
 
     /// What each effect has cost; nothing where nobody asked for it to be metered.
     pub fn costs(&self) -> Vec<EffectCost> {
-        if let Meter::On(costs) = &self.meter { costs.clone() } else { Vec::new() }
+        if let Meter::On { costs, .. } = &self.meter { costs.clone() } else { Vec::new() }
     }
 
     /// Whether an effect looks at all pads at once.
@@ -73,9 +73,11 @@ impl Effects {
             self.keep(n, tick, drive);
         }
         pad.hand_n = self.hand_n(pad.index);
+        self.meter.start();
         for (n, effect) in self.list.iter_mut().enumerate() {
             if let Effect::Pad(effect) = effect {
-                self.meter.book(n, || effect.follow(pad, drive));
+                effect.follow(pad, drive);
+                self.meter.book(n);
             }
         }
     }
@@ -84,12 +86,14 @@ impl Effects {
     fn keep(&mut self, n: usize, tick: Tick, drive: &PadDrive) {
         let mut pad = drive.pad(Moment::before(tick.time_s));
         pad.hand_n = self.hand_n(pad.index);
+        self.meter.start();
         for (k, effect) in self.list[..=n].iter_mut().enumerate() {
             let Effect::Pad(effect) = effect else { continue };
-            self.meter.time(k, || match k < n {
+            match k < n {
                 true => effect.follow(&mut pad, drive),
                 false => effect.keep(&pad, tick, drive),
-            });
+            }
+            self.meter.time(k);
         }
     }
 
@@ -124,51 +128,65 @@ impl Effects {
 
     /// Lets the effects of other pads act on one that has been acted on by itself, as they have.
     pub fn on_pads(&mut self, pad: &mut Pad, others: &[Pad]) {
+        self.meter.start();
         for (n, effect) in self.list.iter_mut().enumerate() {
             if let Effect::Pads(effect) = effect {
-                self.meter.book(n, || effect.act(pad, others));
+                effect.act(pad, others);
+                self.meter.book(n);
             }
         }
     }
 
     /// Lets a pad settle under the effects on it.
     pub fn on_resting_pad(&mut self, pad: &mut Pad) {
+        self.meter.start();
         for (n, effect) in self.list.iter_mut().enumerate() {
             if let Effect::Pad(effect) = effect {
-                self.meter.book(n, || effect.settle(pad));
+                effect.settle(pad);
+                self.meter.book(n);
             }
         }
     }
 
     /// Lets the effects on the channels do `work`.
     pub fn on_channels(&mut self, mut work: impl FnMut(&mut dyn ChannelEffect)) {
+        self.meter.start();
         for (n, effect) in self.list.iter_mut().enumerate() {
             if let Effect::Channels(effect) = effect {
-                self.meter.book(n, || work(effect.as_mut()));
+                work(effect.as_mut());
+                self.meter.book(n);
             }
         }
     }
 }
 
-/// Counts and times evaluations, where somebody wants to know.
+/// Counts and times evaluations, where somebody wants to know. The end of one is the start of the next: a look
+/// at the clock takes as long as a small effect.
 enum Meter {
     Off,
-    On(Vec<EffectCost>),
+    On { costs: Vec<EffectCost>, since: Instant },
 }
 
 impl Meter {
-    fn book(&mut self, n: usize, work: impl FnOnce()) {
-        self.time(n, work);
-        if let Meter::On(costs) = self {
+    fn start(&mut self) {
+        if let Meter::On { since, .. } = self {
+            *since = Instant::now();
+        }
+    }
+
+    /// Books an evaluation of effect `n`, which took the time since the start or since the one before.
+    fn book(&mut self, n: usize) {
+        self.time(n);
+        if let Meter::On { costs, .. } = self {
             costs[n].evaluations += 1;
         }
     }
 
-    /// Times what is not an evaluation of its own.
-    fn time(&mut self, n: usize, work: impl FnOnce()) {
-        let Meter::On(costs) = self else { return work() };
-        let start = Instant::now();
-        work();
-        costs[n].seconds += start.elapsed().as_secs_f64();
+    /// Books the time of what is not an evaluation of its own.
+    fn time(&mut self, n: usize) {
+        let Meter::On { costs, since } = self else { return };
+        let now = Instant::now();
+        costs[n].seconds += (now - *since).as_secs_f64();
+        *since = now;
     }
 }

@@ -3,6 +3,7 @@
 
 use super::band::Band;
 use super::gradients;
+use super::moments::{Moments, add};
 use super::near::{NEAR, Near, REACH};
 
 /// A raster of entries, each of `LAYERS` numbers, which are sought.
@@ -122,36 +123,9 @@ fn layer_by_layer<const LAYERS: usize>(
     layers
 }
 
-/// Equations of three neighbours in a row, one value per layer, added up: what they bring to the normal
-/// equations and to the right-hand sides.
-#[derive(Debug, Clone, Copy)]
-pub struct Moments<const LAYERS: usize> {
-    products: [[f64; 3]; 3],
-    values: [[f64; 3]; LAYERS],
-}
-
-impl<const LAYERS: usize> Moments<LAYERS> {
-    /// Of no equation.
-    pub const NONE: Self = Moments { products: [[0.0; 3]; 3], values: [[0.0; 3]; LAYERS] };
-
-    /// Adds an equation.
-    #[inline(always)]
-    pub fn add(&mut self, weights: [f64; 3], values: [f64; LAYERS], importance: f64) {
-        let important = weights.map(|weight| importance * weight);
-        self.products.iter_mut().zip(important).for_each(|(sums, by)| add(sums, by, &weights));
-        self.values.iter_mut().zip(values).for_each(|(sums, by)| add(sums, by, &important));
-    }
-}
-
-/// Adds weights to coefficients, each `by` times.
-#[inline(always)]
-fn add(coefficients: &mut [f64], by: f64, weights: &[f64; 3]) {
-    coefficients.iter_mut().zip(weights).for_each(|(sum, weight)| *sum += by * weight);
-}
-
 #[cfg(test)]
 mod tests {
-    use super::super::Fit;
+    use super::super::terms::Fit;
     use super::*;
 
     /// A number without a pattern, within ± 1.

@@ -6,7 +6,7 @@
 use super::PositionTable;
 use super::spline::Spline;
 use crate::calibration::layout::{Axis, Layout, Scalar, Surface};
-use crate::calibration::least_squares::Fit;
+use crate::calibration::least_squares::Moments;
 use crate::profile::Profile;
 use hapticore_hdl::format::Format;
 
@@ -176,15 +176,14 @@ impl PositionTable {
 
     /// The first guess, by least squares over all points.
     fn fit_start(&mut self, places: &[[f64; 2]], points: &[Point]) -> Result<(), PositionError> {
-        let mut fit = Fit::new(3, 2);
+        let mut guess = Moments::NONE;
         for (place, point) in places.iter().zip(points) {
             let [r_x, r_y] = self.normalised([point.r_x, point.r_y]);
             let from_middle =
                 [place[0] - self.cells(Axis::X) / 2.0, place[1] - self.cells(Axis::Y) / 2.0];
-            fit.ask([(0, 1.0), (1, r_x), (2, r_y)], &from_middle, 1.0);
+            guess.add([1.0, r_x, r_y], from_middle, 1.0);
         }
-        let found = fit.solve().ok_or(PositionError::Ambiguous)?;
-        self.start = [0, 1].map(|axis| [0, 1, 2].map(|k| found[axis][k]));
+        self.start = guess.solve().ok_or(PositionError::Ambiguous)?;
         Ok(())
     }
 
