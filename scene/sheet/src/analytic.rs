@@ -25,6 +25,7 @@ pub struct Analytic {
     sheet: UniformSheet,
     neumann: Neumann,
     inverse: Square<f64>,
+    lines: Lines,
 }
 
 impl Analytic {
@@ -39,24 +40,39 @@ impl Analytic {
     pub fn with(sheet: impl Into<UniformSheet>, neumann: Neumann) -> Self {
         let sheet = sheet.into();
         let inverse = bordered(&sheet, &neumann).invert();
-        Analytic { sheet, neumann, inverse }
+        let lines = Lines::of(&sheet.terminals_m);
+        Analytic { sheet, neumann, inverse, lines }
     }
 
     /// A place, for [`Analytic::between`].
     pub fn source(&self, x_mm: f64, y_mm: f64) -> Source {
-        let (at, sheet) = (self.sheet.place_m(x_mm, y_mm), &self.sheet);
-        self.source_at(at, |n| self.neumann.at(sheet.terminals_m[n], at, sheet.terminal_radius_m))
+        let [x, y] = self.sheet.place_m(x_mm, y_mm);
+        self.source_at([x, y], &self.to_columns(x), &self.to_rows(y))
     }
 
-    /// A place from N to each terminal.
-    fn source_at(&self, at: [f64; 2], to_terminal: impl Fn(usize) -> f64) -> Source {
+    /// N along x from each column of terminals.
+    fn to_columns(&self, x: f64) -> Few<AlongX, MOST_TERMINALS> {
+        self.lines.x.map(|there| self.neumann.along_x(there, x))
+    }
+
+    /// N along y from each row of terminals.
+    fn to_rows(&self, y: f64) -> Few<AlongY, MOST_TERMINALS> {
+        self.lines.y.map(|there| self.neumann.along_y(there, y))
+    }
+
+    /// A place from N along either axis.
+    fn source_at(&self, at: [f64; 2], to_columns: &[AlongX], to_rows: &[AlongY]) -> Source {
         let terminals = &self.sheet.terminal_ohm;
         let none = Bordered::of(terminals.len() + 1, |_| ());
         // Filled where it stays: it is large to be moved.
         let mut source = Source { at, known: none, unknown: none };
-        for (n, (known, series)) in source.known.iter_mut().zip(terminals).enumerate() {
-            let connected = series.is_finite();
-            *known = if connected { self.sheet.ohm_per_square * to_terminal(n) } else { 0.0 };
+        let near = self.sheet.terminal_radius_m;
+        let connected = terminals.iter().map(|series| series.is_finite());
+        for ((known, connected), &[column, row]) in
+            source.known.iter_mut().zip(connected).zip(self.lines.of_terminal.iter())
+        {
+            let to_terminal = || self.neumann.join(&to_columns[column], &to_rows[row], near);
+            *known = if connected { self.sheet.ohm_per_square * to_terminal() } else { 0.0 };
         }
         source.known[terminals.len()] = 1.0; // The border's.
         for (unknown, row) in source.unknown.iter_mut().zip(self.inverse.rows()) {
@@ -68,27 +84,21 @@ impl Analytic {
     /// The places of this x, mm from the middle, for [`Analytic::crossing`].
     pub fn column(&self, x_mm: f64) -> Column {
         let [x, _] = self.sheet.place_m(x_mm, 0.0);
-        let to = |[there, _]: &[f64; 2]| self.neumann.along_x(*there, x);
-        let to_terminals = self.sheet.terminals_m.iter().map(to).collect();
-        Column { x, to_terminals, own: self.neumann.along_x(x, x) }
+        Column { x, to_columns: self.to_columns(x), own: self.neumann.along_x(x, x) }
     }
 
     /// The places of this y, mm from the middle, for [`Analytic::crossing`].
     pub fn row(&self, y_mm: f64) -> Row {
         let [_, y] = self.sheet.place_m(0.0, y_mm);
-        let to = |[_, there]: &[f64; 2]| self.neumann.along_y(*there, y);
-        let to_terminals = self.sheet.terminals_m.iter().map(to).collect();
-        Row { y, to_terminals, own: self.neumann.along_y(y, y) }
+        Row { y, to_rows: self.to_rows(y), own: self.neumann.along_y(y, y) }
     }
 
     /// The place where a column and a row of a raster cross, and [`Analytic::between`] of it with itself: to
     /// the bit as for a single place, in half the instructions.
     pub fn crossing(&self, column: &Column, row: &Row) -> (Source, f64) {
-        let join = |x, y, near| self.neumann.join(x, y, near);
-        let source = self.source_at([column.x, row.y], |n| {
-            join(&column.to_terminals[n], &row.to_terminals[n], self.sheet.terminal_radius_m)
-        });
-        let ohm = self.ohm(join(&column.own, &row.own, self.sheet.disc_m()), &source, &source);
+        let source = self.source_at([column.x, row.y], &column.to_columns, &row.to_rows);
+        let own = self.neumann.join(&column.own, &row.own, self.sheet.disc_m());
+        let ohm = self.ohm(own, &source, &source);
         (source, ohm)
     }
 
@@ -114,18 +124,44 @@ pub struct Source {
     unknown: Bordered,
 }
 
-/// Places of one x, m, and what N takes from it: to each terminal, and to the place itself.
+/// Places of one x, m, and what N takes from it: to each column of terminals, and to the place itself.
 pub struct Column {
     x: f64,
-    to_terminals: Vec<AlongX>,
+    to_columns: Few<AlongX, MOST_TERMINALS>,
     own: AlongX,
 }
 
 /// The same of one y.
 pub struct Row {
     y: f64,
-    to_terminals: Vec<AlongY>,
+    to_rows: Few<AlongY, MOST_TERMINALS>,
     own: AlongY,
+}
+
+/// Columns and rows that the terminals stand in: those at corners share theirs, so that N along an axis is
+/// computed for fewer than all.
+struct Lines {
+    x: Few<f64, MOST_TERMINALS>,
+    y: Few<f64, MOST_TERMINALS>,
+    /// Column and row of each terminal.
+    of_terminal: Few<[usize; 2], MOST_TERMINALS>,
+}
+
+impl Lines {
+    fn of(terminals_m: &[[f64; 2]]) -> Self {
+        let mut lines = [Vec::new(), Vec::new()];
+        let mut place = |axis: usize, at: f64| {
+            let line: &mut Vec<f64> = &mut lines[axis];
+            line.iter().position(|there| *there == at).unwrap_or_else(|| {
+                line.push(at);
+                line.len() - 1
+            })
+        };
+        let of_terminal =
+            terminals_m.iter().map(|at| [0, 1].map(|axis| place(axis, at[axis]))).collect();
+        let [x, y] = lines.map(|line| Few::from_slice(&line));
+        Lines { x, y, of_terminal }
+    }
 }
 
 impl Source {

@@ -15,7 +15,7 @@ use std::f64::consts::PI;
 const CUT_OFF: f64 = 1e-9;
 
 /// What N takes from the places' x alone.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct AlongX {
     /// e^(−πX/b) of the nearest images.
     decay: [f64; 4],
@@ -24,7 +24,7 @@ pub struct AlongX {
 }
 
 /// What N takes from the places' y alone: sin²(θ±/2).
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct AlongY([f64; 2]);
 
 /// Rectangle `[0, a] × [0, b]`, metres.
