@@ -13,9 +13,10 @@ pub fn refine(columns: usize, places: &[Place]) -> (usize, Vec<Place>) {
     let rows = places.len() / columns;
     let times = |points: usize, least: usize| (least - 1).div_ceil(points - 1).max(1);
     let across = steps(columns, times(columns, LEAST[0]));
-    let along =
-        |row: &[Place]| across.iter().map(|step| step.between(|k| row[k])).collect::<Vec<_>>();
-    let wide: Vec<Place> = places.chunks(columns).flat_map(along).collect();
+    let mut wide = Vec::with_capacity(across.len() * rows);
+    for row in places.chunks(columns) {
+        wide.extend(across.iter().map(|step| step.between(|k| row[k])));
+    }
     let columns = across.len();
     let down = steps(rows, times(rows, LEAST[1]));
     let mut fine = Vec::with_capacity(down.len() * columns);

@@ -108,14 +108,16 @@ impl Spline {
     }
 
     fn stretches<'a>(&'a self, places: &'a [[f64; 2]]) -> impl Iterator<Item = Stretch> + 'a {
-        let column = |place: [f64; 2]| self.basis(Axis::X, place).0;
+        let column = |place: &[f64; 2]| self.basis(Axis::X, *place).0;
         let [columns, _] = self.size();
         let mut next = 0;
-        places.chunk_by(move |a, b| a[1] == b[1] && column(*a) == column(*b)).map(move |places| {
-            let points = next..next + places.len();
-            next = points.end;
-            let (row, rows) = self.basis(Axis::Y, places[0]);
-            Stretch { points, first: row * columns + column(places[0]), rows }
+        std::iter::from_fn(move || {
+            let start = next;
+            let place = places.get(start)?;
+            let (first, (row, rows)) = (column(place), self.basis(Axis::Y, *place));
+            let goes_on = |at: &&[f64; 2]| at[1] == place[1] && column(at) == first;
+            next += places[start..].iter().take_while(goes_on).count();
+            Some(Stretch { points: start..next, first: row * columns + first, rows })
         })
     }
 }
