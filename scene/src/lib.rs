@@ -108,7 +108,7 @@ pub use plant::{Plant, Slot};
 pub use quantity::Quantity;
 pub use ratios::signs_by_place;
 pub use scene::{Figure, Record, Scene};
-pub use terminals::{LEAST_TERMINALS, MOST_TERMINALS};
+pub use terminals::{LEAST_TERMINALS, MOST_TERMINALS, PerTerminal};
 pub use timing::Timing;
 pub use truth::{ForcePoint, MapPoint, PadMeasurement, Setpoint, Truth};
 pub use wall::{WallAlongY, WallPlan, WallRule};

@@ -22,7 +22,7 @@ pub(crate) const VOLTAGES: usize = 2;
 pub(crate) const MOST_CHANNELS: usize = MOST_TERMINALS + VOLTAGES;
 
 /// One value per terminal, held in place: no slot or sample allocates.
-pub(crate) type PerTerminal<T> = Few<T, MOST_TERMINALS>;
+pub type PerTerminal<T> = Few<T, MOST_TERMINALS>;
 
 /// Keys that say where terminals are in another way than `terminals_mm`.
 const OTHERS: [&str; 4] = ["terminals", "middles", "terminal_5_mm", "terminal_6_mm"];

@@ -3,6 +3,8 @@
 
 use num_complex::Complex64;
 
+use crate::terminals::PerTerminal;
+
 /// The plant in one slot, at the middle of its integration window.
 ///
 /// ```
@@ -119,7 +121,7 @@ impl Setpoint {
 }
 
 /// A place of the calibration map.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MapPoint {
     /// Position, mm right of the sheet's centre.
     pub x_mm: f64,
@@ -130,7 +132,7 @@ pub struct MapPoint {
     /// Ratio of the currents along y.
     pub r_y: f64,
     /// Each terminal's current, as a share of the ratios' denominator.
-    pub shares: Vec<f64>,
+    pub shares: PerTerminal<f64>,
     /// Resistance R_p of the sheet there, Ω.
     pub sheet_ohm: f64,
 }

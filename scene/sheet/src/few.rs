@@ -70,6 +70,13 @@ impl<T: Copy + Default, const MOST: usize> FromIterator<T> for Few<T, MOST> {
     }
 }
 
+/// As lists.
+impl<T: PartialEq, const MOST: usize> PartialEq for Few<T, MOST> {
+    fn eq(&self, other: &Self) -> bool {
+        **self == **other
+    }
+}
+
 impl<T, const MOST: usize> Deref for Few<T, MOST> {
     type Target = [T];
 

@@ -36,9 +36,9 @@ impl Ratios {
     }
 
     /// The amplitudes, as shares of the denominator.
-    pub fn shares(&self, amplitudes: &[f64]) -> Vec<f64> {
+    pub fn shares(&self, amplitudes: &[f64]) -> impl Iterator<Item = f64> {
         let denominator = self.denominator(amplitudes);
-        amplitudes.iter().map(|amplitude| amplitude / denominator).collect()
+        amplitudes.iter().map(move |amplitude| amplitude / denominator)
     }
 
     /// The sum of the amplitudes that have a sign.

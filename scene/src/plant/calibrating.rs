@@ -35,8 +35,8 @@ impl Plant {
         let (device, ratios) = (&self.device, &self.ratios);
         let point = |pad: &Pad| {
             let amplitudes = pad.amplitudes();
-            let ([r_x, r_y], shares) =
-                (ratios.of_amplitudes(&amplitudes), ratios.shares(&amplitudes));
+            let [r_x, r_y] = ratios.of_amplitudes(&amplitudes);
+            let shares = ratios.shares(&amplitudes).collect();
             MapPoint {
                 x_mm: pad.x_mm,
                 y_mm: pad.y_mm,
