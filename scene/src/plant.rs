@@ -383,12 +383,14 @@ impl Plant {
     /// The noise of a run depends on where it starts, not on which runs were asked for before. Take
     /// the blanking part and the window whole, so that it is the same each time.
     pub fn samples(&mut self, slot: usize, range: Range<usize>, out: &mut Vec<f64>) {
-        let at = self.slot(slot);
-        self.samples_of(&at, range, out);
+        let (at, start) = (self.slot(slot), out.len());
+        out.resize(start + range.len() * self.channels(), 0.0);
+        self.samples_of(&at, range, &mut out[start..]);
     }
 
-    /// As [`Plant::samples`], of a slot that this or another plant of the case has looked at: they follow
-    /// from the slot alone, so that several plants can make the samples of different slots at once.
+    /// As [`Plant::samples`], in place of others, of a slot that this or another plant of the case has looked
+    /// at: they follow from the slot alone, so that several plants can make the samples of different slots at
+    /// once.
     ///
     /// ```
     /// # use hapticore_scene::{Plant, Scene, Timing};
@@ -399,25 +401,25 @@ impl Plant {
     /// # };
     /// let plant = || Plant::new(&scene, 0, &timing);
     /// let (mut looking, mut sampling) = (plant()?, plant()?);
-    /// let (mut samples, mut same) = (Vec::new(), Vec::new());
+    /// let (mut samples, mut same) = (vec![0.0; 8 * 1000], Vec::new());
     /// sampling.samples_of(&looking.slot(5), 700..1700, &mut samples);
     /// looking.samples(5, 700..1700, &mut same);
     /// assert_eq!(samples, same);
     /// # Ok::<(), hapticore_scene::SceneError>(())
     /// ```
-    pub fn samples_of(
-        &mut self,
-        Slot { slot, pad }: &Slot,
-        range: Range<usize>,
-        out: &mut Vec<f64>,
-    ) {
+    ///
+    /// # Panics
+    /// Where `out` is not one number per channel and sample.
+    pub fn samples_of(&mut self, Slot { slot, pad }: &Slot, range: Range<usize>, out: &mut [f64]) {
+        assert_eq!(out.len(), range.len() * self.channels(), "a number a channel and sample");
         let slot_start = (slot * self.timing.slot_samples) as u64;
-        let start = out.len();
-        out.resize(start + range.len() * self.channels(), 0.0);
         let run = Run { slot: *slot, range, slot_start, channels: self.channels() };
-        self.effects.on_channels(|effect| effect.samples(pad, &run, &mut out[start..]));
+        self.effects.on_channels(|effect| effect.samples(pad, &run, out));
+        if self.effects.clip() {
+            return;
+        }
         widest(
-            &mut out[start..],
+            out,
             #[inline(always)]
             |samples: &mut [f64]| {
                 samples.iter_mut().for_each(|sample| *sample = sample.clamp(-1.0, 1.0));

@@ -4,7 +4,7 @@
 
 use std::f64::consts::TAU;
 
-use hapticore_scene::{Complex, Plant, Scene, Timing};
+use hapticore_scene::{Complex, Plant, Scene, Timing, gallery};
 
 /// Terminals, channels, and the voltages' channels of the default device.
 const TERMINALS: usize = 6;
@@ -287,4 +287,33 @@ fn the_calibration_map_is_the_truth_without_mismatch_and_costs_the_run_nothing()
         (0.0, truth.r_x, truth.r_y, truth.sheet_ohm)
     );
     assert_eq!(evaluations(&plant)[1], ("sheet", 1));
+}
+
+/// Of every scene that is bundled.
+#[test]
+fn samples_take_the_place_of_whatever_was_there() {
+    for &(name, text) in gallery::all() {
+        let set = [("carrier.rung".to_string(), "samples".to_string())];
+        let scene = Scene::parse(text, name, &set).unwrap();
+        let scene = scene.within_budget(&timing()).unwrap();
+        let mut plant = Plant::new(&scene, 0, &timing()).unwrap();
+        let slot = plant.slot(1);
+        let [fresh, used] = [0.0, f64::NAN].map(|before| {
+            let mut samples = vec![before; 200 * plant.channels()];
+            plant.samples_of(&slot, 100..300, &mut samples);
+            samples
+        });
+        assert_eq!(fresh, used, "{name}");
+    }
+}
+
+#[test]
+fn samples_are_within_full_scale_with_and_without_quantisation() {
+    for bits in ["", "quantisation_bits = 12\n"] {
+        let mut plant = plant(&format!("[sensor]\nnoise_ppm_rms = 900000\n{bits}"));
+        let mut samples = Vec::new();
+        plant.samples(0, 0..500, &mut samples);
+        let most = samples.iter().fold(0.0, |most: f64, sample| most.max(sample.abs()));
+        assert_eq!(most, 1.0, "{bits}");
+    }
 }

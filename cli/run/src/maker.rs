@@ -62,13 +62,15 @@ impl Maker {
     /// The codes of a slot in place of others: how many of the blanking are among them, and the largest sample.
     fn samples(&mut self, slot: &Slot, codes: &mut Vec<i32>) -> (usize, f64) {
         let first = if self.whole { 0 } else { self.blanking };
-        self.fractions.clear();
+        let channels = self.plant.channels();
+        self.fractions.resize((self.samples - first) * channels, 0.0);
+        let (blanking, window) = self.fractions.split_at_mut((self.blanking - first) * channels);
         if self.whole {
-            self.plant.samples_of(slot, 0..self.blanking, &mut self.fractions);
+            self.plant.samples_of(slot, 0..self.blanking, blanking);
         }
-        self.plant.samples_of(slot, self.blanking..self.samples, &mut self.fractions);
-        let peak = self.digitiser.codes(&self.fractions, codes);
-        ((self.blanking - first) * self.plant.channels(), peak)
+        self.plant.samples_of(slot, self.blanking..self.samples, window);
+        let blanking = blanking.len();
+        (blanking, self.digitiser.codes(&self.fractions, codes))
     }
 
     /// Simulated device of the case.

@@ -60,8 +60,13 @@ pub(crate) trait PadsEffect: Send {
 pub(crate) trait ChannelEffect: Send {
     /// On the amplitudes that a demodulator over the slot's window would find.
     fn phasors(&mut self, pad: &Pad, phasors: &mut Phasors);
-    /// On the samples of a run, one [row](Run::rows) of channels per sample instant.
+    /// On the samples of a run, one [row](Run::rows) of channels per sample instant. The carrier, the first
+    /// effect of all, writes them; the others change what is there.
     fn samples(&mut self, pad: &Pad, run: &Run, samples: &mut [f64]);
+    /// Whether it leaves no sample beyond full scale.
+    fn clips(&self) -> bool {
+        false
+    }
     /// Why the level cannot be used on a pad: asked before a run where the level says that it has
     /// [limits](Rung::limited).
     fn refuses(&self, _: &Pad) -> Option<String> {

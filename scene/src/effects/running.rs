@@ -62,6 +62,15 @@ impl Effects {
         if let Meter::On { costs, .. } = &self.meter { costs.clone() } else { Vec::new() }
     }
 
+    /// Whether samples are within full scale once all effects have acted on them.
+    pub fn clip(&self) -> bool {
+        let last = self.list.iter().rev().find_map(|effect| match effect {
+            Effect::Channels(effect) => Some(effect.clips()),
+            _ => None,
+        });
+        last == Some(true)
+    }
+
     /// Whether an effect looks at all pads at once.
     pub fn joins_pads(&self) -> bool {
         self.list.iter().any(|effect| matches!(effect, Effect::Pads(_)))

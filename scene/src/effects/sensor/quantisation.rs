@@ -37,6 +37,10 @@ struct Quantisation {
 impl ChannelEffect for Quantisation {
     fn phasors(&mut self, _: &Pad, _: &mut Phasors) {}
 
+    fn clips(&self) -> bool {
+        true
+    }
+
     fn samples(&mut self, _: &Pad, _: &Run, samples: &mut [f64]) {
         let (codes, step) = (self.codes, 1.0 / self.codes);
         widest(
