@@ -70,15 +70,19 @@ impl<New: Fn() -> Maker + Sync> Ahead<New> {
 
     /// The next slot in their order, none after the last. While another thread makes it, this one makes
     /// those that come then.
+    ///
+    /// # Panics
+    /// Where the maker of a slot has panicked.
     pub fn take(&self) -> Option<Made> {
-        while !self.queue().is_done() {
-            let made = self.queue().take();
-            if made.is_some() {
-                return made;
+        loop {
+            let next = self.queue().take();
+            match next {
+                Next::Slot(made) => return Some(made),
+                Next::End => return None,
+                Next::NotYet => self.make_next_or_yield(),
+                Next::Never => panic!("the maker of a slot panicked"),
             }
-            self.make_next_or_yield();
         }
-        None
     }
 
     /// Takes back the memory of a slot's signals.
@@ -156,6 +160,17 @@ struct Queue<T> {
     failed: bool,
 }
 
+/// What there is to take.
+#[derive(Debug, PartialEq)]
+enum Next<T> {
+    Slot(T),
+    /// It is still to be made, or being made.
+    NotYet,
+    /// Nobody will make it.
+    Never,
+    End,
+}
+
 impl<T> Queue<T> {
     fn new(slots: usize, most: usize) -> Self {
         let (places, free) = (VecDeque::with_capacity(most.min(slots)), Vec::new());
@@ -184,16 +199,18 @@ impl<T> Queue<T> {
         self.places[number - self.taken] = Some(made);
     }
 
-    fn take(&mut self) -> Option<T> {
-        assert!(!self.failed, "a slot was not made, since its maker panicked");
-        let made = self.places.front_mut()?.take()?;
+    fn take(&mut self) -> Next<T> {
+        let first = self.places.front_mut().and_then(Option::take);
+        let Some(made) = first else {
+            return match (self.failed, self.taken == self.slots) {
+                (true, _) => Next::Never,
+                (_, true) => Next::End,
+                _ => Next::NotYet,
+            };
+        };
         self.places.pop_front();
         self.taken += 1;
-        Some(made)
-    }
-
-    fn is_done(&self) -> bool {
-        self.taken == self.slots
+        Next::Slot(made)
     }
 
     fn stop(&mut self) {
@@ -306,15 +323,16 @@ mod tests {
         assert_eq!(numbers, [0, 1, 2], "no more than there is room for");
         queue.put(2, "slot 2");
         queue.put(1, "slot 1");
-        assert!(queue.take().is_none(), "the first is being made");
+        assert_eq!(queue.take(), Next::NotYet);
         queue.put(0, "slot 0");
-        assert_eq!(queue.take(), Some("slot 0"));
+        assert_eq!(queue.take(), Next::Slot("slot 0"));
         assert_eq!(queue.reserve().map(|place| place.0), Some(3));
         assert!(queue.reserve().is_none(), "all have a place");
         queue.put(3, "slot 3");
-        let left: Vec<_> = std::iter::from_fn(|| queue.take()).collect();
-        assert_eq!(left, ["slot 1", "slot 2", "slot 3"]);
-        assert!(queue.is_done());
+        for slot in ["slot 1", "slot 2", "slot 3"] {
+            assert_eq!(queue.take(), Next::Slot(slot));
+        }
+        assert_eq!(queue.take(), Next::End);
     }
 
     #[test]
@@ -326,7 +344,7 @@ mod tests {
         queue.helpers = 0;
         assert_eq!(queue.missing_helpers(2), 0, "three of four places are taken");
         queue.put(0, "slot 0");
-        assert!(queue.take().is_some());
+        assert_eq!(queue.take(), Next::Slot("slot 0"));
         assert_eq!(queue.missing_helpers(2), 2);
         queue.helpers = 1;
         queue.stop();
