@@ -193,7 +193,7 @@ pub fn disturbed_rows(
     let mut maker =
         Maker::new(case.plant().expect("a plant"), &case.profile, scene.cases[0].sampled(), false);
     let at = (0, case.clock);
-    let device = (&*case.device, case.calibration().expect("a calibration"));
+    let device = (&**case.device, case.calibration().expect("a calibration"));
     let mut session =
         Session::new(&case.profile, device, (Fidelity::Fixed, None), false, at).expect("a session");
     let row = |slot| {

@@ -200,7 +200,7 @@ fn a_case_after_others_has_the_calibration_that_it_has_alone() {
             // A scene of its own, for cases of one scene share effects, too.
             let (own, profile) = chosen(&scene.cases[index].document);
             let alone = Case::new(&own, 0, &profile, &[]).expect("a case");
-            assert!(after.device == alone.device, "{}, case {}", scene.title, after.name());
+            assert!(**after.device == **alone.device, "{}, case {}", scene.title, after.name());
             others.push(after);
         }
     }

@@ -2,7 +2,7 @@
 //! A case of a scene, run: while the core works on some slots, the next ones are made (`ahead.rs`).
 
 use std::collections::VecDeque;
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, LazyLock, OnceLock};
 
 use anyhow::{Result, ensure};
 use hapticore_contract::calibration::Calibration;
@@ -48,17 +48,22 @@ pub struct Case<'a> {
     /// The profile of a core that serves the pads of the case.
     pub profile: Arc<Profile>,
     /// The device's calibration, one for all cases of a device.
-    pub device: Arc<DeviceCalibration>,
+    pub device: Arc<OnDemand<DeviceCalibration>>,
     /// Number of slots of the case.
     pub slots: usize,
     /// The time of each slot.
     pub clock: SlotClock,
-    /// What decides the device's forces, where it was calibrated for a force table.
+    /// The device is calibrated for a force table.
+    tabled: bool,
+    /// What decides its forces then.
     bench: Option<Bench>,
     calibrated: Arc<Calibrated>,
     /// The controller's tuning, once it has been asked for.
     tuned: OnceLock<Option<Tuning>>,
 }
+
+/// What is made when it is first looked at. A device is calibrated so while slots are made on other threads.
+pub type OnDemand<T> = LazyLock<T, Box<dyn FnOnce() -> T + Send>>;
 
 /// What cases of one device share, made when it is first asked for.
 #[derive(Default)]
@@ -102,10 +107,11 @@ impl<'a> Case<'a> {
         let control = scene.cases[index].control.as_ref();
         let profile = for_terminals(profile, &signs)?;
         let plant = Plant::new(scene, index, &timing(&profile))?;
-        let slots = plant.slots() + others.iter().map(|other| other.slots).sum::<usize>();
+        let slots = plant.slots();
+        let all = slots + others.iter().map(|other| other.slots).sum::<usize>();
         ensure!(
-            slots <= MOST_SLOTS,
-            "{}: expected at most {MOST_SLOTS} slots of all cases, got {slots}",
+            all <= MOST_SLOTS,
+            "{}: expected at most {MOST_SLOTS} slots of all cases, got {all}",
             scene.name
         );
         let profile = for_parts(serving(&profile, plant.served()), plant.parts());
@@ -123,25 +129,26 @@ impl<'a> Case<'a> {
         let tabled = profile.force.law == ForceLaw::Table
             || scene.figure.is_some_and(|figure| BOTH.contains(&figure));
         let bench = if tabled { Bench::of(&scene.cases[index].document)? } else { None };
-        let device =
-            calibrated((&scene.cases[index], &plant), &profile, (tabled, bench.as_ref()), others)?;
         let start_s = others.iter().map(Case::seconds).sum();
-        let clock = SlotClock::new(&profile, device.device.sample_rate_hz, start_s);
+        let clock = SlotClock::new(&profile, rate_hz, start_s);
+        let device =
+            calibrated((&scene.cases[index], plant), &profile, (tabled, bench.as_ref()), others)?;
         let uncontrolled = |of: &Profile| Profile { control: None, wall: None, ..of.clone() };
         let mut same = others.iter().filter(|other| {
-            (Arc::ptr_eq(&other.device, &device) || other.device == device)
+            (Arc::ptr_eq(&other.device, &device) || **other.device == **device)
                 && uncontrolled(&other.profile) == uncontrolled(&profile)
         });
         Ok(Case {
             calibrated: same.next().map(|same| same.calibrated.clone()).unwrap_or_default(),
             tuned: OnceLock::new(),
             number: others.len(),
-            slots: plant.slots(),
+            slots,
             scene,
             index,
             profile,
             device,
             clock,
+            tabled,
             bench,
         })
     }
@@ -221,15 +228,15 @@ impl<'a> Case<'a> {
     ) -> Result<Outcome> {
         let at = (self.number, self.clock);
         let plant = self.plant()?;
-        let canceller =
-            || Some(CrosstalkCanceller::calibrated(plant.nominal_sheet()?, &self.device));
-        let cancellers = canceller().zip(canceller()).map(<[_; 2]>::from);
+        let sheets = plant.nominal_sheet().zip(plant.nominal_sheet());
         let tuning = self.tuning(&plant)?;
         let fidelity = (settings.fidelity, tuning.as_ref());
         let directions = [0, 1].map(|_| Directions::of(&plant));
         let session = || {
-            let device = (&*self.device, self.calibration()?);
+            let device = (&**self.device, self.calibration()?);
             let session = Session::new(&self.profile, device, fidelity, settings.errors, at)?;
+            let canceller = |sheet| CrosstalkCanceller::calibrated(sheet, &self.device);
+            let cancellers = sheets.map(|sheets| <[_; 2]>::from(sheets).map(canceller));
             anyhow::Ok(session.with_cancellers(cancellers).with_directions(directions))
         };
         let whole = settings.fidelity == Fidelity::Clock || recorder.is_some();
@@ -239,7 +246,7 @@ impl<'a> Case<'a> {
             return self.close(session()?, maker(plant), recorder, progress);
         }
         let another = || maker(self.plant().expect("as the first"));
-        let ahead = Ahead::new(plant.metered(), (self.slots, self.kept()), another);
+        let ahead = Ahead::new(plant.metered(), (self.slots, self.kept(whole)), another);
         self.run_ahead(session, ahead, recorder, progress)
     }
 
@@ -276,9 +283,11 @@ impl<'a> Case<'a> {
 }
 
 impl Case<'_> {
-    /// Slots kept at most that are made ahead: sixteen at least.
-    fn kept(&self) -> usize {
-        let codes = self.profile.slot.samples() as usize * self.profile.channels();
+    /// Slots kept at most that are made ahead: sixteen at least. They are whole, or their windows.
+    fn kept(&self, whole: bool) -> usize {
+        let slot = &self.profile.slot;
+        let samples = if whole { slot.samples() } else { slot.integrate };
+        let codes = samples as usize * self.profile.channels();
         (KEPT / (codes * size_of::<i32>())).max(16)
     }
 }
@@ -296,25 +305,40 @@ fn for_parts(mut profile: Profile, parts: usize) -> Profile {
 
 /// What is known of a case's device, with a force table or without; the same as of another case that has it.
 fn calibrated(
-    (case, plant): (&hapticore_scene::Case, &Plant),
-    profile: &Profile,
+    (case, plant): (&hapticore_scene::Case, Plant),
+    profile: &Arc<Profile>,
     (tabled, bench): (bool, Option<&Bench>),
     others: &[Case],
-) -> Result<Arc<DeviceCalibration>> {
+) -> Result<Arc<OnDemand<DeviceCalibration>>> {
     let has_it = |other: &&Case| {
         case.has_device_of(&other.scene.cases[other.index])
             && timing(&other.profile) == timing(profile)
     };
-    let mut same = others.iter().filter(has_it).map(|other| &other.device);
-    if let Some(device) = same.clone().find(|device| device.force.is_some() == tabled) {
-        return Ok(device.clone());
+    let mut same = others.iter().filter(has_it);
+    if let Some(other) = same.clone().find(|other| other.tabled == tabled) {
+        return Ok(other.device.clone());
     }
-    let device = match same.next() {
-        Some(device) => (**device).clone(),
-        None => calibrate::of_plant(plant.as_calibrated()?.as_ref().unwrap_or(plant), profile),
+    let without = match same.next() {
+        // It has the table that this case does not need.
+        Some(other) if !tabled => {
+            let device = other.device.clone();
+            on_demand(move || DeviceCalibration { force: None, ..(**device).clone() })
+        }
+        Some(other) => other.device.clone(),
+        None => {
+            let (plant, profile) = (plant.as_calibrated()?.unwrap_or(plant), profile.clone());
+            on_demand(move || calibrate::of_plant(&plant, &profile))
+        }
     };
-    let force = tabled.then(|| force_table(bench, device.device.force_k, others));
-    Ok(Arc::new(DeviceCalibration { force: force.transpose()?, ..device }))
+    if !tabled {
+        return Ok(without);
+    }
+    let force = Some(force_table(bench, without.device.force_k, others)?);
+    Ok(on_demand(move || DeviceCalibration { force, ..(**without).clone() }))
+}
+
+fn on_demand<T>(make: impl FnOnce() -> T + Send + 'static) -> Arc<OnDemand<T>> {
+    Arc::new(LazyLock::new(Box::new(make)))
 }
 
 /// The force table of a device on its bench, or the same of another case.

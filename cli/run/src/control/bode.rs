@@ -133,7 +133,7 @@ fn amplitude(samples: &[Sample], hz: f64, of: impl Fn(&Sample) -> f64) -> Comple
 fn follow(case: &Case, settings: &Settings, excitation: Excitation) -> Result<Vec<Sample>> {
     let plant = case.plant()?;
     let tuning = case.tuning(&plant)?.context("a case with a controller")?;
-    let device = (&*case.device, case.calibration()?);
+    let device = (&**case.device, case.calibration()?);
     let fidelity = (settings.fidelity, Some(&tuning));
     let at = (case.number, case.clock);
     let mut session = Session::new(&case.profile, device, fidelity, false, at)?;
