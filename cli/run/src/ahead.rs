@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Slots made ahead of the core, by all processors.
+//! Slots made ahead of the core, by processors that have nothing else to do.
 //!
 //! A plant looks at slots in their order, since effects have states; their samples follow from what it saw,
 //! so that any plant of the case makes them, and results do not depend on threads. Whoever has nothing else

@@ -149,7 +149,12 @@ impl PositionTable {
     pub fn look_up<T: Real>(&self, r_x: T, r_y: T) -> Found<T> {
         let mut place = self.first_guess([r_x, r_y]);
         for _ in 0..STEPS {
-            place = self.step(place, [r_x, r_y]);
+            let next = self.step(place, [r_x, r_y]);
+            // From here on every step would be the same.
+            if next == place {
+                break;
+            }
+            place = next;
         }
         let [[x, ..], [y, ..]] = self.at(place);
         let scale = |k: usize| real::<T>(self.scales[k][1]);

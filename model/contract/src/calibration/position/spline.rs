@@ -116,7 +116,7 @@ impl Spline {
             let place = places.get(start)?;
             let (first, (row, rows)) = (column(place), self.basis(Axis::Y, *place));
             let goes_on = |at: &&[f64; 2]| at[1] == place[1] && column(at) == first;
-            next += places[start..].iter().take_while(goes_on).count();
+            next += 1 + places[start + 1..].iter().take_while(goes_on).count();
             Some(Stretch { points: start..next, first: row * columns + first, rows })
         })
     }
