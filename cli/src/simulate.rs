@@ -11,7 +11,7 @@ use hapticore_run::capture::{self, Adc, Recorder};
 use hapticore_run::case::{Case, Outcome, Settings};
 use hapticore_run::criteria::{self, CaseRows};
 use hapticore_run::record::{Effect, ForceLawErrors, Provenance, Record, Row, Rows};
-use hapticore_run::{errors, haptic, inputs};
+use hapticore_run::{errors, haptic, inputs, interrupt};
 use hapticore_scene::{
     Figure, HapticWave, LevelDeviation, Quantity, Record as Wanted, Scene, Timing,
 };
@@ -114,6 +114,7 @@ fn cases<'a>(args: &SimulateArgs, scene: &'a Scene, profile: &Profile) -> Result
         |index: &usize| args.case.is_empty() || args.case.iter().any(|name| name == names[*index]);
     let mut cases: Vec<Case> = Vec::new();
     for index in (0..names.len()).filter(chosen) {
+        interrupt::check()?;
         let case = Case::new(scene, index, profile, &cases)?;
         case.check(&args.scene, args.core.fidelity())?;
         cases.push(case);

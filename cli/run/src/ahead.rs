@@ -16,8 +16,8 @@ use rayon::Scope;
 use crate::engine::{Signals, Slot};
 use crate::maker::Maker;
 
-/// More have nothing to do: slots are looked at one after the other, and a fifth of the time that a slot with
-/// samples takes is that.
+/// More would wait for each other: slots are looked at one after the other, and a fifth of the time that a slot
+/// with samples takes is that.
 const MOST_HELPERS: usize = 3;
 
 /// A slot for the core.
@@ -255,7 +255,7 @@ mod tests {
 
     const FIXED: Settings = Settings { fidelity: Fidelity::Fixed, errors: false };
 
-    /// Four pads for half a second, 294 slots: more than are made at a time, but no multiple of it.
+    /// Four pads for half a second, 294 slots: more than are kept at a time.
     fn with_hockey(carrier: &str, run: impl Fn(&Case)) {
         let set = [("duration_s", "0.5"), ("carrier.rung", carrier)];
         let set = set.map(|(key, value)| (key.to_string(), value.to_string()));
@@ -314,6 +314,36 @@ mod tests {
                 }
             });
         }
+    }
+
+    /// With room for one, helpers leave after each slot and are called again.
+    #[test]
+    fn slots_are_those_made_one_by_one_however_few_are_kept() {
+        with_hockey("samples", |case| {
+            let maker = || Maker::new(case.plant().expect("a plant"), &case.profile, true, false);
+            let mut one_by_one = maker();
+            let expected: Vec<_> =
+                (0..40).map(|slot| format!("{:?}", one_by_one.signals(slot).0)).collect();
+            for (most, threads) in [(1, 1), (1, 2), (2, 2), (1, 5), (3, 5), (100, 5)] {
+                let ahead = Ahead::new(case.plant().expect("a plant"), (40, most), maker);
+                let take = || {
+                    let signals = ahead.take()?.slot.signals;
+                    let text = format!("{signals:?}");
+                    ahead.give_back(signals);
+                    Some(text)
+                };
+                let run = || {
+                    rayon::in_place_scope(|helpers| {
+                        let next = || {
+                            ahead.call_helpers(helpers);
+                            take()
+                        };
+                        std::iter::from_fn(next).collect::<Vec<_>>()
+                    })
+                };
+                assert_eq!(in_threads(threads, run), expected, "{most} kept, {threads} threads");
+            }
+        });
     }
 
     #[test]

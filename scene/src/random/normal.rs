@@ -10,6 +10,7 @@ use std::convert::Infallible;
 use std::sync::LazyLock;
 
 use rand_distr::{Distribution, StandardNormal};
+use rand_xoshiro::rand_core::utils::fill_bytes_via_next_word;
 use rand_xoshiro::rand_core::{Rng, TryRng};
 
 use super::Stream;
@@ -55,10 +56,7 @@ impl<Then: FnMut() -> u64> TryRng for Words<Then> {
     }
 
     fn try_fill_bytes(&mut self, bytes: &mut [u8]) -> Result<(), Infallible> {
-        for bytes in bytes.chunks_mut(8) {
-            bytes.copy_from_slice(&self.next_u64().to_le_bytes()[..bytes.len()]);
-        }
-        Ok(())
+        fill_bytes_via_next_word(bytes, || self.try_next_u64())
     }
 }
 
