@@ -28,6 +28,8 @@ pub struct Prompt {
     pub force_gain: f64,
     /// There is no such capacitance, or a code was at full scale.
     pub invalid: bool,
+    /// The pad does not touch.
+    pub lifted: bool,
 }
 
 #[derive(Debug, Clone, Copy, Default)]

@@ -264,12 +264,13 @@ impl Drives {
             return (none(Format::NONE), none(Format::NONE), none(Format::NONE));
         }
         let is = |field: Field| frame.index.is(field as u64);
+        let valid = frame.valid & !frame.invalid & !frame.lifted;
         let place = frame.frame.as_code(self.position);
         match self.split_pad.as_ref().filter(|of| of.has_quadrants()) {
-            None => (frame.valid & is(Field::X) & !frame.invalid, frame.pad, place),
+            None => (valid & is(Field::X), frame.pad, place),
             Some(of) => {
                 let along_y = is(Field::Y);
-                let placed = frame.valid & (is(Field::X) | along_y) & !frame.invalid;
+                let placed = valid & (is(Field::X) | along_y);
                 let before = (frame.pad - int(1)).resize(self.pad, Wrap);
                 (placed & of.is_last(frame.pad), along_y.select(before, frame.pad), place)
             }
