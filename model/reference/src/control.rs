@@ -10,7 +10,7 @@
 //! ```
 //!
 //! The drive is held within 0 … rail, then within slew of the pad's last. c stays as it is while
-//! estimates are invalid; against a limit that holds the drive it goes as far as drive − (D + K·e), and not
+//! estimates are invalid, and zero, as the drive, while the pad is lifted; against a limit that holds the drive it goes as far as drive − (D + K·e), and not
 //! back.
 
 use hapticore_contract::control::{Control, Drive, Faults, Law, Tuning};
@@ -37,6 +37,8 @@ struct Pad {
     invalid: u64,
     drive: f64,
     correction: f64,
+    /// It has been lifted, and its drive has not been what its law wants since.
+    rises: bool,
 }
 
 /// The force controller of all pads.
@@ -80,14 +82,21 @@ impl Controller {
         self.faults.sensor |= invalid >= self.control.invalid_frames;
         self.faults.force |= !prompt.invalid && prompt.force_n > self.tuning.force_cap;
         let (correction, wanted) = self.wanted(prompt, target_n, pad.correction);
+        let within = wanted.min(self.tuning.rail).max(0.0);
         let (low, high) = (wanted < 0.0, wanted > self.tuning.rail);
         let to = match (self.faults.any(), prompt.invalid) {
             (true, _) => 0.0,
             (_, true) => pad.drive,
-            _ => wanted.min(self.tuning.rail).max(0.0),
+            _ => within,
         };
+        if prompt.lifted {
+            self.pads[prompt.pad] = Pad { invalid, drive: 0.0, correction: 0.0, rises: true };
+            return self.given(prompt.pad, [false; 2]);
+        }
         let slew = self.tuning.slew;
-        let drive = to.min(pad.drive + slew).max(pad.drive - slew);
+        let up = if pad.rises { slew.min(self.control.contact_slew()) } else { slew };
+        let drive = to.min(pad.drive + up).max(pad.drive - slew);
+        let rises = pad.rises && (prompt.invalid || drive < within);
         let limit = drive - (wanted - correction);
         let correction = if prompt.invalid {
             pad.correction
@@ -98,8 +107,13 @@ impl Controller {
         } else {
             correction
         };
-        self.pads[prompt.pad] = Pad { invalid, drive, correction };
-        Drive { pad: prompt.pad, fraction: drive, low, high, faults: self.faults, walled: None }
+        self.pads[prompt.pad] = Pad { invalid, drive, correction, rises };
+        self.given(prompt.pad, [low, high])
+    }
+
+    fn given(&self, pad: usize, [low, high]: [bool; 2]) -> Drive {
+        let fraction = self.pads[pad].drive;
+        Drive { pad, fraction, low, high, faults: self.faults, walled: None }
     }
 
     /// √F over that of the largest target.

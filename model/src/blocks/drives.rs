@@ -136,6 +136,7 @@ block! {
         /// It is there.
         start: BIT,
         invalid: BIT,
+        lifted: BIT,
         pad: block.pad,
         target: block.targets.format,
         settings as Settings: block.settings(),
@@ -282,6 +283,7 @@ impl Drives {
 struct Begin<V: Interpretation> {
     start: Signal<V>,
     invalid: Signal<V>,
+    lifted: Signal<V>,
     capacitance: Signal<V>,
     measured: Signal<V>,
     /// Force that its wall asks for.
@@ -296,6 +298,7 @@ impl Drives {
         Begin {
             start: r.start,
             invalid: r.invalid,
+            lifted: r.lifted,
             capacitance: i.estimate.prompt_capacitance,
             measured: i.estimate.prompt_force,
             of_wall: zero(Format::NONE),
@@ -319,6 +322,7 @@ impl Drives {
             capacitance: i.estimate.prompt_capacitance,
             measured: i.estimate.prompt_force,
             invalid: i.estimate.prompt_invalid,
+            lifted: i.estimate.prompt_lifted,
             placed: i.placed,
             placed_pad: i.placed_pad,
             place: i.place,
@@ -335,6 +339,7 @@ impl Drives {
         Begin {
             start: pad.done,
             invalid: pad.invalid,
+            lifted: pad.lifted,
             capacitance: pad.capacitance,
             measured: pad.measured,
             of_wall: pad.target,
@@ -434,6 +439,7 @@ impl Block for Drives {
             measured: begin.measured,
             force_gain: i.estimate.prompt_gain,
             invalid: begin.invalid,
+            lifted: begin.lifted,
             alive: alive | target_write,
             clear_faults,
             tuning: self.held(&r.settings, i.tuning),
@@ -468,6 +474,7 @@ impl Block for Drives {
             asked: prompt,
             start: r.asked,
             invalid: prompt.select(i.estimate.prompt_invalid, r.invalid),
+            lifted: prompt.select(i.estimate.prompt_lifted, r.lifted),
             pad,
             target: r.asked.select(found, r.target),
             settings: self.taken(&r, &i),

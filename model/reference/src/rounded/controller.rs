@@ -36,6 +36,8 @@ pub struct Request {
     pub force_gain: Exact,
     /// The estimate is invalid.
     pub invalid: bool,
+    /// The pad does not touch.
+    pub lifted: bool,
     /// Drives follow their targets.
     pub enable: bool,
 }
@@ -46,6 +48,8 @@ struct Pad {
     invalid: u64,
     drive: Exact,
     correction: Exact,
+    /// It has been lifted, and its drive has not been what its law wants since.
+    rises: bool,
 }
 
 /// A drive word, and whether it should be below zero or beyond the rail.
@@ -100,7 +104,7 @@ impl Controller {
             slew: drive(tuning.slew),
             force_cap: round_real(tuning.force_cap.min(1e9), profile.formats.force),
         };
-        let pad = Pad { invalid: 0, drive: Exact::ZERO, correction: Exact::ZERO };
+        let pad = Pad { invalid: 0, drive: Exact::ZERO, correction: Exact::ZERO, rises: false };
         Controller {
             pads: vec![pad; profile.pads as usize],
             profile: profile.clone(),
@@ -147,7 +151,13 @@ impl Controller {
             (_, true) => pad.drive,
             _ => within,
         };
-        let drive = self.slewed(pad.drive, to);
+        if request.lifted {
+            let (drive, correction) = (Exact::ZERO, Exact::ZERO);
+            self.pads[request.pad] = Pad { invalid, drive, correction, rises: true };
+            return Drive { drive, low: false, high: false };
+        }
+        let drive = self.slewed(pad, to);
+        let rises = pad.rises && (request.invalid || drive < within);
         let limit = round(drive - (wanted - correction), self.kept()).value;
         let falls = correction < pad.correction;
         let correction = if request.invalid {
@@ -159,17 +169,19 @@ impl Controller {
         } else {
             correction
         };
-        self.pads[request.pad] = Pad { invalid, drive, correction };
+        self.pads[request.pad] = Pad { invalid, drive, correction, rises };
         Drive { drive, low, high }
     }
 
-    fn slewed(&self, last: Exact, to: Exact) -> Exact {
-        let (change, slew) = (to - last, self.tuning.slew);
-        if change.magnitude() <= slew {
-            return to;
+    fn slewed(&self, pad: Pad, to: Exact) -> Exact {
+        let (last, slew) = (pad.drive, self.tuning.slew);
+        let contact = round_real(self.control.contact_slew(), self.control.drive);
+        let up = if pad.rises && contact < slew { contact } else { slew };
+        let change = to - last;
+        if change > up {
+            return round(last + up, self.control.drive).value;
         }
-        let full = round(last + slew, self.control.drive).value;
-        if change > Exact::ZERO { full } else { last - slew }
+        if change < Exact::ZERO && change.magnitude() > slew { last - slew } else { to }
     }
 
     /// Bits of a root, and of what is added to the curve.

@@ -8,7 +8,7 @@
 //! integral       d = D + K·e + c,   c += K_i·e,   e = √F_t − √F
 //! inverse        d = min(√(F_t/G / (k·C²)), D)                                    (docs/physics.md §6)
 //! F_t = the host's force, or that of the pad's wall where it is larger
-//! drive = d, held within 0 … rail, then within slew of the pad's last
+//! drive = d, held within 0 … rail, then within slew of the pad's last; zero at once, and c too, while the pad is lifted
 //! c as before of an invalid estimate; against a limit that holds the drive as far as drive − (D + K·e), never back
 //! ```
 //!
@@ -110,6 +110,8 @@ block! {
         invalid_frames: u64,
         silent_frames: u64,
         has_walls: bool,
+        /// Code of the largest rise after contact.
+        contact_slew: i64,
     }
     submodules {
         multiplier: Multiplier,
@@ -117,7 +119,7 @@ block! {
         divider: Divider,
         /// Drive words of the curve.
         points: Memory,
-        /// Of each pad: invalid frames in a row, and the drive word.
+        /// Of each pad: whether it rises after contact, invalid frames in a row, and the drive word.
         pads: Memory,
         /// Of each pad: what corrects the curve.
         corrections: Memory,
@@ -139,6 +141,8 @@ block! {
         force_gain: block.force_gain,
         /// The estimate is invalid.
         invalid: BIT,
+        /// The pad does not touch.
+        lifted: BIT,
         /// The host is alive.
         alive: BIT,
         /// Clears faults.
@@ -225,7 +229,7 @@ impl Controller {
         let radicand = words::radicand(control, fine);
         let (left, right) = words::operands(control, f);
         let invalid = Format::counter(control.invalid_frames);
-        let word = Format::unsigned(invalid.width + drive.width, 0);
+        let word = Format::unsigned(1 + invalid.width + drive.width, 0);
         Controller {
             multiplier: Multiplier::new(left, right, profile.multiplier),
             sqrt: SquareRoot::new(radicand, fine.frac),
@@ -253,6 +257,7 @@ impl Controller {
             invalid_frames: control.invalid_frames,
             silent_frames: control.silent_frames,
             has_walls: profile.wall.is_some(),
+            contact_slew: drive.code_saturating(control.contact_slew()),
         }
     }
 
@@ -384,7 +389,8 @@ impl Controller {
             product,
             root: root.sqrt,
             curve: self.curve_word(state, r, i),
-            invalid: pad.bits(self.drive.width, pad.format.width - self.drive.width),
+            rises: pad.msb(),
+            invalid: pad.bits(self.drive.width, pad.format.width - self.drive.width - 1),
             last: pad.bits(0, self.drive.width).as_code(self.drive),
             pad_word,
             correction,
@@ -440,7 +446,7 @@ impl Controller {
         let (left, right) = self.operands(&r, i, found);
         let (combine, limit) = (self.at(&r, Task::Combine), self.at(&r, Task::Limit));
         let [wanted, low, high] = self.wanted(&r, i);
-        let [least, most] = self.slewed(i, found.last);
+        let [least, most] = self.slewed(i, found);
         Registers {
             task: ends.select(self.following(&r), r.task),
             count: ends.select(int(0), r.count.increment()),
@@ -472,12 +478,14 @@ impl Controller {
         found: &Found<V>,
     ) {
         let enable = r.task.at(Task::Limit);
-        let data = self.invalid_count(i, found.invalid).concat(drive.integer());
+        let rises = self.rises(r, i, found.rises, drive);
+        let data = rises.concat(self.invalid_count(i, found.invalid)).concat(drive.integer());
         let write = Write { enable, address: i.pad, data };
         self.pads.access(&mut state.submodules.pads, i.pad, write);
         if self.feeds_back() {
             let kept = self.kept_correction(r, drive, found.correction);
-            let data = i.invalid.select(found.correction, kept);
+            let valid = i.invalid.select(found.correction, kept);
+            let data = i.lifted.select(zero(valid.format), valid);
             let write = Write { enable, address: i.pad, data };
             self.corrections.access(&mut state.submodules.corrections, i.pad, write);
         }

@@ -75,6 +75,7 @@ impl Pair {
             measured: random.word(f.measured),
             force_gain: random.word(f.force_gain),
             invalid: rarely(random, 3),
+            lifted: rarely(random, 8),
             alive: rarely(random, 2000),
             clear_faults: rarely(random, 20),
             ..self.inputs
@@ -111,6 +112,7 @@ impl Pair {
             force: Exact::of(i.measured, f.force),
             force_gain: Exact::of(i.force_gain, f.force_gain),
             invalid: i.invalid == 1,
+            lifted: i.lifted == 1,
             enable: i.tuning.enable == 1,
         });
         let [silence_fault, sensor_fault, force_fault] = self.reference.faults.map(i64::from);
