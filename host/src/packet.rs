@@ -16,8 +16,10 @@ use hapticore_contract::frame::{Flags, Frame};
 use hapticore_contract::profile::Profile;
 use hapticore_protocol::drive::{PACKET_WORDS, status};
 use hapticore_protocol::framing::{
-    FLAGS_BYTE, STATUS_BYTES, VERSION, data_bytes, flags, word_bytes,
+    FLAGS_BYTE, STATUS_BYTES, VERSION, board_digest, data_bytes, flags, word_bytes,
 };
+use hapticore_protocol::output::{CLOCK, FULL_SCALE, Output, SETUP};
+use hapticore_protocol::register::LINES;
 use hapticore_protocol::{Register, WordFormats};
 
 /// A board's words: frames' fields, or what has been written into registers.
@@ -121,7 +123,7 @@ pub struct Packet {
 /// use hapticore_host::{Heartbeat, Profile, Status, digest};
 ///
 /// let profile = Profile::bundled("standard")?;
-/// let heartbeat = Heartbeat::new(Status { commands: 3, ..Status::default() }, &profile);
+/// let heartbeat = Heartbeat::new(Status { commands: 3, ..Status::default() }, &profile, None);
 /// assert_eq!(heartbeat.digest(), digest(&profile));
 /// assert!(!heartbeat.calibrated && heartbeat.status.commands == 3);
 /// # Ok::<(), hapticore_host::ProfileError>(())
@@ -139,12 +141,15 @@ pub struct Heartbeat {
 }
 
 impl Heartbeat {
-    /// Of a board that was made for the profile and has just been reset.
-    pub fn new(status: Status, profile: &Profile) -> Self {
+    /// Of a board that was made for the profile and the output and has just been reset.
+    pub fn new(status: Status, profile: &Profile, output: Option<&Output>) -> Self {
         let layout = Layout::new(profile);
         let mut words = Words::default();
-        words[Register::Control.number()] =
-            layout.word(hapticore_protocol::framing::digest(profile).into());
+        words[Register::Control.number()] = layout.word(board_digest(profile, output).into());
+        let told = output.map_or([0; 3], Output::words);
+        for (number, word) in [SETUP, FULL_SCALE, CLOCK].into_iter().zip(told) {
+            words[number] = layout.word(word.into());
+        }
         Heartbeat { status, calibrated: false, version: VERSION, words, bits: layout.register_bits }
     }
 
@@ -155,7 +160,19 @@ impl Heartbeat {
         matches!(register, Register::Constant(_)).then_some((word, self.bits))
     }
 
-    /// The digest of the profile that the board was made for.
+    /// What the board says of its output: converter, wave, full scale, clock; in words.
+    pub fn output(&self) -> String {
+        Output::told([SETUP, FULL_SCALE, CLOCK].map(|number| self.words[number] as u16))
+    }
+
+    /// The code that the last test of a line has read, as bits; none where there is none yet, or where it was not the same
+    /// each time.
+    pub fn line_code(&self) -> Option<u64> {
+        let code = self.words[LINES] as u64 & ((1 << self.bits) - 1);
+        (code != 0).then_some(code)
+    }
+
+    /// The digest of the profile that the board was made for, and of its output.
     pub fn digest(&self) -> u16 {
         self.words[Register::Control.number()] as u16
     }
@@ -174,7 +191,7 @@ impl Heartbeat {
 /// use hapticore_host::{Heartbeat, Message, Profile, Status};
 ///
 /// let profile = Profile::bundled("small")?;
-/// let message = Message::Heartbeat(Heartbeat::new(Status::default(), &profile));
+/// let message = Message::Heartbeat(Heartbeat::new(Status::default(), &profile, None));
 /// assert_eq!(message.frame(), None);
 /// assert_eq!(message.encode(&profile).last(), Some(&hapticore_host::END));
 /// # Ok::<(), hapticore_host::ProfileError>(())

@@ -55,7 +55,7 @@ fn message(profile: &Profile) -> impl Strategy<Value = Message> + use<> {
         },
     );
     let heartbeat = (status(&profile), any::<bool>()).prop_map(move |(status, calibrated)| {
-        let mut heartbeat = Heartbeat::new(status, &profile);
+        let mut heartbeat = Heartbeat::new(status, &profile, None);
         heartbeat.calibrated = calibrated;
         Message::Heartbeat(heartbeat)
     });
@@ -200,7 +200,7 @@ fn an_endless_stream_without_an_end_is_not_kept() {
 #[test]
 fn a_heartbeat_that_was_cut_is_left_out_in_silence() {
     let profile = Profile::bundled("small").expect("bundled");
-    let heartbeat = Message::Heartbeat(Heartbeat::new(Status::default(), &profile));
+    let heartbeat = Message::Heartbeat(Heartbeat::new(Status::default(), &profile, None));
     let bytes = heartbeat.encode(&profile);
     let cut = bytes[..7].iter().chain(&[END]).chain(&bytes).copied();
     assert_eq!(decoded(&profile, cut), [Ok(heartbeat)]);

@@ -11,7 +11,7 @@ use hapticore_model::blocks::force_loop::ForceLoop;
 
 use hapticore_hdl::verilog::{Design, Heading};
 
-use crate::board::drive_output::{Converter, DriveOutput, Wave};
+use crate::board::drive_output::{Converter, DriveOutput, STALE_MS, Wave};
 use crate::board::framing::digest;
 use crate::netlist;
 
@@ -51,20 +51,24 @@ pub fn drive_output(
     profile: &Profile,
     wave: Wave,
     converter: Converter,
+    clock_hz: u64,
     options: &str,
 ) -> Result<Design, ProfileError> {
-    let output = DriveOutput::of_profile(profile, wave, converter)?;
+    let output = DriveOutput::of_profile(profile, wave, converter, clock_hz)?;
     let interface = [
-        "- drive_valid, drive_pad, drive, serve, closed: the outputs of hapticore_loop of these names; enable: not its clear.",
-        "- dac_*: pins of the converter; words are offset binary, half of full scale is 0 V.",
-        "- dac_live: every channel has been set to zero since reset; gate the high voltage with it.",
+        "- drive_valid, drive_pad, drive, serve, closed, *_fault: the outputs of hapticore_loop of these names; enable: not its clear.".to_owned(),
+        "- drives_clear: connect to hapticore_loop's drives_clear.".into(),
+        "- dac_*: pins of the converter; words are magnitudes, 0 is 0 V; dac_polarity: the sign of each channel's amplifier.".into(),
+        "- dac_live: the converter is set up, and nothing is off; gate the high voltage with it.".into(),
+        format!("- clock: {clock_hz} Hz; drive words that cease are zero after {STALE_MS} ms at most."),
+        format!("- converter: {}.", converter.dac().advice()),
     ];
     let law = profile.control.as_ref().map(|control| control.law.name());
     let law = law.map_or(String::new(), |law| format!(" --control {law}"));
     let heading = Heading {
         command: format!("hapticore hdl --profile {}{law} {options}", profile.name),
         source: source(profile),
-        interface: interface.map(String::from).to_vec(),
+        interface: interface.to_vec(),
     };
     Ok(Design::of(&output, heading))
 }

@@ -5,7 +5,8 @@
 //! packet:    payload … │ CRC, 4 bytes, least significant first              stuffed, then END, a zero byte
 //! frame:     sequence, 2 bytes │ commands accepted (4 bits), pad (4 bits) │ flags, 2 bytes │ 8 words of B bytes
 //! heartbeat: the same with the flag of that name; its words are those last written to [`Register::ALL`], but for
-//!            the profile's digest in place of the control register, and for the ADC's answer to the last word sent to it;
+//!            the digest of profile and output in place of the control register, and for the ADC's answer to the last word
+//!            sent to it, or the code of a line's test; those of [`crate::output`] follow;
 //!            where one of them is written meanwhile, END comes early, behind the flags or later, and the heartbeat is void
 //! command:   place, 2 bytes │ data, D bytes               place: 8000 (hex) + register, or the address of a word of the
 //!                                                         position table; other bits are ignored. Boards that drive pads
@@ -40,6 +41,7 @@
 
 use crate::calibration::WordFormats;
 use crate::drive::PACKET_WORDS;
+use crate::output::Output;
 use crate::register::Register;
 use hapticore_contract::frame::Field;
 use hapticore_contract::profile::{Force, Profile};
@@ -91,7 +93,8 @@ pub mod flags {
 }
 
 /// The version of what this file says: 1 to 7. Version 1 was SLIP with CRC-16 and a sequence number
-/// of 8 bits; version 2 had flags of one byte and no register of the capacitance of a contact. To one version the other's packets
+/// of 8 bits; version 2 had flags of one byte, no register of the capacitance of a
+/// contact, and neither the test of the ADC's lines nor the output. To one version the other's packets
 /// are damaged ones.
 pub const VERSION: u8 = 3;
 
@@ -112,12 +115,33 @@ pub const NIBBLE: Format = Format::unsigned(4, 0);
 /// # Ok::<(), hapticore_contract::profile::ProfileError>(())
 /// ```
 pub fn digest(profile: &Profile) -> u16 {
+    board_digest(profile, None)
+}
+
+/// The digest of a board's profile, and of the output that it drives its pads with, where it has one.
+///
+/// ```
+/// # use hapticore_contract::profile::Profile;
+/// # use hapticore_protocol::framing::{board_digest, digest};
+/// # use hapticore_protocol::output::{Dac, Output, Wave};
+/// let profile = Profile::bundled("standard")?;
+/// let output = Output { dac: Dac::Ad5664r, wave: Wave::Dc, full_scale_v: 500, clock_hz: 25_000_000 };
+/// let of = |output: &Output| board_digest(&profile, Some(output));
+/// assert_eq!(board_digest(&profile, None), digest(&profile));
+/// assert_ne!(of(&output), of(&Output { full_scale_v: 300, ..output }));
+/// # Ok::<(), hapticore_contract::profile::ProfileError>(())
+/// ```
+pub fn board_digest(profile: &Profile, output: Option<&Output>) -> u16 {
     let text = format!("{:?}", Profile { name: String::new(), ..profile.clone() });
     // What a profile does not have is not of its digest: boards from before keep theirs.
     let text = text.replace("wall: None, ", "").replace("control: None, ", "");
     let text = match profile.force == Force::default() {
         true => text.replace(&format!("force: {:?}, ", profile.force), ""),
         false => text,
+    };
+    let text = match output {
+        Some(output) => format!("{text}, {output}"),
+        None => text,
     };
     let step = |hash: u64, byte: u8| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
     let hash = text.bytes().fold(0xcbf2_9ce4_8422_2325, step);

@@ -42,7 +42,7 @@
 use super::bits::{flag, next, previous, word as bits_side_by_side};
 use super::crc32;
 use super::framing::{
-    CRC_BYTES, END, NIBBLE, PLACE, Register, STATUS_BYTES, STUFFING_BYTES, VERSION, digest,
+    CRC_BYTES, END, NIBBLE, PLACE, Register, STATUS_BYTES, STUFFING_BYTES, VERSION, board_digest,
     packet_bytes, packet_words, word_bytes,
 };
 use super::uart::BYTE;
@@ -57,6 +57,7 @@ use hapticore_hdl::signal::{Signal, Wrap, bit, code, int};
 use hapticore_hdl::{block, bundle, call};
 use hapticore_model::blocks::estimator::FramePort;
 use hapticore_protocol::drive;
+use hapticore_protocol::output::{CLOCK, FULL_SCALE, Output, SETUP};
 
 bundle! {
     /// The last drive word, and what is said of it: `hapticore_protocol::drive::status`.
@@ -168,12 +169,16 @@ fn driven(profile: &Profile) -> DrivenPort<Format> {
 
 impl Stream {
     /// The stream of a profile's frames, with so many clocks per bit, and of a board whose commands
-    /// bring so much data.
-    pub fn new(profile: &Profile, divisor: u64, data: Format) -> Self {
+    /// bring so much data; heartbeats report its output, where there is one.
+    pub fn new(profile: &Profile, divisor: u64, data: Format, output: Option<&Output>) -> Self {
         let format = Field::word(profile);
         let mut initial = vec![0.0; 2 * WORDS as usize];
         initial[WORDS as usize + Register::Control.number()] =
-            f64::from(as_word(digest(profile), format));
+            f64::from(as_word(board_digest(profile, output), format));
+        let told = output.map_or([0; 3], Output::words);
+        for (number, word) in [SETUP, FULL_SCALE, CLOCK].into_iter().zip(told) {
+            initial[WORDS as usize + number] = f64::from(as_word(word, format));
+        }
         let words =
             Memory { initial: initial.into(), ..Memory::new("words", 2 * WORDS as usize, format) };
         Stream {
