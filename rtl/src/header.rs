@@ -57,6 +57,7 @@ pub fn drive_output(
     let interface = [
         "- drive_valid, drive_pad, drive, serve, closed: the outputs of hapticore_loop of these names; enable: not its clear.",
         "- dac_*: pins of the converter; words are offset binary, half of full scale is 0 V.",
+        "- drives_clear: no drive word came in time, all channels go to zero; to the input of hapticore_loop of this name.",
         "- dac_live: every channel has been set to zero since reset; gate the high voltage with it.",
     ];
     let law = profile.control.as_ref().map(|control| control.law.name());
@@ -76,6 +77,8 @@ fn interface_of_loop(force_loop: &ForceLoop) -> Vec<String> {
         "- target_write, target_pad, target_word: a pad's target, taken as its slot's estimate is given; a sign of life.".into(),
         "- curve_write, curve_address, curve_word: a word of the curve per cycle, while no drive word is being made.".into(),
         "- proportional, correction, full_drive, rail, slew, force_cap: taken as a slot's estimate is given.".into(),
+        "- tick: one cycle every millisecond, of which a silent host is missed after so many; without ticks nothing is driven.".into(),
+        "- clear, drives_clear, enable low, a fault: every drive is zero in the same cycle and begins at zero; clear takes targets and walls, too.".into(),
         "- least_drive to most_force: of all pads, of valid estimates since extremes_read.".into(),
     ];
     if let Some(split_pad) = &force_loop.drives.split_pad {

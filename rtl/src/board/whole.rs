@@ -33,7 +33,7 @@ use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::{BIT, Format};
 use hapticore_hdl::memory::{Memory, Write};
-use hapticore_hdl::signal::{Clocked, Signal, Wrap, bit, zero};
+use hapticore_hdl::signal::{Clocked, Proved, Signal, Wrap, bit, int, zero};
 use hapticore_hdl::{block, call};
 use hapticore_model::blocks::core::{self, Core};
 use hapticore_model::blocks::estimator::Calibration;
@@ -42,7 +42,10 @@ use hapticore_protocol::drive::{status, widest};
 
 block! {
     /// The board: the core with its converters, commands and packets.
-    pub struct Board("board") {}
+    pub struct Board("board") {
+        /// Clocks of a millisecond.
+        tick_clocks: u64,
+    }
     submodules {
         receiver: Receiver,
         registers: CommandRegisters,
@@ -92,6 +95,10 @@ block! {
         shift: BIT,
         late: BIT,
         driven as DrivenPort: board.stream.inputs().driven,
+        /// Clocks until the next tick of the time in which a silent host is missed.
+        to_tick: board.to_tick(),
+        /// The drive output's last word has become stale.
+        stale: BIT.where_present(board.force_loop.is_some()),
     }
 }
 
@@ -135,6 +142,7 @@ impl Board {
         };
         let sets = 1usize << reader.outputs().address.width;
         Ok(Board {
+            tick_clocks: parameters.clock_hz / 1000,
             receiver: Receiver::new(parameters.divisor()),
             stream: Stream::new(profile, parameters.divisor(), data),
             registers,
@@ -147,6 +155,10 @@ impl Board {
             core: force_loop.is_none().then_some(core),
             force_loop,
         })
+    }
+
+    fn to_tick(&self) -> Format {
+        Format::counter(self.tick_clocks - 1).where_present(self.force_loop.is_some())
     }
 
     /// The core's configuration.
@@ -187,6 +199,8 @@ struct Measured<V: Interpretation> {
     core: core::Out<V>,
     driven: DrivenPort<Signal<V>>,
     dac: DacPort<Signal<V>>,
+    /// The drive output's words have become stale.
+    stale: Signal<V>,
 }
 
 impl Board {
@@ -203,7 +217,17 @@ impl Board {
         };
         let core = block.call("core", within, inputs);
         let dac = DacPort::map(DacPort::of(Format::NONE), zero);
-        Measured { core, driven: r.driven, dac }
+        Measured { core, driven: r.driven, dac, stale: r.stale }
+    }
+
+    /// Clocks until the next tick, after this clock: the first tick is that of the first clock.
+    #[inline(always)]
+    fn next_tick<V: Interpretation>(&self, r: &Regs<V>) -> Signal<V> {
+        if r.to_tick.format.is_none() {
+            return r.to_tick;
+        }
+        let down = (r.to_tick - int(1)).bits(0, r.to_tick.format.width);
+        r.to_tick.is(0).select(int(self.tick_clocks - 1), down).resize(r.to_tick.format, Proved)
     }
 
     /// The force loop, as commands have set it, and its drive.
@@ -234,6 +258,8 @@ impl Board {
             target: set.target,
             tuning: set.tuning,
             wall: set.wall,
+            drives_clear: r.stale,
+            tick: r.to_tick.is(0),
             extremes_read: bit(false),
         };
         let of_loop = block.call("force_loop", state, inputs);
@@ -248,9 +274,9 @@ impl Board {
             closed: core.closed & registers.enable,
             enable: registers.enable,
         };
-        let dac = block.call("drive_output", state, inputs).dac;
+        let drive_output::Outputs { dac, drives_clear } = block.call("drive_output", state, inputs);
         let driven = driven(r.driven, &of_loop, dac.dac_live);
-        Measured { core, driven, dac }
+        Measured { core, driven, dac, stale: drives_clear }
     }
 }
 
@@ -313,7 +339,7 @@ impl Block for Board {
         let shift = adc.shift;
         let inputs =
             core_inputs(&registers, adc.strobe, self.codes.data(&mut state.submodules.codes));
-        let Measured { core, driven, dac } = self.measure(state, &r, inputs, &registers);
+        let Measured { core, driven, dac, stale } = self.measure(state, &r, inputs, &registers);
         let write = Write { enable: adc.store, address: adc.address, data: adc.code };
         self.codes.access(&mut state.submodules.codes, adc.bank.concat(core.channel), write);
         let inputs = sigma_delta::Inputs { carrier: core.carrier };
@@ -334,7 +360,8 @@ impl Block for Board {
         };
         let stream = call!(self.stream, state, inputs);
         let late = registers.enable & (r.late | adc.late);
-        state.store(self, Registers { shift, late, driven });
+        let to_tick = self.next_tick(&r);
+        state.store(self, Registers { shift, late, driven, to_tick, stale });
         Outputs {
             convst: adc.convst,
             cs_n: adc.cs_n,

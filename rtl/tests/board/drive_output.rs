@@ -6,7 +6,7 @@ use crate::bench::Bench;
 use crate::random::Random;
 use hapticore_hdl::format::Format;
 use hapticore_rtl::board::drive_output::serial::Frame;
-use hapticore_rtl::board::drive_output::{Converter, DacPort, DriveOutput, Inputs, Wave};
+use hapticore_rtl::board::drive_output::{self, Converter, DacPort, DriveOutput, Inputs, Wave};
 use std::f64::consts::TAU;
 
 const DRIVE: Format = Format::unsigned(16, 16);
@@ -95,6 +95,8 @@ struct Rig {
     clock: u64,
     pads: u64,
     enable: i64,
+    /// How often the force loop was to begin anew.
+    cleared: i64,
     pulses: Vec<u64>,
     /// The bits behind a path of `TAU_CLOCKS`, of the range.
     filtered: Vec<f64>,
@@ -115,6 +117,7 @@ impl Rig {
             clock: 0,
             pads,
             enable: 1,
+            cleared: 0,
             pulses,
             filtered,
         }
@@ -131,7 +134,8 @@ impl Rig {
             enable: self.enable,
         };
         self.clock += 1;
-        let pins = self.bench.clock(inputs).dac;
+        let drive_output::Outputs { dac: pins, drives_clear } = self.bench.clock(inputs);
+        self.cleared += drives_clear;
         match self.converter {
             Converter::Serial(frame) => self.dac.serial(&frame, pins),
             Converter::Parallel { .. } => self.dac.parallel(pins),
@@ -313,9 +317,9 @@ fn without_drive_words_all_channels_go_to_zero_and_a_word_ends_that() {
     let mut rig = Rig::new([4, 1], Wave::Dc, Converter::Parallel { bits: 16 });
     (0..4).for_each(|pad| rig.clock(Some((pad, 20_000))));
     rig.wait(STALE - 1);
-    assert_eq!(rig.codes(4), [42_768; 4]);
+    assert_eq!((rig.codes(4), rig.cleared), (vec![42_768; 4], 0));
     rig.wait(WRITTEN);
-    assert_eq!(rig.codes(4), [32_768; 4]);
+    assert_eq!((rig.codes(4), rig.cleared), (vec![32_768; 4], 1), "the loop begins anew, once");
     rig.clock(Some((3, 20_000)));
     rig.wait(WRITTEN);
     assert_eq!(rig.codes(4), [32_768, 32_768, 32_768, 42_768]);

@@ -163,6 +163,7 @@ fn after(profile: &Profile, target: i64, written: u64) -> i64 {
         write.tuning.curve_word = 100 * address;
         bench.clock(write);
     }
+    bench.clock(Inputs { tick: 1, ..quiet });
     // A target while nothing happens, then the one that is late.
     let write = |word: i64| {
         let mut inputs = quiet;
@@ -194,6 +195,7 @@ fn after_rail(profile: &Profile, rail: i64, written: u64) -> i64 {
         }
         inputs
     };
+    bench.clock(Inputs { tick: 1, ..quiet });
     let mut target = quiet;
     (target.target.target_write, target.target.target_word) = (1, 1 << 10);
     bench.clock(target);
@@ -229,6 +231,7 @@ fn extremes_are_those_since_they_were_read() {
         write.tuning.curve_word = 100 * address;
         bench.clock(write);
     }
+    bench.clock(Inputs { tick: 1, ..quiet });
     assert_eq!(bench.clock(quiet).extremes.extremes_valid, 0, "nothing yet");
     let mut given = Vec::new();
     for (n, target) in [1 << 10, 1 << 12, 1 << 8].into_iter().enumerate() {

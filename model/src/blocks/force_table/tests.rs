@@ -204,6 +204,7 @@ fn numbers_that_are_not_rounded_have_the_force_of_the_table() {
         for (capacitance, mean_square) in [(401.234_567, 0.123_456_7), (777.765_432, 0.345_678_9)] {
             let quiet = Inputs {
                 start: bit(false),
+                clear: number(0.0, formats.clear),
                 hold: number(0.0, formats.hold),
                 pad,
                 capacitance: number(capacitance, formats.capacitance),

@@ -27,7 +27,7 @@
 //! several channels change, the first goes first. After reset every channel is set to zero once, and
 //! `live` says that all have been: until then a converter may hold what it powered up with. All go to
 //! zero, too, where the output is not enabled, or no drive word has come for `stale_clocks`: strobes
-//! that cease leave no voltage behind. A pad's next drive word ends that.
+//! that cease leave no voltage behind, and the force loop begins anew (`drives_clear`). A pad's next drive word ends that.
 //! Latency: 4 clocks from a drive word to that at the converter's pins, or to the beginning of its
 //! frame, where nothing else is due. Source: docs/physics.md §7 for the wave.
 
@@ -158,6 +158,8 @@ block! {
     }
     outputs(block) {
         dac as DacPort: block.pins(),
+        /// Asserted for one cycle once the last drive word is stale: the force loop begins anew, at zero.
+        drives_clear: BIT,
     }
     registers(block) {
         /// Channels that have been written with what they are to have.
@@ -177,6 +179,8 @@ block! {
         asked: BIT,
         channel: block.channel(),
         given as LevelPort: block.level_port(),
+        /// The last drive word has become stale.
+        stale: BIT,
         live: BIT,
     }
 }
@@ -453,10 +457,11 @@ impl Block for DriveOutput {
                 channel: r.asked.select(r.channel, r.given.channel),
                 level: r.asked.select(known.select(level, zero(level.format)), r.given.level),
             },
+            stale: r.fresh.is(1) & !i.drive_valid,
             live: r.live | (all & ready & !r.asked & !r.given.valid),
         };
         state.store(self, registers);
-        Outputs { dac: DacPort { dac_live: r.live, ..pins } }
+        Outputs { dac: DacPort { dac_live: r.live, ..pins }, drives_clear: r.stale }
     }
 }
 
