@@ -15,7 +15,9 @@ use hapticore_contract::frame::Field;
 use hapticore_contract::frame::{Flags, Frame};
 use hapticore_contract::profile::Profile;
 use hapticore_protocol::drive::{PACKET_WORDS, status};
-use hapticore_protocol::framing::{STATUS_BYTES, VERSION, data_bytes, flags, word_bytes};
+use hapticore_protocol::framing::{
+    FLAGS_BYTE, STATUS_BYTES, VERSION, data_bytes, flags, word_bytes,
+};
 use hapticore_protocol::{Register, WordFormats};
 
 /// A board's words: frames' fields, or what has been written into registers.
@@ -240,12 +242,12 @@ impl Layout {
         let is_heartbeat = |flags: &u8| {
             flags >> flags::HEARTBEAT & 1 != 0 && flags >> flags::VERSION & 7 == VERSION
         };
-        bytes.get(STATUS_BYTES as usize - 1).is_some_and(is_heartbeat)
+        bytes.get(FLAGS_BYTE as usize).is_some_and(is_heartbeat)
     }
 
     /// What a payload of the right length says; the number of the pad where there is no such pad.
     pub fn message(&self, payload: &[u8]) -> Result<Message, u8> {
-        let (&[high, low, pad, bits], words) =
+        let (&[high, low, pad, bits, more], words) =
             payload.split_first_chunk().expect("the length was checked");
         let mut words = words.chunks_exact(self.word_bytes).map(signed).collect::<Vec<_>>();
         let of_drive = words.split_off(Field::ALL.len());
@@ -256,7 +258,7 @@ impl Layout {
         let sequence = u16::from_be_bytes([high, low]);
         let (commands, pad) = (pad >> 4, pad & 0xf);
         let version = bits >> flags::VERSION & 7;
-        let bits = BitArray::<_, Lsb0>::new([bits]);
+        let bits = BitArray::<_, Lsb0>::new([bits, more]);
         let is = |flag: u8| bits[usize::from(flag)];
         let [late, refused, overrun] = [flags::LATE, flags::REFUSED, flags::OVERRUN].map(is);
         let status = Status { sequence, late, refused, overrun, commands, driven };
@@ -267,9 +269,9 @@ impl Layout {
         if u64::from(pad) >= self.pads {
             return Err(pad);
         }
-        let [clipped, saturated, invalid, lost] =
-            [flags::CLIPPED, flags::SATURATED, flags::INVALID, flags::LOST].map(is);
-        let flags = Flags { clipped, saturated, invalid, lost };
+        let [clipped, saturated, invalid, lost, lifted] =
+            [flags::CLIPPED, flags::SATURATED, flags::INVALID, flags::LOST, flags::LIFTED].map(is);
+        let flags = Flags { clipped, saturated, invalid, lost, lifted };
         Ok(Message::Frame(Packet { status, frame: Frame { pad: pad.into(), codes: words, flags } }))
     }
 
@@ -279,7 +281,7 @@ impl Layout {
             Message::Frame(Packet { status, frame }) => (status, frame.pad as u8, &frame.codes),
             Message::Heartbeat(heartbeat) => (&heartbeat.status, 0, &heartbeat.words),
         };
-        let mut bits = BitArray::<u8, Lsb0>::ZERO;
+        let mut bits = BitArray::<[u8; 2], Lsb0>::ZERO;
         let set = [
             (flags::LATE, status.late),
             (flags::REFUSED, status.refused),
@@ -289,7 +291,8 @@ impl Layout {
             .chain(self.own_flags(message))
             .for_each(|(flag, is)| bits.set(usize::from(flag), is));
         let [high, low] = status.sequence.to_be_bytes();
-        let mut payload = vec![high, low, status.commands << 4 | pad, bits.into_inner()];
+        let [bits, more] = bits.into_inner();
+        let mut payload = vec![high, low, status.commands << 4 | pad, bits, more];
         let of_drive = self.drive.map(|_| status.driven.unwrap_or_default().words());
         words
             .iter()
@@ -306,6 +309,7 @@ impl Layout {
                 (flags::SATURATED, flags.saturated),
                 (flags::INVALID, flags.invalid),
                 (flags::LOST, flags.lost),
+                (flags::LIFTED, flags.lifted),
             ],
             Message::Heartbeat(Heartbeat { calibrated, version, .. }) => {
                 let version =

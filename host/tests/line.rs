@@ -42,11 +42,12 @@ fn message(profile: &Profile) -> impl Strategy<Value = Message> + use<> {
     let bits = 8 * hapticore_protocol::framing::word_bytes(profile);
     let word = (-(1i64 << (bits - 1)))..(1 << (bits - 1));
     let (pads, profile) = (profile.pads as usize, profile.clone());
-    let flags = any::<[bool; 4]>().prop_map(|[clipped, saturated, invalid, lost]| Flags {
+    let flags = any::<[bool; 5]>().prop_map(|[clipped, saturated, invalid, lost, lifted]| Flags {
         clipped,
         saturated,
         invalid,
         lost,
+        lifted,
     });
     let frame = (status(&profile), 0..pads, prop::array::uniform8(word), flags).prop_map(
         |(status, pad, codes, flags)| {

@@ -112,7 +112,7 @@ fn interface(core: &Core, profile: &Profile) -> Vec<String> {
         format!("  a set is read from the strobe's cycle on, and is stable for {codes} cycles."),
         format!("- channels 0 to {}: terminals, sensing voltage, haptic voltage.", profile.channels() - 1),
         format!("- slots of {} samples, pad after pad; a frame follows its slot's last strobe by at most {} cycles.", profile.slot.samples(), core.latency()),
-        "- capacitance_gain, force_gain: stable from a slot's last strobe to its frame's `done`.".into(),
+        "- capacitance_gain, force_gain, contact_capacitance: stable from a slot's last strobe to its frame's `done`.".into(),
         "- write, address, word: a word of the position table per cycle; a slot that is estimated meanwhile gives a frame of".into(),
         "  neither table. Reset does not clear the table.".into(),
         "- frame words, in the order of `index`, as two's complement integers whose least significant bit is 2^-fraction:".into(),

@@ -273,7 +273,7 @@ fn stream(block: &Stream, divisor: u64) -> Alone {
             given.push((name, if told == 0 { 1 } else { now(rng, 12 * packet) }));
         }
         told = if told == 0 { u32::MAX } else { told };
-        for name in ["clipped", "saturated", "invalid", "lost", "calibrated"] {
+        for name in ["clipped", "saturated", "invalid", "lost", "lifted", "calibrated"] {
             given.push((name, now(rng, 2)));
         }
         index += i64::from(valid);

@@ -527,7 +527,7 @@ fn with_curve(block: &Controller, words: i64) -> impl FnMut(&[i64]) -> Option<Ve
     let at = |name: &str| names.iter().position(|found| found.0 == name).expect("a port");
     let [write, address, word] = ["curve_write", "curve_address", "curve_word"].map(at);
     let (start, format) = (at("start"), block.inputs().tuning.curve_word);
-    let [clear, off_pad, tick, enable] = ["clear", "off_pad", "tick", "enable"].map(at);
+    let [clear, lifted, tick, enable] = ["clear", "lifted", "tick", "enable"].map(at);
     let (mut operations, mut rng) =
         (stimulus::operations(block, 7, 200, words, 0), fastrand::Rng::with_seed(7));
     let mut addresses = 0..words;
@@ -538,7 +538,7 @@ fn with_curve(block: &Controller, words: i64) -> impl FnMut(&[i64]) -> Option<Ve
             // Rarely enough that most drive words are not void.
             let mut rarely = |clocks: u32| i64::from(rng.u32(..clocks) == 0);
             (row[clear], row[tick], row[enable]) = (rarely(800), rarely(40), 1 - rarely(800));
-            row[off_pad] &= rarely(4);
+            row[lifted] &= rarely(4);
             return Some(row);
         };
         let mut row = vec![0; names.len()];

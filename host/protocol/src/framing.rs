@@ -3,7 +3,7 @@
 //!
 //! ```text
 //! packet:    payload … │ CRC, 4 bytes, least significant first              stuffed, then END, a zero byte
-//! frame:     sequence, 2 bytes │ commands accepted (4 bits), pad (4 bits) │ flags │ 8 words of B bytes
+//! frame:     sequence, 2 bytes │ commands accepted (4 bits), pad (4 bits) │ flags, 2 bytes │ 8 words of B bytes
 //! heartbeat: the same with the flag of that name; its words are those last written to [`Register::ALL`], but for
 //!            the profile's digest in place of the control register, and for the ADC's answer to the last word sent to it;
 //!            where one of them is written meanwhile, END comes early, behind the flags or later, and the heartbeat is void
@@ -49,7 +49,10 @@ use hapticore_hdl::format::Format;
 pub const END: u8 = 0;
 
 /// Bytes of a frame packet before its words: sequence number, commands accepted and pad, flags.
-pub const STATUS_BYTES: u64 = 4;
+pub const STATUS_BYTES: u64 = 5;
+
+/// The flags' first byte, which holds the low eight of them, from a payload's beginning.
+pub const FLAGS_BYTE: u64 = 3;
 
 /// Bytes of the CRC behind the payload.
 pub const CRC_BYTES: u64 = 4;
@@ -60,7 +63,7 @@ pub const STUFFING_BYTES: u64 = 2;
 /// Bytes of the place at the beginning of a command.
 pub const PLACE_BYTES: u64 = 2;
 
-/// The bits of a frame packet's flags.
+/// The bits of a frame packet's flags: the low eight are the first byte, the others the second.
 pub mod flags {
     /// A code was at full scale of the ADC.
     pub const CLIPPED: u8 = 0;
@@ -76,9 +79,11 @@ pub mod flags {
     pub const REFUSED: u8 = 5;
     /// A frame was dropped since the packet before.
     pub const OVERRUN: u8 = 6;
-    /// The packet is no frame but a heartbeat, and the first four flags are others: [`CALIBRATED`],
+    /// The packet is no frame but a heartbeat, none of [`LIFTED`], and the first four flags are others: [`CALIBRATED`],
     /// and from [`VERSION`] on [`super::VERSION`].
     pub const HEARTBEAT: u8 = 7;
+    /// The pad does not touch; its last valid place stands.
+    pub const LIFTED: u8 = 8;
     /// Of a heartbeat: since reset the last calibration register has been written.
     pub const CALIBRATED: u8 = 0;
     /// Of a heartbeat: the first of three bits.
@@ -86,8 +91,9 @@ pub mod flags {
 }
 
 /// The version of what this file says: 1 to 7. Version 1 was SLIP with CRC-16 and a sequence number
-/// of 8 bits; to one version the other's packets are damaged ones.
-pub const VERSION: u8 = 2;
+/// of 8 bits; version 2 had flags of one byte and no register of the capacitance of a contact. To one version the other's packets
+/// are damaged ones.
+pub const VERSION: u8 = 3;
 
 /// The format of a count of commands, and of a pad.
 pub const NIBBLE: Format = Format::unsigned(4, 0);
@@ -134,8 +140,8 @@ pub fn packet_words(profile: &Profile) -> u64 {
 /// ```
 /// # use hapticore_contract::profile::Profile;
 /// # use hapticore_protocol::framing::packet_bytes;
-/// assert_eq!(packet_bytes(&Profile::bundled("small")?), 4 + 8 * 2 + 4 + 2);
-/// assert_eq!(packet_bytes(&Profile::bundled("standard")?), 4 + 8 * 4 + 4 + 2);
+/// assert_eq!(packet_bytes(&Profile::bundled("small")?), 5 + 8 * 2 + 4 + 2);
+/// assert_eq!(packet_bytes(&Profile::bundled("standard")?), 5 + 8 * 4 + 4 + 2);
 /// # Ok::<(), hapticore_contract::profile::ProfileError>(())
 /// ```
 pub fn packet_bytes(profile: &Profile) -> u64 {

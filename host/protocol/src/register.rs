@@ -11,7 +11,7 @@ use std::fmt;
 /// ```
 /// # use hapticore_protocol::{Constant, Register};
 /// assert_eq!(Register::Constant(Constant::ForceGain).place(), 0x8001);
-/// assert_eq!(Register::ALL.map(|register| register.number()), [0, 1, 2, 3]);
+/// assert_eq!(Register::ALL.map(|register| register.number()), [0, 1, 2, 3, 4]);
 /// assert_eq!(Register::Adc.to_string(), "adc");
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

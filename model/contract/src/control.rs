@@ -48,6 +48,9 @@ impl Law {
     }
 }
 
+/// After contact a drive rises by 2^-[`CONTACT_SLEW_FRAC`] of full scale from frame to frame at most.
+const CONTACT_SLEW_FRAC: i32 = 6;
+
 /// The controller of a core.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -82,6 +85,13 @@ impl Control {
     pub fn target_shift(&self) -> i8 {
         let bits = self.target.integer_bits().max(0) as i8;
         bits + (bits & 1)
+    }
+
+    /// The largest rise of a drive word from frame to frame after a pad has touched again, full scales, until its law
+    /// has the drive that it wants. No setting of the host makes it larger.
+    pub fn contact_slew(&self) -> f64 {
+        let frac = i32::from(self.drive.frac).min(CONTACT_SLEW_FRAC);
+        0.5f64.powi(frac)
     }
 
     /// The root of the largest target, √N, of which roots are fractions.

@@ -11,7 +11,8 @@
 //!
 //! The drive is held within 0 … rail, then within slew of the pad's last, at most the rail. c stays as it is while
 //! estimates are invalid; against a limit that holds the drive it goes as far as drive − (D + K·e), and not
-//! back. A fault takes every drive to zero at once; each pad then begins at zero, with c at zero.
+//! back. A fault takes every drive to zero at once, and each pad then begins at zero, with c at zero; so does a
+//! lifted pad, which rises no faster than a contact may until its drive is what the law wants.
 
 use hapticore_contract::control::{Control, Drive, Faults, Law, Tuning};
 
@@ -28,6 +29,8 @@ pub struct Prompt {
     pub force_gain: f64,
     /// There is no such capacitance, or a code was at full scale.
     pub invalid: bool,
+    /// The pad does not touch.
+    pub lifted: bool,
 }
 
 #[derive(Debug, Clone, Copy, Default)]
@@ -35,6 +38,8 @@ struct Pad {
     invalid: u64,
     drive: f64,
     correction: f64,
+    /// It has been lifted, and its drive has not been what its law wants since.
+    rises: bool,
 }
 
 /// The force controller of all pads.
@@ -95,12 +100,15 @@ impl Controller {
         self.faults.sensor |= invalid >= self.control.invalid_frames;
         self.faults.force |= !prompt.invalid && prompt.force_n > self.tuning.force_cap;
         let (correction, wanted) = self.wanted(prompt, target_n, pad.correction);
+        let within = wanted.min(self.tuning.rail).max(0.0);
         let (low, high) = (wanted < 0.0, wanted > self.tuning.rail);
         let Tuning { rail, slew, .. } = self.tuning;
         let last = pad.drive.min(rail);
-        let to = if prompt.invalid { last } else { wanted.min(rail).max(0.0) };
+        let to = if prompt.invalid { last } else { within };
+        let up = if pad.rises { slew.min(self.control.contact_slew()) } else { slew };
         let off = self.faults.any();
-        let drive = if off { 0.0 } else { to.min(last + slew).max(last - slew) };
+        let drive = if off || prompt.lifted { 0.0 } else { to.min(last + up).max(last - slew) };
+        let rises = prompt.lifted || pad.rises && (prompt.invalid || drive < within);
         let limit = drive - (wanted - correction);
         let correction = if prompt.invalid {
             pad.correction
@@ -111,10 +119,12 @@ impl Controller {
         } else {
             correction
         };
-        self.pads[prompt.pad] = Pad { invalid, drive, correction };
+        let correction = if prompt.lifted { 0.0 } else { correction };
+        self.pads[prompt.pad] = Pad { invalid, drive, correction, rises };
         if off {
             self.clear();
         }
+        let [low, high] = [low, high].map(|limited| limited && !prompt.lifted);
         Drive { pad: prompt.pad, fraction: drive, low, high, faults: self.faults, walled: None }
     }
 

@@ -149,6 +149,7 @@ block! {
         /// It is there.
         start: BIT,
         invalid: BIT,
+        lifted: BIT,
         pad: block.pad,
         /// Pads with targets.
         targeted: marks::format(block.pads),
@@ -284,12 +285,13 @@ impl Drives {
             return (none(Format::NONE), none(Format::NONE), none(Format::NONE));
         }
         let is = |field: Field| frame.index.is(field as u64);
+        let valid = frame.valid & !frame.invalid & !frame.lifted;
         let place = frame.frame.as_code(self.position);
         match self.split_pad.as_ref().filter(|of| of.has_quadrants()) {
-            None => (frame.valid & is(Field::X) & !frame.invalid, frame.pad, place),
+            None => (valid & is(Field::X), frame.pad, place),
             Some(of) => {
                 let along_y = is(Field::Y);
-                let placed = frame.valid & (is(Field::X) | along_y) & !frame.invalid;
+                let placed = valid & (is(Field::X) | along_y);
                 let before = (frame.pad - int(1)).resize(self.pad, Wrap);
                 (placed & of.is_last(frame.pad), along_y.select(before, frame.pad), place)
             }
@@ -301,6 +303,7 @@ impl Drives {
 struct Begin<V: Interpretation> {
     start: Signal<V>,
     invalid: Signal<V>,
+    lifted: Signal<V>,
     capacitance: Signal<V>,
     measured: Signal<V>,
     /// Force that its wall asks for.
@@ -315,6 +318,7 @@ impl Drives {
         Begin {
             start: r.start,
             invalid: r.invalid,
+            lifted: r.lifted,
             capacitance: i.estimate.prompt_capacitance,
             measured: i.estimate.prompt_force,
             of_wall: zero(Format::NONE),
@@ -338,6 +342,7 @@ impl Drives {
             capacitance: i.estimate.prompt_capacitance,
             measured: i.estimate.prompt_force,
             invalid: i.estimate.prompt_invalid,
+            lifted: i.estimate.prompt_lifted,
             clear: i.clear | i.drives_clear,
             begins_anew: self.begins_anew(r, i),
             placed: i.placed,
@@ -356,6 +361,7 @@ impl Drives {
         Begin {
             start: pad.done,
             invalid: pad.invalid,
+            lifted: pad.lifted,
             capacitance: pad.capacitance,
             measured: pad.measured,
             of_wall: pad.target,
@@ -471,8 +477,8 @@ impl Block for Drives {
             measured: begin.measured,
             force_gain: i.estimate.prompt_gain,
             invalid: begin.invalid,
+            lifted: begin.lifted,
             clear: i.clear | i.drives_clear | !i.tuning.enable,
-            off_pad: bit(false),
             tick: i.tick,
             alive: alive | target_write,
             clear_faults,
@@ -512,6 +518,7 @@ impl Block for Drives {
             asked: prompt,
             start: r.asked,
             invalid: prompt.select(i.estimate.prompt_invalid, r.invalid),
+            lifted: prompt.select(i.estimate.prompt_lifted, r.lifted),
             pad,
             targeted,
             has_target,

@@ -51,6 +51,8 @@ bundle! {
         capacitance_gain,
         /// Calibration: gain of the force, N/pF² at a full-scale haptic mean square.
         force_gain,
+        /// Calibration: capacitance at or below which a pad is lifted, pF.
+        contact_capacitance,
         table as TablePort,
     }
 }
@@ -76,6 +78,8 @@ bundle! {
         invalid,
         /// A terminal is open.
         lost,
+        /// The pad does not touch; its last valid place is given out.
+        lifted,
     }
 }
 
@@ -94,6 +98,8 @@ bundle! {
         prompt_gain,
         /// No capacitance has these currents, or a code or a word is at its limit.
         prompt_invalid,
+        /// The pad does not touch.
+        prompt_lifted,
     }
 }
 
@@ -147,6 +153,8 @@ block! {
         early: BIT.where_present(estimator.prompts),
         /// The prompt estimate has been given: the frame's follows.
         follow: BIT.where_present(estimator.prompts),
+        /// The pad of the prompt estimate does not touch.
+        lifted: BIT.where_present(estimator.prompts),
         pad: estimator.pad(),
         clipped: BIT,
         /// Pads with a place.
@@ -192,17 +200,28 @@ impl Estimator {
     /// The formats of the calibration.
     fn calibration(&self) -> Calibration<Format> {
         let (capacitance_gain, force_gain) = (self.capacitance.inputs().gain, self.force_gain);
-        let table = self.position.inputs().table;
-        let address = self.table().address();
-        Calibration { capacitance_gain, force_gain, table: TablePort { address, ..table } }
+        let contact_capacitance = self.capacitance.outputs().capacitance;
+        let table = TablePort { address: self.table().address(), ..self.position.inputs().table };
+        Calibration { capacitance_gain, force_gain, contact_capacitance, table }
     }
 
     /// The formats of a frame.
     #[inline(always)]
     fn frame(&self) -> FramePort<Format> {
         let frames::Outputs { valid, index, word, done } = self.frames.outputs();
-        let (pad, [clipped, saturated, invalid, lost]) = (self.pad(), [BIT; 4]);
-        FramePort { valid, index, frame: word, done, pad, clipped, saturated, invalid, lost }
+        let (pad, [clipped, saturated, invalid, lost, lifted]) = (self.pad(), [BIT; 5]);
+        FramePort {
+            valid,
+            index,
+            frame: word,
+            done,
+            pad,
+            clipped,
+            saturated,
+            invalid,
+            lost,
+            lifted,
+        }
     }
 
     /// The formats of a prompt estimate.
@@ -215,6 +234,7 @@ impl Estimator {
             prompt_force: self.frames.inputs().haptic_force,
             prompt_gain: self.force_gain,
             prompt_invalid: BIT,
+            prompt_lifted: BIT,
         };
         PromptPort::map(formats, |format| format.where_present(self.prompts))
     }
@@ -398,6 +418,8 @@ impl Estimator {
             gain: i.calibration.capacitance_gain,
         };
         let capacitance = call!(self.capacitance, state, to_capacitance);
+        let contact = i.calibration.contact_capacitance;
+        let lifted = contact.at_least(capacitance.capacitance).named("is_lifted");
         let to_force = force::Inputs {
             start: capacitance.done,
             capacitance: capacitance.capacitance,
@@ -410,6 +432,7 @@ impl Estimator {
             start: if self.prompts { force.done & !r.early } else { force.done },
             pad: r.pad,
             invalid,
+            lifted,
             r_x: self.frames.ratio(ratio.r_x),
             r_y: self.frames.ratio(ratio.r_y),
             x: position.x,
@@ -434,6 +457,7 @@ impl Estimator {
             prompt_force: force.haptic_force,
             prompt_gain: gain,
             prompt_invalid: prompt_done & (held | capacitance.invalid | r.clipped),
+            prompt_lifted: prompt_done & lifted,
         };
         let prompt = self.where_prompt(prompt);
         let next = Registers {
@@ -441,6 +465,7 @@ impl Estimator {
             dropping: i.valid.select(drops, r.dropping),
             early: (currents.done | (self.early(&r) & !force.done)).where_present(r.early.format),
             follow: prompt_done.where_present(r.follow.format),
+            lifted: prompt_done.select(lifted, r.lifted).where_present(r.lifted.format),
             pad,
             clipped: valid.select(i.clipped, r.clipped),
             placed: self.placed(&r, &i, pad, position.done & !invalid_place),
@@ -463,6 +488,7 @@ impl Estimator {
             saturated: gate(held),
             invalid: gate(invalid),
             lost: gate(position.lost),
+            lifted: gate(lifted),
         };
         Outputs { frames, prompt }
     }
@@ -487,6 +513,7 @@ impl Estimator {
             prompt_force: force,
             prompt_gain: gain,
             prompt_invalid: bit(false),
+            prompt_lifted: bit(false),
         };
         Outputs { frames, prompt }
     }
@@ -520,7 +547,7 @@ impl Estimator {
     }
 
     /// The sheet's resistance: at the pad's last place while the prompt estimate is under way, then
-    /// at this one, which is kept where it is valid.
+    /// at this one, which is kept where it is valid and the pad touches.
     #[inline(always)]
     fn sheet<V: Interpretation>(
         &self,
@@ -534,7 +561,7 @@ impl Estimator {
             return position.sheet;
         }
         let last = self.sheets.data(&mut state.submodules.sheets);
-        let enable = position.done & !invalid;
+        let enable = position.done & !invalid & !r.lifted;
         let write = Write { enable, address: pad, data: position.sheet };
         self.sheets.access(&mut state.submodules.sheets, pad, write);
         r.early.select(self.where_placed(r, last), position.sheet)

@@ -22,8 +22,8 @@
 //!
 //! A pad is known by the number of its last part, whose place is the pad's. The wall acts from the
 //! pad's first valid place on, where it has a surface: after a reset, and from the beginning of `clear` on, none has one
-//! until it is written, and with every `clear` a pad needs a new place. Where the estimate of a sensing part is invalid
-//! the wall lets go, the safe side. Quadrants have a wall along either axis, one after the other: that along y is known by the
+//! until it is written, and with every `clear` a pad needs a new place. Where the estimate of a sensing part is invalid,
+//! or the part does not touch, the wall lets go, the safe side. Quadrants have a wall along either axis, one after the other: that along y is known by the
 //! number of the pad's third part, its bottom is the left of that along x, and the pad takes the larger
 //! force. Latency: three clocks and the wall's for each axis, from the last part's estimate to `done`; four where
 //! words of block RAMs have registers.
@@ -93,6 +93,8 @@ block! {
         measured: block.force,
         /// The estimate is invalid.
         invalid: BIT,
+        /// The part does not touch.
+        lifted: BIT,
         /// A frame has a valid place.
         placed: BIT,
         /// Number of its part, or of that by which the pad's wall along y is known.
@@ -114,6 +116,8 @@ block! {
         measured: block.force,
         /// Its estimate is invalid.
         invalid: BIT,
+        /// A part of what brakes does not touch.
+        lifted: BIT,
         /// Force of the wall, N.
         target: block.force,
         /// The user leaves the wall.
@@ -141,6 +145,10 @@ block! {
         invalid: BIT,
         /// That of what brakes is.
         unknown: BIT,
+        /// A sensing part does not touch.
+        lifted: BIT,
+        /// One of what brakes does not.
+        released: BIT,
         capacitance: block.capacitance,
         measured: block.force,
         /// Of the left half.
@@ -280,13 +288,17 @@ impl SplitPad {
             2 => (mean(r.left, i.capacitance), mean(r.left_measured, i.measured)),
             _ => (i.capacitance, i.measured),
         };
-        let invalid = (!first & r.invalid) | i.invalid;
+        let [invalid, lifted] = [(r.invalid, i.invalid), (r.lifted, i.lifted)]
+            .map(|(before, now)| (!first & before) | now);
+        let of_brake = |all: Signal<V>, own: Signal<V>| if self.parts == 2 { all } else { own };
         Registers {
             pad: i.estimate.select(i.pad, r.pad),
             left: first.select(i.capacitance, r.left),
             right: second.select(i.capacitance, r.right),
             invalid: (first | second).select(invalid, r.invalid),
-            unknown: last.select(if self.parts == 2 { invalid } else { i.invalid }, r.unknown),
+            unknown: last.select(of_brake(invalid, i.invalid), r.unknown),
+            lifted: (first | second).select(lifted, r.lifted),
+            released: last.select(of_brake(lifted, i.lifted), r.released),
             capacitance: last.select(capacitance, r.capacitance),
             measured: last.select(measured, r.measured),
             left_measured: match self.parts {
@@ -310,7 +322,8 @@ impl SplitPad {
         let (sum, force_sum) = (sum(r.sum, i.capacitance), sum(r.force_sum, i.measured));
         // Saturated where a pad's first quadrants have not been seen.
         let quarter = |of: Signal<V>, to: Format| of.scaled(-2).quantize(to, HalfEven, Saturate);
-        let invalid = i.estimate.select((!first & r.invalid) | i.invalid, r.invalid);
+        let [invalid, lifted] = [(r.invalid, i.invalid), (r.lifted, i.lifted)]
+            .map(|(before, now)| i.estimate.select((!first & before) | now, before));
         Registers {
             pad: i.estimate.select(i.pad, r.pad),
             left: first.select(i.capacitance, r.left),
@@ -322,6 +335,8 @@ impl SplitPad {
             along_y: !i.estimate & r.along_y,
             invalid,
             unknown: last.select(invalid, r.unknown),
+            lifted,
+            released: last.select(lifted, r.released),
             capacitance: last.select(quarter(sum, self.capacitance), r.capacitance),
             measured: last.select(quarter(force_sum, self.force), r.measured),
             asked: last,
@@ -457,7 +472,7 @@ impl SplitPad {
             restart: i.wall.wall_restart | !r.placed,
             left,
             right,
-            trusted: r.placed & !r.invalid,
+            trusted: r.placed & !r.invalid & !r.lifted,
             depth: r.depth,
             mirrored: r.mirrored,
             at_zero: r.rests,
@@ -478,6 +493,7 @@ impl Block for SplitPad {
             capacitance: r.capacitance,
             measured: r.measured,
             invalid: r.unknown,
+            lifted: r.released,
             target: walled.target,
             free: walled.free,
             reads: walled.valid,

@@ -16,7 +16,7 @@ use crate::blocks::position::TablePort;
 use crate::blocks::split_pad::WallPort;
 use hapticore_contract::calibration::Calibration;
 use hapticore_contract::control::{Drive, Faults, Surface, Tuning, Walled, Walls};
-use hapticore_contract::frame::{Field, Frame};
+use hapticore_contract::frame::{Field, Flags, Frame};
 use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_hdl::block::{Block, State};
 use hapticore_hdl::bundle::Bundle;
@@ -187,7 +187,8 @@ impl FixedLoop {
 
     /// The place of a valid frame.
     fn place(&mut self, frame: &Frame) {
-        if frame.flags.invalid || self.drives.split_pad.is_none() {
+        let Flags { invalid, lifted, .. } = frame.flags;
+        if invalid || lifted || self.drives.split_pad.is_none() {
             return;
         }
         let of = |field: Field| frame.codes[field as usize];

@@ -59,6 +59,8 @@ block! {
         capacitance_gain: block.calibration.capacitance_gain,
         /// Calibration register: gain of the force.
         force_gain: block.calibration.force_gain,
+        /// Calibration register: capacitance at or below which a pad is lifted.
+        contact_capacitance: block.calibration.contact_capacitance,
         /// The board converts and measures.
         enable: BIT,
         /// The ADC is in reset.
@@ -96,6 +98,7 @@ block! {
         commands: NIBBLE,
         capacitance_gain: block.calibration.capacitance_gain,
         force_gain: block.calibration.force_gain,
+        contact_capacitance: block.calibration.contact_capacitance,
         control: Control::FORMAT,
         calibrated: BIT,
     }
@@ -170,6 +173,10 @@ impl CommandRegisters {
                 r.capacitance_gain,
             ),
             force_gain: write(Register::Constant(Constant::ForceGain), r.force_gain),
+            contact_capacitance: write(
+                Register::Constant(Constant::ContactCapacitance),
+                r.contact_capacitance,
+            ),
             control: write(Register::Control, r.control),
             calibrated: r.calibrated | (r.act & self.is(&r, Register::LAST_CONSTANT)),
             ..r
@@ -203,6 +210,7 @@ impl Block for CommandRegisters {
         Outputs {
             capacitance_gain: r.capacitance_gain,
             force_gain: r.force_gain,
+            contact_capacitance: r.contact_capacitance,
             enable: r.control.bits(Control::ENABLE, 1),
             adc_reset: r.control.bits(Control::ADC_RESET, 1),
             table: TablePort {

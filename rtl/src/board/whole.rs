@@ -189,8 +189,9 @@ fn core_inputs<V: Interpretation>(
     strobe: Signal<V>,
     code: Signal<V>,
 ) -> core::In<V> {
-    let registers::Outputs { capacitance_gain, force_gain, table, .. } = *registers;
-    let calibration = Calibration { capacitance_gain, force_gain, table };
+    let registers::Outputs { capacitance_gain, force_gain, contact_capacitance, table, .. } =
+        *registers;
+    let calibration = Calibration { capacitance_gain, force_gain, contact_capacitance, table };
     core::Inputs { strobe, clear: !registers.enable, code, calibration }
 }
 

@@ -36,10 +36,10 @@ pub struct Request {
     pub force_gain: Exact,
     /// The estimate is invalid.
     pub invalid: bool,
+    /// The pad does not touch.
+    pub lifted: bool,
     /// Drives follow their targets.
     pub enable: bool,
-    /// The pad is off.
-    pub off_pad: bool,
 }
 
 /// What is known of a pad.
@@ -48,10 +48,12 @@ struct Pad {
     invalid: u64,
     drive: Exact,
     correction: Exact,
+    /// It has been lifted, and its drive has not been what its law wants since.
+    rises: bool,
 }
 
 /// A pad of which nothing is known.
-const ANEW: Pad = Pad { invalid: 0, drive: Exact::ZERO, correction: Exact::ZERO };
+const ANEW: Pad = Pad { invalid: 0, drive: Exact::ZERO, correction: Exact::ZERO, rises: false };
 
 /// A drive word, and whether it should be below zero or beyond the rail.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -168,8 +170,9 @@ impl Controller {
         };
         let off = !request.enable || !self.ticks || self.faults.contains(&true);
         let last = if pad.drive > rail { rail } else { pad.drive };
-        let slewed = self.slewed(last, if request.invalid { last } else { within });
-        let drive = if off || request.off_pad { Exact::ZERO } else { slewed };
+        let slewed = self.slewed(last, pad.rises, if request.invalid { last } else { within });
+        let drive = if off || request.lifted { Exact::ZERO } else { slewed };
+        let rises = request.lifted || pad.rises && (request.invalid || drive < within);
         let limit = round(drive - (wanted - correction), self.kept()).value;
         let falls = correction < pad.correction;
         let correction = if request.invalid {
@@ -181,21 +184,24 @@ impl Controller {
         } else {
             correction
         };
-        self.pads[request.pad] =
-            if request.off_pad { ANEW } else { Pad { invalid, drive, correction } };
+        let correction = if request.lifted { Exact::ZERO } else { correction };
+        self.pads[request.pad] = Pad { invalid, drive, correction, rises };
         if off {
             self.clear();
         }
+        let [low, high] = [low, high].map(|limited| limited && !request.lifted);
         Drive { drive, low, high }
     }
 
-    fn slewed(&self, last: Exact, to: Exact) -> Exact {
-        let (change, slew) = (to - last, self.tuning.slew);
-        if change.magnitude() <= slew {
-            return to;
+    fn slewed(&self, last: Exact, rises: bool, to: Exact) -> Exact {
+        let slew = self.tuning.slew;
+        let contact = round_real(self.control.contact_slew(), self.control.drive);
+        let up = if rises && contact < slew { contact } else { slew };
+        let change = to - last;
+        if change > up {
+            return round(last + up, self.control.drive).value;
         }
-        let full = round(last + slew, self.control.drive).value;
-        if change > Exact::ZERO { full } else { last - slew }
+        if change < Exact::ZERO && change.magnitude() > slew { last - slew } else { to }
     }
 
     /// Bits of a root, and of what is added to the curve.

@@ -19,6 +19,8 @@ pub struct Estimate {
     pub force: Exact,
     /// It is invalid.
     pub invalid: bool,
+    /// It does not touch; of several, one of them does not.
+    pub lifted: bool,
 }
 
 /// A pad whose parts have all been seen.
@@ -82,6 +84,7 @@ impl SplitPads {
             capacitance: mean(|part| part.capacitance, self.capacitance),
             force: mean(|part| part.force, self.force),
             invalid: parts.iter().any(|part| part.invalid),
+            lifted: parts.iter().any(|part| part.lifted),
         }
     }
 
@@ -100,7 +103,7 @@ impl SplitPads {
             4 => vec![[of(&[0, 1]), of(&[2, 3])], [of(&[1, 2]), of(&[0, 3])]],
             _ => vec![[of(&[0]), of(&[1])]],
         };
-        let trusted = sensing.iter().all(|part| !part.invalid);
+        let trusted = sensing.iter().all(|part| !part.invalid && !part.lifted);
         let position = self.position;
         let walls = self.axes.iter_mut().zip(sides).enumerate().map(|(axis, (along, sides))| {
             let factory = if axis == 0 { port.factory } else { Exact::ZERO };

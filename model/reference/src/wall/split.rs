@@ -111,6 +111,7 @@ impl SplitPads {
                 capacitance_pf: mean(sensed.iter().map(|part| part.capacitance_pf)),
                 force_n: mean(sensed.iter().map(|part| part.force_n)),
                 invalid: sensed.iter().any(|part| part.invalid),
+                lifted: sensed.iter().any(|part| part.lifted),
                 ..*prompt
             },
         };
@@ -126,7 +127,7 @@ fn mean(of: impl ExactSizeIterator<Item = f64>) -> f64 {
 impl Pad {
     /// The larger force of the walls; whether the user leaves either.
     fn walled(&mut self, sensed: &[Prompt]) -> Walled {
-        let trusted = sensed.iter().all(|part| !part.invalid);
+        let trusted = sensed.iter().all(|part| !part.invalid && !part.lifted);
         let sides = |axis: usize| {
             let of = |parts: &[usize]| mean(parts.iter().map(|&n| sensed[n].capacitance_pf));
             match (trusted, sensed.len(), axis) {

@@ -116,17 +116,41 @@ fn a_force_beyond_its_cap_takes_the_drive_to_zero_in_that_frame() {
 }
 
 #[test]
-fn a_pad_that_is_lifted_and_put_back_is_driven_as_before() {
+fn a_lifted_pad_is_not_driven_and_once_it_is_back_rises_gently_to_what_it_was() {
     for law in Law::ALL {
         let mut rig = Rig::new(law, |_| ());
         let before = rig.settled();
-        for _ in 0..200 {
-            rig.capacitance_pf = 0.0;
-            let outputs = rig.frame(0.1, 0.0);
-            assert!(outputs.drive <= rig.inputs.tuning.rail, "{law:?}");
+        for frame in 0..40 {
+            rig.capacitance_pf = 2.0;
+            rig.inputs.lifted = 1;
+            let outputs = rig.any_frame(0.1, 0.0, i64::from(frame % 5 == 4));
+            let got = (outputs.drive, outputs.low, outputs.high);
+            assert_eq!(got, (0, 0, 0), "{law:?}: frame {frame}");
         }
-        rig.capacitance_pf = 300.0;
+        (rig.capacitance_pf, rig.inputs.lifted, rig.drive) = (300.0, 0, 0.0);
+        let most = rig.control.drive.code_saturating(rig.control.contact_slew());
+        let mut last = 0;
+        for drive in rig.drives(0.1, 200) {
+            assert!(drive - last <= most, "{law:?}: {last} {drive}");
+            last = drive;
+        }
         rig.assert_same(before);
+    }
+}
+
+/// What the law corrected before the pad was lifted is in no drive word after it.
+#[test]
+fn a_lifted_pad_forgets_what_its_law_corrected() {
+    for law in Law::ALL {
+        let after = |target_n: f64| {
+            let mut rig = Rig::new(law, |_| ());
+            rig.drives(target_n, 60);
+            rig.inputs.lifted = 1;
+            rig.any_frame(0.1, 0.0, 0);
+            (rig.capacitance_pf, rig.inputs.lifted, rig.drive) = (300.0, 0, 0.0);
+            rig.drives(0.1, 40)
+        };
+        assert_eq!(after(0.0), after(0.3), "{law:?}");
     }
 }
 

@@ -7,7 +7,7 @@ use super::{Controller, In, Registers, Regs};
 use hapticore_contract::control::Law;
 use hapticore_hdl::block::Interpretation;
 use hapticore_hdl::format::Format;
-use hapticore_hdl::signal::{HalfEven, Proved, Saturate, Signal, Wrap, int, zero};
+use hapticore_hdl::signal::{HalfEven, Proved, Saturate, Signal, Wrap, code, int, zero};
 
 /// What memories and blocks within give.
 pub(super) struct Found<V> {
@@ -17,6 +17,8 @@ pub(super) struct Found<V> {
     pub root: Signal<V>,
     /// A word of the curve.
     pub curve: Signal<V>,
+    /// Of the pad: it has been lifted, and its drive has not been what its law wants since.
+    pub rises: Signal<V>,
     /// Of the pad: invalid estimates in a row.
     pub invalid: Signal<V>,
     /// Of the pad: its drive word, at most the rail.
@@ -199,7 +201,9 @@ impl Controller {
             Law::Inverse => r.root.at_most(base),
             Law::Proportional | Law::Integral => base + r.correction,
         };
-        let (low, high) = (wanted.less_than(int(0)), i.tuning.rail.less_than(wanted));
+        let touches = !i.lifted;
+        let low = touches & wanted.less_than(int(0));
+        let high = touches & i.tuning.rail.less_than(wanted);
         // Where it wraps, it is low or high.
         let rounded = wanted.quantize(self.drive, HalfEven, Wrap);
         let within = high.select(i.tuning.rail, rounded);
@@ -225,7 +229,7 @@ impl Controller {
     }
 
     /// The drive word: as wanted where the estimate is valid, but no further from the last than the slew limit;
-    /// zero where it is void or the pad is off.
+    /// zero where it is void or the pad is lifted.
     #[inline(always)]
     pub(super) fn limited<V: Interpretation>(
         &self,
@@ -236,14 +240,29 @@ impl Controller {
         let to = i.invalid.select(last, r.wanted);
         let up = r.most.less_than(to).select(r.most, to);
         let down = to.less_than(r.least).select(r.least, to);
-        let drive = last.less_than(to).select(up, down);
-        (r.void | i.off_pad).select(zero(self.drive), drive)
+        let slewed = last.less_than(to).select(up, down);
+        (r.void | i.lifted).select(zero(self.drive), slewed)
     }
 
-    /// The least and the largest drive word that the slew limit allows after the last.
+    /// The least and the largest drive word that the slew limit allows after the last. While the pad
+    /// rises after contact it is at most that of a contact, whatever the host's is.
     #[inline(always)]
-    pub(super) fn slewed<V: Interpretation>(&self, i: &In<V>, last: Signal<V>) -> [Signal<V>; 2] {
-        let least = (last - i.tuning.slew).resize(self.drive, Saturate);
-        [least, (last + i.tuning.slew).resize(self.drive, Saturate)]
+    pub(super) fn slewed<V: Interpretation>(&self, i: &In<V>, found: &Found<V>) -> [Signal<V>; 2] {
+        let (last, slew) = (found.last, i.tuning.slew);
+        let up = found.rises.select(slew.at_most(code(self.contact_slew, self.drive)), slew);
+        let least = (last - slew).resize(self.drive, Saturate);
+        [least, (last + up).resize(self.drive, Saturate)]
+    }
+
+    /// Whether the pad rises still: from contact until its drive is what its law wants.
+    #[inline(always)]
+    pub(super) fn rises<V: Interpretation>(
+        &self,
+        r: &Regs<V>,
+        i: &In<V>,
+        before: Signal<V>,
+        drive: Signal<V>,
+    ) -> Signal<V> {
+        i.lifted | (before & (i.invalid | drive.less_than(r.wanted)))
     }
 }

@@ -8,7 +8,7 @@
 //! integral       d = D + K·e + c,   c += K_i·e,   e = √F_t − √F
 //! inverse        d = min(√(F_t/G / (k·C²)), D)                                    (docs/physics.md §6)
 //! F_t = the host's force, or that of the pad's wall where it is larger
-//! drive = d, held within 0 … rail, and within slew of the pad's last; 0 at once while off, at most the rail at once
+//! drive = d, held within 0 … rail, and within slew of the pad's last; 0 at once while off or lifted, at most the rail at once
 //! c as before of an invalid estimate; against a limit that holds the drive as far as drive − (D + K·e), never back
 //! ```
 //!
@@ -118,6 +118,8 @@ block! {
         invalid_frames: u64,
         silent_ticks: u64,
         has_walls: bool,
+        /// Code of the largest rise after contact.
+        contact_slew: i64,
     }
     submodules {
         multiplier: Multiplier,
@@ -125,7 +127,7 @@ block! {
         divider: Divider,
         /// Drive words of the curve.
         points: Memory,
-        /// Of each pad that is known: invalid frames in a row, and the drive word.
+        /// Of each pad that is known: whether it rises after contact, invalid frames in a row, and the drive word.
         pads: Memory,
         /// Of each pad that is known: what corrects the curve.
         corrections: Memory,
@@ -149,8 +151,8 @@ block! {
         invalid: BIT,
         /// Every pad begins anew: a drive word that is under way becomes zero.
         clear: BIT,
-        /// The pad is off: its drive word is zero at once, and it begins anew. Valid and stable as `pad` is.
-        off_pad: BIT,
+        /// The pad does not touch.
+        lifted: BIT,
         /// Asserted for one cycle every millisecond.
         tick: BIT,
         /// The host is alive.
@@ -246,7 +248,7 @@ impl Controller {
         let radicand = words::radicand(control, fine);
         let (left, right) = words::operands(control, f);
         let invalid = Format::counter(control.invalid_frames);
-        let word = Format::unsigned(invalid.width + drive.width, 0);
+        let word = Format::unsigned(1 + invalid.width + drive.width, 0);
         Controller {
             multiplier: Multiplier::new(left, right, profile.multiplier),
             sqrt: SquareRoot::new(radicand, fine.frac),
@@ -275,6 +277,7 @@ impl Controller {
             pads_in_all: profile.pads,
             silent_ticks: control.silent_ms,
             has_walls: profile.wall.is_some(),
+            contact_slew: drive.code_saturating(control.contact_slew()),
         }
     }
 
@@ -383,7 +386,7 @@ impl Controller {
     #[inline(always)]
     fn known<V: Interpretation>(&self, r: &Regs<V>, i: &In<V>, off: Signal<V>) -> Signal<V> {
         let made = (r.task.at(Task::Limit), i.pad);
-        marks::unless(off, marks::written(r.known, made, !(r.void | i.off_pad)))
+        marks::unless(off, marks::written(r.known, made, !r.void))
     }
 
     /// Words of the curve that have been written, from the first on, after this clock.
@@ -429,7 +432,8 @@ impl Controller {
             product,
             root: root.sqrt,
             curve: self.curve_word(state, r, i),
-            invalid: pad.bits(self.drive.width, pad.format.width - self.drive.width),
+            rises: pad.msb(),
+            invalid: pad.bits(self.drive.width, pad.format.width - self.drive.width - 1),
             last: pad.bits(0, self.drive.width).as_code(self.drive).at_most(i.tuning.rail),
             pad_word: counts(pad_word),
             correction: counts(correction),
@@ -485,7 +489,7 @@ impl Controller {
         let (left, right) = self.operands(&r, i, found);
         let (combine, limit) = (self.at(&r, Task::Combine), self.at(&r, Task::Limit));
         let [wanted, low, high] = self.wanted(&r, i);
-        let [least, most] = self.slewed(i, found.last);
+        let [least, most] = self.slewed(i, found);
         Registers {
             task: ends.select(self.following(&r), r.task),
             count: ends.select(int(0), r.count.increment()),
@@ -517,12 +521,14 @@ impl Controller {
         found: &Found<V>,
     ) {
         let enable = r.task.at(Task::Limit);
-        let data = self.invalid_count(i, found.invalid).concat(drive.integer());
+        let rises = self.rises(r, i, found.rises, drive);
+        let data = rises.concat(self.invalid_count(i, found.invalid)).concat(drive.integer());
         let write = Write { enable, address: i.pad, data };
         self.pads.access(&mut state.submodules.pads, i.pad, write);
         if self.feeds_back() {
             let kept = self.kept_correction(r, drive, found.correction);
-            let data = i.invalid.select(found.correction, kept);
+            let valid = i.invalid.select(found.correction, kept);
+            let data = i.lifted.select(zero(valid.format), valid);
             let write = Write { enable, address: i.pad, data };
             self.corrections.access(&mut state.submodules.corrections, i.pad, write);
         }

@@ -104,7 +104,7 @@ fn slew_holds_no_shutdown_back() {
             rig.frame(0.1, 0.1)
         };
         let lifted = |rig: &mut Rig| {
-            let request = Inputs { off_pad: 1, ..rig.request(0.1, 0.1) };
+            let request = Inputs { lifted: 1, ..rig.request(0.1, 0.1) };
             rig.bench.operate(request).0
         };
         let invalid = |rig: &mut Rig| {
@@ -115,7 +115,7 @@ fn slew_holds_no_shutdown_back() {
             ("off", &off),
             ("force fault", &fault),
             ("silence", &silent),
-            ("off_pad", &lifted),
+            ("lifted", &lifted),
             ("sensor fault", &invalid),
         ];
         for (name, stop) in stops {

@@ -79,7 +79,7 @@ impl Pair {
             measured: random.word(f.measured),
             force_gain: random.word(f.force_gain),
             invalid: rarely(random, 3),
-            off_pad: rarely(random, 20),
+            lifted: rarely(random, 8),
             alive: rarely(random, 30),
             tick: rarely(random, 2),
             clear: rarely(random, 40),
@@ -125,8 +125,8 @@ impl Pair {
             force: Exact::of(i.measured, f.force),
             force_gain: Exact::of(i.force_gain, f.force_gain),
             invalid: i.invalid == 1,
+            lifted: i.lifted == 1,
             enable: i.tuning.enable == 1,
-            off_pad: i.off_pad == 1,
         });
         let [silence_fault, sensor_fault, force_fault] = self.reference.faults.map(i64::from);
         let faults = super::Faults { silence_fault, sensor_fault, force_fault };

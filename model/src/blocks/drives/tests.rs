@@ -64,15 +64,16 @@ fn places_are_x_and_of_quadrants_y_of_valid_frames() {
         let (block, formats) = with_core(&profile);
         let quadrants = parts(wall) == 4;
         for (index, field) in (0..).zip(Field::ALL) {
-            for case in 0..4 * profile.pads as i64 {
-                let (pad, valid, invalid) = (case / 4, case % 2, case / 2 % 2);
-                let frame = FramePort { pad, valid, invalid, index, frame: 5, ..FramePort::of(0) };
+            for case in 0..8 * profile.pads as i64 {
+                let (pad, [valid, invalid, lifted]) = (case / 8, [1, 2, 4].map(|of| case / of % 2));
+                let flags = FramePort { invalid, lifted, ..FramePort::of(0) };
+                let frame = FramePort { pad, valid, index, frame: 5, ..flags };
                 let frame = FramePort::zip(frame, formats.frames);
                 let frame = FramePort::map(frame, |(value, format)| Signal { value, format });
                 let (placed, number, place) = block.place(&frame);
                 let along = matches!(field, Field::X) || quadrants && matches!(field, Field::Y);
                 let counts = along && (!quadrants || pad % 4 == 3) && wall.is_some();
-                let expected = counts && valid == 1 && invalid == 0;
+                let expected = counts && valid == 1 && invalid == 0 && lifted == 0;
                 assert_eq!(placed.value, i64::from(expected), "{field:?} of pad {pad}, {case}");
                 if expected {
                     let of_y = i64::from(matches!(field, Field::Y));
