@@ -487,6 +487,7 @@ fn estimates(block: &Drives, pads: u64) -> impl FnMut(&[i64]) -> Option<Vec<i64>
         for pad in [&mut any.placed_pad, &mut any.target.target_pad, &mut any.wall.wall_pad] {
             *pad %= pads;
         }
+        any.tuning.curve_address %= words;
         // What stops drives comes rarely enough that most are not zero.
         inputs.tuning.enable = i64::from(rng.u32(..2000) != 0);
         inputs.clear &= i64::from(rng.u32(..60) == 0);
