@@ -100,7 +100,9 @@ fn slew_holds_no_shutdown_back() {
         };
         let silent = |rig: &mut Rig| {
             let ticks = rig.control.silent_ms;
-            (0..ticks).for_each(|_| _ = rig.bench.clock(Inputs { tick: 1, ..rig.inputs }));
+            for _ in 0..ticks {
+                rig.bench.clock(Inputs { tick: 1, ..rig.inputs });
+            }
             rig.frame(0.1, 0.1)
         };
         let lifted = |rig: &mut Rig| {
