@@ -7,7 +7,7 @@
 module hapticore_estimator (
     input wire clock,
     input wire reset,
-    input wire clear, // u1.0  Mean squares of earlier windows no longer count.
+    input wire clear, // u1.0  Mean squares of earlier windows no longer count, nor what a prompt estimate takes of earlier slots.
     input wire valid, // u1.0  Asserted for one cycle with each of the demodulator's sums.
     input wire [3:0] index, // u4.0  The number of the sum.
     input wire signed [44:0] sum, // s45.34

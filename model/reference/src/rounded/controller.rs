@@ -152,6 +152,9 @@ impl Controller {
 
     /// The drive word of a pad.
     pub fn drive(&mut self, request: &Request) -> Drive {
+        if !request.enable || !self.ticks || self.faults.contains(&true) {
+            self.clear();
+        }
         let pad = self.pads[request.pad];
         let most = self.control.invalid_frames;
         let invalid = if request.invalid { (pad.invalid + 1).min(most) } else { 0 };

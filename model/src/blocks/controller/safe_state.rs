@@ -24,6 +24,9 @@ fn slow(rig: &Rig) -> i64 {
 /// Every law with what stops its drives: a name, and what is done.
 type Stop = (&'static str, fn(&mut Rig));
 
+/// A frame in which drives stop, and what it gives.
+type Stopping<'a> = &'a dyn Fn(&mut Rig) -> Outputs<i64>;
+
 const STOPS: [Stop; 3] = [
     ("reset", |rig| {
         rig.bench.press_reset();
@@ -113,7 +116,7 @@ fn slew_holds_no_shutdown_back() {
             let frames = rig.control.invalid_frames;
             (0..frames).map(|_| rig.any_frame(0.1, 0.1, 1)).last().expect("frames")
         };
-        let stops: [(&str, &dyn Fn(&mut Rig) -> Outputs<i64>); 5] = [
+        let stops: [(&str, Stopping); 5] = [
             ("off", &off),
             ("force fault", &fault),
             ("silence", &silent),

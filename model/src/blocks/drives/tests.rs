@@ -349,9 +349,12 @@ fn targets_are_forgotten_with_a_reset_and_with_clear() {
     }
 }
 
+/// What stops drives: a name, and the inputs that do.
+type Stop = (&'static str, fn(&mut Inputs<i64>));
+
 #[test]
 fn what_stops_drives_acts_in_any_clock_of_a_drive_word() {
-    let stops: [(&str, fn(&mut Inputs<i64>)); 3] = [
+    let stops: [Stop; 3] = [
         ("clear", |inputs| inputs.clear = 1),
         ("drives_clear", |inputs| inputs.drives_clear = 1),
         ("disabled", |inputs| inputs.tuning.enable = 0),

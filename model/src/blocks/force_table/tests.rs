@@ -45,7 +45,7 @@ fn write(
 }
 
 fn quiet(i: Inputs<i64>) -> Inputs<i64> {
-    Inputs { table: TablePort { write: 0, ..i.table }, ..i }
+    Inputs { clear: 0, table: TablePort { write: 0, ..i.table }, ..i }
 }
 
 /// Words as a calibration has them, or any.
@@ -81,6 +81,12 @@ fn forces_are_those_of_the_table() {
             let codes = words(&mut random, f.table, round % 2 == 1);
             let words = write(&mut bench, &codes, f.table, first);
             reference.borrow_mut().calibrate(words);
+            if random.below(3) == 0 {
+                bench.clock(Inputs { start: 0, clear: 1, ..first });
+                if profile.control.is_some() {
+                    reference.borrow_mut().clear();
+                }
+            }
             let inputs = cases.by_ref().take((operations(MILLION / 10) / TABLES) as usize);
             // Half of the capacitances within the table, and its ends.
             let within = |mut i: Inputs<i64>| {
