@@ -15,6 +15,7 @@ module hapticore_controller (
     input wire [19:0] measured, // u20.17  Haptic force of the pad, N.
     input wire [17:0] force_gain, // u18.34  Gain of the force, N/pF² at a full-scale haptic mean square.
     input wire invalid, // u1.0  The estimate is invalid.
+    input wire lifted, // u1.0  The pad does not touch.
     input wire alive, // u1.0  The host is alive.
     input wire clear_faults, // u1.0  Clears faults.
     input wire enable, // u1.0  Controller: drives follow their targets; else they go to zero.
@@ -47,15 +48,15 @@ module hapticore_controller (
     reg signed [20:0] error; // s21.20  √F_t − √F.
     reg signed [20:0] proportional_q; // s21.20
     reg signed [28:0] correction_q; // s29.28  The filter's new state, or the integral with this frame.
-    reg [21:0] pad_word; // u22.0  Of the pad, as its memory has it: a clock late, so that no path goes from memory to memory.
+    reg [22:0] pad_word; // u23.0  Of the pad, as its memory has it: a clock late, so that no path goes from memory to memory.
     reg [17:0] wanted; // u18.18  Before slew: within 0 and the rail.
     reg [17:0] least; // u18.18  What slew allows.
     reg [17:0] most; // u18.18
     reg [12:0] silent; // u13.0  Frames since the host was heard.
     (* no_rw_check *) // read-during-write: don't care
     (* ram_style = "block" *)
-    reg [21:0] pads [0:3]; // 4 words u22.0
-    reg [21:0] pads_word; // its read register
+    reg [22:0] pads [0:3]; // 4 words u23.0
+    reg [22:0] pads_word; // its read register
     (* no_rw_check *) // read-during-write: don't care
     (* ram_style = "block" *)
     reg signed [28:0] corrections [0:3]; // 4 words s29.28
@@ -93,17 +94,18 @@ module hapticore_controller (
     wire bit_a0db = bit_4b82 & count_is_0; // u1.0
     wire signed [21:0] sum_ec7d = {2'd0, curve_drive} + {{1{proportional_q[20]}}, proportional_q}; // s22.20
     wire signed [30:0] sum_8a80 = {{1{sum_ec7d[21]}}, sum_ec7d, 8'd0} + {{2{correction_q[28]}}, correction_q}; // s31.28
-    wire less_db41 = sum_8a80 < $signed(31'd0); // u1.0
-    wire less_ec9b = $signed({3'd0, rail, 10'd0}) < sum_8a80; // u1.0
-    wire signed [18:0] difference_d632 = {1'd0, pad_word[17:0]} - {1'd0, slew}; // s19.18
-    wire [18:0] sum_8247 = {1'd0, pad_word[17:0]} + {1'd0, slew}; // u19.18
+    wire not_lifted = ~lifted; // u1.0
+    wire bit_6a52 = not_lifted & (sum_8a80 < $signed(31'd0)); // u1.0
+    wire bit_3de4 = not_lifted & ($signed({3'd0, rail, 10'd0}) < sum_8a80); // u1.0
+    wire signed [18:0] difference_62f0 = {1'd0, pad_word[17:0]} - {1'd0, slew}; // s19.18
+    wire [18:0] sum_eebf = {1'd0, pad_word[17:0]} + {1'd0, pad_word[22] ? ((18'd4096 < slew) ? 18'd4096 : slew) : slew}; // u19.18
     wire [3:0] count_plus_1 = {1'd0, count} + 4'd1; // u4.0
     wire bit_a4ac = bit_f2bf & task_is_interpolate; // u1.0
-    wire [17:0] choice_c44a =
+    wire [17:0] choice_4527 =
         ((~enable) | ((bit_d6ef | bit_9e74) | bit_cbc2)) ? 18'd0
         : invalid ? pad_word[17:0]
         : wanted; // u18.18
-    wire [4:0] choice_1e97 =
+    wire [4:0] choice_2c28 =
         invalid ? ((~(pad_word[21:18] < 4'd8)) ? {1'd0, pad_word[21:18]}
         : ({1'd0, pad_word[21:18]} + 5'd1))
         : 5'd0; // u5.0
@@ -122,14 +124,16 @@ module hapticore_controller (
     wire [17:0] next_drive =
         start ? drive
         : task_is_idle ? drive
-        : write_pads ? ((pad_word[17:0] < choice_c44a) ? ((most < choice_c44a) ? most
-        : choice_c44a)
-        : (choice_c44a < least) ? least
-        : choice_c44a)
+        : write_pads ? (lifted ? 18'd0
+        : (pad_word[17:0] < choice_4527) ? ((most < choice_4527) ? most
+        : choice_4527)
+        : (choice_4527 < least) ? least
+        : choice_4527)
         : drive; // u18.18
+    wire less_c07a = next_drive < wanted; // u1.0
     wire less_d9f5 = correction_q < corrections_word; // u1.0
     wire signed [30:0] shifted = {{3'd0, next_drive, 2'd0} - {{1{sum_ec7d[21]}}, sum_ec7d}, 8'd0};
-    wire signed [28:0] quantized_c614 =
+    wire signed [28:0] quantized_c78a =
         (shifted[30:28] == {3{shifted[30]}}) ? shifted[28:0] : {shifted[30], {28{~shifted[30]}}}; // s29.28
 
     hapticore_multiplier_6 u_multiplier (
@@ -152,11 +156,11 @@ module hapticore_controller (
 
     initial begin : initial_pads
         integer i;
-        for (i = 0; i < 4; i = i + 1) pads[i] = 22'd0;
+        for (i = 0; i < 4; i = i + 1) pads[i] = 23'd0;
     end
 
     always @(posedge clock) begin
-        if (write_pads) pads[pad] <= {choice_1e97[3:0], next_drive};
+        if (write_pads) pads[pad] <= {{lifted | (pad_word[22] & (invalid | less_c07a)), choice_2c28[3:0]}, next_drive};
         pads_word <= pads[pad];
     end
 
@@ -166,7 +170,7 @@ module hapticore_controller (
     end
 
     always @(posedge clock) begin
-        if (write_pads) corrections[pad] <= invalid ? corrections_word : (less_d9f5 ? (low | (wanted < next_drive)) : (high | (next_drive < wanted))) ? ((less_d9f5 ? (quantized_c614 < corrections_word) : (corrections_word < quantized_c614)) ? quantized_c614 : corrections_word) : correction_q;
+        if (write_pads) corrections[pad] <= lifted ? 29'd0 : invalid ? corrections_word : (less_d9f5 ? (low | (wanted < next_drive)) : (high | less_c07a)) ? ((less_d9f5 ? (quantized_c78a < corrections_word) : (corrections_word < quantized_c78a)) ? quantized_c78a : corrections_word) : correction_q;
         corrections_word <= corrections[pad];
     end
 
@@ -192,7 +196,7 @@ module hapticore_controller (
             error <= 21'd0;
             proportional_q <= 21'd0;
             correction_q <= 29'd0;
-            pad_word <= 22'd0;
+            pad_word <= 23'd0;
             wanted <= 18'd0;
             least <= 18'd0;
             most <= 18'd0;
@@ -232,7 +236,7 @@ module hapticore_controller (
                         : curve_drive;
                     pad_word <= pads_word;
                     silence_fault <= bit_d6ef | (task_is_combine & (choice_042d == 13'd4096));
-                    sensor_fault <= bit_9e74 | (task_is_combine & (choice_1e97[3:0] == 4'd8));
+                    sensor_fault <= bit_9e74 | (task_is_combine & (choice_2c28[3:0] == 4'd8));
                     force_fault <= bit_cbc2 | (task_is_combine & ((~invalid) & (force_cap < measured)));
                     done <= write_pads;
                     if (bit_f2bf & task_is_correct) begin
@@ -272,13 +276,13 @@ module hapticore_controller (
                     end
                     if (task_is_combine) begin
                         wanted <=
-                            less_db41 ? 18'd0
-                            : less_ec9b ? rail
+                            bit_6a52 ? 18'd0
+                            : bit_3de4 ? rail
                             : (sum_8a80[27:10] + {17'd0, sum_8a80[9] & (sum_8a80[10] | (|sum_8a80[8:0]))});
-                        least <= difference_d632[18] ? 18'd0 : difference_d632[17:0];
-                        most <= (|sum_8247[18]) ? {18{1'b1}} : sum_8247[17:0];
-                        low <= less_db41;
-                        high <= less_ec9b;
+                        least <= difference_62f0[18] ? 18'd0 : difference_62f0[17:0];
+                        most <= (|sum_eebf[18]) ? {18{1'b1}} : sum_eebf[17:0];
+                        low <= bit_6a52;
+                        high <= bit_3de4;
                     end
                 end
             end
@@ -288,7 +292,7 @@ module hapticore_controller (
     assign target_out = choice_8566;
 
     // Unused bits.
-    wire unused = &{1'b0, capacitance, force_gain, full_drive, choice_b1ca[13], count_plus_1[3], choice_1e97[4]};
+    wire unused = &{1'b0, capacitance, force_gain, full_drive, choice_b1ca[13], count_plus_1[3], choice_2c28[4]};
 
 endmodule
 
