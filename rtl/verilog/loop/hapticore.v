@@ -12,6 +12,7 @@ module hapticore (
     input wire signed [17:0] code, // s18.17  The code of the channel that `channel` asked for one cycle earlier.
     input wire [17:0] capacitance_gain, // u18.7  Calibration: gain of the capacitance, pF at an admittance of 1.
     input wire [17:0] force_gain, // u18.34  Calibration: gain of the force, N/pF² at a full-scale haptic mean square.
+    input wire [23:0] contact_capacitance, // u24.13  Calibration: capacitance at or below which a pad is lifted, pF.
     input wire write, // u1.0  Writes a word of the position table.
     input wire [12:0] address, // u13.0  The word's address.
     input wire signed [17:0] word, // s18.17
@@ -28,13 +29,15 @@ module hapticore (
     output wire saturated, // u1.0  A word is saturated.
     output wire invalid, // u1.0  No position or capacitance has these currents; the last valid results are given out.
     output wire lost, // u1.0  A terminal is open.
+    output wire lifted, // u1.0  The pad does not touch; its last valid place is given out.
     output wire overrun, // u1.0  Strobes have come closer than the profile's clocks per sample since reset or `clear`: frames are wrong.
     output wire prompt, // u1.0  Asserted for one cycle: the estimate that comes before the frame is valid.
     output wire [1:0] prompt_pad, // u2.0  Pad of the estimate.
     output wire [23:0] prompt_capacitance, // u24.13  Capacitance with the sheet's resistance at the pad's last place, pF.
     output wire [19:0] prompt_force, // u20.17  Its haptic force, N.
     output wire [17:0] prompt_gain, // u18.34  Gain of that force, N/pF² at a full-scale haptic mean square.
-    output wire prompt_invalid // u1.0  No capacitance has these currents, or a code or a word is at its limit.
+    output wire prompt_invalid, // u1.0  No capacitance has these currents, or a code or a word is at its limit.
+    output wire prompt_lifted // u1.0  The pad does not touch.
 );
 
     wire multiplexer_sample; // u1.0
@@ -65,12 +68,14 @@ module hapticore (
     wire estimator_saturated; // u1.0
     wire estimator_invalid; // u1.0
     wire estimator_lost; // u1.0
+    wire estimator_lifted; // u1.0
     wire estimator_prompt; // u1.0
     wire [1:0] estimator_prompt_pad; // u2.0
     wire [23:0] estimator_prompt_capacitance; // u24.13
     wire [19:0] estimator_prompt_force; // u20.17
     wire [17:0] estimator_prompt_gain; // u18.34
     wire estimator_prompt_invalid; // u1.0
+    wire estimator_prompt_lifted; // u1.0
 
     hapticore_multiplexer u_multiplexer (
         .clock(clock),
@@ -138,6 +143,7 @@ module hapticore (
         .clipped(demodulator_clipped),
         .capacitance_gain(capacitance_gain),
         .force_gain(force_gain),
+        .contact_capacitance(contact_capacitance),
         .write(write),
         .address(address),
         .word(word),
@@ -150,12 +156,14 @@ module hapticore (
         .saturated(estimator_saturated),
         .invalid(estimator_invalid),
         .lost(estimator_lost),
+        .lifted(estimator_lifted),
         .prompt(estimator_prompt),
         .prompt_pad(estimator_prompt_pad),
         .prompt_capacitance(estimator_prompt_capacitance),
         .prompt_force(estimator_prompt_force),
         .prompt_gain(estimator_prompt_gain),
-        .prompt_invalid(estimator_prompt_invalid)
+        .prompt_invalid(estimator_prompt_invalid),
+        .prompt_lifted(estimator_prompt_lifted)
     );
 
     assign channel = demodulator_channel;
@@ -171,6 +179,7 @@ module hapticore (
     assign saturated = estimator_saturated;
     assign invalid = estimator_invalid;
     assign lost = estimator_lost;
+    assign lifted = estimator_lifted;
     assign overrun = pace_overrun;
     assign prompt = estimator_prompt;
     assign prompt_pad = estimator_prompt_pad;
@@ -178,6 +187,7 @@ module hapticore (
     assign prompt_force = estimator_prompt_force;
     assign prompt_gain = estimator_prompt_gain;
     assign prompt_invalid = estimator_prompt_invalid;
+    assign prompt_lifted = estimator_prompt_lifted;
 
 endmodule
 

@@ -16,7 +16,7 @@ module hapticore_controller (
     input wire [17:0] force_gain, // u18.34  Gain of the force, N/pF² at a full-scale haptic mean square.
     input wire invalid, // u1.0  The estimate is invalid.
     input wire clear, // u1.0  Every pad begins anew: a drive word that is under way becomes zero.
-    input wire off_pad, // u1.0  The pad is off: its drive word is zero at once, and it begins anew. Valid and stable as `pad` is.
+    input wire lifted, // u1.0  The pad does not touch.
     input wire tick, // u1.0  Asserted for one cycle every millisecond.
     input wire alive, // u1.0  The host is alive.
     input wire clear_faults, // u1.0  Clears faults.
@@ -50,7 +50,7 @@ module hapticore_controller (
     reg signed [20:0] error; // s21.20  √F_t − √F.
     reg signed [20:0] proportional_q; // s21.20
     reg signed [28:0] correction_q; // s29.28  The filter's new state, or the integral with this frame.
-    reg [21:0] pad_word; // u22.0  Of the pad, as its memory has it: a clock late, so that no path goes from memory to memory.
+    reg [22:0] pad_word; // u23.0  Of the pad, as its memory has it: a clock late, so that no path goes from memory to memory.
     reg [17:0] wanted; // u18.18  Before slew: within 0 and the rail.
     reg [17:0] least; // u18.18  What slew allows.
     reg [17:0] most; // u18.18
@@ -62,8 +62,8 @@ module hapticore_controller (
     reg [6:0] curve_words; // u7.0  Words of the curve that have been written, from the first on.
     (* no_rw_check *) // read-during-write: don't care
     (* ram_style = "block" *)
-    reg [21:0] pads [0:3]; // 4 words u22.0
-    reg [21:0] pads_word; // its read register
+    reg [22:0] pads [0:3]; // 4 words u23.0
+    reg [22:0] pads_word; // its read register
     (* no_rw_check *) // read-during-write: don't care
     (* ram_style = "block" *)
     reg signed [28:0] corrections [0:3]; // 4 words s29.28
@@ -90,7 +90,7 @@ module hapticore_controller (
     wire bit_d571 = (((known[0] & pad_is_0) | (known[1] & pad_is_1)) | (known[2] & pad_is_2)) | (known[3] & pad_is_3); // u1.0
     wire task_is_curve = task_q == 4'd2; // u1.0
     wire count_is_0 = count == 3'd0; // u1.0
-    wire [17:0] choice_d251 = (rail < pad_word[17:0]) ? rail : pad_word[17:0]; // u18.18
+    wire [17:0] choice_919f = (rail < pad_word[17:0]) ? rail : pad_word[17:0]; // u18.18
     wire signed [28:0] choice_a248 = bit_d571 ? corrections_word : 29'd0; // s29.28
     wire task_is_root = task_q == 4'd1; // u1.0
     wire task_is_interpolate = task_q == 4'd3; // u1.0
@@ -111,15 +111,15 @@ module hapticore_controller (
     wire bit_a0db = bit_4b82 & count_is_0; // u1.0
     wire signed [21:0] sum_ec7d = {2'd0, curve_drive} + {{1{proportional_q[20]}}, proportional_q}; // s22.20
     wire signed [30:0] sum_8a80 = {{1{sum_ec7d[21]}}, sum_ec7d, 8'd0} + {{2{correction_q[28]}}, correction_q}; // s31.28
-    wire less_db41 = sum_8a80 < $signed(31'd0); // u1.0
-    wire less_ec9b = $signed({3'd0, rail, 10'd0}) < sum_8a80; // u1.0
-    wire signed [18:0] difference_22ef = {1'd0, choice_d251} - {1'd0, slew}; // s19.18
-    wire [18:0] sum_767b = {1'd0, choice_d251} + {1'd0, slew}; // u19.18
+    wire not_lifted = ~lifted; // u1.0
+    wire bit_6a52 = not_lifted & (sum_8a80 < $signed(31'd0)); // u1.0
+    wire bit_3de4 = not_lifted & ($signed({3'd0, rail, 10'd0}) < sum_8a80); // u1.0
+    wire signed [18:0] difference_7d90 = {1'd0, choice_919f} - {1'd0, slew}; // s19.18
+    wire [18:0] sum_1cea = {1'd0, choice_919f} + {1'd0, pad_word[22] ? ((18'd4096 < slew) ? 18'd4096 : slew) : slew}; // u19.18
     wire [3:0] count_plus_1 = {1'd0, count} + 4'd1; // u4.0
     wire bit_a4ac = bit_f2bf & task_is_interpolate; // u1.0
-    wire [17:0] choice_1af2 = invalid ? choice_d251 : wanted; // u18.18
-    wire bit_6467 = bit_24ce | off_pad; // u1.0
-    wire [4:0] choice_1e97 =
+    wire [17:0] choice_2592 = invalid ? choice_919f : wanted; // u18.18
+    wire [4:0] choice_2c28 =
         invalid ? ((~(pad_word[21:18] < 4'd8)) ? {1'd0, pad_word[21:18]}
         : ({1'd0, pad_word[21:18]} + 5'd1))
         : 5'd0; // u5.0
@@ -138,19 +138,20 @@ module hapticore_controller (
     wire [17:0] next_drive_q =
         start ? choice_0854
         : task_is_idle ? choice_0854
-        : write_pads ? (bit_6467 ? 18'd0
-        : (choice_d251 < choice_1af2) ? ((most < choice_1af2) ? most
-        : choice_1af2)
-        : (choice_1af2 < least) ? least
-        : choice_1af2)
+        : write_pads ? ((bit_24ce | lifted) ? 18'd0
+        : (choice_919f < choice_2592) ? ((most < choice_2592) ? most
+        : choice_2592)
+        : (choice_2592 < least) ? least
+        : choice_2592)
         : choice_0854; // u18.18
+    wire less_975a = next_drive_q < wanted; // u1.0
     wire less_011e = correction_q < choice_a248; // u1.0
     wire signed [30:0] shifted = {{3'd0, next_drive_q, 2'd0} - {{1{sum_ec7d[21]}}, sum_ec7d}, 8'd0};
-    wire signed [28:0] quantized_118e =
+    wire signed [28:0] quantized_ea26 =
         (shifted[30:28] == {3{shifted[30]}}) ? shifted[28:0] : {shifted[30], {28{~shifted[30]}}}; // s29.28
-    wire bit_8f74 = ~bit_6467; // u1.0
-    wire [1:0] joined_c398 = {(write_pads & pad_is_1) ? bit_8f74 : known[1], (write_pads & pad_is_0) ? bit_8f74 : known[0]}; // u2.0
-    wire [3:0] joined_d64b = {(write_pads & pad_is_3) ? bit_8f74 : known[3], {(write_pads & pad_is_2) ? bit_8f74 : known[2], joined_c398}}; // u4.0
+    wire bit_98fb = ~bit_24ce; // u1.0
+    wire [1:0] joined_4684 = {(write_pads & pad_is_1) ? bit_98fb : known[1], (write_pads & pad_is_0) ? bit_98fb : known[0]}; // u2.0
+    wire [3:0] joined_b4cc = {(write_pads & pad_is_3) ? bit_98fb : known[3], {(write_pads & pad_is_2) ? bit_98fb : known[2], joined_4684}}; // u4.0
 
     hapticore_multiplier_6 u_multiplier (
         .clock(clock),
@@ -172,11 +173,11 @@ module hapticore_controller (
 
     initial begin : initial_pads
         integer i;
-        for (i = 0; i < 4; i = i + 1) pads[i] = 22'd0;
+        for (i = 0; i < 4; i = i + 1) pads[i] = 23'd0;
     end
 
     always @(posedge clock) begin
-        if (write_pads) pads[pad] <= {choice_1e97[3:0], next_drive_q};
+        if (write_pads) pads[pad] <= {{lifted | (pad_word[22] & (invalid | less_975a)), choice_2c28[3:0]}, next_drive_q};
         pads_word <= pads[pad];
     end
 
@@ -186,7 +187,7 @@ module hapticore_controller (
     end
 
     always @(posedge clock) begin
-        if (write_pads) corrections[pad] <= invalid ? choice_a248 : (less_011e ? (low | (wanted < next_drive_q)) : (high | (next_drive_q < wanted))) ? ((less_011e ? (quantized_118e < choice_a248) : (choice_a248 < quantized_118e)) ? quantized_118e : choice_a248) : correction_q;
+        if (write_pads) corrections[pad] <= lifted ? 29'd0 : invalid ? choice_a248 : (less_011e ? (low | (wanted < next_drive_q)) : (high | less_975a)) ? ((less_011e ? (quantized_ea26 < choice_a248) : (choice_a248 < quantized_ea26)) ? quantized_ea26 : choice_a248) : correction_q;
         corrections_word <= corrections[pad];
     end
 
@@ -212,7 +213,7 @@ module hapticore_controller (
             error <= 21'd0;
             proportional_q <= 21'd0;
             correction_q <= 29'd0;
-            pad_word <= 22'd0;
+            pad_word <= 23'd0;
             wanted <= 18'd0;
             least <= 18'd0;
             most <= 18'd0;
@@ -233,7 +234,7 @@ module hapticore_controller (
             silent <= next_silent;
             ticks <= ticks | tick;
             silence_fault <= (silence_fault & not_clear_faults) | (next_silent == 7'd100);
-            known <= bit_6975 ? 4'd0 : joined_d64b;
+            known <= bit_6975 ? 4'd0 : joined_b4cc;
             curve_words <= sum_4cc0[6:0];
             if (start) begin
                 task_q <= 4'd1;
@@ -255,8 +256,8 @@ module hapticore_controller (
                     (bit_f2bf & task_is_curve) ? {points_word, 2'd0}
                     : bit_a4ac ? (sum_ca3b[21] ? 20'd0 : (|sum_ca3b[20]) ? {20{1'b1}} : sum_ca3b[19:0])
                     : curve_drive;
-                pad_word <= bit_d571 ? pads_word : 22'd0;
-                sensor_fault <= bit_9e74 | (task_is_combine & (choice_1e97[3:0] == 4'd8));
+                pad_word <= bit_d571 ? pads_word : 23'd0;
+                sensor_fault <= bit_9e74 | (task_is_combine & (choice_2c28[3:0] == 4'd8));
                 force_fault <= bit_cbc2 | (task_is_combine & ((~invalid) & (force_cap < measured)));
                 void_q <= bit_24ce;
                 done <= write_pads;
@@ -297,13 +298,13 @@ module hapticore_controller (
                 end
                 if (task_is_combine) begin
                     wanted <=
-                        less_db41 ? 18'd0
-                        : less_ec9b ? rail
+                        bit_6a52 ? 18'd0
+                        : bit_3de4 ? rail
                         : (sum_8a80[27:10] + {17'd0, sum_8a80[9] & (sum_8a80[10] | (|sum_8a80[8:0]))});
-                    least <= difference_22ef[18] ? 18'd0 : difference_22ef[17:0];
-                    most <= (|sum_767b[18]) ? {18{1'b1}} : sum_767b[17:0];
-                    low <= less_db41;
-                    high <= less_ec9b;
+                    least <= difference_7d90[18] ? 18'd0 : difference_7d90[17:0];
+                    most <= (|sum_1cea[18]) ? {18{1'b1}} : sum_1cea[17:0];
+                    low <= bit_6a52;
+                    high <= bit_3de4;
                 end
             end
         end
@@ -314,7 +315,7 @@ module hapticore_controller (
 
     // Unused bits.
     wire unused = &{1'b0, capacitance, force_gain, full_drive, sum_4633[7], sum_4cc0[7], count_plus_1[3],
-        choice_1e97[4]};
+        choice_2c28[4]};
 
 endmodule
 

@@ -16,6 +16,7 @@ module hapticore_drives (
     input wire [19:0] prompt_force, // u20.17  Its haptic force, N.
     input wire [17:0] prompt_gain, // u18.34  Gain of that force, N/pF² at a full-scale haptic mean square.
     input wire prompt_invalid, // u1.0  No capacitance has these currents, or a code or a word is at its limit.
+    input wire prompt_lifted, // u1.0  The pad does not touch.
     input wire placed, // u1.0  A frame has a valid place.
     input wire [1:0] placed_pad, // u2.0  Number of its pad.
     input wire signed [17:0] place, // s18.7  Place, mm.
@@ -85,6 +86,7 @@ module hapticore_drives (
     wire [23:0] split_pad_capacitance; // u24.13
     wire [19:0] split_pad_measured; // u20.17
     wire split_pad_invalid; // u1.0
+    wire split_pad_lifted; // u1.0
     wire [19:0] split_pad_target; // u20.17
     wire split_pad_free; // u1.0
     wire split_pad_reads; // u1.0
@@ -117,6 +119,7 @@ module hapticore_drives (
         .capacitance(prompt_capacitance),
         .measured(prompt_force),
         .invalid(prompt_invalid),
+        .lifted(prompt_lifted),
         .placed(placed),
         .placed_pad(placed_pad),
         .place(place),
@@ -134,6 +137,7 @@ module hapticore_drives (
         .capacitance_out(split_pad_capacitance),
         .measured_out(split_pad_measured),
         .invalid_out(split_pad_invalid),
+        .lifted_out(split_pad_lifted),
         .target(split_pad_target),
         .free(split_pad_free),
         .reads(split_pad_reads)
@@ -151,7 +155,7 @@ module hapticore_drives (
         .force_gain(prompt_gain),
         .invalid(split_pad_invalid),
         .clear(split_pad_clear | (~enable)),
-        .off_pad(1'd0),
+        .lifted(split_pad_lifted),
         .tick(tick),
         .alive(alive | target_write),
         .clear_faults(clear_faults),

@@ -15,6 +15,7 @@ module hapticore_estimator (
     input wire clipped, // u1.0  A code of the window was at full scale.
     input wire [17:0] capacitance_gain, // u18.7  Calibration: gain of the capacitance, pF at an admittance of 1.
     input wire [17:0] force_gain, // u18.34  Calibration: gain of the force, N/pF² at a full-scale haptic mean square.
+    input wire [23:0] contact_capacitance, // u24.13  Calibration: capacitance at or below which a pad is lifted, pF.
     input wire write, // u1.0  Writes a word of the position table.
     input wire [12:0] address, // u13.0  The word's address.
     input wire signed [17:0] word, // s18.17
@@ -27,18 +28,21 @@ module hapticore_estimator (
     output wire saturated, // u1.0  A word is saturated.
     output wire invalid, // u1.0  No position or capacitance has these currents; the last valid results are given out.
     output wire lost, // u1.0  A terminal is open.
+    output wire lifted, // u1.0  The pad does not touch; its last valid place is given out.
     output wire prompt, // u1.0  Asserted for one cycle: the estimate that comes before the frame is valid.
     output wire [1:0] prompt_pad, // u2.0  Pad of the estimate.
     output wire [23:0] prompt_capacitance, // u24.13  Capacitance with the sheet's resistance at the pad's last place, pF.
     output wire [19:0] prompt_force, // u20.17  Its haptic force, N.
     output wire [17:0] prompt_gain, // u18.34  Gain of that force, N/pF² at a full-scale haptic mean square.
-    output wire prompt_invalid // u1.0  No capacitance has these currents, or a code or a word is at its limit.
+    output wire prompt_invalid, // u1.0  No capacitance has these currents, or a code or a word is at its limit.
+    output wire prompt_lifted // u1.0  The pad does not touch.
 );
 
     reg busy; // u1.0
     reg dropping; // u1.0  The window's sums are dropped: they came before the last frame was finished.
     reg early; // u1.0  The prompt estimate is under way.
     reg follow; // u1.0  The prompt estimate has been given: the frame's follows.
+    reg lifted_q; // u1.0  The pad of the prompt estimate does not touch.
     reg [1:0] pad_q; // u2.0
     reg clipped_q; // u1.0
     reg [3:0] placed; // u4.0  Pads with a place.
@@ -87,14 +91,15 @@ module hapticore_estimator (
     wire force_word = ~(address < 13'd6249); // u1.0
     wire signed [13:0] difference_fba8 = {1'd0, address} - 14'd6249; // s14.0
     wire bit_de0d = ratio_invalid | position_invalid; // u1.0
-    wire write_sheets = position_done & (~bit_de0d); // u1.0
+    wire bit_3343 = position_done & (~bit_de0d); // u1.0
     wire bit_daa8 = ((placed[0] & (pad_q == 2'd0)) | (placed[1] & (pad_q == 2'd1))) | (placed[2] & (pad_q == 2'd2)); // u1.0
+    wire is_lifted = ~(contact_capacitance < capacitance_capacitance); // u1.0
     wire frames_invalid = bit_de0d | capacitance_invalid; // u1.0
     wire bit_ca21 = ((currents_saturated | haptic_voltage_saturated) | position_saturated) | capacitance_saturated; // u1.0
     wire any_saturated = bit_ca21 | force_table_saturated; // u1.0
     wire prompt_done = force_table_done & early; // u1.0
-    wire [1:0] joined_90d3 = {(write_sheets & (next_pad_q == 2'd1)) ? 1'd1 : placed[1], (write_sheets & (next_pad_q == 2'd0)) ? 1'd1 : placed[0]}; // u2.0
-    wire [3:0] joined_bbb1 = {(write_sheets & (next_pad_q == 2'd3)) ? 1'd1 : placed[3], {(write_sheets & (next_pad_q == 2'd2)) ? 1'd1 : placed[2], joined_90d3}}; // u4.0
+    wire [1:0] joined_90d3 = {(bit_3343 & (next_pad_q == 2'd1)) ? 1'd1 : placed[1], (bit_3343 & (next_pad_q == 2'd0)) ? 1'd1 : placed[0]}; // u2.0
+    wire [3:0] joined_bbb1 = {(bit_3343 & (next_pad_q == 2'd3)) ? 1'd1 : placed[3], {(bit_3343 & (next_pad_q == 2'd2)) ? 1'd1 : placed[2], joined_90d3}}; // u4.0
 
     hapticore_currents u_currents (
         .clock(clock),
@@ -197,6 +202,7 @@ module hapticore_estimator (
         .start(force_table_done & (~early)),
         .pad(pad_q),
         .invalid(frames_invalid),
+        .lifted(is_lifted),
         .r_x(ratio_r_x),
         .r_y(ratio_r_y),
         .x(position_x),
@@ -217,7 +223,7 @@ module hapticore_estimator (
     end
 
     always @(posedge clock) begin
-        if (write_sheets) sheets[next_pad_q] <= position_sheet;
+        if (bit_3343 & (~lifted_q)) sheets[next_pad_q] <= position_sheet;
         sheets_word <= sheets[next_pad_q];
     end
 
@@ -227,6 +233,7 @@ module hapticore_estimator (
             dropping <= 1'd0;
             early <= 1'd0;
             follow <= 1'd0;
+            lifted_q <= 1'd0;
             pad_q <= 2'd0;
             clipped_q <= 1'd0;
             placed <= 4'd0;
@@ -238,6 +245,9 @@ module hapticore_estimator (
             placed <= clear ? 4'd0 : joined_bbb1;
             if (currents_valid) begin
                 clipped_q <= clipped;
+            end
+            if (prompt_done) begin
+                lifted_q <= is_lifted;
             end
             if (valid) begin
                 dropping <= drops;
@@ -254,12 +264,14 @@ module hapticore_estimator (
     assign saturated = frames_valid ? any_saturated : 1'd0;
     assign invalid = frames_valid ? frames_invalid : 1'd0;
     assign lost = frames_valid ? position_lost : 1'd0;
+    assign lifted = frames_valid ? is_lifted : 1'd0;
     assign prompt = prompt_done;
     assign prompt_pad = pad_q;
     assign prompt_capacitance = capacitance_capacitance;
     assign prompt_force = force_table_haptic_force;
     assign prompt_gain = force_table_factored_gain;
     assign prompt_invalid = prompt_done & ((any_saturated | capacitance_invalid) | clipped_q);
+    assign prompt_lifted = prompt_done & is_lifted;
 
 endmodule
 

@@ -8,7 +8,7 @@
 //   a set is read from the strobe's cycle on, and is stable for 24 cycles.
 // - channels 0 to 7: terminals, sensing voltage, haptic voltage.
 // - slots of 1700 samples, pad after pad; a frame follows its slot's last strobe by at most 8956 cycles.
-// - capacitance_gain, force_gain: stable from a slot's last strobe to its frame's `done`.
+// - capacitance_gain, force_gain, contact_capacitance: stable from a slot's last strobe to its frame's `done`.
 // - write, address, word: a word of the position table per cycle; a slot that is estimated meanwhile gives a frame of
 //   neither table. Reset does not clear the table.
 // - frame words, in the order of `index`, as two's complement integers whose least significant bit is 2^-fraction:
@@ -40,6 +40,7 @@ module hapticore_loop (
     input wire signed [17:0] code, // s18.17  The code of the channel that `channel` asked for one cycle earlier.
     input wire [17:0] capacitance_gain, // u18.7  Calibration: gain of the capacitance, pF at an admittance of 1.
     input wire [17:0] force_gain, // u18.34  Calibration: gain of the force, N/pF² at a full-scale haptic mean square.
+    input wire [23:0] contact_capacitance, // u24.13  Calibration: capacitance at or below which a pad is lifted, pF.
     input wire write, // u1.0  Writes a word of the position table.
     input wire [12:0] address, // u13.0  The word's address.
     input wire signed [17:0] word, // s18.17
@@ -82,6 +83,7 @@ module hapticore_loop (
     output wire saturated, // u1.0  A word is saturated.
     output wire invalid, // u1.0  No position or capacitance has these currents; the last valid results are given out.
     output wire lost, // u1.0  A terminal is open.
+    output wire lifted, // u1.0  The pad does not touch; its last valid place is given out.
     output wire overrun, // u1.0  Strobes have come closer than the profile's clocks per sample since reset or `clear`: frames are wrong.
     output wire prompt, // u1.0  Asserted for one cycle: the estimate that comes before the frame is valid.
     output wire [1:0] prompt_pad, // u2.0  Pad of the estimate.
@@ -89,6 +91,7 @@ module hapticore_loop (
     output wire [19:0] prompt_force, // u20.17  Its haptic force, N.
     output wire [17:0] prompt_gain, // u18.34  Gain of that force, N/pF² at a full-scale haptic mean square.
     output wire prompt_invalid, // u1.0  No capacitance has these currents, or a code or a word is at its limit.
+    output wire prompt_lifted, // u1.0  The pad does not touch.
     output wire drive_valid, // u1.0  Asserted for one cycle with each drive word.
     output wire [1:0] drive_pad, // u2.0  Pad of the drive word.
     output wire [17:0] drive, // u18.18  Drive word, drive's full scale.
@@ -119,6 +122,7 @@ module hapticore_loop (
     wire core_saturated; // u1.0
     wire core_invalid; // u1.0
     wire core_lost; // u1.0
+    wire core_lifted; // u1.0
     wire core_overrun; // u1.0
     wire core_prompt; // u1.0
     wire [1:0] core_prompt_pad; // u2.0
@@ -126,6 +130,7 @@ module hapticore_loop (
     wire [19:0] core_prompt_force; // u20.17
     wire [17:0] core_prompt_gain; // u18.34
     wire core_prompt_invalid; // u1.0
+    wire core_prompt_lifted; // u1.0
     wire drives_drive_valid; // u1.0
     wire [1:0] drives_drive_pad; // u2.0
     wire [17:0] drives_drive; // u18.18
@@ -144,7 +149,7 @@ module hapticore_loop (
 
     wire equal_583c = core_index == 3'd3; // u1.0
     wire signed [2:0] difference_3ad1 = {1'd0, core_pad} - 3'd1; // s3.0
-    wire drives_placed = ((core_valid & ((core_index == 3'd2) | equal_583c)) & (~core_invalid)) & (core_pad == 2'd3); // u1.0
+    wire drives_placed = (((core_valid & (~core_invalid)) & (~core_lifted)) & ((core_index == 3'd2) | equal_583c)) & (core_pad == 2'd3); // u1.0
 
     hapticore u_core (
         .clock(clock),
@@ -154,6 +159,7 @@ module hapticore_loop (
         .code(code),
         .capacitance_gain(capacitance_gain),
         .force_gain(force_gain),
+        .contact_capacitance(contact_capacitance),
         .write(write),
         .address(address),
         .word(word),
@@ -170,13 +176,15 @@ module hapticore_loop (
         .saturated(core_saturated),
         .invalid(core_invalid),
         .lost(core_lost),
+        .lifted(core_lifted),
         .overrun(core_overrun),
         .prompt(core_prompt),
         .prompt_pad(core_prompt_pad),
         .prompt_capacitance(core_prompt_capacitance),
         .prompt_force(core_prompt_force),
         .prompt_gain(core_prompt_gain),
-        .prompt_invalid(core_prompt_invalid)
+        .prompt_invalid(core_prompt_invalid),
+        .prompt_lifted(core_prompt_lifted)
     );
 
     hapticore_drives u_drives (
@@ -191,6 +199,7 @@ module hapticore_loop (
         .prompt_force(core_prompt_force),
         .prompt_gain(core_prompt_gain),
         .prompt_invalid(core_prompt_invalid),
+        .prompt_lifted(core_prompt_lifted),
         .placed(drives_placed),
         .placed_pad(equal_583c ? difference_3ad1[1:0] : core_pad),
         .place(core_frame[17:0]),
@@ -248,6 +257,7 @@ module hapticore_loop (
     assign saturated = core_saturated;
     assign invalid = core_invalid;
     assign lost = core_lost;
+    assign lifted = core_lifted;
     assign overrun = core_overrun;
     assign prompt = core_prompt;
     assign prompt_pad = core_prompt_pad;
@@ -255,6 +265,7 @@ module hapticore_loop (
     assign prompt_force = core_prompt_force;
     assign prompt_gain = core_prompt_gain;
     assign prompt_invalid = core_prompt_invalid;
+    assign prompt_lifted = core_prompt_lifted;
     assign drive_valid = drives_drive_valid;
     assign drive_pad = drives_drive_pad;
     assign drive = drives_drive;

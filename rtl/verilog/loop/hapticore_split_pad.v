@@ -14,6 +14,7 @@ module hapticore_split_pad (
     input wire [23:0] capacitance, // u24.13  Capacitance of the part, pF.
     input wire [19:0] measured, // u20.17  Haptic force, N.
     input wire invalid, // u1.0  The estimate is invalid.
+    input wire lifted, // u1.0  The part does not touch.
     input wire placed, // u1.0  A frame has a valid place.
     input wire [1:0] placed_pad, // u2.0  Number of its part, or of that by which the pad's wall along y is known.
     input wire signed [17:0] place, // s18.7  Place along the wall's axis, mm.
@@ -31,6 +32,7 @@ module hapticore_split_pad (
     output wire [23:0] capacitance_out, // u24.13  Capacitance of what brakes, pF.
     output wire [19:0] measured_out, // u20.17  Its haptic force, N.
     output wire invalid_out, // u1.0  Its estimate is invalid.
+    output wire lifted_out, // u1.0  A part of what brakes does not touch.
     output wire [19:0] target, // u20.17  Force of the wall, N.
     output wire free, // u1.0  The user leaves the wall.
     output wire reads // u1.0  The direction was read.
@@ -48,6 +50,8 @@ module hapticore_split_pad (
     reg free_q; // u1.0
     reg invalid_q; // u1.0  The estimate of a sensing part is invalid.
     reg unknown; // u1.0  That of what brakes is.
+    reg lifted_q; // u1.0  A sensing part does not touch.
+    reg released; // u1.0  One of what brakes does not.
     reg [23:0] capacitance_q; // u24.13
     reg [19:0] measured_q; // u20.17
     reg asked; // u1.0  The pad's place and wall are asked for, then there.
@@ -85,7 +89,9 @@ module hapticore_split_pad (
     wire [25:0] next_sum = estimate ? sum_53a6[25:0] : sum; // u26.13
     wire [22:0] sum_e1f2 = {1'd0, bit_1360 ? 22'd0 : force_sum} + {3'd0, measured}; // u23.17
     wire [21:0] next_force_sum = estimate ? sum_e1f2[21:0] : force_sum; // u22.17
-    wire next_invalid_q = estimate ? (((~bit_1360) & invalid_q) | invalid) : invalid_q; // u1.0
+    wire bit_7231 = ~bit_1360; // u1.0
+    wire next_invalid_q = estimate ? ((bit_7231 & invalid_q) | invalid) : invalid_q; // u1.0
+    wire next_lifted_q = estimate ? ((bit_7231 & lifted_q) | lifted) : lifted_q; // u1.0
     wire [24:0] rounded = {1'b0, next_sum[25:2]} + {24'd0, next_sum[1] & (next_sum[2] | next_sum[0])};
     wire [20:0] rounded_2 = {1'b0, next_force_sum[21:2]} + {20'd0, next_force_sum[1] & (next_force_sum[2] | next_force_sum[0])};
     wire bit_bbf1 = wall_done & (~along_y); // u1.0
@@ -123,7 +129,7 @@ module hapticore_split_pad (
         .restart(wall_restart | (~placed_q)),
         .left(sum_fc0a[24:1] + {23'd0, sum_fc0a[0] & sum_fc0a[1]}),
         .right(sum_d673[24:1] + {23'd0, sum_d673[0] & sum_d673[1]}),
-        .trusted(placed_q & (~invalid_q)),
+        .trusted((placed_q & (~invalid_q)) & (~lifted_q)),
         .depth(depth),
         .mirrored(mirrored),
         .at_zero(rests_q),
@@ -170,6 +176,8 @@ module hapticore_split_pad (
             free_q <= 1'd0;
             invalid_q <= 1'd0;
             unknown <= 1'd0;
+            lifted_q <= 1'd0;
+            released <= 1'd0;
             capacitance_q <= 24'd0;
             measured_q <= 20'd0;
             asked <= 1'd0;
@@ -191,6 +199,7 @@ module hapticore_split_pad (
             force_sum <= next_force_sum;
             along_y <= ((~estimate) & along_y) | bit_bbf1;
             invalid_q <= next_invalid_q;
+            lifted_q <= next_lifted_q;
             asked <= bit_18e8 | bit_bbf1;
             found <= asked;
             kept <= found;
@@ -230,6 +239,7 @@ module hapticore_split_pad (
             if (bit_18e8) begin
                 fourth <= capacitance;
                 unknown <= next_invalid_q;
+                released <= next_lifted_q;
                 capacitance_q <= (|rounded[24]) ? {24{1'b1}} : rounded[23:0];
                 measured_q <= (|rounded_2[20]) ? {20{1'b1}} : rounded_2[19:0];
             end
@@ -240,6 +250,7 @@ module hapticore_split_pad (
     assign capacitance_out = capacitance_q;
     assign measured_out = measured_q;
     assign invalid_out = unknown;
+    assign lifted_out = released;
     assign target = (wall_target < target_q) ? target_q : wall_target;
     assign free = wall_free | free_q;
     assign reads = wall_valid;
