@@ -57,7 +57,7 @@ pub fn drive_output(
     let output = DriveOutput::of_profile(profile, wave, converter, clock_hz)?;
     let interface = [
         "- drive_valid, drive_pad, drive, serve, closed, *_fault: the outputs of hapticore_loop of these names; enable: not its clear.".to_owned(),
-        "- drives_clear: connect to hapticore_loop's drives_clear.".into(),
+        "- drives_clear: no drive word came in time, all channels go to zero; to the input of hapticore_loop of this name.".into(),
         "- dac_*: pins of the converter; words are magnitudes, 0 is 0 V; dac_polarity: the sign of each channel's amplifier.".into(),
         "- dac_live: the converter is set up, and nothing is off; gate the high voltage with it.".into(),
         format!("- clock: {clock_hz} Hz; drive words that cease are zero after {STALE_MS} ms at most."),
@@ -80,6 +80,8 @@ fn interface_of_loop(force_loop: &ForceLoop) -> Vec<String> {
         "- target_write, target_pad, target_word: a pad's target, taken as its slot's estimate is given; a sign of life.".into(),
         "- curve_write, curve_address, curve_word: a word of the curve per cycle, while no drive word is being made.".into(),
         "- proportional, correction, full_drive, rail, slew, force_cap: taken as a slot's estimate is given.".into(),
+        "- tick: one cycle every millisecond, of which a silent host is missed after so many; without ticks nothing is driven.".into(),
+        "- clear, drives_clear, enable low, a fault: every drive is zero in the same cycle and begins at zero; clear takes targets and walls, too.".into(),
         "- least_drive to most_force: of all pads, of valid estimates since extremes_read.".into(),
     ];
     if let Some(split_pad) = &force_loop.drives.split_pad {

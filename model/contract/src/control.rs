@@ -67,11 +67,19 @@ pub struct Control {
     pub cells: u64,
     /// So many invalid frames of a pad in a row are a fault.
     pub invalid_frames: u64,
-    /// So many frames without a sign of life from the host are a fault.
-    pub silent_frames: u64,
+    /// So many milliseconds without a sign of life from the host are a fault; the last may be a part of one.
+    #[serde(default = "silent_ms")]
+    pub silent_ms: u64,
+}
+
+fn silent_ms() -> u64 {
+    Control::SILENT_MS
 }
 
 impl Control {
+    /// The time after which a host is missed where a profile does not say, ms.
+    pub const SILENT_MS: u64 = 100;
+
     /// Fractional bits by which a target is moved down to be below one; even, as its root is then
     /// moved by half of it.
     pub fn target_shift(&self) -> i8 {
@@ -105,7 +113,7 @@ pub struct Tuning {
     pub correction: f64,
     /// The largest drive word.
     pub rail: f64,
-    /// The largest change of a drive word from frame to frame.
+    /// The largest change of a drive word from frame to frame; off, a fault and a lower rail act at once.
     pub slew: f64,
     /// A force beyond it is a fault, N.
     pub force_cap: f64,
@@ -123,7 +131,7 @@ pub struct Walls {
     /// What the direction u of a wall on the left reads without a push; that of a wall along y reads
     /// nothing.
     pub factory: f64,
-    /// The walls are right of their surfaces, until a surface is set.
+    /// The walls are right of their surfaces.
     pub right: bool,
 }
 
@@ -159,7 +167,7 @@ impl Tuning {
     }
 }
 
-/// Faults of a controller: each takes every drive to zero until it is cleared.
+/// Faults of a controller: each takes every drive to zero at once, until it is cleared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
 pub struct Faults {
     /// The host was silent for too long.

@@ -32,6 +32,7 @@ use super::force::{self, Force};
 use super::force_table::{self, ForceTable};
 use super::frames::{self, Frames};
 use super::haptic_voltage::{self, HapticVoltage};
+use super::marks;
 use super::position::{self, Position, TablePort};
 use super::ratio::{self, Ratio};
 use hapticore_contract::calibration::ForceTable as Words;
@@ -113,7 +114,7 @@ block! {
         hurried: bool,
     }
     submodules {
-        /// The sheet's resistance at the last place of each pad.
+        /// The sheet's resistance at the last place of each pad that has one.
         sheets: Memory,
         currents: Currents,
         ratio: Ratio,
@@ -127,7 +128,7 @@ block! {
         frames: Frames,
     }
     inputs(estimator) {
-        /// Mean squares of earlier windows no longer count.
+        /// Mean squares of earlier windows no longer count, nor what a prompt estimate takes of earlier slots.
         clear: BIT,
         /// Asserted for one cycle with each of the demodulator's sums.
         valid: BIT,
@@ -156,6 +157,8 @@ block! {
         lifted: BIT.where_present(estimator.prompts),
         pad: estimator.pad(),
         clipped: BIT,
+        /// Pads with a place.
+        placed: marks::format(estimator.pads).where_present(estimator.prompts),
     }
 }
 
@@ -165,6 +168,9 @@ impl Estimator {
     /// # Errors
     /// The first of its blocks that cannot be.
     pub fn try_new(profile: &Profile) -> Result<Self, ProfileError> {
+        if profile.control.is_some() {
+            marks::check(profile)?;
+        }
         let (currents, law) = (Currents::try_new(profile)?, profile.force.law);
         let sheets = Memory::new("sheets", profile.pads as usize, profile.sheet());
         Ok(Estimator {
@@ -318,7 +324,7 @@ impl Estimator {
         &self,
         state: &mut State<Self, V>,
         i: force::In<V>,
-        (hold, pad, table): (Signal<V>, Signal<V>, TablePort<Signal<V>>),
+        (clear, hold, pad, table): (Signal<V>, Signal<V>, Signal<V>, TablePort<Signal<V>>),
     ) -> (force::Out<V>, Signal<V>) {
         let force::Inputs { start, capacitance, mean_square, gain } = i;
         let (by_eq8, by_table) = (&self.force_estimator, &self.force_table);
@@ -332,8 +338,9 @@ impl Estimator {
             .zip(state.submodules.force_table.as_mut())
             .expect("one law or the other");
         let hold = hold.where_present(block.inputs().hold);
+        let clear = clear.where_present(block.inputs().clear);
         let inputs =
-            force_table::Inputs { start, hold, pad, capacitance, mean_square, gain, table };
+            force_table::Inputs { start, clear, hold, pad, capacitance, mean_square, gain, table };
         let force_table::Outputs { done, haptic_force, factored_gain, saturated } =
             block.call("force_table", within, inputs);
         (force::Outputs { done, haptic_force, saturated }, factored_gain)
@@ -419,7 +426,7 @@ impl Estimator {
             mean_square: haptic.mean_square,
             gain: i.calibration.force_gain,
         };
-        let (force, gain) = self.force(state, to_force, (self.early(&r), r.pad, of_force));
+        let (force, gain) = self.force(state, to_force, (i.clear, self.early(&r), r.pad, of_force));
         let invalid = invalid_place | capacitance.invalid;
         let inputs = frames::Inputs {
             start: if self.prompts { force.done & !r.early } else { force.done },
@@ -461,6 +468,7 @@ impl Estimator {
             lifted: prompt_done.select(lifted, r.lifted).where_present(r.lifted.format),
             pad,
             clipped: valid.select(i.clipped, r.clipped),
+            placed: self.placed(&r, &i, pad, position.done & !invalid_place),
         };
         state.store(self, next);
         if RUNS_ON && self.hurried {
@@ -556,7 +564,28 @@ impl Estimator {
         let enable = position.done & !invalid & !r.lifted;
         let write = Write { enable, address: pad, data: position.sheet };
         self.sheets.access(&mut state.submodules.sheets, pad, write);
-        r.early.select(last, position.sheet)
+        r.early.select(self.where_placed(r, last), position.sheet)
+    }
+
+    /// The sheet's resistance at the pad's last place, nothing where it has none.
+    #[inline(always)]
+    fn where_placed<V: Interpretation>(&self, r: &Regs<V>, last: Signal<V>) -> Signal<V> {
+        marks::is_marked(r.placed, r.pad).select(last, zero(last.format))
+    }
+
+    /// Pads with a place after this clock.
+    #[inline(always)]
+    fn placed<V: Interpretation>(
+        &self,
+        r: &Regs<V>,
+        i: &In<V>,
+        pad: Signal<V>,
+        found: Signal<V>,
+    ) -> Signal<V> {
+        if !self.prompts {
+            return r.placed;
+        }
+        marks::unless(i.clear, marks::written(r.placed, (found, pad), bit(true)))
     }
 
     /// Whether the prompt estimate is under way.

@@ -137,10 +137,16 @@ impl FixedLoop {
         let (state, idle) = (drives.reset(), idle(&drives, tuning));
         let core = FixedSimulation::new(profile, calibration);
         let mut of = FixedLoop { core, drives, state, idle };
+        of.tick();
         for write in curve_writes(of.drives.inputs().tuning, tuning) {
             of.clock(drives::Inputs { tuning: write, ..of.idle });
         }
         Ok(of)
+    }
+
+    /// A millisecond has passed, by which a silent host is missed; the first is over when a loop begins.
+    pub fn tick(&mut self) {
+        self.clock(drives::Inputs { tick: 1, ..self.idle });
     }
 
     /// Sets a pad's target force, N.
@@ -284,6 +290,7 @@ impl ClockLoop {
             block,
         };
         of.calibrate(profile, calibration, tuning);
+        of.tick();
         of.blank();
         Ok(of)
     }
@@ -302,6 +309,11 @@ impl ClockLoop {
             let tuning = signals::<controller::Tuning, i64>(write, formats.tuning);
             self.block.step(&mut self.state.block, Inputs { tuning, ..self.inputs });
         }
+    }
+
+    /// As [`FixedLoop::tick`].
+    pub fn tick(&mut self) {
+        self.step(Inputs { tick: bit(true), ..self.inputs });
     }
 
     /// Sets a pad's target force, N.

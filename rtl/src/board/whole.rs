@@ -35,7 +35,7 @@ use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::{BIT, Format};
 use hapticore_hdl::memory::{Memory, Write};
-use hapticore_hdl::signal::{Clocked, Signal, Wrap, bit, int, zero};
+use hapticore_hdl::signal::{Clocked, Proved, Signal, Wrap, bit, int, zero};
 use hapticore_hdl::{block, call};
 use hapticore_model::blocks::core::{self, Core};
 use hapticore_model::blocks::estimator::Calibration;
@@ -45,7 +45,10 @@ use hapticore_protocol::register::LINES;
 
 block! {
     /// The board: the core with its converters, commands and packets.
-    pub struct Board("board") {}
+    pub struct Board("board") {
+        /// Clocks of a millisecond.
+        tick_clocks: u64,
+    }
     submodules {
         receiver: Receiver,
         registers: CommandRegisters,
@@ -96,8 +99,10 @@ block! {
         shift: BIT,
         late: BIT,
         driven as DrivenPort: board.stream.inputs().driven,
+        /// Clocks until the next tick of the time in which a silent host is missed.
+        to_tick: board.to_tick(),
         /// The controller's drives begin from zero.
-        stale: BIT.where_present(board.drive_output.is_some()),
+        stale: BIT.where_present(board.force_loop.is_some()),
         /// Frames until a terminal counts as connected again.
         open: board.open(),
     }
@@ -145,6 +150,7 @@ impl Board {
         };
         let sets = 1usize << reader.outputs().address.width;
         Ok(Board {
+            tick_clocks: parameters.clock_hz / 1000,
             receiver: Receiver::new(parameters.divisor()),
             stream: Stream::new(profile, parameters.divisor(), data, parameters.output().as_ref()),
             line_test: LineTest::new(registers.outputs().line, profile.formats.adc),
@@ -158,6 +164,10 @@ impl Board {
             core: force_loop.is_none().then_some(core),
             force_loop,
         })
+    }
+
+    fn to_tick(&self) -> Format {
+        Format::counter(self.tick_clocks - 1).where_present(self.force_loop.is_some())
     }
 
     /// The core's configuration.
@@ -234,6 +244,16 @@ impl Board {
         Measured { core, driven: r.driven, dac, stale: r.stale, open: r.open }
     }
 
+    /// Clocks until the next tick, after this clock: the first tick is that of the first clock.
+    #[inline(always)]
+    fn next_tick<V: Interpretation>(&self, r: &Regs<V>) -> Signal<V> {
+        if r.to_tick.format.is_none() {
+            return r.to_tick;
+        }
+        let down = (r.to_tick - int(1)).bits(0, r.to_tick.format.width);
+        r.to_tick.is(0).select(int(self.tick_clocks - 1), down).resize(r.to_tick.format, Proved)
+    }
+
     /// The force loop, as commands have set it, and its drive.
     #[inline(always)]
     fn drive<V: Interpretation>(
@@ -262,6 +282,8 @@ impl Board {
             target: set.target,
             tuning: set.tuning,
             wall: set.wall,
+            drives_clear: r.stale,
+            tick: r.to_tick.is(0),
             extremes_read: bit(false),
         };
         let of_loop = block.call("force_loop", state, inputs);
@@ -389,7 +411,8 @@ impl Block for Board {
         };
         let stream = call!(self.stream, state, inputs);
         let late = registers.enable & (r.late | adc.late);
-        state.store(self, Registers { shift, late, driven, stale, open });
+        let to_tick = self.next_tick(&r);
+        state.store(self, Registers { shift, late, driven, to_tick, stale, open });
         Outputs {
             convst: adc.convst,
             cs_n: adc.cs_n,

@@ -11,7 +11,7 @@ use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::Format;
 use hapticore_model::blocks::controller::Faults;
 use hapticore_rtl::board::drive_output::serial::Frame;
-use hapticore_rtl::board::drive_output::{Converter, DacPort, DriveOutput, Inputs, Wave};
+use hapticore_rtl::board::drive_output::{self, Converter, DacPort, DriveOutput, Inputs, Wave};
 use std::f64::consts::TAU;
 
 const DRIVE: Format = Format::unsigned(16, 16);
@@ -124,7 +124,8 @@ struct Rig {
     pads: u64,
     enable: i64,
     fault: i64,
-    drives_clear: i64,
+    /// How often the force loop was to begin anew.
+    cleared: i64,
     pulses: Vec<u64>,
     /// The bits behind a path of `TAU_CLOCKS`, of the range.
     filtered: Vec<f64>,
@@ -146,7 +147,7 @@ impl Rig {
             pads,
             enable: 1,
             fault: 0,
-            drives_clear: 0,
+            cleared: 0,
             pulses,
             filtered,
         }
@@ -164,9 +165,8 @@ impl Rig {
             faults: Faults { force_fault: self.fault, ..Faults::of(0) },
         };
         self.clock += 1;
-        let outputs = self.bench.clock(inputs);
-        let pins = outputs.dac;
-        self.drives_clear = outputs.drives_clear;
+        let drive_output::Outputs { dac: pins, drives_clear } = self.bench.clock(inputs);
+        self.cleared += drives_clear;
         match self.converter {
             Converter::Serial(frame) => self.dac.serial(&frame, pins),
             Converter::Parallel { .. } => self.dac.parallel(pins),
@@ -435,14 +435,13 @@ fn live_falls_and_the_controller_is_told_when_words_are_stale() {
     let mut rig = Rig::new([4, 1], Wave::Dc, Converter::Serial(Frame::AD5664R));
     (0..4).for_each(|pad| rig.clock(Some((pad, 20_000))));
     until_live(&mut rig);
-    let (mut cleared, from) = (0, rig.clock);
+    let from = rig.clock;
     while rig.dac.pins.dac_live != 0 {
         assert!(rig.clock - from <= STALE, "live with stale words");
         rig.wait(1);
-        cleared += rig.drives_clear;
     }
     rig.wait(STALE);
-    assert_eq!(cleared, 1, "once, before live falls");
+    assert_eq!(rig.cleared, 1, "once, before live falls");
 }
 
 #[test]
@@ -462,7 +461,8 @@ fn words_are_stale_after_a_tenth_of_a_second_whatever_a_frame_is() {
         let mut rig = Bench::new(block.expect("a drive output"));
         let idle = Inputs { enable: 1, ..Inputs::of(0) };
         rig.clock(Inputs { drive_valid: 1, drive: 1_000, ..idle });
-        (1..).find(|_| rig.clock(idle).drives_clear != 0).expect("it comes")
+        // The cycle after the last in which the word counts.
+        (0..).find(|_| rig.clock(idle).drives_clear != 0).expect("it comes")
     };
     let short = stale(profile.slot.settle, 25_000_000);
     assert_eq!(short, 16 * profile.slot_clocks(), "four frames of four pads");
@@ -478,9 +478,9 @@ fn without_drive_words_all_channels_go_to_zero_and_a_word_ends_that() {
     let mut rig = Rig::new([4, 1], Wave::Dc, Converter::Parallel { bits: 16 });
     (0..4).for_each(|pad| rig.clock(Some((pad, 20_000))));
     rig.wait(STALE - 1);
-    assert_eq!(rig.codes(4), [20_000; 4]);
+    assert_eq!((rig.codes(4), rig.cleared), (vec![20_000; 4], 0));
     rig.wait(WRITTEN);
-    assert_eq!(rig.codes(4), [0; 4]);
+    assert_eq!((rig.codes(4), rig.cleared), (vec![0; 4], 1), "the loop begins anew, once");
     rig.clock(Some((3, 20_000)));
     rig.wait(WRITTEN);
     assert_eq!(rig.codes(4), [0, 0, 0, 20_000]);

@@ -238,13 +238,16 @@ fn a_fault_takes_drives_to_zero_is_told_and_stays_until_it_is_cleared() {
 #[test]
 fn a_host_that_falls_silent_takes_drives_to_zero() {
     let mut profile = controlled(0, Law::Open, None);
-    profile.control.as_mut().expect("a controller").silent_frames = 16;
+    // Sixteen slots.
+    let clocks_per_ms = drives(&profile).clock_hz / 1000;
+    let silent_ms = (16 * profile.slot_clocks()).div_ceil(clocks_per_ms);
+    profile.control.as_mut().expect("a controller").silent_ms = silent_ms;
     let mut session = Session::new(&profile, drives(&profile), &tones(&profile));
     session.send(&commands(&profile, &tuning(&profile)));
     session.send(&[Command::ENABLE]);
-    let driven = later(&mut session, 14);
+    let driven = later(&mut session, 12);
     assert!(!driven.faults.silence && codes(&session, 4)[1] > ZERO, "within its time: {driven:?}");
-    assert!(later(&mut session, 12).faults.silence, "then it is a fault");
+    assert!(later(&mut session, 8).faults.silence, "then it is a fault");
     assert_eq!(codes(&session, 4), [ZERO; 4]);
     session.send(&[drive::clear_faults()]);
     assert!(!later(&mut session, 6).faults.any());

@@ -38,8 +38,8 @@ pub struct WallAlong {
     wall: Wall,
     /// Place of the last valid frame.
     pub place: Option<Exact>,
-    /// The wall's surface, and whether the wall is right of it, or above it.
-    pub surface: (Exact, bool),
+    /// The wall's surface, and whether the wall is right of it, or above it; without one there is no wall.
+    pub surface: Option<(Exact, bool)>,
 }
 
 /// One split pad and its walls.
@@ -63,8 +63,7 @@ impl SplitPads {
     pub fn new(profile: &Profile) -> Self {
         let f = &profile.formats;
         let rule = profile.wall.expect("a profile with walls");
-        let along =
-            |_| WallAlong { wall: Wall::new(profile), place: None, surface: (Exact::ZERO, false) };
+        let along = |_| WallAlong { wall: Wall::new(profile), place: None, surface: None };
         SplitPads {
             parts: rule.parts,
             position: f.position,
@@ -123,11 +122,12 @@ impl SplitPads {
 
 impl WallAlong {
     fn frame(&mut self, sides: [Exact; 2], position: Format, port: WallFrame) -> WallResult {
-        let (surface, mirrored) = self.surface;
+        let (surface, mirrored) = self.surface.unwrap_or((Exact::ZERO, false));
         let depth = self.place.unwrap_or(Exact::ZERO) - surface;
-        let [left, right] = if self.place.is_some() { sides } else { [Exact::ZERO; 2] };
+        let met = self.place.is_some() && self.surface.is_some();
+        let [left, right] = if met { sides } else { [Exact::ZERO; 2] };
         let frame = WallFrame {
-            restart: port.restart | self.place.is_none(),
+            restart: port.restart | !met,
             parts: if mirrored { [right, left] } else { [left, right] },
             x: round(if mirrored { -depth } else { depth }, position).value,
             factory: if mirrored { round(-port.factory, U).value } else { port.factory },

@@ -21,9 +21,9 @@ pub(super) struct Found<V> {
     pub rises: Signal<V>,
     /// Of the pad: invalid estimates in a row.
     pub invalid: Signal<V>,
-    /// Of the pad: its drive word.
+    /// Of the pad: its drive word, at most the rail.
     pub last: Signal<V>,
-    /// Of the pad: both, as they are in its memory.
+    /// Of the pad: both, as they are in its memory, zero where it is not known.
     pub pad_word: Signal<V>,
     /// Of the pad: what corrects its curve.
     pub correction: Signal<V>,
@@ -228,8 +228,8 @@ impl Controller {
         against.select(lets.select(limit, before), r.correction)
     }
 
-    /// The drive word: as wanted where drives are on and the estimate is valid, but no further from
-    /// the last than the slew limit. Zero at once where the pad is lifted.
+    /// The drive word: as wanted where the estimate is valid, but no further from the last than the slew limit;
+    /// zero where it is void or the pad is lifted.
     #[inline(always)]
     pub(super) fn limited<V: Interpretation>(
         &self,
@@ -237,12 +237,11 @@ impl Controller {
         i: &In<V>,
         last: Signal<V>,
     ) -> Signal<V> {
-        let valid = i.invalid.select(last, r.wanted);
-        let to = self.off(r, i).select(zero(self.drive), valid);
+        let to = i.invalid.select(last, r.wanted);
         let up = r.most.less_than(to).select(r.most, to);
         let down = to.less_than(r.least).select(r.least, to);
         let slewed = last.less_than(to).select(up, down);
-        i.lifted.select(zero(self.drive), slewed)
+        (r.void | i.lifted).select(zero(self.drive), slewed)
     }
 
     /// The least and the largest drive word that the slew limit allows after the last. While the pad

@@ -46,12 +46,21 @@ impl Pair {
         let mut quiet = Inputs::of(0);
         quiet.wall.wall_stiffness = formats.wall.wall_stiffness.code_saturating(0.5);
         quiet.wall.wall_most = formats.wall.wall_most.code_saturating(1.0);
-        Pair {
+        let mut pair = Pair {
             parts: profile.wall.unwrap().parts as usize,
             pads: [0, 1].map(|_| SplitPads::new(profile)),
             bench: Bench::new(block),
             formats,
             quiet,
+        };
+        pair.walls();
+        pair
+    }
+
+    /// Walls on the left of 0 mm.
+    fn walls(&mut self) {
+        for pad in 0..2 {
+            (0..self.axes()).for_each(|axis| self.surface(pad, axis, 0, false));
         }
     }
 
@@ -70,7 +79,7 @@ impl Pair {
         (write.wall.wall_surface, write.wall.wall_right) = (code, right.into());
         self.bench.clock(write);
         let surface = Exact::of(code, self.formats.wall.wall_surface);
-        self.pads[pad].axes[axis].surface = (surface, right);
+        self.pads[pad].axes[axis].surface = Some((surface, right));
     }
 
     fn place(&mut self, pad: usize, axis: usize, code: i64) {
@@ -230,8 +239,8 @@ fn what_is_kept_has_a_word_for_every_number_of_a_part() {
             let block =
                 SplitPad::try_new(&Profile { pads: pads * parts, ..profile.clone() }).unwrap();
             let words = ((pads * parts) as usize).next_power_of_two();
-            let kept = [&block.places, &block.surfaces, &block.rests].map(|of| of.words);
-            assert_eq!((block.parts(), kept), (parts, [words; 3]), "{pads} pads");
+            let kept = [&block.places, &block.surfaces].map(|of| of.words);
+            assert_eq!((block.parts(), kept), (parts, [words; 2]), "{pads} pads");
         }
     }
 }
@@ -324,6 +333,44 @@ fn a_pad_that_has_no_place_yet_meets_no_wall() {
     }
 }
 
+/// Memories hold place and surface all the while.
+#[test]
+fn a_wall_is_forgotten_with_a_reset_and_its_place_with_every_clear() {
+    for profile in profiles() {
+        let acts =
+            |pair: &mut Pair, parts: &[(i64, i64, [bool; 2])]| pair.frame(0, parts, false).target > 0;
+        let forget = |pair: &mut Pair, surfaces: bool| {
+            for axis in &mut pair.pads[0].axes {
+                axis.place = None;
+                axis.surface = axis.surface.filter(|_| !surfaces);
+            }
+            pair.pads[0].rests = false;
+        };
+        let (mut pair, parts, _) = pushed(&profile);
+        let deep = pair.formats.place.code_saturating(-1.0);
+        pair.bench.press_reset();
+        forget(&mut pair, true);
+        assert!(!acts(&mut pair, &parts), "reset: neither place nor wall");
+        pair.place_on_all(0, deep);
+        assert!(!acts(&mut pair, &parts), "a place, but no wall");
+        pair.walls();
+        assert!(acts(&mut pair, &parts), "both");
+        pair.bench.clock(Inputs { clear: 1, ..pair.quiet });
+        forget(&mut pair, false);
+        assert!(!acts(&mut pair, &parts), "cleared: no place");
+        pair.place_on_all(0, deep);
+        assert!(acts(&mut pair, &parts), "the wall is as it was");
+        pair.bench.clock(Inputs { clear: 1, begins_anew: 1, ..pair.quiet });
+        forget(&mut pair, true);
+        pair.place_on_all(0, deep);
+        assert!(!acts(&mut pair, &parts), "the wall is gone");
+    }
+}
+
+fn rarely(random: &mut Random) -> i64 {
+    i64::from(random.below(200) == 0)
+}
+
 #[test]
 fn skipping_changes_no_bit_on_any_clock() {
     for profile in profiles() {
@@ -338,6 +385,7 @@ fn skipping_changes_no_bit_on_any_clock() {
             inputs.placed_pad %= profile.pads as i64;
             inputs.wall.wall_pad %= profile.pads as i64;
             inputs.estimate = i64::from(clock % apart == 0);
+            (inputs.clear, inputs.begins_anew) = (rarely(&mut random), rarely(&mut random));
             assert_eq!(skips.clock(inputs), never.clock(inputs), "clock {}", skips.clock);
         }
     }

@@ -148,7 +148,7 @@ block! {
     }
     outputs(block) {
         dac as DacPort: block.pins(),
-        /// Asserted for one cycle when drive words have become stale: the controller's begin from zero.
+        /// Asserted for one cycle once the last drive word is stale: the force loop begins anew, at zero.
         drives_clear: BIT,
     }
     registers(block) {
@@ -175,6 +175,8 @@ block! {
         polarity: block.mask(),
         /// The output was off.
         off: BIT,
+        /// The last drive word has become stale.
+        stale: BIT,
         live: BIT,
     }
 }
@@ -470,11 +472,12 @@ impl Block for DriveOutput {
             given_negative: r.asked.select(known & negative, r.given_negative),
             polarity: self.mask_of(has_turned),
             off,
+            stale: r.fresh.is(1) & !i.drive_valid,
             live: !off & !set_up & (r.live | (all & written & !r.asked)),
         };
         state.store(self, registers);
         let dac = DacPort { dac_polarity: r.polarity, dac_live: r.live, ..pins };
-        Outputs { dac, drives_clear: r.fresh.is(1) & !i.drive_valid }
+        Outputs { dac, drives_clear: r.stale }
     }
 }
 
