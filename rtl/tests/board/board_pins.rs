@@ -9,29 +9,17 @@ use hapticore_rtl::board::drive_output::serial::Frame;
 use hapticore_rtl::board::drive_output::{Converter, Wave};
 use std::collections::BTreeMap;
 
-/// Sites of a connector, in its order; `-` where a pin is none.
-struct Connector(&'static str, &'static str);
-
 /// Both rows of the ULX3S's header, number by number: gp and gn.
-const ULX3S_HEADER: [Connector; 2] = [
-    Connector(
-        "gp",
-        "B11 A10 A9 B9 A7 C8 C6 A6 A4 A2 C4 F4 G3 H4 U18 N17 N16 L16 H18 F17 D18 C18 B15 B17 C16 D14 B13 D13",
-    ),
-    Connector(
-        "gn",
-        "C11 A11 B10 C10 A8 B8 C7 B6 A5 B1 B4 E3 F3 G5 U17 P16 M17 L17 H17 G18 E17 D17 C15 C17 D16 E14 C13 E13",
-    ),
+const ULX3S_HEADER: [&str; 2] = [
+    "B11 A10 A9 B9 A7 C8 C6 A6 A4 A2 C4 F4 G3 H4 U18 N17 N16 L16 H18 F17 D18 C18 B15 B17 C16 D14 B13 D13",
+    "C11 A11 B10 C10 A8 B8 C7 B6 A5 B1 B4 E3 F3 G5 U17 P16 M17 L17 H17 G18 E17 D17 C15 C17 D16 E14 C13 E13",
 ];
 /// Pins that the ESP32 shares, or the ADC on the board.
 const ULX3S_SHARED: &str = "F4 E3 G3 F3 H4 G5 U18 U17 N17 P16 N16 M17 L16 L17";
 
-/// The iCEBreaker's connectors, pins 1 to 4 and 7 to 10.
-const ICEBREAKER_HEADER: [Connector; 3] = [
-    Connector("1a", "4 2 47 45 3 48 46 44"),
-    Connector("1b", "43 38 34 31 42 36 32 28"),
-    Connector("2", "27 25 21 19 26 23 20 18"),
-];
+/// The iCEBreaker's connectors 1A, 1B and 2, pins 1 to 4 and 7 to 10.
+const ICEBREAKER_HEADER: [&str; 3] =
+    ["4 2 47 45 3 48 46 44", "43 38 34 31 42 36 32 28", "27 25 21 19 26 23 20 18"];
 /// Buttons of the break-off board, active high, at PMOD 2: pins 9, 4 and 10.
 const ICEBREAKER_BUTTONS: &str = "20 19 18";
 
@@ -74,7 +62,7 @@ fn is_among(sites: &str, site: &str) -> bool {
 fn check(
     text: &str,
     own: &[(&str, &str)],
-    header: &[Connector],
+    header: &[&str],
     forbidden: impl Fn(&str, &str) -> bool,
 ) {
     let sites = sites(text);
@@ -85,7 +73,7 @@ fn check(
             assert_eq!(site, expected, "{port}");
             continue;
         }
-        let connector = header.iter().find(|connector| is_among(connector.1, site));
+        let connector = header.iter().find(|connector| is_among(connector, site));
         assert!(connector.is_some(), "{port}: {site} is on no connector");
         assert!(!forbidden(port, site), "{port}: {site} is not free");
     }

@@ -6,8 +6,6 @@ use crate::bench::Bench;
 use crate::random::Random;
 use hapticore_contract::control::{Control, Law};
 use hapticore_contract::profile::Profile;
-use hapticore_hdl::block::Block;
-use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::Format;
 use hapticore_model::blocks::controller::Faults;
 use hapticore_rtl::board::drive_output::serial::Frame;

@@ -24,7 +24,7 @@ fn a_heartbeat_tells_words_that_were_written_or_ends_early() {
         let data = CommandRegisters::new(Core::new(&profile).inputs().calibration, 100, None)
             .outputs()
             .data;
-        let stream = Stream::new(&profile, DIVISOR, data);
+        let stream = Stream::new(&profile, DIVISOR, data, None);
         let quiet = stream::Inputs::map(stream.inputs(), |_| 0);
         let (mut bench, mut host) = (Bench::new(stream), Host::new(DIVISOR));
         let (mut written, mut place, mut word, mut wait) =

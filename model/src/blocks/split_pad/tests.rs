@@ -337,8 +337,9 @@ fn a_pad_that_has_no_place_yet_meets_no_wall() {
 #[test]
 fn a_wall_is_forgotten_with_a_reset_and_its_place_with_every_clear() {
     for profile in profiles() {
-        let acts =
-            |pair: &mut Pair, parts: &[(i64, i64, [bool; 2])]| pair.frame(0, parts, false).target > 0;
+        let acts = |pair: &mut Pair, parts: &[(i64, i64, [bool; 2])]| {
+            pair.frame(0, parts, false).target > 0
+        };
         let forget = |pair: &mut Pair, surfaces: bool| {
             for axis in &mut pair.pads[0].axes {
                 axis.place = None;
