@@ -71,6 +71,8 @@ const HDL: &str = "Examples:
   hapticore hdl --calibration mine.toml --out verilog
   hapticore hdl --profile fast --control inverse --dac ad5664 --out verilog
 
+A print takes the place of an earlier one in its folder. Names of modules begin with hapticore_ and the profile's name.
+
 Exit status: 0 done, 2 bad input.";
 
 const TRADEOFF: &str = "Each word of the profile is made longer and shorter, and the window too, one after the other. Errors are RMS, of the core
@@ -239,13 +241,15 @@ pub struct CalibrateArgs {
 
 const CODES: &str = "csv: name, address, code, value, format; constants have no address. readmemh: two's complement in hexadecimal, a word a
 line, the position table from address 0 on and the constants behind it, in the order in which they stand there. c: a header.
-All begin with comments that say what they are of.
+All begin with comments that say what they are of. Of a profile with a force controller its words follow: settings, then curve,
+targets and, where the profile has walls, surfaces.
 
 Terminals and pads of a bundled profile become those of the calibration, as with `hapticore hdl --calibration FILE`.
 
 Examples:
   hapticore codes --calibration mine.toml --format readmemh --out codes.hex
   hapticore codes --profile small --calibration mine.toml --format c > codes.h
+  hapticore codes --profile out/fig9/profile.toml --tuning out/fig9/tuning.toml
 
 Exit status: 0 done, 2 bad input.";
 
@@ -259,6 +263,10 @@ pub struct CodesArgs {
     /// The device's calibration [default: the paper's display's]
     #[arg(long, value_name = "FILE")]
     pub calibration: Option<PathBuf>,
+    /// The tuning of the profile's force controller, as `simulate` writes it beside a scene's frames
+    /// [default: all words as after a reset, which drive nothing]
+    #[arg(long, value_name = "FILE")]
+    pub tuning: Option<PathBuf>,
     /// What is printed
     #[arg(long, value_enum, default_value_t = CodesFormat::Csv)]
     pub format: CodesFormat,

@@ -44,7 +44,7 @@ fn a_copy_of_the_printed_core_passes_and_a_changed_line_is_named() {
     assert_eq!(status, Some(0), "{text}");
     assert!(text.starts_with("small: ") && text.ends_with(" clocks equal\n"), "{text}");
     let (text, status) =
-        run_example(&["--icarus"], "hapticore.v", "assign carrier = ", "assign carrier = ~");
+        run_example(&["--icarus"], "hapticore_small.v", "assign carrier = ", "assign carrier = ~");
     assert_eq!(status, Some(1), "{text}");
     assert!(text.contains("hockey: clock ") && text.contains(": carrier: model 0x"), "{text}");
 }

@@ -364,6 +364,11 @@ impl Case<'_> {
         Ok(self.tuned.get_or_init(|| tuned).clone())
     }
 
+    /// The tuning that the case was run with, where the scene has a controller and the case has been run.
+    pub fn tuned(&self) -> Option<&Tuning> {
+        self.tuned.get()?.as_ref()
+    }
+
     fn tune(&self, plant: &Plant) -> Result<Option<Tuning>> {
         let (Some(plan), Some(control)) = (self.plan(), &self.profile.control) else {
             return Ok(None);

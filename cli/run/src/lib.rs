@@ -40,3 +40,4 @@ pub mod number;
 pub mod provenance;
 pub mod record;
 pub mod session;
+pub mod tuning_file;

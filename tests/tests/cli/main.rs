@@ -11,6 +11,7 @@ mod knobs;
 mod lab;
 mod lifted;
 mod messages;
+mod printed_loop;
 mod recorders;
 mod runs;
 mod stability;

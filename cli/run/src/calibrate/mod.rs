@@ -5,7 +5,7 @@ pub mod bench;
 pub mod random;
 
 use anyhow::{Result, anyhow};
-use hapticore_contract::profile::Profile;
+use hapticore_contract::profile::{ForceLaw, Profile};
 use hapticore_host::device::{CONTACT_SHARE, Force};
 use hapticore_host::{DeviceCalibration, Raster, Scales, Signs, open_share};
 use hapticore_scene::{ForcePoint, Plant, Scene};
@@ -85,5 +85,7 @@ pub fn nominal(profile: &Profile) -> Result<DeviceCalibration> {
         let terminals = profile.terminals.x.len();
         anyhow!("expected --calibration FILE: the paper's display has six terminals, the profile {terminals}")
     })?;
-    Ok(DeviceCalibration { pads: profile.pads, parts: 1, ..of_plant(&plant, profile) })
+    // Without a bench the force is that of eq. 8, as a table where the profile has one.
+    let force = (profile.force.law == ForceLaw::Table).then(Force::default);
+    Ok(DeviceCalibration { pads: profile.pads, parts: 1, force, ..of_plant(&plant, profile) })
 }
