@@ -167,7 +167,7 @@ fn a_bad_scene_is_one_line_that_names_line_and_key() {
         ("load = 20", "bad.toml:4: pad.0.load: expected load_g, since a key names its unit"),
         (
             "[gap]\ninsulator_um = -8",
-            "bad.toml:5: gap.insulator_um: expected a number above 0, got -8",
+            "bad.toml:5: gap.insulator_um: expected a number from 0.01 to 10000, got -8",
         ),
         (
             "load_g = { timeline = [] }",
