@@ -294,9 +294,6 @@ pub struct HdlArgs {
     /// Prints the core with a force controller of this law [default: as the profile has it]
     #[arg(long, value_name = "open|proportional|integral|inverse")]
     pub control: Option<String>,
-    /// Folds controller and walls onto one arithmetic unit: less area, more clocks, the same drive words
-    #[arg(long)]
-    pub folded: bool,
     /// Prints the pins of a converter for the controller's drives: one bit of sigma-delta per pad, a
     /// serial converter of 4 or 8 channels, or a word of 16 bits with address and write strobe
     #[arg(long, value_name = "pulses|ad5664|ad5668|parallel")]

@@ -40,7 +40,6 @@ pub fn run(args: &HdlArgs) -> Result<bool> {
         Some(law) => with_controller(profile, law)?,
         None => profile,
     };
-    let profile = if args.folded { folded(profile)? } else { profile };
     let drive = args.dac.as_deref().map(|dac| drive(&profile, dac, &args.wave)).transpose()?;
     let printed = board.map(|board| print_board(board, &profile, drive)).transpose()?;
     let options = format!("--dac {} --wave {}", args.dac.as_deref().unwrap_or(""), args.wave);
@@ -65,13 +64,6 @@ fn with_controller(profile: Profile, name: &str) -> Result<Profile> {
     })?;
     let control = Control { law, ..profile.control.clone().unwrap_or(Control::of(&profile, law)) };
     inputs::buildable(Profile { control: Some(control), ..profile })
-}
-
-/// The profile with controller and walls on one arithmetic unit.
-fn folded(profile: Profile) -> Result<Profile> {
-    let control = profile.control.clone();
-    let control = control.context("--folded: expected a force controller too: --control LAW")?;
-    inputs::buildable(Profile { control: Some(Control { folded: true, ..control }), ..profile })
 }
 
 /// The converter of a profile's force loop, and its wave.

@@ -36,8 +36,7 @@ pub fn design(profile: &Profile) -> Design {
     };
     if let Some(control) = &profile.control {
         let force_loop = ForceLoop::try_new(profile).unwrap_or_else(|error| panic!("{error}"));
-        let folded = if control.folded { " --folded" } else { "" };
-        heading.command += &format!(" --control {}{folded}", control.law.name());
+        heading.command += &format!(" --control {}", control.law.name());
         heading.interface.extend(interface_of_loop(&force_loop));
     }
     let netlist = netlist::of_profile(profile).unwrap_or_else(|error| panic!("{error}"));

@@ -27,10 +27,10 @@ pub struct Loop {
     pub placed: bool,
 }
 
-/// What is added to a core: the controller's law, walls, both folded onto one unit; whether it is placed.
-type Added = (Option<Law>, Option<Wall>, bool, bool);
+/// What is added to a core: the controller's law, walls; whether it is placed.
+type Added = (Option<Law>, Option<Wall>, bool);
 
-const NOTHING: Added = (None, None, false, false);
+const NOTHING: Added = (None, None, false);
 /// Pads in two parts: those of every bundled profile are four.
 const WALLS: Option<Wall> = Some(Wall::B);
 
@@ -41,22 +41,15 @@ const LOOPS: [(&str, Family, &[Added]); 2] = [
         Family::Ice40,
         &[
             NOTHING,
-            (Some(Law::Inverse), None, false, false),
-            (Some(Law::Integral), None, false, false),
-            (Some(Law::Inverse), WALLS, false, true),
-            (Some(Law::Inverse), None, true, false),
-            (Some(Law::Inverse), WALLS, true, true),
+            (Some(Law::Inverse), None, false),
+            (Some(Law::Integral), None, false),
+            (Some(Law::Inverse), WALLS, true),
         ],
     ),
     (
         "standard",
         Family::Ecp5,
-        &[
-            NOTHING,
-            (Some(Law::Inverse), None, false, false),
-            (Some(Law::Inverse), WALLS, false, true),
-            (Some(Law::Inverse), WALLS, true, true),
-        ],
+        &[NOTHING, (Some(Law::Inverse), None, false), (Some(Law::Inverse), WALLS, true)],
     ),
 ];
 
@@ -73,13 +66,12 @@ impl Loop {
         LOOPS.into_iter().flat_map(of).collect()
     }
 
-    fn of(profile: &Profile, family: Family, (law, wall, folded, placed): Added) -> Loop {
+    fn of(profile: &Profile, family: Family, (law, wall, placed): Added) -> Loop {
         let mut profile = profile.clone();
-        profile.control = law.map(|law| Control { folded, ..Control::of(&profile, law) });
+        profile.control = law.map(|law| Control::of(&profile, law));
         profile.wall = wall;
         let law = law.map_or("core alone", Law::name);
-        let names = [Some(law), wall.map(|_| "walls"), folded.then_some("folded")];
-        let adds = names.into_iter().flatten().collect::<Vec<_>>().join(", ");
+        let adds = format!("{law}{}", if wall.is_some() { ", walls" } else { "" });
         Loop { profile, adds, family, placed }
     }
 
@@ -159,7 +151,7 @@ pub struct LoopsReport {
 }
 
 /// Modules of the loop, the core's apart.
-const OF_LOOP: [&str; 5] = ["arithmetic_unit", "controller", "drives", "split_pad", "wall"];
+const OF_LOOP: [&str; 4] = ["controller", "drives", "split_pad", "wall"];
 
 impl LoopsReport {
     /// The report as Markdown.

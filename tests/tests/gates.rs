@@ -77,23 +77,7 @@ fn gates_close_the_loop_as_the_model_does(
     println!("{family}, {profile}: {} clocks of a force loop equal in gates", trace.clocks());
 }
 
-/// Controller and walls on one arithmetic unit.
-fn folded_at_a_wall(profile: &Profile) -> Closed {
-    let control = Control { folded: true, ..Control::of(profile, Law::Inverse) };
-    Closed::at_a_wall(&Profile { control: Some(control), ..profile.clone() })
-}
-
-#[test]
-fn ice40_gates_run_a_folded_wall_as_the_model_does() {
-    gates_close_the_loop_as_the_model_does("ice40", "small", folded_at_a_wall);
-}
-
-#[test]
-fn ecp5_gates_run_a_folded_wall_as_the_model_does() {
-    gates_close_the_loop_as_the_model_does("ecp5", "small", folded_at_a_wall);
-}
-
-/// Not on iCE40: walls of their own fit no such part.
+/// Not on iCE40: walls fit no such part.
 #[test]
 fn ecp5_gates_run_a_wall_as_the_model_does() {
     gates_close_the_loop_as_the_model_does("ecp5", "small", Closed::at_a_wall);

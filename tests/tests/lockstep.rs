@@ -315,7 +315,6 @@ fn verilator_runs_a_wall_as_the_model_does() {
     for name in ["small", "standard"] {
         runs_a_wall(name, &Profile::bundled(name).expect("bundled"));
     }
-    runs_a_wall("standard, folded", &folded("standard"));
 }
 
 fn runs_a_wall(name: &str, profile: &Profile) {
@@ -329,39 +328,23 @@ fn runs_a_wall(name: &str, profile: &Profile) {
     }
 }
 
-/// A bundled profile whose controller and walls are folded onto one arithmetic unit.
-fn folded(name: &str) -> Profile {
-    let mut profile = Profile::bundled(name).expect("bundled");
-    let control = Control { folded: true, ..Control::of(&profile, Law::Inverse) };
-    profile.control = Some(control);
-    profile
-}
-
 /// A pad that is split in four, in the corner of two walls.
 #[test]
 fn verilator_runs_walls_along_both_axes_as_the_model_does() {
     if !tools::have(&["verilator", "make", "g++"]) {
         return;
     }
-    for (kind, profile) in
-        [("own", Profile::bundled("small").expect("bundled")), ("folded", folded("small"))]
-    {
-        let driven = runs_walls_along_both_axes(kind, &profile);
-        let targets: BTreeSet<_> = driven.iter().map(|(_, target)| target).collect();
-        assert!(targets.len() > 2, "walls along both axes make targets of their own: {targets:?}");
-    }
-}
-
-/// The drive words, and the forces that they are for.
-fn runs_walls_along_both_axes(kind: &str, profile: &Profile) -> Vec<(i64, i64)> {
-    let (design, trace) = Closed::in_a_corner(profile).record();
+    let (design, trace) =
+        Closed::in_a_corner(&Profile::bundled("small").expect("bundled")).record();
     assert!(of_port(&trace, "drive").into_iter().any(|drive| drive > 0), "the walls hold the pad");
     let verilated = Verilated::new(design.top(), &design.ports, &design.text(), Start::Zero);
     if let Err(mismatch) = verilated.check(&trace) {
-        panic!("{kind}: {mismatch}");
+        panic!("{mismatch}");
     }
-    println!("small, quadrants, {kind}: {} clocks equal", trace.clocks());
-    driven(&trace)
+    println!("small, quadrants: {} clocks equal", trace.clocks());
+    let driven = driven(&trace);
+    let targets: BTreeSet<_> = driven.iter().map(|(_, target)| target).collect();
+    assert!(targets.len() > 2, "walls along both axes make targets of their own: {targets:?}");
 }
 
 /// The drive words of a trace, and the forces that they are for.
@@ -457,9 +440,9 @@ fn icarus_runs_each_law_of_the_controller_as_the_model_does() {
     }
 }
 
-/// Controller and walls on one arithmetic unit, of each law, their operands anywhere.
+/// Controller and walls of each law, their operands anywhere.
 #[test]
-fn icarus_runs_folded_drives_as_the_model_does() {
+fn icarus_runs_drives_as_the_model_does() {
     if !tools::have(&["iverilog", "vvp"]) {
         return;
     }
@@ -467,8 +450,8 @@ fn icarus_runs_folded_drives_as_the_model_does() {
     let quadrants = (Law::Inverse, Some(profile::Wall::QUADRANTS));
     for (law, wall) in Law::ALL.into_iter().zip(walls).chain([quadrants]) {
         for name in ["small", "standard"] {
-            let mut profile = folded(name);
-            profile.control = profile.control.map(|control| Control { law, ..control });
+            let mut profile = Profile::bundled(name).expect("bundled");
+            profile.control = Some(Control::of(&profile, law));
             (profile.wall, profile.pads) = (wall, 2 * wall.map_or(1, |wall| wall.parts));
             let prompt = Core::try_new(&profile).expect("a core").outputs().prompt;
             let block = Drives::try_new(&profile, prompt).expect("drives");

@@ -66,10 +66,6 @@ pub struct Control {
     pub invalid_frames: u64,
     /// So many frames without a sign of life from the host are a fault.
     pub silent_frames: u64,
-    /// Controller and walls are folded onto one arithmetic unit, which has a program: less area, and more
-    /// clocks from an estimate to its drive word. Results are the same.
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-    pub folded: bool,
 }
 
 impl Control {

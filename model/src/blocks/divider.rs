@@ -194,9 +194,6 @@ impl Block for Divider {
 
     #[inline(always)]
     fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
-        if let Some(quotient) = V::quotient(i.numerator, i.denominator, self.quotient) {
-            return self.as_one_operation(state, i.start, quotient);
-        }
         let outputs = self.cycle(state, i);
         if self.hurried && V::known_bit(i.start.value) == Some(true) {
             self.run_on(state, i);
@@ -206,19 +203,6 @@ impl Block for Divider {
 }
 
 impl Divider {
-    /// A clock in which the whole division is done, which does not say whether it saturates.
-    fn as_one_operation<V: Interpretation>(
-        &self,
-        state: &mut State<Self, V>,
-        start: Signal<V>,
-        quotient: Signal<V>,
-    ) -> Out<V> {
-        let r = state.load(self);
-        let quotient = start.select(quotient, r.quotient);
-        state.store(self, Registers { done: start, quotient, ..r });
-        Outputs { done: r.done, quotient: r.quotient, saturated: bit(false) }
-    }
-
     /// Whether nothing of the dividend is left above the digits so far.
     fn only_digits<V: Interpretation>(&self, r: &Regs<V>) -> Signal<V> {
         let width = self.quotient.width;

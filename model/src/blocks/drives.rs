@@ -11,13 +11,10 @@
 //! what is written later counts from the next frame on. The curve is not: it is written while no drive
 //! word is being made. Writing a target is a sign of life of the host. A split pad has a drive word after
 //! the slot of its last part, by whose number it is known; its target is the larger of the one
-//! written and the wall's. Controller and walls may be folded onto one arithmetic unit (`drives/folded.rs`). Latency: two clocks, or those of the split pad, and the
-//! controller's.
+//! written and the wall's. Latency: two clocks, or those of the split pad, and the controller's.
 
-use super::arithmetic_unit::ArithmeticUnit;
 use super::controller::{self, Controller, Faults, Tuning};
 use super::estimator::{FramePort, PromptPort};
-use super::sided_wall;
 use super::split_pad::{self, SplitPad, WallPort};
 use hapticore_contract::frame::Field;
 use hapticore_contract::profile::{Profile, ProfileError};
@@ -26,12 +23,9 @@ use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::{BIT, Format};
 use hapticore_hdl::memory::{Memory, Write};
 use hapticore_hdl::signal::{Signal, Wrap, bit, int, zero};
-use hapticore_hdl::{block, bundle};
+use hapticore_hdl::{block, bundle, call};
 
-mod folded;
 mod unseen;
-
-pub use folded::Folded;
 
 bundle! {
     /// Writes the target of a pad.
@@ -109,21 +103,13 @@ block! {
         pad: Format,
         of_controller: controller::Inputs<Format>,
         of_drive: controller::Outputs<Format>,
-        silent_frames: u64,
-        words_of_curve: usize,
-        /// What the unit's numbers mean.
-        numbers: Option<folded::Unit>,
     }
     submodules {
-        /// The controller, where it is not folded.
-        pub controller: Option<Controller>,
+        /// The controller.
+        pub controller: Controller,
         /// Split pads and their walls, where there are some.
         pub split_pad: Option<SplitPad>,
-        /// Onto which controller and walls are folded, where they are.
-        pub unit: Option<ArithmeticUnit>,
         targets: Memory,
-        /// The curve of a folded controller.
-        points: Memory,
     }
     inputs(block) {
         estimate as PromptPort: block.estimates,
@@ -158,7 +144,6 @@ block! {
         driven: BIT.where_present(block.has_walls()),
         /// It is zero.
         rests: BIT.where_present(block.has_walls()),
-        folded as Folded: block.folded(),
     }
 }
 
@@ -171,46 +156,31 @@ impl Drives {
         let controller = Controller::try_new(profile)?;
         let (of_controller, of_drive) = (controller.inputs(), controller.outputs());
         let controller::Inputs { target, pad, .. } = of_controller;
-        let curve = controller.points();
-        let (numbers, unit) = folded::unit(profile, &controller)?.unzip();
         Ok(Drives {
             estimates,
             position: profile.formats.position,
             pad,
             of_controller,
             of_drive,
-            silent_frames: controller.silent_frames(),
-            numbers,
             split_pad: profile.wall.map(|_| SplitPad::try_new(profile)).transpose()?,
             targets: Memory::new("targets", 1 << pad.width, target).in_block(),
-            words_of_curve: controller.words_of_curve(),
-            points: Memory { words: 1 << curve.address().width, ..curve.clone() },
-            controller: unit.is_none().then_some(controller),
-            unit,
+            controller,
         })
     }
 
     /// Clocks from the prompt estimate to the drive word.
     pub fn latency(&self) -> u64 {
-        let pad = self.split_pad.as_ref();
-        match (&self.controller, &self.unit) {
-            (Some(controller), _) => pad.map_or(2, SplitPad::latency) + controller.latency(),
-            (None, Some(unit)) => {
-                let of = |program| folded::BEGIN + unit.latency(program);
-                pad.map_or(2, |pad| pad.latency_with(of(folded::WALL))) + of(folded::CONTROLLER)
-            }
-            (None, None) => unreachable!("a controller, or a unit that does its work"),
-        }
+        self.split_pad.as_ref().map_or(2, SplitPad::latency) + self.controller.latency()
     }
 
     /// Words of the controller's curve: one more than its cells.
     pub fn words_of_curve(&self) -> usize {
-        self.words_of_curve
+        self.controller.words_of_curve()
     }
 
     /// As [`Controller::hurry`].
     pub(crate) fn hurry(&mut self) {
-        self.controller.iter_mut().for_each(Controller::hurry);
+        self.controller.hurry();
     }
 
     /// Whether pads have walls along both axes.
@@ -316,8 +286,6 @@ struct Begin<V: Interpretation> {
     /// Force that its wall asks for.
     of_wall: Signal<V>,
     free: Signal<V>,
-    /// What is asked of its wall.
-    wall: Option<sided_wall::In<V>>,
 }
 
 impl Drives {
@@ -331,7 +299,6 @@ impl Drives {
             measured: i.estimate.prompt_force,
             of_wall: zero(Format::NONE),
             free: bit(false),
-            wall: None,
         }
     }
 
@@ -342,7 +309,6 @@ impl Drives {
         state: &mut State<Self, V>,
         r: &Regs<V>,
         i: &In<V>,
-        walled: sided_wall::Out<V>,
     ) -> Begin<V> {
         let within = self.split_pad.as_ref().zip(state.submodules.split_pad.as_mut());
         let (block, within) = within.expect("there are walls");
@@ -363,7 +329,6 @@ impl Drives {
                 wall_factory: r.settings.set_factory,
                 ..i.wall
             },
-            walled,
         };
         let pad = block.call("split_pad", within, inputs);
         Begin {
@@ -373,7 +338,6 @@ impl Drives {
             measured: pad.measured,
             of_wall: pad.target,
             free: pad.free,
-            wall: Some(pad.asks),
         }
     }
 }
@@ -455,9 +419,8 @@ impl Block for Drives {
     #[inline(always)]
     fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
         let r = state.load(self);
-        let unit = self.unit_now(state, &r);
         let begin = match self.has_walls() {
-            true => self.split(state, &r, &i, self.walled(&r, &unit)),
+            true => self.split(state, &r, &i),
             false => self.whole(&r, &i),
         };
         let TargetPort { target_write, target_pad, target_word, alive, clear_faults } = i.target;
@@ -474,7 +437,7 @@ impl Block for Drives {
             clear_faults,
             tuning: self.held(&r.settings, i.tuning),
         };
-        let controller = self.controlled(state, &r, &unit, inputs);
+        let controller = call!(self.controller, state, inputs);
         let formats = self.drive();
         let drive = DrivePort {
             drive_valid: controller.done,
@@ -492,8 +455,7 @@ impl Block for Drives {
             true => r.driven | rests.select(!r.rests, r.rests),
             false => bit(false),
         };
-        let of_unit = self.beside_unit(&r, &inputs, &begin);
-        if (steps | target_write | i.extremes_read | of_walls | of_unit).can_skip() {
+        if (steps | target_write | i.extremes_read | of_walls).can_skip() {
             return outputs;
         }
         let found = self.targets.data(&mut state.submodules.targets);
@@ -511,7 +473,6 @@ impl Block for Drives {
             extremes: self.extremes_with(&r, &i, &controller, &begin),
             driven: controller.done.where_present(r.driven.format),
             rests,
-            folded: self.next_folded(state, &r, &unit, &begin, &inputs),
         };
         state.store(self, next);
         outputs

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The blocks of the core, one file each, from the ADC's codes to frames.
 
-pub mod arithmetic_unit;
 pub mod capacitance;
 pub mod controller;
 pub mod core;

@@ -158,7 +158,7 @@ impl Block for Multiplier {
         if i.enable.can_skip() {
             return outputs;
         }
-        if self.latency() == 1 || V::FOLDS {
+        if self.latency() == 1 {
             next!(self, state, i.enable => Registers { product: i.left * i.right, ..r }, else r);
         } else {
             let next = Registers { product: self.sum(&r), ..self.partials(i, r) };

@@ -21,7 +21,6 @@ use super::wall::{self, Wall};
 use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format};
-use hapticore_hdl::interpretations::expression::Expression;
 use hapticore_hdl::signal::{HalfEven, Saturate, zero};
 use hapticore_hdl::{block, call};
 
@@ -93,13 +92,6 @@ impl SidedWall {
     /// As [`Wall::is_busy`].
     pub(super) fn is_busy<V: Interpretation>(&self, state: &State<Self, V>) -> bool {
         self.wall.is_busy(&state.submodules.wall)
-    }
-
-    /// A frame as an expression.
-    pub(super) fn expression(&self) -> Expression {
-        let held = Inputs { start: Some(0), ..Inputs::of(None) };
-        let begins = Inputs { start: Some(1), ..held };
-        Expression::of(self, begins, held, |outputs| outputs.done)
     }
 
     /// What the wall is given: without current where no part can be trusted, so that it lets go.

@@ -27,14 +27,13 @@
 //! force. Latency: three clocks and the wall's for each axis, from the last part's estimate to `done`; four where
 //! words of block RAMs have registers.
 
-use super::sided_wall::{self, Inputs as WallInputs, Outputs as WallOutputs, SidedWall};
+use super::sided_wall::{self, SidedWall};
 use hapticore_contract::profile::{self, Profile, ProfileError};
 use hapticore_hdl::block::{Block, Interpretation, State};
-use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::{BIT, Format};
 use hapticore_hdl::memory::{Memory, Write};
 use hapticore_hdl::signal::{HalfEven, Proved, Saturate, Signal, Wrap, bit, int, is_set, zero};
-use hapticore_hdl::{block, bundle};
+use hapticore_hdl::{block, bundle, call};
 
 bundle! {
     /// Where the walls of pads are, and what they are made of.
@@ -66,14 +65,12 @@ block! {
         position: Format,
         capacitance: Format,
         force: Format,
-        of_wall: sided_wall::Inputs<Format>,
-        of_result: sided_wall::Outputs<Format>,
         /// Words that were read have a register before they are subtracted.
         registers_words: bool,
     }
     submodules {
-        /// The walls, where they are not computed outside.
-        pub wall: Option<SidedWall>,
+        /// The walls.
+        pub wall: SidedWall,
         /// Of each pad: it has a place, and which.
         places: Memory,
         /// Of each pad: the wall is on the right, and its surface.
@@ -103,8 +100,6 @@ block! {
         /// It is zero.
         rests: BIT,
         wall as WallPort: block.port(),
-        /// What the wall that is computed outside gives.
-        walled as WallOutputs: block.of_result(),
     }
     outputs(block) {
         /// Asserted for one cycle when the estimate of a pad is there.
@@ -121,8 +116,6 @@ block! {
         free: BIT,
         /// The direction was read.
         reads: BIT,
-        /// What is asked of a wall that is computed outside.
-        asks as WallInputs: block.of_wall(),
     }
     registers(block) {
         pad: block.pad(),
@@ -158,7 +151,7 @@ block! {
         start: BIT,
         placed: BIT,
         /// Place less surface.
-        depth: block.of_wall.depth,
+        depth: block.wall.inputs().depth,
         mirrored: BIT,
         rests: BIT,
     }
@@ -174,8 +167,6 @@ impl SplitPad {
             return Err(ProfileError::value("wall", "a table", "none"));
         };
         let (wall, f) = (SidedWall::try_new(profile)?, &profile.formats);
-        let (of_wall, of_result) = (wall.inputs(), wall.outputs());
-        let outside = profile.control.as_ref().is_some_and(|control| control.folded);
         let words = 1 << Format::counter(profile.pads - 1).width;
         let memory = |name, format| Memory::new(name, words, format).dont_care_on_collision();
         let place = Format::unsigned(f.position.width + 1, 0);
@@ -185,10 +176,8 @@ impl SplitPad {
             position: f.position,
             capacitance: f.capacitance,
             force: f.force,
-            of_wall,
-            of_result,
             registers_words: profile.registers_block_rams(),
-            wall: (!outside).then_some(wall),
+            wall,
             places: match rule.parts == profile::Wall::QUADRANTS.parts {
                 // The second is read when that of a frame may be written: what is read then is the word before.
                 true => Memory::new("places", words, place).in_block(),
@@ -213,7 +202,7 @@ impl SplitPad {
     /// The formats of the walls' port.
     #[inline(always)]
     pub fn port(&self) -> WallPort<Format> {
-        let wall = self.of_wall;
+        let wall = self.wall.inputs();
         WallPort {
             wall_write: BIT,
             wall_pad: self.pad(),
@@ -228,52 +217,13 @@ impl SplitPad {
 
     /// Clocks from the estimate of a pad's last part to `done`.
     pub fn latency(&self) -> u64 {
-        self.latency_with(self.wall.as_ref().map_or(0, SidedWall::latency))
-    }
-
-    /// The same, where a wall takes so many.
-    pub fn latency_with(&self, of_wall: u64) -> u64 {
         let axes = if self.has_quadrants() { 2 } else { 1 };
-        axes * (3 + u64::from(self.registers_words) + of_wall)
-    }
-
-    /// What is asked of a wall, where it is computed outside.
-    #[inline(always)]
-    fn outside<V: Interpretation>(&self, asks: sided_wall::In<V>) -> sided_wall::In<V> {
-        let pairs = <sided_wall::Inputs as Bundle>::zip(asks, self.of_wall());
-        <sided_wall::Inputs as Bundle>::map(pairs, |(asked, format)| asked.where_present(format))
-    }
-
-    /// The ports to a wall that is computed outside.
-    fn of_wall(&self) -> sided_wall::Inputs<Format> {
-        let outside = self.wall.is_none();
-        <sided_wall::Inputs as Bundle>::map(self.of_wall, |format| format.where_present(outside))
-    }
-
-    fn of_result(&self) -> sided_wall::Outputs<Format> {
-        let outside = self.wall.is_none();
-        <sided_wall::Outputs as Bundle>::map(self.of_result, |format| format.where_present(outside))
-    }
-
-    /// The wall of a pad, within or outside.
-    #[inline(always)]
-    fn walled<V: Interpretation>(
-        &self,
-        state: &mut State<Self, V>,
-        i: &In<V>,
-        asks: sided_wall::In<V>,
-    ) -> sided_wall::Out<V> {
-        match self.wall.as_ref().zip(state.submodules.wall.as_mut()) {
-            Some((block, within)) => block.call("wall", within, asks),
-            None => i.walled,
-        }
+        axes * (3 + u64::from(self.registers_words) + self.wall.latency())
     }
 
     /// Whether a pad is being asked for, or its wall is busy: else, given nothing, a clock changes nothing.
     pub(super) fn is_busy<V: Interpretation>(&self, state: &State<Self, V>) -> bool {
-        let wall = self.wall.as_ref().zip(state.submodules.wall.as_ref());
-        is_set(self.under_way(&state.load(self)))
-            || wall.is_some_and(|(of, state)| of.is_busy(state))
+        is_set(self.under_way(&state.load(self))) || self.wall.is_busy(&state.submodules.wall)
     }
 
     #[inline(always)]
@@ -459,9 +409,9 @@ impl SplitPad {
         ]
     }
 
-    /// What the wall is asked for.
+    /// What the wall is given.
     #[inline(always)]
-    fn asks<V: Interpretation>(&self, r: &Regs<V>, i: &In<V>) -> sided_wall::In<V> {
+    fn to_wall<V: Interpretation>(&self, r: &Regs<V>, i: &In<V>) -> sided_wall::In<V> {
         let [left, right] = self.sides(r);
         let factory = match self.has_quadrants() {
             true => r.along_y.select(zero(i.wall.wall_factory.format), i.wall.wall_factory),
@@ -488,8 +438,7 @@ impl Block for SplitPad {
     #[inline(always)]
     fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
         let r = state.load(self);
-        let asks = self.asks(&r, &i);
-        let walled = self.walled(state, &i, asks);
+        let walled = call!(self.wall, state, self.to_wall(&r, &i));
         let outputs = Outputs {
             done: walled.done,
             capacitance: r.capacitance,
@@ -498,7 +447,6 @@ impl Block for SplitPad {
             target: walled.target,
             free: walled.free,
             reads: walled.valid,
-            asks: self.outside(asks),
         };
         let outputs = if self.has_quadrants() { of_both(outputs, &r) } else { outputs };
         let written = i.placed | i.driven | i.wall.wall_write;

@@ -167,9 +167,6 @@ impl Block for SquareRoot {
 
     #[inline(always)]
     fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
-        if let Some(root) = V::root(i.radicand, self.sqrt()) {
-            return self.as_one_operation(state, i.start, root);
-        }
         let outputs = self.cycle(state, i);
         if self.hurried && V::known_bit(i.start.value) == Some(true) {
             self.run_on(state, i);
@@ -179,19 +176,6 @@ impl Block for SquareRoot {
 }
 
 impl SquareRoot {
-    /// A clock in which the whole root is done.
-    fn as_one_operation<V: Interpretation>(
-        &self,
-        state: &mut State<Self, V>,
-        start: Signal<V>,
-        root: Signal<V>,
-    ) -> Out<V> {
-        let r = state.load(self);
-        let sqrt = start.select(root, r.sqrt);
-        state.store(self, Registers { done: start, sqrt, ..r });
-        Outputs { done: r.done, sqrt: r.sqrt }
-    }
-
     /// Whether nothing is in the root above the digits so far.
     fn only_digits<V: Interpretation>(&self, r: &Regs<V>) -> Signal<V> {
         let above = |digits: u8| {

@@ -113,13 +113,6 @@ fn surface_write(
     }
 }
 
-/// The profile with controller and walls of their own: what they give is the same.
-fn unfolded(profile: &Profile) -> Profile {
-    let mut profile = profile.clone();
-    profile.control.iter_mut().for_each(|control| control.folded = false);
-    profile
-}
-
 /// Fidelity `fixed`: the clocks of drives follow those of the estimator, both without those of the
 /// samples.
 pub struct FixedLoop {
@@ -139,9 +132,7 @@ impl FixedLoop {
         calibration: &Calibration,
         tuning: &Tuning,
     ) -> Result<Self, ProfileError> {
-        // What a folded profile lacks is to be said, too.
-        ForceLoop::try_new(profile)?;
-        let mut drives = ForceLoop::try_new(&unfolded(profile))?.drives;
+        let mut drives = ForceLoop::try_new(profile)?.drives;
         drives.hurry();
         let (state, idle) = (drives.reset(), idle(&drives, tuning));
         let core = FixedSimulation::new(profile, calibration);

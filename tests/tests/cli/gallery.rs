@@ -142,20 +142,6 @@ fn a_wall_is_met_and_left_alike_in_fixed_and_clock() {
     check_loop_with("fig15", &["hand.stiffness_n_per_m=20000", "duration_s=0.024", &place]);
 }
 
-/// In both scenes with controller and walls on one arithmetic unit, which `clock` runs and `fixed` does not.
-#[test]
-#[cfg_attr(not(optimised), ignore = "every clock of a loop: run with --release")]
-fn folded_loops_are_the_same_in_fixed_and_clock() {
-    let mut profile = Profile::bundled("small").unwrap();
-    let control = Control { folded: true, ..Control::of(&profile, Law::Inverse) };
-    profile.control = Some(control);
-    let place = "{ timeline = { x_mm = [[0, 0.3], [0.006, -0.8], [0.012, -0.8], [0.02, 0.5]] } }";
-    let place = format!("pad.0.position_mm={place}");
-    let of_wall = ["hand.stiffness_n_per_m=20000", "duration_s=0.024", &place];
-    check_loop_of(Some(&profile), "fig15", &of_wall);
-    check_loop_of(Some(&profile), "fig9", &["duration_s=0.05"]);
-}
-
 /// In `wall-2d` a pad that is pushed into the corner of two walls and drawn out of it.
 #[test]
 #[cfg_attr(not(optimised), ignore = "every clock of a loop: run with --release")]

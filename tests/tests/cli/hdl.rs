@@ -31,23 +31,6 @@ fn each_converter_has_its_pins_and_no_others() {
     }
 }
 
-/// One module in the place of those that it does the work of.
-#[test]
-fn a_folded_loop_has_an_arithmetic_unit_and_no_controller() {
-    let folder = tempfile::tempdir().unwrap();
-    for (folded, own, others) in [
-        (&[][..], "hapticore_controller.v", "hapticore_arithmetic_unit.v"),
-        (&["--folded"], "hapticore_arithmetic_unit.v", "hapticore_controller.v"),
-    ] {
-        let out = if folded.is_empty() { "own" } else { "folded" };
-        expect(folder.path(), &[&LOOP[..], folded, &["--out", out]].concat(), 0);
-        let of = |name: &str| folder.path().join(out).join(name).exists();
-        assert_eq!((of(own), of(others)), (true, false), "{out}");
-    }
-    let top = fs::read_to_string(folder.path().join("folded/hapticore_loop.v")).expect("the top");
-    assert!(top.contains("--control inverse --folded"), "the command");
-}
-
 #[test]
 fn drives_that_cannot_be_are_refused() {
     let folder = tempfile::tempdir().unwrap();
@@ -61,7 +44,6 @@ fn drives_that_cannot_be_are_refused() {
             "sine:N with N from 512",
         ),
         (&["--control", "inverse", "--wave", "dc"], "--dac"),
-        (&["--folded"], "--folded: expected a force controller too: --control LAW"),
         (&["--dac", "pulses"], "expected a force controller too: --control LAW"),
         (
             &["--board", "ulx3s", "--control", "inverse", "--dac", "pulses"],

@@ -256,13 +256,8 @@ fn every_pattern_of_a_bundled_view_finds_signals() {
     let (wall, pads) = (Some(Wall::A), Wall::A.parts);
     let controlled = Profile { control, wall, pads, ..standard.clone() };
     check_patterns("slot", &variables(&Core::new(&standard), "core"));
-    let control = controlled.control.clone().map(|control| Control { folded: true, ..control });
-    let folded = Profile { control, ..controlled.clone() };
-    let signals = [controlled, folded].map(|profile| {
-        let force_loop = ForceLoop::try_new(&profile).expect("a controller");
-        variables(&force_loop, "force_loop")
-    });
-    check_patterns("force_loop", &signals.concat());
+    let force_loop = ForceLoop::try_new(&controlled).expect("a controller");
+    check_patterns("force_loop", &variables(&force_loop, "force_loop"));
 }
 
 fn check_patterns(view: &str, variables: &[Variable]) {

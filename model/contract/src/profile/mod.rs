@@ -273,6 +273,18 @@ impl ProfileError {
 /// 2^16, and this is the first of them.
 pub const POLYPHASE_GAIN: f64 = 57230.0 / 65536.0;
 
+/// Keys that are refused with a reason of their own.
+const RETIRED: [(&str, &str); 1] = [(
+    "control.folded",
+    "expected no such key, whatever its value: no board can use a folded controller (the iCEBreaker has no \
+     pins for a drive, the ULX3S runs at 25 MHz and needs none)",
+)];
+
+/// How the reader of TOML begins to refuse a key, of its last part.
+fn unknown(key: &str) -> String {
+    format!("unknown field `{}`", key.rsplit('.').next().unwrap_or(key))
+}
+
 /// The bundled profiles: their names and texts.
 pub const BUNDLED: [(&str, &str); 4] = [
     ("small", include_str!("small.toml")),
@@ -304,7 +316,11 @@ impl Profile {
             let line = error
                 .span()
                 .map_or(1, |span| text[..span.start.min(text.len())].matches('\n').count() + 1);
-            ProfileError::Syntax(format!("{line}: {}", error.message().replace('\n', " ")))
+            let message = error.message();
+            let retired = RETIRED.iter().find(|(key, _)| message.starts_with(&unknown(key)));
+            let said =
+                retired.map_or(message.replace('\n', " "), |(key, why)| format!("{key}: {why}"));
+            ProfileError::Syntax(format!("{line}: {said}"))
         })?;
         profile.check_values()?;
         Ok(profile)
@@ -411,7 +427,6 @@ impl Control {
             cells: 64,
             invalid_frames: 8,
             silent_frames: 1 << 12,
-            folded: false,
         }
     }
 }
@@ -520,3 +535,6 @@ impl Profile {
 fn shift(scale: f64) -> i8 {
     scale.log2().ceil() as i8
 }
+
+#[cfg(test)]
+mod tests;

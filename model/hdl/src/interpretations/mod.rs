@@ -2,7 +2,6 @@
 //! What a block means: the interpretations of its values, memories and instances.
 
 mod clocked;
-pub mod expression;
 pub mod netlist;
 pub mod noise;
 pub mod range;

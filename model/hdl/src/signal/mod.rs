@@ -10,7 +10,6 @@
 //! | [`Noise`](crate::interpretations::noise::Noise) | both, and its derivatives | the error to be expected of a signal, by source |
 //! | [`Range`](crate::interpretations::range::Range) | an interval of codes | a proof that nothing overflows |
 //! | [`Node`](crate::interpretations::netlist::Node) | a node of a graph | the netlist that is printed as Verilog |
-//! | [`Term`](crate::interpretations::expression::Term) | a node of an expression | what a block computes, without its clocks |
 //!
 //! Operators are exact and infer their format. Only [`Signal::quantize`] and [`Signal::resize`]
 //! narrow, and they name their rounding and their overflow.
@@ -89,10 +88,6 @@ pub trait Value: Copy + std::fmt::Debug + 'static {
     /// Whether a value has a number that is never rounded: alone or beside its code.
     const HAS_REAL: bool = false;
 
-    /// Whether the clocks of a block become one expression: what takes several clocks is one operation
-    /// then.
-    const FOLDS: bool = false;
-
     /// A constant: the number `real`, to the nearest code where the interpretation has codes.
     fn literal(real: f64, format: Format) -> Self;
     /// The sum of two signals.
@@ -142,24 +137,6 @@ pub trait Value: Copy + std::fmt::Debug + 'static {
     #[inline(always)]
     fn golden(a: Signal<Self>, _operands: &[Signal<Self>], _ideal: fn(&[f64]) -> f64) -> Self {
         a.value
-    }
-
-    /// The quotient of two unsigned signals to the nearest code, ties to even, saturated, where that is one
-    /// operation of the interpretation.
-    #[inline(always)]
-    fn quotient(
-        _numerator: Signal<Self>,
-        _denominator: Signal<Self>,
-        _to: Format,
-    ) -> Option<Signal<Self>> {
-        None
-    }
-
-    /// The square root of an unsigned signal to the nearest code, where that is one operation of the
-    /// interpretation.
-    #[inline(always)]
-    fn root(_radicand: Signal<Self>, _to: Format) -> Option<Signal<Self>> {
-        None
     }
 
     /// The raw code given, in a format.

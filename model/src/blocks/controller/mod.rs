@@ -47,12 +47,12 @@ use super::multiplier::{self, Multiplier};
 use super::rests::Rests;
 use super::sqrt::{self, SquareRoot};
 use crate::buildable::{fits, rounds};
-pub use faults::{Faults, Watch};
+pub use faults::Faults;
+use faults::Watch;
 use hapticore_contract::control::{Control, Law};
 use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format};
-use hapticore_hdl::interpretations::expression::Expression;
 use hapticore_hdl::memory::{Memory, Write};
 use hapticore_hdl::signal::{HalfEven, Proved, Signal, bit, int, zero};
 use hapticore_hdl::states::States;
@@ -282,26 +282,6 @@ impl Controller {
     pub(crate) fn hurry(&mut self) {
         self.sqrt.hurry();
         self.divider.hurry();
-    }
-
-    /// A drive word as an expression: of a host that is heard, with no fault before, so that its faults are
-    /// those that the estimate causes.
-    pub(super) fn expression(&self) -> Expression {
-        let inputs = Inputs { alive: Some(1), clear_faults: Some(0), ..Inputs::of(None) };
-        let tuning = Tuning { curve_write: Some(0), ..inputs.tuning };
-        let held = Inputs { start: Some(0), tuning, ..inputs };
-        let begins = Inputs { start: Some(1), ..held };
-        Expression::of(self, begins, held, |outputs| outputs.done)
-    }
-
-    /// Frames without a sign of life that are a fault.
-    pub(super) fn silent_frames(&self) -> u64 {
-        self.silent_frames
-    }
-
-    /// The curve's memory.
-    pub(super) fn points(&self) -> &Memory {
-        &self.points
     }
 
     /// Clocks from `start` to `done`.

@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Drives: which words of a frame are places, what is taken with the estimate, signs of life.
 
-use super::{DrivePort, Drives, Inputs, Outputs};
+use super::{Drives, Inputs};
 use crate::blocks::core::{self, Core};
-use crate::blocks::estimator::{FramePort, PromptPort};
+use crate::blocks::estimator::FramePort;
+use crate::support::Bench;
 use crate::support::never_skips::NeverSkips;
 use crate::support::random::Random;
-use crate::support::{Bench, MILLION, operations};
 use hapticore_contract::control::{Control, Law};
 use hapticore_contract::frame::Field;
 use hapticore_contract::profile::{self, Profile, Release};
-use hapticore_hdl::block::Block;
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::Format;
-use hapticore_hdl::interpretations::range::{Range, take_assumptions, take_violations, whole};
 use hapticore_hdl::signal::Signal;
 
 const WALLS: [Option<profile::Wall>; 4] =
@@ -24,12 +22,6 @@ fn profile(law: Law, wall: Option<profile::Wall>) -> Profile {
     let mut profile = Profile::bundled("standard").expect("bundled");
     profile.control = Some(Control::of(&profile, law));
     (profile.wall, profile.pads) = (wall, 2 * parts(wall));
-    profile
-}
-
-/// The same, with controller and walls on one arithmetic unit.
-fn folded(mut profile: Profile) -> Profile {
-    profile.control.iter_mut().for_each(|control| control.folded = true);
     profile
 }
 
@@ -165,10 +157,8 @@ fn settings_after_the_estimate_change_no_drive_word() {
     let direct = |wall: profile::Wall| Some(profile::Wall { rule: Release::Direct, ..wall });
     let walls = [None, direct(profile::Wall::B), direct(profile::Wall::QUADRANTS)];
     for (seed, law) in (0..).zip(Law::ALL) {
-        for (wall, is_folded) in walls.into_iter().flat_map(|wall| [(wall, false), (wall, true)]) {
-            let profile = profile(law, wall);
-            let profile = if is_folded { folded(profile) } else { profile };
-            let (block, _) = with_core(&profile);
+        for wall in walls {
+            let (block, _) = with_core(&profile(law, wall));
             let (mut random, mut driven) = (Random::new(seed), 0);
             let formats = block.inputs();
             let mut twins = Twins::new(block, &mut random);
@@ -216,11 +206,8 @@ fn a_host_that_writes_targets_is_alive() {
 
 #[test]
 fn skipping_changes_no_bit_on_any_clock() {
-    let both = |wall| {
+    for (seed, wall) in (0..).zip(WALLS) {
         let profile = profile(Law::Inverse, wall);
-        [profile.clone(), folded(profile)]
-    };
-    for (seed, profile) in (0..).zip(WALLS.into_iter().flat_map(both)) {
         let (block, _) = with_core(&profile);
         let (formats, apart) = (block.inputs(), block.latency() + 30);
         let words = block.words_of_curve() as i64;
@@ -261,267 +248,22 @@ fn skipping_changes_no_bit_on_any_clock() {
     }
 }
 
-/// Every word anywhere in its format: the programs of a unit go their one way through it.
-#[test]
-fn no_signal_of_folded_drives_can_overflow() {
-    for (law, wall) in Law::ALL.into_iter().zip(WALLS) {
-        for name in ["small", "standard"] {
-            let mut profile = Profile::bundled(name).unwrap();
-            profile.control = Some(Control { folded: true, ..Control::of(&profile, law) });
-            (profile.wall, profile.pads) = (wall, 2 * parts(wall));
-            let (block, _) = with_core(&profile);
-            let mut state = block.reset::<Range>();
-            let point = |code| Range::point(code);
-            let (parts, apart) = (parts(wall), block.latency() + 5);
-            take_violations();
-            take_assumptions();
-            for clock in 0..2 * parts * apart {
-                let mut any = <Inputs as Bundle>::map(block.inputs(), |format| Signal {
-                    value: if format.is_none() { point(0) } else { whole(format) },
-                    format,
-                });
-                any.estimate.prompt.value = point((clock % apart == 0).into());
-                any.estimate.prompt_pad.value = point((clock / apart % (2 * parts)).into());
-                block.clock(&mut state, any);
-            }
-            assert_eq!(take_violations(), [], "{name}, {law:?}, {wall:?}");
-            assert_eq!(take_assumptions(), Vec::<&str>::new());
-        }
-    }
-}
-
-/// Drives of either kind with the same curve, targets and places.
-struct Kinds([Bench<Drives>; 2]);
-
-impl Kinds {
-    fn new(profile: &Profile) -> Self {
-        let of = |profile: Profile| Bench::new(with_core(&profile).0);
-        Kinds([of(profile.clone()), of(folded(profile.clone()))])
-    }
-
-    fn both(&mut self, inputs: Inputs<i64>) {
-        self.0.iter_mut().for_each(|bench| _ = bench.clock(inputs));
-    }
-
-    /// The drive words that follow an estimate, each after its latency, and faults and extremes then.
-    fn estimate(&mut self, inputs: Inputs<i64>) -> [Vec<Outputs<i64>>; 2] {
-        let quiet = Inputs { estimate: PromptPort { prompt: 0, ..inputs.estimate }, ..inputs };
-        self.0.each_mut().map(|bench| {
-            let latency = bench.block.latency();
-            bench.clock(inputs);
-            let mut given = Vec::new();
-            for clock in 1..=latency + 2 {
-                let out = bench.clock(quiet);
-                assert!(
-                    out.drive.drive_valid == 0 || clock == latency,
-                    "clock {clock} of {latency}"
-                );
-                let valid = out.drive.drive_valid;
-                if valid == 1 || clock == latency + 2 {
-                    // Without a drive word the target may be the one before, or the next.
-                    let drive_target = valid * out.drive.drive_target;
-                    let drive = DrivePort { drive_valid: 0, drive_target, ..out.drive };
-                    given.push(Outputs { drive, ..out });
-                }
-            }
-            given
-        })
-    }
-}
-
-/// To the bit, with anything as inputs: every law, pads whole and split, words of 15 to 24 bits.
-#[test]
-fn folded_drives_give_what_others_give() {
-    let profiles = ["small", "standard"].map(|name| Profile::bundled(name).unwrap());
-    let rules = WALLS.into_iter().flat_map(|wall| {
-        let with = |rule| wall.map(|wall| profile::Wall { rule, ..wall });
-        [wall, with(Release::Direct)]
-    });
-    for (seed, wall) in (0..).zip(rules) {
-        for (law, of) in
-            Law::ALL.into_iter().flat_map(|law| profiles.each_ref().map(|of| (law, of)))
-        {
-            let mut profile = of.clone();
-            let control = Control { invalid_frames: 3, ..Control::of(of, law) };
-            profile.control = Some(Control { silent_frames: 40, ..control });
-            (profile.wall, profile.pads) = (wall, 2 * parts(wall));
-            let driven = give_the_same(&profile, seed, operations(MILLION / 25_000).max(24));
-            assert!(driven > 3, "{law:?}, {wall:?}: {driven} words that are not zero");
-        }
-    }
-}
-
-/// In words of any profile that can be: where a folded one cannot, it says so.
-#[test]
-fn folded_drives_in_words_at_random_give_what_others_give() {
-    let (mut random, mut compared) = (Random::new(77), 0);
-    for n in 0..operations(MILLION / 5000).max(100) {
-        let name = ["small", "standard"][random.below(2) as usize];
-        let mut profile = Profile::bundled(name).unwrap();
-        let law = Law::ALL[random.below(4) as usize];
-        let wall = WALLS[random.below(4) as usize];
-        let mut control = Control::of(&profile, law);
-        let mut words = |least: u64, most: u64, integer: u64| {
-            let width = least + random.below(most - least + 1);
-            Format::unsigned(width as u8, (width - integer.min(width)) as i8)
-        };
-        control.drive = words(8, 20, 0);
-        control.target = words(8, 20, 1 + n % 4);
-        control.gain = words(8, 20, 1 + n % 8);
-        let f = &mut profile.formats;
-        for format in [&mut f.capacitance, &mut f.force, &mut f.square, &mut f.force_gain] {
-            let more = random.below(9) as i8 - 4;
-            (format.width, format.frac) =
-                (format.width.saturating_add_signed(more), format.frac + more);
-        }
-        control.cells = 4 << random.below(5);
-        profile.control = Some(control);
-        (profile.wall, profile.pads) = (wall, 2 * parts(wall));
-        let Ok(_) = crate::check(&profile) else { continue };
-        match crate::check(&folded(profile.clone())) {
-            Ok(()) => _ = give_the_same(&profile, n, 6),
-            Err(error) => {
-                let text = error.to_string();
-                assert!(text.starts_with("control.folded") || text.starts_with("slot."), "{text}");
-                continue;
-            }
-        }
-        compared += 1;
-    }
-    assert!(compared > 20, "{compared} profiles");
-}
-
-/// How many drive words of both kinds of drives are not zero; all are the same.
-fn give_the_same(profile: &Profile, seed: u64, frames: u64) -> usize {
-    let (mut kinds, mut random) = (Kinds::new(profile), Random::new(seed));
-    let formats = kinds.0[0].block.inputs();
-    let parts = parts(profile.wall);
-    for address in 0..kinds.0[0].block.words_of_curve() as i64 {
-        let mut write = Inputs::of(0);
-        (write.tuning.curve_write, write.tuning.curve_address) = (1, address);
-        write.tuning.curve_word = random.word(formats.tuning.curve_word);
-        kinds.both(write);
-    }
-    let mut driven = 0;
-    for n in 0..frames {
-        let mut told = Inputs::of(0);
-        let pad = random.below(2);
-        let last = ((pad + 1) * parts - 1) as i64;
-        (told.target.target_write, told.target.target_pad) = (i64::from(n % 8 != 0), last);
-        told.target.target_word = random.word(formats.target.target_word) >> random.below(8);
-        told.target.clear_faults = i64::from(random.below(4) == 0);
-        told.extremes_read = i64::from(random.below(4) == 0);
-        (told.placed, told.placed_pad) = (i64::from(random.below(4) != 0), last);
-        if parts > 1 {
-            told.place = -(random.below(2000) as i64) + 500;
-            told.wall.wall_write = i64::from(random.below(8) == 0);
-            told.wall.wall_pad = last;
-            told.wall.wall_right = random.below(2) as i64;
-        } else {
-            told.placed = 0;
-        }
-        kinds.both(told);
-        let mut quiet = Inputs::of(0);
-        quiet.estimate.prompt_gain = random.word(formats.estimate.prompt_gain);
-        let inputs = settings(&formats, &mut random, quiet);
-        for part in 0..parts {
-            let mut estimate = inputs;
-            let words = &mut estimate.estimate;
-            (words.prompt, words.prompt_pad) = (1, (pad * parts + part) as i64);
-            words.prompt_capacitance =
-                random.word(formats.estimate.prompt_capacitance) >> random.below(3);
-            words.prompt_force = random.word(formats.estimate.prompt_force) >> random.below(16);
-            words.prompt_invalid = i64::from(random.below(5) == 0);
-            let [own, on_unit] = kinds.estimate(estimate);
-            assert_eq!(own, on_unit, "{}, {:?}, frame {n}", profile.name, profile.control);
-            driven += usize::from(own.iter().any(|out| out.drive.drive > 0));
-        }
-    }
-    driven
-}
-
-/// A program that is longer, or words that are wider, would give the same: this holds what folding costs.
-#[test]
-fn folded_drives_cost_so_many_instructions_bits_and_clocks() {
-    let costs = |name: &str, law, wall: Option<profile::Wall>| {
-        let mut profile = Profile::bundled(name).expect("bundled");
-        profile.control = Some(Control::of(&profile, law));
-        (profile.wall, profile.pads) = (wall, 2 * parts(wall));
-        let (block, _) = with_core(&folded(profile));
-        block.unit.expect("folded").costs()
-    };
-    for (name, law, wall, expected) in [
-        ("small", Law::Inverse, Some(profile::Wall::B), (1159, [32, 32, 16, 16], vec![1229, 1167])),
-        ("small", Law::Inverse, Some(profile::Wall::A), (1010, [32, 32, 16, 16], vec![1229, 985])),
-        ("small", Law::Integral, None, (332, [31, 31, 15, 15], vec![980])),
-        ("small", Law::Proportional, None, (309, [31, 31, 16, 15], vec![731])),
-        (
-            "standard",
-            Law::Inverse,
-            Some(profile::Wall::B),
-            (1343, [49, 36, 24, 24], vec![1584, 1250]),
-        ),
-        (
-            "standard",
-            Law::Open,
-            Some(profile::Wall::QUADRANTS),
-            (1118, [35, 34, 20, 17], vec![645, 1250]),
-        ),
-        ("standard", Law::Integral, None, (353, [41, 41, 20, 20], vec![1342])),
-        ("fine", Law::Inverse, None, (522, [57, 36, 28, 28], vec![1647])),
-    ] {
-        assert_eq!(costs(name, law, wall), expected, "{name}, {law:?}, {wall:?}");
-    }
-}
-
-#[test]
-fn folded_drives_stop_where_the_host_is_silent_as_others_do() {
-    const MOST: i64 = 3;
-    let mut profile = profile(Law::Inverse, None);
-    profile.control.iter_mut().for_each(|control| control.silent_frames = MOST as u64);
-    let mut kinds = Kinds::new(&profile);
-    let mut told = Inputs::of(0);
-    let mut estimate = Inputs::of(0);
-    (estimate.estimate.prompt, estimate.tuning.enable) = (1, 1);
-    (told.target.alive, told.target.clear_faults) = (1, 1);
-    for round in 0..3 {
-        kinds.both(told);
-        for silent in 1..=2 * MOST {
-            let [own, on_unit] = kinds.estimate(estimate);
-            assert_eq!(own, on_unit, "round {round}, {silent} frames without a sign of life");
-            let faults = own.last().expect("a drive word's").faults;
-            assert_eq!(faults.silence_fault, i64::from(silent > MOST - 1), "{silent} frames");
-        }
-    }
-}
-
 /// A fault that is cleared while the host is still silent is there again with the next drive word, not before.
 #[test]
 fn a_silence_that_is_cleared_is_found_again_with_the_next_drive_word() {
     let mut profile = profile(Law::Inverse, None);
     profile.control.iter_mut().for_each(|control| control.silent_frames = 2);
-    let mut kinds = Kinds::new(&profile);
+    let mut bench = Bench::new(with_core(&profile).0);
     let mut estimate = Inputs::of(0);
     (estimate.estimate.prompt, estimate.tuning.enable) = (1, 1);
-    let silence = |given: [Vec<Outputs<i64>>; 2]| {
-        given.map(|given| given.last().expect("a drive word's").faults.silence_fault)
+    let mut silence = |inputs: Inputs<i64>| {
+        bench.clock(inputs);
+        let clocks = bench.block.latency() + 2;
+        (0..clocks).map(|_| bench.clock(Inputs::of(0)).faults.silence_fault).last().expect("clocks")
     };
-    assert_eq!([(); 2].map(|()| silence(kinds.estimate(estimate))), [[0, 0], [1, 1]]);
+    assert_eq!([silence(estimate), silence(estimate)], [0, 1]);
     let mut clears = Inputs::of(0);
     clears.target.clear_faults = 1;
-    kinds.both(clears);
-    for clock in 0..20 {
-        for bench in &mut kinds.0 {
-            assert_eq!(bench.clock(Inputs::of(0)).faults.silence_fault, 0, "clock {clock}");
-        }
-    }
-    assert_eq!(silence(kinds.estimate(estimate)), [1, 1]);
-}
-
-/// What is carried on the way is within a word of the model, too.
-#[test]
-fn sums_of_a_unit_have_at_most_60_bits() {
-    assert_eq!(super::folded::sums_fit(60), Ok(()));
-    let refused = super::folded::sums_fit(61).expect_err("too wide").to_string();
-    assert_eq!(refused, "control.folded: expected sums of at most 60 bits, got 61");
+    assert_eq!(silence(clears), 0);
+    assert_eq!(silence(estimate), 1);
 }

@@ -7,16 +7,14 @@ use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::signal::is_set;
 
 impl Drives {
-    /// Whether a drive word is under way: else, given nothing, a clock changes nothing. While the unit runs,
-    /// `runs` is set.
+    /// Whether a drive word is under way: else, given nothing, a clock changes nothing.
     #[inline(always)]
     fn is_busy<V: Interpretation>(&self, state: &State<Self, V>) -> bool {
         let (r, within) = (state.load(self), &state.submodules);
-        let own = [r.asked, r.start, r.driven, r.folded.begins, r.folded.runs];
-        let controller = self.controller.as_ref().zip(within.controller.as_ref());
+        let own = [r.asked, r.start, r.driven];
         let split_pad = self.split_pad.as_ref().zip(within.split_pad.as_ref());
         own.into_iter().any(is_set)
-            || controller.is_some_and(|(of, state)| of.is_busy(state))
+            || self.controller.is_busy(&within.controller)
             || split_pad.is_some_and(|(of, state)| of.is_busy(state))
     }
 

@@ -85,29 +85,6 @@ fn latency_is_the_clocks_measured_with_walls() {
     }
 }
 
-/// Folded onto one adder it comes later, by as many clocks as both programs have.
-#[test]
-fn latency_is_the_clocks_measured_where_controller_and_walls_are_folded() {
-    for wall in [None, Some(Wall::B)] {
-        for mut profile in controlled(Law::Inverse).filter(|of| of.name != "fast") {
-            let pads = wall.map_or(1, |wall| wall.parts);
-            profile.control.iter_mut().for_each(|control| control.folded = true);
-            let profile = Profile { wall, pads, ..profile };
-            let mut bench = Bench::new(ForceLoop::try_new(&profile).unwrap());
-            let quiet = Inputs::of(0);
-            for clock in 0..profile.slot_clocks() * (pads - 1) {
-                let mut inputs = quiet;
-                inputs.core.strobe = i64::from(clock % profile.clocks_per_sample == 0);
-                bench.clock(inputs);
-            }
-            let (measured, _) = slot(&mut bench, &profile, quiet, |_| quiet);
-            let (name, latency) = (&profile.name, bench.block.latency());
-            assert_eq!(measured, latency, "{name}, {pads} parts");
-            println!("{name}, {pads} parts, folded: {latency} clocks");
-        }
-    }
-}
-
 /// A waveform tells variables apart by instance and name.
 #[test]
 fn variables_have_names_of_their_own() {
@@ -115,15 +92,11 @@ fn variables_have_names_of_their_own() {
         for profile in with_both_forces(law) {
             for wall in [None, Some(Wall::A), Some(Wall::B), Some(Wall::QUADRANTS)] {
                 let pads = wall.map_or(profile.pads, |wall| wall.parts);
-                for folded in [false, true] {
-                    let mut profile = Profile { wall, pads, ..profile.clone() };
-                    profile.control.iter_mut().for_each(|control| control.folded = folded);
-                    let block = ForceLoop::try_new(&profile).expect("time for a wall");
-                    let variables = variables(&block, "loop");
-                    let names: HashSet<_> =
-                        variables.iter().map(|of| (&of.scope, &of.name)).collect();
-                    assert_eq!(names.len(), variables.len(), "{} {wall:?}", profile.name);
-                }
+                let profile = Profile { wall, pads, ..profile.clone() };
+                let block = ForceLoop::try_new(&profile).expect("time for a wall");
+                let variables = variables(&block, "loop");
+                let names: HashSet<_> = variables.iter().map(|of| (&of.scope, &of.name)).collect();
+                assert_eq!(names.len(), variables.len(), "{} {wall:?}", profile.name);
             }
         }
     }
@@ -280,7 +253,7 @@ fn extremes_are_those_since_they_were_read() {
 fn a_target_that_is_written_in_mid_frame_is_taken_whole_or_not_at_all() {
     let profile = controlled(Law::Open).next().expect("a profile");
     let block = ForceLoop::try_new(&profile).unwrap();
-    let given = block.latency() - block.drives.controller.as_ref().unwrap().latency();
+    let given = block.latency() - block.drives.controller.latency();
     let (old, new) = (after(&profile, 1 << 8, 1), after(&profile, 1 << 12, 1));
     assert!(old > 0 && new > old, "{old}, {new}");
     for written in given - 8..=block.latency() {

@@ -2,7 +2,7 @@
 //! Split pads: the rounded reference's, for random estimates, places, walls and drives; sensing that
 //! fails within a wall; the clocks they take; the proof of ranges.
 
-use super::{Inputs, Outputs, SplitPad, WallInputs};
+use super::{Inputs, Outputs, SplitPad};
 use crate::support::never_skips::NeverSkips;
 use crate::support::random::Random;
 use crate::support::{Bench, MILLION, operations};
@@ -127,7 +127,6 @@ impl Pair {
             target: expected.wall.target.code(f.measured),
             free: expected.wall.free.into(),
             reads: expected.wall.valid.into(),
-            asks: WallInputs::of(0),
         };
         assert_eq!(got, expected, "clock {}: pad {pad}, {parts:?}", self.bench.clock);
         self.bench.clock(Inputs { driven: 1, rests: rests.into(), ..self.quiet });
