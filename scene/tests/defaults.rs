@@ -85,27 +85,39 @@ fn a_hand_needs_a_law_of_motion() {
     assert!(message.starts_with("s.toml:6: friction.rung: expected \"stiction\""), "{message}");
 }
 
-const WALL: &str = "title = \"t\"\nduration_s = 1\n[[pad]]\nposition_mm = [0, 0]\nload_g = 80\n[gap]\n\
-    [halves]\nsenses = \"each\"\n[hand]\n[friction]\n[control]\n[wall]\n";
+const PUSHED: &str = "title = \"t\"\nduration_s = 1\n[[pad]]\nposition_mm = [0, 0]\nload_g = 80\n[gap]\n\
+    [halves]\nsenses = \"each\"\n[hand]\n[friction]\n";
 
 #[test]
 fn the_direction_of_a_hand_can_be_read_unless_the_scene_says_otherwise() {
-    let case = |set: &[(&str, &str)]| {
+    let case = |tables: &str, set: &[(&str, &str)]| {
         let set: Vec<_> =
             set.iter().map(|(key, value)| (key.to_string(), value.to_string())).collect();
-        Scene::parse(WALL, "s.toml", &set).expect("a scene")
+        Scene::parse(&format!("{PUSHED}{tables}"), "s.toml", &set).expect("a scene")
     };
+    let doubts = |set: &[(&str, &str)]| case("[control]\n[wall]\n", set).cases[0].doubts.clone();
     let pushed = |set: &[(&str, &str)]| {
-        let push = [("pad.0.push_x_n", "0.3"), ("wall", "false"), ("control", "false")];
-        let scene = case(&[&push[..], set].concat());
+        let scene = case("", &[&[("pad.0.push_x_n", "0.3")], set].concat());
         let timing = hapticore_scene::Timing { pads: 16, ..common::timing() };
         let mut plant = Plant::new(&scene, 0, &timing).expect("a plant");
         plant.truth(200).direction
     };
-    assert!(case(&[]).cases[0].doubts.is_empty());
+    assert!(doubts(&[]).is_empty());
     assert!(pushed(&[]).abs() > 1e-5, "{}", pushed(&[]));
     let at_sheet = [("halves.push_height_mm", "0")];
     assert!(pushed(&at_sheet).abs() < 1e-12);
-    let doubts = &case(&at_sheet).cases[0].doubts;
-    assert!(doubts.len() == 1 && doubts[0].starts_with("halves.push_height_mm"), "{doubts:?}");
+    let of = doubts(&at_sheet);
+    assert!(of.len() == 1 && of[0].starts_with("halves.push_height_mm"), "{of:?}");
+}
+
+/// The number is that of docs/physics.md §3, integrated apart.
+#[test]
+fn a_moving_gap_without_friction_has_the_force_of_its_patches() {
+    let text = "duration_s = 0.3\n[[pad]]\nposition_mm = [0, 0]\nload_g = 50\nhaptic_v_rms = 300\n\
+                [gap]\nrung = \"tr-bdf2\"\n";
+    let mut plant = plant(text);
+    let slots = plant.slots();
+    let mut truths = (0..slots).map(|slot| plant.truth(slot));
+    let truth = truths.find(|truth| truth.time_s >= 0.24).expect("a slot");
+    assert!((truth.force_n - 0.3435).abs() < 0.001, "{}", truth.force_n);
 }

@@ -6,7 +6,6 @@ use std::collections::HashMap;
 use std::fs;
 use std::path::Path;
 
-use hapticore_contract::control::{Control, Law};
 use hapticore_contract::profile::Profile;
 use hapticore_scene::gallery;
 use rayon::prelude::*;

@@ -6,11 +6,13 @@ use crate::number::number;
 
 /// Flagged frames of a pad beyond this part of all are worth a warning.
 const FLAGGED: f64 = 0.01;
+/// Flags of where pads lie, which leave results as they are.
+const PLACES: [&str; 2] = ["at_edge", "touching"];
 /// A settled force is off its target, or what is read of it off the true one, by more than this part and this many N.
 const OFF: f64 = 0.1;
 const OFF_N: f64 = 0.03;
 /// The reading of a core is off that of the host by more than this, percent.
-const CORE_PERCENT: f64 = 1.0;
+const CORE_PERCENT: f64 = 0.1;
 /// More friction against a hand that leaves a wall is worth a warning, N.
 const STICKING_N: f64 = 0.25;
 
@@ -21,7 +23,9 @@ pub fn lines(of: &Findings) -> Vec<String> {
 
 /// What makes results wrong: kind, case and pad, and how much.
 pub fn warnings(of: &Findings) -> Vec<String> {
-    let flags = of.flagged.iter().filter(|of| of.frames as f64 > FLAGGED * of.of as f64);
+    let is_often = |of: &&Flagged| of.frames as f64 > FLAGGED * of.of as f64;
+    let of_results = |of: &&Flagged| !PLACES.contains(&of.flag.as_str());
+    let flags = of.flagged.iter().filter(of_results).filter(is_often);
     let flags = flags.map(|of| format!("{}{}", flagged(of), remedy(&of.flag)));
     let changed = of.changed.iter().map(|(case, keys)| {
         format!(
