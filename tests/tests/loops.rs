@@ -155,7 +155,7 @@ impl Device {
             heights_um: heights.map(|um| about(common * um, 0.02)).to_vec(),
             loads_g: [about(50.0, 0.2), about(50.0, 0.2)],
             targets_n: [about(0.35, 0.2), about(0.35, 0.2)],
-            at_mm: [about(200.0, 0.9), about(80.0, 0.9)],
+            at_mm: [about(190.0, 0.9), about(80.0, 0.9)],
         }
     }
 

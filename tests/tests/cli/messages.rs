@@ -111,8 +111,8 @@ fn a_controller_that_cannot_be_is_one_line_with_key_and_limit() {
     let folder = tempfile::tempdir().unwrap();
     for (set, words) in [
         ("control.law=\"magic\"", ["--set control.law", "\"inverse\"", "\"magic\""]),
-        ("control.rail_v=600", ["control.rail_v", "at most 500", "600"]),
-        ("control.rail_v=nan", ["control.rail_v", "at most 500", "NaN"]),
+        ("control.rail_v=600", ["control.rail_v", "to 500", "600"]),
+        ("control.rail_v=nan", ["control.rail_v", "to 500", "NaN"]),
         ("control.filter=0", ["control.filter", "expected", "0"]),
         ("control.slew_v=-1", ["control.slew_v", "expected", "-1"]),
         ("control.force=\"spring\"", ["control.force", "\"eq8\", \"table\"", "spring"]),
