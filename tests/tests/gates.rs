@@ -9,7 +9,6 @@
 
 use std::fs;
 
-use hapticore_contract::control::{Control, Law};
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::verilog::Design;
 use hapticore_synth::tools::{Tools, root};

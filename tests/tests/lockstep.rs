@@ -474,7 +474,8 @@ const PLACE_IS_READ: i64 = 1;
 fn estimates(block: &Drives, pads: u64) -> impl FnMut(&[i64]) -> Option<Vec<i64>> + use<> {
     let (formats, apart, pads) = (block.inputs(), block.latency() as i64 + 5, pads as i64);
     let of_quadrants = block.has_walls_along_y();
-    let (mut rng, mut clock) = (fastrand::Rng::with_seed(9), 0);
+    let (words, mut clock) = (block.words_of_curve() as i64, 0);
+    let mut rng = fastrand::Rng::with_seed(9);
     let mut estimate = drives::Inputs::of(0).estimate;
     move |_| {
         let mut inputs = <drives::Inputs as Bundle>::map(formats, |format| match format.width {
@@ -486,6 +487,7 @@ fn estimates(block: &Drives, pads: u64) -> impl FnMut(&[i64]) -> Option<Vec<i64>
         for pad in [&mut any.placed_pad, &mut any.target.target_pad, &mut any.wall.wall_pad] {
             *pad %= pads;
         }
+        any.tuning.curve_address %= words;
         inputs.tuning.enable = i64::from(rng.u32(..20) != 0);
         // The curve is written while no drive word is being made.
         let rests = clock % apart > apart - 5;
