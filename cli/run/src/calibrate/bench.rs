@@ -47,11 +47,12 @@ const TABLES: [&str; 6] = ["device", "gap", "friction", "supply", "temperature",
 pub struct Bench {
     tables: Table,
     haptic_hz: Option<Value>,
+    /// With a controller a gap moves unless its level says otherwise.
+    is_controlled: bool,
 }
 
 impl Bench {
-    /// The device of a scene, as TOML; none where it has no gap and friction, for then eq. 8 holds
-    /// exactly.
+    /// The device of a scene, as TOML; none where it has no gap, for then eq. 8 holds exactly.
     ///
     /// # Errors
     /// A text that is no TOML.
@@ -59,14 +60,15 @@ impl Bench {
         let mut scene: Table = toml::from_str(scene).context("the scene of a case")?;
         let haptic_hz = scene.get("carrier").and_then(|carrier| carrier.get("haptic_hz")).cloned();
         let tables: Table = TABLES.iter().filter_map(|key| scene.remove_entry(*key)).collect();
-        let both = tables.contains_key("gap") && tables.contains_key("friction");
-        Ok(both.then_some(Bench { tables, haptic_hz }))
+        let is_controlled = scene.contains_key("control");
+        let has_gap = tables.contains_key("gap");
+        Ok(has_gap.then_some(Bench { tables, haptic_hz, is_controlled }))
     }
 
     /// Whether the gap has no time of its own.
     pub fn is_static(&self) -> bool {
         let level = self.tables["gap"].get("rung").and_then(Value::as_str);
-        matches!(level, None | Some("static"))
+        level.map_or(!self.is_controlled, |level| level == "static")
     }
 
     /// What one pad reads in slots of a millisecond, while its voltage steps as told.

@@ -54,7 +54,7 @@ pub(in super::super) fn read(root: &Table, device: &Device) -> Result<Option<Spe
         return Err(table.error("drive", message));
     }
     let stiffest = temperature::stiffest(root)?;
-    let led = stiffest.is_some() || root.table("charge")?.is_some();
+    let led = stiffest.is_some() || root.table("charge")?.is_some() || is_tilted(root)?;
     let sine_rad_s = sine.then_some(TAU * device.haptic_hz);
     let asked_us = table.number("step_us", Limits::within(0.01, 1e9))?;
     let mut levels = Vec::new();
@@ -92,6 +92,15 @@ pub(in super::super) fn read(root: &Table, device: &Device) -> Result<Option<Spe
     // A loop acts on a pad faster than its gap follows: at rest at once it swings, or looks calmer than it is.
     let usual = if root.get("control").is_some() { MOVING.1 } else { "static" };
     Spec::with_questions("gap", Some(table), levels, usual, &[MOVING])
+}
+
+/// Whether the hand tilts the pad, so that its force, which is kept at times of its own, acts on the patches.
+fn is_tilted(root: &Table) -> Result<bool, SceneError> {
+    let Some(halves) = root.table("halves")?.filter(|_| root.get("hand").is_some()) else {
+        return Ok(false);
+    };
+    let height_mm = halves.get("push_height_mm").and_then(|node| node.value.number());
+    Ok(height_mm != Some(0.0))
 }
 
 fn usual_step_us(motion: Motion) -> f64 {
