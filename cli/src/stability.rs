@@ -9,6 +9,7 @@ use hapticore_run::case::{Case, Settings};
 use hapticore_run::control::bode;
 use hapticore_run::control::stability::{LEAST_PHASE_DEG, OpenLoop, step};
 use hapticore_run::record::{Bode, Stability, Step};
+use hapticore_scene::{ControlLaw, DriveCurve};
 use rayon::prelude::*;
 
 use crate::print::number;
@@ -58,6 +59,8 @@ pub fn of_cases(cases: &[Case], unstable: bool) -> Result<BTreeMap<String, Stabi
 struct Look<'a> {
     case: &'a Case<'a>,
     force_n: f64,
+    /// The largest target of the case, from which gains follow that the scene leaves out.
+    most_n: f64,
 }
 
 impl<'a> Look<'a> {
@@ -65,7 +68,7 @@ impl<'a> Look<'a> {
     fn of(case: &'a Case<'a>) -> Result<Vec<Self>> {
         let most_n = case.plant()?.largest_targets_n().into_iter().fold(0.0, f64::max);
         let forces_n = PARTS.map(|part| part * most_n).into_iter().filter(|force_n| *force_n > 0.0);
-        Ok(forces_n.map(|force_n| Look { case, force_n }).collect())
+        Ok(forces_n.map(|force_n| Look { case, force_n, most_n }).collect())
     }
 
     fn margins(&self) -> Result<Option<Stability>> {
@@ -75,11 +78,17 @@ impl<'a> Look<'a> {
     }
 }
 
-/// Cases that differ in the course of their targets alone have one loop.
+/// Cases that differ in the course of their targets alone have one loop, where no gain follows from them.
 impl PartialEq for Look<'_> {
     fn eq(&self, other: &Self) -> bool {
         let [a, b] = [self, other].map(|look| &look.case.scene.cases[look.case.index]);
-        self.force_n == other.force_n && a.control == b.control && a.differs_in_targets_alone(b)
+        let has_gains = a.control.as_ref().is_some_and(|plan| {
+            plan.law != ControlLaw::Inverse || plan.curve != DriveCurve::Steady
+        });
+        self.force_n == other.force_n
+            && a.control == b.control
+            && a.differs_in_targets_alone(b)
+            && (!has_gains || self.most_n == other.most_n)
     }
 }
 

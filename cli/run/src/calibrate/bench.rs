@@ -228,3 +228,32 @@ fn timing() -> Timing {
         ..crate::inputs::timing(&profile)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn bench(scene: &str) -> Option<Bench> {
+        Bench::of(scene).unwrap()
+    }
+
+    /// Its force is that of its patches, with friction and without.
+    #[test]
+    fn a_gap_without_friction_has_readings_too() {
+        assert!(bench("[friction]\n").is_none());
+        let forces_n = |scene: &str| {
+            let readings = bench(scene).expect("a gap").settled(50.0, &[200.0, 300.0]).unwrap();
+            readings.iter().map(|reading| reading.force_n).collect::<Vec<_>>()
+        };
+        let alone = forces_n("[gap]\n");
+        assert_eq!(alone, forces_n("[gap]\n[friction]\n"));
+        assert!((alone[1] - 0.418).abs() < 0.001, "{alone:?}"); // docs/physics.md §3
+    }
+
+    #[test]
+    fn a_gap_under_a_controller_moves_on_the_bench() {
+        assert!(bench("[gap]\n").expect("a gap").is_static());
+        assert!(!bench("[gap]\n[control]\n").expect("a gap").is_static());
+        assert!(bench("[gap]\nrung = \"static\"\n[control]\n").expect("a gap").is_static());
+    }
+}

@@ -2,10 +2,11 @@
 //! The gains of a controller that a scene does not give: they follow from the device and the profile.
 //!
 //! ```text
-//! K     of √F or F: least squares over the steady curve up to the rail     V = K·√F,  V = K·F
+//! K     of √F or F: that of the steady curve at the case's largest force   V = K·√F,  V = K·F
 //! gain  the largest with these margins about each force, then halved until a step settles
 //! ```
 //!
+//! The steady curve rises less than √F, so that K drives smaller forces too little, and none too much.
 //! The margins are those of `stability`: of the gap that moves, the frame and the delay of this profile. A step
 //! shows what they cannot: pull-in is no small signal.
 
@@ -21,9 +22,10 @@ use crate::record::Stability;
 /// Margins that a computed gain has at least.
 const GAIN_MARGIN: f64 = 2.5;
 const PHASE_MARGIN_DEG: f64 = 55.0;
-/// Forces about which they are, as parts of the most that the rail gives, or of `MOST_N`.
-const PARTS: [f64; 3] = [0.125, 0.375, 0.75];
-const MOST_N: f64 = 0.8;
+/// Forces about which they are, as parts of the largest that the case asks for.
+const PARTS: [f64; 3] = [0.25, 0.5, 1.0];
+/// The largest force of a case that asks for none, N.
+const USUAL_N: f64 = 0.3;
 /// The most that a step to them may overshoot.
 const OVERSHOOT_PERCENT: f64 = 25.0;
 /// Gains that are tried, each by √2 less than the one before, and then halved.
@@ -51,8 +53,11 @@ impl Gains {
         plan: &ControlPlan,
         (plant, steady): (&Plant, &[[f64; 2]]),
     ) -> Result<Gains> {
+        let most_n = largest_n(plan, plant, steady);
+        let feed_forward_v =
+            plan.feed_forward_v.unwrap_or_else(|| feed_forward(plan.curve, steady, most_n));
         let given = Gains {
-            feed_forward_v: plan.feed_forward_v.unwrap_or_else(|| feed_forward(plan.curve, steady)),
+            feed_forward_v,
             proportional_v: plan.proportional_v.unwrap_or_default(),
             integral_v: plan.integral_v.unwrap_or_default(),
         };
@@ -61,30 +66,33 @@ impl Gains {
             ControlLaw::Integral => plan.proportional_v.is_none() && plan.integral_v.is_none(),
             ControlLaw::Open | ControlLaw::Inverse => false,
         };
-        if is_open { computed(case, plan, given, (plant, steady)) } else { Ok(given) }
+        if is_open { computed(case, plan, (given, most_n), (plant, steady)) } else { Ok(given) }
     }
 }
 
-/// K of least squares.
-fn feed_forward(curve: DriveCurve, steady: &[[f64; 2]]) -> f64 {
-    let of_force = |force_n: f64| match curve {
-        DriveCurve::Linear => force_n,
-        _ => force_n.sqrt(),
+/// The largest force that pads or walls ask for, as far as the rail gives it, N.
+fn largest_n(plan: &ControlPlan, plant: &Plant, steady: &[[f64; 2]]) -> f64 {
+    let targets_n = plant.largest_targets_n().into_iter();
+    let asked_n = targets_n.chain(plan.wall.as_ref().map(|wall| wall.force_n)).fold(0.0, f64::max);
+    let asked_n = if asked_n > 0.0 { asked_n } else { USUAL_N };
+    steady.last().map_or(0.0, |[_, force]| force.min(asked_n))
+}
+
+/// K of the steady curve at a force; none where the device gives none.
+fn feed_forward(curve: DriveCurve, steady: &[[f64; 2]], most_n: f64) -> f64 {
+    let of_force = match curve {
+        DriveCurve::Linear => most_n,
+        _ => most_n.sqrt(),
     };
-    let sum = |of: fn(f64, f64) -> f64| -> f64 {
-        steady.iter().map(|[volt, force]| of(*volt, of_force(*force))).sum()
-    };
-    let squares = sum(|_, force| force * force);
-    if squares > 0.0 { sum(|volt, force| volt * force) / squares } else { 0.0 }
+    if most_n > 0.0 { voltage_of(steady, most_n) / of_force } else { 0.0 }
 }
 
 fn computed(
     case: &Case,
     plan: &ControlPlan,
-    given: Gains,
+    (given, most_n): (Gains, f64),
     (plant, steady): (&Plant, &[[f64; 2]]),
 ) -> Result<Gains> {
-    let most_n = steady.last().map_or(0.0, |[_, force]| force.min(MOST_N));
     let forces_n = PARTS.map(|part| part * most_n);
     let tuning = of_gains(case, plan, plant, (&given, steady))?;
     let open_loops = forces_n
@@ -137,11 +145,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_curve_of_the_law_has_its_own_factor() {
-        let steady: Vec<[f64; 2]> =
-            (0..5).map(|n| [100.0 * f64::from(n), (f64::from(n) / 5.0).powi(2)]).collect();
-        assert!((feed_forward(DriveCurve::SquareRoot, &steady) - 500.0).abs() < 1e-9);
+    fn a_curve_gives_the_largest_force_and_no_smaller_one_too_much() {
+        let steady = [[0.0, 0.0], [100.0, 0.01], [200.0, 0.06], [300.0, 0.4]];
+        let k_v = feed_forward(DriveCurve::SquareRoot, &steady, 0.4);
+        assert!((k_v * 0.4f64.sqrt() - 300.0).abs() < 1e-9);
+        assert!(steady.iter().all(|[volt, force]| k_v * force.sqrt() <= volt + 1e-9));
+        assert_eq!(feed_forward(DriveCurve::Linear, &steady, 0.4), 750.0);
         let none = [[0.0, 0.0], [100.0, 0.0]];
-        assert_eq!(feed_forward(DriveCurve::Linear, &none), 0.0);
+        assert_eq!(feed_forward(DriveCurve::Linear, &none, 0.0), 0.0);
     }
 }
