@@ -361,7 +361,7 @@ impl<'a> Bench<'a> {
                 let frames: Vec<usize> = last.clone().collect();
                 let polarity = |frame: &usize| (self.start_s(*frame) / turn_s).floor() as usize % 2;
                 let of = |side: usize| {
-                    let frames = frames.iter().filter(|frame| polarity(*frame) == side);
+                    let frames = frames.iter().filter(|frame| polarity(frame) == side);
                     spread(&frames.map(|n| forces_n[*n]).collect::<Vec<_>>())
                 };
                 of(0).max(of(1))
