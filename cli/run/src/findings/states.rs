@@ -8,7 +8,7 @@
 //! | `at_slew` | the drive has changed by all that it may |
 //! | `swings` | the force has gone to and fro about a target that stays |
 //!
-//! Each has to last for [`HELD_S`] and [`HELD`] frames. They follow from what a host knows: the frame, the target and the
+//! Each has to last for 40 ms and 6 frames. They follow from what a host knows: the frame, the target and the
 //! tuning; so they are of no core.
 
 use hapticore_contract::control::{Control, Tuning};
