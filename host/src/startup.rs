@@ -151,7 +151,7 @@ pub enum StartupError {
         got: u64,
     },
     /// The ADC is none, or another.
-    #[error("the ADC's ID is {0:02x} (hex), expected 2x or 3x, an AD7606C")]
+    #[error("the ADC's ID is {0:02x} (hex) at dout[0] (DOUTA), expected 2x or 3x, an AD7606C")]
     Adc(u8),
 }
 
