@@ -296,8 +296,14 @@ pub struct HdlArgs {
     pub control: Option<String>,
     /// Prints the pins of a converter for the controller's drives: one bit of sigma-delta per pad, a
     /// serial converter of 4 or 8 channels, or a word of 16 bits with address and write strobe
-    #[arg(long, value_name = "pulses|ad5664|ad5668|parallel")]
+    #[arg(long, value_name = "pulses|ad5664|ad5664r|ad5668|parallel")]
     pub dac: Option<String>,
+    /// The voltage of a drive word of full scale: the board reports it, and a host that means another is refused
+    #[arg(long, value_name = "VOLTS", default_value_t = 500, requires = "dac", value_parser = clap::value_parser!(u16).range(1..))]
+    pub full_scale_v: u16,
+    /// The clock of a top of your own, without --board: words that cease are zero after 100 ms of it
+    #[arg(long, value_name = "HERTZ", default_value_t = 25_000_000, requires = "dac", conflicts_with = "board", value_parser = clap::value_parser!(u64).range(1_000_000..=200_000_000))]
+    pub clock_hz: u64,
     /// Its wave: a square turns with every SLOTS slots of a pad, a sine has a period of CLOCKS
     #[arg(
         long,

@@ -8,7 +8,7 @@ use hapticore_contract::control::{Control, Law};
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::verilog::Design;
 use hapticore_rtl::board::Target;
-use hapticore_rtl::board::drive_output::{Converter, Wave};
+use hapticore_rtl::board::parameters::Drive;
 use hapticore_rtl::board::target::Printed;
 use hapticore_rtl::header;
 use serde_json::json;
@@ -17,6 +17,7 @@ use crate::args::HdlArgs;
 use crate::output::Output;
 use crate::say;
 use hapticore_host::DeviceCalibration;
+use hapticore_host::Output as DriveOutput;
 use hapticore_run::inputs;
 
 /// The profile where neither it nor a board is named.
@@ -40,11 +41,13 @@ pub fn run(args: &HdlArgs) -> Result<bool> {
         Some(law) => with_controller(profile, law)?,
         None => profile,
     };
-    let drive = args.dac.as_deref().map(|dac| drive(&profile, dac, &args.wave)).transpose()?;
+    let drive = args.dac.as_deref().map(|dac| drive(&profile, dac, args)).transpose()?;
     let printed = board.map(|board| print_board(board, &profile, drive)).transpose()?;
     let options = format!("--dac {} --wave {}", args.dac.as_deref().unwrap_or(""), args.wave);
     let pins = drive.filter(|_| board.is_none());
-    let pins = pins.map(|(wave, dac)| header::drive_output(&profile, wave, dac, &options));
+    let clock_hz = args.clock_hz;
+    let pins =
+        pins.map(|of| header::drive_output(&profile, of.wave, of.converter, clock_hz, &options));
     let pins = pins.transpose().context("--dac")?;
     let output = Output::new(&args.out)?;
     let top = match (board, printed) {
@@ -52,7 +55,16 @@ pub fn run(args: &HdlArgs) -> Result<bool> {
         _ => write_core(&output, &profile)?,
     };
     pins.iter().try_for_each(|design| write_modules(&output, design))?;
-    print_result(args, &profile, &top, &output.keep()?)
+    let told = drive.map(|drive| drive.output(board.map_or(args.clock_hz, Target::clock_hz)));
+    print_result(args, &profile, (&top, told), &output.keep()?)
+}
+
+/// What the converter has to be, and what a host has to expect.
+fn print_drive(output: &DriveOutput) {
+    say!("converter: {}", output.dac.advice());
+    say!(
+        "output: {output}; zero volts are code 0; a pin per channel has the polarity (docs/boards.md)"
+    );
 }
 
 /// The profile with a controller of a law.
@@ -66,11 +78,11 @@ fn with_controller(profile: Profile, name: &str) -> Result<Profile> {
     inputs::buildable(Profile { control: Some(control), ..profile })
 }
 
-/// The converter of a profile's force loop, and its wave.
-fn drive(profile: &Profile, dac: &str, wave: &str) -> Result<(Wave, Converter)> {
-    let (wave, converter) = (wave.parse().context("--wave")?, dac.parse().context("--dac")?);
+/// What drives the pads of a profile's force loop.
+fn drive(profile: &Profile, dac: &str, args: &HdlArgs) -> Result<Drive> {
+    let (wave, converter) = (args.wave.parse().context("--wave")?, dac.parse().context("--dac")?);
     ensure!(profile.control.is_some(), "--dac: expected a force controller too: --control LAW");
-    Ok((wave, converter))
+    Ok(Drive { wave, converter, full_scale_v: args.full_scale_v })
 }
 
 /// The core, and what a bench must know of it.
@@ -88,15 +100,11 @@ fn write_modules(output: &Output, design: &Design) -> Result<()> {
 }
 
 /// A board with the core of a profile, or its force loop and drive.
-fn print_board(
-    board: Target,
-    profile: &Profile,
-    drive: Option<(Wave, Converter)>,
-) -> Result<Printed> {
+fn print_board(board: Target, profile: &Profile, drive: Option<Drive>) -> Result<Printed> {
     let converts = drive.is_some() || profile.control.is_none();
     ensure!(
         converts,
-        "--board: expected a converter for the controller's drives too: --dac ad5664"
+        "--board: expected a converter for the controller's drives too: --dac ad5664r"
     );
     let of = || format!("board {}, profile {}", board.name(), profile.name);
     board.printed(profile, drive).with_context(of)
@@ -124,10 +132,21 @@ fn script(board: Target, drives: bool) -> String {
     if drives { script.replace("--freq 100", "--freq 50") } else { script.to_owned() }
 }
 
-fn print_result(args: &HdlArgs, profile: &Profile, top: &str, files: &[PathBuf]) -> Result<bool> {
+fn print_result(
+    args: &HdlArgs,
+    profile: &Profile,
+    (top, output): (&str, Option<DriveOutput>),
+    files: &[PathBuf],
+) -> Result<bool> {
     if args.json {
-        let told =
-            json!({ "profile": profile.name, "board": args.board, "top": top, "files": files });
+        let told = json!({
+            "profile": profile.name,
+            "board": args.board,
+            "top": top,
+            "output": output.map(|output| output.to_string()),
+            "converter": output.map(|output| output.dac.advice()),
+            "files": files,
+        });
         say!("{}", serde_json::to_string_pretty(&told)?);
         return Ok(true);
     }
@@ -135,5 +154,6 @@ fn print_result(args: &HdlArgs, profile: &Profile, top: &str, files: &[PathBuf])
     if args.board.is_some() {
         say!("bitstream: {}", args.out.join("build.sh").display());
     }
+    output.iter().for_each(print_drive);
     Ok(true)
 }

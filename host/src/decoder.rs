@@ -16,7 +16,7 @@ use hapticore_contract::profile::Profile;
 /// use hapticore_host::{Decoder, Heartbeat, Message, Profile, Status};
 ///
 /// let profile = Profile::bundled("small")?;
-/// let heartbeat = Message::Heartbeat(Heartbeat::new(Status::default(), &profile));
+/// let heartbeat = Message::Heartbeat(Heartbeat::new(Status::default(), &profile, None));
 /// let bytes = heartbeat.encode(&profile);
 /// let mut decoder = Decoder::new(&profile);
 /// // From the middle of one packet to the end of the next.

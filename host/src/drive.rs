@@ -23,8 +23,8 @@ fn command(profile: &Profile, word: DriveWord, value: f64) -> Result<Command, Pr
     Ok(Command::Drive(word, format.code_saturating(value)))
 }
 
-/// The commands that tune a controller and its walls, clear its faults and switch it on. Targets and surfaces outlive a reset
-/// of the board: write them before.
+/// The commands that tune a controller and its walls, clear its faults and switch it on. A reset, `DISABLE` too, takes targets
+/// and surfaces: write them again, while the board is disabled or later.
 ///
 /// ```
 /// use hapticore_host::control::{Control, Law, Tuning};
@@ -91,7 +91,7 @@ pub const fn clear_faults() -> Command {
     Command::Drive(DriveWord::Setting(Setting::Request), 1 << Request::CLEAR_FAULTS)
 }
 
-/// The command that takes all drives to zero, at the slew limit.
+/// The command that takes all drives to zero, each with its next word.
 pub const fn rest() -> Command {
     Command::Drive(DriveWord::Setting(Setting::Enable), 0)
 }

@@ -15,6 +15,7 @@
 //! | --- | --- |
 //! | [`decoder`], [`packet`] | messages from bytes: frames, heartbeats, and what was damaged |
 //! | [`command`], [`startup`] | bytes to the board: calibration, ADC, on and off; whether it took them |
+//! | [`bringup`] | all of that step by step, with a test of the ADC's data lines |
 //! | [`drive`] | bytes to a board that drives its pads: tuning, targets, walls |
 //! | [`device`], [`residual`] | the calibration of a device: its file, its words for a core, how well its table fits |
 //! | [`profile`] | the core's profile, for the terminals and pads of a device |
@@ -50,6 +51,7 @@
 //! `examples/board_to_csv.rs` is the same as a program: bytes on standard input, CSV on standard
 //! output.
 
+pub mod bringup;
 pub mod command;
 pub mod crosstalk;
 pub mod decoder;
@@ -92,6 +94,7 @@ pub use hapticore_contract::control;
 pub use hapticore_contract::frame::{Field, Flags, Frame, Measurement};
 pub use hapticore_contract::profile::{Profile, ProfileError};
 pub use hapticore_protocol::framing::{END, VERSION, digest};
+pub use hapticore_protocol::output::{Dac, Output, Wave};
 pub use hapticore_protocol::{
     CalibrationWords, Constant, ConstantWord, DriveWord, Register, Request, Setting, WordFormats,
 };

@@ -15,7 +15,11 @@ use hapticore_contract::frame::Field;
 use hapticore_contract::frame::{Flags, Frame};
 use hapticore_contract::profile::Profile;
 use hapticore_protocol::drive::{PACKET_WORDS, status};
-use hapticore_protocol::framing::{STATUS_BYTES, VERSION, data_bytes, flags, word_bytes};
+use hapticore_protocol::framing::{
+    FLAGS_BYTE, STATUS_BYTES, VERSION, board_digest, data_bytes, flags, word_bytes,
+};
+use hapticore_protocol::output::{CLOCK, FULL_SCALE, Output, SETUP};
+use hapticore_protocol::register::LINES;
 use hapticore_protocol::{Register, WordFormats};
 
 /// A board's words: frames' fields, or what has been written into registers.
@@ -119,7 +123,7 @@ pub struct Packet {
 /// use hapticore_host::{Heartbeat, Profile, Status, digest};
 ///
 /// let profile = Profile::bundled("standard")?;
-/// let heartbeat = Heartbeat::new(Status { commands: 3, ..Status::default() }, &profile);
+/// let heartbeat = Heartbeat::new(Status { commands: 3, ..Status::default() }, &profile, None);
 /// assert_eq!(heartbeat.digest(), digest(&profile));
 /// assert!(!heartbeat.calibrated && heartbeat.status.commands == 3);
 /// # Ok::<(), hapticore_host::ProfileError>(())
@@ -137,12 +141,15 @@ pub struct Heartbeat {
 }
 
 impl Heartbeat {
-    /// Of a board that was made for the profile and has just been reset.
-    pub fn new(status: Status, profile: &Profile) -> Self {
+    /// Of a board that was made for the profile and the output and has just been reset.
+    pub fn new(status: Status, profile: &Profile, output: Option<&Output>) -> Self {
         let layout = Layout::new(profile);
         let mut words = Words::default();
-        words[Register::Control.number()] =
-            layout.word(hapticore_protocol::framing::digest(profile).into());
+        words[Register::Control.number()] = layout.word(board_digest(profile, output).into());
+        let told = output.map_or([0; 3], Output::words);
+        for (number, word) in [SETUP, FULL_SCALE, CLOCK].into_iter().zip(told) {
+            words[number] = layout.word(word.into());
+        }
         Heartbeat { status, calibrated: false, version: VERSION, words, bits: layout.register_bits }
     }
 
@@ -153,7 +160,19 @@ impl Heartbeat {
         matches!(register, Register::Constant(_)).then_some((word, self.bits))
     }
 
-    /// The digest of the profile that the board was made for.
+    /// What the board says of its output: converter, wave, full scale, clock; in words.
+    pub fn output(&self) -> String {
+        Output::told([SETUP, FULL_SCALE, CLOCK].map(|number| self.words[number] as u16))
+    }
+
+    /// The code that the last test of a line has read, as bits; none where there is none yet, or where it was not the same
+    /// each time.
+    pub fn line_code(&self) -> Option<u64> {
+        let code = self.words[LINES] as u64 & ((1 << self.bits) - 1);
+        (code != 0).then_some(code)
+    }
+
+    /// The digest of the profile that the board was made for, and of its output.
     pub fn digest(&self) -> u16 {
         self.words[Register::Control.number()] as u16
     }
@@ -172,7 +191,7 @@ impl Heartbeat {
 /// use hapticore_host::{Heartbeat, Message, Profile, Status};
 ///
 /// let profile = Profile::bundled("small")?;
-/// let message = Message::Heartbeat(Heartbeat::new(Status::default(), &profile));
+/// let message = Message::Heartbeat(Heartbeat::new(Status::default(), &profile, None));
 /// assert_eq!(message.frame(), None);
 /// assert_eq!(message.encode(&profile).last(), Some(&hapticore_host::END));
 /// # Ok::<(), hapticore_host::ProfileError>(())
@@ -240,12 +259,12 @@ impl Layout {
         let is_heartbeat = |flags: &u8| {
             flags >> flags::HEARTBEAT & 1 != 0 && flags >> flags::VERSION & 7 == VERSION
         };
-        bytes.get(STATUS_BYTES as usize - 1).is_some_and(is_heartbeat)
+        bytes.get(FLAGS_BYTE as usize).is_some_and(is_heartbeat)
     }
 
     /// What a payload of the right length says; the number of the pad where there is no such pad.
     pub fn message(&self, payload: &[u8]) -> Result<Message, u8> {
-        let (&[high, low, pad, bits], words) =
+        let (&[high, low, pad, bits, more], words) =
             payload.split_first_chunk().expect("the length was checked");
         let mut words = words.chunks_exact(self.word_bytes).map(signed).collect::<Vec<_>>();
         let of_drive = words.split_off(Field::ALL.len());
@@ -256,7 +275,7 @@ impl Layout {
         let sequence = u16::from_be_bytes([high, low]);
         let (commands, pad) = (pad >> 4, pad & 0xf);
         let version = bits >> flags::VERSION & 7;
-        let bits = BitArray::<_, Lsb0>::new([bits]);
+        let bits = BitArray::<_, Lsb0>::new([bits, more]);
         let is = |flag: u8| bits[usize::from(flag)];
         let [late, refused, overrun] = [flags::LATE, flags::REFUSED, flags::OVERRUN].map(is);
         let status = Status { sequence, late, refused, overrun, commands, driven };
@@ -267,9 +286,9 @@ impl Layout {
         if u64::from(pad) >= self.pads {
             return Err(pad);
         }
-        let [clipped, saturated, invalid, lost] =
-            [flags::CLIPPED, flags::SATURATED, flags::INVALID, flags::LOST].map(is);
-        let flags = Flags { clipped, saturated, invalid, lost };
+        let [clipped, saturated, invalid, lost, lifted] =
+            [flags::CLIPPED, flags::SATURATED, flags::INVALID, flags::LOST, flags::LIFTED].map(is);
+        let flags = Flags { clipped, saturated, invalid, lost, lifted };
         Ok(Message::Frame(Packet { status, frame: Frame { pad: pad.into(), codes: words, flags } }))
     }
 
@@ -279,7 +298,7 @@ impl Layout {
             Message::Frame(Packet { status, frame }) => (status, frame.pad as u8, &frame.codes),
             Message::Heartbeat(heartbeat) => (&heartbeat.status, 0, &heartbeat.words),
         };
-        let mut bits = BitArray::<u8, Lsb0>::ZERO;
+        let mut bits = BitArray::<[u8; 2], Lsb0>::ZERO;
         let set = [
             (flags::LATE, status.late),
             (flags::REFUSED, status.refused),
@@ -289,7 +308,8 @@ impl Layout {
             .chain(self.own_flags(message))
             .for_each(|(flag, is)| bits.set(usize::from(flag), is));
         let [high, low] = status.sequence.to_be_bytes();
-        let mut payload = vec![high, low, status.commands << 4 | pad, bits.into_inner()];
+        let [bits, more] = bits.into_inner();
+        let mut payload = vec![high, low, status.commands << 4 | pad, bits, more];
         let of_drive = self.drive.map(|_| status.driven.unwrap_or_default().words());
         words
             .iter()
@@ -306,6 +326,7 @@ impl Layout {
                 (flags::SATURATED, flags.saturated),
                 (flags::INVALID, flags.invalid),
                 (flags::LOST, flags.lost),
+                (flags::LIFTED, flags.lifted),
             ],
             Message::Heartbeat(Heartbeat { calibrated, version, .. }) => {
                 let version =

@@ -3,7 +3,8 @@
 //! taken them.
 //!
 //! ```text
-//! RESET_ADC, DISABLE ─ registers, table ─ ADC: read, write …, read the ID, end ─ heartbeat: check ─ ENABLE
+//! RESET_ADC, DISABLE ─ registers, table ─ ADC: read, write …, read the ID, end ─ heartbeat: check
+//!   ─ ADC: fixed codes ─ test of each line ─ ADC: samples ─ heartbeat: check ─ ENABLE
 //! ```
 //!
 //! | word | what it does |
@@ -12,6 +13,7 @@
 //! | 0218 | CONFIG: DOUT_FORMAT, bits 4 and 3, both set: eight data lines |
 //! | 03 … 06 | the ranges, of two channels each |
 //! | 07 | the bandwidths, a bit a channel: 220 kHz where it is set, else 25 kHz, a quarter of the carrier |
+//! | 2181 | the interface check: a fixed code of its own on each line; 2101 ends it, as after a reset |
 //! | 6F00 | reads register 2F again |
 //! | 0000 | ends register mode, and brings the answer to the read before |
 //!
@@ -26,8 +28,8 @@ use crate::command::Command;
 use crate::packet::Heartbeat;
 use hapticore_contract::calibration::Calibration;
 use hapticore_contract::profile::Profile;
-use hapticore_protocol::framing::{VERSION, digest};
-use hapticore_protocol::{CalibrationWords, Register};
+use hapticore_protocol::framing::{VERSION, board_digest};
+use hapticore_protocol::{CalibrationWords, Output, Register};
 
 /// What a channel of the ADC spans, to either side of zero.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -101,18 +103,32 @@ pub fn start(profile: &Profile, calibration: &Calibration) -> Vec<Command> {
 }
 
 /// Why a board should not be enabled.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum StartupError {
     /// It speaks another version.
     #[error("the board's line is of version {0}, expected {VERSION}")]
     Version(u8),
-    /// It was made for another profile.
-    #[error("the board's profile has the digest {got:04x}, expected {expected:04x}")]
-    Profile {
-        /// Value that the profile requires.
-        expected: u16,
-        /// Value that the board reports.
-        got: u16,
+    /// It was made for another profile, converter, wave, full scale or clock.
+    #[error(
+        "the board was printed for {got} (digest {got_digest:04x}), expected {expected} (digest {expected_digest:04x}): print it again with these options, or tune for that board; where both are the same, the profiles differ"
+    )]
+    Made {
+        /// What the host tunes for.
+        expected: String,
+        /// What the board reports.
+        got: String,
+        /// Digest of the host's profile and output.
+        expected_digest: u16,
+        /// Digest that the board reports.
+        got_digest: u16,
+    },
+    /// A data line of the ADC does not bring its code.
+    #[error("dout[{line}] (DOUT{letter} of the ADC): expected a fixed code of its own, got {fault}: check this wire", letter = char::from(b'A' + .line))]
+    Line {
+        /// Number of the line.
+        line: u8,
+        /// What it brings.
+        fault: LineFault,
     },
     /// A command was lost or refused.
     #[error(
@@ -135,30 +151,48 @@ pub enum StartupError {
         got: u64,
     },
     /// The ADC is none, or another.
-    #[error("the ADC's ID is {0:02x} (hex), expected 2x or 3x, an AD7606C")]
+    #[error("the ADC's ID is {0:02x} (hex) at dout[0] (DOUTA), expected 2x or 3x, an AD7606C")]
     Adc(u8),
 }
 
-/// Whether a board that has been sent [`prepare`]'s commands may be enabled, `before` which it had
-/// accepted so many commands modulo 16 (none after its own reset).
+/// What a data line of the ADC brings in place of a code of its own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum LineFault {
+    /// Zero bits, or a code that was not always the same.
+    #[error("zeros, or a code that changes")]
+    Silent,
+    /// All bits are one.
+    #[error("ones")]
+    Ones,
+    /// The code of another line.
+    #[error("the code {code:x} (hex) of dout[{other}]")]
+    Shorted {
+        /// The other line.
+        other: u8,
+        /// The code of both.
+        code: u64,
+    },
+}
+
+/// Whether a board that has been sent so many commands, [`prepare`]'s first, may be enabled, `before` which it had
+/// accepted so many commands modulo 16 (none after its own reset). `output` is what it is to drive its pads with, where it
+/// has a drive. The ADC's lines are not tested: see [`Startup`].
 ///
 /// # Errors
 /// The first thing that is not as it should be.
 pub fn check(
     heartbeat: &Heartbeat,
     profile: &Profile,
+    output: Option<&Output>,
     calibration: &Calibration,
-    (before, commands): (u8, &[Command]),
+    (before, commands): (u8, usize),
 ) -> Result<(), StartupError> {
-    let (expected, got) = (digest(profile), heartbeat.digest());
     if heartbeat.version != VERSION {
         return Err(StartupError::Version(heartbeat.version));
     }
-    if expected != got {
-        return Err(StartupError::Profile { expected, got });
-    }
+    check_made(heartbeat, profile, output)?;
     let (expected, got) =
-        (((usize::from(before) + commands.len()) % 16) as u8, heartbeat.status.commands);
+        (((usize::from(before) + commands) % 16) as u8, heartbeat.status.commands);
     if expected != got || heartbeat.status.refused || !heartbeat.calibrated {
         return Err(StartupError::Commands { expected, got });
     }
@@ -176,4 +210,19 @@ pub fn check(
         2 | 3 => Ok(()),
         _ => Err(StartupError::Adc(heartbeat.adc_answer())),
     }
+}
+
+/// Whether a board was printed for a profile and an output.
+fn check_made(
+    heartbeat: &Heartbeat,
+    profile: &Profile,
+    output: Option<&Output>,
+) -> Result<(), StartupError> {
+    let (expected_digest, got_digest) = (board_digest(profile, output), heartbeat.digest());
+    if expected_digest == got_digest {
+        return Ok(());
+    }
+    let expected = output.map_or("no drive".into(), Output::to_string);
+    let got = heartbeat.output();
+    Err(StartupError::Made { expected, got, expected_digest, got_digest })
 }

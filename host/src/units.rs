@@ -58,6 +58,7 @@ pub fn flag_names(flags: Flags) -> impl Iterator<Item = &'static str> {
         (flags.saturated, "saturated"),
         (flags.invalid, "invalid"),
         (flags.lost, "lost"),
+        (flags.lifted, "lifted"),
     ];
     named.into_iter().filter(|(set, _)| *set).map(|(_, name)| name)
 }

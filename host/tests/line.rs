@@ -42,11 +42,12 @@ fn message(profile: &Profile) -> impl Strategy<Value = Message> + use<> {
     let bits = 8 * hapticore_protocol::framing::word_bytes(profile);
     let word = (-(1i64 << (bits - 1)))..(1 << (bits - 1));
     let (pads, profile) = (profile.pads as usize, profile.clone());
-    let flags = any::<[bool; 4]>().prop_map(|[clipped, saturated, invalid, lost]| Flags {
+    let flags = any::<[bool; 5]>().prop_map(|[clipped, saturated, invalid, lost, lifted]| Flags {
         clipped,
         saturated,
         invalid,
         lost,
+        lifted,
     });
     let frame = (status(&profile), 0..pads, prop::array::uniform8(word), flags).prop_map(
         |(status, pad, codes, flags)| {
@@ -54,7 +55,7 @@ fn message(profile: &Profile) -> impl Strategy<Value = Message> + use<> {
         },
     );
     let heartbeat = (status(&profile), any::<bool>()).prop_map(move |(status, calibrated)| {
-        let mut heartbeat = Heartbeat::new(status, &profile);
+        let mut heartbeat = Heartbeat::new(status, &profile, None);
         heartbeat.calibrated = calibrated;
         Message::Heartbeat(heartbeat)
     });
@@ -199,7 +200,7 @@ fn an_endless_stream_without_an_end_is_not_kept() {
 #[test]
 fn a_heartbeat_that_was_cut_is_left_out_in_silence() {
     let profile = Profile::bundled("small").expect("bundled");
-    let heartbeat = Message::Heartbeat(Heartbeat::new(Status::default(), &profile));
+    let heartbeat = Message::Heartbeat(Heartbeat::new(Status::default(), &profile, None));
     let bytes = heartbeat.encode(&profile);
     let cut = bytes[..7].iter().chain(&[END]).chain(&bytes).copied();
     assert_eq!(decoded(&profile, cut), [Ok(heartbeat)]);

@@ -132,7 +132,8 @@ fn calibration(profile: &Profile) -> Calibration {
         .collect();
     let position = PositionTable::fit(profile, &points).expect("a raster");
     let force_table = ForceTable::default();
-    Calibration { position, capacitance_gain: 796.0, force_gain: 1e-6, force_table }
+    let (capacitance_gain, force_gain, contact_capacitance) = (796.0, 1e-6, 100.0);
+    Calibration { position, capacitance_gain, force_gain, contact_capacitance, force_table }
 }
 
 /// The codes of a slot: currents a quarter turn ahead of the sensing voltage, a slow haptic

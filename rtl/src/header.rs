@@ -11,7 +11,7 @@ use hapticore_model::blocks::force_loop::ForceLoop;
 
 use hapticore_hdl::verilog::{Design, Heading};
 
-use crate::board::drive_output::{Converter, DriveOutput, Wave};
+use crate::board::drive_output::{Converter, DriveOutput, STALE_MS, Wave};
 use crate::board::framing::digest;
 use crate::netlist;
 
@@ -51,20 +51,24 @@ pub fn drive_output(
     profile: &Profile,
     wave: Wave,
     converter: Converter,
+    clock_hz: u64,
     options: &str,
 ) -> Result<Design, ProfileError> {
-    let output = DriveOutput::of_profile(profile, wave, converter)?;
+    let output = DriveOutput::of_profile(profile, wave, converter, clock_hz)?;
     let interface = [
-        "- drive_valid, drive_pad, drive, serve, closed: the outputs of hapticore_loop of these names; enable: not its clear.",
-        "- dac_*: pins of the converter; words are offset binary, half of full scale is 0 V.",
-        "- dac_live: every channel has been set to zero since reset; gate the high voltage with it.",
+        "- drive_valid, drive_pad, drive, serve, closed, *_fault: the outputs of hapticore_loop of these names; enable: not its clear.".to_owned(),
+        "- drives_clear: no drive word came in time, all channels go to zero; to the input of hapticore_loop of this name.".into(),
+        "- dac_*: pins of the converter; words are magnitudes, 0 is 0 V; dac_polarity: the sign of each channel's amplifier.".into(),
+        "- dac_live: the converter is set up, and nothing is off; gate the high voltage with it.".into(),
+        format!("- clock: {clock_hz} Hz; drive words that cease are zero after {STALE_MS} ms at most."),
+        format!("- converter: {}.", converter.dac().advice()),
     ];
     let law = profile.control.as_ref().map(|control| control.law.name());
     let law = law.map_or(String::new(), |law| format!(" --control {law}"));
     let heading = Heading {
         command: format!("hapticore hdl --profile {}{law} {options}", profile.name),
         source: source(profile),
-        interface: interface.map(String::from).to_vec(),
+        interface: interface.to_vec(),
     };
     Ok(Design::of(&output, heading))
 }
@@ -76,6 +80,8 @@ fn interface_of_loop(force_loop: &ForceLoop) -> Vec<String> {
         "- target_write, target_pad, target_word: a pad's target, taken as its slot's estimate is given; a sign of life.".into(),
         "- curve_write, curve_address, curve_word: a word of the curve per cycle, while no drive word is being made.".into(),
         "- proportional, correction, full_drive, rail, slew, force_cap: taken as a slot's estimate is given.".into(),
+        "- tick: one cycle every millisecond, of which a silent host is missed after so many; without ticks nothing is driven.".into(),
+        "- clear, drives_clear, enable low, a fault: every drive is zero in the same cycle and begins at zero; clear takes targets and walls, too.".into(),
         "- least_drive to most_force: of all pads, of valid estimates since extremes_read.".into(),
     ];
     if let Some(split_pad) = &force_loop.drives.split_pad {
@@ -109,7 +115,7 @@ fn interface(core: &Core, profile: &Profile) -> Vec<String> {
         format!("  a set is read from the strobe's cycle on, and is stable for {codes} cycles."),
         format!("- channels 0 to {}: terminals, sensing voltage, haptic voltage.", profile.channels() - 1),
         format!("- slots of {} samples, pad after pad; a frame follows its slot's last strobe by at most {} cycles.", profile.slot.samples(), core.latency()),
-        "- capacitance_gain, force_gain: stable from a slot's last strobe to its frame's `done`.".into(),
+        "- capacitance_gain, force_gain, contact_capacitance: stable from a slot's last strobe to its frame's `done`.".into(),
         "- write, address, word: a word of the position table per cycle; a slot that is estimated meanwhile gives a frame of".into(),
         "  neither table. Reset does not clear the table.".into(),
         "- frame words, in the order of `index`, as two's complement integers whose least significant bit is 2^-fraction:".into(),

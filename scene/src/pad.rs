@@ -170,6 +170,12 @@ impl PadPlan {
         self.target_n.extremes().into_iter().fold(0.0, f64::max)
     }
 
+    /// The largest capacitance that the scene ever sets the pad to, pF; none where it sets none.
+    pub fn set_capacitance_pf(&self) -> Option<f64> {
+        let is_set = self.capacitance_pf != Stimulus::Constant(CAPACITANCE_PF);
+        is_set.then(|| self.capacitance_pf.extremes().into_iter().fold(0.0, f64::max))
+    }
+
     /// What pushes the pad besides its finger, N.
     pub fn push_n(&self, moment: Moment) -> [f64; 2] {
         [0, 1].map(|axis| self.push_n[axis].at(0, moment))

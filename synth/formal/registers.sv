@@ -55,7 +55,8 @@
     wire whole_and_right = length == LENGTH && until == 0 && check == 32'hdebb20e3;
     wire for_adc = whole[WHOLE-1] && whole[WHOLE-14:WHOLE-16] == 3;
     // The command before may still be enabling the board.
-    wire enabled = counts && where[15] && where[2:0] == 2 ? what[0] : enable;
+    // A test of a line converts, too.
+    wire enabled = counts && where[15] && where[2:0] == 2 ? what[0] || what[2] : enable || control_q[2];
     always @(posedge clock) begin
         counts <= !reset && valid && end_byte && whole_and_right && !(for_adc && enabled);
         refuses <= !reset && valid && end_byte && length != 0

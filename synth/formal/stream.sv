@@ -101,7 +101,7 @@
     wire signed [WIDTH-1:0] stored = words[place_in_memory];
 
     // Where the packet stands, by group and bytes left.
-    wire [7:0] place_of = group == 15 ? 3 - left : group == 8 ? CRC + 5 - left : 4 + BYTES * group + BYTES - 1 - left;
+    wire [7:0] place_of = group == 15 ? 4 - left : group == 8 ? CRC + 5 - left : 5 + BYTES * group + BYTES - 1 - left;
     wire [8*BYTES-1:0] wide = {{8 * BYTES - WIDTH + 1{word[WIDTH-1]}}, word[WIDTH-2:0]};
     wire [8*BYTES-1:0] moved = wide >> (8 * left);
 
@@ -110,9 +110,9 @@
 
     always @(posedge clock) if (was_reset) begin
         // Invariants.
-        if (cut) assert (busy && heartbeat && group == 8 && left == 0 && at >= 4 && at <= CRC);
+        if (cut) assert (busy && heartbeat && group == 8 && left == 0 && at >= 5 && at <= CRC);
         if (busy && !cut) assert (at == place_of && group != 9 && group != 10 && group != 11 && group != 12 && group != 13 && group != 14);
-        if (busy) assert (left < (group == 15 ? 4 : group == 8 ? 6 : BYTES));
+        if (busy) assert (left < (group == 15 ? 5 : group == 8 ? 6 : BYTES));
         if (!busy) assert (at == 0 && since == 1 && check == 32'hffffffff);
         if (busy) assert (distance == since && since != 0 && since <= at + 1);
         assert (accepting == (due != 0 && taking));
@@ -121,7 +121,7 @@
         if (busy && at <= CRC) assert (crc == check);
         if (busy && !cut && gone < 32) assert (((crc ^ ~ahead) << gone) == 0);
         if (busy && at == 1) assert (upper == number[15:8]);
-        if (busy && heartbeat) assert (!saturated_q && invalid_q && !lost_q);
+        if (busy && heartbeat) assert (saturated_q && invalid_q && !lost_q && !lifted_q);
         if (busy && group < 8 && !before_sent && !before_wrote) assert (words_word == stored);
         if (busy && heartbeat && group == which && left < BYTES - 1) assert (words[{1'b1, which}] == begun);
         if ((accepting && which < due) || accepted) assert (words[which] == word);

@@ -192,7 +192,7 @@ impl Closed {
         (samples as f64 + part) / self.sample_rate_hz
     }
 
-    /// A slot's target is written as it begins; its window is made once its blanking is over, and
+    /// A slot's target is written as it begins, with a tick; its window is made once its blanking is over, and
     /// so the drives of the slots before are known.
     fn begin_sample(&mut self, inputs: &mut Inputs<i64>) -> Option<()> {
         let pads = self.maker.plant().served();
@@ -204,7 +204,7 @@ impl Closed {
             let end = (self.slot + 1) as f64 * self.profile.slot.samples() as f64;
             let newtons = self.maker.plant().target_n(pad, end / self.sample_rate_hz);
             let word = self.block.inputs().target.target_word;
-            inputs.target.target_write = 1;
+            (inputs.tick, inputs.target.target_write) = (1, 1);
             inputs.target.target_pad = pad as i64;
             inputs.target.target_word = word.code_saturating(newtons);
         }

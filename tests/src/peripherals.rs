@@ -273,7 +273,7 @@ fn stream(block: &Stream, divisor: u64) -> Alone {
             given.push((name, if told == 0 { 1 } else { now(rng, 12 * packet) }));
         }
         told = if told == 0 { u32::MAX } else { told };
-        for name in ["clipped", "saturated", "invalid", "lost", "calibrated"] {
+        for name in ["clipped", "saturated", "invalid", "lost", "lifted", "calibrated"] {
             given.push((name, now(rng, 2)));
         }
         index += i64::from(valid);
@@ -285,8 +285,8 @@ fn stream(block: &Stream, divisor: u64) -> Alone {
 /// Slots of all pads, words at any time; now and then none, or the output is off.
 fn drive_output(block: &DriveOutput) -> Alone {
     let of = block.inputs();
-    let (mut enable, mut closed, mut quiet) =
-        (Level::default(), Level::default(), Level::default());
+    let (mut enable, mut closed, mut quiet, mut fault) =
+        (Level::default(), Level::default(), Level::default(), Level::default());
     let mut serve = 0;
     alone(block, 60_000, move |rng| {
         let before = closed.value;
@@ -307,6 +307,9 @@ fn drive_output(block: &DriveOutput) -> Alone {
             ("serve", serve),
             ("closed", closed),
             ("enable", enable.next(rng, most)),
+            ("silence_fault", fault.next(rng, 20_000)),
+            ("sensor_fault", now(rng, 4_000)),
+            ("force_fault", now(rng, 4_000)),
         ]
     })
 }
@@ -333,13 +336,14 @@ fn given<B: Block>(block: &B, [channel, level]: [Format; 2], busy: u32) -> Alone
             ("valid", (wait == 0).into()),
             ("channel", any(rng, channel)),
             ("level", corner(rng, level)),
+            ("set_up", now(rng, 500)),
         ]
     })
 }
 
 /// The drive output with each wave and converter, and the converters alone.
 fn drive_outputs() -> Vec<Alone> {
-    let (drive, level) = (Format::unsigned(16, 16), Format::signed(17, 16));
+    let (drive, level) = (Format::unsigned(16, 16), Format::unsigned(16, 16));
     let channel = Format::counter(2);
     let of = |shape, wave, converter| {
         drive_output(&DriveOutput::new(shape, drive, 900, wave, converter))
@@ -385,7 +389,7 @@ pub fn blocks_of_a_drive(target: Target) -> Vec<Alone> {
     vec![
         drive_registers(&DriveRegisters::new(&force_loop, data)),
         drive_registers(&DriveRegisters::new(&walled, data)),
-        stream(&Stream::new(&profile, DIVISOR, data), DIVISOR),
+        stream(&Stream::new(&profile, DIVISOR, data, None), DIVISOR),
         registers(&block, profile, words),
     ]
 }
@@ -398,7 +402,7 @@ pub fn blocks(target: Target) -> Vec<Alone> {
     let block = CommandRegisters::new(core.inputs().calibration, words, None);
     let mut all = drive_outputs();
     all.extend([
-        stream(&Stream::new(&profile, divisor, block.outputs().data), divisor),
+        stream(&Stream::new(&profile, divisor, block.outputs().data, None), divisor),
         registers(&block, profile.clone(), words),
         adc_reader(&AdcReader::new(&profile, &parameters), &parameters),
         receiver(divisor),

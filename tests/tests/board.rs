@@ -25,6 +25,7 @@ use hapticore_model::fidelity::force_loop::FixedLoop;
 use hapticore_rtl::board::drive_output::serial::Frame as SerialFrame;
 use hapticore_rtl::board::drive_output::{Converter, Wave};
 use hapticore_rtl::board::framing::Register;
+use hapticore_rtl::board::parameters::Drive;
 use hapticore_rtl::board::{Parameters, Target};
 use hapticore_run::case::Case;
 use hapticore_run::engine::Fidelity;
@@ -147,7 +148,7 @@ fn bench(
     let Parameters { clock_hz, .. } = target.parameters();
     let width = profile.formats.adc.width;
     let mask = (1u32 << width) - 1;
-    let drive = profile.control.as_ref().map(|_| DRIVE);
+    let drive = profile.control.as_ref().map(|_| DRIVE.into());
     let printed = target.printed(profile, drive).expect("the board serves the profile");
     fs::write(folder.join("top.v"), printed.verilog).expect("a file");
     fs::write(folder.join("bytes.hex"), hex(commands.iter().map(|&byte| byte.into())))
@@ -272,15 +273,18 @@ fn ulx3s_gives_its_converter_the_drive_words_of_the_force_loop() {
     let told = fs::read_to_string(folder.path().join("dac.hex")).expect("what the converter heard");
     let told = told.lines().map(|line| u32::from_str_radix(line, 16).expect("a known frame"));
     let told: Vec<(u32, u32)> = told.map(|frame| (frame >> 16, frame & 0xffff)).collect();
-    // Write and update channel n: 18 + n (hex). A channel begins with 0 V, half of the range.
-    let begin = (0..4).map(|pad| (0x18 + pad, 0x8000));
+    // Write and update channel n: 18 + n (hex). Channels are set to 0 V after the reset; the first drive word sets the
+    // converter up, the other channels with 0 V.
+    let zeros = |from: u32| (from..4).map(|pad| (0x18 + pad, 0));
     let words = expected.iter().filter_map(|(_, drive)| drive.as_ref()).map(|drive| {
-        (0x18 + drive.pad as u32, 0x8000 + (drive.fraction * 32768.0).round_ties_even() as u32)
+        (0x18 + drive.pad as u32, (drive.fraction * 65536.0).round_ties_even() as u32)
     });
-    let words: Vec<_> = begin.chain(words).collect();
-    assert!(told.len() >= 4 + SLOTS - 1, "{told:x?}");
+    let words: Vec<_> = words.collect();
+    let begin = zeros(0).chain([words[0]]).chain(zeros(1));
+    let words: Vec<_> = begin.chain(words[1..].iter().copied()).collect();
+    assert!(told.len() >= 8 + SLOTS - 2, "{told:x?}");
     assert_eq!(told, words[..told.len()]);
-    assert!(told[4..].iter().any(|&(_, code)| code > 0x8000), "something is driven");
+    assert!(told[8..].iter().any(|&(_, code)| code > 0), "something is driven");
 }
 
 /// Commands that change nothing, to be taken while frames come: a register's own code, with any
@@ -333,8 +337,13 @@ fn heard(
         if let Message::Heartbeat(heartbeat) = told { Some(heartbeat) } else { None }
     });
     let last = heartbeats.next_back().expect("the board told that it was there");
+    let output = profile.control.as_ref().map(|_| Drive::from(DRIVE).output(target.clock_hz()));
     let before = (16 + last.status.commands - (prepared.len() % 16) as u8) % 16;
-    assert_eq!(check(last, profile, calibration, (before, &prepared)), Ok(()), "{target:?}");
+    assert_eq!(
+        check(last, profile, output.as_ref(), calibration, (before, prepared.len())),
+        Ok(()),
+        "{target:?}"
+    );
     let packets: Vec<_> = told.iter().filter_map(|told| told.frame()).collect();
     assert_eq!(packets.len(), SLOTS, "{target:?}");
     assert!(
@@ -373,8 +382,8 @@ fn every_port_of_a_top_has_one_pin_of_its_own() {
     }
     let profile = Target::Ulx3s.profile();
     let control = Some(Control::of(&profile, Law::Inverse));
-    let driven = Target::Ulx3s.printed(&Profile { control, ..profile }, Some(DRIVE));
-    has_pins(driven.expect("a board with a drive").constraints, 17 + 8 + 4);
+    let driven = Target::Ulx3s.printed(&Profile { control, ..profile }, Some(DRIVE.into()));
+    has_pins(driven.expect("a board with a drive").constraints, 17 + 8 + 4 + 4);
     let error = "arty".parse::<Target>().unwrap_err().to_string();
     assert_eq!(error, "expected a board among ulx3s, icebreaker, got \"arty\"");
 }

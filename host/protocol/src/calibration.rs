@@ -17,17 +17,21 @@ pub enum Constant {
     CapacitanceGain,
     /// Newtons per square picofarad at the full haptic mean square.
     ForceGain,
+    /// Picofarads at or below which a pad is lifted.
+    ContactCapacitance,
 }
 
 impl Constant {
     /// All constants, in the order of the core's ports.
-    pub const ALL: [Constant; 2] = [Constant::CapacitanceGain, Constant::ForceGain];
+    pub const ALL: [Constant; 3] =
+        [Constant::CapacitanceGain, Constant::ForceGain, Constant::ContactCapacitance];
 
     /// The name of its port, and of its register.
     pub const fn name(self) -> &'static str {
         match self {
             Constant::CapacitanceGain => "capacitance_gain",
             Constant::ForceGain => "force_gain",
+            Constant::ContactCapacitance => "contact_capacitance",
         }
     }
 
@@ -38,6 +42,9 @@ impl Constant {
             Constant::ForceGain => {
                 "Calibration: newtons per square picofarad at full haptic mean square."
             }
+            Constant::ContactCapacitance => {
+                "Calibration: picofarads at or below which a pad is lifted."
+            }
         }
     }
 
@@ -46,6 +53,7 @@ impl Constant {
         match self {
             Constant::CapacitanceGain => profile.formats.capacitance_gain,
             Constant::ForceGain => profile.formats.force_gain,
+            Constant::ContactCapacitance => profile.formats.capacitance,
         }
     }
 
@@ -54,6 +62,7 @@ impl Constant {
         match self {
             Constant::CapacitanceGain => calibration.capacitance_gain,
             Constant::ForceGain => calibration.force_gain,
+            Constant::ContactCapacitance => calibration.contact_capacitance,
         }
     }
 }
@@ -104,7 +113,9 @@ pub struct ConstantWord {
 /// # let point = |(x, y)| Point { x: 400.0 * x, y: 220.0 * y, r_x: 0.8 * x, r_y: 0.8 * y, sheet: 0.05 };
 /// # let position = PositionTable::fit(&profile, &places.map(point).collect::<Vec<_>>())?;
 /// let force_table = ForceTable::default();
-/// let calibration = Calibration { position, capacitance_gain: 800.0, force_gain: 2e-6, force_table };
+/// let (capacitance_gain, force_gain, contact_capacitance) = (800.0, 2e-6, 100.0);
+/// let calibration =
+///     Calibration { position, capacitance_gain, force_gain, contact_capacitance, force_table };
 /// let words = CalibrationWords::new(&profile, &calibration);
 /// let gain = words.constant(Constant::CapacitanceGain);
 /// assert_eq!(gain.format.real(gain.code), 800.0);

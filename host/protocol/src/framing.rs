@@ -3,9 +3,10 @@
 //!
 //! ```text
 //! packet:    payload … │ CRC, 4 bytes, least significant first              stuffed, then END, a zero byte
-//! frame:     sequence, 2 bytes │ commands accepted (4 bits), pad (4 bits) │ flags │ 8 words of B bytes
+//! frame:     sequence, 2 bytes │ commands accepted (4 bits), pad (4 bits) │ flags, 2 bytes │ 8 words of B bytes
 //! heartbeat: the same with the flag of that name; its words are those last written to [`Register::ALL`], but for
-//!            the profile's digest in place of the control register, and for the ADC's answer to the last word sent to it;
+//!            the digest of profile and output in place of the control register, and for the ADC's answer to the last word
+//!            sent to it, or the code of a line's test; those of [`crate::output`] follow;
 //!            where one of them is written meanwhile, END comes early, behind the flags or later, and the heartbeat is void
 //! command:   place, 2 bytes │ data, D bytes               place: 8000 (hex) + register, or the address of a word of the
 //!                                                         position table; other bits are ignored. Boards that drive pads
@@ -40,6 +41,7 @@
 
 use crate::calibration::WordFormats;
 use crate::drive::PACKET_WORDS;
+use crate::output::Output;
 use crate::register::Register;
 use hapticore_contract::frame::Field;
 use hapticore_contract::profile::{Force, Profile};
@@ -49,7 +51,10 @@ use hapticore_hdl::format::Format;
 pub const END: u8 = 0;
 
 /// Bytes of a frame packet before its words: sequence number, commands accepted and pad, flags.
-pub const STATUS_BYTES: u64 = 4;
+pub const STATUS_BYTES: u64 = 5;
+
+/// The flags' first byte, which holds the low eight of them, from a payload's beginning.
+pub const FLAGS_BYTE: u64 = 3;
 
 /// Bytes of the CRC behind the payload.
 pub const CRC_BYTES: u64 = 4;
@@ -60,7 +65,7 @@ pub const STUFFING_BYTES: u64 = 2;
 /// Bytes of the place at the beginning of a command.
 pub const PLACE_BYTES: u64 = 2;
 
-/// The bits of a frame packet's flags.
+/// The bits of a frame packet's flags: the low eight are the first byte, the others the second.
 pub mod flags {
     /// A code was at full scale of the ADC.
     pub const CLIPPED: u8 = 0;
@@ -76,9 +81,11 @@ pub mod flags {
     pub const REFUSED: u8 = 5;
     /// A frame was dropped since the packet before.
     pub const OVERRUN: u8 = 6;
-    /// The packet is no frame but a heartbeat, and the first four flags are others: [`CALIBRATED`],
+    /// The packet is no frame but a heartbeat, none of [`LIFTED`], and the first four flags are others: [`CALIBRATED`],
     /// and from [`VERSION`] on [`super::VERSION`].
     pub const HEARTBEAT: u8 = 7;
+    /// The pad does not touch; its last valid place stands.
+    pub const LIFTED: u8 = 8;
     /// Of a heartbeat: since reset the last calibration register has been written.
     pub const CALIBRATED: u8 = 0;
     /// Of a heartbeat: the first of three bits.
@@ -86,8 +93,10 @@ pub mod flags {
 }
 
 /// The version of what this file says: 1 to 7. Version 1 was SLIP with CRC-16 and a sequence number
-/// of 8 bits; to one version the other's packets are damaged ones.
-pub const VERSION: u8 = 2;
+/// of 8 bits; version 2 had flags of one byte, no register of the capacitance of a
+/// contact, and neither the test of the ADC's lines nor the output. To one version the other's packets
+/// are damaged ones.
+pub const VERSION: u8 = 3;
 
 /// The format of a count of commands, and of a pad.
 pub const NIBBLE: Format = Format::unsigned(4, 0);
@@ -106,12 +115,33 @@ pub const NIBBLE: Format = Format::unsigned(4, 0);
 /// # Ok::<(), hapticore_contract::profile::ProfileError>(())
 /// ```
 pub fn digest(profile: &Profile) -> u16 {
+    board_digest(profile, None)
+}
+
+/// The digest of a board's profile, and of the output that it drives its pads with, where it has one.
+///
+/// ```
+/// # use hapticore_contract::profile::Profile;
+/// # use hapticore_protocol::framing::{board_digest, digest};
+/// # use hapticore_protocol::output::{Dac, Output, Wave};
+/// let profile = Profile::bundled("standard")?;
+/// let output = Output { dac: Dac::Ad5664r, wave: Wave::Dc, full_scale_v: 500, clock_hz: 25_000_000 };
+/// let of = |output: &Output| board_digest(&profile, Some(output));
+/// assert_eq!(board_digest(&profile, None), digest(&profile));
+/// assert_ne!(of(&output), of(&Output { full_scale_v: 300, ..output }));
+/// # Ok::<(), hapticore_contract::profile::ProfileError>(())
+/// ```
+pub fn board_digest(profile: &Profile, output: Option<&Output>) -> u16 {
     let text = format!("{:?}", Profile { name: String::new(), ..profile.clone() });
     // What a profile does not have is not of its digest: boards from before keep theirs.
     let text = text.replace("wall: None, ", "").replace("control: None, ", "");
     let text = match profile.force == Force::default() {
         true => text.replace(&format!("force: {:?}, ", profile.force), ""),
         false => text,
+    };
+    let text = match output {
+        Some(output) => format!("{text}, {output}"),
+        None => text,
     };
     let step = |hash: u64, byte: u8| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
     let hash = text.bytes().fold(0xcbf2_9ce4_8422_2325, step);
@@ -134,8 +164,8 @@ pub fn packet_words(profile: &Profile) -> u64 {
 /// ```
 /// # use hapticore_contract::profile::Profile;
 /// # use hapticore_protocol::framing::packet_bytes;
-/// assert_eq!(packet_bytes(&Profile::bundled("small")?), 4 + 8 * 2 + 4 + 2);
-/// assert_eq!(packet_bytes(&Profile::bundled("standard")?), 4 + 8 * 4 + 4 + 2);
+/// assert_eq!(packet_bytes(&Profile::bundled("small")?), 5 + 8 * 2 + 4 + 2);
+/// assert_eq!(packet_bytes(&Profile::bundled("standard")?), 5 + 8 * 4 + 4 + 2);
 /// # Ok::<(), hapticore_contract::profile::ProfileError>(())
 /// ```
 pub fn packet_bytes(profile: &Profile) -> u64 {

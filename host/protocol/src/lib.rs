@@ -10,13 +10,16 @@
 //! | [`framing`] | bytes: packets in the stream, flags, version, the digest of a profile |
 //! | [`register`] | what commands may write, and where |
 //! | [`drive`] | the same for a board that drives its pads |
+//! | [`output`] | what such a board was printed for: converter, wave, full scale, clock |
 //! | [`calibration`] | the words that make a calibrated sensor of a core: the one list of them |
 
 pub mod calibration;
 pub mod drive;
 pub mod framing;
+pub mod output;
 pub mod register;
 
 pub use calibration::{CalibrationWords, Constant, ConstantWord, WordFormats};
 pub use drive::{DriveWord, Request, Setting};
+pub use output::Output;
 pub use register::{Control, Register};

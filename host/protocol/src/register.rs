@@ -11,7 +11,7 @@ use std::fmt;
 /// ```
 /// # use hapticore_protocol::{Constant, Register};
 /// assert_eq!(Register::Constant(Constant::ForceGain).place(), 0x8001);
-/// assert_eq!(Register::ALL.map(|register| register.number()), [0, 1, 2, 3]);
+/// assert_eq!(Register::ALL.map(|register| register.number()), [0, 1, 2, 3, 4]);
 /// assert_eq!(Register::Adc.to_string(), "adc");
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -26,6 +26,10 @@ pub enum Register {
 
 /// The format of a register's number.
 pub const PLACE: Format = Format::unsigned(3, 0);
+
+/// Number of the heartbeat's word that holds, from the beginning of a test of the ADC's lines until the next word is sent to
+/// the ADC, the code that the test has read: zero where there is none yet, or where it was not the same each time.
+pub const LINES: usize = Register::Adc.number();
 
 /// The format of what the ADC takes.
 const ADC: Format = Format::unsigned(16, 0);
@@ -93,6 +97,11 @@ impl Control {
     pub const ENABLE: u8 = 0;
     /// The ADC is held in reset.
     pub const ADC_RESET: u8 = 1;
+    /// The ADC converts, and the board compares what one of its lines brings; nothing is measured or driven. Not beside
+    /// [`Control::ENABLE`], which takes precedence.
+    pub const LINE_TEST: u8 = 2;
+    /// The first of three bits: the line of a test.
+    pub const LINE: u8 = 3;
     /// The format of the register.
-    pub const FORMAT: Format = Format::unsigned(2, 0);
+    pub const FORMAT: Format = Format::unsigned(6, 0);
 }

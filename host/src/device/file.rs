@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The file of a device's calibration: read, checked and written.
 
-use super::{DeviceCalibration, Force, Raster, Scales};
+use super::{DeviceCalibration, Force, MOST_CONTACT_PF, Raster, Scales};
 use crate::text::{ReadError, read, with_key};
 use std::fmt::Write;
 use std::path::Path;
@@ -64,7 +64,7 @@ impl DeviceCalibration {
         let mut text = format!(
             "# A device's calibration for `hapticore replay`.\npads = {}\n{}\n[terminals]\nx = {:?}\ny = {:?}\n\n[device]\n\
              sample_rate_hz = {:?}\ncarrier_hz = {:?}\ncurrent_full_scale_a = {:?}\nsense_full_scale_v = {:?}\n\
-             haptic_full_scale_v = {:?}\nforce_k = {:?}\n{}{}\n[map]\ncolumns = {}\nopen_share = {:?}\n\
+             haptic_full_scale_v = {:?}\nforce_k = {:?}\n{}{}{}\n[map]\ncolumns = {}\nopen_share = {:?}\n\
              places = [ # x_mm, y_mm, r_x, r_y, sheet_ohm\n",
             self.pads,
             if self.parts > 1 { format!("parts = {}\n", self.parts) } else { String::new() },
@@ -80,6 +80,7 @@ impl DeviceCalibration {
                 .pad_diameter_mm
                 .map(|mm| format!("pad_diameter_mm = {mm:?}\n"))
                 .unwrap_or_default(),
+            device.contact_pf.map(|pf| format!("contact_pf = {pf:?}\n")).unwrap_or_default(),
             self.force.as_ref().map(Force::text).unwrap_or_default(),
             self.map.columns,
             self.map.open_share
@@ -104,9 +105,15 @@ impl Scales {
             ("pad_diameter_mm", self.pad_diameter_mm.unwrap_or(1.0)),
         ];
         let bad = values.into_iter().find(|(_, value)| !(value.is_finite() && *value > 0.0));
-        bad.map_or(Ok(()), |(key, value)| {
-            Err(format!("device.{key}: expected a number above 0, got {value}"))
-        })
+        if let Some((key, value)) = bad {
+            return Err(format!("device.{key}: expected a number above 0, got {value}"));
+        }
+        match self.contact_pf {
+            Some(pf) if !(0.0..=MOST_CONTACT_PF).contains(&pf) => {
+                Err(format!("device.contact_pf: expected 0 to {MOST_CONTACT_PF} pF, got {pf}"))
+            }
+            _ => Ok(()),
+        }
     }
 }
 

@@ -18,6 +18,7 @@
 //! haptic_full_scale_v = 600.0
 //! force_k = 9.6e12                # eq. 8, N/(F·V)²
 //! pad_diameter_mm = 30.0          # pads that are nearer to each other touch; never told where it is left out
+//! contact_pf = 95.0               # a pad (of a split one: a part) of at most this capacitance is lifted; 0: only one without any
 //! [force]                         # of cores whose force.law is a table; k is force_k times a + b·V_s + d·(V_s − V_m)
 //! recent_s = 0.01                 # V_s and V_m: low-passes of the pad's rms voltage
 //! mean_s = 1.5
@@ -120,7 +121,19 @@ pub struct Scales {
     pub force_k: f64,
     /// Of a pad, where it is known.
     pub pad_diameter_mm: Option<f64>,
+    /// A pad of at most this capacitance is lifted, pF, 0 to [`MOST_CONTACT_PF`]; calibrations of earlier versions have none: see [`DeviceCalibration::contact_pf`].
+    pub contact_pf: Option<f64>,
 }
+
+/// Share of the capacitance that a pad has at rest: with less it is lifted.
+pub const CONTACT_SHARE: f64 = 0.3;
+
+/// The largest `contact_pf`.
+pub const MOST_CONTACT_PF: f64 = 1e6;
+
+/// Share of the capacitance at full scale that takes the place of `contact_pf` where a calibration has none. A pad at rest whose
+/// current is less would use a tenth of the converter's range.
+const CONTACT_SHARE_OF_FULL_SCALE: f64 = 0.1;
 
 /// Places in whole rows: `[x_mm, y_mm, r_x, r_y, sheet_ohm]`.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -186,6 +199,22 @@ pub enum DeviceWordsError {
 }
 
 impl DeviceCalibration {
+    /// The capacitance at or below which a pad counts as lifted, pF: `device.contact_pf`. A calibration without it has a tenth
+    /// of the capacitance whose current is at full scale with the sensing voltage, shared by a pad's parts.
+    ///
+    /// ```
+    /// # use hapticore_host::DeviceCalibration;
+    /// let device = DeviceCalibration::read("recordings/hockey.calibration.toml".as_ref())?;
+    /// let earlier = hapticore_host::Scales { contact_pf: None, ..device.device.clone() };
+    /// assert_eq!(DeviceCalibration { device: earlier, ..device }.contact_pf().round(), 80.0, "of 796 pF");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn contact_pf(&self) -> f64 {
+        self.device.contact_pf.unwrap_or_else(|| {
+            CONTACT_SHARE_OF_FULL_SCALE * self.device.capacitance_gain() / self.parts as f64
+        })
+    }
+
     /// What is left of the calibration's own places, looked up in the table that was fitted to
     /// them.
     pub fn residual(&self, calibration: &Calibration) -> Residual {
@@ -226,6 +255,7 @@ impl DeviceCalibration {
             capacitance_gain: device.capacitance_gain(),
             force_gain: device.force_k * 1e-24 * device.haptic_full_scale_v.powi(2)
                 / profile.square_gain(),
+            contact_capacitance: self.contact_pf(),
             force_table,
         };
         calibration.check(profile)?;

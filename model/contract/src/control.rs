@@ -48,6 +48,9 @@ impl Law {
     }
 }
 
+/// After contact a drive rises by 2^-[`CONTACT_SLEW_FRAC`] of full scale from frame to frame at most.
+const CONTACT_SLEW_FRAC: i32 = 6;
+
 /// The controller of a core.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -64,16 +67,31 @@ pub struct Control {
     pub cells: u64,
     /// So many invalid frames of a pad in a row are a fault.
     pub invalid_frames: u64,
-    /// So many frames without a sign of life from the host are a fault.
-    pub silent_frames: u64,
+    /// So many milliseconds without a sign of life from the host are a fault; the last may be a part of one.
+    #[serde(default = "silent_ms")]
+    pub silent_ms: u64,
+}
+
+fn silent_ms() -> u64 {
+    Control::SILENT_MS
 }
 
 impl Control {
+    /// The time after which a host is missed where a profile does not say, ms.
+    pub const SILENT_MS: u64 = 100;
+
     /// Fractional bits by which a target is moved down to be below one; even, as its root is then
     /// moved by half of it.
     pub fn target_shift(&self) -> i8 {
         let bits = self.target.integer_bits().max(0) as i8;
         bits + (bits & 1)
+    }
+
+    /// The largest rise of a drive word from frame to frame after a pad has touched again, full scales, until its law
+    /// has the drive that it wants. No setting of the host makes it larger.
+    pub fn contact_slew(&self) -> f64 {
+        let frac = i32::from(self.drive.frac).min(CONTACT_SLEW_FRAC);
+        0.5f64.powi(frac)
     }
 
     /// The root of the largest target, √N, of which roots are fractions.
@@ -95,7 +113,7 @@ pub struct Tuning {
     pub correction: f64,
     /// The largest drive word.
     pub rail: f64,
-    /// The largest change of a drive word from frame to frame.
+    /// The largest change of a drive word from frame to frame; off, a fault and a lower rail act at once.
     pub slew: f64,
     /// A force beyond it is a fault, N.
     pub force_cap: f64,
@@ -113,7 +131,7 @@ pub struct Walls {
     /// What the direction u of a wall on the left reads without a push; that of a wall along y reads
     /// nothing.
     pub factory: f64,
-    /// The walls are right of their surfaces, until a surface is set.
+    /// The walls are right of their surfaces.
     pub right: bool,
 }
 
@@ -149,7 +167,7 @@ impl Tuning {
     }
 }
 
-/// Faults of a controller: each takes every drive to zero until it is cleared.
+/// Faults of a controller: each takes every drive to zero at once, until it is cleared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
 pub struct Faults {
     /// The host was silent for too long.

@@ -9,9 +9,10 @@
 //! inverse        d = min(√(F_t/G / (k·C²)), D)                        (docs/physics.md §6)
 //! ```
 //!
-//! The drive is held within 0 … rail, then within slew of the pad's last. c stays as it is while
+//! The drive is held within 0 … rail, then within slew of the pad's last, at most the rail. c stays as it is while
 //! estimates are invalid; against a limit that holds the drive it goes as far as drive − (D + K·e), and not
-//! back.
+//! back. A fault takes every drive to zero at once, and each pad then begins at zero, with c at zero; so does a
+//! lifted pad, which rises no faster than a contact may until its drive is what the law wants.
 
 use hapticore_contract::control::{Control, Drive, Faults, Law, Tuning};
 
@@ -28,6 +29,8 @@ pub struct Prompt {
     pub force_gain: f64,
     /// There is no such capacitance, or a code was at full scale.
     pub invalid: bool,
+    /// The pad does not touch.
+    pub lifted: bool,
 }
 
 #[derive(Debug, Clone, Copy, Default)]
@@ -35,6 +38,8 @@ struct Pad {
     invalid: u64,
     drive: f64,
     correction: f64,
+    /// It has been lifted, and its drive has not been what its law wants since.
+    rises: bool,
 }
 
 /// The force controller of all pads.
@@ -64,28 +69,46 @@ impl Controller {
         self.silent = 0;
     }
 
-    /// Clears all faults.
+    /// A millisecond has passed.
+    pub fn tick(&mut self) {
+        self.silent += 1;
+        self.watch();
+    }
+
+    /// Clears all faults; a host that is still silent is one again.
     pub fn clear_faults(&mut self) {
         self.faults = Faults::default();
+        self.watch();
+    }
+
+    /// Every pad begins anew, at zero.
+    pub fn clear(&mut self) {
+        self.pads.fill(Pad::default());
+    }
+
+    fn watch(&mut self) {
+        self.faults.silence |= self.silent >= self.control.silent_ms;
+        if self.faults.any() {
+            self.clear();
+        }
     }
 
     /// The drive of a pad whose force shall be `target_n`.
     pub fn drive(&mut self, prompt: &Prompt, target_n: f64) -> Drive {
         let pad = self.pads[prompt.pad];
         let invalid = if prompt.invalid { pad.invalid + 1 } else { 0 };
-        self.silent += 1;
-        self.faults.silence |= self.silent >= self.control.silent_frames;
         self.faults.sensor |= invalid >= self.control.invalid_frames;
         self.faults.force |= !prompt.invalid && prompt.force_n > self.tuning.force_cap;
         let (correction, wanted) = self.wanted(prompt, target_n, pad.correction);
+        let within = wanted.min(self.tuning.rail).max(0.0);
         let (low, high) = (wanted < 0.0, wanted > self.tuning.rail);
-        let to = match (self.faults.any(), prompt.invalid) {
-            (true, _) => 0.0,
-            (_, true) => pad.drive,
-            _ => wanted.min(self.tuning.rail).max(0.0),
-        };
-        let slew = self.tuning.slew;
-        let drive = to.min(pad.drive + slew).max(pad.drive - slew);
+        let Tuning { rail, slew, .. } = self.tuning;
+        let last = pad.drive.min(rail);
+        let to = if prompt.invalid { last } else { within };
+        let up = if pad.rises { slew.min(self.control.contact_slew()) } else { slew };
+        let off = self.faults.any();
+        let drive = if off || prompt.lifted { 0.0 } else { to.min(last + up).max(last - slew) };
+        let rises = prompt.lifted || pad.rises && (prompt.invalid || drive < within);
         let limit = drive - (wanted - correction);
         let correction = if prompt.invalid {
             pad.correction
@@ -96,7 +119,12 @@ impl Controller {
         } else {
             correction
         };
-        self.pads[prompt.pad] = Pad { invalid, drive, correction };
+        let correction = if prompt.lifted { 0.0 } else { correction };
+        self.pads[prompt.pad] = Pad { invalid, drive, correction, rises };
+        if off {
+            self.clear();
+        }
+        let [low, high] = [low, high].map(|limited| limited && !prompt.lifted);
         Drive { pad: prompt.pad, fraction: drive, low, high, faults: self.faults, walled: None }
     }
 

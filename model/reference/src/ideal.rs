@@ -4,7 +4,7 @@
 //!
 //! ```text
 //! i_k = 2/Σw · Σ w·x_k·cos φ,   q_k = 2/Σw · Σ w·x_k·sin φ,   a_k = √(i_k² + q_k²)          (a full-scale tone gives one)
-//! r_x = Σ ±a_k / Σ a_k,   r_y likewise (eqs. 2, 3);   x, y, R: where the table has these ratios;   lost: min a_k < open · Σ a_k
+//! r_x = Σ ±a_k / Σ a_k,   r_y likewise (eqs. 2, 3);   x, y, R: where the table has these ratios;   lost: min a_k < open · Σ a_k;   lifted: C ≤ contact
 //! a = |Σ (i_k + j q_k)|,   C = gain · a / √(v² − (a·R)²)    or    gain · a / v (eq. 6)
 //! m = 1/Σw · Σ w·h², the mean of the pad's last N once there are as many,   F = gain · C² · m · square_gain (eq. 8)
 //! F = gain · factor(C, past) · C² · m · square_gain, past of √(m · square_gain)    with a force table
@@ -47,11 +47,21 @@ struct Held<T> {
     eq6: T,
 }
 
+impl<T: Real> Held<T> {
+    /// What a pad that is lifted reads, at the place that these results have.
+    fn at_the_same_place(self, lifted: Held<T>) -> Held<T> {
+        let Measurement { r_x, r_y, x_mm, y_mm, sheet, .. } = self.measurement;
+        let measurement = Measurement { r_x, r_y, x_mm, y_mm, sheet, ..lifted.measurement };
+        Held { measurement, ..lifted }
+    }
+}
+
 /// A slot's equations.
 struct Solution<T> {
     values: Held<T>,
     valid: bool,
     lost: bool,
+    lifted: bool,
 }
 
 /// A core in floating point, slot by slot.
@@ -107,7 +117,9 @@ impl<T: Real> Reference<T> {
     /// # let point = |(x, y)| Point { x, y, r_x: x / 100.0, r_y: y / 50.0, sheet: 0.0 };
     /// # let position = PositionTable::fit(&profile, &(0..81).map(place).map(point).collect::<Vec<_>>())?;
     /// # let force_table = ForceTable::default();
-    /// # let calibration = Calibration { position, capacitance_gain: 800.0, force_gain: 2e-6, force_table };
+    /// # let (capacitance_gain, force_gain, contact_capacitance) = (800.0, 2e-6, 100.0);
+    /// # let calibration =
+    /// #     Calibration { position, capacitance_gain, force_gain, contact_capacitance, force_table };
     /// let mut double = Reference::new(&profile, &calibration);
     /// let mut single = Reference::<f32>::with_precision(&profile, &calibration);
     /// let phasors = [(0.11, 0.0), (0.12, 0.0), (0.1, 0.0), (0.09, 0.0), (0.1, 0.0), (0.1, 0.0), (0.3, 0.4)];
@@ -267,10 +279,13 @@ impl<T: Real> Reference<T> {
         let solution = self.solve(pad, phasors, mean_square);
         self.last = pad;
         if solution.valid {
-            self.held[pad] = solution.values;
+            self.held[pad] = match solution.lifted {
+                true => self.held[pad].at_the_same_place(solution.values),
+                false => solution.values,
+            };
         }
-        let flags =
-            Flags { clipped, saturated: false, invalid: !solution.valid, lost: solution.lost };
+        let Solution { valid, lost, lifted, .. } = solution;
+        let flags = Flags { clipped, saturated: false, invalid: !valid, lost, lifted };
         Measurement { mean_square, flags, ..self.held[pad].measurement }
     }
 
@@ -287,6 +302,7 @@ impl<T: Real> Reference<T> {
             force_n: number(gain * capacitance * capacitance * mean_square),
             force_gain: number(gain),
             invalid: clipped || left.is_nan() || left <= T::zero(),
+            lifted: self.is_lifted(capacitance),
         }
     }
 
@@ -296,6 +312,11 @@ impl<T: Real> Reference<T> {
         let drop = if self.sheet_correction { total * sheet } else { T::zero() };
         let left = sense * sense - drop * drop;
         (real::<T>(self.calibration.capacitance_gain) * total / left.sqrt(), left)
+    }
+
+    /// Whether a pad of this capacitance does not touch.
+    fn is_lifted(&self, capacitance_pf: T) -> bool {
+        capacitance_pf <= real(self.calibration.contact_capacitance)
     }
 
     /// The mean of the pad's last squares, or the newest while they are too few.
@@ -359,6 +380,7 @@ impl<T: Real> Reference<T> {
             },
             valid: corners > T::zero() && place.is_valid() && left > T::zero(),
             lost: least < real::<T>(self.calibration.position.open_share()) * corners,
+            lifted: self.is_lifted(capacitance_pf),
         }
     }
 }
@@ -447,6 +469,7 @@ mod tests {
             position: PositionTable::fit(&profile, &points).expect("a raster"),
             capacitance_gain: 800.0,
             force_gain: 2e-6,
+            contact_capacitance: 100.0,
             force_table: ForceTable::default(),
         };
         for terminals in [4, 6, 8] {

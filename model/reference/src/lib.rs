@@ -28,7 +28,9 @@
 //! let point = |(x, y)| Point { x, y, r_x: x / 100.0, r_y: y / 50.0, sheet: 0.0 };
 //! let position = PositionTable::fit(&profile, &(0..81).map(place).map(point).collect::<Vec<_>>())?;
 //! let force_table = ForceTable::default();
-//! let calibration = Calibration { position, capacitance_gain: 800.0, force_gain: 2e-6, force_table };
+//! let (capacitance_gain, force_gain, contact_capacitance) = (800.0, 2e-6, 100.0);
+//! let calibration =
+//!     Calibration { position, capacitance_gain, force_gain, contact_capacitance, force_table };
 //! let mut reference = Reference::new(&profile, &calibration);
 //!
 //! // The same current at all six terminals, a tenth of full scale; the sensing voltage at half of it.

@@ -130,6 +130,8 @@ impl Core {
         gains.capacitance_gain =
             formats.capacitance_gain.code_saturating(calibration.capacitance_gain);
         gains.force_gain = formats.force_gain.code_saturating(calibration.force_gain);
+        gains.contact_capacitance =
+            formats.contact_capacitance.code_saturating(calibration.contact_capacitance);
         inputs
     }
 

@@ -11,10 +11,15 @@
 //! what is written later counts from the next frame on. The curve is not: it is written while no drive
 //! word is being made. Writing a target is a sign of life of the host. A split pad has a drive word after
 //! the slot of its last part, by whose number it is known; its target is the larger of the one
-//! written and the wall's. Latency: two clocks, or those of the split pad, and the controller's.
+//! written and the wall's.
+//!
+//! After a reset, and from the beginning of `clear` on, every pad's target is zero until one is written, `clear` or not.
+//! In a clock in which `enable` is not set, drives are off, whatever was taken with the estimate. Latency: two clocks, or
+//! those of the split pad, and the controller's.
 
 use super::controller::{self, Controller, Faults, Tuning};
 use super::estimator::{FramePort, PromptPort};
+use super::marks;
 use super::split_pad::{self, SplitPad, WallPort};
 use hapticore_contract::frame::Field;
 use hapticore_contract::profile::{Profile, ProfileError};
@@ -98,6 +103,7 @@ bundle! {
 block! {
     /// Controller, targets and walls of all pads.
     pub struct Drives("drives") {
+        pads: u64,
         estimates: PromptPort<Format>,
         position: Format,
         pad: Format,
@@ -109,9 +115,16 @@ block! {
         pub controller: Controller,
         /// Split pads and their walls, where there are some.
         pub split_pad: Option<SplitPad>,
+        /// Of each pad that has one: its target.
         targets: Memory,
     }
     inputs(block) {
+        /// The core's slot is abandoned: every pad begins anew, without a target.
+        clear: BIT,
+        /// Every pad's drive begins anew, at zero: what holds it has gone to zero.
+        drives_clear: BIT,
+        /// Asserted for one cycle every millisecond.
+        tick: BIT,
         estimate as PromptPort: block.estimates,
         /// A frame has a valid place.
         placed: BIT.where_present(block.has_walls()),
@@ -136,8 +149,15 @@ block! {
         /// It is there.
         start: BIT,
         invalid: BIT,
+        lifted: BIT,
         pad: block.pad,
+        /// Pads with targets.
+        targeted: marks::format(block.pads),
+        /// The pad has one.
+        has_target: BIT,
         target: block.targets.format,
+        /// `clear` of the clock before.
+        cleared: BIT,
         settings as Settings: block.settings(),
         extremes as ExtremesPort: block.extremes(),
         /// A drive word has been given.
@@ -157,6 +177,7 @@ impl Drives {
         let (of_controller, of_drive) = (controller.inputs(), controller.outputs());
         let controller::Inputs { target, pad, .. } = of_controller;
         Ok(Drives {
+            pads: profile.pads,
             estimates,
             position: profile.formats.position,
             pad,
@@ -264,12 +285,13 @@ impl Drives {
             return (none(Format::NONE), none(Format::NONE), none(Format::NONE));
         }
         let is = |field: Field| frame.index.is(field as u64);
+        let valid = frame.valid & !frame.invalid & !frame.lifted;
         let place = frame.frame.as_code(self.position);
         match self.split_pad.as_ref().filter(|of| of.has_quadrants()) {
-            None => (frame.valid & is(Field::X) & !frame.invalid, frame.pad, place),
+            None => (valid & is(Field::X), frame.pad, place),
             Some(of) => {
                 let along_y = is(Field::Y);
-                let placed = frame.valid & (is(Field::X) | along_y) & !frame.invalid;
+                let placed = valid & (is(Field::X) | along_y);
                 let before = (frame.pad - int(1)).resize(self.pad, Wrap);
                 (placed & of.is_last(frame.pad), along_y.select(before, frame.pad), place)
             }
@@ -281,6 +303,7 @@ impl Drives {
 struct Begin<V: Interpretation> {
     start: Signal<V>,
     invalid: Signal<V>,
+    lifted: Signal<V>,
     capacitance: Signal<V>,
     measured: Signal<V>,
     /// Force that its wall asks for.
@@ -295,6 +318,7 @@ impl Drives {
         Begin {
             start: r.start,
             invalid: r.invalid,
+            lifted: r.lifted,
             capacitance: i.estimate.prompt_capacitance,
             measured: i.estimate.prompt_force,
             of_wall: zero(Format::NONE),
@@ -318,6 +342,9 @@ impl Drives {
             capacitance: i.estimate.prompt_capacitance,
             measured: i.estimate.prompt_force,
             invalid: i.estimate.prompt_invalid,
+            lifted: i.estimate.prompt_lifted,
+            clear: i.clear | i.drives_clear,
+            begins_anew: self.begins_anew(r, i),
             placed: i.placed,
             placed_pad: i.placed_pad,
             place: i.place,
@@ -334,6 +361,7 @@ impl Drives {
         Begin {
             start: pad.done,
             invalid: pad.invalid,
+            lifted: pad.lifted,
             capacitance: pad.capacitance,
             measured: pad.measured,
             of_wall: pad.target,
@@ -343,6 +371,22 @@ impl Drives {
 }
 
 impl Drives {
+    /// With the first clock of `clear` what has been written of pads goes.
+    #[inline(always)]
+    fn begins_anew<V: Interpretation>(&self, r: &Regs<V>, i: &In<V>) -> Signal<V> {
+        i.clear & !r.cleared
+    }
+
+    /// Pads with targets after this clock, and whether the pad of an estimate has one.
+    #[inline(always)]
+    fn targeted<V: Interpretation>(&self, r: &Regs<V>, i: &In<V>) -> [Signal<V>; 2] {
+        let marks = marks::unless(self.begins_anew(r, i), r.targeted);
+        let written = (i.target.target_write, i.target.target_pad);
+        let has = marks::is_marked(marks, i.estimate.prompt_pad);
+        let has = i.estimate.prompt.select(has, r.has_target) & !i.clear;
+        [marks::written(marks, written, bit(true)), has]
+    }
+
     /// The settings: those of now, with an estimate.
     #[inline(always)]
     fn taken<V: Interpretation>(&self, r: &Regs<V>, i: &In<V>) -> Settings<Signal<V>> {
@@ -433,6 +477,9 @@ impl Block for Drives {
             measured: begin.measured,
             force_gain: i.estimate.prompt_gain,
             invalid: begin.invalid,
+            lifted: begin.lifted,
+            clear: i.clear | i.drives_clear | !i.tuning.enable,
+            tick: i.tick,
             alive: alive | target_write,
             clear_faults,
             tuning: self.held(&r.settings, i.tuning),
@@ -455,7 +502,8 @@ impl Block for Drives {
             true => r.driven | rests.select(!r.rests, r.rests),
             false => bit(false),
         };
-        if (steps | target_write | i.extremes_read | of_walls).can_skip() {
+        let clears = r.cleared.select(!i.clear, i.clear);
+        if (steps | target_write | i.extremes_read | of_walls | clears).can_skip() {
             return outputs;
         }
         let found = self.targets.data(&mut state.submodules.targets);
@@ -463,12 +511,19 @@ impl Block for Drives {
         let pad = prompt.select(i.estimate.prompt_pad, r.pad);
         let write = Write { enable: target_write, address: target_pad, data: target_word };
         self.targets.access(&mut state.submodules.targets, pad, write);
+        let [targeted, has_target] = self.targeted(&r, &i);
+        let wanted = r.has_target.select(found, zero(r.target.format));
+        let target = r.asked.select(wanted, r.target);
         let next = Registers {
             asked: prompt,
             start: r.asked,
             invalid: prompt.select(i.estimate.prompt_invalid, r.invalid),
+            lifted: prompt.select(i.estimate.prompt_lifted, r.lifted),
             pad,
-            target: r.asked.select(found, r.target),
+            targeted,
+            has_target,
+            target: i.clear.select(zero(target.format), target),
+            cleared: i.clear,
             settings: self.taken(&r, &i),
             extremes: self.extremes_with(&r, &i, &controller, &begin),
             driven: controller.done.where_present(r.driven.format),

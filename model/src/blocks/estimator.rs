@@ -32,6 +32,7 @@ use super::force::{self, Force};
 use super::force_table::{self, ForceTable};
 use super::frames::{self, Frames};
 use super::haptic_voltage::{self, HapticVoltage};
+use super::marks;
 use super::position::{self, Position, TablePort};
 use super::ratio::{self, Ratio};
 use hapticore_contract::calibration::ForceTable as Words;
@@ -50,6 +51,8 @@ bundle! {
         capacitance_gain,
         /// Calibration: gain of the force, N/pF² at a full-scale haptic mean square.
         force_gain,
+        /// Calibration: capacitance at or below which a pad is lifted, pF.
+        contact_capacitance,
         table as TablePort,
     }
 }
@@ -75,6 +78,8 @@ bundle! {
         invalid,
         /// A terminal is open.
         lost,
+        /// The pad does not touch; its last valid place is given out.
+        lifted,
     }
 }
 
@@ -93,6 +98,8 @@ bundle! {
         prompt_gain,
         /// No capacitance has these currents, or a code or a word is at its limit.
         prompt_invalid,
+        /// The pad does not touch.
+        prompt_lifted,
     }
 }
 
@@ -107,7 +114,7 @@ block! {
         hurried: bool,
     }
     submodules {
-        /// The sheet's resistance at the last place of each pad.
+        /// The sheet's resistance at the last place of each pad that has one.
         sheets: Memory,
         currents: Currents,
         ratio: Ratio,
@@ -121,7 +128,7 @@ block! {
         frames: Frames,
     }
     inputs(estimator) {
-        /// Mean squares of earlier windows no longer count.
+        /// Mean squares of earlier windows no longer count, nor what a prompt estimate takes of earlier slots.
         clear: BIT,
         /// Asserted for one cycle with each of the demodulator's sums.
         valid: BIT,
@@ -146,8 +153,12 @@ block! {
         early: BIT.where_present(estimator.prompts),
         /// The prompt estimate has been given: the frame's follows.
         follow: BIT.where_present(estimator.prompts),
+        /// The pad of the prompt estimate does not touch.
+        lifted: BIT.where_present(estimator.prompts),
         pad: estimator.pad(),
         clipped: BIT,
+        /// Pads with a place.
+        placed: marks::format(estimator.pads).where_present(estimator.prompts),
     }
 }
 
@@ -157,6 +168,9 @@ impl Estimator {
     /// # Errors
     /// The first of its blocks that cannot be.
     pub fn try_new(profile: &Profile) -> Result<Self, ProfileError> {
+        if profile.control.is_some() {
+            marks::check(profile)?;
+        }
         let (currents, law) = (Currents::try_new(profile)?, profile.force.law);
         let sheets = Memory::new("sheets", profile.pads as usize, profile.sheet());
         Ok(Estimator {
@@ -186,17 +200,28 @@ impl Estimator {
     /// The formats of the calibration.
     fn calibration(&self) -> Calibration<Format> {
         let (capacitance_gain, force_gain) = (self.capacitance.inputs().gain, self.force_gain);
-        let table = self.position.inputs().table;
-        let address = self.table().address();
-        Calibration { capacitance_gain, force_gain, table: TablePort { address, ..table } }
+        let contact_capacitance = self.capacitance.outputs().capacitance;
+        let table = TablePort { address: self.table().address(), ..self.position.inputs().table };
+        Calibration { capacitance_gain, force_gain, contact_capacitance, table }
     }
 
     /// The formats of a frame.
     #[inline(always)]
     fn frame(&self) -> FramePort<Format> {
         let frames::Outputs { valid, index, word, done } = self.frames.outputs();
-        let (pad, [clipped, saturated, invalid, lost]) = (self.pad(), [BIT; 4]);
-        FramePort { valid, index, frame: word, done, pad, clipped, saturated, invalid, lost }
+        let (pad, [clipped, saturated, invalid, lost, lifted]) = (self.pad(), [BIT; 5]);
+        FramePort {
+            valid,
+            index,
+            frame: word,
+            done,
+            pad,
+            clipped,
+            saturated,
+            invalid,
+            lost,
+            lifted,
+        }
     }
 
     /// The formats of a prompt estimate.
@@ -209,6 +234,7 @@ impl Estimator {
             prompt_force: self.frames.inputs().haptic_force,
             prompt_gain: self.force_gain,
             prompt_invalid: BIT,
+            prompt_lifted: BIT,
         };
         PromptPort::map(formats, |format| format.where_present(self.prompts))
     }
@@ -298,7 +324,7 @@ impl Estimator {
         &self,
         state: &mut State<Self, V>,
         i: force::In<V>,
-        (hold, pad, table): (Signal<V>, Signal<V>, TablePort<Signal<V>>),
+        (clear, hold, pad, table): (Signal<V>, Signal<V>, Signal<V>, TablePort<Signal<V>>),
     ) -> (force::Out<V>, Signal<V>) {
         let force::Inputs { start, capacitance, mean_square, gain } = i;
         let (by_eq8, by_table) = (&self.force_estimator, &self.force_table);
@@ -312,8 +338,9 @@ impl Estimator {
             .zip(state.submodules.force_table.as_mut())
             .expect("one law or the other");
         let hold = hold.where_present(block.inputs().hold);
+        let clear = clear.where_present(block.inputs().clear);
         let inputs =
-            force_table::Inputs { start, hold, pad, capacitance, mean_square, gain, table };
+            force_table::Inputs { start, clear, hold, pad, capacitance, mean_square, gain, table };
         let force_table::Outputs { done, haptic_force, factored_gain, saturated } =
             block.call("force_table", within, inputs);
         (force::Outputs { done, haptic_force, saturated }, factored_gain)
@@ -391,18 +418,21 @@ impl Estimator {
             gain: i.calibration.capacitance_gain,
         };
         let capacitance = call!(self.capacitance, state, to_capacitance);
+        let contact = i.calibration.contact_capacitance;
+        let lifted = contact.at_least(capacitance.capacitance).named("is_lifted");
         let to_force = force::Inputs {
             start: capacitance.done,
             capacitance: capacitance.capacitance,
             mean_square: haptic.mean_square,
             gain: i.calibration.force_gain,
         };
-        let (force, gain) = self.force(state, to_force, (self.early(&r), r.pad, of_force));
+        let (force, gain) = self.force(state, to_force, (i.clear, self.early(&r), r.pad, of_force));
         let invalid = invalid_place | capacitance.invalid;
         let inputs = frames::Inputs {
             start: if self.prompts { force.done & !r.early } else { force.done },
             pad: r.pad,
             invalid,
+            lifted,
             r_x: self.frames.ratio(ratio.r_x),
             r_y: self.frames.ratio(ratio.r_y),
             x: position.x,
@@ -427,6 +457,7 @@ impl Estimator {
             prompt_force: force.haptic_force,
             prompt_gain: gain,
             prompt_invalid: prompt_done & (held | capacitance.invalid | r.clipped),
+            prompt_lifted: prompt_done & lifted,
         };
         let prompt = self.where_prompt(prompt);
         let next = Registers {
@@ -434,8 +465,10 @@ impl Estimator {
             dropping: i.valid.select(drops, r.dropping),
             early: (currents.done | (self.early(&r) & !force.done)).where_present(r.early.format),
             follow: prompt_done.where_present(r.follow.format),
+            lifted: prompt_done.select(lifted, r.lifted).where_present(r.lifted.format),
             pad,
             clipped: valid.select(i.clipped, r.clipped),
+            placed: self.placed(&r, &i, pad, position.done & !invalid_place),
         };
         state.store(self, next);
         if RUNS_ON && self.hurried {
@@ -455,6 +488,7 @@ impl Estimator {
             saturated: gate(held),
             invalid: gate(invalid),
             lost: gate(position.lost),
+            lifted: gate(lifted),
         };
         Outputs { frames, prompt }
     }
@@ -479,6 +513,7 @@ impl Estimator {
             prompt_force: force,
             prompt_gain: gain,
             prompt_invalid: bit(false),
+            prompt_lifted: bit(false),
         };
         Outputs { frames, prompt }
     }
@@ -512,7 +547,7 @@ impl Estimator {
     }
 
     /// The sheet's resistance: at the pad's last place while the prompt estimate is under way, then
-    /// at this one, which is kept where it is valid.
+    /// at this one, which is kept where it is valid and the pad touches.
     #[inline(always)]
     fn sheet<V: Interpretation>(
         &self,
@@ -526,10 +561,31 @@ impl Estimator {
             return position.sheet;
         }
         let last = self.sheets.data(&mut state.submodules.sheets);
-        let enable = position.done & !invalid;
+        let enable = position.done & !invalid & !r.lifted;
         let write = Write { enable, address: pad, data: position.sheet };
         self.sheets.access(&mut state.submodules.sheets, pad, write);
-        r.early.select(last, position.sheet)
+        r.early.select(self.where_placed(r, last), position.sheet)
+    }
+
+    /// The sheet's resistance at the pad's last place, nothing where it has none.
+    #[inline(always)]
+    fn where_placed<V: Interpretation>(&self, r: &Regs<V>, last: Signal<V>) -> Signal<V> {
+        marks::is_marked(r.placed, r.pad).select(last, zero(last.format))
+    }
+
+    /// Pads with a place after this clock.
+    #[inline(always)]
+    fn placed<V: Interpretation>(
+        &self,
+        r: &Regs<V>,
+        i: &In<V>,
+        pad: Signal<V>,
+        found: Signal<V>,
+    ) -> Signal<V> {
+        if !self.prompts {
+            return r.placed;
+        }
+        marks::unless(i.clear, marks::written(r.placed, (found, pad), bit(true)))
     }
 
     /// Whether the prompt estimate is under way.

@@ -34,6 +34,10 @@ block! {
         target as TargetPort: block.drives.inputs().target,
         tuning as Tuning: block.drives.inputs().tuning,
         wall as WallPort: block.drives.inputs().wall,
+        /// Every pad's drive begins anew, at zero: what holds it has gone to zero.
+        drives_clear: BIT,
+        /// Asserted for one cycle every millisecond: without ticks nothing is driven.
+        tick: BIT,
         /// Extremes are read: they begin anew.
         extremes_read: BIT,
     }
@@ -85,6 +89,9 @@ impl ForceLoop {
     fn to_drives<V: Interpretation>(&self, core: &core::Out<V>, i: &In<V>) -> drives::In<V> {
         let (placed, placed_pad, place) = self.drives.place(&core.frames);
         drives::Inputs {
+            clear: i.core.clear,
+            drives_clear: i.drives_clear,
+            tick: i.tick,
             estimate: core.prompt,
             placed,
             placed_pad,

@@ -28,6 +28,7 @@
 //! which does not count them twice. Latency: the square root, then for each [`Operation`] three
 //! clocks and a product. Source: docs/physics.md §3.
 
+use super::marks;
 use super::multiplier::{self, Multiplier};
 use super::position::TablePort;
 use super::rests::Rests;
@@ -70,6 +71,7 @@ block! {
         /// Of a word of the table, as a fraction.
         word: Format,
         pad: Format,
+        pads: u64,
         /// Of the multiplier's operands.
         left: Format,
         right: Format,
@@ -83,6 +85,8 @@ block! {
     inputs(force) {
         /// Begins; all others but the table are valid and stable until `done`.
         start: BIT,
+        /// Voltages of earlier windows no longer count.
+        clear: BIT.where_present(force.prompts),
         /// An estimate that comes before the frame's: what the pad has had stays as it was.
         hold: BIT.where_present(force.prompts),
         pad: force.pad,
@@ -124,6 +128,8 @@ block! {
         haptic_force: force.force,
         saturated: BIT,
         done: BIT,
+        /// Pads with filtered voltages.
+        filtered: marks::format(force.pads).where_present(force.prompts),
     }
 }
 
@@ -176,6 +182,7 @@ impl ForceTable {
             voltage,
             word,
             pad,
+            pads: profile.pads,
             left,
             right,
         };
@@ -414,6 +421,26 @@ impl ForceTable {
     }
 }
 
+impl ForceTable {
+    /// A filtered voltage of the pad; nothing where it has none.
+    #[inline(always)]
+    fn past_of<V: Interpretation>(&self, r: &Regs<V>, i: &In<V>, past: Signal<V>) -> Signal<V> {
+        if !self.prompts {
+            return past;
+        }
+        marks::is_marked(r.filtered, i.pad).select(past, zero(past.format))
+    }
+
+    /// Pads with filtered voltages after this clock: with its second one a pad has both.
+    #[inline(always)]
+    fn filtered<V: Interpretation>(&self, r: &Regs<V>, i: &In<V>, both: Signal<V>) -> Signal<V> {
+        if !self.prompts {
+            return r.filtered;
+        }
+        marks::unless(i.clear, marks::written(r.filtered, (both, i.pad), bit(true)))
+    }
+}
+
 /// The format of a factor: what three words of a row make, and as fine as a word.
 #[inline(always)]
 const fn factor(word: Format) -> Format {
@@ -433,7 +460,8 @@ impl Block for ForceTable {
         let r = state.load(self);
         let Registers { done, haptic_force, factored_gain, saturated, .. } = r;
         let outputs = Outputs { done, haptic_force, factored_gain, saturated };
-        if (i.start | i.table.write | self.under_way(&r)).can_skip() {
+        let clear = if self.prompts { i.clear } else { bit(false) };
+        if (i.start | clear | i.table.write | self.under_way(&r)).can_skip() {
             return outputs;
         }
         let multiplies = r.step.at(Step::Multiply);
@@ -443,7 +471,7 @@ impl Block for ForceTable {
         let sqrt = call!(self.sqrt, state, inputs);
         let read = [
             self.words.data(&mut state.submodules.words),
-            self.past.data(&mut state.submodules.past),
+            self.past_of(&r, &i, self.past.data(&mut state.submodules.past)),
         ];
         let (row, _) = self.place(r.offset);
         let TablePort { write, address, word } = i.table;
@@ -457,7 +485,8 @@ impl Block for ForceTable {
         let keeps = if self.prompts { accepts & !i.hold } else { accepts };
         let write = Write { enable: keeps & filters, address: place, data: filtered };
         self.past.access(&mut state.submodules.past, place, write);
-        let idle = Registers { multiplier_busy: bit(false), done: bit(false), ..r };
+        let filtered = self.filtered(&r, &i, keeps & of_mean);
+        let idle = Registers { multiplier_busy: bit(false), done: bit(false), filtered, ..r };
         let at = |step: Step| step.signal::<V>().resize(r.step.format, Proved);
         let begin = Registers {
             step: at(Step::SquareRoot),

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Frames: a slot's results as words one after the other; where they are invalid, the pad's last
-//! valid ones.
+//! valid ones, and of a lifted pad its last valid place.
 //!
 //! ```text
-//! results ─(one by one)─┬──(valid ?)── word
+//! results ─(one by one)─┬──(valid, touching ?)── word
 //!                       └─[held: fields of every pad]─┘
 //! ```
 //!
 //! Words are codes as integers, in the formats of [`Field::format`]. The haptic mean square is
-//! always valid and never held. Latency: fields + 2 clocks from `start` to the last word. Source:
+//! always valid and never held. Ratios, position and sheet resistance of a lifted pad are held, since currents so small tell no
+//! place; its capacitance and force are the slot's. Latency: fields + 2 clocks from `start` to the last word. Source:
 //! docs/decisions.md §6 (invalid: last value held).
 
 use super::rests::Rests;
@@ -37,6 +38,8 @@ block! {
         pad: frames.pad,
         /// The results are invalid: the pad's last valid ones are given out instead.
         invalid: BIT,
+        /// The pad does not touch: its last valid place is given out instead.
+        lifted: BIT,
         /// Ratio r_x, eq. 2.
         r_x: frames.fields[0],
         /// Ratio r_y, eq. 3.
@@ -75,6 +78,8 @@ block! {
 
 /// Fields in a frame.
 const FIELDS: u64 = Field::ALL.len() as u64;
+/// Fields of the place: all before the capacitance.
+const PLACE: u64 = Field::Capacitance as u64;
 const INDEX: Format = Format::counter(FIELDS - 1);
 
 impl Frames {
@@ -137,7 +142,9 @@ impl Block for Frames {
         let emits = (r.busy & !r.count.is(0)).named("emits");
         let held = self.held.data(&mut state.submodules.held);
         let never_held = before.is(FIELDS - 1);
-        let word = (i.invalid & !never_held).select(held, self.result(&i, before));
+        let of_place = before.less_than(int(PLACE));
+        let holds = (i.invalid & !never_held) | (i.lifted & of_place);
+        let word = holds.select(held, self.result(&i, before));
         let place = |index: Signal<V>| i.pad.concat(index.bits(0, INDEX.width));
         let write = Write { enable: r.valid, address: place(r.index), data: r.word };
         self.held.access(&mut state.submodules.held, place(r.count), write);

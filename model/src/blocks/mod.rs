@@ -14,6 +14,7 @@ pub mod force_loop;
 pub mod force_table;
 pub mod frames;
 pub mod haptic_voltage;
+mod marks;
 pub mod multiplexer;
 pub mod multiplier;
 pub mod oscillator;

@@ -21,12 +21,14 @@
 //! | depth   | positions', one bit more | mm | cannot                              |
 //!
 //! A pad is known by the number of its last part, whose place is the pad's. The wall acts from the
-//! pad's first valid place on; where the estimate of a sensing part is invalid it lets go, the safe
-//! side. Quadrants have a wall along either axis, one after the other: that along y is known by the
+//! pad's first valid place on, where it has a surface: after a reset, and from the beginning of `clear` on, none has one
+//! until it is written, and with every `clear` a pad needs a new place. Where the estimate of a sensing part is invalid,
+//! or the part does not touch, the wall lets go, the safe side. Quadrants have a wall along either axis, one after the other: that along y is known by the
 //! number of the pad's third part, its bottom is the left of that along x, and the pad takes the larger
 //! force. Latency: three clocks and the wall's for each axis, from the last part's estimate to `done`; four where
 //! words of block RAMs have registers.
 
+use super::marks;
 use super::sided_wall::{self, SidedWall};
 use hapticore_contract::profile::{self, Profile, ProfileError};
 use hapticore_hdl::block::{Block, Interpretation, State};
@@ -71,14 +73,16 @@ block! {
     submodules {
         /// The walls.
         pub wall: SidedWall,
-        /// Of each pad: it has a place, and which.
+        /// Of each pad that has one: its place.
         places: Memory,
-        /// Of each pad: the wall is on the right, and its surface.
+        /// Of each pad that has one: the wall is on the right, and its surface.
         surfaces: Memory,
-        /// Of each pad: it is not driven.
-        rests: Memory,
     }
     inputs(block) {
+        /// Every pad begins anew.
+        clear: BIT,
+        /// Every pad is without a wall until one is written.
+        begins_anew: BIT,
         /// A part's estimate; all up to `invalid` are valid.
         estimate: BIT,
         /// Number of the part.
@@ -89,6 +93,8 @@ block! {
         measured: block.force,
         /// The estimate is invalid.
         invalid: BIT,
+        /// The part does not touch.
+        lifted: BIT,
         /// A frame has a valid place.
         placed: BIT,
         /// Number of its part, or of that by which the pad's wall along y is known.
@@ -110,6 +116,8 @@ block! {
         measured: block.force,
         /// Its estimate is invalid.
         invalid: BIT,
+        /// A part of what brakes does not touch.
+        lifted: BIT,
         /// Force of the wall, N.
         target: block.force,
         /// The user leaves the wall.
@@ -137,6 +145,10 @@ block! {
         invalid: BIT,
         /// That of what brakes is.
         unknown: BIT,
+        /// A sensing part does not touch.
+        lifted: BIT,
+        /// One of what brakes does not.
+        released: BIT,
         capacitance: block.capacitance,
         measured: block.force,
         /// Of the left half.
@@ -149,6 +161,14 @@ block! {
         place_word: block.places.format.where_present(block.registers_words),
         surface_word: block.surfaces.format.where_present(block.registers_words),
         start: BIT,
+        /// Pads with places.
+        placed_pads: marks::format(block.pads),
+        /// Pads with walls.
+        walled_pads: marks::format(block.pads),
+        /// Pads whose last drive word is zero.
+        resting_pads: marks::format(block.pads),
+        /// The pad has a place and a wall.
+        met: BIT,
         placed: BIT,
         /// Place less surface.
         depth: block.wall.inputs().depth,
@@ -169,7 +189,8 @@ impl SplitPad {
         let (wall, f) = (SidedWall::try_new(profile)?, &profile.formats);
         let words = 1 << Format::counter(profile.pads - 1).width;
         let memory = |name, format| Memory::new(name, words, format).dont_care_on_collision();
-        let place = Format::unsigned(f.position.width + 1, 0);
+        let place = Format::unsigned(f.position.width, 0);
+        let surface = Format::unsigned(f.position.width + 1, 0);
         Ok(SplitPad {
             pads: profile.pads,
             parts: rule.parts,
@@ -184,8 +205,7 @@ impl SplitPad {
                 false => memory("places", place).in_block(),
             },
             // Written at any time, likewise.
-            surfaces: Memory::new("surfaces", words, place).in_block(),
-            rests: memory("rests", BIT),
+            surfaces: Memory::new("surfaces", words, surface).in_block(),
         })
     }
 
@@ -268,13 +288,17 @@ impl SplitPad {
             2 => (mean(r.left, i.capacitance), mean(r.left_measured, i.measured)),
             _ => (i.capacitance, i.measured),
         };
-        let invalid = (!first & r.invalid) | i.invalid;
+        let [invalid, lifted] = [(r.invalid, i.invalid), (r.lifted, i.lifted)]
+            .map(|(before, now)| (!first & before) | now);
+        let of_brake = |all: Signal<V>, own: Signal<V>| if self.parts == 2 { all } else { own };
         Registers {
             pad: i.estimate.select(i.pad, r.pad),
             left: first.select(i.capacitance, r.left),
             right: second.select(i.capacitance, r.right),
             invalid: (first | second).select(invalid, r.invalid),
-            unknown: last.select(if self.parts == 2 { invalid } else { i.invalid }, r.unknown),
+            unknown: last.select(of_brake(invalid, i.invalid), r.unknown),
+            lifted: (first | second).select(lifted, r.lifted),
+            released: last.select(of_brake(lifted, i.lifted), r.released),
             capacitance: last.select(capacitance, r.capacitance),
             measured: last.select(measured, r.measured),
             left_measured: match self.parts {
@@ -298,7 +322,8 @@ impl SplitPad {
         let (sum, force_sum) = (sum(r.sum, i.capacitance), sum(r.force_sum, i.measured));
         // Saturated where a pad's first quadrants have not been seen.
         let quarter = |of: Signal<V>, to: Format| of.scaled(-2).quantize(to, HalfEven, Saturate);
-        let invalid = i.estimate.select((!first & r.invalid) | i.invalid, r.invalid);
+        let [invalid, lifted] = [(r.invalid, i.invalid), (r.lifted, i.lifted)]
+            .map(|(before, now)| i.estimate.select((!first & before) | now, before));
         Registers {
             pad: i.estimate.select(i.pad, r.pad),
             left: first.select(i.capacitance, r.left),
@@ -310,6 +335,8 @@ impl SplitPad {
             along_y: !i.estimate & r.along_y,
             invalid,
             unknown: last.select(invalid, r.unknown),
+            lifted,
+            released: last.select(lifted, r.released),
             capacitance: last.select(quarter(sum, self.capacitance), r.capacitance),
             measured: last.select(quarter(force_sum, self.force), r.measured),
             asked: last,
@@ -330,11 +357,10 @@ impl SplitPad {
         let within = &mut state.submodules;
         let [place, surface] =
             [self.places.data(&mut within.places), self.surfaces.data(&mut within.surfaces)];
-        let rests = self.rests.data(&mut within.rests);
         let write = Write {
             enable: i.placed,
             address: i.placed_pad,
-            data: bit(true).concat(i.place.bits(0, self.position.width)),
+            data: i.place.bits(0, self.position.width),
         };
         let number = self.number(r);
         self.places.access(&mut within.places, number, write);
@@ -344,10 +370,7 @@ impl SplitPad {
             data: i.wall.wall_right.concat(i.wall.wall_surface.bits(0, self.position.width)),
         };
         self.surfaces.access(&mut within.surfaces, number, write);
-        let write = Write { enable: i.driven, address: r.pad, data: i.rests };
-        self.rests.access(&mut within.rests, r.pad, write);
         let of = |word: Signal<V>| word.bits(0, self.position.width).as_code(self.position);
-        let flag = |word: Signal<V>| word.bits(self.position.width, 1);
         let (there, place_word, surface_word) = match self.registers_words {
             true => (r.kept, r.place_word, r.surface_word),
             false => (r.found, place, surface),
@@ -364,10 +387,36 @@ impl SplitPad {
         Registers {
             found: r.asked,
             start: there,
-            placed: there.select(flag(place_word), r.placed),
+            placed: there.select(r.met, r.placed),
             depth: there.select(of(place_word) - of(surface_word), r.depth),
-            mirrored: there.select(flag(surface_word), r.mirrored),
-            rests: r.found.select(rests, r.rests),
+            mirrored: there.select(surface_word.bits(self.position.width, 1), r.mirrored),
+            rests: r.found.select(marks::is_marked(r.resting_pads, r.pad), r.rests),
+            ..self.marked(r, i, number, next)
+        }
+    }
+}
+
+impl SplitPad {
+    /// What is marked of pads after this clock, and whether the pad that is asked for has a place and a wall.
+    #[inline(always)]
+    fn marked<V: Interpretation>(
+        &self,
+        r: &Regs<V>,
+        i: &In<V>,
+        number: Signal<V>,
+        next: Regs<V>,
+    ) -> Regs<V> {
+        let placed = marks::unless(i.clear, r.placed_pads);
+        let walled = marks::unless(i.begins_anew, r.walled_pads);
+        let resting = marks::unless(i.clear, r.resting_pads);
+        let met = marks::is_marked(placed, number) & marks::is_marked(walled, number);
+        let write = (i.placed & !i.clear, i.placed_pad);
+        let wall_write = (i.wall.wall_write, i.wall.wall_pad);
+        Registers {
+            placed_pads: marks::written(placed, write, bit(true)),
+            walled_pads: marks::written(walled, wall_write, bit(true)),
+            resting_pads: marks::written(resting, (i.driven & !i.clear, r.pad), i.rests),
+            met: r.asked.select(met, r.met),
             ..next
         }
     }
@@ -423,7 +472,7 @@ impl SplitPad {
             restart: i.wall.wall_restart | !r.placed,
             left,
             right,
-            trusted: r.placed & !r.invalid,
+            trusted: r.placed & !r.invalid & !r.lifted,
             depth: r.depth,
             mirrored: r.mirrored,
             at_zero: r.rests,
@@ -444,12 +493,13 @@ impl Block for SplitPad {
             capacitance: r.capacitance,
             measured: r.measured,
             invalid: r.unknown,
+            lifted: r.released,
             target: walled.target,
             free: walled.free,
             reads: walled.valid,
         };
         let outputs = if self.has_quadrants() { of_both(outputs, &r) } else { outputs };
-        let written = i.placed | i.driven | i.wall.wall_write;
+        let written = i.placed | i.driven | i.wall.wall_write | i.clear | i.begins_anew;
         let turns = if self.has_quadrants() { walled.done } else { bit(false) };
         if (i.estimate | self.under_way(&r) | written | turns).can_skip() {
             return outputs;

@@ -16,7 +16,7 @@ use crate::blocks::position::TablePort;
 use crate::blocks::split_pad::WallPort;
 use hapticore_contract::calibration::Calibration;
 use hapticore_contract::control::{Drive, Faults, Surface, Tuning, Walled, Walls};
-use hapticore_contract::frame::{Field, Frame};
+use hapticore_contract::frame::{Field, Flags, Frame};
 use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_hdl::block::{Block, State};
 use hapticore_hdl::bundle::Bundle;
@@ -137,10 +137,16 @@ impl FixedLoop {
         let (state, idle) = (drives.reset(), idle(&drives, tuning));
         let core = FixedSimulation::new(profile, calibration);
         let mut of = FixedLoop { core, drives, state, idle };
+        of.tick();
         for write in curve_writes(of.drives.inputs().tuning, tuning) {
             of.clock(drives::Inputs { tuning: write, ..of.idle });
         }
         Ok(of)
+    }
+
+    /// A millisecond has passed, by which a silent host is missed; the first is over when a loop begins.
+    pub fn tick(&mut self) {
+        self.clock(drives::Inputs { tick: 1, ..self.idle });
     }
 
     /// Sets a pad's target force, N.
@@ -181,7 +187,8 @@ impl FixedLoop {
 
     /// The place of a valid frame.
     fn place(&mut self, frame: &Frame) {
-        if frame.flags.invalid || self.drives.split_pad.is_none() {
+        let Flags { invalid, lifted, .. } = frame.flags;
+        if invalid || lifted || self.drives.split_pad.is_none() {
             return;
         }
         let of = |field: Field| frame.codes[field as usize];
@@ -283,6 +290,7 @@ impl ClockLoop {
             block,
         };
         of.calibrate(profile, calibration, tuning);
+        of.tick();
         of.blank();
         Ok(of)
     }
@@ -301,6 +309,11 @@ impl ClockLoop {
             let tuning = signals::<controller::Tuning, i64>(write, formats.tuning);
             self.block.step(&mut self.state.block, Inputs { tuning, ..self.inputs });
         }
+    }
+
+    /// As [`FixedLoop::tick`].
+    pub fn tick(&mut self) {
+        self.step(Inputs { tick: bit(true), ..self.inputs });
     }
 
     /// Sets a pad's target force, N.

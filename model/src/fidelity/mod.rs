@@ -42,12 +42,12 @@ impl Gathered {
     #[inline(always)]
     fn frame<V: Value>(self, last: estimator::FramePort<Signal<V>>) -> Frame {
         let set = |flag: Signal<V>| V::code(flag) != 0;
-        let [clipped, saturated, invalid, lost] =
-            [last.clipped, last.saturated, last.invalid, last.lost].map(set);
+        let [clipped, saturated, invalid, lost, lifted] =
+            [last.clipped, last.saturated, last.invalid, last.lost, last.lifted].map(set);
         Frame {
             pad: V::code(last.pad) as usize,
             codes: self.codes,
-            flags: Flags { clipped, saturated, invalid, lost },
+            flags: Flags { clipped, saturated, invalid, lost, lifted },
         }
     }
 }

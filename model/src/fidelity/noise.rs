@@ -115,6 +115,8 @@ impl Predictor {
         gains.capacitance_gain =
             constant(calibration.capacitance_gain, gains.capacitance_gain.format);
         gains.force_gain = constant(calibration.force_gain, gains.force_gain.format);
+        gains.contact_capacitance =
+            constant(calibration.contact_capacitance, gains.contact_capacitance.format);
         let state = calibrated(&core, profile, calibration);
         let begun = recording.mark();
         let waves = [of_codes.windowed(), of_reals.windowed()];

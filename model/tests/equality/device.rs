@@ -79,6 +79,7 @@ pub fn calibration(profile: &Profile) -> Calibration {
         position: PositionTable::fit(profile, &points).expect("a raster").with_open_share(0.01),
         capacitance_gain: 800.0,
         force_gain: 2e-6,
+        contact_capacitance: 100.0,
         force_table: force_table(),
     };
     calibration.check(profile).expect("a calibration within its formats");
@@ -120,10 +121,12 @@ pub enum Sight {
     Broken,
     /// Currents, but no sensing voltage.
     NoVoltage,
+    /// A pad that does not touch: a hundredth to a tenth of its currents.
+    Lifted,
 }
 
 impl Sight {
-    pub const ALL: [Sight; 7] = [
+    pub const ALL: [Sight; 8] = [
         Sight::Tones,
         Sight::Silence,
         Sight::Noise,
@@ -131,6 +134,7 @@ impl Sight {
         Sight::NoVoltage,
         Sight::Whisper,
         Sight::FullScale,
+        Sight::Lifted,
     ];
 }
 
@@ -165,6 +169,11 @@ pub fn codes(profile: &Profile, sight: Sight, random: &mut Random) -> Vec<i32> {
             tones.phasors[random.below(profile.terminals.x.len() as u64) as usize].0 = 0.0
         }
         Sight::NoVoltage => tones.phasors.last_mut().expect("there are channels").0 = 0.0,
+        Sight::Lifted => {
+            let share = random.between(0.01, 0.1);
+            let (_, terminals) = tones.phasors.split_last_mut().expect("there are channels");
+            terminals.iter_mut().for_each(|(amplitude, _)| *amplitude *= share);
+        }
         _ => (),
     }
     let sample = |n: u64| match sight {

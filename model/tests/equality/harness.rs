@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The bench on which a block is clocked.
 
-use hapticore_hdl::block::{Block, Inputs, Interpretation, Outputs, State};
+use hapticore_hdl::block::{Block, Edit, Inputs, Interpretation, Outputs, State, Submodule};
 use hapticore_hdl::bundle::Bundle;
+use hapticore_hdl::format::Format;
+use hapticore_hdl::memory::Memory;
 use hapticore_hdl::probe::{Variable, sample, variables};
 use hapticore_hdl::signal::Signal;
 
@@ -41,12 +43,28 @@ impl<B: Block, V: Interpretation> Bench<B, V> {
         B::Outputs::map(outputs, V::code)
     }
 
+    /// As the reset input does: registers are zero, memories keep their words.
+    #[allow(dead_code, reason = "tests of whole cores begin with a core at reset")]
+    pub fn press_reset(&mut self) {
+        self.block.edit(&mut self.state, &mut Reset);
+    }
+
     /// Every register, and what it holds.
     pub fn registers(&self) -> impl Iterator<Item = (Variable, V)> + use<B, V> {
         let mut values = Vec::new();
         sample(&self.block, &self.state, &mut values);
         variables(&self.block, B::NAME).into_iter().zip(values)
     }
+}
+
+struct Reset;
+
+impl<V: Interpretation> Edit<V> for Reset {
+    fn word(&mut self, format: Format, _value: V) -> V {
+        V::raw(0, format)
+    }
+
+    fn memory(&mut self, _memory: &Memory, _words: &mut V::Words) {}
 }
 
 impl<B: Block> Bench<B> {

@@ -3,6 +3,7 @@
 
 use crate::device::{self, Sight, calibration, tone_codes, tones};
 use crate::random::Random;
+use hapticore_contract::frame::Measurement;
 use hapticore_contract::profile::Profile;
 use hapticore_reference::Reference;
 use std::f64::consts::TAU;
@@ -106,4 +107,29 @@ fn what_is_invalid_holds_the_last_of_its_pad() {
     assert_eq!(slot(3, Sight::Silence).0.capacitance_pf, 0.0, "a pad that never was");
     assert!(slot(0, Sight::Broken).0.flags.lost);
     assert!(slot(0, Sight::FullScale).0.flags.clipped);
+}
+
+#[test]
+fn a_lifted_pad_keeps_its_place_and_reads_its_own_capacitance() {
+    let profile = Profile::bundled("standard").expect("bundled");
+    let calibration = calibration(&profile);
+    let (mut reference, mut random) =
+        (Reference::<f64>::new(&profile, &calibration), Random::new(9));
+    let mut slot = |pad: usize, sight: Sight| {
+        let codes = device::codes(&profile, sight, &mut random);
+        reference.slot(pad, &codes[profile.slot.blanking() as usize * profile.channels()..])
+    };
+    let touching = slot(2, Sight::Tones);
+    assert!(!touching.flags.lifted && touching.capacitance_pf > calibration.contact_capacitance);
+    slot(1, Sight::Tones);
+    let lifted = slot(2, Sight::Lifted);
+    assert!(lifted.flags.lifted && !lifted.flags.invalid, "{lifted:?}");
+    let place = |of: &Measurement| [of.r_x, of.r_y, of.x_mm, of.y_mm, of.sheet];
+    assert_eq!(place(&lifted), place(&touching));
+    assert!(lifted.capacitance_pf > 0.0 && lifted.capacitance_pf < calibration.contact_capacitance);
+    let force_n = calibration.force_gain * lifted.capacitance_pf.powi(2) * lifted.mean_square;
+    assert!(close(lifted.force_n, force_n, 1e-12), "{lifted:?}");
+    let again = slot(2, Sight::Tones);
+    assert!(!again.flags.lifted && again.x_mm != touching.x_mm, "{again:?}");
+    assert_eq!(place(&slot(3, Sight::Lifted)), [0.0; 5], "a pad that never touched");
 }

@@ -133,10 +133,10 @@ fn check_sums(
         (out.done == 1).then_some(out)
     });
     let out = done.expect("a frame finishes");
-    let [clipped, saturated, invalid, lost] =
-        [out.clipped, out.saturated, out.invalid, out.lost].map(|flag| flag != 0);
-    let frame =
-        Frame { pad: out.pad as usize, codes, flags: Flags { clipped, saturated, invalid, lost } };
+    let [clipped, saturated, invalid, lost, lifted] =
+        [out.clipped, out.saturated, out.invalid, out.lost, out.lifted].map(|flag| flag != 0);
+    let flags = Flags { clipped, saturated, invalid, lost, lifted };
+    let frame = Frame { pad: out.pad as usize, codes, flags };
     let of = |code: i64| Exact::of(code, format);
     let (square, phases) = sums.split_last().expect("there are sums");
     let phases = phases.chunks(2).map(|iq| [of(iq[0]), of(iq[1])]).collect();
@@ -160,5 +160,6 @@ fn prompt_codes(profile: &Profile, pad: i64, prompt: &Prompt) -> estimator::Prom
         prompt_force: prompt.force.code(f.force),
         prompt_gain: prompt.force_gain.code(f.force_gain),
         prompt_invalid: prompt.invalid.into(),
+        prompt_lifted: prompt.lifted.into(),
     }
 }

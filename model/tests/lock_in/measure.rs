@@ -190,6 +190,7 @@ fn calibration(profile: &Profile) -> Calibration {
         position: PositionTable::fit(profile, &points).expect("a raster"),
         capacitance_gain: 796.0,
         force_gain: 1e-6,
+        contact_capacitance: 0.0,
         force_table: ForceTable::default(),
     }
 }

@@ -245,7 +245,8 @@ impl AdcReader {
         Format::unsigned(self.channels as u8 - 1, 0)
     }
 
-    fn index(&self) -> Format {
+    /// The format of a channel's number.
+    pub fn index(&self) -> Format {
         Format::counter(self.channels - 1)
     }
 }

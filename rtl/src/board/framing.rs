@@ -3,7 +3,7 @@
 //! both sides of it.
 
 pub use hapticore_protocol::framing::{
-    CRC_BYTES, END, NIBBLE, PLACE_BYTES, STATUS_BYTES, STUFFING_BYTES, VERSION, command_bytes,
-    data_bytes, digest, flags, packet_bytes, packet_words, word_bytes,
+    CRC_BYTES, END, NIBBLE, PLACE_BYTES, STATUS_BYTES, STUFFING_BYTES, VERSION, board_digest,
+    command_bytes, data_bytes, digest, flags, packet_bytes, packet_words, word_bytes,
 };
 pub use hapticore_protocol::register::{Control, PLACE, Register};

@@ -6,6 +6,7 @@
 //! | --- | --- |
 //! | [`whole`] | the board: core and peripherals, its ports the pins |
 //! | [`adc_reader`] | eight channels of a simultaneous ADC, in |
+//! | [`line_test`] | the test of the ADC's data lines, one at a time |
 //! | [`sigma_delta`] | the carrier, out |
 //! | [`pads`] | one pad at a time, out |
 //! | [`drive_output`] | drive words of a force loop, out through converters |
@@ -22,6 +23,7 @@ pub mod crc32;
 pub mod drive_output;
 pub mod drive_registers;
 pub mod framing;
+pub mod line_test;
 pub mod pads;
 pub mod parameters;
 pub mod registers;

@@ -4,6 +4,7 @@
 use super::drive_output::{Converter, Wave};
 use super::framing::word_bytes;
 use hapticore_contract::profile::Profile;
+use hapticore_protocol::Output;
 use hapticore_protocol::drive::Kind;
 
 /// A board's own numbers.
@@ -15,8 +16,34 @@ pub struct Parameters {
     pub baud: u64,
     /// Clocks from `sclk_run` to the pulse at the pin: those of the output primitive.
     pub sclk_latency: u64,
-    /// The converter that drives the pads, and its wave; there is one exactly if the profile has a controller.
-    pub drive: Option<(Wave, Converter)>,
+    /// What drives the pads; there is one exactly if the profile has a controller.
+    pub drive: Option<Drive>,
+}
+
+/// What drives the pads of a board.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Drive {
+    /// The wave.
+    pub wave: Wave,
+    /// The converter.
+    pub converter: Converter,
+    /// The voltage of a drive word of full scale, V: the board reports it, nothing else depends on it.
+    pub full_scale_v: u16,
+}
+
+/// With the full scale that is usual.
+impl From<(Wave, Converter)> for Drive {
+    fn from((wave, converter): (Wave, Converter)) -> Self {
+        Drive { wave, converter, full_scale_v: Output::FULL_SCALE_V }
+    }
+}
+
+impl Drive {
+    /// What heartbeats report of it at a clock of so many hertz.
+    pub fn output(&self, clock_hz: u64) -> Output {
+        let Drive { wave, converter, full_scale_v } = *self;
+        Output { dac: converter.dac(), wave, full_scale_v, clock_hz }
+    }
 }
 
 /// A board that cannot be.
@@ -51,6 +78,11 @@ impl Parameters {
     const WRITE_CLOCKS: u64 = 22;
     /// What a pad's switch is given to break.
     const BREAK_NS: u64 = 1000;
+
+    /// What heartbeats report of the drive, where there is one.
+    pub fn output(&self) -> Option<Output> {
+        self.drive.map(|drive| drive.output(self.clock_hz))
+    }
 
     /// Clocks of a bit of the serial port.
     pub fn divisor(&self) -> u64 {

@@ -16,7 +16,7 @@
 //!
 //! Nothing is written before a command's END has come with the right length, links and CRC; all else is
 //! refused, says so for a clock, and changes nothing. So is a command for the ADC while the board
-//! is enabled. The data of a command for the ADC leave at one end of their register while the ADC's
+//! is enabled, or tests a line. The data of a command for the ADC leave at one end of their register while the ADC's
 //! answer comes in at the other. Latency: two clocks from the byte END. Source: [`super::framing`].
 
 use super::bits::{next, previous, read_as};
@@ -59,6 +59,8 @@ block! {
         capacitance_gain: block.calibration.capacitance_gain,
         /// Calibration register: gain of the force.
         force_gain: block.calibration.force_gain,
+        /// Calibration register: capacitance at or below which a pad is lifted.
+        contact_capacitance: block.calibration.contact_capacitance,
         /// The board converts and measures.
         enable: BIT,
         /// The ADC is in reset.
@@ -74,6 +76,12 @@ block! {
         refused: BIT,
         /// Asserted for one cycle when a register other than the control register has been written.
         written: BIT,
+        /// Asserted for one cycle when the control register is being written.
+        controlled: BIT,
+        /// The ADC converts for a test of a line.
+        line_test: BIT,
+        /// Line of the test.
+        line: Format::unsigned(LINE_BITS, 0),
         /// Number of the register that the last command addressed.
         place: PLACE,
         /// Data of the last command, or the ADC's answer.
@@ -96,10 +104,14 @@ block! {
         commands: NIBBLE,
         capacitance_gain: block.calibration.capacitance_gain,
         force_gain: block.calibration.force_gain,
+        contact_capacitance: block.calibration.contact_capacitance,
         control: Control::FORMAT,
         calibrated: BIT,
     }
 }
+
+/// Bits of the number of a line of the ADC.
+pub const LINE_BITS: u8 = 3;
 
 /// Bits of a register of the ADC.
 const ADC_WORD: u8 = 16;
@@ -147,7 +159,8 @@ impl CommandRegisters {
     /// END: the command counts, or it does not.
     #[inline(always)]
     fn end<V: Interpretation>(&self, r: Regs<V>) -> Regs<V> {
-        let forbidden = self.is(&r, Register::Adc) & r.control.bits(Control::ENABLE, 1);
+        let converts = r.control.bits(Control::ENABLE, 1) | r.control.bits(Control::LINE_TEST, 1);
+        let forbidden = self.is(&r, Register::Adc) & converts;
         let whole = r.count.is(self.length) & r.left.is(0) & r.crc.is(crc32::RESIDUE);
         let good = whole & !forbidden;
         // END twice is nothing, not a command: a sender may clear the line with it.
@@ -170,6 +183,10 @@ impl CommandRegisters {
                 r.capacitance_gain,
             ),
             force_gain: write(Register::Constant(Constant::ForceGain), r.force_gain),
+            contact_capacitance: write(
+                Register::Constant(Constant::ContactCapacitance),
+                r.contact_capacitance,
+            ),
             control: write(Register::Control, r.control),
             calibrated: r.calibrated | (r.act & self.is(&r, Register::LAST_CONSTANT)),
             ..r
@@ -203,6 +220,7 @@ impl Block for CommandRegisters {
         Outputs {
             capacitance_gain: r.capacitance_gain,
             force_gain: r.force_gain,
+            contact_capacitance: r.contact_capacitance,
             enable: r.control.bits(Control::ENABLE, 1),
             adc_reset: r.control.bits(Control::ADC_RESET, 1),
             table: TablePort {
@@ -215,6 +233,9 @@ impl Block for CommandRegisters {
             commands: r.commands,
             refused: r.refused,
             written: r.act & r.place.msb() & !self.is(&r, Register::Control),
+            controlled: r.act & self.is(&r, Register::Control),
+            line_test: r.control.bits(Control::LINE_TEST, 1) & !r.control.bits(Control::ENABLE, 1),
+            line: r.control.bits(Control::LINE, LINE_BITS),
             place: r.place.bits(0, PLACE.width),
             data: r.data,
             calibrated: r.calibrated,

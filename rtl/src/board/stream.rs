@@ -10,7 +10,7 @@
 //! ```
 //!
 //! | group   | 15                                | 0 … 7      | 8                          |
-//! | bytes   | sequence (2), commands/pad, flags | B a word   | CRC (4), the last link, END |
+//! | bytes   | sequence (2), commands/pad, flags (2) | B a word   | CRC (4), the last link, END |
 //!
 //! With a drive, groups 8 and 9 are its last drive word and what is said of it, as of the packet's beginning, and the last
 //! group is 10.
@@ -19,7 +19,7 @@
 //! | number   | u16              | wraps, meant: losses show as gaps |
 //! | group    | u4               | wraps, meant: 15 comes before 0   |
 //! | left     | counter 5        | reloaded, by compare; more where a word has more bytes |
-//! | distance | counter 8·B + 9, with a drive 10·B + 9 | from a packet's beginning or its last zero byte; no packet is longer |
+//! | distance | counter 8·B + 10, with a drive 10·B + 10 | from a packet's beginning or its last zero byte; no packet is longer |
 //! | pause    | u BEAT + 1       | held at zero while anything is sent or the board is enabled; its top bit ends the pause |
 //!
 //! A zero byte goes out as the distance to the zero byte before it, so links point back: neither the
@@ -35,14 +35,14 @@
 //! A frame that comes while one is being sent is dropped whole, takes its number along, and sets a
 //! flag in the next packet. A packet's own number is its first two bytes, gone before another frame
 //! comes: [`super::parameters`] asks for slots longer than a byte. What happened since the packet
-//! before (late, refused, overrun) is kept until it is told. Latency: (8·B + 10)·(10·D + 1)
-//! clocks, with a drive (10·B + 10)·(10·D + 1), from a frame's last word to the end of the packet's last stop bit, whatever the frame contains
+//! before (late, refused, overrun) is kept until it is told. Latency: (8·B + 11)·(10·D + 1)
+//! clocks, with a drive (10·B + 11)·(10·D + 1), from a frame's last word to the end of the packet's last stop bit, whatever the frame contains
 //! and whatever is commanded meanwhile. Source: [`super::framing`].
 
 use super::bits::{flag, next, previous, word as bits_side_by_side};
 use super::crc32;
 use super::framing::{
-    CRC_BYTES, END, NIBBLE, PLACE, Register, STATUS_BYTES, STUFFING_BYTES, VERSION, digest,
+    CRC_BYTES, END, NIBBLE, PLACE, Register, STATUS_BYTES, STUFFING_BYTES, VERSION, board_digest,
     packet_bytes, packet_words, word_bytes,
 };
 use super::uart::BYTE;
@@ -57,6 +57,7 @@ use hapticore_hdl::signal::{Signal, Wrap, bit, code, int};
 use hapticore_hdl::{block, bundle, call};
 use hapticore_model::blocks::estimator::FramePort;
 use hapticore_protocol::drive;
+use hapticore_protocol::output::{CLOCK, FULL_SCALE, Output, SETUP};
 
 bundle! {
     /// The last drive word, and what is said of it: `hapticore_protocol::drive::status`.
@@ -125,6 +126,7 @@ block! {
         saturated: BIT,
         invalid: BIT,
         lost: BIT,
+        lifted: BIT,
         late: BIT,
         refused: BIT,
         overrun: BIT,
@@ -167,12 +169,16 @@ fn driven(profile: &Profile) -> DrivenPort<Format> {
 
 impl Stream {
     /// The stream of a profile's frames, with so many clocks per bit, and of a board whose commands
-    /// bring so much data.
-    pub fn new(profile: &Profile, divisor: u64, data: Format) -> Self {
+    /// bring so much data; heartbeats report its output, where there is one.
+    pub fn new(profile: &Profile, divisor: u64, data: Format, output: Option<&Output>) -> Self {
         let format = Field::word(profile);
         let mut initial = vec![0.0; 2 * WORDS as usize];
         initial[WORDS as usize + Register::Control.number()] =
-            f64::from(as_word(digest(profile), format));
+            f64::from(as_word(board_digest(profile, output), format));
+        let told = output.map_or([0; 3], Output::words);
+        for (number, word) in [SETUP, FULL_SCALE, CLOCK].into_iter().zip(told) {
+            initial[WORDS as usize + number] = f64::from(as_word(word, format));
+        }
         let words =
             Memory { initial: initial.into(), ..Memory::new("words", 2 * WORDS as usize, format) };
         Stream {
@@ -223,6 +229,8 @@ impl Stream {
             (1..).zip(rest).fold(*first, |other, (left, byte)| r.left.is(left).select(*byte, other))
         };
         let words: Vec<_> = (0..self.bytes).map(|left| wide.bits(8 * left as u8, 8)).collect();
+        // Bits of the second byte that are none of a flag are zero.
+        let more = r.lifted.resize(BYTE, Wrap);
         let flags = bits_side_by_side([
             r.clipped,
             r.saturated,
@@ -235,7 +243,7 @@ impl Stream {
         ]);
         let pad = r.pad.resize(NIBBLE, Wrap);
         let (low, high) = (r.number.bits(0, 8), r.number.bits(8, 8));
-        let status = pick(&[flags, r.commands.concat(pad), low, high]);
+        let status = pick(&[more, flags, r.commands.concat(pad), low, high]);
         // The CRC moves on by each of its bytes. Both the last link and END are zero bytes.
         let check = bits_side_by_side((0..8).map(|k| !r.crc.bits(k, 1)));
         let trailer = r.left.less_than(int(STUFFING_BYTES)).select(code(0, BYTE), check);
@@ -347,6 +355,7 @@ impl Block for Stream {
                 saturated: take(heartbeat.select(version(0), i.frames.saturated), r.saturated),
                 invalid: take(heartbeat.select(version(1), i.frames.invalid), r.invalid),
                 lost: take(heartbeat.select(version(2), i.frames.lost), r.lost),
+                lifted: take(!heartbeat & i.frames.lifted, r.lifted),
                 late: flag(r.late, i.late, told),
                 refused: flag(r.refused, i.refused, told),
                 overrun: flag(r.overrun, i.frames.done & !taking, told),

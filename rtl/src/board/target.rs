@@ -3,14 +3,14 @@
 //!
 //! | board | part | clock | profile | pins of the ADC | carrier, pads | drive |
 //! | --- | --- | --- | --- | --- | --- | --- |
-//! | ULX3S | ECP5 85F, CABGA381 | 25 MHz | standard | gp and gn 0 … 6 | gp 9, gp and gn 7 … 8 | gn 9 … 10, gp 10 … 11 |
-//! | iCEBreaker | iCE40UP5K, SG48 | 12 MHz | small | PMOD 1A and 1B | PMOD 2 | none |
+//! | ULX3S | ECP5 85F, CABGA381 | 25 MHz | standard | gp and gn 0 … 6 | gp 9, gp and gn 7 … 8 | gn 9 … 10, gp 10 … 11, gp and gn 18 … 19 |
+//! | iCEBreaker | iCE40UP5K, SG48 | 12 MHz | small | PMOD 1A and 1B | PMOD 1B and 2 | none |
 //!
 //! A pin is written once, on the top's signal; constraints are read off the top. Sources: the
 //! boards' schematics.
 
-use super::drive_output::{Converter, Wave};
-use super::parameters::Parameters;
+use super::drive_output::Converter;
+use super::parameters::{Drive, Parameters};
 use super::top::{DriveTop, Primitive, Top};
 use super::whole::{Board, BoardError};
 use crate::component;
@@ -18,6 +18,12 @@ use hapticore_contract::profile::Profile;
 use rust_hdl_core::prelude::{Atom, Block, Constraint, PinConstraint, Probe};
 use std::fmt::Write;
 use std::str::FromStr;
+
+/// What stands at the head of an iCEBreaker's constraints.
+const ICEBREAKER_NOTE: &str = "\
+# SNAP THE BREAK-OFF BOARD OFF before you connect a driver: PMOD 2 goes through its lamps and buttons. No select line is at
+# a button (PMOD 2, pins 4, 9, 10), so that none is pressed closed, but lamps load pads[2], pads[3] and carrier.
+";
 
 /// A board that one can buy.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -95,7 +101,7 @@ macro_rules! icebreaker {
             sclk ["31"];
             sdi ["42"];
             adc_reset ["36"];
-            pads ["27", "25", "21", "19"];
+            pads ["32", "28", "27", "25"];
             carrier ["26"];
         )
     };
@@ -158,18 +164,20 @@ impl Target {
     ///
     /// # Errors
     /// Where the board cannot serve the profile or has no pins for the converter.
-    pub fn printed(
-        self,
-        profile: &Profile,
-        drive: Option<(Wave, Converter)>,
-    ) -> Result<Printed, BoardError> {
+    pub fn printed(self, profile: &Profile, drive: Option<Drive>) -> Result<Printed, BoardError> {
         let board = Board::new(profile, &Parameters { drive, ..self.parameters() })?;
         let (primitive, active_low) = (self.primitive(), self == Target::Icebreaker);
         match (self, drive) {
-            (Target::Ulx3s, Some((_, Converter::Serial(_)))) => {
+            (Target::Ulx3s, Some(Drive { converter: Converter::Serial(_), .. })) => {
                 let mut top = DriveTop::new(board, primitive, active_low);
                 ulx3s!(top);
-                locate!(top: dac_sync_n ["C4"]; dac_sclk ["B4"]; dac_sdi ["F4"]; dac_live ["B1"];);
+                locate!(top:
+                    dac_sync_n ["C4"];
+                    dac_sclk ["B4"];
+                    dac_sdi ["F4"];
+                    dac_polarity ["H18", "H17", "F17", "G18"];
+                    dac_live ["B1"];
+                );
                 Ok(self.print(&mut top))
             }
             (Target::Ulx3s, None) => {
@@ -207,6 +215,7 @@ impl Target {
                 (format!("{}.lpf", self.name()), text)
             }
             Target::Icebreaker => {
+                text.push_str(ICEBREAKER_NOTE);
                 for Pin { port, site, also } in pins {
                     let _ = writeln!(text, "set_io{also} {port} {site}");
                 }

@@ -32,7 +32,7 @@ crate::component! {
         inputs { dout: Bits<8>, busy: Bit, rx: Bit }
         outputs {
             convst: Bit, cs_n: Bit, sclk_run: Bit, sdi: Bit, carrier: Bit, select: Bits<4>, tx: Bit, enabled: Bit, late: Bit,
-            adc_reset: Bit, dac_sync_n: Bit, dac_sclk: Bit, dac_sdi: Bit, dac_live: Bit
+            adc_reset: Bit, dac_sync_n: Bit, dac_sclk: Bit, dac_sdi: Bit, dac_polarity: Bits<4>, dac_live: Bit
         }
     }
 }
@@ -133,7 +133,7 @@ impl Block for SclkOutput {
 
 /// A board's top: with further pins of the board, as they are.
 macro_rules! top {
-    ($(#[$meta:meta])* $name:ident of $board:ident, $($pin:ident)*) => {
+    ($(#[$meta:meta])* $name:ident of $board:ident, $($pin:ident: $width:ty,)*) => {
         $(#[$meta])*
         #[derive(LogicBlock)]
         #[allow(missing_docs)]
@@ -153,7 +153,7 @@ macro_rules! top {
             pub pads: Signal<Out, Bits<4>>,
             pub enabled: Signal<Out, Bit>,
             pub late: Signal<Out, Bit>,
-            $(pub $pin: Signal<Out, Bit>,)*
+            $(pub $pin: Signal<Out, $width>,)*
             active_low: Constant<Bit>,
             power_up: AutoReset,
             pressed: BitSynchronizer,
@@ -230,5 +230,5 @@ top! {
 
 top! {
     /// The top of a board that drives its pads through a serial converter.
-    DriveTop of DriveBoardComponent, dac_sync_n dac_sclk dac_sdi dac_live
+    DriveTop of DriveBoardComponent, dac_sync_n: Bit, dac_sclk: Bit, dac_sdi: Bit, dac_polarity: Bits<4>, dac_live: Bit,
 }

@@ -5,6 +5,7 @@
 //! ADC ═ adc_reader ─[codes: two sets]─ core ─ stream ─ tx
 //!           └ strobe ───────────────────┘ ├── sigma_delta ─ carrier
 //! rx ─ receiver ─ registers ─ calibration ┘ └ pads ─ select
+//!           └ line_test ─ heartbeat
 //!
 //! with a drive, in place of the core:
 //! rx ─ receiver ─ registers ─ drive_registers ─ force_loop ─ drive_output ─ converter of the pads' voltages
@@ -18,12 +19,13 @@
 //! core and the stream, one after the other.
 
 use super::adc_reader::{self, AdcReader};
-use super::bits::word as bits_side_by_side;
+use super::bits::{previous, word as bits_side_by_side};
 use super::drive_output::{self, DacPort, DriveOutput};
 use super::drive_registers::{self, DriveRegisters};
-use super::framing::NIBBLE;
+use super::framing::{NIBBLE, PLACE, Register};
+use super::line_test::{self, LineTest};
 use super::pads::{self, Pads};
-use super::parameters::{Parameters, ParametersError};
+use super::parameters::{Drive, Parameters, ParametersError};
 use super::registers::{self, CommandRegisters};
 use super::sigma_delta::{self, SigmaDelta};
 use super::stream::{self, DrivenPort, Stream};
@@ -33,16 +35,20 @@ use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::{BIT, Format};
 use hapticore_hdl::memory::{Memory, Write};
-use hapticore_hdl::signal::{Clocked, Signal, Wrap, bit, zero};
+use hapticore_hdl::signal::{Clocked, Proved, Signal, Wrap, bit, int, zero};
 use hapticore_hdl::{block, call};
 use hapticore_model::blocks::core::{self, Core};
 use hapticore_model::blocks::estimator::Calibration;
 use hapticore_model::blocks::force_loop::{self, ForceLoop};
 use hapticore_protocol::drive::{status, widest};
+use hapticore_protocol::register::LINES;
 
 block! {
     /// The board: the core with its converters, commands and packets.
-    pub struct Board("board") {}
+    pub struct Board("board") {
+        /// Clocks of a millisecond.
+        tick_clocks: u64,
+    }
     submodules {
         receiver: Receiver,
         registers: CommandRegisters,
@@ -53,6 +59,7 @@ block! {
         force_loop: Option<ForceLoop>,
         drive_registers: Option<DriveRegisters>,
         drive_output: Option<DriveOutput>,
+        line_test: LineTest,
         sigma_delta: SigmaDelta,
         pads: Pads,
         stream: Stream,
@@ -92,6 +99,12 @@ block! {
         shift: BIT,
         late: BIT,
         driven as DrivenPort: board.stream.inputs().driven,
+        /// Clocks until the next tick of the time in which a silent host is missed.
+        to_tick: board.to_tick(),
+        /// The controller's drives begin from zero.
+        stale: BIT.where_present(board.force_loop.is_some()),
+        /// Frames until a terminal counts as connected again.
+        open: board.open(),
     }
 }
 
@@ -105,7 +118,7 @@ pub enum BoardError {
     #[error(transparent)]
     Profile(#[from] ProfileError),
     /// A board without pins for a drive, or for this converter.
-    #[error("{0} has no pins for such a drive: expected ulx3s, with ad5664 or ad5668")]
+    #[error("{0} has no pins for such a drive: expected ulx3s, with ad5664, ad5664r or ad5668")]
     NoPins(&'static str),
 }
 
@@ -130,13 +143,17 @@ impl Board {
         let registers = CommandRegisters::new(core.inputs().calibration, words, drive_bits);
         let data = registers.outputs().data;
         let drive_output = match parameters.drive {
-            Some((wave, converter)) => Some(DriveOutput::of_profile(profile, wave, converter)?),
+            Some(Drive { wave, converter, .. }) => {
+                Some(DriveOutput::of_profile(profile, wave, converter, parameters.clock_hz)?)
+            }
             None => None,
         };
         let sets = 1usize << reader.outputs().address.width;
         Ok(Board {
+            tick_clocks: parameters.clock_hz / 1000,
             receiver: Receiver::new(parameters.divisor()),
-            stream: Stream::new(profile, parameters.divisor(), data),
+            stream: Stream::new(profile, parameters.divisor(), data, parameters.output().as_ref()),
+            line_test: LineTest::new(registers.outputs().line, profile.formats.adc),
             registers,
             adc_reader: reader,
             codes: Memory::new("codes", sets, profile.formats.adc).dont_care_on_collision(),
@@ -147,6 +164,10 @@ impl Board {
             core: force_loop.is_none().then_some(core),
             force_loop,
         })
+    }
+
+    fn to_tick(&self) -> Format {
+        Format::counter(self.tick_clocks - 1).where_present(self.force_loop.is_some())
     }
 
     /// The core's configuration.
@@ -160,8 +181,22 @@ impl Board {
         self.force_loop.as_ref()
     }
 
+    /// A frame of an open terminal switches the drive off until every pad has had one without.
+    fn open(&self) -> Format {
+        Format::counter(self.count()).where_present(self.drive_output.is_some())
+    }
+
+    /// Pads of the multiplexer.
+    fn count(&self) -> u64 {
+        self.pads.outputs().select.width.into()
+    }
+
     fn dac(&self) -> DacPort<Format> {
-        self.drive_output.as_ref().map_or(DacPort::of(Format::NONE), |output| output.outputs().dac)
+        let none = DacPort::of(Format::NONE);
+        let dac = self.drive_output.as_ref().map_or(none, |output| output.outputs().dac);
+        // As many as there are pads: those of channels that are not there stay low.
+        let polarity = self.pads.outputs().select.where_present(!dac.dac_polarity.is_none());
+        DacPort { dac_polarity: polarity, ..dac }
     }
 
     /// The reader of the ADC.
@@ -177,8 +212,9 @@ fn core_inputs<V: Interpretation>(
     strobe: Signal<V>,
     code: Signal<V>,
 ) -> core::In<V> {
-    let registers::Outputs { capacitance_gain, force_gain, table, .. } = *registers;
-    let calibration = Calibration { capacitance_gain, force_gain, table };
+    let registers::Outputs { capacitance_gain, force_gain, contact_capacitance, table, .. } =
+        *registers;
+    let calibration = Calibration { capacitance_gain, force_gain, contact_capacitance, table };
     core::Inputs { strobe, clear: !registers.enable, code, calibration }
 }
 
@@ -187,6 +223,8 @@ struct Measured<V: Interpretation> {
     core: core::Out<V>,
     driven: DrivenPort<Signal<V>>,
     dac: DacPort<Signal<V>>,
+    stale: Signal<V>,
+    open: Signal<V>,
 }
 
 impl Board {
@@ -203,7 +241,17 @@ impl Board {
         };
         let core = block.call("core", within, inputs);
         let dac = DacPort::map(DacPort::of(Format::NONE), zero);
-        Measured { core, driven: r.driven, dac }
+        Measured { core, driven: r.driven, dac, stale: r.stale, open: r.open }
+    }
+
+    /// Clocks until the next tick, after this clock: the first tick is that of the first clock.
+    #[inline(always)]
+    fn next_tick<V: Interpretation>(&self, r: &Regs<V>) -> Signal<V> {
+        if r.to_tick.format.is_none() {
+            return r.to_tick;
+        }
+        let down = (r.to_tick - int(1)).bits(0, r.to_tick.format.width);
+        r.to_tick.is(0).select(int(self.tick_clocks - 1), down).resize(r.to_tick.format, Proved)
     }
 
     /// The force loop, as commands have set it, and its drive.
@@ -234,6 +282,8 @@ impl Board {
             target: set.target,
             tuning: set.tuning,
             wall: set.wall,
+            drives_clear: r.stale,
+            tick: r.to_tick.is(0),
             extremes_read: bit(false),
         };
         let of_loop = block.call("force_loop", state, inputs);
@@ -246,11 +296,21 @@ impl Board {
             drive: of_loop.drive.drive,
             serve: core.serve,
             closed: core.closed & registers.enable,
-            enable: registers.enable,
+            enable: registers.enable & r.open.is(0),
+            faults: of_loop.faults,
         };
-        let dac = block.call("drive_output", state, inputs).dac;
+        let drive_output::Outputs { dac, drives_clear } = block.call("drive_output", state, inputs);
         let driven = driven(r.driven, &of_loop, dac.dac_live);
-        Measured { core, driven, dac }
+        let dac_polarity = dac.dac_polarity.resize(self.dac().dac_polarity, Wrap);
+        let dac = DacPort { dac_polarity, ..dac };
+        let lost = core.frames.done & core.frames.lost;
+        let fewer = r.open.is(0).select(r.open, previous(r.open));
+        let counted = core.frames.done.select(fewer, r.open);
+        let open = lost.select(int(self.count()), counted);
+        let open = open.resize(r.open.format, Wrap);
+        // What is made while nothing can be driven does not count: the first drive word behind it is the first within slew.
+        let stale = drives_clear | lost | !r.open.is(0);
+        Measured { core, driven, dac, stale, open }
     }
 }
 
@@ -303,7 +363,7 @@ impl Block for Board {
             registers::Inputs { valid: bytes.valid, octet: bytes.octet, shift: r.shift, answer };
         let registers = call!(self.registers, state, inputs);
         let inputs = adc_reader::Inputs {
-            enable: registers.enable,
+            enable: registers.enable | registers.line_test,
             busy: i.busy,
             dout: i.dout,
             write: registers.adc_write,
@@ -311,30 +371,50 @@ impl Block for Board {
         let adc = call!(self.adc_reader, state, inputs);
         // The reader cannot ask the registers in the same clock that it is told by them.
         let shift = adc.shift;
-        let inputs =
-            core_inputs(&registers, adc.strobe, self.codes.data(&mut state.submodules.codes));
-        let Measured { core, driven, dac } = self.measure(state, &r, inputs, &registers);
+        let inputs = core_inputs(
+            &registers,
+            adc.strobe & registers.enable,
+            self.codes.data(&mut state.submodules.codes),
+        );
+        let Measured { core, driven, dac, stale, open } =
+            self.measure(state, &r, inputs, &registers);
         let write = Write { enable: adc.store, address: adc.address, data: adc.code };
         self.codes.access(&mut state.submodules.codes, adc.bank.concat(core.channel), write);
         let inputs = sigma_delta::Inputs { carrier: core.carrier };
         let carrier = call!(self.sigma_delta, state, inputs);
         let inputs = pads::Inputs { serve: core.serve, closed: core.closed & registers.enable };
         let pads = call!(self.pads, state, inputs);
+        let number = adc.address.bits(0, self.adc_reader.index().width);
+        let inputs = line_test::Inputs {
+            begin: registers.controlled,
+            enable: registers.line_test,
+            line: registers.line,
+            store: adc.store,
+            channel: number.resize(registers.line.format, Wrap),
+            code: adc.code,
+            late: adc.late,
+        };
+        let tested = call!(self.line_test, state, inputs);
+        // Of a test the last command is that which began it.
+        let of_test = registers.place.is(Register::Control.number() as u64);
+        let code = tested.result.bits(0, tested.result.format.width);
+        let code = code.resize(registers.data.format, Wrap);
         let inputs = stream::Inputs {
             frames: core.frames,
             late: adc.late,
             refused: registers.refused,
             commands: registers.commands,
             enable: registers.enable,
-            keep: registers.written | (r.shift & !shift),
-            place: registers.place,
-            data: registers.data,
+            keep: registers.written | (r.shift & !shift) | tested.changed,
+            place: of_test.select(int(LINES as u64), registers.place).resize(PLACE, Wrap),
+            data: of_test.select(code, registers.data),
             calibrated: registers.calibrated,
             driven: r.driven,
         };
         let stream = call!(self.stream, state, inputs);
         let late = registers.enable & (r.late | adc.late);
-        state.store(self, Registers { shift, late, driven });
+        let to_tick = self.next_tick(&r);
+        state.store(self, Registers { shift, late, driven, to_tick, stale, open });
         Outputs {
             convst: adc.convst,
             cs_n: adc.cs_n,

@@ -2,9 +2,10 @@
 //! The inside of a component: a block's clocked model, and the Verilog printed from it.
 
 use super::PortWidth;
-use hapticore_hdl::block::{Block, State};
+use hapticore_hdl::block::{Block, Edit, State, Submodule};
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::Format;
+use hapticore_hdl::memory::{Memory, Storage};
 use hapticore_hdl::signal::Signal;
 use hapticore_hdl::verilog::{Design, Direction};
 use rust_hdl_core::ast::{Verilog, Wrapper};
@@ -49,7 +50,7 @@ impl<B: Block> Simulated<B> {
     pub fn update(&mut self, edge: bool, reset: bool, inputs: &[u64]) -> &[u64] {
         if edge {
             match reset {
-                true => self.state = self.block.reset(),
+                true => Submodule::edit(&self.block, &mut self.state, &mut Reset),
                 false => {
                     clock(&self.block, &mut self.state, inputs);
                 }
@@ -74,6 +75,17 @@ impl<B: Block> Simulated<B> {
         let code = format!("{} block (\n{}\n);", self.design.top(), connections.join(",\n"));
         Verilog::Wrapper(Wrapper { code, cores: self.design.text() })
     }
+}
+
+/// A reset, as the printed module has it: registers are zero, memories keep what they hold.
+struct Reset;
+
+impl Edit<i64> for Reset {
+    fn word(&mut self, _format: Format, _value: i64) -> i64 {
+        0
+    }
+
+    fn memory(&mut self, _memory: &Memory, _words: &mut <i64 as Storage>::Words) {}
 }
 
 /// One clock, from bits to bits.

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A block, clocked by codes.
 
-use hapticore_hdl::block::{Block, Inputs, Outputs, State};
+use hapticore_hdl::block::{Block, Edit, Inputs, Outputs, State, Submodule};
 use hapticore_hdl::bundle::Bundle;
+use hapticore_hdl::format::Format;
+use hapticore_hdl::memory::{Memory, Storage};
 use hapticore_hdl::signal::Signal;
 
 /// A block and its registers.
+#[derive(Clone)]
 pub struct Bench<B: Block> {
     pub block: B,
     state: State<B, i64>,
@@ -25,7 +28,23 @@ impl<B: Block> Bench<B> {
     }
 }
 
+/// A reset as hardware has it: registers are zero, memories keep what they hold.
+struct Reset;
+
+impl Edit<i64> for Reset {
+    fn word(&mut self, _format: Format, _value: i64) -> i64 {
+        0
+    }
+
+    fn memory(&mut self, _memory: &Memory, _words: &mut <i64 as Storage>::Words) {}
+}
+
 impl<B: Block> Bench<B> {
+    /// A clock with the reset asserted.
+    pub fn reset(&mut self) {
+        Submodule::edit(&self.block, &mut self.state, &mut Reset);
+    }
+
     /// What the registers hold.
     pub fn registers(&self) -> hapticore_hdl::block::Registers<B, i64> {
         self.state.registers

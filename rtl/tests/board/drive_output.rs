@@ -4,9 +4,12 @@
 
 use crate::bench::Bench;
 use crate::random::Random;
+use hapticore_contract::control::{Control, Law};
+use hapticore_contract::profile::Profile;
 use hapticore_hdl::format::Format;
+use hapticore_model::blocks::controller::Faults;
 use hapticore_rtl::board::drive_output::serial::Frame;
-use hapticore_rtl::board::drive_output::{Converter, DacPort, DriveOutput, Inputs, Wave};
+use hapticore_rtl::board::drive_output::{self, Converter, DacPort, DriveOutput, Inputs, Wave};
 use std::f64::consts::TAU;
 
 const DRIVE: Format = Format::unsigned(16, 16);
@@ -18,13 +21,16 @@ const WRITTEN: u64 = 4 * 55;
 const STALE: u64 = 9_000;
 
 /// What a converter's pins have told it.
+#[derive(Clone)]
 pub struct Dac {
-    pins: DacPort<i64>,
+    pub pins: DacPort<i64>,
     clocks: u64,
     bits: u64,
     taken: u8,
     high_since: u64,
     codes: [Option<i64>; 8],
+    /// Its reference was switched on so often.
+    pub references: u64,
     /// Channels and codes, as they were updated.
     pub updates: Vec<(usize, i64)>,
 }
@@ -39,6 +45,7 @@ impl Dac {
             taken: 0,
             high_since: 0,
             codes: [None; 8],
+            references: 0,
             updates: Vec::new(),
         }
     }
@@ -64,7 +71,20 @@ impl Dac {
         }
     }
 
+    /// A clock in which the board is reset: a frame under way is cut short, which the converter ignores.
+    pub fn is_reset(&mut self, now: DacPort<i64>) {
+        self.pins = now;
+        self.clocks += 1;
+        (self.taken, self.high_since) = (0, self.clocks);
+    }
+
     fn update(&mut self, frame: &Frame) {
+        let bits = self.bits & ((1 << frame.bits()) - 1);
+        if Some(bits) == frame.reference {
+            self.references += 1;
+            return;
+        }
+        assert!(frame.reference.is_none() || self.references > 0, "the reference comes first");
         let field = |low: u8, width: u8| self.bits >> low & ((1 << width) - 1);
         let address = frame.tail_bits + frame.word_bits;
         assert_eq!(field(address + frame.address_bits, 3), 0b011, "write and update a channel");
@@ -74,14 +94,21 @@ impl Dac {
         self.updates.push((channel, code));
     }
 
+    /// The voltage of a channel in codes, with the sign of its pin; none where it was never written.
+    pub fn voltage(&self, channel: usize) -> Option<i64> {
+        let negative = self.pins.dac_polarity >> channel & 1 != 0;
+        self.codes[channel].map(|code| if negative { -code } else { code })
+    }
+
     /// A word is taken as the strobe ends.
     fn parallel(&mut self, now: DacPort<i64>) {
         let before = std::mem::replace(&mut self.pins, now);
+        self.clocks += 1;
         let line = |pins: DacPort<i64>| (pins.dac_word, pins.dac_address);
-        if before.dac_write_n != now.dac_write_n {
+        if before.dac_write_n != now.dac_write_n && self.clocks > 1 {
             assert_eq!(line(before), line(now), "word and address are stable around the strobe");
         }
-        if before.dac_write_n < now.dac_write_n && before != DacPort::of(0) {
+        if before.dac_write_n < now.dac_write_n && self.clocks > 1 {
             self.codes[now.dac_address as usize] = Some(now.dac_word);
         }
     }
@@ -95,6 +122,9 @@ struct Rig {
     clock: u64,
     pads: u64,
     enable: i64,
+    fault: i64,
+    /// How often the force loop was to begin anew.
+    cleared: i64,
     pulses: Vec<u64>,
     /// The bits behind a path of `TAU_CLOCKS`, of the range.
     filtered: Vec<f64>,
@@ -107,7 +137,7 @@ impl Rig {
     fn new([pads, parts]: [u64; 2], wave: Wave, converter: Converter) -> Rig {
         let block = DriveOutput::new([pads, parts], DRIVE, STALE, wave, converter);
         let (dac, pulses) = (Dac::new(), vec![0; pads as usize]);
-        let filtered = vec![0.5; pads as usize];
+        let filtered = vec![0.0; pads as usize];
         Rig {
             bench: Bench::new(block),
             converter,
@@ -115,6 +145,8 @@ impl Rig {
             clock: 0,
             pads,
             enable: 1,
+            fault: 0,
+            cleared: 0,
             pulses,
             filtered,
         }
@@ -129,9 +161,11 @@ impl Rig {
             serve: (self.clock / SLOT % self.pads) as i64,
             closed: (self.clock % SLOT >= OPEN).into(),
             enable: self.enable,
+            faults: Faults { force_fault: self.fault, ..Faults::of(0) },
         };
         self.clock += 1;
-        let pins = self.bench.clock(inputs).dac;
+        let drive_output::Outputs { dac: pins, drives_clear } = self.bench.clock(inputs);
+        self.cleared += drives_clear;
         match self.converter {
             Converter::Serial(frame) => self.dac.serial(&frame, pins),
             Converter::Parallel { .. } => self.dac.parallel(pins),
@@ -156,16 +190,18 @@ impl Rig {
         self.wait((at + SLOT - self.clock % SLOT) % SLOT);
     }
 
+    /// The voltage of each channel in codes: its magnitude with the sign of its pin.
     fn codes(&self, channels: usize) -> Vec<i64> {
-        self.dac.codes[..channels].iter().map(|code| code.expect("was written")).collect()
+        let of = |channel: usize| self.dac.voltage(channel).expect("was written");
+        (0..channels).map(of).collect()
     }
 }
 
-/// The word of a level in codes of the drive: rounded half to even, zero in the middle.
+/// The word of a level in codes of the drive: rounded half to even.
 fn word(level: f64, bits: i32) -> i64 {
-    let half = 2f64.powi(bits - 1);
-    let rounded = (level / 65_536.0 * half).round_ties_even();
-    (rounded.clamp(-half, half - 1.0) + half) as i64
+    let full = 2f64.powi(bits);
+    let rounded = (level / 65_536.0 * full).round_ties_even();
+    rounded.clamp(1.0 - full, full - 1.0) as i64
 }
 
 /// How often a channel's polarity has turned when its last slot has ended so often.
@@ -178,7 +214,9 @@ fn check_square(shape: [u64; 2], turn_slots: u64, converter: Converter, bits: i3
     let channels = (shape[0] / shape[1]) as usize;
     let mut rig = Rig::new(shape, Wave::Square { turn_slots }, converter);
     let (mut words, mut random) = (vec![0i64; channels], Random::new(5));
-    rig.wait(WRITTEN);
+    // The first word sets the converter up.
+    rig.clock(Some((shape[1] - 1, 0)));
+    rig.wait(2 * WRITTEN);
     for _ in 0..2_000 {
         let at = OPEN + WRITTEN + random.below(SLOT - OPEN - 2 * WRITTEN);
         rig.wait_for(at);
@@ -224,6 +262,7 @@ fn parallel_converters_get_every_word_and_turn() {
 #[test]
 fn a_word_is_at_the_pins_after_the_latency() {
     let mut rig = Rig::new([4, 1], Wave::Dc, Converter::Parallel { bits: 16 });
+    rig.clock(Some((2, 0)));
     rig.wait(WRITTEN);
     rig.clock(Some((2, 40_000)));
     let latency = rig.bench.block.latency();
@@ -242,7 +281,7 @@ fn a_density_of_pulses_is_the_level() {
         rig.clock(Some((pad, words[pad as usize])));
         rig.wait(20);
     });
-    let density = |word: i64| 0.5 + 0.5 * word as f64 / 65_536.0;
+    let density = |word: i64| word as f64 / 65_536.0;
     let mut worst = 0.0f64;
     for run in 0..10 {
         rig.pulses.fill(0);
@@ -289,8 +328,8 @@ fn a_sine_has_its_amplitude_and_its_period() {
         let point = 1 + (rig.clock - 20) / point_clocks;
         let sine = (TAU * point as f64 / points as f64).sin();
         for (code, amplitude) in rig.codes(3).into_iter().zip(words) {
-            let exact = sine * amplitude as f64 / 2.0 + 32_768.0;
-            let off = (code as f64 - exact.min(65_535.0)).abs();
+            let exact = sine * amplitude as f64;
+            let off = (code as f64 - exact).abs();
             assert!(off <= 1.1, "point {n}: {code}, {exact}");
         }
     }
@@ -300,12 +339,141 @@ fn a_sine_has_its_amplitude_and_its_period() {
 fn every_channel_is_set_to_zero_after_reset_before_the_output_is_live() {
     for wave in [Wave::Dc, Wave::Square { turn_slots: 1 }] {
         let mut rig = Rig::new([4, 1], wave, Converter::Serial(Frame::AD5664));
-        while rig.dac.pins.dac_live == 0 {
+        while rig.dac.updates.len() < 4 {
             assert!(rig.clock < 2 * WRITTEN, "{wave:?}");
             rig.wait(1);
         }
-        assert_eq!(rig.codes(4), [32_768; 4], "{wave:?}");
+        assert_eq!((rig.codes(4), rig.dac.pins.dac_live), (vec![0; 4], 0), "{wave:?}");
+        rig.clock(Some((1, 0)));
+        while rig.dac.pins.dac_live == 0 {
+            assert!(rig.clock < 4 * WRITTEN, "{wave:?}");
+            rig.wait(1);
+        }
+        assert_eq!(rig.dac.updates.len(), 8, "{wave:?}: set up again with the first drive word");
     }
+}
+
+/// Until the output is live; how long that took.
+fn until_live(rig: &mut Rig) -> u64 {
+    let from = rig.clock;
+    while rig.dac.pins.dac_live == 0 {
+        assert!(rig.clock - from < 2 * WRITTEN, "not live");
+        rig.wait(1);
+    }
+    rig.clock - from
+}
+
+#[test]
+fn code_zero_and_pins_that_are_low_are_zero_volts() {
+    for converter in [
+        Converter::Pulses,
+        Converter::Serial(Frame::AD5664),
+        Converter::Serial(Frame::AD5668),
+        Converter::Parallel { bits: 16 },
+    ] {
+        for wave in
+            [Wave::Dc, Wave::Square { turn_slots: 1 }, Wave::Sine { points: 8, point_clocks: 9 }]
+        {
+            let mut rig = Rig::new([4, 1], wave, converter);
+            // A converter powers up with code 0, and nothing else is ever given to one without a drive word.
+            rig.wait(3 * SLOT);
+            let given: Vec<_> = rig.dac.codes.iter().flatten().copied().collect();
+            assert!(given.iter().all(|code| *code == 0), "{converter:?}, {wave:?}: {given:?}");
+            assert_eq!(rig.pulses, [0; 4], "{converter:?}, {wave:?}: pulses");
+            assert_eq!(rig.dac.pins.dac_polarity, 0, "{converter:?}, {wave:?}: polarity");
+        }
+    }
+}
+
+#[test]
+fn a_reference_is_switched_on_before_the_first_word_and_each_time_the_output_is_on_again() {
+    for frame in [Frame::AD5664R, Frame::AD5668] {
+        let mut rig = Rig::new([4, 1], Wave::Dc, Converter::Serial(frame));
+        rig.wait(2 * WRITTEN);
+        assert_eq!((rig.dac.references, rig.dac.updates.len()), (1, 4), "{frame:?}: after reset");
+        assert_eq!(rig.dac.pins.dac_live, 0, "{frame:?}: no drive word has come");
+        rig.clock(Some((0, 0)));
+        until_live(&mut rig);
+        assert_eq!((rig.dac.references, rig.dac.updates.len()), (2, 8), "{frame:?}: the first");
+        rig.enable = 0;
+        rig.wait(WRITTEN);
+        rig.enable = 1;
+        rig.wait(2);
+        assert_eq!(rig.dac.pins.dac_live, 0, "{frame:?}: not before it is set up again");
+        until_live(&mut rig);
+        // Zero for the channel that had a word, then the reference and all channels.
+        assert_eq!((rig.dac.references, rig.dac.updates.len()), (3, 13), "{frame:?}: enabled");
+    }
+    let mut rig = Rig::new([4, 1], Wave::Dc, Converter::Serial(Frame::AD5664));
+    rig.clock(Some((0, 0)));
+    until_live(&mut rig);
+    assert_eq!(rig.dac.references, 0, "an AD5664 has none: the command is reserved");
+}
+
+#[test]
+fn a_fault_sets_all_channels_to_zero_and_takes_live_away_until_it_is_cleared() {
+    let mut rig = Rig::new([4, 1], Wave::Dc, Converter::Serial(Frame::AD5664R));
+    (0..4).for_each(|pad| rig.clock(Some((pad, 20_000))));
+    until_live(&mut rig);
+    rig.wait(WRITTEN);
+    assert_eq!(rig.codes(4), [20_000; 4]);
+    rig.fault = 1;
+    rig.wait(2);
+    assert_eq!(rig.dac.pins.dac_live, 0, "at once");
+    rig.wait(WRITTEN);
+    assert_eq!(rig.codes(4), [0; 4]);
+    rig.clock(Some((1, 20_000)));
+    rig.wait(WRITTEN);
+    assert_eq!((rig.codes(4), rig.dac.pins.dac_live), (vec![0; 4], 0), "no word counts");
+    rig.fault = 0;
+    until_live(&mut rig);
+    assert_eq!(rig.codes(4), [0; 4], "a word from before does not come back");
+    rig.clock(Some((1, 20_000)));
+    rig.wait(WRITTEN);
+    assert_eq!(rig.codes(4), [0, 20_000, 0, 0]);
+}
+
+#[test]
+fn live_falls_and_the_controller_is_told_when_words_are_stale() {
+    let mut rig = Rig::new([4, 1], Wave::Dc, Converter::Serial(Frame::AD5664R));
+    (0..4).for_each(|pad| rig.clock(Some((pad, 20_000))));
+    until_live(&mut rig);
+    let from = rig.clock;
+    while rig.dac.pins.dac_live != 0 {
+        assert!(rig.clock - from <= STALE, "live with stale words");
+        rig.wait(1);
+    }
+    rig.wait(STALE);
+    assert_eq!(rig.cleared, 1, "once, before live falls");
+}
+
+#[test]
+fn words_are_stale_after_a_tenth_of_a_second_whatever_a_frame_is() {
+    let mut profile = Profile::bundled("standard").expect("bundled");
+    profile.control = Some(Control::of(&profile, Law::Inverse));
+    let of = |settle: u64, clock_hz: u64| {
+        let mut profile = profile.clone();
+        profile.slot.settle = settle;
+        let block = DriveOutput::of_profile(&profile, Wave::Dc, Converter::Pulses, clock_hz);
+        block.map(|block| block.inputs().drive).map_err(|error| error.to_string())
+    };
+    let stale = |settle: u64, clock_hz: u64| {
+        let mut profile = profile.clone();
+        profile.slot.settle = settle;
+        let block = DriveOutput::of_profile(&profile, Wave::Dc, Converter::Pulses, clock_hz);
+        let mut rig = Bench::new(block.expect("a drive output"));
+        let idle = Inputs { enable: 1, ..Inputs::of(0) };
+        rig.clock(Inputs { drive_valid: 1, drive: 1_000, ..idle });
+        // The cycle after the last in which the word counts.
+        (0..).find(|_| rig.clock(idle).drives_clear != 0).expect("it comes")
+    };
+    let short = stale(profile.slot.settle, 25_000_000);
+    assert_eq!(short, 16 * profile.slot_clocks(), "four frames of four pads");
+    // Slots of 80 ms at 12.5 MHz.
+    let long = stale(40_000, 12_500_000);
+    assert_eq!(long, 1_250_000, "a tenth of a second");
+    let error = of(4_000_000, 25_000_000).expect_err("slots of 4 s");
+    assert!(error.contains("100 ms"), "{error}");
 }
 
 #[test]
@@ -313,12 +481,12 @@ fn without_drive_words_all_channels_go_to_zero_and_a_word_ends_that() {
     let mut rig = Rig::new([4, 1], Wave::Dc, Converter::Parallel { bits: 16 });
     (0..4).for_each(|pad| rig.clock(Some((pad, 20_000))));
     rig.wait(STALE - 1);
-    assert_eq!(rig.codes(4), [42_768; 4]);
+    assert_eq!((rig.codes(4), rig.cleared), (vec![20_000; 4], 0));
     rig.wait(WRITTEN);
-    assert_eq!(rig.codes(4), [32_768; 4]);
+    assert_eq!((rig.codes(4), rig.cleared), (vec![0; 4], 1), "the loop begins anew, once");
     rig.clock(Some((3, 20_000)));
     rig.wait(WRITTEN);
-    assert_eq!(rig.codes(4), [32_768, 32_768, 32_768, 42_768]);
+    assert_eq!(rig.codes(4), [0, 0, 0, 20_000]);
 }
 
 #[test]
@@ -328,16 +496,16 @@ fn a_disabled_output_is_zero_whatever_words_come() {
     rig.wait(100);
     rig.enable = 0;
     rig.wait(100);
-    assert_eq!(rig.codes(2), [32_768; 2]);
+    assert_eq!(rig.codes(2), [0; 2]);
     rig.clock(Some((1, 20_000)));
     rig.wait(100);
-    assert_eq!(rig.codes(2), [32_768; 2]);
+    assert_eq!(rig.codes(2), [0; 2]);
     rig.enable = 1;
     rig.wait(100);
-    assert_eq!(rig.codes(2), [32_768; 2], "a word from before does not come back");
+    assert_eq!(rig.codes(2), [0; 2], "a word from before does not come back");
     rig.clock(Some((1, 20_000)));
     rig.wait(100);
-    assert_eq!(rig.codes(2), [32_768, 42_768]);
+    assert_eq!(rig.codes(2), [0, 20_000]);
 }
 
 #[test]

@@ -16,8 +16,6 @@ use hapticore_rtl::board::stream::{self, Stream};
 const DIVISOR: u64 = 4;
 /// Clocks from one command to the next at the same rate: ten bytes at least.
 const COMMAND: u64 = 100 * DIVISOR;
-const REGISTERS: [Register; 2] =
-    [Register::Constant(Constant::CapacitanceGain), Register::Constant(Constant::ForceGain)];
 
 #[test]
 fn a_heartbeat_tells_words_that_were_written_or_ends_early() {
@@ -26,15 +24,19 @@ fn a_heartbeat_tells_words_that_were_written_or_ends_early() {
         let data = CommandRegisters::new(Core::new(&profile).inputs().calibration, 100, None)
             .outputs()
             .data;
-        let stream = Stream::new(&profile, DIVISOR, data);
+        let stream = Stream::new(&profile, DIVISOR, data, None);
         let quiet = stream::Inputs::map(stream.inputs(), |_| 0);
         let (mut bench, mut host) = (Bench::new(stream), Host::new(DIVISOR));
-        let (mut written, mut place, mut word, mut wait) = ([vec![0], vec![0]], 0, 0, 0u64);
+        let (mut written, mut place, mut word, mut wait) =
+            (Constant::ALL.map(|_| vec![0]), 0, 0, 0u64);
         for _ in 0..3_000_000 {
             let keep = wait == 0;
             if keep {
-                (place, word, wait) =
-                    (random.below(2), random.word(data), COMMAND + random.below(10 * COMMAND));
+                (place, word, wait) = (
+                    random.below(written.len() as u64),
+                    random.word(data),
+                    COMMAND + random.below(10 * COMMAND),
+                );
                 written[place as usize].push(word as u64);
             }
             wait -= 1;
@@ -49,7 +51,8 @@ fn a_heartbeat_tells_words_that_were_written_or_ends_early() {
                 panic!("{}: {told:?}", profile.name)
             };
             whole += 1;
-            for (register, written) in REGISTERS.into_iter().zip(&written) {
+            for (constant, written) in Constant::ALL.into_iter().zip(&written) {
+                let register = Register::Constant(constant);
                 let (told, bits) = heartbeat.register(register).expect("heartbeats tell it");
                 let known = written.iter().any(|word| word & ((1 << bits) - 1) == told);
                 assert!(known, "{}: {register:?} {told:x} was never written", profile.name);

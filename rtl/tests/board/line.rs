@@ -186,7 +186,7 @@ fn a_packet_takes_the_same_clocks_whatever_it_contains_and_whatever_is_written_m
             .outputs()
             .data;
         for divisor in [4, DIVISOR] {
-            let stream = Stream::new(&profile, divisor, data);
+            let stream = Stream::new(&profile, divisor, data, None);
             let (packet, of) = (stream.packet_clocks(divisor), stream.inputs());
             let quiet = stream::Inputs { enable: 1, ..stream::Inputs::map(of, |_| 0) };
             let (mut bench, mut random) = (Bench::new(stream), Random::new(SEED));

@@ -11,6 +11,7 @@ mod random;
 
 mod bench;
 mod blocks;
+mod board_pins;
 mod clock_error;
 mod commands;
 mod drive_output;
@@ -20,5 +21,6 @@ mod line;
 mod part;
 mod pins;
 mod ranges;
+mod safety;
 mod session;
 mod startup;

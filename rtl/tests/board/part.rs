@@ -53,6 +53,13 @@ impl Part {
         self.register_mode
     }
 
+    /// The codes that the interface check puts out in place of samples: a fixed one per channel. That of the first is an
+    /// AD7606C-16's, those of the others stand in for it.
+    pub fn fixed_codes(&self, bits: u32) -> Option<Vec<i32>> {
+        let code = |channel: u32| i32::from(0xaccau16.rotate_left(channel)) << (bits - 16);
+        (self.registers[0x21] & 0x80 != 0).then(|| (0..8).map(code).collect())
+    }
+
     /// How many data lines are in use.
     pub fn lines(&self) -> usize {
         1 << (self.registers[CONFIG] >> 3 & 3)

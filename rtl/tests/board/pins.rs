@@ -22,8 +22,13 @@ pub enum Health {
 const SETUP_US: u64 = 253;
 
 /// An ADC that shifts out what was there at the rising edges of CONVST, the samples of a list.
+#[derive(Clone)]
 pub struct Adc {
     pub health: Health,
+    /// A data line that is broken, and the level that it has.
+    pub broken: Option<(usize, i64)>,
+    /// Two data lines that are at one wire: both have the level of the first.
+    pub shorted: Option<[usize; 2]>,
     samples: VecDeque<Vec<i32>>,
     conversion: u64,
     bits: u32,
@@ -75,6 +80,8 @@ impl Adc {
         };
         Adc {
             health: Health::Well,
+            broken: None,
+            shorted: None,
             samples: samples.into_iter().collect(),
             conversion,
             bits: bits.into(),
@@ -95,8 +102,26 @@ impl Adc {
         }
     }
 
+    /// What the next conversion finds.
+    pub fn offer(&mut self, sample: Vec<i32>) {
+        self.samples.clear();
+        self.samples.push_back(sample);
+    }
+
     /// BUSY, and the data lines.
     pub fn pins(&self) -> (i64, i64) {
+        let (busy, dout) = self.whole_pins();
+        let dout = match self.shorted {
+            Some([one, other]) => dout & !(1 << other) | (dout >> one & 1) << other,
+            None => dout,
+        };
+        match self.broken {
+            Some((line, level)) => (busy, dout & !(1 << line) | level << line),
+            None => (busy, dout),
+        }
+    }
+
+    fn whole_pins(&self) -> (i64, i64) {
         let busy = self.left > 0 && self.health != Health::Absent;
         if let Some(answer) = self.answer {
             return (busy.into(), i64::from(answer) >> 15u32.saturating_sub(self.bit) & 1);
@@ -157,7 +182,8 @@ impl Adc {
                 self.wrong.push("CONVST in register mode");
             }
             self.conversions += 1;
-            self.converting = self.samples.pop_front().unwrap_or_else(|| vec![0; 8]);
+            let sample = self.samples.pop_front().unwrap_or_else(|| vec![0; 8]);
+            self.converting = self.part.fixed_codes(self.bits).unwrap_or(sample);
             self.left =
                 if self.health == Health::Slow { self.conversion + 3 } else { self.conversion };
         }
@@ -189,6 +215,7 @@ impl Adc {
 /// The host's end of a serial line: bytes in, bytes out, at its own pace. It looks for a start bit
 /// as soon as it has looked at a stop bit, and gives a zero byte where that was low, as POSIX
 /// terminals do.
+#[derive(Clone)]
 pub struct Host {
     /// Clocks of the board in a bit of the host.
     bit: f64,

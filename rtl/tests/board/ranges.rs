@@ -79,7 +79,12 @@ fn no_signal_of_a_peripheral_can_overflow() {
             core.estimator().table().words as u64,
             None,
         );
-        prove(&Stream::new(&profile, parameters.divisor(), registers.outputs().data));
+        prove(&Stream::new(
+            &profile,
+            parameters.divisor(),
+            registers.outputs().data,
+            parameters.output().as_ref(),
+        ));
         prove(&registers);
         let board = Board::new(&profile, &parameters).expect("bundled profiles fit");
         assert_eq!(netlist::of_board(&board).top().name, "board");

@@ -14,6 +14,7 @@ use hapticore_host::{Command, Damage, Decoder, Heartbeat, Message, Packet, encod
 use hapticore_model::fidelity::clock::ClockSimulation;
 use hapticore_rtl::board::drive_output::Converter;
 use hapticore_rtl::board::drive_output::serial::Frame;
+use hapticore_rtl::board::parameters::Drive;
 use hapticore_rtl::board::whole::Inputs;
 use hapticore_rtl::board::{Board, Parameters};
 
@@ -59,7 +60,7 @@ impl Session {
             closed: Vec::new(),
             dac: Dac::new(),
             converter: match parameters.drive {
-                Some((_, Converter::Serial(frame))) => Some(frame),
+                Some(Drive { converter: Converter::Serial(frame), .. }) => Some(frame),
                 _ => None,
             },
         }

@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! From a reset to frames, and from one enabling to the next.
 
-use crate::device::{Sight, calibration, codes};
+use crate::device::{Sight, calibration, codes, short_profiles};
 use crate::part::Part;
 use crate::random::Random;
 use crate::session::{Session, parameters, samples, simulated, small};
+use hapticore_contract::control::{Control, Law};
 use hapticore_contract::profile::Profile;
 use hapticore_host::Constant;
-use hapticore_host::startup::{AdcSetup, Range, StartupError, check, prepare, start};
+use hapticore_host::bringup::{BringUp, Step};
+use hapticore_host::startup::{AdcSetup, LineFault, Range, StartupError, check, prepare, start};
 use hapticore_host::{Command, Heartbeat};
+use hapticore_host::{Dac, Output, Wave};
 use hapticore_model::blocks::core::Core;
+use hapticore_rtl::board::Parameters;
+use hapticore_rtl::board::drive_output::Converter;
 use hapticore_rtl::board::framing::{self, Register, digest};
+use hapticore_rtl::board::parameters::Drive;
 
 const SEED: u64 = 43;
 const ROUNDS: usize = 200;
@@ -50,7 +56,7 @@ fn a_prepared_board_tells_what_it_is_and_has_set_up_its_adc() {
     };
     let (mut session, commands) = prepared(&profile, 0x31, &setup);
     let told = heartbeat(&mut session);
-    assert_eq!(check(&told, &profile, &calibration(&profile), (0, &commands)), Ok(()));
+    assert_eq!(check(&told, &profile, None, &calibration(&profile), (0, commands.len())), Ok(()));
     assert_eq!(
         (told.version, told.digest(), told.adc_answer()),
         (framing::VERSION, digest(&profile), 0x31)
@@ -74,27 +80,28 @@ fn a_board_that_is_not_as_it_should_be_is_not_enabled() {
         let (mut session, commands) = prepared(&profile, id, &AdcSetup::default());
         let told = heartbeat(&mut session);
         assert_eq!(
-            check(&told, &profile, &calibration, (0, &commands)),
+            check(&told, &profile, None, &calibration, (0, commands.len())),
             Err(StartupError::Adc(id))
         );
     }
     let (mut session, mut commands) = prepared(&profile, 0x22, &AdcSetup::default());
     let told = heartbeat(&mut session);
     assert_eq!(
-        check(&told, &profile, &calibration, (0, &commands)),
+        check(&told, &profile, None, &calibration, (0, commands.len())),
         Ok(()),
         "as users of the AD7606C-16 report it"
     );
     let other = Profile { pads: 3, ..profile.clone() };
-    let error = check(&told, &other, &calibration, (0, &commands)).expect_err("another profile");
-    assert!(matches!(error, StartupError::Profile { .. }), "{error}");
     let error =
-        check(&told, &profile, &calibration, (0, &commands[1..])).expect_err("a command more");
+        check(&told, &other, None, &calibration, (0, commands.len())).expect_err("another profile");
+    assert!(matches!(error, StartupError::Made { .. }), "{error}");
+    let error = check(&told, &profile, None, &calibration, (0, commands.len() - 1))
+        .expect_err("a command more");
     assert!(matches!(error, StartupError::Commands { .. }), "{error}");
     let wrong = Command::Register(Register::Constant(Constant::ForceGain), 5);
     session.send(&[wrong]);
     commands.push(wrong);
-    let error = check(&heartbeat(&mut session), &profile, &calibration, (0, &commands))
+    let error = check(&heartbeat(&mut session), &profile, None, &calibration, (0, commands.len()))
         .expect_err("another scale");
     assert!(
         matches!(
@@ -170,4 +177,112 @@ fn whenever_a_board_is_disabled_and_enabled_again_its_first_frame_is_whole() {
         );
     }
     assert_eq!(session.adc.wrong, Vec::<&str>::new());
+}
+
+/// What a host does until the board is ready, or refused: each step's commands, then a heartbeat that begins behind them.
+fn bring_up(session: &mut Session, profile: &Profile) -> Result<(), StartupError> {
+    let calibration = calibration(profile);
+    let mut bring_up = BringUp::new(profile, &calibration, None);
+    let mut commands = bring_up.begin(&AdcSetup::default(), 0);
+    loop {
+        session.send(&commands);
+        commands = loop {
+            let told = heartbeat(session);
+            match bring_up.heartbeat(&told)? {
+                Step::Wait => (),
+                Step::Send(commands) => break commands,
+                Step::Ready(enable) => {
+                    assert_eq!(enable, Command::ENABLE);
+                    return Ok(());
+                }
+            }
+        };
+    }
+}
+
+/// Both widths of codes.
+fn boards() -> Vec<(Profile, Session)> {
+    let profiles = short_profiles().into_iter().take(2);
+    let of = |profile: Profile| {
+        let samples = samples(&profile, 9);
+        (profile.clone(), Session::new(&profile, parameters(&profile, 4, 0), &samples))
+    };
+    profiles.map(of).collect()
+}
+
+#[test]
+fn a_board_whose_lines_bring_their_codes_is_enabled_and_measures() {
+    for (profile, mut session) in boards() {
+        assert_eq!(bring_up(&mut session, &profile), Ok(()), "{}", profile.name);
+        assert_eq!(session.adc.wrong, Vec::<&str>::new(), "{}", profile.name);
+        assert!(!session.adc.part.register_mode() && session.adc.part.lines() == 8);
+        let tested = session.adc.conversions;
+        assert!(tested >= profile.channels() * 64, "{}: {tested} codes", profile.name);
+        session.send(&[Command::ENABLE]);
+        let packets = session.packets(2);
+        assert!(!packets[1].status.late, "{}", profile.name);
+        assert!(session.adc.part.fixed_codes(18).is_none(), "samples again");
+    }
+}
+
+#[test]
+fn a_board_with_a_broken_line_is_refused_and_the_line_is_named() {
+    let channels = small().channels();
+    for line in 0..channels {
+        for level in [0, 1] {
+            let (profile, mut session) = boards().swap_remove(line % 2);
+            session.adc.broken = Some((line, level));
+            let error = bring_up(&mut session, &profile).expect_err("a broken line");
+            let fault = if level == 0 { LineFault::Silent } else { LineFault::Ones };
+            // The ADC answers commands on its first line.
+            let expected = match line {
+                0 => StartupError::Adc(if level == 0 { 0 } else { 0xff }),
+                line => StartupError::Line { line: line as u8, fault },
+            };
+            assert_eq!(error, expected, "{}", profile.name);
+            assert!(error.to_string().contains(&format!("dout[{line}] (DOUT")), "{error}");
+        }
+    }
+    let (profile, mut session) = boards().swap_remove(0);
+    session.adc.shorted = Some([2, 5]);
+    let error = bring_up(&mut session, &profile).expect_err("two lines at one wire");
+    assert!(
+        error.to_string().contains("dout[5]") && error.to_string().contains("dout[2]"),
+        "{error}"
+    );
+}
+
+#[test]
+fn a_board_that_was_printed_for_another_output_is_refused_with_both_named() {
+    let mut profile = short_profiles().swap_remove(1);
+    profile.control = Some(Control::of(&profile, Law::Open));
+    profile.slot.settle += 400;
+    let drive = |full_scale_v: u16| Drive {
+        wave: Wave::Square { turn_slots: 10 },
+        converter: Converter::from(Dac::Ad5664r),
+        full_scale_v,
+    };
+    let parameters = Parameters { drive: Some(drive(500)), ..parameters(&profile, 4, 0) };
+    let clock_hz = parameters.clock_hz;
+    let mut session = Session::new(&profile, parameters, &samples(&profile, 3));
+    let told = heartbeat(&mut session);
+    let made = |output: Option<Output>| {
+        let calibration = calibration(&profile);
+        let checked = check(&told, &profile, output.as_ref(), &calibration, (0, 0));
+        checked.expect_err("nothing was sent yet")
+    };
+    let own = drive(500).output(clock_hz);
+    assert!(matches!(made(Some(own)), StartupError::Commands { .. }), "its own is not refused");
+    let others = [
+        Output { dac: Dac::Ad5668, ..own },
+        Output { wave: Wave::Dc, ..own },
+        Output { wave: Wave::Square { turn_slots: 11 }, ..own },
+        Output { full_scale_v: 300, ..own },
+        Output { clock_hz: clock_hz / 2, ..own },
+    ];
+    for other in others {
+        let error = made(Some(other)).to_string();
+        assert!(error.contains(&own.to_string()) && error.contains(&other.to_string()), "{error}");
+    }
+    assert!(made(None).to_string().contains("expected no drive"));
 }

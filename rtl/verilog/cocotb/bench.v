@@ -10,26 +10,26 @@ module bench;
     reg clock = 0, reset = 1, strobe = 0, clear = 0, write = 0;
     reg signed [15:0] code = 0, word = 0;
     reg [10:0] address = 0;
-    reg [14:0] capacitance_gain = 0, force_gain = 0;
+    reg [14:0] capacitance_gain = 0, force_gain = 0, contact_capacitance = 0;
     wire [2:0] channel, index;
     wire [1:0] serve, pad;
     wire signed [16:0] carrier;
     wire signed [15:0] frame;
-    wire closed, valid, done, clipped, saturated, invalid, lost, overrun;
+    wire closed, valid, done, clipped, saturated, invalid, lost, lifted, overrun;
 
     hapticore core (
         .clock(clock), .reset(reset), .strobe(strobe), .clear(clear), .code(code),
-        .capacitance_gain(capacitance_gain), .force_gain(force_gain),
+        .capacitance_gain(capacitance_gain), .force_gain(force_gain), .contact_capacitance(contact_capacitance),
         .write(write), .address(address), .word(word), .channel(channel), .serve(serve), .closed(closed), .carrier(carrier),
         .valid(valid), .index(index), .frame(frame), .done(done), .pad(pad), .clipped(clipped), .saturated(saturated),
-        .invalid(invalid), .lost(lost), .overrun(overrun)
+        .invalid(invalid), .lost(lost), .lifted(lifted), .overrun(overrun)
     );
 
     integer calibration, samples, frames, pins, found, matched, value, place, step, words, wrong, letter;
     // Clocks after reset, rows of samples; where the next row of pins.csv and of calibration.csv belongs.
     integer clocks, row, next_pins, next_row, period;
     integer codes [0:7];
-    integer want [0:6];
+    integer want [0:7];
     integer now [0:4];
     integer then [0:4];
     reg [8*64-1:0] name;
@@ -38,11 +38,11 @@ module bench;
 
     task compare_frame;
         begin
-            matched = $fscanf(frames, "%d,%d,%d,%d,%d,%d,%d\n", want[0], want[1], want[2], want[3], want[4], want[5], want[6]);
-            if (matched != 7 || pad !== want[0] || index !== want[1] || frame !== want[2] || clipped !== want[3] ||
-                saturated !== want[4] || invalid !== want[5] || lost !== want[6]) begin
-                $display("word %0d: pad %0d index %0d word %0d flags %b%b%b%b, expected %0d %0d %0d %0d%0d%0d%0d", words, pad,
-                    index, frame, clipped, saturated, invalid, lost, want[0], want[1], want[2], want[3], want[4], want[5], want[6]);
+            matched = $fscanf(frames, "%d,%d,%d,%d,%d,%d,%d,%d\n", want[0], want[1], want[2], want[3], want[4], want[5], want[6], want[7]);
+            if (matched != 8 || pad !== want[0] || index !== want[1] || frame !== want[2] || clipped !== want[3] ||
+                saturated !== want[4] || invalid !== want[5] || lost !== want[6] || lifted !== want[7]) begin
+                $display("word %0d: pad %0d index %0d word %0d flags %b%b%b%b%b, expected %0d %0d %0d %0d%0d%0d%0d%0d", words, pad, index, frame, clipped,
+                    saturated, invalid, lost, lifted, want[0], want[1], want[2], want[3], want[4], want[5], want[6], want[7]);
                 wrong = wrong + 1;
             end
             words = words + 1;
@@ -95,6 +95,7 @@ module bench;
                 case (name)
                     "capacitance_gain": capacitance_gain = value;
                     "force_gain": force_gain = value;
+                    "contact_capacitance": contact_capacitance = value;
                     "clocks": period = value;
                     "clear": begin
                         clear = 1;

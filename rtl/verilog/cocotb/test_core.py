@@ -15,9 +15,9 @@ from cocotb.triggers import FallingEdge, RisingEdge
 VECTORS = Path(__file__).resolve().parent.parent / "vectors"
 CLOCKS_PER_SAMPLE = 24  # model/src/profile/small.toml, until calibration.csv says otherwise
 CHANNELS = ["i1", "i2", "i3", "i4", "i5", "i6", "v_sense", "v_haptic"]
-FLAGS = ["clipped", "saturated", "invalid", "lost"]
+FLAGS = ["clipped", "saturated", "invalid", "lost", "lifted"]
 INPUTS = ["strobe", "clear", "code", "write", "address", "word"]
-CONSTANTS = ["capacitance_gain", "force_gain"]
+CONSTANTS = ["capacitance_gain", "force_gain", "contact_capacitance"]
 
 
 def rows(name):

@@ -36,13 +36,14 @@ module board_bench #(
 
 `ifdef DRIVE
     wire dac_sync_n, dac_sclk, dac_sdi, dac_live;
+    wire [3:0] dac_polarity;
 `endif
 
     top uut (
         .clock(clock), .button(ACTIVE_LOW != 0), .rx(rx), .tx(tx), .adc_reset(adc_reset), .convst(convst), .busy(busy),
         .cs_n(cs_n), .sclk(sclk), .sdi(sdi), .dout(dout_in), .carrier(carrier), .pads(pads), .enabled(enabled), .late(late)
 `ifdef DRIVE
-        , .dac_sync_n(dac_sync_n), .dac_sclk(dac_sclk), .dac_sdi(dac_sdi), .dac_live(dac_live)
+        , .dac_sync_n(dac_sync_n), .dac_sclk(dac_sclk), .dac_sdi(dac_sdi), .dac_polarity(dac_polarity), .dac_live(dac_live)
 `endif
     );
 

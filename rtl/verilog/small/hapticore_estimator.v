@@ -7,7 +7,7 @@
 module hapticore_estimator (
     input wire clock,
     input wire reset,
-    input wire clear, // u1.0  Mean squares of earlier windows no longer count.
+    input wire clear, // u1.0  Mean squares of earlier windows no longer count, nor what a prompt estimate takes of earlier slots.
     input wire valid, // u1.0  Asserted for one cycle with each of the demodulator's sums.
     input wire [3:0] index, // u4.0  The number of the sum.
     input wire signed [41:0] sum, // s42.31
@@ -15,6 +15,7 @@ module hapticore_estimator (
     input wire clipped, // u1.0  A code of the window was at full scale.
     input wire [14:0] capacitance_gain, // u15.5  Calibration: gain of the capacitance, pF at an admittance of 1.
     input wire [14:0] force_gain, // u15.31  Calibration: gain of the force, N/pF² at a full-scale haptic mean square.
+    input wire [14:0] contact_capacitance, // u15.5  Calibration: capacitance at or below which a pad is lifted, pF.
     input wire write, // u1.0  Writes a word of the position table.
     input wire [10:0] address, // u11.0  The word's address.
     input wire signed [15:0] word, // s16.15
@@ -26,7 +27,8 @@ module hapticore_estimator (
     output wire clipped_out, // u1.0  A code was at full scale of the ADC.
     output wire saturated, // u1.0  A word is saturated.
     output wire invalid, // u1.0  No position or capacitance has these currents; the last valid results are given out.
-    output wire lost // u1.0  A terminal is open.
+    output wire lost, // u1.0  A terminal is open.
+    output wire lifted // u1.0  The pad does not touch; its last valid place is given out.
 );
 
     reg busy; // u1.0
@@ -70,6 +72,7 @@ module hapticore_estimator (
     wire drops = (index == 4'd0) ? (busy & (~dropping)) : dropping; // u1.0
     wire currents_valid = valid & (~drops); // u1.0
     wire [1:0] next_pad_q = currents_valid ? pad : pad_q; // u2.0
+    wire is_lifted = ~(contact_capacitance < capacitance_capacitance); // u1.0
     wire frames_invalid = (ratio_invalid | position_invalid) | capacitance_invalid; // u1.0
     wire signed [16:0] rounded = {ratio_r_x[17], ratio_r_x[17:2]} + {16'd0, ratio_r_x[1] & (ratio_r_x[2] | ratio_r_x[0])};
     wire signed [16:0] rounded_2 = {ratio_r_y[17], ratio_r_y[17:2]} + {16'd0, ratio_r_y[1] & (ratio_r_y[2] | ratio_r_y[0])};
@@ -170,6 +173,7 @@ module hapticore_estimator (
         .start(force_estimator_done),
         .pad(pad_q),
         .invalid(frames_invalid),
+        .lifted(is_lifted),
         .r_x((rounded[16:15] == {2{rounded[16]}}) ? rounded[15:0] : {rounded[16], {15{~rounded[16]}}}),
         .r_y((rounded_2[16:15] == {2{rounded_2[16]}}) ? rounded_2[15:0] : {rounded_2[16], {15{~rounded_2[16]}}}),
         .x(position_x),
@@ -211,6 +215,7 @@ module hapticore_estimator (
     assign saturated = frames_valid ? any_saturated : 1'd0;
     assign invalid = frames_valid ? frames_invalid : 1'd0;
     assign lost = frames_valid ? position_lost : 1'd0;
+    assign lifted = frames_valid ? is_lifted : 1'd0;
 
 endmodule
 

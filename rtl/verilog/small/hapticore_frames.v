@@ -10,6 +10,7 @@ module hapticore_frames (
     input wire start, // u1.0  Begins; all others are valid and stable until `done`.
     input wire [1:0] pad, // u2.0
     input wire invalid, // u1.0  The results are invalid: the pad's last valid ones are given out instead.
+    input wire lifted, // u1.0  The pad does not touch: its last valid place is given out instead.
     input wire signed [15:0] r_x, // s16.14  Ratio r_x, eq. 2.
     input wire signed [15:0] r_y, // s16.14  Ratio r_y, eq. 3.
     input wire signed [15:0] x, // s16.5  Position along the long edges, mm.
@@ -68,7 +69,7 @@ module hapticore_frames (
                 if (emits) begin
                     index <= bits_d327;
                     word <=
-                        (invalid & (~(count_minus_1[2:0] == 3'd7))) ? held_word
+                        ((invalid & (~(count_minus_1[2:0] == 3'd7))) | (lifted & (count_minus_1[2:0] < 3'd5))) ? held_word
                         : bits_d327[2] ? (bits_d327[1] ? (bits_d327[0] ? {1'd0, mean_square}
                         : {1'd0, haptic_force})
                         : bits_d327[0] ? {1'd0, capacitance}

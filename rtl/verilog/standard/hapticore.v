@@ -8,7 +8,7 @@
 //   a set is read from the strobe's cycle on, and is stable for 24 cycles.
 // - channels 0 to 7: terminals, sensing voltage, haptic voltage.
 // - slots of 1700 samples, pad after pad; a frame follows its slot's last strobe by at most 8706 cycles.
-// - capacitance_gain, force_gain: stable from a slot's last strobe to its frame's `done`.
+// - capacitance_gain, force_gain, contact_capacitance: stable from a slot's last strobe to its frame's `done`.
 // - write, address, word: a word of the position table per cycle; a slot that is estimated meanwhile gives a frame of
 //   neither table. Reset does not clear the table.
 // - frame words, in the order of `index`, as two's complement integers whose least significant bit is 2^-fraction:
@@ -31,6 +31,7 @@ module hapticore (
     input wire signed [17:0] code, // s18.17  The code of the channel that `channel` asked for one cycle earlier.
     input wire [17:0] capacitance_gain, // u18.7  Calibration: gain of the capacitance, pF at an admittance of 1.
     input wire [17:0] force_gain, // u18.34  Calibration: gain of the force, N/pF² at a full-scale haptic mean square.
+    input wire [23:0] contact_capacitance, // u24.13  Calibration: capacitance at or below which a pad is lifted, pF.
     input wire write, // u1.0  Writes a word of the position table.
     input wire [12:0] address, // u13.0  The word's address.
     input wire signed [17:0] word, // s18.17
@@ -47,6 +48,7 @@ module hapticore (
     output wire saturated, // u1.0  A word is saturated.
     output wire invalid, // u1.0  No position or capacitance has these currents; the last valid results are given out.
     output wire lost, // u1.0  A terminal is open.
+    output wire lifted, // u1.0  The pad does not touch; its last valid place is given out.
     output wire overrun // u1.0  Strobes have come closer than the profile's clocks per sample since reset or `clear`: frames are wrong.
 );
 
@@ -78,6 +80,7 @@ module hapticore (
     wire estimator_saturated; // u1.0
     wire estimator_invalid; // u1.0
     wire estimator_lost; // u1.0
+    wire estimator_lifted; // u1.0
 
     hapticore_multiplexer u_multiplexer (
         .clock(clock),
@@ -145,6 +148,7 @@ module hapticore (
         .clipped(demodulator_clipped),
         .capacitance_gain(capacitance_gain),
         .force_gain(force_gain),
+        .contact_capacitance(contact_capacitance),
         .write(write),
         .address(address),
         .word(word),
@@ -156,7 +160,8 @@ module hapticore (
         .clipped_out(estimator_clipped),
         .saturated(estimator_saturated),
         .invalid(estimator_invalid),
-        .lost(estimator_lost)
+        .lost(estimator_lost),
+        .lifted(estimator_lifted)
     );
 
     assign channel = demodulator_channel;
@@ -172,6 +177,7 @@ module hapticore (
     assign saturated = estimator_saturated;
     assign invalid = estimator_invalid;
     assign lost = estimator_lost;
+    assign lifted = estimator_lifted;
     assign overrun = pace_overrun;
 
 endmodule

@@ -7,7 +7,7 @@
 module hapticore_estimator (
     input wire clock,
     input wire reset,
-    input wire clear, // u1.0  Mean squares of earlier windows no longer count.
+    input wire clear, // u1.0  Mean squares of earlier windows no longer count, nor what a prompt estimate takes of earlier slots.
     input wire valid, // u1.0  Asserted for one cycle with each of the demodulator's sums.
     input wire [3:0] index, // u4.0  The number of the sum.
     input wire signed [44:0] sum, // s45.34
@@ -15,6 +15,7 @@ module hapticore_estimator (
     input wire clipped, // u1.0  A code of the window was at full scale.
     input wire [17:0] capacitance_gain, // u18.7  Calibration: gain of the capacitance, pF at an admittance of 1.
     input wire [17:0] force_gain, // u18.34  Calibration: gain of the force, N/pF² at a full-scale haptic mean square.
+    input wire [23:0] contact_capacitance, // u24.13  Calibration: capacitance at or below which a pad is lifted, pF.
     input wire write, // u1.0  Writes a word of the position table.
     input wire [12:0] address, // u13.0  The word's address.
     input wire signed [17:0] word, // s18.17
@@ -26,7 +27,8 @@ module hapticore_estimator (
     output wire clipped_out, // u1.0  A code was at full scale of the ADC.
     output wire saturated, // u1.0  A word is saturated.
     output wire invalid, // u1.0  No position or capacitance has these currents; the last valid results are given out.
-    output wire lost // u1.0  A terminal is open.
+    output wire lost, // u1.0  A terminal is open.
+    output wire lifted // u1.0  The pad does not touch; its last valid place is given out.
 );
 
     reg busy; // u1.0
@@ -70,6 +72,7 @@ module hapticore_estimator (
     wire drops = (index == 4'd0) ? (busy & (~dropping)) : dropping; // u1.0
     wire currents_valid = valid & (~drops); // u1.0
     wire [1:0] next_pad_q = currents_valid ? pad : pad_q; // u2.0
+    wire is_lifted = ~(contact_capacitance < capacitance_capacitance); // u1.0
     wire frames_invalid = (ratio_invalid | position_invalid) | capacitance_invalid; // u1.0
     wire bit_ca21 = ((currents_saturated | haptic_voltage_saturated) | position_saturated) | capacitance_saturated; // u1.0
     wire any_saturated = bit_ca21 | force_estimator_saturated; // u1.0
@@ -168,6 +171,7 @@ module hapticore_estimator (
         .start(force_estimator_done),
         .pad(pad_q),
         .invalid(frames_invalid),
+        .lifted(is_lifted),
         .r_x(ratio_r_x),
         .r_y(ratio_r_y),
         .x(position_x),
@@ -209,6 +213,7 @@ module hapticore_estimator (
     assign saturated = frames_valid ? any_saturated : 1'd0;
     assign invalid = frames_valid ? frames_invalid : 1'd0;
     assign lost = frames_valid ? position_lost : 1'd0;
+    assign lifted = frames_valid ? is_lifted : 1'd0;
 
 endmodule
 

@@ -102,6 +102,34 @@ impl Plant {
         self.settle(still).map(point).collect()
     }
 
+    /// The least capacitance that any pad, or any part of a split one, has while it touches the sheet without a haptic voltage,
+    /// pF: of `[gap]` at rest under a load, g; of a scene without one also the largest that each pad is ever set to.
+    ///
+    /// ```
+    /// # use hapticore_scene::{Plant, Scene, Timing};
+    /// # let timing = Timing {
+    /// #     pads: 4, slot_samples: 1700, window_start: 700, window_samples: 1000, samples_per_period: 10.0, signs: None,
+    /// # };
+    /// let of = |text: &str| {
+    ///     let scene = Scene::parse(&format!("title = \"t\"\n[[pad]]\nposition_mm = [0, 0]\n{text}"), "t.toml", &[])?;
+    ///     Ok::<_, hapticore_scene::SceneError>(Plant::new(&scene, 0, &timing)?.least_rest_capacitance_pf(20.0).round())
+    /// };
+    /// assert_eq!((of("[gap]\n")?, of("")?), (353.0, 318.0));
+    /// assert_eq!(of("capacitance_pf = { timeline = [[0, 90], [1, 2], [2, 2]] }\n")?, 90.0);
+    /// # Ok::<(), hapticore_scene::SceneError>(())
+    /// ```
+    pub fn least_rest_capacitance_pf(&self, load_g: f64) -> f64 {
+        let parts = 0..self.parts();
+        let part = |part: usize| Pad {
+            part: (self.parts() > 1).then_some(part),
+            ..resting([0.0, 0.0], load_g, 0.0, &self.device)
+        };
+        let at_rest = self.settle(parts.map(part)).map(|pad| 1e12 * pad.capacitance_f);
+        at_rest
+            .chain(self.case.pads.iter().filter_map(|pad| pad.set_capacitance_pf()))
+            .fold(f64::INFINITY, f64::min)
+    }
+
     /// What the parts on the left and on the right of a split pad read at rest under a load, pF: the
     /// direction that a device has when it leaves the factory. None of a pad that is whole.
     pub fn parts_at_rest_pf(&self, load_g: f64) -> Option<[f64; 2]> {

@@ -91,5 +91,6 @@ fn sheet(profile: &Profile, set: Set) -> Calibration {
     let points: Vec<Point> = (0..columns * rows).map(point).collect();
     let position = PositionTable::fit(profile, &points).expect("a sheet").with_open_share(0.01);
     let force_table = ForceTable::default();
-    Calibration { position, capacitance_gain: 800.0, force_gain: 2e-6, force_table }
+    let (capacitance_gain, force_gain, contact_capacitance) = (800.0, 2e-6, 100.0);
+    Calibration { position, capacitance_gain, force_gain, contact_capacitance, force_table }
 }

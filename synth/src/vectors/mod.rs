@@ -122,7 +122,7 @@ impl Bench {
             row: 0,
             written: text("sample,what,code\n"),
             samples: text("i1,i2,i3,i4,i5,i6,v_sense,v_haptic\n"),
-            frames: text("pad,index,word,clipped,saturated,invalid,lost\n"),
+            frames: text("pad,index,word,clipped,saturated,invalid,lost,lifted\n"),
             changes: text("clock,serve,closed,carrier,done,overrun\n"),
         }
     }
@@ -137,7 +137,7 @@ impl Bench {
         if f.valid == 1 {
             line(
                 &mut self.frames,
-                &[f.pad, f.index, f.frame, f.clipped, f.saturated, f.invalid, f.lost],
+                &[f.pad, f.index, f.frame, f.clipped, f.saturated, f.invalid, f.lost, f.lifted],
             );
         }
         let pins = [o.serve, o.closed, o.carrier, f.done, o.overrun];

@@ -117,9 +117,11 @@ fn registers(target: Target) -> (String, Known) {
 fn stream(target: Target) -> (String, Known) {
     let (profile, core) = (target.profile(), Core::new(&target.profile()));
     let data = CommandRegisters::new(core.inputs().calibration, 1, None).outputs().data;
-    let text =
-        Design::of(&Stream::new(&profile, target.parameters().divisor(), data), "a formal check")
-            .text();
+    let text = Design::of(
+        &Stream::new(&profile, target.parameters().divisor(), data, None),
+        "a formal check",
+    )
+    .text();
     let line = text
         .split_once(".octet(")
         .and_then(|(_, rest)| rest.split_once("),\n"))

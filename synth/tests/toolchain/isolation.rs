@@ -72,7 +72,7 @@ fn follow(netlist: &Netlist, profile: &Profile, pad: u64, own: bool) -> Found {
                 }
                 if outputs[valid] == Seen::Known(1) && outputs[whose] == Seen::Known(pad as i64) {
                     words += 1;
-                    for field in ["frame", "clipped", "saturated", "invalid", "lost"] {
+                    for field in ["frame", "clipped", "saturated", "invalid", "lost", "lifted"] {
                         if outputs[output(field)] == Seen::Other {
                             return Found::Reached(round, field.into());
                         }

@@ -160,6 +160,7 @@ fn calibration(profile: &Profile, choices: &mut Unstructured) -> Result<Option<C
         position: position.with_open_share(0.05 * share()?),
         capacitance_gain: 1000.0 * share()?,
         force_gain: 4e-6 * share()?,
+        contact_capacitance: 300.0 * share()?,
         force_table: ForceTable {
             rows: std::array::from_fn(row),
             recent: 0.5 * share()?,

@@ -47,7 +47,7 @@ fn packed(payloads: &[u8], profile: &Profile) -> Vec<u8> {
 
 /// Whatever came before: of two packets the second is heard.
 fn check_recovery(decoder: &mut Decoder, profile: &Profile) {
-    let heartbeat = Message::Heartbeat(Heartbeat::new(Status::default(), profile));
+    let heartbeat = Message::Heartbeat(Heartbeat::new(Status::default(), profile, None));
     let packet = heartbeat.encode(profile);
     let last = decoder.decode(packet.iter().chain(&packet).copied()).last();
     assert_eq!(last, Some(Ok(heartbeat)));

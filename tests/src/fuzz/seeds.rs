@@ -196,7 +196,7 @@ fn packets() -> Vec<Vec<u8>> {
         let codes = [0; Field::ALL.len()].map(|_| -1 - i64::from(choice));
         let frame = Frame { pad: 0, codes, flags };
         let messages = [
-            Message::Heartbeat(Heartbeat::new(status, profile)),
+            Message::Heartbeat(Heartbeat::new(status, profile, None)),
             Message::Frame(Packet { status, frame }),
         ];
         let bytes = messages.iter().flat_map(|message| message.encode(profile));

@@ -59,8 +59,14 @@ impl Ours {
 impl Law for Ours {
     fn volts(&mut self, seen: &Seen) -> f64 {
         let Seen { target_n, force_n, capacitance_pf } = *seen;
-        let prompt =
-            Prompt { pad: 0, capacitance_pf, force_n, force_gain: self.force_gain, invalid: false };
+        let prompt = Prompt {
+            pad: 0,
+            capacitance_pf,
+            force_n,
+            force_gain: self.force_gain,
+            invalid: false,
+            lifted: false,
+        };
         self.controller.hear();
         self.full_scale_v * self.controller.drive(&prompt, target_n).fraction
     }

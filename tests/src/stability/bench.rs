@@ -211,6 +211,7 @@ fn calibration(profile: &Profile) -> Calibration {
         position: PositionTable::fit(profile, &points).expect("a raster").with_open_share(0.01),
         capacitance_gain: 180.0,
         force_gain: 8e-6,
+        contact_capacitance: 1.0,
         force_table: ForceTable::default(),
     };
     calibration.check(profile).expect("a calibration within its formats");

@@ -14,6 +14,7 @@ fn each_converter_has_its_pins_and_no_others() {
     for (dac, wave, own) in [
         ("pulses", "square:10", 0),
         ("ad5664", "dc", 1),
+        ("ad5664r", "square", 1),
         ("ad5668", "square", 1),
         ("parallel", "sine:125000", 2),
     ] {
@@ -37,7 +38,7 @@ fn drives_that_cannot_be_are_refused() {
     for (args, words) in [
         (
             &["--control", "inverse", "--dac", "ad5761"][..],
-            "expected pulses, ad5664, ad5668 or parallel",
+            "expected pulses, ad5664, ad5664r, ad5668 or parallel",
         ),
         (
             &["--control", "inverse", "--dac", "pulses", "--wave", "sine:10"],
@@ -47,7 +48,7 @@ fn drives_that_cannot_be_are_refused() {
         (&["--dac", "pulses"], "expected a force controller too: --control LAW"),
         (
             &["--board", "ulx3s", "--control", "inverse", "--dac", "pulses"],
-            "ulx3s has no pins for such a drive: expected ulx3s, with ad5664 or ad5668",
+            "ulx3s has no pins for such a drive: expected ulx3s, with ad5664, ad5664r or ad5668",
         ),
         (
             &["--board", "icebreaker", "--control", "open", "--dac", "ad5664"],
@@ -55,7 +56,7 @@ fn drives_that_cannot_be_are_refused() {
         ),
         (
             &["--board", "ulx3s", "--control", "open"],
-            "expected a converter for the controller's drives too: --dac ad5664",
+            "expected a converter for the controller's drives too: --dac ad5664r",
         ),
     ] {
         if args.contains(&"--dac") || args.contains(&"--board") {

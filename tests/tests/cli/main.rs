@@ -9,6 +9,7 @@ mod gallery;
 mod hdl;
 mod knobs;
 mod lab;
+mod lifted;
 mod messages;
 mod recorders;
 mod runs;

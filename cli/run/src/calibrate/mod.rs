@@ -6,7 +6,7 @@ pub mod random;
 
 use anyhow::{Result, anyhow};
 use hapticore_contract::profile::Profile;
-use hapticore_host::device::Force;
+use hapticore_host::device::{CONTACT_SHARE, Force};
 use hapticore_host::{DeviceCalibration, Raster, Scales, Signs, open_share};
 use hapticore_scene::{ForcePoint, Plant, Scene};
 
@@ -68,6 +68,7 @@ pub fn of_plant(plant: &Plant, profile: &Profile) -> DeviceCalibration {
             haptic_full_scale_v: device.haptic_full_scale_v,
             force_k: force_k(plant),
             pad_diameter_mm: Some(device.pad_diameter_mm),
+            contact_pf: Some(CONTACT_SHARE * plant.least_rest_capacitance_pf(LOADS_G[0])),
         },
     }
 }

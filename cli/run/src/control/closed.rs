@@ -116,7 +116,7 @@ impl Loop for Float {
             split_pads.drive(slot.pad, drive.fraction);
             Drive { walled: Some(walled), ..drive }
         });
-        if !measurement.flags.invalid {
+        if !measurement.flags.invalid && !measurement.flags.lifted {
             split_pads.place(slot.pad, [measurement.x_mm, measurement.y_mm]);
         }
         (Some(measurement), drive)

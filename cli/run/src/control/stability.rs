@@ -432,7 +432,7 @@ impl<'a> Bench<'a> {
         let by_eq8 = eq8 * (capacitance_pf * part).powi(2);
         let ratio = if by_eq8 > 1e-4 { force_n / by_eq8 } else { 1.0 };
         let force_gain = ratio * eq8 * self.tuning.full_drive;
-        Prompt { pad: 0, capacitance_pf, force_n, force_gain, invalid: false }
+        Prompt { pad: 0, capacitance_pf, force_n, force_gain, invalid: false, lifted: false }
     }
 
     fn measured_n(&self, truth: &Truth) -> f64 {

@@ -36,6 +36,7 @@ use serde::Serialize;
 
 use crate::inputs::buildable;
 use crate::record::Provenance;
+use hapticore_host::device::CONTACT_SHARE;
 use hapticore_host::residual::LIMIT_MM;
 use hapticore_host::text::read;
 use hapticore_host::{
@@ -178,7 +179,10 @@ pub fn calibrate(data: &Data, profile: &Profile) -> Result<(DeviceCalibration, O
         pads: setup.pads,
         parts: 1,
         map: Raster { columns: 0, places: Vec::new(), open_share: 0.0 },
-        device: scales(setup, scale, force_k),
+        device: Scales {
+            contact_pf: Some(CONTACT_SHARE * scale * places.capacitance_pf(setup.carrier_hz)),
+            ..scales(setup, scale, force_k)
+        },
         force: force.as_ref().and_then(|force| force.table.clone()),
         terminals: signs.clone(),
     };
@@ -287,6 +291,7 @@ fn scales(setup: &Setup, current_scale: f64, force_k: f64) -> Scales {
         haptic_full_scale_v: setup.haptic_full_scale_v,
         force_k,
         pad_diameter_mm: setup.sheet.as_ref().map(|sheet| sheet.pad_diameter_mm),
+        contact_pf: None,
     }
 }
 

@@ -9,6 +9,8 @@
 //! | `v_sense` | the sensing voltage, V, peak as the currents |
 //! | `sheet_ohm` | the sheet's resistance there, where it was measured |
 
+use std::f64::consts::TAU;
+
 use anyhow::{Result, bail, ensure};
 use hapticore_scene::{Complex, LEAST_TERMINALS, MOST_TERMINALS};
 
@@ -139,6 +141,15 @@ impl Columns {
 }
 
 impl Places {
+    /// The capacitance of the pad at the places, pF: the median of their currents over the sensing voltage, without the sheet's
+    /// resistance, which takes about a percent of it.
+    pub fn capacitance_pf(&self, carrier_hz: f64) -> f64 {
+        let siemens = |place: &Place| place.siemens.iter().map(|current| current.norm()).sum();
+        let mut all: Vec<f64> = self.places.iter().map(siemens).collect();
+        all.sort_by(f64::total_cmp);
+        1e12 * all[all.len() / 2] / (TAU * carrier_hz)
+    }
+
     /// The places of a table.
     ///
     /// # Errors

@@ -29,7 +29,9 @@ use hapticore_hdl::format::Format;
 /// let point = |(x, y)| Point { x, y, r_x: x / 100.0, r_y: y / 50.0, sheet: 0.05 };
 /// let position = PositionTable::fit(&profile, &(0..81).map(place).map(point).collect::<Vec<_>>())?;
 /// let force_table = ForceTable::default();
-/// let calibration = Calibration { position, capacitance_gain: 800.0, force_gain: 2e-6, force_table };
+/// let (capacitance_gain, force_gain, contact_capacitance) = (800.0, 2e-6, 100.0);
+/// let calibration =
+///     Calibration { position, capacitance_gain, force_gain, contact_capacitance, force_table };
 /// calibration.check(&profile)?;
 ///
 /// let found = calibration.position.look_up(0.25f64, -0.4);
@@ -47,6 +49,8 @@ pub struct Calibration {
     pub capacitance_gain: f64,
     /// Newtons per square picofarad at a haptic mean-square word of one.
     pub force_gain: f64,
+    /// A pad of at most this capacitance, pF, is lifted; 0: only a pad without any.
+    pub contact_capacitance: f64,
     /// What the force gain is multiplied by, for cores whose law is the table.
     pub force_table: ForceTable,
 }
@@ -74,6 +78,11 @@ impl Calibration {
             if format.code(value).is_none_or(|code| code == 0) {
                 return Err(CalibrationError { name, format, value });
             }
+        }
+        let (name, format, value) =
+            ("contact capacitance", f.capacitance, self.contact_capacitance);
+        if format.code(value).is_none_or(|code| code == 0 && value != 0.0) {
+            return Err(CalibrationError { name, format, value });
         }
         let mut words = self.words(profile).into_iter().skip(self.position.words.len());
         match words.find(|&word| f.table.code(word).is_none()) {

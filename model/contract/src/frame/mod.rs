@@ -18,6 +18,9 @@ pub struct Flags {
     pub invalid: bool,
     /// Open terminal: a current is below the calibrated threshold.
     pub lost: bool,
+    /// The pad does not touch: its capacitance is at most the calibrated least of a contact. Capacitance and force are
+    /// this slot's; ratios, position and sheet resistance repeat the pad's last valid ones.
+    pub lifted: bool,
 }
 
 /// A frame: codes of all fields, in their order.

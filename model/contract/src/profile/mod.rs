@@ -274,11 +274,17 @@ impl ProfileError {
 pub const POLYPHASE_GAIN: f64 = 57230.0 / 65536.0;
 
 /// Keys that are refused with a reason of their own.
-const RETIRED: [(&str, &str); 1] = [(
-    "control.folded",
-    "expected no such key, whatever its value: no board can use a folded controller (the iCEBreaker has no \
-     pins for a drive, the ULX3S runs at 25 MHz and needs none)",
-)];
+const RETIRED: [(&str, &str); 2] = [
+    (
+        "control.folded",
+        "expected no such key, whatever its value: no board can use a folded controller (the iCEBreaker has \
+         no pins for a drive, the ULX3S runs at 25 MHz and needs none)",
+    ),
+    (
+        "control.silent_frames",
+        "expected control.silent_ms, milliseconds at any length of slots, 2 to 1000 (100 without the key)",
+    ),
+];
 
 /// How the reader of TOML begins to refuse a key, of its last part.
 fn unknown(key: &str) -> String {
@@ -426,7 +432,7 @@ impl Control {
             gain: Format::unsigned(width, frac - 3),
             cells: 64,
             invalid_frames: 8,
-            silent_frames: 1 << 12,
+            silent_ms: Control::SILENT_MS,
         }
     }
 }

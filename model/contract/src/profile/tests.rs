@@ -13,6 +13,26 @@ fn with(key: &str) -> String {
 }
 
 #[test]
+fn silent_frames_are_refused_with_what_takes_their_place() {
+    let message = Profile::parse(&with("silent_frames = 4096")).unwrap_err().to_string();
+    assert!(message.contains("control.silent_frames: expected control.silent_ms"), "{message}");
+    for (ms, holds) in [(1, false), (2, true), (1000, true), (1001, false)] {
+        let text = with("").replace("silent_ms = 100", &format!("silent_ms = {ms}"));
+        let parsed = Profile::parse(&text).map(|of| of.control.unwrap().silent_ms);
+        match holds {
+            true => assert_eq!(parsed.unwrap(), ms),
+            false => assert_eq!(
+                parsed.unwrap_err().to_string(),
+                format!("control.silent_ms: expected 2 to 1000, got {ms}")
+            ),
+        }
+    }
+    let without = with("").replace("silent_ms = 100\n", "");
+    let control = Profile::parse(&without).unwrap().control.unwrap();
+    assert!(!without.contains("silent_ms") && control.silent_ms <= 100);
+}
+
+#[test]
 fn a_folded_controller_is_refused_with_the_reason() {
     assert!(Profile::parse(&with("")).is_ok());
     for value in [true, false] {

@@ -11,7 +11,7 @@
 //! In laws with an error, s, D and what is added to it are finer than a drive word, by 8 bits at most, so that
 //! the roots of two forces differ: 2^-b with b ≥ (bits of a force) + 2·h + 1; F has no more bits than that
 //! lets differ. c is 8 bits finer still. It stays as it
-//! is while estimates are invalid. Against a limit that holds the drive it goes as far as drive − (D + K·e),
+//! is while estimates are invalid. While drives are off they are zero, and every pad begins anew. Against a limit that holds the drive it goes as far as drive − (D + K·e),
 //! and not back.
 //!
 //! [x] is x in its format: to the nearest code, ties to even, saturated.
@@ -36,6 +36,8 @@ pub struct Request {
     pub force_gain: Exact,
     /// The estimate is invalid.
     pub invalid: bool,
+    /// The pad does not touch.
+    pub lifted: bool,
     /// Drives follow their targets.
     pub enable: bool,
 }
@@ -46,7 +48,12 @@ struct Pad {
     invalid: u64,
     drive: Exact,
     correction: Exact,
+    /// It has been lifted, and its drive has not been what its law wants since.
+    rises: bool,
 }
+
+/// A pad of which nothing is known.
+const ANEW: Pad = Pad { invalid: 0, drive: Exact::ZERO, correction: Exact::ZERO, rises: false };
 
 /// A drive word, and whether it should be below zero or beyond the rail.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -67,6 +74,8 @@ pub struct Controller {
     tuning: Words,
     pads: Vec<Pad>,
     silent: u64,
+    /// There has been a tick.
+    ticks: bool,
     /// Silence, sensor, force: latched.
     pub faults: [bool; 3],
 }
@@ -100,13 +109,13 @@ impl Controller {
             slew: drive(tuning.slew),
             force_cap: round_real(tuning.force_cap.min(1e9), profile.formats.force),
         };
-        let pad = Pad { invalid: 0, drive: Exact::ZERO, correction: Exact::ZERO };
         Controller {
-            pads: vec![pad; profile.pads as usize],
+            pads: vec![ANEW; profile.pads as usize],
             profile: profile.clone(),
             control,
             tuning,
             silent: 0,
+            ticks: false,
             faults: [false; 3],
         }
     }
@@ -116,18 +125,39 @@ impl Controller {
         self.silent = 0;
     }
 
+    /// A millisecond has passed.
+    pub fn tick(&mut self) {
+        self.ticks = true;
+        self.silent = (self.silent + 1).min(self.control.silent_ms);
+        self.watch();
+    }
+
     /// Clears all faults.
     pub fn clear_faults(&mut self) {
         self.faults = [false; 3];
+        self.watch();
+    }
+
+    /// Every pad begins anew.
+    pub fn clear(&mut self) {
+        self.pads.fill(ANEW);
+    }
+
+    fn watch(&mut self) {
+        self.faults[0] |= self.silent == self.control.silent_ms;
+        if self.faults.contains(&true) {
+            self.clear();
+        }
     }
 
     /// The drive word of a pad.
     pub fn drive(&mut self, request: &Request) -> Drive {
-        self.silent = (self.silent + 1).min(self.control.silent_frames);
+        if !request.enable || !self.ticks || self.faults.contains(&true) {
+            self.clear();
+        }
         let pad = self.pads[request.pad];
         let most = self.control.invalid_frames;
         let invalid = if request.invalid { (pad.invalid + 1).min(most) } else { 0 };
-        self.faults[0] |= self.silent == self.control.silent_frames;
         self.faults[1] |= invalid == most;
         self.faults[2] |= !request.invalid && request.force > self.tuning.force_cap;
         let (correction, wanted) = self.wanted(request, pad);
@@ -141,13 +171,11 @@ impl Controller {
         } else {
             rounded
         };
-        let off = !request.enable || self.faults.contains(&true);
-        let to = match (off, request.invalid) {
-            (true, _) => Exact::ZERO,
-            (_, true) => pad.drive,
-            _ => within,
-        };
-        let drive = self.slewed(pad.drive, to);
+        let off = !request.enable || !self.ticks || self.faults.contains(&true);
+        let last = if pad.drive > rail { rail } else { pad.drive };
+        let slewed = self.slewed(last, pad.rises, if request.invalid { last } else { within });
+        let drive = if off || request.lifted { Exact::ZERO } else { slewed };
+        let rises = request.lifted || pad.rises && (request.invalid || drive < within);
         let limit = round(drive - (wanted - correction), self.kept()).value;
         let falls = correction < pad.correction;
         let correction = if request.invalid {
@@ -159,17 +187,24 @@ impl Controller {
         } else {
             correction
         };
-        self.pads[request.pad] = Pad { invalid, drive, correction };
+        let correction = if request.lifted { Exact::ZERO } else { correction };
+        self.pads[request.pad] = Pad { invalid, drive, correction, rises };
+        if off {
+            self.clear();
+        }
+        let [low, high] = [low, high].map(|limited| limited && !request.lifted);
         Drive { drive, low, high }
     }
 
-    fn slewed(&self, last: Exact, to: Exact) -> Exact {
-        let (change, slew) = (to - last, self.tuning.slew);
-        if change.magnitude() <= slew {
-            return to;
+    fn slewed(&self, last: Exact, rises: bool, to: Exact) -> Exact {
+        let slew = self.tuning.slew;
+        let contact = round_real(self.control.contact_slew(), self.control.drive);
+        let up = if rises && contact < slew { contact } else { slew };
+        let change = to - last;
+        if change > up {
+            return round(last + up, self.control.drive).value;
         }
-        let full = round(last + slew, self.control.drive).value;
-        if change > Exact::ZERO { full } else { last - slew }
+        if change < Exact::ZERO && change.magnitude() > slew { last - slew } else { to }
     }
 
     /// Bits of a root, and of what is added to the curve.

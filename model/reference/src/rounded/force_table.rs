@@ -31,6 +31,11 @@ impl ForceTable {
         ForceTable { words, past: vec![[Exact::ZERO; 2]; profile.pads as usize] }
     }
 
+    /// Forgets the voltages of earlier windows.
+    pub fn clear(&mut self) {
+        self.past.fill([Exact::ZERO; 2]);
+    }
+
     /// Other words; what pads have had stays.
     pub fn calibrate(&mut self, words: Vec<Exact>) {
         self.words = words;

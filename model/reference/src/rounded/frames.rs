@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The words of frames, of which ratios are rounded to the width of the widest other one: what is
-//! invalid is the pad's last valid; the mean square, the last word, is always its own.
+//! invalid is the pad's last valid, of a lifted pad the place; the mean square, the last word, is always its own.
 
 use super::{Exact, round};
 use hapticore_contract::format::Format;
@@ -8,6 +8,8 @@ use hapticore_contract::profile::Profile;
 
 /// Words of a frame: r_x, r_y, x, y, R, C, F, mean square.
 const WORDS: usize = 8;
+/// Words of the place: r_x, r_y, x, y, R.
+const PLACE: usize = 5;
 
 /// What every pad last was.
 #[derive(Debug, Clone)]
@@ -35,13 +37,21 @@ impl Frames {
         Frames { formats, held: vec![[0; WORDS]; profile.pads as usize] }
     }
 
-    /// The codes of a frame with these values.
-    pub fn words(&mut self, pad: usize, values: [Exact; WORDS], invalid: bool) -> [i64; WORDS] {
+    /// The codes of a frame with these values, which are invalid, or a lifted pad's.
+    pub fn words(
+        &mut self,
+        pad: usize,
+        values: [Exact; WORDS],
+        [invalid, lifted]: [bool; 2],
+    ) -> [i64; WORDS] {
         let mut words =
             std::array::from_fn(|k| round(values[k], self.formats[k]).value.code(self.formats[k]));
-        if invalid {
-            words[..WORDS - 1].copy_from_slice(&self.held[pad][..WORDS - 1]);
-        }
+        let held = match (invalid, lifted) {
+            (true, _) => WORDS - 1,
+            (false, true) => PLACE,
+            (false, false) => 0,
+        };
+        words[..held].copy_from_slice(&self.held[pad][..held]);
         self.held[pad] = words;
         words
     }

@@ -44,6 +44,7 @@ pub struct Slots {
     position: Position,
     capacitance_gain: Exact,
     force_gain: Exact,
+    contact_capacitance: Exact,
     force_table: Option<ForceTable>,
     squares: Squares,
     /// The sheet's resistance at each pad's last place.
@@ -63,6 +64,8 @@ pub struct Prompt {
     pub force_gain: Exact,
     /// No capacitance has these currents, or a code or a word is at its limit.
     pub invalid: bool,
+    /// The pad does not touch.
+    pub lifted: bool,
 }
 
 impl Slots {
@@ -80,6 +83,7 @@ impl Slots {
             position: Position::new(profile, &words),
             capacitance_gain: round_real(calibration.capacitance_gain, f.capacitance_gain),
             force_gain: round_real(calibration.force_gain, f.force_gain),
+            contact_capacitance: round_real(calibration.contact_capacitance, f.capacitance),
             force_table: (profile.force.law == ForceLaw::Table)
                 .then(|| ForceTable::new(profile, &calibration.force_table)),
             squares: Squares::new(profile),
@@ -120,6 +124,7 @@ impl Slots {
                 force: force.force,
                 force_gain: force.gain,
                 invalid: early.invalid | saturated | sums.clipped,
+                lifted: early.capacitance <= self.contact_capacitance,
             }
         };
         let ratio = ratio(p, &currents);
@@ -128,7 +133,7 @@ impl Slots {
         let sheet = place.sheet;
         let capacitance =
             capacitance(p, currents.total, currents.sense, sheet, self.capacitance_gain);
-        if !(ratio.invalid | place.invalid) {
+        if !(ratio.invalid | place.invalid | prompt.lifted) {
             self.sheets[pad] = sheet;
         }
         let numbers = [capacitance.capacitance, mean_square.value, self.force_gain];
@@ -152,8 +157,9 @@ impl Slots {
             force.force,
             mean_square.value,
         ];
-        let codes = self.frames.words(pad, values, invalid);
-        let flags = Flags { clipped: sums.clipped, saturated, invalid, lost };
+        let lifted = capacitance.capacitance <= self.contact_capacitance;
+        let codes = self.frames.words(pad, values, [invalid, lifted]);
+        let flags = Flags { clipped: sums.clipped, saturated, invalid, lost, lifted };
         (Frame { pad, codes, flags }, prompt)
     }
 }

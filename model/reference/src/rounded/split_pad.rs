@@ -19,6 +19,8 @@ pub struct Estimate {
     pub force: Exact,
     /// It is invalid.
     pub invalid: bool,
+    /// It does not touch; of several, one of them does not.
+    pub lifted: bool,
 }
 
 /// A pad whose parts have all been seen.
@@ -36,8 +38,8 @@ pub struct WallAlong {
     wall: Wall,
     /// Place of the last valid frame.
     pub place: Option<Exact>,
-    /// The wall's surface, and whether the wall is right of it, or above it.
-    pub surface: (Exact, bool),
+    /// The wall's surface, and whether the wall is right of it, or above it; without one there is no wall.
+    pub surface: Option<(Exact, bool)>,
 }
 
 /// One split pad and its walls.
@@ -61,8 +63,7 @@ impl SplitPads {
     pub fn new(profile: &Profile) -> Self {
         let f = &profile.formats;
         let rule = profile.wall.expect("a profile with walls");
-        let along =
-            |_| WallAlong { wall: Wall::new(profile), place: None, surface: (Exact::ZERO, false) };
+        let along = |_| WallAlong { wall: Wall::new(profile), place: None, surface: None };
         SplitPads {
             parts: rule.parts,
             position: f.position,
@@ -83,6 +84,7 @@ impl SplitPads {
             capacitance: mean(|part| part.capacitance, self.capacitance),
             force: mean(|part| part.force, self.force),
             invalid: parts.iter().any(|part| part.invalid),
+            lifted: parts.iter().any(|part| part.lifted),
         }
     }
 
@@ -101,7 +103,7 @@ impl SplitPads {
             4 => vec![[of(&[0, 1]), of(&[2, 3])], [of(&[1, 2]), of(&[0, 3])]],
             _ => vec![[of(&[0]), of(&[1])]],
         };
-        let trusted = sensing.iter().all(|part| !part.invalid);
+        let trusted = sensing.iter().all(|part| !part.invalid && !part.lifted);
         let position = self.position;
         let walls = self.axes.iter_mut().zip(sides).enumerate().map(|(axis, (along, sides))| {
             let factory = if axis == 0 { port.factory } else { Exact::ZERO };
@@ -120,11 +122,12 @@ impl SplitPads {
 
 impl WallAlong {
     fn frame(&mut self, sides: [Exact; 2], position: Format, port: WallFrame) -> WallResult {
-        let (surface, mirrored) = self.surface;
+        let (surface, mirrored) = self.surface.unwrap_or((Exact::ZERO, false));
         let depth = self.place.unwrap_or(Exact::ZERO) - surface;
-        let [left, right] = if self.place.is_some() { sides } else { [Exact::ZERO; 2] };
+        let met = self.place.is_some() && self.surface.is_some();
+        let [left, right] = if met { sides } else { [Exact::ZERO; 2] };
         let frame = WallFrame {
-            restart: port.restart | self.place.is_none(),
+            restart: port.restart | !met,
             parts: if mirrored { [right, left] } else { [left, right] },
             x: round(if mirrored { -depth } else { depth }, position).value,
             factory: if mirrored { round(-port.factory, U).value } else { port.factory },

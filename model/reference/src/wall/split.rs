@@ -24,7 +24,8 @@ pub struct Whole {
 #[derive(Clone, Debug)]
 struct Axis {
     wall: Sequential,
-    surface: Surface,
+    /// Where it begins; without it there is none.
+    surface: Option<Surface>,
     /// Place of the last valid frame, mm.
     place_mm: Option<f64>,
 }
@@ -53,7 +54,7 @@ impl SplitPads {
         let along_x = if walls.right { -walls.factory } else { walls.factory };
         let axis = |factory: f64| Axis {
             wall: Sequential::of_profile(stiffness, wall, factory),
-            surface: Surface { mm: 0.0, right: walls.right },
+            surface: None,
             place_mm: None,
         };
         let axes = [along_x, 0.0].into_iter().take(wall.axes() as usize).map(axis).collect();
@@ -76,7 +77,7 @@ impl SplitPads {
             _ => return,
         };
         if let Some(axis) = self.pad(pad).axes.get_mut(axis) {
-            axis.surface = surface;
+            axis.surface = Some(surface);
         }
     }
 
@@ -110,6 +111,7 @@ impl SplitPads {
                 capacitance_pf: mean(sensed.iter().map(|part| part.capacitance_pf)),
                 force_n: mean(sensed.iter().map(|part| part.force_n)),
                 invalid: sensed.iter().any(|part| part.invalid),
+                lifted: sensed.iter().any(|part| part.lifted),
                 ..*prompt
             },
         };
@@ -125,7 +127,7 @@ fn mean(of: impl ExactSizeIterator<Item = f64>) -> f64 {
 impl Pad {
     /// The larger force of the walls; whether the user leaves either.
     fn walled(&mut self, sensed: &[Prompt]) -> Walled {
-        let trusted = sensed.iter().all(|part| !part.invalid);
+        let trusted = sensed.iter().all(|part| !part.invalid && !part.lifted);
         let sides = |axis: usize| {
             let of = |parts: &[usize]| mean(parts.iter().map(|&n| sensed[n].capacitance_pf));
             match (trusted, sensed.len(), axis) {
@@ -144,9 +146,11 @@ impl Pad {
 
 impl Axis {
     fn walled(&mut self, [a, b]: [f64; 2], at_zero: bool) -> Walled {
-        let Some(place_mm) = self.place_mm else { return Walled { target_n: 0.0, free: false } };
-        let depth_mm = place_mm - self.surface.mm;
-        let frame = match self.surface.right {
+        let Some((place_mm, surface)) = self.place_mm.zip(self.surface) else {
+            return Walled { target_n: 0.0, free: false };
+        };
+        let depth_mm = place_mm - surface.mm;
+        let frame = match surface.right {
             true => Frame { left: b, right: a, x_mm: -depth_mm, at_zero },
             false => Frame { left: a, right: b, x_mm: depth_mm, at_zero },
         };

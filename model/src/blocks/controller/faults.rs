@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Faults of the force controller: each takes every pad's drive to zero, at the slew limit, and
-//! stays until it is cleared.
+//! Faults of the force controller: each takes every pad's drive to zero at once, and stays until it is cleared.
 //!
 //! | fault   | when                                                                           |
-//! | silence | no sign of life from the host for so many frames                               |
+//! | silence | no sign of life from the host for so many ticks, of a millisecond each         |
 //! | sensor  | so many estimates of a pad in a row were invalid; until then its drive is held |
 //! | force   | a valid estimate was beyond the cap                                            |
 //!
-//! What causes a fault and still holds when it is cleared causes it again.
+//! What causes a fault and still holds when it is cleared causes it again. Ticks are counted whether or not drive words
+//! are made. Until the first tick after a reset drives are off, too: without ticks nobody would miss the host.
 
 use super::{Controller, In, Regs};
 use hapticore_hdl::block::Interpretation;
@@ -30,72 +30,65 @@ bundle! {
 bundle! {
     /// What keeps drives at zero, and what may.
     pub struct Watch {
-        /// Frames since the host was heard.
+        /// Ticks since the host was heard.
         silent,
+        /// There has been a tick.
+        ticks,
         latched as Faults,
     }
 }
 
 impl Watch<Format> {
-    /// The registers, where so many silent frames are a fault.
-    pub(in crate::blocks) fn registers(silent_frames: u64) -> Self {
-        Watch { silent: Format::counter(silent_frames), latched: Faults::of(BIT) }
+    /// The registers, where so many silent ticks are a fault.
+    pub(super) fn registers(silent_ticks: u64) -> Self {
+        Watch { silent: Format::counter(silent_ticks), ticks: BIT, latched: Faults::of(BIT) }
     }
 }
 
 impl<V: Interpretation> Watch<Signal<V>> {
-    /// Whether there is a fault.
+    /// Whether there is a fault, or silence could not be one.
     #[inline(always)]
-    pub(in crate::blocks) fn any(self) -> Signal<V> {
+    pub(super) fn stops(self) -> Signal<V> {
         let Faults { silence_fault, sensor_fault, force_fault } = self.latched;
-        silence_fault | sensor_fault | force_fault
+        silence_fault | sensor_fault | force_fault | !self.ticks
     }
 
-    /// A clock in which the host may be heard, and may clear faults.
+    /// A clock in which the host may be heard, may clear faults, and time may pass.
     #[inline(always)]
-    pub(in crate::blocks) fn heard(self, alive: Signal<V>, clear_faults: Signal<V>) -> Self {
-        let keep = !clear_faults;
+    pub(super) fn heard(self, i: &In<V>, silent_ticks: u64) -> Self {
+        let more = (self.silent + !self.silent.is(silent_ticks)).resize(self.silent.format, Wrap);
+        let passed = i.tick.select(more, self.silent);
+        let silent = i.alive.select(int(0), passed).resize(self.silent.format, Wrap);
+        let keep = !i.clear_faults;
         Watch {
-            silent: alive.select(int(0), self.silent),
+            silent,
+            ticks: self.ticks | i.tick,
             latched: Faults {
-                silence_fault: self.latched.silence_fault & keep,
+                silence_fault: (self.latched.silence_fault & keep) | silent.is(silent_ticks),
                 sensor_fault: self.latched.sensor_fault & keep,
                 force_fault: self.latched.force_fault & keep,
             },
         }
     }
 
-    /// Frames since the host was heard, with this one.
+    /// With the faults of an estimate.
     #[inline(always)]
-    pub(in crate::blocks) fn counted(self, alive: Signal<V>, silent_frames: u64) -> Signal<V> {
-        let silent = self.silent;
-        let more = silent + !silent.is(silent_frames);
-        alive.select(int(0), more).resize(silent.format, Wrap)
-    }
-
-    /// With the faults of an estimate, and of a host that has been silent for too long.
-    #[inline(always)]
-    pub(in crate::blocks) fn found(
-        self,
-        silence: Signal<V>,
-        sensor: Signal<V>,
-        force: Signal<V>,
-    ) -> Self {
-        let Faults { silence_fault, sensor_fault, force_fault } = self.latched;
+    fn found(self, sensor: Signal<V>, force: Signal<V>) -> Self {
         let latched = Faults {
-            silence_fault: silence_fault | silence,
-            sensor_fault: sensor_fault | sensor,
-            force_fault: force_fault | force,
+            sensor_fault: self.latched.sensor_fault | sensor,
+            force_fault: self.latched.force_fault | force,
+            ..self.latched
         };
         Watch { latched, ..self }
     }
 }
 
 impl Controller {
-    /// Whether drives go to zero.
+    /// Whether drives are zero, and begin anew.
     #[inline(always)]
     pub(super) fn off<V: Interpretation>(&self, r: &Regs<V>, i: &In<V>) -> Signal<V> {
-        !i.tuning.enable | r.watch.any()
+        let complete = r.curve_words.is(self.points.words as u64);
+        i.clear | !i.tuning.enable | r.watch.stops() | !complete
     }
 
     /// Invalid estimates of the pad in a row, with this one.
@@ -121,7 +114,6 @@ impl Controller {
     ) -> Watch<Signal<V>> {
         let sensor = self.invalid_count(i, invalid).is(self.invalid_frames);
         let force = !i.invalid & i.tuning.force_cap.less_than(i.measured);
-        let silence = watch.silent.is(self.silent_frames);
-        watch.found(now & silence, now & sensor, now & force)
+        watch.found(now & sensor, now & force)
     }
 }

@@ -7,7 +7,7 @@ use super::{Controller, In, Registers, Regs};
 use hapticore_contract::control::Law;
 use hapticore_hdl::block::Interpretation;
 use hapticore_hdl::format::Format;
-use hapticore_hdl::signal::{HalfEven, Proved, Saturate, Signal, Wrap, int, zero};
+use hapticore_hdl::signal::{HalfEven, Proved, Saturate, Signal, Wrap, code, int, zero};
 
 /// What memories and blocks within give.
 pub(super) struct Found<V> {
@@ -17,11 +17,13 @@ pub(super) struct Found<V> {
     pub root: Signal<V>,
     /// A word of the curve.
     pub curve: Signal<V>,
+    /// Of the pad: it has been lifted, and its drive has not been what its law wants since.
+    pub rises: Signal<V>,
     /// Of the pad: invalid estimates in a row.
     pub invalid: Signal<V>,
-    /// Of the pad: its drive word.
+    /// Of the pad: its drive word, at most the rail.
     pub last: Signal<V>,
-    /// Of the pad: both, as they are in its memory.
+    /// Of the pad: both, as they are in its memory, zero where it is not known.
     pub pad_word: Signal<V>,
     /// Of the pad: what corrects its curve.
     pub correction: Signal<V>,
@@ -199,7 +201,9 @@ impl Controller {
             Law::Inverse => r.root.at_most(base),
             Law::Proportional | Law::Integral => base + r.correction,
         };
-        let (low, high) = (wanted.less_than(int(0)), i.tuning.rail.less_than(wanted));
+        let touches = !i.lifted;
+        let low = touches & wanted.less_than(int(0));
+        let high = touches & i.tuning.rail.less_than(wanted);
         // Where it wraps, it is low or high.
         let rounded = wanted.quantize(self.drive, HalfEven, Wrap);
         let within = high.select(i.tuning.rail, rounded);
@@ -224,8 +228,8 @@ impl Controller {
         against.select(lets.select(limit, before), r.correction)
     }
 
-    /// The drive word: as wanted where drives are on and the estimate is valid, but no further from
-    /// the last than the slew limit.
+    /// The drive word: as wanted where the estimate is valid, but no further from the last than the slew limit;
+    /// zero where it is void or the pad is lifted.
     #[inline(always)]
     pub(super) fn limited<V: Interpretation>(
         &self,
@@ -233,17 +237,32 @@ impl Controller {
         i: &In<V>,
         last: Signal<V>,
     ) -> Signal<V> {
-        let valid = i.invalid.select(last, r.wanted);
-        let to = self.off(r, i).select(zero(self.drive), valid);
+        let to = i.invalid.select(last, r.wanted);
         let up = r.most.less_than(to).select(r.most, to);
         let down = to.less_than(r.least).select(r.least, to);
-        last.less_than(to).select(up, down)
+        let slewed = last.less_than(to).select(up, down);
+        (r.void | i.lifted).select(zero(self.drive), slewed)
     }
 
-    /// The least and the largest drive word that the slew limit allows after the last.
+    /// The least and the largest drive word that the slew limit allows after the last. While the pad
+    /// rises after contact it is at most that of a contact, whatever the host's is.
     #[inline(always)]
-    pub(super) fn slewed<V: Interpretation>(&self, i: &In<V>, last: Signal<V>) -> [Signal<V>; 2] {
-        let least = (last - i.tuning.slew).resize(self.drive, Saturate);
-        [least, (last + i.tuning.slew).resize(self.drive, Saturate)]
+    pub(super) fn slewed<V: Interpretation>(&self, i: &In<V>, found: &Found<V>) -> [Signal<V>; 2] {
+        let (last, slew) = (found.last, i.tuning.slew);
+        let up = found.rises.select(slew.at_most(code(self.contact_slew, self.drive)), slew);
+        let least = (last - slew).resize(self.drive, Saturate);
+        [least, (last + up).resize(self.drive, Saturate)]
+    }
+
+    /// Whether the pad rises still: from contact until its drive is what its law wants.
+    #[inline(always)]
+    pub(super) fn rises<V: Interpretation>(
+        &self,
+        r: &Regs<V>,
+        i: &In<V>,
+        before: Signal<V>,
+        drive: Signal<V>,
+    ) -> Signal<V> {
+        i.lifted | (before & (i.invalid | drive.less_than(r.wanted)))
     }
 }

@@ -8,7 +8,7 @@
 //! integral       d = D + K·e + c,   c += K_i·e,   e = √F_t − √F
 //! inverse        d = min(√(F_t/G / (k·C²)), D)                                    (docs/physics.md §6)
 //! F_t = the host's force, or that of the pad's wall where it is larger
-//! drive = d, held within 0 … rail, then within slew of the pad's last
+//! drive = d, held within 0 … rail, and within slew of the pad's last; 0 at once while off or lifted, at most the rail at once
 //! c as before of an invalid estimate; against a limit that holds the drive as far as drive − (D + K·e), never back
 //! ```
 //!
@@ -28,10 +28,16 @@
 //! | F_t/G         | target's, 3 bits more  | N               | saturates                   |
 //! | quotient      | drive's, twice         | full scale²     | saturates: then D is less   |
 //!
-//! Nothing winds up: a limit is the rail, zero, the slew limit, or a drive that is off. A drive that is
-//! switched on goes to what its law wants, within slew. A zero denominator gives the limit D. While an
+//! Nothing winds up: a limit is the rail, zero, or the slew limit. A zero denominator gives the limit D. While an
 //! estimate is invalid the drive stays; see `faults.rs` for what takes it to zero. Narrowing rounds half
-//! to even. In laws with an error, s is so fine that the roots of two forces are never the same, for a
+//! to even.
+
+//! **Safe state.** A pad's last drive word, its correction and its count of invalid estimates are in memories, which no
+//! reset clears. They count only where the pad is known: a mark per pad, set with its drive word. The marks go with a
+//! reset and in every clock that is off: `clear`, a drive that is not enabled, a fault, a curve of which not every word
+//! has been written since the reset, ticks that have not begun. While off the drive is zero, and a drive word that
+//! was under way is zero; a drive then begins at zero, within slew, its correction at zero. Slew limits no other
+//! fall: with a slew of zero a drive stays where it is, and what is off is zero all the same. In laws with an error, s is so fine that the roots of two forces are never the same, for a
 //! loop rests wherever its error is zero.
 //!
 //! One multiplier, one square root and one divider serve all steps. Latency: the sum of the law's
@@ -43,6 +49,7 @@ mod tasks;
 mod words;
 
 use super::divider::{self, Divider};
+use super::marks;
 use super::multiplier::{self, Multiplier};
 use super::rests::Rests;
 use super::sqrt::{self, SquareRoot};
@@ -54,7 +61,7 @@ use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format};
 use hapticore_hdl::memory::{Memory, Write};
-use hapticore_hdl::signal::{HalfEven, Proved, Signal, bit, int, zero};
+use hapticore_hdl::signal::{HalfEven, Proved, Signal, Wrap, bit, int, zero};
 use hapticore_hdl::states::States;
 use hapticore_hdl::{block, bundle, call, when};
 use laws::Found;
@@ -107,9 +114,12 @@ block! {
         /// Of the multiplier's operands.
         left: Format,
         right: Format,
+        pads_in_all: u64,
         invalid_frames: u64,
-        silent_frames: u64,
+        silent_ticks: u64,
         has_walls: bool,
+        /// Code of the largest rise after contact.
+        contact_slew: i64,
     }
     submodules {
         multiplier: Multiplier,
@@ -117,9 +127,9 @@ block! {
         divider: Divider,
         /// Drive words of the curve.
         points: Memory,
-        /// Of each pad: invalid frames in a row, and the drive word.
+        /// Of each pad that is known: whether it rises after contact, invalid frames in a row, and the drive word.
         pads: Memory,
-        /// Of each pad: what corrects the curve.
+        /// Of each pad that is known: what corrects the curve.
         corrections: Memory,
     }
     inputs(block) {
@@ -139,6 +149,12 @@ block! {
         force_gain: block.force_gain,
         /// The estimate is invalid.
         invalid: BIT,
+        /// Every pad begins anew: a drive word that is under way becomes zero.
+        clear: BIT,
+        /// The pad does not touch.
+        lifted: BIT,
+        /// Asserted for one cycle every millisecond.
+        tick: BIT,
         /// The host is alive.
         alive: BIT,
         /// Clears faults.
@@ -148,7 +164,7 @@ block! {
     outputs(block) {
         /// Asserted for one cycle when the drive word is valid.
         done: BIT,
-        /// Drive word of the pad, drive's full scale; stable until the next `done`.
+        /// Drive word of the pad, drive's full scale; stable until the next `done`, zero while off.
         drive: block.drive,
         /// The larger of both forces.
         target: block.target.where_present(block.has_walls),
@@ -186,7 +202,13 @@ block! {
         drive: block.drive,
         low: BIT,
         high: BIT,
-        watch as Watch: Watch::registers(block.silent_frames),
+        watch as Watch: Watch::registers(block.silent_ticks),
+        /// Pads whose words in memories count.
+        known: marks::format(block.pads_in_all),
+        /// It has been off since the drive word was begun.
+        void: BIT,
+        /// Words of the curve that have been written, from the first on.
+        curve_words: Format::counter(block.points.words as u64),
         done: BIT,
     }
 }
@@ -201,6 +223,7 @@ impl Controller {
             return Err(ProfileError::value("control", "a table", "none"));
         };
         control.check()?;
+        marks::check(profile)?;
         // A root tells no more bits apart than half of its radicand's.
         let most = 2 * words::fine(control, &profile.formats).frac - control.target_shift();
         if control.target.frac > most {
@@ -225,7 +248,7 @@ impl Controller {
         let radicand = words::radicand(control, fine);
         let (left, right) = words::operands(control, f);
         let invalid = Format::counter(control.invalid_frames);
-        let word = Format::unsigned(invalid.width + drive.width, 0);
+        let word = Format::unsigned(1 + invalid.width + drive.width, 0);
         Controller {
             multiplier: Multiplier::new(left, right, profile.multiplier),
             sqrt: SquareRoot::new(radicand, fine.frac),
@@ -251,8 +274,10 @@ impl Controller {
             left,
             right,
             invalid_frames: control.invalid_frames,
-            silent_frames: control.silent_frames,
+            pads_in_all: profile.pads,
+            silent_ticks: control.silent_ms,
             has_walls: profile.wall.is_some(),
+            contact_slew: drive.code_saturating(control.contact_slew()),
         }
     }
 
@@ -315,8 +340,9 @@ impl Block for Controller {
         let i = Inputs { target: self.larger(&i), ..i };
         let outputs = self.outputs_now(&r, &i);
         let idle = r.task.at(Task::Idle);
-        let woken = i.start | i.alive | i.clear_faults | i.tuning.curve_write;
-        if (woken | self.under_way(&r)).can_skip() {
+        let off = self.off(&r, &i);
+        let told = i.alive | i.clear_faults | i.tick | i.tuning.curve_write;
+        if (i.start | told | (off & !r.known.is(0)) | self.under_way(&r)).can_skip() {
             return outputs;
         }
         let (found, ends) = self.find(state, &r, &i, idle);
@@ -324,18 +350,22 @@ impl Block for Controller {
             sqrt_start: bit(false),
             divide: bit(false),
             done: bit(false),
-            watch: r.watch.heard(i.alive, i.clear_faults),
+            watch: r.watch.heard(&i, self.silent_ticks),
+            drive: off.select(zero(self.drive), r.drive),
+            curve_words: self.curve_words(&r, &i),
             ..r
         };
         let begin = Registers {
             task: Task::Root.signal(),
             count: int(0),
             sqrt_start: bit(true),
-            watch: Watch { silent: r.watch.counted(i.alive, self.silent_frames), ..still.watch },
+            void: off,
             ..still
         };
-        let next = when!(i.start => begin, idle => still, else self.work(still, &i, &found, ends));
+        let void = Registers { void: r.void | off, ..still };
+        let next = when!(i.start => begin, idle => still, else self.work(void, &i, &found, ends));
         self.keep(state, &r, &i, next.drive, &found);
+        let next = Registers { known: self.known(&void, &i, off), ..next };
         state.store(self, next);
         outputs
     }
@@ -352,11 +382,27 @@ impl Controller {
         i.target.less_than(of_wall).select(of_wall, i.target)
     }
 
+    /// Pads that are known after this clock: with its drive word a pad is.
+    #[inline(always)]
+    fn known<V: Interpretation>(&self, r: &Regs<V>, i: &In<V>, off: Signal<V>) -> Signal<V> {
+        let made = (r.task.at(Task::Limit), i.pad);
+        marks::unless(off, marks::written(r.known, made, !r.void))
+    }
+
+    /// Words of the curve that have been written, from the first on, after this clock.
+    #[inline(always)]
+    fn curve_words<V: Interpretation>(&self, r: &Regs<V>, i: &In<V>) -> Signal<V> {
+        let next = i.tuning.curve_write & i.tuning.curve_address.equals(r.curve_words);
+        // No word has the address of the count of all.
+        (r.curve_words + next).resize(r.curve_words.format, Wrap)
+    }
+
     #[inline(always)]
     fn outputs_now<V: Interpretation>(&self, r: &Regs<V>, i: &In<V>) -> Out<V> {
         let target = i.target.where_present(self.outputs().target);
         let faults = r.watch.latched;
-        Outputs { done: r.done, drive: r.drive, target, low: r.low, high: r.high, faults }
+        let drive = self.off(r, i).select(zero(self.drive), r.drive);
+        Outputs { done: r.done, drive, target, low: r.low, high: r.high, faults }
     }
 
     /// What the blocks and memories within give, and whether the task ends with it.
@@ -380,14 +426,17 @@ impl Controller {
             true => self.corrections.data(&mut within.corrections),
             false => zero(self.kept_format()),
         };
+        let known = marks::is_marked(r.known, i.pad);
+        let counts = |word: Signal<V>| known.select(word, zero(word.format));
         let found = Found {
             product,
             root: root.sqrt,
             curve: self.curve_word(state, r, i),
-            invalid: pad.bits(self.drive.width, pad.format.width - self.drive.width),
-            last: pad.bits(0, self.drive.width).as_code(self.drive),
-            pad_word,
-            correction,
+            rises: pad.msb(),
+            invalid: pad.bits(self.drive.width, pad.format.width - self.drive.width - 1),
+            last: pad.bits(0, self.drive.width).as_code(self.drive).at_most(i.tuning.rail),
+            pad_word: counts(pad_word),
+            correction: counts(correction),
         };
         (found, self.ends(r, root.done, divided))
     }
@@ -440,7 +489,7 @@ impl Controller {
         let (left, right) = self.operands(&r, i, found);
         let (combine, limit) = (self.at(&r, Task::Combine), self.at(&r, Task::Limit));
         let [wanted, low, high] = self.wanted(&r, i);
-        let [least, most] = self.slewed(i, found.last);
+        let [least, most] = self.slewed(i, found);
         Registers {
             task: ends.select(self.following(&r), r.task),
             count: ends.select(int(0), r.count.increment()),
@@ -472,12 +521,14 @@ impl Controller {
         found: &Found<V>,
     ) {
         let enable = r.task.at(Task::Limit);
-        let data = self.invalid_count(i, found.invalid).concat(drive.integer());
+        let rises = self.rises(r, i, found.rises, drive);
+        let data = rises.concat(self.invalid_count(i, found.invalid)).concat(drive.integer());
         let write = Write { enable, address: i.pad, data };
         self.pads.access(&mut state.submodules.pads, i.pad, write);
         if self.feeds_back() {
             let kept = self.kept_correction(r, drive, found.correction);
-            let data = i.invalid.select(found.correction, kept);
+            let valid = i.invalid.select(found.correction, kept);
+            let data = i.lifted.select(zero(valid.format), valid);
             let write = Write { enable, address: i.pad, data };
             self.corrections.access(&mut state.submodules.corrections, i.pad, write);
         }
@@ -498,5 +549,9 @@ impl Controller {
 
 #[cfg(test)]
 mod hard_cases;
+#[cfg(test)]
+mod rig;
+#[cfg(test)]
+mod safe_state;
 #[cfg(test)]
 mod tests;

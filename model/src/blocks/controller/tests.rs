@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Drive words: those of each law, rounded; faults; the clocks they take.
 
-use super::{Controller, Inputs, Outputs};
+use super::{Controller, Inputs};
 use crate::support::random::Random;
 use crate::support::{Bench, MILLION, check_latency_of, operations};
 use hapticore_contract::control::{Control, Law, Tuning};
@@ -42,6 +42,7 @@ impl Pair {
         t.rail = word(f.rail);
         t.slew = word(f.slew);
         t.force_cap = word(f.force_cap);
+        t.enable = 1;
         inputs.tuning = t;
         let curve: Vec<i64> = (0..=control.cells).map(|_| word(f.curve_word)).collect();
         for (address, &curve_word) in (0..).zip(&curve) {
@@ -60,7 +61,10 @@ impl Pair {
             force_cap: profile.formats.force.real(t.force_cap),
             walls: None,
         };
-        let reference = rounded::Controller::new(profile, &tuning);
+        let mut reference = rounded::Controller::new(profile, &tuning);
+        bench.clock(Inputs { tick: 1, alive: 1, ..inputs });
+        reference.tick();
+        reference.hear();
         Pair { bench, reference, inputs, profile: profile.clone() }
     }
 
@@ -75,13 +79,16 @@ impl Pair {
             measured: random.word(f.measured),
             force_gain: random.word(f.force_gain),
             invalid: rarely(random, 3),
-            alive: rarely(random, 2000),
+            lifted: rarely(random, 8),
+            alive: rarely(random, 30),
+            tick: rarely(random, 2),
+            clear: rarely(random, 40),
             clear_faults: rarely(random, 20),
             ..self.inputs
         };
         let enable = 1 - rarely(random, 10);
         self.tell(&i);
-        let mut inputs = Inputs { alive: 0, clear_faults: 0, ..i };
+        let mut inputs = Inputs { alive: 0, tick: 0, clear: 0, clear_faults: 0, ..i };
         inputs.tuning.enable = enable;
         let expected = self.expected(&inputs);
         let (out, _) = self.bench.operate(inputs);
@@ -90,12 +97,19 @@ impl Pair {
         self.bench.check_registers();
     }
 
-    /// A clock in which the host is heard or clears faults.
+    /// A clock in which the host is heard or clears faults, time passes, pads begin anew.
     fn tell(&mut self, i: &Inputs<i64>) {
-        let told = Inputs { alive: i.alive, clear_faults: i.clear_faults, ..self.inputs };
-        self.bench.clock(told);
-        if i.alive == 1 {
+        let &Inputs { alive, tick, clear, clear_faults, .. } = i;
+        let (alive, tick) = (alive, tick * (1 - alive));
+        self.bench.clock(Inputs { alive, tick, clear, clear_faults, ..self.inputs });
+        if alive == 1 {
             self.reference.hear();
+        }
+        if tick == 1 {
+            self.reference.tick();
+        }
+        if clear == 1 {
+            self.reference.clear();
         }
         if i.clear_faults == 1 {
             self.reference.clear_faults();
@@ -111,6 +125,7 @@ impl Pair {
             force: Exact::of(i.measured, f.force),
             force_gain: Exact::of(i.force_gain, f.force_gain),
             invalid: i.invalid == 1,
+            lifted: i.lifted == 1,
             enable: i.tuning.enable == 1,
         });
         let [silence_fault, sensor_fault, force_fault] = self.reference.faults.map(i64::from);
@@ -189,32 +204,43 @@ fn a_profile_without_a_controller_is_refused() {
     assert_eq!(error.to_string(), "control: expected a table, got none");
 }
 
-#[test]
-fn the_host_is_missed_after_as_many_frames_as_the_profile_says() {
+/// A controller with this time for a silent host, and a clock of it.
+fn watched(silent_ms: u64) -> impl FnMut(Inputs<i64>) -> i64 {
     let mut profile = Profile::bundled("standard").expect("bundled");
-    profile.control = Some(Control { silent_frames: 5, ..Control::of(&profile, Law::Open) });
+    profile.control = Some(Control { silent_ms, ..Control::of(&profile, Law::Open) });
     let mut bench = Bench::new(Controller::try_new(&profile).unwrap());
-    let mut frame = |alive: i64| -> Outputs<i64> {
-        bench.clock(Inputs { alive, ..Inputs::of(0) });
-        bench.operate(Inputs::of(0)).0
-    };
-    let silent: Vec<_> = (0..6).map(|_| frame(0).faults.silence_fault).collect();
-    assert_eq!(silent, [0, 0, 0, 0, 1, 1]);
-    assert_eq!(frame(1).faults.silence_fault, 1, "it stays until it is cleared");
+    move |inputs| {
+        bench.clock(inputs);
+        bench.clock(Inputs::of(0)).faults.silence_fault
+    }
+}
+
+/// A tick, a sign of life, and a host that clears faults.
+fn told() -> [Inputs<i64>; 3] {
+    let nothing = Inputs::of(0);
+    [
+        Inputs { tick: 1, ..nothing },
+        Inputs { alive: 1, ..nothing },
+        Inputs { clear_faults: 1, ..nothing },
+    ]
+}
+
+/// No drive word is asked for: the host is missed all the same.
+#[test]
+fn the_host_is_missed_after_as_many_ticks_as_the_profile_says() {
+    let (mut clock, [tick, alive, clears]) = (watched(5), told());
+    assert_eq!([tick; 6].map(&mut clock), [0, 0, 0, 0, 1, 1]);
+    assert_eq!(clock(alive), 1, "it stays until it is cleared");
+    assert_eq!(clock(clears), 0);
+    assert_eq!([tick, tick, tick, tick, alive, tick].map(&mut clock), [0; 6]);
 }
 
 #[test]
 fn a_silence_is_over_once_it_is_cleared_and_the_host_is_heard() {
-    let mut profile = Profile::bundled("standard").expect("bundled");
-    profile.control = Some(Control { silent_frames: 2, ..Control::of(&profile, Law::Open) });
-    let mut bench = Bench::new(Controller::try_new(&profile).unwrap());
-    let mut frame = |alive: i64, clear_faults: i64| {
-        bench.clock(Inputs { alive, clear_faults, ..Inputs::of(0) });
-        bench.operate(Inputs::of(0)).0.faults.silence_fault
-    };
-    assert_eq!([frame(0, 0), frame(0, 0)], [0, 1]);
-    assert_eq!(frame(0, 1), 1, "it is silent still");
-    assert_eq!(frame(1, 1), 0);
+    let (mut clock, [tick, _, clears]) = (watched(2), told());
+    assert_eq!([tick, tick].map(&mut clock), [0, 1]);
+    assert_eq!(clock(clears), 1, "it is silent still");
+    assert_eq!(clock(Inputs { alive: 1, ..clears }), 0);
 }
 
 /// Roots and quotients at once change no drive word, and the clocks alone.

@@ -3,7 +3,7 @@
 
 use super::{Drives, Inputs};
 use crate::blocks::core::{self, Core};
-use crate::blocks::estimator::FramePort;
+use crate::blocks::estimator::{FramePort, PromptPort};
 use crate::support::Bench;
 use crate::support::never_skips::NeverSkips;
 use crate::support::random::Random;
@@ -64,15 +64,16 @@ fn places_are_x_and_of_quadrants_y_of_valid_frames() {
         let (block, formats) = with_core(&profile);
         let quadrants = parts(wall) == 4;
         for (index, field) in (0..).zip(Field::ALL) {
-            for case in 0..4 * profile.pads as i64 {
-                let (pad, valid, invalid) = (case / 4, case % 2, case / 2 % 2);
-                let frame = FramePort { pad, valid, invalid, index, frame: 5, ..FramePort::of(0) };
+            for case in 0..8 * profile.pads as i64 {
+                let (pad, [valid, invalid, lifted]) = (case / 8, [1, 2, 4].map(|of| case / of % 2));
+                let flags = FramePort { invalid, lifted, ..FramePort::of(0) };
+                let frame = FramePort { pad, valid, index, frame: 5, ..flags };
                 let frame = FramePort::zip(frame, formats.frames);
                 let frame = FramePort::map(frame, |(value, format)| Signal { value, format });
                 let (placed, number, place) = block.place(&frame);
                 let along = matches!(field, Field::X) || quadrants && matches!(field, Field::Y);
                 let counts = along && (!quadrants || pad % 4 == 3) && wall.is_some();
-                let expected = counts && valid == 1 && invalid == 0;
+                let expected = counts && valid == 1 && invalid == 0 && lifted == 0;
                 assert_eq!(placed.value, i64::from(expected), "{field:?} of pad {pad}, {case}");
                 if expected {
                     let of_y = i64::from(matches!(field, Field::Y));
@@ -83,7 +84,7 @@ fn places_are_x_and_of_quadrants_y_of_valid_frames() {
     }
 }
 
-/// Settings that are anything, but let drives follow; the target's and the curve's ports are quiet.
+/// Settings that are anything, with drives on; the target's and the curve's ports are quiet.
 fn settings(formats: &Inputs<Format>, random: &mut Random, quiet: Inputs<i64>) -> Inputs<i64> {
     let any = <Inputs as Bundle>::map(*formats, |format| match format.is_none() {
         true => 0,
@@ -91,7 +92,7 @@ fn settings(formats: &Inputs<Format>, random: &mut Random, quiet: Inputs<i64>) -
     });
     let mut inputs = quiet;
     inputs.tuning = any.tuning;
-    (inputs.tuning.curve_write, inputs.tuning.enable) = (0, i64::from(random.below(4) != 0));
+    (inputs.tuning.curve_write, inputs.tuning.enable) = (0, 1);
     inputs.wall.wall_stiffness = any.wall.wall_stiffness;
     inputs.wall.wall_most = any.wall.wall_most;
     inputs.wall.wall_factory = any.wall.wall_factory;
@@ -111,6 +112,7 @@ impl Twins {
             write.tuning.curve_word = random.word(formats.tuning.curve_word);
             twins.both(write);
         }
+        twins.both(Inputs { tick: 1, ..Inputs::of(0) });
         twins
     }
 
@@ -184,7 +186,7 @@ fn settings_after_the_estimate_change_no_drive_word() {
 #[test]
 fn a_host_that_writes_targets_is_alive() {
     let mut profile = profile(Law::Open, None);
-    profile.control = Some(Control { silent_frames: 3, ..profile.control.unwrap() });
+    profile.control = Some(Control { silent_ms: 3, ..profile.control.unwrap() });
     let silent = |alive: i64, target_write: i64| {
         let mut bench = Bench::new(with_core(&profile).0);
         let mut faults = 0;
@@ -192,11 +194,8 @@ fn a_host_that_writes_targets_is_alive() {
             let mut inputs = Inputs::of(0);
             (inputs.target.alive, inputs.target.target_write) = (alive, target_write);
             bench.clock(inputs);
-            inputs = Inputs::of(0);
-            inputs.estimate.prompt = 1;
-            bench.clock(inputs);
-            for _ in 0..bench.block.latency() + 2 {
-                faults |= bench.clock(Inputs::of(0)).faults.silence_fault;
+            for tick in [1, 0] {
+                faults |= bench.clock(Inputs { tick, ..Inputs::of(0) }).faults.silence_fault;
             }
         }
         faults
@@ -215,13 +214,20 @@ fn skipping_changes_no_bit_on_any_clock() {
         let mut never = Bench::<_, NeverSkips>::read(block);
         let mut random = Random::new(seed);
         let mut estimate = Inputs::of(0).estimate;
-        for clock in 0..8 * apart {
+        let begins = words as u64;
+        for clock in 0..begins + 8 * apart {
             let mut inputs = <Inputs as Bundle>::map(formats, |format| match format.width {
                 0 => 0,
                 1 => i64::from(random.below(40) == 0),
                 _ => random.word(format),
             });
             inputs.tuning.curve_address %= words;
+            if clock < begins {
+                (inputs.tuning.curve_write, inputs.tuning.curve_address) = (1, clock as i64);
+            }
+            inputs.tuning.enable = i64::from(random.below(400) != 0);
+            inputs.clear &= i64::from(random.below(10) == 0);
+            inputs.drives_clear &= i64::from(random.below(10) == 0);
             for pad in [
                 &mut inputs.estimate.prompt_pad,
                 &mut inputs.placed_pad,
@@ -248,22 +254,144 @@ fn skipping_changes_no_bit_on_any_clock() {
     }
 }
 
-/// A fault that is cleared while the host is still silent is there again with the next drive word, not before.
+/// Drives of two pads whose curve is 0.9 everywhere but at zero, tuned and on, time begun, and words of 1 N as targets.
+struct Driven {
+    bench: Bench<Drives>,
+    on: Inputs<i64>,
+    parts: u64,
+}
+
+impl Driven {
+    fn new(wall: Option<profile::Wall>) -> Self {
+        let profile = profile(Law::Open, wall);
+        let bench = Bench::new(with_core(&profile).0);
+        let mut driven = Driven { bench, on: Inputs::of(0), parts: parts(wall) };
+        driven.begin();
+        driven
+    }
+
+    /// What a host does after a reset, but for the targets.
+    fn begin(&mut self) {
+        let formats = self.bench.block.inputs().tuning;
+        let mut on = Inputs::of(0);
+        on.tuning.enable = 1;
+        (on.tuning.rail, on.tuning.slew) =
+            (formats.rail.max_code() as i64, formats.slew.max_code() as i64);
+        on.tuning.force_cap = formats.force_cap.max_code() as i64;
+        for address in 0..self.bench.block.words_of_curve() as i64 {
+            let mut write = on;
+            (write.tuning.curve_write, write.tuning.curve_address) = (1, address);
+            let word = formats.curve_word.code_saturating(0.9);
+            write.tuning.curve_word = if address == 0 { 0 } else { word };
+            self.bench.clock(write);
+        }
+        self.bench.clock(Inputs { tick: 1, ..on });
+        self.on = on;
+    }
+
+    fn target(&mut self, pad: u64, clear: i64) {
+        let format = self.bench.block.inputs().target.target_word;
+        let mut told = Inputs { clear, ..self.on };
+        let last = (pad + 1) * self.parts - 1;
+        (told.target.target_write, told.target.target_pad) = (1, last as i64);
+        told.target.target_word = format.code_saturating(1.0);
+        self.bench.clock(told);
+    }
+
+    /// The drive word after a pad's estimates; in so many clocks from the last one on these inputs.
+    fn frame_with(&mut self, pad: u64, late: impl Fn(u64) -> Inputs<i64>) -> i64 {
+        let mut drive = None;
+        for part in 0..self.parts {
+            let mut estimate = self.on;
+            estimate.estimate.prompt = 1;
+            estimate.estimate.prompt_pad = (pad * self.parts + part) as i64;
+            self.bench.clock(estimate);
+            let last = part + 1 == self.parts;
+            for clock in 1..=self.bench.block.latency() {
+                let mut inputs = if last { late(clock) } else { self.on };
+                inputs.estimate = PromptPort { prompt: 0, ..estimate.estimate };
+                let out = self.bench.clock(inputs);
+                drive = drive.or((out.drive.drive_valid == 1).then_some(out.drive.drive));
+            }
+        }
+        drive.expect("a drive word")
+    }
+
+    fn frame(&mut self, pad: u64) -> i64 {
+        let on = self.on;
+        self.frame_with(pad, |_| on)
+    }
+
+    fn both(&mut self) -> [bool; 2] {
+        [0, 1].map(|pad| self.frame(pad) > 0)
+    }
+}
+
+/// A pad without a target of now is at zero, whatever the memory holds.
 #[test]
-fn a_silence_that_is_cleared_is_found_again_with_the_next_drive_word() {
-    let mut profile = profile(Law::Inverse, None);
-    profile.control.iter_mut().for_each(|control| control.silent_frames = 2);
-    let mut bench = Bench::new(with_core(&profile).0);
-    let mut estimate = Inputs::of(0);
-    (estimate.estimate.prompt, estimate.tuning.enable) = (1, 1);
-    let mut silence = |inputs: Inputs<i64>| {
-        bench.clock(inputs);
-        let clocks = bench.block.latency() + 2;
-        (0..clocks).map(|_| bench.clock(Inputs::of(0)).faults.silence_fault).last().expect("clocks")
-    };
-    assert_eq!([silence(estimate), silence(estimate)], [0, 1]);
-    let mut clears = Inputs::of(0);
-    clears.target.clear_faults = 1;
-    assert_eq!(silence(clears), 0);
-    assert_eq!(silence(estimate), 1);
+fn targets_are_forgotten_with_a_reset_and_with_clear() {
+    for wall in WALLS {
+        let mut driven = Driven::new(wall);
+        assert_eq!(driven.both(), [false; 2], "none is written");
+        (0..2).for_each(|pad| driven.target(pad, 0));
+        assert_eq!(driven.both(), [true; 2], "both are");
+        driven.bench.press_reset();
+        driven.begin();
+        driven.target(1, 0);
+        assert_eq!(driven.both(), [false, true], "after a reset one is");
+        driven.bench.clock(Inputs { clear: 1, ..driven.on });
+        assert_eq!(driven.both(), [false; 2], "after a clear none is");
+        // As the host of a board does: it writes while nothing is enabled.
+        driven.bench.clock(Inputs { clear: 1, ..driven.on });
+        driven.target(0, 1);
+        driven.bench.clock(Inputs { clear: 1, ..driven.on });
+        assert_eq!(driven.both(), [true, false], "what is written while it is cleared counts");
+    }
+}
+
+/// What stops drives: a name, and the inputs that do.
+type Stop = (&'static str, fn(&mut Inputs<i64>));
+
+#[test]
+fn what_stops_drives_acts_in_any_clock_of_a_drive_word() {
+    let stops: [Stop; 3] = [
+        ("clear", |inputs| inputs.clear = 1),
+        ("drives_clear", |inputs| inputs.drives_clear = 1),
+        ("disabled", |inputs| inputs.tuning.enable = 0),
+    ];
+    for wall in [None, Some(profile::Wall::B)] {
+        let mut driven = Driven::new(wall);
+        let latency = driven.bench.block.latency();
+        // With walls the drive word is begun later.
+        for at in (latency - driven.bench.block.controller.latency() + 1..=latency).step_by(7) {
+            for (name, stop) in stops {
+                driven.target(0, 0);
+                driven.on.tuning.slew = driven.bench.block.inputs().tuning.slew.max_code() as i64;
+                assert!(driven.frame(0) > 0, "{name}, clock {at}: driven before");
+                driven.on.tuning.slew = 0;
+                let on = driven.on;
+                let pulse = |clock: u64| {
+                    let mut inputs = on;
+                    if clock == at {
+                        stop(&mut inputs);
+                    }
+                    inputs
+                };
+                assert_eq!(driven.frame_with(0, pulse), 0, "{name} in clock {at}");
+                driven.target(0, 0);
+                assert_eq!(driven.frame(0), 0, "{name} in clock {at}: from zero, with no slew");
+            }
+        }
+    }
+}
+
+/// What stales takes the drive, not what the host has asked for: the drive comes back by itself, from zero.
+#[test]
+fn targets_outlive_drives_clear() {
+    let mut driven = Driven::new(None);
+    driven.target(0, 0);
+    assert!(driven.frame(0) > 0);
+    driven.on.tuning.slew = 100;
+    driven.bench.clock(Inputs { drives_clear: 1, ..driven.on });
+    assert_eq!([0; 3].map(|pad| driven.frame(pad)), [100, 200, 300]);
 }

@@ -11,20 +11,21 @@ impl Drives {
     #[inline(always)]
     fn is_busy<V: Interpretation>(&self, state: &State<Self, V>) -> bool {
         let (r, within) = (state.load(self), &state.submodules);
-        let own = [r.asked, r.start, r.driven];
+        let own = [r.asked, r.start, r.driven, r.cleared];
         let split_pad = self.split_pad.as_ref().zip(within.split_pad.as_ref());
         own.into_iter().any(is_set)
             || self.controller.is_busy(&within.controller)
             || split_pad.is_some_and(|(of, state)| of.is_busy(state))
     }
 
-    /// Whether these inputs are nothing: neither an estimate nor a place, nothing that the host does.
+    /// Whether these inputs are nothing: neither an estimate nor a place, nothing that the host does, nothing that stops drives.
     #[inline(always)]
     fn is_nothing<V: Interpretation>(i: &In<V>) -> bool {
         let TargetPort { target_write, alive, clear_faults, .. } = i.target;
         let given = [i.estimate.prompt, i.placed, target_write, alive, clear_faults];
         let written = [i.tuning.curve_write, i.wall.wall_write, i.extremes_read];
-        !given.into_iter().chain(written).any(is_set)
+        let clears = [i.clear, i.drives_clear, i.tick, !i.tuning.enable];
+        !given.into_iter().chain(written).chain(clears).any(is_set)
     }
 
     /// A clock for whoever looks at drive words as they are given and at nothing else: its outputs, or nothing where

@@ -103,7 +103,7 @@ impl Estimator {
         let within = &mut state.submodules;
         let last = self.sheets.data(&mut within.sheets);
         let found = within.position.load(&self.position).sheet;
-        let sheet = self.early(r).select(last, found);
+        let sheet = self.early(r).select(self.where_placed(r, last), found);
         let inputs = capacitance::Inputs { start: bit(false), total, sense, sheet, gain };
         clock_alone(&self.capacitance, &mut within.capacitance, inputs, most, |r| r.done != 0)
     }

@@ -8,6 +8,7 @@ use hapticore_contract::control::{Control, Law};
 use hapticore_contract::profile::{Force, ForceLaw, Profile, Wall};
 use hapticore_hdl::probe::variables;
 use std::collections::HashSet;
+use std::f64::consts::TAU;
 
 /// The short profiles, with a controller of this law.
 fn controlled(law: Law) -> impl Iterator<Item = Profile> {
@@ -43,7 +44,9 @@ fn slot(
     for clock in 0..=(profile.slot.samples() - 1) * clocks {
         let mut inputs = quiet;
         inputs.core.strobe = i64::from(clock % clocks == 0);
-        inputs.core.code = if channel == sense { 10_000 } else { 100 };
+        let turns = (clock / clocks) as f64 * profile.turns_per_sample();
+        let amplitude = if channel == sense { 10_000.0 } else { 100.0 };
+        inputs.core.code = (amplitude * (TAU * turns).cos()).round() as i64;
         channel = bench.clock(inputs).core.channel;
     }
     for clock in 1..20_000 {
@@ -53,6 +56,14 @@ fn slot(
         }
     }
     panic!("{}: no drive word", profile.name);
+}
+
+/// Inputs of a core that is calibrated, so that its pads touch, while nothing happens.
+fn touching(block: &ForceLoop) -> Inputs<i64> {
+    let mut inputs = Inputs::of(0);
+    let gain = block.inputs().core.calibration.capacitance_gain;
+    inputs.core.calibration.capacitance_gain = gain.max_code() as i64;
+    inputs
 }
 
 /// A split pad has its drive word after the slot of its last part, later by what its wall takes.
@@ -152,7 +163,7 @@ fn a_drive_word_within_the_next_window_is_refused() {
 /// The drive word after a target of this code that is written so many clocks after the last strobe.
 fn after(profile: &Profile, target: i64, written: u64) -> i64 {
     let mut bench = Bench::new(ForceLoop::try_new(profile).unwrap());
-    let mut quiet = Inputs::of(0);
+    let mut quiet = touching(&bench.block);
     let formats = bench.block.inputs().tuning;
     (quiet.tuning.enable, quiet.tuning.rail) = (1, formats.rail.max_code() as i64);
     (quiet.tuning.slew, quiet.tuning.force_cap) =
@@ -163,6 +174,7 @@ fn after(profile: &Profile, target: i64, written: u64) -> i64 {
         write.tuning.curve_word = 100 * address;
         bench.clock(write);
     }
+    bench.clock(Inputs { tick: 1, ..quiet });
     // A target while nothing happens, then the one that is late.
     let write = |word: i64| {
         let mut inputs = quiet;
@@ -176,7 +188,7 @@ fn after(profile: &Profile, target: i64, written: u64) -> i64 {
 /// The drive word of a frame whose rail becomes `rail` so many clocks after the last strobe.
 fn after_rail(profile: &Profile, rail: i64, written: u64) -> i64 {
     let mut bench = Bench::new(ForceLoop::try_new(profile).unwrap());
-    let mut quiet = Inputs::of(0);
+    let mut quiet = touching(&bench.block);
     let formats = bench.block.inputs().tuning;
     (quiet.tuning.enable, quiet.tuning.rail) = (1, 1 << 10);
     (quiet.tuning.slew, quiet.tuning.force_cap) =
@@ -194,6 +206,7 @@ fn after_rail(profile: &Profile, rail: i64, written: u64) -> i64 {
         }
         inputs
     };
+    bench.clock(Inputs { tick: 1, ..quiet });
     let mut target = quiet;
     (target.target.target_write, target.target.target_word) = (1, 1 << 10);
     bench.clock(target);
@@ -218,7 +231,7 @@ fn settings_that_change_in_mid_frame_are_taken_with_the_next() {
 fn extremes_are_those_since_they_were_read() {
     let profile = controlled(Law::Open).next().expect("a profile");
     let mut bench = Bench::new(ForceLoop::try_new(&profile).unwrap());
-    let mut quiet = Inputs::of(0);
+    let mut quiet = touching(&bench.block);
     let formats = bench.block.inputs().tuning;
     (quiet.tuning.enable, quiet.tuning.rail) = (1, formats.rail.max_code() as i64);
     (quiet.tuning.slew, quiet.tuning.force_cap) =
@@ -229,6 +242,7 @@ fn extremes_are_those_since_they_were_read() {
         write.tuning.curve_word = 100 * address;
         bench.clock(write);
     }
+    bench.clock(Inputs { tick: 1, ..quiet });
     assert_eq!(bench.clock(quiet).extremes.extremes_valid, 0, "nothing yet");
     let mut given = Vec::new();
     for (n, target) in [1 << 10, 1 << 12, 1 << 8].into_iter().enumerate() {
@@ -239,6 +253,7 @@ fn extremes_are_those_since_they_were_read() {
             bench.clock(write);
         }
         given.push(slot(&mut bench, &profile, quiet, |_| quiet).1);
+        assert!(given[n] > 0, "frame {n}");
         let extremes = bench.clock(quiet).extremes;
         let (least, most) = (given.iter().min().unwrap(), given.iter().max().unwrap());
         assert_eq!((extremes.least_drive, extremes.most_drive), (*least, *most), "frame {n}");
@@ -261,4 +276,26 @@ fn a_target_that_is_written_in_mid_frame_is_taken_whole_or_not_at_all() {
         assert!(drive == old || drive == new, "written at {written}: {drive}");
     }
     assert_eq!(after(&profile, 1 << 12, given + 2), old, "too late for this frame");
+}
+
+/// A board that has not been calibrated knows of no pad that it touches.
+#[test]
+fn a_core_without_a_calibration_drives_no_pad() {
+    for law in Law::ALL {
+        for profile in with_both_forces(law) {
+            let mut bench = Bench::new(ForceLoop::try_new(&profile).unwrap());
+            let mut quiet = Inputs::of(0);
+            let tuning = bench.block.inputs().tuning;
+            (quiet.tuning.enable, quiet.tuning.rail) = (1, tuning.rail.max_code() as i64);
+            quiet.tuning.slew = tuning.slew.max_code() as i64;
+            quiet.tuning.force_cap = tuning.force_cap.max_code() as i64;
+            for address in 0..bench.block.drives.words_of_curve() as i64 {
+                let mut write = quiet;
+                (write.tuning.curve_write, write.tuning.curve_address) = (1, address);
+                write.tuning.curve_word = 1 << 13;
+                bench.clock(write);
+            }
+            assert_eq!(slot(&mut bench, &profile, quiet, |_| quiet).1, 0, "{law:?}");
+        }
+    }
 }

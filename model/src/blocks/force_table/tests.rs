@@ -45,7 +45,7 @@ fn write(
 }
 
 fn quiet(i: Inputs<i64>) -> Inputs<i64> {
-    Inputs { table: TablePort { write: 0, ..i.table }, ..i }
+    Inputs { clear: 0, table: TablePort { write: 0, ..i.table }, ..i }
 }
 
 /// Words as a calibration has them, or any.
@@ -81,6 +81,12 @@ fn forces_are_those_of_the_table() {
             let codes = words(&mut random, f.table, round % 2 == 1);
             let words = write(&mut bench, &codes, f.table, first);
             reference.borrow_mut().calibrate(words);
+            if random.below(3) == 0 {
+                bench.clock(Inputs { start: 0, clear: 1, ..first });
+                if profile.control.is_some() {
+                    reference.borrow_mut().clear();
+                }
+            }
             let inputs = cases.by_ref().take((operations(MILLION / 10) / TABLES) as usize);
             // Half of the capacitances within the table, and its ends.
             let within = |mut i: Inputs<i64>| {
@@ -204,6 +210,7 @@ fn numbers_that_are_not_rounded_have_the_force_of_the_table() {
         for (capacitance, mean_square) in [(401.234_567, 0.123_456_7), (777.765_432, 0.345_678_9)] {
             let quiet = Inputs {
                 start: bit(false),
+                clear: number(0.0, formats.clear),
                 hold: number(0.0, formats.hold),
                 pad,
                 capacitance: number(capacitance, formats.capacitance),

@@ -17,12 +17,13 @@ fn frames_hold_what_was_last_valid_of_their_pad() {
         for _ in 0..operations(MILLION / 3) {
             let codes = Field::ALL.map(|field| random.word(field.format(&profile)));
             let [r_x, r_y, x, y, sheet, capacitance, force, mean_square] = codes;
-            let (pad, invalid) =
-                (random.word(formats.pad) % profile.pads as i64, random.below(2) as i64);
+            let pad = random.word(formats.pad) % profile.pads as i64;
+            let [invalid, lifted] = [(); 2].map(|()| random.below(2) as i64);
             let quiet = Inputs {
                 start: 0,
                 pad,
                 invalid,
+                lifted,
                 r_x,
                 r_y,
                 x,
@@ -43,10 +44,10 @@ fn frames_hold_what_was_last_valid_of_their_pad() {
             (0..100).map(|_| bench.clock(quiet)).find(take).expect("a frame finishes");
             let values: [Exact; 8] =
                 std::array::from_fn(|k| Exact::of(codes[k], Field::ALL[k].format(&profile)));
-            let expected = reference.words(pad as usize, values, invalid == 1);
+            let expected = reference.words(pad as usize, values, [invalid == 1, lifted == 1]);
             assert_eq!(
                 words, expected,
-                "clock {}: got, reference of {codes:?}, invalid {invalid}",
+                "clock {}: got, reference of {codes:?}, invalid {invalid}, lifted {lifted}",
                 bench.clock
             );
         }

@@ -46,12 +46,21 @@ impl Pair {
         let mut quiet = Inputs::of(0);
         quiet.wall.wall_stiffness = formats.wall.wall_stiffness.code_saturating(0.5);
         quiet.wall.wall_most = formats.wall.wall_most.code_saturating(1.0);
-        Pair {
+        let mut pair = Pair {
             parts: profile.wall.unwrap().parts as usize,
             pads: [0, 1].map(|_| SplitPads::new(profile)),
             bench: Bench::new(block),
             formats,
             quiet,
+        };
+        pair.walls();
+        pair
+    }
+
+    /// Walls on the left of 0 mm.
+    fn walls(&mut self) {
+        for pad in 0..2 {
+            (0..self.axes()).for_each(|axis| self.surface(pad, axis, 0, false));
         }
     }
 
@@ -70,7 +79,7 @@ impl Pair {
         (write.wall.wall_surface, write.wall.wall_right) = (code, right.into());
         self.bench.clock(write);
         let surface = Exact::of(code, self.formats.wall.wall_surface);
-        self.pads[pad].axes[axis].surface = (surface, right);
+        self.pads[pad].axes[axis].surface = Some((surface, right));
     }
 
     fn place(&mut self, pad: usize, axis: usize, code: i64) {
@@ -86,13 +95,13 @@ impl Pair {
 
     /// The estimates of a pad's parts, capacitance, force and whether they are invalid: what is given
     /// of the pad, the same to the bit, and then whether it is driven.
-    fn frame(&mut self, pad: usize, parts: &[(i64, i64, bool)], rests: bool) -> Outputs<i64> {
+    fn frame(&mut self, pad: usize, parts: &[(i64, i64, [bool; 2])], rests: bool) -> Outputs<i64> {
         let mut got = None;
-        for (part, &(capacitance, measured, invalid)) in (0..).zip(parts) {
+        for (part, &(capacitance, measured, [invalid, lifted])) in (0..).zip(parts) {
             let pad = (self.parts * pad) as i64 + part;
-            let invalid = invalid.into();
-            let estimate =
-                Inputs { estimate: 1, pad, capacitance, measured, invalid, ..self.quiet };
+            let [invalid, lifted] = [invalid, lifted].map(i64::from);
+            let flags = Inputs { invalid, lifted, ..self.quiet };
+            let estimate = Inputs { estimate: 1, pad, capacitance, measured, ..flags };
             self.bench.clock(estimate);
             for clock in 1..=self.bench.block.latency() {
                 let out = self.bench.clock(self.quiet);
@@ -104,10 +113,11 @@ impl Pair {
         }
         let got = got.expect("the last part gives the pad");
         let f = &self.formats;
-        let of = |&(c, force, invalid): &(i64, i64, bool)| Estimate {
+        let of = |&(c, force, [invalid, lifted]): &(i64, i64, [bool; 2])| Estimate {
             capacitance: Exact::of(c, f.capacitance),
             force: Exact::of(force, f.measured),
             invalid,
+            lifted,
         };
         let port = WallFrame {
             restart: self.quiet.wall.wall_restart == 1,
@@ -124,6 +134,7 @@ impl Pair {
             capacitance: expected.brake.capacitance.code(f.capacitance),
             measured: expected.brake.force.code(f.measured),
             invalid: expected.brake.invalid.into(),
+            lifted: expected.brake.lifted.into(),
             target: expected.wall.target.code(f.measured),
             free: expected.wall.free.into(),
             reads: expected.wall.valid.into(),
@@ -167,7 +178,8 @@ fn pads_are_those_of_the_reference() {
                     let near = (middle as f64 * random.between(0.98, 1.0)) as i64;
                     let any = random.word(formats.capacitance);
                     let capacitance = if random.below(20) == 0 { any } else { near };
-                    (capacitance, random.word(formats.measured), random.below(50) == 0)
+                    let flags = [(); 2].map(|()| random.below(50) == 0);
+                    (capacitance, random.word(formats.measured), flags)
                 })
                 .collect();
             pair.quiet.wall.wall_restart = i64::from(random.below(300) == 0);
@@ -206,7 +218,7 @@ fn pads_are_those_of_the_reference_where_a_hand_drags_them() {
                     // Of quadrants the first two are on the left.
                     let right = if pair.parts == 4 { part >= 2 } else { part == 1 };
                     let share = if right { 1.0 + u } else { 1.0 - u };
-                    (f.capacitance.code_saturating(170.0 * share), 0, false)
+                    (f.capacitance.code_saturating(170.0 * share), 0, [false; 2])
                 };
                 let parts: Vec<_> = (0..pair.parts).map(part).collect();
                 let out = pair.frame(pad, &parts, x_mm > 0.0);
@@ -227,18 +239,18 @@ fn what_is_kept_has_a_word_for_every_number_of_a_part() {
             let block =
                 SplitPad::try_new(&Profile { pads: pads * parts, ..profile.clone() }).unwrap();
             let words = ((pads * parts) as usize).next_power_of_two();
-            let kept = [&block.places, &block.surfaces, &block.rests].map(|of| of.words);
-            assert_eq!((block.parts(), kept), (parts, [words; 3]), "{pads} pads");
+            let kept = [&block.places, &block.surfaces].map(|of| of.words);
+            assert_eq!((block.parts(), kept), (parts, [words; 2]), "{pads} pads");
         }
     }
 }
 
 /// A wall on the left that a pad has been pushed into by a millimetre.
-fn pushed(profile: &Profile) -> (Pair, Vec<(i64, i64, bool)>, i64) {
+fn pushed(profile: &Profile) -> (Pair, Vec<(i64, i64, [bool; 2])>, i64) {
     let mut pair = Pair::new(profile);
     let f = pair.formats;
     let half_n = f.wall.wall_most.code_saturating(0.5);
-    let estimate = (f.capacitance.code_saturating(180.0), 0, false);
+    let estimate = (f.capacitance.code_saturating(180.0), 0, [false; 2]);
     let parts = vec![estimate; pair.parts];
     pair.place_on_all(0, f.place.code_saturating(0.5));
     pair.frame(0, &parts, true);
@@ -251,16 +263,32 @@ fn pushed(profile: &Profile) -> (Pair, Vec<(i64, i64, bool)>, i64) {
 }
 
 #[test]
-fn an_invalid_sensing_part_lets_go_in_mid_wall_and_the_wall_is_back_after_it() {
+fn a_sensing_part_that_is_invalid_or_lifted_lets_go_in_mid_wall_and_the_wall_is_back_after_it() {
     for profile in profiles() {
         let sensing = if profile.wall.unwrap().parts == 4 { 4 } else { 2 };
-        for dead in 0..sensing {
+        for (dead, flag) in (0..sensing).flat_map(|part| [(part, 0), (part, 1)]) {
             let (mut pair, parts, half_n) = pushed(&profile);
             let mut broken = parts.clone();
-            broken[dead].2 = true;
+            broken[dead].2[flag] = true;
             let out = pair.frame(0, &broken, false);
             assert_eq!((out.target, out.reads), (0, 0), "part {dead}: the safe side");
             assert_eq!(pair.frame(0, &parts, false).target, half_n, "part {dead} is back");
+        }
+    }
+}
+
+/// Of a pad whose last part brakes alone the others say nothing of that.
+#[test]
+fn a_pad_is_lifted_where_a_part_that_brakes_is() {
+    for profile in profiles() {
+        let (mut pair, parts, _) = pushed(&profile);
+        let brakes = |part: usize| parts.len() != 3 || part == 2;
+        for part in 0..parts.len() {
+            let mut lifted = parts.clone();
+            lifted[part].2[1] = true;
+            let out = pair.frame(0, &lifted, false);
+            assert_eq!(out.lifted, i64::from(brakes(part)), "part {part} of {}", parts.len());
+            assert_eq!(pair.frame(0, &parts, false).lifted, 0, "part {part} is back");
         }
     }
 }
@@ -289,7 +317,8 @@ fn a_pad_that_has_no_place_yet_meets_no_wall() {
         let mut pair = Pair::new(&profile);
         let far = pair.formats.wall.wall_surface.max_code() as i64;
         (0..pair.axes()).for_each(|axis| pair.surface(0, axis, far, false));
-        let parts = vec![(pair.formats.capacitance.code_saturating(180.0), 0, false); pair.parts];
+        let parts =
+            vec![(pair.formats.capacitance.code_saturating(180.0), 0, [false; 2]); pair.parts];
         for _ in 0..20 {
             let out = pair.frame(0, &parts, true);
             assert_eq!((out.target, out.reads), (0, 0));
@@ -302,6 +331,45 @@ fn a_pad_that_has_no_place_yet_meets_no_wall() {
             assert_eq!(pair.frame(0, &parts, true).free, 0, "frame {frame}");
         }
     }
+}
+
+/// Memories hold place and surface all the while.
+#[test]
+fn a_wall_is_forgotten_with_a_reset_and_its_place_with_every_clear() {
+    for profile in profiles() {
+        let acts = |pair: &mut Pair, parts: &[(i64, i64, [bool; 2])]| {
+            pair.frame(0, parts, false).target > 0
+        };
+        let forget = |pair: &mut Pair, surfaces: bool| {
+            for axis in &mut pair.pads[0].axes {
+                axis.place = None;
+                axis.surface = axis.surface.filter(|_| !surfaces);
+            }
+            pair.pads[0].rests = false;
+        };
+        let (mut pair, parts, _) = pushed(&profile);
+        let deep = pair.formats.place.code_saturating(-1.0);
+        pair.bench.press_reset();
+        forget(&mut pair, true);
+        assert!(!acts(&mut pair, &parts), "reset: neither place nor wall");
+        pair.place_on_all(0, deep);
+        assert!(!acts(&mut pair, &parts), "a place, but no wall");
+        pair.walls();
+        assert!(acts(&mut pair, &parts), "both");
+        pair.bench.clock(Inputs { clear: 1, ..pair.quiet });
+        forget(&mut pair, false);
+        assert!(!acts(&mut pair, &parts), "cleared: no place");
+        pair.place_on_all(0, deep);
+        assert!(acts(&mut pair, &parts), "the wall is as it was");
+        pair.bench.clock(Inputs { clear: 1, begins_anew: 1, ..pair.quiet });
+        forget(&mut pair, true);
+        pair.place_on_all(0, deep);
+        assert!(!acts(&mut pair, &parts), "the wall is gone");
+    }
+}
+
+fn rarely(random: &mut Random) -> i64 {
+    i64::from(random.below(200) == 0)
 }
 
 #[test]
@@ -318,6 +386,7 @@ fn skipping_changes_no_bit_on_any_clock() {
             inputs.placed_pad %= profile.pads as i64;
             inputs.wall.wall_pad %= profile.pads as i64;
             inputs.estimate = i64::from(clock % apart == 0);
+            (inputs.clear, inputs.begins_anew) = (rarely(&mut random), rarely(&mut random));
             assert_eq!(skips.clock(inputs), never.clock(inputs), "clock {}", skips.clock);
         }
     }

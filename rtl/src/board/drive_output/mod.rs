@@ -12,6 +12,9 @@
 //! | square | ±d, turned as the pad's switch opens, every so many slots | constant where it settled   |
 //! | sine   | d·sin φ, all pads in phase                                | right over whole periods    |
 //!
+//! A converter holds the magnitude of a level, so that its code 0, an idle pin and what it powers up with are 0 V. The
+//! sign is a pin per channel, `dac_polarity`, low for positive; it changes when the converter has the magnitude.
+//!
 //! A turn comes right after a window, with the drive word that the window leads to: it then settles
 //! while the other pads have their slots; a pad that is alone, or the first part of a split one, has its
 //! next slot at once. It costs 2τ/T of the mean of V², with τ of the pad behind its resistor and T from
@@ -20,14 +23,15 @@
 //! | signal    | format              | unit             | overflow                |
 //! | d         | profile (drive)     | drive's full scale | –                     |
 //! | sine      | s18.16              | –                | one is a code           |
-//! | level     | s, one bit wider    | drive's full scale | cannot: |sine| ≤ 1    |
+//! | level     | d's, and a sign     | drive's full scale | cannot: |sine| ≤ 1    |
 //! | point     | counter             | 1/points turn    | wraps, meant            |
 //!
 //! A converter is written when something changes: a drive word, a turn, the sine's next point. Where
-//! several channels change, the first goes first. After reset every channel is set to zero once, and
-//! `live` says that all have been: until then a converter may hold what it powered up with. All go to
-//! zero, too, where the output is not enabled, or no drive word has come for `stale_clocks`: strobes
-//! that cease leave no voltage behind. A pad's next drive word ends that.
+//! several channels change, the first goes first. After reset every channel is set to zero once. All go to
+//! zero, too, while the output is off: not enabled, in a fault, or without a drive word for `stale_clocks`. Strobes
+//! that cease leave no voltage behind, and `drives_clear` tells the controller to begin anew, from zero. Each time that
+//! the output is no longer off, the converter is set up again, first its reference, where it has one, then every channel.
+//! `dac_live` is asserted once that is done, and negated in the cycle after the output is off.
 //! Latency: 4 clocks from a drive word to that at the converter's pins, or to the beginning of its
 //! frame, where nothing else is due. Source: docs/physics.md §7 for the wave.
 
@@ -36,8 +40,6 @@ pub mod parallel;
 pub mod pulses;
 pub mod serial;
 pub mod sine;
-
-pub use names::NameError;
 
 use self::parallel::Parallel;
 use self::pulses::Pulses;
@@ -50,29 +52,14 @@ use hapticore_hdl::format::{BIT, Format};
 use hapticore_hdl::memory::{Memory, Write};
 use hapticore_hdl::signal::{HalfEven, Proved, Saturate, Signal, bit, int, zero};
 use hapticore_hdl::{block, bundle};
+use hapticore_model::blocks::controller::Faults;
+pub use hapticore_protocol::output::{Dac, NameError, Wave};
 use sine::Sine;
 
 /// Frames of all pads without a drive word after which drives go to zero.
 const STALE_FRAMES: u64 = 4;
-
-/// The wave that a drive word is the amplitude of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Wave {
-    /// A constant voltage.
-    Dc,
-    /// A voltage that turns its polarity with every so many slots of its pad.
-    Square {
-        /// Slots of a pad from turn to turn.
-        turn_slots: u64,
-    },
-    /// A sine.
-    Sine {
-        /// Points of a period: a power of two, 8 at least.
-        points: u64,
-        /// Clocks from point to point.
-        point_clocks: u64,
-    },
-}
+/// The longest time without a drive word, ms, however long a frame is.
+pub const STALE_MS: u64 = 100;
 
 /// How a converter is told.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -95,7 +82,7 @@ bundle! {
         valid,
         /// Its channel.
         channel,
-        /// Voltage, drive's full scale.
+        /// Magnitude of the voltage, drive's full scale.
         level,
     }
 }
@@ -111,13 +98,15 @@ bundle! {
         dac_sclk,
         /// Pin: data of the serial line.
         dac_sdi,
-        /// Pins: word, offset binary.
+        /// Pins: word, a magnitude: zero is 0 V.
         dac_word,
         /// Pins: channel of the word.
         dac_address,
         /// Pin: write strobe, active low; word and address are stable a cycle before and after.
         dac_write_n,
-        /// All channels have been written since reset.
+        /// Pins: one bit per channel, its voltage is negative.
+        dac_polarity,
+        /// The converter is set up, all its channels are as they should be, and nothing is off.
         dac_live,
     }
 }
@@ -155,9 +144,12 @@ block! {
         closed: BIT,
         /// Drive words count.
         enable: BIT,
+        faults as Faults: Faults::of(BIT),
     }
     outputs(block) {
         dac as DacPort: block.pins(),
+        /// Asserted for one cycle once the last drive word is stale: the force loop begins anew, at zero.
+        drives_clear: BIT,
     }
     registers(block) {
         /// Channels that have been written with what they are to have.
@@ -177,6 +169,14 @@ block! {
         asked: BIT,
         channel: block.channel(),
         given as LevelPort: block.level_port(),
+        /// The level that is given is negative.
+        given_negative: BIT,
+        /// Channels whose pin says that they are negative.
+        polarity: block.mask(),
+        /// The output was off.
+        off: BIT,
+        /// The last drive word has become stale.
+        stale: BIT,
         live: BIT,
     }
 }
@@ -213,21 +213,21 @@ impl DriveOutput {
             serial: None,
             parallel: None,
         };
-        let level = block.level();
         match converter {
-            Converter::Pulses => block.pulses = Some(Pulses::new(channels, level)),
-            Converter::Serial(frame) => block.serial = Some(Serial::new(frame, channel, level)),
+            Converter::Pulses => block.pulses = Some(Pulses::new(channels, drive)),
+            Converter::Serial(frame) => block.serial = Some(Serial::new(frame, channel, drive)),
             Converter::Parallel { bits } => {
-                block.parallel = Some(Parallel::new(bits, channel, level));
+                block.parallel = Some(Parallel::new(bits, channel, drive));
             }
         }
         block
     }
 
-    /// The output for the force loop of a profile.
+    /// The output for the force loop of a profile at a clock of so many hertz.
     ///
     /// # Errors
-    /// A profile without a controller; more pads than the converter has channels.
+    /// A profile without a controller; more pads than the converter has channels; drive words that come further apart than
+    /// [`STALE_MS`].
     ///
     /// # Panics
     /// As [`DriveOutput::new`].
@@ -235,6 +235,7 @@ impl DriveOutput {
         profile: &Profile,
         wave: Wave,
         converter: Converter,
+        clock_hz: u64,
     ) -> Result<Self, ProfileError> {
         let Some(control) = &profile.control else {
             return Err(ProfileError::value("control", "a table", "none"));
@@ -245,7 +246,14 @@ impl DriveOutput {
             let expected = format!("at most {most}, a channel of the converter each");
             return Err(ProfileError::value("pads", expected, channels));
         }
-        let stale = STALE_FRAMES * profile.pads * profile.slot_clocks();
+        let most = STALE_MS * clock_hz / 1_000;
+        let between_words = parts * profile.slot_clocks();
+        if between_words >= most {
+            let expected =
+                format!("fewer than {most} clocks, {STALE_MS} ms, from drive word to drive word");
+            return Err(ProfileError::value("slot", expected, between_words));
+        }
+        let stale = (STALE_FRAMES * profile.pads * profile.slot_clocks()).min(most);
         Ok(DriveOutput::new([profile.pads, parts], control.drive, stale, wave, converter))
     }
 
@@ -262,12 +270,8 @@ impl DriveOutput {
         Format::counter(self.channels - 1)
     }
 
-    fn level(&self) -> Format {
-        Format::signed(self.drive.width + 1, self.drive.frac)
-    }
-
     fn level_port(&self) -> LevelPort<Format> {
-        LevelPort { valid: BIT, channel: self.channel(), level: self.level() }
+        LevelPort { valid: BIT, channel: self.channel(), level: self.drive }
     }
 
     fn turn_slots(&self) -> Option<u64> {
@@ -278,7 +282,8 @@ impl DriveOutput {
     }
 
     fn pins(&self) -> DacPort<Format> {
-        let none = DacPort { dac_live: BIT, ..DacPort::of(Format::NONE) };
+        let none =
+            DacPort { dac_polarity: self.mask(), dac_live: BIT, ..DacPort::of(Format::NONE) };
         match (&self.serial, &self.parallel) {
             (Some(_), _) => DacPort { dac_sync_n: BIT, dac_sclk: BIT, dac_sdi: BIT, ..none },
             (_, Some(parallel)) => DacPort {
@@ -351,20 +356,24 @@ impl DriveOutput {
         i.drive_valid.select(int(self.stale_clocks), down).resize(r.fresh.format, Proved)
     }
 
-    /// The level of an amplitude.
+    /// The level of an amplitude: its magnitude, and whether it is negative.
     #[inline(always)]
     fn level_of<V: Interpretation>(
         &self,
         amplitude: Signal<V>,
         negative: Signal<V>,
         sine: Signal<V>,
-    ) -> Signal<V> {
+    ) -> [Signal<V>; 2] {
         match self.wave {
-            Wave::Dc => amplitude.resize(self.level(), Proved),
-            Wave::Square { .. } => {
-                negative.select(-amplitude, amplitude).resize(self.level(), Proved)
+            Wave::Dc => [amplitude, bit(false)],
+            Wave::Square { .. } => [amplitude, negative],
+            Wave::Sine { .. } => {
+                let negative = sine.msb();
+                let magnitude = negative.select(-sine, sine);
+                let level =
+                    amplitude * magnitude.bits(0, sine::MAGNITUDE.width).as_code(sine::MAGNITUDE);
+                [level.quantize(self.drive, HalfEven, Saturate), negative]
             }
-            Wave::Sine { .. } => (amplitude * sine).quantize(self.level(), HalfEven, Proved),
         }
     }
 
@@ -374,11 +383,12 @@ impl DriveOutput {
         &self,
         state: &mut State<Self, V>,
         given: LevelPort<Signal<V>>,
+        set_up: Signal<V>,
     ) -> (DacPort<Signal<V>>, Signal<V>) {
         let none = DacPort::map(DacPort::of(Format::NONE), zero);
         let within = &mut state.submodules;
         if let Some((block, within)) = self.serial.as_ref().zip(within.serial.as_mut()) {
-            let line = block.call("serial", within, serial::Inputs { given });
+            let line = block.call("serial", within, serial::Inputs { given, set_up });
             let pins =
                 DacPort { dac_sync_n: line.sync_n, dac_sclk: line.sclk, dac_sdi: line.sdi, ..none };
             return (pins, line.ready);
@@ -413,10 +423,13 @@ impl Block for DriveOutput {
         };
         let changes = self.changes(&r, &i);
         let amplitude = self.amplitudes.data(&mut state.submodules.amplitudes);
-        let (pins, ready) = self.convert(state, r.given);
+        let off = self.off(&r, &i);
+        let set_up = r.off & !off;
+        let (pins, ready) = self.convert(state, r.given, set_up);
+        let written = ready & !r.given.valid;
 
         let all = r.settled.is((1 << self.channels) - 1);
-        let ask = ready & !r.asked & !r.given.valid & !all;
+        let ask = written & !r.asked & !all & !set_up;
         let channel = self.first_clear(r.settled);
         let to = changes.words;
         let address = self.mask_index(to);
@@ -427,11 +440,14 @@ impl Block for DriveOutput {
             Some(_) => self.bit_of(r.negative, r.channel),
             None => bit(false),
         };
-        let level = self.level_of(amplitude, negative, sine);
-        let known = self.bit_of(r.known, r.channel);
+        let [level, negative] = self.level_of(amplitude, negative, sine);
+        let known = self.bit_of(r.known, r.channel) & !off;
         let bits = |mask: Signal<V>, n: u64| mask.bits(n as u8, 1);
-        let off = !i.enable | (r.fresh.is(0) & !i.drive_valid);
-        let falls = |n: u64| off & bits(r.known, n);
+        let falls = |n: u64| set_up | (off & bits(r.known, n));
+        let has_turned = |n: u64| {
+            let given = written & r.given.channel.is(n);
+            given.select(r.given_negative, bits(r.polarity, n))
+        };
         let registers = Registers {
             settled: self.mask_of(|n| {
                 let changed = bits(changes.words, n) | turned | falls(n);
@@ -453,14 +469,27 @@ impl Block for DriveOutput {
                 channel: r.asked.select(r.channel, r.given.channel),
                 level: r.asked.select(known.select(level, zero(level.format)), r.given.level),
             },
-            live: r.live | (all & ready & !r.asked & !r.given.valid),
+            given_negative: r.asked.select(known & negative, r.given_negative),
+            polarity: self.mask_of(has_turned),
+            off,
+            stale: r.fresh.is(1) & !i.drive_valid,
+            live: !off & !set_up & (r.live | (all & written & !r.asked)),
         };
         state.store(self, registers);
-        Outputs { dac: DacPort { dac_live: r.live, ..pins } }
+        let dac = DacPort { dac_polarity: r.polarity, dac_live: r.live, ..pins };
+        Outputs { dac, drives_clear: r.stale }
     }
 }
 
 impl DriveOutput {
+    /// Whether all channels are to be zero.
+    #[inline(always)]
+    fn off<V: Interpretation>(&self, r: &Regs<V>, i: &In<V>) -> Signal<V> {
+        let Faults { silence_fault, sensor_fault, force_fault } = i.faults;
+        let stale = r.fresh.is(0) & !i.drive_valid;
+        !i.enable | stale | silence_fault | sensor_fault | force_fault
+    }
+
     /// The number of the bit that is set in a mask of at most one.
     #[inline(always)]
     fn mask_index<V: Interpretation>(&self, mask: Signal<V>) -> Signal<V> {
@@ -471,13 +500,8 @@ impl DriveOutput {
     }
 }
 
-/// A level as a converter's word: rounded, zero at half its range.
+/// A level as a converter's word, rounded: zero is 0 V.
 #[inline(always)]
-fn offset_binary<V: Interpretation>(level: Signal<V>, bits: u8) -> Signal<V> {
-    let word = level.quantize(Format::signed(bits, bits as i8 - 1), HalfEven, Saturate);
-    let code = word.bits(0, bits);
-    match bits {
-        1 => !code,
-        bits => (!code.msb()).concat(code.bits(0, bits - 1)),
-    }
+fn magnitude<V: Interpretation>(level: Signal<V>, bits: u8) -> Signal<V> {
+    level.quantize(Format::unsigned(bits, bits as i8), HalfEven, Saturate).bits(0, bits)
 }

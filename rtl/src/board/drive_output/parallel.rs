@@ -6,14 +6,14 @@
 //! write_n        ‾‾‾‾‾\__/‾‾‾‾‾‾‾     one clock of set-up, one of strobe, one of hold
 //! ```
 //!
-//! | signal | format       | overflow                          |
-//! | word   | offset binary | saturates: full scale is no code |
+//! | signal | format    | overflow                         |
+//! | word   | magnitude | saturates: full scale is no code |
 //!
 //! Latency: one clock from a level to its word, two to its strobe. The line is busy for 3 clocks.
 //! Source: the usual microprocessor interface of converters; hold it against the data sheet of yours.
 
 use super::LevelPort;
-use super::offset_binary;
+use super::magnitude;
 use hapticore_hdl::block;
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format};
@@ -61,7 +61,7 @@ impl Block for Parallel {
     fn clock<V: Interpretation>(&self, state: &mut State<Self, V>, i: In<V>) -> Out<V> {
         let r = state.load(self);
         let free = r.left.is(0);
-        let word = offset_binary(i.given.level, self.bits);
+        let word = magnitude(i.given.level, self.bits);
         let waited = free.select(int(0), (r.left - int(1)).bits(0, r.left.format.width));
         let registers = Registers {
             word: i.given.valid.select(word, r.word),

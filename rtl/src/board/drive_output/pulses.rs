@@ -2,26 +2,26 @@
 //! Pulses: each channel's level as the density of one bit, for a pin and a low-pass filter.
 //!
 //! ```text
-//! channel c, each turn:  s = rest[c] + level[c] + ½ range,   pulse[c] = carry of s,   rest[c] = the others
+//! channel c, each turn:  s = rest[c] + level[c],   pulse[c] = carry of s,   rest[c] = the others
 //! ```
 //!
 //! | signal | format | unit       | overflow                      |
-//! | level  | s W    | full scale | –                             |
+//! | level  | u W    | full scale | –                             |
 //! | rest   | u W    | –          | wraps, meant: that is a pulse |
 //!
 //! As [`super::super::sigma_delta`], one adder for all channels: a pin takes its next bit after
 //! 2·channels clocks, 320 ns with four pads at 25 MHz. Bits and levels summed differ by less than one
-//! bit, so that a path of τ = 96 µs leaves less than 320 ns/τ = 0.33 % of the range of it. A density of
-//! ½ is 0 V. Latency: a turn of all channels. Source: Schreier and Temes, Understanding Delta-Sigma
+//! bit, so that a path of τ = 96 µs leaves less than 320 ns/τ = 0.33 % of full scale of it. No pulses, a
+//! pin that is low, are 0 V. Latency: a turn of all channels. Source: Schreier and Temes, Understanding Delta-Sigma
 //! Data Converters, §2.
 
-use super::super::bits::{next, read_as, word};
+use super::super::bits::{next, word};
 use super::LevelPort;
 use hapticore_hdl::block;
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format};
 use hapticore_hdl::memory::{Memory, Write};
-use hapticore_hdl::signal::{code, int};
+use hapticore_hdl::signal::int;
 
 block! {
     /// The sigma-delta modulator of all channels.
@@ -51,7 +51,7 @@ block! {
 }
 
 impl Pulses {
-    /// A modulator for so many channels of signed levels.
+    /// A modulator for so many channels of unsigned levels.
     pub fn new(channels: u64, level: Format) -> Self {
         let words = 1 << Format::counter(channels - 1).width;
         let rest = Format::unsigned(level.width, 0);
@@ -72,8 +72,7 @@ impl Block for Pulses {
         let (level, rest) =
             (self.levels.data(&mut within.levels), self.rests.data(&mut within.rests));
         let width = self.level.width;
-        let half = code::<V>(1 << (width - 1), rest.format);
-        let sum = rest + read_as(level.integer() + half, rest.format);
+        let sum = rest + level.integer();
         let LevelPort { valid, channel, level } = i.given;
         self.levels.access(
             &mut within.levels,

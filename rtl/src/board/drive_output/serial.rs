@@ -8,24 +8,31 @@
 //! ```
 //!
 //! | signal | format                    | overflow                             |
-//! | word   | offset binary             | saturates: full scale is no code     |
+//! | word   | magnitude                 | saturates: full scale is no code     |
 //! | frame  | u command + address + word + tail | shifted out                  |
 //!
-//! Latency: one clock from a level to `sync_n`; (2·bits + 1)·H clocks for a frame, where H is half a
-//! period of `sclk`; `sync_n` is then high for H clocks at least. Source: AD5664 and AD5668 data
-//! sheets, "Input shift register": 24 and 32 bits, taken at falling edges, updated by the last.
+//! A converter with a reference of its own, which powers up switched off, gets the frame that switches it on before the first
+//! level after a reset, and again with `set_up`. Latency: one clock from a level to `sync_n`; (2·bits + 1)·H clocks for a frame, where H is half a
+//! period of `sclk`; `sync_n` is then high for H clocks at least. Source: AD5624/AD5664, AD5624R/AD5644R/AD5664R and
+//! AD5628/AD5648/AD5668 data sheets, "Input shift register": 24 and 32 bits, taken at falling edges, updated by the last;
+//! "Internal reference register": commands 7 and 8, bit 0.
 
 use super::super::bits::previous;
 use super::LevelPort;
-use super::offset_binary;
+use super::magnitude;
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format};
 use hapticore_hdl::signal::{Signal, Wrap, bit, code, int};
 use hapticore_hdl::{block, when};
+use hapticore_protocol::output::Dac;
 
 /// The layout of a converter's frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Frame {
+    /// The part.
+    pub dac: Dac,
+    /// The frame that switches its reference on, where it has one.
+    pub reference: Option<u64>,
     /// The command that writes and updates a channel.
     pub command: u64,
     /// Bits of the command, with what nobody reads before it.
@@ -43,8 +50,10 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// AD5664: four channels of 16 bits, 24 bits a frame; serial clock up to 50 MHz.
+    /// AD5664: four channels of 16 bits, 24 bits a frame, an external reference; serial clock up to 50 MHz.
     pub const AD5664: Frame = Frame {
+        dac: Dac::Ad5664,
+        reference: None,
         command: 0b011,
         command_bits: 5,
         address_bits: 3,
@@ -53,9 +62,19 @@ impl Frame {
         channels: 4,
         half_clocks: 1,
     };
-    /// AD5668: eight channels of 16 bits, 32 bits a frame; serial clock up to 50 MHz.
-    pub const AD5668: Frame =
-        Frame { command_bits: 8, address_bits: 4, tail_bits: 4, channels: 8, ..Frame::AD5664 };
+    /// AD5664R: as the AD5664, with a reference.
+    pub const AD5664R: Frame =
+        Frame { dac: Dac::Ad5664r, reference: Some(0b111 << 19 | 1), ..Frame::AD5664 };
+    /// AD5668: eight channels of 16 bits, 32 bits a frame, a reference; serial clock up to 50 MHz.
+    pub const AD5668: Frame = Frame {
+        dac: Dac::Ad5668,
+        reference: Some(0b1000 << 24 | 1),
+        command_bits: 8,
+        address_bits: 4,
+        tail_bits: 4,
+        channels: 8,
+        ..Frame::AD5664
+    };
 
     /// All bits.
     pub fn bits(&self) -> u8 {
@@ -73,6 +92,8 @@ block! {
     submodules {}
     inputs(block) {
         given as LevelPort: LevelPort { valid: BIT, channel: block.channel, level: block.level },
+        /// Asserted for one cycle to switch the reference on again.
+        set_up: BIT,
     }
     outputs(block) {
         /// A level may be given in this cycle.
@@ -89,6 +110,8 @@ block! {
         /// Bits that are still to be sent, with this one; none while `sync_n` rests high.
         left: Format::counter(u64::from(block.frame.bits())),
         data: Format::unsigned(block.frame.bits(), 0),
+        /// The reference has been switched on, or is being.
+        has_reference: BIT.where_present(block.frame.reference.is_some()),
     }
 }
 
@@ -111,7 +134,7 @@ impl Serial {
         let Frame { command, command_bits, address_bits, word_bits, tail_bits, .. } = self.frame;
         let command = code::<V>(command as i64, Format::unsigned(command_bits, 0));
         let address = i.given.channel.resize(Format::unsigned(address_bits, 0), Wrap);
-        let word = command.concat(address).concat(offset_binary(i.given.level, word_bits));
+        let word = command.concat(address).concat(magnitude(i.given.level, word_bits));
         match tail_bits {
             0 => word,
             tail => word.concat(code(0, Format::unsigned(tail, 0))),
@@ -131,6 +154,7 @@ impl Serial {
             count: int(self.frame.half_clocks - 1),
             left: sent.select(previous(r.left), r.left),
             data: sent.select(shifted, r.data),
+            ..r
         }
     }
 }
@@ -147,9 +171,22 @@ impl Block for Serial {
             count: int(self.frame.half_clocks - 1),
             left: int(u64::from(self.frame.bits())),
             data: self.data(&i),
+            ..r
         };
         let busy = when!(r.busy => running, else r);
-        state.store(self, when!(i.given.valid => begun, else busy));
-        Outputs { ready: !r.busy, sync_n: r.left.is(0), sclk: !r.low, sdi: r.data.msb() }
+        let next = when!(i.given.valid => begun, else busy);
+        let (next, ready) = match self.frame.reference {
+            None => (next, !r.busy),
+            Some(frame) => {
+                let data = code(frame as i64, r.data.format);
+                let reference = Registers { data, has_reference: bit(true), ..begun };
+                let asked = !r.busy & !i.given.valid & !r.has_reference;
+                let next = when!(asked => reference, else next);
+                let has_reference = next.has_reference & !i.set_up;
+                (Registers { has_reference, ..next }, !r.busy & r.has_reference)
+            }
+        };
+        state.store(self, next);
+        Outputs { ready, sync_n: r.left.is(0), sclk: !r.low, sdi: r.data.msb() }
     }
 }

@@ -23,6 +23,8 @@ use std::f64::consts::TAU;
 
 /// The format of a sine: one is a code of it.
 pub const SINE: Format = Format::signed(18, 16);
+/// The format of its magnitude.
+pub const MAGNITUDE: Format = Format::unsigned(17, 16);
 
 block! {
     /// A sine of slow points.

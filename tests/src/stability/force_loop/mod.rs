@@ -64,8 +64,8 @@ pub const GROUP: Group = Group {
         },
         Case {
             name: "host_silent",
-            stimulus: "no sign of life from the host",
-            must: "the drive zero with the 4,096th frame since it was heard, latched",
+            stimulus: "no sign of life from the host, frames of a millisecond",
+            must: "the drive zero with the 100th millisecond since it was heard, latched",
             run: words::host_silent,
         },
         Case {

@@ -111,6 +111,7 @@ impl Rig {
         for tuning in curve_writes(formats, &tuning) {
             rig.clock(Inputs { tuning, ..Inputs::of(0) });
         }
+        rig.tick();
         rig
     }
 
@@ -185,6 +186,11 @@ impl Rig {
             self.frame(target_n);
         });
         self.frame(target_n)
+    }
+
+    /// A millisecond passes.
+    pub fn tick(&mut self) {
+        self.clock(Inputs { tick: 1, ..self.inputs });
     }
 
     /// Clears faults.

@@ -159,6 +159,7 @@ impl Device {
                 saturated: set(port.saturated),
                 invalid: set(port.invalid),
                 lost: set(port.lost),
+                lifted: set(port.lifted),
             },
         })
     }

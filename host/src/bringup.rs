@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Bring-up: from a reset to a board that may be enabled, step by step; the test of the ADC's data lines is one of them.
+//!
+//! ```text
+//! prepare ─ check ─ fixed codes on ─┬─ line 0 … n ─┬─ fixed codes off ─ check ─ ENABLE
+//!                                   └── code, or not ┘
+//! ```
+//!
+//! Each step waits for a heartbeat that has begun after its commands were sent. A board that is not as it should be is never
+//! given [`Command::ENABLE`]. The codes themselves are not compared with a data sheet: each is neither all zeros nor all
+//! ones, the same 64 times, and no other line's, which an open, stuck or shorted wire fails. Lines that are exchanged pass.
+
+use crate::command::Command;
+use crate::packet::Heartbeat;
+use crate::startup::{AdcSetup, LineFault, StartupError, check, prepare};
+use hapticore_contract::calibration::Calibration;
+use hapticore_contract::profile::Profile;
+use hapticore_protocol::{Control, Output, Register};
+
+/// Heartbeats within which a step's answer has to come.
+const PATIENCE: u8 = 8;
+
+/// A word that reads the ADC's ID, and so enters register mode.
+const READ_ID: i64 = 0x6f00;
+/// A word that ends register mode.
+const CONVERT: i64 = 0x0000;
+/// Words that put a fixed code on each line, and end that: register 21 (hex), whose lowest bit is set after a reset.
+const FIXED_CODES: i64 = 0x2181;
+const SAMPLES: i64 = 0x2101;
+
+/// What to do next.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Step {
+    /// Waits for a heartbeat.
+    Wait,
+    /// Sends these commands, then waits for a heartbeat that begins after them.
+    Send(Vec<Command>),
+    /// The board is ready: targets, tuning, then this command.
+    Ready(Command),
+}
+
+/// Where a bring-up is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Stage {
+    Prepared,
+    Line(u8),
+    Tested,
+}
+
+/// The bring-up of a board.
+///
+/// ```
+/// use hapticore_host::bringup::{BringUp, Step};
+/// use hapticore_host::startup::AdcSetup;
+/// use hapticore_host::{DeviceCalibration, Heartbeat, Status, profile};
+///
+/// let device = DeviceCalibration::read("recordings/hockey.calibration.toml".as_ref())?;
+/// let profile = device.profile(&profile::load("small")?)?;
+/// let calibration = device.for_profile(&profile)?;
+/// let mut bring_up = BringUp::new(&profile, &calibration, None);
+/// let commands = bring_up.begin(&AdcSetup::default(), 0);
+/// // The board has taken none of them.
+/// let heartbeat = Heartbeat::new(Status::default(), &profile, None);
+/// let steps: Vec<_> = (0..8).map(|_| bring_up.heartbeat(&heartbeat)).collect();
+/// assert_eq!(steps[0], Ok(Step::Wait));
+/// assert!(steps[7].is_err(), "it has had its time for {} commands", commands.len());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct BringUp<'a> {
+    profile: &'a Profile,
+    calibration: &'a Calibration,
+    output: Option<Output>,
+    /// Commands that the board had accepted before, modulo 16, and those sent since.
+    before: u8,
+    sent: usize,
+    stage: Stage,
+    waited: u8,
+    codes: Vec<u64>,
+}
+
+impl<'a> BringUp<'a> {
+    /// Of a board of this profile, with an output where it drives its pads.
+    pub fn new(profile: &'a Profile, calibration: &'a Calibration, output: Option<Output>) -> Self {
+        let (stage, codes) = (Stage::Prepared, Vec::new());
+        BringUp { profile, calibration, output, before: 0, sent: 0, stage, waited: 0, codes }
+    }
+
+    /// The first commands, for a board that has accepted so many before, modulo 16: none after its reset.
+    pub fn begin(&mut self, adc: &AdcSetup, before: u8) -> Vec<Command> {
+        (self.before, self.sent) = (before, 0);
+        (self.stage, self.waited) = (Stage::Prepared, 0);
+        self.codes.clear();
+        self.sending(prepare(self.profile, self.calibration, adc))
+    }
+
+    /// The next step, after a heartbeat that has begun after the last commands were sent.
+    ///
+    /// # Errors
+    /// What keeps the board from being enabled: the first thing that is not as it should be.
+    pub fn heartbeat(&mut self, heartbeat: &Heartbeat) -> Result<Step, StartupError> {
+        self.waited += 1;
+        let last = self.waited >= PATIENCE;
+        match self.stage {
+            Stage::Prepared | Stage::Tested => match self.check(heartbeat) {
+                Err(StartupError::Commands { .. }) if !last => Ok(Step::Wait),
+                Err(error) => Err(error),
+                Ok(()) if self.stage == Stage::Tested => Ok(Step::Ready(Command::ENABLE)),
+                Ok(()) => Ok(self.first_line()),
+            },
+            Stage::Line(line) => match self.code(heartbeat) {
+                None if !last => Ok(Step::Wait),
+                None => Err(StartupError::Line { line, fault: LineFault::Silent }),
+                Some(code) => self.line(line, code),
+            },
+        }
+    }
+
+    fn check(&self, heartbeat: &Heartbeat) -> Result<(), StartupError> {
+        let sent = (self.before, self.sent);
+        check(heartbeat, self.profile, self.output.as_ref(), self.calibration, sent)
+    }
+
+    /// The code of the line that is tested, once the board has taken the command for that.
+    fn code(&self, heartbeat: &Heartbeat) -> Option<u64> {
+        let expected = (usize::from(self.before) + self.sent) % 16;
+        let taken = usize::from(heartbeat.status.commands) == expected;
+        heartbeat.line_code().filter(|_| taken && !heartbeat.status.late)
+    }
+
+    fn first_line(&mut self) -> Step {
+        let words = [READ_ID, FIXED_CODES, CONVERT].map(to_adc);
+        let commands = words.into_iter().chain([test_of(0)]).collect();
+        self.stage = Stage::Line(0);
+        Step::Send(self.sending(commands))
+    }
+
+    /// Judges a line, and goes on to the next.
+    fn line(&mut self, line: u8, code: u64) -> Result<Step, StartupError> {
+        let bits = self.profile.formats.adc.width;
+        let code = code & ((1 << bits) - 1);
+        let refused = |fault| Err(StartupError::Line { line, fault });
+        if code == (1 << bits) - 1 {
+            return refused(LineFault::Ones);
+        }
+        if let Some(other) = self.codes.iter().position(|before| *before == code) {
+            return refused(LineFault::Shorted { other: other as u8, code });
+        }
+        self.codes.push(code);
+        let commands = if self.codes.len() < self.profile.channels() {
+            self.stage = Stage::Line(line + 1);
+            vec![test_of(line + 1)]
+        } else {
+            self.stage = Stage::Tested;
+            let words = [READ_ID, SAMPLES, READ_ID, CONVERT].map(to_adc);
+            [Command::DISABLE].into_iter().chain(words).collect()
+        };
+        Ok(Step::Send(self.sending(commands)))
+    }
+
+    fn sending(&mut self, commands: Vec<Command>) -> Vec<Command> {
+        self.sent += commands.len();
+        self.waited = 0;
+        commands
+    }
+}
+
+fn to_adc(word: i64) -> Command {
+    Command::Register(Register::Adc, word)
+}
+
+/// The command that tests a line.
+fn test_of(line: u8) -> Command {
+    let code = 1 << Control::LINE_TEST | i64::from(line) << Control::LINE;
+    Command::Register(Register::Control, code)
+}

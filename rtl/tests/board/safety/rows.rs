@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The rows of the drive safety table, one by one: each prints its largest voltage and its time.
+
+use super::rig::{AT_ONCE, Pad, Rig, tuning};
+use hapticore_contract::control::{Law, Tuning};
+use hapticore_host::{Command, drive, encode};
+
+const TARGET_N: f64 = 0.5;
+const RAIL: f64 = 0.6;
+/// So small that a word from before would be seen.
+const SLEW: f64 = 0.05;
+const LAWS: [Law; 3] = [Law::Open, Law::Inverse, Law::Integral];
+
+/// Prints a row; clocks are those of a board at 25 MHz.
+fn row(name: &str, law: Law, rig: &Rig, clocks: u64) {
+    let watch = &rig.watch;
+    let us = |clocks: u64| clocks as f64 / 25.0;
+    println!(
+        "{name}, {}: at most {:.1} V, {:.1} µs behind the event; 0 V after {:.1} µs",
+        law.name(),
+        watch.largest_v,
+        us(watch.largest_at),
+        us(clocks)
+    );
+}
+
+/// A loop that drives all pads.
+fn driving(law: Law) -> Rig {
+    let mut rig = Rig::new(law);
+    rig.start(&tuned(&rig), TARGET_N, true);
+    frames(&mut rig, 16);
+    assert!(rig.watch.now.iter().all(|now| *now > 0.1), "{law:?}: {:?}", rig.watch.now);
+    assert!(rig.is_live() && !rig.driven().faults.any(), "{law:?}: {:?}", rig.driven());
+    rig
+}
+
+fn tuned(rig: &Rig) -> Tuning {
+    tuning(&rig.profile, RAIL, SLEW)
+}
+
+/// Frames of a host that is alive.
+fn frames(rig: &mut Rig, count: u64) {
+    for _ in 0..count {
+        rig.targets(TARGET_N);
+        rig.frames(1);
+    }
+}
+
+#[test]
+fn power_up_drives_nothing() {
+    for law in LAWS {
+        let mut rig = Rig::new(law);
+        rig.frames(6);
+        assert!(rig.is_zero() && !rig.is_live() && rig.dac.pins.dac_polarity == 0, "{law:?}");
+        rig.send(&[Command::ENABLE]);
+        rig.frames(6);
+        assert!(rig.is_zero(), "{law:?}: enabled, and nothing was set");
+        row("power-up", law, &rig, 0);
+        assert_eq!(rig.watch.largest_v, 0.0);
+    }
+}
+
+#[test]
+fn a_reset_in_every_phase_clears_the_drive_and_enable_alone_drives_nothing() {
+    for law in LAWS {
+        let running = driving(law);
+        let (phases, mut longest) = (12, 0);
+        for phase in 0..phases {
+            let mut rig = running.clone();
+            rig.run(phase * (rig.frame_clocks() / phases + 7));
+            rig.reset(260);
+            longest = longest.max(rig.until_zero(AT_ONCE));
+            rig.mark();
+            rig.send(&[Command::ENABLE]);
+            rig.frames(2);
+            assert_eq!(rig.watch.largest_v, 0.0, "{law:?}, phase {phase}: enabled alone");
+            rig.send(&[Command::DISABLE]);
+            rig.prepare(false);
+            rig.send(&[Command::ENABLE]);
+            rig.frames(3);
+            assert_eq!(rig.watch.largest_v, 0.0, "{law:?}, phase {phase}: settings never sent");
+            // From zero within slew, as the rig sees to; and it does drive.
+            rig.send(&[Command::DISABLE]);
+            rig.targets(TARGET_N);
+            rig.tune(&tuned(&rig));
+            rig.send(&[Command::ENABLE]);
+            frames(&mut rig, 4);
+            assert!(rig.watch.largest_v > 0.0, "{law:?}, phase {phase}: it drives again");
+            if phase + 1 == phases {
+                row("reset", law, &rig, longest);
+            }
+        }
+    }
+}
+
+#[test]
+fn disable_clears_the_drive_and_enable_begins_from_zero() {
+    for law in LAWS {
+        let mut rig = driving(law);
+        rig.send(&[Command::DISABLE]);
+        assert!(!rig.is_live(), "{law:?}");
+        let clocks = rig.until_zero(AT_ONCE);
+        rig.frames(1);
+        rig.mark();
+        rig.send(&[Command::ENABLE]);
+        frames(&mut rig, 2);
+        // Two frames: twice the slew at most.
+        assert!(rig.watch.largest_v <= 500.0 * 3.0 * SLEW, "{law:?}: {}", rig.watch.largest_v);
+        frames(&mut rig, 16);
+        assert!(rig.watch.now.iter().all(|now| *now > 0.1), "{law:?}: {:?}", rig.watch.now);
+        row("disable, enable", law, &rig, clocks);
+    }
+}
+
+#[test]
+fn settings_that_were_never_sent_drive_nothing() {
+    for law in LAWS {
+        let mut rig = Rig::new(law);
+        rig.prepare(true);
+        rig.targets(TARGET_N);
+        rig.send(&[Command::ENABLE]);
+        frames(&mut rig, 12);
+        row("settings never sent", law, &rig, 0);
+        assert_eq!(rig.watch.largest_v, 0.0, "{law:?}");
+    }
+}
+
+#[test]
+fn settings_that_are_garbled_are_refused() {
+    for law in LAWS {
+        let mut rig = Rig::new(law);
+        rig.prepare(true);
+        let commands = drive::tune(&rig.profile, &tuned(&rig)).expect("a controller");
+        for (number, command) in commands.iter().enumerate() {
+            let mut bytes = encode(&[*command], &rig.profile);
+            let at = 2 + number % (bytes.len() - 3);
+            // No zero byte, which would end the command early: that is a damaged command as well.
+            bytes[at] ^= if bytes[at] == 0x40 { 0x80 } else { 0x40 };
+            rig.send_bytes(bytes);
+        }
+        rig.targets(TARGET_N);
+        rig.send(&[Command::ENABLE]);
+        frames(&mut rig, 12);
+        row("settings garbled", law, &rig, 0);
+        assert_eq!(rig.watch.largest_v, 0.0, "{law:?}");
+    }
+}
+
+#[test]
+fn a_host_that_falls_silent_leaves_no_voltage() {
+    for law in LAWS {
+        let mut rig = driving(law);
+        rig.mark();
+        let most = 25_000_000 / 10 + rig.frame_clocks() + AT_ONCE;
+        let clocks = rig.until_zero(most);
+        assert!(!rig.is_live(), "{law:?}");
+        rig.frames(2);
+        assert!(rig.driven().faults.silence, "{law:?}: and it is said");
+        row("host dead", law, &rig, clocks);
+    }
+}
+
+#[test]
+fn a_force_beyond_the_cap_takes_the_drive_away_within_a_frame() {
+    for law in LAWS {
+        let mut rig = driving(law);
+        rig.mark();
+        let cap = Tuning { force_cap: 0.001, ..tuned(&rig) };
+        rig.tune(&cap);
+        let clocks = rig.until_zero(2 * rig.frame_clocks() + AT_ONCE);
+        frames(&mut rig, 4);
+        assert!(rig.is_zero() && !rig.is_live() && rig.driven().faults.force, "{law:?}: it stays");
+        row("force cap", law, &rig, clocks);
+        rig.tune(&tuned(&rig));
+        frames(&mut rig, 16);
+        assert!(rig.is_live() && !rig.is_zero(), "{law:?}: until it is cleared");
+    }
+}
+
+#[test]
+fn a_broken_line_of_the_adc_takes_the_drive_away() {
+    for law in LAWS {
+        let running = driving(law);
+        let invalid = running.profile.control.as_ref().expect("a controller").invalid_frames;
+        let mut longest = 0;
+        // Terminals and the sensing voltage; the haptic voltage is in no estimate of a law but integral.
+        for line in 0..running.profile.channels() - 1 {
+            let mut rig = running.clone();
+            rig.adc.broken = Some((line, line as i64 % 2));
+            rig.mark();
+            let mut clocks = 0;
+            while !rig.is_zero() {
+                assert!(clocks <= (invalid + 2) * rig.frame_clocks() + AT_ONCE, "line {line}");
+                rig.targets(TARGET_N);
+                rig.run(1_000);
+                clocks += 1_000;
+            }
+            longest = longest.max(clocks);
+            frames(&mut rig, 2);
+            let said = rig.packets.last().is_some_and(|packet| packet.frame.flags.lost);
+            let fault = rig.driven().faults.sensor;
+            assert!(said || fault, "{law:?}, line {line}: and it is said");
+            assert!(!rig.is_live(), "{law:?}, line {line}");
+            if line == 0 {
+                row("ADC line broken", law, &rig, longest);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_broken_line_of_the_haptic_voltage_drives_no_more_than_the_rail() {
+    for law in LAWS {
+        let mut rig = driving(law);
+        rig.adc.broken = Some((rig.profile.channels() - 1, 0));
+        rig.mark();
+        frames(&mut rig, 40);
+        row("haptic line broken", law, &rig, 0);
+        assert!(rig.watch.largest_v <= 500.0 * RAIL + 0.1, "{law:?}: {}", rig.watch.largest_v);
+    }
+}
+
+#[test]
+fn a_pad_that_is_lifted_is_not_driven_and_begins_from_zero_when_it_is_put_back() {
+    for law in LAWS {
+        let mut rig = driving(law);
+        rig.pads[1] = Pad { share: 0.004 };
+        rig.mark();
+        let mut clocks = 0;
+        while rig.watch.now[1] != 0.0 {
+            assert!(clocks <= 3 * rig.frame_clocks(), "{law:?}: {:?}", rig.watch.now);
+            rig.targets(TARGET_N);
+            rig.run(1_000);
+            clocks += 1_000;
+        }
+        frames(&mut rig, 6);
+        assert_eq!(rig.watch.now[1], 0.0, "{law:?}: a free pad");
+        assert!(rig.watch.now[0] > 0.1 && rig.watch.now[2] > 0.1, "{law:?}: the others go on");
+        assert!(!rig.driven().faults.any(), "{law:?}: it is no fault");
+        // Put back: a 64th of full scale per frame.
+        rig.pads[1] = Pad { share: 1.4 };
+        frames(&mut rig, 4);
+        assert!(rig.watch.now[1] <= 5.0 / 64.0 + 0.001, "{law:?}: {:?}", rig.watch.now);
+        frames(&mut rig, 24);
+        assert!(rig.watch.now[1] > 0.05, "{law:?}: {:?}", rig.watch.now);
+        row("pad lifted, put back", law, &rig, clocks);
+    }
+}
