@@ -15,8 +15,7 @@ use hapticore_run::findings::{self, Findings};
 use hapticore_run::record::{Effect, ForceLawErrors, Provenance, Record, Row, Rows};
 use hapticore_run::{errors, haptic, inputs, interrupt};
 use hapticore_scene::{
-    ControlLaw, ControlPlan, DriveCurve, Figure, HapticWave, LevelDeviation, Quantity,
-    Record as Wanted, Scene, Timing,
+    ControlPlan, Figure, HapticWave, LevelDeviation, Quantity, Record as Wanted, Scene, Timing,
 };
 use hapticore_waveforms::kind::Kind;
 use rayon::prelude::*;
@@ -358,9 +357,7 @@ fn findings(scene: &Scene, cases: &[Case], rows: &[Vec<Row>]) -> Findings {
 
 /// The gains of each case whose law or curve has any.
 fn gains(cases: &[Case]) -> Result<BTreeMap<String, Gains>> {
-    let has_any =
-        |plan: &&ControlPlan| plan.law != ControlLaw::Inverse || plan.curve != DriveCurve::Steady;
-    let with_any = cases.iter().filter(|case| case.plan().filter(has_any).is_some());
+    let with_any = cases.iter().filter(|case| case.plan().is_some_and(ControlPlan::has_gains));
     with_any.map(|case| anyhow::Ok((case.name().to_string(), case.gains()?))).collect()
 }
 

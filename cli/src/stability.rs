@@ -9,7 +9,7 @@ use hapticore_run::case::{Case, Settings};
 use hapticore_run::control::bode;
 use hapticore_run::control::stability::{LEAST_PHASE_DEG, OpenLoop, step};
 use hapticore_run::record::{Bode, Stability, Step};
-use hapticore_scene::{ControlLaw, DriveCurve};
+use hapticore_scene::ControlPlan;
 use rayon::prelude::*;
 
 use crate::print::number;
@@ -82,9 +82,7 @@ impl<'a> Look<'a> {
 impl PartialEq for Look<'_> {
     fn eq(&self, other: &Self) -> bool {
         let [a, b] = [self, other].map(|look| &look.case.scene.cases[look.case.index]);
-        let has_gains = a.control.as_ref().is_some_and(|plan| {
-            plan.law != ControlLaw::Inverse || plan.curve != DriveCurve::Steady
-        });
+        let has_gains = a.control.as_ref().is_some_and(ControlPlan::has_gains);
         self.force_n == other.force_n
             && a.control == b.control
             && a.differs_in_targets_alone(b)

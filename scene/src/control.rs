@@ -127,6 +127,11 @@ pub struct ControlPlan {
 }
 
 impl ControlPlan {
+    /// Whether its law or its curve has gains, given or computed.
+    pub fn has_gains(&self) -> bool {
+        self.law != ControlLaw::Inverse || self.curve != DriveCurve::Steady
+    }
+
     /// The table, where there is one.
     pub(crate) fn read(root: &Table) -> Result<Option<ControlPlan>, SceneError> {
         let Some(table) = root.table("control")? else { return Ok(None) };

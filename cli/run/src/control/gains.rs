@@ -10,7 +10,7 @@
 //! The margins are those of `stability`: of the gap that moves, the frame and the delay of this profile. A step
 //! shows what they cannot: pull-in is no small signal.
 
-use anyhow::{Result, ensure};
+use anyhow::{Context, Result, ensure};
 use hapticore_scene::{ControlLaw, ControlPlan, DriveCurve, Plant};
 use serde::Serialize;
 
@@ -119,7 +119,12 @@ fn computed(
         })
     };
     let tried = (0..TRIED).map(|n| 2.0 * first * 0.5f64.powf(0.5 * f64::from(n)));
-    let mut gain = tried.into_iter().find(has_margins).unwrap_or_default();
+    let mut gain = tried.into_iter().find(has_margins).with_context(|| {
+        format!(
+            "control.law: no gain has margins of {GAIN_MARGIN} and {PHASE_MARGIN_DEG}° about {forces_n:?} N; give \
+             control.proportional_v or control.integral_v"
+        )
+    })?;
     for _ in 0..HALVED {
         let tuning = of_gains(case, plan, plant, (&with(gain), steady))?;
         let settles = |force_n: &f64| -> Result<bool> {
