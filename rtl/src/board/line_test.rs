@@ -37,7 +37,7 @@ block! {
     submodules {}
     inputs(block) {
         /// Asserted for one cycle before a test may begin: the control register is written.
-        begin: BIT,
+        start: BIT,
         /// There is a test.
         enable: BIT,
         /// Its line.
@@ -85,7 +85,7 @@ impl Block for LineTest {
         let ends = takes & is_last;
         let judged = differs.select(zero(self.code), r.first);
         let running = Registers {
-            began: i.begin,
+            began: i.start,
             count: takes.select(next(r.count), r.count),
             first: (takes & is_first).select(i.code, r.first),
             differs,

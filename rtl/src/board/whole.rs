@@ -386,7 +386,7 @@ impl Block for Board {
         let pads = call!(self.pads, state, inputs);
         let number = adc.address.bits(0, self.adc_reader.index().width);
         let inputs = line_test::Inputs {
-            begin: registers.controlled,
+            start: registers.controlled,
             enable: registers.line_test,
             line: registers.line,
             store: adc.store,
