@@ -9,11 +9,13 @@ use anyhow::{Result, ensure};
 use hapticore_contract::profile::Profile;
 use hapticore_run::capture::{self, Adc, Recorder};
 use hapticore_run::case::{Case, Outcome, Settings};
+use hapticore_run::control::Gains;
 use hapticore_run::criteria::{self, CaseRows};
+use hapticore_run::findings::{self, Findings};
 use hapticore_run::record::{Effect, ForceLawErrors, Provenance, Record, Row, Rows};
 use hapticore_run::{errors, haptic, inputs, interrupt};
 use hapticore_scene::{
-    Figure, HapticWave, LevelDeviation, Quantity, Record as Wanted, Scene, Timing,
+    ControlPlan, Figure, HapticWave, LevelDeviation, Quantity, Record as Wanted, Scene, Timing,
 };
 use hapticore_waveforms::kind::Kind;
 use rayon::prelude::*;
@@ -63,6 +65,7 @@ fn write(
     let (mut record, recorder) = simulate(args, scene, &cases, recorder)?;
     record.warnings.extend(stability::warnings(&stability));
     record.stability = stability;
+    record.gains = gains(&cases)?;
     if let Some(force_n) = args.bode {
         record.bode = stability::measure(&cases, &settings(args), force_n)?;
         output.write("bode.csv", stability::csv(&record.bode))?;
@@ -232,6 +235,8 @@ fn simulate(
     record.fidelity = args.core.fidelity().name().into();
     record.provenance = Provenance::of_scene(scene, &args.set);
     record.warnings.extend(haptic_warning(&record, cases));
+    record.warnings.extend(doubts(scene, cases));
+    record.warnings.extend(findings::warnings(&record.findings));
     let warned =
         record.position_table.and_then(|residual| residual.warning(position_limit_mm(scene)));
     record.warnings.extend(warned);
@@ -285,6 +290,7 @@ fn gather(scene: &Scene, cases: &[Case], outcomes: Vec<Outcome>) -> Record {
         errors::merge(&mut signal_errors, outcome.errors);
         all.push(outcome.rows);
     }
+    let findings = findings(scene, cases, &all);
     let rows = Rows::of_cases(all);
     let device = &scene.cases[cases[0].index].device;
     Record {
@@ -302,16 +308,58 @@ fn gather(scene: &Scene, cases: &[Case], outcomes: Vec<Outcome>) -> Record {
         errors: signal_errors,
         simulated_seconds: cases.iter().map(Case::seconds).sum(),
         wall_seconds: 0.0,
+        findings,
         warnings: Vec::new(),
         position_table: None,
         sheet_mm: Some([device.width_mm, device.height_mm]),
         swept: swept(scene, cases),
         laws: laws(scene, cases),
+        gains: BTreeMap::new(),
         stability: BTreeMap::new(),
         bode: Vec::new(),
         provenance: Provenance::default(),
         rows,
     }
+}
+
+/// What the scene makes mean less than it seems to, once for all cases.
+fn doubts(scene: &Scene, cases: &[Case]) -> Vec<String> {
+    let mut all: Vec<String> = Vec::new();
+    for doubt in cases.iter().flat_map(|case| &scene.cases[case.index].doubts) {
+        if !all.contains(doubt) {
+            all.push(doubt.clone());
+        }
+    }
+    all
+}
+
+/// What the rows of each case leave to be known.
+fn findings(scene: &Scene, cases: &[Case], rows: &[Vec<Row>]) -> Findings {
+    let mut findings = Findings::default();
+    for (case, rows) in cases.iter().zip(rows) {
+        let of = &scene.cases[case.index];
+        let pads = of.served_names();
+        findings.add_flags(case.name(), &pads, rows);
+        let wall = of.control.as_ref().and_then(|plan| plan.wall.as_ref());
+        let parts_mm = of.parts_mm();
+        findings.add_tracking(findings::of_drives(
+            (case.name(), &pads),
+            rows,
+            (case.start_s(), parts_mm),
+            wall,
+        ));
+        let changed = of.changed_since_calibration();
+        if !changed.is_empty() {
+            findings.changed.insert(case.name().to_string(), changed);
+        }
+    }
+    findings
+}
+
+/// The gains of each case whose law or curve has any.
+fn gains(cases: &[Case]) -> Result<BTreeMap<String, Gains>> {
+    let with_any = cases.iter().filter(|case| case.plan().is_some_and(ControlPlan::has_gains));
+    with_any.map(|case| anyhow::Ok((case.name().to_string(), case.gains()?))).collect()
 }
 
 /// The law of each case that has a controller.

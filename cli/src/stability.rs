@@ -7,14 +7,18 @@ use std::fmt::Write as _;
 use anyhow::{Result, bail, ensure};
 use hapticore_run::case::{Case, Settings};
 use hapticore_run::control::bode;
-use hapticore_run::control::stability::{LEAST_PHASE_DEG, OpenLoop};
-use hapticore_run::record::{Bode, Stability};
+use hapticore_run::control::stability::{LEAST_PHASE_DEG, OpenLoop, step};
+use hapticore_run::record::{Bode, Stability, Step};
+use hapticore_scene::ControlPlan;
 use rayon::prelude::*;
 
 use crate::print::number;
 
 /// Parts of the largest target at which a loop is looked at.
 const PARTS: [f64; 2] = [0.5, 1.0];
+
+/// The most that a step may overshoot without a warning.
+const MOST_OVERSHOOT_PERCENT: f64 = 30.0;
 
 /// How stable the loop of each case is, where it has one: at the force where its margins are least.
 ///
@@ -30,12 +34,15 @@ pub fn of_cases(cases: &[Case], unstable: bool) -> Result<BTreeMap<String, Stabi
     }
     let margins = predicted(&once)?;
     let seen = |look: &Look| margins[once.iter().position(|other| other == look)?];
-    let worst = |(case, looks): (&Case, &Vec<Look>)| {
-        let worst = looks.iter().filter_map(seen).min_by(|a, b| room(a).total_cmp(&room(b)))?;
-        Some((case.name().to_string(), worst))
+    let worst = |room: fn(&Stability) -> f64| -> BTreeMap<String, Stability> {
+        let worst = |(case, looks): (&Case, &Vec<Look>)| {
+            let worst = looks.iter().filter_map(seen).min_by(|a, b| room(a).total_cmp(&room(b)))?;
+            Some((case.name().to_string(), worst))
+        };
+        cases.iter().zip(&looks).filter_map(worst).collect()
     };
-    let found: BTreeMap<_, _> = cases.iter().zip(&looks).filter_map(worst).collect();
-    let refused = found.iter().find(|(_, margins)| !margins.stable() && !unstable);
+    let linear = worst(linear_room);
+    let refused = linear.iter().find(|(_, margins)| !margins.stable() && !unstable);
     if let Some((name, margins)) = refused {
         bail!(
             "control: expected a stable loop, got a gain margin of {} at {} N in case \"{name}\"; \
@@ -44,7 +51,7 @@ pub fn of_cases(cases: &[Case], unstable: bool) -> Result<BTreeMap<String, Stabi
             margins.force_n
         );
     }
-    Ok(found)
+    Ok(worst(room))
 }
 
 /// A look at a loop at a force.
@@ -52,6 +59,8 @@ pub fn of_cases(cases: &[Case], unstable: bool) -> Result<BTreeMap<String, Stabi
 struct Look<'a> {
     case: &'a Case<'a>,
     force_n: f64,
+    /// The largest target of the case, from which gains follow that the scene leaves out.
+    most_n: f64,
 }
 
 impl<'a> Look<'a> {
@@ -59,20 +68,25 @@ impl<'a> Look<'a> {
     fn of(case: &'a Case<'a>) -> Result<Vec<Self>> {
         let most_n = case.plant()?.largest_targets_n().into_iter().fold(0.0, f64::max);
         let forces_n = PARTS.map(|part| part * most_n).into_iter().filter(|force_n| *force_n > 0.0);
-        Ok(forces_n.map(|force_n| Look { case, force_n }).collect())
+        Ok(forces_n.map(|force_n| Look { case, force_n, most_n }).collect())
     }
 
     fn margins(&self) -> Result<Option<Stability>> {
-        let open = OpenLoop::of(self.case, self.force_n)?;
-        Ok(open.map(|open| open.margins(self.force_n)))
+        let Some(open) = OpenLoop::of(self.case, self.force_n)? else { return Ok(None) };
+        let step = step(self.case, self.force_n)?;
+        Ok(Some(Stability { step, ..open.margins(self.force_n) }))
     }
 }
 
-/// Cases that differ in the course of their targets alone have one loop.
+/// Cases that differ in the course of their targets alone have one loop, where no gain follows from them.
 impl PartialEq for Look<'_> {
     fn eq(&self, other: &Self) -> bool {
         let [a, b] = [self, other].map(|look| &look.case.scene.cases[look.case.index]);
-        self.force_n == other.force_n && a.control == b.control && a.differs_in_targets_alone(b)
+        let has_gains = a.control.as_ref().is_some_and(ControlPlan::has_gains);
+        self.force_n == other.force_n
+            && a.control == b.control
+            && a.differs_in_targets_alone(b)
+            && (!has_gains || self.most_n == other.most_n)
     }
 }
 
@@ -84,25 +98,53 @@ fn predicted(looks: &[Look]) -> Result<Vec<Option<Stability>>> {
     rayon::join(calibrate, predict).1
 }
 
-/// How far a loop is from the limit: its gain margin, or its phase margin over 60°.
-fn room(margins: &Stability) -> f64 {
+/// How far a loop is from instability: the smaller of both margins, 60° taken as much as a factor of two.
+fn linear_room(margins: &Stability) -> f64 {
     let phase = margins.phase_margin_deg.map_or(f64::INFINITY, |margin| margin / 60.0);
     margins.gain_margin.unwrap_or(f64::INFINITY).min(1.0 + phase)
 }
 
-/// What is to be said of loops with little phase margin.
+/// The same, where a loop whose step does not settle has less than any other.
+fn room(margins: &Stability) -> f64 {
+    let settles = margins.step.as_ref().is_none_or(Step::settles);
+    if settles { linear_room(margins) } else { f64::NEG_INFINITY }
+}
+
+/// What of the margins their user must know: a phase margin too small, or a step that shows what no margin can.
 pub fn warnings(stability: &BTreeMap<String, Stability>) -> Vec<String> {
-    let warning = |(name, of): (&String, &Stability)| {
-        let margin = of.phase_margin_deg.filter(|margin| *margin < LEAST_PHASE_DEG)?;
-        let least = number(LEAST_PHASE_DEG);
-        Some(format!(
-            "control: the loop of case \"{name}\" is predicted to have a phase margin of {}° at {} N, \
-             less than {least}°",
-            number(margin),
-            of.force_n
-        ))
+    stability
+        .iter()
+        .flat_map(|(name, of)| [margin(name, of), stepped(name, of)])
+        .flatten()
+        .collect()
+}
+
+fn margin(name: &str, of: &Stability) -> Option<String> {
+    let margin = of.phase_margin_deg.filter(|margin| *margin < LEAST_PHASE_DEG)?;
+    let least = number(LEAST_PHASE_DEG);
+    Some(format!(
+        "control: the loop of case \"{name}\" is predicted to have a phase margin of {}° at {} N, \
+         less than {least}°",
+        number(margin),
+        of.force_n
+    ))
+}
+
+fn stepped(name: &str, of: &Stability) -> Option<String> {
+    let step = of.step.as_ref()?;
+    let what = if !step.settles() {
+        let swing_n = 0.01 * step.swing_percent * of.force_n;
+        format!("does not settle: the force swings over {} N", number(swing_n))
+    } else if step.overshoot_percent > MOST_OVERSHOOT_PERCENT {
+        format!("overshoots by {} %", number(step.overshoot_percent))
+    } else {
+        return None;
     };
-    stability.iter().filter_map(warning).collect()
+    Some(format!(
+        "control: a simulated step of case \"{name}\" to {} N {what}; linear margins do not show it; lower gains, or \
+         a moving gap (gap.rung)",
+        of.force_n
+    ))
 }
 
 /// Measures the loop of each case with a target about a force.

@@ -41,7 +41,7 @@ pub fn write(output: &Output, cases: &[Case]) -> Result<()> {
         Ok(Some(of + &toml::to_string(&*case.profile)?))
     };
     let tuning =
-        |case: &Case| case.tuned().map(|tuning| TuningFile::of(tuning).text(&of(case))).transpose();
+        |case: &Case| case.ran_with().map(|tuning| TuningFile::of(tuning).text(&of(case))).transpose();
     write_each(output, cases, PROFILE, profile)?;
     write_each(output, cases, tuning_file::NAME, tuning)
 }

@@ -151,7 +151,7 @@ pub enum StartupError {
         got: u64,
     },
     /// The ADC is none, or another.
-    #[error("the ADC's ID is {0:02x} (hex), expected 2x or 3x, an AD7606C")]
+    #[error("the ADC's ID is {0:02x} (hex) at dout[0] (DOUTA), expected 2x or 3x, an AD7606C")]
     Adc(u8),
 }
 
@@ -176,7 +176,7 @@ pub enum LineFault {
 
 /// Whether a board that has been sent so many commands, [`prepare`]'s first, may be enabled, `before` which it had
 /// accepted so many commands modulo 16 (none after its own reset). `output` is what it is to drive its pads with, where it
-/// has a drive. The ADC's lines are not tested: see [`Startup`].
+/// has a drive. The ADC's lines are not tested: see [`BringUp`](crate::bringup::BringUp).
 ///
 /// # Errors
 /// The first thing that is not as it should be.

@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use crate::control::ControlPlan;
 use crate::device::Device;
+use crate::doubts;
 use crate::effects::{EFFECTS, SPLITTING, Spec, carrier, part};
 use crate::error::SceneError;
 use crate::format::{Limits, Node, Table, Value};
@@ -73,6 +74,8 @@ pub struct Case {
     /// What the host knows of the device, where it takes out of measurements what other pads did to
     /// them: the effects that split a current, on a film that is even.
     pub(crate) nominal: Option<Vec<Spec>>,
+    /// What its user must know before using the results, a sentence each, which begins with the key that is the cause.
+    pub doubts: Vec<String>,
     /// The case as it was when the device was calibrated, where that is not as it is now.
     pub(crate) calibrated: Option<Box<Case>>,
 }
@@ -105,6 +108,11 @@ impl Case {
     /// The parts of each pad that have slots of their own; one where it is served as a whole.
     pub fn parts(&self) -> usize {
         self.parts_mm.len()
+    }
+
+    /// Where they lie, mm right of the pad's centre and above it.
+    pub fn parts_mm(&self) -> &[[f64; 2]] {
+        &self.parts_mm
     }
 
     /// What a core serves, slot after slot: the pads, or the parts of each.
@@ -173,6 +181,27 @@ impl Case {
         self.of_device == other.of_device
             && self.pads.len() == other.pads.len()
             && self.effects() == other.effects()
+    }
+
+    /// What of the device has changed since it was calibrated: `gap.insulator_um: 16 → 20.8`, with `default` where the
+    /// scene says nothing.
+    ///
+    /// ```
+    /// use hapticore_scene::Scene;
+    ///
+    /// let text = "title = \"t\"\n[[pad]]\nposition_mm = [0, 0]\n[device]\nmu = 0.3\n\
+    ///             [calibration]\nset = { \"device.mu\" = 0.12 }\n";
+    /// let case = &Scene::parse(text, "worn.toml", &[])?.cases[0];
+    /// assert_eq!(case.changed_since_calibration(), ["device.mu: 0.12 → 0.3"]);
+    /// # Ok::<(), hapticore_scene::SceneError>(())
+    /// ```
+    pub fn changed_since_calibration(&self) -> Vec<String> {
+        let Some(then) = &self.calibrated else { return Vec::new() };
+        let mut now = (*self.of_device).clone();
+        now.remove("calibration");
+        let mut changes = Vec::new();
+        differences("", &now.into(), &(*then.of_device).clone().into(), &mut changes);
+        changes
     }
 
     /// Whether the pads do the same on the same device, but for the forces that a controller shall give them.
@@ -252,6 +281,7 @@ impl Case {
         }
         let nominal = if cancels_crosstalk { Some(nominal(root, &device)?) } else { None };
         let length = Length::read(root, &pads)?;
+        let doubts = doubts::of_scene(root, &effects, control.as_ref(), &pads)?;
         Ok(Case {
             name: name.to_string(),
             document: document(root, name),
@@ -265,6 +295,7 @@ impl Case {
             effects,
             budget_percent,
             nominal,
+            doubts,
             calibrated: None,
         })
     }
@@ -281,6 +312,25 @@ fn document(root: &Table, name: &str) -> String {
         });
     }
     alone.to_toml().to_string()
+}
+
+/// Adds the keys by which two values differ.
+fn differences(key: &str, now: &toml::Value, then: &toml::Value, changes: &mut Vec<String>) {
+    if let (toml::Value::Table(now), toml::Value::Table(then)) = (now, then) {
+        let others = then.keys().filter(|key| !now.contains_key(*key));
+        for name in now.keys().chain(others) {
+            let none = toml::Value::from("default");
+            let [now, then] = [now, then].map(|table| table.get(name).unwrap_or(&none));
+            let dotted = if key.is_empty() { name.clone() } else { format!("{key}.{name}") };
+            differences(&dotted, now, then, changes);
+        }
+    } else if now != then {
+        let text = |value: &toml::Value| match value {
+            toml::Value::String(text) => text.clone(),
+            other => other.to_string(),
+        };
+        changes.push(format!("{key}: {} → {}", text(then), text(now)));
+    }
 }
 
 /// What the scene says of its device.

@@ -76,6 +76,12 @@ const CURVES: [(&str, DriveCurve); 3] = [
     ("steady", DriveCurve::Steady),
 ];
 
+/// What a curve, a full scale or a cap may be.
+const LIMITS: Limits = Limits::within(1e-6, 1e6);
+
+/// α where the gain follows from the device: a correction without a filter swings at once.
+const FILTER: f64 = 0.2;
+
 /// A force controller as a scene asks for it.
 ///
 /// ```
@@ -84,7 +90,7 @@ const CURVES: [(&str, DriveCurve); 3] = [
 /// let text = "title = \"t\"\nduration_s = 1\n[control]\nrail_v = 400\n\
 ///             [[pad]]\nposition_mm = [0, 0]\ntarget_n = 0.3\n";
 /// let control = Scene::parse(text, "t.toml", &[])?.cases[0].control.clone().unwrap();
-/// assert_eq!((control.law, control.rail_v, control.feed_forward_v), (ControlLaw::Inverse, 400.0, 600.0));
+/// assert_eq!((control.law, control.rail_v, control.feed_forward_v), (ControlLaw::Inverse, 400.0, None));
 /// # Ok::<(), hapticore_scene::SceneError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
@@ -100,14 +106,14 @@ pub struct ControlPlan {
     pub curve_factor: f64,
     /// Load at which the steady curve is measured, g.
     pub nominal_load_g: f64,
-    /// K of eq. 9, V/√N; of a linear curve, V/N.
-    pub feed_forward_v: f64,
-    /// Gain of the error: V/N with `proportional`, V/√N with `integral`.
-    pub proportional_v: f64,
+    /// K of eq. 9, V/√N; of a linear curve, V/N. None where it follows from the device's steady curve.
+    pub feed_forward_v: Option<f64>,
+    /// Gain of the error: V/N with `proportional`, V/√N with `integral`. None where it follows from device and profile.
+    pub proportional_v: Option<f64>,
     /// α, the share of the correction that a frame takes on.
     pub filter: f64,
-    /// Integral gain, V/(√N·s).
-    pub integral_v: f64,
+    /// Integral gain, V/(√N·s). None where it follows from device and profile.
+    pub integral_v: Option<f64>,
     /// The drive's full scale, V rms.
     pub full_scale_v: f64,
     /// The largest drive, V rms.
@@ -121,25 +127,34 @@ pub struct ControlPlan {
 }
 
 impl ControlPlan {
+    /// Whether its law or its curve has gains, given or computed.
+    pub fn has_gains(&self) -> bool {
+        self.law != ControlLaw::Inverse || self.curve != DriveCurve::Steady
+    }
+
     /// The table, where there is one.
     pub(crate) fn read(root: &Table) -> Result<Option<ControlPlan>, SceneError> {
         let Some(table) = root.table("control")? else { return Ok(None) };
-        let number = |key, default| table.number_or(key, Limits::above(0.0, 1e6), default);
+        let number = |key, default| table.number_or(key, LIMITS, default);
         let law = table.word("law", &LAWS)?.unwrap_or(ControlLaw::Inverse);
         let inverse = law == ControlLaw::Inverse;
         let curve = if inverse { DriveCurve::Steady } else { DriveCurve::SquareRoot };
         let full_scale_v = number("full_scale_v", 500.0)?;
-        let within = Limits::above(0.0, full_scale_v);
+        let within = Limits::within(1e-6, full_scale_v);
+        let proportional_v = table.number("proportional_v", Limits::within(0.0, 1e5))?;
+        let integral_v = table.number("integral_v", Limits::within(0.0, 1e7))?;
+        let computed = proportional_v.is_none() && law == ControlLaw::Proportional;
+        let filter = if computed { FILTER } else { 1.0 };
         Ok(Some(ControlPlan {
             law,
             force: table.word("force", &FORCES)?,
             curve: table.word("curve", &CURVES)?.unwrap_or(curve),
             curve_factor: number("curve_factor", if inverse { 1.13 } else { 1.0 })?,
             nominal_load_g: table.number_or("nominal_load_g", Limits::within(0.0, 1e5), 50.0)?,
-            feed_forward_v: number("feed_forward_v", 600.0)?,
-            proportional_v: table.number_or("proportional_v", Limits::within(0.0, 1e5), 0.0)?,
-            filter: table.number_or("filter", Limits::above(0.0, 1.0), 1.0)?,
-            integral_v: table.number_or("integral_v", Limits::within(0.0, 1e7), 0.0)?,
+            feed_forward_v: table.number("feed_forward_v", LIMITS)?,
+            proportional_v,
+            filter: table.number_or("filter", Limits::above(0.0, 1.0), filter)?,
+            integral_v,
             rail_v: table.number_or("rail_v", within, full_scale_v)?,
             slew_v: table.number_or("slew_v", within, full_scale_v)?,
             force_cap_n: number("force_cap_n", 1e6)?,

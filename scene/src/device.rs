@@ -90,21 +90,31 @@ impl Device {
                 Some(table) => table.number_or(key, limits, default),
                 None => Ok(default),
             };
-        let pad_diameter_mm = number("device", "pad_diameter_mm", Limits::POSITIVE, 30.0)?;
+        let pad_diameter_mm = number("device", "pad_diameter_mm", Limits::within(0.1, 1e4), 30.0)?;
         let smallest = Limits::above(pad_diameter_mm, 1e4);
-        let mu = number("device", "mu", Limits::above(0.0, 10.0), 0.12)?;
-        let carrier_hz = number("carrier", "frequency_hz", Limits::POSITIVE, 100e3)?;
+        let mu = number("device", "mu", Limits::within(1e-4, 10.0), 0.12)?;
+        let carrier_hz = number("carrier", "frequency_hz", Limits::within(1.0, 1e9), 100e3)?;
         let pad_area_m2 = PI / 4.0 * (pad_diameter_mm * 1e-3).powi(2);
         let mut device = Device {
             terminals_mm: Vec::new(),
             current_full_scale_a: 1e-3
-                * number("sensor", "current_full_scale_ma", Limits::POSITIVE, 4.0)?,
-            sense_full_scale_v: number("sensor", "sense_full_scale_v", Limits::POSITIVE, 8.0)?,
-            haptic_full_scale_v: number("sensor", "haptic_full_scale_v", Limits::POSITIVE, 600.0)?,
-            carrier_v: number("carrier", "amplitude_v", Limits::POSITIVE, 5.0)?,
+                * number("sensor", "current_full_scale_ma", Limits::within(1e-6, 1e6), 4.0)?,
+            sense_full_scale_v: number(
+                "sensor",
+                "sense_full_scale_v",
+                Limits::within(1e-6, 1e6),
+                8.0,
+            )?,
+            haptic_full_scale_v: number(
+                "sensor",
+                "haptic_full_scale_v",
+                Limits::within(1e-3, 1e6),
+                600.0,
+            )?,
+            carrier_v: number("carrier", "amplitude_v", Limits::within(1e-6, 1e5), 5.0)?,
             carrier_hz,
             carrier_rad_s: TAU * carrier_hz,
-            haptic_hz: number("carrier", "haptic_hz", Limits::POSITIVE, 1000.0)?,
+            haptic_hz: number("carrier", "haptic_hz", Limits::within(1e-3, 1e8), 1000.0)?,
             haptic_wave: HapticWave::read(root)?,
             sample_rate_hz: f64::NAN, // the profile's, known when a plant is built
             width_mm: number("device", "width_mm", smallest, 860.0)?,
@@ -112,7 +122,12 @@ impl Device {
             pad_diameter_mm,
             pad_area_m2,
             mu,
-            gravity_m_s2: number("device", "gravity_m_s2", Limits::POSITIVE, GRAVITY_M_S2)?,
+            gravity_m_s2: number(
+                "device",
+                "gravity_m_s2",
+                Limits::within(1e-3, 1e3),
+                GRAVITY_M_S2,
+            )?,
             force_k: mu / (2.0 * EPSILON_0 * pad_area_m2),
         };
         device.terminals_mm = terminals_mm(root, [device.width_mm, device.height_mm])?;

@@ -70,6 +70,7 @@ mod case;
 mod control;
 mod criterion;
 mod device;
+mod doubts;
 mod drive;
 mod effects;
 mod error;

@@ -155,6 +155,11 @@ impl PadPlan {
         [load, haptic, capacitance, capacitance / self.capacitance_pf.points()]
     }
 
+    /// Whether anything pushes the pad off its centre, besides a hand.
+    pub fn is_pushed_off_centre(&self) -> bool {
+        self.eccentricity_mm.extremes().into_iter().any(|mm| mm != 0.0)
+    }
+
     /// The force that a controller shall give, N.
     pub fn target_n(&self, moment: Moment) -> f64 {
         self.target_n.at(0, moment)
@@ -224,7 +229,7 @@ pub(crate) fn pad_as_set(
 
 /// A push, over time only.
 fn read_push(table: &Table, key: &'static str) -> Result<Stimulus, SceneError> {
-    over_time(table, key, "a push", Stimulus::read(table, key, Limits::ANY)?)
+    over_time(table, key, "a push", Stimulus::read(table, key, Limits::within(-1e4, 1e4))?)
 }
 
 /// A stimulus that is not swept; zero where there is none.
@@ -301,6 +306,7 @@ fn still(
         haptic_v_rms,
         capacitance_f,
         attraction_n,
+        uneven: false,
         force_n: None,
         eccentricity_mm: 0.0,
         direction: 0.0,

@@ -117,7 +117,7 @@ impl Stimulus {
 
     fn read_sine(form: &Table) -> Result<Option<Stimulus>, SceneError> {
         let Some(sine) = form.table("sine")? else { return Ok(None) };
-        let frequency_hz = sine.number("frequency_hz", Limits::POSITIVE)?;
+        let frequency_hz = sine.number("frequency_hz", Limits::within(1e-6, 1e6))?;
         Ok(Some(Stimulus::Sine {
             mean: sine.number_or("mean", Limits::ANY, 0.0)?,
             amplitude: sine.require(
@@ -126,7 +126,7 @@ impl Stimulus {
                 sine.number("amplitude", Limits::ANY)?,
             )?,
             frequency_hz: sine.require("frequency_hz", "a number above 0", frequency_hz)?,
-            phase_turns: sine.number_or("phase_turns", Limits::ANY, 0.0)?,
+            phase_turns: sine.number_or("phase_turns", Limits::within(-1e6, 1e6), 0.0)?,
         }))
     }
 
@@ -186,6 +186,10 @@ impl Timeline {
     ) -> Result<Timeline, SceneError> {
         if points.windows(2).any(|pair| pair[1][0] < pair[0][0]) {
             return Err(form.error(key, "expected times that do not fall"));
+        }
+        let limits = Limits::within(-1e9, 1e9);
+        if let Some([time_s, _]) = points.iter().find(|[time_s, _]| !limits.holds(*time_s)) {
+            return Err(form.error(key, format!("expected times in s, {limits}, got {time_s}")));
         }
         Ok(Timeline::new(points))
     }

@@ -22,6 +22,9 @@ use crate::stimulus::{Moment, Timeline, next_multiple};
 
 type Point = [f64; 2];
 
+/// Where in its turn a motion may begin.
+const TURNS: Limits = Limits::within(-1e6, 1e6);
+
 /// Rounding of a trajectory that reaches just to the edge is not a pad over the edge.
 pub(crate) const SLACK_MM: f64 = 1e-9;
 
@@ -163,7 +166,8 @@ pub(crate) fn raster(nx: usize, ny: usize, margin_mm: f64, device: &Device) -> V
 
 fn read_raster(table: &Table, device: &Device) -> Result<Trajectory, SceneError> {
     let count = |key| table.require(key, "an integer", table.whole(key, 1, 1000)?);
-    let margin = table.number_or("margin_mm", Limits::POSITIVE, device.pad_diameter_mm / 2.0)?;
+    let margin =
+        table.number_or("margin_mm", Limits::within(1e-9, 1e4), device.pad_diameter_mm / 2.0)?;
     Ok(Trajectory::Points(raster(count("nx")? as usize, count("ny")? as usize, margin, device)))
 }
 
@@ -184,9 +188,9 @@ fn read_circle(table: &Table) -> Result<Trajectory, SceneError> {
     let radius = table.require(
         "radius_mm",
         "a number above 0",
-        table.number("radius_mm", Limits::POSITIVE)?,
+        table.number("radius_mm", Limits::within(1e-9, 1e4))?,
     )?;
-    let turns = table.number_or("phase_turns", Limits::ANY, 0.0)?;
+    let turns = table.number_or("phase_turns", TURNS, 0.0)?;
     Ok(Trajectory::Swing {
         centre: table.pair("centre_mm", Limits::ANY)?.unwrap_or_default(),
         amplitude: [radius; 2],
@@ -200,13 +204,17 @@ fn read_lissajous(table: &Table) -> Result<Trajectory, SceneError> {
     Ok(Trajectory::Swing {
         centre: table.pair("centre_mm", Limits::ANY)?.unwrap_or_default(),
         amplitude: pair("amplitude_mm", Limits::ANY)?,
-        frequency_hz: pair("frequency_hz", Limits::NOT_NEGATIVE)?,
-        phase_turns: table.pair("phase_turns", Limits::ANY)?.unwrap_or_default(),
+        frequency_hz: pair("frequency_hz", Limits::within(0.0, 1e6))?,
+        phase_turns: table.pair("phase_turns", TURNS)?.unwrap_or_default(),
     })
 }
 
 fn period(table: &Table) -> Result<f64, SceneError> {
-    table.require("period_s", "a number above 0", table.number("period_s", Limits::POSITIVE)?)
+    table.require(
+        "period_s",
+        "a number from 1e-6 to 1e9",
+        table.number("period_s", Limits::within(1e-6, 1e9))?,
+    )
 }
 
 #[cfg(test)]

@@ -88,7 +88,7 @@ fn unknown_key() {
 fn negative_thickness() {
     check(
         "[gap]\ninsulator_um = -8",
-        "s.toml:5: gap.insulator_um: expected a number above 0, got -8",
+        "s.toml:5: gap.insulator_um: expected a number from 0.01 to 10000, got -8",
     );
 }
 
@@ -150,7 +150,7 @@ fn sheets_that_cannot_be() {
     );
     check(
         "[[sheet.patch]]\ncentre_mm = [0, 0]\nsize_mm = [1, 0]",
-        "s.toml:6: sheet.patch.0.size_mm: expected a list, each a number above 0, got 0",
+        "s.toml:6: sheet.patch.0.size_mm: expected a list, each a number from 0.001 to 100000, got 0",
     );
     check(
         "[shunt]\nnanofarad_per_m2 = -9",
@@ -212,7 +212,7 @@ fn tables_and_keys_that_mean_nothing_alone() {
 fn wrong_types() {
     check(
         "[sheet]\nohm_per_square = \"150\"",
-        "s.toml:5: sheet.ohm_per_square: expected a number above 0, got \"150\"",
+        "s.toml:5: sheet.ohm_per_square: expected a number from 0.001 to 10000000, got \"150\"",
     );
     check(
         "[sensor]\nquantisation_bits = 16.5",
@@ -225,7 +225,7 @@ fn wrong_types() {
     check("[[sheet]]", "s.toml:4: sheet: expected a table, got a list of 1");
     check(
         "[carrier]\nfrequency_hz = nan",
-        "s.toml:5: carrier.frequency_hz: expected a number above 0, got NaN",
+        "s.toml:5: carrier.frequency_hz: expected a number from 1 to 1000000000, got NaN",
     );
     check(
         "[carrier]\nfrequency_hz = 99999999999999999999",
@@ -264,7 +264,7 @@ fn terminals_inside_the_sheet() {
     );
     check(
         "[sheet]\nterminal_radius_mm = 12",
-        "s.toml:5: sheet.terminal_radius_mm: expected a number above 0 and at most 10",
+        "s.toml:5: sheet.terminal_radius_mm: expected a number from 0.001 to 10",
     );
 }
 
@@ -318,7 +318,7 @@ fn a_resistance_for_each_terminal() {
     );
     check(
         "[sheet]\nterminals = 4\nterminal_ohm = [1, 2, 3, -4]",
-        "s.toml:6: sheet.terminal_ohm: expected a list, each a number of at least 0, got -4",
+        "s.toml:6: sheet.terminal_ohm: expected a list, each a number from 0 to 1000000000, got -4",
     );
 }
 
@@ -476,7 +476,7 @@ fn charge_and_waves_that_cannot_be() {
     );
     check(
         "[charge]\nshare = 0.3",
-        "s.toml:4: charge.time_constant_s: expected a number above 0 and at most 1000000, but it is missing",
+        "s.toml:4: charge.time_constant_s: expected a number from 0.000000001 to 1000000, but it is missing",
     );
     check(
         "[charge]\nshare = 1.5\ntime_constant_s = 3",
@@ -518,7 +518,7 @@ fn release_drift_springs_and_panel_noise_that_cannot_be() {
     check("[release]", "s.toml:4: release: expected [friction] too");
     check(
         "[friction]\n[release]\ntime_constant_ms = 0",
-        "s.toml:6: release.time_constant_ms: expected a number above 0 and at most 1000000, got 0",
+        "s.toml:6: release.time_constant_ms: expected a number from 0.000001 to 1000000, got 0",
     );
     check(
         "[friction]\ndrift = { sweep = [1, 2] }",

@@ -2,12 +2,13 @@
 // Registers: a command acts only if all its bytes have come, with links and CRC that are right, and then on nothing but the
 // register or the word that it names. Commands are taken apart here once more, the CRC a bit at a time.
 //
-// Appended to the printed module; parameters: DATA (bytes of a command's data), WORDS (of the table) and ADDRESS (its bits).
+// Appended to the printed module; parameters: DATA (bytes of a command's data), WORDS (of the table), ADDRESS (its bits), and the
+// registers' numbers: CAPACITANCE, FORCE, CONTACT, CONTROL and ADC, of REGISTERS.
 
     // Bytes on the line before END, and bits of place and data.
     localparam LENGTH = DATA + 7;
     localparam WHOLE = 8 * (DATA + 2);
-    localparam TABLE = 4, NONE = 5;
+    localparam TABLE = REGISTERS, NONE = REGISTERS + 1;
 
     function [31:0] check_of(input [31:0] before, input [7:0] next);
         integer k;
@@ -53,10 +54,10 @@
     reg [8*DATA-1:0] what = 0;
     // With the complement of the CRC behind them, bytes have this CRC, whatever they are.
     wire whole_and_right = length == LENGTH && until == 0 && check == 32'hdebb20e3;
-    wire for_adc = whole[WHOLE-1] && whole[WHOLE-14:WHOLE-16] == 3;
+    wire for_adc = whole[WHOLE-1] && whole[WHOLE-14:WHOLE-16] == ADC;
     // The command before may still be enabling the board.
     // A test of a line converts, too.
-    wire enabled = counts && where[15] && where[2:0] == 2 ? what[0] || what[2] : enable || control_q[2];
+    wire enabled = counts && where[15] && where[2:0] == CONTROL ? what[0] || what[2] : enable || control[2];
     always @(posedge clock) begin
         counts <= !reset && valid && end_byte && whole_and_right && !(for_adc && enabled);
         refuses <= !reset && valid && end_byte && length != 0
@@ -64,7 +65,7 @@
         {where, what} <= whole;
     end
     wire [ADDRESS-1:0] at = where[ADDRESS-1:0];
-    wire [2:0] target = !counts ? NONE : where[15] ? (where[2:0] < 4 ? where[1:0] : NONE) : at < WORDS ? TABLE : NONE;
+    wire [2:0] target = !counts ? NONE : where[15] ? (where[2:0] < REGISTERS ? where[2:0] : NONE) : at < WORDS ? TABLE : NONE;
 
     // The ADC reader moves data on between commands only: its word is shorter than the bytes of the next.
     wire packet = length != 0;
@@ -75,15 +76,17 @@
     reg [8*DATA-1:0] past_what = 0;
     reg [$bits(capacitance_gain)-1:0] before_capacitance = 0;
     reg [$bits(force_gain)-1:0] before_force = 0;
-    reg [1:0] before_control = 0;
+    reg [$bits(contact_capacitance)-1:0] before_contact = 0;
+    reg [5:0] before_control = 0;
     reg [3:0] before_commands = 0;
-    wire [1:0] control_now = {adc_reset, enable};
+    wire [5:0] control_now = control;
     always @(posedge clock) begin
         past_valid <= was_reset && !reset;
         past_target <= target;
         past_what <= what;
         before_capacitance <= capacitance_gain;
         before_force <= force_gain;
+        before_contact <= contact_capacitance;
         before_control <= control_now;
         before_commands <= commands;
     end
@@ -106,23 +109,29 @@
         assert (refused == refuses);
         assert (write == (target == TABLE));
         if (write) assert (address == at && word == $signed(what[$bits(word)-1:0]));
-        assert (adc_write == (target == 3));
-        assert (!(adc_write && enable));
-        assert (written == (counts && where[15] && where[2:0] != 2));
+        assert (adc_write == (target == ADC));
+        assert (!(adc_write && (enable || line_test)));
+        assert (written == (counts && where[15] && where[2:0] != CONTROL));
+        assert (controlled == (target == CONTROL));
+        // A test of a line and a measurement exclude each other.
+        assert ({line, adc_reset, enable} == {control[5:3], control[1:0]} && line_test == (control[2] && !enable));
         // Each register has what was written into it, and nothing else changes it.
         if (past_valid) begin
-            assert (capacitance_gain == (past_target == 0 ? past_what[$bits(capacitance_gain)-1:0] : before_capacitance));
-            assert (force_gain == (past_target == 1 ? past_what[$bits(force_gain)-1:0] : before_force));
-            assert (control_now == (past_target == 2 ? past_what[1:0] : before_control));
+            assert (capacitance_gain == (past_target == CAPACITANCE ? past_what[$bits(capacitance_gain)-1:0] : before_capacitance));
+            assert (force_gain == (past_target == FORCE ? past_what[$bits(force_gain)-1:0] : before_force));
+            assert (contact_capacitance == (past_target == CONTACT ? past_what[$bits(contact_capacitance)-1:0] : before_contact));
+            assert (control_now == (past_target == CONTROL ? past_what[5:0] : before_control));
             assert (commands == before_commands + counts);
         end
     end
 
     // Cover: the properties are not vacuous.
     always @(posedge clock) if (was_reset) begin
-        cover (target == 0);
-        cover (target == 1 && what != 0);
-        cover (target == 2 && what[1:0] == 1);
+        cover (target == CAPACITANCE);
+        cover (target == FORCE && what != 0);
+        cover (target == CONTACT && what != 0);
+        cover (target == CONTROL && what[1:0] == 1);
+        cover (target == CONTROL && what[2:0] == 4);
         cover (adc_write);
         cover (write && address == WORDS - 1);
         cover (counts && target == NONE);

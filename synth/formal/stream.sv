@@ -4,10 +4,11 @@
 // last one is such a distance; a packet's number is one number; a frame is sent with the words that came with it, or dropped
 // whole and told; a heartbeat whose words are written meanwhile ends early, and one that does not has each of its words whole.
 //
-// Appended to the printed module; parameters: BYTES (of a word), WIDTH (its bits) and
+// Appended to the printed module; parameters: BYTES (of a word), WIDTH (its bits), STATUS (bytes before the words), VERSION (of
+// heartbeats) and
 // `line`, what goes into the transmitter.
 
-    localparam LENGTH = 4 + 8 * BYTES + 6;
+    localparam LENGTH = STATUS + 8 * BYTES + 6;
     localparam CRC = LENGTH - 6;
 
     function [31:0] check_of(input [31:0] before, input [7:0] next);
@@ -31,7 +32,7 @@
         assume (valid || due == 0);
         assume (done == (valid && index == 7));
         // Frames are further apart than a packet's first two bytes take, its number.
-        assume (!(done && busy && group == 15 && left >= 2));
+        assume (!(done && busy && group == 15 && left >= STATUS - 2));
     end
 
     // The bytes that go out: how many of a packet have gone, how far the packet's last zero byte is behind (or what stands before
@@ -101,7 +102,7 @@
     wire signed [WIDTH-1:0] stored = words[place_in_memory];
 
     // Where the packet stands, by group and bytes left.
-    wire [7:0] place_of = group == 15 ? 4 - left : group == 8 ? CRC + 5 - left : 5 + BYTES * group + BYTES - 1 - left;
+    wire [7:0] place_of = group == 15 ? STATUS - 1 - left : group == 8 ? CRC + 5 - left : STATUS + BYTES * group + BYTES - 1 - left;
     wire [8*BYTES-1:0] wide = {{8 * BYTES - WIDTH + 1{word[WIDTH-1]}}, word[WIDTH-2:0]};
     wire [8*BYTES-1:0] moved = wide >> (8 * left);
 
@@ -110,9 +111,9 @@
 
     always @(posedge clock) if (was_reset) begin
         // Invariants.
-        if (cut) assert (busy && heartbeat && group == 8 && left == 0 && at >= 5 && at <= CRC);
+        if (cut) assert (busy && heartbeat && group == 8 && left == 0 && at >= STATUS && at <= CRC);
         if (busy && !cut) assert (at == place_of && group != 9 && group != 10 && group != 11 && group != 12 && group != 13 && group != 14);
-        if (busy) assert (left < (group == 15 ? 5 : group == 8 ? 6 : BYTES));
+        if (busy) assert (left < (group == 15 ? STATUS : group == 8 ? 6 : BYTES));
         if (!busy) assert (at == 0 && since == 1 && check == 32'hffffffff);
         if (busy) assert (distance == since && since != 0 && since <= at + 1);
         assert (accepting == (due != 0 && taking));
@@ -121,7 +122,7 @@
         if (busy && at <= CRC) assert (crc == check);
         if (busy && !cut && gone < 32) assert (((crc ^ ~ahead) << gone) == 0);
         if (busy && at == 1) assert (upper == number[15:8]);
-        if (busy && heartbeat) assert (saturated_q && invalid_q && !lost_q && !lifted_q);
+        if (busy && heartbeat) assert ({lost_q, invalid_q, saturated_q} == VERSION && !lifted_q);
         if (busy && group < 8 && !before_sent && !before_wrote) assert (words_word == stored);
         if (busy && heartbeat && group == which && left < BYTES - 1) assert (words[{1'b1, which}] == begun);
         if ((accepting && which < due) || accepted) assert (words[which] == word);

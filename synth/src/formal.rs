@@ -50,14 +50,28 @@ pub struct Claim<'a> {
 }
 
 impl Claim<'_> {
-    /// The module with the checker in it.
+    /// The module with the checker in it. A name that neither has is an error, not a wire of one bit.
     fn text(&self) -> Result<String> {
         let path = root().join("synth/formal").join(format!("{}.sv", self.checker));
         let checker = fs::read_to_string(&path).with_context(|| path.display().to_string())?;
         let (module, rest) = self.verilog.rsplit_once("endmodule").context("a module ends")?;
         let parameter = |(name, value): &(&str, u64)| format!("    localparam {name} = {value};\n");
         let parameters: String = self.parameters.iter().map(parameter).collect();
-        Ok(format!("{module}\n{parameters}{checker}\nendmodule{rest}"))
+        Ok(format!("`default_nettype none\n{module}\n{parameters}{checker}\nendmodule{rest}"))
+    }
+
+    /// Prints which assertions failed, with their lines of the module with its checker.
+    fn report(&self, log: &str) -> Result<()> {
+        let text = self.text()?;
+        for line in log.lines().filter(|line| line.contains("Assert failed")) {
+            let number = line
+                .split("claim.sv:")
+                .nth(1)
+                .and_then(|rest| rest.split('.').next()?.parse::<usize>().ok());
+            let source = number.and_then(|number| text.lines().nth(number - 1));
+            eprintln!("{line}\n    {}", source.unwrap_or(""));
+        }
+        Ok(())
     }
 
     /// Asks SymbiYosys.
@@ -84,21 +98,12 @@ impl Claim<'_> {
         let log = String::from_utf8_lossy(&output.stdout);
         match output.status.code() {
             Some(0) => Ok(Verdict::Holds),
-            Some(2) => Ok(Verdict::Broken),
+            Some(2) => {
+                self.report(&log)?;
+                Ok(Verdict::Broken)
+            }
             Some(4) => {
-                // Which assertion, at which line of the module with its checker.
-                let lines = log.lines().filter(|line| line.contains("Assert failed"));
-                let text = self.text()?;
-                for line in lines {
-                    let number = line
-                        .split("claim.sv:")
-                        .nth(1)
-                        .and_then(|rest| rest.split('.').next()?.parse::<usize>().ok());
-                    eprintln!(
-                        "{line}\n    {}",
-                        number.and_then(|number| text.lines().nth(number - 1)).unwrap_or("")
-                    );
-                }
+                self.report(&log)?;
                 Ok(Verdict::Unknown)
             }
             status => bail!("sby: {status:?}\n{log}"),

@@ -123,7 +123,7 @@ fn faults_of_each_kind_in_each_module_are_noticed() {
     let bench = Bench::new("small");
     let planted = Planted::new(&bench.design);
     let of_core = |seed| {
-        (bench.design.top().to_owned(), bench.record(stimulus::tones(&bench.profile, seed, 8)))
+        (bench.design.top().to_owned(), bench.record(stimulus::tones(&bench.profile, seed, 16)))
     };
     let mut alone = blocks(&bench.profile);
     alone.push(of_core(1));

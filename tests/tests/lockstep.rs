@@ -458,7 +458,8 @@ fn icarus_runs_drives_as_the_model_does() {
             let design = Design::of(&block, "a test");
             let estimates = estimates(&block, profile.pads);
             let trace = Trace::record(&block, design.ports.clone(), estimates);
-            let driven = driven(&trace).iter().filter(|(drive, _)| *drive > 0).count();
+            let given = of_port(&trace, "drive_valid").into_iter().zip(of_port(&trace, "drive"));
+            let driven = given.filter(|(valid, drive)| *valid == 1 && *drive > 0).count();
             assert!(driven > 5, "{name}, {law:?}: {driven} drive words that are not zero");
             if let Err(mismatch) = icarus::check(design.top(), &design.text(), &trace) {
                 panic!("{name}, {law:?}: {mismatch}");

@@ -4,13 +4,15 @@
 use std::collections::VecDeque;
 use std::sync::{Arc, LazyLock, OnceLock};
 
-use anyhow::{Result, ensure};
+use anyhow::{Result, bail, ensure};
 use hapticore_contract::calibration::Calibration;
 use hapticore_contract::control::Tuning;
 use hapticore_contract::profile::{ForceLaw, Profile};
 use hapticore_host::device::{DeviceWordsError, Force};
 use hapticore_host::profile::{for_terminals, serving};
-use hapticore_host::{CrosstalkCanceller, DeviceCalibration, Residual, SlotClock, quantities_of};
+use hapticore_host::{
+    CrosstalkCanceller, DeviceCalibration, QUANTITIES, Residual, SlotClock, quantities_of,
+};
 use hapticore_scene::{
     ControlPlan, EffectCost, Figure, LevelDeviation, Plant, Scene, Truth, signs_by_place,
 };
@@ -19,13 +21,14 @@ use crate::ahead::{Ahead, Made};
 use crate::calibrate::{self, bench::Bench};
 use crate::capture::Recorder;
 use crate::control::plant::LoopPlant;
-use crate::control::{self, controlled};
+use crate::control::{self, Gains, controlled};
 use crate::direction::Directions;
 use crate::engine::Fidelity;
+use crate::findings::states::Limits;
 use crate::inputs::{buildable, timing};
 use crate::interrupt;
 use crate::maker::Maker;
-use crate::record::{self, Row, SignalError};
+use crate::record::{self, Driven, Row, SignalError};
 use crate::session::Session;
 
 /// Bytes of the slots that are made ahead of the core.
@@ -59,7 +62,7 @@ pub struct Case<'a> {
     bench: Option<Bench>,
     calibrated: Arc<Calibrated>,
     /// The controller's tuning, once it has been asked for.
-    tuned: OnceLock<Option<Tuning>>,
+    tuned: OnceLock<Option<(Gains, Tuning)>>,
 }
 
 /// What is made when it is first looked at. A device is calibrated so while slots are made on other threads.
@@ -242,12 +245,35 @@ impl<'a> Case<'a> {
         let whole = settings.fidelity == Fidelity::Clock || recorder.is_some();
         let sampled = self.scene.cases[self.index].sampled();
         let maker = |plant: Plant| Maker::new(plant.metered(), &self.profile, sampled, whole);
-        if tuning.is_some() {
-            return self.close(session()?, maker(plant), recorder, progress);
-        }
-        let another = || maker(self.plant().expect("as the first"));
-        let ahead = Ahead::new(plant.metered(), (self.slots, self.kept(whole)), another);
-        self.run_ahead(session, ahead, recorder, progress)
+        let outcome = if tuning.is_some() {
+            self.close(session()?, maker(plant), recorder, progress)?
+        } else {
+            let another = || maker(self.plant().expect("as the first"));
+            let ahead = Ahead::new(plant.metered(), (self.slots, self.kept(whole)), another);
+            self.run_ahead(session, ahead, recorder, progress)?
+        };
+        self.check_finite(&outcome.rows)?;
+        Ok(outcome)
+    }
+
+    /// Refuses results that are no numbers: a plant whose parameters lead to them is none.
+    fn check_finite(&self, rows: &[Row]) -> Result<()> {
+        let wrong = |row: &Row| {
+            let of = row.truth?;
+            let own =
+                [("load_g", of.load_g), ("friction_n", of.friction_n), ("hand_x_n", of.hand_x_n)];
+            let named =
+                QUANTITIES.iter().map(|quantity| (quantity.name, (quantity.get)(&of.quantities)));
+            let (name, value) = named.chain(own).find(|(_, value)| !value.is_finite())?;
+            Some((row.time_s, row.pad, name, value))
+        };
+        let Some((time_s, pad, name, value)) = rows.iter().find_map(wrong) else { return Ok(()) };
+        bail!(
+            "{}: case \"{}\": expected a finite true_{name} of pad {pad}, got {value} at {time_s} s; a key of the scene is \
+             too large or too small",
+            self.scene.file,
+            self.name()
+        );
     }
 
     /// Runs the case while its next slots are made.
@@ -357,6 +383,19 @@ impl Case<'_> {
     /// # Errors
     /// A gain that its word does not hold.
     pub fn tuning(&self, plant: &Plant) -> Result<Option<Tuning>> {
+        Ok(self.tuned(plant)?.map(|(_, tuning)| tuning))
+    }
+
+    /// The controller's gains, those that the scene leaves open with what follows from device and profile; zero
+    /// without a controller.
+    ///
+    /// # Errors
+    /// As [`Case::tuning`].
+    pub fn gains(&self) -> Result<Gains> {
+        Ok(self.tuned(&self.plant()?)?.map_or(Gains::default(), |(gains, _)| gains))
+    }
+
+    fn tuned(&self, plant: &Plant) -> Result<Option<(Gains, Tuning)>> {
         if let Some(tuned) = self.tuned.get() {
             return Ok(tuned.clone());
         }
@@ -365,11 +404,11 @@ impl Case<'_> {
     }
 
     /// The tuning that the case was run with, where the scene has a controller and the case has been run.
-    pub fn tuned(&self) -> Option<&Tuning> {
-        self.tuned.get()?.as_ref()
+    pub fn ran_with(&self) -> Option<&Tuning> {
+        self.tuned.get()?.as_ref().map(|(_, tuning)| tuning)
     }
 
-    fn tune(&self, plant: &Plant) -> Result<Option<Tuning>> {
+    fn tune(&self, plant: &Plant) -> Result<Option<(Gains, Tuning)>> {
         let (Some(plan), Some(control)) = (self.plan(), &self.profile.control) else {
             return Ok(None);
         };
@@ -381,8 +420,7 @@ impl Case<'_> {
             );
         }
         let calibrated = plant.as_calibrated()?;
-        let at = (calibrated.as_ref().unwrap_or(plant), self.clock.seconds(plant.served()));
-        control::tuning(plan, control, &self.profile, &self.device, at).map(Some)
+        control::tuning(self, plan, calibrated.as_ref().unwrap_or(plant)).map(Some)
     }
 
     /// The plant of the case's force loop, before its first slot: no pad is driven.
@@ -393,6 +431,20 @@ impl Case<'_> {
         let full_scale_v = self.plan().map_or(0.0, |plan| plan.full_scale_v);
         let wall = self.plan().and_then(|plan| plan.wall.clone());
         LoopPlant::new(maker, &self.profile, (self.clock, full_scale_v), wall)
+    }
+
+    /// Adds to the flags of frames what keeps the drives from their targets.
+    fn mark_states(&self, rows: &mut [Row]) -> Result<()> {
+        let plant = self.plant()?;
+        let tuning = self.tuning(&plant)?;
+        let (Some(plan), Some(control), Some(tuning)) =
+            (self.plan(), &self.profile.control, &tuning)
+        else {
+            return Ok(());
+        };
+        let of_pads = (plant.parts(), self.clock.seconds(plant.served()));
+        Limits::new((plan, control), tuning, of_pads).mark(rows, plant.served());
+        Ok(())
     }
 
     /// From a slot's end to the drive that follows from it, s.
@@ -432,13 +484,24 @@ impl Case<'_> {
             peak = peak.max(made.peak);
             let row = session.slot(&made.slot, Some(record_truth(&made.truth)));
             drives.push_back(plant.drive(&made, session.take_drive())?);
-            rows.extend(row.map(|row| Row { driven: drives.pop_front().flatten(), ..row }));
+            let core_n = session.core_force_n();
+            let mut driven =
+                |row: Row| Row { driven: with_core(drives.pop_front().flatten(), core_n), ..row };
+            rows.extend(row.map(&mut driven));
             progress();
         }
         let last = session.finish();
-        rows.extend(last.map(|row| Row { driven: drives.pop_front().flatten(), ..row }));
+        let core_n = session.core_force_n();
+        let driven =
+            |row: Row| Row { driven: with_core(drives.pop_front().flatten(), core_n), ..row };
+        rows.extend(last.map(driven));
+        self.mark_states(&mut rows)?;
         Ok(Outcome { rows, effects: plant.effects(), peak, errors: session.errors() })
     }
+}
+
+fn with_core(driven: Option<Driven>, core_n: Option<f64>) -> Option<Driven> {
+    driven.map(|driven| Driven { core_n, ..driven })
 }
 
 /// Takes a slot to the core.

@@ -15,6 +15,7 @@
 //! | [`control`] | the force loop of a scene: controller, tuning, and what closes it |
 //! | [`criteria`] | what a scene claims, measured |
 //! | [`errors`] | rounding errors of every signal |
+//! | [`findings`] | what a run leaves to be known at its end: flags, tracking, what limits a drive |
 //! | [`capture`] | ADC samples in CSV, WAV and SigMF files |
 //! | [`haptic`] | whether the core's window is long enough for the haptic voltage |
 //! | [`lab`] | a device's calibration from what a lab measured |
@@ -31,6 +32,7 @@ pub mod digitiser;
 pub mod direction;
 pub mod engine;
 pub mod errors;
+pub mod findings;
 pub mod haptic;
 pub mod inputs;
 pub mod interrupt;

@@ -10,6 +10,9 @@ pub use hapticore_host::{Laws, Quantities};
 use hapticore_scene::Setpoint;
 use serde::Serialize;
 
+use crate::control::Gains;
+use crate::findings::Findings;
+
 /// A finished slot.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Row {
@@ -101,6 +104,9 @@ pub struct Driven {
     pub fault: bool,
     /// The user leaves the pad's wall, where it has one.
     pub free: Option<bool>,
+    /// The force that the core measured, N, where the host takes out of frames what other pads did to them: a controller
+    /// acts on this one.
+    pub core_n: Option<f64>,
 }
 
 /// What the plant knows of a slot.
@@ -258,6 +264,19 @@ pub struct Stability {
     pub phase_margin_deg: Option<f64>,
     /// The largest factor on the gains with which the loop is stable; none where all are.
     pub gain_margin: Option<f64>,
+    /// What a step from zero to the force does, where that was simulated.
+    pub step: Option<Step>,
+}
+
+/// A step of a force loop's target from zero.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+pub struct Step {
+    /// By how much of the target the measured force exceeds it at most.
+    pub overshoot_percent: f64,
+    /// From the lowest to the highest force of the last third, between turns of the wave, by the target.
+    pub swing_percent: f64,
+    /// Mean force of the last third, N.
+    pub rest_n: f64,
 }
 
 /// A force loop as it was measured.
@@ -319,6 +338,9 @@ pub struct Record {
     pub simulated_seconds: f64,
     /// Wall-clock time of the run, s.
     pub wall_seconds: f64,
+    /// Flagged frames, how far controlled pads are off their targets, and what sticks.
+    #[serde(skip_serializing_if = "Findings::is_empty")]
+    pub findings: Findings,
     /// What its user must know before using the results.
     pub warnings: Vec<String>,
     /// What the position table leaves of its own places; of several cases the worst.
@@ -330,6 +352,9 @@ pub struct Record {
     /// The law of the force controller of each case that has one.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub laws: BTreeMap<String, &'static str>,
+    /// The gains of each case whose law or curve has any, given or computed.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub gains: BTreeMap<String, Gains>,
     /// Where it comes from.
     #[serde(flatten)]
     pub provenance: Provenance,

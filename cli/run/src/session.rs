@@ -33,6 +33,9 @@ pub struct Session {
     clock: SlotClock,
     case: usize,
     waiting: VecDeque<Row>,
+    /// The force of the last row as the core measured it, N, where the host takes crosstalk out.
+    core_n: Option<f64>,
+    cancels: bool,
 }
 
 impl Session {
@@ -63,12 +66,15 @@ impl Session {
             clock,
             case,
             waiting: VecDeque::new(),
+            core_n: None,
+            cancels: false,
         })
     }
 
     /// The same session, which takes out of its measurements, the core's and the reference's, what
     /// other pads did to them.
     pub fn with_cancellers(mut self, cancellers: Option<[CrosstalkCanceller; 2]>) -> Self {
+        self.cancels = cancellers.is_some();
         let cancellers = cancellers.map_or([None, None], |both| both.map(Some));
         let [core, reference] = self.readouts;
         let [of_core, of_reference] = cancellers;
@@ -118,6 +124,11 @@ impl Session {
         self.engine.take_drive()
     }
 
+    /// The force of the last row as the core measured it, N, where the host takes crosstalk out of its frames.
+    pub fn core_force_n(&self) -> Option<f64> {
+        self.core_n
+    }
+
     /// The last row, where it is still to come.
     pub fn finish(&mut self) -> Option<Row> {
         let measurement = self.engine.finish()?;
@@ -151,6 +162,7 @@ impl Session {
     fn finished(&mut self, measurement: &Measurement) -> Option<Row> {
         let row = self.waiting.pop_front()?;
         assert_eq!(row.pad, measurement.pad, "measurements come in the order of their slots");
+        self.core_n = self.cancels.then_some(measurement.force_n);
         let (mut measured, flags) = self.readouts[0].convert(measurement);
         if let Some(directions) = &mut self.directions[0] {
             directions.complete(measurement.pad, &mut measured);

@@ -73,8 +73,17 @@ pub fn table(record: &Record) -> String {
     if rows.is_empty() {
         return String::new();
     }
-    let heads =
-        ["case", "force", "frame", "delay", "open loop is 1 at", "phase margin", "gain margin"];
+    let heads = [
+        "case",
+        "force",
+        "frame",
+        "delay",
+        "open loop is 1 at",
+        "phase margin",
+        "gain margin",
+        "overshoot of a step",
+        "swing of a step",
+    ];
     tables::table("Predicted stability of force loops", &heads, &rows)
 }
 
@@ -91,6 +100,8 @@ fn row(case: &str, of: &Stability) -> String {
         unit(of.crossover_hz, " Hz"),
         unit(of.phase_margin_deg, "°"),
         unit(of.gain_margin, ""),
+        unit(of.step.map(|step| step.overshoot_percent), " %"),
+        unit(of.step.map(|step| step.swing_percent), " %"),
     ];
     tables::row(&cells.each_ref().map(|cell| ("", cell.as_str())))
 }

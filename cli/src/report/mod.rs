@@ -62,6 +62,7 @@ pub fn html(record: &Record) -> String {
     let body = [
         page::heading(record),
         page::section("Criteria", &tables::criteria(&record.criteria)),
+        page::section("Flags and tracking", &tables::findings(record)),
         page::section("Figures", &figures),
         page::section("Force loops", &bode::table(record)),
         page::section("Effects: fidelity levels and computing time", &cost),

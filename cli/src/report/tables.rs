@@ -4,6 +4,7 @@
 use super::number;
 use super::page::escape;
 use crate::print;
+use hapticore_run::findings;
 use hapticore_run::record::{Criterion, Effect, Record, SignalError};
 
 /// The criteria, below a sentence that says how many passed.
@@ -123,6 +124,13 @@ fn signal(error: &SignalError) -> String {
         ("number", &number::short(error.max_error)),
         ("number", &number::short(error.max_codes)),
     ])
+}
+
+/// Flagged frames by kind and pad, tracking and stability of force loops; nothing where there is none.
+pub fn findings(record: &Record) -> String {
+    let lines = findings::lines(&record.findings).into_iter().chain(print::stability(record));
+    let items: String = lines.map(|line| format!("<li>{}</li>\n", escape(&line))).collect();
+    if items.is_empty() { items } else { format!("<ul class=\"findings\">\n{items}</ul>\n") }
 }
 
 /// How long the run took and what it left.

@@ -89,7 +89,8 @@ fn row(n: usize) -> Row {
     let (truth, reference) = (Some(truth), Some(reference));
     let (limited, fault) = (n.is_multiple_of(7), n.is_multiple_of(11));
     let free = Some(n.is_multiple_of(5));
-    let driven = Some(Driven { target_n: 0.1, drive_v_rms: t % 300.0, limited, fault, free });
+    let driven =
+        Some(Driven { target_n: 0.1, drive_v_rms: t % 300.0, limited, fault, free, core_n: None });
     Row {
         case: n % 97 / 60,
         time_s: t * 1e-3,

@@ -164,7 +164,7 @@ impl Output {
         let dac = Dac::ALL.iter().position(|dac| *dac == self.dac).expect("one of all");
         let turn = turn.min(MOST_TURN) as u16;
         let clock = (self.clock_hz / CLOCK_UNIT_HZ).min(u16::MAX.into());
-        [1 + dac as u16 | kind << KIND | turn << TURN, self.full_scale_v, clock as u16]
+        [(1 + dac as u16) | (kind << KIND) | (turn << TURN), self.full_scale_v, clock as u16]
     }
 
     /// What these words say.

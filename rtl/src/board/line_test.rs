@@ -18,7 +18,7 @@
 use super::bits::next;
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format};
-use hapticore_hdl::signal::{Wrap, bit, int};
+use hapticore_hdl::signal::{bit, int, zero};
 use hapticore_hdl::{block, when};
 
 /// Codes that are ignored at the beginning of a test.
@@ -37,7 +37,7 @@ block! {
     submodules {}
     inputs(block) {
         /// Asserted for one cycle before a test may begin: the control register is written.
-        begin: BIT,
+        start: BIT,
         /// There is a test.
         enable: BIT,
         /// Its line.
@@ -83,10 +83,9 @@ impl Block for LineTest {
         let compares = takes & !r.count.less_than(int(IGNORED + 1));
         let differs = r.differs | (compares & !i.code.equals(r.first)) | (i.enable & i.late);
         let ends = takes & is_last;
-        let none = int(0);
-        let judged = differs.select(none, r.first).resize(self.code, Wrap);
+        let judged = differs.select(zero(self.code), r.first);
         let running = Registers {
-            began: i.begin,
+            began: i.start,
             count: takes.select(next(r.count), r.count),
             first: (takes & is_first).select(i.code, r.first),
             differs,
@@ -96,7 +95,7 @@ impl Block for LineTest {
         let begun = Registers {
             count: int(0),
             differs: bit(false),
-            result: int(0),
+            result: zero(self.code),
             changed: bit(true),
             ..running
         };

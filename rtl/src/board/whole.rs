@@ -320,7 +320,9 @@ impl Board {
         let counted = core.frames.done.select(fewer, r.open);
         let open = lost.select(int(self.count()), counted);
         let open = open.resize(r.open.format, Wrap);
-        Measured { core, driven, dac, stale: drives_clear | lost, open }
+        // What is made while nothing can be driven does not count: the first drive word behind it is the first within slew.
+        let stale = drives_clear | lost | !r.open.is(0);
+        Measured { core, driven, dac, stale, open }
     }
 }
 
@@ -396,7 +398,7 @@ impl Block for Board {
         let pads = call!(self.pads, state, inputs);
         let number = adc.address.bits(0, self.adc_reader.index().width);
         let inputs = line_test::Inputs {
-            begin: registers.controlled,
+            start: registers.controlled,
             enable: registers.line_test,
             line: registers.line,
             store: adc.store,

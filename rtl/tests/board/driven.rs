@@ -201,11 +201,12 @@ fn nothing_is_driven_before_it_is_tuned_nor_after_it_is_disabled() {
     session.send(&prepare(&profile, &calibration(&profile), &AdcSetup::default()));
     session.send(&[drive::target(&profile, 1, 0.8).expect("a controller"), Command::ENABLE]);
     let driven = later(&mut session, 6);
-    assert!(driven.live, "the converter was set to zero");
+    // The force cap is zero until it is set.
+    assert!(!driven.live && driven.faults.force, "untuned: {driven:?}");
     assert_eq!((driven.word, codes(&session, 4)), (0, vec![ZERO; 4]), "untuned");
     session.send(&drive::tune(&profile, &tuning(&profile)).expect("a controller"));
-    later(&mut session, 8);
-    assert!(codes(&session, 4)[1] > ZERO, "tuned");
+    let driven = later(&mut session, 8);
+    assert!(codes(&session, 4)[1] > ZERO && driven.live, "tuned: {driven:?}");
     session.send(&[drive::rest()]);
     later(&mut session, 16);
     assert_eq!(codes(&session, 4), [ZERO; 4], "at rest");

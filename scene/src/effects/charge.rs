@@ -64,7 +64,7 @@ pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneE
 }
 
 fn read_traps(table: &Table) -> Result<Each<Trap>, SceneError> {
-    let (share, time) = (Limits::within(-10.0, 0.99), Limits::above(0.0, 1e6));
+    let (share, time) = (Limits::within(-10.0, 0.99), Limits::within(1e-9, 1e6));
     let shares = one_or_several(table, "share", share)?;
     let shares = table.require("share", &share.to_string(), shares)?;
     let times_s = one_or_several(table, "time_constant_s", time)?;

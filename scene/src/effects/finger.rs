@@ -22,9 +22,9 @@ pub(super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError>
         return Err(table.error("", "expected [friction] too, which the finger works against"));
     }
     let finger = Finger {
-        stiffness_n_per_m: table.number_or("stiffness_n_per_m", Limits::NOT_NEGATIVE, 300.0)?,
-        damping_n_s_per_m: table.number_or("damping_n_s_per_m", Limits::NOT_NEGATIVE, 3.0)?,
-        mass_kg: table.number_or("mass_kg", Limits::POSITIVE, 0.05)?,
+        stiffness_n_per_m: table.number_or("stiffness_n_per_m", Limits::within(0.0, 1e7), 300.0)?,
+        damping_n_s_per_m: table.number_or("damping_n_s_per_m", Limits::within(0.0, 1e5), 3.0)?,
+        mass_kg: table.number_or("mass_kg", Limits::within(1e-6, 1e4), 0.05)?,
     };
     let spring = Level::new("spring", 5.0, move |_| Effect::Pad(Box::new(OnFinger { finger })));
     Spec::with_levels("hand", Some(table), vec![spring], "spring")

@@ -29,7 +29,10 @@ pub(crate) struct Pad {
     /// Electrostatic attraction summed over the pad, N; where no effect says otherwise that of an
     /// even gap, eq. 7.
     pub attraction_n: f64,
-    /// Haptic force, N, where an effect says it; else eq. 8 with the true capacitance and voltage.
+    /// A gap effect has summed the attraction over patches, so that eq. 7, and with it eq. 8, is no longer its law.
+    pub uneven: bool,
+    /// Haptic force, N, where an effect says it; else μ times the attraction of a gap's patches, or eq. 8 with the
+    /// true capacitance and voltage, which is the same for an even gap.
     pub force_n: Option<f64>,
     /// Polarity of the haptic voltage: 1, −1, or 0 for a sine.
     pub polarity: f64,
@@ -99,8 +102,12 @@ impl Pad {
         self.charge.map_or(haptic_v_rms, |charge| charge.square_under(haptic_v_rms).sqrt())
     }
 
-    /// The haptic force as an effect says, or else by eq. 8.
+    /// The haptic force as an effect says, or else of the nominal coefficient: what a gap's patches do, whether
+    /// friction is simulated or not.
     pub fn haptic_force_n(&self, device: &Device) -> f64 {
+        if self.uneven {
+            return self.force_n.unwrap_or(device.mu * self.attraction_n);
+        }
         let volt = self.pulling_v(self.haptic_v_rms);
         self.force_n.unwrap_or(device.force_k * (self.capacitance_f * volt).powi(2))
     }

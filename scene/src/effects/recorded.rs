@@ -19,6 +19,7 @@ struct State {
     haptic_v_rms: f64,
     capacitance_f: f64,
     attraction_n: f64,
+    uneven: bool,
     charge: Option<Charge>,
     force_n: Option<f64>,
     direction: f64,
@@ -64,6 +65,7 @@ impl PadEffect for Recorder {
             haptic_v_rms: pad.haptic_v_rms,
             capacitance_f: pad.capacitance_f,
             attraction_n: pad.attraction_n,
+            uneven: pad.uneven,
             charge: pad.charge,
             force_n: pad.force_n,
             direction: pad.direction,
@@ -111,6 +113,7 @@ impl PadEffect for Player {
         pad.haptic_v_rms = state.haptic_v_rms;
         pad.capacitance_f = state.capacitance_f;
         pad.attraction_n = state.attraction_n;
+        pad.uneven = state.uneven;
         pad.charge = state.charge;
         pad.force_n = state.force_n;
         pad.direction = state.direction;

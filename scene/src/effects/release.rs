@@ -28,7 +28,7 @@ pub(super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError>
     if root.table("friction")?.is_none() {
         return Err(table.error("", "expected [friction] too, which is what lets go late"));
     }
-    let time_ms = table.number_or("time_constant_ms", Limits::above(0.0, 1e6), 0.875)?;
+    let time_ms = table.number_or("time_constant_ms", Limits::within(1e-6, 1e6), 0.875)?;
     let step_s = 1e-6 * table.number_or("step_us", Limits::within(1.0, 1000.0), 100.0)?;
     let build = move |_: &Setting| {
         Effect::Pad(Box::new(Release { time_s: 1e-3 * time_ms, step_s, pads: Vec::new() }))

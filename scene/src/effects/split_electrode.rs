@@ -5,8 +5,8 @@
 //!   Δx = Σa_i·x_i/Σa_i − Σx_i/2,   x_i = ∓x_c,   a_i ∝ C_i                                 (eq. 10)
 //!
 //! A push off the centre, a pad's `eccentricity_mm`, presses one side more than the other; its gap
-//! closes further, and eq. 10 reads a part of e. With `push_height_mm` the hand of `[hand]` pushes
-//! at that height above the sheet, which adds height·F/W to e; where the pad tips, e is at its end.
+//! closes further, and eq. 10 reads a part of e. The hand of `[hand]` pushes at `push_height_mm`
+//! above the sheet, 5 by default, which adds height·F/W to e; where the pad tips, e is at its end.
 //! `mismatch_percent` is by how much the left sensing electrode is larger than the right one: it
 //! reads as a constant offset. Each electrode has gaps of its own, at the level of `[gap]`, with its
 //! share s_i of the pad's area and the load per area W_i.
@@ -30,14 +30,20 @@ use crate::drive::{Electrode, PadDrive, Pull};
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
 
+/// Where a hand pushes, mm above the sheet, where the scene does not say it: at the sheet no push tilts the pad, and its
+/// direction cannot be read.
+const HEIGHT_MM: f64 = 5.0;
+
 pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneError> {
     let Some(table) = root.table("halves")? else { return Ok(None) };
     let Some(gap) = gap::read(root, device)? else {
         return Err(table.error("", "expected [gap] too, which the push closes on one side"));
     };
     let mismatch = 0.01 * table.number_or("mismatch_percent", Limits::within(-50.0, 50.0), 0.0)?;
-    let height_mm = table.number_or("push_height_mm", Limits::NOT_NEGATIVE, 0.0)?;
-    if height_mm > 0.0 && root.table("hand")?.is_none() {
+    let has_hand = root.table("hand")?.is_some();
+    let usual_mm = if has_hand { HEIGHT_MM } else { 0.0 };
+    let height_mm = table.number_or("push_height_mm", Limits::within(0.0, 1e3), usual_mm)?;
+    if height_mm > 0.0 && !has_hand {
         return Err(
             table.error("push_height_mm", "expected [hand] too, which pushes at that height")
         );
@@ -90,7 +96,7 @@ pub(super) fn read_strips(
     let mut sensing_v_rms = f64::INFINITY;
     if strips == 4 {
         let outer = table.number_or("outer_share_percent", Limits::within(1.0, 90.0), 20.0)?;
-        let most_v = table.number("sensing_v_rms", Limits::NOT_NEGATIVE)?;
+        let most_v = table.number("sensing_v_rms", Limits::within(0.0, 1e5))?;
         sensing_v_rms = most_v.unwrap_or(sensing_v_rms);
         sides = disc_strips(0.005 * outer, 0.5 * device.pad_diameter_mm).to_vec();
     }
@@ -171,6 +177,7 @@ impl SplitElectrode {
         pad.capacitance_f = electrodes_f.iter().sum();
         pad.haptic_v_rms = pad.haptic_v_at(pad.capacitance_f);
         pad.attraction_n = attraction_n;
+        pad.uneven = true;
         let last = &self.strips[self.strips.len() - 1];
         let [a, b] = sides_f(&electrodes_f, self.has_quadrants(), self.strips.len());
         pad.direction = last.centre_mm[0] * (b - a) / (a + b) / self.half_width_mm;

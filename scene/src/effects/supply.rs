@@ -28,15 +28,15 @@ use crate::wave::HapticWave;
 
 pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneError> {
     let Some(table) = root.table("supply")? else { return Ok(None) };
-    let transformer_h = table.number_or("transformer_h", Limits::NOT_NEGATIVE, 0.0)?;
+    let transformer_h = table.number_or("transformer_h", Limits::within(0.0, 1e3), 0.0)?;
     if matches!(device.haptic_wave, HapticWave::Square { .. }) && transformer_h > 0.0 {
         let message = "expected 0 with carrier.haptic_wave = \"square\", whose turns would ring";
         return Err(table.error("transformer_h", message));
     }
     let supply = Supply {
-        limiting_ohm: 1e3 * table.number_or("limiting_kohm", Limits::NOT_NEGATIVE, 300.0)?,
+        limiting_ohm: 1e3 * table.number_or("limiting_kohm", Limits::within(0.0, 1e6), 300.0)?,
         transformer_h,
-        parasitic_f: 1e-12 * table.number_or("parasitic_pf", Limits::NOT_NEGATIVE, 100.0)?,
+        parasitic_f: 1e-12 * table.number_or("parasitic_pf", Limits::within(0.0, 1e6), 100.0)?,
         rad_s: TAU * device.haptic_hz,
         wave: device.haptic_wave,
     };

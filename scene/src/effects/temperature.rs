@@ -163,7 +163,7 @@ impl Temperature {
         let temperature = Temperature {
             per_k: 1e-6 * tempco,
             gradient_k: table.pair("gradient_k", Limits::within(-1e3, 1e3))?.unwrap_or_default(),
-            step_k: table.number_or("step_k", Limits::above(0.0, 100.0), 0.05)?,
+            step_k: table.number_or("step_k", Limits::within(1e-6, 100.0), 0.05)?,
             rise_k,
         };
         let change = temperature.largest_change();

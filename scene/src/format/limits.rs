@@ -13,8 +13,6 @@ pub(crate) struct Limits {
 
 impl Limits {
     pub const ANY: Limits = Limits { low: f64::NEG_INFINITY, high: f64::INFINITY, open: false };
-    pub const POSITIVE: Limits = Limits::above(0.0, f64::INFINITY);
-    pub const NOT_NEGATIVE: Limits = Limits::within(0.0, f64::INFINITY);
 
     /// `low ..= high`
     pub const fn within(low: f64, high: f64) -> Self {

@@ -8,7 +8,7 @@ use hapticore_hdl::interpretations::netlist::{Module, Named, Netlist};
 use hapticore_hdl::verilog::Design;
 use hapticore_model::blocks::core::Core;
 use hapticore_rtl::board::adc_reader::AdcReader;
-use hapticore_rtl::board::framing::{data_bytes, word_bytes};
+use hapticore_rtl::board::framing::{Register, STATUS_BYTES, VERSION, data_bytes, word_bytes};
 use hapticore_rtl::board::pads::Pads;
 use hapticore_rtl::board::registers::CommandRegisters;
 use hapticore_rtl::board::stream::Stream;
@@ -103,14 +103,18 @@ fn registers(target: Target) -> (String, Known) {
     let address = u64::from(core.inputs().calibration.table.address.width);
     let verilog =
         print(Netlist::of(&CommandRegisters::new(core.inputs().calibration, words, None)).top());
-    (
-        verilog,
-        vec![
-            ("DATA", data_bytes(&word_formats(&core.inputs().calibration))),
-            ("WORDS", words),
-            ("ADDRESS", address),
-        ],
-    )
+    let numbers = ["CAPACITANCE", "FORCE", "CONTACT", "CONTROL", "ADC"].into_iter();
+    let mut known: Known = numbers
+        .zip(Register::ALL)
+        .map(|(name, register)| (name, register.number() as u64))
+        .collect();
+    known.extend([
+        ("DATA", data_bytes(&word_formats(&core.inputs().calibration))),
+        ("WORDS", words),
+        ("ADDRESS", address),
+        ("REGISTERS", Register::ALL.len() as u64),
+    ]);
+    (verilog, known)
 }
 
 /// The stream of a board with its transmitter, and what goes into that, as `line`.
@@ -132,7 +136,12 @@ fn stream(target: Target) -> (String, Known) {
     let width = Field::word(&profile).width;
     (
         format!("{module}{line}{rest}"),
-        vec![("BYTES", word_bytes(&profile)), ("WIDTH", width.into())],
+        vec![
+            ("BYTES", word_bytes(&profile)),
+            ("WIDTH", width.into()),
+            ("STATUS", STATUS_BYTES),
+            ("VERSION", VERSION.into()),
+        ],
     )
 }
 

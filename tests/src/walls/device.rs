@@ -55,8 +55,7 @@ impl Pad {
             ),
         };
         format!(
-            "[gap]\nrung = {gap}\n[halves]\npush_height_mm = {PUSH_HEIGHT_MM}\n\
-             mismatch_percent = {mismatch_percent}\n{strips}{senses}[hand]\n"
+            "[gap]\nrung = {gap}\n[halves]\nmismatch_percent = {mismatch_percent}\n{strips}{senses}"
         )
     }
 }
@@ -93,13 +92,14 @@ pub fn scene_of(pad: Pad, hand: &Hand, mismatch_percent: f64, senses: &str) -> S
         write!(points, "[{time_s:.3}, {:.6}],", hand.target_mm(time_s)).expect("a string takes it");
     }
     let load_g = 1e3 * hand.load_n / GRAVITY;
+    let pushed = format!("push_height_mm = {PUSH_HEIGHT_MM}\n{senses}[hand]\n");
     let Hand { stiffness_n_per_m: k, damping_n_s_per_m: c, mass_kg: m, .. } = hand;
     format!(
         "title = \"a hand at a wall\"\nduration_s = {duration_s}\n[[pad]]\nload_g = {load_g}\n\
          position_mm = {{ timeline = {{ x_mm = [{points}] }} }}\n{}\
          stiffness_n_per_m = {k}\ndamping_n_s_per_m = {c}\nmass_kg = {m}\n\
          [friction]\nrung = \"lugre\"\n",
-        pad.tables(mismatch_percent, "\"tr-bdf2\"", senses)
+        pad.tables(mismatch_percent, "\"tr-bdf2\"", &pushed)
     )
 }
 

@@ -141,7 +141,7 @@ fn a_core_given_the_printed_codes_measures_what_replay_does() {
     let replayed = Table::read(&folder.path().join("r/frames.csv"));
 
     let codes = from_csv(&text(folder.path(), "csv"));
-    assert_eq!(codes.constants.len(), 2, "{:?}", codes.constants);
+    assert_eq!(codes.constants.len(), 3, "{:?}", codes.constants);
     assert_eq!(from_header(&text(folder.path(), "c")), codes);
     (profile.terminals.x, profile.terminals.y, profile.pads) =
         (vec![-1, -1, 1, 1], vec![1, -1, -1, 1], 1);
@@ -199,7 +199,7 @@ fn verilog_reads_the_same_codes() {
 const HOST: &str = "#include <stdio.h>
 #include \"codes.h\"
 int main(void) {
-    printf(\"%d\\n%d\\n\", HAPTICORE_CAPACITANCE_GAIN, HAPTICORE_FORCE_GAIN);
+    printf(\"%d\\n%d\\n%d\\n\", HAPTICORE_CAPACITANCE_GAIN, HAPTICORE_FORCE_GAIN, HAPTICORE_CONTACT_CAPACITANCE);
     for (int k = 0; k < HAPTICORE_POSITION_TABLE_WORDS; k++) printf(\"%d\\n\", hapticore_position_table[k]);
     return 0;
 }
@@ -223,8 +223,9 @@ fn a_host_in_c_has_the_same_codes() {
     let numbers: Vec<i64> = log.lines().map(|line| line.parse().unwrap()).collect();
     let codes = from_csv(&text(folder.path(), "csv"));
     let constant = |name: &str| codes.constants.iter().find(|(known, _)| known == name).unwrap().1;
-    assert_eq!(numbers[..2], [constant("capacitance_gain"), constant("force_gain")]);
-    assert_eq!(numbers[2..], codes.table);
+    let names = ["capacitance_gain", "force_gain", "contact_capacitance"];
+    assert_eq!(numbers[..3], names.map(constant));
+    assert_eq!(numbers[3..], codes.table);
 }
 
 #[test]

@@ -29,14 +29,15 @@ fn simulate(folder: &Path, scene: &str, core: &str) -> Value {
     summary
 }
 
-/// Frames with a flag for which the true places give no reason: pads whose reach is not at the
-/// sheet's edge, pads that are not near each other, or any other flag.
+/// Frames with a flag for which there is no reason: pads whose reach is not at the sheet's edge, pads that are not
+/// near each other, drives at their curve whose force is not short of its target, or any other flag.
 fn unexpected_flags(table: &Table, summary: &Value) -> Vec<String> {
     const REACH_MM: f64 = 15.0;
     const NEAR_MM: f64 = 2.0;
     let half_mm = [0, 1].map(|axis| summary["sheet_mm"][axis].as_f64().expect("a size") / 2.0);
     let (x_mm, y_mm) = (table.numbers("true_x_mm"), table.numbers("true_y_mm"));
     let (pads, flags) = (table.column("pad"), table.column("flags"));
+    let short = short_of_target(table);
     let runs = table.column("case").into_iter().zip(table.column("point")).collect::<Vec<_>>();
     // The last place of each pad of a run, which is what the host knows of the others.
     let mut last = HashMap::new();
@@ -49,14 +50,28 @@ fn unexpected_flags(table: &Table, summary: &Value) -> Vec<String> {
         let touching = others
             .map(|(_, other)| (at[0] - other[0]).hypot(at[1] - other[1]))
             .any(|distance| distance < 2.0 * REACH_MM + NEAR_MM);
-        let expected = |flag: &str| {
-            matches!(flag, "") || flag == "at_edge" && at_edge || flag == "touching" && touching
+        let expected = |flag: &str| match flag {
+            "" => true,
+            "at_edge" => at_edge,
+            "touching" => touching,
+            "at_curve" => short[k],
+            _ => false,
         };
         if !flags[k].split('+').all(expected) {
             unexpected.push(format!("frame {k}, pad {} at {at:?}: {}", pads[k], flags[k]));
         }
     }
     unexpected
+}
+
+/// Whether the force that each frame reads is more than 5 % and 5 mN below its target.
+fn short_of_target(table: &Table) -> Vec<bool> {
+    let read_n = table.numbers("force_n");
+    if !table.names.iter().any(|name| name == "target_n") {
+        return vec![false; read_n.len()];
+    }
+    let targets_n = table.numbers("target_n");
+    read_n.iter().zip(targets_n).map(|(read_n, of_n)| *read_n < 0.95 * of_n - 0.005).collect()
 }
 
 /// A force loop has a plant that waits for it, and many cases: of each, every clock of so long.

@@ -111,8 +111,8 @@ fn a_controller_that_cannot_be_is_one_line_with_key_and_limit() {
     let folder = tempfile::tempdir().unwrap();
     for (set, words) in [
         ("control.law=\"magic\"", ["--set control.law", "\"inverse\"", "\"magic\""]),
-        ("control.rail_v=600", ["control.rail_v", "at most 500", "600"]),
-        ("control.rail_v=nan", ["control.rail_v", "at most 500", "NaN"]),
+        ("control.rail_v=600", ["control.rail_v", "to 500", "600"]),
+        ("control.rail_v=nan", ["control.rail_v", "to 500", "NaN"]),
         ("control.filter=0", ["control.filter", "expected", "0"]),
         ("control.slew_v=-1", ["control.slew_v", "expected", "-1"]),
         ("control.force=\"spring\"", ["control.force", "\"eq8\", \"table\"", "spring"]),
@@ -167,7 +167,7 @@ fn a_bad_scene_is_one_line_that_names_line_and_key() {
         ("load = 20", "bad.toml:4: pad.0.load: expected load_g, since a key names its unit"),
         (
             "[gap]\ninsulator_um = -8",
-            "bad.toml:5: gap.insulator_um: expected a number above 0, got -8",
+            "bad.toml:5: gap.insulator_um: expected a number from 0.01 to 10000, got -8",
         ),
         (
             "load_g = { timeline = [] }",

@@ -242,7 +242,7 @@ fn comments_without_an_end_can_be_stopped() {
 fn a_haptic_voltage_as_slow_as_can_be_is_warned_of() {
     let folder = tempfile::tempdir().unwrap();
     let slow =
-        ["simulate", "minimal-supply", "--waves", "none", "--set", "carrier.haptic_hz=1e-300"];
+        ["simulate", "minimal-supply", "--waves", "none", "--set", "carrier.haptic_hz=0.001"];
     let log = crate::finish(folder.path(), &slow).stderr;
     assert!(String::from_utf8(log).unwrap().contains("warning: haptic_v_rms"));
 }

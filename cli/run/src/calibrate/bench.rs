@@ -47,11 +47,12 @@ const TABLES: [&str; 6] = ["device", "gap", "friction", "supply", "temperature",
 pub struct Bench {
     tables: Table,
     haptic_hz: Option<Value>,
+    /// With a controller a gap moves unless its level says otherwise.
+    is_controlled: bool,
 }
 
 impl Bench {
-    /// The device of a scene, as TOML; none where it has no gap and friction, for then eq. 8 holds
-    /// exactly.
+    /// The device of a scene, as TOML; none where it has no gap, for then eq. 8 holds exactly.
     ///
     /// # Errors
     /// A text that is no TOML.
@@ -59,14 +60,15 @@ impl Bench {
         let mut scene: Table = toml::from_str(scene).context("the scene of a case")?;
         let haptic_hz = scene.get("carrier").and_then(|carrier| carrier.get("haptic_hz")).cloned();
         let tables: Table = TABLES.iter().filter_map(|key| scene.remove_entry(*key)).collect();
-        let both = tables.contains_key("gap") && tables.contains_key("friction");
-        Ok(both.then_some(Bench { tables, haptic_hz }))
+        let is_controlled = scene.contains_key("control");
+        let has_gap = tables.contains_key("gap");
+        Ok(has_gap.then_some(Bench { tables, haptic_hz, is_controlled }))
     }
 
     /// Whether the gap has no time of its own.
     pub fn is_static(&self) -> bool {
         let level = self.tables["gap"].get("rung").and_then(Value::as_str);
-        matches!(level, None | Some("static"))
+        level.map_or(!self.is_controlled, |level| level == "static")
     }
 
     /// What one pad reads in slots of a millisecond, while its voltage steps as told.
@@ -224,5 +226,34 @@ fn timing() -> Timing {
         window_start: 0,
         window_samples: 1000,
         ..crate::inputs::timing(&profile)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn bench(scene: &str) -> Option<Bench> {
+        Bench::of(scene).unwrap()
+    }
+
+    /// Its force is that of its patches, with friction and without.
+    #[test]
+    fn a_gap_without_friction_has_readings_too() {
+        assert!(bench("[friction]\n").is_none());
+        let forces_n = |scene: &str| {
+            let readings = bench(scene).expect("a gap").settled(50.0, &[200.0, 300.0]).unwrap();
+            readings.iter().map(|reading| reading.force_n).collect::<Vec<_>>()
+        };
+        let alone = forces_n("[gap]\n");
+        assert_eq!(alone, forces_n("[gap]\n[friction]\n"));
+        assert!((alone[1] - 0.418).abs() < 0.001, "{alone:?}"); // docs/physics.md §3
+    }
+
+    #[test]
+    fn a_gap_under_a_controller_moves_on_the_bench() {
+        assert!(bench("[gap]\n").expect("a gap").is_static());
+        assert!(!bench("[gap]\n[control]\n").expect("a gap").is_static());
+        assert!(bench("[gap]\nrung = \"static\"\n[control]\n").expect("a gap").is_static());
     }
 }

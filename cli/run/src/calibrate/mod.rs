@@ -31,8 +31,7 @@ fn force_k(plant: &Plant) -> f64 {
 }
 
 /// The force table of a device from readings on its bench, as multiples of its `force_k`: of a gap
-/// without time with filters without time; without a bench, of a scene without gap or friction,
-/// eq. 8.
+/// without time with filters without time; without a bench, of a scene without a gap, eq. 8.
 ///
 /// # Errors
 /// A device that cannot be simulated.

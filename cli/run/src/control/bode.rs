@@ -39,6 +39,14 @@ struct Sample {
     force_n: f64,
 }
 
+impl Sample {
+    /// What a sine has made of a slot.
+    fn beyond((excited, idle): (&Sample, &Sample)) -> Sample {
+        let [drive_v, force_n] = [excited.drive_v - idle.drive_v, excited.force_n - idle.force_n];
+        Sample { end_s: excited.end_s, drive_v, force_n }
+    }
+}
+
 /// Measures the loop of a case about a force; none where it has no loop. `run` runs the frequencies.
 ///
 /// # Errors
@@ -51,11 +59,16 @@ pub fn measure(
 ) -> Result<Option<Bode>> {
     let Some(open) = OpenLoop::of(case, force_n)? else { return Ok(None) };
     let frequency = |index: usize| PERIODS[index] as f64 / (FRAMES as f64 * open.frame_s);
+    // What the loop does without a sine: turns of the wave, and what is left of its way to rest.
+    let still = Excitation { hold_n: force_n, ..Excitation::default() };
+    let idle = follow(case, settings, still)?;
     let point = |index: usize| {
         let hz = frequency(index);
         let drive_v = OF_DRIVE * open.rest_v;
         let at = |target_n: f64, drive_v: f64| {
-            follow(case, settings, Excitation { hold_n: force_n, target_n, drive_v, hz })
+            let excitation = Excitation { hold_n: force_n, target_n, drive_v, hz };
+            let excited = follow(case, settings, excitation)?;
+            anyhow::Ok(excited.iter().zip(&idle).map(Sample::beyond).collect::<Vec<_>>())
         };
         let on_drive = at(0.0, drive_v)?;
         let on_target = at(OF_TARGET * force_n, 0.0)?;

@@ -4,8 +4,10 @@
 
 pub mod bode;
 pub mod closed;
+mod gains;
 pub mod plant;
 pub mod stability;
 mod tuning;
 
+pub use gains::Gains;
 pub use tuning::{controlled, tuning};

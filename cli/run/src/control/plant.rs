@@ -170,7 +170,7 @@ impl LoopPlant {
         let (limited, fault) = (drive.low | drive.high, drive.faults.any());
         let target_n = drive.walled.map_or(of.target_n, |walled| walled.target_n);
         let free = drive.walled.map(|walled| walled.free);
-        Ok(Driven { target_n, drive_v_rms, limited, fault, free })
+        Ok(Driven { target_n, drive_v_rms, limited, fault, free, core_n: None })
     }
 
     /// Effects and what they cost.

@@ -13,7 +13,8 @@
 //! has brought it to rest: latency of the drive word and the middle of the window are the loop's. The force F̂ is by eq. 8, or true where the core
 //! has a force table. What follows of a factor on the gains (gain margin) and of the phase at |L| = 1
 //! (phase margin) is read on a grid up to half the frame rate. The time constants of a force table's
-//! filters are no part of it. Source: docs/physics.md §6.
+//! filters are no part of it. Beside it stands a step of the same loop from zero: pull-in is no small change. Where
+//! charge makes a turn of the wave change the force, both are between turns. Source: docs/physics.md §6.
 
 use std::f64::consts::PI;
 
@@ -21,11 +22,12 @@ use anyhow::{Context, Result};
 use hapticore_contract::control::Tuning;
 use hapticore_contract::profile::ForceLaw;
 use hapticore_reference::control::{Controller, Prompt};
-use hapticore_scene::{Complex, ControlLaw, ControlPlan, Truth};
+use hapticore_scene::{Complex, ControlLaw, ControlPlan, HapticWave, Plant, Truth};
 
+use super::gains::Gains;
 use crate::case::Case;
 use crate::interrupt;
-use crate::record::Stability;
+use crate::record::{Stability, Step};
 
 /// How long the loop is closed, how long its drive is held before a step, and how long that is
 /// followed, s. A film near its pull-in goes on moving under a drive that is held, which a loop would
@@ -37,6 +39,12 @@ const FOLLOWED_S: f64 = 0.03;
 const FOLLOWED: usize = 20;
 /// Drives whose mean is held.
 const MEAN: usize = 20;
+/// Frames of a step at least, the last third of which shows whether it comes to rest.
+const STEPPED: usize = 60;
+/// By how much of its target the force of a loop at rest may swing.
+const MOST_SWING_PERCENT: f64 = 10.0;
+/// Frames from one turn of the wave to the next, between which a loop can be followed.
+const LEAST_TURN: f64 = 4.0;
 /// A step, of the voltage.
 const STEP: f64 = 1e-3;
 /// Frequencies that are looked at.
@@ -65,22 +73,57 @@ impl OpenLoop {
     /// # Errors
     /// A plant that cannot be, a force that no drive gives.
     pub fn of(case: &Case, force_n: f64) -> Result<Option<OpenLoop>> {
-        let closes = |plan: &&ControlPlan| plan.law != ControlLaw::Open && case.device.parts == 1;
-        let Some(plan) = case.plan().filter(closes) else { return Ok(None) };
-        let frame_s = case.clock.seconds(case.profile.pads as usize);
-        let window_s = case.profile.slot.integrate as f64 / case.device.device.sample_rate_hz;
-        let bench = Bench::new(case, plan, force_n)?;
-        let (rest_v, before) = bench.followed(0.0)?;
-        let (_, after) = bench.followed(STEP)?;
-        let change = after.iter().zip(&before).map(|(after, before)| after - before);
-        let gains = match plan.law {
-            ControlLaw::Integral => [plan.proportional_v, plan.integral_v * frame_s],
-            ControlLaw::Proportional => [plan.filter * plan.proportional_v, 1.0 - plan.filter],
-            _ => [rest_v, 0.0],
+        let Some(bench) = Bench::of(case, force_n)? else { return Ok(None) };
+        let open = OpenLoop::about(&bench, &case.gains()?, Rest::Closed)?;
+        Ok(Some(open))
+    }
+
+    /// That of a law before its gains are known, about a drive that is held.
+    ///
+    /// # Errors
+    /// As [`OpenLoop::of`].
+    pub(super) fn held(bench: &Bench, drive_v: f64) -> Result<OpenLoop> {
+        OpenLoop::about(bench, &Gains::default(), Rest::Held(drive_v))
+    }
+
+    fn about(bench: &Bench, gains: &Gains, rest: Rest) -> Result<OpenLoop> {
+        let shifts = bench.shifts()?;
+        let (mut rest_v, mut response) = (0.0, Vec::<f64>::new());
+        for shift in 0..shifts {
+            let (held_v, before) = bench.followed(rest, 0.0, shift)?;
+            let (_, after) = bench.followed(rest, STEP, shift)?;
+            rest_v = held_v;
+            response.resize(before.len(), 0.0);
+            let changes = after.iter().zip(&before).map(|(after, before)| after - before);
+            for (response, change) in response.iter_mut().zip(changes) {
+                *response += change / (STEP * rest_v * shifts as f64);
+            }
+        }
+        let delay_s = bench.window_s / 2.0 + bench.latency_s + bench.frame_s / 2.0;
+        let open = OpenLoop {
+            law: bench.plan.law,
+            gains: [rest_v, 0.0],
+            response,
+            frame_s: bench.frame_s,
+            delay_s,
+            rest_v,
         };
-        let response = change.map(|change| change / (STEP * rest_v)).collect();
-        let delay_s = window_s / 2.0 + bench.latency_s + frame_s / 2.0;
-        Ok(Some(OpenLoop { law: plan.law, gains, response, frame_s, delay_s, rest_v }))
+        Ok(open.with(bench.plan, gains))
+    }
+
+    /// The same with other gains.
+    pub(super) fn with(&self, plan: &ControlPlan, of: &Gains) -> OpenLoop {
+        let gains = match plan.law {
+            ControlLaw::Integral => [of.proportional_v, of.integral_v * self.frame_s],
+            ControlLaw::Proportional => [plan.filter * of.proportional_v, 1.0 - plan.filter],
+            _ => [self.rest_v, 0.0],
+        };
+        OpenLoop { gains, response: self.response.clone(), ..*self }
+    }
+
+    /// The gain per frame with which the law makes up for a step at once.
+    pub(super) fn unit_gain(&self) -> f64 {
+        1.0 / self.response.iter().fold(0.0, |most: f64, step| most.max(*step))
     }
 
     /// L at a frequency.
@@ -139,6 +182,21 @@ pub fn margins(grid: &[(f64, Complex)]) -> Stability {
     found
 }
 
+/// What a step of a case's loop from zero to a force does; none where it has no loop.
+///
+/// # Errors
+/// As [`OpenLoop::of`].
+pub fn step(case: &Case, force_n: f64) -> Result<Option<Step>> {
+    Bench::of(case, force_n)?.map(|bench| bench.step()).transpose()
+}
+
+impl Step {
+    /// Whether the loop comes to rest.
+    pub fn settles(&self) -> bool {
+        self.swing_percent <= MOST_SWING_PERCENT
+    }
+}
+
 impl Stability {
     fn limit(&mut self, gain: f64) {
         let margin = 1.0 / gain;
@@ -156,44 +214,78 @@ impl Stability {
 
 /// A pad whose loop is closed in floating point, without a core, until it rests; then its drive is
 /// held: what the film has been through is as in the loop.
-struct Bench<'a> {
+pub(super) struct Bench<'a> {
     case: &'a Case<'a>,
     plan: &'a ControlPlan,
     tuning: Tuning,
     force_n: f64,
     frame_s: f64,
+    window_s: f64,
     latency_s: f64,
+    /// The pad is that of the device when it was calibrated.
+    as_calibrated: bool,
+}
+
+/// What brings a pad to rest.
+#[derive(Clone, Copy, Debug)]
+enum Rest {
+    /// The law.
+    Closed,
+    /// A drive, V rms.
+    Held(f64),
 }
 
 impl<'a> Bench<'a> {
-    fn new(case: &'a Case<'a>, plan: &'a ControlPlan, force_n: f64) -> Result<Self> {
+    /// That of a case whose loop is closed; none of pads that are served part by part.
+    fn of(case: &'a Case<'a>, force_n: f64) -> Result<Option<Self>> {
+        let closes = |plan: &&ControlPlan| plan.law != ControlLaw::Open && case.device.parts == 1;
+        let Some(plan) = case.plan().filter(closes) else { return Ok(None) };
         let tuning = case.tuning(&case.plant()?)?.context("a case with a controller")?;
+        let bench = Bench::new(case, plan, tuning, force_n)?;
+        Ok(Some(Bench { as_calibrated: false, ..bench }))
+    }
+
+    /// A bench for the device as it was calibrated.
+    ///
+    /// # Errors
+    /// A profile without a controller.
+    pub(super) fn new(
+        case: &'a Case<'a>,
+        plan: &'a ControlPlan,
+        tuning: Tuning,
+        force_n: f64,
+    ) -> Result<Self> {
         let frame_s = case.clock.seconds(case.profile.pads as usize);
-        Ok(Bench { case, plan, tuning, force_n, frame_s, latency_s: case.drive_latency_s()? })
+        let window_s = case.profile.slot.integrate as f64 / case.clock.sample_rate_hz();
+        let latency_s = case.drive_latency_s()?;
+        let as_calibrated = true;
+        Ok(Bench { case, plan, tuning, force_n, frame_s, window_s, latency_s, as_calibrated })
+    }
+
+    fn frames(&self, seconds: f64) -> usize {
+        (seconds / self.frame_s).ceil() as usize
     }
 
     /// The drive at rest, and the law's quantity, frame by frame, from the slot on after which the
-    /// drive has risen by a part of it.
-    fn followed(&self, part: f64) -> Result<(f64, Vec<f64>)> {
-        let (mut plant, pads) = (self.case.plant()?, self.case.profile.pads as usize);
-        let control = self.case.profile.control.as_ref().context("a profile with a controller")?;
-        let mut controller = Controller::new(control, &self.tuning, 1);
-        for pad in 0..pads {
-            plant.set_drive(pad, 0.0, 0.0)?;
-        }
-        let frames = |seconds: f64| (seconds / self.frame_s).ceil() as usize;
-        let closed = frames(CLOSED_S);
-        let rest = closed + frames(REST_S);
+    /// drive has risen by a part of it, so many frames later than usual.
+    fn followed(&self, by: Rest, part: f64, shift: usize) -> Result<(f64, Vec<f64>)> {
+        let (mut plant, pads) = (self.idle_plant()?, self.case.profile.pads as usize);
+        let mut controller = self.controller()?;
+        let closed = self.frames(CLOSED_S);
+        let [rest, end] = self.between_turns(&plant, closed + self.frames(REST_S));
+        let [rest, end] = [rest + shift, end + shift];
         let (mut drives, mut quantities) = (Vec::new(), Vec::new());
         let mut held_v = 0.0;
-        for frame in 0..=rest + frames(FOLLOWED_S).max(FOLLOWED) {
+        for frame in 0..=end {
             interrupt::check()?;
             let truth = plant.truth(frame * pads);
-            let start_s = self.case.clock.seconds(frame * pads + 1) + self.latency_s;
+            let start_s = self.start_s(frame);
             if frame < closed {
-                controller.hear();
-                let drive = controller.drive(&self.prompt(&truth), self.force_n);
-                drives.push(self.plan.full_scale_v * drive.fraction);
+                let drive_v = match by {
+                    Rest::Closed => self.asked_v(&mut controller, &truth),
+                    Rest::Held(drive_v) => drive_v,
+                };
+                drives.push(drive_v);
                 plant.set_drive(0, start_s, drives[frame])?;
                 let last = &drives[drives.len().saturating_sub(MEAN)..];
                 held_v = last.iter().sum::<f64>() / last.len() as f64;
@@ -207,6 +299,119 @@ impl<'a> Bench<'a> {
             }
         }
         Ok((held_v, quantities))
+    }
+
+    /// The frame whose drive is stepped, and the last that is followed: between two turns of the wave, where a turn
+    /// changes the force that is measured and there are frames enough from turn to turn.
+    fn between_turns(&self, plant: &Plant, rest: usize) -> [usize; 2] {
+        let end = rest + self.frames(FOLLOWED_S).max(FOLLOWED);
+        let turn_s = self.turn_s(plant).filter(|turn_s| *turn_s >= LEAST_TURN * self.frame_s);
+        let Some(turn_s) = turn_s else { return [rest, end] };
+        let turn = (self.start_s(rest) / turn_s).floor() + 1.0;
+        let frame_after = |time_s: f64| (time_s / self.frame_s).ceil() as usize;
+        let rest = frame_after(turn * turn_s);
+        [
+            rest,
+            frame_after((turn + 1.0) * turn_s).saturating_sub(2).clamp(rest + 1, end.max(rest + 1)),
+        ]
+    }
+
+    /// Frames of a round of the wave from which a step is followed, where turns come too often to follow it between two.
+    fn shifts(&self) -> Result<usize> {
+        let turn_s = self.turn_s(&self.case.plant()?);
+        let often = turn_s.filter(|turn_s| *turn_s < LEAST_TURN * self.frame_s);
+        Ok(often.map_or(1, |turn_s| ((2.0 * turn_s / self.frame_s).ceil() as usize).max(2)))
+    }
+
+    /// From one turn of the haptic voltage to the next, where charge makes it change the force.
+    fn turn_s(&self, plant: &Plant) -> Option<f64> {
+        let charges = self.case.scene.cases[self.case.index].effects();
+        let charges = charges.iter().any(|(name, _)| *name == "charge");
+        match plant.device().haptic_wave {
+            HapticWave::Square { turn_s } if charges => turn_s,
+            _ => None,
+        }
+    }
+
+    /// What the loop makes of a step of its target from zero to the force.
+    ///
+    /// # Errors
+    /// A plant that cannot be.
+    pub(super) fn step(&self) -> Result<Step> {
+        let (mut plant, pads) = (self.idle_plant()?, self.case.profile.pads as usize);
+        let mut controller = self.controller()?;
+        let frames = self.frames(CLOSED_S).max(STEPPED);
+        let mut forces_n = Vec::with_capacity(frames);
+        for frame in 0..frames {
+            interrupt::check()?;
+            let truth = plant.truth(frame * pads);
+            forces_n.push(self.measured_n(&truth));
+            let drive_v = self.asked_v(&mut controller, &truth);
+            plant.set_drive(0, self.start_s(frame), drive_v)?;
+        }
+        let last = frames * 2 / 3..frames;
+        let spread = |forces_n: &[f64]| {
+            let most = forces_n.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+            most - forces_n.iter().copied().fold(f64::INFINITY, f64::min)
+        };
+        let swing_n = match self.turn_s(&plant) {
+            None => spread(&forces_n[last.clone()]),
+            // A turn of the wave is no swing of the loop: frames of one polarity, where turns come too often.
+            Some(turn_s) if turn_s < LEAST_TURN * self.frame_s => {
+                let frames: Vec<usize> = last.clone().collect();
+                let polarity = |frame: &usize| (self.start_s(*frame) / turn_s).floor() as usize % 2;
+                let of = |side: usize| {
+                    let frames = frames.iter().filter(|frame| polarity(frame) == side);
+                    spread(&frames.map(|n| forces_n[*n]).collect::<Vec<_>>())
+                };
+                of(0).max(of(1))
+            }
+            Some(turn_s) => {
+                let turn = |frame: usize| (self.start_s(frame) / turn_s).floor() as usize;
+                let frames: Vec<usize> = last.clone().collect();
+                let between = frames.chunk_by(|a, b| turn(*a) == turn(*b));
+                between
+                    .filter_map(|run| run.get(2..))
+                    .map(|run| spread(&run.iter().map(|n| forces_n[*n]).collect::<Vec<_>>()))
+                    .fold(0.0, f64::max)
+            }
+        };
+        let most_n = forces_n.iter().copied().fold(0.0, f64::max);
+        let rest_n = forces_n[last.clone()].iter().sum::<f64>() / last.len() as f64;
+        let percent = |newtons: f64| 100.0 * newtons / self.force_n;
+        Ok(Step {
+            overshoot_percent: percent(most_n - self.force_n).max(0.0),
+            swing_percent: percent(swing_n),
+            rest_n,
+        })
+    }
+
+    /// When the drive begins that a frame leads to.
+    fn start_s(&self, frame: usize) -> f64 {
+        self.case.clock.seconds(frame * self.case.profile.pads as usize + 1) + self.latency_s
+    }
+
+    fn controller(&self) -> Result<Controller> {
+        let control = self.case.profile.control.as_ref().context("a profile with a controller")?;
+        Ok(Controller::new(control, &self.tuning, 1))
+    }
+
+    /// The plant, before its first slot, none of whose pads is driven.
+    fn idle_plant(&self) -> Result<Plant> {
+        let now = self.case.plant()?;
+        let then = if self.as_calibrated { now.as_calibrated()? } else { None };
+        let mut plant = then.unwrap_or(now);
+        for pad in 0..self.case.profile.pads as usize {
+            plant.set_drive(pad, 0.0, 0.0)?;
+        }
+        Ok(plant)
+    }
+
+    /// The drive that the law asks for, V rms.
+    fn asked_v(&self, controller: &mut Controller, truth: &Truth) -> f64 {
+        controller.hear();
+        let drive = controller.drive(&self.prompt(truth), self.force_n);
+        self.plan.full_scale_v * drive.fraction
     }
 
     fn quantity(&self, truth: &Truth) -> f64 {
@@ -231,7 +436,8 @@ impl<'a> Bench<'a> {
     }
 
     fn measured_n(&self, truth: &Truth) -> f64 {
-        if self.case.profile.force.law == ForceLaw::Table {
+        // A part's capacitance is not the pad's.
+        if self.case.profile.force.law == ForceLaw::Table || self.case.device.parts > 1 {
             return truth.force_n;
         }
         let charge = truth.capacitance_pf * 1e-12 * truth.haptic_v_rms;

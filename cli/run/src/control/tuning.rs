@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A scene's controller, in volts and newtons, as words of a core.
 
-use anyhow::{Result, ensure};
+use anyhow::{Context, Result, ensure};
 use hapticore_contract::control::{Control, Law, Tuning, Walls};
 use hapticore_contract::profile::{Force, ForceLaw, Profile, Release, Wall};
-use hapticore_host::DeviceCalibration;
 use hapticore_scene::{
     ControlLaw, ControlPlan, DriveCurve, ForceEstimate, Plant, WallPlan, WallRule,
 };
+
+use super::gains::Gains;
+use crate::case::Case;
 
 /// Voltages at which the steady curve is measured.
 const MEASURED: usize = 401;
@@ -81,23 +83,38 @@ fn walls(plan: &WallPlan, nominal_load_g: f64, plant: &Plant) -> Walls {
     }
 }
 
-/// The tuning of a controller for a device; `frame_s` is the time from a pad's slot to its next.
+/// Gains and tuning of a case's controller, for the device as it was calibrated.
+///
+/// # Errors
+/// A gain that its word does not hold: its key, and what would; a device that no gain suits.
+pub fn tuning(case: &Case, plan: &ControlPlan, plant: &Plant) -> Result<(Gains, Tuning)> {
+    let steady = steady(plan, plant);
+    let gains = Gains::of(case, plan, (plant, &steady))?;
+    let tuning = of_gains(case, plan, plant, (&gains, &steady))?;
+    Ok((gains, tuning))
+}
+
+/// The tuning with gains that are known.
 ///
 /// # Errors
 /// A gain that its word does not hold: its key, and what would.
-pub fn tuning(
+pub(super) fn of_gains(
+    case: &Case,
     plan: &ControlPlan,
-    control: &Control,
-    profile: &Profile,
-    device: &DeviceCalibration,
-    (plant, frame_s): (&Plant, f64),
+    plant: &Plant,
+    (gains, steady): (&Gains, &[[f64; 2]]),
 ) -> Result<Tuning> {
+    let (profile, device) = (&case.profile, &case.device);
+    let control = profile.control.as_ref().context("a profile with a controller")?;
+    let frame_s = case.clock.seconds(plant.served());
     let part = |volt: f64| volt / plan.full_scale_v;
     let root = control.root_full_scale();
     let adc = part(device.device.haptic_full_scale_v);
     let (proportional, correction) = match control.law {
-        Law::Integral => (part(plan.proportional_v) * root, part(plan.integral_v) * root * frame_s),
-        _ => (part(plan.proportional_v), plan.filter),
+        Law::Integral => {
+            (part(gains.proportional_v) * root, part(gains.integral_v) * root * frame_s)
+        }
+        _ => (part(gains.proportional_v), plan.filter),
     };
     let full_drive = adc * adc / profile.square_gain();
     let most = control.gain.real(control.gain.max_code() as i64);
@@ -109,14 +126,17 @@ pub fn tuning(
         plan.full_scale_v
     );
     for (key, asked, gain) in [
-        ("proportional_v", plan.proportional_v, proportional),
-        ("integral_v", plan.integral_v, correction),
+        ("proportional_v", gains.proportional_v, proportional),
+        ("integral_v", gains.integral_v, correction),
     ] {
         let limit = asked * most / gain;
         ensure!(gain <= most, "control.{key}: expected at most {limit:.0}, got {asked}");
     }
     Ok(Tuning {
-        curve: curve(plan, control, plant).into_iter().map(|volt| part(volt).min(1.0)).collect(),
+        curve: curve(plan, control, (gains, steady))
+            .into_iter()
+            .map(|volt| part(volt).min(1.0))
+            .collect(),
         full_drive,
         proportional,
         correction,
@@ -128,19 +148,22 @@ pub fn tuning(
 }
 
 /// The voltages of the curve, at the roots of forces 0 … the largest target.
-fn curve(plan: &ControlPlan, control: &Control, plant: &Plant) -> Vec<f64> {
+fn curve(
+    plan: &ControlPlan,
+    control: &Control,
+    (gains, steady): (&Gains, &[[f64; 2]]),
+) -> Vec<f64> {
     let root = |cell: u64| cell as f64 / control.cells as f64 * control.root_full_scale();
     let roots = (0..=control.cells).map(root);
     match plan.curve {
         DriveCurve::SquareRoot => {
-            roots.map(|root| plan.curve_factor * plan.feed_forward_v * root).collect()
+            roots.map(|root| plan.curve_factor * gains.feed_forward_v * root).collect()
         }
         DriveCurve::Linear => {
-            roots.map(|root| plan.curve_factor * plan.feed_forward_v * root * root).collect()
+            roots.map(|root| plan.curve_factor * gains.feed_forward_v * root * root).collect()
         }
         DriveCurve::Steady => {
-            let steady = steady(plan, plant);
-            let volt = |root: f64| plan.curve_factor * voltage_of(&steady, root * root);
+            let volt = |root: f64| plan.curve_factor * voltage_of(steady, root * root);
             roots.map(volt).collect()
         }
     }
@@ -155,7 +178,7 @@ fn steady(plan: &ControlPlan, plant: &Plant) -> Vec<[f64; 2]> {
 }
 
 /// The least voltage that gives a force, linear between those measured; beyond them the last.
-fn voltage_of(steady: &[[f64; 2]], force_n: f64) -> f64 {
+pub(super) fn voltage_of(steady: &[[f64; 2]], force_n: f64) -> f64 {
     let next = steady.partition_point(|[_, force]| *force < force_n);
     match (next.checked_sub(1), steady.get(next)) {
         (Some(before), Some([high_v, high_n])) => {

@@ -8,6 +8,7 @@ use hapticore_contract::control::{Control, Law};
 use hapticore_contract::profile::{Force, ForceLaw, Profile, Wall};
 use hapticore_hdl::probe::variables;
 use std::collections::HashSet;
+use std::f64::consts::TAU;
 
 /// The short profiles, with a controller of this law.
 fn controlled(law: Law) -> impl Iterator<Item = Profile> {
@@ -43,7 +44,9 @@ fn slot(
     for clock in 0..=(profile.slot.samples() - 1) * clocks {
         let mut inputs = quiet;
         inputs.core.strobe = i64::from(clock % clocks == 0);
-        inputs.core.code = if channel == sense { 10_000 } else { 100 };
+        let turns = (clock / clocks) as f64 * profile.turns_per_sample();
+        let amplitude = if channel == sense { 10_000.0 } else { 100.0 };
+        inputs.core.code = (amplitude * (TAU * turns).cos()).round() as i64;
         channel = bench.clock(inputs).core.channel;
     }
     for clock in 1..20_000 {

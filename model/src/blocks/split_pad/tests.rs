@@ -16,6 +16,9 @@ use hapticore_hdl::probe::sample;
 use hapticore_hdl::signal::Signal;
 use hapticore_reference::rounded::{Estimate, Exact, SplitPads, WallFrame};
 
+/// Of a part: codes of capacitance and force, and whether it is invalid and whether it is lifted.
+type PartCodes = (i64, i64, [bool; 2]);
+
 /// The bundled profiles with two pads of two parts, of three, and of quadrants.
 fn profiles() -> Vec<Profile> {
     let walls = [profile::Wall::A, profile::Wall::B, profile::Wall::QUADRANTS];
@@ -95,7 +98,7 @@ impl Pair {
 
     /// The estimates of a pad's parts, capacitance, force and whether they are invalid: what is given
     /// of the pad, the same to the bit, and then whether it is driven.
-    fn frame(&mut self, pad: usize, parts: &[(i64, i64, [bool; 2])], rests: bool) -> Outputs<i64> {
+    fn frame(&mut self, pad: usize, parts: &[PartCodes], rests: bool) -> Outputs<i64> {
         let mut got = None;
         for (part, &(capacitance, measured, [invalid, lifted])) in (0..).zip(parts) {
             let pad = (self.parts * pad) as i64 + part;
@@ -113,7 +116,7 @@ impl Pair {
         }
         let got = got.expect("the last part gives the pad");
         let f = &self.formats;
-        let of = |&(c, force, [invalid, lifted]): &(i64, i64, [bool; 2])| Estimate {
+        let of = |&(c, force, [invalid, lifted]): &PartCodes| Estimate {
             capacitance: Exact::of(c, f.capacitance),
             force: Exact::of(force, f.measured),
             invalid,
@@ -246,7 +249,7 @@ fn what_is_kept_has_a_word_for_every_number_of_a_part() {
 }
 
 /// A wall on the left that a pad has been pushed into by a millimetre.
-fn pushed(profile: &Profile) -> (Pair, Vec<(i64, i64, [bool; 2])>, i64) {
+fn pushed(profile: &Profile) -> (Pair, Vec<PartCodes>, i64) {
     let mut pair = Pair::new(profile);
     let f = pair.formats;
     let half_n = f.wall.wall_most.code_saturating(0.5);
@@ -337,9 +340,7 @@ fn a_pad_that_has_no_place_yet_meets_no_wall() {
 #[test]
 fn a_wall_is_forgotten_with_a_reset_and_its_place_with_every_clear() {
     for profile in profiles() {
-        let acts = |pair: &mut Pair, parts: &[(i64, i64, [bool; 2])]| {
-            pair.frame(0, parts, false).target > 0
-        };
+        let acts = |pair: &mut Pair, parts: &[PartCodes]| pair.frame(0, parts, false).target > 0;
         let forget = |pair: &mut Pair, surfaces: bool| {
             for axis in &mut pair.pads[0].axes {
                 axis.place = None;

@@ -11,8 +11,8 @@
 //! Each is a law of its own, none an approximation of another. The step's error in the pad's place is 1.4, 16 and 150 µm at 10 µs, 100 µs and 1 ms, of a finger
 //! that swings 30 mm twice a second; the prototype has 1.8, 18 and 180 µm (docs/physics.md §4).
 //!
-//! Without the table the force is eq. 8 with the true capacitance and voltage, which for an even
-//! gap is the same. μ is `device.mu`: 0.12, or 0.065 where the loop has to agree with the paper's K
+//! Without the table the force is μ·ΣF_e too, of the nominal μ, and no friction acts on the pad. Without `[gap]`
+//! that is eq. 8 with the true capacitance and voltage. μ is `device.mu`: 0.12, or 0.065 where the loop has to agree with the paper's K
 //! = 600. The haptic force is what friction can do because of the voltage, whether the pad slides
 //! or sticks; how much it does is the truth's `friction_n`, by `coulomb` as if the pad slid. With `[hand]` the pad lags behind its
 //! trajectory; a step is `step_us`, 100 µs. Source: docs/physics.md §3, §4.
@@ -39,9 +39,10 @@ pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneE
     let Some(table) = root.table("friction")? else { return Ok(None) };
     let surface = Surface {
         stiction: table.number_or("stiction", Limits::within(1.0, 10.0), 1.2)?,
-        stribeck_m_s: 1e-3 * table.number_or("stribeck_mm_per_s", Limits::POSITIVE, 10.0)?,
-        bristle_n_per_m: table.number_or("bristle_n_per_m", Limits::POSITIVE, 1e5)?,
-        bristle_n_s_per_m: table.number_or("bristle_n_s_per_m", Limits::NOT_NEGATIVE, 300.0)?,
+        stribeck_m_s: 1e-3
+            * table.number_or("stribeck_mm_per_s", Limits::within(1e-6, 1e6), 10.0)?,
+        bristle_n_per_m: table.number_or("bristle_n_per_m", Limits::within(1e-3, 1e12), 1e5)?,
+        bristle_n_s_per_m: table.number_or("bristle_n_s_per_m", Limits::within(0.0, 1e9), 300.0)?,
     };
     let step_s = 1e-6 * table.number_or("step_us", Limits::within(1.0, 1000.0), 100.0)?;
     let mu = Coefficient::read(table, device)?;
@@ -58,8 +59,14 @@ pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneE
         };
         levels.push(Level::new(word, cost_ns, build).apart());
     }
-    let usual = if root.table("hand")?.is_some() { "lugre" } else { "coulomb" };
-    Spec::with_levels("friction", Some(table), levels, usual)
+    let has_hand = root.table("hand")?.is_some();
+    let usual = if has_hand { "lugre" } else { "coulomb" };
+    let spec = Spec::with_levels("friction", Some(table), levels, usual)?;
+    if has_hand && spec.as_ref().is_some_and(|spec| spec.is_at("coulomb")) {
+        let message = "expected \"stiction\", \"dahl\" or \"lugre\" with [hand], whose pad moves against friction, got \"coulomb\"";
+        return Err(table.error("rung", message));
+    }
+    Ok(spec)
 }
 
 struct Coulomb {

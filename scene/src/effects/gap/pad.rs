@@ -255,5 +255,6 @@ impl Gap {
         pad.capacitance_f = self.rubber.capacitance_f(gaps_m.clone());
         let pull_n = Drive::new(pad.pulling_v(volt), 0.0).pull_n;
         pad.attraction_n = self.rubber.attraction_n(gaps_m, pull_n);
+        pad.uneven = true;
     }
 }

@@ -54,9 +54,9 @@ pub(in super::super) fn read(root: &Table, device: &Device) -> Result<Option<Spe
         return Err(table.error("drive", message));
     }
     let stiffest = temperature::stiffest(root)?;
-    let led = stiffest.is_some() || root.table("charge")?.is_some();
+    let led = stiffest.is_some() || root.table("charge")?.is_some() || is_tilted(root)?;
     let sine_rad_s = sine.then_some(TAU * device.haptic_hz);
-    let asked_us = table.number("step_us", Limits::within(0.01, f64::INFINITY))?;
+    let asked_us = table.number("step_us", Limits::within(0.01, 1e9))?;
     let mut levels = Vec::new();
     for (word, motion, cost_ns) in LEVELS {
         let asked_us = asked_us.filter(|_| named == Some(word));
@@ -89,7 +89,18 @@ pub(in super::super) fn read(root: &Table, device: &Device) -> Result<Option<Spe
             Motion::Dynamic(_) => level,
         });
     }
-    Spec::with_questions("gap", Some(table), levels, "static", &[MOVING])
+    // A loop acts on a pad faster than its gap follows: at rest at once it swings, or looks calmer than it is.
+    let usual = if root.get("control").is_some() { MOVING.1 } else { "static" };
+    Spec::with_questions("gap", Some(table), levels, usual, &[MOVING])
+}
+
+/// Whether the hand tilts the pad, so that its force, which is kept at times of its own, acts on the patches.
+fn is_tilted(root: &Table) -> Result<bool, SceneError> {
+    let Some(halves) = root.table("halves")?.filter(|_| root.get("hand").is_some()) else {
+        return Ok(false);
+    };
+    let height_mm = halves.get("push_height_mm").and_then(|node| node.value.number());
+    Ok(height_mm != Some(0.0))
 }
 
 fn usual_step_us(motion: Motion) -> f64 {
@@ -133,24 +144,35 @@ fn check_spring(
 }
 
 fn read_rubber(table: &Table, device: &Device) -> Result<Rubber, SceneError> {
-    let thickness_um = table.number_or("insulator_um", Limits::POSITIVE, 16.0)?;
+    let thickness_um = table.number_or("insulator_um", Limits::within(0.01, 1e4), 16.0)?;
     let permittivity = table.number_or("insulator_permittivity", Limits::within(1.0, 1e5), 3.2)?;
     let insulator_um = thickness_um / permittivity;
-    let rest_um =
-        table.numbers("rest_um", Limits::above(insulator_um, 1e4))?.unwrap_or(REST_UM.to_vec());
+    let heights = Limits::above(insulator_um, 1e4);
+    let rest_um = table.numbers("rest_um", heights)?.unwrap_or(REST_UM.to_vec());
+    if let Some(height) = rest_um.iter().find(|height| !heights.holds(**height)) {
+        let message = format!(
+            "expected insulators that are thinner than air by permittivity than the lowest patch, {height} µm \
+             above the film, got {insulator_um} µm; set gap.rest_um, too"
+        );
+        return Err(table.error("insulator_um", message));
+    }
     let patch_m2 = device.pad_area_m2 / rest_um.len() as f64;
-    let spring_pa_per_m = table.number_or("spring_pa_per_m", Limits::POSITIVE, 5e8)?;
+    let spring_pa_per_m = table.number_or("spring_pa_per_m", Limits::within(1e3, 1e15), 5e8)?;
     let law = Law {
         spring_pa_per_m,
         creep_spring_pa_per_m: spring_pa_per_m
-            * table.number_or("creep_share", Limits::NOT_NEGATIVE, 0.35)?,
-        creep_s: table.number_or("creep_s", Limits::POSITIVE, 1.5)?,
-        contact_pa: table.number_or("contact_pa", Limits::NOT_NEGATIVE, 2e5)?,
-        contact_decay_m: 1e-6 * table.number_or("contact_decay_um", Limits::POSITIVE, 0.5)?,
+            * table.number_or("creep_share", Limits::within(0.0, 1e4), 0.35)?,
+        creep_s: table.number_or("creep_s", Limits::within(1e-6, 1e6), 1.5)?,
+        contact_pa: table.number_or("contact_pa", Limits::within(0.0, 1e10), 2e5)?,
+        contact_decay_m: 1e-6
+            * table.number_or("contact_decay_um", Limits::within(1e-3, 1e3), 0.5)?,
         insulator_m: 1e-6 * insulator_um,
-        film_n_s: 1.5 * table.number_or("film_pa_s", Limits::POSITIVE, AIR_PA_S)? * patch_m2 / PI,
-        film_rest_m: 1e-6 * table.number_or("film_rest_um", Limits::POSITIVE, 0.7)?,
-        inertia_kg_m2: table.number_or("inertia_kg_m2", Limits::POSITIVE, 7.0)?,
+        film_n_s: 1.5
+            * table.number_or("film_pa_s", Limits::within(1e-9, 1e3), AIR_PA_S)?
+            * patch_m2
+            / PI,
+        film_rest_m: 1e-6 * table.number_or("film_rest_um", Limits::within(1e-3, 1e3), 0.7)?,
+        inertia_kg_m2: table.number_or("inertia_kg_m2", Limits::within(1e-3, 1e6), 7.0)?,
     };
     let rest_m = rest_um.iter().map(|um| 1e-6 * (um - insulator_um)).collect();
     Ok(Rubber::new(law, patch_m2, device.weight_n(1.0) / device.pad_area_m2, rest_m))

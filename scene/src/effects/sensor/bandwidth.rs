@@ -14,7 +14,9 @@ use crate::format::{Limits, Table};
 use crate::rotor::Rotor;
 
 pub(in super::super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
-    let Some(khz) = super::key(root, "bandwidth_khz", Limits::POSITIVE)? else { return Ok(None) };
+    let Some(khz) = super::key(root, "bandwidth_khz", Limits::within(1e-3, 1e6))? else {
+        return Ok(None);
+    };
     let build = move |setting: &Setting| {
         let device = setting.device.clone();
         let passes = 1.0 / Complex64::new(1.0, device.carrier_hz / (1e3 * khz));

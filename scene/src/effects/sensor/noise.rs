@@ -47,7 +47,8 @@ pub(in super::super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, S
 /// Reads `sensor.noise_density_na_per_rthz`: noise of the current sensors.
 pub(in super::super) fn read_density(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
     let density = super::key(root, "noise_density_na_per_rthz", Limits::within(0.0, 1e6))?;
-    let (Some(na), bandwidth_khz) = (density, super::key(root, "bandwidth_khz", Limits::POSITIVE)?)
+    let (Some(na), bandwidth_khz) =
+        (density, super::key(root, "bandwidth_khz", Limits::within(1e-3, 1e6))?)
     else {
         return Ok(None);
     };

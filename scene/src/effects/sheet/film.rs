@@ -16,6 +16,10 @@ use crate::effects::pad::FilmChange;
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
 
+/// What a film may have, Ω per square: metal foil to a film that no longer conducts. Farther apart, patches of a
+/// mesh leave its matrix without a factor.
+const OHM_PER_SQUARE: Limits = Limits::within(1e-3, 1e7);
+
 /// Ohms per square over the sheet.
 #[derive(Clone, Debug)]
 pub(crate) struct Film {
@@ -62,7 +66,7 @@ impl Film {
             .map(|patch| Patch::read(patch, middle_m))
             .collect::<Result<_, _>>()?;
         Ok(Film {
-            ohm_per_square: table.number_or("ohm_per_square", Limits::POSITIVE, 150.0)?,
+            ohm_per_square: table.number_or("ohm_per_square", OHM_PER_SQUARE, 150.0)?,
             slope_per_m: [0, 1].map(|axis| slope_percent[axis] / 100.0 / size_m[axis]),
             middle_m,
             breaks_m: [0, 1].map(|axis| breaks(&patches, axis)),
@@ -148,14 +152,17 @@ fn breaks(patches: &[Patch], axis: usize) -> Vec<f64> {
 
 impl Patch {
     fn read(table: &Table, middle_m: [f64; 2]) -> Result<Patch, SceneError> {
-        let centre_mm =
-            table.require("centre_mm", "[x, y]", table.pair("centre_mm", Limits::ANY)?)?;
+        let centre_mm = table.require(
+            "centre_mm",
+            "[x, y]",
+            table.pair("centre_mm", Limits::within(-1e4, 1e4))?,
+        )?;
         let size_mm = table.require(
             "size_mm",
             "[width, height]",
-            table.pair("size_mm", Limits::POSITIVE)?,
+            table.pair("size_mm", Limits::within(1e-3, 1e5))?,
         )?;
-        let ohm = table.number("ohm_per_square", Limits::POSITIVE)?;
+        let ohm = table.number("ohm_per_square", OHM_PER_SQUARE)?;
         let side = |sign: f64| {
             [0, 1]
                 .map(|axis| middle_m[axis] + 1e-3 * (centre_mm[axis] + sign * size_mm[axis] / 2.0))

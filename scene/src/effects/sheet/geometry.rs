@@ -29,7 +29,7 @@ impl Sheet {
     pub fn read(table: &Table, device: &Device) -> Result<Sheet, SceneError> {
         let size_m = [device.width_mm, device.height_mm].map(|mm| mm * 1e-3);
         let count = |key| Ok(table.whole(key, 8, 2048)?.map(|count| count as usize));
-        let widest = Limits::above(0.0, device.pad_diameter_mm / 3.0); // a pad at the edge must not lie on a terminal
+        let widest = Limits::within(1e-3, device.pad_diameter_mm / 3.0); // a pad at the edge must not lie on a terminal
         Ok(Sheet {
             size_m,
             pad_radius_m: device.pad_diameter_mm * 0.5e-3,
@@ -106,9 +106,9 @@ fn series(table: &Table, count: usize) -> Result<Vec<f64>, SceneError> {
 fn each(table: &Table, count: usize) -> Result<Vec<f64>, SceneError> {
     const KEY: &str = "terminal_ohm";
     if !matches!(table.get(KEY), Some(Node { value: Value::List(_), .. })) {
-        return Ok(vec![table.number_or(KEY, Limits::NOT_NEGATIVE, 0.0)?; count]);
+        return Ok(vec![table.number_or(KEY, Limits::within(0.0, 1e9), 0.0)?; count]);
     }
-    let list = table.numbers(KEY, Limits::NOT_NEGATIVE)?.unwrap_or_default();
+    let list = table.numbers(KEY, Limits::within(0.0, 1e9))?.unwrap_or_default();
     match list.len() == count {
         true => Ok(list),
         false => {

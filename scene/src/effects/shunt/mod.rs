@@ -60,6 +60,9 @@ pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneE
     Spec::with_levels("shunt", root.table("shunt")?, levels, "table")
 }
 
+/// Below this a capacitance is none, nF/m²: it turns no current by 1e-5°, and its waves would be too long for numbers.
+const LEAST_NANOFARAD: f64 = 1e-6;
+
 /// The sheet and ωc, S/m², where there is a shunt: a capacitance of zero is none.
 pub(super) fn screened(root: &Table, device: &Device) -> Result<Option<(Sheet, f64)>, SceneError> {
     let Some(table) = root.table("shunt")? else { return Ok(None) };
@@ -70,7 +73,7 @@ pub(super) fn screened(root: &Table, device: &Device) -> Result<Option<(Sheet, f
         return Err(table
             .error("", "expected a [sheet] too, since that is what the capacitance lies across"));
     };
-    if nanofarad == 0.0 {
+    if nanofarad < LEAST_NANOFARAD {
         table.choice("rung", &WORDS)?;
         return Ok(None);
     }

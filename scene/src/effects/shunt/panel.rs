@@ -41,7 +41,7 @@ pub(crate) const PANEL_NOISE: &str = "shunt.panel_noise";
 pub(in super::super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneError> {
     let Some(table) = root.table("shunt")? else { return Ok(None) };
     let milli = table.number("panel_noise_mv", Limits::within(0.0, 1e5))?;
-    let half_khz = table.number("panel_noise_khz", Limits::above(0.0, 1e4))?;
+    let half_khz = table.number("panel_noise_khz", Limits::within(1e-6, 1e4))?;
     let Some(milli) = milli else {
         return match half_khz {
             None => Ok(None),

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What of a scene can be run, but makes results that mean less than they seem to.
+
+use crate::control::{ControlLaw, ControlPlan};
+use crate::effects::Spec;
+use crate::error::SceneError;
+use crate::format::Table;
+use crate::pad::PadPlan;
+
+/// Levels of `[gap]` that follow a drive at once.
+const AT_REST: [&str; 2] = ["static", "hysteresis"];
+
+/// The doubts about a scene, a sentence each, which begins with the key that is their cause.
+pub(crate) fn of_scene(
+    root: &Table,
+    effects: &[Spec],
+    control: Option<&ControlPlan>,
+    pads: &[PadPlan],
+) -> Result<Vec<String>, SceneError> {
+    let Some(control) = control else { return Ok(Vec::new()) };
+    let all = [
+        gap_at_rest(effects),
+        no_friction(effects),
+        open_law(control),
+        unreadable_direction(root, control, pads)?,
+    ];
+    Ok(all.into_iter().flatten().collect())
+}
+
+fn has(effects: &[Spec], name: &str) -> bool {
+    effects.iter().any(|effect| effect.name == name)
+}
+
+fn gap_at_rest(effects: &[Spec]) -> Option<String> {
+    let gap = effects.iter().find(|effect| effect.name == "gap")?;
+    let word = AT_REST.into_iter().find(|word| gap.is_at(word))?;
+    Some(format!(
+        "gap.rung = \"{word}\" with [control]: the gap follows the drive at once, so that a loop swings or settles as no \
+         pad would; leave gap.rung out, or take \"moving\""
+    ))
+}
+
+fn no_friction(effects: &[Spec]) -> Option<String> {
+    (has(effects, "gap") && !has(effects, "friction")).then(|| {
+        "friction: absent, so that no friction acts on the pads of [control], and their forces are of the nominal \
+         device.mu; add [friction]"
+            .to_string()
+    })
+}
+
+/// A closed law whose gains the scene sets to zero.
+fn open_law(control: &ControlPlan) -> Option<String> {
+    let zero = |gain: Option<f64>| gain == Some(0.0);
+    let (key, is_open) = match control.law {
+        ControlLaw::Proportional => ("proportional_v", zero(control.proportional_v)),
+        ControlLaw::Integral => {
+            let given = control.proportional_v.is_some() || control.integral_v.is_some();
+            ("integral_v", given && control.integral_v.unwrap_or_default() == 0.0)
+        }
+        ControlLaw::Open | ControlLaw::Inverse => return None,
+    };
+    is_open.then(|| {
+        let law = control.law.name();
+        format!(
+            "control.{key} = 0 with law = \"{law}\": nothing takes an error of the force away; leave the gains out, and \
+             they follow from the device"
+        )
+    })
+}
+
+/// Walls that let go by a direction that no push changes.
+fn unreadable_direction(
+    root: &Table,
+    control: &ControlPlan,
+    pads: &[PadPlan],
+) -> Result<Option<String>, SceneError> {
+    if control.wall.is_none() || pads.iter().any(PadPlan::is_pushed_off_centre) {
+        return Ok(None);
+    }
+    let at_sheet = match root.table("halves")? {
+        Some(halves) => {
+            halves.get("push_height_mm").and_then(|node| node.value.number()) == Some(0.0)
+        }
+        None => true,
+    };
+    let (key, cause) = match (root.table("hand")?.is_some(), at_sheet) {
+        (false, _) => ("hand", "absent, so that nothing pushes the pads of [wall]"),
+        (true, true) => ("halves.push_height_mm", "0, so that no push tilts the pads of [wall]"),
+        (true, false) => return Ok(None),
+    };
+    Ok(Some(format!(
+        "{key}: {cause}: the direction of the push cannot be read, and a wall may never let go"
+    )))
+}
