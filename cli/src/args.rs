@@ -56,7 +56,8 @@ Exit status: 0 all criteria pass, 1 one fails, 2 bad input.";
 
 const REPLAY: &str = "A capture is CSV (a header naming columns among i1 … i6, v_sense, v_haptic, pad; one row of integer codes per ADC
 sample; lines \"# key = value\" before it may give sample_rate_hz, bits and, for volts, full_scale_v), WAV (channels in that order;
-integers of 16 to 32 bits or floats; RIFF or RF64) or SigMF (real samples). Slots begin at the first sample.
+integers of 16 to 32 bits or floats; RIFF or RF64) or SigMF (real samples). CSV of oscilloscopes is read with --channels. Slots begin
+where no current flows, while the switch is open.
 
 Examples:
   hapticore replay hockey.wav
@@ -415,6 +416,12 @@ pub struct ReplayArgs {
     /// The samples are volts at the ADC, this many at the end of its range (CSV, floats)
     #[arg(long, value_name = "VOLTS", value_parser = above_zero)]
     pub full_scale_v: Option<f64>,
+    /// Leave out this many samples at the beginning, so that the next whole slot is that of pad 0
+    #[arg(long, value_name = "SAMPLES")]
+    pub skip: Option<u64>,
+    /// Take what is there of a file that is cut short, or whose head names more samples
+    #[arg(long)]
+    pub truncated: bool,
     /// Where results go [default: out/replay-CAPTURE and what differs from the default]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,

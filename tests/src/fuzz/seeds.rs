@@ -92,7 +92,7 @@ const CSV: &str = "# sample_rate_hz = 1000000\n# bits = 18\ni1,i2,i3,v_sense,v_h
 
 fn csvs() -> Vec<String> {
     let volts = "0# full_scale_v = 10\nv_haptic,i2,_,i1,i3,v_sense\n1.5,-0.25,x,1e-3,9.999,-10\n";
-    vec![format!("0{CSV}"), volts.into(), "11,2,3,4,5,0\n6,7,8,9,10,1\n".into()]
+    vec![format!("0{CSV}"), volts.into(), "91,2,3,4,5,0\n6,7,8,9,10,1\n".into()]
 }
 
 /// The chunks of a WAV file of five channels.
