@@ -4,11 +4,13 @@
 mod bad_captures;
 mod captures;
 mod codes;
+mod documents;
 mod flags;
 mod gallery;
 mod hdl;
 mod knobs;
 mod lab;
+mod lines;
 mod messages;
 mod recorders;
 mod runs;
