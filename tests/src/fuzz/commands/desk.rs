@@ -61,6 +61,17 @@ impl Desk {
     /// # Panics
     /// A file cannot be written, or the command fails.
     pub fn new(program: &Path) -> Self {
+        let mut desk = Desk::of_seeds(program);
+        desk.captures();
+        desk.sweep();
+        desk
+    }
+
+    /// Makes the files that the command need not make.
+    ///
+    /// # Panics
+    /// A file cannot be written.
+    pub fn of_seeds(program: &Path) -> Self {
         let folder = tempfile::tempdir().expect("a folder");
         let (program, files) = (program.to_owned(), Files::default());
         let mut desk = Desk { folder, tools: tools(), program, files };
@@ -69,8 +80,6 @@ impl Desk {
         desk.files.calibrations = desk.texts("calibration");
         desk.files.plans = desk.texts("plan");
         desk.files.measurements = desk.measurements();
-        desk.captures();
-        desk.sweep();
         desk.write("folder.toml/inner", b"");
         desk.write("empty.csv", b"");
         desk
@@ -175,7 +184,7 @@ impl Desk {
 /// A folder of the programs that commands of `sweep submit` take for given.
 fn tools() -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a folder");
-    for name in ["sh", "mkdir", "mv", "wc", "sed"] {
+    for name in ["sh", "cat", "mkdir", "mv", "wc", "sed"] {
         let found = crate::tools::find(name).expect("a shell's programs");
         std::os::unix::fs::symlink(found, folder.path().join(name)).expect("a link");
     }

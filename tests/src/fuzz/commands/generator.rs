@@ -13,14 +13,20 @@ use super::tally::{is_help, name};
 use super::values::{self, Values};
 
 /// Subcommands of many options or inputs come oftener than others.
-const OFTEN: [(&str, u32); 2] = [("simulate", 16), ("replay", 10)];
+const OFTEN: [(&str, u32); 2] = [("simulate", 8), ("replay", 5)];
 
-/// One value in so many is hostile; of subcommands whose runs take many seconds more, so that few run.
+/// One value in so many is hostile.
 const HOSTILE: u32 = 12;
-const SLOW: [(&str, u32); 1] = [("tradeoff", 3)];
 
 /// What keeps scenes short that go on in time.
 const SHORT: &str = "--set=duration_s=0.01";
+
+/// What ends a run of `tradeoff` as soon as its options are read, in all but one of so many lines: it takes many seconds.
+const REFUSED: &str = "--scene=no-such-scene";
+const RUN: u32 = 60;
+
+/// What keeps the others short.
+const FEW: [(&str, &str); 2] = [("--scene", "minimal-sheet"), ("--slots", "1")];
 
 /// Words that are in the wrong place.
 const WORDS: [&str; 10] =
@@ -62,9 +68,8 @@ impl<'a> Generator<'a> {
         self.rng.shuffle(&mut groups);
         let at = self.rng.usize(..=groups.len());
         groups.splice(at..at, positionals);
-        if self.values.is_timed(&scene) && path == "simulate" {
-            groups.push(vec![SHORT.into()]);
-        }
+        let short = self.shortened(&path, &scene, &groups);
+        groups.extend(short);
         let mut line: Vec<OsString> = path.split(' ').map(OsString::from).collect();
         line.extend(groups.into_iter().flatten());
         if self.rng.u8(..10) == 0 {
@@ -89,13 +94,13 @@ impl<'a> Generator<'a> {
         chosen.expect("the weights' sum").clone()
     }
 
-    /// The arguments of a line: those required, the rarest in half of the lines, and one in six of the others.
+    /// The arguments of a line: those required, the rarest in two of three lines, and one in six of the others.
     fn arguments(&mut self, path: &str, leaf: &Command) -> Vec<Arg> {
         let all: Vec<&Arg> = leaf.get_arguments().filter(|argument| !is_help(argument)).collect();
         let used = |argument: &&&Arg| self.used.get(&name(path, argument)).copied().unwrap_or(0);
         let optional = all.iter().filter(|argument| !argument.is_required_set());
         let rarest = optional.min_by_key(used).map(|argument| argument.get_id().clone());
-        let rarest = rarest.filter(|_| self.rng.bool());
+        let rarest = rarest.filter(|_| self.rng.u8(..3) > 0);
         let mut chosen = Vec::new();
         for argument in all {
             let share =
@@ -119,14 +124,34 @@ impl<'a> Generator<'a> {
     fn word(&mut self, path: &str, argument: &Arg, scene: &str) -> Vec<OsString> {
         let long = argument.get_long().map(|long| OsString::from(format!("--{long}")));
         let takes = argument.get_action().takes_values();
-        let hostile = SLOW.iter().find(|(slow, _)| *slow == path).map_or(HOSTILE, |(_, one)| *one);
-        let value = takes.then(|| match self.rng.u32(..hostile) {
+        let value = takes.then(|| match self.rng.u32(..HOSTILE) {
             0 => values::hostile(&mut self.rng),
             _ => self.values.value(&mut self.rng, path, argument, scene),
         });
         match (long, value) {
             (Some(long), Some(value)) if self.rng.bool() => vec![join(long, value)],
             (long, value) => long.into_iter().chain(value).collect(),
+        }
+    }
+
+    /// What keeps a run short.
+    fn shortened(
+        &mut self,
+        path: &str,
+        scene: &str,
+        given: &[Vec<OsString>],
+    ) -> Vec<Vec<OsString>> {
+        let has = |option: &str| {
+            given.iter().flatten().any(|word| word.to_string_lossy().starts_with(option))
+        };
+        match path {
+            "simulate" if self.values.is_timed(scene) => vec![vec![SHORT.into()]],
+            "tradeoff" if self.rng.u32(..RUN) > 0 => vec![vec![REFUSED.into()]],
+            "tradeoff" => {
+                let missing = FEW.iter().filter(|(option, _)| !has(option));
+                missing.map(|(option, value)| vec![option.into(), value.into()]).collect()
+            }
+            _ => Vec::new(),
         }
     }
 

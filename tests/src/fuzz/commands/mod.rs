@@ -7,6 +7,7 @@
 //! | [`generator`] | lines: every subcommand and option of the declaration, the rarest first |
 //! | [`keys`] | keys of scenes for `--set`, from what the reader of scenes answers |
 //! | [`run`](mod@run) | a run as a process with limits, and what is wrong with how it ended |
+//! | `settings` | values of those keys: at limits, near the own, of other types |
 //! | [`tally`] | how often each subcommand and option was accepted, and how runs ended |
 //! | [`values`] | values: by an option's own list, by its name, or by the name of its value |
 //!
@@ -17,6 +18,7 @@ pub mod desk;
 pub mod generator;
 pub mod keys;
 pub mod run;
+mod settings;
 pub mod tally;
 pub mod values;
 

@@ -11,36 +11,7 @@ use hapticore_scene::{Scene, gallery};
 
 use super::desk::Desk;
 use super::keys::{self, Key};
-
-/// Numbers at limits, and texts that are none.
-const NUMBERS: [&str; 26] = [
-    "0",
-    "-0.0",
-    "1",
-    "-1",
-    "2",
-    "4",
-    "16",
-    "256",
-    "0.5",
-    "1e-6",
-    "5e-324",
-    "1e-320",
-    "1e-20",
-    "1e20",
-    "1e300",
-    "1.7976931348623157e308",
-    "1e400",
-    "nan",
-    "inf",
-    "-inf",
-    "-1e300",
-    "4294967296",
-    "9223372036854775807",
-    "-9223372036854775808",
-    "18446744073709551616",
-    "0.1",
-];
+use super::settings::{NUMBERS, near, one, one_of, setting};
 
 /// What is no value of any option.
 const HOSTILE: [&str; 16] = [
@@ -62,60 +33,24 @@ const HOSTILE: [&str; 16] = [
     "true",
 ];
 
-/// Words of TOML for a key whose reader expects something else.
-const TOML: [&str; 12] = [
-    "true",
-    "false",
-    "[]",
-    "{}",
-    "\"\"",
-    "[0, 0]",
-    "[nan, 0]",
-    "[[0, 1], [0, 1]]",
-    "{ sweep = [0, 1] }",
-    "\"auto\"",
-    "1979-05-27",
-    "[1e308, -1e308]",
-];
-
 /// Scenes that take less than half a second, each with effects of its own.
-const QUICK: [&str; 16] = [
-    "fig4",
-    "fig6",
-    "fig9",
-    "fig13",
-    "hockey",
-    "minimal-charge",
-    "minimal-coupling",
-    "minimal-friction",
-    "minimal-gap",
-    "minimal-halves",
-    "minimal-sensor",
-    "minimal-sheet",
-    "minimal-shunt",
-    "minimal-supply",
-    "minimal-switching",
-    "terminals-500-ohm",
-];
-
-/// Keys that make a run as long as their value says. They have small values.
-const LENGTHS: [&str; 6] = ["duration_s", "dwell_slots", "nx", "ny", "points", "dwell_s"];
-const SHORT: [&str; 8] = ["0", "1", "2", "0.001", "0.01", "-1", "1e-320", "nan"];
+const QUICK: &str = "fig4 fig6 fig9 fig13 hockey minimal-charge minimal-coupling minimal-friction minimal-gap minimal-halves \
+    minimal-sensor minimal-sheet minimal-shunt minimal-supply minimal-switching terminals-500-ohm";
 
 /// Makes values.
 #[derive(Debug)]
 pub struct Values<'a> {
     desk: &'a Desk,
     keys: BTreeMap<String, Vec<Key>>,
-    cases: Vec<String>,
+    cases: BTreeMap<String, Vec<String>>,
 }
 
 impl<'a> Values<'a> {
     /// Of files, and of the keys and cases of the bundled scenes.
     pub fn new(desk: &'a Desk) -> Self {
-        let cases = gallery::all().iter().flat_map(|(name, text)| {
+        let cases = gallery::all().iter().map(|(name, text)| {
             let scene = Scene::parse(text, name, &[]).expect("a bundled scene");
-            scene.cases.into_iter().map(|case| case.name)
+            (name.to_string(), scene.cases.into_iter().map(|case| case.name).collect())
         });
         Values { desk, cases: cases.collect(), keys: keys::of_gallery() }
     }
@@ -140,7 +75,7 @@ impl<'a> Values<'a> {
             }
             (_, "scene") => scene.to_string(),
             (_, "set") => self.setting(rng, scene),
-            (_, "case") => one(rng, &self.cases),
+            (_, "case") => self.case(rng, scene),
             (_, "profile") => either(rng, &BUNDLED.map(|(name, _)| name), &files.profiles),
             (_, "calibration") => one(rng, &files.calibrations),
             ("replay", "capture") => one(rng, &files.captures),
@@ -176,13 +111,13 @@ impl<'a> Values<'a> {
                 one(rng, &["dc", "square", "square:", "sine:", "sine"]),
                 one(rng, &["", "1", "2", "0", "250", "-1", "1e3", "65536", "4294967296"])
             ),
-            (_, "threads") => one(rng, &["1", "2", "3", "0", "4097"]),
+            (_, "threads") => one(rng, &["1", "2", "3", "64"]),
             (_, "slots") => one(rng, &["1", "2", "3", "0", "5"]),
             (_, "pads" | "bits") => {
                 one(rng, &["1", "2", "3", "4", "5", "8", "16", "18", "24", "32", "33", "256"])
             }
             (_, "bode") => one(rng, &["0.3", "0.05", "1e-9", "100", "1e300", "5e-324"]),
-            (_, "full_scale_v") => either(rng, &["10", "5", "1"], &NUMBERS.map(String::from)),
+            (_, "full_scale_v") => one_of(rng, "10 5 1 0.5 1e-300 1e300 5e-324 0 nan"),
             _ => alternatives(rng, of, argument),
         }
     }
@@ -190,7 +125,7 @@ impl<'a> Values<'a> {
     /// A scene, bundled or a file; mostly one that is quickly run.
     pub fn scene(&self, rng: &mut Rng) -> String {
         match rng.u8(..20) {
-            0..=13 => one(rng, &QUICK),
+            0..=13 => one_of(rng, QUICK),
             14..=16 => one(rng, &self.desk.files.scenes),
             _ => gallery::all()[rng.usize(..gallery::all().len())].0.into(),
         }
@@ -200,6 +135,12 @@ impl<'a> Values<'a> {
     pub fn is_timed(&self, scene: &str) -> bool {
         let own = |key: &Key| key.name == "duration_s" && key.own.is_some();
         self.keys.get(scene).is_some_and(|keys| keys.iter().any(own))
+    }
+
+    /// A case of a scene; of a file's those of any.
+    fn case(&self, rng: &mut Rng, scene: &str) -> String {
+        let any = self.cases.values().nth(rng.usize(..self.cases.len())).expect("a scene");
+        one(rng, self.cases.get(scene).unwrap_or(any))
     }
 
     /// `KEY=VALUE` of a scene; of a file's those of any.
@@ -242,7 +183,7 @@ pub fn hostile(rng: &mut Rng) -> OsString {
     match rng.u8(..8) {
         0 => "x".repeat(5000).into(),
         1 => not_text(),
-        2..=4 => one(rng, &NUMBERS).into(),
+        2..=4 => one_of(rng, NUMBERS).into(),
         _ => one(rng, &HOSTILE).into(),
     }
 }
@@ -269,73 +210,6 @@ fn alternatives(rng: &mut Rng, of: &str, argument: &Arg) -> String {
         file!()
     );
     one(rng, &words)
-}
-
-/// A value of a key, from what its reader expects.
-fn setting(rng: &mut Rng, key: &Key) -> String {
-    if LENGTHS.iter().any(|length| key.name.rsplit('.').next() == Some(length)) {
-        return one(rng, &SHORT);
-    }
-    let words = keys::words(&key.expected);
-    let numbers = numbers(&key.expected);
-    match rng.u8(..12) {
-        0 => one(rng, &TOML),
-        1 | 2 => one(rng, &NUMBERS),
-        _ if !words.is_empty() => format!("\"{}\"", one(rng, &words)),
-        _ if key.expected.starts_with("true") => one(rng, &["true", "false"]),
-        3 | 4 if !numbers.is_empty() => at_limit(rng, &numbers),
-        _ => match &key.own {
-            Some(own) => near(rng, own),
-            None => plausible(rng),
-        },
-    }
-}
-
-/// The numbers of a text.
-fn numbers(text: &str) -> Vec<f64> {
-    let words = text.split(|c: char| c.is_whitespace() || ",()[]".contains(c));
-    words.filter_map(|word| word.trim_end_matches('.').parse().ok()).collect()
-}
-
-/// A limit, or beside it.
-fn at_limit(rng: &mut Rng, limits: &[f64]) -> String {
-    let limit = *rng.choice(limits).expect("a limit");
-    let beside = [limit, limit.next_up(), limit.next_down(), limit + 1.0, limit - 1.0, limit / 2.0];
-    toml_number(*rng.choice(&beside).expect("a number"))
-}
-
-/// A scene's own value with its first number changed.
-fn near(rng: &mut Rng, own: &str) -> String {
-    let factor =
-        *rng.choice(&[0.1, 0.5, 1.0, 1.1, 2.0, 10.0, -1.0, 0.0, 1e-300, 1e300]).expect("a factor");
-    let digits = |c: char| c.is_ascii_digit();
-    let Some(start) = own.find(digits) else { return own.into() };
-    let end = own[start..]
-        .find(|c: char| !(digits(c) || ".e".contains(c)))
-        .map_or(own.len(), |n| start + n);
-    match own[start..end].parse::<f64>() {
-        Ok(number) => format!("{}{}{}", &own[..start], toml_number(number * factor), &own[end..]),
-        Err(_) => own.into(),
-    }
-}
-
-/// A number of any size.
-fn plausible(rng: &mut Rng) -> String {
-    let number = rng.f64() * 10_f64.powi(rng.i32(-6..7));
-    let whole = number.round() as i64;
-    if rng.bool() { whole.to_string() } else { toml_number(number) }
-}
-
-/// A number as TOML has it: whole ones without a point.
-fn toml_number(number: f64) -> String {
-    match number.fract() == 0.0 && number.abs() < 1e15 {
-        true => (number as i64).to_string(),
-        false => format!("{number:e}"),
-    }
-}
-
-fn one<T: ToString>(rng: &mut Rng, list: &[T]) -> String {
-    rng.choice(list).expect("a list of some").to_string()
 }
 
 /// One of two lists, and of that list one.

@@ -101,6 +101,12 @@ fn of_hapticore(words: &[&str], in_block: bool) -> Option<String> {
     }
 }
 
+/// Whether the parser takes arguments of `hapticore` as they are.
+pub fn is_whole(words: &[String]) -> bool {
+    let name = "hapticore".to_string();
+    Args::command().try_get_matches_from(std::iter::once(&name).chain(words)).is_ok()
+}
+
 /// What is wrong with part of a line: a subcommand or an option that is none, or a word that is not in an option's list.
 fn of_part(words: &[&str]) -> Option<String> {
     let bare = |word: &&str| word.trim_matches(['[', ']', '…']).to_string();

@@ -8,16 +8,15 @@ use hapticore_tests::tools::have;
 
 use super::FOLLOWED;
 use super::extract::{Snippet, is_variable};
-use super::parse::{commands, is_placeholder};
+use super::parse::{self, commands, is_placeholder};
 use crate::tutorial::Reader;
 
 /// Commands that `DOCUMENTS=all` alone runs, by how they begin: seconds to minutes.
-const SLOW: [&str; 6] = [
+const SLOW: [&str; 5] = [
     "hapticore tradeoff",      // tradeoff.rs runs one on few slots
     "hapticore simulate fig3", // 336 places, four cases; gallery.rs runs it
     "hapticore simulate hockey --waves fst",
     "hapticore simulate fig9",
-    "simulate fig9",
     "hapticore hdl --board ulx3s --control", // a board with its loop
 ];
 
@@ -66,9 +65,16 @@ fn run(reader: &Reader, line: &str) -> Option<String> {
     (!output.status.code().is_some_and(|code| code < 2)).then(log)
 }
 
+/// The line with the command called by its name, as after `cargo install`.
+fn called_by_name(snippet: &Snippet) -> String {
+    let line = snippet.text.replace("cargo run --release --", "hapticore");
+    let first = line.split(' ').next().unwrap_or_default();
+    if parse::is_subcommand(first) { format!("hapticore {line}") } else { line }
+}
+
 /// How a line is run here; none where it is not.
 fn runnable(snippet: &Snippet, all: bool) -> Option<String> {
-    let line = snippet.text.replace("cargo run --release --", "hapticore");
+    let line = called_by_name(snippet);
     let commands = commands(&line);
     let words: Vec<&str> = commands.iter().flatten().map(String::as_str).collect();
     let of_hapticore = commands.iter().any(|words| words[0] == "hapticore");
@@ -77,10 +83,8 @@ fn runnable(snippet: &Snippet, all: bool) -> Option<String> {
         |word: &&str| is_placeholder(word) && *word != "DIR" || word.contains(['[', '|', '…']);
     let never = NEVER.iter().any(|(word, _)| words.contains(word));
     let slow = SLOW.iter().any(|start| line.starts_with(start));
-    let whole = commands
-        .iter()
-        .filter(|words| words[0] == "hapticore")
-        .all(|words| words.len() > 2 || words.get(1).is_some_and(|word| word == "scenes"));
+    let is_part = |words: &Vec<String>| words[0] == "hapticore" && !parse::is_whole(&words[1..]);
+    let whole = !commands.iter().any(is_part);
     let followed = snippet.place.starts_with(FOLLOWED);
     let variable = words.first().is_some_and(|word| is_variable(word));
     let runs = of_hapticore
@@ -116,10 +120,7 @@ fn commands_of_documents_run() {
 #[test]
 fn every_exception_is_needed() {
     let snippets = super::all_snippets();
-    let lines: Vec<String> = snippets
-        .iter()
-        .map(|snippet| snippet.text.replace("cargo run --release --", "hapticore"))
-        .collect();
+    let lines: Vec<String> = snippets.iter().map(called_by_name).collect();
     for start in SLOW {
         assert!(lines.iter().any(|line| line.starts_with(start)), "{start} is in no document");
     }
