@@ -4,12 +4,14 @@
 mod bad_captures;
 mod captures;
 mod codes;
+mod documents;
 mod flags;
 mod gallery;
 mod hdl;
 mod knobs;
 mod lab;
 mod lifted;
+mod lines;
 mod messages;
 mod printed_loop;
 mod recorders;

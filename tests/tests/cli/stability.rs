@@ -83,3 +83,13 @@ fn a_loop_is_measured_beside_its_prediction() {
     let report = fs::read_to_string(folder.path().join("o/report.html")).expect("a report");
     assert!(report.contains("about 0.3") && report.contains("target to true force"));
 }
+
+/// Beyond the rail, and below the smallest step of a drive, nothing moves that could be measured.
+#[test]
+fn a_force_that_no_loop_follows_is_not_measured() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for force_n in ["100", "1e300", "5e-324"] {
+        let run = ["simulate", "fig9", "--set", "duration_s=0.01", "--bode", force_n];
+        refuse(folder.path(), &run, &["--bode", "a force that the loop of case", "moves nothing"]);
+    }
+}
