@@ -6,6 +6,9 @@
 //! modules, instances before the modules that hold them. Blocks of the same configuration share one
 //! module.
 
+pub mod mutants;
+pub mod simulation;
+
 use crate::block::{Block, Inputs, Interpretation, Outputs, State, widen};
 use crate::bundle::{Bundle, Field};
 use crate::format::{BIT, Format, MAX_WIDTH};

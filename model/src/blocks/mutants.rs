@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The tests of each block notice faults of its netlist. `./test` judges a sample, of blocks whose tests are quick; all are
+//! judged by `MUTANTS=all cargo test --profile checked -p hapticore-model --lib mutants_of -- --nocapture`.
+
+use crate::support::campaign::{Table, group, wanted};
+
+/// Proved to be equivalent by a tool.
+const EQUIVALENT: &str = include_str!("mutants.txt");
+
+/// Judged always: each so manieth mutant.
+const SAMPLE: [(&str, usize); 3] = [("multiplexer", 2), ("pace", 1), ("oscillator", 8)];
+
+/// All blocks, each of which has a folder of tests.
+fn blocks() -> impl Iterator<Item = &'static str> {
+    let lines = include_str!("mod.rs").lines();
+    lines.filter_map(|line| line.strip_prefix("pub mod ")?.strip_suffix(';'))
+}
+
+/// Judges each so manieth mutant of a block.
+fn judge(block: &str, step: usize, table: &mut Table) {
+    let (tests, path) = (format!("blocks::{block}::"), format!("::blocks::{block}::"));
+    group(&tests, |test, of| test.starts_with(&tests) && of.contains(&path))
+        .judge_each(step, table);
+}
+
+#[test]
+fn mutants_of_the_netlists_are_noticed() {
+    let mut table = Table::default();
+    if std::env::var_os("MUTANTS").is_none() {
+        SAMPLE.iter().for_each(|&(block, step)| judge(block, step, &mut table));
+    }
+    blocks().filter(|block| wanted(block)).for_each(|block| judge(block, 1, &mut table));
+    table.check(EQUIVALENT);
+}
