@@ -47,8 +47,9 @@ fn falsify(folder: &Path, (name, column): (&str, usize)) {
 }
 
 #[test]
+#[cfg_attr(not(tool = "synth/tools"), ignore = "needs synth/tools: ./test fetches what is missing")]
 fn the_makefile_lints_and_simulates() {
-    let Some(tools) = Tools::or_skip() else { return };
+    let tools = Tools::find().expect("what synth/tools fetches");
     let folder = users_copy();
     for profile in ["PROFILE=small", "PROFILE=standard", "PROFILE=loop"] {
         let log = tools.run("make", &["lint", profile], folder.path()).unwrap();
@@ -65,8 +66,9 @@ fn the_makefile_lints_and_simulates() {
 }
 
 #[test]
+#[cfg_attr(not(tool = "synth/tools"), ignore = "needs synth/tools: ./test fetches what is missing")]
 fn cocotb_sees_the_frame_of_the_model() {
-    let Some(tools) = Tools::or_skip() else { return };
+    let tools = Tools::find().expect("what synth/tools fetches");
     let folder = users_copy();
     let log = tools.run("make", &["test", &python()], folder.path()).unwrap();
     assert!(log.contains("2 tests, 0 failures"), "{log}");
@@ -76,8 +78,9 @@ fn cocotb_sees_the_frame_of_the_model() {
 }
 
 #[test]
+#[cfg_attr(not(tool = "synth/tools"), ignore = "needs synth/tools: ./test fetches what is missing")]
 fn fusesoc_lints_and_simulates() {
-    let Some(tools) = Tools::or_skip() else { return };
+    let tools = Tools::find().expect("what synth/tools fetches");
     let folder = users_copy();
     let run = |target: &str, flags: &[&str]| {
         let mut arguments =
