@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Mutex;
 
-/// Each so manieth mutant is judged always.
+/// Every n-th mutant is judged always.
 const EACH: usize = 40;
 
 /// Clocks after the last sample, as in the bench: the last slot's estimate.

@@ -10,8 +10,7 @@
 //! 3. A mutant is noticed where a test fails. A timeout is no failure.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs::File;
-use std::path::Path;
+use std::path::PathBuf;
 use std::process::{Command, Stdio};
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
@@ -34,20 +33,21 @@ pub enum Verdict {
     TimedOut,
 }
 
-/// The tests of a block, and the mutants that they meet.
+/// Mutants, and the tests that judge each: those that clock its block alone, else those that clock it within another.
 #[derive(Debug, Clone, Default)]
 pub struct Group {
-    tests: BTreeSet<String>,
-    mutants: BTreeSet<String>,
+    mutants: BTreeMap<String, BTreeSet<String>>,
+    /// Those that are proved to be equivalent, of each configuration that a test has.
+    proved: BTreeSet<String>,
     took: Duration,
 }
 
 /// How many mutants of each block and class there are, and how many are noticed.
 #[derive(Debug, Default)]
 pub struct Table {
-    /// By block and class: all, noticed.
-    pub counts: BTreeMap<(String, String), [usize; 2]>,
-    /// Those that are not noticed.
+    /// By block and class: all, noticed, proved to be equivalent, missed.
+    pub counts: BTreeMap<(String, String), [usize; 4]>,
+    /// Those that are missed.
     pub missed: Vec<(String, Verdict)>,
 }
 
@@ -57,7 +57,7 @@ pub fn wanted(block: &str) -> bool {
     all == "all" || all.split(',').any(|wanted| wanted == block)
 }
 
-/// Runs tests of this program, all whose names begin so or those named: whether they pass; `None` after the time
+/// Runs tests of this program, those whose names contain one of these: whether they pass; `None` after the time
 /// that they may take.
 fn run(tests: &[&str], variables: &[(&str, &str)], limit: Duration) -> Option<bool> {
     let mut command = Command::new(std::env::current_exe().expect("this program has a path"));
@@ -78,60 +78,71 @@ fn run(tests: &[&str], variables: &[(&str, &str)], limit: Duration) -> Option<bo
     }
 }
 
-/// The mutants of a block and its tests, of which `own` selects those that a test of this name and a block of this path
-/// have. The tests run once with the unchanged netlist.
+/// The mutants of blocks whose path `of` selects, and their tests among those whose names contain `filter`. These run once
+/// with the unchanged netlists.
 ///
 /// # Panics
 /// Where one of them fails.
-pub fn group(filter: &str, own: impl Fn(&str, &str) -> bool) -> Group {
-    let folder = std::env::temp_dir().join(format!("mutants-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).expect("a folder");
-    let list = folder.join(filter.replace("::", "-"));
-    File::create(&list).expect("a file");
-    let path = list.to_str().expect("a path in UTF-8");
+pub fn group(filter: &str, of: impl Fn(&str) -> bool) -> Group {
+    let folder = tempfile(filter);
+    let path = folder.to_str().expect("a path in UTF-8");
     let variables =
         [("HAPTICORE_MUTANT", "none"), ("HAPTICORE_MUTANTS", path), ("HAPTICORE_SHARE", SHARES[0])];
     let begun = Instant::now();
     let passed = run(&[filter], &variables, Duration::from_secs(3600));
     let took = begun.elapsed();
     assert_eq!(passed, Some(true), "{filter}: the netlist in place of the block passes its tests");
-    let mut group = Group { took, ..Group::default() };
-    listed(&list, |test, path, mutant| {
-        if own(test, path) {
-            group.tests.insert(test.into());
-            group.mutants.insert(mutant.into());
-        }
-    });
-    group
+    let text = std::fs::read_to_string(&folder).unwrap_or_default();
+    let _ = std::fs::remove_file(folder);
+    let (mutants, proved) = listed(&text, of);
+    Group { mutants, proved, took }
 }
 
-fn listed(list: &Path, mut each: impl FnMut(&str, &str, &str)) {
-    let text = std::fs::read_to_string(list).expect("the list that was written");
-    let lines: BTreeSet<&str> = text.lines().collect();
-    for line in lines {
-        let [test, path, mutant] =
-            line.split('\t').collect::<Vec<_>>().try_into().expect("three columns");
-        each(test, path, mutant);
+/// A file of this process.
+fn tempfile(name: &str) -> PathBuf {
+    let name = format!("mutants-{}-{}", std::process::id(), name.replace(':', ""));
+    std::env::temp_dir().join(name)
+}
+
+type Tests = BTreeMap<String, BTreeSet<String>>;
+
+/// The tests of each mutant, and the mutants that are proved to be equivalent.
+fn listed(text: &str, of: impl Fn(&str) -> bool) -> (Tests, BTreeSet<String>) {
+    let [mut own, mut within, mut proved] = [Tests::new(), Tests::new(), Tests::new()];
+    for line in text.lines() {
+        let cells: Vec<_> = line.split('\t').collect();
+        let [test, path, place, mutant] = cells[..] else { panic!("four columns: {line}") };
+        let into = match place {
+            "own" => &mut own,
+            "equivalent" => &mut proved,
+            _ => &mut within,
+        };
+        if of(path) {
+            into.entry(mutant.into()).or_default().insert(test.into());
+        }
     }
-    std::fs::remove_file(list).expect("the list that was written");
+    proved.retain(|mutant, _| !own.contains_key(mutant));
+    let equivalent = proved.keys().cloned().collect();
+    within.extend(proved);
+    within.extend(own);
+    (within, equivalent)
 }
 
 impl Group {
     /// One mutant's verdict: with few operations, then with more.
-    fn judge(&self, mutant: &str) -> Verdict {
-        let mut tests: Vec<&str> = self.tests.iter().map(String::as_str).collect();
+    fn judge(&self, mutant: &str, tests: &BTreeSet<String>) -> Verdict {
+        let mut tests: Vec<&str> = tests.iter().map(String::as_str).collect();
         tests.push("--exact");
-        let mut verdict = Verdict::Survived;
         for share in SHARES {
             let variables = [("HAPTICORE_MUTANT", mutant), ("HAPTICORE_SHARE", share)];
             let limit = self.took * LIMIT.0 + Duration::from_secs(LIMIT.1);
             match run(&tests, &variables, limit) {
                 Some(false) => return Verdict::Noticed,
-                Some(true) => verdict = Verdict::Survived,
+                Some(true) => (),
                 None => return Verdict::TimedOut,
             }
         }
-        verdict
+        Verdict::Survived
     }
 
     /// Judges each `step`th mutant, two at a time.
@@ -140,9 +151,10 @@ impl Group {
         let table = Mutex::new(table);
         let next = || mutants.lock().expect("no panic").next();
         let work = || {
-            while let Some(mutant) = next() {
-                let verdict = self.judge(mutant);
-                table.lock().expect("no panic").enter(mutant, verdict);
+            while let Some((mutant, tests)) = next() {
+                let verdict = self.judge(mutant, tests);
+                let proved = self.proved.contains(mutant);
+                table.lock().expect("no panic").enter(mutant, verdict, proved);
             }
         };
         std::thread::scope(|scope| (0..2).for_each(|_| drop(scope.spawn(work))));
@@ -150,49 +162,42 @@ impl Group {
 }
 
 impl Table {
-    fn enter(&mut self, mutant: &str, verdict: Verdict) {
+    fn enter(&mut self, mutant: &str, verdict: Verdict, proved: bool) {
         let (place, class) = mutant.rsplit_once(": ").expect("place: class");
         let (block, _) = place.split_once('.').expect("module.place");
-        let [all, noticed] = self.counts.entry((block.into(), class.into())).or_default();
-        *all += 1;
-        *noticed += usize::from(verdict == Verdict::Noticed);
-        if verdict != Verdict::Noticed {
+        let count = self.counts.entry((block.into(), class.into())).or_default();
+        let of = match verdict {
+            Verdict::Noticed => 1,
+            _ if proved => 2,
+            _ => 3,
+        };
+        count[0] += 1;
+        count[of] += 1;
+        if of == 3 {
             self.missed.push((mutant.into(), verdict));
         }
     }
 
-    /// Mutants noticed of all, by block and class, and those that are not.
+    /// Counts by block and class, and every mutant that is missed.
     pub fn print(&self) {
-        for ((block, class), [all, noticed]) in &self.counts {
-            println!("{block}, {class}: {noticed} of {all}");
+        for ((block, class), [all, noticed, proved, _]) in &self.counts {
+            println!("{block}, {class}: {noticed} of {all} noticed, {proved} proved equivalent");
         }
         for (mutant, verdict) in &self.missed {
             println!("{verdict:?}: {mutant}");
         }
-        let [all, noticed] = self.total();
-        println!("all: {noticed} of {all}");
     }
 
-    /// All mutants, and those that are noticed.
-    pub fn total(&self) -> [usize; 2] {
-        self.counts.values().fold([0; 2], |sum, of| [sum[0] + of[0], sum[1] + of[1]])
-    }
-
-    /// Holds that at least 99 % are noticed, of those that no tool has proved to be equivalent: a list of these, each
-    /// under the reason (`#`).
+    /// Holds that at least 99 % are noticed, of those that are not proved to be equivalent.
     ///
     /// # Panics
-    /// Where fewer are, or where one of the list is noticed after all.
-    pub fn check(&self, equivalent: &str) {
+    /// Where fewer are, or none was judged.
+    pub fn check(&self) {
         self.print();
-        let lines = equivalent.lines().filter(|line| !line.is_empty() && !line.starts_with('#'));
-        let equivalent: BTreeSet<&str> = lines.collect();
-        let missed = self.missed.iter().map(|(mutant, _)| mutant.as_str());
-        let proved = missed.filter(|mutant| equivalent.contains(mutant)).count();
-        let [all, noticed] = self.total();
-        assert!(all > proved, "no mutant was judged");
-        let share = noticed as f64 / (all - proved) as f64;
-        println!("{proved} proved equivalent; noticed of the others: {:.1} %", 100.0 * share);
-        assert!(share >= 0.99, "{noticed} of {} noticed", all - proved);
+        let sum = |of: usize| self.counts.values().map(|counts| counts[of]).sum::<usize>();
+        let [all, noticed, proved, missed] = [0, 1, 2, 3].map(sum);
+        println!("{noticed} of {all} noticed, {proved} proved equivalent, {missed} missed");
+        assert!(noticed > 0, "no mutant was judged");
+        assert!(100 * noticed >= 99 * (all - proved), "{missed} of {} missed", all - proved);
     }
 }

@@ -8,6 +8,7 @@
 
 pub mod mutants;
 pub mod simulation;
+mod start;
 
 use crate::block::{Block, Inputs, Interpretation, Outputs, State, widen};
 use crate::bundle::{Bundle, Field};

@@ -5,6 +5,7 @@ use super::{Inputs, Multiplexer, Outputs};
 use crate::support::random::Random;
 use crate::support::{Bench, MILLION, operations};
 use hapticore_contract::profile::Profile;
+use hapticore_hdl::bundle::Bundle;
 
 #[test]
 fn samples_are_counted_into_slots() {
@@ -42,14 +43,15 @@ fn clear_drives_no_pad_and_begins_with_the_first_pad() {
     for (seed, profile) in (0..).zip(Profile::all()) {
         let (mut bench, mut random) = (Bench::new(Multiplexer::new(&profile)), Random::new(seed));
         let round = profile.slot.samples() * profile.pads;
-        let (mut n, mut expected) = (0, Outputs::default());
+        let none = <Outputs as Bundle>::map(bench.block.outputs(), |_| 0);
+        let (mut n, mut expected) = (0, none);
         for clock in 0..operations(MILLION).max(20 * round) {
             let [strobe, clear] = [random.below(3) != 0, random.below(2 * round) == 0];
             let outputs = bench.clock(Inputs { strobe: strobe.into(), clear: clear.into() });
             assert_eq!(outputs, expected, "clock {clock}, sample {n}");
             n = if clear { 0 } else { n + u64::from(strobe) };
             expected = match (clear, strobe) {
-                (true, _) => Outputs::default(),
+                (true, _) => none,
                 (false, true) => of_sample(&profile, n - 1),
                 (false, false) => Outputs { sample: 0, ..expected },
             };

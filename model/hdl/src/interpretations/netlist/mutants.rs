@@ -14,12 +14,15 @@
 //! *missing reset*.
 
 use super::simulation::Simulation;
+use super::start::is_irrelevant;
 use super::{Module, Named, Netlist, Node, Op, Wire};
 use crate::block::Block;
 use crate::format::{BIT, Format};
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 use std::fmt;
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::io::Write;
+use std::sync::Mutex;
 
 /// The inputs of blocks that make registers begin anew.
 pub const BEGINS: [&str; 5] = ["clear", "restart", "first", "start", "reset"];
@@ -109,7 +112,7 @@ impl Mutant {
 
 /// The netlist of a block to be clocked in its place, where a test of the block is judged: with the mutant that
 /// `HAPTICORE_MUTANT` names, or unchanged where that is `none`. `None` where no module of the block has the mutant.
-/// The names of all mutants of the block's own module go to the file `HAPTICORE_MUTANTS`, with the test and the block.
+/// The names of all its mutants go to the file `HAPTICORE_MUTANTS`, with the test and the block that each is in.
 ///
 /// # Panics
 /// Where the file cannot be written.
@@ -126,12 +129,30 @@ pub fn in_place_of<B: Block>(block: &B) -> Option<Simulation> {
     }
 }
 
-/// Appends the mutants of a design's top module to a file: test, path of the block, name of the mutant.
+/// Appends the mutants of a design to a file, those of each test and design once: test, path of the block, whether it is the design's top
+/// (`own`; `equivalent` where that is proved) or `within`, name of the mutant.
 fn list(netlist: &Netlist, path: &str) {
-    let (thread, top) = (std::thread::current(), netlist.top());
-    let test = thread.name().unwrap_or_default();
-    let lines = Mutant::all(netlist, top).into_iter();
-    let text: String = lines.map(|mutant| format!("{test}\t{}\t{mutant}\n", top.path)).collect();
+    static LISTED: Mutex<BTreeSet<(String, u64)>> = Mutex::new(BTreeSet::new());
+    let thread = std::thread::current();
+    let (test, mut text) = (thread.name().unwrap_or_default(), String::new());
+    let mut hasher = DefaultHasher::new();
+    netlist.modules.hash(&mut hasher);
+    // Other threads wait: they may ask for the same.
+    let mut listed = LISTED.lock().expect("no test panics here");
+    if !listed.insert((test.into(), hasher.finish())) {
+        return;
+    }
+    for (index, module) in netlist.modules.iter().enumerate() {
+        let own = index + 1 == netlist.modules.len();
+        for mutant in Mutant::all(netlist, module) {
+            let place = match mutant.fault {
+                _ if !own => "within",
+                Fault::Reset(register) if is_irrelevant(netlist, register) => "equivalent",
+                _ => "own",
+            };
+            text += &format!("{test}\t{}\t{place}\t{mutant}\n", module.path);
+        }
+    }
     let file = std::fs::File::options().append(true).create(true).open(path);
     file.and_then(|mut file| file.write_all(text.as_bytes()))
         .expect("the list of mutants is written");
@@ -369,7 +390,7 @@ impl Copy {
 }
 
 /// An operation with other operands.
-fn operands(op: &Op, mut of: impl FnMut(Node) -> Node) -> Op {
+pub(super) fn operands(op: &Op, mut of: impl FnMut(Node) -> Node) -> Op {
     match *op {
         Op::Add(a, b) => Op::Add(of(a), of(b)),
         Op::Sub(a, b) => Op::Sub(of(a), of(b)),

@@ -14,12 +14,26 @@ use crate::signal::{Overflow, Signal, Value};
 
 /// An instance of a module: where its registers and memories begin, and what its wires carry.
 #[derive(Debug)]
-struct Unit {
-    module: usize,
-    registers: usize,
-    memories: usize,
+pub(super) struct Unit {
+    pub(super) module: usize,
+    pub(super) registers: usize,
+    pub(super) memories: usize,
     wires: Vec<i64>,
-    instances: Vec<Unit>,
+    pub(super) instances: Vec<Unit>,
+}
+
+impl Unit {
+    /// How many wires there are, those of instances among them.
+    pub(super) fn wires(&self) -> usize {
+        self.wires.len() + self.instances.iter().map(Unit::wires).sum::<usize>()
+    }
+}
+
+/// The instances of a design, and how many registers and memories there are.
+pub(super) fn units(netlist: &Netlist) -> (Unit, usize, usize) {
+    let mut held = Held::default();
+    let top = held.unit(netlist, netlist.modules.len() - 1, "");
+    (top, held.registers.len(), held.memories.len())
 }
 
 /// What the registers and memories of a design hold.
@@ -145,7 +159,7 @@ fn codes(wires: &[i64], nodes: &[Node]) -> Vec<i64> {
 }
 
 /// The result of an operation on wires of a module.
-fn operate(op: &Op, module: &Module, wires: &[i64], to: Format) -> i64 {
+pub(super) fn operate(op: &Op, module: &Module, wires: &[i64], to: Format) -> i64 {
     let of = |node: Node| signal(node, module, wires);
     match *op {
         Op::Constant(code) => code,

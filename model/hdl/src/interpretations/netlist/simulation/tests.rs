@@ -37,8 +37,8 @@ mod sums {
         /// Sums of products by address.
         pub struct Sums("sums") {}
         submodules {
-            product: product::Product,
-            words: Memory,
+            pub product: product::Product,
+            pub words: Memory,
         }
         inputs(block) {
             a: Format::signed(6, 3),
