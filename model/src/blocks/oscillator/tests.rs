@@ -6,6 +6,7 @@ use crate::support::random::Random;
 use crate::support::{Bench, MILLION, operations};
 use hapticore_contract::profile::{Method, Profile, Window};
 use hapticore_hdl::block::Block;
+use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::{BIT, Format};
 use hapticore_hdl::interpretations::shadow::Shadow;
 use hapticore_hdl::signal::code;
@@ -97,11 +98,16 @@ struct Waves<'a> {
 }
 
 impl<'a> Waves<'a> {
-    /// Both at reset, which begins as a restart does.
+    /// Both at reset: waves are zero, and the first sample is that after a restart.
     fn new(profile: &'a Profile) -> Self {
         let bench = Bench::new(Oscillator::new(profile));
         let reference = rounded::Oscillator::new(profile);
         let mut waves = Waves { profile, bench, reference, since_restart: 0, since_first: 0 };
+        let none = <Outputs as Bundle>::map(waves.bench.block.outputs(), |_| 0);
+        let quiet = Inputs { sample: 0, restart: 0, first: 0 };
+        if profile.carrier.method == Method::Products {
+            assert_eq!(waves.bench.clock(quiet), none, "at reset");
+        }
         waves.check_sample([true, true]);
         waves
     }

@@ -58,23 +58,32 @@ pub fn is_irrelevant(netlist: &Netlist, register: usize) -> bool {
     if unit.wires() > MOST_WIRES {
         return false;
     }
-    let mut start = Held {
-        registers: vec![Known(0); registers],
-        data: vec![Known(0); memories],
-        differs: vec![false; memories],
-    };
-    start.registers[register] = Differs;
+    // Where registers start with anything, there are few states, and what nothing depends on is found at once.
+    [Same, Known(0)].into_iter().any(|others| {
+        let mut start = Held {
+            registers: vec![others; registers],
+            data: vec![others; memories],
+            differs: vec![false; memories],
+        };
+        start.registers[register] = Differs;
+        no_output_differs(netlist, &unit, start)
+    })
+}
+
+/// Follows all states from this one, until both runs hold the same.
+fn no_output_differs(netlist: &Netlist, unit: &Unit, start: Held) -> bool {
     let (mut open, mut seen) = (vec![start], HashSet::new());
     let inputs = inputs(netlist.top());
     while let Some(held) = open.pop() {
         for inputs in &inputs {
             let mut next = held.clone();
-            if clock(netlist, &unit, &held, &mut next, inputs).contains(&Differs) {
+            if clock(netlist, unit, &held, &mut next, inputs).contains(&Differs) {
                 return false;
             }
-            let equal = !next.registers.iter().chain(&next.data).any(|word| *word == Differs);
-            if !(equal && next.differs.iter().all(|differs| !differs)) && seen.insert(next.clone())
-            {
+            let words = next.registers.iter().chain(&next.data);
+            let differs =
+                next.differs.contains(&true) || words.into_iter().any(|word| *word == Differs);
+            if differs && seen.insert(next.clone()) {
                 open.push(next);
             }
         }
