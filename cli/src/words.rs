@@ -40,8 +40,9 @@ pub fn write(output: &Output, cases: &[Case]) -> Result<()> {
         let of = format!("{MARK}: {}.\n", of(case));
         Ok(Some(of + &toml::to_string(&*case.profile)?))
     };
-    let tuning =
-        |case: &Case| case.ran_with().map(|tuning| TuningFile::of(tuning).text(&of(case))).transpose();
+    let tuning = |case: &Case| {
+        case.ran_with().map(|tuning| TuningFile::of(tuning).text(&of(case))).transpose()
+    };
     write_each(output, cases, PROFILE, profile)?;
     write_each(output, cases, tuning_file::NAME, tuning)
 }

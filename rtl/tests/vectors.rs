@@ -34,13 +34,15 @@ fn lines(name: &str) -> Vec<Vec<String>> {
     text.lines().skip(1).map(cells).collect()
 }
 
-fn number(cell: &String) -> i64 {
+fn number(cell: &str) -> i64 {
     cell.parse().expect("an integer")
 }
 
 impl Vectors {
     fn read() -> Self {
-        let numbers = |name| lines(name).iter().map(|row| row.iter().map(number).collect()).collect();
+        let numbers = |name| {
+            lines(name).iter().map(|row| row.iter().map(|cell| number(cell)).collect()).collect()
+        };
         let [samples, frames, pins] = ["samples.csv", "frames.csv", "pins.csv"].map(numbers);
         let calibration = lines("calibration.csv").into_iter();
         let calibration = calibration
@@ -93,7 +95,15 @@ impl<'a> Bench<'a> {
             core,
             inputs: vec![0; ports.inputs.len()],
             outputs: ports.outputs(["serve", "closed", "carrier", "done", "overrun"]),
-            frame: ports.outputs(["pad", "index", "frame", "clipped", "saturated", "invalid", "lost"]),
+            frame: ports.outputs([
+                "pad",
+                "index",
+                "frame",
+                "clipped",
+                "saturated",
+                "invalid",
+                "lost",
+            ]),
             valid_and_channel: ports.outputs(["valid", "channel"]),
             channel: 0,
             clock: 0,
@@ -142,7 +152,7 @@ impl<'a> Bench<'a> {
                 "clear" => self.pulse("clear")?,
                 "capacitance_gain" | "force_gain" => self.set(what, *code),
                 address => {
-                    self.set("address", number(&address.to_string()));
+                    self.set("address", number(address));
                     self.set("word", *code);
                     self.pulse("write")?;
                 }
@@ -181,9 +191,8 @@ fn mutants_of_the_netlist_are_noticed_by_the_vectors() {
     let (netlist, vectors) = (Netlist::of(&Core::new(&profile)), Vectors::read());
     let top = netlist.top();
     let ports = Ports { inputs: &top.inputs, outputs: &top.outputs };
-    let passes = |core| {
-        Bench::new(&vectors, &ports, core).run(profile.clocks_per_sample as i64).is_ok()
-    };
+    let passes =
+        |core| Bench::new(&vectors, &ports, core).run(profile.clocks_per_sample as i64).is_ok();
     assert!(passes(Simulation::new(netlist.clone())), "without a fault");
     let of_clear = |mutant: &Mutant| mutant.place.ends_with(" of clear");
     let all = netlist.modules.iter().flat_map(|module| Mutant::all(&netlist, module));

@@ -69,14 +69,17 @@ fn tones(profile: &Profile) -> Vec<Disturbance> {
 }
 
 fn disturbances(profile: &Profile) -> Vec<Disturbance> {
-    let named = |(name, disturb): (&str, fn(usize, &mut [i32], usize, i32))| Disturbance {
+    let named = |(name, disturb): (&str, OfWindow)| Disturbance {
         name: name.into(),
         disturb: Box::new(disturb),
     };
     ONE_WINDOW.into_iter().map(named).chain(tones(profile)).collect()
 }
 
-const ONE_WINDOW: [(&str, fn(usize, &mut [i32], usize, i32)); 3] = [
+/// Disturbs the codes of a slot: its number, codes, channels and full scale.
+type OfWindow = fn(usize, &mut [i32], usize, i32);
+
+const ONE_WINDOW: [(&str, OfWindow); 3] = [
     (
         "one sample of a terminal's current off by half of full scale",
         |slot, codes, channels, full_scale| {

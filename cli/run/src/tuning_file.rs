@@ -239,7 +239,12 @@ mod tests {
         assert!(message(|file| file.rail = -0.1).starts_with("rail: expected 0 to "));
         assert!(message(|file| file.slew = f64::NAN).contains("slew"));
         assert!(message(|file| file.full_drive = 1e9).contains("full_drive"));
-        assert!(message(|file| drop(file.curve.pop())).contains("curve: expected 65 numbers"));
+        assert!(
+            message(|file| {
+                file.curve.pop();
+            })
+            .contains("curve: expected 65 numbers")
+        );
         assert!(message(|file| file.curve[3] = 2.0).starts_with("curve[3]: "));
         assert!(message(|file| file.target_n = vec![0.1; 17]).contains("at most"));
         let unknown = toml::from_str::<TuningFile>("rial = 1").unwrap_err().to_string();

@@ -114,7 +114,9 @@ mod tests {
             fs::write(path, format!("#!/bin/sh\n{text}\n")).expect("a script");
             fs::set_permissions(path, fs::Permissions::from_mode(0o755)).expect("its mode");
         };
-        ["my tool", "my store", "bin"].map(|name| fs::create_dir(at(name)).expect("a folder"));
+        for name in ["my tool", "my store", "bin"] {
+            fs::create_dir(at(name)).expect("a folder");
+        }
         script(&at("my tool/hapticore"), "echo a; echo b");
         script(&at("bin/snakemake"), &format!("printf '%s\\n' \"$@\" >'{}'", at("arguments")));
         let job = Job::new(&at("my tool/hapticore"), "my plan.toml", &at("my store"));

@@ -16,8 +16,11 @@ use std::path::Path;
 use std::sync::Mutex;
 
 const WAVES: [&str; 4] = ["dc", "square", "square:10", "sine:125000"];
-const CONVERTERS: [&str; 4] = ["pulses", "ad5664", "ad5668", "parallel"];
+const CONVERTERS: [&str; 5] = ["pulses", "ad5664", "ad5664r", "ad5668", "parallel"];
 const PROFILES: [&str; 4] = ["small", "standard", "fine", "fast"];
+
+/// The clock of a drive on its own.
+const CLOCK_HZ: u64 = 25_000_000;
 
 /// Output cells of the boards, which their vendors' libraries hold.
 const CELLS: &str = "(* blackbox *) module ODDRX1F (input D0, input D1, input SCLK, input RST, output Q);\nendmodule\n\
@@ -58,7 +61,7 @@ fn of_loop(name: &str, pads: u64, law: Law) -> Printed {
 fn of_pins(pads: u64, wave: &str, converter: &str) -> Printed {
     let profile = profile("standard", pads, 6, Some(Law::Inverse));
     let (parsed, dac) = drive(wave, converter);
-    let design = header::drive_output(&profile, parsed, dac, "").expect("a drive output");
+    let design = header::drive_output(&profile, parsed, dac, CLOCK_HZ, "").expect("a drive output");
     Printed::of(format!("drive output {converter}, {wave}, {pads} pads"), design)
 }
 
@@ -72,7 +75,7 @@ fn of_board(target: Target, counts: (u64, usize), driven: Option<(Law, &str, &st
     let law = driven.map(|(law, ..)| law);
     let profile = profile(target.profile_name(), pads, terminals, law);
     let drive = driven.map(|(_, wave, converter)| drive(wave, converter));
-    let text = target.printed(&profile, drive).expect("a board").verilog;
+    let text = target.printed(&profile, drive.map(Into::into)).expect("a board").verilog;
     let files = [("top", text), ("cells", CELLS.to_owned())];
     Printed {
         name: format!("{} with {pads} pads, {terminals} terminals, {driven:?}", target.name()),
@@ -94,10 +97,11 @@ fn covering() -> Vec<Printed> {
         of_pins(1, WAVES[0], CONVERTERS[0]),
         of_pins(4, WAVES[1], CONVERTERS[1]),
         of_pins(4, WAVES[2], CONVERTERS[2]),
-        of_pins(3, WAVES[3], CONVERTERS[3]),
+        of_pins(3, WAVES[3], CONVERTERS[4]),
         ulx3s((3, 5), None),
         ulx3s((4, 6), Some((Law::Inverse, WAVES[3], CONVERTERS[1]))),
         ulx3s((1, 3), Some((Law::Open, WAVES[0], CONVERTERS[2]))),
+        ulx3s((2, 4), Some((Law::Integral, WAVES[1], CONVERTERS[3]))),
         of_board(Target::Icebreaker, (4, 6), None),
     ]
 }
@@ -115,8 +119,9 @@ fn all() -> Vec<Printed> {
         for name in PROFILES {
             all.extend([1, 2, 3, 4].map(|pads| of_loop(name, pads, law)));
         }
-        for (wave, converter) in
-            WAVES.iter().flat_map(|wave| [(wave, CONVERTERS[1]), (wave, CONVERTERS[2])])
+        for (wave, converter) in WAVES
+            .iter()
+            .flat_map(|wave| [(wave, CONVERTERS[1]), (wave, CONVERTERS[2]), (wave, CONVERTERS[3])])
         {
             let driven = Some((law, *wave, converter));
             all.extend([1, 4].map(|pads| of_board(Target::Ulx3s, (pads, 6), driven)));
@@ -177,8 +182,9 @@ fn yosys(tools: &Tools, designs: &[Printed], folder: &Path) -> Option<String> {
 }
 
 #[test]
+#[cfg_attr(not(tool = "synth/tools"), ignore = "needs synth/tools: ./test fetches what is missing")]
 fn printed_designs_pass_all_linters() {
-    let Some(tools) = Tools::or_skip() else { return };
+    let tools = Tools::find().expect("what synth/tools fetches");
     let everything = std::env::var("LINT").is_ok_and(|value| value == "all");
     let designs = if everything { all() } else { covering() };
     let folder = tempfile::tempdir().expect("a folder");

@@ -61,6 +61,8 @@ fn replay(args: &ReplayArgs) -> Result<()> {
         channels: args.channels.clone(),
         bits: args.bits,
         full_scale_v: args.full_scale_v,
+        sample_rate_hz: None,
+        truncated: args.truncated,
     };
     let rows = Cursor::new(ROWS.as_bytes().to_vec());
     let input = Input::new(Box::new(rows), "c.csv".into(), Some(ROWS.len() as u64));

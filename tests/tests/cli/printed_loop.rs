@@ -63,10 +63,11 @@ fn run_bench(folder: &Path, top: &str) -> Table {
 }
 
 #[test]
+#[cfg_attr(
+    not(all(tool = "iverilog", tool = "vvp")),
+    ignore = "needs iverilog, vvp: ./test fetches what is missing"
+)]
 fn the_printed_loop_gives_the_drive_words_of_fig9() {
-    if !tools::have(&["iverilog", "vvp"]) {
-        return;
-    }
     let folder = tempfile::tempdir().expect("a folder");
     // A slot is a millisecond; the whole case takes Icarus minutes.
     simulate(folder.path(), if std::env::var("FIG9").is_ok() { "0.5" } else { "0.024" });

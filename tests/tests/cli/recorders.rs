@@ -295,7 +295,7 @@ fn files_of_oscilloscopes_are_read_as_meant() {
     let plain = |volt: f64| format!("{volt:.7}");
     let seconds = |n: usize| format!("{:.7e}", n as f64 * 1e-6 - 2e-3);
     let ch = channels(&|k| format!("CH{k}"));
-    let eight = |word: &str| vec![word; 8].join(",");
+    let eight = |word: &str| [word; 8].join(",");
     let tektronix = format!(
         "Model,MSO58\nFirmware Version,1.20.3\n\nWaveform Type,ANALOG{0}\nPoint Format,Y{0}\nHorizontal Units,s{0}\n\
          Horizontal Scale,0.0004{0}\nHorizontal Delay,0{0}\nSample Interval,1e-06{0}\nRecord Length,5100{0}\n\

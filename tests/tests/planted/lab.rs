@@ -46,7 +46,7 @@ impl Lab {
         let mut loads = Vec::new();
         for (load_g, pf) in [(20.0, 350.0), (60.0, 390.0), (100.0, 420.0)] {
             for volts in [0.0, 80.0, 160.0, 240.0, 320.0] {
-                let force = FORCE_K * (1e-12 * pf * volts as f64).powi(2);
+                let force = FORCE_K * f64::powi(1e-12 * pf * volts, 2);
                 loads.push([load_g, volts, noisy(force + MU * load_g * 9.80665e-3), pf]);
             }
         }

@@ -62,7 +62,7 @@ fn desk() -> Reader {
 fn run(reader: &Reader, line: &str) -> Option<String> {
     let output = reader.run(line);
     let log = || String::from_utf8_lossy(&output.stderr).into_owned();
-    (!output.status.code().is_some_and(|code| code < 2)).then(log)
+    output.status.code().is_none_or(|code| code >= 2).then(log)
 }
 
 /// The line with the command called by its name, as after `cargo install`.

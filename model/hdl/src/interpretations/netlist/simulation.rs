@@ -13,7 +13,7 @@ use crate::memory::{Memory, Storage, Write};
 use crate::signal::{Overflow, Signal, Value};
 
 /// An instance of a module: where its registers and memories begin, and what its wires carry.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Unit {
     pub(super) module: usize,
     pub(super) registers: usize,
@@ -37,7 +37,7 @@ pub(super) fn units(netlist: &Netlist) -> (Unit, usize, usize) {
 }
 
 /// What the registers and memories of a design hold.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, Clone)]
 struct Held {
     registers: Vec<i64>,
     next: Vec<i64>,
@@ -46,14 +46,14 @@ struct Held {
 }
 
 /// The path of each register and memory, in the order of [`Held`].
-#[derive(Debug, Default)]
+#[derive(Debug, Default, Clone)]
 struct Names {
     registers: Vec<String>,
     memories: Vec<String>,
 }
 
 /// A design, its registers and memories at reset or later.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Simulation {
     netlist: Netlist,
     top: Unit,
@@ -256,7 +256,7 @@ impl Simulation {
 
 /// Where in [`Held`] each register and memory of a block's state lies, in the order of an [`Edit`]; those that the
 /// netlist does not have lie nowhere.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, Clone)]
 struct Places {
     registers: Vec<Option<usize>>,
     memories: Vec<Option<usize>>,
