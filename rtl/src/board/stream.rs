@@ -54,7 +54,7 @@ use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::{BIT, Format};
 use hapticore_hdl::memory::{Memory, Write};
 use hapticore_hdl::signal::{Signal, Wrap, bit, code, int};
-use hapticore_hdl::{block, bundle, call};
+use hapticore_hdl::{block, bundle, call, when};
 use hapticore_model::blocks::estimator::FramePort;
 use hapticore_protocol::drive;
 use hapticore_protocol::output::{CLOCK, FULL_SCALE, Output, SETUP};
@@ -347,7 +347,7 @@ impl Block for Stream {
                 distance: (begin | (sent & zero))
                     .select(int(1), sent.select(next(r.distance), r.distance))
                     .resize(r.distance.format, Wrap),
-                crc: take(crc32::begin(), sent.select(self.check(&r, byte), r.crc)),
+                crc: take(crc32::begin(), when!(sent => self.check(&r, byte), else r.crc)),
                 number: i.frames.done.select(next(r.number), r.number),
                 pad: take(i.frames.pad, r.pad),
                 commands: take(i.commands, r.commands),
