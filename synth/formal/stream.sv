@@ -5,8 +5,7 @@
 // whole and told; a heartbeat whose words are written meanwhile ends early, and one that does not has each of its words whole.
 //
 // Appended to the printed module; parameters: BYTES (of a word), WIDTH (its bits), STATUS (bytes before the words), VERSION (of
-// heartbeats) and
-// `line`, what goes into the transmitter.
+// heartbeats). `line` is what goes into the transmitter.
 
     localparam LENGTH = STATUS + 8 * BYTES + 6;
     localparam CRC = LENGTH - 6;

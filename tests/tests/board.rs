@@ -247,8 +247,9 @@ fn ulx3s_gives_its_converter_the_drive_words_of_the_force_loop() {
     let tuning = tuning(&control);
     let mut profile = Profile { control: Some(control), ..plain };
     profile.slot.settle += 400;
-    // Neither a broken line nor noise, which has no terminal of its own: either takes the drive away.
-    let sights = [Sight::Tones, Sight::Tones, Sight::Tones, Sight::Tones, Sight::FullScale];
+    // No broken line, and no noise, in which terminals are open: either takes the drive away.
+    let mut sights = [Sight::Tones; SLOTS];
+    sights[SLOTS - 1] = Sight::FullScale;
     let (calibration, samples) = (calibration(&profile), samples_of(&profile, sights));
     let mut commands = drive::tune(&profile, &tuning).expect("a controller");
     let mut of = FixedLoop::new(&profile, &calibration, &tuning).expect("a force loop");

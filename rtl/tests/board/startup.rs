@@ -230,13 +230,12 @@ fn a_board_whose_lines_bring_their_codes_is_enabled_and_measures() {
 #[test]
 fn a_board_with_a_broken_line_is_refused_and_the_line_is_named() {
     let channels = small().channels();
-    // Of each line one level, of the first, on which the ADC answers commands, both.
-    let broken = (0..channels).map(|line| (line, (line / 2 % 2) as i64)).chain([(0, 1)]);
-    for (line, level) in broken {
+    for (line, level) in (0..channels).flat_map(|line| [(line, 0), (line, 1)]) {
         let (profile, mut session) = boards().swap_remove(line % 2);
         session.adc.broken = Some((line, level));
         let error = bring_up(&mut session, &profile).expect_err("a broken line");
         let fault = if level == 0 { LineFault::Silent } else { LineFault::Ones };
+        // The ADC answers commands on its first line.
         let expected = match line {
             0 => StartupError::Adc(if level == 0 { 0 } else { 0xff }),
             line => StartupError::Line { line: line as u8, fault },

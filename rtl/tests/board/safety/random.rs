@@ -95,8 +95,7 @@ fn reach(rig: &mut Rig, random: &mut Random) {
     rig.pads = [Pad { share: 1.0 }; PADS];
     rig.send(&[Command::DISABLE]);
     rig.until_zero(AT_ONCE);
-    // Few frames lead there: they are most of what a sequence takes.
-    let (rail, slew) = (random.between(0.3, 0.9), random.between(0.15, 0.4));
+    let (rail, slew) = (random.between(0.3, 0.9), random.between(0.05, 0.4));
     let newtons = random.between(0.1, 1.0);
     let tuning = tuning(&rig.profile, rail, slew);
     rig.start(&tuning, newtons, false);
