@@ -56,8 +56,8 @@ pub(crate) fn from_board<C: Check>(payload: &[u8]) -> Vec<u8> {
 /// use hapticore_host::{Damage, Decoder, END, Profile};
 ///
 /// let mut decoder = Decoder::new(&Profile::bundled("small")?);
-/// let heard: Vec<_> = decoder.decode([1, 2, END].into_iter().chain([9; 25]).chain([END, END])).collect();
-/// assert_eq!(heard, [Err(Damage::Length { expected: 25, got: 2 }), Err(Damage::Link)]);
+/// let heard: Vec<_> = decoder.decode([1, 2, END].into_iter().chain([9; 26]).chain([END, END])).collect();
+/// assert_eq!(heard, [Err(Damage::Length { expected: 26, got: 2 }), Err(Damage::Link)]);
 /// assert_eq!(Damage::Link.to_string(), "a packet whose links do not meet its beginning");
 /// # Ok::<(), hapticore_host::ProfileError>(())
 /// ```

@@ -5,8 +5,7 @@
 // whole and told; a heartbeat whose words are written meanwhile ends early, and one that does not has each of its words whole.
 //
 // Appended to the printed module; parameters: BYTES (of a word), WIDTH (its bits), STATUS (bytes before the words), VERSION (of
-// heartbeats) and
-// `line`, what goes into the transmitter.
+// heartbeats). `line` is what goes into the transmitter.
 
     localparam LENGTH = STATUS + 8 * BYTES + 6;
     localparam CRC = LENGTH - 6;
@@ -67,6 +66,9 @@
     reg before_busy = 0, before_end = 0, before_done = 0, before_idle = 0, past_valid = 0;
     reg [15:0] before_number = 0;
     reg before_sent = 0, before_wrote = 0;
+    // What is to be told, and whether the byte that tells it, the fourth, was sent in the clock before.
+    reg [2:0] before_events = 0;
+    reg before_told = 0;
     // A word for heartbeats is written while no frame comes and no byte is read.
     wire wrote = keep_q && !valid && !transmitter_ending;
     // A word for heartbeats was written while one is being sent, which ends early.
@@ -81,6 +83,8 @@
         before_idle <= accepting || (valid && index == 0 && !busy);
         before_number <= number;
         before_sent <= sent;
+        before_events <= {late | late_q, refused | refused_q, overrun};
+        before_told <= sent && at == 3;
         before_wrote <= wrote;
         cut <= !reset && busy && heartbeat && (cut ? !sent : wrote && group < 8);
         if (sent && group == which && left == BYTES - 1) begun <= words[{1'b1, which}];
@@ -140,6 +144,8 @@
         if (past_valid) begin
             // A packet that has begun ends with its END.
             assert (busy || !before_busy || before_end);
+            // What happened stays until it is told.
+            if (!before_told) assert ((before_events & ~{late_q, refused_q, overrun}) == 0);
             // A frame counts, and is told where it is dropped.
             assert (number == before_number + before_done);
             if (before_done && !before_idle) assert (overrun);

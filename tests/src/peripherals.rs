@@ -20,7 +20,7 @@ use hapticore_rtl::board::drive_output::serial::{Frame, Serial};
 use hapticore_rtl::board::drive_output::sine::Sine;
 use hapticore_rtl::board::drive_output::{Converter, DriveOutput, Wave};
 use hapticore_rtl::board::drive_registers::DriveRegisters;
-use hapticore_rtl::board::framing::{END, Register};
+use hapticore_rtl::board::framing::{END, Register, STATUS_BYTES};
 use hapticore_rtl::board::pads::Pads;
 use hapticore_rtl::board::registers::CommandRegisters;
 use hapticore_rtl::board::sigma_delta::SigmaDelta;
@@ -167,7 +167,7 @@ fn command(block: &CommandRegisters, profile: &Profile, words: u16, rng: &mut Rn
     let command = match rng.u8(..8) {
         0..3 => Command::Table { address, code },
         3 => [Command::ENABLE, Command::DISABLE, Command::RESET_ADC][rng.usize(..3)],
-        _ => Command::Register(Register::ALL[rng.usize(..4)], code),
+        _ => Command::Register(Register::ALL[rng.usize(..Register::ALL.len())], code),
     };
     let mut bytes = command.encode(profile);
     let at = rng.usize(..bytes.len());
@@ -215,8 +215,8 @@ fn stream(block: &Stream, divisor: u64) -> Alone {
     // Frames without a zero byte: no link leads further.
     let mut dense = false;
     let (mut place, mut data, mut pad) = (0, 0, 0);
-    // Clocks until something is to be told just when the flags are sent, three bytes behind a frame.
-    let (flags, mut told) = (30 * divisor as u32 + 1, u32::MAX);
+    // Clocks until something is to be told just when the flags are sent, the last byte but one of the status.
+    let (flags, mut told) = ((STATUS_BYTES - 2) as u32 * (10 * divisor as u32 + 1) - 2, u32::MAX);
     // Clocks until a word is to be kept just when the next byte of a frame's words is read.
     let (byte, mut kept) = (10 * divisor as u32 + 1, u32::MAX);
     alone(block, 100_000 * divisor as usize, move |rng| {
@@ -314,11 +314,11 @@ fn drive_output(block: &DriveOutput) -> Alone {
     })
 }
 
-/// An amplitude: a corner, or one whose product with a sine of 16 points is half a step of a level off
-/// a level, or the least more.
+/// An amplitude: a corner, or one whose product with a sine of 32 points is half a step of a level off
+/// an even level, or the least more or less.
 fn amplitude(rng: &mut Rng, drive: Format) -> i64 {
-    // Odd codes of sin π/4 and sin 3π/8 in steps of 2⁻¹⁶.
-    let sines = [46_341, 60_547];
+    // Odd codes of sin 5π/16 and sin 7π/16 in steps of 2⁻¹⁶.
+    let sines = [54_491, 64_277];
     let inverse = |of: i64| (0..5).fold(of, |x, _| (x * (2 - of * x)) & 0xffff);
     match rng.u8(..8) {
         0 => 0x8000,
@@ -353,7 +353,7 @@ fn drive_outputs() -> Vec<Alone> {
     vec![
         of([3, 1], Wave::Square { turn_slots: 6 }, Converter::Pulses),
         of([6, 2], Wave::Square { turn_slots: 4 }, Converter::Serial(Frame::AD5668)),
-        of([2, 1], Wave::Sine { points: 16, point_clocks: 40 }, Converter::Parallel { bits: 17 }),
+        of([2, 1], Wave::Sine { points: 32, point_clocks: 40 }, Converter::Parallel { bits: 17 }),
         of([2, 1], Wave::Dc, Converter::Parallel { bits: 12 }),
         alone(&Sine::new(64, 11), 2_000, |_| Vec::new()),
         given(&Pulses::new(3, level), [channel, level], 3),

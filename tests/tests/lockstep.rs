@@ -518,6 +518,9 @@ fn estimates(block: &Drives, pads: u64) -> impl FnMut(&[i64]) -> Option<Vec<i64>
         any.tuning.curve_address %= words;
         // What stops drives comes rarely enough that most are not zero.
         inputs.tuning.enable = i64::from(rng.u32(..2000) != 0);
+        if rng.u32(..8) != 0 {
+            inputs.tuning.force_cap = formats.tuning.force_cap.max_code() as i64;
+        }
         inputs.clear &= i64::from(rng.u32(..60) == 0);
         inputs.drives_clear &= i64::from(rng.u32(..60) == 0);
         // The curve is written while no drive word is being made.
@@ -546,7 +549,7 @@ fn estimates(block: &Drives, pads: u64) -> impl FnMut(&[i64]) -> Option<Vec<i64>
             <drives::Inputs as Bundle>::zip(inputs, formats),
             |_, (code, format)| codes.extend((!format.is_none()).then_some(code)),
         );
-        (clock < 24 * apart).then_some(codes)
+        (clock < 192 * apart).then_some(codes)
     }
 }
 

@@ -71,9 +71,10 @@ fn luts(of: &Operations, [adders, selects, every]: [f64; 3]) -> f64 {
     adders * of.adders + selects * of.selects + every
 }
 
-/// LUT4 of an ECP5 by bits of adders and of selections beyond a core: fitted to the same cores, but without
-/// what every core has, which a controller and walls do not have once more.
-const BEYOND_A_CORE: [f64; 3] = [-0.963, 0.520, 0.0];
+/// LUT4 of an ECP5 by bits of selections beyond a core: fitted to the same cores, as if they had nothing else. A
+/// controller and walls do not have once more what every core has, and a price of adders that is below zero does not
+/// hold for their comparisons.
+const BEYOND_A_CORE: f64 = 0.328;
 
 /// LUT4 of an ECP5: those of the core, and of what is around it.
 fn luts_ecp5(profile: &Profile, whole: &Operations) -> Result<f64> {
@@ -82,8 +83,7 @@ fn luts_ecp5(profile: &Profile, whole: &Operations) -> Result<f64> {
     }
     let alone = Profile { control: None, wall: None, ..profile.clone() };
     let core = Operations::of(&netlist(&alone)?);
-    let beyond = luts(whole, BEYOND_A_CORE) - luts(&core, BEYOND_A_CORE);
-    Ok(luts(&core, LUTS[0]) + beyond)
+    Ok(luts(&core, LUTS[0]) + BEYOND_A_CORE * (whole.selects - core.selects))
 }
 
 /// What a profile's core costs.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The known laws of errors appear, as measured and as predicted.
 
-use super::device;
+use super::calibration;
 use super::measured::{
     QUANTITIES, Scene, amplitude_of_tone, measured, measured_against, predicted, reference_errors,
     scenes,
@@ -18,7 +18,7 @@ fn standard() -> Profile {
 
 /// Measured and predicted errors of a result.
 fn errors(profile: &Profile, scene: &Scene, quantity: usize) -> [f64; 2] {
-    let calibration = device::calibration(profile);
+    let calibration = calibration(profile);
     let (predicted, _) = predicted(profile, &calibration, scene);
     let measured = measured(profile, &calibration, scene, 7);
     [measured, predicted].map(|of: [Moments; 5]| of[quantity].rms())
@@ -60,7 +60,7 @@ fn the_bias_of_eq_6_does_not_depend_on_bits() {
         for format in [&mut f.capacitance, &mut f.admittance, &mut f.iq, &mut f.total] {
             *format = shorter(*format, bits);
         }
-        let calibration = device::calibration(&profile);
+        let calibration = calibration(&profile);
         let bias =
             measured_against(&with_sheet, &profile, &calibration, scene, 7)[CAPACITANCE].mean;
         [bias, errors(&profile, scene, CAPACITANCE)[0]]
@@ -84,7 +84,7 @@ fn a_reference_in_double_precision_suffices_and_one_in_single_precision_does_not
     let scene = &scenes()[0];
     for name in ["small", "standard", "fine"] {
         let profile = Profile::bundled(name).expect("bundled");
-        let calibration = device::calibration(&profile);
+        let calibration = calibration(&profile);
         let [single, double] = reference_errors(&profile, &calibration, scene, 7);
         let core = measured(&profile, &calibration, scene, 7).map(Moments::rms);
         for (n, quantity) in QUANTITIES.into_iter().enumerate() {

@@ -214,7 +214,11 @@ fn codes(samples: &[f64], adc: Format) -> Vec<i32> {
 }
 
 fn values<T: Copy + std::fmt::Debug>(of: &Measurement<T>) -> [T; 5] {
-    assert!(!of.flags.invalid && !of.flags.saturated && !of.flags.clipped, "{:?}", of.flags);
+    assert!(
+        !of.flags.invalid && !of.flags.saturated && !of.flags.clipped && !of.flags.lifted,
+        "{:?}",
+        of.flags
+    );
     [of.x_mm, of.y_mm, of.capacitance_pf, of.force_n, of.mean_square]
 }
 

@@ -207,8 +207,11 @@ impl Block for CommandRegisters {
         let table = self.calibration.table;
         let data = i.shift.select(r.data.concat(i.answer).bits(0, self.data.width), r.data);
         let quiet = Registers { act: bit(false), refused: bit(false), data, ..self.written(r) };
-        let got = when!(i.octet.is(END.into()) => self.end(quiet), else self.part(quiet, i.octet));
-        let next = when!(i.valid => got, else quiet);
+        // A model takes the CRC of a byte in the clock in which there is one, and in no other.
+        let next = when!(
+            i.valid => when!(i.octet.is(END.into()) => self.end(quiet), else self.part(quiet, i.octet)),
+            else quiet,
+        );
         state.store(self, next);
         let address = r.place.bits(0, table.address.width);
         let of_table = !r.place.msb() & address.less_than(int(self.words));

@@ -54,7 +54,7 @@ use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::{BIT, Format};
 use hapticore_hdl::memory::{Memory, Write};
 use hapticore_hdl::signal::{Signal, Wrap, bit, code, int};
-use hapticore_hdl::{block, bundle, call};
+use hapticore_hdl::{block, bundle, call, when};
 use hapticore_model::blocks::estimator::FramePort;
 use hapticore_protocol::drive;
 use hapticore_protocol::output::{CLOCK, FULL_SCALE, Output, SETUP};
@@ -140,6 +140,8 @@ block! {
 const WORDS: u64 = Field::ALL.len() as u64;
 /// The group before the words, by wrapping: the status.
 const STATUS: u64 = 15;
+/// Bytes of the status behind the one with what happened since the packet before.
+const FLAGS_LEFT: u64 = 1;
 /// Bytes of the last group.
 const TRAILER_BYTES: u64 = CRC_BYTES + STUFFING_BYTES;
 /// Heartbeats pause for two to the power of so many clocks.
@@ -324,7 +326,7 @@ impl Block for Stream {
             .select(next(write.address), r.heartbeat.concat(r.group.bits(0, PLACE.width)));
         self.words.access(&mut state.submodules.words, address, write);
 
-        let told = sent & r.group.is(STATUS) & r.left.is(0);
+        let told = sent & r.group.is(STATUS) & r.left.is(FLAGS_LEFT);
         let frame = i.frames.done & taking;
         let heartbeat = r.pause.msb() & !r.busy & !i.enable & !i.frames.valid;
         let begin = frame | heartbeat;
@@ -347,7 +349,7 @@ impl Block for Stream {
                 distance: (begin | (sent & zero))
                     .select(int(1), sent.select(next(r.distance), r.distance))
                     .resize(r.distance.format, Wrap),
-                crc: take(crc32::begin(), sent.select(self.check(&r, byte), r.crc)),
+                crc: take(crc32::begin(), when!(sent => self.check(&r, byte), else r.crc)),
                 number: i.frames.done.select(next(r.number), r.number),
                 pad: take(i.frames.pad, r.pad),
                 commands: take(i.commands, r.commands),

@@ -19,7 +19,7 @@ impl Plant {
     ///
     /// ```
     /// # use hapticore_scene::{Plant, Scene, Timing};
-    /// # let scene = Scene::parse("title = \"t\"\n[[pad]]\nposition_mm = [0, 0]\n[sheet]\n", "t.toml", &[])?;
+    /// # let scene = Scene::parse("title = \"t\"\nduration_s = 2\n[[pad]]\nposition_mm = [0, 0]\n[sheet]\n", "t.toml", &[])?;
     /// # let timing = Timing {
     /// #     pads: 4, slot_samples: 1700, window_start: 700, window_samples: 1000, samples_per_period: 10.0, signs: None,
     /// # };
@@ -75,7 +75,7 @@ impl Plant {
     ///
     /// ```
     /// # use hapticore_scene::{Plant, Scene, Timing};
-    /// # let scene = Scene::parse("title = \"t\"\n[[pad]]\nposition_mm = [0, 0]\n[gap]\n", "t.toml", &[])?;
+    /// # let scene = Scene::parse("title = \"t\"\nduration_s = 2\n[[pad]]\nposition_mm = [0, 0]\n[gap]\n", "t.toml", &[])?;
     /// # let timing = Timing {
     /// #     pads: 4, slot_samples: 1700, window_start: 700, window_samples: 1000, samples_per_period: 10.0, signs: None,
     /// # };
@@ -111,7 +111,8 @@ impl Plant {
     /// #     pads: 4, slot_samples: 1700, window_start: 700, window_samples: 1000, samples_per_period: 10.0, signs: None,
     /// # };
     /// let of = |text: &str| {
-    ///     let scene = Scene::parse(&format!("title = \"t\"\n[[pad]]\nposition_mm = [0, 0]\n{text}"), "t.toml", &[])?;
+    ///     let head = "title = \"t\"\nduration_s = 2\n[[pad]]\nposition_mm = [0, 0]";
+    ///     let scene = Scene::parse(&format!("{head}\n{text}"), "t.toml", &[])?;
     ///     Ok::<_, hapticore_scene::SceneError>(Plant::new(&scene, 0, &timing)?.least_rest_capacitance_pf(20.0).round())
     /// };
     /// assert_eq!((of("[gap]\n")?, of("")?), (353.0, 318.0));

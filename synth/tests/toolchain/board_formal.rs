@@ -8,7 +8,9 @@ use hapticore_hdl::interpretations::netlist::{Module, Named, Netlist};
 use hapticore_hdl::verilog::Design;
 use hapticore_model::blocks::core::Core;
 use hapticore_rtl::board::adc_reader::AdcReader;
-use hapticore_rtl::board::framing::{Register, STATUS_BYTES, VERSION, data_bytes, word_bytes};
+use hapticore_rtl::board::framing::{
+    Constant, Register, STATUS_BYTES, VERSION, data_bytes, word_bytes,
+};
 use hapticore_rtl::board::pads::Pads;
 use hapticore_rtl::board::registers::CommandRegisters;
 use hapticore_rtl::board::stream::Stream;
@@ -106,11 +108,14 @@ fn registers(target: Target) -> (String, Known) {
     let address = u64::from(core.inputs().calibration.table.address.width);
     let verilog =
         print(Netlist::of(&CommandRegisters::new(core.inputs().calibration, words, None)).top());
-    let numbers = ["CAPACITANCE", "FORCE", "CONTACT", "CONTROL", "ADC"].into_iter();
-    let mut known: Known = numbers
-        .zip(Register::ALL)
-        .map(|(name, register)| (name, register.number() as u64))
-        .collect();
+    let numbers = [
+        ("CAPACITANCE", Register::Constant(Constant::CapacitanceGain)),
+        ("FORCE", Register::Constant(Constant::ForceGain)),
+        ("CONTACT", Register::Constant(Constant::ContactCapacitance)),
+        ("CONTROL", Register::Control),
+        ("ADC", Register::Adc),
+    ];
+    let mut known: Known = numbers.map(|(name, register)| (name, register.number() as u64)).into();
     known.extend([
         ("DATA", data_bytes(&word_formats(&core.inputs().calibration))),
         ("WORDS", words),

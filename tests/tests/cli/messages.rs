@@ -148,6 +148,17 @@ fn a_controller_that_cannot_be_is_one_line_with_key_and_limit() {
     }
 }
 
+/// Nobody gave the gain that no word holds.
+#[test]
+fn a_gain_that_follows_from_the_device_and_fits_no_word_is_refused_as_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene =
+        format!("{PAD}target_n = 0.003\n[gap]\n[friction]\n[control]\nlaw = \"proportional\"\n");
+    fs::write(folder.path().join("tiny.toml"), scene).unwrap();
+    let words = ["control.proportional_v", "at most 4000", "follows from device", "give the key"];
+    refuse(folder.path(), &["simulate", "tiny.toml"], &words);
+}
+
 /// A scene of one pad, of which each adds a line 4 and further.
 const PAD: &str = "title = \"t\"\n[[pad]]\nposition_mm = [0, 0]\n";
 

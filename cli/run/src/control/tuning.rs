@@ -125,12 +125,12 @@ pub(super) fn of_gains(
         device.device.haptic_full_scale_v,
         plan.full_scale_v
     );
-    for (key, asked, gain) in [
-        ("proportional_v", gains.proportional_v, proportional),
-        ("integral_v", gains.integral_v, correction),
+    for (key, given, asked, gain) in [
+        ("proportional_v", plan.proportional_v, gains.proportional_v, proportional),
+        ("integral_v", plan.integral_v, gains.integral_v, correction),
     ] {
         let limit = asked * most / gain;
-        ensure!(gain <= most, "control.{key}: expected at most {limit:.0}, got {asked}");
+        ensure!(gain <= most, "control.{key}: expected at most {limit:.0}, {}", got(given, asked));
     }
     Ok(Tuning {
         curve: curve(plan, control, (gains, steady))
@@ -145,6 +145,14 @@ pub(super) fn of_gains(
         force_cap: plan.force_cap_n,
         walls: plan.wall.as_ref().map(|wall| walls(wall, plan.nominal_load_g, plant)),
     })
+}
+
+/// Where a gain that no word holds comes from.
+fn got(given: Option<f64>, asked: f64) -> String {
+    match given {
+        Some(_) => format!("got {asked}"),
+        None => format!("and {asked:.0} follows from device, profile and target: give the key"),
+    }
 }
 
 /// The voltages of the curve, at the roots of forces 0 … the largest target.

@@ -25,6 +25,7 @@ struct Told {
     reached: u64,
     largest_v: f64,
     longest_to_zero: u64,
+    clocks: u64,
 }
 
 /// A step of a sequence.
@@ -94,7 +95,7 @@ fn reach(rig: &mut Rig, random: &mut Random) {
     rig.pads = [Pad { share: 1.0 }; PADS];
     rig.send(&[Command::DISABLE]);
     rig.until_zero(AT_ONCE);
-    let (rail, slew) = (random.between(0.3, 0.9), random.between(0.05, 0.2));
+    let (rail, slew) = (random.between(0.3, 0.9), random.between(0.05, 0.4));
     let newtons = random.between(0.1, 1.0);
     let tuning = tuning(&rig.profile, rail, slew);
     rig.start(&tuning, newtons, false);
@@ -127,6 +128,7 @@ fn sequence(ready: &Rig, law: Law, number: u64) -> Told {
         told.reached += 1;
     }
     told.largest_v = rig.watch.largest_v;
+    told.clocks = rig.clock - ready.clock;
     told
 }
 
@@ -151,6 +153,7 @@ fn no_sequence_drives_above_rail_or_slew_and_a_lawful_target_is_reached() {
             let one = sequence(rig, *law, number);
             told.sequences += 1;
             told.reached += one.reached;
+            told.clocks += one.clocks;
             told.largest_v = told.largest_v.max(one.largest_v);
             told.longest_to_zero = told.longest_to_zero.max(one.longest_to_zero);
         }
@@ -162,10 +165,11 @@ fn no_sequence_drives_above_rail_or_slew_and_a_lawful_target_is_reached() {
     });
     let sum = |of: fn(&Told) -> u64| parts.iter().map(of).sum::<u64>();
     let (sequences, reached) = (sum(|told| told.sequences), sum(|told| told.reached));
+    let clocks = sum(|told| told.clocks);
     let largest_v = parts.iter().map(|told| told.largest_v).fold(0.0, f64::max);
     let longest = parts.iter().map(|told| told.longest_to_zero).max().unwrap_or(0);
     println!(
-        "{sequences} sequences, {reached} reached their target; at most {largest_v:.0} V; 0 V after a reset or DISABLE within {:.1} µs",
+        "{sequences} sequences of {clocks} clocks, {reached} reached their target; at most {largest_v:.0} V; 0 V after a reset or DISABLE within {:.1} µs",
         longest as f64 / 25.0
     );
     assert!(largest_v <= FULL_SCALE_V);

@@ -107,7 +107,7 @@ pub fn profile(law: Law) -> Profile {
     let mut profile = short_profiles().swap_remove(1);
     // A curve of few words is sent in little time.
     profile.control = Some(Control { cells: 8, ..Control::of(&profile, law) });
-    profile.slot.settle += 400;
+    profile.slot.settle += 150;
     (profile.position.columns, profile.position.rows) = (17, 11);
     profile
 }
